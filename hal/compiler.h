@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT
+ * compiler.h - the few compiler words this project uses. May be included anywhere. */
+#ifndef COMPILER_H
+#define COMPILER_H
+
+/* The caller must look at the result. */
+#define MUST_CHECK __attribute__((warn_unused_result))
+
+/* Holds at compile time or the build fails. */
+#define STATIC_ASSERT(condition, text) _Static_assert(condition, text)
+
+#define ARRAY_COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+#endif

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT
+ * approach.h - from the present pose to a page's first pose, within a speed limit, ramped (player.md section 2, rule 6).
+ * All joints take the same time, set by the longest way. Pure; caller-owned state; main loop only. */
+#ifndef APPROACH_H
+#define APPROACH_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "page.h"
+
+#define APPROACH_SPEED_DEFAULT 60u   /* degrees per second */
+#define APPROACH_NEAR_POS 3u         /* servo units: a pose this near needs no approach */
+
+typedef struct {
+    int32_t pos_q16_16[PAGE_JOINTS];
+    int32_t speed_q16_16[PAGE_JOINTS];
+    int32_t accel_q16_16[PAGE_JOINTS];
+    uint16_t target_pos[PAGE_JOINTS];
+    uint32_t joints;
+    uint16_t tick, ramp_ticks, total_ticks;
+} approach_t;
+
+/* Plans the way of `joints` (bit per joint) from from_pos to to_pos with at most `limit_deg_s` degrees/s (1..360).
+ * Returns the number of ticks; 0 when every joint is within APPROACH_NEAR_POS already. */
+uint16_t approach_start(approach_t *approach, const uint16_t from_pos[PAGE_JOINTS],
+                        const uint16_t to_pos[PAGE_JOINTS], uint32_t joints, uint16_t limit_deg_s);
+
+/* One tick: writes the goals of the joints under way. Returns false with (and after) the last tick, which is exactly on
+ * target. */
+bool approach_tick(approach_t *approach, uint16_t goal_pos[PAGE_JOINTS]);
+
+/* Slows to a stand within 32 ticks, no reversal; approach_tick returns false when it stands. */
+void approach_break(approach_t *approach);
+
+#endif

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT
+ * link.h - which page follows: codes, calls, the four links, stop, chains of exit pages.
+ * Pure: knows codes and page numbers, not where they come from. One link_t per player, main loop only.
+ * Source: remote.md ("What a code does"). */
+#ifndef LINK_H
+#define LINK_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "page.h"
+
+#define LINK_CODE_NONE 0u
+#define LINK_CODE_STOP 255u
+
+typedef enum { LINK_LATCH = 0, LINK_HOLD } link_mode_t;
+
+/* Which link was taken (for the status line). */
+typedef enum { LINK_NEXT = 0, LINK_EXIT, LINK_LINKED1, LINK_LINKED2, LINK_END_OF_EXIT_LOOP } link_taken_t;
+
+typedef struct {
+    uint8_t mode;          /* link_mode_t */
+    uint8_t call_code;     /* the code that called the page now playing; 0: called by its number */
+    uint8_t code;          /* the code in force */
+    bool stopping;         /* a stop is in force: exit links are followed */
+    uint8_t exits_seen[PAGE_COUNT / 8]; /* exit pages gone through since the stop: a chain that comes back ends */
+} link_t;
+
+void link_init(link_t *link, link_mode_t mode);
+
+/* A play begins: by a code, or by a page number (code 0). Forgets any stop. */
+void link_call(link_t *link, uint8_t code);
+
+/* A code arrives: 0 = released, 255 = stop, else the code. In latch mode 0 changes nothing; in hold mode it is a stop. */
+void link_code(link_t *link, uint8_t code);
+
+/* A soft stop, whatever the mode. */
+void link_stop(link_t *link);
+
+bool link_is_stopping(const link_t *link);
+
+/* The page that follows `page`, whose first 32 header bytes are `header`, decided at the moment its last step begins
+ * (repetitions are the player's business). Updates the call. 0 = the play ends. `taken` tells which link it was. */
+uint8_t link_decide(link_t *link, uint8_t page, const uint8_t *header, link_taken_t *taken);
+
+#endif

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT
+ * page.h - the 512-byte motion page: layout, checks, field access.
+ * Pure: no flash, no registers, no I/O. Callable from anywhere. No RAM of its own.
+ * Source: motion512.md; PAGE_FORMAT.md beside this file is the specification with a worked hex dump. */
+#ifndef PAGE_H
+#define PAGE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define PAGE_BYTES 512u
+#define PAGE_COUNT 128u        /* pages 0..127; 0 holds the trim and, as a link, means "no page" */
+#define PAGE_JOINTS 31u        /* joint = servo ID 0..30 */
+#define PAGE_STEPS 7u
+#define PAGE_STEP_BYTES 64u
+#define PAGE_NAME_BYTES 14u    /* 13 characters and a NUL */
+
+/* Byte offsets in the header (block 0). */
+enum {
+    PAGE_AT_NAME = 0,
+    PAGE_AT_PLAY_COUNT = 15,
+    PAGE_AT_SCHEDULE = 16,
+    PAGE_AT_STEPS = 20,
+    PAGE_AT_PLAY_CODE = 21,
+    PAGE_AT_SPEED = 22,
+    PAGE_AT_DXL_SETUP = 23,
+    PAGE_AT_ACCEL_TIME = 24,
+    PAGE_AT_NEXT_PAGE = 25,
+    PAGE_AT_EXIT_PAGE = 26,
+    PAGE_AT_LINKED1_PAGE = 27,
+    PAGE_AT_LINKED1_CODE = 28,
+    PAGE_AT_LINKED2_PAGE = 29,
+    PAGE_AT_LINKED2_CODE = 30,
+    PAGE_AT_CHECKSUM = 31,
+    PAGE_AT_COMPLIANCE = 32,   /* + ID */
+    PAGE_AT_STEP0 = 64         /* + 64 * step */
+};
+/* Byte offsets in a step. A position word stands at 2 * ID. */
+enum { PAGE_STEP_AT_PAUSE = 62, PAGE_STEP_AT_SPEED = 63 };
+
+#define PAGE_SCHEDULE_SPEED 0x00u
+#define PAGE_SCHEDULE_TIME 0x0Au
+#define PAGE_SPEED_NOMINAL 32u
+#define PAGE_ACCEL_DEFAULT 32u
+#define PAGE_COMPLIANCE_DEFAULT 0x55u
+#define PAGE_CHECKSUM_SUM 0xFFu   /* 8-bit sum of all 512 bytes of a good page */
+
+#define PAGE_POS_MAX 1023u
+#define PAGE_POS_UNUSED 0x4000u   /* flag: joint not used in this step */
+#define PAGE_POS_TORQUE_OFF 0x2000u /* flag: torque off (work pose only; never in a page we store) */
+
+/* What is wrong with a page; the first fault found, in this order. */
+typedef enum {
+    PAGE_OK = 0,
+    PAGE_ERR_CHECKSUM,   /* sum of all bytes is not 0xFF */
+    PAGE_ERR_STEPS,      /* PAGE_STEP > 7 */
+    PAGE_ERR_SCHEDULE,   /* neither 0 nor 0x0A */
+    PAGE_ERR_SPEED,      /* PAGE_SPEED is 0 */
+    PAGE_ERR_LINK,       /* a link is above 127 */
+    PAGE_ERR_POSITION    /* a position of a used step is above 1023 without the unused flag */
+} page_status_t;
+/* Whether a valid page has an action is a question of its own: page_is_playable. */
+
+/* 8-bit sum of `count` bytes, added to `sum`: pages are summed in pieces as they are read. */
+uint8_t page_sum(uint8_t sum, const uint8_t *bytes, uint16_t count);
+
+/* The checks of page_check but for the checksum and the positions: on the 64 header bytes alone. */
+page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES]);
+
+/* Everything, on a whole page. */
+page_status_t page_check(const uint8_t page[PAGE_BYTES]);
+
+/* Sets byte 31 so that the page sums to 0xFF. */
+void page_seal(uint8_t page[PAGE_BYTES]);
+
+/* The empty page of motion512.md, sealed. */
+void page_clear(uint8_t page[PAGE_BYTES]);
+
+/* Position word of `joint` in `step` (0..6). */
+uint16_t page_pos(const uint8_t *page, uint8_t step, uint8_t joint);
+void page_set_pos(uint8_t *page, uint8_t step, uint8_t joint, uint16_t word);
+
+/* true when the word drives its joint: neither flag set. */
+bool page_pos_is_used(uint16_t word);
+
+/* Compliance slope register value, 2^nibble, of one nibble 1..7 of the compliance byte (motion512.md). A nibble of 0
+ * or above 7 stands for 5, the default. */
+uint8_t page_slope(uint8_t nibble);
+
+/* true when the header has an action: steps and play count are not 0. */
+bool page_is_playable(const uint8_t *header);
+
+#endif
