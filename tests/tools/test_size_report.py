@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: MIT
+"""The size report's stack figures, against frames whose size is known from the source."""
+import pathlib
+import shutil
+import subprocess
+
+import pytest
+
+TOOL = pathlib.Path(__file__).parents[2] / "tools" / "size_report"
+pytestmark = pytest.mark.skipif(not shutil.which("avr-gcc"), reason="avr-gcc is not installed")
+
+# leaf: 40 bytes of frame and the two pushed bytes of Y; pointed: 300 and two, called through a table in flash.
+SOURCE = """
+#include <avr/io.h>
+#include <avr/interrupt.h>
+#include <avr/pgmspace.h>
+volatile char v;
+volatile char big[%d];
+static void __attribute__((noinline)) leaf(void) { volatile char b[40]; b[0] = v; PORTB = b[0]; }
+static void __attribute__((noinline)) pointed(void) { volatile char x[300]; x[0] = v; leaf(); }
+static void __attribute__((noinline)) other(void) { PORTC = 1; }
+static void (*const table[])(void) PROGMEM = { pointed, other };
+ISR(TIMER1_OVF_vect, ISR_NAKED) { asm volatile("push r0\\n push r1\\n pop r1\\n pop r0\\n reti"); }
+int main(void) { big[v] = 1; for (;;) ((void (*)(void))pgm_read_word(&table[v & 1]))(); }
+"""
+
+
+def report(tmp_path, big, name="play-x"):
+    source, elf = tmp_path / "t.c", tmp_path / f"{name}.elf"
+    source.write_text(SOURCE % big)
+    subprocess.run(["avr-gcc", "-mmcu=atmega128", "-Os", "-flto", source, "-o", elf], check=True)
+    return subprocess.run([TOOL, "--paths", elf], capture_output=True, text=True)
+
+
+def test_deepest_path_goes_through_the_table(tmp_path):
+    done = report(tmp_path, 10)
+    assert done.returncode == 0, done.stderr
+    fields = next(line for line in done.stdout.splitlines() if line.startswith("play-x")).split()
+    # return address of main 2, call 2, pointed 302, call 2, leaf 42; the interrupt: return address and two pushes.
+    assert fields[5:7] == ["350", "4"]
+    assert "pointed(302) > leaf(42)" in done.stdout
+
+
+def test_ram_over_budget_fails_and_says_so(tmp_path):
+    done = report(tmp_path, 3800)
+    assert done.returncode == 1
+    assert "over budget: play-x: data + bss + stack" in done.stderr
+
+
+def test_flash_budget_of_the_loader_is_smaller(tmp_path):
+    assert " 8192 " in report(tmp_path, 10, "boot-x").stdout
+    assert " 49152 " in report(tmp_path, 10, "edit-x").stdout
