@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT
+ * shell.h - line editor, tokenizer, number parser and command dispatcher: a byte in, text out.
+ * Knows no command, no console and no screen: bytes are handed in, the echo goes through text.h, the commands are a
+ * table of the image. Used by Play, Edit and Edit's bus monitor. Main loop only. Caller-owned state; the two buffers
+ * are the caller's too, so that each image pays for the length it needs.
+ *
+ * Keys: BS (0x08) and DEL (0x7F) delete; CR, LF and CR LF end a line once; Ctrl-A (0x01) and arrow-up put the line
+ * typed before in place of this one (again: the one before that), arrow-down goes back; Ctrl-U (0x15) empties the
+ * line; other escape sequences and control characters are swallowed whole. Words are separated by any number of
+ * space , . : ; (editor-original.md section 5). Case does not matter. */
+#ifndef SHELL_H
+#define SHELL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "compiler.h"
+
+/* What a byte completed. */
+typedef enum {
+    SHELL_TYPING = 0, /* nothing yet */
+    SHELL_LINE,       /* a line is complete: shell_split, then run it */
+    SHELL_TOO_LONG    /* a line is complete but did not fit: it must not be run; shell_clear */
+} shell_event_t;
+
+typedef struct {
+    char *line;             /* what is typed; NUL-terminated once complete */
+    char *history;          /* earlier lines, newest first, each with its NUL; two NULs end it */
+    uint8_t line_bytes, history_bytes;
+    uint8_t length;         /* characters in `line` */
+    uint8_t recalled;       /* how many lines back the recall stands; 0 = the line being typed */
+    uint8_t escape;         /* state of the escape-sequence swallower */
+    bool after_cr;          /* the last byte was CR: an LF now belongs to it */
+    bool too_long;          /* characters were refused */
+} shell_t;
+
+/* Empty line, empty history. `line_bytes` counts the NUL (a line holds one character less); `history` may be NULL
+ * with 0 bytes: no recall. Both buffers stay in use. */
+void shell_init(shell_t *shell, char *line, uint8_t line_bytes, char *history, uint8_t history_bytes);
+
+/* Takes one byte and echoes what it does to the line (a character that no longer fits is answered with BEL). The end of
+ * a line is not echoed: the image decides where its answer stands. */
+shell_event_t shell_byte(shell_t *shell, uint8_t byte);
+
+/* Drops what is typed, without echo; the history stays. Call it when a complete line has been dealt with. */
+void shell_clear(shell_t *shell);
+
+/* The words of a line. */
+typedef struct {
+    const char *words; /* word 0, NUL, word 1, NUL, ... */
+    uint8_t count;     /* word 0 is the command */
+    bool hex;          /* numbers without prefix are hexadecimal */
+} shell_args_t;
+
+/* Puts the complete line into the history, then cuts it up in place. The words live until shell_clear.
+ * `hex`: how plain numbers in this line are meant. */
+shell_args_t shell_split(shell_t *shell, bool hex);
+
+/* Word `index`; an empty string when there is none. */
+const char *shell_word(const shell_args_t *args, uint8_t index);
+
+/* true when the word equals `word_P` (in flash, lower case) but for case. */
+bool shell_word_is(const shell_args_t *args, uint8_t index, const char *word_P);
+
+/* A whole word as a number: decimal digits or 0x and hexadecimal digits (hexadecimal either way when `hex`), at most
+ * 65535. false: *value is untouched. Says nothing. */
+bool shell_parse(const char *word, bool hex, uint16_t *value);
+
+/* Word `index` as a number from min to max. Otherwise says what is wrong, "Page must be 0..127", with `what_P` ("Page",
+ * in flash) in front, and returns false with *value untouched. */
+MUST_CHECK bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min, uint16_t max,
+                             uint16_t *value);
+
+/* One command. Tables of these stand in flash. */
+#define SHELL_WORD_BYTES 10u
+#define SHELL_SHORT_BYTES 5u
+#define SHELL_ANY_ARGS 255u
+
+typedef uint8_t (*shell_handler_t)(void *context, const shell_args_t *args);
+
+typedef struct {
+    char word[SHELL_WORD_BYTES];           /* lower case */
+    char abbreviation[SHELL_SHORT_BYTES];  /* or "" */
+    uint8_t args_min, args_max;            /* how many words may follow; SHELL_ANY_ARGS: no upper limit */
+    shell_handler_t handler;
+    const char *help;                      /* in flash: "n|name  plays a page" */
+} shell_command_t;
+
+/* Outcome of a command: what the handler returned, or the two faults found before it was called. */
+enum {
+    SHELL_OK = 0,
+    SHELL_ERR_SAID = 1,     /* for handlers: failed, and the reason has been printed */
+    SHELL_ERR_UNKNOWN = 254, /* no such word; nothing printed */
+    SHELL_ERR_COUNT = 255    /* too few or too many words; nothing printed */
+};
+
+/* Looks word 0 up among `count` commands and calls its handler with `context`. An empty line is SHELL_OK. Handlers may
+ * return values of their own, 2..253, which come back as they are. */
+uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, const shell_args_t *args);
+
+/* The table's entry for word `index` (or its abbreviation), or NULL: for HELP of one command. */
+const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count, const shell_args_t *args,
+                                  uint8_t index);
+
+/* Prints one line of help: word, abbreviation, help text, CR LF. */
+void shell_print_help(const shell_command_t *command_P);
+
+#endif

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT
+ * remote.h - RC-100 packets out of a byte stream that also carries typed text.
+ * Knows no UART and no page: bytes in; buttons, or the bytes that were not a packet, out. Caller-owned state, main
+ * loop only. Source: remote.md ("Sources of a code").
+ *
+ * A packet is FF 55 L ~L H ~H. Typed text never holds 0xFF, so everything outside a packet passes at once; bytes that
+ * began like a packet and turned out not to be one are searched again for the next FF 55 (a good packet right behind or
+ * inside a bad one is not lost), and what is left of them is noise of the air: it is counted and dropped, never typed.
+ * The exception is a broken packet's text-like byte run: see remote_byte. */
+#ifndef REMOTE_H
+#define REMOTE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Buttons, as the word H:L of a packet holds them. */
+enum {
+    REMOTE_UP = 1,
+    REMOTE_DOWN = 2,
+    REMOTE_LEFT = 4,
+    REMOTE_RIGHT = 8,
+    REMOTE_BUTTON1 = 16,
+    REMOTE_BUTTON2 = 32,
+    REMOTE_BUTTON3 = 64,
+    REMOTE_BUTTON4 = 128,
+    REMOTE_BUTTON5 = 256,
+    REMOTE_BUTTON6 = 512
+};
+
+#define REMOTE_PACKET_BYTES 6u
+
+/* What a byte was. */
+typedef enum {
+    REMOTE_NOTHING = 0, /* part of a packet still open, or noise */
+    REMOTE_PACKET,      /* completed a packet: remote.buttons */
+    REMOTE_TEXT         /* an ordinary byte: the shell's */
+} remote_event_t;
+
+typedef struct {
+    uint16_t buttons;   /* of the last good packet */
+    uint16_t packets;   /* good ones; never falls, wraps */
+    uint16_t dropped;   /* bytes of broken packets; never falls, wraps */
+    uint8_t held[REMOTE_PACKET_BYTES - 1];
+    uint8_t count;      /* bytes in held */
+} remote_t;
+
+void remote_init(remote_t *remote);
+
+/* Takes one byte. */
+remote_event_t remote_byte(remote_t *remote, uint8_t byte);
+
+/* No byte has come for a while (20 ms or more): what is held of an unfinished packet is dropped, so that it cannot
+ * swallow what is typed next. */
+void remote_quiet(remote_t *remote);
+
+/* What the buttons ask for. */
+typedef enum {
+    REMOTE_ACT_CODE = 0, /* *code is a code 0..254 */
+    REMOTE_ACT_STOP,     /* button 6, alone or in any chord */
+    REMOTE_ACT_PAUSE     /* button 5 alone: pause or resume */
+} remote_act_t;
+
+/* The code table of remote.md. Button 5 in a chord without button 6 counts as not held. The chord of buttons 1..4 and
+ * all directions would be 255: it is 254's neighbour and not stop, so it counts as 254. */
+remote_act_t remote_act(uint16_t buttons, uint8_t *code);
+
+#endif
