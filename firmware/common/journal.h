@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT
+ * journal.h - replaces a 512-byte motion page so that a power cut leaves the old page or the new one.
+ * Knows flash.h and nothing of registers. Used by applications to save and by the loader (and applications, under
+ * the factory loader) to recover. Main loop only. No RAM of its own: the flash is scanned at each call (0.3 ms).
+ *
+ * Area 0x0C000..0x0DFFF, 32 flash pages = 10 slots of 3 flash pages, the last two unused. Slot s, at 0x0C000 + 768 s:
+ *
+ *   +0    512  the new contents of the motion page
+ *   +512   12  record, little endian; the rest of this flash page is 0xFF
+ *              0 magic "MJ"  2 sequence  4 target page 0..127  5 layout 1
+ *              6 CRC-16 of the 512 bytes  8 CRC-16 of record bytes 0..7  10 state: 0xFFFF pending, else done
+ *
+ *   save:     data -> record -> target (flash pages that differ) -> state := 0 (programmed, no erase)
+ *   recover:  newest record pending -> target (pages that differ) -> state := 0
+ *
+ * Newest = highest sequence (modulo 65536) of the records whose own CRC fits; only that one is ever looked at, so an
+ * older one is done whatever its state says. The slot after the newest is the next: every flash page of the area
+ * wears once in ten saves (100,000 saves at 10,000 cycles). A torn data page or record leaves the record invalid,
+ * hence the old page; from a valid record on the target is finished at the next start, however often that is cut. */
+#ifndef JOURNAL_H
+#define JOURNAL_H
+
+#include "hal/flash.h"
+
+#include <stdint.h>
+
+#define JOURNAL_SLOTS 10u
+#define JOURNAL_SLOT_PAGES 3u     /* flash pages */
+#define JOURNAL_TARGET_BYTES 512u
+
+/* Replaces motion page `motion_page` (0..127). Call journal_recover once after start before the first save.
+ * Nothing is written when it holds `data` already. At most 6 flash operations of 4.5 + 4.5 ms, the last one 4.5:
+ * 53 ms in all.
+ * FLASH_ERR_RANGE, FLASH_ERR_NO_WRITER : nothing was touched
+ * FLASH_ERR_VERIFY : the page is old, or undefined with a pending record that the next recovery repeats */
+MUST_CHECK flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES]);
+
+typedef enum {
+    JOURNAL_CLEAN = 0, /* nothing was pending */
+    JOURNAL_RESTORED,  /* a page was finished */
+    JOURNAL_LOST,      /* a record was pending but its data no longer fits its CRC (not a power cut); dropped */
+    JOURNAL_FAILED     /* flash did not take it or nobody can write: still pending */
+} journal_result_t;
+
+/* Finishes what a power cut left. work : one flash page of RAM, contents undefined afterwards. */
+journal_result_t journal_recover(uint8_t work[FLASH_PAGE_BYTES]);
+
+/* Drops a pending record, before something else overwrites the motion area. */
+MUST_CHECK flash_status_t journal_void(void);
+
+#endif
