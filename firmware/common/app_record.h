@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ * app_record.h - what an application image says of itself: 16 bytes at MEM_APP_RECORD, right behind the vectors.
+ * The image is linked with the magic and 0xFF; the post-link step fills in the rest. The boot loader starts an image
+ * with a record only when length and CRC fit; an image without the magic is started as it is. */
+#ifndef APP_RECORD_H
+#define APP_RECORD_H
+
+#include <stdint.h>
+#include "compiler.h"
+#include "memory_map.h"
+
+#define APP_RECORD_MAGIC { 'M', '5', '1', '2' }
+#define APP_RECORD_LAYOUT 1u
+
+enum { APP_RECORD_CM5 = 1, APP_RECORD_CM2 = 2 };                 /* board */
+enum { APP_RECORD_PLAY = 1, APP_RECORD_EDIT = 2, APP_RECORD_OTHER = 255 };  /* kind */
+
+/* Little-endian, no padding on either side. */
+typedef struct {
+    char magic[4];
+    uint32_t length_bytes;   /* the image is [0, length_bytes), record included; even, <= MEM_APP_END */
+    uint16_t crc16;          /* crc16.h over the whole image, these two bytes counted as 0xFF 0xFF */
+    uint8_t board;           /* APP_RECORD_CM5, ... */
+    uint8_t kind;            /* APP_RECORD_PLAY, ... */
+    uint8_t version[3];      /* major, minor, patch */
+    uint8_t layout;          /* APP_RECORD_LAYOUT */
+} app_record_t;
+STATIC_ASSERT(sizeof(app_record_t) == MEM_APP_RECORD_BYTES, "the linker scripts leave 16 bytes");
+
+/* Offsets for programs that patch or check an image: layout 1. */
+#define APP_RECORD_AT_LENGTH 4u
+#define APP_RECORD_AT_CRC 8u
+#define APP_RECORD_AT_BOARD 10u
+#define APP_RECORD_AT_KIND 11u
+#define APP_RECORD_AT_VERSION 12u
+#define APP_RECORD_AT_LAYOUT 15u
+
+/* In one file of each application (board.c): the record as the post-link step expects it. */
+#define APP_RECORD_UNFILLED { APP_RECORD_MAGIC, 0xFFFFFFFFul, 0xFFFFu, 0xFF, 0xFF, { 0xFF, 0xFF, 0xFF }, 0xFF }
+
+#endif

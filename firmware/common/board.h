@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT
+ * board.h - start-up order and idling, the same for every application image.
+ * Main loop only. RAM: none of its own. */
+#ifndef BOARD_H
+#define BOARD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "app_record.h"
+#include "pgm.h"
+
+/* First call of main. Takes the reset cause, sets every peripheral that the loader left running, panel, tick, clock,
+ * console and bus, turns the watchdog on and enables interrupts. Nothing is sent to a servo. */
+void board_start(void);
+
+/* Waits for something to do: sleeps until an interrupt unless a tick is due or a console byte waits. Kicks the watchdog.
+ * The main loop is  for (;;) { ...look at everything once...; board_idle(); }. */
+void board_idle(void);
+
+/* "power-on", "reset button", "brown-out", "watchdog", "JTAG" or "unknown": text in flash, for a cause mask. The first
+ * that applies in this order: power-on, brown-out, watchdog, external, JTAG. */
+PGM_P board_reset_text_P(uint8_t cause);
+
+/* The record of the running image (app_record.h). false: no magic, or not filled in. */
+bool board_record(app_record_t *record);
+
+#endif

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT
+ * settings.h - what the user may set, kept in EEPROM over power-off: two copies with sequence number and CRC, written
+ * in turn, so that a power cut during a save leaves the old or the new settings, never others.
+ * Main loop only. RAM: settings_t 41 bytes and settings_store_t 6 bytes, both the caller's.
+ * EEPROM: MEM_EE_SETTINGS.. (two copies of 64 bytes), far from the loader's bytes. */
+#ifndef SETTINGS_H
+#define SETTINGS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "compiler.h"
+#include "pgm.h"
+
+#define SETTINGS_JOINTS 31u
+#define SETTINGS_NO_PARTNER 0xFFu
+
+/* What happens when a servo falls silent or reports overload, overheating or angle error during a play. */
+enum {
+    SETTINGS_FAULT_HOLD = 0,  /* default: all joints slow down to a stand and hold */
+    SETTINGS_FAULT_EXIT = 1,  /* soft stop through the exit page */
+    SETTINGS_FAULT_LIMP = 2   /* the faulty joint's torque off, the play goes on without it */
+};
+
+/* Mirror's middle. */
+enum { SETTINGS_NEUTRAL_512 = 0, SETTINGS_NEUTRAL_PAGE1 = 1 /* step 1 of page 1 when that is valid */ };
+
+/* All bytes, so that a record is the struct. Defaults in brackets. */
+typedef struct {
+    uint8_t law;                 /* player_law_t [0, exact] */
+    uint8_t remote_mode;         /* link_mode_t [0, latch] */
+    uint8_t approach_deg_s;      /* 0..240 [60]; 0 = no approach: the first step starts where the robot stands */
+    uint8_t fault_rule;          /* SETTINGS_FAULT_ [hold] */
+    uint8_t battery_low_dv;      /* 0.1 V, 0 = no warning [90]; by the servos' own voltmeters */
+    uint8_t hot_degrees;         /* warn at this temperature, 0 = no warning [70] */
+    uint8_t neutral;             /* SETTINGS_NEUTRAL_ [0] */
+    uint8_t flow;                /* 1: XON/XOFF to the PC when the input ring runs low [1] */
+    uint8_t fast_line;           /* 1: the console changes to 117,647 baud after start [0] */
+    uint8_t talk;                /* 1: status lines while playing [1] */
+    uint8_t pair[SETTINGS_JOINTS]; /* partner of each joint for MIRROR [1-2, 3-4 .. 17-18], SETTINGS_NO_PARTNER: none */
+} settings_t;
+
+typedef enum {
+    SETTINGS_OK = 0,
+    SETTINGS_EMPTY,      /* never saved: defaults */
+    SETTINGS_DAMAGED     /* something is there, no copy is valid: defaults */
+} settings_status_t;
+
+/* Where a save stands. */
+typedef struct {
+    uint8_t copy;        /* the copy loaded or written last */
+    uint8_t sequence;
+    uint8_t at;          /* next byte of the record to write */
+    bool saving;
+    uint16_t crc;        /* of the record so far */
+} settings_store_t;
+
+void settings_defaults(settings_t *settings);
+
+/* Loads the newer valid copy. Anything but SETTINGS_OK: defaults. A field out of range counts as damaged. */
+settings_status_t settings_load(settings_store_t *store, settings_t *settings);
+
+/* Begins to save; call settings_save_poll until it says false (it writes at most one byte, never blocks: about 64 calls
+ * with 8.5 ms between those that change something). `settings` may change meanwhile: start again then. */
+void settings_save_start(settings_store_t *store);
+bool settings_save_poll(settings_store_t *store, const settings_t *settings);   /* true: not done yet */
+
+/* Both in one, blocking: up to 0.6 s. Not while something moves. */
+void settings_save(settings_store_t *store, const settings_t *settings);
+
+/* Settings by name, for a line shell: all but the pairs. */
+typedef struct {
+    const char *name;        /* flash */
+    const char *meaning;     /* flash, one line with the unit */
+    uint8_t offset, low, high;
+} settings_item_t;
+
+#define SETTINGS_ITEMS 10u
+
+/* Item `index` 0..SETTINGS_ITEMS-1, copied from flash. */
+void settings_item(uint8_t index, settings_item_t *item);
+
+uint8_t settings_value(const settings_t *settings, const settings_item_t *item);
+
+/* false: out of range (low..high), nothing changed. */
+MUST_CHECK bool settings_set(settings_t *settings, const settings_item_t *item, uint16_t value);
+
+/* Makes a and b (0..30) partners; a == b: no partner. Their former partners lose theirs. false: range. */
+MUST_CHECK bool settings_pair(settings_t *settings, uint8_t a, uint8_t b);
+
+#endif

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT
+ * bus.h - the servo bus as packets: one instruction out, at most one status packet back, half duplex, by interrupt.
+ * One packet at a time: build it in bus_packet(), bus_submit() it, look with bus_poll() until it is not BUS_PENDING.
+ * Knows nothing of servos beyond the packet format. Main loop only. RAM: 144 bytes out, 64 in, 30 of state and counts.
+ * The engine is bus_core.[ch]; hal/avr/bus.c gives it a UART and direction pins, a test something else. */
+#ifndef BUS_H
+#define BUS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "compiler.h"
+#include "dxl.h"
+#include "ring.h"
+
+/* Rates by divisor, as in a servo's address 4: 2,000,000 / (n + 1). */
+#define BUS_RATE_1M 1u
+#define BUS_RATE_57142 34u
+
+#define BUS_PACKET_BYTES 144u   /* room for DXL_PACKET_MAX */
+#define BUS_NO_ANSWER 255u      /* bus_submit: nobody answers (broadcast, SYNC WRITE) */
+#define BUS_TRIES_MAX 4u
+
+typedef enum {
+    BUS_OK = 0,
+    BUS_PENDING,        /* under way */
+    BUS_ERR_TIMEOUT,    /* no answer, or not all of it */
+    BUS_ERR_CHECKSUM,   /* an answer with a wrong checksum */
+    BUS_ERR_FRAMING,    /* a byte without stop bit or lost bytes: noise, two talkers, a wrong rate */
+    BUS_ERR_WRONG_ID,   /* somebody else answered */
+    BUS_ERR_LENGTH,     /* an answer with another number of parameters than asked for */
+    BUS_ERR_BUSY        /* bus_submit: one is under way already; nothing was changed */
+} bus_status_t;
+
+/* The last answer; valid from BUS_OK until the next submit. */
+typedef struct {
+    uint8_t id;
+    uint8_t error;          /* DXL_ERR_ bits */
+    uint8_t count;
+    const uint8_t *params;  /* `count` bytes, owned by the bus */
+} bus_answer_t;
+
+/* Since start; each stays at its highest value. They never fall. */
+typedef struct {
+    uint32_t packets;       /* sent, retries included */
+    uint32_t answers;       /* good ones */
+    uint16_t timeouts;
+    uint16_t checksums;
+    uint16_t framing;
+    uint16_t overruns;
+    uint16_t wrong_ids;
+    uint16_t lengths;
+    uint16_t retries;
+    uint16_t cancelled;     /* by bus_cancel */
+    uint16_t strays;        /* bytes heard when nobody had been asked, or before a header */
+} bus_counts_t;
+
+/* Sets every register of UART 0 and the direction pins; 1 Mbps, listening. Before interrupts are enabled. */
+void bus_init(void);
+
+/* Waits for the end of what is under way, then changes the rate. */
+void bus_set_rate(uint8_t divisor);
+uint8_t bus_rate(void);
+
+/* Return delay that servos may use, in microseconds (default and maximum 508: address 5 = 254): part of the time-out. */
+void bus_set_return_delay_us(uint16_t us);
+
+/* The outgoing packet's buffer, BUS_PACKET_BYTES. May be written only while the bus is not busy. Build with dxl_packet.h. */
+uint8_t *bus_packet(void);
+
+bool bus_is_busy(void);
+
+/* Sends the first `size` bytes of bus_packet() (built by dxl_packet.h: the ID asked is at [2]).
+ * answer_params: number of parameters of the expected status packet, or BUS_NO_ANSWER.
+ * tries: 1..BUS_TRIES_MAX; after a failed answer the packet is sent again until they are used up.
+ * Returns at once: BUS_PENDING, or BUS_ERR_BUSY. */
+bus_status_t bus_submit(uint8_t size, uint8_t answer_params, uint8_t tries);
+
+/* How it stands; also keeps the time-outs, so call it often (every few ms) while busy. The result of the last packet
+ * stays until the next submit. `answer` may be NULL. Without an answer expected, BUS_OK comes when the last stop bit
+ * has left. */
+bus_status_t bus_poll(bus_answer_t *answer);
+
+/* Blocks until the result: at most tries * (packet + return delay + answer + 0.3 ms); 1 Mbps, 8 bytes read: 0.9 ms. */
+MUST_CHECK bus_status_t bus_wait(bus_answer_t *answer);
+
+/* Gives up waiting for an answer (a tick's goals must go out); while still sending, waits for the end of that. */
+void bus_cancel(void);
+
+/* Everything heard is also put into `ring` (dropped when full), answers included; NULL: no tap. For a line monitor. */
+void bus_set_tap(ring_t *ring);
+
+void bus_counts(bus_counts_t *counts);
+
+#endif

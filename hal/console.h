@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ * console.h - the serial line to terminal, PC and remote control (UART 1, 57,600 baud 8N1), by interrupt.
+ * Bytes only: knows no lines and no packets. Main loop only. RAM: 256 + 128 bytes of rings, 24 of state.
+ * No byte is lost at full line rate as long as the main loop takes bytes every 44 ms (255 bytes), or with flow control
+ * on. A pause of interrupts of up to 350 us (two characters) loses nothing either: the UART holds them. */
+#ifndef CONSOLE_H
+#define CONSOLE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "ring.h"
+
+#define CONSOLE_RX_BYTES 256u
+#define CONSOLE_TX_BYTES 128u
+
+/* Rates by divisor: 2,000,000 / (n + 1). */
+#define CONSOLE_RATE_57600 34u  /* really 57,143 */
+#define CONSOLE_RATE_115200 16u /* really 117,647 */
+
+#define CONSOLE_XON 0x11u
+#define CONSOLE_XOFF 0x13u
+
+/* What went wrong since start. Each stays at 65535. */
+typedef struct {
+    uint16_t overruns;  /* the UART lost bytes: interrupts were off too long */
+    uint16_t framing;   /* a character without a stop bit: noise or a wrong rate (the byte is dropped) */
+    uint16_t ring_full; /* bytes dropped because nobody took them */
+} console_counts_t;
+
+/* Sets every register of UART 1 (the loader hands it over running) and empties both rings. Bytes that the loader left
+ * in the UART are dropped. Call before interrupts are enabled. */
+void console_init(void);
+
+/* Waits until everything has left, then changes the rate (a CONSOLE_RATE_ divisor). Rings are kept. */
+void console_set_rate(uint8_t divisor);
+
+/* Input. */
+bool console_get(uint8_t *byte);     /* false: nothing there */
+uint8_t console_waiting(void);       /* bytes to get */
+void console_drop_input(void);
+
+/* Output, non-blocking: false when there is no room (the byte was not taken). */
+bool console_put(uint8_t byte);
+uint8_t console_room(void);          /* 0..CONSOLE_TX_BYTES */
+
+/* Output, blocking until the last byte is in the ring: up to 175 us a byte while the ring is full. Interrupts must be
+ * on. The caller kicks the watchdog before more than 10 KB in one call. */
+void console_write(const void *bytes, uint16_t count);
+
+/* Blocks until the last stop bit is on the wire (at most 23 ms). */
+void console_flush(void);
+
+/* Software flow control towards the PC, off after init. On: XOFF goes out, ahead of the output ring, when the input ring
+ * has less than CONSOLE_XOFF_ROOM bytes left, and again for every 32 bytes that still come; XON when it is nearly empty.
+ * Off: sends XON if an XOFF is out. (XON and XOFF from the PC are data: they occur in remote packets.) */
+#define CONSOLE_XOFF_ROOM 128u
+#define CONSOLE_XON_COUNT 32u
+void console_set_flow(bool on);
+
+/* With flow control on: sends XOFF now, blocks until it has left, and keeps the PC silent until console_resume. Before
+ * times without interrupts (a page write). Does nothing with flow control off. */
+void console_hold(void);
+void console_resume(void);
+
+/* The input ring itself (256 bytes, free-running indices: index mask 0xFF), for the page-write service of the boot
+ * loader, which puts bytes into it while interrupts are off; and the count it adds to for bytes that it had to drop
+ * (they show up in ring_full). */
+ring_t *console_rx_ring(void);
+volatile uint8_t *console_rx_lost(void);
+
+/* Free-running counts of bytes, modulo 256, for traffic lamps. */
+uint8_t console_received(void);
+uint8_t console_sent(void);
+
+void console_counts(console_counts_t *counts);
+
+#endif

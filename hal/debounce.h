@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT
+ * debounce.h - up to eight contacts at once: a change counts when it was seen a number of samples in a row.
+ * Pure; caller-owned; main loop only. RAM: 3 bytes. */
+#ifndef DEBOUNCE_H
+#define DEBOUNCE_H
+
+#include <stdint.h>
+
+typedef struct {
+    uint8_t steady;   /* what counts */
+    uint8_t last;     /* the last sample */
+    uint8_t seen;     /* how often in a row */
+} debounce_t;
+
+/* Starts with `now` as the steady state. */
+void debounce_init(debounce_t *debounce, uint8_t now);
+
+/* One sample; `needed` equal ones in a row (2..255) make it steady. Returns the steady state. */
+uint8_t debounce_sample(debounce_t *debounce, uint8_t sample, uint8_t needed);
+
+#endif

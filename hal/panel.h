@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT
+ * panel.h - lamps and buttons of the CM-5; on a CM-2 nothing is known, so there it does nothing and reports nothing.
+ * Also holds the pins that only need a safe level: charger off, ZigBee out of reset, both receive gates open.
+ * Main loop only. RAM: 4 bytes. Source: board.md, "CM-5 pins". */
+#ifndef PANEL_H
+#define PANEL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Lamps, bits of a mask. */
+enum {
+    PANEL_LED_POWER = 1 << 0,
+    PANEL_LED_TXD = 1 << 1,
+    PANEL_LED_RXD = 1 << 2,
+    PANEL_LED_AUX = 1 << 3,
+    PANEL_LED_MANAGE = 1 << 4,
+    PANEL_LED_PROGRAM = 1 << 5,
+    PANEL_LED_PLAY = 1 << 6,
+    PANEL_LED_ALL = 0x7F
+};
+
+/* Buttons, bits of a mask; the arrows have the values of the remote's codes (remote.md). */
+enum {
+    PANEL_UP = 1 << 0,
+    PANEL_DOWN = 1 << 1,
+    PANEL_LEFT = 1 << 2,
+    PANEL_RIGHT = 1 << 3,
+    PANEL_START = 1 << 4,
+    PANEL_ARROWS = 0x0F
+};
+
+/* All lamps off but Power; pull-ups on; charger off; ZigBee running; PC and remote lines gated in. */
+void panel_init(void);
+
+/* Whether this board has a panel. */
+bool panel_is_there(void);
+
+void panel_set(uint8_t leds, bool lit);  /* other lamps stay */
+uint8_t panel_lit(void);
+
+/* Call once a tick: samples the buttons. A change counts when it was seen PANEL_STEADY_TICKS times in a row (23 ms). */
+#define PANEL_STEADY_TICKS 3u
+void panel_tick(void);
+
+uint8_t panel_buttons(void);   /* held now, debounced */
+
+/* Buttons as they are at this moment, not debounced (start-up). */
+uint8_t panel_buttons_now(void);
+
+#endif

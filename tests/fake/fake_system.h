@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ * fake_system.h - the reset side of the board, behind system.h. system_restart does longjmp to where the test says (abort
+ * when it says nothing). */
+#ifndef FAKE_SYSTEM_H
+#define FAKE_SYSTEM_H
+
+#include <setjmp.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+void fake_system_reset(void);
+void fake_system_set_cause(uint8_t cause);
+void fake_system_on_restart(jmp_buf *where);
+uint32_t fake_system_kicks(void);                 /* system_kick calls */
+bool fake_system_watchdog(void);                  /* whether it is on */
+uint32_t fake_system_sleeps(void);
+
+#endif
