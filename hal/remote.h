@@ -3,10 +3,12 @@
  * Knows no UART and no page: bytes in; buttons, or the bytes that were not a packet, out. Caller-owned state, main
  * loop only. Source: remote.md ("Sources of a code").
  *
- * A packet is FF 55 L ~L H ~H. Typed text never holds 0xFF, so everything outside a packet passes at once; bytes that
- * began like a packet and turned out not to be one are searched again for the next FF 55 (a good packet right behind or
- * inside a bad one is not lost), and what is left of them is noise of the air: it is counted and dropped, never typed.
- * The exception is a broken packet's text-like byte run: see remote_byte. */
+ * A packet is FF 55 L ~L H ~H. Typed text never holds 0xFF, so everything outside a packet passes at once. Bytes that
+ * began like a packet and turned out not to be one are searched again for the next FF 55, so that a good packet inside
+ * or right behind a bad one is not lost; the bytes before it are noise: counted and dropped, never typed.
+ *
+ * One case needs care: a packet that has lost its last byte is made whole by the FF of the next one. So the FF that ends
+ * a good packet may begin another: a 0x55 ('U') right behind it is held back until it shows whether it was typed. */
 #ifndef REMOTE_H
 #define REMOTE_H
 
@@ -33,15 +35,20 @@ enum {
 typedef enum {
     REMOTE_NOTHING = 0, /* part of a packet still open, or noise */
     REMOTE_PACKET,      /* completed a packet: remote.buttons */
-    REMOTE_TEXT         /* an ordinary byte: the shell's */
+    REMOTE_TEXT         /* remote.text holds remote.text_count ordinary bytes: the shell's */
 } remote_event_t;
+
+#define REMOTE_TEXT_BYTES 3u
 
 typedef struct {
     uint16_t buttons;   /* of the last good packet */
     uint16_t packets;   /* good ones; never falls, wraps */
     uint16_t dropped;   /* bytes of broken packets; never falls, wraps */
+    uint8_t text[REMOTE_TEXT_BYTES];
+    uint8_t text_count;
     uint8_t held[REMOTE_PACKET_BYTES - 1];
     uint8_t count;      /* bytes in held */
+    bool shared;        /* held[0] is the last byte of a good packet */
 } remote_t;
 
 void remote_init(remote_t *remote);
@@ -49,9 +56,9 @@ void remote_init(remote_t *remote);
 /* Takes one byte. */
 remote_event_t remote_byte(remote_t *remote, uint8_t byte);
 
-/* No byte has come for a while (20 ms or more): what is held of an unfinished packet is dropped, so that it cannot
- * swallow what is typed next. */
-void remote_quiet(remote_t *remote);
+/* No byte has come for a while (20 ms or more): an unfinished packet is given up, so that it cannot swallow what is typed
+ * next. REMOTE_TEXT (a held-back 'U') or REMOTE_NOTHING. */
+remote_event_t remote_quiet(remote_t *remote);
 
 /* What the buttons ask for. */
 typedef enum {
@@ -60,8 +67,8 @@ typedef enum {
     REMOTE_ACT_PAUSE     /* button 5 alone: pause or resume */
 } remote_act_t;
 
-/* The code table of remote.md. Button 5 in a chord without button 6 counts as not held. The chord of buttons 1..4 and
- * all directions would be 255: it is 254's neighbour and not stop, so it counts as 254. */
+/* The code table of remote.md. Button 5 in a chord counts as not held. All of the first eight buttons at once make 255,
+ * which is stop's own code: a fist on the remote stops. */
 remote_act_t remote_act(uint16_t buttons, uint8_t *code);
 
 #endif
