@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: MIT
+ * servo.h - one virtual Dynamixel servo: control table, what writing a register does, alarms, power.
+ * Knows no wire and no packet framing (servo_protocol.h) and no simavr. Time is counted in controller cycles
+ * (16 MHz). Position moves lazily: servo_advance() brings the servo up to a moment, in fixed 1 ms steps on the
+ * absolute time axis, so the result does not depend on how often anyone looks.
+ * Facts: dynamixel.md; start values and ranges are those of the public AX-12 manual. */
+#ifndef SIM_SERVO_H
+#define SIM_SERVO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define SERVO_CYCLES_PER_US 16u
+#define SERVO_CYCLES_PER_MS 16000u
+#define SERVO_TABLE_BYTES 50
+#define SERVO_EEPROM_BYTES 24 /* addresses 0..23 are kept without power */
+#define SERVO_PACKET_MAX 143  /* AX-12 receive buffer: a longer instruction packet is lost */
+#define SERVO_BROADCAST 254
+
+typedef enum { SERVO_AX12, SERVO_DX117 } servo_model_t;
+
+/* Addresses of the control table. Two-byte items are little endian. */
+enum {
+    SERVO_MODEL = 0, SERVO_VERSION = 2, SERVO_ID = 3, SERVO_BAUD = 4, SERVO_RETURN_DELAY = 5, SERVO_CW_LIMIT = 6,
+    SERVO_CCW_LIMIT = 8, SERVO_TEMPERATURE_LIMIT = 11, SERVO_VOLTAGE_LOW = 12, SERVO_VOLTAGE_HIGH = 13,
+    SERVO_MAX_TORQUE = 14, SERVO_RETURN_LEVEL = 16, SERVO_ALARM_LED = 17, SERVO_ALARM_SHUTDOWN = 18,
+    SERVO_TORQUE_ENABLE = 24, SERVO_LED = 25, SERVO_CW_MARGIN = 26, SERVO_CCW_MARGIN = 27, SERVO_CW_SLOPE = 28,
+    SERVO_CCW_SLOPE = 29, SERVO_GOAL = 30, SERVO_SPEED = 32, SERVO_TORQUE_LIMIT = 34, SERVO_PRESENT = 36,
+    SERVO_PRESENT_SPEED = 38, SERVO_PRESENT_LOAD = 40, SERVO_VOLTAGE = 42, SERVO_TEMPERATURE = 43,
+    SERVO_REGISTERED = 44, SERVO_MOVING = 46, SERVO_LOCK = 47, SERVO_PUNCH = 48
+};
+
+/* Bits of the status packet's error byte. */
+enum {
+    SERVO_ERR_VOLTAGE = 1, SERVO_ERR_ANGLE = 2, SERVO_ERR_HEAT = 4, SERVO_ERR_RANGE = 8,
+    SERVO_ERR_CHECKSUM = 16, SERVO_ERR_OVERLOAD = 32, SERVO_ERR_INSTRUCTION = 64
+};
+
+/* Collects the bytes of one packet. */
+typedef struct {
+    uint8_t bytes[SERVO_PACKET_MAX];
+    uint8_t count;
+    uint64_t last_end_cycles; /* end of the newest byte's stop bit */
+} servo_parser_t;
+
+/* What is being said by this servo: count bytes back to back from start_cycles on. */
+typedef struct {
+    uint64_t start_cycles, byte_cycles;
+    uint32_t rate_bps;
+    uint16_t count, sent;
+    uint8_t bytes[SERVO_PACKET_MAX + 8];
+} servo_talk_t;
+
+/* Noise and mishaps noticed by this servo; counters never fall, but for servo_init(). */
+typedef struct {
+    uint32_t packets, answers, checksum_errors, framing_errors, gaps, oversize, deaf;
+} servo_stats_t;
+
+typedef struct servo {
+    servo_model_t model;
+    bool powered;
+    bool shutdown; /* an alarm has cut the torque; ends when torque limit and torque enable are written again */
+    bool held;     /* something blocks the horn: it cannot move */
+    uint8_t table[SERVO_TABLE_BYTES];
+    uint8_t alarms;   /* live and latched SERVO_ERR_VOLTAGE | ANGLE | HEAT | OVERLOAD */
+    bool overloaded;  /* latched until the torque limit is written or power is lost */
+    uint16_t skew_us; /* extra answer delay: how far this one's clock is off */
+
+    /* Physics (servo_motion.h). Positions in servo units, 1023 = 300 degrees. */
+    double position, velocity;   /* units, units per second */
+    double output;               /* motor output -1..1, positive towards larger positions */
+    double outside_load;         /* -1..1 of stall torque, what gravity or a hand does */
+    double temperature_c, ambient_c;
+    double supply_v;
+    uint32_t stalled_ms;
+    uint64_t step_cycles;        /* integrated up to here: a multiple of 1 ms */
+
+    /* A registered write (REG WRITE). */
+    uint8_t registered_address, registered_count, registered[SERVO_PACKET_MAX];
+
+    /* Faults (servo_fault.h): left[k] answers still to spoil, 0 = fault off, UINT32_MAX = until cleared. */
+    uint32_t fault_left[16];
+    uint32_t noise_state; /* pseudo-random generator of noise bytes, never 0 */
+    uint32_t late_us;     /* how late a late answer is */
+    double fault_v, fault_c; /* forced supply and temperature; 0 = none */
+
+    servo_parser_t parser;
+    servo_talk_t talk;
+    servo_stats_t stats;
+} servo_t;
+
+/* A new servo as shipped, but for ID and rate; it stands at 512 without power. rate_bps must be 2,000,000 / (n + 1),
+ * n = 0..254 (rounded); it ends up in address 4. */
+void servo_init(servo_t *servo, uint8_t id, servo_model_t model, uint32_t rate_bps);
+
+/* Switches the supply. RAM addresses take their start values at switching on, and torque is off; the horn keeps its
+ * place. Switching to the state it already has does nothing. */
+void servo_power(servo_t *servo, uint64_t now_cycles, bool on);
+
+/* The RESET instruction: EEPROM as shipped (ID 1, factory rate), RAM from it. */
+void servo_factory_reset(servo_t *servo);
+
+/* Brings position, temperature, alarms and the read-only registers up to now. Time never runs backwards. */
+void servo_advance(servo_t *servo, uint64_t now_cycles);
+
+/* One register, as of the last servo_advance(). */
+uint16_t servo_get(const servo_t *servo, uint8_t address, uint8_t bytes);
+
+/* Writes registers as a packet would (call servo_advance() first). Returns error bits:
+ * SERVO_ERR_RANGE : outside the table, read-only, locked or a value out of its range; nothing was written
+ * SERVO_ERR_ANGLE : the goal lies outside the angle limits; it was written, motion ends at the limit */
+uint8_t servo_write(servo_t *servo, uint8_t address, const uint8_t *data, uint8_t count);
+
+/* The same checks, and nothing is written. */
+uint8_t servo_check_write(const servo_t *servo, uint8_t address, const uint8_t *data, uint8_t count);
+
+/* Rate of address 4, bits per second. */
+uint32_t servo_rate_bps(const servo_t *servo);
+
+/* A hand turns the horn (servo units, clamped to 0..1023). With torque on the servo pulls back. */
+void servo_push_to(servo_t *servo, uint64_t now_cycles, double position);
+
+#endif
