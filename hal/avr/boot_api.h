@@ -4,7 +4,7 @@
  *
  *   0x1FFE0  4  signature "M5BL"
  *   0x1FFE4  1  version of this table; entries are only ever added
- *   0x1FFE5  1  board: 5 = CM-5, 2 = CM-2 / CM-2+
+ *   0x1FFE5  1  board: 1 = CM-5, 2 = CM-2 / CM-2+ (as in app_record.h)
  *   0x1FFE6  2  feature bits, BOOT_HAS_*
  *   0x1FFE8  2  version of the loader, major * 256 + minor
  *   0x1FFEA  2  0xFFFF, reserved

@@ -1,29 +1,36 @@
 /* SPDX-License-Identifier: MIT
- * fake_flash.h - 128 KiB of flash in host memory, behind flash.h. Starts erased. Writing obeys the chip: a page is erased
- * whole (all bits 1), programming only clears bits. Ranges abort. Power can be cut at the n-th erase or write. */
+ * fake_flash.h - controls of the PC's flash behind hal/flash.h. As strict as the chip: programming only clears bits,
+ * an erase covers a whole page, the boot section refuses, and the power can go at any operation.
+ * One operation = one page erase or one page program: a flash_write counts 2, a flash_program 1. */
 #ifndef FAKE_FLASH_H
 #define FAKE_FLASH_H
+
+#include "hal/flash.h"
 
 #include <setjmp.h>
 #include <stdbool.h>
 #include <stdint.h>
 
-#define FAKE_FLASH_BYTES 0x20000ul
-#define FAKE_FLASH_PAGE_BYTES 256u
+/* What the power cut leaves of the operation it hits. */
+typedef enum { FAKE_FLASH_BEFORE, FAKE_FLASH_TORN, FAKE_FLASH_AFTER } fake_flash_phase_t;
 
-void fake_flash_reset(void);                      /* erased, no wear, no cut */
-const uint8_t *fake_flash_bytes(void);            /* to compare */
-void fake_flash_load(uint32_t address, const void *bytes, uint32_t count); /* as a programmer does: no rules, no wear */
+/* All 0xFF, counters 0, no cut planned, all pages good. */
+void fake_flash_reset(void);
 
-/* What the boot section can do, `address` page-aligned. */
-void fake_flash_erase(uint32_t address);
-void fake_flash_program(uint32_t address, const uint8_t bytes[FAKE_FLASH_PAGE_BYTES]);
-uint16_t fake_flash_wear(uint32_t address);       /* erases of the page */
-uint32_t fake_flash_operations(void);             /* erases + programs since reset */
+/* The 128 KiB themselves, to prepare and compare. */
+uint8_t *fake_flash_bytes(void);
 
-/* Power cut at operation `operation` (1 = the next one; 0 = never): the operation is done only up to byte `torn_bytes`
- * (0 = not at all, 256 = completely; an erase torn in the middle leaves random bits in the rest), then longjmp to `where`.
- * The flash stays as it is. */
-void fake_flash_cut(uint32_t operation, uint16_t torn_bytes, jmp_buf *where);
+/* Plans a cut at operation `op` (1 = the next one; 0 = never): jumps to `where` with value 1. A torn erase sets, a
+ * torn program clears, only some of the bits, picked by `seed`. */
+void fake_flash_cut(uint32_t op, fake_flash_phase_t phase, uint32_t seed, jmp_buf *where);
+
+/* Operations since fake_flash_reset or the last fake_flash_cut. */
+uint32_t fake_flash_ops(void);
+
+/* Erases of one page since fake_flash_reset. */
+uint32_t fake_flash_wear(uint16_t page);
+
+/* The next `tries` operations on `page` do nothing (a bad cell): the verify must see it. */
+void fake_flash_break(uint16_t page, uint8_t tries);
 
 #endif

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+#include "journal.h"
+
+#include "crc16.h"
+#include "linker/memory_map.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#define MAGIC 0x4A4Du /* "MJ" in memory */
+#define LAYOUT 1u
+#define STATE_PENDING 0xFFFFu
+#define STATE_DONE 0x0000u
+#define FIRST_PAGE (MEM_JOURNAL_START / FLASH_PAGE_BYTES)
+#define FIRST_TARGET (MEM_MOTION_START / FLASH_PAGE_BYTES)
+#define TARGET_PAGES (JOURNAL_TARGET_BYTES / FLASH_PAGE_BYTES)
+#define TARGET_COUNT ((MEM_MOTION_END - MEM_MOTION_START) / JOURNAL_TARGET_BYTES)
+#define NO_SLOT 0xFFu
+
+typedef struct {
+    uint16_t magic;
+    uint16_t sequence;
+    uint8_t target; /* motion page */
+    uint8_t layout;
+    uint16_t content_crc;
+    uint16_t record_crc;
+    uint16_t state;
+} record_t;
+#define RECORD_CRC_BYTES 8u
+STATIC_ASSERT(sizeof(record_t) == 12, "the record is a layout in flash");
+
+static uint16_t slot_page(uint8_t slot)
+{
+    return (uint16_t)(FIRST_PAGE + slot * JOURNAL_SLOT_PAGES);
+}
+
+static uint32_t page_addr(uint16_t page)
+{
+    return (uint32_t)page * FLASH_PAGE_BYTES;
+}
+
+static bool read_record(uint8_t slot, record_t *record)
+{
+    flash_read(page_addr((uint16_t)(slot_page(slot) + TARGET_PAGES)), record, sizeof *record);
+    return record->magic == MAGIC && record->layout == LAYOUT && record->target < TARGET_COUNT &&
+           record->record_crc == crc16_bytes(CRC16_START, record, RECORD_CRC_BYTES);
+}
+
+/* The slot of the newest record, or NO_SLOT; `newest` is set only with a slot. */
+static uint8_t find_newest(record_t *newest)
+{
+    uint8_t found = NO_SLOT;
+    for (uint8_t slot = 0; slot < JOURNAL_SLOTS; slot++) {
+        record_t record;
+        if (read_record(slot, &record) &&
+            (found == NO_SLOT || (int16_t)(uint16_t)(record.sequence - newest->sequence) > 0)) {
+            *newest = record;
+            found = slot;
+        }
+    }
+    return found;
+}
+
+static bool page_equals(uint16_t page, const uint8_t *data)
+{
+    uint8_t piece[16];
+    for (uint16_t at = 0; at < FLASH_PAGE_BYTES; at = (uint16_t)(at + sizeof piece)) {
+        flash_read(page_addr(page) + at, piece, sizeof piece);
+        if (memcmp(piece, data + at, sizeof piece) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static flash_status_t write_if_different(uint16_t page, const uint8_t *data)
+{
+    return page_equals(page, data) ? FLASH_OK : flash_write(page, data, FLASH_PAGE_BYTES);
+}
+
+static flash_status_t mark_done(uint8_t slot, record_t *record)
+{
+    record->state = STATE_DONE;
+    return flash_program((uint16_t)(slot_page(slot) + TARGET_PAGES), (const uint8_t *)record, sizeof *record);
+}
+
+static uint16_t content_crc(uint8_t slot, uint8_t work[FLASH_PAGE_BYTES])
+{
+    uint16_t crc = CRC16_START;
+    for (uint8_t i = 0; i < TARGET_PAGES; i++) {
+        flash_read(page_addr((uint16_t)(slot_page(slot) + i)), work, FLASH_PAGE_BYTES);
+        crc = crc16_bytes(crc, work, FLASH_PAGE_BYTES);
+    }
+    return crc;
+}
+
+flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES])
+{
+    if (motion_page >= TARGET_COUNT) {
+        return FLASH_ERR_RANGE;
+    }
+    uint16_t target = (uint16_t)(FIRST_TARGET + motion_page * TARGET_PAGES);
+    if (page_equals(target, data) && page_equals((uint16_t)(target + 1), data + FLASH_PAGE_BYTES)) {
+        return FLASH_OK;
+    }
+
+    record_t record = {.sequence = 0};
+    uint8_t slot = find_newest(&record);
+    slot = (slot == NO_SLOT || slot == JOURNAL_SLOTS - 1) ? 0 : (uint8_t)(slot + 1);
+    record = (record_t){.magic = MAGIC, .sequence = (uint16_t)(record.sequence + 1), .target = motion_page,
+                        .layout = LAYOUT, .state = STATE_PENDING};
+    record.content_crc = crc16_bytes(CRC16_START, data, JOURNAL_TARGET_BYTES);
+    record.record_crc = crc16_bytes(CRC16_START, &record, RECORD_CRC_BYTES);
+
+    flash_status_t status = FLASH_OK;
+    for (uint8_t i = 0; i < TARGET_PAGES && status == FLASH_OK; i++) {
+        status = flash_write((uint16_t)(slot_page(slot) + i), data + i * FLASH_PAGE_BYTES, FLASH_PAGE_BYTES);
+    }
+    if (status == FLASH_OK) {
+        status = flash_write((uint16_t)(slot_page(slot) + TARGET_PAGES), (const uint8_t *)&record, sizeof record);
+    }
+    for (uint8_t i = 0; i < TARGET_PAGES && status == FLASH_OK; i++) {
+        status = write_if_different((uint16_t)(target + i), data + i * FLASH_PAGE_BYTES);
+    }
+    return status == FLASH_OK ? mark_done(slot, &record) : status;
+}
+
+journal_result_t journal_recover(uint8_t work[FLASH_PAGE_BYTES])
+{
+    record_t record;
+    uint8_t slot = find_newest(&record);
+    if (slot == NO_SLOT || record.state == STATE_DONE) {
+        return JOURNAL_CLEAN;
+    }
+    journal_result_t result = JOURNAL_RESTORED;
+    if (record.state != STATE_PENDING) {
+        result = JOURNAL_CLEAN; /* only the mark itself was torn */
+    } else if (content_crc(slot, work) != record.content_crc) {
+        result = JOURNAL_LOST;
+    } else {
+        for (uint8_t i = 0; i < TARGET_PAGES; i++) {
+            flash_read(page_addr((uint16_t)(slot_page(slot) + i)), work, FLASH_PAGE_BYTES);
+            if (write_if_different((uint16_t)(FIRST_TARGET + record.target * TARGET_PAGES + i), work) != FLASH_OK) {
+                return JOURNAL_FAILED;
+            }
+        }
+    }
+    return mark_done(slot, &record) == FLASH_OK ? result : JOURNAL_FAILED;
+}
+
+flash_status_t journal_void(void)
+{
+    record_t record;
+    uint8_t slot = find_newest(&record);
+    if (slot == NO_SLOT || record.state == STATE_DONE) {
+        return FLASH_OK;
+    }
+    return mark_done(slot, &record);
+}

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: MIT
+ * The page journal on a strict fake flash: what a save leaves, and what every power cut leaves. */
+#include "fake_flash.h"
+#include "firmware/common/crc16.h"
+#include "firmware/common/journal.h"
+#include "linker/memory_map.h"
+#include "unity.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define PAGE 120u
+#define PAGE_ADDR (MEM_MOTION_START + 512u * PAGE)
+
+static uint8_t old_page[512], new_page[512], work[FLASH_PAGE_BYTES];
+static uint8_t before[MEM_BOOT_END];
+
+static void fill(uint8_t *page, uint32_t seed)
+{
+    for (uint16_t i = 0; i < 512; i++) {
+        seed = seed * 1103515245u + 12345u;
+        page[i] = (uint8_t)(seed >> 16);
+    }
+}
+
+static const uint8_t *target(uint8_t page)
+{
+    return fake_flash_bytes() + MEM_MOTION_START + 512u * page;
+}
+
+void setUp(void)
+{
+    fake_flash_reset();
+    fill(old_page, 1);
+    fill(new_page, 2);
+    memcpy(fake_flash_bytes() + PAGE_ADDR, old_page, 512);
+}
+
+void tearDown(void) {}
+
+static void test_crc16_known_answer(void)
+{
+    TEST_ASSERT_EQUAL_HEX16(0x29B1, crc16_bytes(CRC16_START, "123456789", 9));
+}
+
+static void test_save_replaces_the_page_and_nothing_else(void)
+{
+    memcpy(before, fake_flash_bytes(), sizeof before);
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, new_page));
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
+    TEST_ASSERT_EQUAL_MEMORY(before, fake_flash_bytes(), MEM_JOURNAL_START);
+    TEST_ASSERT_EQUAL_MEMORY(before + MEM_JOURNAL_END, fake_flash_bytes() + MEM_JOURNAL_END, PAGE_ADDR - MEM_JOURNAL_END);
+    TEST_ASSERT_EQUAL_MEMORY(before + PAGE_ADDR + 512, fake_flash_bytes() + PAGE_ADDR + 512, MEM_BOOT_END - PAGE_ADDR - 512);
+    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+}
+
+static void test_save_takes_at_most_eleven_operations_of_4_5_ms(void)
+{
+    fake_flash_cut(0, FAKE_FLASH_BEFORE, 0, NULL);
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, new_page));
+    TEST_ASSERT_EQUAL_UINT32(11, fake_flash_ops());
+}
+
+static void test_save_of_equal_contents_writes_nothing(void)
+{
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, old_page));
+    TEST_ASSERT_EQUAL_UINT32(0, fake_flash_ops());
+}
+
+static void test_save_skips_an_equal_half(void)
+{
+    memcpy(new_page + 256, old_page + 256, 256);
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, new_page));
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
+    TEST_ASSERT_EQUAL_UINT32(1, fake_flash_wear(PAGE_ADDR / 256));
+    TEST_ASSERT_EQUAL_UINT32(0, fake_flash_wear(PAGE_ADDR / 256 + 1));
+}
+
+static void test_save_beyond_the_last_page_is_refused(void)
+{
+    TEST_ASSERT_EQUAL(FLASH_ERR_RANGE, journal_save(128, new_page));
+    TEST_ASSERT_EQUAL_UINT32(0, fake_flash_ops());
+}
+
+static void test_first_and_last_page_can_be_saved(void)
+{
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(0, new_page));
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(127, old_page));
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(0), 512);
+    TEST_ASSERT_EQUAL_MEMORY(old_page, target(127), 512);
+}
+
+static void test_wear_is_even_over_the_slots(void)
+{
+    for (uint32_t i = 0; i < 1000; i++) {
+        fill(new_page, i);
+        TEST_ASSERT_EQUAL(FLASH_OK, journal_save((uint8_t)(i % 128), new_page));
+    }
+    for (uint16_t page = 0; page < JOURNAL_SLOTS * JOURNAL_SLOT_PAGES; page++) {
+        TEST_ASSERT_EQUAL_UINT32(100, fake_flash_wear((uint16_t)(MEM_JOURNAL_START / 256 + page)));
+    }
+}
+
+static void test_the_sequence_wraps(void)
+{
+    for (uint32_t i = 0; i < 66000; i++) {
+        fill(new_page, i);
+        TEST_ASSERT_EQUAL(FLASH_OK, journal_save((uint8_t)(i % 128), new_page));
+    }
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(65999 % 128), 512);
+    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(65999 % 128), 512);
+}
+
+static void test_a_flash_that_does_not_take_the_data_is_reported(void)
+{
+    fake_flash_break(PAGE_ADDR / 256, 2);
+    TEST_ASSERT_EQUAL(FLASH_ERR_VERIFY, journal_save(PAGE, new_page));
+    TEST_ASSERT_EQUAL(JOURNAL_RESTORED, journal_recover(work));
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
+}
+
+/* Cuts a save at operation `op`; true while the cut came before the end. */
+static bool save_is_cut(uint32_t op, fake_flash_phase_t phase, uint32_t seed)
+{
+    jmp_buf cut;
+    fake_flash_cut(op, phase, seed, &cut);
+    if (setjmp(cut) != 0) {
+        return true;
+    }
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, new_page));
+    fake_flash_cut(0, phase, 0, NULL);
+    return false;
+}
+
+static bool recovery_is_cut(uint32_t op, fake_flash_phase_t phase, uint32_t seed)
+{
+    jmp_buf cut;
+    fake_flash_cut(op, phase, seed, &cut);
+    if (setjmp(cut) != 0) {
+        return true;
+    }
+    journal_result_t result = journal_recover(work);
+    fake_flash_cut(0, phase, 0, NULL);
+    TEST_ASSERT_TRUE(result == JOURNAL_CLEAN || result == JOURNAL_RESTORED);
+    return false;
+}
+
+/* Old or new, nothing else touched, and the next save works. */
+static void check_after_cut(void)
+{
+    bool is_old = memcmp(target(PAGE), old_page, 512) == 0;
+    bool is_new = memcmp(target(PAGE), new_page, 512) == 0;
+    TEST_ASSERT_TRUE_MESSAGE(is_old || is_new, "neither the old page nor the new one");
+    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+    for (uint32_t addr = 0; addr < MEM_BOOT_END; addr += 256) {
+        bool journal = addr >= MEM_JOURNAL_START && addr < MEM_JOURNAL_END;
+        bool page = addr >= PAGE_ADDR && addr < PAGE_ADDR + 512;
+        if (!journal && !page) {
+            TEST_ASSERT_EQUAL_MEMORY(before + addr, fake_flash_bytes() + addr, 256);
+        }
+    }
+    uint8_t third[512];
+    fill(third, 3);
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, third));
+    TEST_ASSERT_EQUAL_MEMORY(third, target(PAGE), 512);
+    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+    TEST_ASSERT_EQUAL_MEMORY(third, target(PAGE), 512);
+}
+
+/* Every starting slot, every operation of the save, every phase; then every operation of the recovery. */
+static void test_power_cut_anywhere_leaves_the_old_page_or_the_new_one(void)
+{
+    uint32_t cuts = 0, recovery_cuts = 0;
+    for (uint32_t history = 0; history < 12; history++) {
+        setUp();
+        for (uint32_t i = 0; i < history; i++) {
+            uint8_t other[512];
+            fill(other, 100 + i);
+            TEST_ASSERT_EQUAL(FLASH_OK, journal_save((uint8_t)i, other));
+        }
+        memcpy(before, fake_flash_bytes(), sizeof before);
+        for (int phase = FAKE_FLASH_BEFORE; phase <= FAKE_FLASH_AFTER; phase++) {
+            for (uint32_t op = 1;; op++) {
+                memcpy(fake_flash_bytes(), before, sizeof before);
+                if (!save_is_cut(op, (fake_flash_phase_t)phase, op + history)) {
+                    break;
+                }
+                cuts++;
+                static uint8_t torn[MEM_BOOT_END];
+                memcpy(torn, fake_flash_bytes(), sizeof torn);
+                for (uint32_t again = 1;; again++) {
+                    memcpy(fake_flash_bytes(), torn, sizeof torn);
+                    bool was_cut = recovery_is_cut(again, (fake_flash_phase_t)((uint32_t)phase % 3u), again * 7 + op);
+                    recovery_cuts += was_cut;
+                    if (was_cut) {
+                        (void)recovery_is_cut(1, FAKE_FLASH_TORN, op);
+                        TEST_ASSERT_FALSE(recovery_is_cut(0, FAKE_FLASH_BEFORE, 0));
+                    }
+                    check_after_cut();
+                    if (!was_cut) {
+                        break;
+                    }
+                }
+            }
+        }
+    }
+    printf("journal: %u cuts of a save, %u cuts of a recovery, each cut once more\n", (unsigned)cuts, (unsigned)recovery_cuts);
+    TEST_ASSERT_EQUAL_UINT32(12 * 3 * 11, cuts);
+}
+
+static void test_a_download_can_void_a_pending_page(void)
+{
+    TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1)); /* record complete, target untouched */
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_void());
+    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+    TEST_ASSERT_EQUAL_MEMORY(old_page, target(PAGE), 512);
+}
+
+static void test_rotten_slot_data_is_not_restored(void)
+{
+    TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1));
+    fake_flash_bytes()[MEM_JOURNAL_START + 5] ^= 1;
+    TEST_ASSERT_EQUAL(JOURNAL_LOST, journal_recover(work));
+    TEST_ASSERT_EQUAL_MEMORY(old_page, target(PAGE), 512);
+    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+}
+
+static void test_a_full_of_noise_area_is_an_empty_journal(void)
+{
+    uint8_t *area = fake_flash_bytes() + MEM_JOURNAL_START;
+    for (uint16_t i = 0; i < 8192; i++) {
+        area[i] = (uint8_t)(i * 37u);
+    }
+    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, new_page));
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
+}
+
+/* The layout of journal.h, byte by byte, as a tool would read it. */
+static void test_the_record_is_laid_out_as_documented(void)
+{
+    TEST_ASSERT_EQUAL(FLASH_OK, journal_save(PAGE, new_page));
+    const uint8_t *slot = fake_flash_bytes() + MEM_JOURNAL_START;
+    const uint8_t *record = slot + 512;
+    uint16_t crc = crc16_bytes(CRC16_START, new_page, 512), own = crc16_bytes(CRC16_START, record, 8);
+    TEST_ASSERT_EQUAL_MEMORY(new_page, slot, 512);
+    const uint8_t expected[12] = {'M', 'J', 1, 0, PAGE, 1, (uint8_t)crc, (uint8_t)(crc >> 8),
+                                  (uint8_t)own, (uint8_t)(own >> 8), 0, 0};
+    TEST_ASSERT_EQUAL_MEMORY(expected, record, 12);
+    TEST_ASSERT_EQUAL_HEX8(0xFF, record[12]);
+}
+
+static void test_the_fake_flash_only_clears_bits_without_erase(void)
+{
+    const uint8_t low[2] = {0x0F, 0x00}, high[2] = {0xF0, 0x00};
+    TEST_ASSERT_EQUAL(FLASH_OK, flash_program(10, low, 2));
+    TEST_ASSERT_EQUAL(FLASH_ERR_VERIFY, flash_program(10, high, 2));
+    TEST_ASSERT_EQUAL_HEX8(0x00, fake_flash_bytes()[2560]);
+    TEST_ASSERT_EQUAL(FLASH_OK, flash_write(10, high, 2));
+    TEST_ASSERT_EQUAL(FLASH_ERR_RANGE, flash_write(480, high, 2));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_crc16_known_answer);
+    RUN_TEST(test_save_replaces_the_page_and_nothing_else);
+    RUN_TEST(test_save_takes_at_most_eleven_operations_of_4_5_ms);
+    RUN_TEST(test_save_of_equal_contents_writes_nothing);
+    RUN_TEST(test_save_skips_an_equal_half);
+    RUN_TEST(test_save_beyond_the_last_page_is_refused);
+    RUN_TEST(test_first_and_last_page_can_be_saved);
+    RUN_TEST(test_wear_is_even_over_the_slots);
+    RUN_TEST(test_the_sequence_wraps);
+    RUN_TEST(test_a_flash_that_does_not_take_the_data_is_reported);
+    RUN_TEST(test_power_cut_anywhere_leaves_the_old_page_or_the_new_one);
+    RUN_TEST(test_a_download_can_void_a_pending_page);
+    RUN_TEST(test_rotten_slot_data_is_not_restored);
+    RUN_TEST(test_a_full_of_noise_area_is_an_empty_journal);
+    RUN_TEST(test_the_record_is_laid_out_as_documented);
+    RUN_TEST(test_the_fake_flash_only_clears_bits_without_erase);
+    return UNITY_END();
+}
