@@ -1,0 +1,5 @@
+# SPDX-License-Identifier: MIT
+"""`python -m m512`."""
+from m512.cli import main
+
+main()

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+"""The command line. Commands are imported when they are called: `m512 --help` reads only this file."""
+from __future__ import annotations
+
+import sys
+
+import click
+
+from m512 import __version__
+
+# name -> (module, first line of help). The order is the order of `m512 --help`.
+COMMANDS = {
+    "convert": ("files", "Convert motions between image, Intel HEX, .mtn, CSV and text."),
+}
+
+
+class LazyGroup(click.Group):
+    def list_commands(self, ctx):
+        return list(COMMANDS)
+
+    def get_command(self, ctx, name):
+        if name not in COMMANDS:
+            return None
+        from importlib import import_module
+
+        module = import_module(f"m512.cli.{COMMANDS[name][0]}")
+        return getattr(module, name)
+
+    def format_commands(self, ctx, formatter):
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
+
+    def invoke(self, ctx):
+        from m512.errors import M512Error
+
+        try:
+            return super().invoke(ctx)
+        except M512Error as error:
+            click.echo(f"m512: {error}", err=True)
+            sys.exit(error.exit_code)
+        except BrokenPipeError:
+            sys.stderr.close()
+            sys.exit(0)
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+             epilog="Exit codes: 0 done, 2 wrong command line, 3 differences or faults found, 4 bad file, 5 refused, "
+                    "6 port lost or not there, 7 no answer, 8 error answer of the board, 9 something not installed.")
+@click.version_option(__version__, prog_name="m512")
+def main():
+    """Motions, firmware and terminal of CM-2/CM-5 robot controllers.
+
+    \b
+    Without a robot:  m512 convert walk.m512 walk.bin     m512 pages walk.bin list
+    With a robot:     m512 term                           m512 flash play-cm5.hex
+    """

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""`m512 convert` and `m512 diff`."""
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+from m512 import formats
+from m512.errors import EXIT_DIFFERENT, FileError, RefusedError
+from m512.page import Page
+
+
+def say(text: str) -> None:
+    """Remarks go to stderr: stdout is for results."""
+    click.echo(text, err=True)
+
+
+def damaged_pages(image):
+    return [(number, page.fault_text(image.kind)) for number, page in image.items() if page.fault(image.kind)]
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 convert walk.m512 walk.bin           text to a 64 KiB image
+  m512 convert robot.mtn robot.hex          RoboPlus to Intel HEX at 0x0E000
+  m512 convert op3.bin op3.m512 --bits 12   12-bit image to text, as it is
+  m512 convert op3.bin cm5.bin --scale 10   scaled from 12 to 10 bits, with a report
+  m512 convert lib.bin wave.csv --page 15   one page as a table""")
+@click.argument("source", type=click.Path(path_type=Path))
+@click.argument("target", type=click.Path(path_type=Path))
+@click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of SOURCE (images do not tell).")
+@click.option("--scale", type=click.Choice(["10", "12"]), help="Scale positions to this resolution.")
+@click.option("--pages", "count", type=click.Choice(["128", "256"]), help="Pages of the result (default: as SOURCE).")
+@click.option("--page", "number", help="The page (number or name) of a CSV.")
+@click.option("--onto", type=click.Path(path_type=Path), help="Motion file whose page 0 (trim) a .mtn takes over.")
+@click.option("--damaged", type=click.Choice(["ask", "keep", "drop"]), default="keep",
+              help="Damaged pages: keep byte for byte, replace by empty ones, or refuse to go on.", show_default=True)
+@click.option("--mtn-version", type=click.Choice(["1.00", "1.01"]), default="1.01", help="Version of a .mtn to write.")
+@click.option("--force", is_flag=True, help="Overwrite TARGET.")
+@click.option("--json", "as_json", is_flag=True, help="Report on stdout as JSON.")
+def convert(source, target, bits, scale, count, number, onto, damaged, mtn_version, force, as_json):
+    """Convert the motions in SOURCE to TARGET.
+
+    The suffix of TARGET decides: .bin (raw image), .hex (Intel HEX), .mtn (RoboPlus), .csv (one page), .m512 (text).
+    SOURCE is recognised by its contents. All losses are listed; a conversion that loses nothing says nothing.
+    """
+    if target.exists() and not force:
+        raise RefusedError(f"{target} is there already (--force overwrites it)")
+    image = formats.load(source, int(bits), formats.load(onto) if onto else None)
+    notes, losses = list(image.notes), []
+    bad = damaged_pages(image)
+    if bad and damaged == "ask":
+        raise RefusedError("damaged pages (--damaged keep or drop):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
+    for page, why in bad:
+        notes.append(f"page {page} is damaged ({why}): {'replaced by an empty page' if damaged == 'drop' else 'kept as it is'}")
+        if damaged == "drop":
+            image[page] = Page()
+    if scale and int(scale) != image.bits:
+        from m512 import scale12
+
+        image, report = scale12.scaled(image, int(scale))
+        losses += report
+    wanted = int(count) if count else _fitting(image, target)
+    if wanted != image.end:
+        image, lost = image.resized(wanted)
+        losses += lost
+    losses += formats.save(target, image, image.find(number) if number else None, mtn_version)
+    if as_json:
+        click.echo(json.dumps({"source": str(source), "target": str(target), "pages": len(image.pages), "bits": image.bits,
+                               "damaged": [n for n, _ in bad], "notes": notes, "losses": losses}, indent=2))
+        return
+    for note in notes:
+        say(f"note: {note}")
+    for loss in losses:
+        say(f"loss: {loss}")
+
+
+def _fitting(image, target: Path) -> int:
+    """Pages of the result when nothing was said: as the source has; a .mtn has always 255."""
+    if formats.BY_SUFFIX.get(target.suffix.lower()) == formats.MTN:
+        return 256
+    return image.end
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 diff old.bin new.bin
+  m512 diff walk.m512 backup/motions.bin --json""")
+@click.argument("first", type=click.Path(path_type=Path))
+@click.argument("second", type=click.Path(path_type=Path))
+@click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of images.")
+@click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
+def diff(first, second, bits, as_json):
+    """Say in words how the motions in FIRST and SECOND differ: which page, which step, which joint, from, to.
+
+    Exit code 0 when they are equal, 3 when they differ."""
+    from m512 import difference
+
+    if not first.exists() or not second.exists():
+        raise FileError(f"no such file: {first if not first.exists() else second}")
+    found = difference.images(formats.load(first, int(bits)), formats.load(second, int(bits)))
+    if as_json:
+        click.echo(json.dumps([change.as_dict() for change in found], indent=2))
+    else:
+        for change in found:
+            click.echo(str(change))
+    raise SystemExit(EXIT_DIFFERENT if found else 0)

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: MIT
+"""The 512-byte motion page: layout, checks, field access. Twin of motion/page.h; both pass page_vectors.json.
+
+A Page never refuses bytes: damaged pages have to be shown, kept and repaired. `fault()` and `faults()` say what is
+wrong, in the order of page_status_t.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Iterator, List, Optional
+
+PAGE_BYTES = 512
+JOINTS = 31
+STEPS = 7
+STEP_BYTES = 64
+NAME_BYTES = 14
+TICKS_PER_SECOND = 128
+
+SCHEDULE_SPEED = 0x00
+SCHEDULE_TIME = 0x0A
+POS_UNUSED = 0x4000      # joint not used in this step: it keeps its last target
+POS_TORQUE_OFF = 0x2000  # Edit's work pose only
+CODE_STOP = 255
+
+
+class Fault(IntEnum):
+    """page_status_t of motion/page.h."""
+
+    OK = 0
+    CHECKSUM = 1
+    STEPS = 2
+    SCHEDULE = 3
+    SPEED = 4
+    LINK = 5
+    POSITION = 6
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What the origin of a page decides and its bytes do not tell."""
+
+    pages: int = 128
+    pos_max: int = 1023
+
+
+def _field(at: int, doc: str) -> property:
+    def get(self) -> int:
+        return self.data[at]
+
+    def put(self, value: int) -> None:
+        self.data[at] = value
+
+    return property(get, put, doc=doc)
+
+
+class Page:
+    """512 bytes with names. Setting a field does not touch the checksum: call seal()."""
+
+    __slots__ = ("data",)
+
+    def __init__(self, data: Optional[bytes] = None):
+        if data is None:
+            data = EMPTY
+        if len(data) != PAGE_BYTES:
+            raise ValueError(f"a page has 512 bytes, not {len(data)}")
+        self.data = bytearray(data)
+
+    repeat = _field(15, "PLAY_COUNT: plays before the link is followed; 0 = no action")
+    schedule = _field(16, "SCHEDULE: 0 speed base, 0x0A time base")
+    steps = _field(20, "PAGE_STEP: steps used, 0..7")
+    code = _field(21, "PLAY_CODE: remote code that calls this page, 0 = none")
+    speed = _field(22, "PAGE_SPEED: 32 = nominal")
+    dxl_setup = _field(23, "DXL_SETUP: kept as found")
+    accel = _field(24, "ACCEL_TIME in ticks")
+    next = _field(25, "NEXT_PAGE")
+    exit = _field(26, "EXIT_PAGE")
+    link1_page = _field(27, "LINKED_PAGE1")
+    link1_code = _field(28, "LINKED_PAGE1_PLAY_CODE")
+    link2_page = _field(29, "LINKED_PAGE2")
+    link2_code = _field(30, "LINKED_PAGE2_PLAY_CODE")
+    checksum = _field(31, "PAGE_CHECKSUM: the 8-bit sum of all bytes is 0xFF")
+    byte63 = _field(63, "reserved; 0x55 in factory pages")
+
+    LINKS = ("next", "exit", "link1_page", "link2_page")
+
+    def __bytes__(self) -> bytes:
+        return bytes(self.data)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Page) and self.data == other.data
+
+    def __repr__(self) -> str:
+        return f"<Page {self.title!r} {self.steps} steps>"
+
+    def copy(self) -> "Page":
+        return Page(self.data)
+
+    # Name
+
+    @property
+    def name(self) -> bytes:
+        """The name's bytes up to the NUL (14 of them when there is none)."""
+        return bytes(self.data[:NAME_BYTES]).split(b"\0")[0]
+
+    @name.setter
+    def name(self, value: bytes) -> None:
+        if len(value) > NAME_BYTES - 1 or b"\0" in value:
+            raise ValueError("a page name has at most 13 characters")
+        self.data[:NAME_BYTES] = value.ljust(NAME_BYTES, b"\0")
+
+    @property
+    def title(self) -> str:
+        """The name as something that can be shown: ASCII, other bytes escaped."""
+        return "".join(chr(b) if 0x20 <= b < 0x7F else f"\\x{b:02x}" for b in self.name)
+
+    # Compliance and positions
+
+    def compliance(self, joint: int) -> int:
+        return self.data[32 + joint]
+
+    def set_compliance(self, joint: int, value: int) -> None:
+        self.data[32 + joint] = value
+
+    def word(self, step: int, joint: int) -> int:
+        """The raw position word of `joint` (0..30) in `step` (0..6)."""
+        at = 64 + STEP_BYTES * step + 2 * joint
+        return self.data[at] | self.data[at + 1] << 8
+
+    def set_word(self, step: int, joint: int, word: int) -> None:
+        at = 64 + STEP_BYTES * step + 2 * joint
+        self.data[at:at + 2] = word.to_bytes(2, "little")
+
+    def words(self, step: int) -> List[int]:
+        return [self.word(step, joint) for joint in range(JOINTS)]
+
+    def pause(self, step: int) -> int:
+        return self.data[64 + STEP_BYTES * step + 62]
+
+    def set_pause(self, step: int, ticks: int) -> None:
+        self.data[64 + STEP_BYTES * step + 62] = ticks
+
+    def time(self, step: int) -> int:
+        """Byte 63 of the step: time in ticks, or the speed in speed base."""
+        return self.data[64 + STEP_BYTES * step + 63]
+
+    def set_time(self, step: int, value: int) -> None:
+        self.data[64 + STEP_BYTES * step + 63] = value
+
+    def step_bytes(self, step: int) -> bytes:
+        return bytes(self.data[64 + STEP_BYTES * step:64 + STEP_BYTES * (step + 1)])
+
+    def set_step_bytes(self, step: int, block: bytes) -> None:
+        assert len(block) == STEP_BYTES
+        self.data[64 + STEP_BYTES * step:64 + STEP_BYTES * (step + 1)] = block
+
+    # Checks
+
+    def seal(self) -> "Page":
+        """Sets the checksum."""
+        self.data[31] = 0
+        self.data[31] = (0xFF - sum(self.data)) & 0xFF
+        return self
+
+    def faults(self, kind: Kind = Kind()) -> Iterator[Fault]:
+        """All that is wrong, in the order of page_status_t."""
+        if sum(self.data) & 0xFF != 0xFF:
+            yield Fault.CHECKSUM
+        if self.steps > STEPS:
+            yield Fault.STEPS
+        if self.schedule not in (SCHEDULE_SPEED, SCHEDULE_TIME):
+            yield Fault.SCHEDULE
+        if self.speed == 0:
+            yield Fault.SPEED
+        if any(getattr(self, link) >= kind.pages for link in self.LINKS):
+            yield Fault.LINK
+        if any(is_used(word) and word > kind.pos_max
+               for step in range(min(self.steps, STEPS)) for word in self.words(step)):
+            yield Fault.POSITION
+
+    def fault(self, kind: Kind = Kind()) -> Fault:
+        """The first fault, as the firmware's page_check reports it."""
+        return next(self.faults(kind), Fault.OK)
+
+    def fault_text(self, kind: Kind = Kind()) -> str:
+        """In words; empty for a good page."""
+        return "; ".join(self._describe(fault, kind) for fault in self.faults(kind))
+
+    def _describe(self, fault: Fault, kind: Kind) -> str:
+        if fault is Fault.CHECKSUM:
+            right = self.copy().seal().checksum
+            return f"checksum is 0x{self.checksum:02X} and should be 0x{right:02X}"
+        if fault is Fault.STEPS:
+            return f"{self.steps} steps, at most 7 are possible"
+        if fault is Fault.SCHEDULE:
+            return f"schedule is 0x{self.schedule:02X}, neither speed base (0x00) nor time base (0x0A)"
+        if fault is Fault.SPEED:
+            return "page speed is 0"
+        if fault is Fault.LINK:
+            bad = [f"{link} {getattr(self, link)}" for link in self.LINKS if getattr(self, link) >= kind.pages]
+            return f"link beyond page {kind.pages - 1}: " + ", ".join(bad)
+        bad = [f"step {step} ID {joint} is 0x{self.word(step, joint):04X}"
+               for step in range(min(self.steps, STEPS)) for joint in range(JOINTS)
+               if is_used(self.word(step, joint)) and self.word(step, joint) > kind.pos_max]
+        more = f" and {len(bad) - 3} more" if len(bad) > 3 else ""
+        return f"position beyond {kind.pos_max}: " + ", ".join(bad[:3]) + more
+
+    @property
+    def is_playable(self) -> bool:
+        return self.steps != 0 and self.repeat != 0
+
+    @property
+    def is_empty(self) -> bool:
+        """No action and no name: what lists leave out."""
+        return self.steps == 0 and not self.name
+
+
+def is_used(word: int) -> bool:
+    """Whether a position word drives its joint: neither flag set."""
+    return not word & (POS_UNUSED | POS_TORQUE_OFF)
+
+
+def _make_empty() -> bytes:
+    data = bytearray(PAGE_BYTES)
+    data[15] = 1
+    data[16] = SCHEDULE_TIME
+    data[22] = 32
+    data[24] = 32
+    data[32:63] = bytes([0x55]) * JOINTS
+    for step in range(STEPS):
+        data[64 + STEP_BYTES * step:64 + STEP_BYTES * step + 62] = POS_UNUSED.to_bytes(2, "little") * JOINTS
+    data[31] = (0xFF - sum(data)) & 0xFF
+    return bytes(data)
+
+
+EMPTY = _make_empty()
+"""The empty page of the specification, sealed."""

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+"""Where the tests find things: the repository, test data of others (never committed), the build products."""
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+REPO = Path(__file__).resolve().parents[3]
+SHARED = Path(os.environ.get("M512_SHARED", REPO.parent / "shared"))
+sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(REPO / "tools" / "m512" / "src"))
+
+
+@pytest.fixture
+def repo():
+    return REPO
+
+
+def shared_file(name):
+    path = SHARED / "data" / name
+    if not path.exists():
+        pytest.skip(f"{name}: the shared data folder is absent (M512_SHARED says where it is)")
+    return path
+
+
+@pytest.fixture
+def data():
+    """data("x.bin") -> path, or a skip that says what is absent."""
+    return shared_file
+
+
+@pytest.fixture
+def m512(monkeypatch):
+    """m512("convert", "a", "b") -> click result: runs a command in this process."""
+    from click.testing import CliRunner
+
+    from m512.cli import main
+
+    def run(*args, input=None):
+        result = CliRunner().invoke(main, [str(arg) for arg in args], input=input)
+        assert result.exception is None or isinstance(result.exception, SystemExit), result.exc_info
+        return result
+
+    return run
