@@ -2,7 +2,7 @@
  * page_service.h - finds who can write flash here, and is the writing half of flash.h for applications.
  *
  *   PAGE_SERVICE_OURS     our loader: call table at 0x1FFE0 (boot_api.h)
- *   PAGE_SERVICE_FACTORY  factory loader 1.31, known by the CRCs of its 8 KiB: its routine at 0x1F238 (spec, 7b)
+ *   PAGE_SERVICE_FACTORY  factory loader 1.31, known by two CRCs and the sum of its 8 KiB: its routine at 0x1F238 (spec, 7b)
  *   PAGE_SERVICE_MAILBOX  some other loader: a page left in EEPROM is hoped to be written at the next start (7a).
  *                         flash_write answers FLASH_ERR_NO_WRITER; use page_service_post and reset
  *   PAGE_SERVICE_NONE     an empty boot section: nobody
@@ -11,7 +11,7 @@
 #ifndef PAGE_SERVICE_H
 #define PAGE_SERVICE_H
 
-#include "hal/avr/boot_api.h"
+#include "hal/boot_call.h"
 #include "hal/flash.h"
 
 #include <stdbool.h>
@@ -24,7 +24,7 @@ typedef enum {
     PAGE_SERVICE_MAILBOX
 } page_service_kind_t;
 
-/* Looks at the boot section (about 25 ms where it has to sum it up, else at once) and remembers what it found.
+/* Looks at the boot section (about 35 ms where it has to sum it up, else at once) and remembers what it found.
  * rx : the ring that is to take the bytes of UART1 during a write, or NULL; must stay valid. */
 page_service_kind_t page_service_init(const boot_rx_t *rx);
 

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT */
+#include "page_service.h"
+
+#include "crc16.h"
+#include "hal/boot_call.h"
+#include "hal/eeprom.h"
+#include "linker/memory_map.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* The factory loader 1.31, bootloader-original.md section 7b. Two ranges, because CRC-16 alone is thin ice to jump on;
+ * the whole table of the spec would need a CRC-32 for nothing else. */
+#define FACTORY_CRC_ALL 0xD53Eu
+#define FACTORY_CRC_USED 0x7406u
+#define FACTORY_SUM_ALL 0x000F9AF0ul
+#define FACTORY_USED_END 0x1FB90ul
+
+#define BOOT_MODE_APPLICATION 0x11u /* EEPROM FFF: start the application */
+#define MAIL_POSTED 0xAAu
+#define MAIL_WRITTEN 0x55u
+#define MAIL_NONE 0xFFu
+#define MOTION_PAGES 128u
+
+static struct {
+    uint8_t kind;
+    const boot_rx_t *rx;
+} service;
+
+static bool is_ours(void)
+{
+    boot_api_head_t head;
+    flash_read(MEM_BOOT_API, &head, sizeof head);
+    return memcmp(head.signature, BOOT_API_SIGNATURE, sizeof head.signature) == 0 && head.version >= 1 &&
+           (head.features & (BOOT_HAS_WRITE | BOOT_HAS_PROGRAM)) == (BOOT_HAS_WRITE | BOOT_HAS_PROGRAM);
+}
+
+/* What the boot section holds, when it is not ours: one pass over 8 KiB. */
+static page_service_kind_t recognise(void)
+{
+    uint8_t piece[16];
+    uint16_t crc = CRC16_START, crc_used = 0;
+    uint32_t sum = 0;
+    uint8_t all = 0xFF;
+    for (uint32_t addr = MEM_BOOT_START; addr < MEM_BOOT_END; addr += sizeof piece) {
+        if (addr == FACTORY_USED_END) {
+            crc_used = crc;
+        }
+        flash_read(addr, piece, sizeof piece);
+        for (uint8_t i = 0; i < sizeof piece; i++) {
+            crc = crc16_byte(crc, piece[i]);
+            sum += piece[i];
+            all &= piece[i];
+        }
+    }
+    if (all == 0xFF) {
+        return PAGE_SERVICE_NONE;
+    }
+    bool factory = crc == FACTORY_CRC_ALL && crc_used == FACTORY_CRC_USED && sum == FACTORY_SUM_ALL;
+    return factory ? PAGE_SERVICE_FACTORY : PAGE_SERVICE_MAILBOX;
+}
+
+page_service_kind_t page_service_init(const boot_rx_t *rx)
+{
+    service.rx = rx;
+    service.kind = (uint8_t)(is_ours() ? PAGE_SERVICE_OURS : recognise());
+    return page_service_kind();
+}
+
+page_service_kind_t page_service_kind(void)
+{
+    return (page_service_kind_t)service.kind;
+}
+
+static flash_status_t write_page(uint16_t page, const uint8_t *data, uint16_t bytes, uint8_t mode)
+{
+    uint32_t addr = (uint32_t)page * FLASH_PAGE_BYTES;
+    uint8_t result;
+    if (addr >= MEM_BOOT_START || bytes < 2 || bytes > FLASH_PAGE_BYTES || (bytes & 1) != 0) {
+        return FLASH_ERR_RANGE;
+    }
+    if (service.kind == PAGE_SERVICE_OURS) {
+        result = boot_call_write(addr, data, bytes, mode, service.rx);
+    } else if (service.kind == PAGE_SERVICE_FACTORY) {
+        result = boot_call_factory(addr, data, bytes, mode);
+    } else {
+        return FLASH_ERR_NO_WRITER;
+    }
+    return result == BOOT_OK ? FLASH_OK : result == BOOT_ERR_RANGE ? FLASH_ERR_RANGE : FLASH_ERR_VERIFY;
+}
+
+flash_status_t flash_write(uint16_t page, const uint8_t *data, uint16_t bytes)
+{
+    return write_page(page, data, bytes, BOOT_MODE_WRITE);
+}
+
+flash_status_t flash_program(uint16_t page, const uint8_t *data, uint16_t bytes)
+{
+    return write_page(page, data, bytes, BOOT_MODE_PROGRAM);
+}
+
+static void set_byte(uint16_t addr, uint8_t value)
+{
+    eeprom_update(addr, &value, 1);
+}
+
+/* FF4 comes last and is withdrawn first: a cut in between leaves no half page to be written. */
+bool page_service_post(uint8_t motion_page, const uint8_t data[512])
+{
+    if (motion_page >= MOTION_PAGES) {
+        return false;
+    }
+    set_byte(MEM_EE_MAILBOX_STATE, MAIL_NONE);
+    set_byte(MEM_EE_BOOT_MODE, BOOT_MODE_APPLICATION);
+    eeprom_update(MEM_EE_MAILBOX, data, 512);
+    set_byte(MEM_EE_MAILBOX_PAGE, motion_page);
+    set_byte(MEM_EE_MAILBOX_STATE, MAIL_POSTED);
+    return true;
+}
+
+page_service_mail_t page_service_mail(void)
+{
+    uint8_t state = eeprom_byte(MEM_EE_MAILBOX_STATE);
+    if (state != MAIL_POSTED && state != MAIL_WRITTEN) {
+        return PAGE_SERVICE_MAIL_NONE;
+    }
+    set_byte(MEM_EE_MAILBOX_STATE, MAIL_NONE);
+    return state == MAIL_WRITTEN ? PAGE_SERVICE_MAIL_WRITTEN : PAGE_SERVICE_MAIL_IGNORED;
+}
