@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT
+ * performer.h - the one play engine of Play and Edit: pages + links + approach + servos, from "play page 5" to the end.
+ * Knows no console, no remote and no panel; what happened is told through a queue of events that the image prints.
+ * Main loop only. Caller-owned. RAM: see performer_t; the approach and the player share their bytes, because the one
+ * is over before the other begins.
+ *
+ *          start, move          pose read, torque on           there (or approach off)
+ *   IDLE --------------> READY ---------------------> APPROACH -----------------------> PLAY
+ *    ^                     | break, silent servo          |        ^                      |
+ *    |                     v                       pause, break    | resume (by READY)    | break, end
+ *    +---------------------+------------------------------+--> STOOD                      |
+ *    +------------------------------------------------------------------------------------+
+ *
+ * READY works joint by joint between ticks (3 ms at most each), so nothing waits for it. Nothing moves before READY is
+ * through, and joints that do not answer, or that were switched off by name, are never driven. */
+#ifndef PERFORMER_H
+#define PERFORMER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "approach.h"
+#include "compiler.h"
+#include "link.h"
+#include "player.h"
+#include "servo_link.h"
+#include "settings.h"
+
+typedef enum {
+    PERFORMER_OK = 0,
+    PERFORMER_ERR_RANGE,      /* page 0 or above 127 */
+    PERFORMER_ERR_PAGE,       /* the page is damaged: page_status_t in performer.fault */
+    PERFORMER_ERR_EMPTY,      /* the page has no action */
+    PERFORMER_ERR_BUSY,       /* something is playing */
+    PERFORMER_ERR_NO_SERVOS,  /* nobody answered the last search */
+    PERFORMER_ERR_RELEASED    /* every servo was switched off by hand (performer_off) */
+} performer_status_t;
+
+typedef enum {
+    PERFORMER_IDLE = 0,
+    PERFORMER_READY,      /* getting ready: reads the pose, switches torque on */
+    PERFORMER_APPROACH,   /* on the way to the first pose */
+    PERFORMER_STOOD,      /* the approach was paused */
+    PERFORMER_PLAY
+} performer_state_t;
+
+/* Why a play ended. */
+typedef enum {
+    PERFORMER_END_DONE = 0,  /* a link of 0 */
+    PERFORMER_END_STOPPED,   /* after a stop, through the exit links */
+    PERFORMER_END_BROKEN,    /* break */
+    PERFORMER_END_LOOP,      /* after a stop, the exit pages came back to themselves */
+    PERFORMER_END_PAGE,      /* page a is damaged: page_status_t in b */
+    PERFORMER_END_SERVO,     /* the rule for faults ended it */
+    PERFORMER_END_THERE      /* a move has arrived */
+} performer_end_t;
+
+/* What happened; a and b by kind. */
+typedef enum {
+    PERFORMER_EV_NONE = 0,
+    PERFORMER_EV_APPROACH,   /* a: page; b: seconds it takes, rounded up */
+    PERFORMER_EV_PAGE,       /* a: page, b: repetition */
+    PERFORMER_EV_STEP,       /* a: page, b: step 1..7 */
+    PERFORMER_EV_LINK,       /* a: page it leads to (0: the end), b: link_taken_t */
+    PERFORMER_EV_PAUSED,     /* all joints stand */
+    PERFORMER_EV_ENDED,      /* a: page, b: see performer_end_t; reason in c */
+    PERFORMER_EV_SILENT,     /* a: servo ID */
+    PERFORMER_EV_BACK,       /* a: servo ID */
+    PERFORMER_EV_ERRORS,     /* a: servo ID, b: DXL_ERR_ bits */
+    PERFORMER_EV_BATTERY,    /* a: lowest voltage of all servos, 0.1 V */
+    PERFORMER_EV_HOT,        /* a: servo ID, b: degrees C */
+    PERFORMER_EV_LOST        /* a: how many events found the queue full */
+} performer_event_kind_t;
+
+typedef struct {
+    uint8_t kind, a, b, c;
+} performer_event_t;
+
+#define PERFORMER_EVENTS 16u
+
+typedef struct {
+    /* Read only for callers. */
+    uint8_t state;              /* performer_state_t */
+    uint8_t page;               /* asked for, or playing */
+    uint8_t fault;              /* page_status_t behind PERFORMER_ERR_PAGE */
+    uint32_t released;          /* joints switched off by hand: not driven until performer_on */
+    uint32_t faulty;            /* joints whose last word was silence or an error */
+    link_t link;
+    union {
+        player_t player;        /* state PLAY; kept after the end */
+        approach_t approach;    /* state APPROACH */
+    } engine;
+    /* May be set by the caller while idle. */
+    bool approach_off;          /* go straight into the first step, whatever the pose: for comparison with recorded
+                                   traces only. Not a setting, so that no robot wakes up with it. */
+    /* Private. */
+    const page_source_t *source;
+    servo_link_t *servos;
+    const settings_t *settings;
+    uint16_t pose_pos[PAGE_JOINTS];
+    uint32_t joints;            /* that this play may drive */
+    uint32_t ready_left;        /* joints READY has still to ask */
+    uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
+    uint16_t since_stop_ticks;  /* since the first stop, for "a second stop within a second" */
+    uint8_t code;               /* of the call */
+    uint8_t end;                /* performer_end_t to report */
+    bool leaving;               /* READY and APPROACH: a break was asked for */
+    bool pausing;               /* APPROACH: a pause was asked for */
+    bool told_battery, told_hot;
+    uint8_t events_head, events_count, events_lost;
+    performer_event_t events[PERFORMER_EVENTS];
+} performer_t;
+
+/* Idle; nothing is sent. The three others stay the caller's and are used from now on. */
+void performer_init(performer_t *performer, const page_source_t *source, servo_link_t *servos,
+                    const settings_t *settings);
+
+/* Another source of pages (Edit: one of them from RAM). Only while idle. */
+void performer_set_source(performer_t *performer, const page_source_t *source);
+
+/* Begins to play `page`, called by `code` (0: by its number). Checks the page and that somebody can move, then goes on by
+ * itself through performer_tick and performer_poll. Any error: nothing happens, nothing is queued. */
+MUST_CHECK performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t code);
+
+/* Goes to a pose (page coordinates, of `joints` only) with at most deg_s degrees/s (1..360), ramped. */
+MUST_CHECK performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[PAGE_JOINTS],
+                                             uint32_t joints, uint16_t deg_s);
+
+/* A soft stop: through the exit page. The second one within a second is a break. Ends a pause. On the way to the first
+ * pose it is a break. Idle: nothing. */
+void performer_stop(performer_t *performer);
+
+/* Ends at once: all joints slow down to a stand and hold. */
+void performer_break(performer_t *performer);
+
+/* Slows down to a stand, holds; resume goes on from there. false: nothing to pause or to resume. */
+bool performer_pause(performer_t *performer);
+bool performer_resume(performer_t *performer);
+
+/* The code in force during a play (0: released; 255: stop). Idle: nothing; who starts by code looks the page up. */
+void performer_code(performer_t *performer, uint8_t code);
+
+/* Torque, of `joints` that are present. Off also takes them out of a running play; they stay undriven until switched on
+ * again. On needs a stand (not during a play: it returns 0) and blocks 3 ms a servo; returns those that are on now. */
+uint32_t performer_on(performer_t *performer, uint32_t joints);
+void performer_off(performer_t *performer, uint32_t joints);
+
+bool performer_is_idle(const performer_t *performer);
+bool performer_is_paused(const performer_t *performer);
+
+/* Once a tick: makes the goals and hands them to the servos. Cost: that of player_tick and servo_link_goals. */
+void performer_tick(performer_t *performer);
+
+/* Every turn of the main loop: bus traffic, faults, getting ready. At most 3 ms, and only while nothing moves. */
+void performer_poll(performer_t *performer);
+
+/* Takes the oldest event. false: none. */
+bool performer_next_event(performer_t *performer, performer_event_t *event);
+
+#endif
