@@ -81,7 +81,7 @@ bus_status_t bus_submit(uint8_t size, uint8_t answer_params, uint8_t tries);
 bus_status_t bus_poll(bus_answer_t *answer);
 
 /* Blocks until the result: at most tries * (packet + return delay + answer + 0.3 ms); 1 Mbps, 8 bytes read: 0.9 ms. */
-MUST_CHECK bus_status_t bus_wait(bus_answer_t *answer);
+bus_status_t bus_wait(bus_answer_t *answer);
 
 /* Gives up waiting for an answer (a tick's goals must go out); while still sending, waits for the end of that. */
 void bus_cancel(void);

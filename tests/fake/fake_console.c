@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+#include "fake_console.h"
+#include "console.h"
+#include "trap.h"
+
+#include <string.h>
+
+#define OUTPUT_BYTES 65536u
+
+static uint8_t rx_storage[CONSOLE_RX_BYTES];
+static ring_t rx;
+static char output[OUTPUT_BYTES + 1];
+static size_t output_count;
+static uint8_t room, rate, received, sent;
+static volatile uint8_t lost;
+static bool flow, held;
+static console_counts_t counters;
+
+void fake_console_reset(void)
+{
+    ring_init(&rx, rx_storage, CONSOLE_RX_BYTES);
+    fake_console_clear();
+    memset(&counters, 0, sizeof counters);
+    room = CONSOLE_TX_BYTES;
+    rate = CONSOLE_RATE_57600;
+    received = 0;
+    sent = 0;
+    lost = 0;
+    flow = false;
+    held = false;
+}
+
+void fake_console_type_bytes(const void *bytes, size_t count)
+{
+    const uint8_t *byte = bytes;
+    for (; count > 0; count--) {
+        received++;
+        if (!ring_put(&rx, *byte++) && counters.ring_full < 0xFFFFu) {
+            counters.ring_full++;
+        }
+    }
+}
+
+void fake_console_type(const char *text)
+{
+    fake_console_type_bytes(text, strlen(text));
+}
+
+const char *fake_console_output(void)
+{
+    output[output_count] = '\0';
+    return output;
+}
+
+size_t fake_console_output_count(void)
+{
+    return output_count;
+}
+
+void fake_console_clear(void)
+{
+    output_count = 0;
+}
+
+void fake_console_set_room(uint8_t bytes)
+{
+    ASSERT(bytes <= CONSOLE_TX_BYTES);
+    room = bytes;
+}
+
+uint8_t fake_console_rate(void)
+{
+    return rate;
+}
+
+int fake_console_is_held(void)
+{
+    return held;
+}
+
+void console_init(void)
+{
+    fake_console_reset();
+}
+
+void console_set_rate(uint8_t divisor)
+{
+    rate = divisor;
+}
+
+bool console_get(uint8_t *byte)
+{
+    return ring_get(&rx, byte);
+}
+
+uint8_t console_waiting(void)
+{
+    return ring_count(&rx);
+}
+
+void console_drop_input(void)
+{
+    ring_clear(&rx);
+}
+
+static void take(uint8_t byte)
+{
+    ASSERT(output_count < OUTPUT_BYTES);
+    output[output_count++] = (char)byte;
+    sent++;
+}
+
+bool console_put(uint8_t byte)
+{
+    if (room == 0) {
+        return false;
+    }
+    room--;
+    take(byte);
+    return true;
+}
+
+uint8_t console_room(void)
+{
+    return room;
+}
+
+void console_write(const void *bytes, uint16_t count)
+{
+    const uint8_t *byte = bytes;
+    while (count--) {
+        take(*byte++);
+    }
+}
+
+void console_flush(void)
+{
+    room = CONSOLE_TX_BYTES;
+}
+
+void console_set_flow(bool on)
+{
+    flow = on;
+    held = false;
+}
+
+void console_hold(void)
+{
+    held = flow;
+}
+
+void console_resume(void)
+{
+    held = false;
+}
+
+ring_t *console_rx_ring(void)
+{
+    return &rx;
+}
+
+volatile uint8_t *console_rx_lost(void)
+{
+    return &lost;
+}
+
+uint8_t console_received(void)
+{
+    return received;
+}
+
+uint8_t console_sent(void)
+{
+    return sent;
+}
+
+void console_counts(console_counts_t *counts)
+{
+    *counts = counters;
+    counts->ring_full = (uint16_t)(counts->ring_full + lost);
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+#include "fake_time.h"
+#include "clock.h"
+#include "tick.h"
+
+#define HALF_US_PER_TICK 15625u
+
+static uint32_t ticks, half_us_total;
+static uint32_t half_us_in_tick;
+static uint16_t taken, missed, step;
+
+void fake_time_reset(void)
+{
+    ticks = 0;
+    half_us_total = 0;
+    half_us_in_tick = 0;
+    taken = 0;
+    missed = 0;
+    step = 2;
+}
+
+void fake_time_ticks(uint16_t count)
+{
+    ticks += count;
+    half_us_total += (uint32_t)count * HALF_US_PER_TICK;
+}
+
+void fake_time_half_us(uint32_t half_us)
+{
+    half_us_total += half_us;
+    half_us_in_tick += half_us;
+    ticks += half_us_in_tick / HALF_US_PER_TICK;
+    half_us_in_tick %= HALF_US_PER_TICK;
+}
+
+void fake_time_set_step(uint16_t half_us)
+{
+    step = half_us;
+}
+
+void tick_init(void)
+{
+    fake_time_reset();
+}
+
+uint32_t tick_now(void)
+{
+    return ticks;
+}
+
+uint16_t tick_now16(void)
+{
+    return (uint16_t)ticks;
+}
+
+bool tick_is_due(void)
+{
+    return taken != (uint16_t)ticks;
+}
+
+bool tick_take(void)
+{
+    uint16_t waiting = (uint16_t)((uint16_t)ticks - taken);
+    if (waiting == 0) {
+        return false;
+    }
+    uint32_t sum = (uint32_t)missed + waiting - 1u;
+    missed = sum > 0xFFFFu ? 0xFFFFu : (uint16_t)sum;
+    taken = (uint16_t)ticks;
+    return true;
+}
+
+uint16_t tick_missed(void)
+{
+    return missed;
+}
+
+void tick_forgive(void)
+{
+    taken = (uint16_t)ticks;
+}
+
+void clock_init(void)
+{
+}
+
+uint16_t clock_now_noirq(void)
+{
+    fake_time_half_us(step);
+    return (uint16_t)half_us_total;
+}
+
+uint16_t clock_now(void)
+{
+    return clock_now_noirq();
+}
+
+void clock_wait_us(uint16_t us)
+{
+    fake_time_half_us((uint32_t)us * CLOCK_PER_US);
+}
