@@ -57,7 +57,7 @@ typedef enum {
     PAGE_ERR_SCHEDULE,   /* neither 0 nor 0x0A */
     PAGE_ERR_SPEED,      /* PAGE_SPEED is 0 */
     PAGE_ERR_LINK,       /* a link is above 127 */
-    PAGE_ERR_POSITION    /* a position of a used step is above 1023 without the unused flag */
+    PAGE_ERR_POSITION    /* a position of a used step is above 1023 and has neither flag (0x4000, 0x2000) */
 } page_status_t;
 /* Whether a valid page has an action is a question of its own: page_is_playable. */
 
@@ -67,7 +67,11 @@ uint8_t page_sum(uint8_t sum, const uint8_t *bytes, uint16_t count);
 /* The checks of page_check but for the checksum and the positions: on the 64 header bytes alone. */
 page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES]);
 
-/* Everything, on a whole page. */
+/* The positions of one used step: PAGE_OK or PAGE_ERR_POSITION. */
+page_status_t page_check_step(const uint8_t step[PAGE_STEP_BYTES]);
+
+/* Everything, on a whole page: the sum, the header, the steps that PAGE_STEP counts. A caller who reads the page in
+ * pieces gets the same answer from page_sum, page_check_header and page_check_step, asked in this order. */
 page_status_t page_check(const uint8_t page[PAGE_BYTES]);
 
 /* Sets byte 31 so that the page sums to 0xFF. */
@@ -75,6 +79,9 @@ void page_seal(uint8_t page[PAGE_BYTES]);
 
 /* The empty page of motion512.md, sealed. */
 void page_clear(uint8_t page[PAGE_BYTES]);
+
+/* The little-endian word that stands at `at`. */
+uint16_t page_word(const uint8_t *at);
 
 /* Position word of `joint` in `step` (0..6). */
 uint16_t page_pos(const uint8_t *page, uint8_t step, uint8_t joint);

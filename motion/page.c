@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+#include "page.h"
+
+uint8_t page_sum(uint8_t sum, const uint8_t *bytes, uint16_t count)
+{
+    while (count-- > 0) {
+        sum = (uint8_t)(sum + *bytes++);
+    }
+    return sum;
+}
+
+static bool link_is_good(uint8_t page)
+{
+    return page < PAGE_COUNT;
+}
+
+page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES])
+{
+    if (header[PAGE_AT_STEPS] > PAGE_STEPS) {
+        return PAGE_ERR_STEPS;
+    }
+    if (header[PAGE_AT_SCHEDULE] != PAGE_SCHEDULE_SPEED && header[PAGE_AT_SCHEDULE] != PAGE_SCHEDULE_TIME) {
+        return PAGE_ERR_SCHEDULE;
+    }
+    if (header[PAGE_AT_SPEED] == 0) {
+        return PAGE_ERR_SPEED;
+    }
+    if (!link_is_good(header[PAGE_AT_NEXT_PAGE]) || !link_is_good(header[PAGE_AT_EXIT_PAGE]) ||
+        !link_is_good(header[PAGE_AT_LINKED1_PAGE]) || !link_is_good(header[PAGE_AT_LINKED2_PAGE])) {
+        return PAGE_ERR_LINK;
+    }
+    return PAGE_OK;
+}
+
+page_status_t page_check_step(const uint8_t step[PAGE_STEP_BYTES])
+{
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        uint16_t word = page_word(&step[2 * joint]);
+        if (page_pos_is_used(word) && word > PAGE_POS_MAX) {
+            return PAGE_ERR_POSITION;
+        }
+    }
+    return PAGE_OK;
+}
+
+page_status_t page_check(const uint8_t page[PAGE_BYTES])
+{
+    if (page_sum(0, page, PAGE_BYTES) != PAGE_CHECKSUM_SUM) {
+        return PAGE_ERR_CHECKSUM;
+    }
+    page_status_t status = page_check_header(page);
+    for (uint8_t step = 0; status == PAGE_OK && step < page[PAGE_AT_STEPS]; step++) {
+        status = page_check_step(&page[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step]);
+    }
+    return status;
+}
+
+void page_seal(uint8_t page[PAGE_BYTES])
+{
+    page[PAGE_AT_CHECKSUM] = 0;
+    page[PAGE_AT_CHECKSUM] = (uint8_t)(PAGE_CHECKSUM_SUM - page_sum(0, page, PAGE_BYTES));
+}
+
+void page_clear(uint8_t page[PAGE_BYTES])
+{
+    for (uint16_t at = 0; at < PAGE_BYTES; at++) {
+        page[at] = 0;
+    }
+    page[PAGE_AT_PLAY_COUNT] = 1;
+    page[PAGE_AT_SCHEDULE] = PAGE_SCHEDULE_TIME;
+    page[PAGE_AT_SPEED] = PAGE_SPEED_NOMINAL;
+    page[PAGE_AT_ACCEL_TIME] = PAGE_ACCEL_DEFAULT;
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        page[PAGE_AT_COMPLIANCE + joint] = PAGE_COMPLIANCE_DEFAULT;
+    }
+    for (uint8_t step = 0; step < PAGE_STEPS; step++) {
+        for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+            page_set_pos(page, step, joint, PAGE_POS_UNUSED);
+        }
+    }
+    page_seal(page);
+}
+
+uint16_t page_word(const uint8_t *at)
+{
+    return (uint16_t)(at[0] | ((uint16_t)at[1] << 8));
+}
+
+static uint16_t pos_at(uint8_t step, uint8_t joint)
+{
+    return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + 2u * joint);
+}
+
+uint16_t page_pos(const uint8_t *page, uint8_t step, uint8_t joint)
+{
+    return page_word(&page[pos_at(step, joint)]);
+}
+
+void page_set_pos(uint8_t *page, uint8_t step, uint8_t joint, uint16_t word)
+{
+    uint16_t at = pos_at(step, joint);
+    page[at] = (uint8_t)word;
+    page[at + 1] = (uint8_t)(word >> 8);
+}
+
+bool page_pos_is_used(uint16_t word)
+{
+    return (word & (PAGE_POS_UNUSED | PAGE_POS_TORQUE_OFF)) == 0;
+}
+
+uint8_t page_slope(uint8_t nibble)
+{
+    if (nibble == 0 || nibble > 7) {
+        nibble = PAGE_COMPLIANCE_DEFAULT & 0x0F;
+    }
+    return (uint8_t)(1u << nibble);
+}
+
+bool page_is_playable(const uint8_t *header)
+{
+    return header[PAGE_AT_STEPS] != 0 && header[PAGE_AT_PLAY_COUNT] != 0;
+}
