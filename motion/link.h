@@ -21,7 +21,9 @@ typedef struct {
     uint8_t mode;          /* link_mode_t */
     uint8_t call_code;     /* the code that called the page now playing; 0: called by its number */
     uint8_t code;          /* the code in force */
+    uint8_t held_code;     /* the last code heard, not counting stops; 0: released */
     bool stopping;         /* a stop is in force: exit links are followed */
+    bool stop_is_final;    /* ... and only a new call ends it (link_stop) */
     uint8_t exits_seen[PAGE_COUNT / 8]; /* exit pages gone through since the stop: a chain that comes back ends */
 } link_t;
 
@@ -30,10 +32,12 @@ void link_init(link_t *link, link_mode_t mode);
 /* A play begins: by a code, or by a page number (code 0). Forgets any stop. */
 void link_call(link_t *link, uint8_t code);
 
-/* A code arrives: 0 = released, 255 = stop, else the code. In latch mode 0 changes nothing; in hold mode it is a stop. */
+/* A code arrives: 0 = released, 255 = stop, else the code. In latch mode 0 changes nothing; in hold mode it is a stop.
+ * Like any code, a stop stays in force until another one comes. A code that was held before the stop and is merely
+ * heard again (a remote repeats its packets) is not another one: a thumb on `forward` cannot undo somebody's stop. */
 void link_code(link_t *link, uint8_t code);
 
-/* A soft stop, whatever the mode. */
+/* A soft stop, whatever the mode; stays until the play is over or a new one is called. */
 void link_stop(link_t *link);
 
 bool link_is_stopping(const link_t *link);

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+#include "link.h"
+
+static void forget_exits(link_t *link)
+{
+    for (uint8_t i = 0; i < sizeof link->exits_seen; i++) {
+        link->exits_seen[i] = 0;
+    }
+}
+
+void link_init(link_t *link, link_mode_t mode)
+{
+    link->mode = (uint8_t)mode;
+    link->held_code = LINK_CODE_NONE;
+    link_call(link, LINK_CODE_NONE);
+}
+
+void link_call(link_t *link, uint8_t code)
+{
+    link->call_code = code;
+    link->code = code;
+    link->stopping = false;
+    link->stop_is_final = false;
+    forget_exits(link);
+}
+
+static void stop(link_t *link)
+{
+    if (!link->stopping) {
+        forget_exits(link);
+    }
+    link->stopping = true;
+    link->code = LINK_CODE_STOP;
+}
+
+void link_code(link_t *link, uint8_t code)
+{
+    bool repeated = code == link->held_code;
+    if (code == LINK_CODE_STOP) {
+        stop(link); /* whoever held a code before still holds it: held_code stays */
+        return;
+    }
+    link->held_code = code;
+    if (code == LINK_CODE_NONE) {
+        if (link->mode == LINK_HOLD) {
+            stop(link);
+        }
+        return;
+    }
+    if (link->stopping && (link->stop_is_final || repeated)) {
+        return;
+    }
+    link->stopping = false;
+    link->code = code;
+}
+
+void link_stop(link_t *link)
+{
+    stop(link);
+    link->stop_is_final = true;
+}
+
+bool link_is_stopping(const link_t *link)
+{
+    return link->stopping;
+}
+
+/* Marks an exit page as gone through. Returns false when it had been. */
+static bool mark_exit(link_t *link, uint8_t page)
+{
+    uint8_t *byte = &link->exits_seen[(page % PAGE_COUNT) / 8];
+    uint8_t bit = (uint8_t)(1u << (page % 8));
+    bool fresh = (*byte & bit) == 0;
+    *byte |= bit;
+    return fresh;
+}
+
+static uint8_t exit_of(link_t *link, uint8_t page, uint8_t exit_page, link_taken_t *taken)
+{
+    (void)mark_exit(link, page);
+    *taken = LINK_EXIT;
+    if (exit_page != 0 && !mark_exit(link, exit_page)) {
+        *taken = LINK_END_OF_EXIT_LOOP;
+        return 0;
+    }
+    return exit_page;
+}
+
+static bool code_matches(const link_t *link, uint8_t linked_code)
+{
+    return linked_code != LINK_CODE_NONE && linked_code == link->code;
+}
+
+uint8_t link_decide(link_t *link, uint8_t page, const uint8_t *header, link_taken_t *taken)
+{
+    if (link->stopping) {
+        return exit_of(link, page, header[PAGE_AT_EXIT_PAGE], taken);
+    }
+    if (code_matches(link, header[PAGE_AT_LINKED1_CODE])) {
+        link->call_code = link->code;
+        *taken = LINK_LINKED1;
+        return header[PAGE_AT_LINKED1_PAGE];
+    }
+    if (code_matches(link, header[PAGE_AT_LINKED2_CODE])) {
+        link->call_code = link->code;
+        *taken = LINK_LINKED2;
+        return header[PAGE_AT_LINKED2_PAGE];
+    }
+    *taken = LINK_NEXT;
+    return header[PAGE_AT_NEXT_PAGE];
+}
