@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: MIT
+"""The servos of a simulated robot (servo_api.h), as Board.servos.
+
+    b.servos[3].goal, .present, .torque, .moving, .load, .voltage, .temperature, .led, .alarms, .table
+    b.servos[3].fault("silent")            # until cleared; times=2: the next two answers only
+    b.servos[3].clear()
+    b.servos[3].push_to(400)               # a hand turns the horn
+    b.servos[3].write(28, [64, 64])        # as a packet would; returns error bits
+    b.servos.ids, b.servos.present         # all IDs; {ID: present position}
+
+Nothing is kept in Python: every reading is of the board's present moment.
+"""
+import ctypes
+
+TABLE_BYTES = 50
+ALWAYS = 0xFFFFFFFF
+FAULTS = ("silent", "dead", "duplicate", "checksum", "noise", "late", "short", "two-talkers", "overload",
+          "overheating", "low-voltage", "angle-limit", "blocked")
+ERROR_NAMES = {1: "voltage", 2: "angle-limit", 4: "overheating", 8: "range", 16: "checksum", 32: "overload",
+               64: "instruction"}
+COUNTERS = ("packets", "answers", "checksum_errors", "framing_errors", "gaps", "oversize", "deaf")
+_STATES = ("position", "velocity", "output", "outside_load", "ambient", "celsius", "held", "late_us")
+_SETTABLE = _STATES[3:]
+_REGISTERS = {  # name: (address, bytes)
+    "model": (0, 2), "id": (3, 1), "return_delay": (5, 1), "goal": (30, 2), "speed": (32, 2), "torque_limit": (34, 2),
+    "present": (36, 2), "present_speed": (38, 2), "present_load": (40, 2), "voltage_tenths": (42, 1),
+    "temperature": (43, 1), "registered": (44, 1), "cw_slope": (28, 1), "ccw_slope": (29, 1),
+}
+
+
+def declare(lib):
+    """Tells ctypes the signatures; harmless when repeated."""
+    p, u8, u16, u32, u64 = ctypes.c_void_p, ctypes.c_uint8, ctypes.c_uint16, ctypes.c_uint32, ctypes.c_uint64
+    for name, result, arguments in (
+            ("servo_api_count", ctypes.c_int, [p]),
+            ("servo_api_at", p, [p, ctypes.c_int]),
+            ("servo_api_id", u8, [p]),
+            ("servo_api_get", u16, [p, u64, u8, u8]),
+            ("servo_api_write", u8, [p, u64, u8, ctypes.c_char_p, u8]),
+            ("servo_api_alarms", u8, [p, u64]),
+            ("servo_api_state", ctypes.c_double, [p, u64, ctypes.c_int]),
+            ("servo_api_set_state", None, [p, u64, ctypes.c_int, ctypes.c_double]),
+            ("servo_api_counter", u32, [p, ctypes.c_int]),
+            ("servo_api_fault", ctypes.c_bool, [p, u64, p, ctypes.c_char_p, u32]),
+            ("servo_api_clear", None, [p, u64, p]),
+            ("servo_bus_add", p, [p, u8, ctypes.c_int, u32]),
+            ("servo_bus_find", p, [p, u8]),
+            ("servo_bus_noise", None, [p, u64, ctypes.c_char_p, u8, u32]),
+            ("servo_push_to", None, [p, u64, ctypes.c_double])):
+        function = getattr(lib, name)
+        function.restype, function.argtypes = result, arguments
+
+
+class Servo:
+    """One servo on the bus; see the module's text."""
+
+    def __init__(self, servos, pointer):
+        object.__setattr__(self, "_servos", servos)
+        object.__setattr__(self, "_pointer", pointer)
+
+    def _get(self, address, count):
+        return self._servos.lib.servo_api_get(self._pointer, self._servos.now(), address, count)
+
+    def __getattr__(self, name):
+        servos = self._servos
+        if name in _REGISTERS:
+            return self._get(*_REGISTERS[name])
+        if name in _STATES:
+            return servos.lib.servo_api_state(self._pointer, servos.now(), _STATES.index(name))
+        if name in COUNTERS:
+            return servos.lib.servo_api_counter(self._pointer, COUNTERS.index(name))
+        raise AttributeError(f"a servo has no {name!r}")
+
+    def __setattr__(self, name, value):
+        if name not in _SETTABLE:
+            raise AttributeError(f"{name!r} of a servo cannot be set from outside; write() writes registers")
+        self._servos.lib.servo_api_set_state(self._pointer, self._servos.now(), _STATES.index(name), float(value))
+
+    @property
+    def torque(self):
+        return bool(self._get(24, 1)) and self._get(34, 2) > 0
+
+    @property
+    def led(self):
+        return bool(self._get(25, 1))
+
+    @property
+    def moving(self):
+        return bool(self._get(46, 1))
+
+    @property
+    def voltage(self):
+        return self._get(42, 1) / 10
+
+    @property
+    def rate(self):
+        return 2_000_000 // (self._get(4, 1) + 1)
+
+    @property
+    def load(self):
+        """Present load as a signed part of full output: positive when it pushes towards larger positions."""
+        value = self.present_load
+        return (value & 1023) / 1023 * (-1 if value & 1024 else 1)
+
+    @property
+    def alarms(self):
+        """Names of the alarms that its answers carry now."""
+        bits = self._servos.lib.servo_api_alarms(self._pointer, self._servos.now())
+        return {name for bit, name in ERROR_NAMES.items() if bits & bit}
+
+    @property
+    def table(self):
+        return bytes(self._get(address, 1) for address in range(TABLE_BYTES))
+
+    def write(self, address, values):
+        data = bytes(values)
+        return self._servos.lib.servo_api_write(self._pointer, self._servos.now(), address, data, len(data))
+
+    def push_to(self, position):
+        self._servos.lib.servo_push_to(self._pointer, self._servos.now(), float(position))
+
+    def fault(self, name, times=None):
+        answers = ALWAYS if times is None else times
+        servos = self._servos
+        if not servos.lib.servo_api_fault(servos.bus, servos.now(), self._pointer, name.encode(), answers):
+            raise ValueError(f"no such fault: {name!r}; known: {', '.join(FAULTS)}")
+
+    def clear(self, name=None):
+        servos = self._servos
+        if name is None:
+            servos.lib.servo_api_clear(servos.bus, servos.now(), self._pointer)
+        else:
+            self.fault(name, 0)
+
+    def __repr__(self):
+        return f"<servo {self.id}: goal {self.goal}, present {self.present}, torque {'on' if self.torque else 'off'}>"
+
+
+class Servos:
+    """All servos of a bus by their present ID; iterates over them in order of plugging in."""
+
+    def __init__(self, lib, bus, now):
+        """bus: servo_bus_t pointer; now: function that returns the board's cycle."""
+        declare(lib)
+        self.lib, self.bus, self.now = lib, bus, now
+
+    def add(self, servo_id, model="ax12", rate=None):
+        dx117 = model == "dx117"
+        pointer = self.lib.servo_bus_add(self.bus, servo_id, int(dx117), rate or (57142 if dx117 else 1_000_000))
+        if not pointer:
+            raise MemoryError("no memory for a servo")
+        return Servo(self, pointer)
+
+    def __len__(self):
+        return self.lib.servo_api_count(self.bus)
+
+    def __iter__(self):
+        for index in range(len(self)):
+            yield Servo(self, self.lib.servo_api_at(self.bus, index))
+
+    def __getitem__(self, servo_id):
+        pointer = self.lib.servo_bus_find(self.bus, servo_id)
+        if not pointer:
+            raise KeyError(f"no servo with ID {servo_id}; there are {self.ids}")
+        return Servo(self, pointer)
+
+    def __contains__(self, servo_id):
+        return bool(self.lib.servo_bus_find(self.bus, servo_id))
+
+    @property
+    def ids(self):
+        return [servo.id for servo in self]
+
+    @property
+    def present(self):
+        return {servo.id: servo.present for servo in self}
+
+    @property
+    def goals(self):
+        return {servo.id: servo.goal for servo in self}
+
+    def noise(self, data, rate=1_000_000):
+        """Stray bytes on the wire from now on."""
+        self.lib.servo_bus_noise(self.bus, self.now(), bytes(data), len(data), rate)
