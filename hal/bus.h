@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * bus.h - the servo bus as packets: one instruction out, at most one status packet back, half duplex, by interrupt.
  * One packet at a time: build it in bus_packet(), bus_submit() it, look with bus_poll() until it is not BUS_PENDING.
- * Knows nothing of servos beyond the packet format. Main loop only. RAM: 144 bytes out, 64 in, 30 of state and counts.
+ * Knows nothing of servos beyond the packet format. Main loop only. RAM: 144 bytes out, 80 in, 65 of state and counts.
  * The engine is bus_core.[ch]; hal/avr/bus.c gives it a UART and direction pins, a test something else. */
 #ifndef BUS_H
 #define BUS_H
@@ -25,7 +25,7 @@ typedef enum {
     BUS_PENDING,        /* under way */
     BUS_ERR_TIMEOUT,    /* no answer, or not all of it */
     BUS_ERR_CHECKSUM,   /* an answer with a wrong checksum */
-    BUS_ERR_FRAMING,    /* a byte without stop bit or lost bytes: noise, two talkers, a wrong rate */
+    BUS_ERR_FRAMING,    /* no good answer, and bytes without stop bit or lost ones: noise, two talkers, a wrong rate */
     BUS_ERR_WRONG_ID,   /* somebody else answered */
     BUS_ERR_LENGTH,     /* an answer with another number of parameters than asked for */
     BUS_ERR_BUSY        /* bus_submit: one is under way already; nothing was changed */
@@ -51,7 +51,7 @@ typedef struct {
     uint16_t lengths;
     uint16_t retries;
     uint16_t cancelled;     /* by bus_cancel */
-    uint16_t strays;        /* bytes heard when nobody had been asked, or before a header */
+    uint16_t strays;        /* bytes heard when nobody had been asked */
 } bus_counts_t;
 
 /* Sets every register of UART 0 and the direction pins; 1 Mbps, listening. Before interrupts are enabled. */

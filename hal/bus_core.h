@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  * bus_core.h - the half-duplex engine behind bus.h, without registers: bytes and times in, states out.
- * Three callers: the main loop (submit, poll, cancel), the transmit-complete ISR (on_sent) and the receive ISR
- * (on_byte). Main-loop functions are safe against the two ISRs. RAM: one bus_core_t, 250 bytes.
+ * Three callers: the main loop (submit, poll, cancel), the transmit ISRs (on_last, on_sent) and the receive ISR (on_byte).
+ * The ISR side only moves bytes; packets are taken apart in bus_core_poll. RAM: one bus_core_t, 290 bytes.
  *
  *        submit                    the last byte went to the UART      transmit complete
  *  IDLE ---------> SENDING --------------------------------> TURNING -----------------> LISTENING
  *   ^                ^                                          |                        |  |
- *   |                |  a try is left (after a quiet 100 us)    |  no answer expected    |  |
+ *   |                |  a try is left and the line is quiet     |  no answer expected    |  |
  *   |                +------------------------------------------|------------------------+  |
  *   +-----------------------------------------------------------+---------------------------+
- *                                       answer complete, or the last try failed
+ *                            poll finds the answer complete, or the last try failed
  *
  * TURNING is left on transmit complete only, never on data register empty: until then the last bits are on the wire
  * and the line must not be released. */
@@ -24,39 +24,75 @@ typedef enum { BUS_IDLE = 0, BUS_SENDING, BUS_TURNING, BUS_LISTENING } bus_state
 /* Flags of a received byte. */
 enum { BUS_BYTE_FRAMING = 1 << 0, BUS_BYTE_OVERRUN = 1 << 1 };
 
+/* What one try may hear: the longest answer and ten bytes of noise before it. */
+#define BUS_HEARD_BYTES (DXL_ANSWER_PARAMS + DXL_PACKET_OVERHEAD + 10u)
+
+/* Silence that ends a try: the return delay, three characters and this. */
+#define BUS_MARGIN_HALF_US 600u
+/* Silence that a failed try waits for before the next one. */
+#define BUS_QUIET_HALF_US 200u
+
 typedef struct {
-    volatile uint8_t state;       /* bus_state_t; ISR and main loop, see each transition */
-    volatile uint8_t result;      /* bus_status_t of the packet; written on the way to IDLE or at a failed try */
-    volatile bool failed;         /* LISTENING: this try has failed (ISR); poll decides on another one */
-    uint8_t size, asked_id, answer_params;
-    uint8_t tries_left;
-    uint8_t byte_half_us;         /* time of one character */
+    volatile uint8_t state;       /* bus_state_t; written by whoever makes the transition, see the figure */
+    volatile uint8_t result;      /* bus_status_t of the packet */
+    uint8_t failure;              /* LISTENING: why this try has failed; BUS_OK: it has not */
+    uint8_t size, asked_id, answer_params, tries_left;
+    uint8_t parsed;               /* bytes of heard[] taken apart so far */
+    volatile uint8_t heard_count; /* ISR: bytes in heard[] */
+    volatile uint8_t heard_flags; /* ISR: BUS_BYTE_ flags of this try */
+    uint16_t byte_half_us;        /* time of one character */
     uint16_t return_delay_half_us;
-    volatile uint16_t since;      /* when LISTENING began, or when a try failed; half us */
-    uint16_t span;                /* time-out from then */
-    ring_t *tap;
-    bus_counts_t counts;
+    volatile uint16_t since;      /* the last sign of life: transmit complete (ISR), then bytes seen by poll */
+    ring_t *volatile tap;
+    bus_counts_t counts;          /* all but strays: main loop */
+    volatile uint16_t strays;     /* ISR */
     dxl_parser_t parser;
+    uint8_t heard[BUS_HEARD_BYTES];
     uint8_t packet[BUS_PACKET_BYTES];
 } bus_core_t;
 
 /* The port, given by hal/avr/bus.c or by a test. */
-/* Turns the line to sending and starts to send; calls bus_core_on_last when the last byte went to the UART and
+/* Turns the line to sending and starts to send; bus_core_on_last is called when the last byte went to the UART,
  * bus_core_on_sent when its last stop bit has left. `bytes` stays valid and unchanged until then. */
 void bus_port_send(const uint8_t *bytes, uint8_t count);
-/* Turns the line to listening. Called from bus_core_on_sent. What the receiver caught while it was not listening is
- * thrown away. */
+/* Turns the line to listening. Called from bus_core_on_sent. What the receiver caught before is thrown away. */
 void bus_port_listen(void);
 
+/* Idle, 1 Mbps, the longest return delay, counts 0. */
 void bus_core_init(bus_core_t *core);
 void bus_core_set_rate(bus_core_t *core, uint8_t divisor);
 bus_status_t bus_core_submit(bus_core_t *core, uint8_t size, uint8_t answer_params, uint8_t tries);
 bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t *answer);
-void bus_core_cancel(bus_core_t *core);
+/* Gives up an answer; false while the packet is still being sent: ask again. */
+bool bus_core_cancel(bus_core_t *core);
+void bus_core_counts(const bus_core_t *core, bus_counts_t *counts);
 
-/* ISR side. */
-void bus_core_on_last(bus_core_t *core);
+/* ---- ISR side; inline, because each costs cycles at 1 Mbps (a byte comes every 160) ---- */
+
+static inline void bus_core_on_last(bus_core_t *core)
+{
+    core->state = BUS_TURNING;
+}
+
 void bus_core_on_sent(bus_core_t *core, uint16_t now_half_us);
-void bus_core_on_byte(bus_core_t *core, uint8_t byte, uint8_t flags);
+
+/* A byte without a stop bit is left out: when it was a glitch before the answer, the answer is still good. */
+static inline void bus_core_on_byte(bus_core_t *core, uint8_t byte, uint8_t flags)
+{
+    uint8_t count = core->heard_count;
+    if (core->tap != 0) {
+        (void)ring_put(core->tap, byte);
+    }
+    if (core->state != BUS_LISTENING) {
+        core->strays = (uint16_t)(core->strays + (core->strays != 0xFFFFu));
+        return;
+    }
+    core->heard_flags |= flags;
+    if (count < BUS_HEARD_BYTES && !(flags & BUS_BYTE_FRAMING)) {
+        core->heard[count] = byte;
+        irq_barrier();
+        core->heard_count = (uint8_t)(count + 1u);
+    }
+}
 
 #endif

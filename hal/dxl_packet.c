@@ -14,8 +14,9 @@ uint8_t dxl_build(uint8_t *packet, uint8_t id, uint8_t instruction, const uint8_
     return dxl_end(&writer);
 }
 
-void dxl_parser_init(dxl_parser_t *parser)
+void dxl_parser_init(dxl_parser_t *parser, uint8_t *params)
 {
+    parser->params = params;
     parser->state = WAIT_FF1;
     parser->id = 0;
     parser->length = 0;

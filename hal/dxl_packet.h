@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * dxl_packet.h - builds instruction packets and takes status packets apart, byte by byte.
- * Pure: knows neither UART nor time. The parser may run in an ISR. RAM: caller-owned, sizeof(dxl_parser_t) = 70 bytes. */
+ * Pure: knows neither UART nor time.  RAM: caller-owned, sizeof(dxl_parser_t) = 8 bytes and
+ * the parameters' buffer. */
 #ifndef DXL_PACKET_H
 #define DXL_PACKET_H
 
@@ -66,10 +67,12 @@ typedef struct {
     uint8_t id, length, error;
     uint8_t count;      /* parameters so far; after DXL_GOOD, all */
     uint8_t sum;
-    uint8_t params[DXL_ANSWER_PARAMS];
+    uint8_t *params;
 } dxl_parser_t;
 
-void dxl_parser_init(dxl_parser_t *parser);
+/* params: DXL_ANSWER_PARAMS bytes, lent for good. They may be the beginning of the very buffer that the parsed bytes are
+ * in, when these are taken from front to back: a parameter is stored at least five bytes before its own place. */
+void dxl_parser_init(dxl_parser_t *parser, uint8_t *params);
 
 /* Takes one byte. A third FF in the header is noise before it: FF FF FF ID still works. After DXL_GOOD and the errors
  * the parser stands at the start again; the contents stay until the next byte. */

@@ -6,11 +6,12 @@
 #include <string.h>
 
 static dxl_parser_t parser;
+static uint8_t params[DXL_ANSWER_PARAMS];
 static uint8_t packet[32];
 
 void setUp(void)
 {
-    dxl_parser_init(&parser);
+    dxl_parser_init(&parser, params);
     memset(packet, 0xEE, sizeof packet);
 }
 
@@ -36,11 +37,20 @@ static void test_build_ping_of_id_1_is_the_manuals_example(void)
     TEST_ASSERT_EQUAL_HEX8(0xEE, packet[6]);
 }
 
+static void test_parser_may_store_parameters_over_what_it_has_read(void)
+{
+    uint8_t bytes[] = { 0xFF, 0xFF, 0x07, 0x04, 0x21, 0x34, 0x02, 0x9D };
+    dxl_parser_init(&parser, bytes);
+    TEST_ASSERT_EQUAL(DXL_GOOD, feed(bytes, sizeof bytes));
+    TEST_ASSERT_EQUAL_HEX8(0x34, bytes[0]);
+    TEST_ASSERT_EQUAL_HEX8(0x02, bytes[1]);
+}
+
 static void test_build_read_of_temperature_is_the_manuals_example(void)
 {
     static const uint8_t expected[] = { 0xFF, 0xFF, 0x01, 0x04, 0x02, 0x2B, 0x01, 0xCC };
-    static const uint8_t params[] = { DXL_AT_TEMPERATURE, 1 };
-    TEST_ASSERT_EQUAL(8, dxl_build(packet, 1, DXL_READ, params, 2));
+    static const uint8_t asked[] = { DXL_AT_TEMPERATURE, 1 };
+    TEST_ASSERT_EQUAL(8, dxl_build(packet, 1, DXL_READ, asked, 2));
     TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, packet, 8);
 }
 
@@ -125,6 +135,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_build_ping_of_id_1_is_the_manuals_example);
+    RUN_TEST(test_parser_may_store_parameters_over_what_it_has_read);
     RUN_TEST(test_build_read_of_temperature_is_the_manuals_example);
     RUN_TEST(test_build_sync_write_by_hand_is_the_manuals_example);
     RUN_TEST(test_parser_takes_a_status_without_parameters);

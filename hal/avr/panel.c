@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+#include "panel.h"
+#include "debounce.h"
+
+#include BOARD_PINS_H
+
+static uint8_t lit;
+static debounce_t buttons;
+
+void panel_init(void)
+{
+    pins_init_panel();
+    lit = PINS_HAVE_PANEL ? PANEL_LED_POWER : 0;
+    pins_set_leds(lit);
+    /* Released until seen otherwise: the pull-ups need a moment. */
+    debounce_init(&buttons, 0);
+}
+
+bool panel_is_there(void)
+{
+    return PINS_HAVE_PANEL;
+}
+
+void panel_set(uint8_t leds, bool on)
+{
+    if (PINS_HAVE_PANEL) {
+        lit = (uint8_t)(on ? lit | leds : lit & (uint8_t)~leds);
+        pins_set_leds(lit);
+    }
+}
+
+uint8_t panel_lit(void)
+{
+    return lit;
+}
+
+void panel_tick(void)
+{
+    if (PINS_HAVE_PANEL) {
+        (void)debounce_sample(&buttons, pins_buttons(), PANEL_STEADY_TICKS);
+    }
+}
+
+uint8_t panel_buttons(void)
+{
+    return buttons.steady;
+}
+
+uint8_t panel_buttons_now(void)
+{
+    return pins_buttons();
+}

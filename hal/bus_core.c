@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+#include "bus_core.h"
+#include "trap.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* Address 5 goes up to 254 units of 2 us. */
+#define RETURN_DELAY_MAX_HALF_US (254u * 4u)
+
+static void bump(uint16_t *count)
+{
+    if (*count != 0xFFFFu) {
+        (*count)++;
+    }
+}
+
+void bus_core_init(bus_core_t *core)
+{
+    memset(core, 0, sizeof *core);
+    core->return_delay_half_us = RETURN_DELAY_MAX_HALF_US;
+    dxl_parser_init(&core->parser, core->heard);
+    bus_core_set_rate(core, BUS_RATE_1M);
+}
+
+/* Ten bits at 2,000,000 / (divisor + 1): 10 * (divisor + 1) half microseconds. */
+void bus_core_set_rate(bus_core_t *core, uint8_t divisor)
+{
+    core->byte_half_us = (uint16_t)(10u * (divisor + 1u));
+}
+
+/* IDLE or LISTENING -> SENDING. */
+static void send(bus_core_t *core)
+{
+    core->failure = BUS_OK;
+    core->parsed = 0;
+    core->heard_count = 0;
+    core->heard_flags = 0;
+    dxl_parser_init(&core->parser, core->heard);
+    core->counts.packets++;
+    core->state = BUS_SENDING;
+    bus_port_send(core->packet, core->size);
+}
+
+bus_status_t bus_core_submit(bus_core_t *core, uint8_t size, uint8_t answer_params, uint8_t tries)
+{
+    ASSERT(size >= DXL_PACKET_OVERHEAD && size <= BUS_PACKET_BYTES && tries >= 1u && tries <= BUS_TRIES_MAX);
+    if (core->state != BUS_IDLE) {
+        return BUS_ERR_BUSY;
+    }
+    core->size = size;
+    core->asked_id = core->packet[2];
+    core->answer_params = answer_params;
+    core->tries_left = (uint8_t)(tries - 1u);
+    core->result = BUS_PENDING;
+    send(core);
+    return BUS_PENDING;
+}
+
+void bus_core_on_sent(bus_core_t *core, uint16_t now_half_us)
+{
+    if (core->state != BUS_TURNING) {
+        return;
+    }
+    bus_port_listen();
+    core->since = now_half_us;
+    if (core->answer_params == BUS_NO_ANSWER) {
+        core->result = BUS_OK;
+        core->state = BUS_IDLE;
+    } else {
+        core->state = BUS_LISTENING;
+    }
+}
+
+/* This try has failed. What the UART complained of is the better name for whatever came of it. */
+static void fail(bus_core_t *core, bus_status_t why, uint16_t *count)
+{
+    uint8_t flags = core->heard_flags;
+    if (flags & BUS_BYTE_OVERRUN) {
+        why = BUS_ERR_FRAMING;
+        count = &core->counts.overruns;
+    } else if (flags & BUS_BYTE_FRAMING) {
+        why = BUS_ERR_FRAMING;
+        count = &core->counts.framing;
+    }
+    core->failure = (uint8_t)why;
+    bump(count);
+}
+
+/* A status packet with a good checksum has come. */
+static void take_packet(bus_core_t *core)
+{
+    if (core->parser.id != core->asked_id) {
+        fail(core, BUS_ERR_WRONG_ID, &core->counts.wrong_ids);
+    } else if (core->parser.count != core->answer_params) {
+        fail(core, BUS_ERR_LENGTH, &core->counts.lengths);
+    } else {
+        core->counts.answers++;
+        core->result = BUS_OK;
+        core->state = BUS_IDLE;
+    }
+}
+
+static void take_byte(bus_core_t *core, uint8_t byte)
+{
+    switch (dxl_parser_byte(&core->parser, byte)) {
+    case DXL_GOOD:
+        take_packet(core);
+        break;
+    case DXL_BAD_CHECKSUM:
+        fail(core, BUS_ERR_CHECKSUM, &core->counts.checksums);
+        break;
+    case DXL_BAD_LENGTH:
+        fail(core, BUS_ERR_LENGTH, &core->counts.lengths);
+        break;
+    default:
+        break;
+    }
+}
+
+/* Takes apart what came since the last look. Returns whether anything did. */
+static bool take_heard(bus_core_t *core)
+{
+    uint8_t count = core->heard_count;
+    bool news = count != core->parsed;
+    while (core->parsed != count && core->failure == BUS_OK && core->state == BUS_LISTENING) {
+        take_byte(core, core->heard[core->parsed++]);
+    }
+    core->parsed = count;
+    return news;
+}
+
+/* LISTENING, this try has failed: another one once the line is quiet, or the end. */
+static void after_failure(bus_core_t *core, uint16_t silence)
+{
+    if (silence <= BUS_QUIET_HALF_US + core->byte_half_us) {
+        return;
+    }
+    if (core->tries_left > 0) {
+        core->tries_left--;
+        bump(&core->counts.retries);
+        send(core);
+    } else {
+        core->result = core->failure;
+        core->state = BUS_IDLE;
+    }
+}
+
+static void listen(bus_core_t *core, uint16_t now)
+{
+    if (take_heard(core)) {
+        core->since = now;
+    }
+    if (core->state != BUS_LISTENING) {
+        return;
+    }
+    /* Negative when transmit complete came after `now` was read. */
+    int16_t silence = (int16_t)(uint16_t)(now - core->since);
+    if (silence <= 0) {
+        return;
+    }
+    uint16_t patience = (uint16_t)(core->return_delay_half_us + 3u * core->byte_half_us + BUS_MARGIN_HALF_US);
+    if (core->failure == BUS_OK && (uint16_t)silence > patience) {
+        fail(core, BUS_ERR_TIMEOUT, &core->counts.timeouts);
+    }
+    if (core->failure != BUS_OK) {
+        after_failure(core, (uint16_t)silence);
+    }
+}
+
+bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t *answer)
+{
+    if (core->state == BUS_LISTENING) {
+        listen(core, now_half_us);
+    }
+    if (answer != NULL && core->result == BUS_OK) {
+        answer->id = core->parser.id;
+        answer->error = core->parser.error;
+        answer->count = core->parser.count;
+        answer->params = core->heard;
+    }
+    return (bus_status_t)core->result;
+}
+
+bool bus_core_cancel(bus_core_t *core)
+{
+    if (core->state == BUS_LISTENING) {
+        bump(&core->counts.cancelled);
+        core->result = BUS_ERR_TIMEOUT;
+        core->state = BUS_IDLE;
+    }
+    return core->state == BUS_IDLE;
+}
+
+void bus_core_counts(const bus_core_t *core, bus_counts_t *counts)
+{
+    irq_state_t state = irq_save();
+    *counts = core->counts;
+    counts->strays = core->strays;
+    irq_restore(state);
+}
