@@ -55,7 +55,7 @@ function(m512_unit_test name)
     if(M512_AVR)
         if(ARG_TARGET_TOO)
             m512_image(${name} BOARD cm5 KIND test DIR tests SOURCES ${name}.c ${ARG_SOURCES}
-                ${UNITY_DIR}/unity.c ${CMAKE_SOURCE_DIR}/tests/target/target_main.c)
+                ${UNITY_DIR}/unity.c ${CMAKE_SOURCE_DIR}/tests/target/target_main.c ${CMAKE_SOURCE_DIR}/hal/avr/trap.c)
             target_include_directories(${name} PRIVATE ${UNITY_DIR} ${CMAKE_SOURCE_DIR}/tests/target ${ARG_INCLUDES})
             target_compile_definitions(${name} PRIVATE UNITY_INCLUDE_CONFIG_H)
             set_source_files_properties(${UNITY_DIR}/unity.c PROPERTIES COMPILE_OPTIONS "-w")
