@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT
+ * board_debug.h - looking into the running firmware: symbols, stack, cycles of a function, GDB, VCD. Part of board.h. */
+#ifndef SIM_BOARD_DEBUG_H
+#define SIM_BOARD_DEBUG_H
+
+#include "board.h"
+
+/* Where a function (flash byte address) or a variable (data address) of the loaded ELF files is, UINT32_MAX if
+ * nowhere. Matches the name up to a dot, as -flto makes "player_tick.constprop.0" of "player_tick". */
+uint32_t board_function(const board_t *board, const char *name);
+uint32_t board_variable(const board_t *board, const char *name);
+
+/* Name of the function at a flash address, "?" if unknown. Good until the next board_load(). */
+const char *board_function_at(const board_t *board, uint32_t address);
+
+/* Current program counter (byte address). */
+uint32_t board_pc(const board_t *board);
+
+/* Stack: lowest address the stack pointer has pointed to since the running image set it up, and the bytes between
+ * the end of that image's variables and there that were never used. */
+uint32_t board_stack_low(const board_t *board);
+uint32_t board_stack_headroom(const board_t *board);
+
+/* Counts the cycles of a function from its first instruction to its return: total (what a stop-watch shows) and own
+ * (interrupts taken out). false: no such function, or 32 probes are in use. */
+typedef struct {
+    uint64_t calls;
+    uint64_t total_max, total_sum, own_max, own_sum;
+    uint64_t last_total, last_own;
+    uint64_t max_at; /* cycle at which the call with the largest own time returned */
+} probe_t;
+bool board_probe(board_t *board, const char *function);
+const probe_t *board_probe_result(const board_t *board, const char *function);
+void board_probe_clear(board_t *board); /* figures back to 0, probes stay */
+
+/* Cycles spent in interrupts (response and return included), and how often by vector 1..34. */
+uint64_t board_interrupt_cycles(const board_t *board);
+uint64_t board_interrupt_count(const board_t *board, int vector);
+uint64_t board_interrupt_max(const board_t *board, int vector); /* longest, nested ones included */
+
+/* Executes one instruction (or one interrupt response) and returns its cycles. For tests of the model itself. */
+uint32_t board_step(board_t *board);
+
+/* A GDB server on 127.0.0.1:port; the run waits for it at once if wait is true. false: board_error(). */
+bool board_gdb(board_t *board, int port, bool wait);
+
+/* Writes pins, LEDs and the bytes on both UARTs to a VCD file until board_vcd_stop(). false: board_error(). */
+bool board_vcd_start(board_t *board, const char *path);
+void board_vcd_stop(board_t *board);
+
+#endif

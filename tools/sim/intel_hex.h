@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT
+ * intel_hex.h - Intel HEX into an image: checksums, ranges and record types are checked. */
+#ifndef SIM_INTEL_HEX_H
+#define SIM_INTEL_HEX_H
+
+#include <stdio.h>
+
+#include "image.h"
+
+image_status_t intel_hex_read(FILE *file, image_t *image);
+
+#endif

@@ -1,0 +1,431 @@
+# SPDX-License-Identifier: MIT
+"""The simulated board.
+
+    from cm5sim import Board
+    b = Board(images=["play-cm5.hex"], servos=range(1, 19), seed=1)
+    b.send(b"version\\r")
+    print(b.expect("OK", ms=1000))
+    b.run(ms=100)
+
+Time passes only inside run() and expect(). The first violation ends the run with the exception Violation, an armed
+power cut with PowerCut. Everything is deterministic for a given seed.
+"""
+import ctypes
+import pathlib
+from typing import NamedTuple
+
+from . import library
+from .memory import Memory
+from .servo import Servos
+
+CYCLES_PER_MS = 16000
+CYCLES_PER_TICK = 125000
+MOTIONS_ADDRESS = 0xE000
+BOOT_ADDRESS = 0x1E000
+BUTTONS = ("UP", "DOWN", "LEFT", "RIGHT", "START", "MODE")
+LEDS = ("power", "txd", "rxd", "aux", "manage", "program", "play")
+RESET_CAUSES = {1: "power-on", 2: "external", 4: "brown-out", 8: "watchdog"}
+OPERATIONS = ("erase", "write", "eeprom")
+_TIME, _VIOLATION, _POWER_CUT, _TEXT, _ADDRESS, _REQUEST = range(6)
+
+
+class Violation(Exception):
+    """The firmware did what a chip would not forgive: kind, cycle, pc, function, text."""
+
+    def __init__(self, kind, cycle, pc, function, text):
+        super().__init__(f"{kind} at cycle {cycle}, pc 0x{pc:05X} in {function}: {text}")
+        self.kind, self.cycle, self.pc, self.function, self.text = kind, cycle, pc, function, text
+
+
+class PowerCut(Exception):
+    """The power cut that was armed has struck; power_on() starts the board again."""
+
+
+class Cycles(NamedTuple):
+    """Cycles of a probed function: own time (interrupts taken out) and total time."""
+    count: int
+    max: int
+    mean: float
+    total_max: int
+    total_mean: float
+    max_at: int
+
+
+class Frame(NamedTuple):
+    """One SYNC WRITE with goal positions. tick counts from the first frame of the trace."""
+    cycle: int
+    tick: int
+    goals: dict
+
+
+def find_image(name):
+    """A path as it is, or a name below build/firmware."""
+    path = pathlib.Path(name)
+    return path if path.exists() else library.build_folder() / "firmware" / name
+
+
+class Board:
+    """One controller board; see the module's text."""
+
+    def __init__(self, kind="cm5", images=(), motions=None, servos=(), seed=1, bootrst=None):
+        self._lib = library.load()
+        self._pointer = self._lib.board_new({"cm5": 0, "cm2": 1}[kind], seed)
+        if not self._pointer:
+            raise MemoryError("no simulated ATmega128")
+        self.flash = self._memory(0x20000, "flash")
+        self.eeprom = self._memory(0x1000, "eeprom")
+        self.ram = self._memory(0x1100, "ram")
+        self._taken = 0
+        self._started = False
+        for image in [images] if isinstance(images, (str, pathlib.Path)) else images:
+            self.load(image)
+        if motions is not None:
+            self.flash[MOTIONS_ADDRESS:MOTIONS_ADDRESS + len(motions)] = motions
+        if bootrst is not None:
+            self._lib.board_set_bootrst(self._pointer, bootrst)
+        self.servos = Servos(self._lib, self._lib.board_servo_bus(self._pointer), lambda: self.now_cycles)
+        for number in servos:
+            self.servos.add(number)
+        self._lib.board_trace_start(self._pointer)
+
+    def _memory(self, size, name):
+        return Memory(self, size, getattr(self._lib, f"board_{name}_read"), getattr(self._lib, f"board_{name}_write"))
+
+    def close(self):
+        """Frees the board; it cannot be used afterwards."""
+        if self._pointer:
+            self._lib.board_free(self._pointer)
+            self._pointer = None
+
+    def __del__(self):
+        if getattr(self, "_pointer", None):
+            self.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    # Images and power
+
+    def load(self, image, address=0):
+        """Loads a HEX, ELF or binary file (a path, or a name below build/firmware) with its symbols."""
+        path = find_image(image)
+        if not self._lib.board_load(self._pointer, str(path).encode(), address):
+            raise FileNotFoundError(self._lib.board_error(self._pointer).decode())
+
+    def power_on(self):
+        self._started = True
+        self._lib.board_power_on(self._pointer)
+
+    def power_off(self):
+        self._started = True
+        self._lib.board_power_off(self._pointer)
+
+    def brown_out(self):
+        self._lib.board_brown_out(self._pointer)
+
+    def reset(self, ms=1):
+        """Presses MODE, the reset pin, for so long."""
+        self.press("MODE")
+        self.run(ms=ms)
+        self.release("MODE")
+
+    @property
+    def powered(self):
+        return self._lib.board_is_powered(self._pointer)
+
+    @property
+    def resets(self):
+        return self._lib.board_resets(self._pointer)
+
+    @property
+    def reset_cause(self):
+        return RESET_CAUSES[self._lib.board_reset_cause(self._pointer)]
+
+    # Time
+
+    def run(self, ms=0, cycles=0, ticks=0):
+        """Lets time pass; returns True if the whole of it did (False: a stop armed by hand)."""
+        total = int(ms * CYCLES_PER_MS) + int(cycles) + int(ticks * CYCLES_PER_TICK)
+        return self._run(total) == _TIME
+
+    def _run(self, cycles):
+        if not self._started:
+            self.power_on()
+        why = self._lib.board_run(self._pointer, cycles)
+        if why == _VIOLATION:
+            raise self.violation
+        if why == _POWER_CUT:
+            raise PowerCut(f"at cycle {self.now_cycles}, operation {self.operations}")
+        return why
+
+    def run_to(self, function, ms=1000):
+        """Runs to the first instruction of a function (a name or a flash byte address)."""
+        address = function if isinstance(function, int) else self.function(function)
+        self._lib.board_stop_at(self._pointer, address)
+        why = self._run(int(ms * CYCLES_PER_MS))
+        self._lib.board_stop_at(self._pointer, 0xFFFFFFFF)
+        if why != _ADDRESS:
+            raise AssertionError(f"{function} was not reached within {ms} ms")
+
+    @property
+    def now_cycles(self):
+        return self._lib.board_now(self._pointer)
+
+    @property
+    def now_ms(self):
+        return self.now_cycles / CYCLES_PER_MS
+
+    @property
+    def busy_cycles(self):
+        """Cycles in which the CPU executed instructions."""
+        return self._lib.board_busy_cycles(self._pointer)
+
+    # Violations
+
+    @property
+    def violation(self):
+        """The violation on record, or None."""
+        record = self._lib.board_violation(self._pointer).contents
+        if record.kind == 0:
+            return None
+        name = self._lib.violation_name(record.kind).decode()
+        return Violation(name, record.cycle, record.pc, record.function.decode(), record.text.decode())
+
+    def clear_violation(self):
+        self._lib.board_clear_violation(self._pointer)
+
+    def _kind(self, name):
+        kind = self._lib.violation_find(name.encode())
+        if kind == 0:
+            raise ValueError(f"no violation is called {name}")
+        return kind
+
+    def allow(self, *names):
+        """Lets kinds of violation pass; they are counted."""
+        for name in names:
+            self._lib.board_allow(self._pointer, self._kind(name), True)
+
+    def forbid(self, *names):
+        for name in names:
+            self._lib.board_allow(self._pointer, self._kind(name), False)
+
+    def violations(self, name):
+        """How often a kind happened, allowed or not."""
+        return self._lib.board_violations(self._pointer, self._kind(name))
+
+    # Console and remote
+
+    def send(self, data, wait=False):
+        """Queues bytes on the PC's serial line; wait=True runs until the last one has passed."""
+        data = data.encode() if isinstance(data, str) else bytes(data)
+        self._lib.board_console_send(self._pointer, 0, data, len(data))
+        while wait and self.waiting:
+            self.run(ms=1)
+
+    def pause(self, ms):
+        """Queues silence behind the bytes sent so far."""
+        self._lib.board_console_pause(self._pointer, int(ms * CYCLES_PER_MS))
+
+    @property
+    def waiting(self):
+        """Bytes that have not left the line yet."""
+        return self._lib.board_console_waiting(self._pointer)
+
+    def flush(self):
+        self._lib.board_console_flush(self._pointer)
+
+    def baud(self, rate):
+        """Sets the PC's and the remote's end of the line."""
+        self._lib.board_console_rate(self._pointer, rate)
+
+    def rc(self, value):
+        """Sends one RC-100 packet: FF 55 low ~low high ~high."""
+        low, high = value & 0xFF, value >> 8 & 0xFF
+        packet = bytes([0xFF, 0x55, low, low ^ 0xFF, high, high ^ 0xFF])
+        self._lib.board_console_send(self._pointer, 1, packet, len(packet))
+
+    def remote(self, data):
+        """Queues raw bytes of the remote."""
+        self._lib.board_console_send(self._pointer, 1, bytes(data), len(data))
+
+    @property
+    def console(self):
+        """Everything the PC has heard so far."""
+        count = ctypes.c_size_t()
+        pointer = self._lib.board_console_output(self._pointer, ctypes.byref(count))
+        return ctypes.string_at(pointer, count.value) if count.value else b""
+
+    def take(self):
+        """What the PC has heard since the last take() or expect()."""
+        data = self.console[self._taken:]
+        self._taken += len(data)
+        return data
+
+    def expect(self, text, ms=1000):
+        """Runs until text comes and returns all that came up to its end, from the last take() or expect() on."""
+        wanted = text.encode() if isinstance(text, str) else bytes(text)
+        end = self.now_cycles + int(ms * CYCLES_PER_MS)
+        while wanted not in self.console[self._taken:]:
+            if self.now_cycles >= end:
+                tail = self.console[self._taken:][-500:].decode("latin-1")
+                raise AssertionError(f"{text!r} did not come within {ms} ms; the console says {tail!r}")
+            self._lib.board_stop_on_text(self._pointer, wanted if b"\0" not in wanted else None)
+            self._run(min(end - self.now_cycles, CYCLES_PER_MS * 20))
+        self._lib.board_stop_on_text(self._pointer, None)
+        start, self._taken = self._taken, self.console.index(wanted, self._taken) + len(wanted)
+        return self.console[start:self._taken].decode("latin-1")
+
+    def uart(self, number):
+        """Counters of UART 0 (bus) or 1 (console): sent, received, overruns, framing, deaf."""
+        counts = library.UartCounts()
+        self._lib.board_uart_counts(self._pointer, number, ctypes.byref(counts))
+        return counts
+
+    # Servo bus
+
+    @property
+    def packets(self):
+        """[(cycle, bytes)] of every good instruction packet since the start or clear_trace()."""
+        count = ctypes.c_size_t()
+        items = self._lib.board_trace(self._pointer, ctypes.byref(count))
+        return [(items[i].cycle, bytes(items[i].bytes[:items[i].count])) for i in range(count.value)]
+
+    @property
+    def trace(self):
+        """Frames of goal positions: SYNC WRITE packets that reach address 30."""
+        frames, first = [], None
+        for cycle, packet in self.packets:
+            goals = sync_goals(packet)
+            if goals:
+                first = cycle if first is None else first
+                frames.append(Frame(cycle, round((cycle - first) / CYCLES_PER_TICK), goals))
+        return frames
+
+    def clear_trace(self):
+        self._lib.board_trace_start(self._pointer)
+
+    # Panel
+
+    def press(self, button):
+        self._lib.board_press(self._pointer, BUTTONS.index(button.upper()), True)
+
+    def release(self, button):
+        self._lib.board_press(self._pointer, BUTTONS.index(button.upper()), False)
+
+    @property
+    def leds(self):
+        """Names of the lit LEDs."""
+        bits = self._lib.board_leds(self._pointer)
+        return {name for bit, name in enumerate(LEDS) if bits >> bit & 1}
+
+    def pin(self, name):
+        """A port pin such as "E2": 0, 1, or None when the board does not drive it."""
+        level = self._lib.board_pin(self._pointer, name[0].encode(), int(name[1]))
+        return None if level < 0 else level
+
+    def battery(self, volts):
+        self._lib.board_battery(self._pointer, volts)
+
+    # Wear and power cuts
+
+    def wear(self, page):
+        """Erases of a 256-byte flash page."""
+        return self._lib.board_flash_wear(self._pointer, page)
+
+    def eeprom_wear(self, address):
+        return self._lib.board_eeprom_wear(self._pointer, address)
+
+    @property
+    def operations(self):
+        """Flash erases, flash writes and EEPROM byte writes so far."""
+        return self._lib.board_operations(self._pointer)
+
+    def operation(self, number):
+        """("erase" | "write" | "eeprom", address) of operation number (1, 2, ...)."""
+        kind, address = ctypes.c_int(), ctypes.c_uint32()
+        if not self._lib.board_operation(self._pointer, number, ctypes.byref(kind), ctypes.byref(address)):
+            raise IndexError(f"operation {number} is not on record")
+        return OPERATIONS[kind.value], address.value
+
+    def cut_power(self, op, phase="during", tear=0):
+        """Arms a power cut at the op-th operation from now on (1 = the next), in phase before, during or after."""
+        phases = ("before", "during", "after")
+        self._lib.board_cut_power(self._pointer, self.operations + op, phases.index(phase), tear)
+
+    def cut_power_at(self, ms):
+        """Arms a power cut so many milliseconds from now."""
+        self._lib.board_cut_power_at(self._pointer, self.now_cycles + int(ms * CYCLES_PER_MS))
+
+    def lock(self, bits):
+        self._lib.board_set_lock(self._pointer, bits)
+
+    # Inside the firmware
+
+    def function(self, name):
+        address = self._lib.board_function(self._pointer, name.encode())
+        if address == 0xFFFFFFFF:
+            raise KeyError(f"no function {name} in the loaded images")
+        return address
+
+    def variable(self, name):
+        """Data address of a variable."""
+        address = self._lib.board_variable(self._pointer, name.encode())
+        if address == 0xFFFFFFFF:
+            raise KeyError(f"no variable {name} in the loaded images")
+        return address
+
+    def function_at(self, address):
+        return self._lib.board_function_at(self._pointer, address).decode()
+
+    @property
+    def pc(self):
+        return self._lib.board_pc(self._pointer)
+
+    @property
+    def stack_headroom(self):
+        """Bytes between the end of the variables and the lowest stack so far."""
+        return self._lib.board_stack_headroom(self._pointer)
+
+    def probe(self, *names):
+        """Counts the cycles of functions from now on."""
+        for name in names:
+            if not self._lib.board_probe(self._pointer, name.encode()):
+                raise KeyError(f"no function {name} in the loaded images, or too many probes")
+
+    def cycles(self, name):
+        """Figures of a probed function."""
+        pointer = self._lib.board_probe_result(self._pointer, name.encode())
+        if not pointer:
+            raise KeyError(f"{name} is not probed")
+        r = pointer.contents
+        calls = max(r.calls, 1)
+        return Cycles(r.calls, r.own_max, r.own_sum / calls, r.total_max, r.total_sum / calls, r.max_at)
+
+    def clear_probes(self):
+        self._lib.board_probe_clear(self._pointer)
+
+    def step(self):
+        """One instruction or interrupt response; its cycles."""
+        return self._lib.board_step(self._pointer)
+
+    def vcd(self, path):
+        if not self._lib.board_vcd_start(self._pointer, str(path).encode()):
+            raise OSError(self._lib.board_error(self._pointer).decode())
+
+    def stop_vcd(self):
+        self._lib.board_vcd_stop(self._pointer)
+
+
+def sync_goals(packet):
+    """{id: goal} of a SYNC WRITE that covers the goal position (address 30), else {}."""
+    if len(packet) < 8 or packet[4] != 0x83:
+        return {}
+    address, length, data = packet[5], packet[6], packet[7:-1]
+    if not address <= 30 <= address + length - 2:
+        return {}
+    at = 1 + 30 - address
+    blocks = [data[i:i + length + 1] for i in range(0, len(data), length + 1)]
+    return {block[0]: block[at] | block[at + 1] << 8 for block in blocks}

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: MIT
+ * violation.h - what the board does not let pass. Most violations are things that a chip would do in silence, and
+ * wrongly; some (overrun) are things that the firmware must never let happen on this board.
+ * The first violation stops the run and stays on record; a kind that was allowed is only counted. */
+#ifndef SIM_VIOLATION_H
+#define SIM_VIOLATION_H
+
+#include <stdint.h>
+
+typedef enum {
+    VIOLATION_NONE,
+    /* flash.c */
+    VIOLATION_SPM_PLACE,       /* SPM executed outside the boot section */
+    VIOLATION_SPM_SEQUENCE,    /* SPM without, or more than 4 cycles after, its SPMCSR write; unknown operation */
+    VIOLATION_SPM_BUSY,        /* SPM or SPMCSR while an erase or a write is going on */
+    VIOLATION_SPM_EEPROM,      /* SPM while the EEPROM is being written, or the other way round */
+    VIOLATION_RWW_FETCH,       /* instruction or vector fetched from the busy part of the flash */
+    VIOLATION_RWW_READ,        /* LPM or ELPM from the busy part */
+    VIOLATION_FLASH_UNERASED,  /* a write asked for ones where the flash has zeros */
+    VIOLATION_FLASH_REFILL,    /* a word of the page buffer filled twice */
+    VIOLATION_FLASH_ALIGN,     /* page write with the word bits of Z not zero */
+    VIOLATION_FLASH_WORN,      /* a page erased more than 10,000 times */
+    /* eeprom.c */
+    VIOLATION_EEPROM_BUSY,     /* EEPROM read, written or addressed during a write */
+    VIOLATION_EEPROM_SEQUENCE, /* EEWE without EEMWE in the 4 cycles before */
+    VIOLATION_EEPROM_WORN,     /* a byte written more than 100,000 times */
+    /* uart.c, console.c, bus_wire.c */
+    VIOLATION_UART_OVERRUN,    /* a received character was lost: the firmware came too late */
+    VIOLATION_BUS_OVERRUN,     /* the same on UART0, where a repeated request mends it: allowed at first */
+    VIOLATION_UART_TX_LOST,    /* UDR written while the buffer is full or the transmitter is off */
+    VIOLATION_UART_FORMAT,     /* a frame format other than 8N1 asked for */
+    VIOLATION_UART_SETUP,      /* rate changed in the middle of a character being sent */
+    VIOLATION_BUS_UNDRIVEN,    /* a byte sent on the bus while the drive pin is low */
+    VIOLATION_BUS_BOTH,        /* drive and listen pins high together */
+    VIOLATION_BUS_RELEASED,    /* drive pin low before the last stop bit has left */
+    /* panel.c */
+    VIOLATION_PULLUP,          /* a button read without its pull-up */
+    VIOLATION_CHARGER,         /* battery charger on */
+    VIOLATION_PIN_FIGHT,       /* an output drives a pin that something else drives */
+    /* cpu.c, stack.c */
+    VIOLATION_STACK,           /* stack grown into the variables */
+    VIOLATION_STACK_UNSET,     /* stack used before it was set */
+    VIOLATION_ERASED,          /* execution ran into erased flash */
+    VIOLATION_ILLEGAL,         /* an instruction that the ATmega128 does not have, or BREAK */
+    VIOLATION_ADDRESS,         /* data access outside registers and SRAM, jump outside flash */
+    VIOLATION_SLEEP,           /* sleep from which nothing wakes it */
+    VIOLATION_UNMODELLED,      /* something the real chip has and this board has not (external RAM, XDIV, ...) */
+    /* reset.c */
+    VIOLATION_TIMED_SEQUENCE,  /* WDTCR or IVSEL changed without the timed sequence: the chip ignores it */
+    VIOLATION_UNEXPECTED_RESET, /* the watchdog bit; off unless board_allow(.., false) asks for it */
+    VIOLATION_COUNT
+} violation_kind_t;
+
+typedef struct {
+    violation_kind_t kind;
+    uint64_t cycle;
+    uint32_t pc; /* byte address of the instruction */
+    char function[64];
+    char text[192];
+} violation_t;
+
+/* "spm-place", "rww-fetch", ...: the enum's name in small letters. */
+const char *violation_name(violation_kind_t kind);
+
+/* The other way round; VIOLATION_NONE when there is no such name. */
+violation_kind_t violation_find(const char *name);
+
+#endif
