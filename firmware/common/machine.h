@@ -15,7 +15,7 @@
  *     @list [first last]         the pages that are not empty
  *     @page n                    512 bytes in hex and their CRC-16
  *     @pose                      present position and torque of all servos
- *     @move deg_s id pos ...     to a pose, ramped, within a speed
+ *     @move deg_s id digits      to a pose, ramped, within a speed: three hex digits or --- for id, id + 1, ...
  *     @torque on|off [id ...]
  *     @play n [code]  @stop  @break  @pause  @resume
  *     @where                     state, page, step, repetition, code, voltage, faults
@@ -52,6 +52,8 @@ typedef enum {
 /* What an image adds. Functions may be NULL: the command then is MACHINE_ERR_IMAGE. */
 typedef struct {
     const char *name_P;                                    /* "play" */
+    /* What may not wait, between the parts of a command that takes long. */
+    void (*service)(void *context);
     /* The 512 bytes of the page in RAM. */
     uint8_t *(*ram_page)(void *context);
     /* Loads page n into RAM, and after @data has changed it: tells the image to show it. */

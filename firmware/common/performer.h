@@ -49,7 +49,7 @@ typedef enum {
     PERFORMER_END_STOPPED,   /* after a stop, through the exit links */
     PERFORMER_END_BROKEN,    /* break */
     PERFORMER_END_LOOP,      /* after a stop, the exit pages came back to themselves */
-    PERFORMER_END_PAGE,      /* page a is damaged: page_status_t in b */
+    PERFORMER_END_PAGE,      /* the page that was to follow is damaged */
     PERFORMER_END_SERVO,     /* the rule for faults ended it */
     PERFORMER_END_THERE      /* a move has arrived */
 } performer_end_t;
@@ -58,11 +58,10 @@ typedef enum {
 typedef enum {
     PERFORMER_EV_NONE = 0,
     PERFORMER_EV_APPROACH,   /* a: page; b: seconds it takes, rounded up */
-    PERFORMER_EV_PAGE,       /* a: page, b: repetition */
-    PERFORMER_EV_STEP,       /* a: page, b: step 1..7 */
+    PERFORMER_EV_STEP,       /* a: page, b: step 1..7, c: repetition */
     PERFORMER_EV_LINK,       /* a: page it leads to (0: the end), b: link_taken_t */
     PERFORMER_EV_PAUSED,     /* all joints stand */
-    PERFORMER_EV_ENDED,      /* a: page, b: see performer_end_t; reason in c */
+    PERFORMER_EV_ENDED,      /* a: page, b: page_status_t of a damaged page, c: performer_end_t */
     PERFORMER_EV_SILENT,     /* a: servo ID */
     PERFORMER_EV_BACK,       /* a: servo ID */
     PERFORMER_EV_ERRORS,     /* a: servo ID, b: DXL_ERR_ bits */
@@ -75,7 +74,7 @@ typedef struct {
     uint8_t kind, a, b, c;
 } performer_event_t;
 
-#define PERFORMER_EVENTS 16u
+#define PERFORMER_EVENTS 12u
 
 typedef struct {
     /* Read only for callers. */
@@ -99,12 +98,13 @@ typedef struct {
     uint16_t pose_pos[PAGE_JOINTS];
     uint32_t joints;            /* that this play may drive */
     uint32_t ready_left;        /* joints READY has still to ask */
+    uint32_t move_joints;       /* that a move concerns; its goals are in engine.approach.target_pos */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
-    uint16_t since_stop_ticks;  /* since the first stop, for "a second stop within a second" */
-    uint8_t code;               /* of the call */
+    uint8_t first_page;         /* the page that plays first: the one asked for, or where its links lead */
+    uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
     uint8_t end;                /* performer_end_t to report */
-    bool leaving;               /* READY and APPROACH: a break was asked for */
-    bool pausing;               /* APPROACH: a pause was asked for */
+    bool leaving;               /* a break is under way */
+    bool pausing;               /* APPROACH: a pause is under way */
     bool told_battery, told_hot;
     uint8_t events_head, events_count, events_lost;
     performer_event_t events[PERFORMER_EVENTS];
@@ -132,7 +132,8 @@ void performer_stop(performer_t *performer);
 /* Ends at once: all joints slow down to a stand and hold. */
 void performer_break(performer_t *performer);
 
-/* Slows down to a stand, holds; resume goes on from there. false: nothing to pause or to resume. */
+/* Slows down to a stand, holds; resume goes on from there. false: nothing to pause or to resume (a move cannot be
+ * paused). */
 bool performer_pause(performer_t *performer);
 bool performer_resume(performer_t *performer);
 

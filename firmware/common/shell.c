@@ -275,6 +275,15 @@ static void print_bound(uint16_t number, bool hex)
     text_hex(number, number > 0xFF ? 4 : 2);
 }
 
+void shell_print_range(const char *what_P, uint16_t min, uint16_t max, bool hex)
+{
+    text_P(what_P);
+    TEXT(" must be ");
+    print_bound(min, hex);
+    TEXT("..");
+    print_bound(max, hex);
+}
+
 bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min, uint16_t max,
                   uint16_t *value)
 {
@@ -283,11 +292,7 @@ bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, u
         *value = number;
         return true;
     }
-    text_P(what_P);
-    TEXT(" must be ");
-    print_bound(min, args->hex);
-    TEXT("..");
-    print_bound(max, args->hex);
+    shell_print_range(what_P, min, max, args->hex);
     return false;
 }
 

@@ -70,6 +70,9 @@ bool shell_parse(const char *word, bool hex, uint16_t *value);
 MUST_CHECK bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min, uint16_t max,
                              uint16_t *value);
 
+/* "Page must be 0..127"; bounds in hexadecimal when `hex`. */
+void shell_print_range(const char *what_P, uint16_t min, uint16_t max, bool hex);
+
 /* One command. Tables of these stand in flash. */
 #define SHELL_WORD_BYTES 10u
 #define SHELL_SHORT_BYTES 5u

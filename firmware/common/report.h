@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ * report.h - what happened, in sentences: the same words in Play and in Edit.
+ * Knows no console (text.h) and no command. Main loop only. No RAM of its own. Nothing here ends a line. */
+#ifndef REPORT_H
+#define REPORT_H
+
+#include <stdint.h>
+#include "page.h"
+#include "performer.h"
+
+/* "checksum is wrong", "more than 7 steps", ...: what is wrong with a page. */
+void report_page_fault(uint8_t page_status);
+
+/* "Page 9 is damaged: checksum is wrong": why a play did not start. Nothing for PERFORMER_OK. */
+void report_refusal(performer_status_t status, uint8_t page, uint8_t fault);
+
+/* "overload, overheating": the bits of a servo's error byte. */
+void report_servo_errors(uint8_t errors);
+
+/* "page 12 (walk)". */
+void report_page(uint8_t page);
+
+/* "11.3 V". */
+void report_voltage(uint8_t dv);
+
+/* "1-18 20": the joints of a mask; "none". */
+void report_joints(uint32_t joints);
+
+/* One sentence for an event. */
+void report_event(const performer_event_t *event);
+
+#endif

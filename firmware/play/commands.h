@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT
+ * commands.h - the words of Play's line shell. Answers end in " OK" or in one sentence that says what is wrong.
+ * Main loop only; while an answer waits for room on the line, play_service goes on. */
+#ifndef COMMANDS_H
+#define COMMANDS_H
+
+#include "play.h"
+
+/* Runs the line that the shell has completed and prints its answer with CR LF. */
+void commands_run(play_t *play);
+
+#endif

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: MIT
+ * main.c - Play: the image that a robot runs without a PC.
+ *
+ *   console bytes --> inputs --> codes --------------> performer --> servo_link --> bus
+ *                       |                                 |
+ *                       +--> typed text --> shell         +--> events --> status lines
+ *                                             |
+ *                                             +--> commands
+ *
+ * One loop. What may not wait (play_service) also runs while text waits for room on the serial line, so a tick is late
+ * by no more than the longest single step of the rest: a few ms of a search by name. Nothing moves at power-on. */
+#include "board.h"
+#include "commands.h"
+#include "console.h"
+#include "panel.h"
+#include "play.h"
+#include "report.h"
+#include "system.h"
+#include "text.h"
+#include "tick.h"
+#include "views.h"
+
+#define LAMP_TICKS 6u       /* a traffic lamp stays lit this long: 47 ms */
+#define BLINK_TICKS_LOG2 5u /* paused: Play blinks, 250 ms on, 250 ms off */
+
+static play_t play;
+
+static const char machine_name[] PROGMEM = "play";
+static void serve_machine(void *context)
+{
+    play_service(context);
+}
+
+static const machine_image_t machine_image = {.name_P = machine_name, .service = serve_machine, .context = &play};
+
+/* Characters since the last line end: what a status line must cover. */
+static uint8_t column;
+
+/* ---- lamps ---- */
+
+static void show_traffic(uint8_t led, uint8_t count, uint8_t *last, uint8_t *ticks_left)
+{
+    if (count != *last) {
+        *last = count;
+        *ticks_left = LAMP_TICKS;
+    } else if (*ticks_left > 0) {
+        (*ticks_left)--;
+    }
+    panel_set(led, *ticks_left > 0);
+}
+
+static void show_lamps(void)
+{
+    static uint8_t sent, sent_ticks, received, received_ticks;
+    show_traffic(PANEL_LED_TXD, console_sent(), &sent, &sent_ticks);
+    show_traffic(PANEL_LED_RXD, console_received(), &received, &received_ticks);
+    const bool dark = performer_is_paused(&play.performer) && (tick_now16() >> BLINK_TICKS_LOG2) % 2 != 0;
+    panel_set(PANEL_LED_PLAY, !performer_is_idle(&play.performer) && !dark);
+    panel_set(PANEL_LED_AUX, play.performer.faulty != 0 || play.performer.told_battery || play.performer.told_hot);
+}
+
+/* ---- what may not wait ---- */
+
+void play_service(play_t *p)
+{
+    if (tick_take()) {
+        performer_tick(&p->performer);
+        panel_tick();
+        inputs_tick(&p->inputs);
+        show_lamps();
+    }
+    inputs_take(&p->inputs);
+    performer_poll(&p->performer);
+    (void)settings_save_poll(&p->store, &p->settings);
+    system_kick();
+}
+
+static void put(char character)
+{
+    column = character == '\n' ? 0 : (uint8_t)(column + (character >= ' ' && column < UINT8_MAX ? 1 : 0));
+    while (!console_put((uint8_t)character)) {
+        play_service(&play);
+        board_idle();
+    }
+}
+
+void play_find_servos(play_t *p)
+{
+    int16_t trim_pos[PAGE_JOINTS];
+    console_hold();
+    servo_link_scan(&p->servos);
+    (void)page_store_trim(&p->pages, trim_pos);
+    (void)servo_link_set_trim(&p->servos, trim_pos);
+    console_resume();
+    tick_forgive();
+}
+
+/* ---- text ---- */
+
+static void prompt(void)
+{
+    TEXT("] ");
+}
+
+/* Ends a status line over the prompt and gives back what was being typed. */
+static void end_status_line(uint8_t covered)
+{
+    while (column < covered) {
+        text_put(' ');
+    }
+    text_line_end();
+    prompt();
+    for (uint8_t i = 0; i < play.shell.length; i++) {
+        text_put(play.shell.line[i]);
+    }
+}
+
+static uint8_t begin_status_line(void)
+{
+    const uint8_t covered = column;
+    text_put('\r');
+    column = 0;
+    return covered;
+}
+
+static void print_news(void)
+{
+    performer_event_t event;
+    inputs_refusal_t refusal;
+    if (performer_next_event(&play.performer, &event)) {
+        const uint8_t covered = begin_status_line();
+        report_event(&event);
+        end_status_line(covered);
+    } else if (inputs_next_refusal(&play.inputs, &refusal)) {
+        const uint8_t covered = begin_status_line();
+        views_print_refusal(&refusal);
+        end_status_line(covered);
+    }
+}
+
+static void take_typed(void)
+{
+    uint8_t byte;
+    if (!inputs_get(&play.inputs, &byte)) {
+        return;
+    }
+    const shell_event_t event = shell_byte(&play.shell, byte);
+    if (event == SHELL_TYPING) {
+        return;
+    }
+    text_line_end();
+    if (event == SHELL_TOO_LONG) {
+        TEXT("The line is too long: nothing was done");
+        text_line_end();
+    } else {
+        commands_run(&play);
+    }
+    shell_clear(&play.shell);
+    prompt();
+}
+
+static void greet(settings_status_t settings)
+{
+    text_line_end();
+    views_print_version();
+    if (settings == SETTINGS_DAMAGED) {
+        TEXT("The settings were damaged: these are the defaults");
+        text_line_end();
+    }
+    views_print_servos_found(&play);
+    prompt();
+}
+
+static void start(void)
+{
+    text_init(put);
+    const settings_status_t status = settings_load(&play.store, &play.settings);
+    page_store_init(&play.pages);
+    servo_link_init(&play.servos);
+    performer_init(&play.performer, &play.pages.source, &play.servos, &play.settings);
+    inputs_init(&play.inputs, &play.performer, &play.pages, &play.settings);
+    shell_init(&play.shell, play.line, sizeof play.line, play.history, sizeof play.history);
+    machine_init(&play.machine, &play.performer, &play.servos, &play.pages, &machine_image);
+    console_set_flow(play.settings.flow != 0);
+    play_find_servos(&play);
+    greet(status);
+}
+
+/* Whether the loop has something to do that no interrupt will announce. */
+static bool has_work(void)
+{
+    return ring_count(&play.inputs.typed) > 0 || play.performer.events_count > 0 ||
+           play.performer.state == PERFORMER_READY;
+}
+
+int main(void)
+{
+    board_start();
+    start();
+    for (;;) {
+        play_service(&play);
+        print_news();
+        take_typed();
+        if (!has_work()) {
+            board_idle();
+        }
+    }
+}

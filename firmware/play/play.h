@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT
+ * play.h - the parts of the Play image, put together in main.c and handed to every command. */
+#ifndef PLAY_H
+#define PLAY_H
+
+#include "inputs.h"
+#include "machine.h"
+#include "page_store.h"
+#include "performer.h"
+#include "servo_link.h"
+#include "settings.h"
+#include "shell.h"
+
+#define PLAY_LINE_BYTES 112u /* machine.c: requests have up to 110 characters */
+#define PLAY_HISTORY_BYTES 96u
+
+typedef struct {
+    performer_t performer;
+    servo_link_t servos;
+    page_store_t pages;
+    settings_t settings;
+    settings_store_t store;
+    inputs_t inputs;
+    shell_t shell;
+    machine_t machine;
+    char line[PLAY_LINE_BYTES];
+    char history[PLAY_HISTORY_BYTES];
+} play_t;
+
+/* Everything that may not wait: the tick, console input, the bus, a save of settings, lamps, the watchdog. Runs in the main
+ * loop, while text waits for room on the line, and between the parts of a command that takes long. Prints nothing. */
+void play_service(play_t *play);
+
+/* Searches the bus for servos (0.3 s, nothing may be moving) and loads the trim of page 0. */
+void play_find_servos(play_t *play);
+
+#endif

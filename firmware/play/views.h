@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT
+ * views.h - what Play prints when it is asked: lists and states, in lines. Changes nothing. */
+#ifndef VIEWS_H
+#define VIEWS_H
+
+#include "play.h"
+
+void views_print_list(const play_t *play);
+void views_print_status(const play_t *play);
+void views_print_servos(const play_t *play);
+void views_print_faults(const play_t *play);
+void views_print_settings(const play_t *play);
+void views_print_version(void);
+
+/* "18 servos: 1-18", and who is there but cannot be used. */
+void views_print_servos_found(const play_t *play);
+
+/* Why a code started nothing; without a line end. */
+void views_print_refusal(const inputs_refusal_t *refusal);
+
+#endif
