@@ -39,7 +39,7 @@ def recognise(data: bytes, path: Path) -> str:
         return HEX
     if start.startswith(b"type="):
         return MTN
-    if start.startswith(b"step,"):
+    if start.startswith(b"page,"):
         return CSV
     lines = [line.strip() for line in start.split(b"\n")]
     if any(line.startswith(b"motion512") for line in lines):
@@ -58,10 +58,14 @@ def _text_of(data: bytes, path: Path) -> str:
         raise FileError(f"{path}: not text (byte 0x{data[error.start]:02X} at {error.start})") from None
 
 
-def load(path: Path, bits: int = 10, base: Optional[Image] = None) -> Image:
+def load(path: Path, bits: int = 10, base: Optional[Image] = None, edited: bool = False) -> Image:
     """Reads any motion file. `bits`: 10 or 12, of an image or HEX file (text says it itself). `base`: gives what the
-    file cannot say (page 0 of a .mtn)."""
+    file cannot say (page 0 of a .mtn). `edited`: a .mtn with a wrong file checksum is taken as it is."""
     data = read_bytes(path)
+    return decode(data, path, bits, base, edited)
+
+
+def decode(data: bytes, path: Path, bits: int = 10, base: Optional[Image] = None, edited: bool = False) -> Image:
     kind = recognise(data, path)
     if kind == BINARY:
         return raw.from_bytes(data, bits)
@@ -74,15 +78,15 @@ def load(path: Path, bits: int = 10, base: Optional[Image] = None) -> Image:
     if kind == MTN:
         from m512 import mtn
 
-        return mtn.read(data, str(path), base)
+        return mtn.read(data, str(path), base, edited)
     from m512 import csvpage
 
     return csvpage.read(_text_of(data, path), str(path))
 
 
-def save(path: Path, image: Image, number: Optional[int] = None, force_mtn_version: str = "1.01") -> List[str]:
+def save(path: Path, image: Image, number: Optional[int] = None, mtn_version: str = "1.01") -> List[str]:
     """Writes an image in the format of the path's suffix; returns the losses. `number`: the page of a CSV."""
-    data, losses = encode(path, image, number, force_mtn_version)
+    data, losses = encode(path, image, number, mtn_version)
     write_bytes(path, data)
     return losses
 

@@ -192,7 +192,7 @@ class Reader:
 
     def _do_page(self, rest: List[Token]) -> None:
         self._count(rest, 1, 2, "page NUMBER [name]")
-        match = re.fullmatch(r"([0-9]+)(?:\.\.([0-9]+))?", rest[0].text)
+        match = re.fullmatch(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}))?", rest[0].text)
         if not match:
             raise WordError(f"page {rest[0]}: a number {self.first}..{self.end - 1} or a range 20..25")
         low, high = int(match.group(1)), int(match.group(2) or match.group(1))

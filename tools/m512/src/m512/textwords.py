@@ -115,13 +115,13 @@ def joints_of(text: str, names: dict) -> List[int]:
     """`7`, `1..6`, `1,3,5`, a joint name, or any of these joined by commas."""
     out = []
     for part in text.split(","):
-        match = re.fullmatch(r"([0-9]+)\.\.([0-9]+)", part)
+        match = re.fullmatch(r"([0-9]{1,9})\.\.([0-9]{1,9})", part)
         if match:
             low, high = int(match.group(1)), int(match.group(2))
             if low > high:
                 raise WordError(f"{part}: a range goes upwards")
             part_ids = list(range(low, min(high, 999) + 1))
-        elif re.fullmatch("[0-9]+", part):
+        elif re.fullmatch("[0-9]{1,9}", part):
             part_ids = [int(part)]
         elif part in names:
             part_ids = [names[part]]
@@ -135,7 +135,7 @@ def joints_of(text: str, names: dict) -> List[int]:
 
 def ticks(token: Token, what: str) -> int:
     """A byte of time: ticks of 1/128 s, or a decimal number with `s` or `ms`, rounded to the nearest tick."""
-    match = re.fullmatch(r"([0-9]+(?:\.[0-9]*)?|\.[0-9]+)(ms|s)", token.text)
+    match = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]*)?|\.[0-9]+)(ms|s)", token.text)
     if not match or token.quoted:
         return number(token, 0, 255, what)
     seconds = float(match.group(1)) / (1000 if match.group(2) == "ms" else 1)
@@ -150,7 +150,7 @@ def ticks(token: Token, what: str) -> int:
 
 def step_speed(token: Token) -> int:
     """A step's speed in speed base: units (256 = 720 degrees/s) or degrees per second with `dps`."""
-    match = re.fullmatch(r"([0-9]+(?:\.[0-9]*)?)dps", token.text)
+    match = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]*)?)dps", token.text)
     if not match:
         return number(token, 0, 255, "speed")
     value = int(float(match.group(1)) * SPEED_UNITS_PER_DPS + 0.5)
@@ -187,16 +187,16 @@ def position(text: str, before: int, pos_max: int) -> int:
     if text == ".":
         return before
     token = Token(text)
-    if text[0] in "~?":
+    if text[:1] in ("~", "?"):
         flag = POS_UNUSED if text[0] == "~" else POS_TORQUE_OFF
         return flag | number(Token(text[1:] or text), 0, 0x1FFF, f"the position after {text[0]}")
     if text[:2].lower() == "0x":
         return number(token, 0, 0xFFFF, "a raw word")
-    degrees = re.fullmatch(r"([+-]?[0-9]+(?:\.[0-9]*)?)deg", text)
+    degrees = re.fullmatch(r"([+-]?[0-9]{1,9}(?:\.[0-9]*)?)deg", text)
     if degrees:
         scale = UNITS_PER_DEGREE if pos_max == 1023 else 4096 / 360
         value = (pos_max + 1) // 2 + round(float(degrees.group(1)) * scale)
-    elif re.fullmatch(r"[+-][0-9]+", text):
+    elif re.fullmatch(r"[+-][0-9]{1,9}", text):
         if before & (POS_UNUSED | POS_TORQUE_OFF) or before > pos_max:
             raise WordError(f"{text}: there is no position to change")
         value = before + int(text)

@@ -11,6 +11,8 @@ from m512 import __version__
 # name -> (module, first line of help). The order is the order of `m512 --help`.
 COMMANDS = {
     "convert": ("files", "Convert motions between image, Intel HEX, .mtn, CSV and text."),
+    "pages": ("pages", "List, check, edit, merge and retime pages of a file or a board."),
+    "diff": ("files", "Say in words how two motion files (or boards) differ."),
 }
 
 

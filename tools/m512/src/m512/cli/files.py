@@ -17,6 +17,16 @@ def say(text: str) -> None:
     click.echo(text, err=True)
 
 
+def id_list(text):
+    """IDs of an option's value."""
+    from m512.textwords import WordError, joints_of
+
+    try:
+        return joints_of(text.replace(" ", ","), {})
+    except WordError as error:
+        raise click.UsageError(str(error)) from None
+
+
 def damaged_pages(image):
     return [(number, page.fault_text(image.kind)) for number, page in image.items() if page.fault(image.kind)]
 
@@ -26,21 +36,24 @@ Examples:
   m512 convert walk.m512 walk.bin           text to a 64 KiB image
   m512 convert robot.mtn robot.hex          RoboPlus to Intel HEX at 0x0E000
   m512 convert op3.bin op3.m512 --bits 12   12-bit image to text, as it is
-  m512 convert op3.bin cm5.bin --scale 10   scaled from 12 to 10 bits, with a report
+  m512 convert op3.bin cm5.bin --bits 12 --scale 10 --joints 1..20
+                                            scaled from 12 to 10 bits, with a report
   m512 convert lib.bin wave.csv --page 15   one page as a table""")
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("target", type=click.Path(path_type=Path))
 @click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of SOURCE (images do not tell).")
 @click.option("--scale", type=click.Choice(["10", "12"]), help="Scale positions to this resolution.")
+@click.option("--joints", help="Keep these IDs (1..20 or 1,3,5) and set all others unused.")
 @click.option("--pages", "count", type=click.Choice(["128", "256"]), help="Pages of the result (default: as SOURCE).")
 @click.option("--page", "number", help="The page (number or name) of a CSV.")
 @click.option("--onto", type=click.Path(path_type=Path), help="Motion file whose page 0 (trim) a .mtn takes over.")
 @click.option("--damaged", type=click.Choice(["ask", "keep", "drop"]), default="keep",
               help="Damaged pages: keep byte for byte, replace by empty ones, or refuse to go on.", show_default=True)
+@click.option("--edited", is_flag=True, help="Take a .mtn whose file checksum is wrong (edited by hand).")
 @click.option("--mtn-version", type=click.Choice(["1.00", "1.01"]), default="1.01", help="Version of a .mtn to write.")
 @click.option("--force", is_flag=True, help="Overwrite TARGET.")
 @click.option("--json", "as_json", is_flag=True, help="Report on stdout as JSON.")
-def convert(source, target, bits, scale, count, number, onto, damaged, mtn_version, force, as_json):
+def convert(source, target, bits, scale, joints, count, number, onto, damaged, edited, mtn_version, force, as_json):
     """Convert the motions in SOURCE to TARGET.
 
     The suffix of TARGET decides: .bin (raw image), .hex (Intel HEX), .mtn (RoboPlus), .csv (one page), .m512 (text).
@@ -48,7 +61,7 @@ def convert(source, target, bits, scale, count, number, onto, damaged, mtn_versi
     """
     if target.exists() and not force:
         raise RefusedError(f"{target} is there already (--force overwrites it)")
-    image = formats.load(source, int(bits), formats.load(onto) if onto else None)
+    image = formats.load(source, int(bits), formats.load(onto) if onto else None, edited)
     notes, losses = list(image.notes), []
     bad = damaged_pages(image)
     if bad and damaged == "ask":
@@ -57,12 +70,16 @@ def convert(source, target, bits, scale, count, number, onto, damaged, mtn_versi
         notes.append(f"page {page} is damaged ({why}): {'replaced by an empty page' if damaged == 'drop' else 'kept as it is'}")
         if damaged == "drop":
             image[page] = Page()
+    if joints:
+        from m512.scale12 import keep_joints
+
+        losses += keep_joints(image, id_list(joints))
     if scale and int(scale) != image.bits:
         from m512 import scale12
 
         image, report = scale12.scaled(image, int(scale))
         losses += report
-    wanted = int(count) if count else _fitting(image, target)
+    wanted = int(count) if count else _fitting(image, source, target)
     if wanted != image.end:
         image, lost = image.resized(wanted)
         losses += lost
@@ -77,11 +94,11 @@ def convert(source, target, bits, scale, count, number, onto, damaged, mtn_versi
         say(f"loss: {loss}")
 
 
-def _fitting(image, target: Path) -> int:
-    """Pages of the result when nothing was said: as the source has; a .mtn has always 255."""
-    if formats.BY_SUFFIX.get(target.suffix.lower()) == formats.MTN:
-        return 256
-    return image.end
+def _fitting(image, source: Path, target: Path) -> int:
+    """Pages of the result when nothing was said: as the source has. A .mtn always has 255, whatever the robot has: one
+    is made from what there is, and read for a board of 128."""
+    from_mtn, to_mtn = (formats.BY_SUFFIX.get(path.suffix.lower()) == formats.MTN for path in (source, target))
+    return 128 if from_mtn and not to_mtn else image.end
 
 
 @click.command(epilog="""\b

@@ -1,0 +1,288 @@
+# SPDX-License-Identifier: MIT
+"""`m512 pages FILE ACTION`: looking at pages and changing them."""
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from pathlib import Path
+
+import click
+
+from m512 import formats
+from m512.cli.files import id_list, say
+from m512.errors import EXIT_DIFFERENT, RefusedError
+from m512.page import Page
+
+
+class Source:
+    """The file or board that an action works on; read when the action first asks."""
+
+    def __init__(self, word: str, bits: int):
+        self.word, self.bits = word, bits
+
+    @cached_property
+    def board(self) -> bool:
+        from m512.ports import is_port
+
+        return is_port(self.word)
+
+    @cached_property
+    def image(self):
+        if self.board:
+            from m512 import boards
+
+            return boards.read_motions(self.word)
+        image = formats.load(Path(self.word), self.bits)
+        for note in image.notes:
+            say(f"note: {note}")
+        return image
+
+    def store(self, output, in_place, remarks):
+        """Writes the changed image where it was asked for."""
+        for remark in remarks:
+            say(f"note: {remark}")
+        if output:
+            losses = formats.save(Path(output), self.image)
+            for loss in losses:
+                say(f"loss: {loss}")
+        elif self.board:
+            from m512 import boards
+
+            boards.write_motions(self.word, self.image)
+        elif in_place:
+            formats.save(Path(self.word), self.image)
+        else:
+            raise RefusedError("say where the result goes: -o FILE, or --in-place"
+                               + (" (which rewrites the text without its comments and poses)"
+                                  if self.word.endswith(".m512") else ""))
+
+
+def changes(function):
+    """Options of the actions that change pages."""
+    function = click.option("-o", "--output", type=click.Path(), help="Write the result here.")(function)
+    function = click.option("--in-place", is_flag=True, help="Write the result back to the file.")(function)
+    return click.pass_obj(function)
+
+
+replacing = click.option("--replace", is_flag=True, help="Overwrite a page that is not empty.")
+
+
+@click.group(epilog="""\b
+Examples:
+  m512 pages lib.bin list
+  m512 pages lib.bin show walk_loop
+  m512 pages lib.bin merge other.mtn 3 5:20 -o new.bin
+  m512 pages /dev/ttyUSB0 list --json""")
+@click.argument("source", metavar="FILE|PORT")
+@click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of an image file.")
+@click.pass_context
+def pages(context, source, bits):
+    """List, check, edit, merge, mirror and retime the pages of a motion file, or of a board on a PORT.
+
+    Pages are given by number or name. Actions that change something want -o FILE or --in-place.
+    """
+    context.obj = Source(source, int(bits))
+
+
+@pages.command("list", epilog="Example: m512 pages lib.bin list --all")
+@click.option("--all", "everything", is_flag=True, help="Empty pages too.")
+@click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
+@click.pass_obj
+def list_(source, everything, as_json):
+    """Number, name, steps, play time, links and codes of all pages."""
+    from m512.pagelist import describe, table
+
+    rows = [describe(source.image, n, page) for n, page in source.image.items()
+            if everything or not page.is_empty or page.fault(source.image.kind)]
+    click.echo(json.dumps(rows, indent=2) if as_json else table(rows))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin show walk_loop")
+@click.argument("page", nargs=-1, required=True)
+@click.pass_obj
+def show(source, page):
+    """Print pages in the text format."""
+    from m512.textwrite import Style, is_motion, page_text, raw_text
+
+    style = Style(source.image)
+    for word in page:
+        number = source.image.find(word)
+        writer = page_text if is_motion(source.image[number], source.image) else raw_text
+        click.echo(writer(source.image[number], (number, number), style))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin check || echo look at it")
+@click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
+@click.pass_obj
+def check(source, as_json):
+    """Say what is wrong: damaged pages, links to nothing, steps without time. Exit code 3 when something is."""
+    from m512 import pageops
+
+    found = pageops.check(source.image)
+    if as_json:
+        click.echo(json.dumps([{"page": n, "problem": text} for n, text in found], indent=2))
+    else:
+        for number, text in found:
+            title = source.image[number].title
+            click.echo(f"page {number}" + (f" \"{title}\"" if title else "") + f": {text}")
+        if not found:
+            click.echo(f"{sum(not page.is_empty for _, page in source.image.items())} pages in use, all good")
+    raise SystemExit(EXIT_DIFFERENT if found else 0)
+
+
+@pages.command(epilog="Example: m512 pages lib.bin rename 12 walk_loop --in-place")
+@click.argument("page")
+@click.argument("name")
+@changes
+def rename(source, page, name, output, in_place):
+    """Give a page another name."""
+    from m512 import pageops
+
+    source.store(output, in_place, pageops.rename(source.image, source.image.find(page), name))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin copy 12 40 --in-place")
+@click.argument("page")
+@click.argument("target", type=int)
+@replacing
+@changes
+def copy(source, page, target, replace, output, in_place):
+    """Copy a page to another number."""
+    from m512 import pageops
+
+    source.store(output, in_place, pageops.copy(source.image, source.image.find(page), target, replace))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin delete 40 old_wave --in-place")
+@click.argument("page", nargs=-1, required=True)
+@changes
+def delete(source, page, output, in_place):
+    """Make pages empty; says which pages still link to them."""
+    from m512 import pageops
+
+    source.store(output, in_place, pageops.delete(source.image, [source.image.find(word) for word in page]))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin renumber walk_loop 30 --in-place")
+@click.argument("page")
+@click.argument("target", type=int)
+@click.option("--swap", is_flag=True, help="Exchange with a page that is there.")
+@changes
+def renumber(source, page, target, swap, output, in_place):
+    """Move a page to another number; all links follow."""
+    from m512 import pageops
+
+    source.store(output, in_place, pageops.renumber(source.image, source.image.find(page), target, swap))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin extract walk_start walk_loop walk_end -o walk.m512")
+@click.argument("page", nargs=-1, required=True)
+@changes
+def extract(source, page, output, in_place):
+    """Keep these pages only, at their numbers."""
+    numbers = {source.image.find(word) for word in page}
+    remarks = []
+    for number, here in source.image.items():
+        if number not in numbers:
+            source.image[number] = Page()
+        else:
+            remarks += [f"page {number} \"{here.title}\": {link} {getattr(here, link)} is left behind"
+                        for link in Page.LINKS if getattr(here, link) not in numbers | {0}]
+    source.store(output, in_place, remarks)
+
+
+@pages.command(epilog="""\b
+Examples:
+  m512 pages lib.bin merge other.mtn all -o new.bin
+  m512 pages lib.bin merge other.bin 3 wave:20 -o new.bin""")
+@click.argument("other", type=click.Path(path_type=Path))
+@click.argument("page", nargs=-1, required=True)
+@replacing
+@changes
+def merge(source, other, page, replace, output, in_place):
+    """Take pages from OTHER: `3` to its own number, `3:20` or `wave:20` to number 20, `all` that are not empty.
+
+    Links among the pages taken follow them.
+    """
+    from m512 import pageops
+
+    image = formats.load(other, source.bits)
+    moves = []
+    for word in page:
+        if word == "all":
+            moves += [(n, n) for n, here in image.items() if n and not here.is_empty]
+            continue
+        name, colon, target = word.rpartition(":")
+        if not colon or not target.isdigit():
+            name, target = word, ""
+        number = image.find(name)
+        moves.append((number, int(target) if target else number))
+    source.store(output, in_place, pageops.place(source.image, image, moves, replace))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of wave, legs of walk_loop)")
+@click.argument("base")
+@click.argument("other")
+@click.argument("joints")
+@click.argument("target", type=int)
+@click.option("--from", "other_file", type=click.Path(path_type=Path), help="File that holds OTHER.")
+@replacing
+@changes
+def combine(source, base, other, joints, target, other_file, replace, output, in_place):
+    """Page TARGET becomes BASE with the JOINTS (1..6 or 1,3,5) of page OTHER: upper body here, lower body there."""
+    from m512 import pageops
+
+    donor = formats.load(other_file, source.bits) if other_file else source.image
+    source.store(output, in_place, pageops.combine(source.image, source.image.find(base), donor, donor.find(other),
+                                                   id_list(joints), target, replace))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin mirror kick_left 41 --in-place")
+@click.argument("page")
+@click.argument("target", type=int, required=False)
+@click.option("--pairs", default="1-2,3-4,5-6,7-8,9-10,11-12,13-14,15-16,17-18", show_default=True,
+              help="Joints that change places; a single one is turned round.")
+@replacing
+@changes
+def mirror(source, page, target, pairs, replace, output, in_place):
+    """Left for right: paired joints change places, position p becomes 1024 - p."""
+    from m512 import pageops
+
+    table = {}
+    for pair in pairs.split(","):
+        ids = [joint for part in pair.split("-") for joint in id_list(part)]
+        if len(ids) not in (1, 2) or any(joint in table for joint in ids):
+            raise click.UsageError(f"{pair}: pairs are 1-2,3-4,19; no joint twice")
+        table[ids[0]], table[ids[-1]] = ids[-1], ids[0]
+    source.store(output, in_place, pageops.mirror(source.image, source.image.find(page), table, target, replace))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin retime bow 1.5 --in-place   (takes half as long again)")
+@click.argument("page")
+@click.argument("factor", type=float)
+@changes
+def retime(source, page, factor, output, in_place):
+    """Make a page take FACTOR times as long (step times, pauses, ramp)."""
+    from m512 import pageops
+
+    source.store(output, in_place, pageops.retime(source.image, source.image.find(page), factor))
+
+
+@pages.command(epilog="Example: m512 pages lib.bin time walk_start")
+@click.argument("page")
+@click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
+@click.pass_obj
+def time(source, page, as_json):
+    """Play time of a page and of the chain of pages that follows it."""
+    from m512 import pageops
+
+    parts, end = pageops.chain(source.image, source.image.find(page))
+    total = sum(seconds for _, _, seconds in parts)
+    if as_json:
+        click.echo(json.dumps({"pages": [{"page": n, "repeat": r, "seconds": round(s, 4)} for n, r, s in parts],
+                               "seconds": round(total, 4), "end": end}, indent=2))
+        return
+    for number, repeat, seconds in parts:
+        times = f" ({repeat} times)" if repeat != 1 else ""
+        click.echo(f"page {number:3} {source.image[number].title:13} {seconds:8.3f} s{times}")
+    click.echo(f"{'all':22} {total:8.3f} s, {end}")

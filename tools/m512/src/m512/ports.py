@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+"""Serial ports: which there are, and whether a word names one. Opening them is link.py's business."""
+from __future__ import annotations
+
+import os
+import re
+import stat
+from typing import List, Tuple
+
+from m512.errors import PortError
+
+
+def is_port(word: str) -> bool:
+    """Whether a word means a port rather than a file: a device, COM3, or a URL such as socket://host:port."""
+    if re.match(r"(COM[0-9]+|[a-z0-9]+://.*)\Z", word, re.I) or word.startswith(("/dev/", "\\\\.\\")):
+        return True
+    try:
+        return stat.S_ISCHR(os.stat(word).st_mode)
+    except (OSError, ValueError):
+        return False
+
+
+def available() -> List[Tuple[str, str]]:
+    """(device, description) of the serial ports of this computer, USB adapters first."""
+    from serial.tools import list_ports
+
+    ports = [(port.device, port.description if port.description not in (None, "n/a") else "", port.vid is not None)
+             for port in list_ports.comports()]
+    return [(device, text) for device, text, _ in sorted(ports, key=lambda port: (not port[2], port[0]))]
+
+
+def pick(word: str = "") -> str:
+    """The port that a word means: itself, part of a name or description, or the only one there is."""
+    if word and is_port(word):
+        return word
+    ports = available()
+    hits = [(device, text) for device, text in ports if word.lower() in f"{device} {text}".lower()]
+    if len(hits) == 1:
+        return hits[0][0]
+    listed = "".join(f"\n  {device}  {text}" for device, text in ports)
+    if word and not hits:
+        raise PortError(f"no serial port is called {word!r}" + (f"; there are:{listed}" if ports else "; there are none"))
+    if not hits:
+        raise PortError("no serial port found. Plug in the adapter, or name it (m512 ... --port /dev/ttyUSB0)")
+    raise PortError(f"several serial ports; say which with --port:{listed}")

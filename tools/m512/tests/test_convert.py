@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: MIT
+"""`m512 convert` and the file formats behind it: figures with real files, losses, and what happens to bad input."""
+import json
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from m512 import formats, mtn, scale12
+from m512.errors import FileError
+from m512.image import Image, from_bytes, from_hex, to_hex
+from m512.page import EMPTY, Page
+
+
+def test_convert_mtn_to_image_equals_the_real_robot_image(m512, data, tmp_path):
+    out = tmp_path / "out.bin"
+    assert m512("convert", data("bio_gp_humanoid_kr.mtn"), out).exit_code == 0
+    assert out.read_bytes() == data("bio_gp_humanoid_kr_128p.bin").read_bytes()
+
+
+@pytest.mark.parametrize("name", ["bio_gp_humanoid_kr_128p.bin", "hros1_10bit_256p.bin", "op3_12bit_256p.bin",
+                                  "op3_derived_10bit_256p.bin", "synthetic_edge_128p.bin"])
+@pytest.mark.parametrize("suffix", [".m512", ".hex"])
+def test_convert_every_image_to_text_and_hex_and_back(m512, data, tmp_path, name, suffix):
+    middle, out = tmp_path / f"x{suffix}", tmp_path / "y.bin"
+    bits = "12" if "12bit" in name else "10"
+    assert m512("convert", data(name), middle, "--bits", bits).exit_code == 0
+    assert m512("convert", middle, out).exit_code == 0
+    assert out.read_bytes() == data(name).read_bytes()
+
+
+def test_convert_mtn_to_image_and_back_loses_two_rates(m512, data, tmp_path):
+    image, again = tmp_path / "x.bin", tmp_path / "y.mtn"
+    result = m512("convert", data("bio_gp_humanoid_kr.mtn"), image, "--pages", "256")
+    noted = [line for line in result.stderr.splitlines() if "rate 3 becomes page speed 10" in line]
+    assert len(noted) == 2
+    assert m512("convert", image, again).stderr == ""
+    before, after = (path.read_bytes()[:-2].split(b"\n") for path in (data("bio_gp_humanoid_kr.mtn"), again))
+    different = [(a, b) for a, b in zip(before, after) if a != b]
+    assert len(before) == len(after) and len(different) == 2
+    assert [a.replace(b"3.0", b"3.2") for a, _ in different] == [b for _, b in different]
+
+
+def test_convert_12_bit_scaled_equals_the_derived_file(data):
+    image = from_bytes(data("op3_12bit_256p.bin").read_bytes(), 12)
+    dropped = scale12.keep_joints(image, range(1, 21))
+    scaled, report = scale12.scaled(image, 10)
+    assert "joints left out (IDs 0 21" in dropped[0]
+    cut = sum(int(line.split(":")[1].split()[0]) for line in report if "cut at the end" in line)
+    assert cut == 40      # the count stated by whoever made the derived file
+    derived = from_bytes(data("op3_derived_10bit_256p.bin").read_bytes())
+    compared = 0
+    for number, page in derived.items():
+        for step in range(page.steps):
+            for joint in range(1, 21):
+                if page.word(step, joint) < 1024:
+                    assert scaled[number].word(step, joint) == page.word(step, joint), (number, step, joint)
+                    compared += 1
+    assert compared > 2000
+
+
+def test_convert_12_bit_there_and_back_is_within_rounding():
+    image = Image.empty()
+    image[1].steps = 1
+    for joint in range(31):
+        image[1].set_word(0, joint, joint * 33)
+    image[1].seal()
+    up, _ = scale12.scaled(image, 12)
+    down, _ = scale12.scaled(up, 10)
+    assert down.to_bytes() == image.to_bytes() and up[1].word(0, 0) == 341   # 2048 - 512 / 0.3
+
+
+# .mtn by hand
+
+def mtn_file(pages, version="1.01", enable=range(1, 19), comma=False, trailer=None):
+    lines = ["type=motion", f"version={version}", "enable=" + " ".join(str(int(j in enable)) for j in range(26))]
+    if version.endswith("1"):
+        lines.append("motor_type=" + " ".join("0" * 26))
+    for page in pages:
+        lines += ["page_begin", f"name={page.get('name', '')}", "compliance=" + " ".join("5" * 26),
+                  f"play_param={page.get('param', '0 0 1 1.0 32')}"]
+        lines += ["step=" + " ".join(["512"] * 26) + f" {step}" for step in page.get("steps", [])]
+        lines += ["page_end"]
+    body = "\n".join(lines) + "\n"
+    body = b"\xef\xbb\xbf" + (body.replace(".", ",") if comma else body).encode()
+    return body + (mtn.file_checksum(body) if trailer is None else trailer)
+
+
+def test_mtn_bytes_of_a_page_are_where_the_specification_says():
+    image = mtn.read(mtn_file([{"name": "wave", "param": "3 4 2 1.5 20", "steps": ["0.080 0.400"]}]))
+    data = image[1].data
+    assert data[:14] == b"wave" + bytes(10) and data[15:17] == b"\x02\x0a"
+    assert [data[20], data[22], data[24], data[25], data[26], data[63]] == [1, 21, 20, 3, 4, 0x55]
+    assert data[32:58] == bytes([0x55] * 26) and data[58:63] == bytes(5)
+    assert image[1].word(0, 1) == 512 and image[1].word(0, 0) == image[1].word(0, 25) == 0x4200
+    assert image[1].word(0, 26) == image[1].word(6, 30) == 0 and image[1].word(1, 3) == 0x4200
+    assert [data[64 + 62], data[64 + 63]] == [10, 50] and sum(data) % 256 == 0xFF
+    assert bytes(image[0]) == EMPTY
+
+
+def test_mtn_decimal_commas_and_version_100():
+    one = mtn.read(mtn_file([{"steps": ["0.080 0.400"]}]))
+    assert mtn.read(mtn_file([{"steps": ["0.080 0.400"]}], comma=True)).to_bytes() == one.to_bytes()
+    assert mtn.read(mtn_file([{"steps": ["0.080 0.400"]}], version="1.00")).to_bytes() == one.to_bytes()
+
+
+def test_mtn_page_0_comes_from_the_image_it_goes_onto(m512, data, tmp_path):
+    trim, out = Image.empty(), tmp_path / "y.bin"
+    trim[0].set_word(2, 5, 9)
+    trim[0].seal()
+    (tmp_path / "trim.bin").write_bytes(trim.to_bytes())
+    m512("convert", data("bio_gp_humanoid_kr.mtn"), out, "--onto", tmp_path / "trim.bin")
+    assert out.read_bytes()[:512] == bytes(trim[0])
+
+
+def test_mtn_pages_beyond_127_are_a_listed_loss(m512, tmp_path):
+    file = tmp_path / "x.mtn"
+    file.write_bytes(mtn_file([{}] * 199 + [{"name": "far", "steps": ["0 1"]}] + [{}] * 55))
+    result = m512("convert", file, tmp_path / "y.bin")
+    assert 'loss: page 200 "far" does not fit into 128 pages' in result.stderr and result.exit_code == 0
+
+
+def test_mtn_checksum_wrong_or_missing(m512, tmp_path):
+    for data in (mtn_file([{}], trailer=b"xx"), mtn_file([{"steps": ["0 1"]}], trailer=b"")):
+        (tmp_path / "x.mtn").write_bytes(data)
+        result = m512("convert", tmp_path / "x.mtn", tmp_path / "y.bin", "--force")
+        assert result.exit_code == 4 and "--edited takes it as it is" in result.stderr
+        assert m512("convert", tmp_path / "x.mtn", tmp_path / "y.bin", "--edited", "--force").exit_code == 0
+
+
+@pytest.mark.parametrize("change, says", [
+    (lambda p: p.update(param="0 0 1 0 32"), "rate 0 gives no page speed"),
+    (lambda p: p.update(param="0 0 1 1.0"), "play_param has 4 values, not 5"),
+    (lambda p: p.update(param="0 0 256 1.0 32"), "repeat 256 is not a number 0..255"),
+    (lambda p: p.update(steps=["0 2.5"]), "time 2.5 s is not 0..2.04 s"),
+    (lambda p: p.update(steps=["0"]), "step has 27 values, not 28"),
+    (lambda p: p.update(steps=["0 x"]), "a value is not a number"),
+    (lambda p: p.update(steps=["0 1"] * 8), '"page_end" expected'),
+])
+def test_mtn_error_names_the_line(change, says):
+    page = {"steps": ["0 1"]}
+    change(page)
+    with pytest.raises(FileError, match="x.mtn:[0-9]+: ") as caught:
+        mtn.read(mtn_file([page]), "x.mtn")
+    assert says in str(caught.value)
+
+
+def test_mtn_losses_are_named():
+    image = Image.empty()
+    page = image[5]
+    page.steps, page.schedule, page.code, page.link1_page, page.link1_code = 1, 0, 3, 7, 4
+    page.name, page.speed = b"a\nb", 48
+    page.set_compliance(2, 0x57)
+    page.set_word(0, 1, 300)
+    page.set_word(0, 28, 400)
+    page.seal()
+    image[6].steps = 1
+    image[6].set_word(0, 2, 1)
+    image[6].seal()
+    image[7].data[100] ^= 1
+    losses = "\n".join(mtn.write(image)[1])
+    for text in ("the name becomes 'ab'", "speed base", "play code 3", "linked page 7 on code 4", "positions of IDs 28",
+                 "page speed 48 is no rate", "clockwise", "page 6: not used in some steps, but would be driven there: IDs 1",
+                 "page 7 is damaged", "no effect on playing"):
+        assert text in losses
+
+
+def test_mtn_every_page_speed_reads_back_or_is_a_loss():
+    for speed in range(1, 256):
+        rate = mtn.rate_of(speed)
+        assert rate is None or 32 // rate == speed
+    assert [float(mtn.rate_of(s)) for s in (32, 21, 15, 64, 26)] == [1.0, 1.5, 2.1, 0.5, 1.2]
+
+
+# CSV and Intel HEX
+
+def test_csv_of_a_page_and_back(m512, tmp_path):
+    image = Image.empty()
+    image[9].data[:4] = b"nod\0"
+    image[9].steps, image[9].code, image[9].next = 2, 5, 9
+    for step in range(2):
+        image[9].set_word(step, 1, 600 + step)
+        image[9].set_word(step, 2, 0x4000 + 77)
+        image[9].set_time(step, 50)
+    image[9].seal()
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    assert m512("convert", tmp_path / "x.bin", tmp_path / "p.csv", "--page", "nod").stderr == ""
+    assert m512("convert", tmp_path / "p.csv", tmp_path / "y.bin").exit_code == 0
+    assert (tmp_path / "y.bin").read_bytes() == image.to_bytes()
+
+
+def test_hex_addresses_of_both_kinds():
+    assert to_hex(Image.empty(128)).startswith(":020000040000FA\n:10E000")
+    assert ":020000040001F9\n:10E000" in to_hex(Image.empty(256))
+
+
+def test_hex_of_a_few_pages_and_of_other_things():
+    from intelhex import IntelHex
+    from io import StringIO
+
+    def text(address, data):
+        file, out = IntelHex(), StringIO()
+        file.frombytes(data, offset=address)
+        file.write_hex_file(out)
+        return out.getvalue()
+
+    image = from_hex(text(0xE000 + 512 * 5, bytes(Page().seal()) * 2))
+    assert len(image.pages) == 128 and "2 of 128" in image.notes[0]
+    with pytest.raises(FileError, match="no motion area"):
+        from_hex(text(0, b"abc"))
+    with pytest.raises(FileError, match="whole 512-byte pages"):
+        from_hex(text(0xE000, b"abc"))
+    with pytest.raises(FileError, match="not a good Intel HEX"):
+        from_hex(":00000001FE\n")
+
+
+# Bad input: always a sentence and exit code 4, never a traceback (the fixture fails on other exceptions)
+
+def files_of_every_kind(data_of):
+    image = Image.empty()
+    image[1].steps = 1
+    image[1].set_word(0, 1, 5)
+    image[1].seal()
+    return {".bin": image.to_bytes(), ".hex": to_hex(image).encode(), ".mtn": mtn_file([{"steps": ["0 1"]}] * 3),
+            ".m512": b"motion512 1\npage 1 a\nstep 5 | 1:5\n",
+            ".csv": formats.encode(data_of / "x.csv", image)[0]}
+
+
+@pytest.mark.parametrize("suffix", [".bin", ".hex", ".mtn", ".m512", ".csv"])
+def test_bad_input_truncated_anywhere(tmp_path, suffix):
+    whole = files_of_every_kind(tmp_path)[suffix]
+    cuts = sorted({0, 1, 2, 3, len(whole) - 1} | set(range(0, len(whole), max(1, len(whole) // 60))))
+    for cut in cuts:
+        try:
+            formats.decode(whole[:cut], tmp_path / f"x{suffix}")
+        except FileError as error:
+            assert str(error)
+
+
+@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.sampled_from([".hex", ".mtn", ".m512", ".csv"]), st.integers(0, 10**6), st.integers(0, 255), st.booleans(),
+       st.booleans())
+def test_bad_input_any_byte_changed(tmp_path, suffix, at, value, insert, repaired):
+    whole = bytearray(files_of_every_kind(tmp_path)[suffix])
+    at %= len(whole)
+    whole[at:at + (0 if insert else 1)] = bytes([value])
+    if suffix == ".mtn" and repaired:
+        whole[-2:] = mtn.file_checksum(bytes(whole[:-2]))
+    try:
+        formats.decode(bytes(whole), tmp_path / f"x{suffix}")
+    except FileError as error:
+        assert str(error)
+
+
+@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.binary(max_size=600), st.sampled_from(["", ":", "type=motion\n", "motion512 1\n", "page,1\n"]),
+       st.sampled_from([".bin", ".hex", ".mtn", ".m512", ".csv", ".xyz"]))
+def test_bad_input_any_bytes(tmp_path, data, start, suffix):
+    try:
+        formats.decode(start.encode() + data, tmp_path / f"x{suffix}")
+    except FileError as error:
+        assert str(error)
+
+
+def test_convert_refuses_what_is_there_and_says_what_it_did(m512, tmp_path):
+    (tmp_path / "x.bin").write_bytes(bytes(65536))
+    result = m512("convert", tmp_path / "x.bin", tmp_path / "x.bin")
+    assert result.exit_code == 5 and "--force" in result.stderr
+    assert m512("convert", tmp_path / "no.bin", tmp_path / "y.bin").exit_code == 4
+    result = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", "--damaged", "ask")
+    assert result.exit_code == 5 and "page 0: checksum is 0x00 and should be 0xFF" in result.stderr
+    result = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", "--damaged", "drop", "--json")
+    assert json.loads(result.stdout)["damaged"] == list(range(128)) and (tmp_path / "y.bin").read_bytes() == EMPTY * 128
+    assert m512("convert", tmp_path / "x.bin", tmp_path / "y.txt").exit_code == 4

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: MIT
+"""`m512 pages` and `m512 diff`: what actions do to bytes, what they refuse, what they say."""
+import json
+
+import pytest
+
+from m512 import pageops
+from m512.difference import images
+from m512.image import Image, from_bytes
+from m512.page import EMPTY, Page
+from m512.text import read_text
+
+TEXT = """motion512 1
+row 1..4
+page 1 stand
+  step 1s | 512 512 512 512
+page 3 walk
+  code U; repeat 2; next self; exit 5; link1 L 7
+  softness 5 1:7
+  step 50 | 400 500 600 700
+  step 50 pause 20 | 410 510 - 710
+page 5 stop
+  step 25 | 512 512 512 512
+page 7 left
+  next walk
+  step 25 | 100 200 300 400
+"""
+
+
+@pytest.fixture
+def lib(tmp_path):
+    path = tmp_path / "lib.bin"
+    path.write_bytes(read_text(TEXT).to_bytes())
+    return path
+
+
+def image(path):
+    return from_bytes(path.read_bytes())
+
+
+def words(page, step=0):
+    return [page.word(step, joint) for joint in (1, 2, 3, 4)]
+
+
+def test_pages_list_as_table_and_json(m512, lib):
+    out = m512("pages", lib, "list").stdout
+    assert [line.split()[0] for line in out.splitlines()] == ["page", "1", "3", "5", "7"]
+    assert "next 3  exit 5  link1(L) 7" in out
+    rows = json.loads(m512("pages", lib, "list", "--json").stdout)
+    assert rows[1]["name"] == "walk" and rows[1]["seconds"] == round(120 / 128, 3) and rows[1]["links"]["link1"] == 7
+
+
+def test_pages_show_is_the_text_format(m512, lib):
+    out = m512("pages", lib, "show", "walk").stdout
+    assert "page 3 walk" in out and "link1 L left" in out and "pause 20" in out
+
+
+def test_pages_check_names_what_is_wrong(m512, lib):
+    assert m512("pages", lib, "check").exit_code == 0
+    broken = image(lib)
+    broken[5] = Page()
+    broken[7].data[100] ^= 1
+    lib.write_bytes(broken.to_bytes())
+    result = m512("pages", lib, "check")
+    assert result.exit_code == 3
+    assert 'page 3 "walk": exit leads to page 5, which has no action' in result.stdout
+    assert "page 7" in result.stdout and "damaged: checksum is" in result.stdout
+
+
+def test_pages_rename(m512, lib):
+    assert m512("pages", lib, "rename", "walk", "march", "--in-place").exit_code == 0
+    assert image(lib)[3].name == b"march" and not image(lib)[3].fault()
+    assert m512("pages", lib, "rename", "march", "much too long a name", "--in-place").exit_code == 4
+
+
+def test_pages_copy_keeps_self_links_on_the_copy(m512, lib):
+    assert m512("pages", lib, "copy", "walk", "20", "--in-place").exit_code == 0
+    assert image(lib)[20].next == 20 and image(lib)[20].exit == 5 and image(lib)[3].next == 3
+    result = m512("pages", lib, "copy", "1", "3", "--in-place")
+    assert result.exit_code == 5 and "is not empty" in result.stderr
+
+
+def test_pages_delete_tells_who_still_links_there(m512, lib):
+    result = m512("pages", lib, "delete", "left", "--in-place")
+    assert bytes(image(lib)[7]) == EMPTY and 'page 3 "walk" still links to page 7 (link1_page)' in result.stderr
+
+
+def test_pages_renumber_takes_all_links_along(m512, lib):
+    assert m512("pages", lib, "renumber", "walk", "30", "--in-place").exit_code == 0
+    now = image(lib)
+    assert bytes(now[3]) == EMPTY and now[30].next == 30 and now[7].next == 30 and not now[7].fault()
+    assert m512("pages", lib, "renumber", "walk", "7", "--in-place").exit_code == 5
+    assert m512("pages", lib, "renumber", "walk", "7", "--swap", "--in-place").exit_code == 0
+    now = image(lib)
+    assert now[7].name == b"walk" and now[7].next == 7 and now[7].link1_page == 30 and now[30].next == 7
+
+
+def test_pages_extract_and_merge_with_links(m512, lib, tmp_path):
+    assert m512("pages", lib, "extract", "walk", "left", "-o", tmp_path / "two.m512").stderr == \
+        'note: page 3 "walk": exit 5 is left behind\n'
+    (tmp_path / "new.bin").write_bytes(EMPTY * 128)
+    result = m512("pages", tmp_path / "new.bin", "merge", tmp_path / "two.m512", "walk:40", "left:41", "--in-place")
+    now = image(tmp_path / "new.bin")
+    assert now[40].next == 40 and now[40].link1_page == 41 and now[41].next == 40 and now[40].exit == 5
+    assert 'page 40 "walk": exit 5 is not among the pages taken' in result.stderr
+    assert m512("pages", tmp_path / "new.bin", "merge", lib, "all", "--in-place").exit_code == 0
+    assert image(tmp_path / "new.bin")[5].name == b"stop"
+
+
+def test_pages_combine_upper_and_lower_body(m512, lib):
+    assert m512("pages", lib, "combine", "walk", "left", "1..2", "50", "--in-place").exit_code == 0
+    page = image(lib)[50]
+    assert words(page, 0) == [100, 200, 600, 700] and words(page, 1) == [0x4000, 0x4000, 0x4000, 710]
+    assert page.compliance(1) == 0x55 and image(lib)[3].compliance(1) == 0x77
+
+
+def test_pages_mirror(m512, lib):
+    assert m512("pages", lib, "mirror", "walk", "60", "--in-place").exit_code == 0
+    page = image(lib)[60]
+    assert words(page, 0) == [524, 624, 324, 424] and words(page, 1) == [514, 614, 314, 0x4000]
+    assert (page.compliance(1), page.compliance(2)) == (0x55, 0x77)
+    m512("pages", lib, "mirror", "60", "--in-place")
+    assert words(image(lib)[60], 0) == [400, 500, 600, 700]
+
+
+def test_pages_retime_and_time(m512, lib):
+    result = m512("pages", lib, "retime", "walk", "1.5", "--in-place")
+    page = image(lib)[3]
+    assert [page.time(0), page.time(1), page.pause(1), page.accel] == [75, 75, 30, 48]
+    assert "0.938 s -> 1.406 s" in result.stderr
+    assert m512("pages", lib, "retime", "walk", "9", "--in-place").exit_code == 5
+    out = json.loads(m512("pages", lib, "time", "left", "--json").stdout)
+    assert [p["page"] for p in out["pages"]] == [7, 3] and out["end"] == "goes on with page 3 for ever"
+    assert out["pages"][1]["seconds"] == pytest.approx(2 * 180 / 128, abs=0.01)
+
+
+def test_pages_actions_want_a_place_for_the_result(m512, lib):
+    before = lib.read_bytes()
+    assert m512("pages", lib, "rename", "walk", "x").exit_code == 5
+    assert lib.read_bytes() == before
+
+
+def test_pages_unknown_and_ambiguous_names(m512, lib):
+    assert "no page is called 'fly'" in m512("pages", lib, "show", "fly").stderr
+    m512("pages", lib, "copy", "walk", "20", "--in-place")
+    assert "not unique: pages 3, 20" in m512("pages", lib, "show", "walk").stderr
+
+
+def test_pages_damaged_pages_are_not_worked_on(lib):
+    broken = image(lib)
+    broken[3].data[70] ^= 1
+    with pytest.raises(Exception, match="page 3 is damaged"):
+        pageops.copy(broken, 3, 40)
+
+
+def test_pages_help_of_every_action_has_an_example(m512):
+    from m512.cli.pages import pages
+
+    for name in pages.commands:
+        out = m512("pages", "x", name, "--help").stdout
+        assert "Example" in out, name
+
+
+# diff
+
+def test_diff_says_where_and_what(m512, lib, tmp_path):
+    new = tmp_path / "new.m512"
+    new.write_text(TEXT.replace("400 500 600 700", "400 530 600 -").replace("pause 20", "pause 30")
+                   .replace("page 5 stop", "page 6 stop").replace("code U", "code D").replace("exit 5", "exit 6"))
+    result = m512("diff", lib, new)
+    assert result.exit_code == 3
+    assert result.stdout.splitlines() == [
+        'page 3 "walk": exit 5 -> 6', 'page 3 "walk": code U -> D', 'page 3 "walk", step 0, ID 2: 500 -> 530 (+30)',
+        'page 3 "walk", step 0, ID 4: 700 -> -', 'page 3 "walk", step 1: pause 20 -> 30',
+        'page 5 "stop": 1 step -> empty', 'page 6 "stop": empty -> 1 step']
+    assert m512("diff", lib, lib).exit_code == 0
+    rows = json.loads(m512("diff", lib, new, "--json").stdout)
+    assert rows[2] == {"page": 3, "name": "walk", "what": "", "before": "500", "after": "530", "step": 0, "joint": 2}
+
+
+def test_diff_finds_every_single_byte():
+    a = read_text(TEXT)
+    for at in range(512):
+        b = from_bytes(a.to_bytes())
+        b[3].data[at] ^= 1
+        assert images(a, b), at
+
+
+def test_diff_images_of_different_size():
+    a, b = Image.empty(128), Image.empty(256)
+    b[200] = read_text(TEXT)[3]
+    assert [str(change) for change in images(a, b)] == ['page 200 "walk": only in the second']
