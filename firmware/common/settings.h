@@ -59,12 +59,12 @@ void settings_defaults(settings_t *settings);
 /* Loads the newer valid copy. Anything but SETTINGS_OK: defaults. A field out of range counts as damaged. */
 settings_status_t settings_load(settings_store_t *store, settings_t *settings);
 
-/* Begins to save; call settings_save_poll until it says false (it writes at most one byte, never blocks: about 64 calls
+/* Begins to save; call settings_save_poll until it says false (it writes at most one byte, never blocks: about 50 calls
  * with 8.5 ms between those that change something). `settings` may change meanwhile: start again then. */
 void settings_save_start(settings_store_t *store);
 bool settings_save_poll(settings_store_t *store, const settings_t *settings);   /* true: not done yet */
 
-/* Both in one, blocking: up to 0.6 s. Not while something moves. */
+/* Both in one, blocking: up to 0.45 s. Not while something moves. */
 void settings_save(settings_store_t *store, const settings_t *settings);
 
 /* Settings by name, for a line shell: all but the pairs. */

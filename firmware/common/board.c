@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+#include "board.h"
+#include "bus.h"
+#include "clock.h"
+#include "console.h"
+#include "flash.h"
+#include "irq.h"
+#include "panel.h"
+#include "system.h"
+#include "tick.h"
+
+#include <string.h>
+
+/* Where the linker script wants it; the post-link step fills it in. */
+extern const app_record_t app_record;
+const app_record_t app_record __attribute__((section(".app_record"), used)) = APP_RECORD_UNFILLED;
+
+void board_start(void)
+{
+    system_init();
+    panel_init();
+    clock_init();
+    console_init();
+    bus_init();
+    tick_init();
+    system_watchdog_on();
+    irq_enable();
+}
+
+void board_idle(void)
+{
+    system_kick();
+    irq_disable();
+    if (tick_is_due() || console_waiting() > 0) {
+        irq_enable();
+    } else {
+        system_sleep();
+    }
+}
+
+PGM_P board_reset_text_P(uint8_t cause)
+{
+    if (cause & SYSTEM_RESET_POWER_ON) {
+        return PSTR("power-on");
+    }
+    if (cause & SYSTEM_RESET_BROWN_OUT) {
+        return PSTR("brown-out");
+    }
+    if (cause & SYSTEM_RESET_WATCHDOG) {
+        return PSTR("watchdog");
+    }
+    if (cause & SYSTEM_RESET_EXTERNAL) {
+        return PSTR("reset button");
+    }
+    return cause & SYSTEM_RESET_JTAG ? PSTR("JTAG") : PSTR("unknown");
+}
+
+bool board_record(app_record_t *record)
+{
+    static const char magic[4] PROGMEM = APP_RECORD_MAGIC;
+    flash_read(MEM_APP_RECORD, record, sizeof *record);
+    return memcmp_P(record->magic, magic, sizeof magic) == 0 && record->length_bytes <= MEM_APP_END;
+}

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT */
+#include "page_store.h"
+#include "flash.h"
+#include "memory_map.h"
+#include "system.h"
+
+#include <string.h>
+
+STATIC_ASSERT(MEM_MOTION_END - MEM_MOTION_START == (uint32_t)PAGE_BYTES * PAGE_COUNT, "128 pages of 512 bytes");
+
+uint32_t page_store_addr(uint8_t page)
+{
+    return MEM_MOTION_START + (uint32_t)((uint16_t)page * PAGE_BYTES);
+}
+
+void page_store_read(uint8_t page, uint16_t offset, void *to, uint16_t count)
+{
+    flash_read(page_store_addr(page) + offset, to, count);
+}
+
+static void source_read(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
+{
+    (void)context;
+    page_store_read(page, offset, to, count);
+}
+
+static uint8_t source_check(void *context, uint8_t page)
+{
+    return (uint8_t)page_store_check(context, page);
+}
+
+/* The whole page, 64 bytes at a time: the same answer as page_check. */
+static page_status_t look_at(uint8_t page)
+{
+    uint8_t block[PAGE_STEP_BYTES];
+    uint8_t sum = 0, steps = 0;
+    page_status_t header = PAGE_OK, position = PAGE_OK;
+    for (uint16_t offset = 0; offset < PAGE_BYTES; offset += PAGE_STEP_BYTES) {
+        page_store_read(page, offset, block, PAGE_STEP_BYTES);
+        sum = page_sum(sum, block, PAGE_STEP_BYTES);
+        if (offset == 0) {
+            header = page_check_header(block);
+            steps = block[PAGE_AT_STEPS];
+        } else if (position == PAGE_OK && offset / PAGE_STEP_BYTES <= steps) {
+            position = page_check_step(block);
+        }
+    }
+    if (sum != PAGE_CHECKSUM_SUM) {
+        return PAGE_ERR_CHECKSUM;
+    }
+    return header != PAGE_OK ? header : position;
+}
+
+void page_store_refresh(page_store_t *store, uint8_t page)
+{
+    uint8_t bit = (uint8_t)(1u << (page & 7u));
+    if (look_at(page) == PAGE_OK) {
+        store->good[page >> 3] |= bit;
+    } else {
+        store->good[page >> 3] &= (uint8_t)~bit;
+    }
+}
+
+void page_store_init(page_store_t *store)
+{
+    store->source.context = store;
+    store->source.read = source_read;
+    store->source.check = source_check;
+    for (uint8_t page = 0; page < PAGE_COUNT; page++) {
+        page_store_refresh(store, page);
+        system_kick();
+    }
+}
+
+bool page_store_is_good(const page_store_t *store, uint8_t page)
+{
+    return page < PAGE_COUNT && (store->good[page >> 3] & (1u << (page & 7u)));
+}
+
+page_status_t page_store_check(const page_store_t *store, uint8_t page)
+{
+    return page_store_is_good(store, page) ? PAGE_OK : look_at(page);
+}
+
+bool page_store_is_erased(uint8_t page)
+{
+    uint8_t block[32];
+    for (uint16_t offset = 0; offset < PAGE_BYTES; offset += sizeof block) {
+        page_store_read(page, offset, block, sizeof block);
+        for (uint8_t i = 0; i < sizeof block; i++) {
+            if (block[i] != 0xFF) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+void page_store_name(uint8_t page, char name[PAGE_NAME_BYTES])
+{
+    uint8_t length = 0;
+    page_store_read(page, PAGE_AT_NAME, name, PAGE_NAME_BYTES);
+    while (length < PAGE_NAME_BYTES - 1u && name[length] >= ' ' && name[length] <= '~') {
+        length++;
+    }
+    memset(name + length, 0, PAGE_NAME_BYTES - length);
+}
+
+static char lower(char letter)
+{
+    return letter >= 'A' && letter <= 'Z' ? (char)(letter + ('a' - 'A')) : letter;
+}
+
+static bool is_same_name(const char *a, const char *b)
+{
+    while (*a != '\0' && lower(*a) == lower(*b)) {
+        a++;
+        b++;
+    }
+    return lower(*a) == lower(*b);
+}
+
+uint8_t page_store_find(const page_store_t *store, const char *name, uint8_t after)
+{
+    char found[PAGE_NAME_BYTES];
+    for (uint8_t page = (uint8_t)(after + 1u); page < PAGE_COUNT; page++) {
+        if (page_store_is_good(store, page)) {
+            page_store_name(page, found);
+            if (is_same_name(name, found)) {
+                return page;
+            }
+        }
+    }
+    return 0;
+}
+
+uint8_t page_store_find_code(const page_store_t *store, uint8_t code)
+{
+    uint8_t header[PAGE_AT_PLAY_CODE + 1u];
+    for (uint8_t page = 1; page < PAGE_COUNT; page++) {
+        page_store_read(page, PAGE_AT_PLAY_CODE, header, 1);
+        if (header[0] == code && page_store_is_good(store, page)) {
+            page_store_read(page, 0, header, sizeof header);
+            if (page_is_playable(header)) {
+                return page;
+            }
+        }
+    }
+    return 0;
+}
+
+bool page_store_trim(const page_store_t *store, int16_t trim_pos[PAGE_JOINTS])
+{
+    uint8_t word[2];
+    memset(trim_pos, 0, PAGE_JOINTS * sizeof *trim_pos);
+    if (!page_store_is_good(store, 0)) {
+        return false;
+    }
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        page_store_read(0, (uint16_t)(PAGE_AT_STEP0 + 2u * PAGE_STEP_BYTES + 2u * joint), word, 2);
+        uint16_t value = page_word(word);
+        if ((value & 0xE000u) != PAGE_POS_UNUSED) {
+            trim_pos[joint] = (int16_t)value;
+        }
+    }
+    return true;
+}

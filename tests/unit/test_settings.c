@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: MIT
+ * Settings in EEPROM: defaults, two copies, and every place the power can be cut. */
+#include "crc16.h"
+#include "eeprom.h"
+#include "fake_eeprom.h"
+#include "memory_map.h"
+#include "settings.h"
+#include "unity.h"
+
+#include <setjmp.h>
+#include <stdio.h>
+#include <string.h>
+
+static settings_t settings, loaded;
+static settings_store_t store;
+
+void setUp(void)
+{
+    fake_eeprom_reset();
+    memset(&loaded, 0xEE, sizeof loaded);
+    settings_defaults(&settings);
+}
+
+void tearDown(void)
+{
+}
+
+static settings_item_t item(const char *name)
+{
+    settings_item_t found;
+    for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
+        settings_item(i, &found);
+        if (strcmp(found.name, name) == 0) {
+            return found;
+        }
+    }
+    TEST_FAIL_MESSAGE(name);
+    return found;
+}
+
+static void test_crc_of_the_record_has_the_known_answer(void)
+{
+    TEST_ASSERT_EQUAL_HEX16(0x29B1, crc16_bytes(CRC16_START, "123456789", 9));
+}
+
+static void test_defaults_are_the_documented_ones(void)
+{
+    TEST_ASSERT_EQUAL(0, settings.law);
+    TEST_ASSERT_EQUAL(0, settings.remote_mode);
+    TEST_ASSERT_EQUAL(60, settings.approach_deg_s);
+    TEST_ASSERT_EQUAL(SETTINGS_FAULT_HOLD, settings.fault_rule);
+    TEST_ASSERT_EQUAL(2, settings.pair[1]);
+    TEST_ASSERT_EQUAL(1, settings.pair[2]);
+    TEST_ASSERT_EQUAL(18, settings.pair[17]);
+    TEST_ASSERT_EQUAL(17, settings.pair[18]);
+    TEST_ASSERT_EQUAL(SETTINGS_NO_PARTNER, settings.pair[0]);
+    TEST_ASSERT_EQUAL(SETTINGS_NO_PARTNER, settings.pair[19]);
+}
+
+static void test_erased_eeprom_gives_defaults(void)
+{
+    TEST_ASSERT_EQUAL(SETTINGS_EMPTY, settings_load(&store, &loaded));
+    TEST_ASSERT_EQUAL_MEMORY(&settings, &loaded, sizeof settings);
+}
+
+static void test_garbage_gives_defaults_and_says_so(void)
+{
+    for (uint16_t i = 0; i < EEPROM_BYTES; i++) {
+        fake_eeprom_bytes()[i] = (uint8_t)(i * 7u);
+    }
+    TEST_ASSERT_EQUAL(SETTINGS_DAMAGED, settings_load(&store, &loaded));
+    TEST_ASSERT_EQUAL_MEMORY(&settings, &loaded, sizeof settings);
+}
+
+static void test_saved_settings_come_back(void)
+{
+    (void)settings_load(&store, &loaded);
+    for (uint8_t i = 0; i < 5; i++) {
+        settings.approach_deg_s = (uint8_t)(10u + i);
+        settings_save(&store, &settings);
+        settings_store_t again;
+        TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&again, &loaded));
+        TEST_ASSERT_EQUAL_MEMORY(&settings, &loaded, sizeof settings);
+    }
+}
+
+static void test_sequence_goes_on_over_its_wrap(void)
+{
+    (void)settings_load(&store, &loaded);
+    for (uint16_t i = 0; i < 600; i++) {
+        settings.battery_low_dv = (uint8_t)(i % 200u);
+        settings_save(&store, &settings);
+        (void)settings_load(&store, &loaded);
+        TEST_ASSERT_EQUAL(i % 200u, loaded.battery_low_dv);
+    }
+}
+
+static void test_only_the_settings_area_is_written(void)
+{
+    (void)settings_load(&store, &loaded);
+    settings_save(&store, &settings);
+    settings_save(&store, &settings);
+    for (uint16_t i = MEM_EE_SETTINGS_END; i < EEPROM_BYTES; i++) {
+        TEST_ASSERT_EQUAL(0, fake_eeprom_wear(i));
+    }
+    TEST_ASSERT_TRUE(fake_eeprom_writes() > 0);
+}
+
+static void test_damaged_newer_copy_falls_back_to_the_older(void)
+{
+    (void)settings_load(&store, &loaded);
+    settings.law = 0;
+    settings_save(&store, &settings);
+    settings.law = 1;
+    settings_save(&store, &settings);
+    uint16_t newer = (uint16_t)(MEM_EE_SETTINGS + 64u * store.copy);
+    fake_eeprom_bytes()[newer + 10u] ^= 1u;
+    TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&store, &loaded));
+    TEST_ASSERT_EQUAL(0, loaded.law);
+}
+
+static void test_field_out_of_range_is_damage(void)
+{
+    (void)settings_load(&store, &loaded);
+    settings.law = 9;
+    settings_save(&store, &settings);
+    TEST_ASSERT_EQUAL(SETTINGS_DAMAGED, settings_load(&store, &loaded));
+    TEST_ASSERT_EQUAL(0, loaded.law);
+}
+
+static void test_saving_in_steps_never_blocks_and_ends(void)
+{
+    uint16_t calls = 0;
+    (void)settings_load(&store, &loaded);
+    fake_eeprom_set_busy_calls(3);
+    settings_save_start(&store);
+    while (settings_save_poll(&store, &settings)) {
+        TEST_ASSERT_TRUE(++calls < 1000);
+    }
+    TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&store, &loaded));
+    TEST_ASSERT_FALSE(settings_save_poll(&store, &settings));
+}
+
+/* Old, then a save cut at its n-th EEPROM write with a given torn byte. Returns whether the cut happened. */
+static bool cut_save(uint32_t operation, int torn, settings_t *old, settings_t *fresh)
+{
+    jmp_buf power;
+    fake_eeprom_reset();
+    settings_defaults(old);
+    (void)settings_load(&store, &loaded);
+    settings_save(&store, old);
+    old->approach_deg_s = 33;
+    settings_save(&store, old);
+    *fresh = *old;
+    fresh->law = 1;
+    fresh->approach_deg_s = 77;
+    fresh->pair[5] = SETTINGS_NO_PARTNER;
+    if (setjmp(power) == 0) {
+        fake_eeprom_cut(operation, torn, &power);
+        settings_save(&store, fresh);
+        fake_eeprom_cut(0, 0, &power);
+        return false;
+    }
+    return true;
+}
+
+static void test_power_cut_at_every_write_leaves_old_or_new(void)
+{
+    static const int torn_values[] = { -1, 0x00, 0xFF, 0x5A, 'S', 256 };
+    settings_t old, fresh;
+    uint16_t cuts = 0, olds = 0, news = 0;
+    for (uint8_t t = 0; t < sizeof torn_values / sizeof *torn_values; t++) {
+        for (uint32_t operation = 1; cut_save(operation, torn_values[t], &old, &fresh); operation++) {
+            settings_store_t again;
+            TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&again, &loaded));
+            bool is_old = memcmp(&loaded, &old, sizeof old) == 0;
+            bool is_new = memcmp(&loaded, &fresh, sizeof fresh) == 0;
+            TEST_ASSERT_TRUE(is_old || is_new);
+            cuts++;
+            olds = (uint16_t)(olds + is_old);
+            news = (uint16_t)(news + is_new);
+            settings_save(&again, &fresh);
+            TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&again, &loaded));
+            TEST_ASSERT_EQUAL_MEMORY(&fresh, &loaded, sizeof fresh);
+        }
+    }
+    TEST_ASSERT_TRUE(olds > 10 && news > 0);
+    printf("settings: %u power cuts, %u old, %u new, 0 other\n", cuts, olds, news);
+}
+
+static void test_items_are_set_within_their_range_only(void)
+{
+    settings_item_t approach = item("approach");
+    TEST_ASSERT_TRUE(settings_set(&settings, &approach, 240));
+    TEST_ASSERT_EQUAL(240, settings.approach_deg_s);
+    TEST_ASSERT_FALSE(settings_set(&settings, &approach, 241));
+    TEST_ASSERT_FALSE(settings_set(&settings, &approach, 0x100 + 60));
+    TEST_ASSERT_EQUAL(240, settings.approach_deg_s);
+    settings_item_t law = item("law");
+    TEST_ASSERT_FALSE(settings_set(&settings, &law, 2));
+    TEST_ASSERT_EQUAL(240, settings_value(&settings, &approach));
+}
+
+static void test_pairs_stay_symmetric(void)
+{
+    TEST_ASSERT_TRUE(settings_pair(&settings, 1, 4));
+    TEST_ASSERT_EQUAL(4, settings.pair[1]);
+    TEST_ASSERT_EQUAL(1, settings.pair[4]);
+    TEST_ASSERT_EQUAL(SETTINGS_NO_PARTNER, settings.pair[2]);
+    TEST_ASSERT_EQUAL(SETTINGS_NO_PARTNER, settings.pair[3]);
+    TEST_ASSERT_TRUE(settings_pair(&settings, 1, 1));
+    TEST_ASSERT_EQUAL(SETTINGS_NO_PARTNER, settings.pair[1]);
+    TEST_ASSERT_EQUAL(SETTINGS_NO_PARTNER, settings.pair[4]);
+    TEST_ASSERT_FALSE(settings_pair(&settings, 1, 31));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_crc_of_the_record_has_the_known_answer);
+    RUN_TEST(test_defaults_are_the_documented_ones);
+    RUN_TEST(test_erased_eeprom_gives_defaults);
+    RUN_TEST(test_garbage_gives_defaults_and_says_so);
+    RUN_TEST(test_saved_settings_come_back);
+    RUN_TEST(test_sequence_goes_on_over_its_wrap);
+    RUN_TEST(test_only_the_settings_area_is_written);
+    RUN_TEST(test_damaged_newer_copy_falls_back_to_the_older);
+    RUN_TEST(test_field_out_of_range_is_damage);
+    RUN_TEST(test_saving_in_steps_never_blocks_and_ends);
+    RUN_TEST(test_power_cut_at_every_write_leaves_old_or_new);
+    RUN_TEST(test_items_are_set_within_their_range_only);
+    RUN_TEST(test_pairs_stay_symmetric);
+    return UNITY_END();
+}
