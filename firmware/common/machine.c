@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "machine.h"
+#include "machine_parts.h"
 
 #include <string.h>
 #include "board.h"
@@ -10,8 +10,6 @@
 
 #define PROTOCOL_VERSION 1u
 #define LINE_CHARACTERS 110u     /* the longest request, for @ver */
-#define DATA_BYTES_MAX 32u
-#define SPEED_MAX_DEG_S 360u
 #define CHUNK_BYTES 32u          /* a page is read in pieces of this size */
 
 void machine_init(machine_t *machine, performer_t *performer, servo_link_t *servos, page_store_t *pages,
@@ -30,13 +28,12 @@ bool machine_is_for(const shell_args_t *args)
 
 /* ---- answers ---- */
 
-/* An answer is ` field=...` pieces and one of these two ends. A handler that fails prints nothing before its error. */
-static void end_ok(void)
+void machine_end_ok(void)
 {
     TEXT(" OK");
 }
 
-static machine_status_t error(machine_status_t status)
+machine_status_t machine_error(machine_status_t status)
 {
     TEXT(" ERR ");
     text_number((uint16_t)status);
@@ -44,21 +41,14 @@ static machine_status_t error(machine_status_t status)
     return status;
 }
 
-static machine_status_t range_error(const char *what_P, uint16_t min, uint16_t max)
+machine_status_t machine_range_error(const char *what_P, uint16_t min, uint16_t max)
 {
-    (void)error(MACHINE_ERR_RANGE);
+    (void)machine_error(MACHINE_ERR_RANGE);
     shell_print_range(what_P, min, max, false);
     return MACHINE_ERR_RANGE;
 }
 
-static machine_status_t image_error(void)
-{
-    (void)error(MACHINE_ERR_IMAGE);
-    TEXT("Not in this image");
-    return MACHINE_ERR_IMAGE;
-}
-
-static machine_status_t refusal(performer_status_t status, uint8_t page, uint8_t fault)
+machine_status_t machine_refusal(performer_status_t status, uint8_t page, uint8_t fault)
 {
     static const uint8_t numbers[] PROGMEM = {
         [PERFORMER_OK] = MACHINE_OK,
@@ -70,16 +60,15 @@ static machine_status_t refusal(performer_status_t status, uint8_t page, uint8_t
         [PERFORMER_ERR_RELEASED] = MACHINE_ERR_RELEASED,
     };
     if (status == PERFORMER_OK) {
-        end_ok();
+        machine_end_ok();
         return MACHINE_OK;
     }
-    const machine_status_t number = error((machine_status_t)pgm_read_byte(&numbers[status]));
+    const machine_status_t number = machine_error((machine_status_t)pgm_read_byte(&numbers[status]));
     report_refusal(status, page, fault);
     return number;
 }
 
-/* Numbers in requests are decimal or 0x, whatever the mode of a person's numbers. */
-static bool number(const shell_args_t *args, uint8_t index, uint16_t min, uint16_t max, uint16_t *value)
+bool machine_number(const shell_args_t *args, uint8_t index, uint16_t min, uint16_t max, uint16_t *value)
 {
     uint16_t parsed;
     if (!shell_parse(shell_word(args, index), false, &parsed) || parsed < min || parsed > max) {
@@ -122,7 +111,7 @@ static machine_status_t do_ver(machine_t *machine, const shell_args_t *args)
     if (machine->image->ram_page != NULL) {
         TEXT(",open,save");
     }
-    end_ok();
+    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -158,16 +147,16 @@ static machine_status_t do_list(machine_t *machine, const shell_args_t *args)
 {
     uint16_t first = 0, last = PAGE_COUNT - 1;
     if (args->count == 2) {
-        return range_error(PSTR("Last page"), 0, PAGE_COUNT - 1);
+        return machine_range_error(PSTR("Last page"), 0, PAGE_COUNT - 1);
     }
     if (args->count == 3 &&
-        (!number(args, 1, 0, PAGE_COUNT - 1, &first) || !number(args, 2, first, PAGE_COUNT - 1, &last))) {
-        return range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
+        (!machine_number(args, 1, 0, PAGE_COUNT - 1, &first) || !machine_number(args, 2, first, PAGE_COUNT - 1, &last))) {
+        return machine_range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
     }
     for (uint8_t page = (uint8_t)first; page <= last; page++) {
         print_list_entry(machine, page);
     }
-    end_ok();
+    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -183,8 +172,8 @@ static machine_status_t do_page(machine_t *machine, const shell_args_t *args)
 {
     uint16_t page;
     (void)machine;
-    if (!number(args, 1, 0, PAGE_COUNT - 1, &page)) {
-        return range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
+    if (!machine_number(args, 1, 0, PAGE_COUNT - 1, &page)) {
+        return machine_range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
     }
     text_put(' ');
     text_number(page);
@@ -197,7 +186,7 @@ static machine_status_t do_page(machine_t *machine, const shell_args_t *args)
     }
     text_put(' ');
     text_hex(crc, 4);
-    end_ok();
+    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -222,7 +211,7 @@ static machine_status_t do_pose(machine_t *machine, const shell_args_t *args)
         text_put(':');
         text_put((servos->torque & joint) != 0 ? '1' : '0');
     }
-    end_ok();
+    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -253,269 +242,8 @@ static machine_status_t do_where(machine_t *machine, const shell_args_t *args)
     TEXT(" faulty=");
     text_hex((uint16_t)(performer->faulty >> 16), 4);
     text_hex((uint16_t)performer->faulty, 4);
-    end_ok();
+    machine_end_ok();
     return MACHINE_OK;
-}
-
-/* ---- what moves ---- */
-
-static machine_status_t id_error(void)
-{
-    return range_error(PSTR("ID"), 0, SERVO_LINK_JOINTS - 1);
-}
-
-/* Three hexadecimal digits for one joint. */
-static bool hex_position(const char *digits, uint16_t *pos)
-{
-    char word[4];
-    memcpy(word, digits, 3);
-    word[3] = '\0';
-    return (word[1] | 0x20) != 'x' && shell_parse(word, true, pos) && *pos <= PAGE_POS_MAX;
-}
-
-/* Fills to_pos and returns the joints that the digits name; 0: they are not as they must be. */
-static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_JOINTS])
-{
-    uint32_t joints = 0;
-    if (strlen(digits) % 3 != 0) {
-        return 0;
-    }
-    for (; *digits != '\0'; digits += 3, id++) {
-        if (id >= PAGE_JOINTS) {
-            return 0;
-        }
-        if (memcmp_P(digits, PSTR("---"), 3) == 0) {
-            continue;
-        }
-        if (!hex_position(digits, &to_pos[id])) {
-            return 0;
-        }
-        joints |= SERVO_LINK_BIT(id);
-    }
-    return joints;
-}
-
-static machine_status_t do_move(machine_t *machine, const shell_args_t *args)
-{
-    uint16_t to_pos[PAGE_JOINTS] = {0};
-    uint16_t deg_s, id;
-    if (!number(args, 1, 1, SPEED_MAX_DEG_S, &deg_s)) {
-        return range_error(PSTR("Degrees/s"), 1, SPEED_MAX_DEG_S);
-    }
-    if (!number(args, 2, 0, PAGE_JOINTS - 1, &id)) {
-        return id_error();
-    }
-    const uint32_t joints = parse_pose((uint8_t)id, shell_word(args, 3), to_pos);
-    if (joints == 0) {
-        (void)error(MACHINE_ERR_RANGE);
-        TEXT("Positions must be 000..3FF or ---, up to ID 30");
-        return MACHINE_ERR_RANGE;
-    }
-    return refusal(performer_move(machine->performer, to_pos, joints, deg_s), 0, 0);
-}
-
-/* One joint at a time, so that nothing else waits for longer than 3 ms. Returns those that are on. */
-static uint32_t switch_on(machine_t *machine, uint32_t joints)
-{
-    uint32_t on = 0;
-    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        if ((joints & SERVO_LINK_BIT(id)) != 0) {
-            on |= performer_on(machine->performer, SERVO_LINK_BIT(id));
-            if (machine->image->service != NULL) {
-                machine->image->service(machine->image->context);
-            }
-        }
-    }
-    return on;
-}
-
-static machine_status_t do_torque(machine_t *machine, const shell_args_t *args)
-{
-    const bool on = shell_word_is(args, 1, PSTR("on"));
-    uint32_t joints = args->count == 2 ? machine->servos->present : 0;
-    if (!on && !shell_word_is(args, 1, PSTR("off"))) {
-        (void)error(MACHINE_ERR_RANGE);
-        TEXT("Say on or off");
-        return MACHINE_ERR_RANGE;
-    }
-    for (uint8_t i = 2; i < args->count; i++) {
-        uint16_t id;
-        if (!number(args, i, 0, PAGE_JOINTS - 1, &id)) {
-            return id_error();
-        }
-        joints |= SERVO_LINK_BIT(id);
-    }
-    if (on && !performer_is_idle(machine->performer)) {
-        return refusal(PERFORMER_ERR_BUSY, 0, 0);
-    }
-    if ((joints & machine->servos->present) != joints || joints == 0 ||
-        (on && switch_on(machine, joints) != joints)) {
-        (void)error(MACHINE_ERR_SERVOS);
-        TEXT("Not all of these servos answer");
-        return MACHINE_ERR_SERVOS;
-    }
-    if (!on) {
-        performer_off(machine->performer, joints);
-    }
-    end_ok();
-    return MACHINE_OK;
-}
-
-static machine_status_t do_play(machine_t *machine, const shell_args_t *args)
-{
-    uint16_t page, code = LINK_CODE_NONE;
-    if (!number(args, 1, 1, PAGE_COUNT - 1, &page)) {
-        return range_error(PSTR("Page"), 1, PAGE_COUNT - 1);
-    }
-    if (args->count == 3 && !number(args, 2, 0, LINK_CODE_STOP - 1, &code)) {
-        return range_error(PSTR("Code"), 0, LINK_CODE_STOP - 1);
-    }
-    const performer_status_t status = performer_start(machine->performer, (uint8_t)page, (uint8_t)code);
-    return refusal(status, (uint8_t)page, machine->performer->fault);
-}
-
-/* These four say OK also when there is nothing to do: a program asks @where. */
-static machine_status_t do_stop(machine_t *machine, const shell_args_t *args)
-{
-    (void)args;
-    performer_stop(machine->performer);
-    end_ok();
-    return MACHINE_OK;
-}
-
-static machine_status_t do_break(machine_t *machine, const shell_args_t *args)
-{
-    (void)args;
-    performer_break(machine->performer);
-    end_ok();
-    return MACHINE_OK;
-}
-
-static machine_status_t do_pause(machine_t *machine, const shell_args_t *args)
-{
-    (void)args;
-    (void)performer_pause(machine->performer);
-    end_ok();
-    return MACHINE_OK;
-}
-
-static machine_status_t do_resume(machine_t *machine, const shell_args_t *args)
-{
-    (void)args;
-    (void)performer_resume(machine->performer);
-    end_ok();
-    return MACHINE_OK;
-}
-
-/* ---- a page in ---- */
-
-static machine_status_t image_result(machine_status_t status)
-{
-    switch (status) {
-    case MACHINE_OK:
-        end_ok();
-        break;
-    case MACHINE_ERR_UNSAVED:
-        (void)error(status);
-        TEXT("The open page has edits that are not saved");
-        break;
-    case MACHINE_ERR_BUSY:
-        (void)error(status);
-        TEXT("Not while something plays");
-        break;
-    default:
-        (void)error(status);
-        TEXT("The page could not be saved");
-        break;
-    }
-    return status;
-}
-
-static machine_status_t do_open(machine_t *machine, const shell_args_t *args)
-{
-    uint16_t page;
-    if (machine->image->open == NULL) {
-        return image_error();
-    }
-    if (!number(args, 1, 0, PAGE_COUNT - 1, &page)) {
-        return range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
-    }
-    return image_result(machine->image->open(machine->image->context, (uint8_t)page));
-}
-
-static bool hex_byte(const char *digits, uint8_t *byte)
-{
-    const char word[3] = {digits[0], digits[1], '\0'};
-    uint16_t value;
-    if (digits[1] == '\0' || word[1] == 'x' || word[1] == 'X' || !shell_parse(word, true, &value)) {
-        return false;
-    }
-    *byte = (uint8_t)value;
-    return true;
-}
-
-static machine_status_t do_data(machine_t *machine, const shell_args_t *args)
-{
-    uint16_t offset;
-    uint8_t bytes[DATA_BYTES_MAX];
-    const char *hex = shell_word(args, 2);
-    const uint8_t count = (uint8_t)(strlen(hex) / 2);
-    if (machine->image->ram_page == NULL) {
-        return image_error();
-    }
-    if (!number(args, 1, 0, PAGE_BYTES - 1, &offset) || offset + count > PAGE_BYTES) {
-        return range_error(PSTR("Offset and data"), 0, PAGE_BYTES - 1);
-    }
-    if (count > DATA_BYTES_MAX) {
-        return range_error(PSTR("Bytes of data"), 1, DATA_BYTES_MAX);
-    }
-    for (uint8_t i = 0; hex[2 * i] != '\0'; i++) {
-        if (!hex_byte(hex + 2 * i, &bytes[i])) {
-            (void)error(MACHINE_ERR_RANGE);
-            TEXT("Data must be pairs of hexadecimal digits");
-            return MACHINE_ERR_RANGE;
-        }
-    }
-    memcpy(machine->image->ram_page(machine->image->context) + offset, bytes, count);
-    if (machine->image->changed != NULL) {
-        machine->image->changed(machine->image->context);
-    }
-    end_ok();
-    return MACHINE_OK;
-}
-
-static uint16_t ram_crc(const machine_t *machine)
-{
-    return crc16_bytes(CRC16_START, machine->image->ram_page(machine->image->context), PAGE_BYTES);
-}
-
-static machine_status_t do_crc(machine_t *machine, const shell_args_t *args)
-{
-    (void)args;
-    if (machine->image->ram_page == NULL) {
-        return image_error();
-    }
-    text_put(' ');
-    text_hex(ram_crc(machine), 4);
-    end_ok();
-    return MACHINE_OK;
-}
-
-static machine_status_t do_save(machine_t *machine, const shell_args_t *args)
-{
-    uint16_t page, crc;
-    if (machine->image->save == NULL || machine->image->ram_page == NULL) {
-        return image_error();
-    }
-    if (!number(args, 1, 0, PAGE_COUNT - 1, &page)) {
-        return range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
-    }
-    if (!shell_parse(shell_word(args, 2), true, &crc) || crc != ram_crc(machine)) {
-        (void)error(MACHINE_ERR_CRC);
-        TEXT("The CRC does not fit the page in RAM");
-        return MACHINE_ERR_CRC;
-    }
-    return image_result(machine->image->save(machine->image->context, (uint8_t)page));
 }
 
 /* ---- dispatch ---- */
@@ -528,11 +256,11 @@ typedef struct {
 
 static const command_t table[] PROGMEM = {
     {"ver", 0, 0, do_ver},       {"list", 0, 2, do_list},     {"page", 1, 1, do_page},
-    {"pose", 0, 0, do_pose},     {"move", 3, 3, do_move},    {"torque", 1, 32, do_torque},
-    {"play", 1, 2, do_play},     {"stop", 0, 0, do_stop},     {"break", 0, 0, do_break},
-    {"pause", 0, 0, do_pause},   {"resume", 0, 0, do_resume}, {"where", 0, 0, do_where},
-    {"open", 1, 1, do_open},     {"data", 2, 2, do_data},     {"crc", 0, 0, do_crc},
-    {"save", 2, 2, do_save},
+    {"pose", 0, 0, do_pose},     {"move", 3, 3, machine_do_move},    {"torque", 1, 32, machine_do_torque},
+    {"play", 1, 2, machine_do_play},     {"stop", 0, 0, machine_do_stop},     {"break", 0, 0, machine_do_break},
+    {"pause", 0, 0, machine_do_pause},   {"resume", 0, 0, machine_do_resume}, {"where", 0, 0, do_where},
+    {"open", 1, 1, machine_do_open},     {"data", 2, 2, machine_do_data},     {"crc", 0, 0, machine_do_crc},
+    {"save", 2, 2, machine_do_save},
 };
 
 static machine_status_t dispatch(machine_t *machine, const shell_args_t *args)
@@ -545,13 +273,13 @@ static machine_status_t dispatch(machine_t *machine, const shell_args_t *args)
             continue;
         }
         if (given < command.args_min || given > command.args_max) {
-            (void)error(MACHINE_ERR_COUNT);
+            (void)machine_error(MACHINE_ERR_COUNT);
             TEXT("Too few or too many words");
             return MACHINE_ERR_COUNT;
         }
         return command.handler(machine, args);
     }
-    (void)error(MACHINE_ERR_WORD);
+    (void)machine_error(MACHINE_ERR_WORD);
     TEXT("Unknown word");
     return MACHINE_ERR_WORD;
 }

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT
+ * machine_motion.c - requests that move something. */
+#include "machine_parts.h"
+
+#include <string.h>
+#include "text.h"
+
+#define SPEED_MAX_DEG_S 360u
+
+static machine_status_t id_error(void)
+{
+    return machine_range_error(PSTR("ID"), 0, SERVO_LINK_JOINTS - 1);
+}
+
+/* Three hexadecimal digits for one joint. */
+static bool hex_position(const char *digits, uint16_t *pos)
+{
+    char word[4];
+    memcpy(word, digits, 3);
+    word[3] = '\0';
+    return (word[1] | 0x20) != 'x' && shell_parse(word, true, pos) && *pos <= PAGE_POS_MAX;
+}
+
+/* Fills to_pos and returns the joints that the digits name; 0: they are not as they must be. */
+static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_JOINTS])
+{
+    uint32_t joints = 0;
+    if (strlen(digits) % 3 != 0) {
+        return 0;
+    }
+    for (; *digits != '\0'; digits += 3, id++) {
+        if (id >= PAGE_JOINTS) {
+            return 0;
+        }
+        if (memcmp_P(digits, PSTR("---"), 3) == 0) {
+            continue;
+        }
+        if (!hex_position(digits, &to_pos[id])) {
+            return 0;
+        }
+        joints |= SERVO_LINK_BIT(id);
+    }
+    return joints;
+}
+
+machine_status_t machine_do_move(machine_t *machine, const shell_args_t *args)
+{
+    uint16_t to_pos[PAGE_JOINTS] = {0};
+    uint16_t deg_s, id;
+    if (!machine_number(args, 1, 1, SPEED_MAX_DEG_S, &deg_s)) {
+        return machine_range_error(PSTR("Degrees/s"), 1, SPEED_MAX_DEG_S);
+    }
+    if (!machine_number(args, 2, 0, PAGE_JOINTS - 1, &id)) {
+        return id_error();
+    }
+    const uint32_t joints = parse_pose((uint8_t)id, shell_word(args, 3), to_pos);
+    if (joints == 0) {
+        (void)machine_error(MACHINE_ERR_RANGE);
+        TEXT("Positions must be 000..3FF or ---, up to ID 30");
+        return MACHINE_ERR_RANGE;
+    }
+    return machine_refusal(performer_move(machine->performer, to_pos, joints, deg_s), 0, 0);
+}
+
+/* One joint at a time, so that nothing else waits for longer than 3 ms. Returns those that are on. */
+static uint32_t switch_on(machine_t *machine, uint32_t joints)
+{
+    uint32_t on = 0;
+    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
+        if ((joints & SERVO_LINK_BIT(id)) != 0) {
+            on |= performer_on(machine->performer, SERVO_LINK_BIT(id));
+            if (machine->image->service != NULL) {
+                machine->image->service(machine->image->context);
+            }
+        }
+    }
+    return on;
+}
+
+machine_status_t machine_do_torque(machine_t *machine, const shell_args_t *args)
+{
+    const bool on = shell_word_is(args, 1, PSTR("on"));
+    uint32_t joints = args->count == 2 ? machine->servos->present : 0;
+    if (!on && !shell_word_is(args, 1, PSTR("off"))) {
+        (void)machine_error(MACHINE_ERR_RANGE);
+        TEXT("Say on or off");
+        return MACHINE_ERR_RANGE;
+    }
+    for (uint8_t i = 2; i < args->count; i++) {
+        uint16_t id;
+        if (!machine_number(args, i, 0, PAGE_JOINTS - 1, &id)) {
+            return id_error();
+        }
+        joints |= SERVO_LINK_BIT(id);
+    }
+    if (on && !performer_is_idle(machine->performer)) {
+        return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
+    }
+    if ((joints & machine->servos->present) != joints || joints == 0 ||
+        (on && switch_on(machine, joints) != joints)) {
+        (void)machine_error(MACHINE_ERR_SERVOS);
+        TEXT("Not all of these servos answer");
+        return MACHINE_ERR_SERVOS;
+    }
+    if (!on) {
+        performer_off(machine->performer, joints);
+    }
+    machine_end_ok();
+    return MACHINE_OK;
+}
+
+machine_status_t machine_do_play(machine_t *machine, const shell_args_t *args)
+{
+    uint16_t page, code = LINK_CODE_NONE;
+    if (!machine_number(args, 1, 1, PAGE_COUNT - 1, &page)) {
+        return machine_range_error(PSTR("Page"), 1, PAGE_COUNT - 1);
+    }
+    if (args->count == 3 && !machine_number(args, 2, 0, LINK_CODE_STOP - 1, &code)) {
+        return machine_range_error(PSTR("Code"), 0, LINK_CODE_STOP - 1);
+    }
+    const performer_status_t status = performer_start(machine->performer, (uint8_t)page, (uint8_t)code);
+    return machine_refusal(status, (uint8_t)page, machine->performer->fault);
+}
+
+/* These four say OK also when there is nothing to do: a program asks @where. */
+machine_status_t machine_do_stop(machine_t *machine, const shell_args_t *args)
+{
+    (void)args;
+    performer_stop(machine->performer);
+    machine_end_ok();
+    return MACHINE_OK;
+}
+
+machine_status_t machine_do_break(machine_t *machine, const shell_args_t *args)
+{
+    (void)args;
+    performer_break(machine->performer);
+    machine_end_ok();
+    return MACHINE_OK;
+}
+
+machine_status_t machine_do_pause(machine_t *machine, const shell_args_t *args)
+{
+    (void)args;
+    (void)performer_pause(machine->performer);
+    machine_end_ok();
+    return MACHINE_OK;
+}
+
+machine_status_t machine_do_resume(machine_t *machine, const shell_args_t *args)
+{
+    (void)args;
+    (void)performer_resume(machine->performer);
+    machine_end_ok();
+    return MACHINE_OK;
+}
+

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT
+ * performer_ready.c - between "play this" and the first goal: pose, torque, approach; the player is bound here. */
+#include "performer_parts.h"
+
+#include <string.h>
+#include "bus_call.h"
+
+static player_law_t law(const performer_t *performer)
+{
+    return performer->settings->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;
+}
+
+/* Binds the player anew and starts it at `page` from pose_pos. */
+player_status_t performer_start_player(performer_t *performer, uint8_t page, uint32_t joints)
+{
+    player_t *player = &performer->engine.player;
+    player_init(player, performer->source);
+    return player_start(player, &performer->link, page, law(performer), performer->pose_pos, joints);
+}
+
+/* ---- READY: pose and torque, one joint a call ---- */
+
+static uint8_t lowest_joint(uint32_t joints)
+{
+    uint8_t id = 0;
+    while ((joints & 1u) == 0) {
+        joints >>= 1;
+        id++;
+    }
+    return id;
+}
+
+static void ask_one_joint(performer_t *performer)
+{
+    const uint8_t id = lowest_joint(performer->ready_left);
+    const uint32_t joint = SERVO_LINK_BIT(id);
+    performer->ready_left &= ~joint;
+    servo_link_t *servos = performer->servos;
+    const uint32_t answered = (servos->torque & joint) != 0 ? servo_link_read_pose(servos, joint)
+                                                            : servo_link_torque_on(servos, joint);
+    if (answered != 0) {
+        performer->joints |= joint;
+        performer->pose_pos[id] = servos->present_pos[id];
+        return;
+    }
+    performer->faulty |= joint;
+    performer_tell(performer, PERFORMER_EV_SILENT, id, 0, 0);
+    if (performer->settings->fault_rule != SETTINGS_FAULT_LIMP) {
+        performer_finish(performer, PERFORMER_END_SERVO);
+    }
+}
+
+void performer_begin_page(performer_t *performer)
+{
+    performer->state = PERFORMER_PLAY;
+    if (performer_start_player(performer, performer->page, performer->joints) != PLAYER_OK) {
+        performer_finish(performer, PERFORMER_END_PAGE);
+    }
+}
+
+/* Where the approach leads: the first step's positions, or the pose of a move. Returns the joints it concerns. */
+static uint32_t first_pose(const performer_t *performer, uint16_t to_pos[PAGE_JOINTS])
+{
+    memcpy(to_pos, performer->pose_pos, sizeof performer->pose_pos);
+    uint32_t joints = 0;
+    for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
+        const uint32_t joint = SERVO_LINK_BIT(id);
+        uint16_t word = PAGE_POS_UNUSED;
+        if ((performer->joints & joint) == 0) {
+            continue;
+        }
+        if (performer->move_deg_s == 0) {
+            uint8_t bytes[2];
+            performer->source->read(performer->source->context, performer->first_page,
+                                    (uint16_t)(PAGE_AT_STEP0 + 2u * id), bytes, sizeof bytes);
+            word = (uint16_t)(bytes[0] | (bytes[1] << 8));
+        } else if ((performer->move_joints & joint) != 0) {
+            word = performer->engine.approach.target_pos[id];
+        }
+        if (page_pos_is_used(word)) {
+            to_pos[id] = word;
+            joints |= joint;
+        }
+    }
+    return joints;
+}
+
+static void begin_approach(performer_t *performer)
+{
+    static const uint8_t full_speed[2] = {0, 0};
+    if (performer->joints == 0) {
+        performer_finish(performer, PERFORMER_END_SERVO);
+        return;
+    }
+    /* The editor leaves slow moving speeds behind; goals a tick apart need the servos' full one. Nobody answers, so there
+     * is nothing to check. */
+    servo_link_quiet(performer->servos);
+    (void)!bus_call_write(DXL_BROADCAST, DXL_AT_SPEED, full_speed, sizeof full_speed, NULL);
+    uint16_t to_pos[PAGE_JOINTS];
+    const uint32_t joints = first_pose(performer, to_pos);
+    const uint16_t limit_deg_s =
+        performer->move_deg_s != 0 ? performer->move_deg_s : performer->settings->approach_deg_s;
+    uint16_t ticks = 0;
+    if (performer->move_deg_s != 0 || !performer->approach_off) {
+        ticks = approach_start(&performer->engine.approach, performer->pose_pos, to_pos, joints, limit_deg_s);
+    }
+    if (ticks > 0) {
+        const uint16_t seconds = (uint16_t)((ticks + PLAYER_TICKS_PER_SECOND - 1) / PLAYER_TICKS_PER_SECOND);
+        performer->state = PERFORMER_APPROACH;
+        performer_tell(performer, PERFORMER_EV_APPROACH, performer->page, (uint8_t)(seconds > UINT8_MAX ? UINT8_MAX : seconds), 0);
+    } else if (performer->move_deg_s != 0) {
+        performer_finish(performer, PERFORMER_END_THERE);
+    } else {
+        performer_begin_page(performer);
+    }
+}
+
+void performer_ready_poll(performer_t *performer)
+{
+    if (performer->leaving) {
+        performer_finish(performer, performer->end);
+    } else if (performer->ready_left != 0) {
+        ask_one_joint(performer);
+    } else {
+        begin_approach(performer);
+    }
+}

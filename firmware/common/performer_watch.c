@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT
+ * performer_watch.c - what happens beside the play: the queue of events, faults of servos and the rule for them, battery,
+ * heat. */
+#include "performer_parts.h"
+
+#include "dxl.h"
+
+#define BATTERY_BACK_DV 3u   /* the voltage must rise by this much before it can be low anew */
+#define HOT_BACK_DEGREES 3u
+#define EVENTS_FOR_STEPS (PERFORMER_EVENTS - 6u) /* room kept for rarer and graver events */
+
+/* What the fault rule acts on. A voltage error is told but ends nothing: the battery is low long before it is empty. */
+#define ERRORS_GRAVE (DXL_ERR_ANGLE | DXL_ERR_HEAT | DXL_ERR_OVERLOAD)
+
+/* ---- events ---- */
+
+void performer_tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b, uint8_t c)
+{
+    const uint8_t room_for = kind == PERFORMER_EV_STEP ? EVENTS_FOR_STEPS : PERFORMER_EVENTS;
+    if (performer->events_count >= room_for) {
+        performer->events_lost = (uint8_t)(performer->events_lost + (performer->events_lost < UINT8_MAX ? 1 : 0));
+        return;
+    }
+    const uint8_t at = (uint8_t)((performer->events_head + performer->events_count) % PERFORMER_EVENTS);
+    performer->events[at] = (performer_event_t){.kind = kind, .a = a, .b = b, .c = c};
+    performer->events_count++;
+}
+
+bool performer_next_event(performer_t *performer, performer_event_t *event)
+{
+    if (performer->events_count == 0) {
+        if (performer->events_lost == 0) {
+            return false;
+        }
+        *event = (performer_event_t){.kind = PERFORMER_EV_LOST, .a = performer->events_lost};
+        performer->events_lost = 0;
+        return true;
+    }
+    *event = performer->events[performer->events_head];
+    performer->events_head = (uint8_t)((performer->events_head + 1u) % PERFORMER_EVENTS);
+    performer->events_count--;
+    return true;
+}
+
+/* ---- faults ---- */
+
+/* The rule of the settings, for one joint of this play. */
+static void act_on_fault(performer_t *performer, uint32_t joint)
+{
+    if (performer_is_idle(performer) || ((performer->joints | performer->ready_left) & joint) == 0) {
+        return;
+    }
+    performer_drop(performer, joint);
+    if (performer->settings->fault_rule == SETTINGS_FAULT_LIMP) {
+        servo_link_torque_off(performer->servos, joint);
+        return;
+    }
+    performer->end = PERFORMER_END_SERVO;
+    if (performer->settings->fault_rule == SETTINGS_FAULT_EXIT && performer->state == PERFORMER_PLAY) {
+        performer_stop_softly(performer);
+    } else {
+        performer_break(performer);
+    }
+}
+
+static void take_faults(performer_t *performer)
+{
+    servo_fault_t fault;
+    while (servo_link_next_fault(performer->servos, &fault)) {
+        const uint32_t joint = SERVO_LINK_BIT(fault.id);
+        if (fault.kind == SERVO_FAULT_BACK) {
+            performer->faulty &= ~joint;
+            performer_tell(performer, PERFORMER_EV_BACK, fault.id, 0, 0);
+        } else if (fault.kind == SERVO_FAULT_SILENT) {
+            performer->faulty |= joint;
+            performer_tell(performer, PERFORMER_EV_SILENT, fault.id, 0, 0);
+            act_on_fault(performer, joint);
+        } else if (fault.errors == 0) {
+            performer->faulty &= ~joint;
+        } else {
+            performer->faulty |= joint;
+            performer_tell(performer, PERFORMER_EV_ERRORS, fault.id, fault.errors, 0);
+            if ((fault.errors & ERRORS_GRAVE) != 0) {
+                act_on_fault(performer, joint);
+            }
+        }
+    }
+}
+
+/* Told once, and again only after it was good for a while. */
+static void watch_battery(performer_t *performer)
+{
+    const uint8_t limit_dv = performer->settings->battery_low_dv;
+    const uint8_t now_dv = performer->servos->voltage_dv;
+    if (now_dv == 0 || limit_dv == 0) {
+        return;
+    }
+    if (now_dv < limit_dv && !performer->told_battery) {
+        performer->told_battery = true;
+        performer_tell(performer, PERFORMER_EV_BATTERY, now_dv, 0, 0);
+    } else if (now_dv >= limit_dv + BATTERY_BACK_DV) {
+        performer->told_battery = false;
+    }
+}
+
+static void watch_heat(performer_t *performer)
+{
+    const uint8_t limit = performer->settings->hot_degrees;
+    const uint8_t now = performer->servos->hottest_degrees;
+    if (limit == 0) {
+        return;
+    }
+    if (now >= limit && !performer->told_hot) {
+        performer->told_hot = true;
+        performer_tell(performer, PERFORMER_EV_HOT, performer->servos->hottest_id, now, 0);
+    } else if (now + HOT_BACK_DEGREES < limit) {
+        performer->told_hot = false;
+    }
+}
+
+void performer_watch(performer_t *performer)
+{
+    take_faults(performer);
+    watch_battery(performer);
+    watch_heat(performer);
+}

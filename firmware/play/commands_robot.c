@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT
+ * commands_robot.c - words about servos and settings. */
+#include "commands_parts.h"
+
+#include "report.h"
+#include "text.h"
+#include "views.h"
+
+#define ID_MAX (SERVO_LINK_JOINTS - 1u)
+
+/* ---- servos ---- */
+
+/* The joints named from word `first` on, all that are present when there is no word. false: said what is wrong. */
+static bool joints_of_words(const play_t *play, const shell_args_t *args, uint8_t first, uint32_t *joints)
+{
+    *joints = args->count <= first ? play->servos.present : 0;
+    for (uint8_t i = first; i < args->count; i++) {
+        uint16_t id;
+        if (!shell_number(args, i, PSTR("ID"), 0, ID_MAX, &id)) {
+            return false;
+        }
+        if ((play->servos.present & SERVO_LINK_BIT(id)) == 0) {
+            TEXT("Servo ");
+            text_number(id);
+            TEXT(" is not there");
+            return false;
+        }
+        *joints |= SERVO_LINK_BIT(id);
+    }
+    if (*joints == 0) {
+        return commands_refuse(PERFORMER_ERR_NO_SERVOS, 0, 0) == SHELL_OK;
+    }
+    return true;
+}
+
+uint8_t commands_do_on(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    uint32_t joints;
+    if (!joints_of_words(play, args, 1, &joints)) {
+        return SHELL_ERR_SAID;
+    }
+    if (!performer_is_idle(&play->performer)) {
+        return commands_refuse(PERFORMER_ERR_BUSY, 0, 0);
+    }
+    uint32_t failed = 0;
+    for (uint8_t id = 0; id <= ID_MAX; id++) {
+        if ((joints & SERVO_LINK_BIT(id)) != 0 && performer_is_idle(&play->performer)) {
+            failed |= SERVO_LINK_BIT(id) & ~performer_on(&play->performer, SERVO_LINK_BIT(id));
+            play_service(play);
+        }
+    }
+    if (failed != 0) {
+        TEXT("No answer from servos ");
+        report_joints(failed);
+        return SHELL_ERR_SAID;
+    }
+    return SHELL_OK;
+}
+
+uint8_t commands_do_off(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    uint32_t joints;
+    if (!joints_of_words(play, args, 1, &joints)) {
+        return SHELL_ERR_SAID;
+    }
+    performer_off(&play->performer, joints);
+    return SHELL_OK;
+}
+
+uint8_t commands_do_servos(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    if (args->count > 1 && !shell_word_is(args, 1, PSTR("find"))) {
+        TEXT("Say servos, or servos find to search again");
+        return SHELL_ERR_SAID;
+    }
+    if (args->count > 1) {
+        if (!performer_is_idle(&play->performer)) {
+            return commands_refuse(PERFORMER_ERR_BUSY, 0, 0);
+        }
+        play_find_servos(play);
+        views_print_servos_found(play);
+        return SHELL_OK;
+    }
+    views_print_servos(play);
+    return SHELL_OK;
+}
+
+uint8_t commands_do_baud(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    if (!performer_is_idle(&play->performer)) {
+        return commands_refuse(PERFORMER_ERR_BUSY, 0, 0);
+    }
+    uint32_t joints = args->count == 1 ? play->servos.slow : 0;
+    for (uint8_t i = 1; i < args->count; i++) {
+        uint16_t id;
+        if (!shell_number(args, i, PSTR("ID"), 0, ID_MAX, &id)) {
+            return SHELL_ERR_SAID;
+        }
+        joints |= SERVO_LINK_BIT(id);
+    }
+    if ((joints & play->servos.slow) != joints || joints == 0) {
+        TEXT("Servos at 57142 bps: ");
+        report_joints(play->servos.slow);
+        return SHELL_ERR_SAID;
+    }
+    const uint32_t moved = servo_link_fast_baud(&play->servos, joints);
+    TEXT("Moved to 1 Mbps: ");
+    report_joints(moved);
+    text_line_end();
+    views_print_servos_found(play);
+    return SHELL_OK;
+}
+
+/* ---- settings ---- */
+
+static void save(play_t *play)
+{
+    settings_save_start(&play->store);
+}
+
+/* One of two words for a setting of 0 and 1; prints the choice when there is no word. */
+static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, const char *zero_P, const char *one_P)
+{
+    if (args->count == 1) {
+        text_P(*setting == 0 ? zero_P : one_P);
+        text_line_end();
+        return SHELL_OK;
+    }
+    if (!shell_word_is(args, 1, zero_P) && !shell_word_is(args, 1, one_P)) {
+        TEXT("Say ");
+        text_P(zero_P);
+        TEXT(" or ");
+        text_P(one_P);
+        return SHELL_ERR_SAID;
+    }
+    *setting = shell_word_is(args, 1, one_P) ? 1 : 0;
+    save(play);
+    return SHELL_OK;
+}
+
+uint8_t commands_do_law(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    return choose(play, args, &play->settings.law, PSTR("exact"), PSTR("classic"));
+}
+
+uint8_t commands_do_remote(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    return choose(play, args, &play->settings.remote_mode, PSTR("latch"), PSTR("hold"));
+}
+
+static uint8_t set_one(play_t *play, const shell_args_t *args)
+{
+    for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
+        settings_item_t item;
+        settings_item(i, &item);
+        if (shell_word_is(args, 1, item.name)) {
+            uint16_t value;
+            if (!shell_number(args, 2, item.name, item.low, item.high, &value) ||
+                !settings_set(&play->settings, &item, value)) {
+                return SHELL_ERR_SAID;
+            }
+            save(play);
+            return SHELL_OK;
+        }
+    }
+    TEXT("No setting is named ");
+    text_string(shell_word(args, 1));
+    return SHELL_ERR_SAID;
+}
+
+uint8_t commands_do_settings(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    if (args->count == 3) {
+        return set_one(play, args);
+    }
+    if (args->count == 2) {
+        if (!shell_word_is(args, 1, PSTR("defaults"))) {
+            TEXT("Say settings, settings name value, or settings defaults");
+            return SHELL_ERR_SAID;
+        }
+        settings_defaults(&play->settings);
+        save(play);
+        return SHELL_OK;
+    }
+    views_print_settings(play);
+    return SHELL_OK;
+}
