@@ -1,0 +1,394 @@
+/* SPDX-License-Identifier: MIT */
+#include "cli_script.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define WORDS_MAX 12
+#define DEFAULT_WITHIN (1000u * (uint64_t)BOARD_CYCLES_PER_MS)
+#define DEFAULT_PRESS (100u * (uint64_t)BOARD_CYCLES_PER_MS)
+
+/* The words of a line not used up yet. */
+typedef struct {
+    cli_word_t *words;
+    int count;
+    const char *error;
+} rest_t;
+
+typedef struct {
+    const char *name;
+    long address, bytes;
+} quantity_t;
+
+static const quantity_t quantities[] = {
+    {"goal", SERVO_GOAL, 2}, {"present", SERVO_PRESENT, 2}, {"torque", SERVO_TORQUE_ENABLE, 1},
+    {"moving", SERVO_MOVING, 1}, {"speed", SERVO_SPEED, 2}, {"voltage", SERVO_VOLTAGE, 1},
+    {"temperature", SERVO_TEMPERATURE, 1}, {"led", SERVO_LED, 1}, {"alarms", 0, 0}, {"register", -1, 1}};
+
+static const char *const button_names[BUTTON_COUNT] = {
+    [BUTTON_UP] = "UP", [BUTTON_DOWN] = "DOWN", [BUTTON_LEFT] = "LEFT", [BUTTON_RIGHT] = "RIGHT",
+    [BUTTON_START] = "START", [BUTTON_MODE] = "MODE"};
+static const char *const led_names[LED_COUNT] = {
+    [LED_POWER] = "POWER", [LED_TXD] = "TXD", [LED_RXD] = "RXD", [LED_AUX] = "AUX", [LED_MANAGE] = "MANAGE",
+    [LED_PROGRAM] = "PROGRAM", [LED_PLAY] = "PLAY"};
+
+/* Takes the next word; NULL with an error set when there is none or it is (not) quoted against our wish. */
+static cli_word_t *take(rest_t *rest, bool quoted, const char *what)
+{
+    if (rest->count == 0 || rest->words->quoted != quoted) {
+        rest->error = rest->error ? rest->error : what;
+        return NULL;
+    }
+    rest->count--;
+    return rest->words++;
+}
+
+/* Takes the next word if it is this one. */
+static bool take_if(rest_t *rest, const char *word)
+{
+    if (rest->count == 0 || rest->words->quoted || strcmp(rest->words->text, word) != 0) {
+        return false;
+    }
+    rest->words++;
+    rest->count--;
+    return true;
+}
+
+static void take_text(rest_t *rest, deed_t *deed, const char *what)
+{
+    const cli_word_t *word = take(rest, true, what);
+    if (word) {
+        deed->length = word->length;
+        deed->text = malloc(word->length + 1);
+        memcpy(deed->text, word->text, word->length + 1);
+    }
+}
+
+static void take_duration(rest_t *rest, uint64_t *cycles)
+{
+    static const char what[] = "a time like 500ms or 2s is missing here";
+    const cli_word_t *word = take(rest, false, what);
+    if (word && !cli_duration(word->text, cycles)) {
+        rest->error = what;
+    }
+}
+
+static void take_number(rest_t *rest, long low, long high, long *value, const char *what)
+{
+    const cli_word_t *word = take(rest, false, what);
+    if (word && !cli_number(word->text, low, high, value)) {
+        rest->error = what;
+    }
+}
+
+static void take_real(rest_t *rest, double low, double high, double *value, const char *what)
+{
+    const cli_word_t *word = take(rest, false, what);
+    char *end = NULL;
+    if (word) {
+        *value = strtod(word->text, &end);
+        if (end == word->text || *end || *value < low || *value > high) {
+            rest->error = what;
+        }
+    }
+}
+
+static void take_name(rest_t *rest, const char *const *names, int count, long *index, const char *what)
+{
+    const cli_word_t *word = take(rest, false, what);
+    for (int i = 0; word && i < count; i++) {
+        if (strcasecmp(names[i], word->text) == 0) {
+            *index = i;
+            return;
+        }
+    }
+    rest->error = what;
+}
+
+static void take_on_off(rest_t *rest, bool *on)
+{
+    static const char *const names[] = {"off", "on"};
+    long index = 0;
+    take_name(rest, names, 2, &index, "on or off is missing here");
+    *on = index == 1;
+}
+
+static void take_within(rest_t *rest, deed_t *deed)
+{
+    deed->cycles = DEFAULT_WITHIN;
+    if (take_if(rest, "within")) {
+        take_duration(rest, &deed->cycles);
+    }
+}
+
+bool script_relation(const char *text, relation_t *relation)
+{
+    static const char *const names[] = {"==", "!=", "<", ">", "<=", ">="};
+    for (int i = 0; i < (int)(sizeof names / sizeof names[0]); i++) {
+        if (strcmp(text, names[i]) == 0) {
+            *relation = (relation_t)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- one parser per verb ---- */
+
+static void parse_send(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_SEND;
+    take_text(rest, deed, "a \"text\" to send is missing here");
+}
+
+static void parse_expect(rest_t *rest, deed_t *deed)
+{
+    const bool no = take_if(rest, "no");
+    deed->kind = no ? DO_EXPECT_NO : DO_EXPECT;
+    take_text(rest, deed, "a \"text\" to expect is missing here");
+    if (rest->error == NULL && deed->length == 0) {
+        rest->error = "an empty text is always there";
+    }
+    if (!no) {
+        take_within(rest, deed);
+    } else if (!take_if(rest, "for")) {
+        rest->error = rest->error ? rest->error : "for how long? (expect no \"text\" for 2s)";
+    } else {
+        take_duration(rest, &deed->cycles);
+    }
+}
+
+static void parse_wait(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_WAIT;
+    take_duration(rest, &deed->cycles);
+}
+
+static void parse_press(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_PRESS;
+    deed->cycles = DEFAULT_PRESS;
+    take_name(rest, button_names, BUTTON_COUNT, &deed->number, "buttons are UP DOWN LEFT RIGHT START MODE");
+    if (rest->count > 0) {
+        take_duration(rest, &deed->cycles);
+    }
+}
+
+static void parse_release(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_RELEASE;
+    take_name(rest, button_names, BUTTON_COUNT, &deed->number, "buttons are UP DOWN LEFT RIGHT START MODE");
+}
+
+static void parse_rc(rest_t *rest, deed_t *deed)
+{
+    static const char what[] = "keys are U D L R 1..6, joined by +, or 0";
+    uint16_t word_value = 0;
+    deed->kind = DO_RC;
+    const cli_word_t *word = take(rest, false, what);
+    if (word && !cli_rc_keys(word->text, &word_value)) {
+        rest->error = what;
+    }
+    deed->number = word_value;
+    if (rest->count > 0) {
+        take_duration(rest, &deed->cycles);
+    }
+}
+
+static void parse_power(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_POWER;
+    take_on_off(rest, &deed->on);
+}
+
+static void parse_reset(rest_t *rest, deed_t *deed)
+{
+    (void)rest;
+    deed->kind = DO_RESET;
+    deed->cycles = DEFAULT_PRESS;
+}
+
+static void parse_battery(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_BATTERY;
+    take_real(rest, 0, 20, &deed->value, "volts (0..20) are missing here");
+}
+
+static void parse_servo(rest_t *rest, deed_t *deed)
+{
+    static const char what[] = "what about the servo? push, load, clear or a fault: silent dead duplicate checksum "
+                               "noise late short two-talkers overload overheating low-voltage angle-limit blocked";
+    take_number(rest, 0, 253, &deed->number, "a servo ID 0..253 is missing here");
+    const cli_word_t *word = take(rest, false, what);
+    if (word == NULL) {
+        return;
+    }
+    if (strcmp(word->text, "clear") == 0) {
+        deed->kind = DO_CLEAR;
+    } else if (strcmp(word->text, "push") == 0) {
+        deed->kind = DO_PUSH;
+        take_real(rest, 0, 1023, &deed->value, "a position 0..1023 is missing here");
+    } else if (strcmp(word->text, "load") == 0) {
+        deed->kind = DO_LOAD;
+        take_real(rest, -1, 1, &deed->value, "a load -1..1 (of stall torque) is missing here");
+    } else {
+        deed->kind = DO_FAULT;
+        deed->fault = servo_fault_by_name(word->text);
+        deed->value = SERVO_FAULT_ALWAYS;
+        if (deed->fault == SERVO_FAULTS) {
+            rest->error = what;
+        }
+        if (rest->count > 0) {
+            long times = 0;
+            take_number(rest, 1, 1000000, &times, "how many times? (servo 5 silent 3 times)");
+            deed->value = (double)times;
+            rest->error = rest->error || take_if(rest, "times") ? rest->error : "\"times\" is missing at the end";
+        }
+    }
+}
+
+static void parse_quantity(rest_t *rest, deed_t *deed, const quantity_t *quantity)
+{
+    static const char what[] = "a comparison is missing here: == != < > <= >=";
+    deed->kind = DO_REGISTER;
+    deed->address = quantity->address;
+    deed->bytes = quantity->bytes;
+    take_number(rest, 0, 253, &deed->number, "a servo ID 0..253 is missing here");
+    if (quantity->address < 0) {
+        take_number(rest, 0, SERVO_TABLE_BYTES - 1, &deed->address, "an address 0..49 is missing here");
+    }
+    const cli_word_t *word = take(rest, false, what);
+    if (word && !script_relation(word->text, &deed->relation)) {
+        rest->error = what;
+    }
+    take_real(rest, 0, 65535, &deed->value, "a number is missing here");
+    take_within(rest, deed);
+}
+
+static void parse_panel(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_PANEL;
+    take_name(rest, led_names, LED_COUNT, &deed->number, "LEDs are POWER TXD RXD AUX MANAGE PROGRAM PLAY");
+    take_on_off(rest, &deed->on);
+    take_within(rest, deed);
+}
+
+static void parse_note(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_NOTE;
+    take_text(rest, deed, "a \"text\" to say is missing here");
+}
+
+static void parse_quit(rest_t *rest, deed_t *deed)
+{
+    (void)rest;
+    deed->kind = DO_QUIT;
+}
+
+static const struct {
+    const char *name;
+    void (*parse)(rest_t *rest, deed_t *deed);
+} verbs[] = {
+    {"send", parse_send}, {"expect", parse_expect}, {"wait", parse_wait}, {"press", parse_press},
+    {"release", parse_release}, {"rc", parse_rc}, {"power", parse_power}, {"reset", parse_reset},
+    {"battery", parse_battery}, {"servo", parse_servo}, {"panel", parse_panel}, {"note", parse_note},
+    {"quit", parse_quit}};
+
+static void parse_verb(rest_t *rest, deed_t *deed)
+{
+    const cli_word_t *word = take(rest, false, "an action is missing here");
+    for (size_t i = 0; word && i < sizeof verbs / sizeof verbs[0]; i++) {
+        if (strcmp(word->text, verbs[i].name) == 0) {
+            verbs[i].parse(rest, deed);
+            return;
+        }
+    }
+    for (size_t i = 0; word && i < sizeof quantities / sizeof quantities[0]; i++) {
+        if (strcmp(word->text, quantities[i].name) == 0) {
+            parse_quantity(rest, deed, &quantities[i]);
+            return;
+        }
+    }
+    rest->error = rest->error ? rest->error
+                              : "unknown action (known: send expect wait press release rc power reset battery servo "
+                                "panel note quit goal present torque moving speed voltage temperature led alarms "
+                                "register)";
+}
+
+static const char *parse_line(rest_t *rest, deed_t *deed)
+{
+    if (take_if(rest, "at")) {
+        deed->at = true;
+        take_duration(rest, &deed->when_cycles);
+    } else if (take_if(rest, "after")) {
+        deed->after = true;
+        take_duration(rest, &deed->when_cycles);
+    }
+    if (rest->error == NULL) {
+        parse_verb(rest, deed);
+    }
+    if (rest->error == NULL && rest->count > 0) {
+        rest->error = "too many words: this one was not expected";
+    }
+    return rest->error;
+}
+
+static void add(script_t *script, const deed_t *deed)
+{
+    script->deeds = realloc(script->deeds, (size_t)(script->count + 1) * sizeof *script->deeds);
+    script->deeds[script->count++] = *deed;
+}
+
+/* One line of the file. false: a mistake was printed. */
+static bool load_line(script_t *script, int number, char *line)
+{
+    cli_word_t words[WORDS_MAX];
+    const char *error = NULL;
+    const int count = cli_split(line, words, WORDS_MAX, &error);
+    deed_t deed = {.line = number};
+    rest_t rest = {words, count, NULL};
+    if (count > 0) {
+        error = parse_line(&rest, &deed);
+    }
+    if (error) {
+        const char *at = count > 0 && rest.words > words ? rest.words[rest.count > 0 ? 0 : -1].text : NULL;
+        fprintf(stderr, "%s:%d: %s%s%s%s\n", script->path, number, error, at ? " (at \"" : "", at ? at : "",
+                at ? "\")" : "");
+        free(deed.text);
+        return false;
+    }
+    if (count > 0) {
+        add(script, &deed);
+    }
+    return true;
+}
+
+bool script_load(script_t *script, const char *path)
+{
+    memset(script, 0, sizeof *script);
+    script->path = path;
+    FILE *file = fopen(path, "r");
+    if (file == NULL) {
+        fprintf(stderr, "cm5sim: %s: %s\n", path, strerror(errno));
+        return false;
+    }
+    char *line = NULL;
+    size_t size = 0;
+    bool good = true;
+    for (int number = 1; getline(&line, &size, file) >= 0; number++) {
+        good = load_line(script, number, line) && good;
+    }
+    free(line);
+    fclose(file);
+    return good;
+}
+
+void script_free(script_t *script)
+{
+    for (int i = 0; i < script->count; i++) {
+        free(script->deeds[i].text);
+    }
+    free(script->deeds);
+}

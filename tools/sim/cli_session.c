@@ -1,0 +1,379 @@
+/* SPDX-License-Identifier: MIT */
+#include "cli_session.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "board_debug.h"
+#include "cli_files.h"
+#include "cli_text.h"
+#include "servo_api.h"
+
+/* ---- messages ---- */
+
+static void message(const char *format, va_list arguments)
+{
+    fputs("cm5sim: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputs(keys_are_raw() ? "\r\n" : "\n", stderr);
+}
+
+void session_say(const session_t *session, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (!session->options->quiet) {
+        message(format, arguments);
+    }
+    va_end(arguments);
+}
+
+void session_complain(const session_t *session, const char *format, ...)
+{
+    (void)session;
+    va_list arguments;
+    va_start(arguments, format);
+    message(format, arguments);
+    va_end(arguments);
+}
+
+void session_end(session_t *session, int exit_code)
+{
+    session->done = true;
+    if (session->exit_code == EXIT_GOOD) {
+        session->exit_code = exit_code;
+    }
+}
+
+/* ---- hands ---- */
+
+void session_send(session_t *session, const uint8_t *bytes, size_t count)
+{
+    board_console_send(session->board, CONSOLE_PC, bytes, count);
+    session->last_traffic = board_now(session->board);
+}
+
+static uint64_t until(const session_t *session, uint64_t cycles)
+{
+    return cycles == NEVER_CYCLES ? NEVER_CYCLES : board_now(session->board) + cycles;
+}
+
+static void move_button(session_t *session, button_t button, bool down)
+{
+    session->button_down[button] = down;
+    if (button == BUTTON_MODE) {
+        board_hold_reset(session->board, down);
+    } else {
+        board_press(session->board, button, down);
+    }
+}
+
+void session_press(session_t *session, button_t button, uint64_t cycles)
+{
+    session->button_until[button] = until(session, cycles);
+    move_button(session, button, true);
+}
+
+void session_release(session_t *session, button_t button)
+{
+    move_button(session, button, false);
+}
+
+void session_rc_send(session_t *session, uint16_t word)
+{
+    uint8_t packet[CLI_RC_BYTES];
+    cli_rc_packet(word, packet);
+    board_console_send(session->board, CONSOLE_REMOTE, packet, sizeof packet);
+    session->rc_word = word;
+    session->rc_next = board_now(session->board) + RC_REPEAT_CYCLES;
+    session->last_traffic = board_now(session->board);
+}
+
+/* The word of the keys held now. */
+static uint16_t rc_held(const session_t *session)
+{
+    unsigned word = 0;
+    for (int key = 0; key < RC_KEYS; key++) {
+        word |= session->rc_until[key] ? 1u << key : 0;
+    }
+    return (uint16_t)word;
+}
+
+void session_rc_hold(session_t *session, uint16_t keys, uint64_t cycles)
+{
+    for (int key = 0; key < RC_KEYS; key++) {
+        if (keys & 1u << key) {
+            session->rc_until[key] = until(session, cycles);
+        }
+    }
+    if (rc_held(session) != session->rc_word) {
+        session_rc_send(session, rc_held(session));
+    }
+}
+
+void session_power(session_t *session, bool on)
+{
+    if (on) {
+        board_power_on(session->board);
+    } else {
+        board_power_off(session->board);
+    }
+}
+
+static uint64_t earlier(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+uint64_t session_hands(session_t *session)
+{
+    const uint64_t now = board_now(session->board);
+    uint64_t next = NEVER_CYCLES;
+    for (int button = 0; button < BUTTON_COUNT; button++) {
+        if (session->button_down[button] && session->button_until[button] <= now) {
+            move_button(session, (button_t)button, false);
+        } else if (session->button_down[button]) {
+            next = earlier(next, session->button_until[button]);
+        }
+    }
+    for (int key = 0; key < RC_KEYS; key++) {
+        if (session->rc_until[key] <= now) {
+            session->rc_until[key] = 0;
+        } else {
+            next = earlier(next, session->rc_until[key]);
+        }
+    }
+    const uint16_t held = rc_held(session);
+    const bool ours = held != 0 || session->rc_next != 0;
+    if (ours && (held != session->rc_word || (held && now >= session->rc_next))) {
+        session_rc_send(session, held);
+        session->rc_next = held ? session->rc_next : 0;
+    }
+    return held ? earlier(next, session->rc_next) : next;
+}
+
+void session_list_servos(session_t *session)
+{
+    const uint64_t now = board_now(session->board);
+    session_complain(session, "ID  goal  present  torque  error byte");
+    for (int i = 0; i < session->bus->count; i++) {
+        servo_t *servo = servo_api_at(session->bus, i);
+        const uint16_t present = servo_api_get(servo, now, SERVO_PRESENT, 2);
+        session_complain(session, "%-3u %4u  %7u  %-6s  0x%02X%s", servo_api_id(servo),
+                         servo_get(servo, SERVO_GOAL, 2), present,
+                         servo->table[SERVO_TORQUE_ENABLE] ? "on" : "off", servo->alarms,
+                         servo->powered ? "" : "  no power");
+    }
+}
+
+/* ---- opening and closing ---- */
+
+static void heard(void *context, uint64_t now_cycles, uint8_t byte, bool bad)
+{
+    session_t *session = context;
+    (void)bad;
+    session->last_traffic = now_cycles;
+    console_put(&session->console, byte);
+}
+
+static void typed(session_t *session, uint8_t byte)
+{
+    const uint64_t held = (uint64_t)KEY_HELD_MS * BOARD_CYCLES_PER_MS;
+    const key_press_t key = keys_take(&session->keys, byte);
+    const uint8_t value = (uint8_t)key.value;
+    switch (key.kind) {
+    case KEY_BYTE: session_send(session, &value, 1); break;
+    case KEY_EXIT: session_end(session, EXIT_GOOD); break;
+    case KEY_HELP: fputs(keys_help(), stderr); break;
+    case KEY_RC_MODE:
+        session_say(session, value ? "keyboard: RC-100 (Ctrl-T r ends)" : "keyboard: serial line");
+        break;
+    case KEY_RC: session_rc_hold(session, key.value, held); break;
+    case KEY_BUTTON: session_press(session, (button_t)key.value, held / 3); break;
+    case KEY_POWER:
+        session_power(session, !board_is_powered(session->board));
+        session_say(session, "power %s", board_is_powered(session->board) ? "on" : "off");
+        break;
+    case KEY_SERVOS: session_list_servos(session); break;
+    case KEY_NONE: break;
+    }
+}
+
+static void input(void *context, console_source_t source, const uint8_t *bytes, size_t count)
+{
+    session_t *session = context;
+    if (source != FROM_STDIN || (!keys_are_raw() && !session->keys.rc_mode)) {
+        session_send(session, bytes, count);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        typed(session, bytes[i]);
+    }
+}
+
+static const char *plug_in_servos(session_t *session)
+{
+    const options_t *options = session->options;
+    for (int i = 0; i < options->servo_count; i++) {
+        const servo_plan_t *plan = &options->servos[i];
+        if (servo_bus_add(session->bus, plan->id, plan->model, plan->rate_bps) == NULL) {
+            return "no memory for the servos";
+        }
+    }
+    const char *error = options->servo_eeprom ? files_load_servos(session->bus, options->servo_eeprom) : NULL;
+    for (int i = 0; i < options->fault_count && error == NULL; i++) {
+        servo_t *servo = servo_bus_find(session->bus, options->faults[i].id);
+        if (servo == NULL) {
+            return "--fault: there is no servo with that ID";
+        }
+        servo_bus_fault(session->bus, board_now(session->board), servo, options->faults[i].fault,
+                        SERVO_FAULT_ALWAYS);
+    }
+    return error;
+}
+
+static const char *load_memories(session_t *session)
+{
+    const options_t *options = session->options;
+    bool kept = false;
+    const char *error = options->flash ? files_load_flash(session->board, options->flash, &kept) : NULL;
+    if (error == NULL && options->eeprom) {
+        error = files_load_eeprom(session->board, options->eeprom);
+    }
+    for (int i = 0; i < options->image_count && error == NULL; i++) {
+        error = files_load_image(session->board, options->images[i]);
+    }
+    if (error == NULL && options->motions && kept) {
+        session_say(session, "%s keeps its motion pages; --motions %s was not loaded over them", options->flash,
+                    options->motions);
+    } else if (error == NULL && options->motions) {
+        error = files_load_motions(session->board, options->motions);
+    }
+    return error;
+}
+
+/* Trace, VCD, GDB. */
+static const char *open_instruments(session_t *session)
+{
+    const options_t *options = session->options;
+    if (options->trace) {
+        snprintf(session->trace_path, sizeof session->trace_path, "%s", options->trace);
+    } else if (options->plot) {
+        const char *folder = getenv("TMPDIR");
+        snprintf(session->trace_path, sizeof session->trace_path, "%s/cm5sim-%ld.csv", folder ? folder : P_tmpdir,
+                 (long)getpid());
+        session->trace_is_temporary = true;
+    }
+    if (session->trace_path[0]) {
+        session->tracing = trace_open(&session->trace, session->trace_path, session->bus);
+        if (!session->tracing) {
+            return strerror(errno);
+        }
+    }
+    if (options->vcd && !board_vcd_start(session->board, options->vcd)) {
+        return board_error(session->board);
+    }
+    if (options->use_gdb) {
+        session_say(session, "waiting for avr-gdb: target remote :%d", options->gdb_port);
+        if (!board_gdb(session->board, options->gdb_port, true)) {
+            return board_error(session->board);
+        }
+    }
+    return NULL;
+}
+
+static void announce(session_t *session)
+{
+    const options_t *options = session->options;
+    if (options->use_pty) {
+        session_complain(session, "serial port: %s", session->console.pty.path);
+    }
+    if (options->use_tcp) {
+        session_complain(session, "serial port: tcp 127.0.0.1:%d", session->console.tcp_port);
+    }
+    if (session->console.use_stdin && isatty(STDIN_FILENO) && keys_raw()) {
+        session_say(session, "%s with %d servos. Ctrl-] leaves, Ctrl-T ? shows the keys%s.",
+                    options->kind == BOARD_CM2 ? "CM-2" : "CM-5", session->bus->count,
+                    options->rc ? "; keyboard: RC-100" : "");
+    }
+    session->keys.rc_mode = options->rc;
+}
+
+int session_open(session_t *session, const options_t *options)
+{
+    memset(session, 0, sizeof *session);
+    session->options = options;
+    session->console.listener = session->console.client = -1;
+    session->board = board_new(options->kind, options->seed);
+    if (session->board == NULL) {
+        session_complain(session, "no board: libsimavr without ATmega128, or no memory");
+        return EXIT_FILE;
+    }
+    session->bus = board_servo_bus(session->board);
+    for (int kind = 0; kind < VIOLATION_COUNT; kind++) {
+        if (options->allow[kind]) {
+            board_allow(session->board, (violation_kind_t)kind, true);
+        }
+    }
+    const char *error = load_memories(session);
+    error = error ? error : plug_in_servos(session);
+    error = error ? error : console_open(&session->console, options, input, session);
+    error = error ? error : open_instruments(session);
+    if (error) {
+        session_complain(session, "%s", error);
+        return EXIT_FILE;
+    }
+    board_on_console(session->board, heard, session);
+    announce(session);
+    board_power_on(session->board);
+    return EXIT_GOOD;
+}
+
+static void keep(session_t *session, const char *error)
+{
+    if (error) {
+        session_complain(session, "%s", error);
+        session_end(session, EXIT_FILE);
+    }
+}
+
+static void close_trace(session_t *session)
+{
+    const char *plot = session->options->plot;
+    if (!trace_close(&session->trace)) {
+        keep(session, "the trace could not be written");
+    }
+    if (plot && !trace_plot(session->trace_path, plot)) {
+        keep(session, "no plot was made");
+    }
+    if (session->trace_is_temporary) {
+        unlink(session->trace_path);
+    }
+}
+
+void session_close(session_t *session)
+{
+    const options_t *options = session->options;
+    console_close(&session->console);
+    keys_restore();
+    if (session->board == NULL) {
+        return;
+    }
+    board_vcd_stop(session->board);
+    if (session->tracing) {
+        close_trace(session);
+    }
+    if (options->flash) {
+        keep(session, files_save_flash(session->board, options->flash));
+    }
+    if (options->eeprom) {
+        keep(session, files_save_eeprom(session->board, options->eeprom));
+    }
+    if (options->servo_eeprom) {
+        keep(session, files_save_servos(session->bus, options->servo_eeprom));
+    }
+    board_free(session->board);
+}

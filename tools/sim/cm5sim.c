@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: MIT
+ * cm5sim - the simulated robot as a command. `cm5sim --help` and README.md say what it does; the files cli_*.c do
+ * it; this one paces the run. */
+#include <inttypes.h>
+#include <signal.h>
+#include <string.h>
+#include <time.h>
+
+#include "cli_bus.h"
+#include "cli_script.h"
+#include "cli_session.h"
+
+#define SLICE_CYCLES (2u * BOARD_CYCLES_PER_MS)     /* real time: keys are looked at this often */
+#define LINGER_CYCLES (1000u * BOARD_CYCLES_PER_MS) /* after the end of piped input, silence that ends the run */
+#define LATE_NS 250000000                           /* this far behind, real time is given up and begun anew */
+
+static volatile int interrupted;
+
+typedef struct {
+    bool real;
+    struct timespec start;
+    uint64_t start_cycles;
+} pace_state_t;
+
+static void on_signal(int number)
+{
+    interrupted = number;
+}
+
+static void catch_signals(void)
+{
+    struct sigaction action = {.sa_handler = on_signal};
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        (void)sigaction(numbers[i], &action, NULL);
+    }
+    action.sa_handler = SIG_IGN;
+    (void)sigaction(SIGPIPE, &action, NULL);
+}
+
+static void pace_begin(pace_state_t *pace, uint64_t now)
+{
+    clock_gettime(CLOCK_MONOTONIC, &pace->start);
+    pace->start_cycles = now;
+}
+
+/* Nanoseconds until the wall clock reaches the simulated moment; negative: late. */
+static int64_t pace_left(const pace_state_t *pace, uint64_t now)
+{
+    struct timespec clock;
+    clock_gettime(CLOCK_MONOTONIC, &clock);
+    const int64_t passed =
+        (int64_t)(clock.tv_sec - pace->start.tv_sec) * 1000000000 + (clock.tv_nsec - pace->start.tv_nsec);
+    return (int64_t)((now - pace->start_cycles) * 125 / 2) - passed; /* 62.5 ns a cycle */
+}
+
+static void wait_for_clock(session_t *session, pace_state_t *pace)
+{
+    const uint64_t now = board_now(session->board);
+    if (!pace->real) {
+        console_wait(&session->console, 0);
+        return;
+    }
+    int64_t left = pace_left(pace, now);
+    if (left < -LATE_NS) {
+        pace_begin(pace, now);
+        left = 0;
+    }
+    do {
+        console_wait(&session->console, left);
+        left = pace_left(pace, now);
+    } while (left > 0 && !interrupted && !session->done);
+}
+
+static void report_violation(session_t *session)
+{
+    const violation_t *violation = board_violation(session->board);
+    session_complain(session, "violation %s at cycle %" PRIu64 " (%.3f ms), PC 0x%05" PRIX32 " in %s: %s",
+                     violation_name(violation->kind), violation->cycle,
+                     (double)violation->cycle / BOARD_CYCLES_PER_MS, violation->pc, violation->function,
+                     violation->text);
+    session_end(session, EXIT_VIOLATION);
+}
+
+/* Only piped input kept the run alive, and it is over: no person waits for real time any more. */
+static bool is_alone(const session_t *session)
+{
+    const options_t *options = session->options;
+    return session->console.stdin_ended && !options->use_pty && !options->use_tcp;
+}
+
+/* The robot has had time to answer the last of it. */
+static bool is_answered(const session_t *session)
+{
+    return is_alone(session) && session->options->time_cycles == UINT64_MAX
+        && board_console_waiting(session->board) == 0
+        && board_now(session->board) - session->last_traffic > LINGER_CYCLES;
+}
+
+static uint64_t earlier(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+static void run(session_t *session, script_t *script)
+{
+    const options_t *options = session->options;
+    const bool fast_by_default = options->script != NULL && !options->use_pty && !options->use_tcp;
+    pace_state_t pace = {.real = options->pace == PACE_REAL || (options->pace == PACE_AUTO && !fast_by_default)};
+    uint64_t tick = 0, wake = 0;
+    pace_begin(&pace, 0);
+    while (!session->done) {
+        uint64_t now = board_now(session->board);
+        uint64_t until = earlier((now / BOARD_CYCLES_PER_TICK + 1) * BOARD_CYCLES_PER_TICK, options->time_cycles);
+        until = earlier(until, session_hands(session));
+        until = earlier(until, script ? wake : NEVER_CYCLES);
+        until = pace.real ? earlier(until, now + SLICE_CYCLES) : until;
+        if (until > now && board_run(session->board, until - now) == BOARD_STOP_VIOLATION) {
+            report_violation(session);
+        }
+        now = board_now(session->board);
+        if (session->tracing && now / BOARD_CYCLES_PER_TICK != tick) {
+            tick = now / BOARD_CYCLES_PER_TICK;
+            trace_row(&session->trace, tick, now);
+        }
+        console_flush(&session->console);
+        wake = script && !session->done ? script_step(script, session) : NEVER_CYCLES;
+        pace.real = pace.real && !(options->pace == PACE_AUTO && is_alone(session));
+        wait_for_clock(session, &pace);
+        if (interrupted || now >= options->time_cycles || session->console.stdout_ended || is_answered(session)) {
+            session_end(session, EXIT_GOOD);
+        }
+    }
+}
+
+int main(int argc, char **argv)
+{
+    options_t options;
+    session_t session;
+    script_t script;
+    options_parse(&options, argc, argv);
+    catch_signals();
+    if (options.bus_pty) {
+        return bus_main(&options, &interrupted);
+    }
+    if (options.script && !script_load(&script, options.script)) {
+        return EXIT_USAGE;
+    }
+    const int error = session_open(&session, &options);
+    session.exit_code = error;
+    if (error == EXIT_GOOD) {
+        run(&session, options.script ? &script : NULL);
+    }
+    session_close(&session);
+    if (options.script) {
+        script_free(&script);
+    }
+    return session.exit_code;
+}
