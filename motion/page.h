@@ -57,9 +57,9 @@ typedef enum {
     PAGE_ERR_SCHEDULE,   /* neither 0 nor 0x0A */
     PAGE_ERR_SPEED,      /* PAGE_SPEED is 0 */
     PAGE_ERR_LINK,       /* a link is above 127 */
-    PAGE_ERR_POSITION    /* a position of a used step is above 1023 and has neither flag (0x4000, 0x2000) */
+    PAGE_ERR_POSITION,   /* a position of a used step is above 1023 and has neither flag (0x4000, 0x2000) */
+    PAGE_EMPTY           /* valid, but without action. Never from page_check (see page_is_playable): why a play ends */
 } page_status_t;
-/* Whether a valid page has an action is a question of its own: page_is_playable. */
 
 /* 8-bit sum of `count` bytes, added to `sum`: pages are summed in pieces as they are read. */
 uint8_t page_sum(uint8_t sum, const uint8_t *bytes, uint16_t count);

@@ -2,7 +2,7 @@
  * player.h - plays pages: each tick (1/128 s) turns pages and links into 31 goal positions.
  * Pure: knows neither bus nor flash; pages come through page_source_t a few bytes at a time, straight from where they
  * are kept. Caller-owned state, main loop only, one call per tick. Law of motion: player.md.
- * RAM: sizeof(player_t) + sizeof(link_t) <= 1024 bytes. */
+ * RAM: sizeof(player_t) + sizeof(link_t) <= 1024 bytes (tests/unit/test_player.c holds it to that on the ATmega128). */
 #ifndef PLAYER_H
 #define PLAYER_H
 
@@ -16,7 +16,7 @@
 
 typedef enum { PLAYER_LAW_EXACT = 0, PLAYER_LAW_CLASSIC } player_law_t;
 
-/* Where pages come from. Both calls must be cheap (a tick makes up to about 40 of read). */
+/* Where pages come from. Both calls must be cheap: a tick makes up to six reads of up to 64 bytes. */
 typedef struct {
     void *context;
     /* Copies `count` bytes at byte `offset` of page `page` (0..127). */
@@ -28,7 +28,7 @@ typedef struct {
 typedef enum {
     PLAYER_OK = 0,
     PLAYER_ERR_RANGE,        /* page 0 or above 127 */
-    PLAYER_ERR_PAGE,         /* the page is damaged: page_status_t in player.fault */
+    PLAYER_ERR_PAGE,         /* the page is damaged: page_status_t in player.fault, the page in .fault_page */
     PLAYER_ERR_EMPTY,        /* the page has no steps, or PLAY_COUNT 0 and nothing playable along its link */
     PLAYER_ERR_BUSY          /* a play is on */
 } player_status_t;
@@ -44,6 +44,36 @@ enum {
     PLAYER_EV_STANDING = 1 << 6 /* a break or a pause has brought all joints to a stand */
 };
 
+/* A step of a page, as the plan needs it. page 0: none. */
+typedef struct {
+    uint8_t page, step, steps;                /* step 1..steps */
+    uint8_t schedule, page_speed, accel_time; /* of its page */
+    uint8_t pause, time;                      /* bytes 62 and 63 of the step */
+} player_step_t;
+
+/* One joint. Speeds are servo units per tick; see law_exact.c and law_classic.c for what stands in which section. */
+typedef struct {
+    uint16_t target_pos;      /* where the step playing now ends */
+    uint16_t coming_pos;      /* where the coming one ends */
+    union {
+        uint32_t mean_q12_20; /* exact: size of the coming step's mean speed */
+        struct {
+            int16_t stop_speed, through_speed; /* classic: the coming step's speed, either way */
+        };
+    };
+    union {
+        struct {
+            int32_t pos_q12_20, speed_q12_20, accel_q12_20;
+            uint32_t cruise_q12_20, exit_q12_20; /* sizes */
+        } exact;
+        struct {
+            int16_t base, speed, carried, acc, main, value, quotient;
+            uint16_t remainder, error;
+            bool through;
+        } classic;
+    };
+} player_joint_t;
+
 typedef struct player {
     /* Public, read only for callers. */
     uint16_t goal_pos[PAGE_JOINTS]; /* the tick's output, 0..1023, page coordinates (no trim) */
@@ -51,10 +81,33 @@ typedef struct player {
     uint8_t page, step;             /* playing now; step 1..7 */
     uint8_t repetition;             /* 1.. PLAY_COUNT */
     uint8_t next_page, link_taken;  /* of the last PLAYER_EV_LINK */
-    uint8_t fault_page, fault;      /* page_status_t of the page that ended the play, or PAGE_OK */
+    uint8_t fault_page, fault;      /* page that ended the play, and why: page_status_t or PAGE_EMPTY; PAGE_OK: none */
     uint8_t law;                    /* player_law_t */
-    /* The planner's own state follows (whoever implements this appends it). */
+    /* The planner's own. */
     const page_source_t *source;
+    uint32_t present, coming_joints; /* joints that may be driven; those that the coming step uses */
+    player_step_t now, coming;
+    uint8_t look_page;               /* classic: the page that the link named, before pages without action are passed */
+    uint8_t count_left;              /* repetitions, 8 bits as in the original */
+    uint8_t coming_repetition;
+    uint8_t state, section;
+    uint8_t ramp_ticks, coming_ramp_ticks;
+    uint8_t prepared, quota;         /* joints of the coming step made ready; how many more a tick */
+    uint8_t brake_ticks;
+    bool breaking, every_tick;
+    uint8_t slopes;                  /* slopes_t of player.c: does the coming page's compliance differ? */
+    uint16_t tick, section_ticks;
+    uint16_t step_ticks, hold_ticks, coming_ticks;
+    union {
+        struct {
+            uint16_t carry_q5_11;    /* exact: the fraction of a tick that is left over */
+            uint16_t share_q0_16;    /* exact: RISE / (all but FALL) */
+        };
+        uint32_t through_recip;      /* classic: one over the divisor of through_speed */
+    };
+    uint16_t ramp_recip;             /* exact: one over the ramp */
+    uint32_t coming_recip;           /* exact: one over the coming step's ticks; classic: as through_recip, stop_speed */
+    player_joint_t joint[PAGE_JOINTS];
 } player_t;
 
 /* Binds the source and sets everything idle. */
@@ -62,9 +115,12 @@ void player_init(player_t *player, const page_source_t *source);
 
 /* Begins at step 1 of `page` with the joints standing at pose_pos (page coordinates). The caller has told `link` of the
  * call (link_call). `present`: bit per joint that may be driven; others are never touched.
- * Any error: nothing changed, the player stays as it was. The first output comes with the next player_tick. */
+ * Any error: nothing changed but .fault and .fault_page. The first output comes with the next player_tick. */
 MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
                                         const uint16_t pose_pos[PAGE_JOINTS], uint32_t present);
+
+/* Where step 1 of `page` wants its joints: fills those places of pose_pos and returns their bits. For the approach. */
+uint32_t player_first_pose(const page_source_t *source, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
 
 /* One tick. Returns PLAYER_EV_ bits; 0 when idle. */
 uint8_t player_tick(player_t *player, link_t *link);
@@ -72,12 +128,13 @@ uint8_t player_tick(player_t *player, link_t *link);
 /* Leaves the page at once: every joint slows down to a stand within ACCEL_TIME ticks (at least 8), no reversal. */
 void player_break(player_t *player);
 
-/* Decelerates and holds; resume goes on to the interrupted step's target in the time that was left. */
+/* Decelerates and holds; resume goes on to the interrupted step's target in the time that was left (but never faster
+ * than a ramp of the length it took to slow down). */
 void player_pause(player_t *player);
 void player_resume(player_t *player);
 
 bool player_is_moving(const player_t *player);   /* a play is on, paused or breaking included */
-bool player_is_paused(const player_t *player);
+bool player_is_paused(const player_t *player);   /* told to pause: slowing down or standing */
 
 /* Takes joints out of a running play (torque lost, servo silent): they keep their last goal and are not in `joints`. */
 void player_drop_joints(player_t *player, uint32_t joints);

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT
+ * law.h - the seam between the player (pages, links, states: player.c) and its two laws (law_exact.c, law_classic.c).
+ * Included by these only. A law sees `now` and `coming`, keeps what it needs in player_joint_t, and asks the player for
+ * the next step with player_next_step. */
+#ifndef LAW_H
+#define LAW_H
+
+#include "player.h"
+
+/* Sections of a step.
+ *
+ *  speed          ________
+ *                /        \
+ *      ---------/          \___________
+ *      RISE        CRUISE    FALL  HOLD        ramp_ticks, ..., ramp_ticks, hold_ticks
+ */
+enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
+
+/* Goes on to the coming step, and finds the one after it; at the last step of a page that means deciding the link.
+ * step: receives the 64 bytes of the step to look at for joints that run through (classic: of the page that the link
+ * names; exact: of the step that will really be played). Valid when player_looks_ahead.
+ * Returns PLAYER_EV_STEP and what belongs to it. Call only while player->coming.page is not 0. */
+uint8_t player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES]);
+bool player_looks_ahead(const player_t *player);
+
+/* Work that may wait for a quiet tick: compares the compliance of two pages. */
+void player_quiet_work(player_t *player);
+
+/* The play ends here, on target. Returns PLAYER_EV_ENDED. */
+uint8_t player_end(player_t *player);
+
+/* false while the rest of an interrupted step is played. */
+bool player_is_in_law(const player_t *player);
+
+/* `joint`'s bit in a mask. */
+bool law_has_joint(uint32_t mask, uint8_t joint);
+
+/* Both laws. start: every joint stands on target_pos = coming_pos = goal_pos (`step`: the bytes of the first step).
+ * tick: one tick, PLAYER_EV_ bits. freeze: leaves pos and speed of every joint in the words of the exact law, and the
+ * ticks that the step still had in player->step_ticks - player->tick. */
+void exact_start(player_t *player, const uint8_t step[PAGE_STEP_BYTES]);
+uint8_t exact_tick(player_t *player, link_t *link);
+void exact_freeze(player_t *player);
+void classic_start(player_t *player);
+uint8_t classic_tick(player_t *player, link_t *link);
+void classic_freeze(player_t *player);
+
+/* Slows down from pos and speed in law_brake_ticks: as long as the step's ramp, at least 8 ticks, so that no joint leaves
+ * the way that its page would have taken it. brake_tick returns false with the last tick. */
+#define BRAKE_TICKS_MIN 8u
+uint8_t law_brake_ticks(const player_t *player);
+void brake_start(player_t *player);
+bool brake_tick(player_t *player);
+
+/* The rest of an interrupted step, from a stand to target_pos, by the exact law whatever the play's. Start returns false
+ * when there is nothing left to do; a tick false when it was the last, on target. */
+bool exact_rest_start(player_t *player);
+bool exact_rest_tick(player_t *player);
+
+/* Classic while and after that: makes the coming step ready; takes over again behind the finished step. */
+void classic_prepare_at_rest(player_t *player);
+void classic_thaw(player_t *player);
+
+#endif

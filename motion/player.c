@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: MIT */
+#include "player.h"
+#include "fix.h"
+#include "law.h"
+
+/*          start            last tick of the last page
+ *   IDLE --------> PLAYING ---------------------------> IDLE
+ *                  |   ^  ^ rest of the step played
+ *            pause |   |  +--------------- RESTING
+ *            break |   +-- still standing     ^ resume
+ *                  v                          |
+ *                BRAKING ------------> STANDING      (a break ends: IDLE)
+ */
+enum { STATE_IDLE, STATE_PLAYING, STATE_BRAKING, STATE_STANDING, STATE_RESTING };
+
+typedef enum { SLOPES_SAME, SLOPES_UNKNOWN, SLOPES_DIFFER } slopes_t;
+
+/* Pages without action that are passed over in one tick before the play gives up. */
+#define PASS_OVER_MAX PAGE_COUNT
+#define HEADER_BYTES 32u /* what stands before the compliance bytes */
+
+void player_init(player_t *player, const page_source_t *source)
+{
+    *player = (player_t){.source = source, .state = STATE_IDLE};
+}
+
+bool law_has_joint(uint32_t mask, uint8_t joint)
+{
+    return ((mask >> joint) & 1u) != 0;
+}
+
+static void read_header(const page_source_t *source, uint8_t page, uint8_t header[HEADER_BYTES])
+{
+    source->read(source->context, page, 0, header, HEADER_BYTES);
+}
+
+static void read_step(const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES])
+{
+    source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), bytes, PAGE_STEP_BYTES);
+}
+
+/* --- which page and step comes ----------------------------------------------------------------------------------- */
+
+static uint8_t fail(player_t *player, uint8_t page, uint8_t fault)
+{
+    player->fault_page = page;
+    player->fault = fault;
+    return 0;
+}
+
+/* The first page with action, from `page` on along the links of pages with PLAY_COUNT 0. 0: none, or a fault. Leaves
+ * that page's header in `header`. */
+static uint8_t resolve(player_t *player, link_t *link, uint8_t page, uint8_t header[HEADER_BYTES])
+{
+    for (uint8_t passed = 0; page != 0 && passed < PASS_OVER_MAX; passed++) {
+        uint8_t status = player->source->check(player->source->context, page);
+        if (status != PAGE_OK) {
+            return fail(player, page, status);
+        }
+        read_header(player->source, page, header);
+        if (page_is_playable(header)) {
+            return page;
+        }
+        if (header[PAGE_AT_PLAY_COUNT] != 0) {
+            return fail(player, page, PAGE_EMPTY);
+        }
+        link_taken_t taken;
+        uint8_t next = link_decide(link, page, header, &taken);
+        if (next == page) {
+            return fail(player, page, PAGE_EMPTY);
+        }
+        page = next;
+    }
+    return page == 0 ? 0 : fail(player, page, PAGE_EMPTY);
+}
+
+static void take_header(player_t *player, uint8_t page, const uint8_t header[HEADER_BYTES])
+{
+    player_step_t *step = &player->coming;
+    step->page = page;
+    step->step = 1;
+    step->steps = header[PAGE_AT_STEPS];
+    step->schedule = header[PAGE_AT_SCHEDULE];
+    step->page_speed = header[PAGE_AT_SPEED];
+    step->accel_time = header[PAGE_AT_ACCEL_TIME];
+    player->count_left = header[PAGE_AT_PLAY_COUNT];
+    player->coming_repetition = 1;
+}
+
+static bool has_steps(player_t *player, uint8_t page)
+{
+    uint8_t steps = 0;
+    if (page != 0 && player->source->check(player->source->context, page) == PAGE_OK) {
+        player->source->read(player->source->context, page, PAGE_AT_STEPS, &steps, 1);
+    }
+    return steps != 0;
+}
+
+/* At the last step of a page: the same page again, or along its link. */
+static uint8_t decide(player_t *player, link_t *link)
+{
+    player->count_left--;
+    if (player->count_left != 0 && !link_is_stopping(link)) {
+        player->coming.step = 1;
+        player->coming_repetition++;
+        return 0;
+    }
+    uint8_t header[HEADER_BYTES];
+    link_taken_t taken;
+    read_header(player->source, player->now.page, header);
+    uint8_t named = link_decide(link, player->now.page, header, &taken);
+    player->link_taken = (uint8_t)taken;
+    player->next_page = named;
+    uint8_t page = resolve(player, link, named, header);
+    player->look_page = page == named ? page : has_steps(player, named) ? named : 0;
+    player->coming.page = 0;
+    if (page != 0) {
+        if (page != player->now.page) {
+            player->slopes = SLOPES_UNKNOWN;
+        }
+        take_header(player, page, header);
+    }
+    return PLAYER_EV_LINK;
+}
+
+static void read_coming(player_t *player, uint8_t bytes[PAGE_STEP_BYTES])
+{
+    read_step(player->source, player->coming.page, player->coming.step, bytes);
+    player->coming.pause = bytes[PAGE_STEP_AT_PAUSE];
+    player->coming.time = bytes[PAGE_STEP_AT_SPEED];
+}
+
+bool player_looks_ahead(const player_t *player)
+{
+    return player->look_page != 0;
+}
+
+uint8_t player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES])
+{
+    uint8_t events = PLAYER_EV_STEP;
+    player_quiet_work(player); /* in case no tick was quiet */
+    player->now = player->coming;
+    player->page = player->now.page;
+    player->step = player->now.step;
+    player->joints |= player->coming_joints;
+    if (player->step == 1) {
+        events |= PLAYER_EV_PAGE | (player->slopes == SLOPES_DIFFER ? PLAYER_EV_SLOPES : 0);
+        player->slopes = SLOPES_SAME;
+        player->repetition = player->coming_repetition;
+    }
+    player->look_page = player->now.page;
+    if (player->step < player->now.steps) {
+        player->coming.step++;
+    } else {
+        events |= decide(player, link);
+    }
+    if (player->coming.page != 0) {
+        read_coming(player, step);
+    }
+    if (player->law == PLAYER_LAW_CLASSIC && player->look_page != player->coming.page && player->look_page != 0) {
+        read_step(player->source, player->look_page, 1, step);
+    } else {
+        player->look_page = player->coming.page;
+    }
+    return events;
+}
+
+#define COMPARE_BYTES 31u
+void player_quiet_work(player_t *player)
+{
+    if (player->slopes != SLOPES_UNKNOWN) {
+        return;
+    }
+    uint8_t mine[COMPARE_BYTES], coming[COMPARE_BYTES];
+    player->source->read(player->source->context, player->now.page, PAGE_AT_COMPLIANCE, mine, COMPARE_BYTES);
+    player->source->read(player->source->context, player->coming.page, PAGE_AT_COMPLIANCE, coming, COMPARE_BYTES);
+    player->slopes = SLOPES_SAME;
+    for (uint8_t i = 0; i < COMPARE_BYTES; i++) {
+        if (mine[i] != coming[i]) {
+            player->slopes = SLOPES_DIFFER;
+        }
+    }
+}
+
+bool player_is_in_law(const player_t *player)
+{
+    return player->state == STATE_PLAYING;
+}
+
+uint8_t player_end(player_t *player)
+{
+    player->state = STATE_IDLE;
+    return PLAYER_EV_ENDED;
+}
+
+/* --- what callers do --------------------------------------------------------------------------------------------- */
+
+static void stand_at(player_t *player, const uint16_t pose_pos[PAGE_JOINTS], uint32_t present)
+{
+    player->present = present;
+    player->joints = 0;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        uint16_t pos = pose_pos[i] > PAGE_POS_MAX ? PAGE_POS_MAX : pose_pos[i];
+        player->joint[i] = (player_joint_t){.target_pos = pos, .coming_pos = pos};
+        player->goal_pos[i] = pos;
+    }
+}
+
+player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
+                             const uint16_t pose_pos[PAGE_JOINTS], uint32_t present)
+{
+    if (player->state != STATE_IDLE) {
+        return PLAYER_ERR_BUSY;
+    }
+    if (page == 0 || page >= PAGE_COUNT) {
+        return PLAYER_ERR_RANGE;
+    }
+    uint8_t bytes[PAGE_STEP_BYTES];
+    player->fault_page = 0;
+    player->fault = PAGE_OK;
+    page = resolve(player, link, page, bytes);
+    if (page == 0) {
+        return player->fault == PAGE_OK || player->fault == PAGE_EMPTY ? PLAYER_ERR_EMPTY : PLAYER_ERR_PAGE;
+    }
+    take_header(player, page, bytes);
+    read_coming(player, bytes);
+    stand_at(player, pose_pos, present);
+    player->law = (uint8_t)law;
+    player->slopes = SLOPES_DIFFER;
+    player->breaking = false;
+    if (law == PLAYER_LAW_CLASSIC) {
+        classic_start(player);
+    } else {
+        exact_start(player, bytes);
+    }
+    player->state = STATE_PLAYING;
+    return PLAYER_OK;
+}
+
+uint32_t player_first_pose(const page_source_t *source, uint8_t page, uint16_t pose_pos[PAGE_JOINTS])
+{
+    uint8_t bytes[PAGE_STEP_BYTES];
+    uint32_t joints = 0;
+    read_step(source, page, 1, bytes);
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        uint16_t word = page_word(&bytes[2 * i]);
+        if (page_pos_is_used(word)) {
+            pose_pos[i] = word;
+            joints |= (uint32_t)1 << i;
+        }
+    }
+    return joints;
+}
+
+static uint8_t tick_braking(player_t *player)
+{
+    if (brake_tick(player)) {
+        return PLAYER_EV_OUTPUT;
+    }
+    if (player->breaking) {
+        return (uint8_t)(PLAYER_EV_OUTPUT | PLAYER_EV_STANDING | player_end(player));
+    }
+    player->state = STATE_STANDING;
+    return PLAYER_EV_OUTPUT | PLAYER_EV_STANDING;
+}
+
+static uint8_t tick_resting(player_t *player)
+{
+    bool more = exact_rest_tick(player);
+    if (player->law == PLAYER_LAW_CLASSIC) {
+        more ? classic_prepare_at_rest(player) : classic_thaw(player);
+    }
+    if (!more) {
+        player->state = STATE_PLAYING;
+    }
+    return PLAYER_EV_OUTPUT;
+}
+
+uint8_t player_tick(player_t *player, link_t *link)
+{
+    switch (player->state) {
+    case STATE_PLAYING:
+        return player->law == PLAYER_LAW_CLASSIC ? classic_tick(player, link) : exact_tick(player, link);
+    case STATE_BRAKING:
+        return tick_braking(player);
+    case STATE_RESTING:
+        return tick_resting(player);
+    case STATE_STANDING:
+        return player->breaking ? (uint8_t)(PLAYER_EV_STANDING | player_end(player)) : 0;
+    default:
+        return 0;
+    }
+}
+
+static void slow_down(player_t *player)
+{
+    if (player->law == PLAYER_LAW_CLASSIC && player->state == STATE_PLAYING) {
+        classic_freeze(player);
+    } else {
+        exact_freeze(player);
+    }
+    brake_start(player);
+    player->state = STATE_BRAKING;
+}
+
+void player_break(player_t *player)
+{
+    if (player->state == STATE_PLAYING || player->state == STATE_RESTING) {
+        slow_down(player);
+    }
+    player->breaking = player->state != STATE_IDLE;
+}
+
+void player_pause(player_t *player)
+{
+    if (player->state == STATE_PLAYING || player->state == STATE_RESTING) {
+        slow_down(player);
+    }
+}
+
+void player_resume(player_t *player)
+{
+    if (player->state != STATE_STANDING || player->breaking) {
+        return;
+    }
+    if (!exact_rest_start(player)) {
+        if (player->law == PLAYER_LAW_CLASSIC) {
+            classic_thaw(player);
+        }
+        player->state = STATE_PLAYING;
+        return;
+    }
+    player->state = STATE_RESTING;
+}
+
+bool player_is_moving(const player_t *player)
+{
+    return player->state != STATE_IDLE;
+}
+
+bool player_is_paused(const player_t *player)
+{
+    return (player->state == STATE_BRAKING || player->state == STATE_STANDING) && !player->breaking;
+}
+
+void player_drop_joints(player_t *player, uint32_t joints)
+{
+    bool classic_words = player->law == PLAYER_LAW_CLASSIC && player->state == STATE_PLAYING;
+    player->present &= ~joints;
+    player->joints &= ~joints;
+    player->coming_joints &= ~joints;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        if (law_has_joint(joints, i)) {
+            uint16_t pos = player->goal_pos[i];
+            player->joint[i] = (player_joint_t){.target_pos = pos, .coming_pos = pos};
+            if (classic_words) {
+                player->joint[i].classic.base = (int16_t)pos;
+            } else {
+                player->joint[i].exact.pos_q12_20 = (int32_t)pos << FIX_POS_BITS;
+            }
+        }
+    }
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT
+ * image_source.h - a page_source_t over a motion image in memory, for tests on the PC. */
+#ifndef IMAGE_SOURCE_H
+#define IMAGE_SOURCE_H
+
+#include "player.h"
+
+typedef struct {
+    uint8_t bytes[PAGE_COUNT][PAGE_BYTES];
+    unsigned reads;
+} image_t;
+
+/* A source over `image`; check() judges the page anew each time. */
+page_source_t image_source(image_t *image);
+
+/* All pages empty. */
+void image_clear(image_t *image);
+
+/* Loads a file of pages, `first` of the file at page 0. false: there is no such file, or it is shorter. */
+bool image_load(image_t *image, const char *path, unsigned first);
+
+#endif

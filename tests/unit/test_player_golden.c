@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT
+ * test_player_golden.c - the classic law gives every sample of every joint that the original gave (tests/golden). */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "image_source.h"
+#include "unity.h"
+
+#define JOINTS 12 /* IDs 1..12 */
+#define TICKS_MAX 20000L
+
+static image_t image;
+static player_t player;
+static link_t l;
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+static FILE *open_set(const char *name)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s.bin", GOLDEN_DIR, name);
+    TEST_ASSERT_TRUE_MESSAGE(image_load(&image, path, 0), path);
+    snprintf(path, sizeof path, "%s/%s.csv", GOLDEN_DIR, name);
+    FILE *csv = fopen(path, "r");
+    TEST_ASSERT_NOT_NULL_MESSAGE(csv, path);
+    char heading[256];
+    TEST_ASSERT_NOT_NULL(fgets(heading, sizeof heading, csv));
+    return csv;
+}
+
+/* The next line: its tick and goals. -1 at the end. */
+static long read_line(FILE *csv, uint16_t goals[JOINTS])
+{
+    char line[256];
+    if (fgets(line, sizeof line, csv) == NULL) {
+        return -1;
+    }
+    char *at = line;
+    long tick = strtol(at, &at, 10);
+    for (unsigned i = 0; i < JOINTS; i++) {
+        goals[i] = (uint16_t)strtol(at + 1, &at, 10);
+    }
+    return tick;
+}
+
+static void play_set(const char *name, uint32_t present)
+{
+    FILE *csv = open_set(name);
+    page_source_t source = image_source(&image);
+    uint16_t pose[PAGE_JOINTS], goals[JOINTS];
+    for (unsigned i = 0; i < PAGE_JOINTS; i++) {
+        pose[i] = 512;
+    }
+    player_init(&player, &source);
+    link_init(&l, LINK_LATCH);
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_CLASSIC, pose, present));
+    long first = -1, expected = read_line(csv, goals), compared = 0;
+    for (long tick = 0; player_is_moving(&player) && tick < TICKS_MAX; tick++) {
+        if ((player_tick(&player, &l) & PLAYER_EV_OUTPUT) == 0) {
+            continue;
+        }
+        first = first < 0 ? tick : first;
+        char where[128];
+        for (unsigned i = 0; i < JOINTS; i++) {
+            snprintf(where, sizeof where, "%s: tick %ld, ID %u", name, tick - first, i + 1);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(expected, tick - first, where);
+            TEST_ASSERT_EQUAL_UINT16_MESSAGE(goals[i], player.goal_pos[i + 1], where);
+        }
+        expected = read_line(csv, goals);
+        compared++;
+    }
+    TEST_ASSERT_FALSE_MESSAGE(player_is_moving(&player), name);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(-1, expected, name);
+    TEST_ASSERT_GREATER_THAN_MESSAGE(10, compared, name);
+    fclose(csv);
+}
+
+#define GOLDEN(name) static void test_player_classic_golden_##name(void) { play_set(#name, 0x1FFE); }
+GOLDEN(speed_base_distances)
+GOLDEN(time_base_through_joins)
+GOLDEN(reversals_and_pauses)
+GOLDEN(very_short_steps)
+GOLDEN(accel_zero_then_ramps)
+GOLDEN(repeats_and_chain)
+GOLDEN(clamped_speed)
+GOLDEN(walk_like)
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_player_classic_golden_speed_base_distances);
+    RUN_TEST(test_player_classic_golden_time_base_through_joins);
+    RUN_TEST(test_player_classic_golden_reversals_and_pauses);
+    RUN_TEST(test_player_classic_golden_very_short_steps);
+    RUN_TEST(test_player_classic_golden_accel_zero_then_ramps);
+    RUN_TEST(test_player_classic_golden_repeats_and_chain);
+    RUN_TEST(test_player_classic_golden_clamped_speed);
+    RUN_TEST(test_player_classic_golden_walk_like);
+    return UNITY_END();
+}
