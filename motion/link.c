@@ -21,6 +21,7 @@ void link_call(link_t *link, uint8_t code)
     link->code = code;
     link->stopping = false;
     link->stop_is_final = false;
+    link->ending = false;
     forget_exits(link);
 }
 
@@ -60,9 +61,14 @@ void link_stop(link_t *link)
     link->stop_is_final = true;
 }
 
+void link_end(link_t *link)
+{
+    link->ending = true;
+}
+
 bool link_is_stopping(const link_t *link)
 {
-    return link->stopping;
+    return link->stopping || link->ending;
 }
 
 /* Marks an exit page as gone through. Returns false when it had been. */
@@ -93,6 +99,10 @@ static bool code_matches(const link_t *link, uint8_t linked_code)
 
 uint8_t link_decide(link_t *link, uint8_t page, const uint8_t *header, link_taken_t *taken)
 {
+    if (link->ending) {
+        *taken = LINK_ENDED;
+        return 0;
+    }
     if (link->stopping) {
         return exit_of(link, page, header[PAGE_AT_EXIT_PAGE], taken);
     }

@@ -15,7 +15,8 @@
 typedef enum { LINK_LATCH = 0, LINK_HOLD } link_mode_t;
 
 /* Which link was taken (for the status line). */
-typedef enum { LINK_NEXT = 0, LINK_EXIT, LINK_LINKED1, LINK_LINKED2, LINK_END_OF_EXIT_LOOP } link_taken_t;
+typedef enum { LINK_NEXT = 0, LINK_EXIT, LINK_LINKED1, LINK_LINKED2, LINK_END_OF_EXIT_LOOP,
+               LINK_ENDED } link_taken_t;
 
 typedef struct {
     uint8_t mode;          /* link_mode_t */
@@ -24,6 +25,7 @@ typedef struct {
     uint8_t held_code;     /* the last code heard, not counting stops; 0: released */
     bool stopping;         /* a stop is in force: exit links are followed */
     bool stop_is_final;    /* ... and only a new call ends it (link_stop) */
+    bool ending;           /* no link at all is followed (link_end) */
     uint8_t exits_seen[PAGE_COUNT / 8]; /* exit pages gone through since the stop: a chain that comes back ends */
 } link_t;
 
@@ -40,6 +42,10 @@ void link_code(link_t *link, uint8_t code);
 /* A soft stop, whatever the mode; stays until the play is over or a new one is called. */
 void link_stop(link_t *link);
 
+/* The play ends with the repetition that is on, without the exit page: every link is 0. Stays until a new call. */
+void link_end(link_t *link);
+
+/* true when repetitions are not to go on: a stop or link_end is in force. */
 bool link_is_stopping(const link_t *link);
 
 /* The page that follows `page`, whose first 32 header bytes are `header`, decided at the moment its last step begins

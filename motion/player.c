@@ -226,6 +226,8 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
     read_coming(player, bytes);
     stand_at(player, pose_pos, present);
     player->law = (uint8_t)law;
+    player->page = page;
+    player->step = 0;
     player->slopes = SLOPES_DIFFER;
     player->breaking = false;
     if (law == PLAYER_LAW_CLASSIC) {

@@ -115,6 +115,7 @@ void player_init(player_t *player, const page_source_t *source);
 
 /* Begins at step 1 of `page` with the joints standing at pose_pos (page coordinates). The caller has told `link` of the
  * call (link_call). `present`: bit per joint that may be driven; others are never touched.
+ * player.page is at once the page that will really be played first (pages with PLAY_COUNT 0 are passed over).
  * Any error: nothing changed but .fault and .fault_page. The first output comes with the next player_tick. */
 MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
                                         const uint16_t pose_pos[PAGE_JOINTS], uint32_t present);

@@ -206,6 +206,17 @@ static void test_link_second_stop_starts_with_fresh_exits(void)
     expect(EXIT, LINK_EXIT);
 }
 
+static void test_link_end_follows_no_link_until_a_new_call(void)
+{
+    link_end(&l);
+    TEST_ASSERT_TRUE(link_is_stopping(&l));
+    expect(0, LINK_ENDED);
+    link_code(&l, CODE_L);
+    expect(0, LINK_ENDED);
+    link_call(&l, CODE_U);
+    expect(NEXT, LINK_NEXT);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -230,5 +241,6 @@ int main(void)
     RUN_TEST(test_link_repeated_packets_of_a_held_button_do_not_undo_a_stop);
     RUN_TEST(test_link_serial_stop_stays_until_a_new_call);
     RUN_TEST(test_link_second_stop_starts_with_fresh_exits);
+    RUN_TEST(test_link_end_follows_no_link_until_a_new_call);
     return UNITY_END();
 }
