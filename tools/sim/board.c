@@ -53,6 +53,8 @@ static void init_parts(board_t *board)
     reset_init(board);
     flash_init(board);
     eeprom_init(board);
+    timer_init(board, 0);
+    timer_init(board, 1);
     uart_init(board, 0);
     uart_init(board, 1);
     console_init(board);

@@ -26,6 +26,10 @@ void board_set_fuses(board_t *board, uint8_t low, uint8_t high, uint8_t extended
 uint32_t board_flash_wear(const board_t *board, uint32_t page);
 uint32_t board_eeprom_wear(const board_t *board, uint32_t address);
 
+/* Makes them old: sets what the two functions above tell. */
+void board_age_flash(board_t *board, uint32_t page, uint32_t erases);
+void board_age_eeprom(board_t *board, uint32_t address, uint32_t writes);
+
 /* Operations so far: every page erase, page write and EEPROM byte write counts one, from 1 on. */
 typedef enum { OPERATION_ERASE, OPERATION_WRITE, OPERATION_EEPROM } operation_kind_t;
 uint64_t board_operations(const board_t *board);

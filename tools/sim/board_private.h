@@ -21,7 +21,7 @@
 /* Own events, one slot each: simavr's cycle timers do not survive avr_reset(). */
 typedef enum {
     EVENT_LIMIT, EVENT_UART0, EVENT_UART1, EVENT_CONSOLE, EVENT_BUS, EVENT_SPM, EVENT_EEPROM, EVENT_WATCHDOG,
-    EVENT_POWER, EVENT_CHARGER, EVENT_COUNT
+    EVENT_POWER, EVENT_CHARGER, EVENT_TIMER1, EVENT_TIMER3, EVENT_COUNT
 } event_t;
 typedef void (*event_fn)(board_t *board, uint64_t now);
 
@@ -95,6 +95,13 @@ typedef struct { /* power.c */
     board_operation_fn done;
     void *done_context;
 } power_t;
+
+typedef struct { /* timer.c */
+    board_t *board;
+    uint8_t index, mode, temp; /* index 0: timer 1, 1: timer 3 */
+    uint16_t count, ocr[3], icr, prescale;
+    uint64_t at; /* count is as of this cycle */
+} timer16_t;
 
 struct uart;
 typedef struct uart { /* uart.c */
@@ -180,6 +187,7 @@ struct board {
     eeprom_t eeprom;
     power_t power;
     uart_t uart[2];
+    timer16_t timer[2];
     console_t console;
     bus_wire_t wire;
     panel_t panel;
@@ -240,6 +248,12 @@ void eeprom_tear(board_t *board, uint32_t tear);
 void power_begin(board_t *board, operation_kind_t kind, uint32_t address);
 void power_done(board_t *board, operation_kind_t kind, uint32_t address);
 void power_event(board_t *board, uint64_t now);
+
+/* timer.c */
+void timer_init(board_t *board, int index);
+void timer_reset(timer16_t *timer);
+void timer_event(timer16_t *timer, uint64_t now);
+void timer_flags_changed(board_t *board);
 
 /* uart.c, console.c, bus_wire.c */
 void uart_init(board_t *board, int index);

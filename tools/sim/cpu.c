@@ -159,46 +159,54 @@ static void step_under_gdb(board_t *board)
     }
 }
 
-/* Whatever is due between two instructions, then one instruction or one skip. */
+static void run_due_timers(avr_t *avr)
+{
+    avr_cycle_timer_slot_p timer = avr->cycle_timers.timer;
+    if (timer && timer->when <= avr->cycle) {
+        run_timers(avr);
+    }
+}
+
+/* One instruction, one interrupt response, or one skip to the next thing that can happen. */
+static inline void advance(board_t *board)
+{
+    avr_t *avr = board->avr;
+    const cpu_t *cpu = &board->cpu;
+    if (avr->sreg[S_I] && cpu->enabled_before && interrupt_wanted(board) && interrupt_take(board)) {
+        return;
+    }
+    if (cpu->sleeping || !board->power.on || board->reset.held) {
+        skip_to(board, NEVER);
+    } else if (cpu->halted_until > avr->cycle) {
+        skip_to(board, cpu->halted_until);
+    } else if (avr->gdb) {
+        step_under_gdb(board);
+    } else {
+        cpu_step(board);
+    }
+}
+
 void cpu_run(board_t *board)
 {
     avr_t *avr = board->avr;
-    cpu_t *cpu = &board->cpu;
     while (!board->stopped) {
         if (board->events.next <= avr->cycle) {
             events_run(board);
             continue;
         }
-        avr_cycle_timer_slot_p timer = avr->cycle_timers.timer;
-        if (timer && timer->when <= avr->cycle) {
-            run_timers(avr);
-        }
-        if (avr->sreg[S_I] && cpu->enabled_before && interrupt_wanted(board) && interrupt_take(board)) {
-            continue;
-        }
-        if (cpu->sleeping || !board->power.on || board->reset.held) {
-            skip_to(board, NEVER);
-        } else if (cpu->halted_until > avr->cycle) {
-            skip_to(board, cpu->halted_until);
-        } else if (avr->gdb) {
-            step_under_gdb(board);
-        } else {
-            cpu_step(board);
-        }
+        run_due_timers(avr);
+        advance(board);
     }
 }
 
 uint32_t board_step(board_t *board)
 {
-    avr_t *avr = board->avr;
-    uint64_t from = avr->cycle;
+    uint64_t from = board->avr->cycle;
     board->stopped = false;
-    board_power_on(board);
     events_run(board);
-    if (!(avr->sreg[S_I] && board->cpu.enabled_before && interrupt_wanted(board) && interrupt_take(board))) {
-        cpu_step(board);
-    }
-    return (uint32_t)(avr->cycle - from);
+    run_due_timers(board->avr);
+    advance(board);
+    return (uint32_t)(board->avr->cycle - from);
 }
 
 /* avr_reset() clears the first 25 bytes of the SRAM, sets the clock to 0 and the stack pointer to the end of the

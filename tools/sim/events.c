@@ -4,12 +4,15 @@
 static void uart0_event(board_t *board, uint64_t now) { uart_event(&board->uart[0], now); }
 static void uart1_event(board_t *board, uint64_t now) { uart_event(&board->uart[1], now); }
 
+static void timer1_event(board_t *board, uint64_t now) { timer_event(&board->timer[0], now); }
+static void timer3_event(board_t *board, uint64_t now) { timer_event(&board->timer[1], now); }
+
 /* Ties are settled in this order: what arrives comes before what is sent, the end of the run last. */
 static const struct { event_t event; event_fn run; } order[EVENT_COUNT] = {
     { EVENT_POWER, power_event },   { EVENT_BUS, bus_wire_event },  { EVENT_CONSOLE, console_event },
     { EVENT_UART0, uart0_event },   { EVENT_UART1, uart1_event },   { EVENT_SPM, flash_event },
     { EVENT_EEPROM, eeprom_event }, { EVENT_WATCHDOG, reset_event }, { EVENT_CHARGER, panel_event },
-    { EVENT_LIMIT, event_limit },
+    { EVENT_TIMER1, timer1_event }, { EVENT_TIMER3, timer3_event }, { EVENT_LIMIT, event_limit },
 };
 
 static void find_next(events_t *events)
@@ -39,7 +42,7 @@ void events_run(board_t *board)
 {
     events_t *events = &board->events;
     uint64_t now = board->avr->cycle;
-    while (events->next <= now && !board->stopped) {
+    while (events->next <= now) { /* also when one of them ended the run: time has passed for all */
         uint64_t due = events->next;
         for (int i = 0; i < EVENT_COUNT; i++) {
             event_t event = order[i].event;

@@ -55,6 +55,7 @@ static void acknowledge(board_t *board, int vector)
     } else {
         data[M128_ETIFR] &= (uint8_t)~extended[vector];
     }
+    timer_flags_changed(board);
 }
 
 bool interrupt_take(board_t *board)

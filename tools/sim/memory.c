@@ -72,3 +72,17 @@ uint32_t board_eeprom_wear(const board_t *board, uint32_t address)
 {
     return address < M128_EEPROM_BYTES ? board->eeprom.wear[address] : 0;
 }
+
+void board_age_flash(board_t *board, uint32_t page, uint32_t erases)
+{
+    if (page < M128_PAGES) {
+        board->flash.wear[page] = erases;
+    }
+}
+
+void board_age_eeprom(board_t *board, uint32_t address, uint32_t writes)
+{
+    if (address < M128_EEPROM_BYTES) {
+        board->eeprom.wear[address] = writes;
+    }
+}

@@ -139,6 +139,8 @@ void reset_now(board_t *board, reset_cause_t cause)
     probe_reset(board);
     flash_reset(board);
     eeprom_reset(board);
+    timer_reset(&board->timer[0]);
+    timer_reset(&board->timer[1]);
     uart_reset(&board->uart[0]);
     uart_reset(&board->uart[1]);
     panel_reset(board);

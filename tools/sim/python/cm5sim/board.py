@@ -338,6 +338,13 @@ class Board:
     def eeprom_wear(self, address):
         return self._lib.board_eeprom_wear(self._pointer, address)
 
+    def age(self, page, erases):
+        """Makes a flash page old: its wear becomes so much."""
+        self._lib.board_age_flash(self._pointer, page, erases)
+
+    def age_eeprom(self, address, writes):
+        self._lib.board_age_eeprom(self._pointer, address, writes)
+
     @property
     def operations(self):
         """Flash erases, flash writes and EEPROM byte writes so far."""

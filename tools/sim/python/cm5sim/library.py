@@ -60,6 +60,7 @@ _FUNCTIONS = {
     "board_ram_read": (Z, P, U32, P, Z), "board_ram_write": (Z, P, U32, P, Z), "board_set_lock": (None, P, U8),
     "board_lock": (U8, P), "board_set_fuses": (None, P, U8, U8, U8), "board_flash_wear": (U32, P, U32),
     "board_eeprom_wear": (U32, P, U32), "board_operations": (U64, P),
+    "board_age_flash": (None, P, U32, U32), "board_age_eeprom": (None, P, U32, U32),
     "board_operation": (B, P, U64, ctypes.POINTER(I), ctypes.POINTER(U32)),
     "board_cut_power": (None, P, U64, I, U32), "board_cut_power_at": (None, P, U64),
     # board_debug.h

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+#include "negative.h"
+
+/* Four characters have come and none was read: the receiver holds three. The test sends the characters. */
+static void NOINLINE wait_for(uint8_t characters)
+{
+    uint32_t loops = characters * 700ul; /* about 2,800 cycles a character */
+    while (loops--) {
+        __asm__ volatile("");
+    }
+}
+
+int main(void)
+{
+    console_on();
+    say("send\n");
+    wait_for(WRONG ? 8 : 2);
+    for (uint8_t i = 0; i < 4; i++) {
+        while (!(UCSR1A & _BV(RXC1))) {
+        }
+        put((char)UDR1);
+    }
+    finish();
+}
