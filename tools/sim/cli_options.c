@@ -15,7 +15,7 @@ static const char doc[] =
     "prefix of the robot's own knobs: Ctrl-T ? lists them, Ctrl-T r turns the keyboard into an RC-100.\n"
     "\nExamples:\n"
     "  cm5sim play-cm5.hex                          the robot on this terminal\n"
-    "  cm5sim edit-cm5.hex --pty=/tmp/robot         on a serial port for other programs\n"
+    "  cm5sim edit-cm5.hex --pty=robot              on a serial port for other programs\n"
     "  cm5sim play-cm5.hex --motions walk.bin --rc  with a remote control\n"
     "  cm5sim play-cm5.hex --script walk.txt --plot walk.svg\n"
     "  cm5sim --bus-pty --servos 1-3                servos alone, for PC programs with a Dynamixel library\n"

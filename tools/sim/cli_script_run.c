@@ -189,6 +189,11 @@ static step_t carry_on(script_t *script, session_t *session, const deed_t *deed)
     case DO_EXPECT_NO: return step_expect_no(script, session, deed, late);
     case DO_REGISTER: return step_register(script, session, deed, late);
     case DO_PANEL: return step_panel(script, session, deed, late);
+    case DO_PRESS:
+        if (late && deed->cycles) {
+            session_release(session, (button_t)deed->number);
+        }
+        return late ? STEP_DONE : STEP_WAITING;
     default: return late ? STEP_DONE : STEP_WAITING;
     }
 }

@@ -12,6 +12,8 @@
 #include "cli_text.h"
 #include "servo_api.h"
 
+#define LINE_BPS 57600u
+
 /* ---- messages ---- */
 
 static void message(const char *format, va_list arguments)
@@ -155,6 +157,20 @@ uint64_t session_hands(session_t *session)
     return held ? earlier(next, session->rc_next) : next;
 }
 
+void session_follow_rate(session_t *session)
+{
+    const uint32_t bps = session->console.has_pty ? pty_rate(&session->console.pty) : 0;
+    if (bps == session->pty_bps || bps < 300 || bps > 4000000) {
+        return;
+    }
+    session->pty_bps = bps;
+    board_console_rate(session->board, bps);
+    if (bps * 100 < LINE_BPS * 96 || bps * 100 > LINE_BPS * 104) {
+        session_say(session, "the serial port's rate was set to %u bps; the robot's is %u: both hear garbage", bps,
+                    LINE_BPS);
+    }
+}
+
 void session_list_servos(session_t *session)
 {
     const uint64_t now = board_now(session->board);
@@ -205,6 +221,7 @@ static void typed(session_t *session, uint8_t byte)
 static void input(void *context, console_source_t source, const uint8_t *bytes, size_t count)
 {
     session_t *session = context;
+    session_follow_rate(session);
     if (source != FROM_STDIN || (!keys_are_raw() && !session->keys.rc_mode)) {
         session_send(session, bytes, count);
         return;
@@ -329,6 +346,7 @@ int session_open(session_t *session, const options_t *options)
     board_on_console(session->board, heard, session);
     announce(session);
     board_power_on(session->board);
+    session->opened = true;
     return EXIT_GOOD;
 }
 
@@ -337,6 +355,20 @@ static void keep(session_t *session, const char *error)
     if (error) {
         session_complain(session, "%s", error);
         session_end(session, EXIT_FILE);
+    }
+}
+
+static void keep_memories(session_t *session)
+{
+    const options_t *options = session->options;
+    if (options->flash) {
+        keep(session, files_save_flash(session->board, options->flash));
+    }
+    if (options->eeprom) {
+        keep(session, files_save_eeprom(session->board, options->eeprom));
+    }
+    if (options->servo_eeprom) {
+        keep(session, files_save_servos(session->bus, options->servo_eeprom));
     }
 }
 
@@ -356,7 +388,6 @@ static void close_trace(session_t *session)
 
 void session_close(session_t *session)
 {
-    const options_t *options = session->options;
     console_close(&session->console);
     keys_restore();
     if (session->board == NULL) {
@@ -366,14 +397,8 @@ void session_close(session_t *session)
     if (session->tracing) {
         close_trace(session);
     }
-    if (options->flash) {
-        keep(session, files_save_flash(session->board, options->flash));
-    }
-    if (options->eeprom) {
-        keep(session, files_save_eeprom(session->board, options->eeprom));
-    }
-    if (options->servo_eeprom) {
-        keep(session, files_save_servos(session->bus, options->servo_eeprom));
+    if (session->opened) {
+        keep_memories(session);
     }
     board_free(session->board);
 }

@@ -32,7 +32,9 @@ typedef struct session {
     uint64_t rc_next;           /* next repetition while held */
     uint16_t rc_word;           /* as last sent */
 
+    uint32_t pty_bps; /* as the client of the pty has set it */
     uint64_t last_traffic; /* cycle of the newest byte either way */
+    bool opened; /* only then files are written back */
     bool done;
     int exit_code;
 } session_t;
@@ -65,6 +67,9 @@ void session_power(session_t *session, bool on);
 
 /* Lets go what has been held long enough, repeats the remote's packets; returns the next cycle it has to do so. */
 uint64_t session_hands(session_t *session);
+
+/* Follows the rate that the pty's client sets: at a wrong one it hears and says garbage, as on a cable. */
+void session_follow_rate(session_t *session);
 
 /* The list of servos for Ctrl-T v. */
 void session_list_servos(session_t *session);

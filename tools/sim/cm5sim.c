@@ -128,6 +128,7 @@ static void run(session_t *session, script_t *script)
         wake = script && !session->done ? script_step(script, session) : NEVER_CYCLES;
         pace.real = pace.real && !(options->pace == PACE_AUTO && is_alone(session));
         wait_for_clock(session, &pace);
+        session_follow_rate(session);
         if (interrupted || now >= options->time_cycles || session->console.stdout_ended || is_answered(session)) {
             session_end(session, EXIT_GOOD);
         }

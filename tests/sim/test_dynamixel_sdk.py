@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: MIT
+"""Other people's code against our servos: the real dynamixel-sdk (PyPI), protocol 1.0, on cm5sim --bus-pty."""
+import time
+
+import pytest
+from dynamixel_sdk import (COMM_RX_CORRUPT, COMM_RX_TIMEOUT, COMM_SUCCESS, GroupSyncWrite, PacketHandler,
+                           PortHandler)
+
+from sim_command import Running
+
+GOAL, SPEED, PRESENT, LED, ID, BAUD, TORQUE = 30, 32, 36, 25, 3, 4, 24
+AX12, DX117 = 12, 117
+
+
+class Bus:
+    """SDK handlers on a running cm5sim."""
+
+    def __init__(self, *arguments, rate=1_000_000):
+        self.sim = Running("--bus-pty", *arguments)
+        self.port = PortHandler(self.sim.message(r"servo bus: (/dev/pts/\d+)"))
+        assert self.port.openPort() and self.port.setBaudRate(rate)
+        self.packets = PacketHandler(1.0)
+
+    def ping(self, number):
+        return self.packets.ping(self.port, number)
+
+    def read1(self, number, address):
+        value, result, error = self.packets.read1ByteTxRx(self.port, number, address)
+        assert (result, error) == (COMM_SUCCESS, 0)
+        return value
+
+    def read2(self, number, address):
+        value, result, error = self.packets.read2ByteTxRx(self.port, number, address)
+        assert (result, error) == (COMM_SUCCESS, 0)
+        return value
+
+    def close(self):
+        self.port.closePort()
+        self.sim.__exit__()
+
+
+@pytest.fixture(name="make")
+def _make():
+    buses = []
+
+    def make(*arguments, **options):
+        buses.append(Bus(*arguments, **options))
+        return buses[-1]
+    yield make
+    for bus in buses:
+        bus.close()
+
+
+def test_ping_names_the_model(make):
+    bus = make("--servos", "1-3")
+    assert bus.ping(2) == (AX12, COMM_SUCCESS, 0)
+
+
+def test_wrong_id_times_out(make):
+    bus = make("--servos", "1-3")
+    assert bus.ping(4)[1] == COMM_RX_TIMEOUT
+    assert bus.ping(3)[1] == COMM_SUCCESS  # and nothing is left over from it
+
+
+def test_read_and_write(make):
+    bus = make("--servos", "1-3")
+    assert bus.read2(1, PRESENT) == 512
+    assert bus.packets.write1ByteTxRx(bus.port, 1, LED, 1) == (COMM_SUCCESS, 0)
+    assert bus.read1(1, LED) == 1 and bus.read1(2, LED) == 0
+    assert bus.packets.write2ByteTxRx(bus.port, 1, GOAL, 600) == (COMM_SUCCESS, 0)
+    time.sleep(0.5)  # the bus runs in real time
+    assert bus.read2(1, PRESENT) in (599, 600)
+    assert bus.read2(2, PRESENT) == 512
+
+
+def test_motion_takes_real_time(make):
+    bus = make("--servos", "1")
+    bus.packets.write2ByteTxRx(bus.port, 1, SPEED, 100)  # 227 units a second
+    bus.packets.write2ByteTxRx(bus.port, 1, GOAL, 1000)
+    begun = time.monotonic()
+    time.sleep(1)
+    present, passed = bus.read2(1, PRESENT), time.monotonic() - begun
+    assert abs(present - (512 + 227.1 * passed)) < 15
+
+
+def test_sync_write_moves_all_at_once(make):
+    bus = make("--servos", "1-18")
+    group = GroupSyncWrite(bus.port, bus.packets, GOAL, 4)
+    for number in range(1, 19):
+        goal = 400 + 10 * number
+        assert group.addParam(number, [goal & 255, goal >> 8, 0, 0])
+    assert group.txPacket() == COMM_SUCCESS
+    time.sleep(0.5)
+    for number in range(1, 19):
+        assert abs(bus.read2(number, PRESENT) - (400 + 10 * number)) <= 1
+
+
+def test_registered_write_waits_for_action(make):
+    bus = make("--servos", "1-2")
+    assert bus.packets.regWriteTxRx(bus.port, 1, GOAL, 2, [0, 2])[0] == COMM_SUCCESS
+    assert bus.read1(1, TORQUE) == 0
+    bus.packets.action(bus.port, 254)
+    assert bus.read1(1, TORQUE) == 1
+
+
+def test_error_byte_reaches_the_user(make):
+    bus = make("--servos", "1-3", "--fault", "2:overheating")
+    assert bus.ping(1)[2] == 0
+    error = bus.ping(2)[2]
+    assert bus.packets.getRxPacketError(error) == "[RxPacketError] Overheat error!"
+    result, error = bus.packets.write2ByteTxRx(bus.port, 1, GOAL, 2000)
+    assert result == COMM_SUCCESS
+    assert bus.packets.getRxPacketError(error) == "[RxPacketError] Out of range error!"
+
+
+def test_faults_look_like_faults(make):
+    bus = make("--servos", "1-4", "--fault", "1:silent", "--fault", "2:checksum", "--fault", "3:noise")
+    assert bus.ping(1)[1] == COMM_RX_TIMEOUT
+    assert bus.ping(2)[1] in (COMM_RX_CORRUPT, COMM_RX_TIMEOUT)
+    assert bus.ping(3)[1] == COMM_SUCCESS  # the SDK finds the header behind noise
+    assert bus.ping(4)[1] == COMM_SUCCESS
+
+
+def test_rates_must_agree(make):
+    bus = make("--servos", "1,20:dx117", rate=57_600)  # what the SDK offers for 57,142
+    assert bus.ping(1)[1] != COMM_SUCCESS
+    assert bus.ping(20) == (DX117, COMM_SUCCESS, 0)
+    assert bus.packets.write1ByteTxRx(bus.port, 20, BAUD, 1)[0] == COMM_SUCCESS  # moved to 1 Mbps
+    assert bus.ping(20)[1] != COMM_SUCCESS
+    bus.port.setBaudRate(1_000_000)
+    assert bus.ping(20) == (DX117, COMM_SUCCESS, 0)
+    assert bus.ping(1) == (AX12, COMM_SUCCESS, 0)
+
+
+def test_new_id_and_factory_reset(make):
+    bus = make("--servos", "7")
+    assert bus.packets.write1ByteTxRx(bus.port, 7, ID, 9)[0] == COMM_SUCCESS
+    assert bus.ping(7)[1] == COMM_RX_TIMEOUT
+    assert bus.ping(9)[1] == COMM_SUCCESS
+    assert bus.packets.factoryReset(bus.port, 9)[0] == COMM_SUCCESS
+    assert bus.ping(1)[1] == COMM_SUCCESS
+
+
+def test_idle_bus_costs_no_cpu(make):
+    bus = make("--servos", "1-18")
+    bus.ping(1)
+    before = bus.sim.cpu_seconds()
+    time.sleep(1.5)
+    assert bus.sim.cpu_seconds() - before < 0.1
+
+
+def test_trace_and_servo_eeprom_of_the_bus(make, tmp_path):
+    trace, kept = tmp_path / "trace.csv", tmp_path / "servos.bin"
+    bus = make("--servos", "1-2", "--trace", trace, "--servo-eeprom", kept)
+    bus.packets.write1ByteTxRx(bus.port, 2, ID, 5)
+    bus.packets.write2ByteTxRx(bus.port, 1, GOAL, 600)
+    time.sleep(0.5)
+    assert bus.sim.stop() == 0
+    lines = trace.read_text().splitlines()
+    assert lines[0] == "tick,ms,goal1,present1,goal2,present2"
+    assert lines[-1].split(",")[2:4] == ["600", "600"] or lines[-1].split(",")[2:4] == ["600", "599"]
+    assert kept.read_bytes()[24 + 3] == 5
