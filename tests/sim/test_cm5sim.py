@@ -3,8 +3,10 @@
 import csv
 import os
 import pathlib
+import shutil
 import signal
 import socket
+import subprocess
 import time
 import xml.etree.ElementTree
 
@@ -411,3 +413,24 @@ def test_vcd_is_written(tmp_path):
     assert play(tmp_path, MOVE, "--vcd", vcd).returncode == 0
     text = vcd.read_text()
     assert "$timescale" in text and "$enddefinitions" in text and text.count("#") > 10
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@pytest.mark.skipif(not shutil.which("avr-gdb"), reason="needs avr-gdb (package gdb-avr)")
+def test_gdb_finds_the_chip_at_its_first_instruction_and_stops_at_a_function():
+    port = free_port()
+    with Running(ROBOT, f"--gdb={port}", "--time", "200ms") as robot:
+        robot.message("(waiting for avr-gdb)")
+        time.sleep(0.5)
+        gdb = subprocess.run(
+            ["avr-gdb", "-batch", "-ex", f"target remote :{port}", "-ex", "info registers pc", "-ex", "break say",
+             "-ex", "continue", "-ex", "backtrace", "-ex", "delete", "-ex", "detach", ROBOT.with_suffix(".elf")],
+            capture_output=True, text=True, timeout=60, check=False)
+        assert "pc             0x0 " in gdb.stdout
+        assert "Breakpoint 1, say (" in gdb.stdout and "in main ()" in gdb.stdout
+        assert robot.process.wait(20) == 0
