@@ -120,10 +120,9 @@ def test_terminal_leaves_by_ctrl_bracket_and_restores_the_terminal(terminal):
     assert terminal.exitstatus == 0
 
 
-def test_terminal_is_as_before_after_a_signal():
-    shell = pexpect.spawn("/bin/sh", timeout=10, env={**os.environ, "PS1": "$ "})
-    shell.sendline(f"stty -a > before.$$; {CM5SIM} {ROBOT} -q; echo code $?; stty -a | diff - before.$$ && "
-                   "echo sa''me; rm before.$$")
+def test_terminal_is_as_before_after_a_signal(tmp_path):
+    shell = pexpect.spawn("/bin/sh", timeout=10, cwd=tmp_path, env={**os.environ, "PS1": "$ "})
+    shell.sendline(f"stty -a > before; {CM5SIM} {ROBOT} -q; echo code $?; stty -a | diff - before && echo sa''me")
     shell.expect("ready")
     shell.expect(pexpect.TIMEOUT, timeout=0.3)
     pids = [int(pid) for pid in pathlib.Path(f"/proc/{shell.pid}/task/{shell.pid}/children").read_text().split()]

@@ -70,11 +70,7 @@ static uint64_t until(const session_t *session, uint64_t cycles)
 static void move_button(session_t *session, button_t button, bool down)
 {
     session->button_down[button] = down;
-    if (button == BUTTON_MODE) {
-        board_hold_reset(session->board, down);
-    } else {
-        board_press(session->board, button, down);
-    }
+    board_press(session->board, button, down);
 }
 
 void session_press(session_t *session, button_t button, uint64_t cycles)
