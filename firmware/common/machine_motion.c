@@ -119,7 +119,7 @@ machine_status_t machine_do_play(machine_t *machine, const shell_args_t *args)
         return machine_range_error(PSTR("Code"), 0, LINK_CODE_STOP - 1);
     }
     const performer_status_t status = performer_start(machine->performer, (uint8_t)page, (uint8_t)code);
-    return machine_refusal(status, (uint8_t)page, machine->performer->fault);
+    return machine_refusal(status, machine->performer->fault_page, machine->performer->fault);
 }
 
 /* These four say OK also when there is nothing to do: a program asks @where. */

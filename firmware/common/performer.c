@@ -76,6 +76,7 @@ static void get_ready(performer_t *performer)
 static performer_status_t refusal(performer_t *performer, player_status_t status)
 {
     performer->fault = performer->engine.player.fault;
+    performer->fault_page = performer->engine.player.fault_page;
     switch (status) {
     case PLAYER_OK:
         return PERFORMER_OK;
@@ -210,7 +211,7 @@ void performer_tick(performer_t *performer)
     }
     if (performer->state == PERFORMER_APPROACH) {
         const bool under_way = approach_tick(&performer->engine.approach, performer->pose_pos);
-        servo_link_goals(performer->servos, performer->pose_pos, performer->joints);
+        servo_link_goals(performer->servos, performer->pose_pos, performer->engine.approach.joints & performer->joints);
         if (!under_way) {
             approach_over(performer);
         }
@@ -222,12 +223,17 @@ void performer_tick(performer_t *performer)
 
 /* ---- stop, break, pause ---- */
 
-void performer_stop_softly(performer_t *performer)
+static void resume_if_paused(performer_t *performer)
 {
-    link_stop(&performer->link);
     if (player_is_paused(&performer->engine.player)) {
         player_resume(&performer->engine.player);
     }
+}
+
+void performer_stop_softly(performer_t *performer)
+{
+    link_stop(&performer->link);
+    resume_if_paused(performer);
 }
 
 void performer_break(performer_t *performer)
@@ -265,6 +271,16 @@ void performer_stop(performer_t *performer)
     if (!stop_is_break(performer)) {
         performer_stop_softly(performer);
     }
+}
+
+void performer_end(performer_t *performer)
+{
+    if (performer->state != PERFORMER_PLAY) {
+        performer_break(performer);
+        return;
+    }
+    link_end(&performer->link);
+    resume_if_paused(performer);
 }
 
 bool performer_pause(performer_t *performer)
@@ -306,8 +322,8 @@ void performer_code(performer_t *performer, uint8_t code)
         return;
     }
     link_code(&performer->link, code);
-    if (code == LINK_CODE_STOP && player_is_paused(&performer->engine.player)) {
-        player_resume(&performer->engine.player);
+    if (code == LINK_CODE_STOP) {
+        resume_if_paused(performer);
     }
     /* A hand that lets go before the first step: there is no page yet to leave softly. */
     if (performer->state != PERFORMER_PLAY && link_is_stopping(&performer->link)) {

@@ -28,7 +28,7 @@
 typedef enum {
     PERFORMER_OK = 0,
     PERFORMER_ERR_RANGE,      /* page 0 or above 127 */
-    PERFORMER_ERR_PAGE,       /* the page is damaged: page_status_t in performer.fault */
+    PERFORMER_ERR_PAGE,       /* the page, or one it passes on to, is damaged: performer.fault_page, .fault */
     PERFORMER_ERR_EMPTY,      /* the page has no action */
     PERFORMER_ERR_BUSY,       /* something is playing */
     PERFORMER_ERR_NO_SERVOS,  /* nobody answered the last search */
@@ -74,40 +74,43 @@ typedef struct {
     uint8_t kind, a, b, c;
 } performer_event_t;
 
-#define PERFORMER_EVENTS 12u
+#ifndef PERFORMER_EVENTS
+#define PERFORMER_EVENTS 12u /* at least 7; an image may have less than Play */
+#endif
 
+/* Scalars first, arrays last: the AVR reaches 63 bytes behind a pointer in one instruction. */
 typedef struct {
     /* Read only for callers. */
     uint8_t state;              /* performer_state_t */
     uint8_t page;               /* asked for, or playing */
-    uint8_t fault;              /* page_status_t behind PERFORMER_ERR_PAGE */
+    uint8_t fault_page, fault;  /* the page behind PERFORMER_ERR_PAGE and _EMPTY, and its page_status_t */
     uint32_t released;          /* joints switched off by hand: not driven until performer_on */
     uint32_t faulty;            /* joints whose last word was silence or an error */
-    link_t link;
-    union {
-        player_t player;        /* state PLAY; kept after the end */
-        approach_t approach;    /* state APPROACH */
-    } engine;
     /* May be set by the caller while idle. */
     bool approach_off;          /* go straight into the first step, whatever the pose: for comparison with recorded
                                    traces only. Not a setting, so that no robot wakes up with it. */
     /* Private. */
-    const page_source_t *source;
-    servo_link_t *servos;
-    const settings_t *settings;
-    uint16_t pose_pos[PAGE_JOINTS];
-    uint32_t joints;            /* that this play may drive */
-    uint32_t ready_left;        /* joints READY has still to ask */
-    uint32_t move_joints;       /* that a move concerns; its goals are in engine.approach.target_pos */
-    uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
     uint8_t first_page;         /* the page that plays first: the one asked for, or where its links lead */
-    uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
     uint8_t end;                /* performer_end_t to report */
+    uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
     bool leaving;               /* a break is under way */
     bool pausing;               /* APPROACH: a pause is under way */
     bool told_battery, told_hot;
+    uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
+    uint32_t joints;            /* that this play may drive */
+    uint32_t ready_left;        /* joints READY has still to ask */
+    uint32_t move_joints;       /* that a move concerns; its goals are in engine.approach.target_pos */
+    const page_source_t *source;
+    servo_link_t *servos;
+    const settings_t *settings;
     uint8_t events_head, events_count, events_lost;
+    link_t link;                /* read only for callers */
     performer_event_t events[PERFORMER_EVENTS];
+    uint16_t pose_pos[PAGE_JOINTS];
+    union {
+        player_t player;        /* state PLAY; kept after the end. Read only for callers */
+        approach_t approach;    /* state APPROACH */
+    } engine;
 } performer_t;
 
 /* Idle; nothing is sent. The three others stay the caller's and are used from now on. */
@@ -128,6 +131,9 @@ MUST_CHECK performer_status_t performer_move(performer_t *performer, const uint1
 /* A soft stop: through the exit page. The second one within a second is a break. Ends a pause. On the way to the first
  * pose it is a break. Idle: nothing. */
 void performer_stop(performer_t *performer);
+
+/* Ends with the repetition that is on, without the exit page. On the way to the first pose it is a break. */
+void performer_end(performer_t *performer);
 
 /* Ends at once: all joints slow down to a stand and hold. */
 void performer_break(performer_t *performer);

@@ -3,7 +3,6 @@
 #include "performer_parts.h"
 
 #include <string.h>
-#include "bus_call.h"
 
 static player_law_t law(const performer_t *performer)
 {
@@ -61,41 +60,22 @@ void performer_begin_page(performer_t *performer)
 /* Where the approach leads: the first step's positions, or the pose of a move. Returns the joints it concerns. */
 static uint32_t first_pose(const performer_t *performer, uint16_t to_pos[PAGE_JOINTS])
 {
-    memcpy(to_pos, performer->pose_pos, sizeof performer->pose_pos);
-    uint32_t joints = 0;
-    for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
-        const uint32_t joint = SERVO_LINK_BIT(id);
-        uint16_t word = PAGE_POS_UNUSED;
-        if ((performer->joints & joint) == 0) {
-            continue;
-        }
-        if (performer->move_deg_s == 0) {
-            uint8_t bytes[2];
-            performer->source->read(performer->source->context, performer->first_page,
-                                    (uint16_t)(PAGE_AT_STEP0 + 2u * id), bytes, sizeof bytes);
-            word = (uint16_t)(bytes[0] | (bytes[1] << 8));
-        } else if ((performer->move_joints & joint) != 0) {
-            word = performer->engine.approach.target_pos[id];
-        }
-        if (page_pos_is_used(word)) {
-            to_pos[id] = word;
-            joints |= joint;
-        }
+    if (performer->move_deg_s != 0) {
+        memcpy(to_pos, performer->engine.approach.target_pos, sizeof performer->engine.approach.target_pos);
+        return performer->move_joints & performer->joints;
     }
-    return joints;
+    memcpy(to_pos, performer->pose_pos, sizeof performer->pose_pos);
+    return player_first_pose(performer->source, performer->first_page, to_pos) & performer->joints;
 }
 
 static void begin_approach(performer_t *performer)
 {
-    static const uint8_t full_speed[2] = {0, 0};
     if (performer->joints == 0) {
         performer_finish(performer, PERFORMER_END_SERVO);
         return;
     }
-    /* The editor leaves slow moving speeds behind; goals a tick apart need the servos' full one. Nobody answers, so there
-     * is nothing to check. */
-    servo_link_quiet(performer->servos);
-    (void)!bus_call_write(DXL_BROADCAST, DXL_AT_SPEED, full_speed, sizeof full_speed, NULL);
+    /* The editor leaves slow moving speeds behind; goals a tick apart need the servos' full one. */
+    servo_link_full_speed(performer->servos, performer->joints);
     uint16_t to_pos[PAGE_JOINTS];
     const uint32_t joints = first_pose(performer, to_pos);
     const uint16_t limit_deg_s =

@@ -27,8 +27,11 @@ void report_page_fault(uint8_t page_status)
     case PAGE_ERR_LINK:
         TEXT("a link is above 127");
         break;
-    default:
+    case PAGE_ERR_POSITION:
         TEXT("a position is above 1023");
+        break;
+    default:
+        TEXT("no steps");
         break;
     }
 }
@@ -142,6 +145,9 @@ static void report_link(uint8_t to_page, uint8_t taken)
     case LINK_LINKED2:
         TEXT("Link 2");
         break;
+    case LINK_ENDED:
+        TEXT("No link");
+        break;
     case LINK_END_OF_EXIT_LOOP:
         TEXT("The exit pages lead back to themselves");
         break;
@@ -166,7 +172,7 @@ static void report_end(const performer_event_t *event)
     case PERFORMER_END_PAGE:
         TEXT("Ended: page ");
         text_number(event->a);
-        TEXT(" is damaged or empty: ");
+        text_P(event->b == PAGE_EMPTY ? PSTR(" is empty: ") : PSTR(" is damaged: "));
         report_page_fault(event->b);
         return;
     case PERFORMER_END_STOPPED:

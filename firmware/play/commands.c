@@ -50,7 +50,7 @@ static uint8_t do_play(void *context, const shell_args_t *args)
         return SHELL_ERR_SAID;
     }
     const performer_status_t status = performer_start(&play->performer, page, LINK_CODE_NONE);
-    return commands_refuse(status, page, play->performer.fault);
+    return commands_refuse(status, play->performer.fault_page, play->performer.fault);
 }
 
 static uint8_t nothing_is_playing(void)

@@ -35,6 +35,7 @@ static void call(inputs_t *inputs, uint8_t code, bool held)
     refusal.no_page = refusal.page == 0;
     if (!refusal.no_page) {
         refusal.status = (uint8_t)performer_start(inputs->performer, refusal.page, code);
+        refusal.page = inputs->performer->fault_page;
         refusal.fault = inputs->performer->fault;
     }
     if ((refusal.no_page || refusal.status != PERFORMER_OK) && !held) {
