@@ -26,7 +26,7 @@ static const char doc[] =
 enum {
     OPT_BOARD = 256, OPT_SERVOS, OPT_MOTIONS, OPT_PTY, OPT_TCP, OPT_BUS_PTY, OPT_RC, OPT_SCRIPT, OPT_GDB, OPT_VCD,
     OPT_TRACE, OPT_PLOT, OPT_REALTIME, OPT_FAST, OPT_FLASH, OPT_EEPROM, OPT_SERVO_EEPROM, OPT_TIME, OPT_SEED,
-    OPT_FAULT, OPT_ALLOW, OPT_NO_STDIO
+    OPT_FAULT, OPT_ALLOW, OPT_NO_STDIO, OPT_SUMMARY
 };
 
 static const struct argp_option descriptions[] = {
@@ -59,6 +59,7 @@ static const struct argp_option descriptions[] = {
     {0, 0, 0, 0, "Looking inside:", 4},
     {"trace", OPT_TRACE, "FILE", 0, "CSV: goal and present position of every servo, 128 rows a second", 0},
     {"plot", OPT_PLOT, "FILE", 0, "Joints over time as .svg or .png (needs Python with matplotlib)", 0},
+    {"summary", OPT_SUMMARY, 0, 0, "At the end: simulated and real time, CPU load, stack headroom, serial counters", 0},
     {"vcd", OPT_VCD, "FILE", 0, "Pins and serial bytes for a wave viewer", 0},
     {"gdb", OPT_GDB, "PORT", OPTION_ARG_OPTIONAL, "Wait for avr-gdb on 127.0.0.1:PORT (default 1234)", 0},
     {"allow", OPT_ALLOW, "KIND", 0, "Do not stop at this violation", 0},
@@ -204,6 +205,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case OPT_PTY: options->use_pty = true; options->pty_link = arg; break;
     case OPT_TCP: options->use_tcp = true; parse_port(state, "--tcp", arg, &options->tcp_port); break;
     case OPT_NO_STDIO: options->no_stdio = true; break;
+    case OPT_SUMMARY: options->summary = true; break;
     case OPT_RC: options->rc = true; break;
     case OPT_BUS_PTY: options->bus_pty = true; options->bus_link = arg; break;
     case OPT_SCRIPT: options->script = arg; break;

@@ -35,7 +35,7 @@ typedef struct {
     int servo_count;
     fault_plan_t faults[CLI_FAULTS_MAX];
     int fault_count;
-    bool use_pty, use_tcp, bus_pty, rc, use_gdb, quiet, no_stdio;
+    bool use_pty, use_tcp, bus_pty, rc, use_gdb, quiet, no_stdio, summary;
     const char *pty_link, *bus_link;
     int tcp_port, gdb_port; /* tcp_port 0: any free one */
     const char *script, *vcd, *trace, *plot, *flash, *eeprom, *servo_eeprom;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "board_debug.h"
 #include "cli_bus.h"
 #include "cli_script.h"
 #include "cli_session.h"
@@ -103,6 +104,30 @@ static uint64_t earlier(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
+/* --summary: what the run was like. */
+static void summarize(const session_t *session, const struct timespec *begun)
+{
+    struct timespec ended, cpu;
+    uart_counts_t bus, console;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
+    clock_gettime(CLOCK_MONOTONIC, &ended);
+    const double real = (double)(ended.tv_sec - begun->tv_sec) + (double)(ended.tv_nsec - begun->tv_nsec) / 1e9;
+    const uint64_t now = board_now(session->board);
+    const double simulated = (double)now / (1000.0 * BOARD_CYCLES_PER_MS);
+    board_uart_counts(session->board, 0, &bus);
+    board_uart_counts(session->board, 1, &console);
+    const double busy = (double)cpu.tv_sec + (double)cpu.tv_nsec / 1e9;
+    session_complain(session, "simulated %.3f s in %.3f s, %.3f s of this PC's CPU: %.1f times real time on one core",
+                     simulated, real, busy, simulated / busy);
+    session_complain(session, "CPU busy %.1f %%, stack headroom %u bytes, %u resets",
+                     now ? 100.0 * (double)board_busy_cycles(session->board) / (double)now : 0.0,
+                     board_stack_headroom(session->board), board_resets(session->board));
+    session_complain(session, "bus: %" PRIu64 " bytes out, %" PRIu64 " in, %" PRIu64 " overruns, %" PRIu64
+                     " framing errors", bus.sent, bus.received, bus.overruns, bus.framing);
+    session_complain(session, "console: %" PRIu64 " bytes out, %" PRIu64 " in, %" PRIu64 " overruns, %" PRIu64
+                     " framing errors", console.sent, console.received, console.overruns, console.framing);
+}
+
 static void run(session_t *session, script_t *script)
 {
     const options_t *options = session->options;
@@ -151,7 +176,12 @@ int main(int argc, char **argv)
     const int error = session_open(&session, &options);
     session.exit_code = error;
     if (error == EXIT_GOOD) {
+        struct timespec begun;
+        clock_gettime(CLOCK_MONOTONIC, &begun);
         run(&session, options.script ? &script : NULL);
+        if (options.summary) {
+            summarize(&session, &begun);
+        }
     }
     session_close(&session);
     if (options.script) {

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""Every command line of the simulator's README, executed; and every option of cm5sim must occur there."""
+import os
+import re
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from sim_command import BUILD, CM5SIM, TOP, run
+
+README = (TOP / "tools" / "sim" / "README.md").read_text(encoding="utf-8")
+COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", README, re.S)
+            for line in block.splitlines() if "cm5sim" in line]
+ANSWERS_IN_S = 4  # what has not ended by itself then is asked to
+
+# One page; joint 3 ends at 600. No other joint is used.
+WALK = """\
+motion512 1
+page 1 walk
+code U+B1
+accel 8
+step 100 | 3:512
+step 60 | 3:600
+"""
+
+
+def needs(command):
+    """Images of a command that are not built."""
+    return [name for name in re.findall(r"\S+\.hex", command) if not (BUILD / "firmware" / name).exists()]
+
+
+@pytest.fixture(name="folder")
+def _folder(tmp_path):
+    script = re.search(r"This is `walk.txt`:\n\n```\n(.*?)```", README, re.S)[1]
+    (tmp_path / "walk.txt").write_text(script)
+    (tmp_path / "walk.m512").write_text(WALK)
+    subprocess.run([sys.executable, "-m", "m512", "convert", "walk.m512", "walk.bin"], cwd=tmp_path, check=True,
+                   stdout=subprocess.DEVNULL)
+    return tmp_path
+
+
+def execute(command, folder):
+    """Runs a command line as a shell would; asks it to end by SIGINT when it does not do so by itself."""
+    line = command if "|" in command else f"exec {command}"
+    process = subprocess.Popen(["sh", "-c", line], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, start_new_session=True,
+                               env={**os.environ, "PATH": f"{CM5SIM.parent}:{os.environ['PATH']}"})
+    try:
+        process.wait(ANSWERS_IN_S)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGINT)
+    out, errors = process.communicate(timeout=30)
+    return process.returncode, out.decode("latin-1"), errors.decode()
+
+
+def test_readme_has_commands():
+    assert len(COMMANDS) >= 18
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_command_of_the_readme_runs(command, folder):
+    if needs(command):
+        pytest.skip(f"{', '.join(needs(command))} not built")
+    code, _, errors = execute(command, folder)
+    assert code == 0, errors
+
+
+def test_plot_and_trace_of_the_readme(folder):
+    commands = [command for command in COMMANDS if "--plot" in command or "--trace" in command]
+    for command in commands:
+        if needs(command):
+            pytest.skip(f"{', '.join(needs(command))} not built")
+        assert execute(command, folder)[0] == 0
+    assert (folder / "walk.svg").stat().st_size > 5000
+    assert ",600" in (folder / "walk.csv").read_text()
+
+
+def test_every_option_occurs_in_the_readme():
+    options = set(re.findall(r"(--[a-z][a-z-]+)", run("--help").stdout.decode()))
+    shown = "\n".join(COMMANDS) + README
+    missing = [option for option in options - {"--help", "--usage", "--version"} if option not in shown]
+    assert not missing
+
+
+def test_every_verb_of_the_script_language_occurs_in_the_readme():
+    source = (TOP / "tools" / "sim" / "cli_script.c").read_text()
+    verbs = re.findall(r'\{"([a-z]+)", (?:parse_|SERVO_|0|-1)', source)
+    assert {"send", "expect", "goal", "register", "quit"} < set(verbs)
+    assert [verb for verb in verbs if not re.search(rf"\b{verb}\b", README)] == []
