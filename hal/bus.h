@@ -67,6 +67,7 @@ void bus_set_return_delay_us(uint16_t us);
 /* The outgoing packet's buffer, BUS_PACKET_BYTES. May be written only while the bus is not busy. Build with dxl_packet.h. */
 uint8_t *bus_packet(void);
 
+/* Whether a packet is under way; keeps the time-outs as bus_poll does. */
 bool bus_is_busy(void);
 
 /* Sends the first `size` bytes of bus_packet() (built by dxl_packet.h: the ID asked is at [2]).

@@ -20,8 +20,8 @@ MUST_CHECK bus_status_t bus_call_read(uint8_t id, uint8_t at, void *to, uint8_t 
 MUST_CHECK bus_status_t bus_call_write(uint8_t id, uint8_t at, const void *from, uint8_t count, uint8_t *error);
 
 /* Any instruction with any parameters (line monitor). answer_params as in bus_submit; *answer may be NULL. */
-MUST_CHECK bus_status_t bus_call(uint8_t id, uint8_t instruction, const uint8_t *params, uint8_t count,
-                                 uint8_t answer_params, uint8_t tries, bus_answer_t *answer);
+bus_status_t bus_call(uint8_t id, uint8_t instruction, const uint8_t *params, uint8_t count, uint8_t answer_params,
+                      uint8_t tries, bus_answer_t *answer);
 
 /* Starts a READ and returns at once (BUS_PENDING or BUS_ERR_BUSY); the answer comes through bus_poll. */
 bus_status_t bus_start_read(uint8_t id, uint8_t at, uint8_t count, uint8_t tries);

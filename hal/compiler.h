@@ -9,6 +9,10 @@
 /* Holds at compile time or the build fails. */
 #define STATIC_ASSERT(condition, text) _Static_assert(condition, text)
 
+/* Where -Os decides wrongly: a few bytes called hundreds of times a tick; a helper that must not be copied. */
+#define ALWAYS_INLINE static inline __attribute__((always_inline))
+#define NOINLINE __attribute__((noinline))
+
 #define ARRAY_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 #endif

@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include "compiler.h"
 #include "dxl.h"
 
 #define DXL_PACKET_OVERHEAD 6u   /* FF FF ID LEN INST ... SUM */
@@ -22,7 +23,7 @@ typedef struct {
     uint8_t sum;
 } dxl_writer_t;
 
-static inline void dxl_begin(dxl_writer_t *writer, uint8_t *packet, uint8_t id, uint8_t instruction)
+ALWAYS_INLINE void dxl_begin(dxl_writer_t *writer, uint8_t *packet, uint8_t id, uint8_t instruction)
 {
     packet[0] = 0xFF;
     packet[1] = 0xFF;
@@ -33,14 +34,14 @@ static inline void dxl_begin(dxl_writer_t *writer, uint8_t *packet, uint8_t id, 
     writer->sum = (uint8_t)(id + instruction);
 }
 
-static inline void dxl_put(dxl_writer_t *writer, uint8_t byte)
+ALWAYS_INLINE void dxl_put(dxl_writer_t *writer, uint8_t byte)
 {
     *writer->at++ = byte;
     writer->sum = (uint8_t)(writer->sum + byte);
 }
 
 /* Length and checksum; returns the packet's size in bytes. */
-static inline uint8_t dxl_end(dxl_writer_t *writer)
+ALWAYS_INLINE uint8_t dxl_end(dxl_writer_t *writer)
 {
     uint8_t length = (uint8_t)(writer->at - writer->packet - 3);
     writer->packet[3] = length;

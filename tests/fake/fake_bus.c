@@ -281,13 +281,13 @@ uint8_t *bus_packet(void)
 
 bool bus_is_busy(void)
 {
-    return pending_size != 0;
+    return bus_poll(NULL) == BUS_PENDING;
 }
 
 bus_status_t bus_submit(uint8_t size, uint8_t params, uint8_t allowed_tries)
 {
     ASSERT(allowed_tries >= 1 && allowed_tries <= BUS_TRIES_MAX);
-    if (bus_is_busy()) {
+    if (pending_size != 0) {
         return BUS_ERR_BUSY;
     }
     check_packet(size);

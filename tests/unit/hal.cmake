@@ -7,3 +7,5 @@ m512_unit_test(test_ring TARGET_TOO SOURCES hal/debounce.c)
 m512_unit_test(test_settings SOURCES firmware/common/settings.c tests/fake/fake_eeprom.c INCLUDES firmware/common)
 m512_unit_test(test_page_store SOURCES firmware/common/page_store.c motion/page.c tests/fake/fake_flash.c
     tests/fake/fake_system.c INCLUDES firmware/common)
+m512_unit_test(test_servo_link SOURCES firmware/common/servo_link.c firmware/common/servo_link_setup.c hal/bus_call.c
+    hal/dxl_packet.c tests/fake/fake_bus.c tests/fake/fake_system.c tests/fake/fake_time.c INCLUDES firmware/common)
