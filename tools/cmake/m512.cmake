@@ -10,11 +10,12 @@ if(M512_AVR)
 endif()
 set(M512_SANITIZE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
 
-# m512_image(<target> BOARD cm5|cm2 KIND app|boot|test SOURCES ... [DIR sub])
+# m512_image(<target> BOARD cm5|cm2 KIND app|boot|test SOURCES ... [DIR sub] [DEFINES ...] [OPTIONS ...])
+# OPTIONS: compiler options of this image alone, given to the link-time compiler as well.
 # Links one AVR image and writes <target>.elf and <target>.hex below build/firmware[/sub].
 # app, boot: at the addresses of linker/memory_map.h; test: a program of its own from address 0.
 function(m512_image target)
-    cmake_parse_arguments(ARG "" "BOARD;KIND;DIR" "SOURCES;DEFINES" ${ARGN})
+    cmake_parse_arguments(ARG "" "BOARD;KIND;DIR" "SOURCES;DEFINES;OPTIONS" ${ARGN})
     set(out ${M512_FIRMWARE_DIR}/${ARG_DIR})
     add_executable(${target} ${ARG_SOURCES})
     target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}
@@ -25,7 +26,8 @@ function(m512_image target)
     else()
         target_compile_definitions(${target} PRIVATE BOARD_PINS_H="pins_cm5.h")
     endif()
-    target_compile_options(${target} PRIVATE ${M512_WARNINGS} -fstack-usage)
+    target_compile_options(${target} PRIVATE ${M512_WARNINGS} ${ARG_OPTIONS})
+    target_link_options(${target} PRIVATE ${ARG_OPTIONS})
     set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${out} SUFFIX .elf)
     if(NOT ARG_KIND STREQUAL "test")
         add_custom_command(OUTPUT ${target}.ld
