@@ -3,8 +3,10 @@
 import csv
 import os
 import pathlib
+import shutil
 import signal
 import socket
+import subprocess
 import time
 import xml.etree.ElementTree
 
@@ -118,10 +120,9 @@ def test_terminal_leaves_by_ctrl_bracket_and_restores_the_terminal(terminal):
     assert terminal.exitstatus == 0
 
 
-def test_terminal_is_as_before_after_a_signal():
-    shell = pexpect.spawn("/bin/sh", timeout=10, env={**os.environ, "PS1": "$ "})
-    shell.sendline(f"stty -a > before.$$; {CM5SIM} {ROBOT} -q; echo code $?; stty -a | diff - before.$$ && "
-                   "echo sa''me; rm before.$$")
+def test_terminal_is_as_before_after_a_signal(tmp_path):
+    shell = pexpect.spawn("/bin/sh", timeout=10, cwd=tmp_path, env={**os.environ, "PS1": "$ "})
+    shell.sendline(f"stty -a > before; {CM5SIM} {ROBOT} -q; echo code $?; stty -a | diff - before && echo sa''me")
     shell.expect("ready")
     shell.expect(pexpect.TIMEOUT, timeout=0.3)
     pids = [int(pid) for pid in pathlib.Path(f"/proc/{shell.pid}/task/{shell.pid}/children").read_text().split()]
@@ -411,3 +412,24 @@ def test_vcd_is_written(tmp_path):
     assert play(tmp_path, MOVE, "--vcd", vcd).returncode == 0
     text = vcd.read_text()
     assert "$timescale" in text and "$enddefinitions" in text and text.count("#") > 10
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@pytest.mark.skipif(not shutil.which("avr-gdb"), reason="needs avr-gdb (package gdb-avr)")
+def test_gdb_finds_the_chip_at_its_first_instruction_and_stops_at_a_function():
+    port = free_port()
+    with Running(ROBOT, f"--gdb={port}", "--time", "200ms") as robot:
+        robot.message("(waiting for avr-gdb)")
+        time.sleep(0.5)
+        gdb = subprocess.run(
+            ["avr-gdb", "-batch", "-ex", f"target remote :{port}", "-ex", "info registers pc", "-ex", "break say",
+             "-ex", "continue", "-ex", "backtrace", "-ex", "delete", "-ex", "detach", ROBOT.with_suffix(".elf")],
+            capture_output=True, text=True, timeout=60, check=False)
+        assert "pc             0x0 " in gdb.stdout
+        assert "Breakpoint 1, say (" in gdb.stdout and "in main ()" in gdb.stdout
+        assert robot.process.wait(20) == 0

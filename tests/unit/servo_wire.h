@@ -23,10 +23,9 @@ typedef struct {
 static inline void wire_heard(void *context, uint64_t now, uint8_t byte, uint32_t rate_bps, bool bad)
 {
     wire_t *wire = context;
-    (void)rate_bps;
     wire->heard[wire->count] = byte;
     wire->heard_at[wire->count++] = now;
-    wire->bad += bad;
+    wire->bad += bad || rate_bps * 25 > wire->rate_bps * 26 || rate_bps * 25 < wire->rate_bps * 24; /* 4 % off */
 }
 
 static inline void wire_open(wire_t *wire)

@@ -144,6 +144,7 @@ static void test_servo_both_limits_0_is_endless_turn(void)
 static void test_servo_blocked_for_a_second_is_overload_and_shuts_down(void)
 {
     servo_bus_fault(wire.bus, wire.now, servo, SERVO_FAULT_BLOCKED, SERVO_FAULT_ALWAYS);
+    put(SERVO_SPEED, 50, 2); /* slow or not, what is blocked pushes with all it has */
     put(SERVO_GOAL, 700, 2);
     wire_wait(&wire, 900 * MS);
     TEST_ASSERT_EQUAL_UINT16(512, present());
@@ -181,6 +182,18 @@ static void test_servo_load_makes_it_droop_and_shows(void)
     servo->outside_load = 0.5;
     wire_wait(&wire, 1000 * MS);
     TEST_ASSERT_INT_WITHIN(30, 1024 + 511, register_of(&wire, servo, SERVO_PRESENT_LOAD, 2));
+}
+
+static void test_servo_each_direction_has_its_own_slope(void)
+{
+    put(SERVO_CCW_SLOPE, 64, 1); /* pushing towards larger positions: twice as soft */
+    put(SERVO_GOAL, 512, 2);
+    servo->outside_load = -0.5;
+    wire_wait(&wire, 1000 * MS);
+    TEST_ASSERT_INT_WITHIN(2, 31, 512 - present()); /* 1 + (0.5 - 0.031 - 0.02) / 0.969 * 64 */
+    servo->outside_load = 0.5;
+    wire_wait(&wire, 1000 * MS);
+    TEST_ASSERT_INT_WITHIN(1, 16, present() - 512);
 }
 
 static void test_servo_long_stall_heats(void)
@@ -249,6 +262,7 @@ int main(void)
     RUN_TEST(test_servo_blocked_for_a_second_is_overload_and_shuts_down);
     RUN_TEST(test_servo_after_overload_torque_limit_and_enable_must_be_written);
     RUN_TEST(test_servo_load_makes_it_droop_and_shows);
+    RUN_TEST(test_servo_each_direction_has_its_own_slope);
     RUN_TEST(test_servo_long_stall_heats);
     RUN_TEST(test_servo_voltage_is_shown_in_tenths_and_watched);
     RUN_TEST(test_servo_power_cycle_keeps_eeprom_and_loses_ram);

@@ -189,6 +189,9 @@ uint32_t board_pc(const board_t *board) { return board->avr->pc; }
 
 uint32_t board_function(const board_t *board, const char *name)
 {
+    if (strncmp(name, "0x", 2) == 0) {
+        return (uint32_t)strtoul(name, NULL, 16) & (M128_FLASH_BYTES - 2);
+    }
     const symbol_t *symbol = symbols_find(&board->symbols, name, true);
     return symbol ? symbol->address : UINT32_MAX;
 }

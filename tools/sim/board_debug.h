@@ -6,7 +6,8 @@
 #include "board.h"
 
 /* Where a function (flash byte address) or a variable (data address) of the loaded ELF files is, UINT32_MAX if
- * nowhere. Matches the name up to a dot, as -flto makes "player_tick.constprop.0" of "player_tick". */
+ * nowhere. Matches the name up to a dot, as -flto makes "player_tick.constprop.0" of "player_tick"; a function may also
+ * be a number ("0x1F238"). */
 uint32_t board_function(const board_t *board, const char *name);
 uint32_t board_variable(const board_t *board, const char *name);
 

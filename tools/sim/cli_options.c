@@ -61,7 +61,7 @@ static const struct argp_option descriptions[] = {
     {"plot", OPT_PLOT, "FILE", 0, "Joints over time as .svg or .png (needs Python with matplotlib)", 0},
     {"summary", OPT_SUMMARY, 0, 0, "At the end: simulated and real time, CPU load, stack headroom, serial counters", 0},
     {"vcd", OPT_VCD, "FILE", 0, "Pins and serial bytes for a wave viewer", 0},
-    {"gdb", OPT_GDB, "PORT", OPTION_ARG_OPTIONAL, "Wait for avr-gdb on 127.0.0.1:PORT (default 1234)", 0},
+    {"gdb", OPT_GDB, "PORT", OPTION_ARG_OPTIONAL, "Wait for avr-gdb on TCP port PORT (default 1234); simavr's server listens to the whole network", 0},
     {"allow", OPT_ALLOW, "KIND", 0, "Do not stop at this violation", 0},
     {0}};
 
@@ -123,6 +123,16 @@ static const char *parse_fault(options_t *options, char *text)
     }
     options->faults[options->fault_count++] = (fault_plan_t){(uint8_t)id, fault};
     return NULL;
+}
+
+/* The parsers above cut their text to pieces; the command line stays whole for messages. */
+static const char *with_copy(options_t *options, const char *text, const char *(*parse)(options_t *, char *))
+{
+    char copy[1024];
+    if (strlen(text) >= sizeof copy) {
+        return "too long";
+    }
+    return parse(options, strcpy(copy, text));
 }
 
 static void parse_port(struct argp_state *state, const char *what, const char *text, int *port)
@@ -195,9 +205,9 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     options_t *options = state->input;
     switch (key) {
     case OPT_BOARD: parse_board(state, options, arg); break;
-    case OPT_SERVOS: check(state, "--servos", arg, parse_servos(options, strdup(arg))); break;
+    case OPT_SERVOS: check(state, "--servos", arg, with_copy(options, arg, parse_servos)); break;
     case OPT_MOTIONS: options->motions = arg; break;
-    case OPT_FAULT: check(state, "--fault", arg, parse_fault(options, strdup(arg))); break;
+    case OPT_FAULT: check(state, "--fault", arg, with_copy(options, arg, parse_fault)); break;
     case OPT_SEED: parse_seed(state, options, arg); break;
     case OPT_FLASH: options->flash = arg; break;
     case OPT_EEPROM: options->eeprom = arg; break;

@@ -16,30 +16,34 @@
 
 /* ---- messages ---- */
 
-static void message(const char *format, va_list arguments)
+#define MESSAGE_BYTES 600
+
+static void message(const char *text)
 {
-    fputs("cm5sim: ", stderr);
-    vfprintf(stderr, format, arguments);
-    fputs(keys_are_raw() ? "\r\n" : "\n", stderr);
+    fprintf(stderr, "cm5sim: %s%s", text, keys_are_raw() ? "\r\n" : "\n");
 }
 
 void session_say(const session_t *session, const char *format, ...)
 {
+    char text[MESSAGE_BYTES];
     va_list arguments;
     va_start(arguments, format);
-    if (!session->options->quiet) {
-        message(format, arguments);
-    }
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    if (!session->options->quiet) {
+        message(text);
+    }
 }
 
 void session_complain(const session_t *session, const char *format, ...)
 {
-    (void)session;
+    char text[MESSAGE_BYTES];
     va_list arguments;
+    (void)session;
     va_start(arguments, format);
-    message(format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    message(text);
 }
 
 void session_end(session_t *session, int exit_code)
@@ -66,11 +70,7 @@ static uint64_t until(const session_t *session, uint64_t cycles)
 static void move_button(session_t *session, button_t button, bool down)
 {
     session->button_down[button] = down;
-    if (button == BUTTON_MODE) {
-        board_hold_reset(session->board, down);
-    } else {
-        board_press(session->board, button, down);
-    }
+    board_press(session->board, button, down);
 }
 
 void session_press(session_t *session, button_t button, uint64_t cycles)
@@ -272,7 +272,7 @@ static const char *load_memories(session_t *session)
     return error;
 }
 
-/* Trace, VCD, GDB. */
+/* Trace, VCD. */
 static const char *open_instruments(session_t *session)
 {
     const options_t *options = session->options;
@@ -293,13 +293,18 @@ static const char *open_instruments(session_t *session)
     if (options->vcd && !board_vcd_start(session->board, options->vcd)) {
         return board_error(session->board);
     }
-    if (options->use_gdb) {
-        session_say(session, "waiting for avr-gdb: target remote :%d", options->gdb_port);
-        if (!board_gdb(session->board, options->gdb_port, true)) {
-            return board_error(session->board);
-        }
-    }
     return NULL;
+}
+
+/* The chip is on, so that the debugger finds it at its first instruction. */
+static const char *open_gdb(session_t *session)
+{
+    const int port = session->options->gdb_port;
+    if (!session->options->use_gdb) {
+        return NULL;
+    }
+    session_say(session, "waiting for avr-gdb: target remote :%d", port);
+    return board_gdb(session->board, port, true) ? NULL : board_error(session->board);
 }
 
 static void announce(session_t *session)
@@ -347,7 +352,11 @@ int session_open(session_t *session, const options_t *options)
     announce(session);
     board_power_on(session->board);
     session->opened = true;
-    return EXIT_GOOD;
+    error = open_gdb(session);
+    if (error) {
+        session_complain(session, "%s", error);
+    }
+    return error ? EXIT_FILE : EXIT_GOOD;
 }
 
 static void keep(session_t *session, const char *error)

@@ -42,8 +42,8 @@ void console_event(board_t *board, uint64_t now)
 {
     console_t *console = &board->console;
     console_item_t item = console->queue[console->head];
-    console->head = (console->head + 1) % console->room;
     console->count--;
+    console->head = console->count ? console->head + 1 : 0;
     vcd_byte(board, 1, false, -1);
     if (item.kind != ITEM_PAUSE) {
         if (console->heard_from_start && gate_is_open(board, item.kind)) {
@@ -55,22 +55,23 @@ void console_event(board_t *board, uint64_t now)
     begin_item(board, now);
 }
 
+/* The queue moves down when half of it has left, and grows otherwise. */
 static bool make_room(console_t *console)
 {
-    if (console->count < console->room) {
+    if (console->head + console->count < console->room) {
+        return true;
+    }
+    if (console->head > console->room / 2) {
+        memmove(console->queue, console->queue + console->head, console->count * sizeof *console->queue);
+        console->head = 0;
         return true;
     }
     size_t room = console->room ? console->room * 2 : 256;
-    console_item_t *queue = malloc(room * sizeof *queue);
+    console_item_t *queue = realloc(console->queue, room * sizeof *queue);
     if (!queue) {
         return false;
     }
-    for (size_t i = 0; i < console->count; i++) {
-        queue[i] = console->queue[(console->head + i) % console->room];
-    }
-    free(console->queue);
     console->queue = queue;
-    console->head = 0;
     console->room = room;
     return true;
 }
@@ -81,7 +82,7 @@ static void add_item(board_t *board, console_item_t item)
     if (!make_room(console)) {
         return;
     }
-    console->queue[(console->head + console->count++) % console->room] = item;
+    console->queue[console->head + console->count++] = item;
     if (!console->on_line) {
         begin_item(board, board->avr->cycle);
     }

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * target_runner IMAGE.hex - runs a Unity program of build/firmware/tests on the strict board and shows its console.
+ * target_runner IMAGE.hex [SECONDS] - runs a Unity program of build/firmware/tests on the strict board and shows its console.
  * Exit status 0 only if the program said "target: done, 0 failed" and the board found nothing to object to;
  * 1: a test failed, or the program ended or hung without that line; 2: it could not be run. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "board.h"
 #include "board_ports.h"
 
-#define LIMIT_MS 120000u /* simulated; far above the longest test */
+#define LIMIT_SECONDS 120u /* simulated; far above the longest test */
 #define DONE "target: done, "
 
 static void show(void *context, uint64_t now_cycles, uint8_t byte, bool bad)
@@ -32,7 +33,7 @@ static bool said(const board_t *board, const char *text)
     return false;
 }
 
-static int judge(board_t *board, board_stop_t stop)
+static int judge(board_t *board, board_stop_t stop, unsigned seconds)
 {
     const violation_t *violation = board_violation(board);
     if (stop == BOARD_STOP_TEXT) {
@@ -44,15 +45,16 @@ static int judge(board_t *board, board_stop_t stop)
         printf("\nviolation %s at cycle %llu, pc 0x%05X in %s: %s\n", violation_name(violation->kind),
                (unsigned long long)violation->cycle, (unsigned)violation->pc, violation->function, violation->text);
     } else {
-        printf("\nno \"" DONE "\" within %u simulated seconds\n", LIMIT_MS / 1000);
+        printf("\nno \"" DONE "\" within %u simulated seconds\n", seconds);
     }
     return 1;
 }
 
 int main(int count, char **arguments)
 {
-    if (count != 2) {
-        fprintf(stderr, "usage: target_runner IMAGE.hex\n");
+    unsigned seconds = count > 2 ? (unsigned)strtoul(arguments[2], NULL, 10) : LIMIT_SECONDS;
+    if (count < 2 || seconds == 0) {
+        fprintf(stderr, "usage: target_runner IMAGE.hex [SECONDS]\n");
         return 2;
     }
     board_t *board = board_new(BOARD_CM5, 1);
@@ -64,7 +66,7 @@ int main(int count, char **arguments)
     board_on_console(board, show, NULL);
     board_power_on(board);
     board_stop_on_text(board, DONE);
-    int status = judge(board, board_run(board, (uint64_t)LIMIT_MS * BOARD_CYCLES_PER_MS));
+    int status = judge(board, board_run(board, (uint64_t)seconds * 1000 * BOARD_CYCLES_PER_MS), seconds);
     board_free(board);
     return status;
 }

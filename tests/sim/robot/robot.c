@@ -89,6 +89,9 @@ static void ping(void)
 {
     static const uint8_t packet[] = {0xFF, 0xFF, 0x03, 0x02, 0x01, 0xF9};
     uint8_t answer[6], sum = 0, count = 0;
+    while (UCSR0A & 1 << RXC0) {
+        (void)UDR0; /* what came too late for the last question */
+    }
     bus_send(packet, sizeof packet);
     for (int16_t byte; count < 6 && (byte = bus_take()) >= 0; count++) {
         answer[count] = (uint8_t)byte;

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: MIT
+"""What looks into the simulated board: probes, stack figures, symbols, loader of images, VCD, GDB, target_runner."""
+import shutil
+import socket
+import struct
+import subprocess
+import threading
+
+import pytest
+
+from cm5sim import Board, PowerCut, Violation
+from cm5sim.library import build_folder
+
+NEGATIVE = build_folder() / "firmware" / "negative"
+RUNNER = build_folder() / "host" / "tools" / "sim" / "target_runner"
+
+
+def words(*values):
+    return struct.pack(f"<{len(values)}H", *values)
+
+
+# SP = 0x10FF; timer 1 compare A every 1,000 cycles in CTC; then call 0x200 for ever. ISR at 0x600: 10 NOPs, RETI.
+MAIN = [0xE100, 0xBF0E, 0xEF0F, 0xBF0D, 0xE003, 0x9300, 0x4B, 0xEE07, 0x9300, 0x4A, 0xE009, 0x9300, 0x4E,
+        0xE100, 0x9300, 0x57]
+SEI, NOP, RET, RETI = 0x9478, 0x0000, 0x9508, 0x9518
+CALL_200_FOR_EVER = [0x940E, 0x0100, 0xCFFD]
+
+
+def probed(interrupts):
+    board = Board()
+    main = MAIN + ([SEI] if interrupts else [NOP]) + CALL_200_FOR_EVER
+    board.flash[0:4] = words(0x940C, 0x0080)
+    board.flash[0x30:0x34] = words(0x940C, 0x0300)  # compare A
+    board.flash[0x100:0x100 + 2 * len(main)] = words(*main)
+    board.flash[0x200:0x200 + 402] = words(*[NOP] * 200, RET)
+    board.flash[0x600:0x600 + 22] = words(*[NOP] * 10, RETI)
+    board.probe("0x200")
+    return board
+
+
+def test_probe_counts_from_the_first_instruction_to_the_return():
+    board = probed(interrupts=False)
+    board.run(ms=10)
+    figures = board.cycles("0x200")
+    assert figures.count == pytest.approx(160_000 / (200 + 4 + 4 + 2), abs=2)
+    assert figures.max == figures.mean == figures.total_max == 204, "200 NOPs and RET"
+
+
+def test_probe_takes_interrupts_out_of_the_own_time():
+    board = probed(interrupts=True)
+    board.run(ms=10)
+    figures = board.cycles("0x200")
+    assert figures.max == figures.mean == 204
+    assert figures.total_max == 204 + 4 + 3 + 10 + 4, "response, JMP, NOPs, RETI"
+    assert board._lib.board_interrupt_count(board._pointer, 12) == pytest.approx(160, abs=1)
+    assert board._lib.board_interrupt_max(board._pointer, 12) == 21
+
+
+def test_stack_headroom_is_what_was_never_used():
+    board = Board(images=[NEGATIVE / "right-stack.hex"])
+    board.expect("right")
+    end = board.variable("variables") + 3000
+    assert board.stack_headroom == board._lib.board_stack_low(board._pointer) - end
+    assert 0 < board.stack_headroom < 900
+
+
+def test_symbols_name_functions_and_variables():
+    board = Board(images=[NEGATIVE / "right-stack.hex"])
+    assert board.function_at(board.function("dig") + 2) == "dig"
+    assert 0x100 <= board.variable("variables") < 0x1100
+    with pytest.raises(KeyError):
+        board.function("nothing_of_the_kind")
+
+
+def test_elf_and_hex_load_the_same():
+    one, other = Board(images=[NEGATIVE / "right-stack.hex"]), Board(images=[NEGATIVE / "right-stack.elf"])
+    assert bytes(one.flash) == bytes(other.flash)
+
+
+@pytest.mark.parametrize("text, why", [
+    (":00000001FE", "checksum"), (":0100000000FE", "checksum"), ("hello", "not an image"), (":0100000000FF", "no end"),
+    (":02000004000AF0\n:0100000000FF\n:00000001FF", "beyond"), (":0200000600F7\n:00000001FF", "not an image")])
+def test_bad_hex_files_are_refused(tmp_path, text, why):
+    path = tmp_path / "bad.hex"
+    path.write_text(text + "\n")
+    with pytest.raises(FileNotFoundError, match=why):
+        Board(images=[path])
+
+
+def test_two_runs_with_the_same_seed_are_the_same():
+    def run():
+        board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1], seed=5)
+        board.expect("right")
+        return board.now_cycles, bytes(board.ram[0x100:0x1100]), board.packets
+    assert run() == run()
+
+
+def test_trace_keeps_instruction_packets():
+    board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
+    board.expect("right")
+    assert [packet for _, packet in board.packets] == [b"\xFF\xFF\x01\x02\x01\xFB"]
+
+
+def test_vcd_holds_pins_and_bytes(tmp_path):
+    board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
+    board.vcd(tmp_path / "pins.vcd")
+    board.expect("right")
+    board.stop_vcd()
+    text = (tmp_path / "pins.vcd").read_text()
+    assert "$var wire 1 h bus_drive $end" in text and "\n1h\n" in text and "\n0h\n" in text
+    times = [int(line[1:]) for line in text.splitlines() if line.startswith("#")]
+    assert times == sorted(times)
+    assert text.count("b11111011 B") == 1, "the checksum of the packet on bus_tx"
+
+
+@pytest.mark.skipif(not shutil.which("avr-gdb"), reason="avr-gdb is not installed")
+def test_gdb_stops_at_a_function():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
+    board.power_on()
+    assert board._lib.board_gdb(board._pointer, port, True)
+    runner = threading.Thread(target=lambda: board.run(ms=100))
+    runner.start()
+    result = subprocess.run(
+        ["avr-gdb", "-nx", "-batch", "-ex", f"target remote 127.0.0.1:{port}", "-ex", "break ping", "-ex", "continue",
+         "-ex", "backtrace", "-ex", "stepi", "-ex", "delete", "-ex", "detach", NEGATIVE / "right-bus_overrun.elf"],
+        capture_output=True, text=True, timeout=60, check=False)
+    runner.join(timeout=60)
+    assert "Breakpoint 1, ping ()" in result.stdout and "in main ()" in result.stdout, result.stdout + result.stderr
+    assert not runner.is_alive()
+    assert b"right" in board.console
+
+
+def test_target_runner_wants_the_done_line(tmp_path):
+    """A program that ends otherwise, or trips the board, has failed; so has one that is no image."""
+    for image, status in ((NEGATIVE / "wrong-stack.hex", 1), (NEGATIVE / "right-stack.hex", 1), (tmp_path / "no.hex", 2)):
+        assert subprocess.run([RUNNER, image, "1"], capture_output=True, check=False, timeout=120).returncode == status
+
+
+def test_violation_and_power_cut_are_exceptions_that_repeat_and_can_be_cleared():
+    board = Board(images=[NEGATIVE / "wrong-break.hex"])
+    for _ in range(2):
+        with pytest.raises(Violation):
+            board.run(ms=10)
+    board.clear_violation()
+    board.allow("illegal")
+    board.expect("right")
+    board.cut_power_at(1)
+    with pytest.raises(PowerCut):
+        board.run(ms=10)
+    board.power_on()
+    board.expect("right")

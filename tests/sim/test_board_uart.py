@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: MIT
+"""UARTs of the simulated chip: times, flags, overrun, wrong rates, gates. Facts: data sheet, USART; board.md."""
+import struct
+
+import pytest
+
+from cm5sim import Violation
+from lab_board import Lab
+
+RXC, FE, DOR = 0x80, 0x10, 0x08
+
+
+@pytest.mark.parametrize("count", [1, 2, 7, 100])
+def test_characters_of_ten_bits_leave_back_to_back_and_txc_comes_once(count):
+    """1 Mbit/s with U2X set after UBRR: 160 cycles a character. Interrupt response and exit of the loop are on top."""
+    time, interrupts = Lab().do("u", 0, count)
+    assert time - 160 * count in range(0, 90)
+    assert interrupts == 1
+
+
+def test_transmitter_works_after_txen_was_toggled():
+    lab = Lab()
+    assert lab.do("u", 0, 3)[1] == 1
+    assert lab.do("u", 0, 3)[1] == 1
+
+
+def test_console_rate_is_57143_and_a_byte_is_heard_when_its_stop_bit_has_passed():
+    lab = Lab()
+    lab.send(b"c\0\0\0\0\0")
+    lab.run_to("put", ms=10)
+    start = lab.now_cycles
+    counts = []
+    for _ in range(4 * 2800 // 20 + 20):
+        lab.run(cycles=20)
+        counts.append(len(lab.console))
+    first = start + 20 * (counts.index(1) + 1)
+    last = start + 20 * (counts.index(4) + 1)
+    assert first - start == pytest.approx(2800, abs=60), "10 bits of 280 cycles"
+    assert last - first == pytest.approx(3 * 2800, abs=40)
+
+
+def test_line_brings_characters_at_the_rate_of_the_pc():
+    lab = Lab()
+    start = lab.now_cycles
+    lab.send(b"x" * 5)
+    while lab.waiting:
+        lab.run(cycles=16)
+    assert lab.now_cycles - start == pytest.approx(5 * 10 * 16_000_000 / 57_600, abs=40)
+
+
+def received(rate, data, lab=None):
+    """What UCSR1A and UDR1 said of two characters sent at a rate, with command i waiting for them."""
+    lab = lab or Lab()
+    lab.send(b"i" + struct.pack("<I", 0)[:3] + b"\0\0", wait=True)
+    lab.run(ms=1)
+    lab.baud(rate)
+    lab.send(data, wait=True)
+    lab.baud(57_600)
+    first, second = lab.answer()
+    return [(value & 0xFF, value >> 8) for value in (first, second)]
+
+
+@pytest.mark.parametrize("rate", [57_143, 57_600, 56_000, 58_500])
+def test_rates_within_three_percent_are_understood(rate):
+    flags = received(rate, b"U\x00")
+    assert [byte for _, byte in flags] == [0x55, 0x00]
+    assert all(status & (FE | DOR) == 0 and status & RXC for status, _ in flags)
+
+
+@pytest.mark.parametrize("rate", [38_400, 54_000, 61_000, 115_200])
+def test_other_rates_give_framing_errors(rate):
+    lab = Lab()
+    flags = received(rate, b"\x00\xFF\x00\xFF" if rate > 100_000 else b"\x00\xFF", lab)
+    assert flags[0][0] & FE
+    assert lab.uart(1).framing > 0
+
+
+def test_half_rate_shows_each_bit_twice():
+    """0xFE at 28,571: start and bit 0 are low for four receiver bits: start, 0, 0, 0, then ones."""
+    assert received(28_571, b"\xFE\xFE")[0][1] == 0b11111000
+
+
+def test_overrun_keeps_the_two_oldest_and_the_newest():
+    """While an EEPROM byte is written (8.5 ms) nobody reads. Five characters come; what is left of them is the start
+    of the command "n", read EEPROM 0x0234."""
+    lab = Lab()
+    lab.allow("uart-overrun")
+    lab.eeprom[0x0234] = 0x77
+    lab.send(b"m" + struct.pack("<I", 0x10)[:3] + b"\x01\x00" + b"n\x34\x98\x99\x02", wait=True)
+    assert lab.answer()[0] > 0, "of m"
+    lab.send(b"\0\0\0")
+    assert lab.answer()[0] == 0x77
+    assert lab.uart(1).overruns == lab.violations("uart-overrun") == 2
+
+
+def test_overrun_of_the_console_is_a_violation():
+    lab = Lab()
+    lab.send(b"m" + struct.pack("<I", 0x10)[:3] + b"\x01\x00" + b"four")
+    with pytest.raises(Violation, match="uart-overrun"):
+        lab.run(ms=20)
+
+
+def test_gates_let_pc_and_remote_in():
+    lab = Lab()
+    assert lab.do("c")[0] == 1
+    lab.do("p", 0x32, 0x40)  # PORTD: PD6 alone, the remote
+    before = lab.uart(1).deaf
+    lab.send(b"c" * 6, wait=True)
+    assert lab.uart(1).deaf == before + 6
+    lab.remote(b"c\0\0\0\0\0")
+    assert lab.answer()[0] == 1
+
+
+def test_cm2_has_no_gates():
+    lab = Lab(kind="cm2")
+    lab.do("p", 0x32, 0x00)
+    assert lab.do("c")[0] == 1
+
+
+def test_servo_is_not_heard_while_the_listen_pin_is_low():
+    """Command u sends 0xFF bytes only; a PING by hand through registers, with PE3 low or high."""
+    for listen, heard in ((0x00, 0), (0x08, 6)):
+        lab = Lab(servos=[1])
+        lab.servos[1].write(5, [250])  # return delay 500 us
+        lab.do("u", 0, 2)  # sets the port up
+        lab.do("p", 0x2A, 0x18)  # receiver and transmitter on
+        # A packet needs bytes less than 100 us apart, which the console is too slow for: noise from the wire instead.
+        lab.do("p", 0x23, listen)
+        before = lab.uart(0).received
+        lab._lib.servo_bus_noise(lab.servos.bus, lab.now_cycles, b"\x01\x02\x03\x04\x05\x06", 6, 1_000_000)
+        lab.run(ms=1)
+        assert lab.uart(0).received - before == heard

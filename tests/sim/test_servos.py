@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: MIT
+"""Servos through the Python binding, behind a whole board: what a controller sees of each fault."""
+import pytest
+from cm5sim import Board
+
+FINE, OVERHEATED, OVERLOADED, LOW, ANGLE = "00", "04", "20", "01", "02"
+
+
+@pytest.fixture(name="robot")
+def _robot():
+    board = Board(images=["tests/robot.hex"], servos=range(1, 5))
+    board.expect("ready\r\n")
+    return board
+
+
+def ping(robot):
+    """The robot asks servo 3; what it says of it."""
+    robot.send(b"p")
+    robot.expect("servo 3: ")
+    return robot.expect("\r\n").strip()
+
+
+def test_ping_without_faults(robot):
+    assert ping(robot) == FINE
+
+
+def test_goals_reach_the_servos_and_motion_follows(robot):
+    assert robot.servos.present == {1: 512, 2: 512, 3: 512, 4: 512}
+    assert not robot.servos[3].torque
+    robot.send(b"m")
+    robot.expect("moving")
+    assert robot.servos[3].goal == 600 and robot.servos[3].torque and robot.servos[3].moving
+    assert 512 <= robot.servos[3].present < 600  # it lags
+    robot.run(ms=300)
+    assert robot.servos[3].present in (599, 600) and not robot.servos[3].moving
+    assert robot.servos[4].goal == 512 and not robot.servos[4].torque
+
+
+@pytest.mark.parametrize("name, says", [
+    ("silent", "silent"), ("dead", "silent"), ("late", "silent"), ("checksum", "garbled"), ("short", "garbled"),
+    ("noise", "garbled"), ("duplicate", "garbled"), ("overload", OVERLOADED), ("overheating", OVERHEATED),
+    ("low-voltage", LOW), ("angle-limit", ANGLE)])
+def test_fault_is_seen_and_goes_when_cleared(robot, name, says):
+    robot.servos[3].fault(name)
+    assert ping(robot) == says
+    robot.servos[3].clear()
+    robot.run(ms=30)  # a late answer is still on its way
+    assert ping(robot) == FINE
+
+
+def test_two_talkers_spoil_each_others_answers(robot):
+    robot.servos[4].fault("two-talkers")
+    assert ping(robot) == "garbled"
+    robot.servos[4].clear()
+    assert ping(robot) == FINE
+
+
+def test_fault_for_some_answers_only(robot):
+    robot.servos[3].fault("silent", times=2)
+    assert [ping(robot) for _ in range(3)] == ["silent", "silent", FINE]
+
+
+def test_overload_cuts_torque_until_limit_and_enable_are_written(robot):
+    robot.send(b"m")
+    robot.expect("moving")
+    robot.run(ms=300)
+    servo = robot.servos[3]
+    servo.fault("overload")
+    robot.run(ms=1)
+    assert not servo.torque and servo.alarms == {"overload"}
+    servo.push_to(300)
+    robot.run(ms=500)
+    assert servo.present == 300  # limp
+    servo.write(34, [0xFF, 3])
+    servo.write(24, [1])
+    robot.run(ms=500)
+    assert servo.present in (599, 600, 601) and not servo.alarms
+
+
+def test_blocked_servo_overloads_by_itself(robot):
+    servo = robot.servos[3]
+    servo.fault("blocked")
+    robot.send(b"m")
+    robot.expect("moving")
+    robot.run(ms=500)
+    assert servo.present == 512 and servo.load > 0.9 and not servo.alarms
+    robot.run(ms=700)
+    assert servo.alarms == {"overload"} and servo.load == 0
+
+
+def test_gravity_makes_it_droop(robot):
+    robot.send(b"m")
+    robot.expect("moving")
+    robot.servos[3].outside_load = -0.3
+    robot.run(ms=500)
+    assert 588 <= robot.servos[3].present <= 593 and robot.servos[3].load == pytest.approx(0.3, abs=0.03)
+
+
+def test_weak_battery_is_reported_by_the_servo(robot):
+    robot.battery(5.5)
+    assert ping(robot) == LOW
+    assert robot.servos[3].voltage == 5.5
+
+
+def test_servos_keep_eeprom_without_power_and_lose_ram(robot):
+    servo = robot.servos[4]
+    servo.write(5, [0])    # return delay
+    servo.write(28, [64])  # slope
+    robot.power_off()
+    robot.run(ms=50)
+    robot.power_on()
+    robot.expect("ready")
+    assert servo.return_delay == 0 and servo.cw_slope == 32
+
+
+def test_stray_bytes_are_heard(robot):
+    robot.servos.noise([0x55, 0xAA])
+    robot.run(ms=1)
+    assert robot.uart(0).received == 2
+
+
+def test_readings_and_mistakes_in_python(robot):
+    assert robot.servos.ids == [1, 2, 3, 4] and len(robot.servos) == 4 and 4 in robot.servos and 5 not in robot.servos
+    assert len(robot.servos[3].table) == 50 and robot.servos[3].table[3] == 3
+    with pytest.raises(KeyError, match="no servo with ID 9"):
+        _ = robot.servos[9]
+    with pytest.raises(ValueError, match="known: silent"):
+        robot.servos[3].fault("tired")
+    with pytest.raises(AttributeError, match="write"):
+        robot.servos[3].goal = 5
+    slow = robot.servos.add(20, "dx117")
+    assert slow.rate == 57142 and slow.model == 117
