@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
- * Between UART0 and the servos: the direction pins, and the time scale of the bus. */
+/* SPDX-License-Identifier: MIT */
 #include "board_private.h"
 #include "servo_bus.h"
 
@@ -74,7 +73,7 @@ static void from_servo(void *context, uint64_t now, uint8_t byte, uint32_t rate_
     if (wire->heard) {
         wire->heard(wire->heard_context, now, byte, false, bad);
     }
-    uart_receive(&board->uart[0], start, now, byte, rate_bps, bad);
+    uart_receive(&board->uart[0], start, byte, rate_bps, bad);
 }
 
 void bus_wire_event(board_t *board, uint64_t now)

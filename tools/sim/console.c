@@ -47,7 +47,7 @@ void console_event(board_t *board, uint64_t now)
     vcd_byte(board, 1, false, -1);
     if (item.kind != ITEM_PAUSE) {
         if (console->heard_from_start && gate_is_open(board, item.kind)) {
-            uart_receive(&board->uart[1], console->line_start, now, item.byte, item.rate, false);
+            uart_receive(&board->uart[1], console->line_start, item.byte, item.rate, false);
         } else {
             board->uart[1].counts.deaf++;
         }

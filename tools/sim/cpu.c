@@ -87,7 +87,7 @@ static void crashed(board_t *board)
     violation_note(board, VIOLATION_ADDRESS, "data access or jump outside the memory");
 }
 
-void cpu_step(board_t *board)
+static void cpu_step(board_t *board)
 {
     avr_t *avr = board->avr;
     cpu_t *cpu = &board->cpu;

@@ -28,6 +28,11 @@ static uint64_t requests(const board_t *board)
     return wanted;
 }
 
+void interrupt_line(board_t *board, int vector, bool level)
+{
+    board->cpu.lines = (board->cpu.lines & ~(1ull << vector)) | ((uint64_t)level << vector);
+}
+
 bool interrupt_wanted(const board_t *board)
 {
     const uint8_t *data = board->avr->data;

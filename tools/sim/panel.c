@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
- * LEDs, buttons, charger, battery; and every write to a port, since other parts hang on pins too. */
+/* SPDX-License-Identifier: MIT */
 #include <simavr/avr_adc.h>
 
 #include "board_private.h"

@@ -123,7 +123,6 @@ void reset_init(board_t *board)
     board->allowed[VIOLATION_UNEXPECTED_RESET] = true;
 }
 
-/* All registers to their reset values; SRAM, flash, EEPROM and the CPU's 32 registers are not touched. */
 void reset_now(board_t *board, reset_cause_t cause)
 {
     reset_t *reset = &board->reset;

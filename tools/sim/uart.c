@@ -49,7 +49,6 @@ static void load_shift(uart_t *uart, uint64_t now)
     uart->bit_cycles = bit_cycles(uart);
     uart->rate_bps = M128_HZ / (uint32_t)uart->bit_cycles;
     uart->shift = uart->udr;
-    uart->shift_start = now;
     uart->waiting = false;
     uart->shifting = true;
     event_at(uart->board, uart->index ? EVENT_UART1 : EVENT_UART0, now + BITS * uart->bit_cycles);
@@ -123,10 +122,9 @@ static void overrun(uart_t *uart)
 
 /* A fourth character takes the place of the third, which waits in the shift register for room in the buffer. It is
  * lost at the start bit of the fourth, even if room is made while that arrives. */
-void uart_receive(uart_t *uart, uint64_t start, uint64_t now, uint8_t byte, uint32_t rate_bps, bool bad)
+void uart_receive(uart_t *uart, uint64_t start, uint8_t byte, uint32_t rate_bps, bool bad)
 {
     uint8_t seen, flags = 0;
-    (void)now;
     if (!(uart->b & UCSRB_RXEN) || uart->enabled_at > start) {
         uart->counts.deaf++;
         return;
