@@ -21,6 +21,9 @@
 #define MEM_APP_RECORD 0x0008C
 #define MEM_APP_RECORD_BYTES 16
 
+/* Offset in the boot section of the vector of UART1's receiver (vector 30 of 4 bytes). */
+#define MEM_BOOT_RX_VECTOR 0x78
+
 /* The loader's call table for applications (see boot_api.h). */
 #define MEM_BOOT_API 0x1FFE0
 

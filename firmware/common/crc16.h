@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * crc16.h - the one CRC of this project: CRC-16/IBM-3740 ("CCITT false"): polynomial 0x1021, start 0xFFFF, most
  * significant bit first, no final inversion. Known answer: "123456789" -> 0x29B1.
- * Used by the application record, settings, journal, block protocol and m512. No table: 28 cycles a byte. */
+ * Used by the application record, settings, journal, block protocol and m512. No table: 20 cycles a byte. */
 #ifndef CRC16_H
 #define CRC16_H
 
@@ -9,12 +9,15 @@
 
 #define CRC16_START 0xFFFFu
 
-/* The bitwise division of one byte, folded: (x = high ^ byte; x ^= x >> 4) gives the eight quotient bits at once. */
+/* The bitwise division of one byte, folded: (x = high ^ byte; x ^= x >> 4) gives the eight quotient bits at once, and
+ * x times the polynomial, x << 12 ^ x << 5 ^ x, is added by halves because the machine has eight bits. */
 static inline uint16_t crc16_byte(uint16_t crc, uint8_t byte)
 {
     uint8_t x = (uint8_t)((uint8_t)(crc >> 8) ^ byte);
     x = (uint8_t)(x ^ (x >> 4));
-    return (uint16_t)((uint16_t)(crc << 8) ^ (uint16_t)((uint16_t)x << 12) ^ (uint16_t)((uint16_t)x << 5) ^ x);
+    uint8_t high = (uint8_t)((uint8_t)crc ^ (uint8_t)(x << 4) ^ (uint8_t)(x >> 3));
+    uint8_t low = (uint8_t)((uint8_t)(x << 5) ^ x);
+    return (uint16_t)(high << 8 | low);
 }
 
 static inline uint16_t crc16_bytes(uint16_t crc, const void *from, uint16_t bytes)

@@ -50,13 +50,16 @@ static bool read_record(uint8_t slot, record_t *record)
 static uint8_t find_newest(record_t *newest)
 {
     uint8_t found = NO_SLOT;
+    uint16_t sequence = 0;
     for (uint8_t slot = 0; slot < JOURNAL_SLOTS; slot++) {
-        record_t record;
-        if (read_record(slot, &record) &&
-            (found == NO_SLOT || (int16_t)(uint16_t)(record.sequence - newest->sequence) > 0)) {
-            *newest = record;
+        if (read_record(slot, newest) &&
+            (found == NO_SLOT || (int16_t)(uint16_t)(newest->sequence - sequence) > 0)) {
+            sequence = newest->sequence;
             found = slot;
         }
+    }
+    if (found != NO_SLOT) {
+        (void)read_record(found, newest);
     }
     return found;
 }
@@ -104,10 +107,11 @@ flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARG
         return FLASH_OK;
     }
 
-    record_t record = {.sequence = 0};
+    record_t record;
     uint8_t slot = find_newest(&record);
+    uint16_t sequence = slot == NO_SLOT ? 1u : (uint16_t)(record.sequence + 1u);
     slot = (slot == NO_SLOT || slot == JOURNAL_SLOTS - 1) ? 0 : (uint8_t)(slot + 1);
-    record = (record_t){.magic = MAGIC, .sequence = (uint16_t)(record.sequence + 1), .target = motion_page,
+    record = (record_t){.magic = MAGIC, .sequence = sequence, .target = motion_page,
                         .layout = LAYOUT, .state = STATE_PENDING};
     record.content_crc = crc16_bytes(CRC16_START, data, JOURNAL_TARGET_BYTES);
     record.record_crc = crc16_bytes(CRC16_START, &record, RECORD_CRC_BYTES);

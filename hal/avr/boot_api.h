@@ -10,7 +10,8 @@
  *   0x1FFEA  2  0xFFFF, reserved
  *   0x1FFEC  4  JMP boot_write_page
  *   0x1FFF0 14  0xFF, reserved for three more entries
- *   0x1FFFE  2  CRC-16 (crc16.h) of 0x1E000..0x1FFFD, low byte first (set by tools/app_record)
+ *   0x1FFFE  2  CRC-16 (crc16.h) of 0x1E000..0x1FFFD, high byte first: over the whole section it comes out as 0
+ *              (set by tools/app_record)
  *
  * The entry is called as a plain avr-gcc function (its registers, r1 = 0, EIND absent on this chip: a word address
  * of 16 bits reaches all 128 KiB). It uses no RAM but the caller's stack, at most BOOT_API_STACK_BYTES in all,
@@ -46,16 +47,15 @@ typedef struct {
 } boot_api_head_t;
 #define BOOT_API_SIGNATURE "M5BL"
 
-/* The ring that takes the bytes of UART1 while the caller's interrupts are off. The caller's receive interrupt writes
- * the same ring: `head` is the next place to fill, `tail` the next to read, both taken modulo mask + 1; one place
- * stays free. `head` is stored back as (head + 1) & index_mask: give 0xFF for free-running indices, else mask. */
+/* The ring (hal/ring.h) that takes the bytes of UART1 while the caller's interrupts are off; its receive interrupt
+ * writes the same ring. `head` counts the bytes put, `tail` those taken, both modulo 256; places are modulo mask + 1,
+ * and the loader leaves one of them free. */
 typedef struct {
     volatile uint8_t *buffer;
     volatile uint8_t *head;
     const volatile uint8_t *tail;
     volatile uint8_t *lost;   /* counts up for each byte that found the ring full or overran the UART */
     uint8_t mask;             /* size - 1, size a power of two up to 256 */
-    uint8_t index_mask;
 } boot_rx_t;
 
 /* How to write. */
@@ -68,7 +68,7 @@ enum {
 enum {
     BOOT_OK = 0,
     BOOT_ERR_RANGE = 1,  /* not a page start, or in the boot section, or a bad count or mode: nothing was touched */
-    BOOT_ERR_VERIFY = 2  /* three tries, still not what was asked for */
+    BOOT_ERR_VERIFY = 2  /* ten tries, still not what was asked for */
 };
 
 /* addr  : byte address of a flash page, a multiple of 256 below 0x1E000
@@ -76,9 +76,10 @@ enum {
  * bytes : 2..256, even; the rest of the page is programmed as 0xFF, which leaves it erased or untouched
  * mode  : BOOT_MODE_*
  * rx    : ring for UART1, or NULL: then the bytes stay in the UART, which overruns
+ * Returns a BOOT_* in the low byte and the number of tries that failed before in the high byte.
  * Takes 9.5 ms (program only: 5 ms) with interrupts off and kicks the watchdog; waits for a running EEPROM write
  * first (up to 8.5 ms). Bytes of UART0 are not kept. */
-typedef uint8_t boot_write_page_t(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode, const boot_rx_t *rx);
+typedef uint16_t boot_write_page_t(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode, const boot_rx_t *rx);
 #endif
 
 #endif

@@ -14,7 +14,7 @@
 
 uint8_t boot_call_write(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode, const boot_rx_t *rx)
 {
-    return ROUTINE(boot_write_page_t, BOOT_API_WRITE_PAGE)(addr, data, bytes, mode, rx);
+    return (uint8_t)ROUTINE(boot_write_page_t, BOOT_API_WRITE_PAGE)(addr, data, bytes, mode, rx);
 }
 
 #define FACTORY_ENTRY 0x1F238

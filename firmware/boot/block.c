@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: MIT */
+#include "block.h"
+
+#include "check.h"
+#include "crc16.h"
+#include "memory.h"
+#include "start.h"
+#include "uart.h"
+#include "words.h"
+
+#define GAP_TICKS UART_TICKS(100)  /* inside a frame */
+#define IDLE_TICKS UART_TICKS(4000) /* between frames */
+#define NOISE_MAX 1000u             /* bytes outside of frames: someone is typing */
+#define SUMS_MAX 64u               /* pages in one answer */
+#define EEPROM_WRITE_MAX 32u       /* 0.27 s: the ring holds what comes meanwhile */
+
+enum { HELLO = 1, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE };
+enum { OK = 0, REFUSED = MEMORY_REFUSED, BAD_FRAME = 4 };
+enum { TO_PROMPT, TO_APPLICATION, TO_RESET };
+
+/* The bodies of the requests, one over the other (PROTOCOL.md). */
+typedef struct {
+    uint16_t page; /* READ, WRITE, SUMS: address / 256. EE_WRITE: address. RATE: UBRR. LEAVE: where to */
+    union {
+        uint8_t data[FLASH_PAGE_BYTES]; /* WRITE */
+        struct {
+            uint16_t count;             /* SUMS: pages. EE_WRITE: bytes */
+            uint8_t bytes[EEPROM_WRITE_MAX];
+        };
+    };
+} block_body_t;
+
+static uint16_t crc;
+
+static void put(uint8_t byte)
+{
+    crc = crc16_byte(crc, byte);
+    uart_put(byte);
+}
+
+/* Everything of an answer but its data and end: the body is status, detail and then `bytes` (even) of data. */
+static void answer_begin(const uint8_t *request, uint8_t status, uint8_t detail, uint16_t bytes)
+{
+    uart_put(FRAME_ANSWER);
+    crc = CRC16_START;
+    put(request[FRAME_AT_COMMAND]);
+    put(request[FRAME_AT_NUMBER]);
+    put((uint8_t)(bytes / 2 + 1));
+    put(status);
+    put(detail);
+}
+
+static void answer_end(void)
+{
+    uint16_t end = crc;
+    uart_put((uint8_t)(end >> 8));
+    uart_put((uint8_t)end);
+}
+
+/* CRC and plain sum of each page: two different checks, so that a changed page does not pass as equal. */
+static void put_sums(uint16_t page, uint16_t count)
+{
+    for (; count > 0; count--) {
+        memory_sums.crc = CRC16_START;
+        memory_scan_start();
+        memory_scan(page++);
+        for (uint8_t i = 0; i < 4; i++) {
+            put(((const uint8_t *)&memory_sums)[i]);
+        }
+    }
+}
+
+/* Carries out a good request. false: the session is over. */
+static bool carry_out(const uint8_t *request)
+{
+    const block_body_t *body = (const block_body_t *)(request + FRAME_AT_BODY);
+    uint8_t command = request[FRAME_AT_COMMAND], status = REFUSED, detail = 0;
+    uint16_t bytes = 0, count = body->count;
+
+    switch (command) {
+    case HELLO:
+        detail = (uint8_t)memory_app();
+        status = OK;
+        break;
+    case RATE:
+        if (body->page == UART_UBRR_57143 || body->page == UART_UBRR_117647) {
+            status = OK;
+        }
+        break;
+    case READ:
+        memory_cursor.addr = (uint32_t)body->page << 8;
+        bytes = FLASH_PAGE_BYTES;
+        status = OK;
+        break;
+    case WRITE:
+        if (request[FRAME_AT_COUNT] == FRAME_BODY_MAX / 2) {
+            status = (uint8_t)memory_commit(body->page, body->data);
+        }
+        break;
+    case SUMS:
+        if (count <= SUMS_MAX) {
+            bytes = count * 4;
+            status = OK;
+        }
+        break;
+    case EE_WRITE:
+        if (count <= EEPROM_WRITE_MAX) {
+            memory_ee_write(body->page, body->bytes, count);
+            status = OK;
+        }
+        break;
+    case LEAVE:
+        status = OK;
+    }
+    answer_begin(request, status, detail, bytes);
+    if (command == SUMS) {
+        put_sums(body->page, bytes / 4);
+    } else {
+        while (bytes-- > 0) {
+            put(memory_next());
+        }
+    }
+    answer_end();
+    uart_flush();
+    if (status == OK && command == RATE) {
+        uart_open((uint8_t)body->page);
+    }
+    if (command == LEAVE && body->page == TO_APPLICATION) {
+        words_go(0);
+    } else if (command == LEAVE && body->page == TO_RESET) {
+        start_reset();
+    }
+    return command != LEAVE;
+}
+
+void block_session(void)
+{
+    frame_t frame;
+    uint16_t noise = 0;
+    bool is_proven = false;
+
+    frame_init(&frame, memory_work);
+    (void)frame_feed(&frame, FRAME_REQUEST);
+    while (noise++ < NOISE_MAX) {
+        frame_status_t status = FRAME_BAD;
+        bool was_open = frame_is_open(&frame);
+        if (uart_wait(was_open ? GAP_TICKS : IDLE_TICKS)) {
+            status = frame_feed(&frame, uart_next());
+        } else if (!was_open) {
+            break;
+        }
+        if (status == FRAME_GOOD) {
+            noise = 0;
+            is_proven = true;
+            if (!carry_out(memory_work)) {
+                break;
+            }
+        } else if (status == FRAME_BAD) {
+            frame_init(&frame, memory_work);
+            if (!is_proven) {
+                break;
+            }
+            answer_begin(memory_work, BAD_FRAME, 0, 0); /* of which frame, is as uncertain as the rest of it */
+            answer_end();
+        }
+    }
+    uart_flush();
+    uart_open(UART_UBRR_57143);
+}

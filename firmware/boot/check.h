@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT
+ * check.h - CHECK, the memory checking of the 2005 manual, and ID. Reads only; the RAM test puts every byte back. */
+#ifndef CHECK_H
+#define CHECK_H
+
+
+/* In words, then the same as one line that begins with "CHECK" (RECOVERY.md explains both). */
+void check_all(void);
+
+/* One line: versions, board, features, application. */
+void check_id(void);
+
+#endif

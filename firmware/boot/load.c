@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+#include "load.h"
+
+#include "print.h"
+#include "uart.h"
+#include BOOT_PORTS_H
+
+#define ESC 27
+#define SILENCE_TICKS UART_TICKS(111)
+#define REST_TICKS UART_TICKS(250)
+#define SLICE_TICKS UART_TICKS(100)
+#define BLINK_TICKS 0x0400 /* a bit of the clock: 66 ms on, 66 ms off */
+#define READY_SLICES 600u  /* 60 s to find the file and send it */
+#define PATIENCE_TICKS UART_TICKS(2000)
+
+/* The address line and `ready`, then waits until data are in the ring. false: ESC on its own, START, or a minute of
+ * nothing; the ESC stays in the ring and the prompt ignores it. */
+static bool begin(uint32_t addr, const char *ready)
+{
+    SAY("Write Address : ");
+    print_hex32(addr);
+    print_say(ready);
+    for (uint16_t slice = 0; slice < READY_SLICES && !PORTS_START_PRESSED(); slice++) {
+        if (uart_wait(SLICE_TICKS)) {
+            while (uart_peek() == ESC && uart_has() < 2 && uart_clock() < SILENCE_TICKS) {
+            }
+            if (uart_peek() != ESC || uart_has() >= 2) {
+                return true;
+            }
+            break;
+        }
+    }
+    SAY("Cancelled.");
+    return false;
+}
+
+/* First page behind the region that `page` is in. */
+static uint16_t region_end(uint16_t page)
+{
+    return page < MEM_APP_END / 256 ? MEM_APP_END / 256
+           : page < MEM_JOURNAL_END / 256 ? MEM_JOURNAL_END / 256 : MEM_MOTION_END / 256;
+}
+
+static void report(uint32_t size, uint32_t sum, uint8_t last, bool is_good)
+{
+    memory_ee_set(MEM_EE_LOAD_SUM_BYTE, last);
+    memory_ee_set32(MEM_EE_LOAD_SUM, sum);
+    memory_ee_set32(MEM_EE_LOAD_SIZE, size);
+    if (is_good && uart_lost() == 0 && (uint8_t)sum == last) {
+        PUT("Success");
+    } else {
+        PUT("Error");
+        uart_drain(REST_TICKS);
+    }
+    SAY("Rewriting:0X");
+    print_hex16(memory_rewrites);
+    SAY("Size:0X");
+    print_hex32(size);
+    PUT("  Checksum:");
+    print_hex8((uint8_t)sum);
+    uart_put('-');
+    print_hex8(last);
+}
+
+/* A byte is written when the next one has come, because the last one is the sum. The page under way is in memory_work. */
+void load_flash(uint32_t addr)
+{
+    uint16_t page = (uint16_t)(addr >> 8), end = region_end(page);
+    uint8_t at = (uint8_t)addr, last = 0;
+    uint32_t size = 0, sum = 0;
+    bool is_good = true, is_open = false;
+    memory_rewrites = 0;
+    uart_lost();
+    if (!begin(addr, PSTR("Ready.."))) {
+        return;
+    }
+    while (uart_wait(SILENCE_TICKS)) {
+        if (size++ > 0) {
+            sum += last;
+            if (page == end) {
+                is_good = false;
+            } else {
+                if (!is_open) {
+                    flash_read((uint32_t)page << 8, memory_work, FLASH_PAGE_BYTES);
+                    is_open = true;
+                }
+                memory_work[at++] = last;
+                if (at == 0) {
+                    is_good &= memory_commit(page++, memory_work) <= MEMORY_EQUAL;
+                    is_open = false;
+                }
+            }
+        }
+        last = uart_next();
+    }
+    if (is_open) {
+        is_good &= memory_commit(page, memory_work) <= MEMORY_EQUAL;
+    }
+    report(size, sum, last, is_good);
+}
+
+void load_send(uint32_t addr, uint32_t count)
+{
+    uint8_t key = 0;
+    bool pressed = false;
+    uart_clock_restart();
+    SAY("Push button when ready...");
+    while (!uart_has()) {
+        PORTS_LEDS_OFF();
+        if (uart_clock() & BLINK_TICKS) {
+            PORTS_LEDS_ON();
+        }
+        if (PORTS_START_PRESSED()) {
+            pressed = true;
+        } else if (pressed) {
+            break;
+        }
+    }
+    PORTS_LEDS_OFF();
+    if (uart_has()) {
+        key = uart_next();
+    }
+    memory_cursor.addr = addr;
+    while (count-- > 0 && key != ESC) {
+        uart_put(memory_next());
+    }
+    uart_flush();
+    uart_pause(SLICE_TICKS);
+}
+
+void load_eeprom(uint16_t addr, uint16_t count)
+{
+    uint8_t *p = memory_work, *end = memory_work + count;
+    if (!begin(addr, PSTR("Ready"))) {
+        return;
+    }
+    for (; p < end; p++) {
+        if (!uart_wait(PATIENCE_TICKS)) {
+            SAY("Error");
+            return;
+        }
+        *p = uart_next();
+        if ((uint8_t)(p - memory_work) == 0xFF) {
+            uart_put('.');
+        }
+    }
+    memory_ee_write(addr, memory_work, count);
+    SAY("O.K.");
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT
+ * main.c - the boot loader from reset on: finish what a power cut left, answer the mailbox, stay or start.
+ *
+ *   reset -> journal -> mailbox -> window of 60 ms ---- stay asked for, or no application ----> monitor
+ *                                        \---- else ----> application */
+#include "journal.h"
+#include "memory.h"
+#include "monitor.h"
+#include "start.h"
+#include "print.h"
+#include "uart.h"
+#include BOOT_PORTS_H
+
+#include <avr/interrupt.h>
+#include <avr/io.h>
+#include <avr/wdt.h>
+
+#define WINDOW_TICKS UART_TICKS(60)
+#define LEDS_TICKS UART_TICKS(100)
+#define MAIL_POSTED 0xAAu
+#define MAIL_WRITTEN 0x55u
+#define MAIL_REFUSED 0xFFu
+
+void start_jump(uint16_t word)
+{
+    uart_flush();
+    cli();
+    MCUCR = 1 << IVCE;
+    MCUCR = 0;
+    TCCR1B = 0;
+    TCNT1 = 0;
+    TIFR = TIFR;
+    uart_open(UART_UBRR_57143);
+    TCCR1B = 0;
+    UCSR0A = 1 << U2X0;
+    UCSR0B = 1 << RXEN0 | 1 << TXEN0;
+    PORTS_HAND_OVER();
+    ((void (*)(void))word)();
+    __builtin_unreachable();
+}
+
+void start_reset(void)
+{
+    wdt_enable(WDTO_15MS);
+    for (;;) {
+    }
+}
+
+/* A motion page that the factory application left in EEPROM (section 7a). The state stays AA until both flash pages
+ * are right, so a power cut here is made good by the next start. */
+static void answer_mailbox(void)
+{
+    uint8_t page = memory_ee(MEM_EE_MAILBOX_PAGE);
+    uint8_t state = MAIL_REFUSED;
+    if (memory_ee(MEM_EE_MAILBOX_STATE) != MAIL_POSTED) {
+        return;
+    }
+    PUT(" Writing ");
+    if (page < 128) {
+        state = MAIL_WRITTEN;
+        memory_cursor.addr = MEMORY_EEPROM + MEM_EE_MAILBOX;
+        for (uint8_t half = 0; half < 2; half++) {
+            memory_fetch(memory_work, 256);
+            if (memory_commit(MEM_MOTION_START / 256 + page * 2 + half, memory_work) > MEMORY_EQUAL) {
+                state = MAIL_REFUSED;
+            }
+        }
+    }
+    memory_ee_set(MEM_EE_MAILBOX_STATE, state);
+}
+
+typedef enum { STAY_NO, STAY_PROMPT, STAY_STK500 } stay_t;
+
+/* Looks at the line and at START for 60 ms, or longer where the application's CRC takes longer. Only the last byte
+ * counts, as in the original; the sync of avrdude is two bytes. */
+static stay_t ask_to_stay(void)
+{
+    uint8_t last = 0, byte = 0;
+    uart_clock_restart();
+    bool held = PORTS_START_PRESSED();
+    memory_app_t app = memory_app();
+    do {
+        held = held && PORTS_START_PRESSED();
+        if (uart_has()) {
+            last = byte;
+            byte = uart_next();
+        }
+    } while (uart_clock() < WINDOW_TICKS);
+    if (last == MONITOR_SYNC_1 && byte == MONITOR_SYNC_2) {
+        return STAY_STK500;
+    }
+    return byte == '#' || held || app == MEMORY_APP_NONE || app == MEMORY_APP_BAD || memory_ee(MEM_EE_BOOT_MODE) == START_MODE_SYSTEM ? STAY_PROMPT : STAY_NO;
+}
+
+/* Vectors of our own: of the 35 only two are used, and tables fill the gap between them (boot.ld.in). */
+static void __attribute__((naked, used, section(".vectors"))) reset_vector(void)
+{
+    asm volatile("jmp __init");
+}
+
+void __attribute__((naked, used, section(".init0"))) __init(void);
+void __init(void)
+{
+    asm volatile("clr r1\n\t"
+                 "out __SREG__, r1\n\t"
+                 "ldi r28, lo8(%[top])\n\t"
+                 "ldi r29, hi8(%[top])\n\t"
+                 "out __SP_H__, r29\n\t"
+                 "out __SP_L__, r28"
+                 :
+                 : [top] "i"(MEM_RAM_END - 1));
+}
+
+static void __attribute__((naked, used, section(".init9"))) enter_main(void)
+{
+    asm volatile("jmp main");
+}
+
+int __attribute__((OS_main, used, externally_visible)) main(void)
+{
+    PORTS_OPEN();
+    uart_open(UART_UBRR_57143);
+    MCUCR = 1 << IVCE;
+    MCUCR = 1 << IVSEL;
+    sei();
+    uart_put(0xFF);
+    journal_recover(memory_work);
+    answer_mailbox();
+    stay_t stay = ask_to_stay();
+    if (stay == STAY_NO) {
+        start_jump(0);
+    }
+    PORTS_LEDS_ON();
+    if (stay == STAY_PROMPT) {
+        uart_pause(LEDS_TICKS);
+    }
+    PORTS_LEDS_OFF();
+    monitor_run(stay == STAY_STK500);
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT */
+#include "memory.h"
+
+#include "app_record.h"
+#include "crc16.h"
+#include "journal.h"
+#include "service.h"
+#include "uart.h"
+
+#include <avr/eeprom.h>
+#include <avr/io.h>
+#include <avr/pgmspace.h>
+#include <avr/wdt.h>
+#include <string.h>
+
+uint8_t memory_work[MEMORY_WORK_BYTES];
+memory_cursor_t memory_cursor;
+uint16_t memory_rewrites;
+memory_scan_t memory_sums;
+
+
+void flash_read(uint32_t addr, void *to, uint16_t bytes)
+{
+    uint8_t *p = to;
+    while (bytes--) {
+        *p++ = pgm_read_byte_far(addr++);
+    }
+}
+
+/* BOOT_OK, BOOT_ERR_RANGE, BOOT_ERR_VERIFY have the numbers of their FLASH_ twins. */
+static flash_status_t write_page(uint16_t page, const uint8_t *data, uint16_t bytes, uint8_t mode)
+{
+    uint16_t result = boot_write_page((uint32_t)page << 8, data, bytes, mode, &uart_rx);
+    memory_rewrites += result >> 8;
+    return (flash_status_t)(uint8_t)result;
+}
+
+flash_status_t flash_write(uint16_t page, const uint8_t *data, uint16_t bytes)
+{
+    return write_page(page, data, bytes, BOOT_MODE_WRITE);
+}
+
+flash_status_t flash_program(uint16_t page, const uint8_t *data, uint16_t bytes)
+{
+    return write_page(page, data, bytes, BOOT_MODE_PROGRAM);
+}
+
+uint8_t memory_next(void)
+{
+    memory_cursor_t at = memory_cursor;
+    memory_cursor.addr++;
+    if (at.byte[2] == MEMORY_EEPROM >> 16) {
+        return memory_ee(at.low);
+    }
+    if (at.byte[2] == MEMORY_RAM >> 16) {
+        return *(const volatile uint8_t *)at.low;
+    }
+    return pgm_read_byte_far(at.addr);
+}
+
+void memory_fetch(uint8_t *to, uint16_t count)
+{
+    while (count--) {
+        *to++ = memory_next();
+    }
+}
+
+memory_result_t memory_commit(uint16_t page, const uint8_t *data)
+{
+    if (page >= MEM_BOOT_START / 256) {
+        return MEMORY_REFUSED;
+    }
+    memory_scan(page);
+    if (memcmp(memory_scratch, data, FLASH_PAGE_BYTES) == 0) {
+        return MEMORY_EQUAL;
+    }
+    if (page >= MEM_MOTION_START / 256 && journal_void() != FLASH_OK) {
+        return MEMORY_BROKEN;
+    }
+    return flash_write(page, data, FLASH_PAGE_BYTES) == FLASH_OK ? MEMORY_WRITTEN : MEMORY_BROKEN;
+}
+
+uint8_t memory_ee(uint16_t addr)
+{
+    return eeprom_read_byte((const uint8_t *)(addr & (MEM_EEPROM_BYTES - 1)));
+}
+
+uint32_t memory_ee32(uint16_t addr)
+{
+    uint32_t value;
+    memory_cursor.addr = MEMORY_EEPROM + addr;
+    memory_fetch((uint8_t *)&value, sizeof value);
+    return value;
+}
+
+void memory_ee_set(uint16_t addr, uint8_t value)
+{
+    wdt_reset();
+    eeprom_update_byte((uint8_t *)(addr & (MEM_EEPROM_BYTES - 1)), value);
+}
+
+void memory_ee_write(uint16_t addr, const uint8_t *from, uint16_t count)
+{
+    while (count--) {
+        memory_ee_set(addr++, *from++);
+    }
+}
+
+void memory_ee_set32(uint16_t addr, uint32_t value)
+{
+    memory_ee_write(addr, (const uint8_t *)&value, sizeof value);
+}
+
+void memory_scan_start(void)
+{
+    memory_sums.sum = 0;
+    memory_sums.all = 0xFF;
+}
+
+void memory_scan(uint16_t page)
+{
+    memory_scan_t sums = memory_sums;
+    uint8_t at = 0;
+    flash_read((uint32_t)page << 8, memory_scratch, FLASH_PAGE_BYTES);
+    do {
+        uint8_t byte = memory_scratch[at];
+        sums.crc = crc16_byte(sums.crc, byte);
+        sums.sum += byte;
+        sums.all &= byte;
+    } while (++at != 0);
+    memory_sums = sums;
+}
+
+#define MAGIC_LE 0x3231354Dul /* APP_RECORD_MAGIC read as a number */
+#define CRC_AT (MEM_APP_RECORD + APP_RECORD_AT_CRC)
+
+/* The CRC as app_record.h says: its own two bytes count as 0xFF. The application lies below 64 KiB, where the short
+ * reads reach: 46 cycles a byte, 60 ms for 20 KiB. */
+memory_app_t memory_app(void)
+{
+    uint32_t length = pgm_read_dword(MEM_APP_RECORD + APP_RECORD_AT_LENGTH);
+    uint16_t crc = CRC16_START;
+    if (pgm_read_dword(MEM_APP_RECORD) != MAGIC_LE) {
+        return pgm_read_word(MEM_APP_START) == 0xFFFF ? MEMORY_APP_NONE : MEMORY_APP_PLAIN;
+    }
+    if (length > MEM_APP_END) {
+        return MEMORY_APP_BAD;
+    }
+    for (uint16_t at = 0; at != (uint16_t)length; at++) {
+        crc = crc16_byte(crc, (at & ~1u) == CRC_AT ? 0xFF : pgm_read_byte(at));
+    }
+    return crc == pgm_read_word(CRC_AT) ? MEMORY_APP_GOOD : MEMORY_APP_BAD;
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ * memory.h - the loader's reading and writing: one cursor over flash, EEPROM and RAM, flash pages with read-back, the
+ * application's record. Implements flash.h for the loader. */
+#ifndef MEMORY_H
+#define MEMORY_H
+
+#include "hal/flash.h"
+#include "linker/memory_map.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* The one large piece of RAM; one user at a time. The second half doubles as scratch of memory_scan. */
+#define MEMORY_WORK_BYTES 2048u
+extern uint8_t memory_work[MEMORY_WORK_BYTES];
+#define memory_scratch (memory_work + 1024)
+
+/* One address space for all that can be read: flash from 0, RAM (registers included) and EEPROM behind it. */
+#define MEMORY_RAM 0x800000ul
+#define MEMORY_EEPROM 0x810000ul
+
+/* Where memory_next reads; set it freely, whole or by bytes (low first; the third one is the space). */
+typedef union {
+    uint32_t addr;
+    uint8_t byte[4];
+    uint16_t low;
+} memory_cursor_t;
+extern memory_cursor_t memory_cursor;
+
+/* The byte at the cursor, which moves on. EEPROM addresses wrap at its end. */
+uint8_t memory_next(void);
+
+/* The next `count` of them. */
+void memory_fetch(uint8_t *to, uint16_t count);
+
+/* Makes flash page `page` hold the 256 bytes unless it does already; up to ten tries, as the original, each failed one
+ * counted in memory_rewrites. Drops a pending journal record before the first change of the motion area. */
+typedef enum { MEMORY_WRITTEN = 0, MEMORY_EQUAL = 1, MEMORY_REFUSED = 2, MEMORY_BROKEN = 3 } memory_result_t;
+memory_result_t memory_commit(uint16_t page, const uint8_t *data);
+extern uint16_t memory_rewrites;
+
+/* EEPROM: only a byte that differs is written, 8.5 ms. Addresses modulo its size. */
+uint8_t memory_ee(uint16_t addr);
+uint32_t memory_ee32(uint16_t addr); /* moves the cursor */
+void memory_ee_set(uint16_t addr, uint8_t value);
+void memory_ee_set32(uint16_t addr, uint32_t value);
+void memory_ee_write(uint16_t addr, const uint8_t *from, uint16_t count);
+
+/* CRC-16 chained over pages, and sum and AND of one page. memory_scan copies the page to memory_scratch first. */
+typedef struct {
+    uint16_t crc; /* set to CRC16_START at the beginning of an area */
+    uint16_t sum; /* set to 0 at the beginning of a page */
+    uint8_t all;  /* set to 0xFF */
+} memory_scan_t;
+extern memory_scan_t memory_sums;
+void memory_scan_start(void);
+void memory_scan(uint16_t page);
+
+/* The application: nothing there, there without a record (started as it is), record fits, record does not fit. */
+typedef enum { MEMORY_APP_NONE = 0, MEMORY_APP_PLAIN = 1, MEMORY_APP_GOOD = 2, MEMORY_APP_BAD = 3 } memory_app_t;
+memory_app_t memory_app(void);
+
+#endif

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+#include "monitor.h"
+
+#include "block.h"
+#include "parse.h"
+#include "stk500.h"
+#include "print.h"
+#include "uart.h"
+#include "words.h"
+#include BOOT_PORTS_H
+
+#include <avr/wdt.h>
+
+#define LINE_BYTES 80
+#define SYNC_TICKS UART_TICKS(20)   /* between the two bytes of a sync */
+#define LF_TICKS UART_TICKS(2)      /* CR LF from one write() of a PC */
+
+enum { BACKSPACE = 8, ESC = 27, CR = 13, LF = 10 };
+
+static char line[LINE_BYTES];
+static uint8_t length;
+static bool is_binary;    /* the line has bytes that no one types: not a command */
+static bool was_released; /* START, since the prompt came */
+
+static void prompt(void)
+{
+    PUT("\r\n - ");
+    length = 0;
+    is_binary = false;
+    was_released = false;
+}
+
+static void __attribute__((noinline)) run_line(void)
+{
+    parse_t parsed;
+    line[length] = 0;
+    if (uart_wait(LF_TICKS) && uart_peek() == LF) {
+        (void)uart_next();
+    }
+    if (is_binary) {
+        line[0] = 1;
+    }
+    parse_status_t status = parse_line(line, &parsed);
+    if (*parsed.word != 0) {
+        words_run(&parsed, status);
+    }
+    prompt();
+}
+
+/* true when the byte began one of the binary protocols, which then ran to its end. */
+static bool is_protocol(uint8_t byte)
+{
+    if (byte == FRAME_REQUEST) {
+        block_session();
+        return true;
+    }
+    if (byte == MONITOR_SYNC_1 && length == 0) {
+        if (uart_wait(SYNC_TICKS) && uart_peek() == MONITOR_SYNC_2) {
+            (void)uart_next();
+            stk500_session();
+            return true;
+        }
+    }
+    return false;
+}
+
+static void edit_line(uint8_t byte)
+{
+    if (byte == 0 || byte == ESC) {
+        return;
+    }
+    if (byte == BACKSPACE) {
+        if (length > 0) {
+            PUT("\b \b");
+            length--;
+        }
+    } else if (length < LINE_BYTES - 1) {
+        is_binary |= (byte < ' ' && byte != '\t') || byte > '~';
+        line[length++] = (char)byte;
+        uart_put(byte);
+    }
+}
+
+/* START at the prompt is GO, but not while it is still held from before. */
+static void watch_start(void)
+{
+    if (!PORTS_START_PRESSED()) {
+        was_released = true;
+    } else if (was_released) {
+        PUT("GO");
+        words_go(0);
+        prompt();
+    }
+}
+
+void monitor_run(bool stk500)
+{
+    uint8_t before = 0;
+    if (stk500) {
+        stk500_session();
+    } else {
+        PUT("\r\n\n SYSTEM O.K. (Motion512 Boot loader V1.00)");
+    }
+    prompt();
+    for (;;) {
+        wdt_reset();
+        watch_start();
+        if (!uart_has()) {
+            continue;
+        }
+        uint8_t byte = uart_next();
+        if (is_protocol(byte)) {
+            prompt();
+        } else if (byte == CR || (byte == LF && before != CR)) {
+            run_line();
+        } else if (byte != LF) {
+            edit_line(byte);
+        }
+        before = byte;
+    }
+}

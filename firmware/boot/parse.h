@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT
+ * parse.h - a typed line into a word and hexadecimal arguments. Pure; tested on the PC.
+ * Separators are space to '/' (0x20..0x2F) and TAB; several count as one. A line that begins with one that is not a
+ * space or TAB is empty (so `####` does no harm), as in the original. */
+#ifndef PARSE_H
+#define PARSE_H
+
+#include <stdint.h>
+
+#define PARSE_ARGS 2
+#define PARSE_NUMBER_MAX 0xFFFFFul
+
+typedef struct {
+    const char *word;            /* in the line, upper case, NUL behind it; empty for an empty line */
+    uint8_t count;               /* arguments read */
+    uint32_t arg[PARSE_ARGS];    /* 0 where none was given */
+} parse_t;
+
+/* What is wrong with the arguments; the word is set anyway. */
+typedef enum {
+    PARSE_OK = 0,
+    PARSE_ERR_NUMBER, /* not hexadecimal, with or without 0x, or above PARSE_NUMBER_MAX */
+    PARSE_ERR_COUNT   /* more than PARSE_ARGS */
+} parse_status_t;
+
+/* line : NUL-terminated; changed: upper case, separators become NUL */
+parse_status_t parse_line(char *line, parse_t *parse);
+
+#endif

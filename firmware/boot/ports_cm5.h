@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT
+ * ports_cm5.h - the CM-5's pins as the loader sets them (board.md) and as an application finds them
+ * (bootloader-original.md, section 5). */
+#ifndef PORTS_H
+#define PORTS_H
+
+#include <avr/io.h>
+
+#define BOOT_BOARD 1 /* app_record.h: CM-5 */
+#define PORTS_BOARD_NAME "CM5"
+
+/* While the loader runs the PC's line is gated in (PD5) and the radio's is not. */
+#define PORTS_OPEN() (DDRB = 0x20, PORTB = 0x20, PORTC = 0x7E, DDRC = 0x77, PORTD = 0x31, DDRD = 0x70, PORTE = 0x00, DDRE = 0x0C)
+#define PORTS_HAND_OVER() (PORTC = 0x7E, PORTD = 0x51)
+
+#define PORTS_START_PRESSED() (!(PIND & 1 << PD0))
+
+/* The three LEDs of the loader: port C bits 4, 5, 6, low = lit. */
+#define PORTS_LEDS_ON() (PORTC &= (uint8_t)~0x70)
+#define PORTS_LEDS_OFF() (PORTC |= 0x70)
+
+#endif

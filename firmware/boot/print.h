@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ * print.h - output of the loader: strings of the boot section and hexadecimal numbers.
+ * The boot section lies above 64 KiB: a PROGMEM address is 16 bits and is read with RAMPZ = 1. */
+#ifndef PRINT_H
+#define PRINT_H
+
+#include <avr/pgmspace.h>
+#include <stdint.h>
+
+/* PROGMEM for small tables that go between the two vectors in use: 112 bytes in all. */
+#define PROGMEM_GAP __attribute__((section(".progmem.gap")))
+
+/* One byte of a PROGMEM object of the loader. */
+uint8_t print_byte(const void *progmem);
+
+/* A PROGMEM string as it is; say: behind CR LF and a space, as the original begins its messages. */
+void print_put(const char *progmem);
+void print_say(const char *progmem);
+#define SAY(literal) print_say(PSTR(literal))
+#define PUT(literal) print_put(PSTR(literal))
+
+/* The n-th (0..) of several strings, each ended by a NUL. */
+void print_nth(const char *progmem, uint8_t n);
+
+void print_line(void); /* CR LF space */
+void print_hex8(uint8_t value);
+void print_hex16(uint16_t value);
+void print_hex32(uint32_t value);
+
+#endif

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ * service.h - the page-write service behind the call table, and the receiver's other half.
+ * Runs on an application's stack and RAM: no .data, no .bss, no PROGMEM string may be touched from here. */
+#ifndef SERVICE_H
+#define SERVICE_H
+
+#include "boot_api.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* The entry at BOOT_API_WRITE_PAGE; contract in boot_api.h. */
+boot_write_page_t boot_write_page;
+
+/* Moves one byte from UART1 into the ring, if one is there. rx may be NULL: does nothing. */
+void service_poll(const boot_rx_t *rx);
+
+#endif

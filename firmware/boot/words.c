@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+#include "words.h"
+
+#include "check.h"
+#include "load.h"
+#include "memory.h"
+#include "start.h"
+#include "print.h"
+#include "uart.h"
+
+#include <string.h>
+
+#define DUMP_LINES 8
+#define ERASED 0xFF
+#define CLEAR_DOT 256u
+
+/* One code a word, aliases share it; the order is that of `limits`. PLAY.. and on store a byte for an application. */
+enum { HELP, FLASH, EEPROM, RAM, LOAD, UP, EEP_UP, EEP_DN, VERIFY, CLEAR, GO, RESET, APP, SYS, CHECK, ID,
+       PLAY, TOSS, MON, EDIT, DUMP, WORD_CODES, UNKNOWN = 0xFF };
+
+/* Words, each ended by 0x80 + code; HELP prints them in this order. */
+static const char words[] PROGMEM =
+    "HELP\x80" "FLASH\x81" "F\x81" "EEPROM\x82" "EEP\x82" "E\x82" "RAM\x83" "R\x83"
+    "LOAD\x84" "LD\x84" "L\x84" "DOWN\x84" "DN\x84" "UP\x85" "EEP_UP\x86" "EEP_DN\x87" "VERIFY\x88" "V\x88"
+    "CLEAR_EEPROM\x89" "GO\x8A" "G\x8A" "RESET\x8B" "APPLICATION\x8C" "APP\x8C" "SYSTEM\x8D" "SYS\x8D"
+    "CHECK\x8E" "ID\x8F" "PLAY\x90" "TOSS\x91" "MONITOR\x92" "MON\x92" "EDIT\x93" "DUMP\x94";
+
+/* Fewest and most arguments: high and low nibble. */
+static const uint8_t limits[WORD_CODES] PROGMEM_GAP = {
+    [FLASH] = 0x01, [EEPROM] = 0x01, [RAM] = 0x01, [LOAD] = 0x01, [UP] = 0x22, [EEP_UP] = 0x22, [EEP_DN] = 0x22,
+    [CLEAR] = 0x02, [GO] = 0x01};
+
+/* The code of `word`, which is not empty. */
+static uint8_t find(const char *word)
+{
+    const char *entry = words;
+    while (entry < words + sizeof words - 1) {
+        const char *p = word;
+        uint8_t c;
+        bool same = true;
+        while ((c = print_byte(entry++)) < 0x80) {
+            same = same && c == (uint8_t)*p++;
+        }
+        if (same && *p == 0) {
+            return c & 0x7F;
+        }
+    }
+    return UNKNOWN;
+}
+
+/* All words, then what a newcomer must know. */
+static void help(void)
+{
+    print_line();
+    for (const char *entry = words; entry < words + sizeof words - 1; entry++) {
+        uint8_t c = print_byte(entry);
+        uart_put(c < 0x80 ? c : ' ');
+    }
+    SAY("Numbers are hex; # at reset stays here");
+}
+
+/* Without an argument a dump goes on where the last one (or a transfer) ended. */
+static void dump(uint8_t code, const parse_t *line)
+{
+    if (line->count > 0) {
+        memory_cursor.addr = line->arg[0];
+    }
+    uint8_t space = code == EEPROM ? MEMORY_EEPROM >> 16 : code == RAM ? MEMORY_RAM >> 16 : 0;
+    for (uint8_t row = 0; row < DUMP_LINES; row++) {
+        uint8_t bytes[16];
+        memory_cursor.byte[3] = 0;
+        memory_cursor.byte[2] &= code == FLASH;
+        if (code == EEPROM) {
+            memory_cursor.byte[1] &= (MEM_EEPROM_BYTES - 1) >> 8;
+        } else if (code == RAM && memory_cursor.low > MEM_RAM_END - sizeof bytes) {
+            memory_cursor.low = 0;
+        }
+        print_line();
+        print_hex32(memory_cursor.addr);
+        PUT(" : ");
+        memory_cursor.byte[2] |= space;
+        memory_fetch(bytes, sizeof bytes);
+        for (uint8_t i = 0; i < 16; i++) {
+            print_hex8(bytes[i]);
+            uart_put(' ');
+        }
+        for (uint8_t i = 0; i < 16; i++) {
+            uart_put(bytes[i] >= ' ' && bytes[i] < 0x80 ? bytes[i] : '.');
+        }
+    }
+    PUT("\r\n");
+}
+
+/* The second sum is right when it equals the third; meant for a download to 0 (it always begins there). */
+static void verify(void)
+{
+    uint32_t size = memory_ee32(MEM_EE_LOAD_SIZE), sum = 0;
+    SAY("Program Length : 0x");
+    print_hex32(size);
+    SAY("Verified Checksum : ");
+    print_hex8(memory_ee(MEM_EE_LOAD_SUM_BYTE));
+    uart_put('-');
+    if (size > MEM_BOOT_END) {
+        size = MEM_BOOT_END;
+    }
+    memory_cursor.addr = 0;
+    while (size-- > 1) {
+        sum += memory_next();
+    }
+    print_hex32(sum);
+    uart_put('-');
+    print_hex32(memory_ee32(MEM_EE_LOAD_SUM));
+}
+
+static void clear_eeprom(const parse_t *line)
+{
+    uint16_t at = (uint16_t)line->arg[0], count = (uint16_t)line->arg[1];
+    if (line->count == 1) {
+        return;
+    }
+    if (line->count == 0) {
+        SAY("Clear EEPROM? (y/N)");
+        while (!uart_has()) {
+        }
+        if ((uart_next() & 0xDF) != 'Y') {
+            return;
+        }
+        at = 0;
+        count = MEM_EEPROM_BYTES;
+    }
+    SAY("EEPROM Clearing");
+    for (; count > 0; count--) {
+        memory_ee_set(at++, ERASED);
+        if (line->count == 0 && at % CLEAR_DOT == 0) {
+            uart_put('.');
+        }
+    }
+}
+
+void words_go(uint16_t word)
+{
+    SAY("Jump Address : 0x");
+    print_hex32(word);
+    if (word == 0 && memory_app() == MEMORY_APP_NONE) {
+        SAY("No application.");
+        return;
+    }
+    uart_pause(UART_TICKS(10));
+    start_jump(word);
+}
+
+static void set_start(uint8_t code)
+{
+    static const char names[] PROGMEM_GAP = "Play\0Toss\0Monitor\0Motion Edit\0DUMP485";
+    memory_ee_set(MEM_EE_START_WORD, (uint8_t)(0x12 + code - PLAY));
+    print_line();
+    print_nth(names, code - PLAY);
+    PUT(" Mode");
+}
+
+/* Whether the address (and the length from there on) lies in what the word is about. Numbers have 20 bits: the sum does
+ * not overflow, and in pages it fits 16. */
+static bool is_in_range(uint8_t code, const parse_t *line)
+{
+    uint16_t pages = (uint16_t)((line->arg[0] + (line->count > 1 ? line->arg[1] : 1) + 0xFF) >> 8);
+    uint16_t end = code == UP ? MEM_BOOT_END / 256
+                   : code == LOAD ? MEM_BOOT_START / 256
+                   : code == GO ? 0x10000 / 256 : MEM_EEPROM_BYTES / 256;
+    return code < LOAD || pages <= end;
+}
+
+static void run(uint8_t code, const parse_t *line)
+{
+    uint32_t first = line->arg[0];
+    switch (code) {
+    case HELP: help(); break;
+    case FLASH:
+    case EEPROM:
+    case RAM: dump(code, line); break;
+    case LOAD: load_flash(first); break;
+    case EEP_UP: first += MEMORY_EEPROM; /* fall through */
+    case UP: load_send(first, line->arg[1]); break;
+    case EEP_DN: load_eeprom((uint16_t)first, (uint16_t)line->arg[1]); break;
+    case VERIFY: verify(); break;
+    case CLEAR: clear_eeprom(line); break;
+    case GO: words_go((uint16_t)first); break;
+    case RESET: start_reset();
+    case APP:
+        memory_ee_set(MEM_EE_BOOT_MODE, START_MODE_APPLICATION);
+        SAY("Boot to Application");
+        break;
+    case SYS:
+        memory_ee_set(MEM_EE_BOOT_MODE, START_MODE_SYSTEM);
+        SAY("Boot to System");
+        break;
+    case CHECK: check_all(); break;
+    case ID: check_id(); break;
+    default: set_start(code);
+    }
+}
+
+static void usage(const char *word)
+{
+    print_line();
+    while (*word != 0) {
+        uart_put((uint8_t)*word++);
+    }
+    PUT(" StartAddress, Length");
+}
+
+void words_run(const parse_t *line, parse_status_t status)
+{
+    uint8_t code = find(line->word);
+    if (code == UNKNOWN) {
+        SAY("Bad Command.('help' for instructions definition)");
+        return;
+    }
+    uint8_t limit = print_byte(&limits[code]);
+    if (limit == 0x22 && line->count != 2 && status == PARSE_OK) {
+        usage(line->word);
+    } else if (status != PARSE_OK || line->count > (limit & 15)) {
+        SAY("Bad Argument.");
+    } else if (!is_in_range(code, line)) {
+        SAY("Bad Address.");
+    } else {
+        run(code, line);
+    }
+}
