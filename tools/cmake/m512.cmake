@@ -41,6 +41,17 @@ function(m512_image target)
             "${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in;${CMAKE_SOURCE_DIR}/linker/memory_map.h")
     endif()
     target_link_options(${target} PRIVATE -Wl,-Map=${out}/${target}.map)
+    # The last step of linking: what an image says of itself (tools/app_record).
+    string(REGEX MATCH "^(play|edit)" kind ${target})
+    if(NOT kind)
+        set(kind other)
+    endif()
+    if(ARG_KIND STREQUAL "app")
+        add_custom_command(TARGET ${target} POST_BUILD COMMAND ${CMAKE_SOURCE_DIR}/tools/app_record app
+            ${out}/${target}.elf --board ${ARG_BOARD} --kind ${kind} --version ${PROJECT_VERSION})
+    elseif(ARG_KIND STREQUAL "boot")
+        add_custom_command(TARGET ${target} POST_BUILD COMMAND ${CMAKE_SOURCE_DIR}/tools/app_record boot ${out}/${target}.elf)
+    endif()
     add_custom_command(TARGET ${target} POST_BUILD
         COMMAND avr-objcopy -O ihex -R .eeprom -R .fuse -R .lock -R .noinit ${out}/${target}.elf ${out}/${target}.hex)
 endfunction()
