@@ -16,7 +16,11 @@
 #define BUS_RATE_1M 1u
 #define BUS_RATE_57142 34u
 
-#define BUS_PACKET_BYTES 144u   /* room for DXL_PACKET_MAX */
+/* Room for the outgoing packet. An image short of RAM may define it smaller (not below 101: 31 goals), and likewise
+ * DXL_ANSWER_PARAMS (dxl_packet.h; not below 20: the health poll): for the whole image, in its CMakeLists.txt. */
+#ifndef BUS_PACKET_BYTES
+#define BUS_PACKET_BYTES 144u   /* DXL_PACKET_MAX */
+#endif
 #define BUS_NO_ANSWER 255u      /* bus_submit: nobody answers (broadcast, SYNC WRITE) */
 #define BUS_TRIES_MAX 4u
 

@@ -11,7 +11,10 @@
 #include "ring.h"
 
 #define CONSOLE_RX_BYTES 256u
+/* An image short of RAM may define it smaller (a power of two, for the whole image). */
+#ifndef CONSOLE_TX_BYTES
 #define CONSOLE_TX_BYTES 128u
+#endif
 
 /* Rates by divisor: 2,000,000 / (n + 1). */
 #define CONSOLE_RATE_57600 34u  /* really 57,143 */

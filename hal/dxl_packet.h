@@ -12,7 +12,10 @@
 
 #define DXL_PACKET_OVERHEAD 6u   /* FF FF ID LEN INST ... SUM */
 #define DXL_PARAMS_AT 5u         /* the first parameter in a packet */
-#define DXL_ANSWER_PARAMS 64u    /* the longest status packet that is understood: a whole control table */
+/* The longest status packet that is understood: a whole control table. An image may define it smaller (bus.h). */
+#ifndef DXL_ANSWER_PARAMS
+#define DXL_ANSWER_PARAMS 64u
+#endif
 
 /* ---- building, in place ---- */
 

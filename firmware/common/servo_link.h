@@ -24,16 +24,20 @@
 #define SERVO_LINK_POLL_TRIES 3u         /* failed polls, one a tick, before a servo counts as silent */
 #define SERVO_LINK_NO_POSE 0xFFFFu       /* present_pos of a joint that was never read */
 
-/* One joint's mask bit: for constants; servo_link_bit for variables (a 32-bit shift is a loop on the AVR). */
+/* One joint's mask bit: for constants; servo_link_bit for variables (a 32-bit shift is a loop on the AVR, and
+ * each 32-bit operation 8 to 16 bytes: hence functions for single bits of a mask). */
 #define SERVO_LINK_BIT(id) ((uint32_t)1 << (id))
 uint32_t servo_link_bit(uint8_t id) NOINLINE;
+bool servo_link_has(const uint32_t *mask, uint8_t id) NOINLINE;
+void servo_link_put(uint32_t *mask, uint8_t id, bool on) NOINLINE;
 
 /* What may befall a servo. */
 typedef enum {
     SERVO_FAULT_SILENT = 1,   /* does not answer any more */
     SERVO_FAULT_BACK,         /* answers again (its torque may be off: see `torque`) */
     SERVO_FAULT_ERRORS,       /* reports errors: DXL_ERR_ bits in `errors` (voltage, angle, heat, overload) */
-    SERVO_FAULT_TORQUE        /* its torque went off by itself */
+    SERVO_FAULT_TORQUE,       /* its torque went off by itself */
+    SERVO_FAULT_KINDS = SERVO_FAULT_TORQUE
 } servo_fault_kind_t;
 
 typedef struct {
@@ -42,33 +46,33 @@ typedef struct {
     uint8_t errors;
 } servo_fault_t;
 
-/* Public fields are read only for callers. */
+/* Public fields are read only for callers. Small fields first: the AVR reaches 63 bytes behind a pointer cheaply. */
 typedef struct {
     uint32_t present;         /* answered the last scan at 1 Mbps; a silent servo stays in here */
-    uint32_t slow;            /* answered at 57,142 bps: named, not used, until servo_link_fast_baud */
-    uint32_t mute;            /* answers PING but no READ (status return level 0): named, not used */
-    uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
-    uint32_t no_reply;        /* present, but answers READ only (status return level 1) */
     uint32_t torque;          /* torque is on, as commanded or seen last */
     uint32_t silent;          /* present, but silent now */
-    uint16_t present_pos[SERVO_LINK_JOINTS]; /* last pose heard, page coordinates, or SERVO_LINK_NO_POSE */
-    int16_t trim_pos[SERVO_LINK_JOINTS];     /* in force */
-    uint8_t errors[SERVO_LINK_JOINTS];       /* last DXL_ERR_ bits heard, of the four above */
+    uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
+    uint32_t no_reply;        /* present, but answers READ only (status return level 1) */
+    uint32_t slow;            /* answered at 57,142 bps: named, not used, until servo_link_fast_baud */
+    uint32_t mute;            /* answers PING but no READ (status return level 0): named, not used */
     uint8_t voltage_dv;       /* lowest voltage heard in the last full round, 0.1 V; 0: none yet */
     uint8_t hottest_degrees;  /* highest temperature heard in the last full round, and whose it was */
     uint8_t hottest_id;
-    uint16_t late;            /* ticks whose goals could not all be sent in time; stays at 65535 */
+    uint8_t late;             /* ticks whose goals could not all be sent in time; stays at 255 */
     /* Private. */
     uint8_t phase;
     uint8_t poll_id, poll_misses;
-    uint8_t deaf_id;                         /* whose REG WRITE is on the wire */
     uint8_t round_voltage_dv, round_degrees, round_degrees_id;
-    uint8_t slopes[SERVO_LINK_JOINTS];       /* compliance byte last asked for; 0 = none */
-    uint32_t slopes_pending;                 /* joints that have not got theirs yet */
     const uint16_t *goals_pos;
     uint32_t goals_joints;                   /* of this tick */
+    uint32_t slopes_pending;                 /* joints that have not got their slopes yet */
     uint32_t deaf_left;                      /* deaf joints whose REG WRITE is still to be sent */
-    uint32_t untold_silent, untold_errors, untold_torque, untold_back;
+    uint32_t untold[SERVO_FAULT_KINDS];      /* [kind - 1]: joints it befell and nobody was told of */
+    /* Public again. */
+    uint16_t present_pos[SERVO_LINK_JOINTS]; /* last pose heard, page coordinates, or SERVO_LINK_NO_POSE */
+    int16_t trim_pos[SERVO_LINK_JOINTS];     /* in force */
+    uint8_t errors[SERVO_LINK_JOINTS];       /* last DXL_ERR_ bits heard, of the four above */
+    uint8_t slopes[SERVO_LINK_JOINTS];       /* private: compliance byte last asked for; 0 = none */
 } servo_link_t;
 
 void servo_link_init(servo_link_t *link);
@@ -115,7 +119,7 @@ uint32_t servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LI
 /* ---- blocking, for set-up; nothing may be moving; quiet the bus themselves; kick the watchdog ---- */
 
 /* Looks for IDs 0..30 at 57,142 bps, then at 1 Mbps (where the bus stays): 0.25 s with nobody there, two tries each. Finds out
- * who is deaf to SYNC WRITE (by the LED, which is restored), reads poses and torque. */
+ * who is deaf to SYNC WRITE (by the LED, which is off afterwards), reads poses and torque. */
 void servo_link_scan(servo_link_t *link);
 
 /* Moves slow servos of `ids` to 1 Mbps (their address 4 = 1), then scans. Returns those that were moved. */

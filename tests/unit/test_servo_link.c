@@ -98,13 +98,13 @@ static void test_scan_changes_nothing_in_a_servo(void)
 {
     uint8_t before[2][FAKE_BUS_TABLE_BYTES];
     (void)fake_bus_add(3, BUS_RATE_1M);
-    fake_servo_t *lit = fake_bus_add(4, BUS_RATE_1M);
-    lit->table[DXL_AT_LED] = 1;
+    fake_servo_t *other = fake_bus_add(4, BUS_RATE_1M);
+    other->table[DXL_AT_TORQUE_ENABLE] = 1;
     memcpy(before[0], fake_bus_servo(3)->table, FAKE_BUS_TABLE_BYTES);
-    memcpy(before[1], lit->table, FAKE_BUS_TABLE_BYTES);
+    memcpy(before[1], other->table, FAKE_BUS_TABLE_BYTES);
     servo_link_scan(&servos);
     TEST_ASSERT_EQUAL_MEMORY(before[0], fake_bus_servo(3)->table, FAKE_BUS_TABLE_BYTES);
-    TEST_ASSERT_EQUAL_MEMORY(before[1], lit->table, FAKE_BUS_TABLE_BYTES);
+    TEST_ASSERT_EQUAL_MEMORY(before[1], other->table, FAKE_BUS_TABLE_BYTES);
 }
 
 static void test_scan_finds_the_deaf_and_the_taciturn(void)
