@@ -85,7 +85,7 @@ def test_every_option_occurs_in_the_readme():
 
 
 def test_every_verb_of_the_script_language_occurs_in_the_readme():
-    source = (TOP / "tools" / "sim" / "cli_script.c").read_text()
+    source = (TOP / "tools" / "sim" / "cm5sim" / "cli_script.c").read_text()
     verbs = re.findall(r'\{"([a-z]+)", (?:parse_|SERVO_|0|-1)', source)
     assert {"send", "expect", "goal", "register", "quit"} < set(verbs)
     assert [verb for verb in verbs if not re.search(rf"\b{verb}\b", README)] == []

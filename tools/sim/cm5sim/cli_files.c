@@ -158,3 +158,22 @@ const char *files_save_servos(const servo_bus_t *bus, const char *path)
     }
     return write_file(path, bytes, (size_t)count * SERVO_EEPROM_BYTES);
 }
+
+const char *files_plug_in_servos(servo_bus_t *bus, const options_t *options, uint64_t now_cycles)
+{
+    for (int i = 0; i < options->servo_count; i++) {
+        const servo_plan_t *plan = &options->servos[i];
+        if (servo_bus_add(bus, plan->id, plan->model, plan->rate_bps) == NULL) {
+            return "no memory for the servos";
+        }
+    }
+    const char *error = options->servo_eeprom ? files_load_servos(bus, options->servo_eeprom) : NULL;
+    for (int i = 0; i < options->fault_count && error == NULL; i++) {
+        servo_t *servo = servo_bus_find(bus, options->faults[i].id);
+        if (servo == NULL) {
+            return "--fault: there is no servo with that ID";
+        }
+        servo_bus_fault(bus, now_cycles, servo, options->faults[i].fault, SERVO_FAULT_ALWAYS);
+    }
+    return error;
+}

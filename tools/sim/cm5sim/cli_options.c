@@ -200,9 +200,9 @@ static void check_all(struct argp_state *state, const options_t *options)
     }
 }
 
-static error_t parse(int key, char *arg, struct argp_state *state)
+/* The robot itself, and what is done to it. */
+static bool parse_robot(int key, char *arg, struct argp_state *state, options_t *options)
 {
-    options_t *options = state->input;
     switch (key) {
     case OPT_BOARD: parse_board(state, options, arg); break;
     case OPT_SERVOS: check(state, "--servos", arg, with_copy(options, arg, parse_servos)); break;
@@ -212,25 +212,46 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case OPT_FLASH: options->flash = arg; break;
     case OPT_EEPROM: options->eeprom = arg; break;
     case OPT_SERVO_EEPROM: options->servo_eeprom = arg; break;
+    case OPT_ALLOW: parse_allow(state, options, arg); break;
+    case ARGP_KEY_ARG: add_image(state, options, arg); break;
+    default: return false;
+    }
+    return true;
+}
+
+/* Ways in and instruments. */
+static bool parse_port_or_file(int key, char *arg, struct argp_state *state, options_t *options)
+{
+    switch (key) {
     case OPT_PTY: options->use_pty = true; options->pty_link = arg; break;
     case OPT_TCP: options->use_tcp = true; parse_port(state, "--tcp", arg, &options->tcp_port); break;
-    case OPT_NO_STDIO: options->no_stdio = true; break;
-    case OPT_SUMMARY: options->summary = true; break;
-    case OPT_RC: options->rc = true; break;
     case OPT_BUS_PTY: options->bus_pty = true; options->bus_link = arg; break;
+    case OPT_NO_STDIO: options->no_stdio = true; break;
+    case OPT_RC: options->rc = true; break;
     case OPT_SCRIPT: options->script = arg; break;
+    case OPT_TRACE: options->trace = arg; break;
+    case OPT_PLOT: options->plot = arg; break;
+    case OPT_VCD: options->vcd = arg; break;
+    case OPT_GDB: options->use_gdb = true; parse_port(state, "--gdb", arg, &options->gdb_port); break;
+    default: return false;
+    }
+    return true;
+}
+
+static error_t parse(int key, char *arg, struct argp_state *state)
+{
+    options_t *options = state->input;
+    if (parse_robot(key, arg, state, options) || parse_port_or_file(key, arg, state, options)) {
+        return 0;
+    }
+    switch (key) {
     case OPT_TIME:
         check(state, "--time", arg, cli_duration(arg, &options->time_cycles) ? NULL : "a time like 10s or 500ms");
         break;
     case OPT_REALTIME: options->pace = PACE_REAL; break;
     case OPT_FAST: options->pace = PACE_FAST; break;
+    case OPT_SUMMARY: options->summary = true; break;
     case 'q': options->quiet = true; break;
-    case OPT_TRACE: options->trace = arg; break;
-    case OPT_PLOT: options->plot = arg; break;
-    case OPT_VCD: options->vcd = arg; break;
-    case OPT_GDB: options->use_gdb = true; parse_port(state, "--gdb", arg, &options->gdb_port); break;
-    case OPT_ALLOW: parse_allow(state, options, arg); break;
-    case ARGP_KEY_ARG: add_image(state, options, arg); break;
     case ARGP_KEY_END: check_all(state, options); break;
     default: return ARGP_ERR_UNKNOWN;
     }

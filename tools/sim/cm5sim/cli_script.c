@@ -4,18 +4,11 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
+
+#include "cli_script_words.h"
 
 #define WORDS_MAX 12
-#define DEFAULT_WITHIN (1000u * (uint64_t)BOARD_CYCLES_PER_MS)
 #define DEFAULT_PRESS (100u * (uint64_t)BOARD_CYCLES_PER_MS)
-
-/* The words of a line not used up yet. */
-typedef struct {
-    cli_word_t *words;
-    int count;
-    const char *error;
-} rest_t;
 
 typedef struct {
     const char *name;
@@ -33,95 +26,6 @@ static const char *const button_names[BUTTON_COUNT] = {
 static const char *const led_names[LED_COUNT] = {
     [LED_POWER] = "POWER", [LED_TXD] = "TXD", [LED_RXD] = "RXD", [LED_AUX] = "AUX", [LED_MANAGE] = "MANAGE",
     [LED_PROGRAM] = "PROGRAM", [LED_PLAY] = "PLAY"};
-
-/* Takes the next word; NULL with an error set when there is none or it is (not) quoted against our wish. */
-static cli_word_t *take(rest_t *rest, bool quoted, const char *what)
-{
-    if (rest->count == 0 || rest->words->quoted != quoted) {
-        rest->error = rest->error ? rest->error : what;
-        return NULL;
-    }
-    rest->count--;
-    return rest->words++;
-}
-
-/* Takes the next word if it is this one. */
-static bool take_if(rest_t *rest, const char *word)
-{
-    if (rest->count == 0 || rest->words->quoted || strcmp(rest->words->text, word) != 0) {
-        return false;
-    }
-    rest->words++;
-    rest->count--;
-    return true;
-}
-
-static void take_text(rest_t *rest, deed_t *deed, const char *what)
-{
-    const cli_word_t *word = take(rest, true, what);
-    if (word) {
-        deed->length = word->length;
-        deed->text = malloc(word->length + 1);
-        memcpy(deed->text, word->text, word->length + 1);
-    }
-}
-
-static void take_duration(rest_t *rest, uint64_t *cycles)
-{
-    static const char what[] = "a time like 500ms or 2s is missing here";
-    const cli_word_t *word = take(rest, false, what);
-    if (word && !cli_duration(word->text, cycles)) {
-        rest->error = what;
-    }
-}
-
-static void take_number(rest_t *rest, long low, long high, long *value, const char *what)
-{
-    const cli_word_t *word = take(rest, false, what);
-    if (word && !cli_number(word->text, low, high, value)) {
-        rest->error = what;
-    }
-}
-
-static void take_real(rest_t *rest, double low, double high, double *value, const char *what)
-{
-    const cli_word_t *word = take(rest, false, what);
-    char *end = NULL;
-    if (word) {
-        *value = strtod(word->text, &end);
-        if (end == word->text || *end || *value < low || *value > high) {
-            rest->error = what;
-        }
-    }
-}
-
-static void take_name(rest_t *rest, const char *const *names, int count, long *index, const char *what)
-{
-    const cli_word_t *word = take(rest, false, what);
-    for (int i = 0; word && i < count; i++) {
-        if (strcasecmp(names[i], word->text) == 0) {
-            *index = i;
-            return;
-        }
-    }
-    rest->error = what;
-}
-
-static void take_on_off(rest_t *rest, bool *on)
-{
-    static const char *const names[] = {"off", "on"};
-    long index = 0;
-    take_name(rest, names, 2, &index, "on or off is missing here");
-    *on = index == 1;
-}
-
-static void take_within(rest_t *rest, deed_t *deed)
-{
-    deed->cycles = DEFAULT_WITHIN;
-    if (take_if(rest, "within")) {
-        take_duration(rest, &deed->cycles);
-    }
-}
 
 bool script_relation(const char *text, relation_t *relation)
 {

@@ -5,6 +5,7 @@
 #define CLI_FILES_H
 
 #include "board.h"
+#include "cli_options.h"
 #include "servo_bus.h"
 
 /* Loads a firmware image (.hex .elf .bin). A relative name that is not here is looked for in
@@ -13,6 +14,9 @@ const char *files_load_image(board_t *board, const char *name);
 
 /* Loads the 64 KiB motion area: raw 65,536 bytes, 65,024 bytes (from page 1 on), or Intel HEX. */
 const char *files_load_motions(board_t *board, const char *path);
+
+/* Plugs in the servos that the options ask for, with their EEPROM file and faults. */
+const char *files_plug_in_servos(servo_bus_t *bus, const options_t *options, uint64_t now_cycles);
 
 /* A memory from its file, if there is one (*found), and back into it. */
 const char *files_load_flash(board_t *board, const char *path, bool *found);

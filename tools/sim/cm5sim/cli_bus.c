@@ -147,20 +147,7 @@ static void step(bus_run_t *run)
 static const char *open_all(bus_run_t *run)
 {
     const options_t *options = run->options;
-    for (int i = 0; i < options->servo_count; i++) {
-        const servo_plan_t *plan = &options->servos[i];
-        if (servo_bus_add(run->bus, plan->id, plan->model, plan->rate_bps) == NULL) {
-            return "no memory for the servos";
-        }
-    }
-    const char *error = options->servo_eeprom ? files_load_servos(run->bus, options->servo_eeprom) : NULL;
-    for (int i = 0; i < options->fault_count && error == NULL; i++) {
-        servo_t *servo = servo_bus_find(run->bus, options->faults[i].id);
-        if (servo == NULL) {
-            return "--fault: there is no servo with that ID";
-        }
-        servo_bus_fault(run->bus, 0, servo, options->faults[i].fault, SERVO_FAULT_ALWAYS);
-    }
+    const char *error = files_plug_in_servos(run->bus, options, 0);
     if (error == NULL && options->trace) {
         run->tracing = trace_open(&run->trace, options->trace, run->bus);
         error = run->tracing ? NULL : strerror(errno);
