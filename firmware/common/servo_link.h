@@ -88,7 +88,8 @@ void servo_link_tick(servo_link_t *link);
 /* One tick's goals (page coordinates 0..1023) of `joints`; those that are not drivable are left out. goal_pos is read again
  * during the same tick for deaf servos: keep it. Sends at once. Deaf servos take about 0.7 ms each (0.2 ms after
  * servo_link_fast_answers): those that do not fit into the tick go on in the next one, and `late` counts. */
-void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOINTS], uint32_t joints);
+void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOINTS], uint32_t joints)
+    NOINLINE;   /* a name of its own in the image: the bench counts its cycles */
 
 /* Compliance bytes of a page (motion512.md: nibbles CW, CCW; 0 and above 7 count as 5): what differs from what was sent
  * last goes out with the next goals, in the same packet up to 27 joints, in one of its own right behind it above. */

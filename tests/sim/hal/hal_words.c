@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT
+ * hal_words.c - does what one byte on the serial line says, on the real hal, for test_hal.py:
+ *
+ *   l  loads the settings: "load STATUS LAW APPROACH"     s / S  saves law 1, approach 77 / law 0, approach 33: "saved"
+ *   p  checks all pages: "pages GOOD"                      f  CRC of flash 0xFF00..0x100FF: "flash CRC"
+ *   x  flow control on, takes all there is, slower than the line: "took COUNT CRC"
+ *   h  holds the line, waits 100 ms, goes on: "held"       a  a failed ASSERT            w  hangs (watchdog)
+ *   r  restarts through the watchdog                       v  ADC channel 0: "adc VALUE"
+ * Begins with "start CAUSE", and "assert LINE ADDRESS" when there was one. Numbers are hexadecimal. */
+#include "board.h"
+#include "clock.h"
+#include "console.h"
+#include "crc16.h"
+#include "flash.h"
+#include "page_store.h"
+#include "settings.h"
+#include "system.h"
+#include "tick.h"
+#include "trap.h"
+
+#include <string.h>
+
+static settings_t settings;
+static settings_store_t store;
+static page_store_t pages;
+
+static void say_P(const char *text)
+{
+    for (uint8_t byte; (byte = pgm_read_byte(text)) != 0; text++) {
+        console_write(&byte, 1);
+    }
+}
+
+static void say_hex(uint32_t value)
+{
+    for (uint8_t shift = 32; shift > 0;) {
+        shift = (uint8_t)(shift - 4u);
+        uint8_t digit = (uint8_t)((value >> shift) & 15u);
+        uint8_t byte = (uint8_t)(digit < 10u ? '0' + digit : 'A' + digit - 10);
+        console_write(&byte, 1);
+    }
+}
+
+static void say(const char *word, uint32_t a, uint32_t b)
+{
+    say_P(word);
+    say_hex(a);
+    say_P(PSTR(" "));
+    say_hex(b);
+    say_P(PSTR("\n"));
+}
+
+static void load(void)
+{
+    uint8_t status = (uint8_t)settings_load(&store, &settings);
+    say_P(PSTR("load "));
+    say_hex(status);
+    say(PSTR(" "), settings.law, settings.approach_deg_s);
+}
+
+static void save(uint8_t law, uint8_t approach)
+{
+    settings.law = law;
+    settings.approach_deg_s = approach;
+    settings_save(&store, &settings);
+    say_P(PSTR("saved\n"));
+}
+
+static void check_pages(void)
+{
+    uint8_t good = 0;
+    page_store_init(&pages);
+    for (uint8_t page = 0; page < PAGE_COUNT; page++) {
+        good = (uint8_t)(good + page_store_is_good(&pages, page));
+    }
+    say(PSTR("pages "), good, 0);
+}
+
+static void check_flash(void)
+{
+    uint8_t block[64];
+    uint16_t crc = CRC16_START;
+    for (uint32_t addr = 0x0FF00; addr < 0x10100; addr += sizeof block) {
+        flash_read(addr, block, sizeof block);
+        crc = crc16_bytes(crc, block, sizeof block);
+    }
+    say(PSTR("flash "), crc, 0);
+}
+
+static void take_all(void)
+{
+    uint8_t byte;
+    uint16_t crc = CRC16_START, since = tick_now16(), count = 0;
+    while ((uint16_t)(tick_now16() - since) < TICK_HZ / 2u) {
+        system_kick();
+        if (console_get(&byte)) {
+            crc = crc16_byte(crc, byte);
+            count++;
+            since = tick_now16();
+            clock_wait_us(250);   /* slower than the line */
+        }
+    }
+    say(PSTR("took "), count, crc);
+}
+
+static void hold(void)
+{
+    console_set_flow(true);
+    console_hold();
+    for (uint8_t i = 0; i < 100; i++) {
+        clock_wait_us(1000);
+        system_kick();
+    }
+    console_resume();
+    say_P(PSTR("held\n"));
+}
+
+static void obey(uint8_t word)
+{
+    switch (word) {
+    case 'l':
+        load();
+        break;
+    case 's':
+        save(1, 77);
+        break;
+    case 'S':
+        save(0, 33);
+        break;
+    case 'p':
+        check_pages();
+        break;
+    case 'f':
+        check_flash();
+        break;
+    case 'x':
+        console_set_flow(true);
+        take_all();
+        break;
+    case 'h':
+        hold();
+        break;
+    case 'a':
+        ASSERT(store.copy > 7);
+        break;
+    case 'w':
+        for (;;) {
+        }
+    case 'r':
+        system_restart();
+    case 'v':
+        say(PSTR("adc "), system_adc(0), 0);
+        break;
+    default:
+        break;
+    }
+}
+
+int main(void)
+{
+    uint8_t word;
+    uint16_t line;
+    uint32_t address;
+    board_start();
+    say(PSTR("start "), system_reset_cause(), 0);
+    if (system_take_failed_assert(&line, &address)) {
+        say(PSTR("assert "), line, address);
+    }
+    (void)settings_load(&store, &settings);
+    for (;;) {
+        while (console_get(&word)) {
+            obey(word);
+        }
+        (void)tick_take();
+        board_idle();
+    }
+}
