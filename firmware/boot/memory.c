@@ -97,6 +97,7 @@ void memory_ee_set(uint16_t addr, uint8_t value)
 {
     wdt_reset();
     eeprom_update_byte((uint8_t *)(addr & (MEM_EEPROM_BYTES - 1)), value);
+    eeprom_busy_wait();
 }
 
 void memory_ee_write(uint16_t addr, const uint8_t *from, uint16_t count)

@@ -34,9 +34,6 @@ static void __attribute__((noinline)) run_line(void)
 {
     parse_t parsed;
     line[length] = 0;
-    if (uart_wait(LF_TICKS) && uart_peek() == LF) {
-        (void)uart_next();
-    }
     if (is_binary) {
         line[0] = 1;
     }
@@ -95,7 +92,6 @@ static void watch_start(void)
 
 void monitor_run(bool stk500)
 {
-    uint8_t before = 0;
     if (stk500) {
         stk500_session();
     } else {
@@ -111,11 +107,13 @@ void monitor_run(bool stk500)
         uint8_t byte = uart_next();
         if (is_protocol(byte)) {
             prompt();
-        } else if (byte == CR || (byte == LF && before != CR)) {
+        } else if (byte == CR || byte == LF) {
+            if (byte == CR && uart_wait(LF_TICKS) && uart_peek() == LF) {
+                (void)uart_next();
+            }
             run_line();
-        } else if (byte != LF) {
+        } else {
             edit_line(byte);
         }
-        before = byte;
     }
 }

@@ -22,7 +22,7 @@ static const uint8_t commands[] PROGMEM_GAP = {
 
 static struct {
     uint8_t args[20];
-    uint16_t address;  /* of LOAD_ADDRESS: of a word in flash, of a byte in EEPROM */
+    uint16_t address;  /* of LOAD_ADDRESS, in words: avrdude's arduino programmer halves EEPROM addresses too */
     bool is_entered;
     bool is_broken;    /* the line fell silent inside a command */
 } stk;
@@ -71,16 +71,16 @@ static bool program(void)
         return (uint8_t)(stk.address << 1) + count <= FLASH_PAGE_BYTES &&
                memory_commit(stk.address >> 7, memory_work) <= MEMORY_EQUAL;
     }
-    if (stk.address > MEM_EEPROM_BYTES - count) {
+    if (stk.address >= MEM_EEPROM_BYTES / 2) {
         return false;
     }
-    memory_ee_write(stk.address, memory_work, count);
+    memory_ee_write((uint16_t)(stk.address << 1), memory_work, count);
     return true;
 }
 
 static void read(void)
 {
-    memory_cursor.addr = is_flash() ? (uint32_t)stk.address << 1 : MEMORY_EEPROM + stk.address;
+    memory_cursor.addr = ((uint32_t)stk.address << 1) + (is_flash() ? 0 : MEMORY_EEPROM);
     for (uint16_t count = length(); count > 0; count--) {
         uart_put(memory_next());
     }

@@ -29,8 +29,8 @@ void uart_put(uint8_t byte)
     while (!(UCSR1A & 1 << UDRE1)) {
         wdt_reset();
     }
-    UCSR1A = 1 << U2X1 | 1 << TXC1;
     UDR1 = byte;
+    UCSR1A = 1 << U2X1 | 1 << TXC1; /* after UDR1: before it, the byte under way could set the flag again */
 }
 
 void uart_flush(void)

@@ -166,7 +166,7 @@ static bool is_in_range(uint8_t code, const parse_t *line)
     uint16_t end = code == UP ? MEM_BOOT_END / 256
                    : code == LOAD ? MEM_BOOT_START / 256
                    : code == GO ? 0x10000 / 256 : MEM_EEPROM_BYTES / 256;
-    return code < LOAD || pages <= end;
+    return code < LOAD || (pages <= end && (code != EEP_DN || (uint16_t)line->arg[1] <= MEMORY_WORK_BYTES));
 }
 
 static void run(uint8_t code, const parse_t *line)

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the boot loader share: a board that waits at the prompt, typed lines, downloads of the original's
+kind, and a client of the block protocol written from firmware/boot/PROTOCOL.md."""
+import random
+import re
+import struct
+
+from cm5sim import Board
+
+PROMPT = "\r\n - "
+REGIONS = {"application": (0x0000, 0xC000), "journal": (0xC000, 0xE000), "motion": (0xE000, 0x1E000)}
+BOOT_START = 0x1E000
+BOOT_MODE = 0xFFF
+
+
+def new_board(*images, kind="cm5", **options):
+    return Board(kind=kind, images=[f"boot-{kind}.hex", *images], **options)
+
+
+def prompt_board(*images, **options):
+    """A board in the loader at its first prompt (an erased EEPROM says "system")."""
+    board = new_board(*images, **options)
+    board.expect(PROMPT, ms=400)
+    return board
+
+
+def noise(count, seed=1):
+    return random.Random(seed).randbytes(count)
+
+
+def say(board, line, ms=3000):
+    """Types a line; all that comes up to the next prompt, echo and prompt cut off."""
+    board.send(line + "\r")
+    text = board.expect(PROMPT, ms=ms)
+    return text[len(line):-len(PROMPT)]
+
+
+def load(board, address, data, sum_byte=None, ms=30000):
+    """A download as the original's tools do it: the answer's fields."""
+    begin_load(board, address)
+    board.send(bytes(data) + bytes([sum(data) & 0xFF if sum_byte is None else sum_byte]))
+    return end_load(board, ms)
+
+
+def begin_load(board, address):
+    board.send(f"load {address:x}\r")
+    board.expect(f"\r\n Write Address : {address:08X}\r\n Ready..")
+
+
+def end_load(board, ms=30000):
+    text = board.expect(PROMPT, ms=ms)
+    match = re.fullmatch(r"(Success|Error)\r\n Rewriting:0X([0-9A-F]{4})\r\n Size:0X([0-9A-F]{8})  Checksum:"
+                         r"([0-9A-F]{2})-([0-9A-F]{2})\r\n - ", text)
+    assert match, text
+    return match[1], int(match[2], 16), int(match[3], 16), int(match[4], 16), int(match[5], 16)
+
+
+def crc16(data):
+    crc = 0xFFFF
+    for byte in data:
+        crc ^= byte << 8
+        for _ in range(8):
+            crc = (crc << 1 ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
+    return crc
+
+
+HELLO, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE = range(1, 8)
+OK, EQUAL, REFUSED, BROKEN, BAD_FRAME = range(5)
+
+
+def frame(command, number, body=b""):
+    content = bytes([command, number, len(body) // 2]) + body
+    return b"\xA5" + content + crc16(content).to_bytes(2, "big")
+
+
+def page_body(page, data=b""):
+    return struct.pack("<H", page) + data
+
+
+class Blocks:
+    """The PC's side of the block protocol on a simulated board."""
+
+    def __init__(self, board):
+        self.board, self.number, self.heard = board, 0, b""
+
+    def send(self, command, body=b""):
+        self.number = (self.number + 1) & 0xFF
+        self.board.send(frame(command, self.number, body))
+        return self.number
+
+    def answer(self, ms=1000):
+        """(command, number, status, detail, data) of the next answer."""
+        end = self.board.now_ms + ms
+        while self.board.now_ms < end:
+            self.heard += self.board.take()
+            start = self.heard.find(b"\x5A")
+            if start >= 0 and len(self.heard) >= start + 4:
+                size = 4 + 2 * self.heard[start + 3] + 2
+                if len(self.heard) >= start + size:
+                    whole, self.heard = self.heard[start + 1:start + size], self.heard[start + size:]
+                    assert crc16(whole) == 0, whole.hex()
+                    return whole[0], whole[1], whole[3], whole[4], whole[5:-2]
+            self.board.run(ms=0.5)
+        raise AssertionError(f"no answer; heard {self.heard.hex()}")
+
+    def ask(self, command, body=b"", ms=1000):
+        """(status, detail, data) of the answer to one request."""
+        number = self.send(command, body)
+        got = self.answer(ms)
+        assert got[:2] == (command, number), got
+        return got[2:]
+
+    def sums(self, first, count):
+        status, _, data = self.ask(SUMS, struct.pack("<HH", first, count), ms=3000)
+        assert status == OK
+        return [struct.unpack_from("<HH", data, 4 * i) for i in range(count)]
+
+    def write_all(self, first, data, window=2):
+        """Pipelines pages: `window` of them are under way. The statuses."""
+        pages = [data[i:i + 256] for i in range(0, len(data), 256)]
+        sent, statuses = 0, []
+        while len(statuses) < len(pages):
+            while sent < len(pages) and sent - len(statuses) < window:
+                self.send(WRITE, page_body(first + sent, pages[sent]))
+                sent += 1
+            statuses.append(self.answer()[2])
+        return statuses
