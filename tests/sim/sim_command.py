@@ -14,7 +14,7 @@ CM5SIM = BUILD / "host" / "tools" / "sim" / "cm5sim"
 ROBOT = BUILD / "firmware" / "tests" / "robot.hex"  # tests/sim/robot/robot.c
 
 
-def run(*arguments, stdin=b"", timeout=60):
+def run(*arguments, stdin=b"", timeout=300):
     """One run to its end: CompletedProcess with bytes."""
     return subprocess.run([CM5SIM, *map(str, arguments)], input=stdin, capture_output=True, timeout=timeout,
                           check=False)
@@ -28,7 +28,7 @@ class Running:
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.messages = b""
 
-    def message(self, pattern, seconds=10):
+    def message(self, pattern, seconds=60):
         """Waits for a message; returns its first group."""
         end = time.monotonic() + seconds
         while not (match := re.search(pattern, self.messages.decode())):
@@ -40,7 +40,7 @@ class Running:
             self.messages += chunk
         return match[1]
 
-    def stop(self, number=signal.SIGINT, seconds=10):
+    def stop(self, number=signal.SIGINT, seconds=60):
         """Sends a signal and returns the exit code."""
         self.process.send_signal(number)
         return self.process.wait(seconds)

@@ -12,12 +12,20 @@ GOAL, SPEED, PRESENT, LED, ID, BAUD, TORQUE = 30, 32, 36, 25, 3, 4, 24
 AX12, DX117 = 12, 117
 
 
+class PatientPort(PortHandler):
+    """Waits a second longer than the SDK does: on a busy PC the wall clock must not decide a verdict."""
+
+    def setPacketTimeout(self, packet_length):  # noqa: N802 (the SDK's name)
+        super().setPacketTimeout(packet_length)
+        self.packet_timeout += 1000
+
+
 class Bus:
     """SDK handlers on a running cm5sim."""
 
     def __init__(self, *arguments, rate=1_000_000):
         self.sim = Running("--bus-pty", *arguments)
-        self.port = PortHandler(self.sim.message(r"servo bus: (/dev/pts/\d+)"))
+        self.port = PatientPort(self.sim.message(r"servo bus: (/dev/pts/\d+)"))
         assert self.port.openPort() and self.port.setBaudRate(rate)
         self.packets = PacketHandler(1.0)
 
@@ -75,12 +83,15 @@ def test_read_and_write(make):
 
 def test_motion_takes_real_time(make):
     bus = make("--servos", "1")
-    bus.packets.write2ByteTxRx(bus.port, 1, SPEED, 100)  # 227 units a second
+    bus.packets.write2ByteTxRx(bus.port, 1, SPEED, 100)  # 227.1 units a second
+    before_order = time.monotonic()
     bus.packets.write2ByteTxRx(bus.port, 1, GOAL, 1000)
-    begun = time.monotonic()
+    after_order = time.monotonic()
     time.sleep(1)
-    present, passed = bus.read2(1, PRESENT), time.monotonic() - begun
-    assert abs(present - (512 + 227.1 * passed)) < 15
+    before_look = time.monotonic()
+    present = bus.read2(1, PRESENT)
+    after_look = time.monotonic()
+    assert 227.1 * (before_look - after_order) - 5 < present - 512 < 227.1 * (after_look - before_order) + 5
 
 
 def test_sync_write_moves_all_at_once(make):

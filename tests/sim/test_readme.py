@@ -13,7 +13,7 @@ from sim_command import BUILD, CM5SIM, TOP, run
 README = (TOP / "tools" / "sim" / "README.md").read_text(encoding="utf-8")
 COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", README, re.S)
             for line in block.splitlines() if "cm5sim" in line]
-ANSWERS_IN_S = 4  # what has not ended by itself then is asked to
+SHOWN_S = 3  # so long a command without an end of its own is left running
 
 # One page; joint 3 ends at 600. No other joint is used.
 WALK = """\
@@ -42,16 +42,17 @@ def _folder(tmp_path):
 
 
 def execute(command, folder):
-    """Runs a command line as a shell would; asks it to end by SIGINT when it does not do so by itself."""
+    """Runs a command line as a shell would; one that waits for a user is asked to end by SIGINT."""
+    ends = any(word in command for word in ("--script", "--time", "|"))
     line = command if "|" in command else f"exec {command}"
     process = subprocess.Popen(["sh", "-c", line], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, start_new_session=True,
                                env={**os.environ, "PATH": f"{CM5SIM.parent}:{os.environ['PATH']}"})
     try:
-        process.wait(ANSWERS_IN_S)
+        process.wait(300 if ends else SHOWN_S)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGINT)
-    out, errors = process.communicate(timeout=30)
+    out, errors = process.communicate(timeout=60)
     return process.returncode, out.decode("latin-1"), errors.decode()
 
 

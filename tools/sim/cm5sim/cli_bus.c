@@ -123,6 +123,13 @@ static int wait_ms(const bus_run_t *run, uint64_t now)
     return wake <= now ? 0 : (int)((wake - now + SERVO_CYCLES_PER_MS - 1) / SERVO_CYCLES_PER_MS);
 }
 
+static void trace_up_to(bus_run_t *run, uint64_t now)
+{
+    for (; run->tracing && run->next_tick <= now; run->next_tick += TICK_CYCLES) {
+        trace_row(&run->trace, run->next_tick / TICK_CYCLES, run->next_tick);
+    }
+}
+
 static void step(bus_run_t *run)
 {
     struct pollfd entry = {.fd = run->pty.master, .events = POLLIN};
@@ -139,9 +146,7 @@ static void step(bus_run_t *run)
         servo_bus_advance(run->bus, now);
     }
     send_answer(run);
-    for (; run->tracing && run->next_tick <= now; run->next_tick += TICK_CYCLES) {
-        trace_row(&run->trace, run->next_tick / TICK_CYCLES, run->next_tick);
-    }
+    trace_up_to(run, now);
 }
 
 static const char *open_all(bus_run_t *run)
@@ -170,6 +175,7 @@ int bus_main(const options_t *options, const volatile int *interrupted)
     while (!*interrupted && now_cycles(&run) < options->time_cycles) {
         step(&run);
     }
+    trace_up_to(&run, now_cycles(&run));
     if (run.tracing && !trace_close(&run.trace)) {
         error = "the trace could not be written";
     }
