@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: MIT
+"""What the loader does from reset on: stay or start, the state it hands over, the mailbox, the application's record."""
+import pathlib
+import struct
+import subprocess
+import sys
+
+import pytest
+from boot_board import BOOT_MODE, PROMPT, crc16, new_board, noise, prompt_board, say
+
+APPLICATION = 0x11
+
+
+def application(length=0x400, record=True, good=True):
+    """A program that leaves SREG, UCSR0A and UCSR1A at 0x200 and ends in a loop; with a record of ours where asked for."""
+    image = bytearray(length)
+    image[0:4] = b"\x0c\x94\x60\x00"        # jmp 0xC0
+    program = ("0fb7 0093 0002"    # in r16, SREG; sts 0x200, r16
+               "0bb1 0093 0102"    # in r16, UCSR0A; sts 0x201, r16
+               "0091 9b00 0093 0202"  # lds r16, UCSR1A; sts 0x202, r16
+               "ffcf")             # rjmp to itself
+    program = bytes.fromhex(program.replace(" ", ""))
+    image[0xC0:0xC0 + len(program)] = program
+    image[0x100:] = noise(length - 0x100, 3)
+    if record:
+        image[0x8C:0x9C] = struct.pack("<4sIHBB3sB", b"M512", length, 0xFFFF, 1, 255, b"\1\0\0", 1)
+        image[0x94:0x96] = struct.pack("<H", crc16(image) ^ (0 if good else 1))
+    return bytes(image)
+
+
+def board_with(image=None, mode=APPLICATION, **options):
+    board = new_board(**options)
+    if image:
+        board.flash[0:len(image)] = image
+    board.eeprom[BOOT_MODE] = mode
+    return board
+
+
+def started(board):
+    return board.pc < 0x1E000
+
+
+def run_to_application(board, ms=400):
+    end = board.now_ms + ms
+    board.run(ms=5)
+    while board.now_ms < end and not started(board):
+        board.run(ms=0.25)
+    return started(board)
+
+
+def test_application_starts_after_the_window_of_60_ms():
+    board = board_with(application())
+    board.power_on()
+    board.run(ms=1)
+    first = board.now_ms
+    while not board.console:
+        board.run(ms=0.1)
+    assert run_to_application(board)
+    assert 58 <= board.now_ms - first <= 66
+    assert board.take() == b"\xff"
+
+
+@pytest.mark.parametrize("typed, stays", [(b"#", True), (b"x#", True), (b"#x", False), (b"####", True), (b"x", False)])
+def test_the_last_byte_of_the_window_counts(typed, stays):
+    board = board_with(application())
+    board.run(ms=20)
+    board.send(typed)
+    board.run(ms=300)
+    assert started(board) != stays
+    if stays:
+        assert board.take().endswith(PROMPT.encode())
+
+
+@pytest.mark.parametrize("delay, stays", [(2, True), (30, True), (50, True), (75, False)])
+def test_the_window_is_60_ms(delay, stays):
+    board = board_with(application())
+    board.power_on()
+    while not board.console:
+        board.run(ms=0.1)
+    board.run(ms=delay)
+    board.send(b"#")
+    board.run(ms=300)
+    assert started(board) != stays
+
+
+@pytest.mark.parametrize("mode, stays", [(0xFF, True), (0x11, False), (0x00, False), (0x55, False)])
+def test_boot_mode(mode, stays):
+    board = board_with(application(), mode)
+    board.run(ms=300)
+    assert started(board) != stays
+
+
+def test_start_held_stays_and_its_release_does_nothing():
+    board = board_with(application())
+    board.press("START")
+    board.run(ms=500)
+    assert not started(board)
+    board.release("START")
+    board.run(ms=200)
+    assert not started(board)
+    board.press("START")
+    board.run(ms=200)
+    assert started(board)
+
+
+def test_start_pressed_late_does_not_stay():
+    board = board_with(application())
+    board.run(ms=40)
+    board.press("START")
+    board.run(ms=200)
+    assert started(board)
+
+
+@pytest.mark.parametrize("image, stays, word", [
+    (None, True, "none"), (application(record=False), False, "plain"), (application(), False, "good"),
+    (application(good=False), True, "bad"), (application(0xC000), False, "good")])
+def test_validity_of_the_application(image, stays, word):
+    board = board_with(image)
+    board.run(ms=600)
+    assert started(board) != stays
+    board.eeprom[BOOT_MODE] = 0xFF
+    board.take()
+    board.reset()
+    board.expect(PROMPT, ms=600)
+    assert say(board, "id").endswith(f"app={word}")
+
+
+@pytest.mark.parametrize("address", [0x00, 0x8C + 4, 0x8C + 15, 0x3FF])
+def test_one_changed_bit_keeps_the_application_from_starting(address):
+    image = bytearray(application())
+    image[address] ^= 0x10
+    board = board_with(bytes(image))
+    board.run(ms=400)
+    assert not started(board)
+
+
+def test_our_own_images_have_a_record_that_fits():
+    build = pathlib.Path(__file__).parents[2] / "build" / "firmware"
+    images = sorted(build.glob("play-*.elf")) + sorted(build.glob("edit-*.elf"))
+    if not images:
+        pytest.skip("no application image is built")
+    tool = pathlib.Path(__file__).parents[2] / "tools" / "app_record"
+    result = subprocess.run([sys.executable, tool, "show", *images], capture_output=True, text=True)
+    assert result.returncode == 0 and result.stdout.count(" fits") == len(images), result.stdout
+
+
+def test_state_handed_over():
+    board = board_with(application())
+    assert run_to_application(board)
+    board.run(ms=1)
+    registers = bytes(board.ram[0:0x100])
+    io = {name: registers[address] for name, address in {
+        "DDRC": 0x34, "PORTC": 0x35, "DDRD": 0x31, "PORTD": 0x32, "DDRB": 0x37, "PORTB": 0x38, "DDRE": 0x22, "PORTE": 0x23,
+        "UCSR1B": 0x9A, "UBRR1L": 0x99, "UCSR0B": 0x2A, "UBRR0L": 0x29, "TCCR1B": 0x4E, "TCCR0": 0x53, "WDTCR": 0x41,
+        "MCUCR": 0x55}.items()}
+    assert board.ram[0x200] & 0x80 == 0, "interrupts are off"
+    assert io == {"DDRC": 0x77, "PORTC": 0x7E, "DDRD": 0x70, "PORTD": 0x51, "DDRB": 0x20, "PORTB": 0x20, "DDRE": 0x0C,
+                  "PORTE": 0x00, "UCSR1B": 0x98, "UBRR1L": 34, "UCSR0B": 0x18, "UBRR0L": 0, "TCCR1B": 0, "TCCR0": 0,
+                  "WDTCR": 0, "MCUCR": 0}
+    assert board.ram[0x201] & 0x02 and board.ram[0x202] & 0x02, "both UARTs at double speed"
+
+
+@pytest.mark.parametrize("cause, bit", [("power-on", 0), ("external", 1), ("watchdog", 3)])
+def test_the_reset_cause_is_handed_on(cause, bit):
+    board = board_with(application())
+    if cause == "watchdog":
+        board.eeprom[BOOT_MODE] = 0xFF
+        board.expect(PROMPT, ms=400)
+        say(board, "app")
+        board.send("reset\r")
+        board.run(ms=40)
+    elif cause == "external":
+        board.run(ms=10)
+        board.reset()
+    assert run_to_application(board)
+    assert board.ram[0x54] & 1 << bit
+
+
+def mailbox_board(page, state=0xAA, **options):
+    board = board_with(application(), **options)
+    data = noise(512, 77)
+    board.eeprom[0x800:0xA00] = data
+    board.eeprom[0xFF5] = page
+    board.eeprom[0xFF4] = state
+    return board, data
+
+
+@pytest.mark.parametrize("page", [0, 1, 120, 127])
+def test_mailbox_is_answered_whatever_the_mode(page):
+    board, data = mailbox_board(page)
+    before = bytes(board.flash)
+    assert run_to_application(board)
+    address = 0xE000 + 512 * page
+    assert board.take().startswith(b"\xff Writing ")
+    assert bytes(board.flash[address:address + 512]) == data
+    assert bytes(board.flash[:address]) == before[:address]
+    assert bytes(board.flash[address + 512:]) == before[address + 512:]
+    assert board.eeprom[0xFF4] == 0x55
+
+
+@pytest.mark.parametrize("page", [128, 200, 255])
+def test_mailbox_refuses_pages_above_127(page):
+    board, _ = mailbox_board(page)
+    before = bytes(board.flash)
+    assert run_to_application(board)
+    assert bytes(board.flash) == before
+    assert board.eeprom[0xFF4] == 0xFF
+
+
+@pytest.mark.parametrize("state", [0x00, 0x55, 0xFF, 0xA5])
+def test_other_mailbox_states_are_left_alone(state):
+    board, _ = mailbox_board(3, state)
+    before = bytes(board.flash)
+    assert run_to_application(board)
+    assert bytes(board.flash) == before and board.eeprom[0xFF4] == state
+    assert board.take() == b"\xff"
+
+
+def test_mailbox_power_cut_at_every_operation():
+    cuts = 0
+    for phase in ("before", "during", "after"):
+        operation = 1
+        while True:
+            board, data = mailbox_board(5)
+            before = bytes(board.flash)
+            board.power_on()
+            board.cut_power(operation, phase, tear=operation)
+            try:
+                assert run_to_application(board)
+                break
+            except Exception as stop:
+                assert type(stop).__name__ == "PowerCut", stop
+            cuts += 1
+            operation += 1
+            board.power_on()
+            assert run_to_application(board)
+            assert bytes(board.flash[0xEA00:0xEC00]) == data
+            assert bytes(board.flash[:0xEA00]) == before[:0xEA00] and bytes(board.flash[0xEC00:]) == before[0xEC00:]
+    print(f"mailbox: {cuts} power cuts")
+    assert cuts == 3 * 5
