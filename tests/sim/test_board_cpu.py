@@ -192,3 +192,52 @@ def test_execution_wraps_from_the_last_word_to_the_first():
     board.flash[0x1FFFE:0x20000] = words(0x0000)
     steps(board, 2)
     assert board.pc & 0x1FFFF == 0
+
+
+@pytest.mark.parametrize("opcode", [0x0001, 0x00FF, 0x9003, 0x9008, 0x900B, 0x9203, 0x9204, 0x9205, 0x9206, 0x9207, 0x9208,
+                                    0x920B, 0x9404, 0x940B, 0x9419, 0x9519, 0x9528, 0x95B8, 0x95F8, 0xF808, 0xFA08, 0xFC08,
+                                    0xFE0F])
+def test_opcodes_of_other_avrs_are_refused(opcode):
+    board = ready([opcode])
+    board.step()
+    assert board.violation.kind == "illegal" and board.violation.pc == 0x100
+
+
+def test_registers_are_random_at_power_on():
+    assert len(set(bare([RJMP_SELF]).ram[0:32])) > 20
+
+
+def test_reset_causes_add_up_until_they_are_cleared():
+    board = bare([RJMP_SELF])
+    assert board.ram[0x54] == 0x01
+    board.reset()
+    board.run(ms=1)
+    assert board.ram[0x54] == 0x03
+    board.power_off()
+    board.power_on()
+    assert board.ram[0x54] == 0x01
+
+
+def test_sleep_with_interrupts_off_ends_by_the_watchdog():
+    board = ready([0xE008, 0xBD01, 0xE200, 0xBF05, 0x94F8, 0x9588, RJMP_SELF])
+    board.run(ms=15)
+    assert board.reset_cause == "watchdog" and board.resets == 2
+
+
+def test_interrupts_wait_while_ivsel_may_be_changed():
+    program = START_TIMER + [0] * 300 + ENABLE_OVERFLOW + [0xE001, 0x9478, 0xBF05] + [0] * 8
+    board = ready(program)
+    steps(board, 6 + 300 + 2 + 3)
+    taken = steps(board, 6)
+    assert taken.index(4) in (4, 5), "four cycles of NOPs first"
+
+
+def test_compare_register_written_below_the_count_is_missed_for_a_turn():
+    """CTC, clock / 1, OCR1A = 0x0FFF; at a count of about 300 OCR1A becomes 0x0010: the next match is after 0xFFFF."""
+    program = [0xE000, 0x9300, 0x4D, 0x9300, 0x4C, 0xE00F, 0x9300, 0x4B, 0xEF0F, 0x9300, 0x4A, 0xE009, 0x9300, 0x4E]
+    program += [0] * 300 + [0xE000, 0x9300, 0x4B, 0xE100, 0x9300, 0x4A, 0xE100, 0x9300, 0x57, 0x9478, RJMP_SELF]
+    board = ready(program)
+    steps(board, 9)
+    start = board.now_cycles
+    board.run_to(12 * 4)
+    assert board.now_cycles - start == pytest.approx(0x10000 + 0x10 + 1, abs=8)

@@ -64,6 +64,21 @@ def test_stack_headroom_is_what_was_never_used():
     assert 0 < board.stack_headroom < 900
 
 
+def test_stack_is_stopped_at_the_first_push_into_the_variables():
+    board = Board(images=[NEGATIVE / "wrong-stack.hex"])
+    end = board.variable("variables") + 3000
+    with pytest.raises(Violation):
+        board.expect("right")
+    assert end - 20 <= board._lib.board_stack_low(board._pointer) < end
+
+
+def test_guard_of_an_image_in_the_boot_section_is_its_own():
+    board = Board(images=[build_folder() / "firmware" / "lab" / "lab.hex"])
+    board.run(ms=1)
+    end = board.variable("starts") + 2  # the last one, in .noinit
+    assert board.stack_headroom == board._lib.board_stack_low(board._pointer) - end
+
+
 def test_symbols_name_functions_and_variables():
     board = Board(images=[NEGATIVE / "right-stack.hex"])
     assert board.function_at(board.function("dig") + 2) == "dig"

@@ -134,6 +134,12 @@ def test_power_cut_during_an_operation_tears_the_page(tear):
     assert all(new & wanted == wanted for new, wanted in zip(written, FULL)), "a write clears no other bits"
 
 
+def test_torn_operations_wear_too():
+    assert cut("e", "during").wear(PAGE // 256) == 1
+    assert cut("m", "during", address=0x123, value=7).eeprom_wear(0x123) == 1
+    assert cut("e", "before").wear(PAGE // 256) == 0
+
+
 def test_torn_contents_depend_on_seed_and_tear_only():
     first = cut("e", "during", 1).flash[PAGE:PAGE + 256]
     assert cut("e", "during", 1).flash[PAGE:PAGE + 256] == first

@@ -38,6 +38,7 @@ def test_watchdog_bites_in_time_and_is_off_afterwards(prescaler, ms):
     lab.run(ms=5000)
     assert lab.resets == resets + 1, "off after the reset"
     assert lab.do("c")[0] == WATCHDOG
+    assert lab.do("q", 0x41)[0] == 0, "WDTCR"
 
 
 def test_held_in_reset_nothing_runs():

@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#include <string.h>
-
 #include "board_private.h"
 
 void cpu_flash_changed(board_t *board, uint32_t address, uint32_t count)
@@ -209,18 +207,13 @@ uint32_t board_step(board_t *board)
     return (uint32_t)(board->avr->cycle - from);
 }
 
-/* avr_reset() clears the first 25 bytes of the SRAM, sets the clock to 0 and the stack pointer to the end of the
- * SRAM; the chip does none of that. */
+/* avr_reset() sets the clock to 0 and the stack pointer to the end of the SRAM; the chip does neither. */
 void cpu_reset(board_t *board, uint32_t pc)
 {
     avr_t *avr = board->avr;
-    uint8_t sram[MAX_IOs + 1];
     uint64_t now = avr->cycle;
-    memcpy(sram, avr->data, sizeof sram);
     avr->reset_pc = pc;
     avr_reset(avr);
-    memcpy(&avr->data[M128_RAM_START], &sram[M128_RAM_START], sizeof sram - M128_RAM_START);
-    memcpy(avr->data, sram, 32);
     avr->cycle = now;
     avr->state = cpu_Running;
     avr->data[M128_SPL] = 0;
