@@ -241,3 +241,12 @@ def test_compare_register_written_below_the_count_is_missed_for_a_turn():
     start = board.now_cycles
     board.run_to(12 * 4)
     assert board.now_cycles - start == pytest.approx(0x10000 + 0x10 + 1, abs=8)
+
+
+@pytest.mark.parametrize("value, fine", [(0x00, False), (0x09, False), (0x08, True)])
+def test_running_watchdog_is_stopped_or_changed_by_the_timed_sequence_only(value, fine):
+    """WDE is set with prescaler 0 by a plain write; then another plain write."""
+    board = ready([0xE008, 0xBD01, 0xE000 | value, 0xBD01, 0x0000])
+    steps(board, 5)
+    assert (board.violation is None) == fine
+    assert fine or board.violation.kind == "timed-sequence"
