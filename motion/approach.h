@@ -12,12 +12,12 @@
 #define APPROACH_NEAR_POS 3u         /* servo units: a pose this near needs no approach */
 
 typedef struct {
-    int32_t pos_q16_16[PAGE_JOINTS];
-    int32_t speed_q16_16[PAGE_JOINTS];
-    int32_t accel_q16_16[PAGE_JOINTS];
-    uint16_t target_pos[PAGE_JOINTS];
     uint32_t joints;
     uint16_t tick, ramp_ticks, total_ticks;
+    int32_t pos_q16_16[PAGE_JOINTS];
+    int32_t speed_ramp[PAGE_JOINTS];      /* speed, q16.16 units per tick, times ramp_ticks */
+    int32_t cruise_q16_16[PAGE_JOINTS];   /* speed between the ramps */
+    uint16_t target_pos[PAGE_JOINTS];
 } approach_t;
 
 /* Plans the way of `joints` (bit per joint) from from_pos to to_pos with at most `limit_deg_s` degrees/s (1..360).

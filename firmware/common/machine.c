@@ -196,7 +196,7 @@ static machine_status_t do_pose(machine_t *machine, const shell_args_t *args)
     const servo_link_t *servos = machine->servos;
     (void)args;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        const uint32_t joint = SERVO_LINK_BIT(id);
+        const uint32_t joint = servo_link_bit(id);
         if ((servos->present & joint) == 0) {
             continue;
         }

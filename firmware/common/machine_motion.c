@@ -38,7 +38,7 @@ static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_
         if (!hex_position(digits, &to_pos[id])) {
             return 0;
         }
-        joints |= SERVO_LINK_BIT(id);
+        joints |= servo_link_bit(id);
     }
     return joints;
 }
@@ -67,8 +67,8 @@ static uint32_t switch_on(machine_t *machine, uint32_t joints)
 {
     uint32_t on = 0;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        if ((joints & SERVO_LINK_BIT(id)) != 0) {
-            on |= performer_on(machine->performer, SERVO_LINK_BIT(id));
+        if ((joints & servo_link_bit(id)) != 0) {
+            on |= performer_on(machine->performer, servo_link_bit(id));
             if (machine->image->service != NULL) {
                 machine->image->service(machine->image->context);
             }
@@ -91,7 +91,7 @@ machine_status_t machine_do_torque(machine_t *machine, const shell_args_t *args)
         if (!machine_number(args, i, 0, PAGE_JOINTS - 1, &id)) {
             return id_error();
         }
-        joints |= SERVO_LINK_BIT(id);
+        joints |= servo_link_bit(id);
     }
     if (on && !performer_is_idle(machine->performer)) {
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);

@@ -69,6 +69,8 @@ static void get_ready(performer_t *performer)
     performer->joints = 0;
     performer->leaving = false;
     performer->pausing = false;
+    performer->told_battery = false;
+    performer->told_hot = false;
     performer->end = PERFORMER_END_DONE;
     performer->state = PERFORMER_READY;
 }
@@ -91,22 +93,26 @@ static performer_status_t refusal(performer_t *performer, player_status_t status
     }
 }
 
+static void call_link(performer_t *performer, uint8_t code)
+{
+    link_init(&performer->link, performer->settings->remote_mode == LINK_HOLD ? LINK_HOLD : LINK_LATCH);
+    link_call(&performer->link, code);
+}
+
 performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t code)
 {
     performer_status_t status = somebody_can_move(performer);
     if (status != PERFORMER_OK) {
         return status;
     }
-    link_init(&performer->link, performer->settings->remote_mode == LINK_HOLD ? LINK_HOLD : LINK_LATCH);
-    link_call(&performer->link, code);
-    /* A start without joints: only to hear what the player has against this page. */
-    const link_t called = performer->link;
+    /* A start without joints, only to hear what the player has against this page. It may use the links up: call again. */
+    call_link(performer, code);
     status = refusal(performer, performer_start_player(performer, page, 0));
-    performer->link = called;
     if (status != PERFORMER_OK) {
         player_init(&performer->engine.player, performer->source);
         return status;
     }
+    call_link(performer, code);
     performer->page = page;
     performer->first_page = performer->engine.player.page;
     performer->move_deg_s = 0;
@@ -206,6 +212,7 @@ static void play_tick(performer_t *performer)
 
 void performer_tick(performer_t *performer)
 {
+    servo_link_tick(performer->servos);
     if (performer->since_stop_ticks < UINT8_MAX) {
         performer->since_stop_ticks++;
     }
@@ -218,7 +225,6 @@ void performer_tick(performer_t *performer)
     } else if (performer->state == PERFORMER_PLAY) {
         play_tick(performer);
     }
-    servo_link_tick(performer->servos);
 }
 
 /* ---- stop, break, pause ---- */

@@ -4,15 +4,16 @@
  * Main loop only. Caller-owned. RAM: see performer_t; the approach and the player share their bytes, because the one
  * is over before the other begins.
  *
- *          start, move          pose read, torque on           there (or approach off)
+ *          start, move          pose read, torque on           there, or no approach
  *   IDLE --------------> READY ---------------------> APPROACH -----------------------> PLAY
  *    ^                     | break, silent servo          |        ^                      |
  *    |                     v                       pause, break    | resume (by READY)    | break, end
  *    +---------------------+------------------------------+--> STOOD                      |
  *    +------------------------------------------------------------------------------------+
  *
- * READY works joint by joint between ticks (3 ms at most each), so nothing waits for it. Nothing moves before READY is
- * through, and joints that do not answer, or that were switched off by name, are never driven. */
+ * READY works joint by joint between ticks (5 ms at most each), so nothing waits for it. Nothing moves before READY is
+ * through, and joints that do not answer, or that were switched off by name, are never driven. With the setting
+ * `approach` 0 there is no approach: the first step starts from the present pose, as recorded traces do. */
 #ifndef PERFORMER_H
 #define PERFORMER_H
 
@@ -65,6 +66,7 @@ typedef enum {
     PERFORMER_EV_SILENT,     /* a: servo ID */
     PERFORMER_EV_BACK,       /* a: servo ID */
     PERFORMER_EV_ERRORS,     /* a: servo ID, b: DXL_ERR_ bits */
+    PERFORMER_EV_TORQUE,     /* a: servo ID: its torque went off by itself */
     PERFORMER_EV_BATTERY,    /* a: lowest voltage of all servos, 0.1 V */
     PERFORMER_EV_HOT,        /* a: servo ID, b: degrees C */
     PERFORMER_EV_LOST        /* a: how many events found the queue full */
@@ -86,16 +88,13 @@ typedef struct {
     uint8_t fault_page, fault;  /* the page behind PERFORMER_ERR_PAGE and _EMPTY, and its page_status_t */
     uint32_t released;          /* joints switched off by hand: not driven until performer_on */
     uint32_t faulty;            /* joints whose last word was silence or an error */
-    /* May be set by the caller while idle. */
-    bool approach_off;          /* go straight into the first step, whatever the pose: for comparison with recorded
-                                   traces only. Not a setting, so that no robot wakes up with it. */
     /* Private. */
     uint8_t first_page;         /* the page that plays first: the one asked for, or where its links lead */
     uint8_t end;                /* performer_end_t to report */
     uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
     bool leaving;               /* a break is under way */
     bool pausing;               /* APPROACH: a pause is under way */
-    bool told_battery, told_hot;
+    bool told_battery, told_hot; /* each is told once a play */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
     uint32_t joints;            /* that this play may drive */
     uint32_t ready_left;        /* joints READY has still to ask */
@@ -157,7 +156,7 @@ bool performer_is_paused(const performer_t *performer);
 /* Once a tick: makes the goals and hands them to the servos. Cost: that of player_tick and servo_link_goals. */
 void performer_tick(performer_t *performer);
 
-/* Every turn of the main loop: bus traffic, faults, getting ready. At most 3 ms, and only while nothing moves. */
+/* Every turn of the main loop: bus traffic, faults, getting ready. At most 5 ms, and only while nothing moves. */
 void performer_poll(performer_t *performer);
 
 /* Takes the oldest event. false: none. */

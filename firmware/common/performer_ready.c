@@ -29,19 +29,25 @@ static uint8_t lowest_joint(uint32_t joints)
     return id;
 }
 
+/* Torque on in one call, pose in the next: at most 5 ms each. The editor leaves slow moving speeds behind; goals a tick
+ * apart need the servos' full one. */
 static void ask_one_joint(performer_t *performer)
 {
-    const uint8_t id = lowest_joint(performer->ready_left);
-    const uint32_t joint = SERVO_LINK_BIT(id);
-    performer->ready_left &= ~joint;
     servo_link_t *servos = performer->servos;
-    const uint32_t answered = (servos->torque & joint) != 0 ? servo_link_read_pose(servos, joint)
-                                                            : servo_link_torque_on(servos, joint);
-    if (answered != 0) {
+    const uint8_t id = lowest_joint(performer->ready_left);
+    const uint32_t joint = servo_link_bit(id);
+    if ((servos->torque & joint) == 0) {
+        if (servo_link_torque_on(servos, joint) != 0) {
+            return;
+        }
+    } else if (servo_link_read_pose(servos, joint) != 0) {
+        servo_link_full_speed(servos, joint);
+        performer->ready_left &= ~joint;
         performer->joints |= joint;
         performer->pose_pos[id] = servos->present_pos[id];
         return;
     }
+    performer->ready_left &= ~joint;
     performer->faulty |= joint;
     performer_tell(performer, PERFORMER_EV_SILENT, id, 0, 0);
     if (performer->settings->fault_rule != SETTINGS_FAULT_LIMP) {
@@ -74,14 +80,11 @@ static void begin_approach(performer_t *performer)
         performer_finish(performer, PERFORMER_END_SERVO);
         return;
     }
-    /* The editor leaves slow moving speeds behind; goals a tick apart need the servos' full one. */
-    servo_link_full_speed(performer->servos, performer->joints);
     uint16_t to_pos[PAGE_JOINTS];
     const uint32_t joints = first_pose(performer, to_pos);
-    const uint16_t limit_deg_s =
-        performer->move_deg_s != 0 ? performer->move_deg_s : performer->settings->approach_deg_s;
+    const uint16_t limit_deg_s = performer->move_deg_s != 0 ? performer->move_deg_s : performer->settings->approach_deg_s;
     uint16_t ticks = 0;
-    if (performer->move_deg_s != 0 || !performer->approach_off) {
+    if (limit_deg_s != 0) {
         ticks = approach_start(&performer->engine.approach, performer->pose_pos, to_pos, joints, limit_deg_s);
     }
     if (ticks > 0) {

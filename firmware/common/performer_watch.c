@@ -5,8 +5,6 @@
 
 #include "dxl.h"
 
-#define BATTERY_BACK_DV 3u   /* the voltage must rise by this much before it can be low anew */
-#define HOT_BACK_DEGREES 3u
 #define EVENTS_FOR_STEPS (PERFORMER_EVENTS - 6u) /* room kept for rarer and graver events */
 
 /* What the fault rule acts on. A voltage error is told but ends nothing: the battery is low long before it is empty. */
@@ -63,43 +61,48 @@ static void act_on_fault(performer_t *performer, uint32_t joint)
     }
 }
 
+static void take_fault(performer_t *performer, const servo_fault_t *fault)
+{
+    const uint32_t joint = servo_link_bit(fault->id);
+    const bool well = fault->kind == SERVO_FAULT_BACK || (fault->kind == SERVO_FAULT_ERRORS && fault->errors == 0);
+    if (well) {
+        performer->faulty &= ~joint;
+    } else {
+        performer->faulty |= joint;
+    }
+    if (fault->kind == SERVO_FAULT_ERRORS) {
+        if (!well) {
+            performer_tell(performer, PERFORMER_EV_ERRORS, fault->id, fault->errors, 0);
+        }
+        if ((fault->errors & ERRORS_GRAVE) == 0) {
+            return;
+        }
+    } else {
+        /* The kinds of events stand in the order of the kinds of faults. */
+        performer_tell(performer, (uint8_t)(PERFORMER_EV_SILENT + fault->kind - SERVO_FAULT_SILENT), fault->id, 0, 0);
+    }
+    if (!well) {
+        act_on_fault(performer, joint);
+    }
+}
+STATIC_ASSERT(PERFORMER_EV_BACK - PERFORMER_EV_SILENT == SERVO_FAULT_BACK - SERVO_FAULT_SILENT &&
+                  PERFORMER_EV_TORQUE - PERFORMER_EV_SILENT == SERVO_FAULT_TORQUE - SERVO_FAULT_SILENT,
+              "faults and events in one order");
+
 static void take_faults(performer_t *performer)
 {
     servo_fault_t fault;
     while (servo_link_next_fault(performer->servos, &fault)) {
-        const uint32_t joint = SERVO_LINK_BIT(fault.id);
-        if (fault.kind == SERVO_FAULT_BACK) {
-            performer->faulty &= ~joint;
-            performer_tell(performer, PERFORMER_EV_BACK, fault.id, 0, 0);
-        } else if (fault.kind == SERVO_FAULT_SILENT) {
-            performer->faulty |= joint;
-            performer_tell(performer, PERFORMER_EV_SILENT, fault.id, 0, 0);
-            act_on_fault(performer, joint);
-        } else if (fault.errors == 0) {
-            performer->faulty &= ~joint;
-        } else {
-            performer->faulty |= joint;
-            performer_tell(performer, PERFORMER_EV_ERRORS, fault.id, fault.errors, 0);
-            if ((fault.errors & ERRORS_GRAVE) != 0) {
-                act_on_fault(performer, joint);
-            }
-        }
+        take_fault(performer, &fault);
     }
 }
 
-/* Told once, and again only after it was good for a while. */
 static void watch_battery(performer_t *performer)
 {
-    const uint8_t limit_dv = performer->settings->battery_low_dv;
     const uint8_t now_dv = performer->servos->voltage_dv;
-    if (now_dv == 0 || limit_dv == 0) {
-        return;
-    }
-    if (now_dv < limit_dv && !performer->told_battery) {
+    if (!performer->told_battery && now_dv != 0 && now_dv < performer->settings->battery_low_dv) {
         performer->told_battery = true;
         performer_tell(performer, PERFORMER_EV_BATTERY, now_dv, 0, 0);
-    } else if (now_dv >= limit_dv + BATTERY_BACK_DV) {
-        performer->told_battery = false;
     }
 }
 
@@ -107,14 +110,9 @@ static void watch_heat(performer_t *performer)
 {
     const uint8_t limit = performer->settings->hot_degrees;
     const uint8_t now = performer->servos->hottest_degrees;
-    if (limit == 0) {
-        return;
-    }
-    if (now >= limit && !performer->told_hot) {
+    if (!performer->told_hot && limit != 0 && now >= limit) {
         performer->told_hot = true;
         performer_tell(performer, PERFORMER_EV_HOT, performer->servos->hottest_id, now, 0);
-    } else if (now + HOT_BACK_DEGREES < limit) {
-        performer->told_hot = false;
     }
 }
 

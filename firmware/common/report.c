@@ -31,9 +31,22 @@ void report_page_fault(uint8_t page_status)
         TEXT("a position is above 1023");
         break;
     default:
-        TEXT("no steps");
+        TEXT("no action");
         break;
     }
+}
+
+/* "Page 9 is damaged: checksum is wrong". */
+static void report_bad_page(uint8_t page, uint8_t fault)
+{
+    TEXT("Page ");
+    text_number(page);
+    if (fault == PAGE_EMPTY || page_store_is_erased(page)) {
+        TEXT(" is empty");
+        return;
+    }
+    TEXT(" is damaged: ");
+    report_page_fault(fault);
 }
 
 void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)
@@ -45,15 +58,8 @@ void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)
         TEXT("Page must be 1..127");
         break;
     case PERFORMER_ERR_PAGE:
-        TEXT("Page ");
-        text_number(page);
-        TEXT(" is damaged: ");
-        report_page_fault(fault);
-        break;
     case PERFORMER_ERR_EMPTY:
-        TEXT("Page ");
-        text_number(page);
-        TEXT(" is empty: no steps, or play count 0");
+        report_bad_page(page, fault);
         break;
     case PERFORMER_ERR_BUSY:
         TEXT("Busy: stop what is playing first");
@@ -110,11 +116,11 @@ void report_joints(uint32_t joints)
 {
     bool first = true;
     for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
-        if ((joints & SERVO_LINK_BIT(id)) == 0) {
+        if ((joints & servo_link_bit(id)) == 0) {
             continue;
         }
         uint8_t last = id;
-        while (last + 1u < PAGE_JOINTS && (joints & SERVO_LINK_BIT(last + 1u)) != 0) {
+        while (last + 1u < PAGE_JOINTS && (joints & servo_link_bit(last + 1u)) != 0) {
             last++;
         }
         if (!first) {
@@ -150,7 +156,7 @@ static void report_link(uint8_t to_page, uint8_t taken)
         break;
     case LINK_END_OF_EXIT_LOOP:
         TEXT("The exit pages lead back to themselves");
-        break;
+        return;
     default:
         TEXT("Next link");
         break;
@@ -170,10 +176,8 @@ static void report_end(const performer_event_t *event)
         TEXT("The pose is reached");
         return;
     case PERFORMER_END_PAGE:
-        TEXT("Ended: page ");
-        text_number(event->a);
-        text_P(event->b == PAGE_EMPTY ? PSTR(" is empty: ") : PSTR(" is damaged: "));
-        report_page_fault(event->b);
+        TEXT("Ended. ");
+        report_bad_page(event->a, event->b);
         return;
     case PERFORMER_END_STOPPED:
         TEXT("Stopped after ");
@@ -182,7 +186,7 @@ static void report_end(const performer_event_t *event)
         TEXT("Broken off in ");
         break;
     case PERFORMER_END_LOOP:
-        TEXT("Stopped: the exit pages come back to themselves; after ");
+        TEXT("Stopped after ");
         break;
     case PERFORMER_END_SERVO:
         TEXT("Ended for the fault of a servo in ");
@@ -223,7 +227,7 @@ void report_event(const performer_event_t *event)
 {
     switch (event->kind) {
     case PERFORMER_EV_APPROACH:
-        TEXT("Going to the first pose, ");
+        text_P(event->a == 0 ? PSTR("Moving, ") : PSTR("Going to the first pose, "));
         text_number(event->b);
         TEXT(" s");
         break;
@@ -251,6 +255,10 @@ void report_event(const performer_event_t *event)
         report_servo(event->a);
         TEXT(" reports ");
         report_servo_errors(event->b);
+        break;
+    case PERFORMER_EV_TORQUE:
+        report_servo(event->a);
+        TEXT(" has lost its torque");
         break;
     case PERFORMER_EV_BATTERY:
         TEXT("Battery is low: ");

@@ -123,23 +123,6 @@ static uint8_t do_code(void *context, const shell_args_t *args)
     return SHELL_ERR_SAID;
 }
 
-static uint8_t do_approach(void *context, const shell_args_t *args)
-{
-    play_t *play = context;
-    if (!performer_is_idle(&play->performer)) {
-        return commands_refuse(PERFORMER_ERR_BUSY, 0, 0);
-    }
-    if (shell_word_is(args, 1, PSTR("on"))) {
-        play->performer.approach_off = false;
-    } else if (shell_word_is(args, 1, PSTR("off"))) {
-        play->performer.approach_off = true;
-    } else {
-        TEXT("Say on or off");
-        return SHELL_ERR_SAID;
-    }
-    return SHELL_OK;
-}
-
 /* ---- to look at ---- */
 
 static uint8_t do_list(void *context, const shell_args_t *args)
@@ -174,7 +157,6 @@ static uint8_t do_version(void *context, const shell_args_t *args)
 static uint8_t do_help(void *context, const shell_args_t *args);
 
 #define HELP(name, text) static const char help_##name[] PROGMEM = text
-HELP(approach, "on|off  the way to the first pose; off only to compare recorded traces");
 HELP(baud, "[id ...]  moves slow servos to 1 Mbps");
 HELP(break, "ends now: slows down and holds");
 HELP(code, "n  a code 0..255, as from the remote");
@@ -211,7 +193,6 @@ static const shell_command_t table[] PROGMEM = {
     {"remote", "", 0, 1, commands_do_remote, help_remote},
     {"settings", "", 0, 2, commands_do_settings, help_settings},
     {"baud", "", 0, SHELL_ANY_ARGS, commands_do_baud, help_baud},
-    {"approach", "", 1, 1, do_approach, help_approach},
     {"version", "", 0, 0, do_version, help_version},
     {"help", "?", 0, 1, do_help, help_help},
 };

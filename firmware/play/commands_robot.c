@@ -19,13 +19,13 @@ static bool joints_of_words(const play_t *play, const shell_args_t *args, uint8_
         if (!shell_number(args, i, PSTR("ID"), 0, ID_MAX, &id)) {
             return false;
         }
-        if ((play->servos.present & SERVO_LINK_BIT(id)) == 0) {
+        if ((play->servos.present & servo_link_bit(id)) == 0) {
             TEXT("Servo ");
             text_number(id);
             TEXT(" is not there");
             return false;
         }
-        *joints |= SERVO_LINK_BIT(id);
+        *joints |= servo_link_bit(id);
     }
     if (*joints == 0) {
         return commands_refuse(PERFORMER_ERR_NO_SERVOS, 0, 0) == SHELL_OK;
@@ -45,8 +45,8 @@ uint8_t commands_do_on(void *context, const shell_args_t *args)
     }
     uint32_t failed = 0;
     for (uint8_t id = 0; id <= ID_MAX; id++) {
-        if ((joints & SERVO_LINK_BIT(id)) != 0 && performer_is_idle(&play->performer)) {
-            failed |= SERVO_LINK_BIT(id) & ~performer_on(&play->performer, SERVO_LINK_BIT(id));
+        if ((joints & servo_link_bit(id)) != 0 && performer_is_idle(&play->performer)) {
+            failed |= servo_link_bit(id) & ~performer_on(&play->performer, servo_link_bit(id));
             play_service(play);
         }
     }
@@ -100,7 +100,7 @@ uint8_t commands_do_baud(void *context, const shell_args_t *args)
         if (!shell_number(args, i, PSTR("ID"), 0, ID_MAX, &id)) {
             return SHELL_ERR_SAID;
         }
-        joints |= SERVO_LINK_BIT(id);
+        joints |= servo_link_bit(id);
     }
     if ((joints & play->servos.slow) != joints || joints == 0) {
         TEXT("Servos at 57142 bps: ");

@@ -123,11 +123,20 @@ static uint8_t begin_status_line(void)
     return covered;
 }
 
+/* What the setting `talk` 0 keeps to itself: all that goes as it should. */
+static bool is_chatter(uint8_t kind)
+{
+    return kind == PERFORMER_EV_APPROACH || kind == PERFORMER_EV_STEP || kind == PERFORMER_EV_LINK;
+}
+
 static void print_news(void)
 {
     performer_event_t event;
     inputs_refusal_t refusal;
     if (performer_next_event(&play.performer, &event)) {
+        if (play.settings.talk == 0 && is_chatter(event.kind)) {
+            return;
+        }
         const uint8_t covered = begin_status_line();
         report_event(&event);
         end_status_line(covered);
@@ -182,6 +191,9 @@ static void start(void)
     shell_init(&play.shell, play.line, sizeof play.line, play.history, sizeof play.history);
     machine_init(&play.machine, &play.performer, &play.servos, &play.pages, &machine_image);
     console_set_flow(play.settings.flow != 0);
+    if (play.settings.fast_line != 0) {
+        console_set_rate(CONSOLE_RATE_115200);
+    }
     play_find_servos(&play);
     greet(status);
 }

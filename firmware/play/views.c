@@ -111,7 +111,7 @@ void views_print_status(const play_t *play)
     TEXT(", remote ");
     text_P(play->settings.remote_mode == LINK_HOLD ? PSTR("hold") : PSTR("latch"));
     TEXT(", approach ");
-    if (play->performer.approach_off) {
+    if (play->settings.approach_deg_s == 0) {
         TEXT("off");
     } else {
         text_number(play->settings.approach_deg_s);
@@ -155,7 +155,7 @@ void views_print_servos(const play_t *play)
 {
     const servo_link_t *servos = &play->servos;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        const uint32_t joint = SERVO_LINK_BIT(id);
+        const uint32_t joint = servo_link_bit(id);
         if ((servos->present & joint) == 0) {
             continue;
         }
@@ -195,7 +195,7 @@ static void print_servo_faults(const servo_link_t *servos)
 {
     bool any = false;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        const uint32_t joint = SERVO_LINK_BIT(id);
+        const uint32_t joint = servo_link_bit(id);
         const bool silent = (servos->silent & joint) != 0;
         if ((servos->present & joint) == 0 || (!silent && servos->errors[id] == 0)) {
             continue;

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: MIT
+"""A robot with Play on the simulated board, for test_play*.py: its motion pages, its prompt, recorded sessions.
+
+A session (tests/golden/sessions/*.txt) is what a terminal shows, with directives for what happens beside it:
+
+    ] play 1                what is typed: everything behind the prompt
+     OK                     what must appear
+    # wait 500              ms go by          # rc 16            a packet of the remote
+    # fault 3 silent        a servo fails     # clear 3          ... and is well again
+    # press START, # release START            # note ...         a remark
+"""
+import os
+import pathlib
+import re
+
+from cm5sim import Board
+from m512.image import Image
+from m512.page import SCHEDULE_SPEED, Page
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+SHARED = pathlib.Path(os.environ.get("M512_SHARED", TOP.parent / "shared"))
+SESSIONS = TOP / "tests" / "golden" / "sessions"
+GOLDEN = TOP / "tests" / "golden"
+IMAGE = "play-cm5.hex"
+JOINTS = range(1, 19)
+UP, DOWN, LEFT, RIGHT, PAUSE, STOP = 1, 2, 4, 8, 256, 512
+
+
+def page(name="", steps=(), joints=JOINTS, **fields):
+    """steps: (time, {joint: position}) or (time, {...}, pause); a joint not named keeps 512."""
+    made = Page()
+    made.name = name.encode()
+    made.steps = len(steps)
+    for number, step in enumerate(steps):
+        time, positions, pause = step if len(step) == 3 else (*step, 0)
+        for joint in joints:
+            made.set_word(number, joint, positions.get(joint, 512))
+        made.set_time(number, time)
+        made.set_pause(number, pause)
+    for field, value in fields.items():
+        setattr(made, field, value)
+    return made.seal()
+
+
+def walk_steps(turn=0):
+    """Two steps of half a second in which the legs swing to either side."""
+    left = {11: 560 + turn, 12: 464 + turn, 13: 540, 14: 484}
+    right = {11: 464 - turn, 12: 560 - turn, 13: 484, 14: 540}
+    return [(64, left), (64, right)]
+
+
+def motions():
+    """The pages of the robot in these tests."""
+    image = Image.empty()
+    image[1] = page("ready", [(40, {1: 480, 2: 544})])
+    image[2] = page("bow", [(60, {11: 600, 12: 424}), (60, {11: 600, 12: 424}, 64), (60, {})], code=16)
+    image[3] = page("walk start", [(40, {11: 540, 12: 484})], code=UP, next=4, exit=5)
+    walk = dict(exit=5, link1_code=LEFT, link2_code=RIGHT)
+    image[4] = page("walk", walk_steps(), next=4, link1_page=6, link2_page=7, **walk)
+    image[5] = page("walk stop", [(40, {})])
+    image[6] = page("turn left", walk_steps(20), next=6, link1_page=6, link2_page=7, **walk)
+    image[7] = page("turn right", walk_steps(-20), next=7, link1_page=6, link2_page=7, **walk)
+    image[8] = page("loop a", [(30, {1: 560})], next=8, exit=9)
+    image[9] = page("loop b", [(30, {1: 464})], next=9, exit=8)
+    image[10] = page("no steps")
+    image[11] = page("torn", [(30, {})])
+    image[11].data[100] ^= 0xFF
+    image[12] = page("into torn", [(30, {1: 540})], next=11)
+    image[13] = page("thrice", [(30, {1: 540}), (30, {1: 484})], repeat=3)
+    image[14] = page("slow", [(255, {1: 812, 2: 212})], speed=128)
+    image[15] = page("long name 13c", [(30, {})], repeat=0, next=1)
+    image[16] = page("bad sched", [(30, {})], schedule=5)
+    image[17] = page("speed 0", [(30, {})], speed=0)
+    image[18] = page("bad link", [(30, {})], next=200)
+    image[19] = page("bad pos", [(30, {3: 1500})])
+    image[20] = page("nine steps", [(30, {})])
+    image[20].steps = 9
+    image[20].seal()
+    image[21] = page("speed base", [(64, {1: 700}), (64, {1: 512})], schedule=SCHEDULE_SPEED)
+    image[22] = page("some", [(30, {1: 560, 3: 0x4000 | 700, 5: 0x2000 | 700})], code=32)
+    data = bytearray(image.to_bytes())
+    data[100 * 512:] = b"\xFF" * (28 * 512)
+    return bytes(data)
+
+
+def robot(servos=JOINTS, pages=None, image=IMAGE, kind="cm5", **options):
+    """A board that has come to its first prompt and has asked each servo how it is."""
+    board = Board(kind=kind, images=[image], motions=motions() if pages is None else pages, servos=servos, **options)
+    board.expect("] ", ms=2000)
+    board.run(ms=300)
+    return board
+
+
+def ask(board, line, ms=3000):
+    """Types a line and returns its answer, without the echo and the next prompt."""
+    board.run(ms=5)
+    board.take()
+    board.send(line + "\r")
+    text = board.expect("\r\n] ", ms=ms)
+    return text.replace("\r\n", "\n").split("\n", 1)[1][:-2].strip("\n")
+
+
+def tick_of(board):
+    """A function that tells a cycle's tick, counted from now; frames go out within their own tick."""
+    board.run_to("__vector_12")
+    phase = board.now_cycles
+    return lambda cycle: (cycle - phase) // 125_000
+
+
+def shown(raw):
+    """What a terminal shows: CR goes to the column 0, BS one back, what follows is written over."""
+    lines = []
+    for line in raw.decode("latin-1").split("\n"):
+        cells, column = [], 0
+        for character in line:
+            if character == "\r":
+                column = 0
+            elif character == "\b":
+                column = max(0, column - 1)
+            elif character >= " ":
+                cells[column:column + 1] = [character]
+                column += 1
+        lines.append("".join(cells).rstrip(" ") if cells[:2] != ["]", " "] else "".join(cells))
+    return "\n".join(lines)
+
+
+def _until(board, text, start, most_ms=8000):
+    for _ in range(most_ms // 5):
+        if text.encode() in board.console[start:]:
+            _until_quiet(board)
+            return
+        board.run(ms=5)
+    raise AssertionError(f"{text!r} did not come within {most_ms} ms: {board.console[start:]!r}")
+
+
+def _direct(board, words, start):
+    """One directive of a session; start: where the console stood when the line before was typed."""
+    name, arguments = words[0], words[1:]
+    if name == "wait":
+        board.run(ms=int(arguments[0]))
+    elif name == "until":
+        _until(board, " ".join(arguments), start)
+    elif name == "rc":
+        board.rc(int(arguments[0]))
+        board.run(ms=5)
+    elif name == "fault":
+        board.servos[int(arguments[0])].fault(arguments[1])
+    elif name == "clear":
+        board.servos[int(arguments[0])].clear()
+    elif name in ("press", "release"):
+        getattr(board, name)(arguments[0])
+        board.run(ms=50)
+    elif name != "note":
+        raise ValueError(f"unknown directive {name}")
+
+
+def run_session(board, text):
+    """Does what a session says and returns the session as it really went. Counts of the bus are written as n."""
+    done, told, pending = [], len(board.console), b"] "
+
+    def settle():
+        """Whole lines go to the session; what stands behind the last line end waits."""
+        nonlocal pending, told
+        raw = board.console[told:]
+        told += len(raw)
+        cut = (pending + raw).rfind(b"\n") + 1
+        done.extend(re.sub(r"\d+", "n", line) if line.startswith("Bus:") else line
+                    for line in shown((pending + raw)[:cut]).splitlines())
+        pending = (pending + raw)[cut:]
+
+    since = told
+    for line in text.splitlines():
+        if line.startswith("# "):
+            settle()
+            done.append(line)
+            _direct(board, line[2:].split(), since)
+            since = told
+        elif line.startswith("] ") and len(line) > 2:
+            since = len(board.console)
+            board.send(line[2:] + "\r", wait=True)
+            _until_quiet(board)
+    settle()
+    done += shown(pending).splitlines()
+    return "\n".join(piece.rstrip() for piece in done if piece.strip() != "]") + "\n"
+
+
+def _until_quiet(board, quiet_ms=15, most_ms=6000):
+    """Runs until the prompt is back and nothing more is printed."""
+    for _ in range(most_ms // quiet_ms):
+        before = len(board.console)
+        board.run(ms=quiet_ms)
+        if len(board.console) == before and board.console.endswith(b"] "):
+            return

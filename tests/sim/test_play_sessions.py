@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: MIT
+"""Every word of Play with good and bad arguments, as recorded sessions: what the terminal shows, line by line.
+With M512_RECORD=1 the sessions are written anew (read them before you keep them)."""
+import os
+
+import pytest
+
+from play_robot import SESSIONS, robot, run_session
+
+
+@pytest.mark.parametrize("path", sorted(SESSIONS.glob("play_*.txt")), ids=lambda path: path.stem)
+def test_session(path):
+    board = robot()
+    wanted = path.read_text()
+    went = run_session(board, wanted)
+    if os.environ.get("M512_RECORD"):
+        path.write_text(went)
+    assert went == wanted

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT
+ * The way to the first pose: speed limit, ramps, equal time, exact end, break. player.md section 2, rule 6. */
+#include "approach.h"
+
+#include <string.h>
+#include "unity.h"
+
+#define ALL_JOINTS 0x7FFFFFFFul
+#define MAX_TICKS 40100u
+
+static approach_t approach;
+static uint16_t from[PAGE_JOINTS], to[PAGE_JOINTS], goal[PAGE_JOINTS];
+
+void setUp(void)
+{
+    memset(&approach, 0xAA, sizeof approach);
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        from[i] = to[i] = goal[i] = 512;
+    }
+}
+
+void tearDown(void) {}
+
+static uint16_t start(uint16_t limit_deg_s)
+{
+    return approach_start(&approach, from, to, ALL_JOINTS, limit_deg_s);
+}
+
+/* Runs to the end; returns the ticks it took and, of joint 1, the largest step and change of step. */
+static uint16_t run(int16_t *largest_step, int16_t *largest_change)
+{
+    uint16_t ticks = 0;
+    int16_t last = (int16_t)from[1], last_step = 0;
+    bool under_way = true;
+    *largest_step = 0;
+    *largest_change = 0;
+    while (under_way && ticks < MAX_TICKS) {
+        under_way = approach_tick(&approach, goal);
+        ticks++;
+        const int16_t step = (int16_t)((int16_t)goal[1] - last);
+        const int16_t size = (int16_t)(step < 0 ? -step : step);
+        const int16_t change = (int16_t)(step > last_step ? step - last_step : last_step - step);
+        *largest_step = size > *largest_step ? size : *largest_step;
+        *largest_change = change > *largest_change ? change : *largest_change;
+        last = (int16_t)goal[1];
+        last_step = step;
+    }
+    return ticks;
+}
+
+/* 60 degrees/s = 1.6 units a tick: 512 units take 320 ticks at the limit, and one ramp more. */
+static void test_approach_takes_the_time_of_the_longest_way(void)
+{
+    int16_t step, change;
+    to[1] = 1023;
+    from[1] = 511;
+    TEST_ASSERT_EQUAL_UINT16(320 + 32, start(60));
+    TEST_ASSERT_EQUAL_UINT16(320 + 32, run(&step, &change));
+    TEST_ASSERT_EQUAL_UINT16(1023, goal[1]);
+    TEST_ASSERT_EQUAL_INT16(2, step); /* 1.6, rounded to whole units */
+    TEST_ASSERT_LESS_OR_EQUAL_INT16(1, change);
+}
+
+static void test_approach_of_all_joints_ends_together_and_exactly(void)
+{
+    int16_t step, change;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        to[i] = (uint16_t)(33 * i);
+    }
+    TEST_ASSERT_GREATER_THAN_UINT16(0, start(120));
+    (void)run(&step, &change);
+    TEST_ASSERT_EQUAL_UINT16_ARRAY(to, goal, PAGE_JOINTS);
+    TEST_ASSERT_FALSE(approach_tick(&approach, goal));
+    TEST_ASSERT_EQUAL_UINT16_ARRAY(to, goal, PAGE_JOINTS);
+}
+
+static void test_approach_is_slow_at_both_ends(void)
+{
+    to[1] = 912;
+    (void)start(60);
+    for (uint8_t i = 0; i < 8; i++) {
+        TEST_ASSERT_TRUE(approach_tick(&approach, goal));
+    }
+    TEST_ASSERT_LESS_OR_EQUAL_UINT16(512 + 2, goal[1]); /* 1.6 / 32 * 36 = 1.8 units after 8 ticks */
+    while (approach.tick < approach.total_ticks - 8) {
+        TEST_ASSERT_TRUE(approach_tick(&approach, goal));
+    }
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT16(912 - 2, goal[1]);
+}
+
+static void test_approach_mirrored_motion_is_mirrored(void)
+{
+    to[1] = 777;
+    to[2] = 1024 - 777;
+    (void)start(90);
+    bool under_way = true;
+    while (under_way) {
+        under_way = approach_tick(&approach, goal);
+        TEST_ASSERT_UINT16_WITHIN(1, 1024 - goal[1], goal[2]);
+    }
+}
+
+static void test_approach_needs_no_time_when_it_is_near(void)
+{
+    to[3] = 512 + APPROACH_NEAR_POS;
+    TEST_ASSERT_EQUAL_UINT16(0, start(60));
+    to[3]++;
+    TEST_ASSERT_GREATER_THAN_UINT16(0, start(60));
+    to[3] = 0;
+    TEST_ASSERT_EQUAL_UINT16(0, approach_start(&approach, from, to, ~((uint32_t)1 << 3) & ALL_JOINTS, 60));
+}
+
+static void test_approach_leaves_other_joints_alone(void)
+{
+    int16_t step, change;
+    to[1] = to[2] = 700;
+    goal[2] = 4711;
+    (void)approach_start(&approach, from, to, 2, 60);
+    (void)run(&step, &change);
+    TEST_ASSERT_EQUAL_UINT16(700, goal[1]);
+    TEST_ASSERT_EQUAL_UINT16(4711, goal[2]);
+}
+
+static void test_approach_at_the_slowest_and_the_fastest(void)
+{
+    int16_t step, change;
+    from[1] = 0;
+    to[1] = 1023;
+    TEST_ASSERT_EQUAL_UINT16(38363 + 32, start(1)); /* 1023 * 75 / 2 = 38362.5 */
+    TEST_ASSERT_EQUAL_UINT16(38363 + 32, run(&step, &change));
+    TEST_ASSERT_EQUAL_UINT16(1023, goal[1]);
+    TEST_ASSERT_EQUAL_INT16(1, step);
+    (void)start(360); /* 9.6 units a tick */
+    (void)run(&step, &change);
+    TEST_ASSERT_EQUAL_UINT16(1023, goal[1]);
+    TEST_ASSERT_LESS_OR_EQUAL_INT16(10, step);
+}
+
+static void test_approach_break_slows_down_without_turning_back(void)
+{
+    for (uint16_t at = 1; at < 100; at = (uint16_t)(at + 7)) {
+        setUp();
+        to[1] = 1000;
+        (void)start(180);
+        for (uint16_t i = 0; i < at; i++) {
+            (void)approach_tick(&approach, goal);
+        }
+        approach_break(&approach);
+        uint16_t last = goal[1], ticks = 0, last_step = 100;
+        bool under_way = true;
+        while (under_way) {
+            under_way = approach_tick(&approach, goal);
+            TEST_ASSERT_GREATER_OR_EQUAL_UINT16(last, goal[1]);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT16(last_step + 1u, goal[1] - last);
+            last_step = (uint16_t)(goal[1] - last);
+            last = goal[1];
+            ticks++;
+        }
+        TEST_ASSERT_LESS_OR_EQUAL_UINT16(32, ticks);
+        TEST_ASSERT_LESS_THAN_UINT16(1000, goal[1]);
+    }
+}
+
+static void test_approach_break_near_the_end_goes_on_to_it(void)
+{
+    to[1] = 700;
+    (void)start(60);
+    while (approach.tick + 10 < approach.total_ticks) {
+        (void)approach_tick(&approach, goal);
+    }
+    approach_break(&approach);
+    while (approach_tick(&approach, goal)) {
+    }
+    TEST_ASSERT_EQUAL_UINT16(700, goal[1]);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_approach_takes_the_time_of_the_longest_way);
+    RUN_TEST(test_approach_of_all_joints_ends_together_and_exactly);
+    RUN_TEST(test_approach_is_slow_at_both_ends);
+    RUN_TEST(test_approach_mirrored_motion_is_mirrored);
+    RUN_TEST(test_approach_needs_no_time_when_it_is_near);
+    RUN_TEST(test_approach_leaves_other_joints_alone);
+    RUN_TEST(test_approach_at_the_slowest_and_the_fastest);
+    RUN_TEST(test_approach_break_slows_down_without_turning_back);
+    RUN_TEST(test_approach_break_near_the_end_goes_on_to_it);
+    return UNITY_END();
+}
