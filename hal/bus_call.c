@@ -42,17 +42,13 @@ bus_status_t bus_call_read(uint8_t id, uint8_t at, void *to, uint8_t count, uint
 bus_status_t bus_call_write(uint8_t id, uint8_t at, const void *from, uint8_t count, uint8_t *error)
 {
     bool answers = id != DXL_BROADCAST;
-    const uint8_t *byte = from;
     bus_answer_t answer;
-    dxl_writer_t writer;
     (void)bus_wait(NULL);
-    dxl_begin(&writer, bus_packet(), id, DXL_WRITE);
-    dxl_put(&writer, at);
-    while (count--) {
-        dxl_put(&writer, *byte++);
-    }
-    (void)bus_submit(dxl_end(&writer), answers ? 0 : BUS_NO_ANSWER, answers ? BUS_CALL_TRIES : 1);
-    bus_status_t status = bus_wait(&answer);
+    uint8_t *params = bus_packet() + DXL_PARAMS_AT;   /* already where dxl_build will put them */
+    params[0] = at;
+    memcpy(params + 1, from, count);
+    bus_status_t status = bus_call(id, DXL_WRITE, params, (uint8_t)(count + 1u), answers ? 0 : BUS_NO_ANSWER,
+                                   answers ? BUS_CALL_TRIES : 1, &answer);
     if (status == BUS_OK && answers && error != NULL) {
         *error = answer.error;
     }

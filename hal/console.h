@@ -23,11 +23,11 @@
 #define CONSOLE_XON 0x11u
 #define CONSOLE_XOFF 0x13u
 
-/* What went wrong since start. Each stays at 65535. */
+/* What went wrong since start. Each stays at 255. */
 typedef struct {
-    uint16_t overruns;  /* the UART lost bytes: interrupts were off too long */
-    uint16_t framing;   /* a character without a stop bit: noise or a wrong rate (the byte is dropped) */
-    uint16_t ring_full; /* bytes dropped because nobody took them */
+    uint8_t overruns;   /* the UART lost bytes: interrupts were off too long */
+    uint8_t framing;    /* a character without a stop bit: noise or a wrong rate (the byte is dropped) */
+    uint8_t ring_full;  /* bytes dropped because nobody took them */
 } console_counts_t;
 
 /* Sets every register of UART 1 (the loader hands it over running) and empties both rings. Bytes that the loader left

@@ -7,31 +7,37 @@
 #include <stddef.h>
 #include <string.h>
 
-/* One copy: magic, layout, sequence, body length, body, CRC-16 of all that (low byte first). */
+/* One copy. Bytes only on the AVR, so the struct is the record: no padding on either machine. */
+typedef struct {
+    uint8_t magic;
+    uint8_t layout;
+    uint8_t sequence;
+    uint8_t body_bytes;
+    settings_t body;
+    uint8_t crc[2];         /* CRC-16 of all before, low byte first */
+} record_t;
+
 #define COPY_BYTES 64u
 #define MAGIC 'S'
 #define LAYOUT 1u
-#define HEAD_BYTES 4u
-#define BODY_END (HEAD_BYTES + sizeof(settings_t))
-#define RECORD_BYTES (BODY_END + 2u)
 /* A save goes: magic away, everything behind it, magic back; so no mixture of old and new ever carries the magic. */
-#define SAVE_STEPS (RECORD_BYTES + 1u)
+#define SAVE_STEPS (sizeof(record_t) + 1u)
 #define NO_MAGIC 0x00u
 
-STATIC_ASSERT(RECORD_BYTES <= COPY_BYTES, "a record fits its place");
+STATIC_ASSERT(sizeof(record_t) == 4u + sizeof(settings_t) + 2u && sizeof(record_t) <= COPY_BYTES, "a record fits its place");
 STATIC_ASSERT(MEM_EE_SETTINGS + 2u * COPY_BYTES <= MEM_EE_SETTINGS_END, "two copies fit");
 
 #define NAME(id, text) static const char name_##id[] PROGMEM = #id; static const char meaning_##id[] PROGMEM = text
 NAME(law, "0 exact, 1 classic");
-NAME(remote, "0 latch, 1 hold: releasing the buttons stops");
-NAME(approach, "degrees/s on the way to a page's first pose, 0 = off");
-NAME(fault, "when a servo fails: 0 hold, 1 exit page, 2 go on without it");
-NAME(low, "warn below this voltage, 0.1 V, 0 = never");
-NAME(hot, "warn at this temperature, degrees C, 0 = never");
-NAME(neutral, "middle of MIRROR: 0 = 512, 1 = first step of page 1");
-NAME(flow, "1: XON/XOFF to the PC when input runs over");
-NAME(fast, "1: 117,647 baud after start");
-NAME(talk, "1: status lines while playing");
+NAME(remote, "0 latch, 1 hold");
+NAME(approach, "degrees/s, 0 = off");
+NAME(fault, "0 hold, 1 exit page, 2 go on without it");
+NAME(low, "battery warning, 0.1 V, 0 = off");
+NAME(hot, "servo warning, degrees C, 0 = off");
+NAME(neutral, "MIRROR about 0: 512, 1: page 1");
+NAME(flow, "1 = XON/XOFF");
+NAME(fast, "1 = 117,647 baud after start");
+NAME(talk, "1 = status lines while playing");
 
 #define ITEM(id, field, low, high) { name_##id, meaning_##id, offsetof(settings_t, field), low, high }
 static const settings_item_t items[SETTINGS_ITEMS] PROGMEM = {
@@ -87,50 +93,45 @@ static bool is_sound(const settings_t *settings)
     return true;
 }
 
-/* Reads one copy; false when it is not a good record of this layout. */
-static bool load_copy(uint8_t copy, uint8_t *sequence, settings_t *settings)
+static void seal(record_t *record)
 {
-    uint8_t head[HEAD_BYTES], sum[2];
-    uint16_t addr = copy_addr(copy);
-    eeprom_read(addr, head, HEAD_BYTES);
-    eeprom_read((uint16_t)(addr + HEAD_BYTES), settings, sizeof *settings);
-    eeprom_read((uint16_t)(addr + BODY_END), sum, 2);
-    uint16_t crc = crc16_bytes(crc16_bytes(CRC16_START, head, HEAD_BYTES), settings, sizeof *settings);
-    *sequence = head[2];
-    return head[0] == MAGIC && head[1] == LAYOUT && head[3] == sizeof *settings && sum[0] == (uint8_t)crc
-        && sum[1] == (uint8_t)(crc >> 8) && is_sound(settings);
+    uint16_t crc = crc16_bytes(CRC16_START, record, offsetof(record_t, crc));
+    record->crc[0] = (uint8_t)crc;
+    record->crc[1] = (uint8_t)(crc >> 8);
 }
 
-static bool is_erased(void)
+/* Reads one copy; false when it is not a good record of this layout. */
+static bool load_copy(uint8_t copy, record_t *record)
 {
-    for (uint16_t i = 0; i < 2u * COPY_BYTES; i++) {
-        if (eeprom_byte((uint16_t)(MEM_EE_SETTINGS + i)) != 0xFF) {
-            return false;
-        }
-    }
-    return true;
+    uint8_t crc[2];
+    eeprom_read(copy_addr(copy), record, sizeof *record);
+    memcpy(crc, record->crc, sizeof crc);
+    seal(record);
+    return record->magic == MAGIC && record->layout == LAYOUT && record->body_bytes == sizeof record->body
+        && memcmp(crc, record->crc, sizeof crc) == 0 && is_sound(&record->body);
 }
 
 settings_status_t settings_load(settings_store_t *store, settings_t *settings)
 {
-    uint8_t sequence[2];
-    bool good[2];
+    record_t record;
+    settings_status_t status = SETTINGS_EMPTY;
     store->saving = false;
-    good[1] = load_copy(1, &sequence[1], settings);
-    good[0] = load_copy(0, &sequence[0], settings);
-    if (!good[0] && !good[1]) {
-        store->copy = 1;
-        store->sequence = 0;
-        settings_defaults(settings);
-        return is_erased() ? SETTINGS_EMPTY : SETTINGS_DAMAGED;
+    store->copy = 1;
+    store->sequence = 0;
+    settings_defaults(settings);
+    for (uint8_t copy = 0; copy < 2u; copy++) {
+        if (load_copy(copy, &record)) {
+            if (status != SETTINGS_OK || (int8_t)(uint8_t)(record.sequence - store->sequence) > 0) {
+                *settings = record.body;
+                store->copy = copy;
+                store->sequence = record.sequence;
+            }
+            status = SETTINGS_OK;
+        } else if (status == SETTINGS_EMPTY && record.magic != 0xFF) {
+            status = SETTINGS_DAMAGED;
+        }
     }
-    bool second_is_newer = (int8_t)(uint8_t)(sequence[1] - sequence[0]) > 0;
-    store->copy = good[1] && (!good[0] || second_is_newer) ? 1 : 0;
-    store->sequence = sequence[store->copy];
-    if (store->copy == 1) {
-        (void)load_copy(1, &sequence[1], settings);
-    }
-    return SETTINGS_OK;
+    return status;
 }
 
 /* ---- saving ---- */
@@ -141,33 +142,22 @@ void settings_save_start(settings_store_t *store)
     store->saving = true;
 }
 
-/* Byte `at` of the record that is being written. */
-static uint8_t record_byte(settings_store_t *store, const settings_t *settings, uint8_t at)
-{
-    const uint8_t head[HEAD_BYTES] = { MAGIC, LAYOUT, (uint8_t)(store->sequence + 1u), sizeof *settings };
-    if (at == BODY_END) {
-        store->crc = crc16_bytes(crc16_bytes(CRC16_START, head, HEAD_BYTES), settings, sizeof *settings);
-    }
-    if (at >= BODY_END) {
-        return (uint8_t)(at == BODY_END ? store->crc : store->crc >> 8);
-    }
-    return at < HEAD_BYTES ? head[at] : ((const uint8_t *)settings)[at - HEAD_BYTES];
-}
-
 bool settings_save_poll(settings_store_t *store, const settings_t *settings)
 {
+    uint8_t copy = (uint8_t)(1u - store->copy);
     if (!store->saving || eeprom_is_busy()) {
         return store->saving;
     }
-    uint8_t copy = (uint8_t)(1u - store->copy);
     if (store->at == SAVE_STEPS) {
         store->copy = copy;
         store->sequence++;
         store->saving = false;
         return false;
     }
-    uint8_t at = store->at % RECORD_BYTES;
-    uint8_t byte = store->at == 0 ? NO_MAGIC : record_byte(store, settings, at);
+    record_t record = { MAGIC, LAYOUT, (uint8_t)(store->sequence + 1u), sizeof *settings, *settings, { 0, 0 } };
+    seal(&record);
+    uint8_t at = (uint8_t)(store->at % sizeof record);
+    uint8_t byte = store->at == 0 ? NO_MAGIC : ((const uint8_t *)&record)[at];
     if (eeprom_start((uint16_t)(copy_addr(copy) + at), byte)) {
         store->at++;
     }

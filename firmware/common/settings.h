@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * settings.h - what the user may set, kept in EEPROM over power-off: two copies with sequence number and CRC, written
  * in turn, so that a power cut during a save leaves the old or the new settings, never others.
- * Main loop only. RAM: settings_t 41 bytes and settings_store_t 6 bytes, both the caller's.
+ * Main loop only. RAM: settings_t 41 bytes and settings_store_t 4 bytes; 50 of stack, both the caller's.
  * EEPROM: MEM_EE_SETTINGS.. (two copies of 64 bytes), far from the loader's bytes. */
 #ifndef SETTINGS_H
 #define SETTINGS_H
@@ -51,7 +51,6 @@ typedef struct {
     uint8_t sequence;
     uint8_t at;          /* next byte of the record to write */
     bool saving;
-    uint16_t crc;        /* of the record so far */
 } settings_store_t;
 
 void settings_defaults(settings_t *settings);

@@ -4,6 +4,7 @@
 #include "irq.h"
 
 #include <avr/io.h>
+#include <string.h>
 
 /* Whole-register values instead of read-modify-write: main loop and ISRs both set them. */
 #define MODE_U2X (1u << U2X1)
@@ -13,32 +14,26 @@
 #define XOFF_AGAIN_BYTES 32u
 
 static uint8_t rx_storage[CONSOLE_RX_BYTES], tx_storage[CONSOLE_TX_BYTES];
-static ring_t rx = { rx_storage, CONSOLE_RX_BYTES - 1u, 0, 0 };   /* in: ISR (and the loader's page-write); out: main */
-static ring_t tx = { tx_storage, CONSOLE_TX_BYTES - 1u, 0, 0 };   /* in: main; out: ISR */
-static volatile uint8_t flow_byte;      /* XON or XOFF to go out first; 0: none */
-static volatile uint8_t received, sent; /* ISR */
-static volatile uint8_t lost;           /* the loader's page-write */
-static volatile bool xoff_is_out;       /* under flow control: the PC was told to stop */
-static volatile uint8_t since_xoff;     /* bytes that came all the same, modulo XOFF_AGAIN_BYTES */
-static volatile bool has_sent;          /* TXC means something */
-static bool flow, held;
-static console_counts_t counters;       /* ISR */
+
+static struct {
+    ring_t rx;                       /* in: ISR (and the loader's page-write); out: main */
+    ring_t tx;                       /* in: main; out: ISR */
+    volatile uint8_t flow_byte;      /* XON or XOFF to go out first; 0: none */
+    volatile uint8_t received, sent; /* ISR */
+    volatile uint8_t lost;           /* the loader's page-write */
+    volatile bool xoff_is_out;       /* under flow control: the PC was told to stop */
+    volatile uint8_t since_xoff;     /* bytes that came all the same, modulo XOFF_AGAIN_BYTES */
+    volatile bool has_sent;          /* TXC means something */
+    bool flow, held;
+    console_counts_t counts;         /* ISR */
+} line;
 
 void console_init(void)
 {
     UCSR1B = 0;   /* receiver off: empties its buffer */
-    ring_init(&rx, rx_storage, CONSOLE_RX_BYTES);
-    ring_init(&tx, tx_storage, CONSOLE_TX_BYTES);
-    flow_byte = 0;
-    received = 0;
-    sent = 0;
-    lost = 0;
-    xoff_is_out = false;
-    since_xoff = 0;
-    has_sent = false;
-    flow = false;
-    held = false;
-    counters = (console_counts_t){ 0, 0, 0 };
+    memset(&line, 0, sizeof line);
+    ring_init(&line.rx, rx_storage, CONSOLE_RX_BYTES);
+    ring_init(&line.tx, tx_storage, CONSOLE_TX_BYTES);
     UCSR1A = MODE_U2X | (1u << TXC1);
     UBRR1H = 0;
     UBRR1L = CONSOLE_RATE_57600;
@@ -55,17 +50,17 @@ void console_set_rate(uint8_t divisor)
 
 static void send_flow(uint8_t byte)
 {
-    flow_byte = byte;
+    line.flow_byte = byte;
     UCSR1B = TALKING;
 }
 
 bool console_get(uint8_t *byte)
 {
-    if (!ring_get(&rx, byte)) {
+    if (!ring_get(&line.rx, byte)) {
         return false;
     }
-    if (xoff_is_out && !held && ring_count(&rx) <= CONSOLE_XON_COUNT) {
-        xoff_is_out = false;
+    if (line.xoff_is_out && !line.held && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
+        line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }
     return true;
@@ -73,7 +68,7 @@ bool console_get(uint8_t *byte)
 
 uint8_t console_waiting(void)
 {
-    return ring_count(&rx);
+    return ring_count(&line.rx);
 }
 
 void console_drop_input(void)
@@ -85,7 +80,7 @@ void console_drop_input(void)
 
 bool console_put(uint8_t byte)
 {
-    if (!ring_put(&tx, byte)) {
+    if (!ring_put(&line.tx, byte)) {
         return false;
     }
     UCSR1B = TALKING;
@@ -94,7 +89,7 @@ bool console_put(uint8_t byte)
 
 uint8_t console_room(void)
 {
-    return ring_room(&tx);
+    return ring_room(&line.tx);
 }
 
 void console_write(const void *bytes, uint16_t count)
@@ -110,76 +105,76 @@ void console_write(const void *bytes, uint16_t count)
 
 void console_flush(void)
 {
-    while (flow_byte != 0 || ring_count(&tx) > 0) {
+    while (line.flow_byte != 0 || ring_count(&line.tx) > 0) {
     }
-    while (has_sent && !(UCSR1A & (1u << TXC1))) {
+    while (line.has_sent && !(UCSR1A & (1u << TXC1))) {
     }
 }
 
 void console_set_flow(bool on)
 {
-    flow = on;
-    held = false;
-    if (!on && xoff_is_out) {
-        xoff_is_out = false;
+    line.flow = on;
+    line.held = false;
+    if (!on && line.xoff_is_out) {
+        line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }
 }
 
 void console_hold(void)
 {
-    if (!flow) {
+    if (!line.flow) {
         return;
     }
-    held = true;
-    xoff_is_out = true;
-    since_xoff = 0;
+    line.held = true;
+    line.xoff_is_out = true;
+    line.since_xoff = 0;
     send_flow(CONSOLE_XOFF);
-    while (flow_byte != 0) {
+    while (line.flow_byte != 0) {
     }
     clock_wait_us(350);   /* it stands behind at most one character in the UART */
 }
 
 void console_resume(void)
 {
-    held = false;
-    if (xoff_is_out && ring_count(&rx) <= CONSOLE_XON_COUNT) {
-        xoff_is_out = false;
+    line.held = false;
+    if (line.xoff_is_out && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
+        line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }
 }
 
 ring_t *console_rx_ring(void)
 {
-    return &rx;
+    return &line.rx;
 }
 
 volatile uint8_t *console_rx_lost(void)
 {
-    return &lost;
+    return &line.lost;
 }
 
 uint8_t console_received(void)
 {
-    return received;
+    return line.received;
 }
 
 uint8_t console_sent(void)
 {
-    return sent;
+    return line.sent;
 }
 
 void console_counts(console_counts_t *counts)
 {
     irq_state_t state = irq_save();
-    *counts = counters;
+    *counts = line.counts;
     irq_restore(state);
-    counts->ring_full = (uint16_t)(counts->ring_full + lost);
+    counts->ring_full = (uint8_t)(counts->ring_full + line.lost);
 }
 
-static inline void bump(uint16_t *count)
+static inline void bump(uint8_t *count)
 {
-    if (*count != 0xFFFFu) {
+    if (*count != 0xFFu) {
         (*count)++;
     }
 }
@@ -187,12 +182,12 @@ static inline void bump(uint16_t *count)
 /* Under flow control: the PC is told to stop when the ring runs low, and again for every 32 bytes it still sends. */
 static inline void watch_room(void)
 {
-    if (!flow || ring_room(&rx) >= CONSOLE_XOFF_ROOM) {
+    if (!line.flow || ring_room(&line.rx) >= CONSOLE_XOFF_ROOM) {
         return;
     }
-    if (!xoff_is_out || ++since_xoff == XOFF_AGAIN_BYTES) {
-        xoff_is_out = true;
-        since_xoff = 0;
+    if (!line.xoff_is_out || ++line.since_xoff == XOFF_AGAIN_BYTES) {
+        line.xoff_is_out = true;
+        line.since_xoff = 0;
         send_flow(CONSOLE_XOFF);
     }
 }
@@ -203,15 +198,15 @@ ISR(USART1_RX_vect)
     uint8_t status = UCSR1A;   /* before UDR1: it speaks of the byte there */
     uint8_t byte = UDR1;
     if (status & (1u << DOR1)) {
-        bump(&counters.overruns);
+        bump(&line.counts.overruns);
     }
     if (status & (1u << FE1)) {
-        bump(&counters.framing);
+        bump(&line.counts.framing);
         return;
     }
-    received++;
-    if (!ring_put(&rx, byte)) {
-        bump(&counters.ring_full);
+    line.received++;
+    if (!ring_put(&line.rx, byte)) {
+        bump(&line.counts.ring_full);
     }
     watch_room();
 }
@@ -219,15 +214,15 @@ ISR(USART1_RX_vect)
 /* Budget 100 cycles. */
 ISR(USART1_UDRE_vect)
 {
-    uint8_t byte = flow_byte;
+    uint8_t byte = line.flow_byte;
     if (byte != 0) {
-        flow_byte = 0;
-    } else if (!ring_get(&tx, &byte)) {
+        line.flow_byte = 0;
+    } else if (!ring_get(&line.tx, &byte)) {
         UCSR1B = QUIET;
         return;
     }
     UDR1 = byte;
     UCSR1A = MODE_U2X | (1u << TXC1);   /* this byte has not left: transmit complete starts anew */
-    has_sent = true;
-    sent++;
+    line.has_sent = true;
+    line.sent++;
 }

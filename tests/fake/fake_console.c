@@ -35,7 +35,7 @@ void fake_console_type_bytes(const void *bytes, size_t count)
     const uint8_t *byte = bytes;
     for (; count > 0; count--) {
         received++;
-        if (!ring_put(&rx, *byte++) && counters.ring_full < 0xFFFFu) {
+        if (!ring_put(&rx, *byte++) && counters.ring_full < 0xFFu) {
             counters.ring_full++;
         }
     }
@@ -177,5 +177,5 @@ uint8_t console_sent(void)
 void console_counts(console_counts_t *counts)
 {
     *counts = counters;
-    counts->ring_full = (uint16_t)(counts->ring_full + lost);
+    counts->ring_full = (uint8_t)(counts->ring_full + lost);
 }
