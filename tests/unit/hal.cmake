@@ -9,3 +9,6 @@ m512_unit_test(test_page_store SOURCES firmware/common/page_store.c motion/page.
     tests/fake/fake_system.c INCLUDES firmware/common)
 m512_unit_test(test_servo_link SOURCES firmware/common/servo_link.c firmware/common/servo_link_setup.c hal/bus_call.c
     hal/dxl_packet.c tests/fake/fake_bus.c tests/fake/fake_system.c tests/fake/fake_time.c INCLUDES firmware/common)
+m512_unit_test(test_fakes SOURCES hal/bus_call.c hal/debounce.c hal/dxl_packet.c tests/fake/fake_bus.c
+    tests/fake/fake_console.c tests/fake/fake_eeprom.c tests/fake/fake_panel.c tests/fake/fake_system.c
+    tests/fake/fake_time.c)
