@@ -15,7 +15,7 @@ typedef enum { CONSOLE_PC, CONSOLE_REMOTE } console_sender_t;
 void board_console_rate(board_t *board, uint32_t bps);
 void board_console_send(board_t *board, console_sender_t sender, const uint8_t *bytes, size_t count);
 
-/* Nothing on the line for so long, behind what is queued already. */
+/* Nothing on the line for so long (counted in microseconds, up to an hour), behind what is queued already. */
 void board_console_pause(board_t *board, uint64_t cycles);
 
 /* Bytes still queued or on the line; drops them. */

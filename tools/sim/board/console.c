@@ -6,6 +6,7 @@
 
 #define DEFAULT_BPS 57600u
 #define FRAME_BITS 10u
+#define CYCLES_PER_US (M128_HZ / 1000000u)
 #define GATE_PC 0x20u     /* PD5, CM-5 */
 #define GATE_REMOTE 0x40u /* PD6 */
 enum { ITEM_PAUSE = 2 };  /* behind console_sender_t */
@@ -19,7 +20,8 @@ static bool gate_is_open(const board_t *board, uint8_t sender)
 
 static uint64_t item_cycles(const console_item_t *item)
 {
-    return item->kind == ITEM_PAUSE ? item->cycles : (FRAME_BITS * M128_HZ + item->rate / 2) / item->rate;
+    return item->kind == ITEM_PAUSE ? (uint64_t)item->value * CYCLES_PER_US
+                                    : (FRAME_BITS * M128_HZ + item->value / 2) / item->value;
 }
 
 static void begin_item(board_t *board, uint64_t now)
@@ -47,7 +49,7 @@ void console_event(board_t *board, uint64_t now)
     vcd_byte(board, 1, false, -1);
     if (item.kind != ITEM_PAUSE) {
         if (console->heard_from_start && gate_is_open(board, item.kind)) {
-            uart_receive(&board->uart[1], console->line_start, item.byte, item.rate, false);
+            uart_receive(&board->uart[1], console->line_start, item.byte, item.value, false);
         } else {
             board->uart[1].counts.deaf++;
         }
@@ -91,13 +93,13 @@ static void add_item(board_t *board, console_item_t item)
 void board_console_send(board_t *board, console_sender_t sender, const uint8_t *bytes, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        add_item(board, (console_item_t){ .byte = bytes[i], .kind = (uint8_t)sender, .rate = board->console.rate_bps });
+        add_item(board, (console_item_t){ .byte = bytes[i], .kind = (uint8_t)sender, .value = board->console.rate_bps });
     }
 }
 
 void board_console_pause(board_t *board, uint64_t cycles)
 {
-    add_item(board, (console_item_t){ .kind = ITEM_PAUSE, .cycles = cycles });
+    add_item(board, (console_item_t){ .kind = ITEM_PAUSE, .value = (uint32_t)(cycles / CYCLES_PER_US) });
 }
 
 size_t board_console_waiting(const board_t *board) { return board->console.count; }

@@ -5,7 +5,10 @@
 
 #include "board_ports.h"
 
-typedef struct { uint8_t byte, kind; uint32_t rate; uint64_t cycles; } console_item_t;
+/* One byte (kind: its console_sender_t, value: bits per second) or a pause (value: microseconds). Eight bytes, because
+ * a fuzz test may queue millions. */
+typedef struct { uint8_t byte, kind; uint32_t value; } console_item_t;
+
 typedef struct {
     uint32_t rate_bps;
     console_item_t *queue;

@@ -251,16 +251,19 @@ class Board:
         """Queues raw bytes of the remote."""
         self._lib.board_console_send(self._pointer, 1, bytes(data), len(data))
 
+    def _heard(self, start):
+        count = ctypes.c_size_t()
+        pointer = self._lib.board_console_output(self._pointer, ctypes.byref(count))
+        return ctypes.string_at(pointer + start, count.value - start) if count.value > start else b""
+
     @property
     def console(self):
         """Everything the PC has heard so far."""
-        count = ctypes.c_size_t()
-        pointer = self._lib.board_console_output(self._pointer, ctypes.byref(count))
-        return ctypes.string_at(pointer, count.value) if count.value else b""
+        return self._heard(0)
 
     def take(self):
         """What the PC has heard since the last take() or expect()."""
-        data = self.console[self._taken:]
+        data = self._heard(self._taken)
         self._taken += len(data)
         return data
 
@@ -268,15 +271,17 @@ class Board:
         """Runs until text comes and returns all that came up to its end, from the last take() or expect() on."""
         wanted = text.encode() if isinstance(text, str) else bytes(text)
         end = self.now_cycles + int(ms * CYCLES_PER_MS)
-        while wanted not in self.console[self._taken:]:
+        while wanted not in self._heard(self._taken):
             if self.now_cycles >= end:
-                tail = self.console[self._taken:][-500:].decode("latin-1")
+                tail = self._heard(self._taken)[-500:].decode("latin-1")
                 raise AssertionError(f"{text!r} did not come within {ms} ms; the console says {tail!r}")
             self._lib.board_stop_on_text(self._pointer, wanted if b"\0" not in wanted else None)
             self._run(min(end - self.now_cycles, CYCLES_PER_MS * 20))
         self._lib.board_stop_on_text(self._pointer, None)
-        start, self._taken = self._taken, self.console.index(wanted, self._taken) + len(wanted)
-        return self.console[start:self._taken].decode("latin-1")
+        seen = self._heard(self._taken)
+        seen = seen[:seen.index(wanted) + len(wanted)]
+        self._taken += len(seen)
+        return seen.decode("latin-1")
 
     def uart(self, number):
         """Counters of UART 0 (bus) or 1 (console): sent, received, overruns, framing, deaf."""
