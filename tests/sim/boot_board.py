@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the boot loader share: a board that waits at the prompt, typed lines, downloads of the original's
 kind, and a client of the block protocol written from firmware/boot/PROTOCOL.md."""
+import collections
 import random
 import re
 import struct
@@ -115,13 +116,32 @@ class Blocks:
         assert status == OK
         return [struct.unpack_from("<HH", data, 4 * i) for i in range(count)]
 
-    def write_all(self, first, data, window=2):
-        """Pipelines pages: `window` of them are under way. The statuses."""
+    def update(self, first, data, window=2, pages_a_sum=4):
+        """Makes flash from page `first` on hold `data`, sending only pages that differ. Requests for the sums of the
+        next pages go between the WRITEs, so that the line never rests. The number of pages written."""
         pages = [data[i:i + 256] for i in range(0, len(data), 256)]
-        sent, statuses = 0, []
-        while len(statuses) < len(pages):
-            while sent < len(pages) and sent - len(statuses) < window:
-                self.send(WRITE, page_body(first + sent, pages[sent]))
-                sent += 1
-            statuses.append(self.answer()[2])
-        return statuses
+        chunks = collections.deque(range(0, len(pages), pages_a_sum))
+
+        def next_sums():
+            if chunks:
+                start = chunks.popleft()
+                yield SUMS, start, struct.pack("<HH", first + start, min(pages_a_sum, len(pages) - start))
+
+        queue = collections.deque(next_sums())
+        flying, written = collections.deque(), 0
+        while queue or flying:
+            while queue and [command for command, _, _ in flying].count(WRITE) < window:
+                flying.append(queue.popleft())
+                self.send(flying[-1][0], flying[-1][2])
+            command, start, body = flying.popleft()
+            got, _, status, _, answer = self.answer(3000)
+            assert got == command and status == OK
+            if command == WRITE:
+                written += 1
+                continue
+            queue.extend(next_sums())
+            for i in range(len(answer) // 4):
+                page = pages[start + i]
+                if struct.unpack_from("<HH", answer, 4 * i) != (crc16(page), sum(page) & 0xFFFF):
+                    queue.append((WRITE, start + i, page_body(first + start + i, page)))
+        return written
