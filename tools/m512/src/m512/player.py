@@ -152,16 +152,19 @@ class ClassicJoint:
 
 class Classic:
     def __init__(self, walk: Walk, pose: List[int]):
-        self.walk, self.ended = walk, False
+        self.walk, self.ended, self.over = walk, False, False
         self.joints = [ClassicJoint(p, p) for p in pose]
         self.section, self.count, self.num = HOLD, 0, 0
         self.here: Step = None  # type: ignore[assignment]
         self.length = self.ramp = self.pause = 0   # N, A, P
 
     def tick(self) -> Optional[List[int]]:
+        if self.over:
+            self.ended = True
+            return None
         if self.count == self.num:
             self._next_section()
-        if self.ended or self.num == 0:
+        if self.num == 0:
             return None
         self.count += 1
         if self.section == HOLD:
@@ -212,7 +215,9 @@ class Classic:
     def _begin_step(self) -> None:
         following = self.walk.advance()
         if following is None:
-            self.ended = True
+            # The original finds out too late: the first tick of a RISE still goes out, with the speed of the last step
+            # and the length of its last section, up to 8 units off the target.
+            self.over, self.section, self.ramp = True, RISE, self.num
             return
         self.here, ahead = following
         for joint in self.joints:

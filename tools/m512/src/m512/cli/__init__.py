@@ -10,6 +10,10 @@ from m512 import __version__
 
 # name -> (module, first line of help). The order is the order of `m512 --help`.
 COMMANDS = {
+    "flash": ("board", "Write code or motions into the board and read them back."),
+    "run": ("board", "The same, then start; without a file: start what is there."),
+    "backup": ("board", "Read motions, EEPROM and application into a folder."),
+    "restore": ("board", "Show what a backup would change, ask, and write it."),
     "convert": ("files", "Convert motions between image, Intel HEX, .mtn, CSV and text."),
     "pages": ("pages", "List, check, edit, merge and retime pages of a file or a board."),
     "diff": ("files", "Say in words how two motion files (or boards) differ."),

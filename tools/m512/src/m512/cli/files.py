@@ -10,11 +10,7 @@ import click
 from m512 import formats
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError
 from m512.page import Page
-
-
-def say(text: str) -> None:
-    """Remarks go to stderr: stdout is for results."""
-    click.echo(text, err=True)
+from m512.ui import say
 
 
 def id_list(text):

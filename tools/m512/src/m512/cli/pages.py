@@ -9,9 +9,10 @@ from pathlib import Path
 import click
 
 from m512 import formats
-from m512.cli.files import id_list, say
+from m512.cli.files import id_list
 from m512.errors import EXIT_DIFFERENT, RefusedError
 from m512.page import Page
+from m512.ui import say
 
 
 class Source:

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: MIT
+"""Our boot loader's block protocol (firmware/boot/PROTOCOL.md), the PC's side.
+
+Frames: 0xA5 command number n body[2 n] CRC-16, answers the same with 0x5A and a status first in the body. Requests that
+change nothing may be sent again at will; a write is the same page again, so it may be too. A few writes are under way
+at a time, so that the line is never idle.
+"""
+from __future__ import annotations
+
+import time
+from collections import deque
+from dataclasses import dataclass
+from typing import Callable, Dict, Iterable, List, Optional, Tuple
+
+from m512.crc16 import crc16
+from m512.errors import BoardError, NoAnswerError
+from m512.link import BAUD, Link
+from m512.memory import BOARDS, FLASH_PAGE
+
+REQUEST, ANSWER = 0xA5, 0x5A
+HELLO, RATE, READ, WRITE, SUMS, EE_READ, EE_WRITE, LEAVE = range(1, 9)
+OK, EQUAL, REFUSED, BROKEN, BAD_FRAME, BAD_COMMAND = range(6)
+STATUS = {REFUSED: "refused (outside of what may be written)", BROKEN: "the flash does not take the data",
+          BAD_FRAME: "damaged on the line", BAD_COMMAND: "not known to this loader"}
+APP_STATES = {0: "none", 1: "unknown kind", 2: "good", 3: "damaged"}
+WINDOW = 4            # writes under way
+TRIES = 4
+ANSWER_SECONDS = 1.5
+FAST_RATE, FAST_UBRR, SLOW_UBRR = 117647, 16, 34
+SUMS_MAX = 64
+EE_READ_MAX, EE_WRITE_MAX = 256, 32
+# The first HELLO then has no byte that is a key of an editor, should one be listening instead of the loader.
+FIRST_NUMBER = 159
+TO_PROMPT, TO_APPLICATION, TO_RESET = range(3)
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass
+class Hello:
+    protocol: int
+    app: str
+    boot_mode: int
+    board: str
+    features: int
+    loader: str
+
+
+def frame(command: int, number: int, body: bytes) -> bytes:
+    inner = bytes([command, number, len(body) // 2]) + body
+    return bytes([REQUEST]) + inner + crc16(inner).to_bytes(2, "little")
+
+
+def page_sum(page: bytes) -> Tuple[int, int]:
+    """What SUMS answers for a flash page: its CRC-16 and its plain 16-bit sum."""
+    return crc16(page), sum(page) & 0xFFFF
+
+
+class BlockLoader:
+    """A session with our loader. Use as a context: leaves the loader at its prompt, at the usual rate."""
+
+    name = "Motion512 boot loader"
+
+    def __init__(self, link: Link, tries: int = 2, seconds: float = ANSWER_SECONDS):
+        self.link, self.number, self.rate = link, FIRST_NUMBER, BAUD
+        self.retries = 0
+        data = self._ask(HELLO, b"", tries, seconds)
+        if len(data) < 12:
+            raise NoAnswerError("the loader's answer to HELLO is too short")
+        self.hello = Hello(data[0], APP_STATES.get(data[1], str(data[1])), data[2], BOARDS.get(data[5], ""),
+                           data[6] | data[7] << 8, f"{data[9]}.{data[8]:02}")
+
+    @property
+    def board(self) -> str:
+        return self.hello.board
+
+    # Frames
+
+    def _send(self, command: int, body: bytes) -> int:
+        self.number = (self.number + 1) & 0xFF
+        self.link.write(frame(command, self.number, body))
+        return self.number
+
+    def _receive(self, seconds: float) -> Optional[Tuple[int, int, int, bytes]]:
+        """(command, number, status, data) of the next good answer; None: none came in time."""
+        deadline = time.monotonic() + seconds
+        while True:
+            left = deadline - time.monotonic()
+            some = self.link.read_some(max(left, 0), 1)
+            if not some:
+                return None
+            if some[0] != ANSWER:
+                continue
+            head = self._piece(3)
+            body = self._piece(2 * head[2]) if len(head) == 3 else b""
+            end = self._piece(2)
+            if len(end) == 2 and len(body) == 2 * head[2] >= 2 and crc16(head + body) == int.from_bytes(end, "little"):
+                return head[0], head[1], body[0], body[2:]
+
+    def _piece(self, count: int) -> bytes:
+        out = b""
+        while len(out) < count:
+            some = self.link.read_some(0.2, count - len(out))
+            if not some:
+                break
+            out += some
+        return out
+
+    def _ask(self, command: int, body: bytes, tries: int = TRIES, seconds: float = ANSWER_SECONDS) -> bytes:
+        """One request and its answer's data; repeated when nothing or something damaged comes back."""
+        status = None
+        for attempt in range(tries):
+            self.retries += attempt > 0
+            number = self._send(command, body)
+            answer = self._receive(seconds)
+            while answer and answer[2] != BAD_FRAME and (answer[0], answer[1]) != (command, number):
+                answer = self._receive(seconds)      # of a request before, which came too late
+            if answer is None:
+                self.link.drain()
+                continue
+            status = answer[2]
+            if status in (OK, EQUAL):
+                return answer[3]
+            if status != BAD_FRAME:
+                raise BoardError(f"the loader says: {STATUS.get(status, status)}", status)
+        if status is None:
+            raise NoAnswerError("the boot loader does not answer any more")
+        raise BoardError(f"the loader says: {STATUS[BAD_FRAME]}, {tries} times. Is the cable good?", status)
+
+    # Rate
+
+    def go_faster(self) -> bool:
+        """Tries 117,647 baud; comes back to the usual rate when that does not work."""
+        self._ask(RATE, FAST_UBRR.to_bytes(2, "little"))
+        time.sleep(0.02)
+        try:
+            self.link.set_rate(FAST_RATE)
+            self._ask(HELLO, b"", tries=2, seconds=0.3)
+            self.rate = FAST_RATE
+            return True
+        except Exception:
+            self.link.set_rate(BAUD)
+            time.sleep(1.1)       # the loader returns when it has heard nothing good for a second
+            self.link.drain()
+            self._ask(HELLO, b"")
+            return False
+
+    # Flash and EEPROM
+
+    def read(self, start: int, end: int, progress: Optional[Progress] = None) -> bytes:
+        """Flash bytes [start, end)."""
+        first, last = start // FLASH_PAGE, (end - 1) // FLASH_PAGE
+        out = b""
+        for page in range(first, last + 1):
+            out += self._ask(READ, page.to_bytes(2, "little"))
+            if progress:
+                progress(page - first + 1, last - first + 1)
+        return out[start - first * FLASH_PAGE:end - first * FLASH_PAGE]
+
+    def different(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> List[int]:
+        """Which of these pages the board holds otherwise."""
+        out, numbers, done = [], sorted(pages), 0
+        while done < len(numbers):
+            first = numbers[done]
+            count = min(SUMS_MAX, numbers[-1] - first + 1)
+            data = self._ask(SUMS, first.to_bytes(2, "little") + count.to_bytes(2, "little"), seconds=3)
+            if len(data) != 4 * count:
+                raise NoAnswerError("the loader's answer to SUMS has the wrong length")
+            while done < len(numbers) and numbers[done] < first + count:
+                at = 4 * (numbers[done] - first)
+                found = int.from_bytes(data[at:at + 2], "little"), int.from_bytes(data[at + 2:at + 4], "little")
+                if found != page_sum(pages[numbers[done]]):
+                    out.append(numbers[done])
+                done += 1
+            if progress:
+                progress(done, len(numbers))
+        return out
+
+    def write(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> int:
+        """Writes these pages; returns how many of them were equal already. Each is read back by the loader."""
+        waiting = deque(sorted(pages))
+        under_way: Dict[int, int] = {}
+        failures: Dict[int, int] = {}
+        done = equal = 0
+        while waiting or under_way:
+            while waiting and len(under_way) < WINDOW:
+                page = waiting.popleft()
+                under_way[self._send(WRITE, page.to_bytes(2, "little") + pages[page])] = page
+            answer = self._receive(ANSWER_SECONDS)
+            if answer is None or answer[2] == BAD_FRAME or answer[0] != WRITE or answer[1] not in under_way:
+                if answer is not None and answer[2] != BAD_FRAME:
+                    continue
+                # Something was lost: wait for what is still to come, then send again what was not acknowledged.
+                done, equal = self._collect(under_way, done, equal)
+                for page in sorted(under_way.values()):
+                    failures[page] = failures.get(page, 0) + 1
+                    if failures[page] > TRIES:
+                        if answer is None:
+                            raise NoAnswerError("the boot loader does not answer any more")
+                        raise BoardError("the line damages too much: no page comes through. Is the cable good?")
+                self.retries += 1
+                waiting.extendleft(sorted(under_way.values(), reverse=True))
+                under_way.clear()
+                continue
+            page = under_way.pop(answer[1])
+            if answer[2] not in (OK, EQUAL):
+                raise BoardError(f"0x{page * FLASH_PAGE:05X}: {STATUS.get(answer[2], answer[2])}", answer[2])
+            done, equal = done + 1, equal + (answer[2] == EQUAL)
+            if progress:
+                progress(done, len(pages))
+        return equal
+
+    def _collect(self, under_way: Dict[int, int], done: int, equal: int) -> Tuple[int, int]:
+        while True:
+            answer = self._receive(0.3)
+            if answer is None:
+                return done, equal
+            if answer[0] == WRITE and answer[1] in under_way and answer[2] in (OK, EQUAL):
+                under_way.pop(answer[1])
+                done, equal = done + 1, equal + (answer[2] == EQUAL)
+
+    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Optional[Progress] = None) -> bytes:
+        out = b""
+        for at in range(start, end, EE_READ_MAX):
+            count = min(EE_READ_MAX, end - at)
+            out += self._ask(EE_READ, at.to_bytes(2, "little") + count.to_bytes(2, "little"))[:count]
+            if progress:
+                progress(at - start + count, end - start)
+        return out
+
+    def write_eeprom(self, cells: Dict[int, int], progress: Optional[Progress] = None) -> None:
+        """Single bytes, by address."""
+        done = 0
+        for at, data in _pieces(sorted(cells.items()), EE_WRITE_MAX):
+            body = at.to_bytes(2, "little") + len(data).to_bytes(2, "little") + data + bytes(len(data) % 2)
+            self._ask(EE_WRITE, body)
+            done += len(data)
+            if progress:
+                progress(done, len(cells))
+
+    # The end
+
+    def leave(self, to: int = TO_PROMPT) -> None:
+        """To the prompt, to the application, or by a reset."""
+        self._ask(LEAVE, to.to_bytes(2, "little"))
+        if self.rate != BAUD:
+            self.link.set_rate(BAUD)
+            self.rate = BAUD
+
+
+def _pieces(cells: Iterable[Tuple[int, int]], most: int) -> List[Tuple[int, bytes]]:
+    """Runs of neighbouring bytes, at most `most` long."""
+    out: List[Tuple[int, bytearray]] = []
+    for at, value in cells:
+        if out and at == out[-1][0] + len(out[-1][1]) and len(out[-1][1]) < most:
+            out[-1][1].append(value)
+        else:
+            out.append((at, bytearray([value])))
+    return [(at, bytes(data)) for at, data in out]

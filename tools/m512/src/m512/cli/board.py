@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: MIT
+"""`m512 flash`, `run`, `backup`, `restore`: what goes through a boot loader."""
+from __future__ import annotations
+
+import json
+from datetime import datetime
+from pathlib import Path
+
+import click
+
+from m512 import ui
+from m512.errors import RefusedError
+
+port_option = click.option("-p", "--port", envvar="M512_PORT", default="", metavar="PORT",
+                           help="Serial port: device, part of its name, or socket://host:port. Default: the only one.")
+wait_option = click.option("--wait", default=60.0, show_default=True, metavar="SECONDS",
+                           help="How long to wait for the MODE button.")
+json_option = click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
+
+
+def connect(port, wait):
+    """(link, loader) of the board on a port."""
+    from m512 import loaders, ports
+    from m512.link import Link
+
+    link = Link(ports.pick(port))
+    loader = loaders.enter(link, ui.say, wait)
+    ui.say(f"{link.url}: {loader.name}" + (f" on a {loader.board}" if loader.board else ""))
+    return link, loader
+
+
+def number(context, parameter, value):
+    if value is None:
+        return None
+    try:
+        return int(value, 0)
+    except ValueError:
+        raise click.BadParameter("a number, decimal or 0x") from None
+
+
+def flash_options(function):
+    for option in (json_option, wait_option, port_option,
+                   click.option("--dry-run", is_flag=True, help="Say what would be written, touch nothing."),
+                   click.option("--damaged", type=click.Choice(["ask", "keep"]), default="ask",
+                                help="Damaged pages in a motion file: refuse (ask) or flash them as they are."),
+                   click.option("--with-trim", is_flag=True, help="Overwrite page 0 even if the file has no trim in it."),
+                   click.option("--fast/--no-fast", default=False, help="Try 117,647 baud (our loader, good adapters)."),
+                   click.option("--address", callback=number, help="Where a raw binary goes, such as 0x0.")):
+        function = option(function)
+    return function
+
+
+def _flash(image, address, fast, with_trim, damaged, dry_run, port, wait, as_json, start):
+    from m512 import download, memory
+    from m512.block import BlockLoader
+
+    plan = memory.plan(image, address, None, with_trim, damaged)
+    for remark in plan.remarks:
+        ui.say(f"note: {remark}")
+    first, last = min(plan.pages) * 256, max(plan.pages) * 256 + 255
+    what = str(plan.record) if plan.record else "an application" if plan.has_app else "motions"
+    ui.say(f"{image.name}: {what}, {len(plan.pages)} flash pages in 0x{first:05X}..0x{last:05X}")
+    if dry_run:
+        return
+    link, loader = connect(port, wait)
+    with link:
+        if fast and isinstance(loader, BlockLoader) and not loader.go_faster():
+            ui.say("note: the fast rate does not work here; going on at 57,600")
+        report = download.download(loader, plan, ui.phase)
+        ui.say(str(report))
+        if start:
+            download.start(loader)
+            ui.say("started")
+        else:
+            loader.leave(0)
+            ui.say("The board waits in its boot loader; `m512 run` starts the application.")
+        if as_json:
+            click.echo(json.dumps(dict(report.as_dict(), loader=loader.name, board=loader.board, started=start)))
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 flash play-cm5.hex                 our application into the board
+  m512 flash library.m512                 motions, from the text; also .bin .hex .mtn
+  m512 flash walk.bin -p socket://host:4000 --json""")
+@click.argument("image", type=click.Path(path_type=Path))
+@flash_options
+def flash(image, **options):
+    """Write code or motions into the board and read them back.
+
+    Our boot loader and the factory's are told apart by themselves. Only pages that differ are sent, so a transfer that
+    broke off goes on where it stopped. What would hurt is refused before anything is sent.
+    """
+    _flash(image, start=False, **options)
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 run play-cm5.hex     flash, then start
+  m512 run                  start what is there""")
+@click.argument("image", type=click.Path(path_type=Path), required=False)
+@flash_options
+def run(image, **options):
+    """Write IMAGE as `m512 flash` does and start the application."""
+    if image:
+        _flash(image, start=True, **options)
+        return
+    from m512 import download
+
+    link, loader = connect(options["port"], options["wait"])
+    with link:
+        download.start(loader)
+        ui.say("started")
+
+
+def _areas(text):
+    from m512.backup import AREAS
+
+    areas = [area for area in text.split(",") if area]
+    for area in areas:
+        if area not in AREAS:
+            raise click.UsageError(f"{area}: the areas are {', '.join(AREAS)}")
+    return areas
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 backup                         all, into backup-DATE-TIME/
+  m512 backup robot1 --what motions   the motions only""")
+@click.argument("folder", type=click.Path(path_type=Path), required=False)
+@click.option("--what", default="motions,eeprom,app", show_default=True, help="Areas to read.")
+@port_option
+@wait_option
+@json_option
+def backup(folder, what, port, wait, as_json):
+    """Read motions, EEPROM and application into FOLDER, with a manifest (date, board, CRCs)."""
+    from m512 import backup as backups
+
+    areas = _areas(what)
+    folder = folder or Path(datetime.now().strftime("backup-%Y%m%d-%H%M%S"))
+    link, loader = connect(port, wait)
+    with link:
+        made = backups.take(loader, folder, areas, ui.phase)
+        loader.leave(2)
+    if as_json:
+        click.echo(json.dumps(made.manifest, indent=2))
+    ui.say(f"{folder}: " + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas)
+           + ". The controller restarts.")
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 restore backup-20260101-120000
+  m512 restore robot1 --what motions --yes""")
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option("--what", default="", help="Areas to write (default: all of the backup).")
+@click.option("--yes", is_flag=True, help="Do not ask.")
+@port_option
+@wait_option
+@json_option
+def restore(folder, what, yes, port, wait, as_json):
+    """Show what a backup would change on the board, ask, and write it."""
+    from m512 import backup as backups, download
+    from m512.difference import images
+    from m512.image import from_bytes
+    from m512.memory import MOTIONS, Plan, Record
+
+    saved = backups.load(folder)
+    areas = _areas(what) if what else list(saved.data)
+    missing = [area for area in areas if area not in saved.data]
+    if missing:
+        raise RefusedError(f"the backup has no {', '.join(missing)}")
+    link, loader = connect(port, wait)
+    with link:
+        board = backups.board_of(saved)
+        if "app" in areas and board and loader.board and board != loader.board:
+            raise RefusedError(f"this backup's application is from a {board}, this board is a {loader.board}")
+        pages = backups.flash_pages(saved, areas)
+        with ui.phase("Comparing") as progress:
+            todo = loader.different(pages, progress) if pages else []
+        cells = {}
+        if "eeprom" in areas:
+            with ui.phase("Reading EEPROM") as progress:
+                cells = backups.eeprom_changes(saved.data["eeprom"], loader.read_eeprom(progress=progress))
+        changes = []
+        in_motions = [n for n in todo if n * 256 >= MOTIONS[0]]
+        if in_motions:
+            with ui.phase("Reading") as progress:
+                found = _motions_now(loader, saved.data["motions"], in_motions, progress)
+            changes = images(from_bytes(found), from_bytes(saved.data["motions"]))
+            for change in changes:
+                ui.say(str(change))
+        in_app = len(todo) - len(in_motions)
+        if in_app:
+            record = Record.of(saved.data["app"])
+            ui.say(f"application: {in_app} flash pages differ" + (f"; the backup holds {record}" if record else ""))
+        if cells:
+            ui.say(f"EEPROM: {len(cells)} cells differ")
+        if todo or cells:
+            ui.confirm("Write this to the board?", yes)
+            if todo:
+                report = download.download(loader, Plan({n: pages[n] for n in todo}), ui.phase)
+                ui.say(str(report))
+            if cells:
+                with ui.phase("EEPROM") as progress:
+                    loader.write_eeprom(cells, progress)
+                ui.say(f"{len(cells)} EEPROM cells written")
+        else:
+            ui.say("The board holds this already.")
+        loader.leave(2)
+    if as_json:
+        click.echo(json.dumps({"flash_pages": len(todo), "eeprom_cells": len(cells),
+                               "changes": [change.as_dict() for change in changes]}, indent=2))
+
+
+def _motions_now(loader, saved, pages, progress):
+    """The board's motion area, read only where it differs from the backup."""
+    from m512.memory import MOTIONS
+
+    out = bytearray(saved)
+    numbers = sorted({(n * 256 - MOTIONS[0]) // 512 for n in pages})
+    for done, number in enumerate(numbers):
+        at = MOTIONS[0] + 512 * number
+        out[512 * number:512 * (number + 1)] = loader.read(at, at + 512)
+        progress(done + 1, len(numbers))
+    return bytes(out)

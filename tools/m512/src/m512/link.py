@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+"""A line to a board: bytes out and in with time limits, on anything pyserial can open (device, pty, socket:// URL).
+
+Every trouble with the line itself becomes a PortError that says what to look at. Nothing here knows a protocol.
+"""
+from __future__ import annotations
+
+import time
+from typing import Callable, Optional
+
+from m512.errors import NoAnswerError, PortError
+
+BAUD = 57600
+Trace = Callable[[str, bytes], None]
+
+
+class Link:
+    def __init__(self, url: str, trace: Optional[Trace] = None):
+        import serial
+
+        self.url, self.trace = url, trace
+        try:
+            self.port = serial.serial_for_url(url, baudrate=BAUD, timeout=0, write_timeout=20)
+        except (serial.SerialException, OSError, ValueError) as error:
+            raise PortError(explain(url, error)) from None
+        self.held = b""     # bytes read and given back
+
+    def __enter__(self) -> "Link":
+        return self
+
+    def __exit__(self, *_exc: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        try:
+            self.port.close()
+        except Exception:     # a port that is gone may fail to close in many ways, and nobody can help it
+            pass
+
+    def _lost(self, error: Exception) -> PortError:
+        return PortError(f"the line to {self.url} broke ({error}). Check the cable; "
+                         "then repeat the command, it goes on where it stopped")
+
+    def set_rate(self, rate: int) -> None:
+        try:
+            self.port.baudrate = rate
+        except Exception as error:
+            raise PortError(f"{self.url} cannot do {rate} baud: {error}") from None
+
+    def write(self, data: bytes, wait: bool = True) -> None:
+        """Sends; with `wait` returns when all has left this computer."""
+        if self.trace:
+            self.trace("->", data)
+        try:
+            self.port.write(data)
+            if wait:
+                self.port.flush()
+        except Exception as error:     # a port that goes away does so as SerialException, OSError, termios.error, ...
+            raise self._lost(error) from None
+
+    def _receive(self, limit: int, seconds: float) -> bytes:
+        """What is there, at least a byte if one comes within the time."""
+        if self.held:
+            out, self.held = self.held[:limit], self.held[limit:]
+            return out
+        try:
+            self.port.timeout = max(seconds, 0)
+            first = self.port.read(1)
+            if not first:
+                return b""
+            more = min(self.port.in_waiting, limit - 1)
+            if more > 0:
+                self.port.timeout = 0
+                first += self.port.read(more)
+        except Exception as error:     # a port that goes away does so as SerialException, OSError, termios.error, ...
+            raise self._lost(error) from None
+        if self.trace:
+            self.trace("<-", first)
+        return first
+
+    def read_some(self, seconds: float, limit: int = 4096) -> bytes:
+        """Bytes as they come; empty when none came within the time."""
+        return self._receive(limit, seconds)
+
+    def read_exactly(self, count: int, seconds: float, what: str) -> bytes:
+        """`seconds` may pass between two bytes."""
+        out = b""
+        while len(out) < count:
+            some = self._receive(count - len(out), seconds)
+            if not some:
+                raise NoAnswerError(f"no answer: {what} ({len(out)} of {count} bytes came)")
+            out += some
+        return out
+
+    def read_until(self, end: bytes, seconds: float, what: str, limit: int = 1 << 20) -> bytes:
+        """Up to and with `end`; `seconds` for all of it. What comes behind is kept for the next read."""
+        out, until = self.look_for(end, seconds, limit)
+        if not until:
+            tail = out[-60:].decode("ascii", "replace").strip()
+            raise NoAnswerError(f"no answer: {what}" + (f" (came: {tail!r})" if tail else ""))
+        return out
+
+    def look_for(self, end: bytes, seconds: float, limit: int = 1 << 20) -> "tuple[bytes, bool]":
+        """(what came, whether `end` was in it)."""
+        out, deadline = b"", time.monotonic() + seconds
+        while len(out) < limit:
+            at = out.find(end)
+            if at >= 0:
+                self.held = out[at + len(end):] + self.held
+                return out[:at + len(end)], True
+            left = deadline - time.monotonic()
+            some = self._receive(4096, min(left, 0.25)) if left > 0 else b""
+            if not some and left <= 0:
+                break
+            out += some
+        return out, False
+
+    def drain(self, quiet: float = 0.05, at_most: float = 2.0) -> bytes:
+        """Reads until the line has been silent for `quiet` seconds."""
+        out, deadline = b"", time.monotonic() + at_most
+        while time.monotonic() < deadline:
+            some = self._receive(4096, quiet)
+            if not some:
+                break
+            out += some
+        return out
+
+
+def explain(url: str, error: Exception) -> str:
+    """Why a port cannot be opened, and what to do."""
+    text = str(error)
+    if "Permission" in text or "denied" in text.lower():
+        return (f"{url}: no permission. On Linux add yourself to the group dialout "
+                "(sudo adduser $USER dialout, then log in again); on Windows close other programs that use the port")
+    if "No such file" in text or "FileNotFound" in text or "could not find" in text.lower():
+        return f"{url}: no such port. Is the adapter plugged in? `m512 doctor` lists the ports"
+    if "busy" in text.lower() or "lock" in text.lower():
+        return f"{url}: in use by another program (a terminal?)"
+    if "refused" in text.lower():
+        return f"{url}: nobody listens there"
+    return f"{url}: cannot be opened ({text})"

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+"""What a user sees while something takes its time: remarks on stderr, a progress bar on a terminal, questions."""
+from __future__ import annotations
+
+import sys
+import time
+from contextlib import contextmanager
+from typing import Callable, Iterator
+
+import click
+
+from m512.errors import RefusedError
+
+Progress = Callable[[int, int], None]
+
+
+def say(text: str) -> None:
+    """Remarks go to stderr: stdout is for results."""
+    click.echo(text, err=True)
+
+
+@contextmanager
+def phase(title: str) -> Iterator[Progress]:
+    """`with phase("Writing") as progress: ... progress(done, total)`. A bar on a terminal, else a line every 10 s."""
+    if sys.stderr.isatty():
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress as Bars, TextColumn, TimeRemainingColumn
+
+        with Bars(TextColumn("{task.description:12}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"),
+                  TimeRemainingColumn(), console=Console(stderr=True)) as bars:
+            task = bars.add_task(title, total=None)
+            yield lambda done, total: bars.update(task, completed=done, total=total)
+        return
+    last = [time.monotonic()]
+
+    def line(done: int, total: int) -> None:
+        if time.monotonic() - last[0] > 10 and total:
+            last[0] = time.monotonic()
+            say(f"{title}: {100 * done // total} %")
+
+    yield line
+
+
+def confirm(question: str, yes: bool) -> None:
+    """Goes on only after a yes; without a terminal only with --yes."""
+    if yes:
+        return
+    if not sys.stdin.isatty():
+        raise RefusedError(f"{question} Nobody can be asked here: say --yes")
+    if not click.confirm(question, default=False, err=True):
+        raise RefusedError("nothing was changed")

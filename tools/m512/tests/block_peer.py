@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: MIT
+"""Our loader's line shell and block protocol, made from its description, with a line that can be disturbed."""
+import time
+
+from pty_peer import Peer
+
+PROMPT = b"\r\n - "
+APP, RESET, PROMPTED, SESSION = range(4)
+
+
+def crc16(data):
+    crc = 0xFFFF
+    for byte in data:
+        crc ^= byte << 8
+        for _ in range(8):
+            crc = (crc << 1 ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
+    return crc
+
+
+class BlockPeer(Peer):
+    def __init__(self, flash=None, board=1, state=PROMPTED, presses_mode=True):
+        self.flash = bytearray(flash or b"\xff" * 0x20000)
+        self.eeprom = bytearray(b"\xff" * 4096)
+        self.board, self.state, self.presses_mode = board, state, presses_mode
+        self.line, self.frame = bytearray(), None
+        self.writes, self.reads, self.left, self.app_heard = [], 0, [], bytearray()
+        self.broken_pages = set()
+        self.since, self.last = 0.0, 0
+        super().__init__()
+
+    def press_mode(self):
+        with self.lock:
+            self.state, self.since, self.last, self.frame = RESET, time.monotonic(), 0, None
+            self.line.clear()
+            self.send(b"\xff")
+
+    def on_silence(self, seconds):
+        if self.state == RESET and time.monotonic() - self.since > 0.06:
+            self.state = PROMPTED if self.last == 0x23 else APP
+            if self.state == PROMPTED:
+                self.send(b"\r\n\n SYSTEM O.K. (Motion512 Boot loader V1.00)" + PROMPT)
+        if self.state == SESSION and self.frame and seconds > 0.1:
+            self.frame = None
+            self._answer(0, 0, 4)
+        if self.state == SESSION and seconds > 4:
+            self.state, self.frame = PROMPTED, None
+            self.send(PROMPT)
+
+    def on_byte(self, byte):
+        if self.state == APP:
+            self.app_heard.append(byte)
+            if self.presses_mode and self.app_heard.endswith(b"##"):
+                self.app_heard.clear()
+                self.press_mode()
+        elif self.state == RESET:
+            self.last = byte
+        elif self.state == SESSION or byte == 0xA5:
+            self.state = SESSION
+            self._frame_byte(byte)
+        elif byte == 0x0D:
+            line, self.line = bytes(self.line).strip(), bytearray()
+            if line == b"id":
+                self.send(b"\r\n ID M512 cm5")
+            elif line.strip(b"#"):
+                self.send(b"\r\n Bad Command.('help' for instructions definition)")
+            self.send(PROMPT)
+        elif byte == 8:
+            self.line[-1:] = b""
+        else:
+            self.line.append(byte)
+            self.send(bytes([byte]))
+
+    def _frame_byte(self, byte):
+        if self.frame is None:
+            if byte == 0xA5:
+                self.frame = bytearray()
+            return
+        self.frame.append(byte)
+        if len(self.frame) >= 3 and self.frame[2] > 129:
+            self.frame = None
+            self._answer(0, 0, 4)
+        elif len(self.frame) >= 3 and len(self.frame) == 3 + 2 * self.frame[2] + 2:
+            frame, self.frame = bytes(self.frame), None
+            if crc16(frame[:-2]) != int.from_bytes(frame[-2:], "little"):
+                self._answer(0, 0, 4)
+            else:
+                self._request(frame[0], frame[1], frame[3:-2])
+
+    def _answer(self, command, number, status, data=b""):
+        inner = bytes([command, number, len(data) // 2 + 1, status, 0]) + data
+        self.send(b"\x5a" + inner + crc16(inner).to_bytes(2, "little"))
+
+    def _request(self, command, number, body):
+        first = int.from_bytes(body[:2], "little")
+        count = int.from_bytes(body[2:4], "little")
+        status, data = 2, b""
+        if command == 1:
+            status, data = 0, bytes([1, 0, self.eeprom[0xFFF], 0xFF, 1, self.board, 0x7F, 0, 0, 1, 0xE0, 1])
+        elif command == 3 and first < 512:
+            self.reads += 1
+            status, data = 0, bytes(self.flash[first * 256:first * 256 + 256])
+        elif command == 4 and first < 0x1E0 and len(body) == 258:
+            same = self.flash[first * 256:first * 256 + 256] == body[2:]
+            status = 3 if first in self.broken_pages else 1 if same else 0
+            if status == 0:
+                self.flash[first * 256:first * 256 + 256] = body[2:]
+                self.writes.append(first)
+        elif command == 5 and count <= 64 and first + count <= 512:
+            status = 0
+            for page in range(first, first + count):
+                piece = bytes(self.flash[page * 256:page * 256 + 256])
+                data += crc16(piece).to_bytes(2, "little") + (sum(piece) & 0xFFFF).to_bytes(2, "little")
+        elif command == 6 and count <= 256 and count % 2 == 0 and first + count <= 4096:
+            status, data = 0, bytes(self.eeprom[first:first + count])
+        elif command == 7 and count <= 32 and len(body) >= 4 + count:
+            status = 0
+            self.eeprom[first:first + count] = body[4:4 + count]
+        elif command == 8:
+            status = 0
+            self.left.append(first)
+            self._answer(command, number, status)
+            self.state = APP if first == 1 else PROMPTED
+            if first == 2:
+                self.press_mode()
+            elif first == 0:
+                self.send(PROMPT)
+            return
+        elif command > 8:
+            status = 5
+        self._answer(command, number, status, data)

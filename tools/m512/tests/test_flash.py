@@ -1,0 +1,311 @@
+# SPDX-License-Identifier: MIT
+"""`m512 flash`, `run`, `backup`, `restore` against peers that speak the two loaders' protocols, on a pty.
+
+The cable is pulled at many points; afterwards nothing outside the transfer has changed and a repetition ends it.
+"""
+import json
+import random
+import time
+
+import pytest
+from block_peer import BlockPeer
+from factory_peer import FactoryPeer
+
+from m512.crc16 import crc16
+from m512.image import Image
+from m512.memory import Record
+from m512.page import EMPTY
+from m512.text import read_text
+
+MOTIONS = """motion512 1
+page 1 stand
+  step 1s | 1..18:512
+page 3 walk
+  next self
+  step 50 | 1..18:400
+page 100 end
+  step 50 | 1..18:600
+"""
+
+
+def make_app(board=1, kind=1, size=5000, good=True):
+    """An application image with a record, as our images have."""
+    app = bytearray(random.Random(7).randbytes(size))
+    app[0:4] = b"\x0c\x94\x46\x00"
+    app[0x8C:0x9C] = b"M512" + len(app).to_bytes(4, "little") + b"\xff\xff" + bytes([board, kind, 1, 2, 3, 1])
+    app[0x94:0x96] = (crc16(bytes(app)) ^ (0 if good else 1)).to_bytes(2, "little")
+    return bytes(app)
+
+
+def as_hex(path, *pieces):
+    from intelhex import IntelHex
+
+    file = IntelHex()
+    for address, data in pieces:
+        file.frombytes(data, offset=address)
+    file.write_hex_file(str(path))
+    return path
+
+
+@pytest.fixture
+def app_hex(tmp_path):
+    return as_hex(tmp_path / "play.hex", (0, make_app()))
+
+
+@pytest.fixture
+def motions(tmp_path):
+    path = tmp_path / "lib.m512"
+    path.write_text(MOTIONS)
+    return path
+
+
+def motion_area():
+    return read_text(MOTIONS).to_bytes()
+
+
+def old_flash():
+    """A board that is full of something else."""
+    return random.Random(1).randbytes(0x20000)
+
+
+def changed_outside(peer, before, start, end):
+    return [a for a in range(0x20000) if not start <= a < end and peer.flash[a] != before[a]]
+
+
+@pytest.fixture(params=["ours", "factory"])
+def peer(request):
+    flash = bytearray(old_flash())
+    # Most of the motion area is right already, so that the slow dumps of the factory loader do not rule the test.
+    flash[0xE000:0x1E000] = b"".join(EMPTY for _ in range(128))
+    with (BlockPeer if request.param == "ours" else FactoryPeer)(flash) as it:
+        it.before = bytes(it.flash)
+        yield it
+
+
+# Either loader
+
+def test_flash_motions_and_leave_everything_else(m512, peer, motions):
+    result = m512("flash", motions, "-p", peer.path, "--json")
+    assert result.exit_code == 0, result.stderr
+    assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
+    assert not changed_outside(peer, peer.before, 0xE200, 0x1E000)
+    assert "the robot keeps its own" in result.stderr
+    # Three pages of 512 bytes differ; a page that names no joint above 18 may leave its second half as it was.
+    assert json.loads(result.stdout)["written"] <= 6
+    again = json.loads(m512("flash", motions, "-p", peer.path, "--json").stdout)
+    assert again["written"] == 0
+
+
+def test_flash_application_and_start(m512, peer, app_hex):
+    result = m512("run", app_hex, "-p", peer.path)
+    assert result.exit_code == 0, result.stderr
+    assert "Motion512 play 1.2.3 for cm5" in result.stderr and "started" in result.stderr
+    assert peer.flash[:5000] == make_app() and peer.flash[5000:5120] == b"\xff" * 120
+    assert not changed_outside(peer, peer.before, 0, 5120)
+    with peer.lock:
+        assert peer.state == 0 and peer.eeprom[0xFFF] == 0x11
+    assert not getattr(peer, "hurt", [])
+
+
+def test_flash_calls_a_running_board_and_asks_for_the_button(m512, motions, peer):
+    with peer.lock:
+        peer.state = 0
+    result = m512("flash", motions, "-p", peer.path, "--wait", "5")
+    assert result.exit_code == 0 and "Press the MODE button" in result.stderr
+
+
+def test_flash_says_what_it_waits_for_and_gives_up(m512, motions, peer):
+    with peer.lock:
+        peer.state, peer.presses_mode = 0, False
+    result = m512("flash", motions, "-p", peer.path, "--wait", "0.5")
+    assert result.exit_code == 7 and "no boot loader answered within" in result.stderr
+
+
+def test_backup_restore_brings_back_every_byte(m512, peer, motions, tmp_path):
+    assert m512("flash", motions, "-p", peer.path).exit_code == 0
+    peer.eeprom[10:14] = b"abcd"
+    before, eeprom = bytes(peer.flash), bytes(peer.eeprom)
+    result = m512("backup", tmp_path / "b", "-p", peer.path, "--what", "motions,eeprom", "--json")
+    assert result.exit_code == 0, result.stderr
+    manifest = json.loads((tmp_path / "b" / "manifest.json").read_text())
+    assert manifest["files"]["motions"]["crc16"] == f"{crc16(before[0xE000:0x1E000]):04X}" and manifest["date"]
+    with peer.lock:
+        peer.flash[0xE000 + 512 * 3 + 70] ^= 1
+        peer.flash[0xE000 + 512 * 50:0xE000 + 512 * 51] = bytes(512)
+        peer.eeprom[11] = 0
+    result = m512("restore", tmp_path / "b", "-p", peer.path, "--yes", "--wait", "5")
+    assert result.exit_code == 0, result.stderr
+    assert 'page 3 "walk", step 0, ID 3: 401 -> 400 (-1)' in result.stderr
+    assert bytes(peer.flash) == before and peer.eeprom[:0xFF0] == eeprom[:0xFF0]
+
+
+def test_restore_asks_first(m512, peer, motions, tmp_path):
+    m512("backup", tmp_path / "b", "-p", peer.path, "--what", "motions")
+    with peer.lock:
+        peer.flash[0xE000 + 600] ^= 1
+    before = bytes(peer.flash)
+    result = m512("restore", tmp_path / "b", "-p", peer.path, "--wait", "5")
+    assert result.exit_code == 5 and "--yes" in result.stderr and bytes(peer.flash) == before
+
+
+def pull_cable(peer, when):
+    """After `when` of a thousand parts: of a transfer of ours; of the dumps, or in a download, of the factory's."""
+    if isinstance(peer, BlockPeer):
+        peer.cut_after = 20 + when * 2
+    elif when % 2:
+        peer.cut_after = 100 + when * 300
+    else:
+        def pull(direction, _, byte):
+            if direction == "->" and peer.state == 5 and len(peer.received) >= when:
+                peer.pull()
+                return None
+            return byte
+        peer.garble = pull
+
+
+@pytest.mark.parametrize("when", [0, 3, 60, 130, 201, 256, 300, 512, 555, 640, 767, 800])
+def test_cable_pulled_during_flash(m512, peer, motions, when):
+    pull_cable(peer, when)
+    result = m512("flash", motions, "-p", peer.path)
+    with peer.lock:
+        assert peer.master is None, ("the cable was not pulled", result.exit_code, result.stderr)
+    assert result.exit_code in (6, 7) and result.stderr.strip()
+    assert not changed_outside(peer, peer.before, 0xE200, 0x1E000)
+    while getattr(peer, "state", 0) == 5:      # the factory loader notices the silence
+        time.sleep(0.05)
+    peer.garble = None
+    peer.plug()
+    result = m512("flash", motions, "-p", peer.path, "--wait", "5")
+    assert result.exit_code == 0, result.stderr
+    assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
+    assert not changed_outside(peer, peer.before, 0xE200, 0x1E000)
+    assert not getattr(peer, "hurt", [])
+
+
+# Ours
+
+def test_block_line_with_noise_repeats_and_arrives(m512, motions):
+    noise = random.Random(3)
+    with BlockPeer(old_flash()) as peer:
+        peer.garble = lambda _, index, byte: byte if index < 60 or noise.random() > 0.0004 else \
+            noise.choice([None, byte ^ 0x10])
+        result = m512("flash", motions, "-p", peer.path)
+        assert result.exit_code == 0, result.stderr
+        assert peer.flash[0xE200:0x1E000] == motion_area()[512:] and "repetitions" in result.stderr
+
+
+def test_block_flash_that_does_not_take_the_data(m512, motions):
+    with BlockPeer(old_flash()) as peer:
+        peer.broken_pages.add(0xE600 // 256)
+        result = m512("flash", motions, "-p", peer.path)
+        assert result.exit_code == 8 and "0x0E600: the flash does not take the data" in result.stderr
+
+
+def test_block_wrong_board_is_refused_before_anything_is_written(m512, tmp_path):
+    image = as_hex(tmp_path / "x.hex", (0, make_app(board=2)))
+    with BlockPeer(old_flash(), board=1) as peer:
+        result = m512("flash", image, "-p", peer.path)
+        assert result.exit_code == 5 and "for cm2, but this board is a cm5" in result.stderr and not peer.writes
+
+
+# The factory's
+
+def test_factory_downloads_are_aligned_whole_pages_without_checksum_byte(m512, motions):
+    flash = bytearray(b"\xff" * 0x20000)
+    flash[0xE000:0x1E000] = EMPTY * 128
+    with FactoryPeer(flash) as peer:
+        m512("flash", motions, "-p", peer.path)
+        assert peer.downloads and all(a % 256 == 0 and n % 256 == 0 and a + n <= 0x1E000 for a, n in peer.downloads)
+        assert not peer.hurt
+
+
+def test_factory_lost_bytes_are_found_by_size_and_sent_again(m512, motions):
+    flash = bytearray(b"\xff" * 0x20000)
+    flash[0xE000:0x1E000] = EMPTY * 128
+    with FactoryPeer(flash) as peer:
+        state = {"lost": 0}
+
+        def lose(direction, _, byte):
+            if direction == "->" and peer.state == 5 and state["lost"] < 1 and len(peer.received) == 300:
+                state["lost"] += 1
+                return None
+            return byte
+
+        peer.garble = lose
+        result = m512("flash", motions, "-p", peer.path)
+        assert result.exit_code == 0 and state["lost"] == 1 and "1 repetitions" in result.stderr
+        assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
+
+
+def test_factory_success_is_not_believed(m512, motions):
+    flash = bytearray(b"\xff" * 0x20000)
+    flash[0xE000:0x1E000] = EMPTY * 128
+    with FactoryPeer(flash) as peer:
+        peer.dead_pages.add(0xE600)
+        result = m512("flash", motions, "-p", peer.path)
+        assert result.exit_code == 8 and "read back wrong at 0x0E600" in result.stderr
+
+
+def test_factory_prompt_with_a_full_line_is_not_crashed(m512, motions):
+    flash = bytearray(b"\xff" * 0x20000)
+    flash[0xE000:0x1E000] = motion_area()
+    with FactoryPeer(flash) as peer:
+        peer.line = bytearray(b"x" * 80)
+        assert m512("flash", motions, "-p", peer.path).exit_code == 0 and not peer.hurt
+
+
+# Refusals, without a board
+
+@pytest.mark.parametrize("pieces, says", [
+    ([(0x1E000, bytes(100))], "into the boot loader"),
+    ([(0, bytes(0xC001))], "0x0C000..0x0DFFF"),
+    ([(0x1DF00, bytes(0x200))], "into the boot loader"),
+    ([(0x20000, bytes(512))], "beyond this board's flash"),
+    ([(0x100, bytes(100))], "no reset vector at 0"),
+])
+def test_flash_refuses_what_would_hurt(m512, tmp_path, pieces, says):
+    result = m512("flash", as_hex(tmp_path / "x.hex", *pieces), "--dry-run")
+    assert result.exit_code == 5 and says in result.stderr
+
+
+def test_flash_refuses_damaged_images(m512, tmp_path):
+    result = m512("flash", as_hex(tmp_path / "x.hex", (0, make_app(good=False))), "--dry-run")
+    assert result.exit_code == 5 and "length or CRC" in result.stderr
+    image = Image.empty()
+    image[3].data[100] ^= 1
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    result = m512("flash", tmp_path / "x.bin", "--dry-run")
+    assert result.exit_code == 5 and "page 3: checksum" in result.stderr
+    assert m512("flash", tmp_path / "x.bin", "--dry-run", "--damaged", "keep").exit_code == 0
+
+
+def test_flash_refuses_wrong_kinds_of_motions(m512, tmp_path):
+    image = Image.empty(256)
+    image[200] = read_text(MOTIONS)[3]
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    result = m512("flash", tmp_path / "x.bin", "--dry-run")
+    assert result.exit_code == 5 and 'page 200 "walk"' in result.stderr
+
+
+def test_record_of_an_application():
+    record = Record.of(make_app(2, 2))
+    assert str(record) == "Motion512 edit 1.2.3 for cm2" and record.fits(make_app(2, 2))
+    assert Record.of(bytes(300)) is None
+
+
+def test_backup_that_was_changed_is_not_restored(m512, tmp_path):
+    folder = tmp_path / "b"
+    folder.mkdir()
+    (folder / "motions.bin").write_bytes(EMPTY * 128)
+    (folder / "manifest.json").write_text(json.dumps({
+        "format": "m512-backup", "version": 1,
+        "files": {"motions": {"file": "motions.bin", "bytes": 65536, "crc16": "0000", "sha256": ""}}}))
+    result = m512("restore", folder)
+    assert result.exit_code == 4 and "not what the manifest says" in result.stderr
+    (folder / "manifest.json").write_text("{")
+    assert m512("restore", folder).exit_code == 4
+
+
+def test_port_that_is_not_there(m512, motions):
+    result = m512("flash", motions, "-p", "/dev/ttyNothing")
+    assert result.exit_code == 6 and "no such port" in result.stderr
