@@ -23,7 +23,7 @@ class BlockPeer(Peer):
         self.eeprom = bytearray(b"\xff" * 4096)
         self.board, self.state, self.presses_mode = board, state, presses_mode
         self.line, self.frame = bytearray(), None
-        self.writes, self.reads, self.left, self.app_heard = [], 0, [], bytearray()
+        self.writes, self.left, self.app_heard = [], [], bytearray()
         self.broken_pages = set()
         self.since, self.last = 0.0, 0
         super().__init__()
@@ -60,7 +60,7 @@ class BlockPeer(Peer):
         elif byte == 0x0D:
             line, self.line = bytes(self.line).strip(), bytearray()
             if line == b"id":
-                self.send(b"\r\n ID M512 cm5")
+                self.send(b"\r\n ID Motion512 boot 1.00 " + (b"CM5" if self.board == 1 else b"CM2") + b" api=1 features=007F app=none")
             elif line.strip(b"#"):
                 self.send(b"\r\n Bad Command.('help' for instructions definition)")
             self.send(PROMPT)
@@ -81,24 +81,24 @@ class BlockPeer(Peer):
             self._answer(0, 0, 4)
         elif len(self.frame) >= 3 and len(self.frame) == 3 + 2 * self.frame[2] + 2:
             frame, self.frame = bytes(self.frame), None
-            if crc16(frame[:-2]) != int.from_bytes(frame[-2:], "little"):
+            if crc16(frame[:-2]) != int.from_bytes(frame[-2:], "big"):
                 self._answer(0, 0, 4)
             else:
                 self._request(frame[0], frame[1], frame[3:-2])
 
     def _answer(self, command, number, status, data=b""):
         inner = bytes([command, number, len(data) // 2 + 1, status, 0]) + data
-        self.send(b"\x5a" + inner + crc16(inner).to_bytes(2, "little"))
+        self.send(b"\x5a" + inner + crc16(inner).to_bytes(2, "big"))
 
     def _request(self, command, number, body):
         first = int.from_bytes(body[:2], "little")
         count = int.from_bytes(body[2:4], "little")
         status, data = 2, b""
         if command == 1:
-            status, data = 0, bytes([1, 0, self.eeprom[0xFFF], 0xFF, 1, self.board, 0x7F, 0, 0, 1, 0xE0, 1])
-        elif command == 3 and first < 512:
-            self.reads += 1
-            status, data = 0, bytes(self.flash[first * 256:first * 256 + 256])
+            status = 0
+        elif command == 3:
+            memory, at = (self.eeprom, first - 0x8100) if first >= 0x8100 else (self.flash, first)
+            status, data = 0, bytes(memory[at * 256:at * 256 + 256])
         elif command == 4 and first < 0x1E0 and len(body) == 258:
             same = self.flash[first * 256:first * 256 + 256] == body[2:]
             status = 3 if first in self.broken_pages else 1 if same else 0
@@ -110,12 +110,10 @@ class BlockPeer(Peer):
             for page in range(first, first + count):
                 piece = bytes(self.flash[page * 256:page * 256 + 256])
                 data += crc16(piece).to_bytes(2, "little") + (sum(piece) & 0xFFFF).to_bytes(2, "little")
-        elif command == 6 and count <= 256 and count % 2 == 0 and first + count <= 4096:
-            status, data = 0, bytes(self.eeprom[first:first + count])
-        elif command == 7 and count <= 32 and len(body) >= 4 + count:
+        elif command == 6 and count <= 32 and len(body) >= 4 + count:
             status = 0
             self.eeprom[first:first + count] = body[4:4 + count]
-        elif command == 8:
+        elif command == 7:
             status = 0
             self.left.append(first)
             self._answer(command, number, status)
@@ -125,6 +123,4 @@ class BlockPeer(Peer):
             elif first == 0:
                 self.send(PROMPT)
             return
-        elif command > 8:
-            status = 5
         self._answer(command, number, status, data)

@@ -7,18 +7,18 @@ at a time, so that the line is never idle.
 """
 from __future__ import annotations
 
+import re
 import time
 from collections import deque
-from dataclasses import dataclass
 from typing import Callable, Dict, Iterable, List, Optional, Tuple
 
 from m512.crc16 import crc16
 from m512.errors import BoardError, NoAnswerError
 from m512.link import BAUD, Link
-from m512.memory import BOARDS, FLASH_PAGE
+from m512.memory import FLASH_PAGE
 
 REQUEST, ANSWER = 0xA5, 0x5A
-HELLO, RATE, READ, WRITE, SUMS, EE_READ, EE_WRITE, LEAVE = range(1, 9)
+HELLO, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE = range(1, 8)
 OK, EQUAL, REFUSED, BROKEN, BAD_FRAME, BAD_COMMAND = range(6)
 STATUS = {REFUSED: "refused (outside of what may be written)", BROKEN: "the flash does not take the data",
           BAD_FRAME: "damaged on the line", BAD_COMMAND: "not known to this loader"}
@@ -28,7 +28,8 @@ TRIES = 4
 ANSWER_SECONDS = 1.5
 FAST_RATE, FAST_UBRR, SLOW_UBRR = 117647, 16, 34
 SUMS_MAX = 64
-EE_READ_MAX, EE_WRITE_MAX = 256, 32
+EEPROM_PAGE, EE_WRITE_MAX = 0x8100, 32     # EEPROM is read as pages from here
+BACK_SECONDS = 4.2    # without a good frame the loader ends a session, and a rate
 # The first HELLO then has no byte that is a key of an editor, should one be listening instead of the loader.
 FIRST_NUMBER = 159
 TO_PROMPT, TO_APPLICATION, TO_RESET = range(3)
@@ -36,19 +37,9 @@ TO_PROMPT, TO_APPLICATION, TO_RESET = range(3)
 Progress = Callable[[int, int], None]
 
 
-@dataclass
-class Hello:
-    protocol: int
-    app: str
-    boot_mode: int
-    board: str
-    features: int
-    loader: str
-
-
 def frame(command: int, number: int, body: bytes) -> bytes:
     inner = bytes([command, number, len(body) // 2]) + body
-    return bytes([REQUEST]) + inner + crc16(inner).to_bytes(2, "little")
+    return bytes([REQUEST]) + inner + crc16(inner).to_bytes(2, "big")
 
 
 def page_sum(page: bytes) -> Tuple[int, int]:
@@ -61,18 +52,18 @@ class BlockLoader:
 
     name = "Motion512 boot loader"
 
-    def __init__(self, link: Link, tries: int = 2, seconds: float = ANSWER_SECONDS):
+    def __init__(self, link: Link, identity: str = "", tries: int = 2, seconds: float = ANSWER_SECONDS):
         self.link, self.number, self.rate = link, FIRST_NUMBER, BAUD
-        self.retries = 0
-        data = self._ask(HELLO, b"", tries, seconds)
-        if len(data) < 12:
-            raise NoAnswerError("the loader's answer to HELLO is too short")
-        self.hello = Hello(data[0], APP_STATES.get(data[1], str(data[1])), data[2], BOARDS.get(data[5], ""),
-                           data[6] | data[7] << 8, f"{data[9]}.{data[8]:02}")
+        self.retries = self.detail = 0
+        # What the loader says of itself, when it was asked at its prompt: "ID Motion512 boot 1.00 CM5 api=1 ..."
+        words = re.search(r"ID Motion512 boot (\S+) (\S+)", identity)
+        self.version, self.board = (words.group(1), words.group(2).lower()) if words else ("", "")
+        self._ask(HELLO, b"", tries, seconds)
 
-    @property
-    def board(self) -> str:
-        return self.hello.board
+    def app_state(self) -> str:
+        """What the loader thinks of the application: none, unknown kind (no record), good, damaged."""
+        self._ask(HELLO, b"")
+        return APP_STATES.get(self.detail, str(self.detail))
 
     # Frames
 
@@ -94,7 +85,8 @@ class BlockLoader:
             head = self._piece(3)
             body = self._piece(2 * head[2]) if len(head) == 3 else b""
             end = self._piece(2)
-            if len(end) == 2 and len(body) == 2 * head[2] >= 2 and crc16(head + body) == int.from_bytes(end, "little"):
+            if len(end) == 2 and len(body) == 2 * head[2] >= 2 and crc16(head + body) == int.from_bytes(end, "big"):
+                self.detail = body[1]
                 return head[0], head[1], body[0], body[2:]
 
     def _piece(self, count: int) -> bytes:
@@ -140,7 +132,7 @@ class BlockLoader:
             return True
         except Exception:
             self.link.set_rate(BAUD)
-            time.sleep(1.1)       # the loader returns when it has heard nothing good for a second
+            time.sleep(BACK_SECONDS)
             self.link.drain()
             self._ask(HELLO, b"")
             return False
@@ -220,13 +212,8 @@ class BlockLoader:
                 done, equal = done + 1, equal + (answer[2] == EQUAL)
 
     def read_eeprom(self, start: int = 0, end: int = 4096, progress: Optional[Progress] = None) -> bytes:
-        out = b""
-        for at in range(start, end, EE_READ_MAX):
-            count = min(EE_READ_MAX, end - at)
-            out += self._ask(EE_READ, at.to_bytes(2, "little") + count.to_bytes(2, "little"))[:count]
-            if progress:
-                progress(at - start + count, end - start)
-        return out
+        base = EEPROM_PAGE * FLASH_PAGE
+        return self.read(base + start, base + end, progress)
 
     def write_eeprom(self, cells: Dict[int, int], progress: Optional[Progress] = None) -> None:
         """Single bytes, by address."""

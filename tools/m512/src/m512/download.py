@@ -64,6 +64,6 @@ def download(loader: Loader, plan: Plan, phase: PhaseMaker) -> Report:
 
 def start(loader: Loader) -> None:
     """Starts the application, now and at every power-on to come."""
-    if not isinstance(loader, FactoryLoader) and loader.hello.boot_mode == 0xFF:
+    if not isinstance(loader, FactoryLoader) and loader.read_eeprom(BOOT_MODE, BOOT_MODE + 1) == b"\xff":
         loader.write_eeprom({BOOT_MODE: BOOT_APPLICATION})
     loader.leave(1)

@@ -39,8 +39,8 @@ def identify(link: Link) -> Loader:
     text, ended = link.look_for(PROMPT, 1.5)
     if not ended:
         raise NoAnswerError("the boot loader stopped answering")
-    if b"ID M512" in text:
-        return BlockLoader(link)
+    if b"ID Motion512" in text:
+        return BlockLoader(link, text.decode("ascii", "replace"))
     if b"Bad Command" in text:
         return FactoryLoader(link)
     raise NoAnswerError(f"a boot loader that this program does not know answered {text[-60:]!r}")
@@ -74,7 +74,9 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS)
     if reset_by_application(link) and call_by_hash(link, 3.0):
         return identify(link)
     try:
-        return BlockLoader(link, tries=1, seconds=0.4)
+        session = BlockLoader(link, tries=1, seconds=0.4)
+        session.leave()
+        return identify(link)
     except NoAnswerError:
         pass
     say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; "
