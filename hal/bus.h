@@ -85,6 +85,10 @@ bus_status_t bus_submit(uint8_t size, uint8_t answer_params, uint8_t tries);
  * has left. */
 bus_status_t bus_poll(bus_answer_t *answer);
 
+/* Whether an interrupt brought something that bus_poll has not seen yet. With interrupts off, before sleeping: the last
+ * byte of an answer may come while the main loop is still busy with the one before it. */
+bool bus_has_news(void);
+
 /* Blocks until the result: at most tries * (packet + return delay + answer + 0.3 ms); 1 Mbps, 8 bytes read: 0.9 ms. */
 bus_status_t bus_wait(bus_answer_t *answer);
 

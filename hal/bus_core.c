@@ -63,6 +63,7 @@ void bus_core_on_sent(bus_core_t *core, uint16_t now_half_us)
         return;
     }
     bus_port_listen();
+    core->sent = true;
     core->since = now_half_us;
     if (core->answer_params == BUS_NO_ANSWER) {
         core->result = BUS_OK;
@@ -170,6 +171,7 @@ static void listen(bus_core_t *core, uint16_t now)
 
 bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t *answer)
 {
+    core->sent = false;
     if (core->state == BUS_LISTENING) {
         listen(core, now_half_us);
     }
@@ -180,6 +182,11 @@ bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t 
         answer->params = core->heard;
     }
     return (bus_status_t)core->result;
+}
+
+bool bus_core_has_news(const bus_core_t *core)
+{
+    return core->sent || (core->state == BUS_LISTENING && core->heard_count != core->parsed);
 }
 
 bool bus_core_cancel(bus_core_t *core)

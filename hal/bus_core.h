@@ -38,6 +38,7 @@ typedef struct {
     uint8_t failure;              /* LISTENING: why this try has failed; BUS_OK: it has not */
     uint8_t size, asked_id, answer_params, tries_left;
     uint8_t parsed;               /* bytes of heard[] taken apart so far */
+    volatile bool sent;           /* ISR: transmit complete came; cleared by poll */
     volatile uint8_t heard_count; /* ISR: bytes in heard[] */
     volatile uint8_t heard_flags; /* ISR: BUS_BYTE_ flags of this try */
     uint16_t byte_half_us;        /* time of one character */
@@ -63,6 +64,7 @@ void bus_core_init(bus_core_t *core);
 void bus_core_set_rate(bus_core_t *core, uint8_t divisor);
 bus_status_t bus_core_submit(bus_core_t *core, uint8_t size, uint8_t answer_params, uint8_t tries);
 bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t *answer);
+bool bus_core_has_news(const bus_core_t *core);
 /* Gives up an answer; false while the packet is still being sent: ask again. */
 bool bus_core_cancel(bus_core_t *core);
 void bus_core_counts(const bus_core_t *core, bus_counts_t *counts);

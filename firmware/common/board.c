@@ -31,7 +31,7 @@ void board_idle(void)
 {
     system_kick();
     irq_disable();
-    if (tick_is_due() || console_waiting() > 0) {
+    if (tick_is_due() || console_waiting() > 0 || bus_has_news()) {
         irq_enable();
     } else {
         system_sleep();

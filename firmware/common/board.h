@@ -13,7 +13,8 @@
  * console and bus, turns the watchdog on and enables interrupts. Nothing is sent to a servo. */
 void board_start(void);
 
-/* Waits for something to do: sleeps until an interrupt unless a tick is due or a console byte waits. Kicks the watchdog.
+/* Waits for something to do: sleeps until an interrupt unless a tick is due, a console byte waits or the bus has
+ * news (so an image that sends must poll). Kicks the watchdog.
  * The main loop is  for (;;) { ...look at everything once...; board_idle(); }. */
 void board_idle(void);
 

@@ -87,6 +87,11 @@ bus_status_t bus_poll(bus_answer_t *answer)
     return bus_core_poll(&core, clock_now(), answer);
 }
 
+bool bus_has_news(void)
+{
+    return bus_core_has_news(&core);
+}
+
 bus_status_t bus_wait(bus_answer_t *answer)
 {
     bus_status_t status;

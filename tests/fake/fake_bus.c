@@ -324,6 +324,11 @@ bus_status_t bus_poll(bus_answer_t *answer)
     return result;
 }
 
+bool bus_has_news(void)
+{
+    return pending_size != 0;
+}
+
 bus_status_t bus_wait(bus_answer_t *answer)
 {
     bus_status_t status;

@@ -44,10 +44,12 @@ def bus_counts(board):
     return dict(zip(names, struct.unpack("<IIHHHHHHHHH", bytes(board.ram[address:address + 26]))))
 
 
-def walker(kind="cm5", servos=range(31), **prepared):
-    """A walking robot; prepared: control table values of all servos, by address."""
+def walker(kind="cm5", servos=range(31), deaf=(), table=()):
+    """A walking robot. deaf: IDs of DX-117, which ignore SYNC WRITE; table: (address, value) written to all servos."""
     board = Board(kind=kind, images=[f"tests/hal_walker_{kind}.hex"], servos=servos)
-    for address, value in prepared.get("table", {}).items():
+    for number in deaf:
+        board.servos.add(number, model="dx117", rate=1_000_000)
+    for address, value in table:
         for servo in board.servos:
             servo.write(address, [value])
     board.expect("walking", ms=3000)
@@ -159,7 +161,7 @@ def test_hold_keeps_the_pc_silent():
 @pytest.mark.parametrize("return_delay", [0, 250, 254])
 def test_turn_round_loses_no_answer(kind, return_delay):
     """With a return delay of 0 a servo answers within 20 us of our last stop bit."""
-    board = walker(kind, servos=range(1, 19), table={5: return_delay})
+    board = walker(kind, servos=range(1, 19), table=[(5, return_delay)])
     before = bus_counts(board)
     board.run(ticks=500)
     counts = bus_counts(board)
@@ -208,6 +210,32 @@ def test_errors_of_a_servo_are_named_within_a_second(fault, bit):
     assert word(board, "walker_faults", 1) > faults
     assert word(board, "walker_fault_id", 1) == 9
     assert word(board, "walker_fault_kind", 1) in (3, 4)
+
+
+@pytest.mark.parametrize("return_delay, count, late", [(250, 6, False), (0, 18, False), (250, 18, True)])
+def test_servos_deaf_to_sync_write_follow_all_the_same(return_delay, count, late):
+    """REG WRITE to each and one ACTION: 0.7 ms each, 0.2 ms with a return delay of 0. What does not fit into a tick goes
+    on in the next, and is counted."""
+    board = walker(servos=[20, 21], deaf=range(1, count + 1), table=[(5, return_delay)])
+    seen = {number: set() for number in range(1, count + 1)}
+    for _ in range(120):
+        board.run(ticks=1)
+        for number, goals in seen.items():
+            goals.add(board.servos[number].goal)
+    fewest = min(len(goals) for goals in seen.values())
+    assert fewest > 110 if not late else 40 < fewest < 110
+    assert (word(board, "walker_late", 1) > 0) == late
+    assert word(board, "walker_missed") == 0
+
+
+def test_slow_servos_are_left_alone():
+    board = Board(images=["tests/hal_walker_cm5.hex"], servos=[1])
+    board.servos.add(7, model="dx117")
+    before = bytes(board.servos[7].table)
+    board.expect("walking", ms=3000)
+    board.run(ms=300)
+    assert bytes(board.servos[7].table)[:24] == before[:24]
+    assert word(board, "walker_faults", 1) == 0
 
 
 # ---- panel ----
@@ -313,6 +341,19 @@ def test_power_cut_at_every_eeprom_write_leaves_old_or_new_settings(capsys):
 
 
 # ---- resets ----
+
+def test_application_takes_over_from_the_boot_loader():
+    """The loader hands over with both UARTs running and receive interrupts enabled (bootloader-original.md, 5)."""
+    board = Board(images=["boot-cm5.hex", "tests/hal_walker_cm5.hex"], servos=range(1, 19))
+    board.eeprom[0xFFF:0x1000] = b"\x11"   # start the application
+    board.send("typed too early")
+    board.expect("walking", ms=3000)
+    board.run(ms=500)
+    assert word(board, "walker_missed") == 0
+    assert word(board, "walker_bytes", 4) == 0
+    assert word(board, "walker_faults", 1) == 0
+
+
 
 def test_hang_ends_in_a_watchdog_reset_that_is_named():
     board = words()

@@ -250,6 +250,21 @@ static void test_bytes_when_nobody_was_asked_are_strays_and_are_tapped(void)
     TEST_ASSERT_EQUAL(3, ring_count(&ring));
 }
 
+static void test_news_are_what_poll_has_not_seen(void)
+{
+    ask(3, 1);
+    TEST_ASSERT_FALSE(bus_core_has_news(&core));
+    leave();
+    TEST_ASSERT_TRUE(bus_core_has_news(&core));
+    (void)poll_after_us(1);
+    TEST_ASSERT_FALSE(bus_core_has_news(&core));
+    hear(good_answer, 1);
+    TEST_ASSERT_TRUE(bus_core_has_news(&core));
+    hear(good_answer + 1, sizeof good_answer - 1);
+    TEST_ASSERT_EQUAL(BUS_OK, poll_after_us(80));
+    TEST_ASSERT_FALSE(bus_core_has_news(&core));
+}
+
 static void test_cancel_gives_the_bus_free_but_not_while_sending(void)
 {
     ask(3, 3);
@@ -323,6 +338,7 @@ int main(void)
     RUN_TEST(test_broken_bytes_name_framing_or_overrun);
     RUN_TEST(test_endless_noise_ends_the_try);
     RUN_TEST(test_bytes_when_nobody_was_asked_are_strays_and_are_tapped);
+    RUN_TEST(test_news_are_what_poll_has_not_seen);
     RUN_TEST(test_cancel_gives_the_bus_free_but_not_while_sending);
     RUN_TEST(test_slow_rate_waits_longer);
     RUN_TEST(test_transmit_complete_after_the_clock_was_read_is_no_timeout);
