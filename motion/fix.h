@@ -21,20 +21,29 @@
 /* Position in servo units of a q12.20 that is not negative: floor. Range 0..2047. The plain expression is pos >> 20. */
 static inline uint16_t fix_pos(int32_t pos_q12_20)
 {
-    return (uint16_t)((uint16_t)((uint32_t)pos_q12_20 >> 16) >> (FIX_POS_BITS - 16));
+    return shift_u16_right4((uint16_t)((uint32_t)pos_q12_20 >> 16));
 }
 
-/* 2^31 / ticks, ticks 1..65535: what fix_mean multiplies by. Floor; one 32-bit division. */
-static inline uint32_t fix_recip31(uint16_t ticks)
+static inline int32_t fix_from_pos(uint16_t pos)
 {
-    return 0x80000000u / ticks;
+    return (int32_t)((uint32_t)shift_u16_left4(pos) << 16);
 }
 
-/* Mean speed q12.20 of a way 0..2047 over the ticks of fix_recip31. Floor of the product; relative error below
- * ticks * 2^-31. */
-static inline uint32_t fix_mean(uint16_t way, uint32_t recip31)
+/* start + one of these, then fix_pos: nearest, halves up or down. With the first for motions up and the second for those
+ * down, mirrored motions are rounded to mirrored positions. */
+#define FIX_ROUND_UP (FIX_POS_ONE / 2)
+#define FIX_ROUND_DOWN (FIX_POS_ONE / 2 - 1)
+
+/* 2^28 / ticks, ticks 1..65535: what fix_mean multiplies by. Floor; one 32-bit division. */
+static inline uint32_t fix_recip28(uint16_t ticks)
 {
-    return mul_u32_u16_shift16(recip31, (uint16_t)(way << 5));
+    return 0x10000000u / ticks;
+}
+
+/* Mean speed q12.20 of a way 0..2047 over the ticks of fix_recip28. Floor; relative error below ticks * 2^-28. */
+static inline uint32_t fix_mean(uint16_t way, uint32_t recip28)
+{
+    return mul_u32_u16_shift8(recip28, way);
 }
 
 /* value * share, floor; error below value * 2^-16 + 1. No overflow. */
@@ -53,11 +62,16 @@ static inline uint16_t fix_ratio(uint16_t part, uint16_t whole)
 }
 
 /* One over a ramp of 1..255 ticks, for fix_by_ramp: 2^16 / ticks below 16 ticks, 2^20 / ticks from there on, so that at
- * least 12 bits are significant. */
+ * least 12 bits are significant; a little less than that (at most 2^-12 of it). Two 16-bit divisions. */
 #define FIX_LONG_RAMP 16u
 static inline uint16_t fix_ramp_recip(uint8_t ticks)
 {
-    return ticks < FIX_LONG_RAMP ? fix_ratio(1, ticks) : fix_ratio(FIX_LONG_RAMP, ticks);
+    uint16_t quotient = (uint16_t)(UINT16_MAX / ticks);
+    if (ticks < FIX_LONG_RAMP) {
+        return quotient;
+    }
+    uint16_t remainder = (uint16_t)(UINT16_MAX - quotient * ticks);
+    return (uint16_t)(quotient * 16u + (remainder * 16u) / ticks);
 }
 
 /* speed / ticks, floor, relative error below 2^-12. */

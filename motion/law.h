@@ -19,8 +19,12 @@ enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
 /* Goes on to the coming step, and finds the one after it; at the last step of a page that means deciding the link.
  * step: receives the 64 bytes of the step to look at for joints that run through (classic: of the page that the link
  * names; exact: of the step that will really be played). Valid when player_looks_ahead.
- * Returns PLAYER_EV_STEP and what belongs to it. Call only while player->coming.page is not 0. */
+ * Returns PLAYER_EV_LINK or 0. Call only while player->coming.page is not 0. */
 uint8_t player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES]);
+
+/* Makes `now` public. Returns PLAYER_EV_STEP and what belongs to it. */
+uint8_t player_announce(player_t *player);
+
 bool player_looks_ahead(const player_t *player);
 
 /* Work that may wait for a quiet tick: compares the compliance of two pages. */
@@ -32,15 +36,19 @@ uint8_t player_end(player_t *player);
 /* false while the rest of an interrupted step is played. */
 bool player_is_in_law(const player_t *player);
 
-/* `joint`'s bit in a mask. */
-bool law_has_joint(uint32_t mask, uint8_t joint);
+/* The longest way that a present joint has to go in the coming step, from its coming_pos, which is still that of the
+ * step before. */
+uint16_t law_longest_way(const player_t *player, const uint8_t step[PAGE_STEP_BYTES]);
 
 /* Both laws. start: every joint stands on target_pos = coming_pos = goal_pos (`step`: the bytes of the first step).
  * tick: one tick, PLAYER_EV_ bits. freeze: leaves pos and speed of every joint in the words of the exact law, and the
  * ticks that the step still had in player->step_ticks - player->tick. */
-void exact_start(player_t *player, const uint8_t step[PAGE_STEP_BYTES]);
+void exact_start(player_t *player, link_t *link, const uint8_t step[PAGE_STEP_BYTES]);
 uint8_t exact_tick(player_t *player, link_t *link);
 void exact_freeze(player_t *player);
+/* Events of a step that was to begin with the next tick, when that is played as a rest. */
+uint8_t exact_held_events(player_t *player);
+bool classic_is_here(void);
 void classic_start(player_t *player);
 uint8_t classic_tick(player_t *player, link_t *link);
 void classic_freeze(player_t *player);
@@ -52,7 +60,11 @@ uint8_t law_brake_ticks(const player_t *player);
 void brake_start(player_t *player);
 bool brake_tick(player_t *player);
 
-/* The rest of an interrupted step, from a stand to target_pos, by the exact law whatever the play's. Start returns false
+/* One tick's way at the present speed and acceleration of every joint. */
+void exact_move(player_t *player);
+
+/* The rest of an interrupted step, from a stand to target_pos, by the exact law whatever the play's, in the ticks that the
+ * step still had, but at least in those that slowing down took. Start returns false
  * when there is nothing left to do; a tick false when it was the last, on target. */
 bool exact_rest_start(player_t *player);
 bool exact_rest_tick(player_t *player);

@@ -129,36 +129,18 @@ static uint16_t through_divisor(const player_t *player)
     return ticks == 0 ? 1 : (uint16_t)(4 * ticks - 2 * player->coming_ramp_ticks);
 }
 
-static uint16_t read_word(const player_t *player, uint8_t joint, const uint8_t *word)
+/* Length and ramp of the coming step; 2^32 over the divisors. */
+static void measure_coming(player_t *player, uint16_t longest_way)
 {
-    uint16_t pos = page_word(word);
-    return page_pos_is_used(pos) && law_has_joint(player->present, joint) ? pos : player->joint[joint].target_pos;
-}
-
-/* Length and ramp of the coming step, whose words are in `step`; and which joints it drives. */
-static void measure_coming(player_t *player, const uint8_t step[PAGE_STEP_BYTES])
-{
-    uint16_t longest = 0;
-    uint32_t used = 0;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        uint16_t word = page_word(&step[2 * i]);
-        if (page_pos_is_used(word) && law_has_joint(player->present, i)) {
-            used |= (uint32_t)1 << i;
-            uint16_t way = fix_size((int16_t)(word - player->joint[i].target_pos));
-            longest = way > longest ? way : longest;
-        }
-    }
-    player->coming_joints = used;
-    player->coming_ticks = step_plan_classic_ticks(&player->coming, longest);
+    player->coming_ticks = step_plan_classic_ticks(&player->coming, longest_way);
     player->coming_ramp_ticks = step_plan_classic_ramp(player->coming.accel_time, &player->coming_ticks);
     player->coming_recip = UINT32_MAX / stop_divisor(player);
     player->through_recip = UINT32_MAX / through_divisor(player);
 }
 
-static void prepare_joint(player_t *player, player_joint_t *joint, uint16_t pos, int16_t carried)
+static void prepare_joint(const player_t *player, player_joint_t *joint, int16_t carried)
 {
-    joint->coming_pos = pos;
-    int32_t num = way_in_speed_units((int16_t)(pos - joint->target_pos));
+    int32_t num = way_in_speed_units((int16_t)(joint->coming_pos - joint->target_pos));
     if (carried != 0) {
         num -= (int32_t)carried * (2 * player->coming_ramp_ticks);
     }
@@ -166,24 +148,48 @@ static void prepare_joint(player_t *player, player_joint_t *joint, uint16_t pos,
     joint->through_speed = divide_speed(num, through_divisor(player), player->through_recip);
 }
 
-/* Makes up to `count` more joints of the coming step ready. */
-static void prepare(player_t *player, uint8_t count)
+/* Reads the coming step: length, ramp, targets. */
+static void look_at_coming(player_t *player)
 {
-    if (player->coming.page == 0 || player->prepared >= PAGE_JOINTS || count == 0) {
-        return;
-    }
     uint8_t step[PAGE_STEP_BYTES];
     player->source->read(player->source->context, player->coming.page,
                          (uint16_t)(PAGE_STEP_BYTES * player->coming.step), step, PAGE_STEP_BYTES);
+    measure_coming(player, player->coming.schedule == PAGE_SCHEDULE_SPEED ? law_longest_way(player, step) : 0);
+    player->coming_joints = 0;
+    const uint8_t *word = step;
+    uint32_t bit = 1;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, word += 2, bit <<= 1) {
+        uint16_t pos = page_word(word);
+        if (page_pos_is_used(pos) && (player->present & bit) != 0) {
+            player->coming_joints |= bit;
+            joint->coming_pos = pos;
+        }
+    }
+}
+
+/* Goes on making the coming step ready: looks at it, or does up to `count` more joints. player->prepared counts both. */
+#define PREPARED_ALL (1u + PAGE_JOINTS)
+static void prepare(player_t *player, uint8_t count)
+{
+    if (player->coming.page == 0 || player->prepared >= PREPARED_ALL) {
+        return;
+    }
     if (player->prepared == 0) {
-        measure_coming(player, step);
+        look_at_coming(player);
+        player->prepared = 1;
+        return;
     }
     bool moving = player_is_in_law(player);
-    for (; count != 0 && player->prepared < PAGE_JOINTS; count--, player->prepared++) {
-        player_joint_t *joint = &player->joint[player->prepared];
-        prepare_joint(player, joint, read_word(player, player->prepared, &step[2 * player->prepared]),
-                      moving ? speed_left(player, joint) : 0);
+    for (; count != 0 && player->prepared < PREPARED_ALL; count--) {
+        player_joint_t *joint = &player->joint[player->prepared++ - 1];
+        prepare_joint(player, joint, moving ? speed_left(player, joint) : 0);
     }
+}
+
+static void prepare_all(player_t *player)
+{
+    prepare(player, PAGE_JOINTS);
+    prepare(player, PAGE_JOINTS); /* in case the first one only looked */
 }
 
 /* --- sections ---------------------------------------------------------------------------------------------------- */
@@ -228,8 +234,9 @@ static void share_out_work(player_t *player)
 static uint8_t begin_step(player_t *player, link_t *link)
 {
     uint8_t step[PAGE_STEP_BYTES];
-    prepare(player, PAGE_JOINTS);
+    prepare_all(player);
     uint8_t events = player_next_step(player, link, step);
+    events |= player_announce(player);
     uint8_t ramp = player->coming_ramp_ticks;
     uint16_t recip16 = ramp == 0 ? 0 : fix_recip16(ramp);
     uint16_t hold = step_plan_classic_hold(&player->now);
@@ -237,7 +244,7 @@ static uint8_t begin_step(player_t *player, link_t *link)
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         player_joint_t *joint = &player->joint[i];
         uint16_t word = page_word(&step[2 * i]);
-        bool through = may_run_on && page_pos_is_used(word) && runs_on(joint, word) && law_has_joint(player->present, i);
+        bool through = may_run_on && page_pos_is_used(word) && runs_on(joint, word);
         player->goal_pos[i] = joint->target_pos;
         begin_joint(joint, speed_left(player, joint), through, ramp, recip16);
     }
@@ -387,13 +394,18 @@ static uint8_t next_section(player_t *player, link_t *link)
     return begin_step(player, link);
 }
 
+bool classic_is_here(void)
+{
+    return true;
+}
+
 void classic_start(player_t *player)
 {
     player->step_ticks = player->hold_ticks = 0;
     player->ramp_ticks = 0;
     player->prepared = 0;
     enter(player, SECTION_HOLD, 0);
-    prepare(player, PAGE_JOINTS);
+    prepare_all(player);
 }
 
 uint8_t classic_tick(player_t *player, link_t *link)
@@ -437,8 +449,8 @@ static uint16_t ticks_left(const player_t *player)
     }
 }
 
-/* Speed at this moment, q12.20. recip31: 2^31 / section_ticks */
-static int32_t speed_now(const player_t *player, const player_joint_t *joint, uint32_t recip31)
+/* Speed at this moment, q12.20. recip28: 2^28 / section_ticks */
+static int32_t speed_now(const player_t *player, const player_joint_t *joint, uint32_t recip28)
 {
     if (player->section == SECTION_HOLD || player->section_ticks == 0) {
         return 0;
@@ -447,18 +459,19 @@ static int32_t speed_now(const player_t *player, const player_joint_t *joint, ui
         return (int32_t)(joint->classic.carried + joint->classic.value) * SPEED_UNIT_Q12_20;
     }
     int32_t speed = ((int32_t)fix_size(joint->classic.quotient) << FIX_POS_BITS) +
-                    (int32_t)(mul_u32_u16_shift16(recip31, joint->classic.remainder) << 5);
+                    (int32_t)fix_mean(joint->classic.remainder, recip28);
     return joint->classic.main < 0 ? -speed : speed;
 }
 
 void classic_freeze(player_t *player)
 {
-    uint32_t recip31 = player->section_ticks == 0 ? 0 : fix_recip31(player->section_ticks);
+    uint32_t recip28 = player->section_ticks == 0 ? 0 : fix_recip28(player->section_ticks);
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         player_joint_t *joint = &player->joint[i];
-        int32_t speed = speed_now(player, joint, recip31);
+        int32_t speed = speed_now(player, joint, recip28);
         joint->exact.pos_q12_20 = ((int32_t)player->goal_pos[i] << FIX_POS_BITS) + FIX_POS_ONE / 2;
         joint->exact.speed_q12_20 = speed;
+        joint->coming_pos = joint->target_pos; /* not looked at yet */
     }
     player->step_ticks = ticks_left(player);
     if (player->section != SECTION_HOLD) {

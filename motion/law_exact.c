@@ -13,98 +13,80 @@
  * truth, going down a hair less, so that plain floor rounds to nearest, and mirrored motions mirror.
  *
  * Ranges: way 0..1023; mean speed m = way / N; w0, w1 <= m; v = m + (m - (w0 + w1) / 2) * A / (N - A) <= 2 m <= 2046. */
+#include <string.h>
 #include "fix.h"
 #include "law.h"
 #include "step_plan.h"
 
-#define ROUND_UP (FIX_POS_ONE / 2)       /* start + this, then floor: nearest, halves up */
-#define ROUND_DOWN (FIX_POS_ONE / 2 - 1) /* nearest, halves down */
+/* Loops over all joints: a quarter fewer cycles for 0.4 KiB of flash. */
+#define FAST __attribute__((noinline))
+#pragma GCC optimize("O2")
+
+/* Kept out of line, so that an ordinary tick does not save registers for what happens once a step. */
+#define RARE __attribute__((noinline))
+
 
 static int16_t way_between(uint16_t from_pos, uint16_t to_pos)
 {
     return (int16_t)((int16_t)to_pos - (int16_t)from_pos);
 }
 
-static bool same_direction(int16_t a, int16_t b)
+/* For ways that are not 0. */
+static inline bool same_direction(int16_t a, int16_t b)
 {
-    return (a > 0 && b > 0) || (a < 0 && b < 0);
+    return (a ^ b) >= 0;
 }
 
-/* Where the coming step takes joint `index`: its word, or where it is when the step does not use it. */
-static uint16_t coming_target(player_t *player, uint8_t index, const uint8_t step[PAGE_STEP_BYTES])
-{
-    uint16_t word = page_word(&step[2 * index]);
-    if (!page_pos_is_used(word) || !law_has_joint(player->present, index)) {
-        return player->joint[index].target_pos;
-    }
-    player->coming_joints |= (uint32_t)1 << index;
-    return word;
-}
+/* What planning a joint needs of its step. */
+typedef struct {
+    uint16_t share_q0_16, ramp_recip;
+    uint8_t ramp_ticks;
+} ramp_t;
 
-static uint16_t longest_way(const player_t *player, const uint8_t step[PAGE_STEP_BYTES])
+/* RISE, and the speed of CRUISE, of a step from from_pos to target_pos at `mean` speed, from speed `entry` to exit. */
+static inline void plan_joint(player_joint_t *joint, ramp_t ramp, uint16_t from_pos, uint32_t mean, uint32_t entry)
 {
-    uint16_t longest = 0;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        uint16_t word = page_word(&step[2 * i]);
-        if (page_pos_is_used(word) && law_has_joint(player->present, i)) {
-            uint16_t way = fix_size(way_between(player->joint[i].target_pos, word));
-            longest = way > longest ? way : longest;
-        }
-    }
-    return longest;
-}
-
-/* Length of the coming step. The joints' target_pos is where it starts. */
-static void measure_coming(player_t *player, const uint8_t step[PAGE_STEP_BYTES])
-{
-    uint16_t longest = player->coming.schedule == PAGE_SCHEDULE_SPEED ? longest_way(player, step) : 0;
-    player->coming_ticks = step_plan_exact_ticks(&player->coming, longest, &player->carry_q5_11);
-    player->coming_recip = fix_recip31(player->coming_ticks);
-    player->coming_joints = 0;
-}
-
-static void look_at_coming(player_t *player, uint8_t index, const uint8_t step[PAGE_STEP_BYTES])
-{
-    player_joint_t *joint = &player->joint[index];
-    joint->coming_pos = coming_target(player, index, step);
-    joint->mean_q12_20 = fix_mean(fix_size(way_between(joint->target_pos, joint->coming_pos)), player->coming_recip);
-}
-
-/* RISE and all that is known of the step, from a start at `from_pos` with speed w0 = exit of the last step. */
-static void plan_joint(const player_t *player, player_joint_t *joint, uint16_t from_pos, uint32_t mean, uint32_t entry)
-{
-    uint32_t accel = 0, speed, cruise = mean;
-    if (player->ramp_ticks != 0) {
+    uint32_t size = 0, cruise = mean;
+    int32_t speed = (int32_t)mean;
+    if (ramp.ramp_ticks != 0 && mean != 0) {
         uint32_t border = (entry + joint->exact.exit_q12_20) >> 1;
-        cruise = mean + fix_share(mean - border, player->share_q0_16);
-        accel = fix_by_ramp(cruise - entry, player->ramp_recip, player->ramp_ticks);
-        speed = entry + (accel >> 1);
-    } else {
-        speed = mean;
+        cruise += fix_share(mean - border, ramp.share_q0_16);
+        size = fix_by_ramp(cruise - entry, ramp.ramp_recip, ramp.ramp_ticks);
+        speed = (int32_t)(entry + (size >> 1));
     }
     joint->exact.cruise_q12_20 = cruise;
-    bool down = joint->target_pos < from_pos;
-    joint->exact.pos_q12_20 = ((int32_t)from_pos << FIX_POS_BITS) + (down ? ROUND_DOWN : ROUND_UP);
-    joint->exact.speed_q12_20 = down ? -(int32_t)speed : (int32_t)speed;
-    joint->exact.accel_q12_20 = down ? -(int32_t)accel : (int32_t)accel;
+    int32_t accel = (int32_t)size, pos = fix_from_pos(from_pos) + FIX_ROUND_UP;
+    if (joint->target_pos < from_pos) {
+        pos--;
+        speed = -speed;
+        accel = -accel;
+    }
+    joint->exact.pos_q12_20 = pos;
+    joint->exact.speed_q12_20 = speed;
+    joint->exact.accel_q12_20 = accel;
 }
 
-/* Speed at the way-point between a step of way `way` and the coming one. */
-static uint32_t exit_speed(const player_joint_t *joint, int16_t way, uint32_t mean)
+static inline uint16_t move_joint(player_joint_t *joint)
 {
-    if (!same_direction(way, way_between(joint->target_pos, joint->coming_pos))) {
-        return 0;
-    }
-    return mean < joint->mean_q12_20 ? mean : joint->mean_q12_20;
+    int32_t speed = joint->exact.speed_q12_20;
+    int32_t pos = joint->exact.pos_q12_20 + speed;
+    joint->exact.pos_q12_20 = pos;
+    joint->exact.speed_q12_20 = speed + joint->exact.accel_q12_20;
+    return fix_pos(pos);
 }
 
-static void set_ramp(player_t *player, uint8_t ramp_ticks)
+static uint16_t share_of(const player_step_t *step, uint16_t ticks)
 {
-    player->ramp_ticks = ramp_ticks;
-    if (ramp_ticks != 0) {
-        player->share_q0_16 = fix_ratio(ramp_ticks, (uint16_t)(player->step_ticks - ramp_ticks));
-        player->ramp_recip = fix_ramp_recip(ramp_ticks);
-    }
+    uint8_t ramp_ticks = step_plan_exact_ramp(step->accel_time, ticks);
+    return ramp_ticks == 0 ? 0 : fix_ratio(ramp_ticks, (uint16_t)(ticks - ramp_ticks));
+}
+
+/* share_q0_16: of `now`, or 0 when nobody has made it yet. */
+static void set_ramp(player_t *player, uint16_t share_q0_16)
+{
+    player->share_q0_16 = share_q0_16 != 0 ? share_q0_16 : share_of(&player->now, player->step_ticks);
+    player->ramp_ticks = step_plan_exact_ramp(player->now.accel_time, player->step_ticks);
+    player->ramp_recip = player->ramp_ticks == 0 ? 0 : fix_ramp_recip(player->ramp_ticks);
 }
 
 static bool runs_through(const player_t *player)
@@ -112,35 +94,150 @@ static bool runs_through(const player_t *player)
     return player_looks_ahead(player) && player->now.pause == 0;
 }
 
-static uint8_t begin_step(player_t *player, link_t *link)
+static ramp_t ramp_of(const player_t *player)
+{
+    return (ramp_t){player->share_q0_16, player->ramp_recip, player->ramp_ticks};
+}
+
+/* Between two steps (`primed`) a joint has: in mean still the mean speed of the step to begin, in cruise that of the
+ * coming one; in speed the speed it comes with, in exit the speed it is to leave with. Plans the step and makes its first
+ * tick. */
+FAST static void begin_joints(player_t *player)
+{
+    ramp_t ramp = ramp_of(player);
+    uint16_t *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        uint32_t mean = joint->mean_q12_20;
+        joint->mean_q12_20 = joint->exact.cruise_q12_20;
+        plan_joint(joint, ramp, *goal, mean, (uint32_t)joint->exact.speed_q12_20);
+        *goal++ = move_joint(joint);
+    }
+}
+
+/* Sets all joints on their targets, which makes the step to begin that from goal_pos to target_pos, and takes the coming
+ * one's from its 64 bytes. Returns the longest way of a joint in it. */
+FAST static uint16_t shift_targets(player_t *player, const uint8_t step[PAGE_STEP_BYTES])
+{
+    uint16_t *goal = player->goal_pos, longest = 0;
+    const uint8_t *present = (const uint8_t *)&player->present;
+    uint8_t *used = (uint8_t *)&player->coming_joints, may = 0, bit = 0;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        uint16_t target = joint->coming_pos, word = page_word(step);
+        step += 2;
+        *goal++ = joint->target_pos;
+        joint->target_pos = target;
+        if (bit == 0) {
+            bit = 1;
+            may = *present++;
+            *used++ = 0;
+        }
+        if (page_pos_is_used(word) && (may & bit) != 0) {
+            uint16_t way = (uint16_t)(word >= target ? word - target : target - word);
+            joint->coming_pos = word;
+            used[-1] |= bit;
+            longest = way > longest ? way : longest;
+        }
+        bit = (uint8_t)(bit << 1);
+    }
+    return longest;
+}
+
+/* The way-point between the step to begin and the coming one: mean speed of the latter, speeds before and behind. */
+FAST static void join_steps(player_t *player)
+{
+    uint32_t recip = player->coming_recip;
+    bool may_run_on = runs_through(player);
+    const uint16_t *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        uint16_t target = joint->target_pos;
+        int16_t way = way_between(*goal++, target), coming_way = way_between(target, joint->coming_pos);
+        uint32_t coming_mean = 0, exit = 0;
+        joint->exact.speed_q12_20 = (int32_t)joint->exact.exit_q12_20;
+        if (coming_way != 0) {
+            coming_mean = fix_mean(fix_size(coming_way), recip);
+            if (may_run_on && same_direction(way, coming_way)) {
+                uint32_t mean = joint->mean_q12_20; /* 0 when the joint comes from a stand */
+                exit = mean < coming_mean ? mean : coming_mean;
+            }
+        }
+        joint->exact.cruise_q12_20 = coming_mean;
+        joint->exact.exit_q12_20 = exit;
+    }
+}
+
+/* Looks at the coming step. */
+static void look_at_coming(player_t *player, const uint8_t step[PAGE_STEP_BYTES])
+{
+    uint16_t longest = shift_targets(player, step);
+    if (player->coming.page != 0) {
+        player->coming_ticks = step_plan_exact_ticks(&player->coming, longest, &player->carry_q5_11);
+        player->coming_recip = fix_recip28(player->coming_ticks);
+    }
+    join_steps(player);
+}
+
+/* Behind the last tick of a step (or of its pause): the next one becomes `now`, which decides the link of a page's last
+ * step; the one after it is looked at. This is half of the work of a step's beginning; begin_step is the other. */
+RARE static void prime(player_t *player, link_t *link)
 {
     uint8_t step[PAGE_STEP_BYTES];
     player->step_ticks = player->coming_ticks;
-    uint8_t events = player_next_step(player, link, step);
-    set_ramp(player, step_plan_exact_ramp(player->now.accel_time, player->step_ticks));
-    player->hold_ticks = step_plan_exact_hold(&player->now, &player->carry_q5_11);
     player->tick = 0;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player->joint[i].target_pos = player->joint[i].coming_pos;
+    player->primed = true;
+    player->held_events = player_next_step(player, link, step);
+    player->hold_ticks = step_plan_exact_hold(&player->now, &player->carry_q5_11);
+    if (!player_looks_ahead(player)) {
+        memset(step, PAGE_POS_UNUSED >> 8, sizeof step);
     }
-    bool ahead = player_looks_ahead(player);
-    if (ahead) {
-        measure_coming(player, step);
+    look_at_coming(player, step);
+}
+
+/* Sets the joints on their targets. When the next step is primed in the same tick, that does it. */
+static void land(player_t *player)
+{
+    if (player->hold_ticks == 0 && player->coming.page != 0 && player_is_in_law(player)) {
+        return;
     }
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player_joint_t *joint = &player->joint[i];
-        uint32_t mean = joint->mean_q12_20, entry = joint->exact.exit_q12_20;
-        uint16_t from_pos = player->goal_pos[i];
-        if (ahead) {
-            look_at_coming(player, i, step);
-        }
-        joint->exact.exit_q12_20 = runs_through(player) ? exit_speed(joint, way_between(from_pos, joint->target_pos), mean) : 0;
-        plan_joint(player, joint, from_pos, mean, entry);
+    uint16_t *goal = player->goal_pos;
+    for (const player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        *goal++ = joint->target_pos;
     }
+}
+
+/* What begin_joints does for a step of one tick, which needs no plan. */
+static void shift_means(player_t *player)
+{
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        joint->mean_q12_20 = joint->exact.cruise_q12_20;
+    }
+}
+
+uint8_t exact_held_events(player_t *player)
+{
+    if (!player->primed) {
+        return 0;
+    }
+    player->primed = false;
+    return player->held_events | player_announce(player);
+}
+
+/* The tick after: plans what is known now. */
+RARE static uint8_t begin_step(player_t *player)
+{
+    uint8_t events = exact_held_events(player);
+    player->tick = 1;
+    if (player->step_ticks == 1) {
+        shift_means(player);
+        land(player);
+    } else {
+        set_ramp(player, player->coming_share_q0_16);
+        begin_joints(player);
+    }
+    player->coming_share_q0_16 = 0;
     return events;
 }
 
-static void begin_cruise(player_t *player)
+RARE static void begin_cruise(player_t *player)
 {
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         int32_t cruise = (int32_t)joint->exact.cruise_q12_20;
@@ -149,7 +246,7 @@ static void begin_cruise(player_t *player)
     }
 }
 
-static void begin_fall(player_t *player)
+RARE static void begin_fall(player_t *player)
 {
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         uint32_t cruise = joint->exact.cruise_q12_20;
@@ -161,155 +258,150 @@ static void begin_fall(player_t *player)
     }
 }
 
-static void move(player_t *player)
+void exact_move(player_t *player)
+{
+    uint16_t *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        *goal++ = move_joint(joint);
+    }
+}
+
+/* In CRUISE, where no speed changes. */
+FAST static void move_on(player_t *player)
 {
     uint16_t *goal = player->goal_pos;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         int32_t pos = joint->exact.pos_q12_20 + joint->exact.speed_q12_20;
         joint->exact.pos_q12_20 = pos;
-        joint->exact.speed_q12_20 += joint->exact.accel_q12_20;
         *goal++ = fix_pos(pos);
-    }
-}
-
-static void land(player_t *player)
-{
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player->goal_pos[i] = player->joint[i].target_pos;
     }
 }
 
 bool exact_rest_tick(player_t *player)
 {
+    if (player->tick == 0) { /* only a rest begins here; a step begins in begin_step */
+        set_ramp(player, 0);
+        begin_joints(player);
+        player->tick = 1;
+        return true;
+    }
     uint16_t tick = ++player->tick;
     if (tick >= player->step_ticks) {
         land(player);
         return false;
     }
-    uint16_t before_fall = (uint16_t)(player->step_ticks - player->ramp_ticks);
-    if (player->ramp_ticks != 0) {
-        if (tick == before_fall + 1u) {
+    uint8_t ramp = player->ramp_ticks;
+    uint16_t fall = (uint16_t)(player->step_ticks - ramp);
+    if (tick > fall) {
+        if (tick == fall + 1u) {
             begin_fall(player);
-        } else if (tick == player->ramp_ticks + 1u) {
+        }
+        exact_move(player);
+    } else if (tick > ramp) {
+        if (tick == ramp + 1u) {
             begin_cruise(player);
         }
+        move_on(player);
+    } else {
+        exact_move(player);
     }
-    move(player);
     return true;
 }
 
-void exact_start(player_t *player, const uint8_t step[PAGE_STEP_BYTES])
+static bool is_on_target(const player_t *player)
+{
+    const uint16_t *goal = player->goal_pos;
+    for (const player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        if (joint->target_pos != *goal++) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void exact_start(player_t *player, link_t *link, const uint8_t step[PAGE_STEP_BYTES])
 {
     player->carry_q5_11 = STEP_PLAN_CARRY_START;
-    player->step_ticks = player->hold_ticks = player->tick = 0;
-    player->ramp_ticks = 0;
-    measure_coming(player, step);
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        look_at_coming(player, i, step);
+    player->coming_share_q0_16 = 0;
+    player->look_page = 0;
+    look_at_coming(player, step);
+    shift_means(player);
+    prime(player, link);
+}
+
+/* true when the step and its pause are used up. */
+static bool is_over(const player_t *player)
+{
+    return player->tick >= (uint16_t)(player->step_ticks + player->hold_ticks);
+}
+
+/* What the coming step needs and a tick with little to do can do for it. */
+RARE static void quiet_work(player_t *player)
+{
+    player_quiet_work(player);
+    if (player->coming.page != 0) {
+        uint16_t share = share_of(&player->coming, player->coming_ticks);
+        player->coming_share_q0_16 = share != 0 ? share : 1;
     }
 }
 
 uint8_t exact_tick(player_t *player, link_t *link)
 {
-    uint8_t events = 0;
-    uint16_t last = (uint16_t)(player->step_ticks + player->hold_ticks);
-    if (player->tick >= last) {
-        events = begin_step(player, link);
-        last = (uint16_t)(player->step_ticks + player->hold_ticks);
-    } else {
-        player_quiet_work(player);
+    uint8_t events = PLAYER_EV_OUTPUT;
+    if (!player->primed && is_over(player)) { /* behind the rest of an interrupted step */
+        if (player->coming.page == 0) {
+            return player_end(player);
+        }
+        prime(player, link);
     }
-    if (player->tick < player->step_ticks) {
+    if (player->primed) {
+        events |= begin_step(player);
+    } else if (player->tick < player->step_ticks) {
         (void)exact_rest_tick(player);
-        events |= PLAYER_EV_OUTPUT;
     } else {
         player->tick++;
+        events = 0;
     }
-    if (player->tick == last && player->coming.page == 0) {
+    if (!is_over(player)) {
+        if (player->coming_share_q0_16 == 0 && (events & PLAYER_EV_STEP) == 0) {
+            quiet_work(player);
+        }
+    } else if (player->coming.page == 0) {
         events |= player_end(player);
+    } else {
+        prime(player, link);
     }
     return events;
 }
 
-/* --- slowing down and going on ----------------------------------------------------------------------------------- */
+/* --- the rest of an interrupted step ------------------------------------------------------------------------------ */
 
-void exact_freeze(player_t *player)
-{
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player_joint_t *joint = &player->joint[i];
-        int32_t speed = joint->exact.speed_q12_20 - joint->exact.accel_q12_20 / 2;
-        if (player->tick >= player->step_ticks) { /* on target: the speed is that of the way-point */
-            bool down = joint->coming_pos < joint->target_pos;
-            speed = (int32_t)joint->exact.exit_q12_20;
-            speed = down ? -speed : speed;
-            joint->exact.pos_q12_20 = ((int32_t)joint->target_pos << FIX_POS_BITS) + (down ? ROUND_DOWN : ROUND_UP);
-        }
-        joint->exact.speed_q12_20 = speed;
-    }
-}
-
-/* The rest of a step takes the time it still had, but at least as long as slowing down did. Standing on the target
- * already (between steps, in a pause) there is nothing to do. */
+/* Leaves every joint as between two steps, with the rest of the step as the one to begin. */
 bool exact_rest_start(player_t *player)
 {
+    bool exact = player->law == PLAYER_LAW_EXACT, may_run_on = exact && runs_through(player);
     uint16_t ticks = (uint16_t)(player->tick < player->step_ticks ? player->step_ticks - player->tick : 0);
-    bool on_target = true;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        on_target = on_target && player->goal_pos[i] == player->joint[i].target_pos;
-    }
-    if (ticks == 0 && on_target) {
+    uint8_t braked = law_brake_ticks(player);
+    if (ticks == 0 && is_on_target(player)) {
         return false;
     }
-    uint8_t braked = law_brake_ticks(player);
+    if (exact && player->primed) {
+        shift_means(player);
+    }
     player->step_ticks = ticks < braked ? braked : ticks;
     player->tick = 0;
-    set_ramp(player, step_plan_exact_ramp(player->now.accel_time, player->step_ticks));
-    uint32_t recip = fix_recip31(player->step_ticks);
-    bool through = player->law == PLAYER_LAW_EXACT && runs_through(player);
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player_joint_t *joint = &player->joint[i];
-        int16_t way = way_between(player->goal_pos[i], joint->target_pos);
-        uint32_t mean = fix_mean(fix_size(way), recip);
-        joint->exact.exit_q12_20 = through ? exit_speed(joint, way, mean) : 0;
-        plan_joint(player, joint, player->goal_pos[i], mean, 0);
+    uint32_t recip = fix_recip28(player->step_ticks);
+    const uint16_t *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        int16_t way = way_between(*goal++, joint->target_pos);
+        uint32_t mean = fix_mean(fix_size(way), recip), coming = joint->mean_q12_20, exit = 0;
+        if (may_run_on && way != 0 && same_direction(way, way_between(joint->target_pos, joint->coming_pos))) {
+            exit = mean < coming ? mean : coming;
+        }
+        joint->mean_q12_20 = mean;
+        joint->exact.cruise_q12_20 = coming;
+        joint->exact.speed_q12_20 = 0;
+        joint->exact.exit_q12_20 = exit;
     }
     return true;
-}
-
-uint8_t law_brake_ticks(const player_t *player)
-{
-    return player->ramp_ticks < BRAKE_TICKS_MIN ? BRAKE_TICKS_MIN : player->ramp_ticks;
-}
-
-void brake_start(player_t *player)
-{
-    player->brake_ticks = law_brake_ticks(player);
-    uint16_t recip = fix_ramp_recip(player->brake_ticks);
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int32_t speed = joint->exact.speed_q12_20;
-        bool down = speed < 0;
-        uint32_t size = (uint32_t)(down ? -speed : speed);
-        int32_t accel = (int32_t)fix_by_ramp(size, recip, player->brake_ticks);
-        joint->exact.accel_q12_20 = down ? accel : -accel;
-        joint->exact.speed_q12_20 = down ? speed + (accel >> 1) : speed - (accel >> 1);
-    }
-}
-
-/* A joint that reaches an end of its range while slowing down stands there. */
-static void keep_in_range(player_joint_t *joint)
-{
-    int32_t pos = joint->exact.pos_q12_20 + joint->exact.speed_q12_20;
-    if (pos < 0 || pos >= (int32_t)(PAGE_POS_MAX + 1) << FIX_POS_BITS) {
-        joint->exact.speed_q12_20 = joint->exact.accel_q12_20 = 0;
-        joint->exact.pos_q12_20 = pos < 0 ? 0 : (int32_t)PAGE_POS_MAX << FIX_POS_BITS;
-    }
-}
-
-bool brake_tick(player_t *player)
-{
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        keep_in_range(joint);
-    }
-    move(player);
-    return --player->brake_ticks != 0;
 }

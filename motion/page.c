@@ -81,11 +81,6 @@ void page_clear(uint8_t page[PAGE_BYTES])
     page_seal(page);
 }
 
-uint16_t page_word(const uint8_t *at)
-{
-    return (uint16_t)(at[0] | ((uint16_t)at[1] << 8));
-}
-
 static uint16_t pos_at(uint8_t step, uint8_t joint)
 {
     return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + 2u * joint);
@@ -101,11 +96,6 @@ void page_set_pos(uint8_t *page, uint8_t step, uint8_t joint, uint16_t word)
     uint16_t at = pos_at(step, joint);
     page[at] = (uint8_t)word;
     page[at + 1] = (uint8_t)(word >> 8);
-}
-
-bool page_pos_is_used(uint16_t word)
-{
-    return (word & (PAGE_POS_UNUSED | PAGE_POS_TORQUE_OFF)) == 0;
 }
 
 uint8_t page_slope(uint8_t nibble)

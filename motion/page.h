@@ -81,14 +81,20 @@ void page_seal(uint8_t page[PAGE_BYTES]);
 void page_clear(uint8_t page[PAGE_BYTES]);
 
 /* The little-endian word that stands at `at`. */
-uint16_t page_word(const uint8_t *at);
+static inline uint16_t page_word(const uint8_t *at)
+{
+    return (uint16_t)(at[0] | (uint16_t)(at[1] << 8));
+}
 
 /* Position word of `joint` in `step` (0..6). */
 uint16_t page_pos(const uint8_t *page, uint8_t step, uint8_t joint);
 void page_set_pos(uint8_t *page, uint8_t step, uint8_t joint, uint16_t word);
 
 /* true when the word drives its joint: neither flag set. */
-bool page_pos_is_used(uint16_t word);
+static inline bool page_pos_is_used(uint16_t word)
+{
+    return ((uint8_t)(word >> 8) & ((PAGE_POS_UNUSED | PAGE_POS_TORQUE_OFF) >> 8)) == 0;
+}
 
 /* Compliance slope register value, 2^nibble, of one nibble 1..7 of the compliance byte (motion512.md). A nibble of 0
  * or above 7 stands for 5, the default. */

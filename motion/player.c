@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "player.h"
+#include <string.h>
 #include "fix.h"
 #include "law.h"
 
@@ -17,21 +18,43 @@ typedef enum { SLOPES_SAME, SLOPES_UNKNOWN, SLOPES_DIFFER } slopes_t;
 
 /* Pages without action that are passed over in one tick before the play gives up. */
 #define PASS_OVER_MAX PAGE_COUNT
-#define HEADER_BYTES 32u /* what stands before the compliance bytes */
+#define ALL_JOINTS 0x7FFFFFFFu
+#define HEADER_BYTES 31u /* up to the checksum */
 
 void player_init(player_t *player, const page_source_t *source)
 {
     *player = (player_t){.source = source, .state = STATE_IDLE};
 }
 
-bool law_has_joint(uint32_t mask, uint8_t joint)
+uint16_t law_longest_way(const player_t *player, const uint8_t step[PAGE_STEP_BYTES])
 {
-    return ((mask >> joint) & 1u) != 0;
+    uint16_t longest = 0;
+    const player_joint_t *joint = player->joint;
+    for (uint32_t present = player->present; present != 0; present >>= 8) {
+        for (uint8_t may = (uint8_t)present, bits = 8; bits != 0; bits--, may >>= 1, joint++, step += 2) {
+            uint16_t word = page_word(step);
+            if ((may & 1) == 0 || !page_pos_is_used(word)) {
+                continue;
+            }
+            uint16_t from = joint->coming_pos, way = (uint16_t)(word >= from ? word - from : from - word);
+            longest = way > longest ? way : longest;
+        }
+    }
+    return longest;
 }
 
+/* What the player looks at of a header: from PLAY_COUNT on. The name before it is left as it is. */
 static void read_header(const page_source_t *source, uint8_t page, uint8_t header[HEADER_BYTES])
 {
-    source->read(source->context, page, 0, header, HEADER_BYTES);
+    source->read(source->context, page, PAGE_AT_PLAY_COUNT, &header[PAGE_AT_PLAY_COUNT],
+                 HEADER_BYTES - PAGE_AT_PLAY_COUNT);
+}
+
+/* Only the links and their codes. */
+static void read_links(const page_source_t *source, uint8_t page, uint8_t header[HEADER_BYTES])
+{
+    source->read(source->context, page, PAGE_AT_NEXT_PAGE, &header[PAGE_AT_NEXT_PAGE],
+                 HEADER_BYTES - PAGE_AT_NEXT_PAGE);
 }
 
 static void read_step(const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES])
@@ -107,7 +130,7 @@ static uint8_t decide(player_t *player, link_t *link)
     }
     uint8_t header[HEADER_BYTES];
     link_taken_t taken;
-    read_header(player->source, player->now.page, header);
+    read_links(player->source, player->now.page, header);
     uint8_t named = link_decide(link, player->now.page, header, &taken);
     player->link_taken = (uint8_t)taken;
     player->next_page = named;
@@ -137,19 +160,16 @@ bool player_looks_ahead(const player_t *player)
 
 uint8_t player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES])
 {
-    uint8_t events = PLAYER_EV_STEP;
-    player_quiet_work(player); /* in case no tick was quiet */
+    uint8_t events = 0;
     player->now = player->coming;
-    player->page = player->now.page;
-    player->step = player->now.step;
     player->joints |= player->coming_joints;
-    if (player->step == 1) {
-        events |= PLAYER_EV_PAGE | (player->slopes == SLOPES_DIFFER ? PLAYER_EV_SLOPES : 0);
+    player->look_page = player->now.page;
+    if (player->now.step == 1) {
+        events = player->slopes == SLOPES_SAME ? 0 : PLAYER_EV_SLOPES;
         player->slopes = SLOPES_SAME;
         player->repetition = player->coming_repetition;
     }
-    player->look_page = player->now.page;
-    if (player->step < player->now.steps) {
+    if (player->now.step < player->now.steps) {
         player->coming.step++;
     } else {
         events |= decide(player, link);
@@ -165,6 +185,13 @@ uint8_t player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_
     return events;
 }
 
+uint8_t player_announce(player_t *player)
+{
+    player->page = player->now.page;
+    player->step = player->now.step;
+    return player->step == 1 ? PLAYER_EV_STEP | PLAYER_EV_PAGE : PLAYER_EV_STEP;
+}
+
 #define COMPARE_BYTES 31u
 void player_quiet_work(player_t *player)
 {
@@ -174,12 +201,7 @@ void player_quiet_work(player_t *player)
     uint8_t mine[COMPARE_BYTES], coming[COMPARE_BYTES];
     player->source->read(player->source->context, player->now.page, PAGE_AT_COMPLIANCE, mine, COMPARE_BYTES);
     player->source->read(player->source->context, player->coming.page, PAGE_AT_COMPLIANCE, coming, COMPARE_BYTES);
-    player->slopes = SLOPES_SAME;
-    for (uint8_t i = 0; i < COMPARE_BYTES; i++) {
-        if (mine[i] != coming[i]) {
-            player->slopes = SLOPES_DIFFER;
-        }
-    }
+    player->slopes = memcmp(mine, coming, COMPARE_BYTES) == 0 ? SLOPES_SAME : SLOPES_DIFFER;
 }
 
 bool player_is_in_law(const player_t *player)
@@ -197,7 +219,7 @@ uint8_t player_end(player_t *player)
 
 static void stand_at(player_t *player, const uint16_t pose_pos[PAGE_JOINTS], uint32_t present)
 {
-    player->present = present;
+    player->present = present & ALL_JOINTS;
     player->joints = 0;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         uint16_t pos = pose_pos[i] > PAGE_POS_MAX ? PAGE_POS_MAX : pose_pos[i];
@@ -214,6 +236,9 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
     }
     if (page == 0 || page >= PAGE_COUNT) {
         return PLAYER_ERR_RANGE;
+    }
+    if (law == PLAYER_LAW_CLASSIC && !classic_is_here()) {
+        return PLAYER_ERR_LAW;
     }
     uint8_t bytes[PAGE_STEP_BYTES];
     player->fault_page = 0;
@@ -233,7 +258,7 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
     if (law == PLAYER_LAW_CLASSIC) {
         classic_start(player);
     } else {
-        exact_start(player, bytes);
+        exact_start(player, link, bytes);
     }
     player->state = STATE_PLAYING;
     return PLAYER_OK;
@@ -268,14 +293,16 @@ static uint8_t tick_braking(player_t *player)
 
 static uint8_t tick_resting(player_t *player)
 {
+    bool classic = player->law == PLAYER_LAW_CLASSIC;
+    uint8_t events = classic ? 0 : exact_held_events(player);
     bool more = exact_rest_tick(player);
-    if (player->law == PLAYER_LAW_CLASSIC) {
+    if (classic) {
         more ? classic_prepare_at_rest(player) : classic_thaw(player);
     }
     if (!more) {
         player->state = STATE_PLAYING;
     }
-    return PLAYER_EV_OUTPUT;
+    return events | PLAYER_EV_OUTPUT;
 }
 
 uint8_t player_tick(player_t *player, link_t *link)
@@ -352,7 +379,7 @@ void player_drop_joints(player_t *player, uint32_t joints)
     player->joints &= ~joints;
     player->coming_joints &= ~joints;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        if (law_has_joint(joints, i)) {
+        if ((joints >> i & 1u) != 0) {
             uint16_t pos = player->goal_pos[i];
             player->joint[i] = (player_joint_t){.target_pos = pos, .coming_pos = pos};
             if (classic_words) {

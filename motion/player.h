@@ -30,7 +30,8 @@ typedef enum {
     PLAYER_ERR_RANGE,        /* page 0 or above 127 */
     PLAYER_ERR_PAGE,         /* the page is damaged: page_status_t in player.fault, the page in .fault_page */
     PLAYER_ERR_EMPTY,        /* the page has no steps, or PLAY_COUNT 0 and nothing playable along its link */
-    PLAYER_ERR_BUSY          /* a play is on */
+    PLAYER_ERR_BUSY,         /* a play is on */
+    PLAYER_ERR_LAW           /* this image has no classic law (it links law_classic_none.c) */
 } player_status_t;
 
 /* What a tick did; bits. */
@@ -76,7 +77,6 @@ typedef struct {
 
 typedef struct player {
     /* Public, read only for callers. */
-    uint16_t goal_pos[PAGE_JOINTS]; /* the tick's output, 0..1023, page coordinates (no trim) */
     uint32_t joints;                /* bit per joint: driven by this play (present, and used by a step so far) */
     uint8_t page, step;             /* playing now; step 1..7 */
     uint8_t repetition;             /* 1.. PLAY_COUNT */
@@ -90,11 +90,21 @@ typedef struct player {
     uint8_t look_page;               /* classic: the page that the link named, before pages without action are passed */
     uint8_t count_left;              /* repetitions, 8 bits as in the original */
     uint8_t coming_repetition;
-    uint8_t state, section;
-    uint8_t ramp_ticks, coming_ramp_ticks;
-    uint8_t prepared, quota;         /* joints of the coming step made ready; how many more a tick */
-    uint8_t brake_ticks;
-    bool breaking, every_tick;
+    uint8_t state;
+    uint8_t ramp_ticks, brake_ticks;
+    bool breaking;
+    union {
+        struct {
+            uint8_t section, coming_ramp_ticks;
+            uint8_t prepared, quota; /* how much of the coming step is ready; how many more joints a tick */
+            bool every_tick;
+        };
+        struct {
+            uint8_t held_events;     /* exact: of the step that begins with the next tick */
+            bool primed;
+            uint16_t coming_share_q0_16; /* share of the coming step, made in a quiet tick; 0: not yet */
+        };
+    };
     uint8_t slopes;                  /* slopes_t of player.c: does the coming page's compliance differ? */
     uint16_t tick, section_ticks;
     uint16_t step_ticks, hold_ticks, coming_ticks;
@@ -107,6 +117,8 @@ typedef struct player {
     };
     uint16_t ramp_recip;             /* exact: one over the ramp */
     uint32_t coming_recip;           /* exact: one over the coming step's ticks; classic: as through_recip, stop_speed */
+    /* Arrays last: the AVR reaches only the first 64 bytes of a structure in one instruction. */
+    uint16_t goal_pos[PAGE_JOINTS]; /* public: the tick's output, 0..1023, page coordinates (no trim) */
     player_joint_t joint[PAGE_JOINTS];
 } player_t;
 
