@@ -7,6 +7,9 @@
 #define UNITY_INT_WIDTH 16
 #define UNITY_LONG_WIDTH 32
 #define UNITY_POINTER_WIDTH 16
+/* Unity puts its strings into flash on AVR and then reads them as RAM: keep them in RAM. */
+#undef AVR
+
 #define UNITY_EXCLUDE_FLOAT
 #define UNITY_EXCLUDE_DOUBLE
 #define UNITY_EXCLUDE_SETJMP_H
