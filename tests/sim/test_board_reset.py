@@ -2,6 +2,7 @@
 """Resets, watchdog, panel and battery of the simulated board. Facts: data sheet, Reset Sources and Watchdog; board.md."""
 import pytest
 
+from cm5sim import Violation
 from lab_board import Lab
 
 POWER_ON, EXTERNAL, BROWN_OUT, WATCHDOG = 1, 2, 4, 8
@@ -39,6 +40,12 @@ def test_watchdog_bites_in_time_and_is_off_afterwards(prescaler, ms):
     assert lab.resets == resets + 1, "off after the reset"
     assert lab.do("c")[0] == WATCHDOG
     assert lab.do("q", 0x41)[0] == 0, "WDTCR"
+
+
+def test_bootrst_decides_where_a_reset_starts():
+    with pytest.raises(Violation, match="erased at cycle 0, pc 0x00000"):
+        Lab(bootrst=False)
+    assert Lab(bootrst=True).do("c")[0] == POWER_ON
 
 
 def test_held_in_reset_nothing_runs():

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * target_runner IMAGE.hex [SECONDS] - runs a Unity program of build/firmware/tests on the strict board and shows its console.
+ * target_runner IMAGE.hex [SECONDS] - runs a Unity program of build/firmware/tests on the strict board, shows its console.
  * Exit status 0 only if the program said "target: done, 0 failed" and the board found nothing to object to;
  * 1: a test failed, or the program ended or hung without that line; 2: it could not be run. */
 #include <stdio.h>
