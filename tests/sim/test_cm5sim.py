@@ -284,6 +284,22 @@ def test_script_mistakes_are_named_with_their_line(tmp_path, line, says):
     assert done.stdout == b""  # nothing ran
 
 
+def test_script_cut_short_has_not_passed(tmp_path):
+    done = play(tmp_path, 'expect "ready"\nwait 10s\n', "--time", "500ms")
+    assert done.returncode == 1 and b"script.txt:2: the run ended here" in done.stderr
+    (tmp_path / "long.txt").write_text('expect "ready"\nnote "under way"\nwait 1000s\n')
+    with Running(ROBOT, "--script", tmp_path / "long.txt", "--realtime") as robot:
+        robot.message("(under way)")
+        assert robot.stop() == 1
+
+
+def test_script_goes_on_when_nobody_reads(tmp_path):
+    (tmp_path / "s.txt").write_text('expect "ready"\nwait 100ms\nsend "p"\nexpect "00"\n')
+    done = subprocess.run(f"({CM5SIM} {ROBOT} --script s.txt --realtime; echo code $? >&2) | true", shell=True,
+                          cwd=tmp_path, stderr=subprocess.PIPE, check=False)
+    assert done.stderr.endswith(b"code 0\n")
+
+
 def test_script_tells_all_mistakes_at_once(tmp_path):
     done = play(tmp_path, "jump\nwait 1s\nhop\n")
     assert ":1: " in done.stderr.decode() and ":3: " in done.stderr.decode()

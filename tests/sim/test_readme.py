@@ -3,6 +3,7 @@
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 
@@ -43,6 +44,10 @@ def _folder(tmp_path):
 
 def execute(command, folder):
     """Runs a command line as a shell would; one that waits for a user is asked to end by SIGINT."""
+    for port in re.findall(r"=(\d{4})\b", command):  # of --tcp and --gdb: one that is free
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            command = command.replace(f"={port}", f"={probe.getsockname()[1]}")
     ends = any(word in command for word in ("--script", "--time", "|"))
     line = command if "|" in command else f"exec {command}"
     process = subprocess.Popen(["sh", "-c", line], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
@@ -52,7 +57,11 @@ def execute(command, folder):
         process.wait(300 if ends else SHOWN_S)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGINT)
-    out, errors = process.communicate(timeout=60)
+    try:
+        out, errors = process.communicate(timeout=60)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        raise
     return process.returncode, out.decode("latin-1"), errors.decode()
 
 

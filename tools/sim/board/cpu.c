@@ -138,17 +138,22 @@ static void skip_to(board_t *board, uint64_t limit)
     }
 }
 
-static void wait_for_gdb(avr_t *avr)
+/* Stands still as long as GDB wants it to; only board_stop(), from another thread, ends that. */
+static void wait_for_gdb(board_t *board)
 {
+    avr_t *avr = board->avr;
     do {
         avr_gdb_processor(avr, avr->state == cpu_Stopped ? 1000 : 0);
-    } while (avr->state == cpu_Stopped);
+    } while (avr->state == cpu_Stopped && !board->stopped);
 }
 
 static void step_under_gdb(board_t *board)
 {
     avr_t *avr = board->avr;
-    wait_for_gdb(avr);
+    wait_for_gdb(board);
+    if (board->stopped) {
+        return;
+    }
     bool single = avr->state == cpu_Step;
     avr->state = cpu_Running;
     cpu_step(board);

@@ -16,7 +16,7 @@
 /* A USB adapter sends a packet in one piece. The kernel may hand it to us in several, so a packet that has begun is
  * given this long to become whole before it goes on the wire as it is. */
 #define GATHER_NS 3000000
-#define LOOK_MS 500 /* asleep at most so long: signals, --time */
+#define LOOK_MS 200 /* asleep at most so long: signals, --time */
 #define GATHERED_MAX 4096
 #define TICK_CYCLES 125000u
 

@@ -33,7 +33,7 @@ void console_close(console_t *console);
 void console_put(console_t *console, uint8_t byte);
 void console_flush(console_t *console);
 
-/* Waits for input, at most so long (0: only looks), and hands it on. Returns early after input or a signal. */
+/* Waits for input, at most so long (0: only looks), and hands it on. Returns early after input. */
 void console_wait(console_t *console, int64_t nanoseconds);
 
 #endif

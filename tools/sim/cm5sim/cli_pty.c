@@ -26,7 +26,8 @@ static bool make_raw(int fd, uint32_t rate_bps)
         return false;
     }
     settings.c_iflag = settings.c_oflag = settings.c_lflag = 0;
-    settings.c_cflag = (settings.c_cflag & ~(unsigned)(CBAUD | CSIZE | PARENB | CSTOPB)) | CS8 | CREAD | CLOCAL | BOTHER;
+    settings.c_cflag &= ~(unsigned)(CBAUD | CSIZE | PARENB | CSTOPB);
+    settings.c_cflag |= CS8 | CREAD | CLOCAL | BOTHER;
     settings.c_ispeed = settings.c_ospeed = rate_bps;
     return ioctl(fd, TCSETS2, &settings) == 0;
 }

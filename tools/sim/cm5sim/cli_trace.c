@@ -2,6 +2,7 @@
 #include "cli_trace.h"
 
 #include <inttypes.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -54,6 +55,9 @@ bool trace_plot(const char *trace_path, const char *picture_path)
     }
     const pid_t child = fork();
     if (child == 0) {
+        sigset_t none;
+        sigemptyset(&none);
+        (void)sigprocmask(SIG_SETMASK, &none, NULL);
         execlp(python, python, CM5SIM_PLOT_SCRIPT, trace_path, picture_path, (char *)NULL);
         fprintf(stderr, "cm5sim: cannot run %s for --plot\n", python);
         _exit(127);

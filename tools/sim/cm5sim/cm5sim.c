@@ -2,6 +2,7 @@
  * cm5sim - the simulated robot as a command. `cm5sim --help` and README.md say what it does; the files cli_*.c do
  * it; this one paces the run. */
 #include <inttypes.h>
+#include <pthread.h>
 #include <signal.h>
 #include <string.h>
 #include <time.h>
@@ -16,6 +17,7 @@
 #define LATE_NS 250000000                           /* this far behind, real time is given up and begun anew */
 
 static volatile int interrupted;
+static board_t *volatile running; /* may stand still for GDB: a signal gets it out of there */
 
 typedef struct {
     bool real;
@@ -23,21 +25,34 @@ typedef struct {
     uint64_t start_cycles;
 } pace_state_t;
 
-static void on_signal(int number)
+/* Signals end a run between two slices. A thread of its own waits for them, because a system call that they interrupt
+ * upsets simavr's GDB server (it then waits for a client for ever). */
+static void *wait_for_signal(void *signals)
 {
-    interrupted = number;
+    int number;
+    if (sigwait(signals, &number) == 0) {
+        interrupted = number;
+        if (running) {
+            board_stop(running);
+        }
+    }
+    return NULL;
 }
 
 static void catch_signals(void)
 {
-    struct sigaction action = {.sa_handler = on_signal};
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-    sigemptyset(&action.sa_mask);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        (void)sigaction(numbers[i], &action, NULL);
+    static sigset_t signals;
+    pthread_t thread;
+    const struct sigaction ignore = {.sa_handler = SIG_IGN};
+    (void)sigaction(SIGPIPE, &ignore, NULL);
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGHUP);
+    (void)pthread_sigmask(SIG_BLOCK, &signals, NULL);
+    if (pthread_create(&thread, NULL, wait_for_signal, &signals) != 0) {
+        (void)pthread_sigmask(SIG_UNBLOCK, &signals, NULL); /* then a signal simply kills */
     }
-    action.sa_handler = SIG_IGN;
-    (void)sigaction(SIGPIPE, &action, NULL);
 }
 
 static void pace_begin(pace_state_t *pace, uint64_t now)
@@ -128,6 +143,17 @@ static void summarize(const session_t *session, const struct timespec *begun)
                      " framing errors", console.sent, console.received, console.overruns, console.framing);
 }
 
+/* A signal, or --time is over. A script that has not come to its end has not passed. */
+static void stop(session_t *session, const script_t *script)
+{
+    if (script && !session->done) {
+        session_complain(session, "%s:%d: the run ended here, before the script", script->path,
+                         script->deeds[script->next].line);
+        session_end(session, EXIT_EXPECTATION);
+    }
+    session_end(session, EXIT_GOOD);
+}
+
 static void run(session_t *session, script_t *script)
 {
     const options_t *options = session->options;
@@ -154,7 +180,9 @@ static void run(session_t *session, script_t *script)
         pace.real = pace.real && !(options->pace == PACE_AUTO && is_alone(session));
         wait_for_clock(session, &pace);
         session_follow_rate(session);
-        if (interrupted || now >= options->time_cycles || session->console.stdout_ended || is_answered(session)) {
+        if (interrupted || now >= options->time_cycles) {
+            stop(session, script);
+        } else if (script == NULL && (session->console.stdout_ended || is_answered(session))) {
             session_end(session, EXIT_GOOD);
         }
     }
@@ -177,12 +205,14 @@ int main(int argc, char **argv)
     session.exit_code = error;
     if (error == EXIT_GOOD) {
         struct timespec begun;
+        running = session.board;
         clock_gettime(CLOCK_MONOTONIC, &begun);
         run(&session, options.script ? &script : NULL);
         if (options.summary) {
             summarize(&session, &begun);
         }
     }
+    running = NULL;
     session_close(&session);
     if (options.script) {
         script_free(&script);

@@ -4,7 +4,7 @@
  *
  * The wire is the AND of all talkers (a low level wins). A byte of 10 bits lies on it from its start bit to the end
  * of its stop bit; a receiver samples the middle of each bit, so two talkers at once give the bytes and framing
- * errors that a UART would see. A servo that talks does not hear. */
+ * errors that a UART would see. A servo that talks, or is about to answer, does not hear. */
 #ifndef SIM_SERVO_BUS_H
 #define SIM_SERVO_BUS_H
 
