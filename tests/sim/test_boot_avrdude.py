@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: MIT
+"""Stock avrdude against the loader on the simulated board, over a pseudo terminal; and STK500v1 by hand where avrdude is
+too polite to misbehave."""
+import fcntl
+import os
+import pathlib
+import pty
+import re
+import shutil
+import subprocess
+import time
+import tty
+
+import pytest
+from boot_board import BOOT_START, PROMPT, new_board, noise, prompt_board, say
+
+AVRDUDE = shutil.which("avrdude")
+needs_avrdude = pytest.mark.skipif(not AVRDUDE, reason="avrdude is not installed (tools/packages.txt)")
+
+
+def run_avrdude(board, *arguments, part="m128", limit=240):
+    """Exit code and output of avrdude with the board at the other end of the line."""
+    master, slave = pty.openpty()
+    try:
+        tty.setraw(master)
+        tty.setraw(slave)
+        fcntl.fcntl(master, fcntl.F_SETFL, os.O_NONBLOCK)
+        command = [AVRDUDE, "-c", "arduino", "-p", part, "-b", "57600", "-P", os.ttyname(slave), *map(str, arguments)]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        board.take()
+        end = time.monotonic() + limit
+        while process.poll() is None:
+            assert time.monotonic() < end, "avrdude hangs"
+            try:
+                board.send(os.read(master, 4096))
+            except BlockingIOError:
+                pass
+            board.run(ms=2)
+            said = board.take()
+            if said:
+                os.write(master, said)
+            else:
+                time.sleep(0.0005)
+        return process.returncode, process.stdout.read()
+    finally:
+        os.close(master)
+        os.close(slave)
+
+
+def binary(tmp_path, data, name="image.bin"):
+    path = tmp_path / name
+    path.write_bytes(data)
+    return path
+
+
+@needs_avrdude
+def test_application_written_verified_read_back(tmp_path):
+    board = prompt_board()
+    image = noise(20000, 1)
+    code, text = run_avrdude(board, "-U", f"flash:w:{binary(tmp_path, image)}:r")
+    assert code == 0, text
+    assert "20000 bytes of flash verified" in text
+    assert bytes(board.flash[:20000]) == image
+
+
+@needs_avrdude
+def test_play_image_written_and_started(tmp_path):
+    hex_file = pathlib.Path(__file__).parents[2] / "build" / "firmware" / "play-cm5.hex"
+    if not hex_file.exists():
+        pytest.skip("play-cm5 is not built")
+    board = prompt_board()
+    code, text = run_avrdude(board, "-U", f"flash:w:{hex_file}:i")
+    assert code == 0 and "verified" in text, text
+    board.take()
+    assert say(board, "id", ms=2000).endswith("app=good")
+    say(board, "app")
+    board.send("reset\r")
+    board.run(ms=400)
+    assert board.pc < BOOT_START
+
+
+@needs_avrdude
+def test_64_kib_of_motions_written_verified_read_back(tmp_path):
+    board = prompt_board()
+    motions = noise(65536, 2)
+    image = tmp_path / "motions.hex"
+    intelhex = pytest.importorskip("intelhex")
+    contents = intelhex.IntelHex()
+    contents.frombytes(motions, 0xE000)
+    contents.write_hex_file(str(image))
+    back = tmp_path / "back.bin"
+    code, text = run_avrdude(board, "-U", f"flash:w:{image}:i", "-U", f"flash:r:{back}:r")
+    assert code == 0 and "65536 bytes of flash verified" in text, text
+    assert bytes(board.flash[0xE000:0x1E000]) == motions
+    assert back.read_bytes()[0xE000:0x1E000] == motions
+    assert bytes(board.flash[:0xE000]) == b"\xff" * 0xE000
+
+
+@needs_avrdude
+def test_eeprom_written_and_verified(tmp_path):
+    board = prompt_board()
+    data = noise(300, 3)
+    code, text = run_avrdude(board, "-U", f"eeprom:w:{binary(tmp_path, data)}:r")
+    assert code == 0 and "300 bytes of eeprom verified" in text, text
+    assert bytes(board.eeprom[:300]) == data and board.eeprom[300] == 0xFF
+
+
+@needs_avrdude
+def test_eeprom_read(tmp_path):
+    board = prompt_board()
+    board.eeprom[0:0xFF0] = noise(0xFF0, 3)
+    path = tmp_path / "eeprom.bin"
+    code, text = run_avrdude(board, "-U", f"eeprom:r:{path}:r")
+    assert code == 0, text
+    data = path.read_bytes()
+    assert data == bytes(board.eeprom)[:len(data)] and len(data) >= 0xFF0
+
+
+@needs_avrdude
+@pytest.mark.parametrize("part", ["m64", "m2560"])
+def test_wrong_part_is_refused(tmp_path, part):
+    board = prompt_board()
+    before = bytes(board.flash)
+    code, text = run_avrdude(board, "-U", f"flash:w:{binary(tmp_path, noise(512))}:r", part=part)
+    assert code != 0 and re.search("signature|programmer|device", text), text
+    assert bytes(board.flash) == before
+
+
+@needs_avrdude
+def test_boot_section_is_read_but_not_written(tmp_path):
+    board = prompt_board()
+    before = bytes(board.flash)
+    contents = pytest.importorskip("intelhex").IntelHex()
+    contents.frombytes(noise(512, 5), BOOT_START)
+    contents.write_hex_file(str(tmp_path / "boot.hex"))
+    code, text = run_avrdude(board, "-U", f"flash:w:{tmp_path / 'boot.hex'}:i")
+    assert code != 0 and "expects OK byte 0x10 but got 0x11" in text, text
+    assert bytes(board.flash[BOOT_START:]) == before[BOOT_START:]
+    back = tmp_path / "back.bin"
+    code, text = run_avrdude(board, "-U", f"flash:r:{back}:r")
+    assert code == 0, text
+    assert back.read_bytes()[BOOT_START:] == before[BOOT_START:]
+
+
+@needs_avrdude
+def test_prompt_is_there_again_afterwards():
+    board = prompt_board()
+    code, text = run_avrdude(board)
+    assert code == 0 and "0x1e9702" in text, text
+    board.run(ms=50)
+    board.take()
+    assert say(board, "app").endswith("Application")
+
+
+# STK500v1 by hand
+
+SYNC = b"\x30\x20"
+IN_SYNC_OK = b"\x14\x10"
+
+
+def ask(board, request, count, ms=500):
+    board.take()
+    board.send(request)
+    end = board.now_ms + ms
+    got = b""
+    while len(got) < count and board.now_ms < end:
+        board.run(ms=1)
+        got += board.take()
+    return got
+
+
+@pytest.fixture
+def stk():
+    board = prompt_board()
+    assert ask(board, SYNC, 2) == IN_SYNC_OK
+    return board
+
+
+def page(address, data, kind=b"F"):
+    return (b"\x55" + (address // 2).to_bytes(2, "little") + b"\x20",
+            b"\x64" + len(data).to_bytes(2, "big") + kind + data + b"\x20")
+
+
+def test_sync_in_the_window_stays_without_a_banner():
+    board = new_board()
+    board.flash[0:2] = b"\xff\xcf"
+    board.eeprom[0xFFF] = 0x11
+    board.run(ms=30)
+    board.send(SYNC)
+    board.run(ms=200)
+    assert board.take() == b"\xff" + IN_SYNC_OK
+
+
+def test_a_typed_zero_is_text():
+    board = prompt_board()
+    assert say(board, "0") == "\r\n Bad Command.('help' for instructions definition)"
+    assert say(board, "00 ") == "\r\n Bad Command.('help' for instructions definition)"
+    assert say(board, "f 0 ").startswith("\r\n 00000000 : ")
+
+
+def test_signature(stk):
+    assert ask(stk, b"\x75\x20", 5) == b"\x14\x1e\x97\x02\x10"
+
+
+def test_no_programming_before_enter(stk):
+    address, block = page(0xE000, noise(256))
+    assert ask(stk, address, 2) == IN_SYNC_OK
+    assert ask(stk, block, 2) == b"\x14\x11"
+    assert ask(stk, b"\x50\x20", 2) == IN_SYNC_OK
+    assert ask(stk, block, 2) == IN_SYNC_OK
+    assert bytes(stk.flash[0xE000:0xE100]) == noise(256)
+
+
+def test_part_of_a_page_keeps_the_rest(stk):
+    stk.flash[0xE000:0xE100] = noise(256, 8)
+    before = bytes(stk.flash)
+    ask(stk, b"\x50\x20", 2)
+    address, block = page(0xE020, noise(64, 9))
+    ask(stk, address, 2)
+    assert ask(stk, block, 2) == IN_SYNC_OK
+    assert bytes(stk.flash) == before[:0xE020] + noise(64, 9) + before[0xE060:]
+
+
+@pytest.mark.parametrize("address, count", [(0x1E000, 256), (0x1FF00, 256), (0xE080, 256), (0xE000, 300)])
+def test_blocks_that_do_not_fit_are_refused(stk, address, count):
+    before = bytes(stk.flash)
+    ask(stk, b"\x50\x20", 2)
+    where, block = page(address, noise(count))
+    ask(stk, where, 2)
+    assert ask(stk, block, 2) == b"\x14\x11"
+    assert bytes(stk.flash) == before
+
+
+def test_missing_end_of_packet_is_no_sync(stk):
+    assert ask(stk, b"\x50\x21", 1) == b"\x15"
+    assert ask(stk, SYNC, 2) == IN_SYNC_OK
+
+
+def test_a_packet_cut_short_ends_the_session(stk):
+    before = bytes(stk.flash)
+    ask(stk, b"\x50\x20", 2)
+    ask(stk, page(0xE000, b"")[0], 2)
+    stk.send(page(0xE000, noise(256))[1][:100])
+    stk.run(ms=600)
+    assert stk.take().decode("latin-1").endswith(PROMPT)
+    assert bytes(stk.flash) == before
+
+
+def test_leave_gives_the_prompt_and_so_does_text(stk):
+    assert ask(stk, b"\x51\x20", 2 + len(PROMPT)) == IN_SYNC_OK + PROMPT.encode()
+    ask(stk, SYNC, 2)
+    stk.send("\r")
+    stk.expect(PROMPT)
+
+
+def test_sixteen_seconds_of_silence_leave(stk):
+    stk.run(ms=15500)
+    assert stk.take() == b""
+    stk.expect(PROMPT, ms=1500)
+
+
+def test_equal_pages_are_not_worn(stk):
+    ask(stk, b"\x50\x20", 2)
+    for _ in range(3):
+        where, block = page(0xE000, noise(256))
+        ask(stk, where, 2)
+        assert ask(stk, block, 2) == IN_SYNC_OK
+    assert stk.wear(0xE0) == 1
