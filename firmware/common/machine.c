@@ -58,6 +58,7 @@ machine_status_t machine_refusal(performer_status_t status, uint8_t page, uint8_
         [PERFORMER_ERR_BUSY] = MACHINE_ERR_BUSY,
         [PERFORMER_ERR_NO_SERVOS] = MACHINE_ERR_SERVOS,
         [PERFORMER_ERR_RELEASED] = MACHINE_ERR_RELEASED,
+        [PERFORMER_ERR_LAW] = MACHINE_ERR_IMAGE,
     };
     if (status == PERFORMER_OK) {
         machine_end_ok();
@@ -84,6 +85,13 @@ static void field(const char *name_P, uint16_t value)
     text_P(name_P);
     text_put('=');
     text_number(value);
+}
+
+void machine_serve(const machine_t *machine)
+{
+    if (machine->image->service != NULL) {
+        machine->image->service(machine->image->context);
+    }
 }
 
 /* ---- what is there ---- */
@@ -155,6 +163,7 @@ static machine_status_t do_list(machine_t *machine, const shell_args_t *args)
     }
     for (uint8_t page = (uint8_t)first; page <= last; page++) {
         print_list_entry(machine, page);
+        machine_serve(machine); /* pages without an entry take up to 2 ms each */
     }
     machine_end_ok();
     return MACHINE_OK;

@@ -69,9 +69,7 @@ static uint32_t switch_on(machine_t *machine, uint32_t joints)
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if ((joints & servo_link_bit(id)) != 0) {
             on |= performer_on(machine->performer, servo_link_bit(id));
-            if (machine->image->service != NULL) {
-                machine->image->service(machine->image->context);
-            }
+            machine_serve(machine);
         }
     }
     return on;

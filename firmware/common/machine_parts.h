@@ -12,6 +12,9 @@ machine_status_t machine_error(machine_status_t status);                /* " ERR
 machine_status_t machine_range_error(const char *what_P, uint16_t min, uint16_t max);
 machine_status_t machine_refusal(performer_status_t status, uint8_t page, uint8_t fault); /* OK, or why not */
 
+/* What may not wait gets its turn. */
+void machine_serve(const machine_t *machine);
+
 /* Numbers in requests are decimal or 0x, whatever the mode of a person's numbers. false: none, or out of range. */
 bool machine_number(const shell_args_t *args, uint8_t index, uint16_t min, uint16_t max, uint16_t *value);
 

@@ -88,6 +88,8 @@ static performer_status_t refusal(performer_t *performer, player_status_t status
         return PERFORMER_ERR_PAGE;
     case PLAYER_ERR_EMPTY:
         return PERFORMER_ERR_EMPTY;
+    case PLAYER_ERR_LAW:
+        return PERFORMER_ERR_LAW;
     default:
         return PERFORMER_ERR_BUSY;
     }

@@ -33,7 +33,8 @@ typedef enum {
     PERFORMER_ERR_EMPTY,      /* the page has no action */
     PERFORMER_ERR_BUSY,       /* something is playing */
     PERFORMER_ERR_NO_SERVOS,  /* nobody answered the last search */
-    PERFORMER_ERR_RELEASED    /* every servo was switched off by hand (performer_off) */
+    PERFORMER_ERR_RELEASED,   /* every servo was switched off by hand (performer_off) */
+    PERFORMER_ERR_LAW         /* this image has no classic law */
 } performer_status_t;
 
 typedef enum {

@@ -67,6 +67,9 @@ void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)
     case PERFORMER_ERR_NO_SERVOS:
         TEXT("No servo answers: check power and cable, then search again");
         break;
+    case PERFORMER_ERR_LAW:
+        TEXT("This image has no classic law: set law 0");
+        break;
     default:
         TEXT("All servos were switched off: switch them on first");
         break;

@@ -15,7 +15,6 @@ void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *p
     inputs->pages = pages;
     inputs->settings = settings;
     inputs->silent_ticks = INPUTS_SILENCE_TICKS;
-    inputs->panel_buttons = panel_buttons();
     remote_init(&inputs->remote);
     ring_init(&inputs->typed, inputs->typed_bytes, INPUTS_TYPED_BYTES);
 }
@@ -144,6 +143,10 @@ bool inputs_get(inputs_t *inputs, uint8_t *byte)
 static void take_panel(inputs_t *inputs)
 {
     const uint8_t buttons = panel_buttons();
+    if (!inputs->panel_was_free) {
+        inputs->panel_was_free = buttons == 0 && panel_buttons_now() == 0;
+        return;
+    }
     const uint8_t changed = buttons ^ inputs->panel_buttons;
     inputs->panel_buttons = buttons;
     if ((changed & PANEL_ARROWS) != 0) {

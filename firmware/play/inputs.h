@@ -35,6 +35,7 @@ typedef struct {
     remote_t remote;
     uint16_t remote_buttons;   /* of the packet before: presses are edges */
     uint8_t panel_buttons;
+    bool panel_was_free;       /* buttons held at power-on are no presses */
     uint8_t code;              /* the last one, from wherever */
     uint8_t silent_ticks;      /* since the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
     uint8_t quiet_ticks;       /* since the last byte */

@@ -43,10 +43,11 @@ static void print_page_line(uint8_t page, const uint8_t *header)
     text_line_end();
 }
 
-void views_print_list(const play_t *play)
+void views_print_list(play_t *play)
 {
     uint8_t used = 0, damaged = 0;
     for (uint8_t page = 1; page < PAGE_COUNT; page++) {
+        play_service(play); /* pages without a line take up to 2 ms each */
         if (page_store_is_good(&play->pages, page)) {
             uint8_t header[PAGE_AT_COMPLIANCE];
             page_store_read(page, 0, header, sizeof header);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * views.h - what Play prints when it is asked: lists and states, in lines. Changes nothing. */
+ * views.h - what Play prints when it is asked: lists and states, in lines. Changes nothing of what it shows. */
 #ifndef VIEWS_H
 #define VIEWS_H
 
 #include "play.h"
 
-void views_print_list(const play_t *play);
+void views_print_list(play_t *play);
 void views_print_status(const play_t *play);
 void views_print_servos(const play_t *play);
 void views_print_faults(const play_t *play);

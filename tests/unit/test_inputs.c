@@ -81,6 +81,7 @@ void setUp(void)
     memset(told, 0, sizeof told);
     start_status = PERFORMER_OK;
     inputs_init(&inputs, &performer, &pages, &settings);
+    inputs_tick(&inputs);
 }
 
 void tearDown(void) {}
@@ -268,12 +269,14 @@ static void test_inputs_button_held_at_power_on_is_no_press(void)
 {
     fake_panel_press(PANEL_UP);
     panel_init();
-    ticks(5);
     inputs_init(&inputs, &performer, &pages, &settings);
-    memset(told, 0, sizeof told);
-    performer.state = PERFORMER_IDLE;
-    ticks(20);
+    ticks(50);
     TEST_ASSERT_EQUAL_STRING("", told);
+    fake_panel_press(0);
+    ticks(5);
+    fake_panel_press(PANEL_UP);
+    ticks(5);
+    TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
 }
 
 /* ---- typed text ---- */

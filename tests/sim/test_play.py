@@ -1,0 +1,329 @@
+# SPDX-License-Identifier: MIT
+"""Play on the simulated robot: what it does beside talking. The words are in test_play_sessions.py."""
+import pytest
+
+from play_robot import JOINTS, PAUSE, STOP, UP, ask, motions, page, robot, tick_of
+from m512.image import Image
+
+TORQUE, GOAL, PUNCH = 24, 30, 48
+UNITS_PER_DEGREE = 1024 / 300
+
+
+def writes(board):
+    """Packets that could move somebody: WRITE, REG WRITE, SYNC WRITE that reach torque, goal or anything between."""
+    moving = []
+    for cycle, packet in board.packets:
+        if packet[4] in (3, 4, 0x83) and TORQUE <= packet[5] + packet[6] and packet[5] < PUNCH and packet[5] != 25:
+            moving.append((cycle, packet.hex()))
+    return moving
+
+
+def counts(board):
+    """What `faults` counts: {"missed": 0, "late": 0, "overruns": 0, ...}."""
+    board.run(ms=50)
+    board.take()
+    board.send("faults\r", wait=True)
+    board.run(ms=200)
+    words = board.take().decode("latin-1").replace(":", " ").split()
+    return {words[i]: int(words[i + 1]) for i in range(len(words) - 1) if words[i + 1].isdigit()}
+
+
+def walking(**options):
+    board = robot(**options)
+    ask(board, "play 4")
+    board.expect("Page 4 step 2", ms=4000)
+    return board
+
+
+# --- power-on ---
+
+@pytest.mark.parametrize("button", [None, "UP", "START"])
+def test_nothing_moves_at_power_on(button):
+    board = robot()
+    if button:
+        board.press(button)
+        board.power_off()
+        board.power_on()
+    board.run(ms=3000)
+    assert writes(board) == []
+    assert not any(servo.torque for servo in board.servos)
+    assert all(servo.present == 512 for servo in board.servos)
+
+
+def test_reset_while_playing_moves_nothing_more():
+    board = walking()
+    board.reset()
+    board.run(ms=5)
+    board.clear_trace()
+    board.expect("] ", ms=2000)
+    board.run(ms=2000)
+    assert [packet for packet in writes(board)] == []
+
+
+# --- who is driven ---
+
+def test_absent_unused_and_torque_off_joints_are_never_driven():
+    board = robot(servos=[1, 2, 3, 5, 19])
+    ask(board, "on")
+    board.clear_trace()
+    ask(board, "play 22")
+    board.expect("Ended", ms=4000)
+    driven = set().union(*(frame.goals for frame in board.trace))
+    assert driven == {1, 2}  # 3 is unused and 5 torque-off in the page, 19 is in no page, the others are not there
+    assert board.servos[1].goal == 560
+
+
+def test_joint_switched_off_stays_limp():
+    board = robot()
+    ask(board, "on")
+    ask(board, "off 11")
+    board.clear_trace()
+    ask(board, "play 4")
+    board.expect("Page 4 step 2", ms=4000)
+    assert all(11 not in frame.goals for frame in board.trace)
+    assert not board.servos[11].torque
+
+
+def test_trim_of_page_0_is_added():
+    image = Image.empty()
+    image[0] = page("Offset", [(0, {}), (0, {})])
+    image[0].set_word(2, 1, 5)
+    image[0].set_word(2, 2, 0x10000 - 7)
+    image[0].seal()
+    image[1] = page("ready", [(40, {})])
+    board = robot(pages=image.to_bytes())
+    ask(board, "play 1")
+    board.expect("Ended", ms=4000)
+    board.run(ms=100)
+    assert (board.servos[1].goal, board.servos[2].goal, board.servos[3].goal) == (517, 505, 512)
+
+
+# --- the approach ---
+
+def test_approach_starts_at_the_pose_and_keeps_to_60_degrees_a_second():
+    board = robot()
+    for joint in JOINTS:
+        board.servos[joint].push_to(200 + 30 * joint)
+    board.clear_trace()
+    ask(board, "play 1")
+    board.expect("Playing", ms=10_000)
+    frames = [frame for frame in board.trace if len(frame.goals) > 1]
+    for joint in JOINTS:
+        goals = [frame.goals[joint] for frame in frames if joint in frame.goals]
+        assert abs(goals[0] - (200 + 30 * joint)) <= 2
+        steps = [abs(b - a) for a, b in zip(goals, goals[1:])]
+        assert max(steps) <= 60 * UNITS_PER_DEGREE / 128 + 1  # whole units
+        assert sum(steps) == abs(goals[-1] - goals[0])        # straight there
+
+
+def test_approach_off_begins_the_page_where_the_robot_stands():
+    board = robot()
+    ask(board, "settings approach 0")
+    assert "Going" not in ask(board, "play 4") + board.expect("Page 4 step 2", ms=2000)
+
+
+# --- pause, break, stop ---
+
+def goals_of(board, joint):
+    return [frame.goals[joint] for frame in board.trace if joint in frame.goals and len(frame.goals) > 1]
+
+
+def slows_down_to_a_stand(goals, ticks):
+    """Speeds that only fall, without turning back (to a unit, which rounding may cost)."""
+    steps = [b - a for a, b in zip(goals, goals[1:])][:ticks]
+    sign = 1 if sum(steps) >= 0 else -1
+    sizes = [sign * step for step in steps]
+    return all(b <= a + 1 for a, b in zip(sizes, sizes[1:])) and min(sizes) >= -1
+
+
+@pytest.mark.parametrize("word, said", [("break", "Broken off"), ("pause", "Paused")])
+def test_break_and_pause_slow_down_and_hold(word, said):
+    board = robot()
+    ask(board, "settings approach 0")
+    ask(board, "play 14")
+    board.run(ms=1500)
+    board.clear_trace()
+    ask(board, word)
+    assert said in board.take().decode("latin-1") or board.expect(said, ms=500)
+    board.run(ms=100)
+    for joint in (1, 2):
+        assert slows_down_to_a_stand(goals_of(board, joint), 32)
+    stood = board.servos[1].goal
+    board.run(ms=2000)
+    assert board.servos[1].goal == stood != 812
+    assert board.servos[1].torque
+
+
+def test_resume_goes_on_to_the_target():
+    board = robot()
+    ask(board, "play 14")
+    board.expect("Playing", ms=8000)
+    board.rc(PAUSE)
+    board.expect("Paused")
+    board.rc(0)
+    board.run(ms=1000)
+    board.rc(PAUSE)
+    board.expect("Ended after", ms=12_000)
+    assert (board.servos[1].goal, board.servos[2].goal) == (812, 212)
+
+
+def test_second_stop_on_the_remote_breaks():
+    board = walking()
+    for value in (STOP, 0, STOP):
+        board.rc(value)
+        board.run(ms=100)
+    board.expect("Broken off", ms=400)
+
+
+def test_stop_held_down_is_one_stop():
+    board = walking()
+    for _ in range(20):
+        board.rc(STOP)
+        board.run(ms=50)
+    assert "Broken" not in board.expect("Stopped after", ms=4000)
+
+
+# --- faults ---
+
+FAULTS = [("silent", "Servo 11 does not answer"), ("overload", "Servo 11 reports overload"),
+          ("overheating", "Servo 11 reports overheating"), ("angle-limit", "Servo 11 reports angle limit"),
+          ("low-voltage", "Servo 11 reports voltage"), ("dead", "Servo 11 does not answer")]
+
+
+@pytest.mark.parametrize("fault, named", FAULTS)
+def test_fault_is_named_within_a_second(fault, named):
+    board = walking()
+    ask(board, "settings talk 0")
+    board.servos[11].fault(fault)
+    board.expect(named, ms=1000)
+    assert counts(board)["missed"] == 0
+    assert "aux" in board.leds
+
+
+@pytest.mark.parametrize("fault", ["silent", "overload", "overheating", "angle-limit"])
+def test_robot_holds_when_a_servo_fails(fault):
+    board = walking()
+    board.servos[11].fault(fault)
+    board.expect("Ended for the fault of a servo", ms=2000)
+    board.clear_trace()
+    board.run(ms=1000)
+    assert board.trace == []
+    assert all(board.servos[joint].torque for joint in JOINTS if joint != 11)
+
+
+def test_wrong_answers_are_retried_and_end_nothing():
+    board = walking()
+    ask(board, "settings talk 0")
+    for fault in ("checksum", "short", "noise", "late"):
+        board.servos[11].fault(fault, times=2)
+        board.run(ms=1000)
+        board.servos[11].clear()
+    board.run(ms=1000)
+    text = board.take().decode("latin-1")
+    assert "Ended" not in text and "does not answer" not in text
+    assert counts(board)["missed"] == 0
+
+
+# --- lamps ---
+
+def test_lamps():
+    board = robot()
+    board.run(ms=200)
+    assert board.leds == {"power"}
+    ask(board, "settings talk 0")
+    ask(board, "play 4")
+    board.run(ms=1500)
+    assert board.leds == {"power", "play"}
+    board.send("x")
+    board.run(ms=20)
+    assert {"txd", "rxd"} <= board.leds
+    board.run(ms=200)
+    assert ask(board, "\bpause") == " OK"
+    board.run(ms=500)
+    seen = set()
+    for _ in range(10):
+        board.run(ms=60)
+        seen.add("play" in board.leds)
+    assert seen == {True, False}  # it blinks
+    ask(board, "break")
+    board.run(ms=300)
+    assert board.leds == {"power"}
+
+
+# --- nothing waits for text ---
+
+def test_long_answers_while_walking_make_no_tick_late():
+    board = walking()
+    ask(board, "settings talk 0")
+    tick = tick_of(board)
+    board.clear_trace()
+    board.take()
+    for word in ("list", "help", "settings", "servos", "faults", "@list", "@page 4", "@pose"):
+        board.send(word + "\r", wait=True)
+        board.run(ms=900)
+    ticks = [tick(frame.cycle) for frame in board.trace]
+    assert ticks == list(range(ticks[0], ticks[0] + len(ticks)))
+    text = board.take().decode("latin-1")
+    assert text.count("OK") == 8
+    found = counts(board)
+    assert (found["missed"], found["late"]) == (0, 0)
+
+
+def test_stop_on_the_remote_does_not_wait_for_a_long_answer():
+    board = walking()
+    ask(board, "settings talk 0")
+    board.send("list\r@page 1\rhelp\r", wait=True)
+    board.rc(STOP)
+    board.run(ms=5)
+    board.rc(0)
+    assert "Stopped" in board.expect("Stopped after", ms=4000)
+
+
+def test_flood_that_ignores_xoff_harms_nobody():
+    """4,000 characters at line rate into a shell that answers: typed bytes are lost and counted, nothing else is."""
+    board = walking()
+    board.send("status\r" * 571)
+    for value in (UP, 0) * 10:
+        board.rc(value)
+    board.send("", wait=True)
+    board.run(ms=3000)
+    board.send("\r")
+    board.run(ms=200)
+    found = counts(board)
+    assert (found["missed"], found["late"], found["overruns"]) == (0, 0, 0)
+    assert found["packets"] > 0 and found["lost"] > 0
+    assert board.uart(1).overruns == 0
+
+
+def test_search_answers_when_it_is_done_and_misses_nothing_typed():
+    board = robot(servos=[1, 2, 3])
+    board.servos.add(7)
+    board.send("servos find\rversion\r", wait=True)
+    assert "4 servos: 1-3 7" in board.expect("Motion512 Play", ms=2000)
+
+
+# --- settings, boards ---
+
+def test_settings_outlive_power_off():
+    board = robot()
+    ask(board, "law classic")
+    ask(board, "settings approach 77")
+    board.run(ms=1500)
+    board.power_off()
+    board.power_on()
+    board.expect("] ", ms=2000)
+    assert "approach 77" in ask(board, "settings")
+    assert ask(board, "law").startswith("classic")
+
+
+def test_cm2_plays_without_a_panel():
+    board = robot(kind="cm2", image="play-cm2.hex")
+    assert "CM-2" in ask(board, "version")
+    ask(board, "play 1")
+    board.expect("Ended after page 1", ms=4000)
+    assert board.servos[1].goal == 480
+
+
+def test_motions_of_the_tests_are_what_they_say():
+    image = motions()
+    assert len(image) == 65536 and image[11 * 512:11 * 512 + 4] == b"torn"
