@@ -176,6 +176,19 @@ static void test_retry_waits_until_the_line_is_quiet(void)
     TEST_ASSERT_EQUAL(1, core.counts.checksums);
 }
 
+static void test_retry_after_half_an_answer_starts_afresh(void)
+{
+    ask(3, 2);
+    leave();
+    hear(good_answer, 6);
+    (void)poll_after_us(60);
+    (void)poll_after_us(900);
+    TEST_ASSERT_EQUAL(2, sends);
+    leave();
+    hear(good_answer, sizeof good_answer);
+    TEST_ASSERT_EQUAL(BUS_OK, poll_after_us(80));
+}
+
 static void test_wrong_id_and_wrong_length_are_named(void)
 {
     ask(4, 1);
@@ -333,6 +346,7 @@ int main(void)
     RUN_TEST(test_answer_that_stops_half_way_is_a_timeout);
     RUN_TEST(test_retries_are_bounded);
     RUN_TEST(test_retry_waits_until_the_line_is_quiet);
+    RUN_TEST(test_retry_after_half_an_answer_starts_afresh);
     RUN_TEST(test_wrong_id_and_wrong_length_are_named);
     RUN_TEST(test_glitch_before_the_answer_does_no_harm);
     RUN_TEST(test_broken_bytes_name_framing_or_overrun);

@@ -188,6 +188,14 @@ static void test_power_cut_at_every_write_leaves_old_or_new(void)
     printf("settings: %u power cuts, %u old, %u new, 0 other\n", cuts, olds, news);
 }
 
+static void test_copy_under_way_has_no_magic(void)
+{
+    settings_t old, fresh;
+    TEST_ASSERT_TRUE(cut_save(2, -1, &old, &fresh));
+    uint8_t magics = (uint8_t)((fake_eeprom_bytes()[MEM_EE_SETTINGS] == 'S') + (fake_eeprom_bytes()[MEM_EE_SETTINGS + 64] == 'S'));
+    TEST_ASSERT_EQUAL(1, magics);
+}
+
 static void test_items_are_set_within_their_range_only(void)
 {
     settings_item_t approach = item("approach");
@@ -228,6 +236,7 @@ int main(void)
     RUN_TEST(test_field_out_of_range_is_damage);
     RUN_TEST(test_saving_in_steps_never_blocks_and_ends);
     RUN_TEST(test_power_cut_at_every_write_leaves_old_or_new);
+    RUN_TEST(test_copy_under_way_has_no_magic);
     RUN_TEST(test_items_are_set_within_their_range_only);
     RUN_TEST(test_pairs_stay_symmetric);
     return UNITY_END();
