@@ -5,6 +5,7 @@
 #include "board.h"
 #include "crc16.h"
 #include "report.h"
+#include "system.h"
 #include "text.h"
 #include "tick.h"
 
@@ -255,6 +256,16 @@ static machine_status_t do_where(machine_t *machine, const shell_args_t *args)
     return MACHINE_OK;
 }
 
+/* Into the boot loader's hands: it listens for '#' for 60 ms before it starts an image again. */
+static machine_status_t do_reset(machine_t *machine, const shell_args_t *args)
+{
+    (void)args;
+    if (!performer_is_idle(machine->performer)) {
+        return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
+    }
+    system_restart();
+}
+
 /* ---- dispatch ---- */
 
 typedef struct {
@@ -269,7 +280,7 @@ static const command_t table[] PROGMEM = {
     {"play", 1, 2, machine_do_play},     {"stop", 0, 0, machine_do_stop},     {"break", 0, 0, machine_do_break},
     {"pause", 0, 0, machine_do_pause},   {"resume", 0, 0, machine_do_resume}, {"where", 0, 0, do_where},
     {"open", 1, 1, machine_do_open},     {"data", 2, 2, machine_do_data},     {"crc", 0, 0, machine_do_crc},
-    {"save", 2, 2, machine_do_save},
+    {"save", 2, 2, machine_do_save},     {"reset", 0, 0, do_reset},
 };
 
 static machine_status_t dispatch(machine_t *machine, const shell_args_t *args)

@@ -19,6 +19,7 @@
  *     @torque on|off [id ...]
  *     @play n [code]  @stop  @break  @pause  @resume
  *     @where                     state, page, step, repetition, code, voltage, faults
+ *     @reset                     restarts the controller (no answer but the loader's start), unless something plays
  *     @open n  @data offset hex  @crc  @save n crc      a page in: images with a page in RAM only
  *
  * firmware/edit/PROTOCOL.md is the manual with examples. */

@@ -2,8 +2,8 @@
 """Our boot loader's block protocol (firmware/boot/PROTOCOL.md), the PC's side.
 
 Frames: 0xA5 command number n body[2 n] CRC-16, answers the same with 0x5A and a status first in the body. Requests that
-change nothing may be sent again at will; a write is the same page again, so it may be too. A few writes are under way
-at a time, so that the line is never idle.
+change nothing may be sent again at will; a write is the same page again, so it may be too. Two writes are under way at
+a time, so that the line is never idle.
 """
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ OK, EQUAL, REFUSED, BROKEN, BAD_FRAME, BAD_COMMAND = range(6)
 STATUS = {REFUSED: "refused (outside of what may be written)", BROKEN: "the flash does not take the data",
           BAD_FRAME: "damaged on the line", BAD_COMMAND: "not known to this loader"}
 APP_STATES = {0: "none", 1: "unknown kind", 2: "good", 3: "damaged"}
-WINDOW = 4            # writes under way
+WINDOW = 2            # writes under way
 TRIES = 4
 ANSWER_SECONDS = 1.5
 FAST_RATE, FAST_UBRR, SLOW_UBRR = 117647, 16, 34

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import List, Optional
 
 from m512.image import Image, is_erased
-from m512.page import JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Page
+from m512.page import EMPTY, JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Page
 from m512.textwords import code_text, position_text
 
 
@@ -52,9 +52,14 @@ def images(first: Image, second: Image) -> List[Change]:
             here = a or b
             if here is not None and not here.is_empty and not is_erased(here):
                 out.append(Change(number, here.title, f"only in the {'second' if a is None else 'first'}", "", ""))
-        elif a != b:
+        elif a != b and not _both_nothing(a, b):
             out += pages(number, a, b, first)
     return out
+
+
+def _both_nothing(a: Page, b: Page) -> bool:
+    """Flash that was never written and the empty page are the same to a robot."""
+    return is_erased(a) and bytes(b) == EMPTY or is_erased(b) and bytes(a) == EMPTY
 
 
 def pages(number: int, a: Page, b: Page, image: Optional[Image] = None) -> List[Change]:

@@ -15,7 +15,7 @@ import time
 from typing import Callable, Union
 
 from m512.block import BlockLoader
-from m512.errors import BoardError, NoAnswerError
+from m512.errors import NoAnswerError, RefusedError
 from m512.factory import PROMPT, FactoryLoader
 from m512.link import Link
 
@@ -71,7 +71,7 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS)
     """The board's loader, ready for work. `say` tells the user what is waited for."""
     if at_prompt(link):
         return identify(link)
-    if reset_by_application(link) and call_by_hash(link, 3.0):
+    if reset_by_application(link, say) and call_by_hash(link, 3.0):
         return identify(link)
     try:
         session = BlockLoader(link, tries=1, seconds=0.4)
@@ -87,20 +87,18 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS)
     return identify(link)
 
 
-def reset_by_application(link: Link) -> bool:
-    """Asks Play or Edit to restart the controller; whether it said it would."""
+def reset_by_application(link: Link, say: Callable[[str], None]) -> bool:
+    """Asks Play to restart the controller; whether it will. Edit may hold edits that are not saved: its user decides."""
     from m512.machine import Machine
 
     try:
         machine = Machine(link)
     except NoAnswerError:
         return False
-    try:
-        machine.ask("reset", 1.5, tries=1)
-        return True
-    except NoAnswerError:
-        return True           # it may have restarted before its answer was out
-    except BoardError as error:
-        if error.number == 1:
-            return False      # an image that does not know the word
-        raise
+    if machine.where().get("state") != "idle":
+        raise RefusedError("something plays on the robot: `m512 stop` first")
+    if machine.version.get("image") != "play":
+        say("Edit runs there. What is not saved in it will be lost.")
+        return False
+    link.write(b"@reset\r")
+    return True

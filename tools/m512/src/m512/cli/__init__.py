@@ -10,13 +10,22 @@ from m512 import __version__
 
 # name -> (module, first line of help). The order is the order of `m512 --help`.
 COMMANDS = {
+    "doctor": ("doctor", "Look at port, loader, image, servos and motions; say what to do."),
+    "term": ("term", "A terminal, good for Edit's full screen."),
     "flash": ("board", "Write code or motions into the board and read them back."),
     "run": ("board", "The same, then start; without a file: start what is there."),
     "backup": ("board", "Read motions, EEPROM and application into a folder."),
     "restore": ("board", "Show what a backup would change, ask, and write it."),
+    "play": ("robot", "Play a page of the board, or of the simulator."),
+    "stop": ("robot", "Stop what is playing, softly or at once."),
+    "pose": ("robot", "Show the pose, or move joints."),
+    "torque": ("robot", "Switch torque on or off."),
+    "get": ("robot", "Read pages from a running board into a file."),
+    "put": ("robot", "Save pages of a file to the board, through Edit."),
     "convert": ("files", "Convert motions between image, Intel HEX, .mtn, CSV and text."),
     "pages": ("pages", "List, check, edit, merge and retime pages of a file or a board."),
     "diff": ("files", "Say in words how two motion files (or boards) differ."),
+    "plot": ("plot", "Draw a page by both laws, or a recorded trace."),
 }
 
 

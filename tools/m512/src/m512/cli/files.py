@@ -97,23 +97,40 @@ def _fitting(image, source: Path, target: Path) -> int:
     return 128 if from_mtn and not to_mtn else image.end
 
 
+def _motions_of(word, bits):
+    """The motions of a file, a backup's folder, or a board."""
+    from m512.ports import is_port
+
+    if is_port(word):
+        from m512 import boards
+
+        return boards.read_motions(word)
+    if Path(word).is_dir():
+        from m512 import backup, image
+
+        saved = backup.load(Path(word))
+        if "motions" not in saved.data:
+            raise FileError(f"the backup {word} has no motions")
+        return image.from_bytes(saved.data["motions"])
+    return formats.load(Path(word), bits)
+
+
 @click.command(epilog="""\b
 Examples:
   m512 diff old.bin new.bin
-  m512 diff walk.m512 backup/motions.bin --json""")
-@click.argument("first", type=click.Path(path_type=Path))
-@click.argument("second", type=click.Path(path_type=Path))
+  m512 diff walk.m512 backup-20260101-120000     a backup's folder
+  m512 diff /dev/ttyUSB0 walk.m512 --json        the board, with Play or Edit or a loader""")
+@click.argument("first")
+@click.argument("second")
 @click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of images.")
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 def diff(first, second, bits, as_json):
     """Say in words how the motions in FIRST and SECOND differ: which page, which step, which joint, from, to.
 
-    Exit code 0 when they are equal, 3 when they differ."""
+    Each is a motion file, the folder of a backup, or the port of a board. Exit code 0 when they are equal, 3 when they differ."""
     from m512 import difference
 
-    if not first.exists() or not second.exists():
-        raise FileError(f"no such file: {first if not first.exists() else second}")
-    found = difference.images(formats.load(first, int(bits)), formats.load(second, int(bits)))
+    found = difference.images(_motions_of(first, int(bits)), _motions_of(second, int(bits)))
     if as_json:
         click.echo(json.dumps([change.as_dict() for change in found], indent=2))
     else:

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+"""`m512 doctor`."""
+from __future__ import annotations
+
+import json
+
+import click
+
+from m512.cli.board import json_option, port_option
+from m512.errors import EXIT_DIFFERENT
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 doctor
+  m512 doctor -p /dev/ttyUSB0 --json""")
+@port_option
+@click.option("--sim", is_flag=True, help="Examine the simulator.")
+@json_option
+def doctor(port, sim, as_json):
+    """Look at port, boot loader, image, servos and motions, and say what is wrong and what to do.
+
+    Nothing is written and nothing moves. Exit code 3 when something is bad.
+    """
+    from m512.doctor import BAD, examine
+
+    def tell(finding):
+        if not as_json:
+            mark = {"ok": "ok  ", "look": "look", "bad": "BAD "}[finding.state]
+            click.echo(f"{mark} {finding.what:11} {finding.text}")
+            if finding.advice:
+                click.echo(f"                 -> {finding.advice}")
+
+    if sim:
+        from m512.sim import Simulator
+
+        with Simulator(["play-cm5.hex"]) as simulator:
+            found = examine(simulator.url, tell)
+    else:
+        found = examine(port, tell)
+    if as_json:
+        click.echo(json.dumps([finding.as_dict() for finding in found], indent=2))
+    raise SystemExit(EXIT_DIFFERENT if any(finding.state == BAD for finding in found) else 0)

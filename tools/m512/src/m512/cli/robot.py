@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: MIT
+"""`m512 play`, `stop`, `pose`, `torque`, `get`, `put`: what a running Play or Edit does for a program."""
+from __future__ import annotations
+
+import json
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+
+from m512 import ui
+from m512.cli.board import json_option, port_option
+from m512.errors import RefusedError
+
+ID_MAX = 30
+
+
+def robot_options(function):
+    for option in (
+            click.option("--servos", default="1-18", help="With --sim: the servos that are plugged in.", show_default=True),
+            click.option("--image", default="play-cm5.hex", help="With --sim: the firmware.", show_default=True),
+            click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind."),
+            click.option("--sim", is_flag=True, help="Start the simulator instead of using a port."),
+            json_option, port_option):
+        function = option(function)
+    return function
+
+
+@contextmanager
+def robot(options):
+    """The Machine that the options mean; whatever was started for it ends with the command."""
+    from m512 import ports
+    from m512.link import Link
+    from m512.machine import Machine
+
+    if options["motions"] and not options["sim"]:
+        raise click.UsageError("--motions is for --sim; a robot gets its motions with `m512 flash` or `put`")
+    if options["sim"]:
+        from m512.sim import Simulator
+
+        with Simulator([options["image"]], options["motions"], options["servos"]) as simulator, \
+                Link(simulator.url) as link:
+            time.sleep(0.5)
+            yield Machine(link)
+        return
+    with Link(ports.pick(options["port"])) as link:
+        yield Machine(link)
+
+
+def _report(machine, as_json):
+    state = machine.where()
+    if as_json:
+        click.echo(json.dumps({k: int(v) if v.isdigit() and k != "faulty" else v for k, v in state.items()}))
+    return state
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 play walk_start
+  m512 play 12 --code U --wait        until it ends; Ctrl-C stops softly, again: at once
+  m512 play wave --sim --motions library.m512 --wait""")
+@click.argument("page")
+@click.option("--code", "key", default="", help="Code of the call: a number, or keys such as U or L+B1.")
+@click.option("--wait", is_flag=True, help="Follow the play until it ends.")
+@robot_options
+def play(page, key, wait, **options):
+    """Play a page of the board, by number or name."""
+    from m512.textwords import Token, WordError, code as parse
+
+    try:
+        code = parse(Token(key)) if key else 0
+    except WordError as error:
+        raise click.UsageError(str(error)) from None
+    with robot(options) as machine:
+        number = machine.find(page)
+        machine.play(number, code)
+        ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
+        if wait or options["sim"]:
+            _follow(machine)
+        _report(machine, options["as_json"])
+
+
+def _follow(machine):
+    """Tells pages and steps until the robot is idle. The first Ctrl-C is a stop, the second a break."""
+    before, asked = None, 0
+    while True:
+        try:
+            state = machine.where()
+            here = (state["state"], state["page"], state["repetition"])
+            if here != before:
+                ui.say(f"{state['state']}: page {state['page']}, repetition {state['repetition']}")
+                before = here
+            if state["state"] == "idle":
+                return
+            time.sleep(0.1)
+        except KeyboardInterrupt:
+            asked += 1
+            if asked > 2:
+                raise
+            machine.ask("stop" if asked == 1 else "break")
+            ui.say("stopping through the exit page; Ctrl-C again stops at once" if asked == 1 else "stopping at once")
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 stop           softly, through the exit pages
+  m512 stop --now     at once: all joints slow down to a stand, torque stays on""")
+@click.option("--now", is_flag=True, help="Leave the page at once.")
+@robot_options
+def stop(now, **options):
+    """Stop what is playing."""
+    with robot(options) as machine:
+        machine.ask("break" if now else "stop")
+        _report(machine, options["as_json"])
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 pose                          where the joints are
+  m512 pose --text                   as a line for a motion text
+  m512 pose 1:512 2:300 --speed 30   move two joints, at 30 degrees/s""")
+@click.argument("positions", nargs=-1, metavar="[ID:POSITION]...")
+@click.option("--speed", default=60, show_default=True, metavar="DEG/S", type=click.IntRange(1, 360), help="Largest speed of a joint.")
+@click.option("--text", "as_text", is_flag=True, help="As a step of the text format.")
+@robot_options
+def pose(positions, speed, as_text, **options):
+    """Show the pose of the robot, or move joints to positions (0..1023, or 30deg from the centre)."""
+    wanted = _positions(positions)
+    with robot(options) as machine:
+        if wanted:
+            machine.move(wanted, speed)
+            ui.say("moving; waiting for the end")
+            _follow(machine)
+        found = machine.pose()
+    if options["as_json"]:
+        click.echo(json.dumps({joint: {"position": at, "torque": on} for joint, (at, on) in found.items()}, indent=2))
+    elif as_text:
+        click.echo("step 1s | " + " ".join(f"{joint}:{at}" for joint, (at, _) in found.items() if at is not None))
+    else:
+        for joint, (at, on) in found.items():
+            degrees = "" if at is None else f"{(at - 512) * 300 / 1024:+7.1f} deg"
+            click.echo(f"ID {joint:2}  {'silent' if at is None else at:>6}  {degrees}  {'holds' if on else 'limp'}")
+
+
+def _positions(words):
+    from m512.textwords import WordError, joints_of, position
+
+    out = {}
+    for word in words:
+        joints, _, value = word.rpartition(":")
+        try:
+            at = position(value, 0x4000, 1023)
+            if at > 1023:
+                raise WordError(f"{word}: a position is 0..1023")
+            out.update({joint: at for joint in joints_of(joints, {})})
+        except WordError as error:
+            raise click.UsageError(str(error)) from None
+    return out
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 torque off          all joints go limp: hold the robot first
+  m512 torque on 3 4 5""")
+@click.argument("state", type=click.Choice(["on", "off"]))
+@click.argument("ids", nargs=-1, type=click.IntRange(0, ID_MAX))
+@robot_options
+def torque(state, ids, **options):
+    """Switch the torque of all joints, or of some IDs. On holds the pose that the joints are in."""
+    with robot(options) as machine:
+        machine.torque(state == "on", list(ids))
+        _report(machine, options["as_json"])
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 get walk_start walk_loop -o walk.m512
+  m512 get all -o robot.bin""")
+@click.argument("pages", nargs=-1, required=True)
+@click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="Motion file of any kind.")
+@click.option("--force", is_flag=True, help="Overwrite the file.")
+@robot_options
+def get(pages, output, force, **options):
+    """Read pages (numbers, names, or `all`) from a running board into a file."""
+    from m512 import formats
+    from m512.image import Image
+
+    if output.exists() and not force:
+        raise RefusedError(f"{output} is there already (--force overwrites it)")
+    with robot(options) as machine:
+        numbers = sorted(machine.list_pages()) if pages == ("all",) else [machine.find(word) for word in pages]
+        image = Image.empty()
+        with ui.phase("Reading") as progress:
+            for done, number in enumerate(numbers):
+                image[number] = machine.page(number)
+                progress(done + 1, len(numbers))
+    for loss in formats.save(output, image, numbers[0] if len(numbers) == 1 else None):
+        ui.say(f"loss: {loss}")
+    ui.say(f"{output}: pages {' '.join(map(str, numbers))}")
+    if options["as_json"]:
+        click.echo(json.dumps({"file": str(output), "pages": numbers}))
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 put library.m512 walk_loop         to the same number
+  m512 put library.m512 wave:40 3         wave to number 40, page 3 to 3
+  m512 put library.m512 all --image edit-cm5.hex --sim""")
+@click.argument("source", type=click.Path(path_type=Path))
+@click.argument("pages", nargs=-1, required=True)
+@robot_options
+def put(source, pages, **options):
+    """Save pages of a motion file to the board, one by one, while Edit runs there.
+
+    For many pages at once, or with Play, `m512 flash` is the way.
+    """
+    from m512 import boards, formats
+    from m512.image import Image
+
+    image, moves = formats.load(source), []
+    for word in pages:
+        if word == "all":
+            moves += [(n, n) for n, page in image.items() if n and not page.is_empty]
+            continue
+        name, colon, target = word.rpartition(":")
+        number = image.find(name if colon else word)
+        moves.append((number, int(target) if colon and target.isdigit() else number))
+    goal = Image.empty()
+    for number, target in moves:
+        page = image[number]
+        if page.fault():
+            raise RefusedError(f"page {number} is damaged: {page.fault_text()}")
+        goal[target] = page
+    with robot(options) as machine:
+        changed = boards.save_pages(machine, goal, [target for _, target in moves])
+    ui.say(f"saved: pages {' '.join(map(str, changed)) or 'none, they were there already'}")
+    if options["as_json"]:
+        click.echo(json.dumps({"saved": changed}))
+
+

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+"""`m512 term`: the terminal."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from m512.cli.board import port_option
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 term                         the only port there is
+  m512 term -p ttyUSB0 --log session.txt
+  m512 term --list""")
+@port_option
+@click.option("--log", type=click.Path(path_type=Path), help="Write all that the board sends to this file.")
+@click.option("--send", type=click.Path(path_type=Path), help="Send this file first (as typed; a line at a time).")
+@click.option("--list", "listing", is_flag=True, help="List the ports and end.")
+@click.option("--sim", is_flag=True, help="Start the simulator with Edit instead of using a port.")
+@click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind.")
+@click.option("--image", default="edit-cm5.hex", show_default=True, help="With --sim: the firmware.")
+def term(port, log, send, listing, sim, motions, image):
+    """A terminal at 57,600 baud, good for Edit's full screen.
+
+    Everything typed goes to the board, but for Ctrl-]: then h shows help, q quits, l calls the boot loader with '#',
+    s sends a file, b a file as it is (binary), g switches logging.
+    """
+    from m512 import ports
+    from m512.terminal import Terminal
+
+    if listing:
+        for device, text in ports.available():
+            click.echo(f"{device}  {text}".rstrip())
+        return
+    if sim:
+        from m512.sim import Simulator
+
+        with Simulator([image], motions) as simulator:
+            Terminal(simulator.url, log).run(send)
+        return
+    Terminal(ports.pick(port), log).run(send)
