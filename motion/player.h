@@ -136,7 +136,7 @@ MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t 
 uint32_t player_first_pose(const page_source_t *source, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
 
 /* One tick. Returns PLAYER_EV_ bits; 0 when idle. */
-uint8_t player_tick(player_t *player, link_t *link);
+uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* by itself, so that the bench can measure it */
 
 /* Leaves the page at once: every joint slows down to a stand within ACCEL_TIME ticks (at least 8), no reversal. */
 void player_break(player_t *player);

@@ -164,7 +164,8 @@ static void approach_over(performer_t *performer)
     }
 }
 
-/* The compliance bytes of the page that has just begun, to the servos. */
+/* The compliance bytes of the page that has just begun, to the servos: one tick after its first goals, because the tick in
+ * which a page begins has enough to do. */
 static void send_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
@@ -191,10 +192,12 @@ static uint8_t why_ended(const performer_t *performer)
 static void play_tick(performer_t *performer)
 {
     player_t *player = &performer->engine.player;
-    const uint8_t events = player_tick(player, &performer->link);
-    if ((events & PLAYER_EV_SLOPES) != 0) {
+    if (performer->slopes_due) {
+        performer->slopes_due = false;
         send_slopes(performer);
     }
+    const uint8_t events = player_tick(player, &performer->link);
+    performer->slopes_due = (events & PLAYER_EV_SLOPES) != 0;
     if ((events & PLAYER_EV_OUTPUT) != 0) {
         servo_link_goals(performer->servos, player->goal_pos, player->joints);
     }

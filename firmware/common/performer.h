@@ -95,6 +95,7 @@ typedef struct {
     uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
     bool leaving;               /* a break is under way */
     bool pausing;               /* APPROACH: a pause is under way */
+    bool slopes_due;            /* PLAY: the page's compliance goes out in this tick */
     bool told_battery, told_hot; /* each is told once a play */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
     uint32_t joints;            /* that this play may drive */
@@ -155,7 +156,7 @@ bool performer_is_idle(const performer_t *performer);
 bool performer_is_paused(const performer_t *performer);
 
 /* Once a tick: makes the goals and hands them to the servos. Cost: that of player_tick and servo_link_goals. */
-void performer_tick(performer_t *performer);
+void performer_tick(performer_t *performer) NOINLINE; /* by itself, so that the bench can measure it */
 
 /* Every turn of the main loop: bus traffic, faults, getting ready. At most 5 ms, and only while nothing moves. */
 void performer_poll(performer_t *performer);

@@ -58,6 +58,7 @@ static void ask_one_joint(performer_t *performer)
 void performer_begin_page(performer_t *performer)
 {
     performer->state = PERFORMER_PLAY;
+    performer->slopes_due = false;
     if (performer_start_player(performer, performer->page, performer->joints) != PLAYER_OK) {
         performer_finish(performer, PERFORMER_END_PAGE);
     }
