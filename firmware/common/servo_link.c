@@ -76,17 +76,21 @@ uint32_t servo_link_drivable(const servo_link_t *link)
 
 /* ---- coordinates ---- */
 
-static uint16_t limited(int16_t pos)
+/* pos < 0 ? 0 : pos > POS_MAX ? POS_MAX : pos, with one look at the high byte for what is within 0..1023. */
+ALWAYS_INLINE uint16_t limited(int16_t pos)
 {
-    return pos < 0 ? 0u : pos > POS_MAX ? (uint16_t)POS_MAX : (uint16_t)pos;
+    if ((uint8_t)((uint16_t)pos >> 8) <= POS_MAX >> 8) {
+        return (uint16_t)pos;
+    }
+    return pos < 0 ? 0u : (uint16_t)POS_MAX;
 }
 
-uint16_t servo_link_to_servo(const servo_link_t *link, uint8_t id, uint16_t pos)
+NOINLINE uint16_t servo_link_to_servo(const servo_link_t *link, uint8_t id, uint16_t pos)
 {
     return limited((int16_t)((int16_t)pos + link->trim_pos[id]));
 }
 
-uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo_pos)
+NOINLINE uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo_pos)
 {
     return limited((int16_t)((int16_t)servo_pos - link->trim_pos[id]));
 }
@@ -119,32 +123,47 @@ static NOINLINE uint16_t slopes_of(uint8_t compliance)
     return (uint16_t)(slope(compliance >> 4) | slope(compliance & 0x0Fu) << 8);
 }
 
-/* SYNC WRITE of what the tick has for `joints`, from control table address `from` (CW slope or goal) up to `to`. 31 goals:
- * 101 bytes, about 50 cycles a joint. */
-static uint8_t build(const servo_link_t *link, uint32_t joints, uint8_t from, uint8_t to)
+/* The hot one: SYNC WRITE of goals. 31 joints: 101 bytes, about 40 cycles a joint. */
+static uint8_t build_goals(const servo_link_t *link, uint32_t joints)
 {
-    const uint16_t *goal = link->goals_pos;
-    const int16_t *trim = link->trim_pos;
-    bool with_slopes = from != DXL_AT_GOAL;
-    bool with_goals = to != DXL_AT_GOAL;
     dxl_writer_t writer;
     dxl_begin(&writer, bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE);
-    dxl_put(&writer, from);
-    dxl_put(&writer, (uint8_t)(to - from));
-    for (uint8_t id = 0; joints != 0; id++, joints >>= 1, goal++, trim++) {
-        if (!((uint8_t)joints & 1u)) {
-            continue;
+    dxl_put(&writer, DXL_AT_GOAL);
+    dxl_put(&writer, 2);
+    for (uint8_t first = 0; first < SERVO_LINK_JOINTS; first = (uint8_t)(first + 8u), joints >>= 8) {
+        const uint16_t *goal = link->goals_pos + first;
+        const int16_t *trim = link->trim_pos + first;
+        uint8_t id = first;
+        for (uint8_t mask = (uint8_t)joints; mask != 0; mask >>= 1, id++, goal++, trim++) {
+            if (mask & 1u) {
+                uint16_t pos = limited((int16_t)((int16_t)*goal + *trim));
+                dxl_put(&writer, id);
+                dxl_put(&writer, (uint8_t)pos);
+                dxl_put(&writer, (uint8_t)(pos >> 8));
+            }
         }
-        dxl_put(&writer, id);
-        if (with_slopes) {
+    }
+    return dxl_end(&writer);
+}
+
+/* After a page change: slopes, with the goals behind them or alone. */
+static uint8_t build_slopes(const servo_link_t *link, uint32_t joints, bool with_goals)
+{
+    dxl_writer_t writer;
+    dxl_begin(&writer, bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE);
+    dxl_put(&writer, DXL_AT_CW_SLOPE);
+    dxl_put(&writer, with_goals ? 4 : 2);
+    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
+        if (servo_link_has(&joints, id)) {
             uint16_t slopes = slopes_of(link->slopes[id]);
+            dxl_put(&writer, id);
             dxl_put(&writer, (uint8_t)slopes);
             dxl_put(&writer, (uint8_t)(slopes >> 8));
-        }
-        if (with_goals) {
-            uint16_t pos = limited((int16_t)((int16_t)*goal + *trim));
-            dxl_put(&writer, (uint8_t)pos);
-            dxl_put(&writer, (uint8_t)(pos >> 8));
+            if (with_goals) {
+                uint16_t pos = servo_link_to_servo(link, id, link->goals_pos[id]);
+                dxl_put(&writer, (uint8_t)pos);
+                dxl_put(&writer, (uint8_t)(pos >> 8));
+            }
         }
     }
     return dxl_end(&writer);
@@ -162,7 +181,7 @@ static NOINLINE void send_action(void)
 
 void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOINTS], uint32_t joints)
 {
-    uint8_t from = DXL_AT_GOAL;
+    uint8_t size;
     if (bus_is_busy()) {
         count_late(link);
         (void)bus_wait(NULL);
@@ -187,10 +206,12 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
         return;
     }
     if ((link->slopes_pending & joints) != 0 && count_bits(joints) <= JOINTS_WITH_SLOPES) {
-        from = DXL_AT_CW_SLOPE;
+        size = build_slopes(link, joints, true);
         link->slopes_pending &= ~joints;
+    } else {
+        size = build_goals(link, joints);
     }
-    (void)bus_submit(build(link, joints, from, DXL_AT_SPEED), BUS_NO_ANSWER, 1);
+    (void)bus_submit(size, BUS_NO_ANSWER, 1);
 }
 
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS])
@@ -341,7 +362,7 @@ static bool send_rest(servo_link_t *link)
     if (link->phase == PHASE_GOALS && pending != 0) {
         link->slopes_pending &= ~pending;
         link->phase = PHASE_SLOPES;
-        (void)bus_submit(build(link, pending, DXL_AT_CW_SLOPE, DXL_AT_GOAL), BUS_NO_ANSWER, 1);
+        (void)bus_submit(build_slopes(link, pending, false), BUS_NO_ANSWER, 1);
     } else if (link->phase <= PHASE_DEAF && link->deaf_left != 0) {
         link->phase = PHASE_DEAF;
         send_deaf(link);
