@@ -8,10 +8,9 @@ bool classic_is_here(void)
     return false;
 }
 
-void classic_start(player_t *player, link_t *link)
+void classic_start(player_t *player)
 {
     (void)player;
-    (void)link;
 }
 
 uint8_t classic_tick(player_t *player, link_t *link)

@@ -3,7 +3,7 @@
  * Knows flash.h and nothing of registers. Used by applications to save and by the loader (and applications, under
  * the factory loader) to recover. Main loop only. No RAM of its own: the flash is scanned at each call (0.3 ms).
  *
- * Area 0x0C000..0x0DFFF, 32 flash pages = 10 slots of 3 flash pages, the last two unused. Slot s, at 0x0C000 + 768 s:
+ * Area MEM_JOURNAL_START..MEM_JOURNAL_END: JOURNAL_SLOTS slots of 3 flash pages. Slot s, at start + 768 s:
  *
  *   +0    512  the new contents of the motion page
  *   +512   12  record, little endian; the rest of this flash page is 0xFF
@@ -14,17 +14,19 @@
  *   recover:  newest record pending -> target (pages that differ) -> state := 0
  *
  * Newest = highest sequence (modulo 65536) of the records whose own CRC fits; only that one is ever looked at, so an
- * older one is done whatever its state says. The slot after the newest is the next: every flash page of the area
- * wears once in ten saves (100,000 saves at 10,000 cycles). A torn data page or record leaves the record invalid,
+ * older one is done whatever its state says. The slot after the newest is the next: every flash page of the area wears
+ * once in JOURNAL_SLOTS saves; with one slot the journal lasts as long as a page that is saved each time. A torn data page or record leaves the record invalid,
  * hence the old page; from a valid record on the target is finished at the next start, however often that is cut. */
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
 #include "hal/flash.h"
 
+#include "linker/memory_map.h"
+
 #include <stdint.h>
 
-#define JOURNAL_SLOTS 10u
+#define JOURNAL_SLOTS ((MEM_JOURNAL_END - MEM_JOURNAL_START) / (256u * JOURNAL_SLOT_PAGES))
 #define JOURNAL_SLOT_PAGES 3u     /* flash pages */
 #define JOURNAL_TARGET_BYTES 512u
 

@@ -39,8 +39,20 @@ NAME(flow, "1 = XON/XOFF");
 NAME(fast, "1 = 117,647 baud after start");
 NAME(talk, "1 = status lines while playing");
 
-#define ITEM(id, field, low, high) { name_##id, meaning_##id, offsetof(settings_t, field), low, high }
-static const settings_item_t items[SETTINGS_ITEMS] PROGMEM = {
+/* Ranges apart from texts: an image that never calls settings_item does not pay for these. */
+typedef struct {
+    const char *name, *meaning;
+} item_text_t;
+#define ITEM_TEXT(id) { name_##id, meaning_##id }
+static const item_text_t item_texts[SETTINGS_ITEMS] PROGMEM = {
+    ITEM_TEXT(law), ITEM_TEXT(remote), ITEM_TEXT(approach), ITEM_TEXT(fault), ITEM_TEXT(low),
+    ITEM_TEXT(hot), ITEM_TEXT(neutral), ITEM_TEXT(flow), ITEM_TEXT(fast), ITEM_TEXT(talk),
+};
+typedef struct {
+    uint8_t offset, low, high;
+} item_range_t;
+#define ITEM(id, field, low, high) { offsetof(settings_t, field), low, high }
+static const item_range_t items[SETTINGS_ITEMS] PROGMEM = {
     ITEM(law, law, 0, 1),
     ITEM(remote, remote_mode, 0, 1),
     ITEM(approach, approach_deg_s, 0, 240),
@@ -77,10 +89,10 @@ static uint16_t copy_addr(uint8_t copy)
 
 static bool is_sound(const settings_t *settings)
 {
-    settings_item_t item;
+    item_range_t item;
     for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
-        settings_item(i, &item);
-        uint8_t value = settings_value(settings, &item);
+        memcpy_P(&item, &items[i], sizeof item);
+        uint8_t value = ((const uint8_t *)settings)[item.offset];
         if (value < item.low || value > item.high) {
             return false;
         }
@@ -176,7 +188,11 @@ void settings_save(settings_store_t *store, const settings_t *settings)
 
 void settings_item(uint8_t index, settings_item_t *item)
 {
-    memcpy_P(item, &items[index], sizeof *item);
+    item_range_t range;
+    item_text_t text;
+    memcpy_P(&range, &items[index], sizeof range);
+    memcpy_P(&text, &item_texts[index], sizeof text);
+    *item = (settings_item_t){ text.name, text.meaning, range.offset, range.low, range.high };
 }
 
 uint8_t settings_value(const settings_t *settings, const settings_item_t *item)

@@ -74,8 +74,11 @@ MUST_CHECK bool shell_number(const shell_args_t *args, uint8_t index, const char
 void shell_print_range(const char *what_P, uint16_t min, uint16_t max, bool hex);
 
 /* One command. Tables of these stand in flash. */
+/* An image short of flash may define these smaller: each saves a byte an entry. */
+#ifndef SHELL_WORD_BYTES
 #define SHELL_WORD_BYTES 10u
 #define SHELL_SHORT_BYTES 5u
+#endif
 #define SHELL_ANY_ARGS 255u
 
 typedef uint8_t (*shell_handler_t)(void *context, const shell_args_t *args);

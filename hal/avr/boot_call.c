@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "hal/boot_call.h"
 
+#include "hal/compiler.h"
 #include "hal/flash.h"
 
 #include <avr/eeprom.h>
@@ -55,7 +56,7 @@ static void fill_factory_buffer(uint32_t addr, const uint8_t *data, uint16_t byt
     }
 }
 
-uint8_t boot_call_factory(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode)
+NOINLINE uint8_t boot_call_factory(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode)
 {
     uint8_t saved[MEM_FACTORY_BUFFER_BYTES];
     uint8_t result = BOOT_OK;

@@ -9,7 +9,7 @@ import struct
 from cm5sim import Board
 
 PROMPT = "\r\n - "
-REGIONS = {"application": (0x0000, 0xC000), "journal": (0xC000, 0xE000), "motion": (0xE000, 0x1E000)}
+REGIONS = {"application": (0x0000, 0xDD00), "journal": (0xDD00, 0xE000), "motion": (0xE000, 0x1E000)}
 BOOT_START = 0x1E000
 BOOT_MODE = 0xFFF
 

@@ -100,7 +100,7 @@ def test_65536_without_a_sum_byte_touch_nothing_behind(board):
     assert after[0xE000:0x1DFFF] == data[:-1] and after[BOOT_START:] == before[BOOT_START:]
 
 
-@pytest.mark.parametrize("address, count, end", [(0xBF00, 300, 0xC000), (0xDF80, 200, 0xE000), (0x1DF00, 300, 0x1E000),
+@pytest.mark.parametrize("address, count, end", [(0xDC00, 300, 0xDD00), (0xDF80, 200, 0xE000), (0x1DF00, 300, 0x1E000),
                                                  (0x1DFFF, 2, 0x1E000)])
 def test_no_byte_goes_past_the_region(board, address, count, end):
     before, data = bytes(board.flash), noise(count, 5)

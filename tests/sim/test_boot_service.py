@@ -165,7 +165,7 @@ def test_power_cut_at_every_operation_of_a_save():
                 page = bytes(board.flash[0x1D000:0x1D200])
                 assert page in (old, new)
                 after = bytes(board.flash)
-                assert after[:0xC000] == before[:0xC000] and after[0xE000:0x1D000] == before[0xE000:0x1D000]
+                assert after[:0xDD00] == before[:0xDD00] and after[0xE000:0x1D000] == before[0xE000:0x1D000]
                 assert after[0x1D200:] == before[0x1D200:]
                 assert save(board, 120, third) == OK
                 assert bytes(board.flash[0x1D000:0x1D200]) == third

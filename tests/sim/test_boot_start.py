@@ -113,7 +113,7 @@ def test_start_pressed_late_does_not_stay():
 
 @pytest.mark.parametrize("image, stays, word", [
     (None, True, "none"), (application(record=False), False, "plain"), (application(), False, "good"),
-    (application(good=False), True, "bad"), (application(0xC000), False, "good")])
+    (application(good=False), True, "bad"), (application(0xDD00), False, "good")])
 def test_validity_of_the_application(image, stays, word):
     board = board_with(image)
     board.run(ms=600)

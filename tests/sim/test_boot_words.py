@@ -328,7 +328,7 @@ def test_check_tells_every_page_and_repeats_it_as_one_line():
     assert match, lines[6]
     assert match[1] == "none"
     from boot_board import crc16
-    assert int(match[2], 16) == crc16(board.flash[0:0xC000])
+    assert int(match[2], 16) == crc16(board.flash[0:0xDD00])
     assert int(match[3], 16) == crc16(board.flash[0xE000:0x1E000])
 
 

@@ -11,7 +11,6 @@ import pytest
 from block_peer import BlockPeer
 from factory_peer import FactoryPeer
 
-from m512.block import frame
 from m512.crc16 import crc16
 from m512.image import Image
 from m512.memory import Record
@@ -185,11 +184,6 @@ def test_cable_pulled_during_flash(m512, peer, motions, when):
 
 # Ours
 
-def test_crc16_known_answer_and_frame_of_the_description():
-    assert crc16(b"123456789") == 0x29B1
-    assert frame(1, 1, b"") == bytes.fromhex("a5010100c89d") and frame(3, 2, b"\xff\x01") == bytes.fromhex("a5030201ff013658")
-
-
 def test_block_line_with_noise_repeats_and_arrives(m512, motions):
     noise = random.Random(3)
     with BlockPeer(old_flash()) as peer:
@@ -264,7 +258,7 @@ def test_factory_prompt_with_a_full_line_is_not_crashed(m512, motions):
 
 @pytest.mark.parametrize("pieces, says", [
     ([(0x1E000, bytes(100))], "into the boot loader"),
-    ([(0, bytes(0xC001))], "0x0C000..0x0DFFF"),
+    ([(0, bytes(0xDD01))], "0x0DD00..0x0DFFF"),
     ([(0x1DF00, bytes(0x200))], "into the boot loader"),
     ([(0x20000, bytes(512))], "beyond this board's flash"),
     ([(0x100, bytes(100))], "no reset vector at 0"),

@@ -16,8 +16,8 @@ from m512.image import hex_segments
 from m512.page import EMPTY, PAGE_BYTES
 
 FLASH_PAGE = 256
-APP = (0x00000, 0x0C000)
-JOURNAL = (0x0C000, 0x0E000)
+APP = (0x00000, 0x0DD00)
+JOURNAL = (0x0DD00, 0x0E000)
 MOTIONS = (0x0E000, 0x1E000)
 BOOT = (0x1E000, 0x20000)
 EEPROM_BYTES = 4096
@@ -83,8 +83,8 @@ def _refuse_outside(start: int, end: int, what: str) -> None:
         raise RefusedError(f"{what} reaches 0x{end - 1:05X}, into the boot loader (0x1E000..0x1FFFF). That area can only "
                            "be written with an ISP programmer")
     if start < JOURNAL[1] and end > JOURNAL[0]:
-        raise RefusedError(f"{what} reaches into 0x0C000..0x0DFFF, where saved pages are kept in passing. "
-                           "An application has 48 KiB, 0x00000..0x0BFFF")
+        raise RefusedError(f"{what} reaches into 0x0DD00..0x0DFFF, where saved pages are kept in passing. "
+                           "An application has 0x00000..0x0DCFF")
 
 
 def plan(path: Path, address: Optional[int] = None, board: Optional[str] = None, with_trim: bool = False,

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ * page_save.h - puts a motion page into flash so that a power cut leaves the old page or the new one (journal.h), through
+ * whoever can write here (page_service.h). The reading side is page_store.h. Main loop only, nothing may be moving.
+ * No RAM. At most 60 ms: six flash pages of 9 ms; flow control keeps the PC silent meanwhile, and our loader's service
+ * keeps what still arrives. */
+#ifndef PAGE_SAVE_H
+#define PAGE_SAVE_H
+
+#include <stdint.h>
+#include "compiler.h"
+#include "page.h"
+#include "page_store.h"
+
+typedef enum {
+    PAGE_SAVE_OK = 0,
+    PAGE_SAVE_UNCHANGED,       /* flash holds it already: nothing was written */
+    PAGE_SAVE_ERR_VERIFY,      /* the flash did not take it: old page, or the next start repairs it */
+    PAGE_SAVE_ERR_NO_WRITER    /* nobody here can write flash; page_save_by_mailbox may help */
+} page_save_status_t;
+
+/* Finishes what a power cut left, before page_store_init; work: 256 bytes of RAM, undefined afterwards. Does nothing
+ * where nobody can write. */
+void page_save_recover(uint8_t work[PAGE_BYTES]);
+
+/* Sets the checksum byte, saves, reads back, and checks the page for the store again. */
+MUST_CHECK page_save_status_t page_save(page_store_t *store, uint8_t page, uint8_t bytes[PAGE_BYTES]);
+
+/* Leaves the page in the mailbox of the factory loader and restarts the controller: 4.5 s. Never returns. */
+void page_save_by_mailbox(uint8_t page, uint8_t bytes[PAGE_BYTES]) __attribute__((noreturn));
+
+#endif

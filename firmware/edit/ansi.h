@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT
+ * ansi.h - the few terminal sequences the editor sends (ANSI X3.64, as a VT100 knows them), straight to the console.
+ * Blocks while the console's ring is full. Main loop only. No RAM. */
+#ifndef ANSI_H
+#define ANSI_H
+
+#include <stdint.h>
+
+void ansi_put(char character);
+void ansi_goto(uint8_t row, uint8_t column);  /* from 1 */
+void ansi_right(uint8_t columns);             /* at least 1 */
+void ansi_clear(void);                        /* and home */
+void ansi_erase_line(void);                   /* from the cursor on */
+void ansi_ask_size(void);                     /* answered by ESC [ rows ; columns R */
+
+#endif

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT
+ * cmd_check.c - CHECK: what is wrong, or likely to be, in the stored pages: damage, links that lead nowhere, pages that
+ * nothing leads to, positions outside a servo's limits, steps faster than a servo. */
+#include "bus_call.h"
+#include "commands.h"
+#include "dxl.h"
+#include "frame.h"
+#include "page_facts.h"
+#include "pgm.h"
+#include "text.h"
+
+static const uint8_t link_fields[] PROGMEM = { PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE,
+                                               PAGE_AT_LINKED2_PAGE };
+#define LINKS sizeof link_fields
+
+static void begin_line(uint8_t page)
+{
+    TEXT("Page ");
+    text_padded(page, 3, ' ');
+    TEXT(": ");
+}
+
+static void begin_step(uint8_t page, uint8_t step, uint8_t joint)
+{
+    begin_line(page);
+    TEXT("step ");
+    text_number(step);
+    TEXT(" ID ");
+    text_number(joint);
+    text_put(' ');
+}
+
+static void check_links(const editor_t *editor, uint8_t page)
+{
+    for (uint8_t i = 0; i < LINKS; i++) {
+        uint8_t to = page_facts_byte(page, pgm_read_byte(&link_fields[i]));
+        bool used = to != 0 && to < PAGE_COUNT;
+        if (used && (!page_store_is_good(editor->pages, to) || page_facts_byte(to, PAGE_AT_STEPS) == 0)) {
+            begin_line(page);
+            TEXT("leads to page ");
+            text_number(to);
+            text_P(page_store_is_good(editor->pages, to) ? PSTR(", which has no steps") : PSTR(", which is not valid"));
+            text_line_end();
+        }
+    }
+}
+
+static bool leads_to(uint8_t from, uint8_t page)
+{
+    for (uint8_t i = 0; i < LINKS; i++) {
+        if (page_facts_byte(from, pgm_read_byte(&link_fields[i])) == page) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void check_reach(const editor_t *editor, uint8_t page)
+{
+    if (page_facts_byte(page, PAGE_AT_PLAY_CODE) != 0) {
+        return;
+    }
+    for (uint8_t from = 1; from < PAGE_COUNT; from++) {
+        if (from != page && page_store_is_good(editor->pages, from) && leads_to(from, page)) {
+            return;
+        }
+    }
+    begin_line(page);
+    TEXT("no code and no other page calls it");
+    text_line_end();
+}
+
+static void check_speed(uint8_t page)
+{
+    page_facts_t facts;
+    uint8_t steps = page_facts_byte(page, PAGE_AT_STEPS);
+    for (uint8_t step = 0; step < steps; step++) {
+        page_facts_step(page, step, &facts);
+        uint16_t deg_s = page_facts_deg_s(&facts);
+        if (deg_s > PAGE_FACTS_FASTEST_DEG_S) {
+            begin_step(page, step, facts.joint);
+            TEXT("too fast, ");
+            text_number(deg_s);
+            TEXT(" degrees/s");
+            text_line_end();
+        }
+    }
+}
+
+static void check_joint(const editor_t *editor, uint8_t page, uint8_t joint)
+{
+    uint8_t limits[4];
+    uint8_t steps = page_facts_byte(page, PAGE_AT_STEPS);
+    if (bus_call_read(joint, DXL_AT_CW_LIMIT, limits, sizeof limits, NULL) != BUS_OK) {
+        return;
+    }
+    uint16_t low = (uint16_t)(limits[0] | (uint16_t)limits[1] << 8);
+    uint16_t high = (uint16_t)(limits[2] | (uint16_t)limits[3] << 8);
+    for (uint8_t step = 0; step < steps; step++) {
+        uint16_t pos = page_facts_word(page, step, joint);
+        uint16_t goal = servo_link_to_servo(editor->servos, joint, pos & PAGE_POS_MAX);
+        if (pos <= PAGE_POS_MAX && (goal < low || goal > high)) {
+            begin_step(page, step, joint);
+            TEXT("outside the servo's limits");
+            text_line_end();
+        }
+    }
+}
+
+static void check_page(editor_t *editor, uint8_t page)
+{
+    page_status_t status = page_store_check(editor->pages, page);
+    if (status != PAGE_OK) {
+        char text[FRAME_FAULT_BYTES];
+        frame_fault_text(status == PAGE_ERR_STEPS ? page_facts_byte(page, PAGE_AT_STEPS) : (uint8_t)status, text);
+        begin_line(page);
+        text_string(text);
+        text_line_end();
+        return;
+    }
+    if (page_facts_byte(page, PAGE_AT_STEPS) == 0) {
+        return;
+    }
+    check_links(editor, page);
+    check_reach(editor, page);
+    check_speed(page);
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        if (robot_has(&editor->robot, joint)) {
+            check_joint(editor, page, joint);
+        }
+    }
+}
+
+static bool check_item(editor_t *editor, uint8_t item)
+{
+    uint8_t page = (uint8_t)(item + editor->list_first);
+    if (page > editor->list_last) {
+        return false;
+    }
+    servo_link_quiet(editor->servos);
+    if (page != 0 && !session_is_empty(page)) {
+        check_page(editor, page);
+    }
+    return true;
+}
+
+COMMAND(cmd_check)
+{
+    editor_t *editor = context;
+    if (!editor_may_move(editor)) {
+        return SHELL_ERR_SAID;
+    }
+    editor->list_first = args->count > 1 ? (uint8_t)editor->number[0] : 1;
+    editor->list_last = args->count > 1 ? (uint8_t)editor->number[0] : (uint8_t)(PAGE_COUNT - 1u);
+    return editor_list(editor, check_item, PSTR("Stored pages:"));
+}

@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: MIT
+ * cmd_page.c - the page as a whole: open, copy, new, save, name, undo, and leaving. */
+#include "commands.h"
+#include "console.h"
+#include "frame.h"
+#include "page_save.h"
+#include "page_service.h"
+#include "pgm.h"
+#include "system.h"
+#include "text.h"
+
+#define PAGE_MAX (PAGE_COUNT - 1u)
+#define NAME_CHARS (PAGE_NAME_BYTES - 1u)
+
+static uint8_t open_asking(editor_t *editor, uint8_t page)
+{
+    if (!editor_ask_unsaved(editor)) {
+        return EDITOR_TO_ASK;
+    }
+    editor_open(editor, page);
+    return SHELL_OK;
+}
+
+COMMAND(cmd_page)
+{
+    editor_t *editor = context;
+    (void)args;
+    return open_asking(editor, (uint8_t)editor->number[0]);
+}
+
+static uint8_t open_beside(editor_t *editor, bool is_there, int8_t way)
+{
+    if (!is_there) {
+        TEXT("Page must be 0..127");
+        return SHELL_ERR_SAID;
+    }
+    return open_asking(editor, (uint8_t)(editor->session.page + way));
+}
+
+COMMAND(cmd_next)
+{
+    editor_t *editor = context;
+    (void)args;
+    return open_beside(editor, editor->session.page < PAGE_MAX, 1);
+}
+
+COMMAND(cmd_before)
+{
+    editor_t *editor = context;
+    (void)args;
+    return open_beside(editor, editor->session.page > 0, -1);
+}
+
+COMMAND(cmd_copy)
+{
+    editor_t *editor = context;
+    (void)args;
+    if (!editor_ask_unsaved(editor)) {
+        return EDITOR_TO_ASK;
+    }
+    session_begin(&editor->session);
+    session_load(&editor->session, (uint8_t)editor->number[0]);
+    return editor_edited(editor);
+}
+
+COMMAND(cmd_new)
+{
+    editor_t *editor = context;
+    (void)args;
+    if (!editor_ask(editor, PSTR(""))) {
+        return EDITOR_TO_ASK;
+    }
+    session_begin(&editor->session);
+    session_clear(&editor->session);
+    return editor_edited(editor);
+}
+
+/* ---- save ---- */
+
+/* A stored page holds no torque-off marks (motion512.md): they become joints that the step does not use. */
+static void clear_off_marks(editor_t *editor)
+{
+    session_t *session = &editor->session;
+    uint8_t count = 0;
+    session_begin(session);
+    for (uint16_t address = PAGE_AT_STEP0; address < PAGE_BYTES; address = (uint16_t)(address + 2u)) {
+        uint16_t word = cell_word(session->cells, address);
+        bool is_word = address % PAGE_STEP_BYTES < PAGE_STEP_AT_PAUSE;
+        bool is_trim = session->page == 0 && address / PAGE_STEP_BYTES == CELL_X_OFFSET;
+        if (is_word && !is_trim && cell_is_off(word)) {
+            session_set_word(session, address, (uint16_t)(PAGE_POS_UNUSED | (word & PAGE_POS_MAX)));
+            count++;
+        }
+    }
+    (void)session_end(session);
+    if (count != 0) {
+        text_number(count);
+        TEXT(" ???? saved as ----, ");
+    }
+}
+
+/* Faults that a save does not cure. */
+static bool page_is_sound(editor_t *editor)
+{
+    session_t *session = &editor->session;
+    bool was_damaged = session->was_damaged;
+    session->was_damaged = false;
+    uint8_t fault = frame_fault(session);
+    session->was_damaged = was_damaged;
+    if (fault == 0) {
+        return true;
+    }
+    char text[FRAME_FAULT_BYTES];
+    frame_fault_text(fault, text);
+    TEXT("Not saved. ");
+    text_string(text);
+    return false;
+}
+
+static bool overwriting_is_meant(editor_t *editor, uint8_t page)
+{
+    if (page != editor->session.page) {
+        return session_is_empty(page) || editor_ask(editor, PSTR("That page is not empty. "));
+    }
+    if (page_store_is_erased(page) || page_store_check(editor->pages, page) == PAGE_OK) {
+        return true;
+    }
+    return editor_ask(editor, PSTR("The stored page is damaged. "));
+}
+
+static uint8_t save_by_mailbox(editor_t *editor, uint8_t page)
+{
+    if (!editor_ask(editor, PSTR("Saving restarts the controller (5 s). "))) {
+        return EDITOR_TO_ASK;
+    }
+    page_save_by_mailbox(page, editor->session.cells);
+}
+
+static uint8_t save_now(editor_t *editor, uint8_t page)
+{
+    page_save_status_t status = page_save(editor->pages, page, editor->session.cells);
+    if (page == editor->session.page) {
+        session_saved(&editor->session);
+    }
+    if (page == 0 && editor->session.page != 0) {
+        robot_set_trim(&editor->robot);
+    }
+    switch (status) {
+    case PAGE_SAVE_OK:
+        TEXT("OK");
+        return SHELL_OK;
+    case PAGE_SAVE_UNCHANGED:
+        TEXT("OK, no change");
+        return SHELL_OK;
+    case PAGE_SAVE_ERR_VERIFY:
+        TEXT("Not saved: flash error");
+        break;
+    case PAGE_SAVE_ERR_NO_WRITER:
+        TEXT("No boot loader can write: the page stays in RAM");
+        break;
+    }
+    return SHELL_ERR_SAID;
+}
+
+COMMAND(cmd_save)
+{
+    editor_t *editor = context;
+    uint8_t page = args->count > 1 ? (uint8_t)editor->number[0] : editor->session.page;
+    if (!page_is_sound(editor)) {
+        return SHELL_ERR_SAID;
+    }
+    if (!overwriting_is_meant(editor, page)) {
+        return EDITOR_TO_ASK;
+    }
+    editor->screen.lead = true;
+    clear_off_marks(editor);
+    if (page_service_kind() == PAGE_SERVICE_MAILBOX) {
+        return save_by_mailbox(editor, page);
+    }
+    return save_now(editor, page);
+}
+
+COMMAND(cmd_exit)
+{
+    (void)args;
+    if (!editor_ask_unsaved(context)) {
+        return EDITOR_TO_ASK;
+    }
+    TEXT("Restart");
+    console_flush();
+    system_restart();
+}
+
+/* ---- name ---- */
+
+void cmd_name_done(editor_t *editor, const char *name)
+{
+    session_t *session = &editor->session;
+    bool ended = false;
+    session_begin(session);
+    for (uint8_t i = 0; i < PAGE_NAME_BYTES; i++) {
+        char character = ended || i >= NAME_CHARS ? '\0' : name[i];
+        ended = character == '\0';
+        session_set_byte(session, (uint16_t)(PAGE_AT_NAME + i), (uint8_t)character);
+    }
+    (void)editor_edited(editor);
+}
+
+COMMAND(cmd_name)
+{
+    editor_t *editor = context;
+    if (args->count > 1) {
+        cmd_name_done(editor, shell_word(args, 1));
+        return SHELL_OK;
+    }
+    TEXT("name:");
+    return EDITOR_TO_NAME;
+}
+
+/* ---- undo ---- */
+
+COMMAND(cmd_undo)
+{
+    editor_t *editor = context;
+    (void)args;
+    if (session_undo(&editor->session)) {
+        return SHELL_OK;
+    }
+    TEXT("Nothing to undo");
+    return SHELL_ERR_SAID;
+}
+
+COMMAND(cmd_redo)
+{
+    editor_t *editor = context;
+    (void)args;
+    if (session_redo(&editor->session)) {
+        return SHELL_OK;
+    }
+    TEXT("Nothing to redo");
+    return SHELL_ERR_SAID;
+}

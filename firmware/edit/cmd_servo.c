@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: MIT
+ * cmd_servo.c - commands that move servos or let them go: GO, MIRROR, ON, OFF, and MIRROR's setting, PAIRS. */
+#include "commands.h"
+#include "pgm.h"
+#include "report.h"
+#include "text.h"
+
+enum { NEUTRAL_POS = 512 };
+
+/* Sends a step and says what could not be sent. */
+static void send_step(editor_t *editor, const uint8_t step[PAGE_STEP_BYTES])
+{
+    uint32_t missing = robot_send(&editor->robot, step);
+    session_set_byte(&editor->session, CELLS_POSE_AT + PAGE_STEP_AT_PAUSE, step[PAGE_STEP_AT_PAUSE]);
+    session_set_byte(&editor->session, CELLS_POSE_AT + PAGE_STEP_AT_SPEED, step[PAGE_STEP_AT_SPEED]);
+    if (missing != 0) {
+        editor->screen.lead = true;
+        TEXT("No value, not moved: ID ");
+        report_joints(missing);
+    }
+}
+
+COMMAND(cmd_go)
+{
+    editor_t *editor = context;
+    session_t *session = &editor->session;
+    uint8_t step = (uint8_t)editor->number[0];
+    (void)args;
+    if (!editor_may_move(editor)) {
+        return SHELL_ERR_SAID;
+    }
+    if (step >= session->cells[PAGE_AT_STEPS] && !editor_ask(editor, PSTR(""))) {
+        return EDITOR_TO_ASK;
+    }
+    uint8_t words[PAGE_STEP_BYTES];
+    memcpy(words, &session->cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
+    session->go_step = step;
+    send_step(editor, words);
+    return SHELL_OK;
+}
+
+/* ---- mirror ---- */
+
+/* Neutral position of a joint: 512, or the first step of page 1 in flash (never its copy in RAM). */
+static uint16_t neutral_of(const editor_t *editor, uint8_t joint)
+{
+    uint8_t word[2];
+    if (editor->settings->neutral != SETTINGS_NEUTRAL_PAGE1 || !page_store_is_good(editor->pages, 1)) {
+        return NEUTRAL_POS;
+    }
+    page_store_read(1, (uint16_t)(PAGE_AT_STEP0 + 2u * joint), word, sizeof word);
+    uint16_t pos = (uint16_t)(word[0] | (uint16_t)word[1] << 8);
+    return cell_is_position(pos) ? pos : (uint16_t)NEUTRAL_POS;
+}
+
+/* new[a] = N[a] - (s[b] - N[b]), kept within 0..1023; what is no position passes as it is. */
+static uint16_t mirrored(const editor_t *editor, uint8_t step, uint8_t joint, uint8_t partner)
+{
+    uint16_t word = session_word(&editor->session, step, partner);
+    if (!cell_is_position(word)) {
+        return word;
+    }
+    int16_t pos = (int16_t)((int16_t)neutral_of(editor, joint) + (int16_t)neutral_of(editor, partner) - (int16_t)word);
+    return pos < 0 ? 0 : pos > (int16_t)PAGE_POS_MAX ? (uint16_t)PAGE_POS_MAX : (uint16_t)pos;
+}
+
+COMMAND(cmd_mirror)
+{
+    editor_t *editor = context;
+    session_t *session = &editor->session;
+    uint8_t step = (uint8_t)editor->number[0];
+    (void)args;
+    if (!editor_may_move(editor)) {
+        return SHELL_ERR_SAID;
+    }
+    uint8_t words[PAGE_STEP_BYTES];
+    memcpy(words, &session->cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        uint8_t partner = editor->settings->pair[joint];
+        if (partner < PAGE_JOINTS) {
+            uint16_t word = mirrored(editor, step, joint, partner);
+            words[2 * joint] = (uint8_t)word;
+            words[2 * joint + 1] = (uint8_t)(word >> 8);
+        }
+    }
+    send_step(editor, words);
+    return SHELL_OK;
+}
+
+static void print_pairs(const settings_t *settings)
+{
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        if (settings->pair[joint] < PAGE_JOINTS && settings->pair[joint] > joint) {
+            text_number(joint);
+            text_put('-');
+            text_number(settings->pair[joint]);
+            text_put(' ');
+        }
+    }
+}
+
+static bool set_pairs(settings_t *settings, const shell_args_t *args)
+{
+    uint16_t a, b;
+    if (args->count == 2) {
+        settings->neutral = shell_word_is(args, 1, PSTR("page1")) ? SETTINGS_NEUTRAL_PAGE1 : SETTINGS_NEUTRAL_512;
+        return true;
+    }
+    if (!shell_number(args, 1, PSTR("ID"), 0, PAGE_JOINTS - 1u, &a) ||
+        !shell_number(args, 2, PSTR("ID"), 0, PAGE_JOINTS - 1u, &b)) {
+        return false;
+    }
+    return settings_pair(settings, (uint8_t)a, (uint8_t)b);
+}
+
+COMMAND(cmd_pairs)
+{
+    editor_t *editor = context;
+    if (args->count > 1) {
+        if (!set_pairs(editor->settings, args)) {
+            return SHELL_ERR_SAID;
+        }
+        settings_save_start(editor->settings_store);
+    }
+    print_pairs(editor->settings);
+    return SHELL_OK;
+}
+
+/* ---- torque ---- */
+
+/* IDs of the line; without any, all that are there. */
+static bool joints_of(editor_t *editor, const shell_args_t *args, uint32_t *joints)
+{
+    uint32_t there = editor->servos->present;
+    *joints = args->count > 1 ? 0 : there;
+    for (uint8_t i = 1; i < args->count; i++) {
+        uint16_t id;
+        if (!shell_number(args, i, PSTR("ID"), 0, PAGE_JOINTS - 1u, &id)) {
+            return false;
+        }
+        *joints |= servo_link_bit((uint8_t)id);
+    }
+    if ((*joints & ~there) != 0) {
+        TEXT("Not there: ID ");
+        report_joints(*joints & ~there);
+    }
+    return true;
+}
+
+COMMAND(cmd_on)
+{
+    editor_t *editor = context;
+    uint32_t joints;
+    if (!editor_may_move(editor) || !joints_of(editor, args, &joints)) {
+        return SHELL_ERR_SAID;
+    }
+    robot_on(&editor->robot, joints);
+    return SHELL_OK;
+}
+
+COMMAND(cmd_off)
+{
+    editor_t *editor = context;
+    uint32_t joints;
+    if (!joints_of(editor, args, &joints)) {
+        return SHELL_ERR_SAID;
+    }
+    robot_off(&editor->robot, joints);
+    return SHELL_OK;
+}

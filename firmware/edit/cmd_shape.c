@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT
+ * cmd_shape.c - what the original lacked: a step between two steps, the time of a page, steps from page to page. */
+#include "commands.h"
+#include "pgm.h"
+#include "text.h"
+
+#define LAST_STEP (PAGE_STEPS - 1u)
+enum { PERCENT_DEFAULT = 50, PERCENT_WHOLE = 100 };
+
+static uint16_t step_at(uint8_t step)
+{
+    return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step);
+}
+
+/* a + (b - a) * percent / 100, rounded to the nearer, halves away from a. */
+static uint16_t between(uint16_t a, uint16_t b, uint8_t percent)
+{
+    uint16_t way = b > a ? (uint16_t)(b - a) : (uint16_t)(a - b);
+    uint16_t part = (uint16_t)(((uint32_t)way * percent + PERCENT_WHOLE / 2) / PERCENT_WHOLE);
+    return b > a ? (uint16_t)(a + part) : (uint16_t)(a - part);
+}
+
+static void set_between(session_t *session, uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
+{
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        uint16_t first = session_word(session, a, joint);
+        uint16_t second = session_word(session, b, joint);
+        bool both = cell_is_position(first) && cell_is_position(second);
+        session_set_word(session, (uint16_t)(step_at(to) + 2u * joint),
+                         both ? between(first, second, percent) : (uint16_t)PAGE_POS_UNUSED);
+    }
+}
+
+COMMAND(cmd_int)
+{
+    editor_t *editor = context;
+    session_t *session = &editor->session;
+    uint8_t a = (uint8_t)editor->number[0], b = (uint8_t)editor->number[1], steps = session->cells[PAGE_AT_STEPS];
+    uint16_t percent = PERCENT_DEFAULT;
+    if (args->count > 3 && !shell_number(args, 3, PSTR("Percent"), 0, PERCENT_WHOLE, &percent)) {
+        return SHELL_ERR_SAID;
+    }
+    if (steps >= PAGE_STEPS || a >= steps || b >= steps) {
+        text_P(steps >= PAGE_STEPS ? PSTR("All 7 steps are used") : PSTR("That step is not used"));
+        return SHELL_ERR_SAID;
+    }
+    uint8_t to = (uint8_t)(a + 1u);
+    session_begin_turn(session, UNDO_TURN(UNDO_TURN_UP, to, LAST_STEP));
+    b = b >= to ? (uint8_t)(b + 1u) : b;
+    set_between(session, a, b, to, (uint8_t)percent);
+    /* Time or speed of the step it leads to; no pause. */
+    session_set_byte(session, (uint16_t)(step_at(to) + PAGE_STEP_AT_PAUSE), 0);
+    session_set_byte(session, (uint16_t)(step_at(to) + PAGE_STEP_AT_SPEED),
+                     session->cells[step_at(b) + PAGE_STEP_AT_SPEED]);
+    session_set_byte(session, PAGE_AT_STEPS, (uint8_t)(steps + 1u));
+    return editor_edited(editor);
+}
+
+/* value * mul / div, rounded, 1..255; notes when it does not fit. */
+static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
+{
+    uint32_t result = ((uint32_t)value * mul + div / 2u) / div;
+    *cut = *cut || result > UINT8_MAX || (result == 0 && value != 0);
+    return result > UINT8_MAX ? (uint8_t)UINT8_MAX : result == 0 && value != 0 ? 1 : (uint8_t)result;
+}
+
+COMMAND(cmd_scale)
+{
+    editor_t *editor = context;
+    session_t *session = &editor->session;
+    uint16_t percent = editor->number[0];
+    bool cut = false;
+    (void)args;
+    bool is_time = session->cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME;
+    session_begin(session);
+    for (uint8_t step = 0; step < session_steps(session); step++) {
+        uint16_t at = (uint16_t)(step_at(step) + PAGE_STEP_AT_PAUSE);
+        session_set_byte(session, at, scaled(session->cells[at], percent, PERCENT_WHOLE, &cut));
+        at++;
+        session_set_byte(session, at, is_time ? scaled(session->cells[at], percent, PERCENT_WHOLE, &cut)
+                                              : scaled(session->cells[at], PERCENT_WHOLE, percent, &cut));
+    }
+    if (cut) {
+        TEXT("Cut at 1 or 255");
+    }
+    return editor_edited(editor);
+}
+
+/* ---- steps from page to page ---- */
+
+COMMAND(cmd_take)
+{
+    editor_t *editor = context;
+    uint8_t first = (uint8_t)editor->number[0];
+    uint8_t last = args->count > 2 ? (uint8_t)editor->number[1] : first;
+    if (last < first) {
+        TEXT("The first step comes first");
+        return SHELL_ERR_SAID;
+    }
+    editor->take_page = editor->session.page;
+    editor->take_first = first;
+    editor->take_last = last;
+    TEXT("Noted for PASTE");
+    if (editor->session.is_changed) {
+        TEXT(" (save it first)");
+    }
+    return SHELL_OK;
+}
+
+static void paste_step(editor_t *editor, uint8_t from, uint8_t to)
+{
+    uint8_t chunk[PAGE_STEP_BYTES];
+    session_t *session = &editor->session;
+    if (editor->take_page == session->page) {
+        memcpy(chunk, &session->cells[step_at(from)], PAGE_STEP_BYTES);
+    } else {
+        page_store_read(editor->take_page, step_at(from), chunk, PAGE_STEP_BYTES);
+    }
+    for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++) {
+        session_set_byte(session, (uint16_t)(step_at(to) + i), chunk[i]);
+    }
+}
+
+COMMAND(cmd_paste)
+{
+    editor_t *editor = context;
+    session_t *session = &editor->session;
+    uint8_t to = session_steps(session);
+    if (editor->take_page == EDITOR_NO_PAGE) {
+        TEXT("Nothing noted: TAKE first");
+        return SHELL_ERR_SAID;
+    }
+    if (args->count > 1) {
+        to = (uint8_t)editor->number[0];
+    }
+    uint8_t count = (uint8_t)(editor->take_last - editor->take_first + 1u);
+    if (to + count > PAGE_STEPS) {
+        TEXT("No room");
+        return SHELL_ERR_SAID;
+    }
+    session_begin(session);
+    if (to + count > session->cells[PAGE_AT_STEPS]) {
+        session_set_byte(session, PAGE_AT_STEPS, (uint8_t)(to + count));
+    }
+    /* Upwards or downwards, so that overlapping steps of the same page are read before they are written. */
+    for (uint8_t i = 0; i < count; i++) {
+        uint8_t k = to > editor->take_first ? (uint8_t)(count - 1u - i) : i;
+        paste_step(editor, (uint8_t)(editor->take_first + k), (uint8_t)(to + k));
+    }
+    return editor_edited(editor);
+}

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: MIT
+ * cmd_step.c - steps as wholes: their number, and writing, inserting, deleting, copying, swapping them. */
+#include "commands.h"
+#include "pgm.h"
+#include "report.h"
+#include "text.h"
+
+#define LAST_STEP (PAGE_STEPS - 1u)
+#define POSE_STEP PAGE_STEPS       /* 7 in MOVE: the work pose */
+
+static uint16_t step_at(uint8_t step)
+{
+    return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step);   /* step 7 is the work pose */
+}
+
+static void set_count(session_t *session, uint8_t steps)
+{
+    session_set_byte(session, PAGE_AT_STEPS, steps);
+}
+
+static void copy_step(session_t *session, uint8_t from, uint8_t to)
+{
+    for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++) {
+        session_set_byte(session, (uint16_t)(step_at(to) + i), session->cells[step_at(from) + i]);
+    }
+}
+
+/* Page 0: the trim follows from master pose and this robot's pose. */
+static void update_trim(editor_t *editor, uint8_t step)
+{
+    session_t *session = &editor->session;
+    if (session->page != 0 || step > 1) {
+        return;
+    }
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        session_update_trim(session, joint);
+    }
+    TEXT("Offset Updated");
+}
+
+/* A pose with joints let go is written with ???? cells: said, because it is seldom meant. */
+static void tell_off(editor_t *editor)
+{
+    uint32_t off = 0;
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        if (robot_has(&editor->robot, joint) && cell_is_off(session_pose(&editor->session, joint))) {
+            off |= servo_link_bit(joint);
+        }
+    }
+    if (off != 0) {
+        editor->screen.lead = true;
+        TEXT("Off: ");
+        report_joints(off);
+    }
+}
+
+COMMAND(cmd_step)
+{
+    editor_t *editor = context;
+    (void)args;
+    session_begin(&editor->session);
+    set_count(&editor->session, (uint8_t)editor->number[0]);
+    return editor_edited(editor);
+}
+
+COMMAND(cmd_write)
+{
+    editor_t *editor = context;
+    session_t *session = &editor->session;
+    uint8_t step = session->cells[PAGE_AT_STEPS];
+    if (args->count > 1) {
+        step = (uint8_t)editor->number[0];
+    } else if (step >= PAGE_STEPS) {
+        TEXT("All 7 steps are used");
+        return SHELL_ERR_SAID;
+    }
+    session_begin(session);
+    if (args->count == 1) {
+        set_count(session, (uint8_t)(step + 1u));
+    }
+    copy_step(session, POSE_STEP, step);
+    update_trim(editor, step);
+    tell_off(editor);
+    return editor_edited(editor);
+}
+
+COMMAND(cmd_insert)
+{
+    editor_t *editor = context;
+    session_t *session = &editor->session;
+    (void)args;
+    uint8_t step = (uint8_t)editor->number[0];
+    uint8_t steps = session->cells[PAGE_AT_STEPS];
+    session_begin_turn(session, UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
+    if (step < steps && steps < PAGE_STEPS) {
+        set_count(session, (uint8_t)(steps + 1u));
+    }
+    copy_step(session, POSE_STEP, step);
+    if (steps >= PAGE_STEPS) {
+        TEXT("Step 6 fell out: UNDO");
+    }
+    tell_off(editor);
+    return editor_edited(editor);
+}
+
+/* The steps behind move down; the last one stays as a copy (editor-original.md section 6). */
+static uint8_t delete_step(editor_t *editor, uint8_t step)
+{
+    session_t *session = &editor->session;
+    uint8_t steps = session->cells[PAGE_AT_STEPS];
+    session_begin_turn(session, UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
+    if (step < steps) {
+        set_count(session, (uint8_t)(steps - 1u));
+    }
+    if (step < LAST_STEP) {
+        copy_step(session, LAST_STEP - 1u, LAST_STEP);
+    }
+    return editor_edited(editor);
+}
+
+COMMAND(cmd_delete)
+{
+    editor_t *editor = context;
+    session_t *session = &editor->session;
+    if (args->count > 1) {
+        return delete_step(editor, (uint8_t)editor->number[0]);
+    }
+    uint8_t steps = session->cells[PAGE_AT_STEPS];
+    if (steps == 0) {
+        TEXT("There is no step");
+        return SHELL_ERR_SAID;
+    }
+    session_begin(session);
+    set_count(session, (uint8_t)(steps - 1u));
+    return editor_edited(editor);
+}
+
+static void print_pair(uint8_t from, uint8_t to)
+{
+    TEXT(":");
+    text_padded(from, 3, '0');
+    TEXT("->");
+    text_padded(to, 3, '0');
+}
+
+COMMAND(cmd_move)
+{
+    editor_t *editor = context;
+    uint8_t from = (uint8_t)editor->number[0], to = (uint8_t)editor->number[1];
+    (void)args;
+    editor->screen.lead = false;
+    print_pair(from, to);
+    session_begin(&editor->session);
+    copy_step(&editor->session, from, to);
+    if (to == POSE_STEP) {
+        TEXT(" (shown only: GO sends it)");
+        for (uint8_t y = 0; y < PAGE_JOINTS; y++) {
+            editor->session.marks[y] |= MARK_LABEL;
+        }
+    } else {
+        editor->screen.lead = true;
+        update_trim(editor, to);
+    }
+    return editor_edited(editor);
+}
+
+COMMAND(cmd_swap)
+{
+    editor_t *editor = context;
+    (void)args;
+    session_begin_turn(&editor->session, UNDO_TURN(UNDO_TURN_SWAP, editor->number[0], editor->number[1]));
+    return editor_edited(editor);
+}

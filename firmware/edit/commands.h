@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT
+ * commands.h - the words of the editor and who carries them out. The table itself (commands.c) stands in flash; each
+ * handler gets the editor as its context and returns SHELL_OK, SHELL_ERR_SAID or one of EDITOR_TO_... */
+#ifndef COMMANDS_H
+#define COMMANDS_H
+
+#include <stdint.h>
+#include "editor.h"
+
+extern const shell_command_t commands_table_P[];
+extern const uint8_t commands_count;
+
+/* Checks the numbers behind command word 0 against what the table says of it, and leaves them in editor->number. What is
+ * wrong has been said when it returns false. An unknown word is fine here. */
+bool commands_numbers(editor_t *editor);
+
+#define COMMAND(name) uint8_t name(void *context, const shell_args_t *args)
+
+/* cmd_page.c */
+COMMAND(cmd_page);
+COMMAND(cmd_next);
+COMMAND(cmd_before);
+COMMAND(cmd_copy);
+COMMAND(cmd_new);
+COMMAND(cmd_save);
+COMMAND(cmd_exit);
+COMMAND(cmd_name);
+COMMAND(cmd_undo);
+COMMAND(cmd_redo);
+/* Stores a name typed after "name:". */
+void cmd_name_done(editor_t *editor, const char *name);
+
+/* cmd_step.c */
+COMMAND(cmd_step);
+COMMAND(cmd_write);
+COMMAND(cmd_insert);
+COMMAND(cmd_delete);
+COMMAND(cmd_move);
+COMMAND(cmd_swap);
+
+/* cmd_shape.c */
+COMMAND(cmd_int);
+COMMAND(cmd_scale);
+COMMAND(cmd_take);
+COMMAND(cmd_paste);
+
+/* cmd_servo.c */
+COMMAND(cmd_go);
+COMMAND(cmd_mirror);
+COMMAND(cmd_on);
+COMMAND(cmd_off);
+COMMAND(cmd_pairs);
+
+/* cmd_cell.c */
+COMMAND(cmd_set);
+COMMAND(cmd_goto);
+COMMAND(cmd_time);
+COMMAND(cmd_speed);
+COMMAND(cmd_hex);
+COMMAND(cmd_dec);
+COMMAND(cmd_re);
+COMMAND(cmd_rows);
+/* The keys [ ] { } (a change by -1, 1, 10, -10) and space on the cell under the cursor. */
+void cmd_cell_change(editor_t *editor, int8_t change);
+void cmd_cell_space(editor_t *editor);
+
+/* cmd_play.c */
+COMMAND(cmd_play);
+COMMAND(cmd_balance);
+void cmd_play_key(editor_t *editor, uint8_t key);
+void cmd_play_events(editor_t *editor);
+void cmd_balance_tick(editor_t *editor);
+
+
+/* cmd_list.c, cmd_check.c */
+COMMAND(cmd_help);
+COMMAND(cmd_list);
+COMMAND(cmd_find);
+COMMAND(cmd_check);
+
+/* mon.c */
+COMMAND(cmd_mon);
+void mon_line(editor_t *editor, const shell_args_t *args);
+void mon_prompt(editor_t *editor);
+
+#endif

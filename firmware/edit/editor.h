@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT
+ * editor.h - the editor as a whole: which key means what now, lines, questions, lists, playing.
+ * Ties session, screen, robot and performer together; the commands are in cmd_*.c, one topic each, their table in
+ * commands.c. One instance, in main.c; main loop only; editor_turn never blocks longer than its slowest command.
+ *
+ *              first character                 CR
+ *   TABLE ----------------------> LINE -----------------> run --> TABLE
+ *     ^                                                    |
+ *     |   any key   +--> ASK: one key, then run again or TABLE
+ *     +-------------+--> NAME: a second line
+ *                   +--> LIST: item by item, a screen at a time
+ *                   +--> PLAY: until the performer is idle
+ *                   +--> BALANCE, MONITOR
+ *   '@' as first character: PROGRAM, a line of machine.h, answered on a plain terminal */
+#ifndef EDITOR_H
+#define EDITOR_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "keys.h"
+#include "machine.h"
+#include "page_store.h"
+#include "performer.h"
+#include "robot.h"
+#include "screen.h"
+#include "servo_link.h"
+#include "session.h"
+#include "settings.h"
+#include "shell.h"
+
+#define EDITOR_LINE_BYTES 112u    /* a line of a program (machine.h); the screen shows 77 */
+#define EDITOR_HISTORY_BYTES 44u
+#define EDITOR_NO_PAGE 0xFFu
+
+typedef enum {
+    EDITOR_TABLE = 0, EDITOR_LINE, EDITOR_ASK, EDITOR_NAME, EDITOR_LIST, EDITOR_MORE, EDITOR_PLAY, EDITOR_BALANCE,
+    EDITOR_MONITOR, EDITOR_PROGRAM
+} editor_mode_t;
+
+/* What a command handler returns besides SHELL_OK and SHELL_ERR_SAID: the mode that goes on from here. */
+enum { EDITOR_TO_ASK = 2, EDITOR_TO_NAME, EDITOR_TO_LIST, EDITOR_TO_PLAY, EDITOR_TO_BALANCE, EDITOR_TO_MONITOR };
+
+struct editor;
+/* Prints item `item` as one line, or nothing. false: there is no such item, the list ends. */
+typedef bool (*editor_item_t)(struct editor *editor, uint8_t item);
+
+/* Small things first: the AVR reaches 63 bytes behind a pointer with one instruction. */
+typedef struct editor {
+    uint8_t mode;                  /* editor_mode_t */
+    uint8_t asked, answered;       /* questions: put by this run, answered with yes */
+    uint8_t next_item, lines;      /* of the list being shown */
+    uint8_t list_first, list_last; /* pages of LIST and CHECK */
+    uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
+    uint8_t cid;                   /* the monitor's current ID */
+    uint8_t balance_ticks;
+    bool after_cr;                 /* the last byte was CR: a LF now belongs to it */
+    uint16_t quiet_since;          /* tick of the last byte */
+    shell_args_t args;             /* of the line being run */
+    uint16_t number[2];            /* its first two words behind the command, checked by the table's ranges */
+    editor_item_t item;            /* of the list being shown */
+    /* Of main.c. */
+    servo_link_t *servos;
+    performer_t *performer;
+    page_store_t *pages;
+    settings_t *settings;
+    settings_store_t *settings_store;
+    /* Parts. */
+    keys_t keys;
+    screen_t screen;
+    shell_t shell;
+    robot_t robot;
+    machine_t machine;
+    page_source_t source;          /* the open page from RAM, the others from flash */
+    session_t session;
+    char line[EDITOR_LINE_BYTES];
+    char history[EDITOR_HISTORY_BYTES];
+} editor_t;
+
+/* After board_start, page_store_init, settings_load, servo_link_scan, performer_init. text_init is the caller's. */
+void editor_init(editor_t *editor, servo_link_t *servos, performer_t *performer, page_store_t *pages,
+                 settings_t *settings, settings_store_t *settings_store);
+
+/* One turn of the main loop: keys, the tick's work, one piece of the screen. true: there is more to do at once. */
+bool editor_turn(editor_t *editor);
+
+/* One character of text: what text_init is given calls this. */
+void editor_put(editor_t *editor, char character);
+
+/* One byte from the console. */
+void editor_byte(editor_t *editor, uint8_t byte);
+
+/* ---- for the commands ---- */
+
+/* Questions. true: go on (it was answered, or need not be asked); false: return EDITOR_TO_ASK. */
+bool editor_ask(editor_t *editor, const char *question_P);
+bool editor_ask_unsaved(editor_t *editor);
+
+/* Nothing plays; otherwise says so. */
+bool editor_may_move(editor_t *editor);
+
+/* Begins a list: `title_P` is its first line. Returns EDITOR_TO_LIST. */
+uint8_t editor_list(editor_t *editor, editor_item_t item, const char *title_P);
+
+/* Ends an editing command: tells when it cannot be undone. Returns SHELL_OK. */
+uint8_t editor_edited(editor_t *editor);
+
+/* Opens a page: trim, Go Step. */
+void editor_open(editor_t *editor, uint8_t page);
+
+/* The line has been dealt with: back to the table. */
+void editor_leave_line(editor_t *editor);
+
+/* A message on the command row while nobody types. */
+void editor_message_begin(editor_t *editor);
+void editor_message_end(editor_t *editor);
+
+/* Tells on the message row which servos did not answer, and forgets them. */
+void editor_tell_failed(editor_t *editor);
+
+#endif

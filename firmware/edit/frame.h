@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT
+ * frame.h - where things stand on the screen and the texts around the table (editor-original.md section 3).
+ * Pure: session in, columns and characters out. No RAM. */
+#ifndef FRAME_H
+#define FRAME_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "session.h"
+
+#define FRAME_POSE_COLUMN 20u      /* STP7 */
+#define FRAME_BRACKET_COLUMN 24u   /* the bracket that closes it */
+#define FRAME_LIVE_COLUMN 13u      /* (0x05), or (0337): the live position of a joint whose torque is off */
+#define FRAME_LIVE_CHARS 6u
+#define FRAME_FAULT_COLUMN 61u
+#define FRAME_GO_COLUMN 72u
+#define FRAME_LABEL_BYTES 21u
+#define FRAME_FAULT_BYTES 21u
+
+extern const char frame_labels_P[];
+extern const char frame_labels_page0_P[]; /* the beginning, on page 0 */
+
+uint8_t frame_marker_column(uint8_t steps);
+bool frame_is_marker_column(uint8_t column);
+
+/* Column of the first character of a cell. */
+uint8_t frame_cell_column(uint8_t x, uint8_t y);
+
+/* The cell's text: 4 characters for positions, 3 for bytes. */
+void frame_cell_text(const session_t *session, uint8_t x, uint8_t y, char text[CELLS_TEXT_BYTES]);
+
+/* Columns 1..19 of table row y, opening bracket included (rows of bytes: 20 columns, blank up to the closing one). */
+void frame_label_text(const session_t *session, uint8_t y, char text[FRAME_LABEL_BYTES]);
+
+/* Label of header row y (0..19), "" when there is none; returns its column. */
+uint8_t frame_header_label(uint8_t y, char label[FRAME_LABEL_BYTES]);
+
+/* Name, page number, flash address (y 0..2); returns the column. */
+uint8_t frame_title_text(const session_t *session, uint8_t y, char text[FRAME_LABEL_BYTES]);
+
+/* What is wrong with the page as one byte (0 nothing, else page_status_t, Page Step included when that is it) and as
+ * 20 characters. */
+uint8_t frame_fault(const session_t *session);
+void frame_fault_text(uint8_t fault, char text[FRAME_FAULT_BYTES]);
+
+#endif

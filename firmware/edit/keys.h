@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ * keys.h - terminal bytes to keys: arrows, the terminal's size report, a lone ESC; everything else as it is.
+ * Pure. Main loop only. RAM: 4 bytes.
+ *
+ *   GROUND --ESC--> ESCAPE --'[' or 'O'--> SEQUENCE --final byte--> GROUND (arrow, report, or swallowed)
+ *                      \--other--> GROUND (swallowed)         ESCAPE --quiet--> GROUND (KEY_ESCAPE) */
+#ifndef KEYS_H
+#define KEYS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { KEY_NONE = 0x80, KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT, KEY_ESCAPE, KEY_SIZE };
+enum { KEY_CTRL_C = 3, KEY_CR = '\r', KEY_LF = '\n' };
+
+typedef struct {
+    uint8_t state;
+    uint8_t number, first; /* parameters of the sequence under way: the last and the one before */
+    uint8_t rows;          /* of the last KEY_SIZE */
+} keys_t;
+
+void keys_init(keys_t *keys);
+
+/* One byte. Returns a byte below 0x80 as it is, or a KEY_. Bytes of 0x80 and above and NUL give KEY_NONE. */
+uint8_t keys_byte(keys_t *keys, uint8_t byte);
+
+/* Nothing has come for 50 ms: a lone ESC was the ESC key. */
+uint8_t keys_quiet(keys_t *keys);
+
+/* A sequence is open: its bytes must not reach a line. */
+bool keys_is_open(const keys_t *keys);
+
+#endif

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT
+ * main.c - the Edit image: the one instance of everything, start-up order, main loop. */
+#include "board.h"
+#include "console.h"
+#include "editor.h"
+#include "page_save.h"
+#include "page_service.h"
+#include "pgm.h"
+#include "text.h"
+
+static editor_t editor;
+static servo_link_t servos;
+static performer_t performer;
+static page_store_t pages;
+static settings_t settings;
+static settings_store_t settings_store;
+
+static void put(char character)
+{
+    editor_put(&editor, character);
+}
+
+/* What the line must tell before the first screen hides it. */
+static void tell_start(page_service_kind_t service)
+{
+    static const char none[] PROGMEM = "No boot loader can write: no SAVE";
+    static const char mailbox[] PROGMEM = "Unknown loader: SAVE restarts";
+    if (service == PAGE_SERVICE_NONE || service == PAGE_SERVICE_MAILBOX) {
+        editor_message_begin(&editor);
+        text_P(service == PAGE_SERVICE_NONE ? none : mailbox);
+        editor_message_end(&editor);
+    }
+}
+
+static void start(void)
+{
+    board_start();
+    page_service_kind_t service = page_service_init(NULL);
+    page_save_recover(editor.session.cells);
+    page_store_init(&pages);
+    (void)settings_load(&settings_store, &settings);
+    console_set_flow(settings.flow != 0);
+    text_init(put);
+    servo_link_init(&servos);
+    servo_link_scan(&servos);
+    performer_init(&performer, &pages.source, &servos, &settings);
+    editor_init(&editor, &servos, &performer, &pages, &settings, &settings_store);
+    tell_start(service);
+}
+
+int main(void)
+{
+    start();
+    for (;;) {
+        if (!editor_turn(&editor)) {
+            board_idle();
+        }
+    }
+}

@@ -1,0 +1,389 @@
+/* SPDX-License-Identifier: MIT
+ * mon.c - MON, the line monitor of the servo bus: its words, their table, packets in and out as they are.
+ * Plain lines; the screen is hidden meanwhile, the page and its edits stay as they are. TOSS is in mon_toss.c. */
+#include "bus.h"
+#include "bus_call.h"
+#include "commands.h"
+#include "dxl.h"
+#include "mon.h"
+#include "pgm.h"
+#include "system.h"
+#include "text.h"
+
+enum { TABLE_BYTES = 50, DUMP_ROW = 10, PARAMS_MAX = 32, TRIES = 2, ID_MAX = 253, SCAN_LAST = 127 };
+
+static uint8_t say(const char *text_in_flash)
+{
+    text_P(text_in_flash);
+    text_line_end();
+    return SHELL_ERR_SAID;
+}
+
+/* ---- packets ---- */
+
+static void print_bytes(const char *before_P, const uint8_t *bytes, uint8_t count)
+{
+    text_P(before_P);
+    while (count-- > 0) {
+        text_put(' ');
+        text_hex(*bytes++, 2);
+    }
+}
+
+static const char *status_text_P(bus_status_t status)
+{
+    switch (status) {
+    case BUS_ERR_TIMEOUT: return PSTR("[Err:RxD Timeout]");
+    case BUS_ERR_CHECKSUM: return PSTR("[Err:Wrong CheckSum]");
+    case BUS_ERR_FRAMING: return PSTR("[Err:Wrong Header]");
+    case BUS_ERR_WRONG_ID: return PSTR("[Err:TxID != RxID]");
+    default: return PSTR("[Err:Wrong Length]");
+    }
+}
+
+/* Sends, shows both packets, and returns whether it was answered. */
+static bool transact(uint8_t id, uint8_t instruction, const uint8_t *params, uint8_t count, uint8_t answer_params)
+{
+    bus_answer_t answer = { 0, 0, 0, NULL };
+    bool silent = id == DXL_BROADCAST && instruction != DXL_PING;
+    bus_status_t status = bus_call(id, instruction, params, count, silent ? BUS_NO_ANSWER : answer_params,
+                                   silent ? 1 : TRIES, &answer);
+    print_bytes(PSTR("->[Dynamixel]:"), bus_packet(), (uint8_t)(bus_packet()[3] + 4u));
+    text_line_end();
+    if (silent) {
+        return false;
+    }
+    if (status == BUS_OK) {
+        print_bytes(PSTR("<-[Dynamixel]: ID"), &answer.id, 1);
+        print_bytes(PSTR(" error"), &answer.error, 1);
+        print_bytes(PSTR(" :"), answer.params, answer.count);
+        text_line_end();
+    } else {
+        (void)say(status_text_P(status));
+    }
+    return status == BUS_OK;
+}
+
+/* ---- numbers ---- */
+
+static bool byte_word(const shell_args_t *args, uint8_t index, const char *what_P, uint8_t max, uint8_t *byte)
+{
+    uint16_t number;
+    if (!shell_number(args, index, what_P, 0, max, &number)) {
+        text_line_end();
+        return false;
+    }
+    *byte = (uint8_t)number;
+    return true;
+}
+
+/* Words from `index` on as bytes; returns how many, 0: something was wrong and was said. */
+static uint8_t bytes_of(const shell_args_t *args, uint8_t index, uint8_t *params)
+{
+    uint8_t count = 0;
+    for (; index < args->count && count < PARAMS_MAX; index++, count++) {
+        if (!byte_word(args, index, PSTR("Byte"), UINT8_MAX, &params[count])) {
+            return 0;
+        }
+    }
+    return count;
+}
+
+static bool is_one_servo(const editor_t *editor)
+{
+    if (editor->cid == DXL_BROADCAST) {
+        (void)say(PSTR("One servo only: CID first"));
+    }
+    return editor->cid != DXL_BROADCAST;
+}
+
+/* ---- words ---- */
+
+#define WORD(name) static uint8_t name(void *context, const shell_args_t *args __attribute__((unused)))
+
+/* The words from 1 on, address first, as parameters. */
+static uint8_t send_words(void *context, const shell_args_t *args, uint8_t instruction)
+{
+    const editor_t *editor = context;
+    uint8_t params[PARAMS_MAX];
+    uint8_t count = bytes_of(args, 1, params);
+    if (count != 0) {
+        (void)transact(editor->cid, instruction, params, count, 0);
+    }
+    return SHELL_OK;
+}
+
+static bool send_value(editor_t *editor, const shell_args_t *args, uint8_t address, uint8_t max)
+{
+    uint8_t params[2] = { address, 0 };
+    return byte_word(args, 1, PSTR("Value"), max, &params[1]) && transact(editor->cid, DXL_WRITE, params, 2, 0);
+}
+
+WORD(mon_cid)
+{
+    editor_t *editor = context;
+    (void)byte_word(args, 1, PSTR("ID"), DXL_BROADCAST, &editor->cid);
+    return SHELL_OK;
+}
+
+WORD(mon_ping)
+{
+    editor_t *editor = context;
+    uint8_t id = editor->cid;
+    if (args->count == 1 || byte_word(args, 1, PSTR("ID"), DXL_BROADCAST, &id)) {
+        (void)transact(id, DXL_PING, NULL, 0, 0);
+    }
+    return SHELL_OK;
+}
+
+WORD(mon_read)
+{
+    editor_t *editor = context;
+    uint8_t params[2] = { 0, 1 };
+    if (byte_word(args, 1, PSTR("Address"), TABLE_BYTES - 1, &params[0]) && is_one_servo(editor) &&
+        (args->count < 3 || byte_word(args, 2, PSTR("Count"), (uint8_t)(TABLE_BYTES - params[0]), &params[1]))) {
+        (void)transact(editor->cid, DXL_READ, params, 2, params[1]);
+    }
+    return SHELL_OK;
+}
+
+WORD(mon_write)
+{
+    return send_words(context, args, DXL_WRITE);
+}
+
+WORD(mon_reg_write)
+{
+    return send_words(context, args, DXL_REG_WRITE);
+}
+
+WORD(mon_action)
+{
+    editor_t *editor = context;
+    (void)transact(editor->cid, DXL_ACTION, NULL, 0, 0);
+    return SHELL_OK;
+}
+
+WORD(mon_go)
+{
+    editor_t *editor = context;
+    uint16_t pos, speed = 0;
+    if (!shell_number(args, 1, PSTR("Position"), 0, PAGE_POS_MAX, &pos) ||
+        (args->count > 2 && !shell_number(args, 2, PSTR("Speed"), 0, PAGE_POS_MAX, &speed))) {
+        text_line_end();
+        return SHELL_ERR_SAID;
+    }
+    uint8_t params[5] = { DXL_AT_GOAL, (uint8_t)pos, (uint8_t)(pos >> 8), (uint8_t)speed, (uint8_t)(speed >> 8) };
+    (void)transact(editor->cid, DXL_WRITE, params, args->count > 2 ? 5 : 3, 0);
+    return SHELL_OK;
+}
+
+WORD(mon_led)
+{
+    (void)send_value(context, args, DXL_AT_LED, 1);
+    return SHELL_OK;
+}
+
+/* A new ID must be free: two servos with one ID can only be told apart by unplugging one. */
+WORD(mon_id)
+{
+    editor_t *editor = context;
+    uint8_t id;
+    if (!is_one_servo(editor) || !byte_word(args, 1, PSTR("ID"), ID_MAX, &id)) {
+        return SHELL_ERR_SAID;
+    }
+    if (bus_call_ping(id, TRIES, NULL) == BUS_OK) {
+        return say(PSTR("That ID is taken"));
+    }
+    if (send_value(editor, args, DXL_AT_ID, ID_MAX)) {
+        editor->cid = id;
+    }
+    return SHELL_OK;
+}
+
+WORD(mon_baud)
+{
+    if (is_one_servo(context)) {
+        (void)send_value(context, args, DXL_AT_BAUD, DXL_BROADCAST);
+    }
+    return SHELL_OK;
+}
+
+WORD(mon_reset)
+{
+    editor_t *editor = context;
+    if (!is_one_servo(editor)) {
+        return SHELL_ERR_SAID;
+    }
+    if (!shell_word_is(args, 1, PSTR("yes"))) {
+        return say(PSTR("RESET YES: factory values, ID 1"));
+    }
+    (void)transact(editor->cid, DXL_RESET, NULL, 0, 0);
+    return SHELL_OK;
+}
+
+/* swr address count, then for each servo its ID and `count` bytes. */
+WORD(mon_sync_write)
+{
+    uint8_t params[PARAMS_MAX];
+    uint8_t count = bytes_of(args, 1, params);
+    (void)context;
+    if (count < 4 || params[1] == 0 || (count - 2) % (params[1] + 1) != 0) {
+        return say(PSTR("SWR address count id byte .. id byte .."));
+    }
+    (void)transact(DXL_BROADCAST, DXL_SYNC_WRITE, params, count, BUS_NO_ANSWER);
+    return SHELL_OK;
+}
+
+static void scan(uint8_t last)
+{
+    uint8_t found = 0;
+    TEXT(" ID:");
+    for (uint8_t id = 0; id <= last; id++) {
+        system_kick();
+        if (bus_call_ping(id, 1, NULL) == BUS_OK) {
+            text_put(' ');
+            text_padded(id, 3, '0');
+            found++;
+        }
+    }
+    text_put(' ');
+    text_padded(found, 3, '0');
+    (void)say(PSTR(" Dynamixels Found."));
+}
+
+WORD(mon_scan)
+{
+    uint8_t last = SCAN_LAST;
+    (void)context;
+    if (args->count == 1 || byte_word(args, 1, PSTR("ID"), ID_MAX, &last)) {
+        scan(last);
+    }
+    return SHELL_OK;
+}
+
+WORD(mon_search)
+{
+    (void)context;
+    bus_set_rate(BUS_RATE_57142);
+    TEXT("57142 bps");
+    scan(ID_MAX);
+    bus_set_rate(BUS_RATE_1M);
+    TEXT("1000000 bps");
+    scan(ID_MAX);
+    return SHELL_OK;
+}
+
+WORD(mon_dump)
+{
+    editor_t *editor = context;
+    uint8_t row[DUMP_ROW];
+    for (uint8_t at = 0; at < TABLE_BYTES && is_one_servo(editor); at = (uint8_t)(at + DUMP_ROW)) {
+        bus_status_t status = bus_call_read(editor->cid, at, row, DUMP_ROW, NULL);
+        if (status != BUS_OK) {
+            return say(status_text_P(status));
+        }
+        text_padded(at, 3, '0');
+        print_bytes(PSTR(":"), row, DUMP_ROW);
+        text_line_end();
+    }
+    return SHELL_OK;
+}
+
+/* Servos may have another ID now: what is there is looked up anew. The page was never touched. */
+WORD(mon_exit)
+{
+    editor_t *editor = context;
+    bus_set_rate(BUS_RATE_1M);
+    servo_link_scan(editor->servos);
+    screen_set_present(&editor->screen, editor->servos->present);
+    robot_read(&editor->robot);
+    screen_show(&editor->screen);
+    editor_leave_line(editor);
+    return SHELL_OK;
+}
+
+WORD(mon_toss_start)
+{
+    (void)say(PSTR("Three ESC end it"));
+    mon_toss(context);
+    text_line_end();
+    return SHELL_OK;
+}
+
+/* ---- the table ---- */
+
+WORD(mon_help);
+
+static const char help_n[] PROGMEM = "n", help_none[] PROGMEM = "", help_id[] PROGMEM = "[id]",
+                  help_read[] PROGMEM = "address [count]", help_write[] PROGMEM = "address byte ..",
+                  help_go[] PROGMEM = "position [speed]", help_cid[] PROGMEM = "id  whom it is for";
+
+static const shell_command_t table_P[] PROGMEM = {
+    { "help", "?", 0, 1, mon_help, help_none },
+    { "dump", "d", 0, 1, mon_dump, help_none },
+    { "id", "", 1, 1, mon_id, help_n },
+    { "cid", "", 1, 1, mon_cid, help_cid },
+    { "read", "r", 1, 2, mon_read, help_read },
+    { "write", "w", 2, PARAMS_MAX, mon_write, help_write },
+    { "reg_wr", "", 2, PARAMS_MAX, mon_reg_write, help_write },
+    { "action", "", 0, 0, mon_action, help_none },
+    { "go", "g", 1, 2, mon_go, help_go },
+    { "hex", "", 0, 0, cmd_hex, help_none },
+    { "dec", "", 0, 0, cmd_dec, help_none },
+    { "reset", "", 0, 1, mon_reset, help_none },
+    { "ping", "", 0, 1, mon_ping, help_id },
+    { "swr", "", 3, PARAMS_MAX, mon_sync_write, help_none },
+    { "scan", "", 0, 1, mon_scan, help_id },
+    { "led", "", 1, 1, mon_led, help_n },
+    { "baud", "", 1, 1, mon_baud, help_n },
+    { "search", "", 0, 0, mon_search, help_none },
+    { "toss", "", 0, 0, mon_toss_start, help_none },
+    { "exit", "", 0, 0, mon_exit, help_none },
+};
+#define WORDS (sizeof table_P / sizeof table_P[0])
+
+WORD(mon_help)
+{
+    (void)context;
+    for (uint8_t i = 0; i < WORDS; i++) {
+        shell_print_help(&table_P[i]);
+    }
+    return SHELL_OK;
+}
+
+/* ---- in and out of the monitor ---- */
+
+void mon_prompt(editor_t *editor)
+{
+    TEXT(" [CID:");
+    text_padded(editor->cid, 3, '0');
+    TEXT("(0X");
+    text_hex(editor->cid, 2);
+    TEXT(")] ");
+}
+
+void mon_line(editor_t *editor, const shell_args_t *args)
+{
+    servo_link_quiet(editor->servos);
+    uint8_t result = shell_run(table_P, WORDS, editor, args);
+    if (result >= SHELL_ERR_UNKNOWN) {
+        (void)say(result == SHELL_ERR_UNKNOWN ? PSTR(" Bad Command") : PSTR(" Invalid Parameter"));
+    }
+}
+
+COMMAND(cmd_mon)
+{
+    editor_t *editor = context;
+    (void)args;
+    if (!editor_may_move(editor)) {
+        return SHELL_ERR_SAID;
+    }
+    if (!editor_ask_unsaved(editor)) {
+        return EDITOR_TO_ASK;
+    }
+    servo_link_quiet(editor->servos);
+    screen_hide(&editor->screen);
+    mon_prompt(editor);
+    return EDITOR_TO_MONITOR;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+#include "mon.h"
+
+#include "bus.h"
+#include "console.h"
+#include "ring.h"
+#include "system.h"
+
+enum { ESC = 0x1B, ESCAPES = 3, HEADER_BYTES = 4, HEARD_BYTES = 64, LENGTH_AT = 3 };
+
+typedef struct {
+    uint8_t count;     /* bytes of the packet from the PC so far */
+    uint8_t escapes;   /* ESC in a row, outside a packet */
+    uint8_t packet[BUS_PACKET_BYTES];
+} toss_t;
+
+/* One byte from the PC. true: a whole packet is there. */
+static bool collect(toss_t *toss, uint8_t byte)
+{
+    if (toss->count < 2 && byte != 0xFF) {
+        toss->count = 0;
+        toss->escapes = byte == ESC ? (uint8_t)(toss->escapes + 1u) : 0;
+        return false;
+    }
+    if (toss->count == 2 && byte == 0xFF) {
+        return false;
+    }
+    toss->escapes = 0;
+    toss->packet[toss->count++] = byte;
+    if (toss->count >= BUS_PACKET_BYTES) {
+        toss->count = 0;
+        return false;
+    }
+    return toss->count >= HEADER_BYTES && toss->count == toss->packet[LENGTH_AT] + HEADER_BYTES;
+}
+
+static void pass_on(ring_t *heard)
+{
+    uint8_t byte;
+    while (ring_get(heard, &byte)) {
+        console_write(&byte, 1);
+    }
+}
+
+static void send(toss_t *toss, ring_t *heard)
+{
+    while (bus_is_busy()) {
+        (void)bus_poll(NULL);
+        pass_on(heard);
+    }
+    memcpy(bus_packet(), toss->packet, toss->count);
+    (void)bus_submit(toss->count, BUS_NO_ANSWER, 1);
+    toss->count = 0;
+}
+
+void mon_toss(editor_t *editor)
+{
+    toss_t toss = { 0, 0, { 0 } };
+    ring_t heard;
+    uint8_t byte;
+    ring_init(&heard, (uint8_t *)editor->line, HEARD_BYTES);
+    bus_set_tap(&heard);
+    while (toss.escapes < ESCAPES) {
+        system_kick();
+        if (console_get(&byte) && collect(&toss, byte)) {
+            send(&toss, &heard);
+        }
+        (void)bus_poll(NULL);
+        pass_on(&heard);
+    }
+    bus_set_tap(NULL);
+}

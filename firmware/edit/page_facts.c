@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT */
+#include "page_facts.h"
+
+#include "compiler.h"
+#include "page_store.h"
+
+NOINLINE uint8_t page_facts_byte(uint8_t page, uint16_t offset)
+{
+    uint8_t byte;
+    page_store_read(page, offset, &byte, 1);
+    return byte;
+}
+
+NOINLINE uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint)
+{
+    uint8_t word[2];
+    page_store_read(page, (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + 2u * joint), word, sizeof word);
+    return (uint16_t)(word[0] | (uint16_t)word[1] << 8);
+}
+
+static void longest_way(uint8_t page, uint8_t step, page_facts_t *facts)
+{
+    uint8_t before = (uint8_t)((step > 0 ? step : page_facts_byte(page, PAGE_AT_STEPS)) - 1u);
+    facts->way_pos = 0;
+    facts->joint = 0;
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        uint16_t to = page_facts_word(page, step, joint);
+        uint16_t from = page_facts_word(page, before, joint);
+        uint16_t way = to > from ? (uint16_t)(to - from) : (uint16_t)(from - to);
+        if (to <= PAGE_POS_MAX && from <= PAGE_POS_MAX && way > facts->way_pos) {
+            facts->way_pos = way;
+            facts->joint = joint;
+        }
+    }
+}
+
+/* Time base: time * page speed / 32. Speed base: 40 * way * 32 / (3 * speed * page speed), pause * 32 / page speed. */
+void page_facts_step(uint8_t page, uint8_t step, page_facts_t *facts)
+{
+    uint16_t at = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + PAGE_STEP_AT_PAUSE);
+    uint8_t page_speed = page_facts_byte(page, PAGE_AT_SPEED);
+    uint16_t pause = page_facts_byte(page, at);
+    uint16_t speed = page_facts_byte(page, (uint16_t)(at + 1u));
+    longest_way(page, step, facts);
+    if (page_facts_byte(page, PAGE_AT_SCHEDULE) == PAGE_SCHEDULE_TIME) {
+        facts->ticks = (uint16_t)(speed * page_speed) / PAGE_SPEED_NOMINAL;
+        facts->pause_ticks = (uint16_t)(pause * page_speed) / PAGE_SPEED_NOMINAL;
+        return;
+    }
+    if (speed == 0) {
+        speed = 1;
+    }
+    uint32_t ticks = (uint32_t)facts->way_pos * (40u * PAGE_SPEED_NOMINAL) / ((uint32_t)(speed * page_speed) * 3u);
+    facts->ticks = ticks > UINT16_MAX ? (uint16_t)UINT16_MAX : (uint16_t)ticks;
+    facts->pause_ticks = (uint16_t)(pause * PAGE_SPEED_NOMINAL) / page_speed;
+}
+
+uint16_t page_facts_ticks(uint8_t page)
+{
+    page_facts_t facts;
+    uint16_t ticks = 0;
+    uint8_t steps = page_facts_byte(page, PAGE_AT_STEPS);
+    for (uint8_t step = 0; step < steps; step++) {
+        page_facts_step(page, step, &facts);
+        ticks = (uint16_t)(ticks + facts.ticks + facts.pause_ticks);
+    }
+    return ticks;
+}
+
+/* pos / ticks * 128 ticks/s * 300 degrees / 1023 pos. */
+uint16_t page_facts_deg_s(const page_facts_t *facts)
+{
+    return (uint16_t)((uint32_t)facts->way_pos * (128u * 300u / 1023u) / (facts->ticks == 0 ? 1u : facts->ticks));
+}

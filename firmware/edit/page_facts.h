@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT
+ * page_facts.h - what can be told of a page in flash without playing it: how long it takes, how fast it gets.
+ * Reads flash through page_store.h, a word at a time. Main loop only. No RAM. Source: player.md section 2, rule 1. */
+#ifndef PAGE_FACTS_H
+#define PAGE_FACTS_H
+
+#include <stdint.h>
+#include "page.h"
+
+/* What an unloaded AX-12 can do: 114 rpm = 684 degrees/s = 18.2 servo units a tick (1023 in 300 degrees). */
+#define PAGE_FACTS_FASTEST_DEG_S 684u
+
+typedef struct {
+    uint16_t ticks;      /* without the pause */
+    uint16_t pause_ticks;
+    uint16_t way_pos;    /* the longest way of a joint, from the step before (step 0: from the last one) */
+    uint8_t joint;       /* whose it is */
+} page_facts_t;
+
+/* One byte of a page in flash. */
+uint8_t page_facts_byte(uint8_t page, uint16_t offset);
+
+/* One position word. */
+uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint);
+
+/* Step 0..PAGE_STEP-1 of a good page. */
+void page_facts_step(uint8_t page, uint8_t step, page_facts_t *facts);
+
+/* Ticks that one repetition of a good page takes. */
+uint16_t page_facts_ticks(uint8_t page);
+
+/* Mean speed that a step demands of that joint, degrees/s. */
+uint16_t page_facts_deg_s(const page_facts_t *facts);
+
+#endif

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+#include "robot.h"
+
+#include <string.h>
+#include "bus_call.h"
+#include "dxl.h"
+
+enum { WAY_PER_SPEED = 4 };
+
+/* A word of the servo as a page position. */
+static bool read_pos(robot_t *robot, uint8_t joint, uint8_t at, uint16_t *pos)
+{
+    uint8_t bytes[2];
+    if (bus_call_read(joint, at, bytes, sizeof bytes, NULL) != BUS_OK) {
+        robot->failed |= servo_link_bit(joint);
+        return false;
+    }
+    uint16_t word = (uint16_t)(bytes[0] | (uint16_t)bytes[1] << 8);
+    *pos = servo_link_to_page(robot->servos, joint, word);
+    return true;
+}
+
+NOINLINE bool robot_in(uint32_t joints, uint8_t joint)
+{
+    return (joints & servo_link_bit(joint)) != 0;
+}
+
+bool robot_has(const robot_t *robot, uint8_t joint)
+{
+    return joint < PAGE_JOINTS && robot_in(robot->servos->present, joint);
+}
+
+uint32_t robot_held(const robot_t *robot)
+{
+    return robot->servos->present & robot->servos->torque;
+}
+
+static bool is_held(const robot_t *robot, uint8_t joint)
+{
+    return robot_in(robot_held(robot), joint);
+}
+
+static void read_joint(robot_t *robot, uint8_t joint)
+{
+    uint16_t pos;
+    bool held = is_held(robot, joint);
+    if (read_pos(robot, joint, held ? DXL_AT_GOAL : DXL_AT_PRESENT, &pos)) {
+        session_set_pose(robot->session, joint, held ? pos : (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+    }
+}
+
+void robot_read(robot_t *robot)
+{
+    servo_link_quiet(robot->servos);
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        if (robot_has(robot, joint)) {
+            read_joint(robot, joint);
+        }
+    }
+}
+
+void robot_follow(robot_t *robot)
+{
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        uint16_t pos = robot->servos->present_pos[joint];
+        if (robot_has(robot, joint) && !is_held(robot, joint) && pos != SERVO_LINK_NO_POSE) {
+            session_set_pose(robot->session, joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+        }
+    }
+}
+
+void robot_set_trim(robot_t *robot)
+{
+    int16_t trim_pos[PAGE_JOINTS];
+    robot->raw = robot->session->page == 0;
+    if (robot->raw || !page_store_trim(robot->pages, trim_pos)) {
+        servo_link_set_trim(robot->servos, NULL);
+    } else {
+        servo_link_set_trim(robot->servos, trim_pos);
+    }
+    servo_link_read_pose(robot->servos, robot->servos->present);
+    robot_read(robot);
+}
+
+void robot_init(robot_t *robot, session_t *session, servo_link_t *servos, performer_t *performer, page_store_t *pages)
+{
+    robot->session = session;
+    robot->servos = servos;
+    robot->performer = performer;
+    robot->pages = pages;
+    robot->failed = 0;
+    robot_set_trim(robot);
+}
+
+static void write_goal(robot_t *robot, uint8_t joint, uint16_t present, uint16_t pos)
+{
+    uint16_t way = pos > present ? (uint16_t)(pos - present) : (uint16_t)(present - pos);
+    uint16_t speed = way / WAY_PER_SPEED;
+    uint16_t goal = servo_link_to_servo(robot->servos, joint, pos);
+    if (speed < ROBOT_SLOWEST) {
+        speed = ROBOT_SLOWEST;
+    }
+    uint8_t bytes[4] = { (uint8_t)goal, (uint8_t)(goal >> 8), (uint8_t)speed, (uint8_t)(speed >> 8) };
+    if (bus_call_write(joint, DXL_AT_GOAL, bytes, sizeof bytes, NULL) != BUS_OK) {
+        robot->failed |= servo_link_bit(joint);
+    }
+}
+
+void robot_move(robot_t *robot, uint8_t joint, uint16_t pos)
+{
+    uint16_t present;
+    session_set_pose(robot->session, joint, pos);
+    if (!robot_has(robot, joint)) {
+        return;
+    }
+    servo_link_quiet(robot->servos);
+    if (!is_held(robot, joint)) {
+        performer_on(robot->performer, servo_link_bit(joint));
+    }
+    if (read_pos(robot, joint, DXL_AT_PRESENT, &present)) {
+        write_goal(robot, joint, present, pos);
+    }
+}
+
+uint32_t robot_send(robot_t *robot, const uint8_t step[PAGE_STEP_BYTES])
+{
+    uint32_t missing = 0, off = 0;
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        uint16_t word = (uint16_t)(step[2 * joint] | (uint16_t)step[2 * joint + 1] << 8);
+        if (!robot_has(robot, joint)) {
+            session_set_pose(robot->session, joint, word);
+        } else if (cell_is_position(word)) {
+            robot_move(robot, joint, word);
+        } else if (cell_is_off(word)) {
+            off |= servo_link_bit(joint);
+        } else {
+            missing |= servo_link_bit(joint);
+        }
+    }
+    robot_off(robot, off);
+    return missing;
+}
+
+void robot_on(robot_t *robot, uint32_t joints)
+{
+    uint32_t wanted = joints & robot->servos->present & ~robot->servos->torque;
+    if (wanted == 0) {
+        return;
+    }
+    servo_link_quiet(robot->servos);
+    uint32_t on = performer_on(robot->performer, wanted);
+    robot->failed |= wanted & ~on;
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        if (robot_in(on, joint)) {
+            session_set_pose(robot->session, joint, robot->servos->present_pos[joint] & PAGE_POS_MAX);
+        }
+    }
+}
+
+void robot_off(robot_t *robot, uint32_t joints)
+{
+    uint32_t there = joints & robot->servos->present;
+    if (there == 0) {
+        return;
+    }
+    servo_link_quiet(robot->servos);
+    performer_off(robot->performer, there);
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        if (robot_in(there, joint)) {
+            uint16_t pos = session_pose(robot->session, joint) & PAGE_POS_MAX;
+            session_set_pose(robot->session, joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+        }
+    }
+}

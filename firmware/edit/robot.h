@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT
+ * robot.h - the work pose and the servos: what is read from them and sent to them one by one while nothing plays.
+ * Joint numbers are servo IDs 0..30, positions are page coordinates (trim is added here). Knows no command and no
+ * screen. Main loop only; every call may block 1 to 4 ms a servo. RAM: 14 bytes. */
+#ifndef ROBOT_H
+#define ROBOT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "page_store.h"
+#include "performer.h"
+#include "servo_link.h"
+#include "session.h"
+
+#define ROBOT_SLOWEST 8u   /* speed of a move: the way / 4, at least this (editor-original.md section 4) */
+
+typedef struct {
+    session_t *session;
+    servo_link_t *servos;
+    performer_t *performer;
+    page_store_t *pages;
+    bool raw;             /* page 0 is open: no trim */
+    uint32_t failed;      /* joints that did not answer since robot_clear_failed */
+} robot_t;
+
+/* Reads trim and all joints that answered the last search. */
+void robot_init(robot_t *robot, session_t *session, servo_link_t *servos, performer_t *performer, page_store_t *pages);
+
+/* Whether `joint` (0..30) is in a mask. Not inlined: a 32-bit shift is a loop. */
+bool robot_in(uint32_t joints, uint8_t joint);
+
+bool robot_has(const robot_t *robot, uint8_t joint);
+
+/* Joints that are there and held, or not held. */
+uint32_t robot_held(const robot_t *robot);
+
+/* Reads the work pose anew: goal where torque is on, present position with the ???? mark where it is off. */
+void robot_read(robot_t *robot);
+
+/* The same for joints whose torque is off, from what the background polls have heard: costs no bus traffic. */
+void robot_follow(robot_t *robot);
+
+/* The page that is open has changed or trim was saved: page 0 is edited without trim. */
+void robot_set_trim(robot_t *robot);
+
+/* Moves one joint to `pos`, torque on; speed from the way it has to go. A joint that is not there only shows it. */
+void robot_move(robot_t *robot, uint8_t joint, uint16_t pos);
+
+/* Sends a step's words: positions move, ???? lets go, everything else is left alone. Returns the joints that are there
+ * and had no position and no ????. */
+uint32_t robot_send(robot_t *robot, const uint8_t step[PAGE_STEP_BYTES]);
+
+/* Torque. On holds the present pose. */
+void robot_on(robot_t *robot, uint32_t joints);
+void robot_off(robot_t *robot, uint32_t joints);
+
+#endif

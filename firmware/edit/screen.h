@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT
+ * screen.h - the editor's full screen on an ANSI/VT100 terminal: sends what changed, and only that.
+ * Knows the session and the console, no command and no servo. Main loop only. RAM: 28 bytes.
+ *
+ * There is no copy of the screen. A cell's text follows from the session, the session marks the cells that change, and
+ * screen_paint sends marked cells, a row at a time, whenever the console has room; so input never waits for a repaint,
+ * and what changed twice is sent once. The frame is that of editor-original.md section 3 with 35 rows or more. With
+ * 24..34 rows only joints that are there have a row, the rest scrolls, and the last four rows stay:
+ *
+ *      rows 1 .. rows-4     joints          | header, rows 1..20, does not scroll
+ *      rows-3, rows-2       pause, speed    | what is wrong with the page; X, Y, A
+ *      rows-1               unsaved mark, step labels, Go Step
+ *      rows                 command line and messages */
+#ifndef SCREEN_H
+#define SCREEN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "session.h"
+
+#define SCREEN_ROWS_FULL 35u
+#define SCREEN_ROWS_MIN 24u
+#define SCREEN_LINE_COLUMN 3u      /* the command line begins here */
+#define SCREEN_COLUMNS 80u
+
+typedef enum {
+    SCREEN_QUIET = 0,   /* text goes nowhere: there is no line */
+    SCREEN_LINE,        /* text goes to the command row, cut at its end */
+    SCREEN_PLAIN        /* text goes to the terminal as it is: lists, monitor, line mode */
+} screen_sink_t;
+
+typedef struct {
+    session_t *session;
+    uint32_t present;        /* joints that are there */
+    uint16_t items;          /* single items to send */
+    uint8_t rows;            /* of the terminal, 24..35 */
+    uint8_t top;             /* rows that are scrolled out above */
+    uint8_t at_row, at_column; /* where the terminal's cursor stands; row 0 = not known */
+    uint8_t line_column;     /* where the next character of the command row goes */
+    uint8_t sink;            /* screen_sink_t */
+    bool lead;               /* a space goes before the next character of the command row */
+    bool hidden;             /* something else has the screen: nothing is painted */
+    uint8_t shown_x, shown_y, shown_go, shown_fault, shown_flags;
+} screen_t;
+
+void screen_init(screen_t *screen, session_t *session);
+
+/* Everything is sent again, on a cleared screen. */
+void screen_redraw(screen_t *screen);
+
+/* The terminal has this many rows. Redraws when that changes the layout. */
+void screen_set_rows(screen_t *screen, uint8_t rows);
+
+/* These joints are there. Redraws when that changes the layout. */
+void screen_set_present(screen_t *screen, uint32_t present);
+
+/* Gives the screen away (plain text follows below a cleared screen), and takes it back. */
+void screen_hide(screen_t *screen);
+void screen_show(screen_t *screen);
+
+/* Looks what follows from the session besides cells: X Y A, marks, page number. Call after each key or command. */
+void screen_sync(screen_t *screen);
+
+/* Sends the next piece, at most about 110 bytes. false: all is on the screen and the cursor rests at its cell (or at the
+ * end of the line, sink SCREEN_LINE). */
+bool screen_paint(screen_t *screen);
+
+/* Empties the command row for a new line. */
+void screen_open_line(screen_t *screen);
+
+/* One character of text, to where the sink says. */
+void screen_put(screen_t *screen, char character);
+
+/* Moves the cursor over what is shown. */
+void screen_move(screen_t *screen, session_way_t way);
+
+/* Whether joint `joint` has a row (perhaps scrolled out). */
+bool screen_has_row(const screen_t *screen, uint8_t joint);
+
+/* Scrolls so that the cursor's cell is in sight. */
+void screen_follow(screen_t *screen);
+
+/* Asks the terminal for its size; the answer is a cursor position report. */
+void screen_ask_size(screen_t *screen);
+
+#endif

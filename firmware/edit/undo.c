@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: MIT */
+#include "undo.h"
+
+#include <string.h>
+
+enum { RECORD_HEADER_BYTES = 3, RUN_HEADER_BYTES = 2, RUN_MAX_BYTES = 128 };
+
+static uint16_t word_at(const undo_t *undo, uint16_t at)
+{
+    return (uint16_t)(undo->log[at] | (uint16_t)undo->log[at + 1] << 8);
+}
+
+static void put_word(undo_t *undo, uint16_t at, uint16_t word)
+{
+    undo->log[at] = (uint8_t)word;
+    undo->log[at + 1] = (uint8_t)(word >> 8);
+}
+
+static uint16_t run_address(const undo_t *undo, uint16_t run)
+{
+    return word_at(undo, run) & 0x1FFu;
+}
+
+static uint8_t run_bytes(const undo_t *undo, uint16_t run)
+{
+    return (uint8_t)((word_at(undo, run) >> 9) + 1u);
+}
+
+static void set_run(undo_t *undo, uint16_t run, uint16_t address, uint8_t bytes)
+{
+    put_word(undo, run, (uint16_t)(address | (uint16_t)(bytes - 1u) << 9));
+}
+
+static uint16_t record_at(const undo_t *undo, uint8_t index)
+{
+    uint16_t at = 0;
+    while (index > 0) {
+        at = (uint16_t)(at + word_at(undo, at));
+        index--;
+    }
+    return at;
+}
+
+static void drop_oldest(undo_t *undo)
+{
+    uint16_t bytes = word_at(undo, 0);
+    memmove(undo->log, &undo->log[bytes], (size_t)(undo->used - bytes));
+    undo->used = (uint16_t)(undo->used - bytes);
+    undo->open_at = (uint16_t)(undo->open_at - bytes);
+    if (undo->run_at != 0) {
+        undo->run_at = (uint16_t)(undo->run_at - bytes);
+    }
+    undo->count--;
+    undo->applied--;
+}
+
+/* Room for `bytes` more at the end of the open record, at the cost of the oldest ones. */
+static bool make_room(undo_t *undo, uint8_t bytes)
+{
+    while (undo->used + bytes > UNDO_BYTES && undo->count > 0) {
+        drop_oldest(undo);
+    }
+    if (undo->used + bytes > UNDO_BYTES) {
+        undo->lost = true;
+    }
+    return !undo->lost;
+}
+
+/* A new record ends what could be redone. */
+static void open_record(undo_t *undo)
+{
+    undo->used = record_at(undo, undo->applied);
+    undo->count = undo->applied;
+    undo->open_at = undo->used;
+    undo->run_at = 0;
+    undo->lost = false;
+    undo->open = true;
+    if (make_room(undo, RECORD_HEADER_BYTES)) {
+        undo->log[undo->open_at + 2u] = undo->pending_turn;
+        undo->used = (uint16_t)(undo->used + RECORD_HEADER_BYTES);
+    }
+}
+
+void undo_clear(undo_t *undo)
+{
+    undo->used = 0;
+    undo->count = 0;
+    undo->applied = 0;
+    undo->open = false;
+    undo->lost = false;
+    undo->run_at = 0;
+    undo->pending_turn = UNDO_TURN_NONE;
+}
+
+void undo_begin(undo_t *undo, uint8_t turn)
+{
+    undo->pending_turn = turn;
+    undo->open = false;
+    if (turn != UNDO_TURN_NONE) {
+        open_record(undo);
+    }
+}
+
+static void append_byte(undo_t *undo, uint8_t bits)
+{
+    if (make_room(undo, 1)) {
+        uint16_t run = undo->run_at;
+        set_run(undo, run, run_address(undo, run), (uint8_t)(run_bytes(undo, run) + 1u));
+        undo->log[undo->used++] = bits;
+    }
+}
+
+static void append_run(undo_t *undo, uint16_t address, uint8_t bits)
+{
+    if (make_room(undo, RUN_HEADER_BYTES + 1)) {
+        undo->run_at = undo->used;
+        set_run(undo, undo->run_at, address, 1);
+        undo->log[undo->used + RUN_HEADER_BYTES] = bits;
+        undo->used = (uint16_t)(undo->used + RUN_HEADER_BYTES + 1u);
+    }
+}
+
+void undo_note(undo_t *undo, uint16_t address, uint8_t bits)
+{
+    if (bits == 0 || undo->lost) {
+        return;
+    }
+    if (!undo->open) {
+        open_record(undo);
+    }
+    if (undo->run_at == 0) {
+        append_run(undo, address, bits);
+        return;
+    }
+    uint8_t bytes = run_bytes(undo, undo->run_at);
+    uint16_t end = (uint16_t)(run_address(undo, undo->run_at) + bytes);
+    /* A gap of one byte is noted as an unchanged byte: shorter than a new run. */
+    if (address == end + 1u && bytes < RUN_MAX_BYTES - 1) {
+        append_byte(undo, 0);
+        end++;
+    }
+    if (address == end && bytes < RUN_MAX_BYTES - 1) {
+        append_byte(undo, bits);
+    } else {
+        append_run(undo, address, bits);
+    }
+}
+
+bool undo_end(undo_t *undo)
+{
+    bool kept = !undo->lost;
+    if (undo->lost) {
+        undo_clear(undo);
+    } else if (undo->open) {
+        put_word(undo, undo->open_at, (uint16_t)(undo->used - undo->open_at));
+        undo->count++;
+        undo->applied = undo->count;
+        undo->open = false;
+    }
+    undo->pending_turn = UNDO_TURN_NONE;
+    return kept;
+}
+
+static void flip_runs(const undo_t *undo, uint16_t record, const undo_target_t *target)
+{
+    uint16_t end = (uint16_t)(record + word_at(undo, record));
+    uint16_t run = (uint16_t)(record + RECORD_HEADER_BYTES);
+    while (run < end) {
+        uint16_t address = run_address(undo, run);
+        uint8_t bytes = run_bytes(undo, run);
+        run = (uint16_t)(run + RUN_HEADER_BYTES);
+        for (uint8_t i = 0; i < bytes; i++) {
+            target->flip(target->context, (uint16_t)(address + i), undo->log[run + i]);
+        }
+        run = (uint16_t)(run + bytes);
+    }
+}
+
+bool undo_back(undo_t *undo, const undo_target_t *target)
+{
+    if (undo->applied == 0) {
+        return false;
+    }
+    undo->applied--;
+    uint16_t record = record_at(undo, undo->applied);
+    flip_runs(undo, record, target);
+    target->turn(target->context, undo->log[record + 2u], true);
+    return true;
+}
+
+bool undo_forth(undo_t *undo, const undo_target_t *target)
+{
+    if (undo->applied == undo->count) {
+        return false;
+    }
+    uint16_t record = record_at(undo, undo->applied);
+    undo->applied++;
+    target->turn(target->context, undo->log[record + 2u], false);
+    flip_runs(undo, record, target);
+    return true;
+}

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: MIT
+"""A robot with Edit on the simulated board and a real terminal emulator (pyte) before it, for test_edit*.py.
+
+    with robot(pages={5: page(...)}) as r:
+        r.line("page 5")            types a line and waits until the terminal is quiet
+        r.text(2, 76, 4)            what stands in row 2 from column 76 on
+        r.cell(1, 3)                the cell X1 Y3;  r.cells(5, steps=...)
+        r.flash_page(5)             512 bytes
+"""
+import pyte
+
+from cm5sim import Board
+from m512.image import Image
+from m512.page import Page
+
+JOINTS = range(1, 19)
+PAGES = 128
+MOTION_START = 0xE000
+UNUSED = 0x4000
+
+
+def page(name="", steps=(), joints=JOINTS, **fields):
+    """steps: (time, {joint: position}) or (time, {...}, pause); a joint not named keeps 512."""
+    made = Page()
+    made.name = name.encode()
+    made.steps = len(steps)
+    for number, step in enumerate(steps):
+        time, positions, pause = step if len(step) == 3 else (*step, 0)
+        for joint in joints:
+            made.set_word(number, joint, positions.get(joint, 512))
+        made.set_time(number, time)
+        made.set_pause(number, pause)
+    for field, value in fields.items():
+        setattr(made, field, value)
+    return made.seal()
+
+
+def new_page():
+    """The new page of editor-original.md section 1, without checksum."""
+    data = bytearray(512)
+    data[15], data[22], data[24] = 1, 32, 32
+    data[32:64] = bytes([0x55] * 32)
+    for step in range(7):
+        at = 64 + 64 * step
+        data[at:at + 62] = bytes([0x00, 0x40] * 31)
+        data[at + 63] = 64
+    return data
+
+
+def seal(data):
+    """Sets byte 31 so that the sum of all bytes is 0xFF modulo 256."""
+    data = bytearray(data)
+    data[31] = 0
+    data[31] = (0xFF - sum(data)) & 0xFF
+    return bytes(data)
+
+
+def word(data, step, joint):
+    at = 64 + 64 * step + 2 * joint
+    return data[at] | data[at + 1] << 8
+
+
+class Terminal:
+    """A pyte screen whose answers (cursor reports) go back to the board."""
+
+    def __init__(self, rows=36, columns=80):
+        self.screen = pyte.Screen(columns, rows)
+        self.stream = pyte.ByteStream(self.screen)
+        self.answers = []
+        self.screen.write_process_input = self.answers.append
+
+    def feed(self, data):
+        self.stream.feed(bytes(byte for byte in data if byte not in (0x11, 0x13)))
+
+    def row(self, row):
+        return self.screen.display[row - 1]
+
+
+class Robot:
+    def __init__(self, pages=None, servos=JOINTS, rows=36, images=("boot-cm5.hex", "edit-cm5.hex"), **board):
+        image = Image.empty()
+        for number, made in (pages or {}).items():
+            image[number] = made
+        motions = image.to_bytes()
+        self.board = Board(images=list(images), motions=motions, servos=servos, **board)
+        self.board.eeprom[0xFFF] = 0x11   # the loader starts the application
+        self.terminal = Terminal(rows)
+        self.settle(ms=1500)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.board.close()
+
+    # ---- typing ----
+
+    def pump(self):
+        self.terminal.feed(self.board.take())
+        while self.terminal.answers:
+            self.board.send(self.terminal.answers.pop(0).encode())
+
+    def settle(self, ms=0, quiet=30, limit=20000):
+        """Runs at least `ms`, then until the line has been quiet for `quiet` ms."""
+        if ms:
+            self.board.run(ms=ms)
+            self.pump()
+        silent, waited = 0, 0
+        while silent < quiet:
+            self.board.run(ms=10)
+            waited += 10
+            data = self.board.take()
+            self.terminal.feed(data)
+            silent = 0 if data or self.terminal.answers or self.board.waiting else silent + 10
+            while self.terminal.answers:
+                self.board.send(self.terminal.answers.pop(0).encode())
+            assert waited < limit, "the terminal does not come to rest:\n" + self.show()
+
+    def keys(self, text, ms=0):
+        self.board.send(text if isinstance(text, bytes) else text.encode())
+        self.settle(ms)
+
+    def line(self, text, answer=None, ms=0):
+        """Types a line; then, when `answer` is given, one key for the question."""
+        self.keys(text + "\r", ms)
+        if answer is not None:
+            assert "[y/N]" in self.command, self.command
+            self.keys(answer, ms)
+        return self.message
+
+    # ---- looking ----
+
+    @property
+    def rows(self):
+        return min(self.terminal.screen.lines, 35)
+
+    @property
+    def command(self):
+        return self.terminal.row(self.rows).rstrip()
+
+    @property
+    def message(self):
+        return self.command[2:]
+
+    def text(self, row, column, count):
+        return self.terminal.row(row)[column - 1:column - 1 + count]
+
+    @property
+    def cursor(self):
+        return self.terminal.screen.cursor.y + 1, self.terminal.screen.cursor.x + 1
+
+    def cell(self, x, y):
+        row = y + 1
+        if x == 9:
+            return self.text(row, 77, 3)
+        if x == 8:
+            return self.text(row, 61, 3)
+        column = 20 if x == 0 else 21 + 5 * x
+        return self.text(row, column, 4) if y <= 30 else self.text(row, column + 1, 3)
+
+    @property
+    def xya(self):
+        return self.text(33, 64, 2), self.text(33, 69, 2), self.text(33, 74, 4)
+
+    @property
+    def unsaved(self):
+        return "unsaved" in self.terminal.row(self.rows - 1)[:19]
+
+    @property
+    def fault(self):
+        return self.terminal.row(self.rows - 3)[60:].strip()
+
+    def show(self):
+        return "\n".join(self.terminal.screen.display)
+
+    # ---- the board ----
+
+    def flash_page(self, number):
+        at = MOTION_START + 512 * number
+        return bytes(self.board.flash[at:at + 512])
+
+    @property
+    def ram_page(self):
+        """The page being edited, asked for as a program would."""
+        raise NotImplementedError
+
+
+def robot(**options):
+    return Robot(**options)
