@@ -105,8 +105,8 @@ class Terminal:
         if key == KEY:
             self.link.write(KEY.encode())
         elif key == "l":
-            self._say("Press MODE; '#' is sent for 30 s or until a key")
-            self._call(console)
+            self._say("Press MODE; '#' is sent for 30 s")
+            self._call()
         elif key in "sb":
             name = self._ask(console, "file: ")
             if name:
@@ -117,14 +117,15 @@ class Terminal:
             self._say(HELP)
         return True
 
-    def _call(self, console) -> None:
-        heard, until = self.heard_at, time.monotonic() + 30
-        while self.running and time.monotonic() < until:
+    def _call(self) -> None:
+        heard, until, more = self.heard_at, time.monotonic() + 30, 3
+        while self.running and time.monotonic() < until and more:
             self.link.write(b"#")
             time.sleep(0.015)
-            # The reader shows what comes; the start's FF and then silence until the banner is the loader.
-            if self.heard_at > heard and time.monotonic() - self.heard_at > 0.05:
-                break
+            # The first thing heard is the 0xFF of a start; three more are inside the loader's 60 ms, and the last byte
+            # in it has to be a '#'.
+            more -= self.heard_at > heard
+        time.sleep(0.35)
         self.link.write(b"\x08\r")
 
     def _toggle_log(self, console) -> None:
