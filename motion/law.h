@@ -16,19 +16,21 @@
  */
 enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
 
-/* Goes on to the coming step, and finds the one after it; at the last step of a page that means deciding the link.
+/* Primes the next step: goes on to the coming step, and finds the one after it; at the last step of a page that means
+ * deciding the link. The step's events are held until player_announce. A law does this behind the last tick of a step,
+ * when all joints have reached their targets, so that the tick in which the next one begins has only half of the work.
  * step: receives the 64 bytes of the step to look at for joints that run through (classic: of the page that the link
  * names; exact: of the step that will really be played). Valid when player_looks_ahead.
- * Returns PLAYER_EV_LINK or 0. Call only while player->coming.page is not 0. */
-uint8_t player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES]);
+ * Call only while player->coming.page is not 0. */
+void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES]);
 
-/* Makes `now` public. Returns PLAYER_EV_STEP and what belongs to it. */
+/* Makes `now` public; returns the held events, 0 when no step is primed. */
 uint8_t player_announce(player_t *player);
 
 bool player_looks_ahead(const player_t *player);
 
-/* Work that may wait for a quiet tick: compares the compliance of two pages. */
-void player_quiet_work(player_t *player);
+/* Work that may wait for a quiet tick: compares the compliance of two pages. false: there was nothing to do. */
+bool player_quiet_work(player_t *player);
 
 /* The play ends here, on target. Returns PLAYER_EV_ENDED. */
 uint8_t player_end(player_t *player);
@@ -46,10 +48,8 @@ uint16_t law_longest_way(const player_t *player, const uint8_t step[PAGE_STEP_BY
 void exact_start(player_t *player, link_t *link, const uint8_t step[PAGE_STEP_BYTES]);
 uint8_t exact_tick(player_t *player, link_t *link);
 void exact_freeze(player_t *player);
-/* Events of a step that was to begin with the next tick, when that is played as a rest. */
-uint8_t exact_held_events(player_t *player);
 bool classic_is_here(void);
-void classic_start(player_t *player);
+void classic_start(player_t *player, link_t *link);
 uint8_t classic_tick(player_t *player, link_t *link);
 void classic_freeze(player_t *player);
 

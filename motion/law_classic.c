@@ -7,7 +7,7 @@
  *            RISE  CRUISE   FALL  HOLD
  *
  * Nothing is divided in a tick. x * c / num for c = 1, 2, .. num is a running sum: quotient of x / num each time, and one
- * more whenever the remainders have made up a whole num (`spread`). The factor 144 / 15 >> 9 is 3 / 160 (floor).
+ * more whenever the remainders have made up a whole num (`spread`). The factor 144 / 15 >> 9 is 3 / 160, floor.
  * What a step needs that a remote code cannot change any more (its way and both speeds it may take, stopping or going
  * through) is made ready a few joints a tick while the step before is played (`prepare`). Which of the two it is, is
  * only known when it begins, and at the last step of a page that is when the link is decided.
@@ -17,20 +17,36 @@
 #include "law.h"
 #include "step_plan.h"
 
+#pragma GCC optimize("O2") /* the loops over all joints need it: a quarter fewer cycles for 0.6 KiB of flash */
+
+/* Kept out of line, so that each loop over the joints has the registers for itself. */
+#define RARE __attribute__((noinline))
+
 #define SPEED_MAX 1023
 /* 720 / 1024 degrees/s in q12.20 servo units per tick: 0.01875 * 2^20 = 19660.8 */
 #define SPEED_UNIT_Q12_20 19661
 
-static int16_t limit_pos(int16_t pos)
+static inline int16_t limit_pos(int16_t pos)
 {
     return pos < 0 ? 0 : pos > (int16_t)PAGE_POS_MAX ? (int16_t)PAGE_POS_MAX : pos;
 }
 
-/* floor(3 x / 160) for |x| <= 1023 * 255. Shifted to the positive side by 5000, so that the 16 upper bits can be divided
- * by 5 exactly with one multiplication. */
-static int16_t three_160ths(int32_t x)
+/* acc = floor(3 * speed * c / 160) for |speed| <= 2047, c <= 255, without signs and long shifts: speed and acc are made
+ * positive (+ 2048, + 5000), and 3 / 160 is 24 / 256 / 5: a byte dropped, and an exact division by 5 of 16 bits. */
+typedef struct {
+    uint16_t factor; /* 24 c */
+    uint32_t bias;   /* 256 * 5 * 5000 - 24 c * 2048 */
+} ramp_share_t;
+
+static ramp_share_t ramp_share(uint8_t c)
 {
-    uint16_t fifths = (uint16_t)((uint32_t)(3 * x + 160l * 5000) >> 5);
+    uint16_t factor = (uint16_t)(24u * c);
+    return (ramp_share_t){factor, 256ul * 5 * 5000 - (uint32_t)factor * 2048};
+}
+
+static inline int16_t ramp_way(int16_t speed, ramp_share_t share)
+{
+    uint16_t fifths = (uint16_t)(((uint32_t)(uint16_t)(speed + 2048) * share.factor + share.bias) >> 8);
     return (int16_t)((mul_u16_high(fifths, 52429u) >> 2) - 5000u);
 }
 
@@ -44,18 +60,22 @@ static int16_t fall_way(int16_t v, uint8_t ramp)
 }
 
 /* x * c / num (toward zero) from now on by next_share, c = 1, 2, ... */
-static void spread(player_joint_t *joint, int16_t x, uint16_t num, uint16_t recip16)
+static inline void spread(player_joint_t *joint, int16_t x, uint16_t num, uint16_t recip16)
 {
-    uint16_t remainder;
-    int16_t quotient = (int16_t)fix_divide(fix_size(x), num, recip16, &remainder);
-    joint->classic.quotient = x < 0 ? (int16_t)-quotient : quotient;
+    uint16_t remainder = 0;
+    int16_t quotient = x;
+    if (num != 1) {
+        quotient = (int16_t)fix_divide(fix_size(x), num, recip16, &remainder);
+        quotient = x < 0 ? (int16_t)-quotient : quotient;
+    }
+    joint->classic.quotient = quotient;
     joint->classic.remainder = remainder;
     joint->classic.error = 0;
     joint->classic.value = 0;
 }
 
 /* `negative`: x of spread was below 0 */
-static int16_t next_share(player_joint_t *joint, uint16_t num, bool negative)
+static inline int16_t next_share(player_joint_t *joint, uint16_t num, bool negative)
 {
     int16_t value = (int16_t)(joint->classic.value + joint->classic.quotient);
     uint16_t error = (uint16_t)(joint->classic.error + joint->classic.remainder);
@@ -82,27 +102,34 @@ static int16_t speed_left(const player_t *player, const player_joint_t *joint)
     return joint->classic.through || player->ramp_ticks == 0 ? joint->classic.speed : 0;
 }
 
-/* int16(num / divisor) toward zero, then limited. recip: 2^32 / divisor. num below 2^20 in size. */
-static int16_t divide_speed(int32_t num, uint16_t divisor, uint32_t recip)
+typedef struct {
+    uint16_t divisor;
+    uint32_t recip; /* 2^32 / divisor, rounded up */
+    uint32_t limit; /* divisor * 1024 */
+} divider_t;
+
+/* Below this divisor the product with the reciprocal is the quotient: size * divisor < 1024 * divisor^2 < 2^32. */
+#define EXACT_BELOW 2048u
+
+/* int16(num / divisor) toward zero, then limited. size: of num, below 2^20. */
+static inline int16_t divide_speed(uint32_t size, bool negative, const divider_t *by)
 {
-    bool negative = num < 0;
-    uint32_t size = (uint32_t)(negative ? -num : num);
     uint16_t quotient = SPEED_MAX;
-    if (size < (uint32_t)divisor << 10) {
-        uint32_t estimate = mul_u32_u16_shift16(recip, (uint16_t)size);
+    if (size < by->limit) {
+        uint32_t recip = by->recip, product = mul_u32_u16_shift16(recip, (uint16_t)size);
         uint8_t above = (uint8_t)(size >> 16);
-        if (above != 0) {
-            estimate += recip * above;
+        if (above != 0) { /* then recip is below 2^26 */
+            product += (uint32_t)(uint16_t)recip * above + ((uint32_t)(uint16_t)((uint16_t)(recip >> 16) * above) << 16);
         }
-        quotient = (uint16_t)(estimate >> 16);
-        if (size - (uint32_t)quotient * divisor >= divisor) {
-            quotient++;
+        quotient = (uint16_t)(product >> 16);
+        if (by->divisor >= EXACT_BELOW && (uint32_t)quotient * by->divisor > size) {
+            quotient--;
         }
-    } else if (size >= (uint32_t)divisor << 15) {
+        if (quotient > SPEED_MAX) {
+            quotient = SPEED_MAX;
+        }
+    } else if (size >> 15 >= by->divisor) {
         negative = !negative; /* the quotient wraps to the other sign before it is limited */
-    }
-    if (quotient > SPEED_MAX) {
-        quotient = SPEED_MAX;
     }
     return (int16_t)(negative ? -(int16_t)quotient : (int16_t)quotient);
 }
@@ -113,7 +140,7 @@ static int32_t way_in_speed_units(int16_t way)
     uint16_t size = fix_size(way);
     uint16_t third = mul_u16_high(size, 21846u);
     uint8_t rest = (uint8_t)(size - 3 * third);
-    int32_t units = (int32_t)((uint32_t)third * 640u) + (rest == 0 ? 0 : rest == 1 ? 213 : 426);
+    int32_t units = (int32_t)(((uint32_t)(third * 5u) << 8) >> 1) + (rest == 0 ? 0 : rest == 1 ? 213 : 426);
     return way < 0 ? -units : units;
 }
 
@@ -129,27 +156,30 @@ static uint16_t through_divisor(const player_t *player)
     return ticks == 0 ? 1 : (uint16_t)(4 * ticks - 2 * player->coming_ramp_ticks);
 }
 
-/* Length and ramp of the coming step; 2^32 over the divisors. */
+/* Length and ramp of the coming step; 2^32 over the divisors, rounded up (of 1, in a step that is skipped: 0). */
 static void measure_coming(player_t *player, uint16_t longest_way)
 {
     player->coming_ticks = step_plan_classic_ticks(&player->coming, longest_way);
     player->coming_ramp_ticks = step_plan_classic_ramp(player->coming.accel_time, &player->coming_ticks);
-    player->coming_recip = UINT32_MAX / stop_divisor(player);
-    player->through_recip = UINT32_MAX / through_divisor(player);
+    player->coming_recip = UINT32_MAX / stop_divisor(player) + 1u;
+    player->through_recip = UINT32_MAX / through_divisor(player) + 1u;
 }
 
-static void prepare_joint(const player_t *player, player_joint_t *joint, int16_t carried)
+static inline void prepare_joint(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, const divider_t *stop,
+                                 const divider_t *through)
 {
     int32_t num = way_in_speed_units((int16_t)(joint->coming_pos - joint->target_pos));
     if (carried != 0) {
-        num -= (int32_t)carried * (2 * player->coming_ramp_ticks);
+        num -= (int32_t)carried * (int16_t)twice_ramp;
     }
-    joint->stop_speed = divide_speed(num, stop_divisor(player), player->coming_recip);
-    joint->through_speed = divide_speed(num, through_divisor(player), player->through_recip);
+    bool negative = num < 0;
+    uint32_t size = (uint32_t)(negative ? -num : num);
+    joint->stop_speed = size == 0 ? 0 : divide_speed(size, negative, stop);
+    joint->through_speed = size == 0 ? 0 : divide_speed(size, negative, through);
 }
 
 /* Reads the coming step: length, ramp, targets. */
-static void look_at_coming(player_t *player)
+RARE static void look_at_coming(player_t *player)
 {
     uint8_t step[PAGE_STEP_BYTES];
     player->source->read(player->source->context, player->coming.page,
@@ -169,7 +199,7 @@ static void look_at_coming(player_t *player)
 
 /* Goes on making the coming step ready: looks at it, or does up to `count` more joints. player->prepared counts both. */
 #define PREPARED_ALL (1u + PAGE_JOINTS)
-static void prepare(player_t *player, uint8_t count)
+RARE static void prepare(player_t *player, uint8_t count)
 {
     if (player->coming.page == 0 || player->prepared >= PREPARED_ALL) {
         return;
@@ -179,17 +209,21 @@ static void prepare(player_t *player, uint8_t count)
         player->prepared = 1;
         return;
     }
+    divider_t stop = {stop_divisor(player), player->coming_recip, (uint32_t)stop_divisor(player) << 10};
+    divider_t through = {through_divisor(player), player->through_recip, (uint32_t)through_divisor(player) << 10};
+    uint16_t twice_ramp = (uint16_t)(2 * player->coming_ramp_ticks);
     bool moving = player_is_in_law(player);
     for (; count != 0 && player->prepared < PREPARED_ALL; count--) {
         player_joint_t *joint = &player->joint[player->prepared++ - 1];
-        prepare_joint(player, joint, moving ? speed_left(player, joint) : 0);
+        prepare_joint(joint, moving ? speed_left(player, joint) : 0, twice_ramp, &stop, &through);
     }
 }
 
 static void prepare_all(player_t *player)
 {
-    prepare(player, PAGE_JOINTS);
-    prepare(player, PAGE_JOINTS); /* in case the first one only looked */
+    while (player->coming.page != 0 && player->prepared < PREPARED_ALL) {
+        prepare(player, PAGE_JOINTS);
+    }
 }
 
 /* --- sections ---------------------------------------------------------------------------------------------------- */
@@ -201,60 +235,66 @@ static void enter(player_t *player, uint8_t section, uint16_t ticks)
     player->tick = 0;
 }
 
-static void begin_joint(player_joint_t *joint, int16_t carried, bool through, uint8_t ramp, uint16_t recip16)
-{
-    int16_t speed = through ? joint->through_speed : joint->stop_speed;
-    joint->classic.base = (int16_t)joint->target_pos;
-    joint->classic.main = (int16_t)(joint->coming_pos - joint->target_pos);
-    joint->classic.acc = 0;
-    joint->classic.through = through;
-    joint->classic.speed = speed;
-    joint->classic.carried = carried;
-    joint->target_pos = joint->coming_pos;
-    if (ramp != 0) {
-        spread(joint, (int16_t)(speed - carried), ramp, recip16);
-    }
-}
-
-static bool runs_on(const player_joint_t *joint, uint16_t next_pos)
+static inline bool runs_on(const player_joint_t *joint, uint16_t next_pos)
 {
     return (joint->target_pos < joint->coming_pos && joint->coming_pos < next_pos) ||
            (joint->target_pos > joint->coming_pos && joint->coming_pos > next_pos);
 }
 
-/* How many joints to make ready in each tick, so that the coming step is ready in time. A short step shares the work
- * out over all its ticks, a longer one over those without a change of section. */
-static void share_out_work(player_t *player)
-{
-    uint16_t ticks = (uint16_t)(player->step_ticks + player->hold_ticks);
-    player->every_tick = ticks < 12;
-    player->quota = player->every_tick ? (uint8_t)(PAGE_JOINTS / 3 + 1) : ticks < 36 ? 4 : 1;
-}
-
-static uint8_t begin_step(player_t *player, link_t *link)
+/* Behind the last tick of a step: the link of a page's last step is decided, and with it which joints run through.
+ * Between two steps (primed) a joint has in carried and through what belongs to the step to begin, which leads from
+ * target_pos to coming_pos. */
+RARE static void prime(player_t *player, link_t *link)
 {
     uint8_t step[PAGE_STEP_BYTES];
     prepare_all(player);
-    uint8_t events = player_next_step(player, link, step);
-    events |= player_announce(player);
-    uint8_t ramp = player->coming_ramp_ticks;
-    uint16_t recip16 = ramp == 0 ? 0 : fix_recip16(ramp);
-    uint16_t hold = step_plan_classic_hold(&player->now);
-    bool may_run_on = hold == 0 && player_looks_ahead(player);
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player_joint_t *joint = &player->joint[i];
-        uint16_t word = page_word(&step[2 * i]);
-        bool through = may_run_on && page_pos_is_used(word) && runs_on(joint, word);
-        player->goal_pos[i] = joint->target_pos;
-        begin_joint(joint, speed_left(player, joint), through, ramp, recip16);
+    player_next_step(player, link, step);
+    bool may_run_on = player_looks_ahead(player) && step_plan_classic_hold(&player->now) == 0;
+    const uint8_t *at = step;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, at += 2) {
+        uint16_t word = page_word(at);
+        joint->classic.carried = speed_left(player, joint);
+        joint->classic.through = may_run_on && page_pos_is_used(word) && runs_on(joint, word);
     }
+}
+
+/* How many joints to make ready in each tick without a change of section, so that the coming step is ready in time. (What
+ * a very short step leaves undone is done when the next one is primed.) */
+static uint8_t joints_a_tick(uint16_t ticks)
+{
+    return ticks < 16 ? 10 : ticks < 44 ? 4 : 1;
+}
+
+static void enter_step(player_t *player)
+{
     player->step_ticks = player->coming_ticks;
-    player->ramp_ticks = ramp;
-    player->hold_ticks = hold;
+    player->ramp_ticks = player->coming_ramp_ticks;
+    player->hold_ticks = step_plan_classic_hold(&player->now);
     player->prepared = 0;
-    share_out_work(player);
-    enter(player, SECTION_RISE, ramp);
-    return events;
+    player->quota = joints_a_tick((uint16_t)(player->step_ticks + player->hold_ticks));
+    enter(player, SECTION_RISE, player->ramp_ticks);
+}
+
+/* The tick after: every joint begins on its target with its speed known. */
+RARE static uint8_t begin_step(player_t *player)
+{
+    enter_step(player);
+    uint8_t ramp = player->ramp_ticks;
+    uint16_t recip16 = ramp == 0 ? 0 : fix_recip16(ramp), *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        uint16_t from = joint->target_pos, to = joint->coming_pos;
+        int16_t speed = joint->classic.through ? joint->through_speed : joint->stop_speed;
+        *goal++ = from;
+        joint->target_pos = to;
+        joint->classic.base = (int16_t)from;
+        joint->classic.main = (int16_t)(to - from);
+        joint->classic.acc = 0;
+        joint->classic.speed = speed;
+        if (ramp != 0) {
+            spread(joint, (int16_t)(speed - joint->classic.carried), ramp, recip16);
+        }
+    }
+    return player_announce(player);
 }
 
 /* way * part / whole, toward zero; share = part / whole. The estimate is at most one too small, and what is left of
@@ -270,13 +310,13 @@ static int16_t share_of(int16_t way, uint16_t part, uint16_t whole, uint16_t sha
     return way < 0 ? (int16_t)-(int16_t)quotient : (int16_t)quotient;
 }
 
-static void begin_cruise(player_t *player)
+RARE static void begin_cruise(player_t *player)
 {
     uint8_t ramp = player->ramp_ticks;
     uint16_t ticks = player->step_ticks, cruise = (uint16_t)(ticks - 2u * ramp), rest = (uint16_t)(ticks - ramp);
     uint16_t share = rest == 0 ? 0 : fix_ratio(cruise, rest), recip16 = cruise == 0 ? 0 : fix_recip16(cruise);
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player_joint_t *joint = &player->joint[i];
+    const uint16_t *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         int16_t way = (int16_t)(joint->classic.main - joint->classic.acc), cruise_way;
         if (joint->classic.through) {
             cruise_way = share_of(way, cruise, rest, share);
@@ -285,7 +325,7 @@ static void begin_cruise(player_t *player)
         }
         joint->classic.main = cruise_way;
         joint->classic.acc = (int16_t)(way - cruise_way);
-        joint->classic.base = (int16_t)player->goal_pos[i];
+        joint->classic.base = (int16_t)*goal++;
         if (cruise != 0) {
             spread(joint, cruise_way, cruise, recip16);
         }
@@ -293,59 +333,90 @@ static void begin_cruise(player_t *player)
     enter(player, SECTION_CRUISE, cruise);
 }
 
-static void begin_fall(player_t *player)
+RARE static void begin_fall(player_t *player)
 {
     uint8_t ramp = player->ramp_ticks;
     uint16_t recip16 = ramp == 0 ? 0 : fix_recip16(ramp);
-    for (uint8_t i = 0; i < PAGE_JOINTS && ramp != 0; i++) {
-        player_joint_t *joint = &player->joint[i];
-        joint->classic.base = (int16_t)player->goal_pos[i];
+    const uint16_t *goal = player->goal_pos;
+    player_joint_t *joint = player->joint;
+    for (; ramp != 0 && joint < &player->joint[PAGE_JOINTS]; joint++) {
+        joint->classic.base = (int16_t)*goal++;
+        int16_t rest = joint->classic.acc; /* of the way */
         if (joint->classic.through) {
-            joint->classic.main = joint->classic.acc;
-            spread(joint, joint->classic.main, ramp, recip16);
+            joint->classic.main = rest;
         } else {
             joint->classic.carried = joint->classic.speed;
-            spread(joint, (int16_t)-joint->classic.speed, ramp, recip16);
+            rest = (int16_t)-joint->classic.speed; /* of the speed */
         }
+        spread(joint, rest, ramp, recip16);
     }
     enter(player, SECTION_FALL, ramp);
 }
 
 /* `sign`: that of what `spread` spread */
-static int16_t ramp_pos(player_joint_t *joint, uint8_t c, uint16_t num, bool negative)
+static inline int16_t ramp_pos(player_joint_t *joint, ramp_share_t share, uint16_t num, bool negative)
 {
     int16_t change = next_share(joint, num, negative);
     int16_t speed = (int16_t)(joint->classic.carried + (change >> 1));
-    joint->classic.acc = three_160ths((int32_t)speed * c);
-    return limit_pos((int16_t)(joint->classic.base + joint->classic.acc));
+    int16_t acc = ramp_way(speed, share);
+    joint->classic.acc = acc;
+    return limit_pos((int16_t)(joint->classic.base + acc));
 }
 
-static int16_t line_pos(player_joint_t *joint, uint16_t num)
+static inline int16_t line_pos(player_joint_t *joint, uint16_t num)
 {
     return limit_pos((int16_t)(joint->classic.base + next_share(joint, num, joint->classic.main < 0)));
 }
 
-static void make_goals(player_t *player)
+/* One tick of RISE. */
+RARE static void make_rise(player_t *player)
 {
     uint16_t num = player->section_ticks, *goal = player->goal_pos;
-    uint8_t section = player->section, c = (uint8_t)player->tick;
+    ramp_share_t share = ramp_share((uint8_t)player->tick);
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int16_t pos;
-        if (section == SECTION_RISE) {
-            pos = ramp_pos(joint, c, num, joint->classic.speed < joint->classic.carried);
-        } else if (section == SECTION_FALL && !joint->classic.through) {
-            pos = ramp_pos(joint, c, num, joint->classic.speed > 0);
-        } else {
-            pos = line_pos(joint, num);
-        }
-        *goal++ = (uint16_t)pos;
+        *goal++ = (uint16_t)ramp_pos(joint, share, num, joint->classic.speed < joint->classic.carried);
+    }
+}
+
+/* One tick of FALL: joints that stop, and joints that go through. */
+RARE static void make_fall(player_t *player)
+{
+    uint16_t num = player->section_ticks, *goal = player->goal_pos;
+    ramp_share_t share = ramp_share((uint8_t)player->tick);
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        *goal++ = (uint16_t)(joint->classic.through ? line_pos(joint, num)
+                                                    : ramp_pos(joint, share, num, joint->classic.speed > 0));
+    }
+}
+
+/* One tick of CRUISE. */
+RARE static void make_cruise(player_t *player)
+{
+    uint16_t num = player->section_ticks, *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        *goal++ = (uint16_t)line_pos(joint, num);
+    }
+}
+
+static void make_goals(player_t *player)
+{
+    switch (player->section) {
+    case SECTION_RISE:
+        make_rise(player);
+        break;
+    case SECTION_CRUISE:
+        make_cruise(player);
+        break;
+    default:
+        make_fall(player);
+        break;
     }
 }
 
 /* When nothing follows, the original has begun a step all the same before it finds out: it sends one more tick, the first
  * of a RISE from the last output with the last step's speed and the last section's length. The traces in tests/golden
  * end with it, 0 to 8 units off the target. */
-static uint8_t end_play(player_t *player)
+RARE static uint8_t end_play(player_t *player)
 {
     uint16_t num = player->section_ticks;
     bool has_tick = num != 0;
@@ -391,7 +462,8 @@ static uint8_t next_section(player_t *player, link_t *link)
     if (player->coming.page == 0) {
         return end_play(player);
     }
-    return begin_step(player, link);
+    prime(player, link); /* the first step, or one behind the rest of an interrupted one */
+    return begin_step(player);
 }
 
 bool classic_is_here(void)
@@ -399,20 +471,29 @@ bool classic_is_here(void)
     return true;
 }
 
-void classic_start(player_t *player)
+void classic_start(player_t *player, link_t *link)
 {
     player->step_ticks = player->hold_ticks = 0;
     player->ramp_ticks = 0;
     player->prepared = 0;
     enter(player, SECTION_HOLD, 0);
-    prepare_all(player);
+    prime(player, link);
+}
+
+/* true when the next call begins a step. */
+static bool is_over(const player_t *player)
+{
+    return player->tick >= player->section_ticks &&
+           (player->section == SECTION_HOLD || (player->section == SECTION_FALL && player->hold_ticks == 0));
 }
 
 uint8_t classic_tick(player_t *player, link_t *link)
 {
     uint8_t events = 0;
     bool change = player->tick >= player->section_ticks;
-    if (change) {
+    if (player->held_events != 0) {
+        events = begin_step(player);
+    } else if (change) {
         events = next_section(player, link);
         if ((events & PLAYER_EV_ENDED) != 0) {
             return events;
@@ -425,8 +506,9 @@ uint8_t classic_tick(player_t *player, link_t *link)
             events |= PLAYER_EV_OUTPUT;
         }
     }
-    if (!change || player->every_tick) {
-        player_quiet_work(player);
+    if (is_over(player) && player->coming.page != 0) {
+        prime(player, link);
+    } else if (!change && !player_quiet_work(player)) {
         prepare(player, player->quota);
     }
     return events;
@@ -463,8 +545,23 @@ static int32_t speed_now(const player_t *player, const player_joint_t *joint, ui
     return joint->classic.main < 0 ? -speed : speed;
 }
 
+/* Whatever a primed step needs of classic_tick's bookkeeping is done, so that its rest, all of it, can be played. */
+static void freeze_primed(player_t *player)
+{
+    enter_step(player);
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        joint->target_pos = joint->coming_pos;
+        joint->classic.value = 0;
+        joint->classic.speed = joint->classic.carried;
+    }
+    player->section_ticks = 1; /* RISE even where the ramp is 0: the speed is `carried` */
+}
+
 void classic_freeze(player_t *player)
 {
+    if (player->held_events != 0) {
+        freeze_primed(player);
+    }
     uint32_t recip28 = player->section_ticks == 0 ? 0 : fix_recip28(player->section_ticks);
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         player_joint_t *joint = &player->joint[i];

@@ -8,9 +8,10 @@ bool classic_is_here(void)
     return false;
 }
 
-void classic_start(player_t *player)
+void classic_start(player_t *player, link_t *link)
 {
     (void)player;
+    (void)link;
 }
 
 uint8_t classic_tick(player_t *player, link_t *link)

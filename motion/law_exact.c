@@ -99,7 +99,7 @@ static ramp_t ramp_of(const player_t *player)
     return (ramp_t){player->share_q0_16, player->ramp_recip, player->ramp_ticks};
 }
 
-/* Between two steps (`primed`) a joint has: in mean still the mean speed of the step to begin, in cruise that of the
+/* Between two steps (primed) a joint has: in mean still the mean speed of the step to begin, in cruise that of the
  * coming one; in speed the speed it comes with, in exit the speed it is to leave with. Plans the step and makes its first
  * tick. */
 FAST static void begin_joints(player_t *player)
@@ -183,8 +183,7 @@ RARE static void prime(player_t *player, link_t *link)
     uint8_t step[PAGE_STEP_BYTES];
     player->step_ticks = player->coming_ticks;
     player->tick = 0;
-    player->primed = true;
-    player->held_events = player_next_step(player, link, step);
+    player_next_step(player, link, step);
     player->hold_ticks = step_plan_exact_hold(&player->now, &player->carry_q5_11);
     if (!player_looks_ahead(player)) {
         memset(step, PAGE_POS_UNUSED >> 8, sizeof step);
@@ -212,19 +211,10 @@ static void shift_means(player_t *player)
     }
 }
 
-uint8_t exact_held_events(player_t *player)
-{
-    if (!player->primed) {
-        return 0;
-    }
-    player->primed = false;
-    return player->held_events | player_announce(player);
-}
-
 /* The tick after: plans what is known now. */
 RARE static uint8_t begin_step(player_t *player)
 {
-    uint8_t events = exact_held_events(player);
+    uint8_t events = player_announce(player);
     player->tick = 1;
     if (player->step_ticks == 1) {
         shift_means(player);
@@ -338,8 +328,7 @@ static bool is_over(const player_t *player)
 /* What the coming step needs and a tick with little to do can do for it. */
 RARE static void quiet_work(player_t *player)
 {
-    player_quiet_work(player);
-    if (player->coming.page != 0) {
+    if (!player_quiet_work(player) && player->coming.page != 0) {
         uint16_t share = share_of(&player->coming, player->coming_ticks);
         player->coming_share_q0_16 = share != 0 ? share : 1;
     }
@@ -348,13 +337,13 @@ RARE static void quiet_work(player_t *player)
 uint8_t exact_tick(player_t *player, link_t *link)
 {
     uint8_t events = PLAYER_EV_OUTPUT;
-    if (!player->primed && is_over(player)) { /* behind the rest of an interrupted step */
+    if (player->held_events == 0 && is_over(player)) { /* behind the rest of an interrupted step */
         if (player->coming.page == 0) {
             return player_end(player);
         }
         prime(player, link);
     }
-    if (player->primed) {
+    if (player->held_events != 0) {
         events |= begin_step(player);
     } else if (player->tick < player->step_ticks) {
         (void)exact_rest_tick(player);
@@ -385,7 +374,7 @@ bool exact_rest_start(player_t *player)
     if (ticks == 0 && is_on_target(player)) {
         return false;
     }
-    if (exact && player->primed) {
+    if (exact && player->held_events != 0) {
         shift_means(player);
     }
     player->step_ticks = ticks < braked ? braked : ticks;

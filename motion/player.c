@@ -158,14 +158,14 @@ bool player_looks_ahead(const player_t *player)
     return player->look_page != 0;
 }
 
-uint8_t player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES])
+void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES])
 {
-    uint8_t events = 0;
+    uint8_t events = PLAYER_EV_STEP;
     player->now = player->coming;
     player->joints |= player->coming_joints;
     player->look_page = player->now.page;
     if (player->now.step == 1) {
-        events = player->slopes == SLOPES_SAME ? 0 : PLAYER_EV_SLOPES;
+        events |= player->slopes == SLOPES_SAME ? PLAYER_EV_PAGE : PLAYER_EV_PAGE | PLAYER_EV_SLOPES;
         player->slopes = SLOPES_SAME;
         player->repetition = player->coming_repetition;
     }
@@ -174,6 +174,7 @@ uint8_t player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_
     } else {
         events |= decide(player, link);
     }
+    player->held_events = events;
     if (player->coming.page != 0) {
         read_coming(player, step);
     }
@@ -182,26 +183,30 @@ uint8_t player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_
     } else {
         player->look_page = player->coming.page;
     }
-    return events;
 }
 
 uint8_t player_announce(player_t *player)
 {
-    player->page = player->now.page;
-    player->step = player->now.step;
-    return player->step == 1 ? PLAYER_EV_STEP | PLAYER_EV_PAGE : PLAYER_EV_STEP;
+    uint8_t events = player->held_events;
+    if (events != 0) {
+        player->held_events = 0;
+        player->page = player->now.page;
+        player->step = player->now.step;
+    }
+    return events;
 }
 
 #define COMPARE_BYTES 31u
-void player_quiet_work(player_t *player)
+bool player_quiet_work(player_t *player)
 {
     if (player->slopes != SLOPES_UNKNOWN) {
-        return;
+        return false;
     }
     uint8_t mine[COMPARE_BYTES], coming[COMPARE_BYTES];
     player->source->read(player->source->context, player->now.page, PAGE_AT_COMPLIANCE, mine, COMPARE_BYTES);
     player->source->read(player->source->context, player->coming.page, PAGE_AT_COMPLIANCE, coming, COMPARE_BYTES);
     player->slopes = memcmp(mine, coming, COMPARE_BYTES) == 0 ? SLOPES_SAME : SLOPES_DIFFER;
+    return true;
 }
 
 bool player_is_in_law(const player_t *player)
@@ -255,8 +260,9 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
     player->step = 0;
     player->slopes = SLOPES_DIFFER;
     player->breaking = false;
+    player->held_events = 0;
     if (law == PLAYER_LAW_CLASSIC) {
-        classic_start(player);
+        classic_start(player, link);
     } else {
         exact_start(player, link, bytes);
     }
@@ -294,7 +300,7 @@ static uint8_t tick_braking(player_t *player)
 static uint8_t tick_resting(player_t *player)
 {
     bool classic = player->law == PLAYER_LAW_CLASSIC;
-    uint8_t events = classic ? 0 : exact_held_events(player);
+    uint8_t events = player_announce(player);
     bool more = exact_rest_tick(player);
     if (classic) {
         more ? classic_prepare_at_rest(player) : classic_thaw(player);

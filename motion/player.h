@@ -93,15 +93,13 @@ typedef struct player {
     uint8_t state;
     uint8_t ramp_ticks, brake_ticks;
     bool breaking;
+    uint8_t held_events;             /* not 0: the next step is primed, it begins with the next tick with these */
     union {
         struct {
             uint8_t section, coming_ramp_ticks;
-            uint8_t prepared, quota; /* how much of the coming step is ready; how many more joints a tick */
-            bool every_tick;
+            uint8_t prepared, quota; /* classic: how much of the coming step is ready; how many more joints a tick */
         };
         struct {
-            uint8_t held_events;     /* exact: of the step that begins with the next tick */
-            bool primed;
             uint16_t coming_share_q0_16; /* share of the coming step, made in a quiet tick; 0: not yet */
         };
     };

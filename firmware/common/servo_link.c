@@ -3,6 +3,7 @@
 #include "bus.h"
 #include "bus_call.h"
 #include "dxl_packet.h"
+#include "pgm.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -18,6 +19,7 @@ enum { PHASE_QUIET = 0, PHASE_GOALS, PHASE_SLOPES, PHASE_DEAF, PHASE_ACTION, PHA
 /* What a packet holds: 7 bytes around, the checksum, and per joint ID, slopes and goal. */
 #define PACKET_BYTES (BUS_PACKET_BYTES < DXL_PACKET_MAX ? BUS_PACKET_BYTES : DXL_PACKET_MAX)
 #define JOINTS_WITH_SLOPES ((PACKET_BYTES - 8u) / 5u)
+#define SLOPES_FIRST 0x0000FFFFul   /* what a packet of slopes alone takes first */
 STATIC_ASSERT(PACKET_BYTES >= 8u + 3u * SERVO_LINK_JOINTS, "all joints' goals fit into one packet");
 /* The health poll's stretch of the control table. */
 #define POLL_AT DXL_AT_TORQUE_ENABLE
@@ -112,61 +114,55 @@ uint32_t servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LI
 
 /* ---- one tick of goals ---- */
 
-/* Slope register value of a nibble of compliance: 2^nibble. */
-static uint8_t slope(uint8_t nibble)
-{
-    return (uint8_t)(1u << (nibble >= 1u && nibble <= 7u ? nibble : 5u));
-}
-
+/* Slope register values of a compliance byte: 2^nibble, CW in the low byte; 0 and above 7 count as 5. */
 static NOINLINE uint16_t slopes_of(uint8_t compliance)
 {
-    return (uint16_t)(slope(compliance >> 4) | slope(compliance & 0x0Fu) << 8);
+    static const uint8_t slope[16] PROGMEM = { 32, 2, 4, 8, 16, 32, 64, 128, 32, 32, 32, 32, 32, 32, 32, 32 };
+    return (uint16_t)(pgm_read_byte(&slope[compliance >> 4]) | pgm_read_byte(&slope[compliance & 0x0Fu]) << 8);
 }
 
-/* The hot one: SYNC WRITE of goals. 31 joints: 101 bytes, about 40 cycles a joint. */
-static uint8_t build_goals(const servo_link_t *link, uint32_t joints)
+ALWAYS_INLINE void put_word(dxl_writer_t *writer, uint16_t word)
+{
+    dxl_put(writer, (uint8_t)word);
+    dxl_put(writer, (uint8_t)(word >> 8));
+}
+
+/* SYNC WRITE of slopes, goals or both for `joints`. The loop is written out here and instantiated twice: with goals alone
+ * it is the tick's hot one (31 joints: 101 bytes, 41 cycles a joint), with slopes it follows a page change. */
+ALWAYS_INLINE uint8_t build(const servo_link_t *link, uint32_t joints, bool with_slopes, bool with_goals)
 {
     dxl_writer_t writer;
     dxl_begin(&writer, bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE);
-    dxl_put(&writer, DXL_AT_GOAL);
-    dxl_put(&writer, 2);
+    dxl_put(&writer, with_slopes ? DXL_AT_CW_SLOPE : DXL_AT_GOAL);
+    dxl_put(&writer, with_slopes && with_goals ? 4 : 2);
     for (uint8_t first = 0; first < SERVO_LINK_JOINTS; first = (uint8_t)(first + 8u), joints >>= 8) {
         const uint16_t *goal = link->goals_pos + first;
         const int16_t *trim = link->trim_pos + first;
         uint8_t id = first;
         for (uint8_t mask = (uint8_t)joints; mask != 0; mask >>= 1, id++, goal++, trim++) {
-            if (mask & 1u) {
-                uint16_t pos = limited((int16_t)((int16_t)*goal + *trim));
-                dxl_put(&writer, id);
-                dxl_put(&writer, (uint8_t)pos);
-                dxl_put(&writer, (uint8_t)(pos >> 8));
+            if (!(mask & 1u)) {
+                continue;
+            }
+            dxl_put(&writer, id);
+            if (with_slopes) {
+                put_word(&writer, slopes_of(link->slopes[id]));
+            }
+            if (with_goals) {
+                put_word(&writer, limited((int16_t)((int16_t)*goal + *trim)));
             }
         }
     }
     return dxl_end(&writer);
 }
 
-/* After a page change: slopes, with the goals behind them or alone. */
-static uint8_t build_slopes(const servo_link_t *link, uint32_t joints, bool with_goals)
+static uint8_t build_goals(const servo_link_t *link, uint32_t joints)
 {
-    dxl_writer_t writer;
-    dxl_begin(&writer, bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE);
-    dxl_put(&writer, DXL_AT_CW_SLOPE);
-    dxl_put(&writer, with_goals ? 4 : 2);
-    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        if (servo_link_has(&joints, id)) {
-            uint16_t slopes = slopes_of(link->slopes[id]);
-            dxl_put(&writer, id);
-            dxl_put(&writer, (uint8_t)slopes);
-            dxl_put(&writer, (uint8_t)(slopes >> 8));
-            if (with_goals) {
-                uint16_t pos = servo_link_to_servo(link, id, link->goals_pos[id]);
-                dxl_put(&writer, (uint8_t)pos);
-                dxl_put(&writer, (uint8_t)(pos >> 8));
-            }
-        }
-    }
-    return dxl_end(&writer);
+    return build(link, joints, false, true);
+}
+
+static NOINLINE uint8_t build_slopes(const servo_link_t *link, uint32_t joints, bool with_goals)
+{
+    return build(link, joints, true, with_goals);
 }
 
 static void count_late(servo_link_t *link)
@@ -185,6 +181,9 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
     if (bus_is_busy()) {
         count_late(link);
         (void)bus_wait(NULL);
+    }
+    if (link->slopes_wait != 0) {
+        link->slopes_wait--;
     }
     joints &= servo_link_drivable(link);
     link->goals_pos = goal_pos;
@@ -216,10 +215,12 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
 
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS])
 {
-    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
+    uint32_t bit = 1;
+    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++, bit <<= 1) {
         if (link->slopes[id] != compliance[id]) {
             link->slopes[id] = compliance[id];
-            servo_link_put(&link->slopes_pending, id, true);
+            link->slopes_pending |= bit;
+            link->slopes_wait = 2;
         }
     }
 }
@@ -359,7 +360,10 @@ void servo_link_tick(servo_link_t *link)
 static bool send_rest(servo_link_t *link)
 {
     uint32_t pending = link->slopes_pending & link->goals_joints & ~link->no_sync;
-    if (link->phase == PHASE_GOALS && pending != 0) {
+    if (link->phase == PHASE_GOALS && pending != 0 && link->slopes_wait == 0) {
+        if (pending & SLOPES_FIRST) {
+            pending &= SLOPES_FIRST;
+        }
         link->slopes_pending &= ~pending;
         link->phase = PHASE_SLOPES;
         (void)bus_submit(build_slopes(link, pending, false), BUS_NO_ANSWER, 1);

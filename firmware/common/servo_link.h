@@ -9,7 +9,7 @@
  * A tick on the bus at 1 Mbps, 31 joints (us after servo_link_goals):
  *
  *   0            1010                         2020                                          7812
- *   | SYNC WRITE | [slopes, if they do not fit] | [REG WRITEs to the deaf] | READ of one servo | quiet |
+ *   | SYNC WRITE | [slopes, if they did not fit] | [REG WRITEs to the deaf] | READ of one servo | quiet |
  */
 #ifndef SERVO_LINK_H
 #define SERVO_LINK_H
@@ -61,6 +61,7 @@ typedef struct {
     uint8_t late;             /* ticks whose goals could not all be sent in time; stays at 255 */
     /* Private. */
     uint8_t phase;
+    uint8_t slopes_wait;                     /* slopes came with the goals of this tick: theirs is the next one */
     uint8_t poll_id, poll_misses;
     uint8_t round_voltage_dv, round_degrees, round_degrees_id;
     const uint16_t *goals_pos;
@@ -92,7 +93,8 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
     NOINLINE;   /* a name of its own in the image: the bench counts its cycles */
 
 /* Compliance bytes of a page (motion512.md: nibbles CW, CCW; 0 and above 7 count as 5): what differs from what was sent
- * last goes out with the next goals, in the same packet up to 27 joints, in one of its own right behind it above. */
+ * last goes out with the next goals in the same packet, up to 27 joints. Above, it follows in packets of its own for 16 joints
+ * each, behind the goals of the two ticks after: the tick of a page change has enough to do. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
 
 /* Every turn of the main loop: goes on with this tick's traffic. One health poll (READ 24..43) a tick, round robin over

@@ -162,7 +162,9 @@ static void test_31_joints_fit_into_one_packet_of_101_bytes(void)
     const uint8_t *packet = NULL;
     (void)fake_bus_add(0, BUS_RATE_1M);
     robot(30);
-    tick_with_goals(SERVO_LINK_ALL);
+    for (uint8_t i = 0; i < 3; i++) {
+        tick_with_goals(SERVO_LINK_ALL);   /* slopes follow */
+    }
     fake_bus_clear_log();
     tick_with_goals(SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
@@ -237,7 +239,7 @@ static void test_slopes_go_with_the_goals_once(void)
     TEST_ASSERT_EQUAL(DXL_AT_GOAL, packet[5]);
 }
 
-static void test_slopes_of_more_than_27_joints_follow_in_a_packet_of_their_own(void)
+static void test_slopes_of_more_than_27_joints_follow_in_packets_of_their_own(void)
 {
     const uint8_t *packet = NULL;
     uint8_t compliance[SERVO_LINK_JOINTS];
@@ -245,11 +247,18 @@ static void test_slopes_of_more_than_27_joints_follow_in_a_packet_of_their_own(v
     robot(28);
     servo_link_slopes(&servos, compliance);
     tick_with_goals(SERVO_LINK_ALL);
-    TEST_ASSERT_EQUAL(2, logged(DXL_SYNC_WRITE, &packet));
+    TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
+    TEST_ASSERT_EQUAL(DXL_AT_GOAL, packet[5]);
+    TEST_ASSERT_EQUAL(328, fake_bus_word(28, DXL_AT_GOAL));
+    tick_with_goals(SERVO_LINK_ALL);
+    TEST_ASSERT_EQUAL(3, logged(DXL_SYNC_WRITE, &packet));
     TEST_ASSERT_EQUAL(DXL_AT_CW_SLOPE, packet[5]);
     TEST_ASSERT_EQUAL(2, packet[6]);
+    TEST_ASSERT_EQUAL(8, fake_bus_servo(15)->table[DXL_AT_CCW_SLOPE]);
+    TEST_ASSERT_EQUAL(32, fake_bus_servo(16)->table[DXL_AT_CCW_SLOPE]);
+    tick_with_goals(SERVO_LINK_ALL);
+    TEST_ASSERT_EQUAL(5, logged(DXL_SYNC_WRITE, &packet));
     TEST_ASSERT_EQUAL(8, fake_bus_servo(28)->table[DXL_AT_CCW_SLOPE]);
-    TEST_ASSERT_EQUAL(328, fake_bus_word(28, DXL_AT_GOAL));
     fake_bus_clear_log();
     tick_with_goals(SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
@@ -491,7 +500,7 @@ int main(void)
     RUN_TEST(test_joints_without_torque_or_presence_are_never_driven);
     RUN_TEST(test_trim_is_added_and_limited);
     RUN_TEST(test_slopes_go_with_the_goals_once);
-    RUN_TEST(test_slopes_of_more_than_27_joints_follow_in_a_packet_of_their_own);
+    RUN_TEST(test_slopes_of_more_than_27_joints_follow_in_packets_of_their_own);
     RUN_TEST(test_27_joints_with_slopes_are_within_the_servos_143_bytes);
     RUN_TEST(test_deaf_servos_get_reg_write_and_one_action);
     RUN_TEST(test_deaf_servos_that_do_not_fit_into_a_tick_go_on_in_the_next);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Our loader's line shell and block protocol, made from its description, with a line that can be disturbed."""
+import binascii
 import time
 
 from pty_peer import Peer
@@ -9,12 +10,7 @@ APP, RESET, PROMPTED, SESSION = range(4)
 
 
 def crc16(data):
-    crc = 0xFFFF
-    for byte in data:
-        crc ^= byte << 8
-        for _ in range(8):
-            crc = (crc << 1 ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
-    return crc
+    return binascii.crc_hqx(data, 0xFFFF)
 
 
 class BlockPeer(Peer):

@@ -67,6 +67,10 @@ class Peer:
 
     def send(self, data):
         with self.lock:
+            if self.master is not None and self.cut_after is None and self.garble is None:
+                self.moved += len(data)
+                os.write(self.master, data)
+                return
             for byte in data:
                 if self.master is None:
                     return

@@ -11,6 +11,7 @@ import pytest
 from block_peer import BlockPeer
 from factory_peer import FactoryPeer
 
+from m512.block import frame
 from m512.crc16 import crc16
 from m512.image import Image
 from m512.memory import Record
@@ -183,6 +184,11 @@ def test_cable_pulled_during_flash(m512, peer, motions, when):
 
 
 # Ours
+
+def test_crc16_known_answer_and_frame_of_the_description():
+    assert crc16(b"123456789") == 0x29B1
+    assert frame(1, 1, b"") == bytes.fromhex("a5010100c89d") and frame(3, 2, b"\xff\x01") == bytes.fromhex("a5030201ff013658")
+
 
 def test_block_line_with_noise_repeats_and_arrives(m512, motions):
     noise = random.Random(3)

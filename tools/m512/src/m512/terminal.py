@@ -20,6 +20,7 @@ HELP = """
 """
 LINE_SECONDS = 2.0      # for the board's answer to a line of a file
 XON, XOFF = 0x11, 0x13
+HIDDEN = (XON, XOFF, 0xFF)     # flow control, and the byte that a controller sends at its start
 
 
 class Terminal:
@@ -78,7 +79,7 @@ class Terminal:
                 continue
             self.heard_at = time.monotonic()
             self.held = data.rfind(XOFF) > data.rfind(XON) if XOFF in data or XON in data else self.held
-            console.write_bytes(bytes(b for b in data if b not in (XON, XOFF)))
+            console.write_bytes(bytes(b for b in data if b not in HIDDEN))
             if self.log:
                 self.log.write(data)
                 self.log.flush()

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+"""`m512 term` on a terminal of its own: bytes both ways, its keys, log, files, the boot loader, a pulled cable."""
+import sys
+
+import pytest
+from conftest import REPO
+from factory_peer import APP, FactoryPeer
+from pty_peer import Peer
+
+pexpect = pytest.importorskip("pexpect")
+
+
+class Echo(Peer):
+    """Answers a line with "<line>" and, like a board, ends lines by CR LF."""
+
+    def __init__(self):
+        self.line, self.lines = bytearray(), []
+        super().__init__()
+
+    def on_byte(self, byte):
+        if byte == 0x0D:
+            self.lines.append(bytes(self.line))
+            self.send(b"\r\n<" + bytes(self.line) + b">\r\n] ")
+            self.line = bytearray()
+        else:
+            self.line.append(byte)
+
+
+@pytest.fixture
+def term():
+    running = []
+
+    def start(*args):
+        child = pexpect.spawn(sys.executable, ["-m", "m512", "term", *map(str, args)], timeout=10, encoding="utf-8",
+                              env={"PYTHONPATH": str(REPO / "tools" / "m512" / "src"), "PATH": "/usr/bin:/bin", "TERM": "xterm"})
+        running.append(child)
+        return child
+
+    yield start
+    for child in running:
+        child.close(force=True)
+
+
+def test_term_passes_bytes_both_ways_and_quits(term, tmp_path):
+    with Echo() as board:
+        child = term("-p", board.path, "--log", tmp_path / "log")
+        child.expect("Ctrl-] q to quit")
+        child.send("list\r")
+        child.expect("<list>")
+        child.send("\x1b[A\x03x\r")       # an arrow and Ctrl-C go to the board
+        child.expect("x>")
+        assert board.lines == [b"list", b"\x1b[A\x03x"]
+        child.send("\x1dh")
+        child.expect("call the boot loader")
+        board.send(b"\x1b[2;5fscreen")
+        child.expect("\x1b\\[2;5fscreen")
+        child.send("\x1dq")
+        child.expect(pexpect.EOF)
+        child.close()
+        assert child.exitstatus == 0
+    assert b"<list>" in (tmp_path / "log").read_bytes()
+
+
+def test_term_sends_a_file_line_by_line(term, tmp_path):
+    (tmp_path / "script").write_text("one\ntwo\n\nthree")
+    with Echo() as board:
+        child = term("-p", board.path)
+        child.expect("to quit")
+        child.send("\x1ds")
+        child.expect("file: ")
+        child.send(f"{tmp_path / 'script'}\r")
+        child.expect("<three>")
+        child.expect("sent")
+        assert board.lines == [b"one", b"two", b"", b"three"]
+        child.send("\x1ds")
+        child.expect("file: ")
+        child.send("/no/such\r")
+        child.expect("cannot read /no/such")
+
+
+def test_term_calls_the_boot_loader(term):
+    with FactoryPeer(state=APP) as board:
+        child = term("-p", board.path)
+        child.expect("to quit")
+        child.send("\x1dl")
+        child.expect("Press MODE")
+        child.expect("SYSTEM O.K.")
+        child.expect("- ")
+        assert not board.hurt
+
+
+def test_term_tells_when_the_cable_comes_off(term):
+    with Echo() as board:
+        child = term("-p", board.path)
+        child.expect("to quit")
+        board.pull()
+        child.expect("broke")
+        child.send("x")
+        child.expect("m512: the line to")
+        child.expect(pexpect.EOF)
+        child.close()
+        assert child.exitstatus == 6
+
+
+def test_term_lists_ports(m512):
+    assert m512("term", "--list").exit_code == 0
