@@ -248,6 +248,18 @@ def test_script_failure_names_line_and_time(tmp_path, line, says):
     assert says in done.stderr.decode()
 
 
+@pytest.mark.parametrize("relation, right, wrong", [
+    ("==", 512, 511), ("!=", 511, 512), ("<", 513, 512), (">", 511, 512), ("<=", 512, 511), (">=", 512, 513)])
+def test_script_relations_hold_and_fail(tmp_path, relation, right, wrong):
+    assert play(tmp_path, f"present 3 {relation} {right} within 1ms\n").returncode == 0
+    assert play(tmp_path, f"present 3 {relation} {wrong} within 1ms\n").returncode == 1
+
+
+def test_script_after_counts_from_the_end_of_the_line_before(tmp_path):
+    done = play(tmp_path, 'wait 300ms\nafter 200ms note "now"\nat 700ms note "then"\n')
+    assert done.stderr.decode().split() == "cm5sim: 0.500 s: now cm5sim: 0.700 s: then".split()
+
+
 def test_script_failure_shows_what_the_robot_said(tmp_path):
     done = play(tmp_path, 'expect "rea"\nexpect "go" within 50ms\n')
     assert done.returncode == 1

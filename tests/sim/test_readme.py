@@ -14,7 +14,7 @@ from sim_command import BUILD, CM5SIM, TOP, run
 README = (TOP / "tools" / "sim" / "README.md").read_text(encoding="utf-8")
 COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", README, re.S)
             for line in block.splitlines() if "cm5sim" in line]
-SHOWN_S = 3  # so long a command without an end of its own is left running
+SHOWN_S = 1.5  # so long a command without an end of its own is left running
 
 # One page; joint 3 ends at 600. No other joint is used.
 WALK = """\
@@ -85,6 +85,15 @@ def test_plot_and_trace_of_the_readme(folder):
         assert execute(command, folder)[0] == 0
     assert (folder / "walk.svg").stat().st_size > 5000
     assert ",600" in (folder / "walk.csv").read_text()
+
+
+def test_bench_reaches_its_goal():
+    if needs("play-cm5.hex"):
+        pytest.skip("play-cm5.hex not built")
+    done = subprocess.run([sys.executable, TOP / "tools" / "sim" / "bench", "--seconds", "5"], capture_output=True,
+                          text=True, check=False)
+    print(done.stdout)
+    assert done.returncode == 0 and "18 joints moving" in done.stdout, done.stdout + done.stderr
 
 
 def test_every_option_occurs_in_the_readme():
