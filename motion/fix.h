@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * fix.h - fixed-point arithmetic of the motion core. The only place where scaled numbers are multiplied and rounded.
  *
- *   pos, speed, acceleration   q12.20 in int32_t / uint32_t    +-2047.999 servo units, 1/1048576
+ *   pos, speed, acceleration   q16.16 in int32_t / uint32_t    +-32767.999 servo units, 1/65536
  *   share                      q0.16 in uint16_t               0 .. 0.99998
  *   time                       q5.11 fraction of a tick        1/2048
  *
- * Why 20 fraction bits: an acceleration wrong by half a unit of 2^-20 is wrong by 255^2 / 2 * 2^-21 = 0.016 servo units
- * at the end of the longest ramp. Why not more: 16-bit multiplications, and the position is a shift by 4 of the upper
- * half. All roundings are toward zero on sizes; signs are applied afterwards, so that a mirrored motion is mirrored in
+ * 16 fraction bits make the output the upper word of the position, which is what a tick must be fast at. The price is
+ * paid by very long ramps: an acceleration is up to 2^-16 too small, and the position after a ramp of 255 ticks half a
+ * servo unit short of the ideal (after one of 32, 1/128). That is why all roundings are toward zero on sizes: a joint is
+ * late, never past its target (law_exact.c). Signs are applied afterwards, so that a mirrored motion is mirrored in
  * every bit. */
 #ifndef FIX_H
 #define FIX_H
@@ -15,18 +16,18 @@
 #include <stdint.h>
 #include "mul.h"
 
-#define FIX_POS_BITS 20
+#define FIX_POS_BITS 16
 #define FIX_POS_ONE ((int32_t)1 << FIX_POS_BITS)
 
-/* Position in servo units of a q12.20 that is not negative: floor. Range 0..2047. The plain expression is pos >> 20. */
-static inline uint16_t fix_pos(int32_t pos_q12_20)
+/* Position in servo units of a q16.16 that is not negative: floor. The plain expression is pos >> 16. */
+static inline uint16_t fix_pos(int32_t pos_q16_16)
 {
-    return shift_u16_right4((uint16_t)((uint32_t)pos_q12_20 >> 16));
+    return (uint16_t)((uint32_t)pos_q16_16 >> FIX_POS_BITS);
 }
 
 static inline int32_t fix_from_pos(uint16_t pos)
 {
-    return (int32_t)((uint32_t)shift_u16_left4(pos) << 16);
+    return (int32_t)((uint32_t)pos << FIX_POS_BITS);
 }
 
 /* start + one of these, then fix_pos: nearest, halves up or down. With the first for motions up and the second for those
@@ -34,16 +35,16 @@ static inline int32_t fix_from_pos(uint16_t pos)
 #define FIX_ROUND_UP (FIX_POS_ONE / 2)
 #define FIX_ROUND_DOWN (FIX_POS_ONE / 2 - 1)
 
-/* 2^28 / ticks, ticks 1..65535: what fix_mean multiplies by. Floor; one 32-bit division. */
-static inline uint32_t fix_recip28(uint16_t ticks)
+/* 2^32 / ticks, ticks 1..65535: what fix_mean multiplies by. Floor of (2^32 - 1) / ticks; one 32-bit division. */
+static inline uint32_t fix_recip32(uint16_t ticks)
 {
-    return 0x10000000u / ticks;
+    return UINT32_MAX / ticks;
 }
 
-/* Mean speed q12.20 of a way 0..2047 over the ticks of fix_recip28. Floor; relative error below ticks * 2^-28. */
-static inline uint32_t fix_mean(uint16_t way, uint32_t recip28)
+/* Mean speed q16.16 of a way 0..65535 over the ticks of fix_recip32. Floor; at most 2^-16 * way + 1 units of 2^-16 small. */
+static inline uint32_t fix_mean(uint16_t way, uint32_t recip32)
 {
-    return mul_u32_u16_shift8(recip28, way);
+    return mul_u32_u16_shift16(recip32, way);
 }
 
 /* value * share, floor; error below value * 2^-16 + 1. No overflow. */
@@ -74,7 +75,7 @@ static inline uint16_t fix_ramp_recip(uint8_t ticks)
     return (uint16_t)(quotient * 16u + (remainder * 16u) / ticks);
 }
 
-/* speed / ticks, floor, relative error below 2^-12. */
+/* speed / ticks: never more, relative error below 2^-12 and 2^-16. */
 static inline uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks)
 {
     uint32_t quotient = mul_u32_u16_shift16(speed, ramp_recip);

@@ -23,12 +23,15 @@
 #define RARE __attribute__((noinline))
 
 #define SPEED_MAX 1023
-/* 720 / 1024 degrees/s in q12.20 servo units per tick: 0.01875 * 2^20 = 19660.8 */
-#define SPEED_UNIT_Q12_20 19661
+/* 720 / 1024 degrees/s in q16.16 servo units per tick: 0.01875 * 2^16 = 1228.8 */
+#define SPEED_UNIT_Q16_16 1229
 
 static inline int16_t limit_pos(int16_t pos)
 {
-    return pos < 0 ? 0 : pos > (int16_t)PAGE_POS_MAX ? (int16_t)PAGE_POS_MAX : pos;
+    if ((uint16_t)pos > PAGE_POS_MAX) {
+        pos = pos < 0 ? 0 : (int16_t)PAGE_POS_MAX;
+    }
+    return pos;
 }
 
 /* acc = floor(3 * speed * c / 160) for |speed| <= 2047, c <= 255, without signs and long shifts: speed and acc are made
@@ -50,13 +53,16 @@ static inline int16_t ramp_way(int16_t speed, ramp_share_t share)
     return (int16_t)((mul_u16_high(fifths, 52429u) >> 2) - 5000u);
 }
 
-/* int16((v * A * 12 / 5) >> 8): way of a FALL to a stand. trunc, then floor: (3 x) / 320, one 3 x of mercy below 0. */
-static int16_t fall_way(int16_t v, uint8_t ramp)
+/* int16((v * A * 12 / 5) >> 8): way of a FALL to a stand. The truncated and then floored quotient is 3 v A / 320, of
+ * negative products (3 |v| A + 318) / 320 with a minus; 320 is 64 * 5, and / 64 is << 2 and a byte dropped. */
+static inline int16_t fall_way(int16_t v, uint16_t thrice_ramp)
 {
-    int32_t x = (int32_t)v * ramp;
-    uint32_t size = (uint32_t)(x < 0 ? -3 * x + 318 : 3 * x);
-    int16_t way = (int16_t)(mul_u16_high((uint16_t)(size >> 6), 52429u) >> 2);
-    return x < 0 ? (int16_t)-way : way;
+    uint32_t size = (uint32_t)fix_size(v) * thrice_ramp;
+    if (v < 0) {
+        size += 318;
+    }
+    int16_t way = (int16_t)(mul_u16_high((uint16_t)((size << 2) >> 8), 52429u) >> 2);
+    return v < 0 ? (int16_t)-way : way;
 }
 
 /* x * c / num (toward zero) from now on by next_share, c = 1, 2, ... */
@@ -258,11 +264,26 @@ RARE static void prime(player_t *player, link_t *link)
     }
 }
 
-/* How many joints to make ready in each tick without a change of section, so that the coming step is ready in time. (What
- * a very short step leaves undone is done when the next one is primed.) */
+/* How many joints to make ready in a tick, so that the coming step is ready in time; a quarter as many where a section
+ * changes, none (but in a very short step) where the step begins. */
+#define SHORT_TICKS 8u
 static uint8_t joints_a_tick(uint16_t ticks)
 {
-    return ticks < 16 ? 10 : ticks < 44 ? 4 : 1;
+    if (ticks < 4) {
+        return 16;
+    }
+    if (ticks < SHORT_TICKS) {
+        return (uint8_t)((PAGE_JOINTS + ticks - 2u) / (ticks - 1u));
+    }
+    return ticks < 16 ? 9 : ticks < 44 ? 4 : 1;
+}
+
+static uint8_t joints_now(const player_t *player, bool change, bool begins)
+{
+    if (!change || player->step_ticks + player->hold_ticks < SHORT_TICKS) {
+        return player->quota;
+    }
+    return begins || player->prepared == 0 ? 0 : player->quota / 4;
 }
 
 static void enter_step(player_t *player)
@@ -299,7 +320,7 @@ RARE static uint8_t begin_step(player_t *player)
 
 /* way * part / whole, toward zero; share = part / whole. The estimate is at most one too small, and what is left of
  * the product below 2 * whole: 16 bits are enough to see which. */
-static int16_t share_of(int16_t way, uint16_t part, uint16_t whole, uint16_t share_q0_16)
+static inline int16_t share_of(int16_t way, uint16_t part, uint16_t whole, uint16_t share_q0_16)
 {
     uint16_t size = fix_size(way);
     uint16_t quotient = mul_u16_high(size, share_q0_16);
@@ -314,6 +335,7 @@ RARE static void begin_cruise(player_t *player)
 {
     uint8_t ramp = player->ramp_ticks;
     uint16_t ticks = player->step_ticks, cruise = (uint16_t)(ticks - 2u * ramp), rest = (uint16_t)(ticks - ramp);
+    uint16_t thrice_ramp = (uint16_t)(3u * ramp);
     uint16_t share = rest == 0 ? 0 : fix_ratio(cruise, rest), recip16 = cruise == 0 ? 0 : fix_recip16(cruise);
     const uint16_t *goal = player->goal_pos;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
@@ -321,7 +343,7 @@ RARE static void begin_cruise(player_t *player)
         if (joint->classic.through) {
             cruise_way = share_of(way, cruise, rest, share);
         } else {
-            cruise_way = (int16_t)(way - fall_way(joint->classic.speed, ramp));
+            cruise_way = (int16_t)(way - fall_way(joint->classic.speed, thrice_ramp));
         }
         joint->classic.main = cruise_way;
         joint->classic.acc = (int16_t)(way - cruise_way);
@@ -353,14 +375,11 @@ RARE static void begin_fall(player_t *player)
     enter(player, SECTION_FALL, ramp);
 }
 
-/* `sign`: that of what `spread` spread */
-static inline int16_t ramp_pos(player_joint_t *joint, ramp_share_t share, uint16_t num, bool negative)
+/* Way since the section began, of a joint whose speed changes. `negative`: what `spread` spread was. */
+static inline int16_t ramp_acc(player_joint_t *joint, ramp_share_t share, uint16_t num, bool negative)
 {
     int16_t change = next_share(joint, num, negative);
-    int16_t speed = (int16_t)(joint->classic.carried + (change >> 1));
-    int16_t acc = ramp_way(speed, share);
-    joint->classic.acc = acc;
-    return limit_pos((int16_t)(joint->classic.base + acc));
+    return ramp_way((int16_t)(joint->classic.carried + (change >> 1)), share);
 }
 
 static inline int16_t line_pos(player_joint_t *joint, uint16_t num)
@@ -374,7 +393,9 @@ RARE static void make_rise(player_t *player)
     uint16_t num = player->section_ticks, *goal = player->goal_pos;
     ramp_share_t share = ramp_share((uint8_t)player->tick);
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        *goal++ = (uint16_t)ramp_pos(joint, share, num, joint->classic.speed < joint->classic.carried);
+        int16_t acc = ramp_acc(joint, share, num, joint->classic.speed < joint->classic.carried);
+        joint->classic.acc = acc; /* CRUISE takes it from here */
+        *goal++ = (uint16_t)limit_pos((int16_t)(joint->classic.base + acc));
     }
 }
 
@@ -384,8 +405,10 @@ RARE static void make_fall(player_t *player)
     uint16_t num = player->section_ticks, *goal = player->goal_pos;
     ramp_share_t share = ramp_share((uint8_t)player->tick);
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        *goal++ = (uint16_t)(joint->classic.through ? line_pos(joint, num)
-                                                    : ramp_pos(joint, share, num, joint->classic.speed > 0));
+        bool through = joint->classic.through;
+        int16_t way = through ? next_share(joint, num, joint->classic.main < 0)
+                              : ramp_acc(joint, share, num, joint->classic.speed > 0);
+        *goal++ = (uint16_t)limit_pos((int16_t)(joint->classic.base + way));
     }
 }
 
@@ -487,6 +510,13 @@ static bool is_over(const player_t *player)
            (player->section == SECTION_HOLD || (player->section == SECTION_FALL && player->hold_ticks == 0));
 }
 
+static void work_ahead(player_t *player, uint8_t joints)
+{
+    if (joints != 0 && !player_quiet_work(player)) {
+        prepare(player, joints);
+    }
+}
+
 uint8_t classic_tick(player_t *player, link_t *link)
 {
     uint8_t events = 0;
@@ -508,8 +538,8 @@ uint8_t classic_tick(player_t *player, link_t *link)
     }
     if (is_over(player) && player->coming.page != 0) {
         prime(player, link);
-    } else if (!change && !player_quiet_work(player)) {
-        prepare(player, player->quota);
+    } else {
+        work_ahead(player, joints_now(player, change, (events & PLAYER_EV_STEP) != 0));
     }
     return events;
 }
@@ -531,17 +561,17 @@ static uint16_t ticks_left(const player_t *player)
     }
 }
 
-/* Speed at this moment, q12.20. recip28: 2^28 / section_ticks */
-static int32_t speed_now(const player_t *player, const player_joint_t *joint, uint32_t recip28)
+/* Speed at this moment, q16.16. recip32: 2^32 / section_ticks */
+static int32_t speed_now(const player_t *player, const player_joint_t *joint, uint32_t recip32)
 {
     if (player->section == SECTION_HOLD || player->section_ticks == 0) {
         return 0;
     }
     if (player->section == SECTION_RISE || (player->section == SECTION_FALL && !joint->classic.through)) {
-        return (int32_t)(joint->classic.carried + joint->classic.value) * SPEED_UNIT_Q12_20;
+        return (int32_t)(joint->classic.carried + joint->classic.value) * SPEED_UNIT_Q16_16;
     }
     int32_t speed = ((int32_t)fix_size(joint->classic.quotient) << FIX_POS_BITS) +
-                    (int32_t)fix_mean(joint->classic.remainder, recip28);
+                    (int32_t)fix_mean(joint->classic.remainder, recip32);
     return joint->classic.main < 0 ? -speed : speed;
 }
 
@@ -562,12 +592,12 @@ void classic_freeze(player_t *player)
     if (player->held_events != 0) {
         freeze_primed(player);
     }
-    uint32_t recip28 = player->section_ticks == 0 ? 0 : fix_recip28(player->section_ticks);
+    uint32_t recip32 = player->section_ticks == 0 ? 0 : fix_recip32(player->section_ticks);
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         player_joint_t *joint = &player->joint[i];
-        int32_t speed = speed_now(player, joint, recip28);
-        joint->exact.pos_q12_20 = ((int32_t)player->goal_pos[i] << FIX_POS_BITS) + FIX_POS_ONE / 2;
-        joint->exact.speed_q12_20 = speed;
+        int32_t speed = speed_now(player, joint, recip32);
+        joint->exact.pos_q16_16 = ((int32_t)player->goal_pos[i] << FIX_POS_BITS) + FIX_POS_ONE / 2;
+        joint->exact.speed_q16_16 = speed;
         joint->coming_pos = joint->target_pos; /* not looked at yet */
     }
     player->step_ticks = ticks_left(player);

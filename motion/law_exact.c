@@ -18,6 +18,9 @@
 #include "law.h"
 #include "step_plan.h"
 
+/* Makes the compiler count down instead of comparing pointers: 3 cycles a turn instead of 5. */
+#define KEEP_COUNTER(counter) __asm__("" : "+r"(counter))
+
 /* Loops over all joints: a quarter fewer cycles for 0.4 KiB of flash. */
 #define FAST __attribute__((noinline))
 #pragma GCC optimize("O2")
@@ -49,29 +52,29 @@ static inline void plan_joint(player_joint_t *joint, ramp_t ramp, uint16_t from_
     uint32_t size = 0, cruise = mean;
     int32_t speed = (int32_t)mean;
     if (ramp.ramp_ticks != 0 && mean != 0) {
-        uint32_t border = (entry + joint->exact.exit_q12_20) >> 1;
+        uint32_t border = (entry + joint->exact.exit_q16_16) >> 1;
         cruise += fix_share(mean - border, ramp.share_q0_16);
         size = fix_by_ramp(cruise - entry, ramp.ramp_recip, ramp.ramp_ticks);
         speed = (int32_t)(entry + (size >> 1));
     }
-    joint->exact.cruise_q12_20 = cruise;
+    joint->exact.cruise_q16_16 = cruise;
     int32_t accel = (int32_t)size, pos = fix_from_pos(from_pos) + FIX_ROUND_UP;
     if (joint->target_pos < from_pos) {
         pos--;
         speed = -speed;
         accel = -accel;
     }
-    joint->exact.pos_q12_20 = pos;
-    joint->exact.speed_q12_20 = speed;
-    joint->exact.accel_q12_20 = accel;
+    joint->exact.pos_q16_16 = pos;
+    joint->exact.speed_q16_16 = speed;
+    joint->exact.accel_q16_16 = accel;
 }
 
 static inline uint16_t move_joint(player_joint_t *joint)
 {
-    int32_t speed = joint->exact.speed_q12_20;
-    int32_t pos = joint->exact.pos_q12_20 + speed;
-    joint->exact.pos_q12_20 = pos;
-    joint->exact.speed_q12_20 = speed + joint->exact.accel_q12_20;
+    int32_t speed = joint->exact.speed_q16_16;
+    int32_t pos = joint->exact.pos_q16_16 + speed;
+    joint->exact.pos_q16_16 = pos;
+    joint->exact.speed_q16_16 = speed + joint->exact.accel_q16_16;
     return fix_pos(pos);
 }
 
@@ -107,9 +110,9 @@ FAST static void begin_joints(player_t *player)
     ramp_t ramp = ramp_of(player);
     uint16_t *goal = player->goal_pos;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        uint32_t mean = joint->mean_q12_20;
-        joint->mean_q12_20 = joint->exact.cruise_q12_20;
-        plan_joint(joint, ramp, *goal, mean, (uint32_t)joint->exact.speed_q12_20);
+        uint32_t mean = joint->mean_q16_16;
+        joint->mean_q16_16 = joint->exact.cruise_q16_16;
+        plan_joint(joint, ramp, *goal, mean, (uint32_t)joint->exact.speed_q16_16);
         *goal++ = move_joint(joint);
     }
 }
@@ -152,16 +155,16 @@ FAST static void join_steps(player_t *player)
         uint16_t target = joint->target_pos;
         int16_t way = way_between(*goal++, target), coming_way = way_between(target, joint->coming_pos);
         uint32_t coming_mean = 0, exit = 0;
-        joint->exact.speed_q12_20 = (int32_t)joint->exact.exit_q12_20;
+        joint->exact.speed_q16_16 = (int32_t)joint->exact.exit_q16_16;
         if (coming_way != 0) {
             coming_mean = fix_mean(fix_size(coming_way), recip);
             if (may_run_on && same_direction(way, coming_way)) {
-                uint32_t mean = joint->mean_q12_20; /* 0 when the joint comes from a stand */
+                uint32_t mean = joint->mean_q16_16; /* 0 when the joint comes from a stand */
                 exit = mean < coming_mean ? mean : coming_mean;
             }
         }
-        joint->exact.cruise_q12_20 = coming_mean;
-        joint->exact.exit_q12_20 = exit;
+        joint->exact.cruise_q16_16 = coming_mean;
+        joint->exact.exit_q16_16 = exit;
     }
 }
 
@@ -171,7 +174,7 @@ static void look_at_coming(player_t *player, const uint8_t step[PAGE_STEP_BYTES]
     uint16_t longest = shift_targets(player, step);
     if (player->coming.page != 0) {
         player->coming_ticks = step_plan_exact_ticks(&player->coming, longest, &player->carry_q5_11);
-        player->coming_recip = fix_recip28(player->coming_ticks);
+        player->coming_recip = fix_recip32(player->coming_ticks);
     }
     join_steps(player);
 }
@@ -207,7 +210,7 @@ static void land(player_t *player)
 static void shift_means(player_t *player)
 {
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        joint->mean_q12_20 = joint->exact.cruise_q12_20;
+        joint->mean_q16_16 = joint->exact.cruise_q16_16;
     }
 }
 
@@ -230,29 +233,33 @@ RARE static uint8_t begin_step(player_t *player)
 RARE static void begin_cruise(player_t *player)
 {
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int32_t cruise = (int32_t)joint->exact.cruise_q12_20;
-        joint->exact.speed_q12_20 = joint->exact.speed_q12_20 < 0 ? -cruise : cruise;
-        joint->exact.accel_q12_20 = 0;
+        int32_t cruise = (int32_t)joint->exact.cruise_q16_16;
+        joint->exact.speed_q16_16 = joint->exact.speed_q16_16 < 0 ? -cruise : cruise;
+        joint->exact.accel_q16_16 = 0;
     }
 }
 
 RARE static void begin_fall(player_t *player)
 {
+    uint16_t recip = player->ramp_recip;
+    recip = recip == UINT16_MAX ? recip : (uint16_t)(recip + 1u); /* rather slow early than go past the target */
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        uint32_t cruise = joint->exact.cruise_q12_20;
-        int32_t accel = (int32_t)fix_by_ramp(cruise - joint->exact.exit_q12_20, player->ramp_recip, player->ramp_ticks);
+        uint32_t cruise = joint->exact.cruise_q16_16;
+        int32_t accel = (int32_t)fix_by_ramp(cruise - joint->exact.exit_q16_16, recip, player->ramp_ticks);
         int32_t speed = (int32_t)cruise - (accel >> 1);
-        bool down = joint->exact.speed_q12_20 < 0;
-        joint->exact.speed_q12_20 = down ? -speed : speed;
-        joint->exact.accel_q12_20 = down ? accel : -accel;
+        bool down = joint->exact.speed_q16_16 < 0;
+        joint->exact.speed_q16_16 = down ? -speed : speed;
+        joint->exact.accel_q16_16 = down ? accel : -accel;
     }
 }
 
 void exact_move(player_t *player)
 {
     uint16_t *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        *goal++ = move_joint(joint);
+    player_joint_t *joint = player->joint;
+    for (uint8_t left = PAGE_JOINTS; left != 0; left--) {
+        *goal++ = move_joint(joint++);
+        KEEP_COUNTER(left);
     }
 }
 
@@ -260,10 +267,12 @@ void exact_move(player_t *player)
 FAST static void move_on(player_t *player)
 {
     uint16_t *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int32_t pos = joint->exact.pos_q12_20 + joint->exact.speed_q12_20;
-        joint->exact.pos_q12_20 = pos;
+    player_joint_t *joint = player->joint;
+    for (uint8_t left = PAGE_JOINTS; left != 0; left--, joint++) {
+        int32_t pos = joint->exact.pos_q16_16 + joint->exact.speed_q16_16;
+        joint->exact.pos_q16_16 = pos;
         *goal++ = fix_pos(pos);
+        KEEP_COUNTER(left);
     }
 }
 
@@ -379,18 +388,18 @@ bool exact_rest_start(player_t *player)
     }
     player->step_ticks = ticks < braked ? braked : ticks;
     player->tick = 0;
-    uint32_t recip = fix_recip28(player->step_ticks);
+    uint32_t recip = fix_recip32(player->step_ticks);
     const uint16_t *goal = player->goal_pos;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         int16_t way = way_between(*goal++, joint->target_pos);
-        uint32_t mean = fix_mean(fix_size(way), recip), coming = joint->mean_q12_20, exit = 0;
+        uint32_t mean = fix_mean(fix_size(way), recip), coming = joint->mean_q16_16, exit = 0;
         if (may_run_on && way != 0 && same_direction(way, way_between(joint->target_pos, joint->coming_pos))) {
             exit = mean < coming ? mean : coming;
         }
-        joint->mean_q12_20 = mean;
-        joint->exact.cruise_q12_20 = coming;
-        joint->exact.speed_q12_20 = 0;
-        joint->exact.exit_q12_20 = exit;
+        joint->mean_q16_16 = mean;
+        joint->exact.cruise_q16_16 = coming;
+        joint->exact.speed_q16_16 = 0;
+        joint->exact.exit_q16_16 = exit;
     }
     return true;
 }

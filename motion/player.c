@@ -391,7 +391,7 @@ void player_drop_joints(player_t *player, uint32_t joints)
             if (classic_words) {
                 player->joint[i].classic.base = (int16_t)pos;
             } else {
-                player->joint[i].exact.pos_q12_20 = (int32_t)pos << FIX_POS_BITS;
+                player->joint[i].exact.pos_q16_16 = (int32_t)pos << FIX_POS_BITS;
             }
         }
     }

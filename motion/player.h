@@ -57,15 +57,15 @@ typedef struct {
     uint16_t target_pos;      /* where the step playing now ends */
     uint16_t coming_pos;      /* where the coming one ends */
     union {
-        uint32_t mean_q12_20; /* exact: size of the coming step's mean speed */
+        uint32_t mean_q16_16; /* exact: size of the coming step's mean speed */
         struct {
             int16_t stop_speed, through_speed; /* classic: the coming step's speed, either way */
         };
     };
     union {
         struct {
-            int32_t pos_q12_20, speed_q12_20, accel_q12_20;
-            uint32_t cruise_q12_20, exit_q12_20; /* sizes */
+            int32_t pos_q16_16, speed_q16_16, accel_q16_16;
+            uint32_t cruise_q16_16, exit_q16_16; /* sizes */
         } exact;
         struct {
             int16_t base, speed, carried, acc, main, value, quotient;

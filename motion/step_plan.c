@@ -18,6 +18,9 @@ uint16_t step_plan_classic_ticks(const player_step_t *step, uint16_t longest_way
 
 uint16_t step_plan_classic_hold(const player_step_t *step)
 {
+    if (step->pause == 0) {
+        return 0; /* spares the usual case a division */
+    }
     uint16_t pause = (uint16_t)(step->pause << 5);
     return (uint16_t)(pause / step->page_speed);
 }

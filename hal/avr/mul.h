@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * mul.h - the few operations that the motion core lives on, AVR version (host version: tests/fake/mul.h). May be
- * included anywhere. In assembler because gcc 5.4 calls its library for the products (45 and 110 cycles
- * instead of 19 and 42) and shifts in a loop (21 instead of 6). */
+ * mul.h - the two multiplications that the motion core lives on, AVR version (host version: tests/fake/mul.h). May be
+ * included anywhere. In assembler because gcc 5.4 calls its library for them: 45 and 110 cycles instead of 19 and 42. */
 #ifndef MUL_H
 #define MUL_H
 
@@ -72,71 +71,6 @@ static inline uint32_t mul_u32_u16_shift16(uint32_t a, uint16_t b)
             : [high] "=&r"(high), [carry] "=&r"(carry), [zero] "=&r"(zero)
             : [a] "r"(a), [b] "r"(b));
     return high;
-}
-
-/* (a * b) >> 8 of a product below 2^40. */
-static inline uint32_t mul_u32_u16_shift8(uint32_t a, uint16_t b)
-{
-    uint32_t high;
-    uint8_t zero;
-    __asm__("clr %[zero] \n\t"
-            "mul %B[a], %A[b] \n\t"
-            "movw %A[high], r0 \n\t"
-            "mul %C[a], %B[b] \n\t"
-            "movw %C[high], r0 \n\t"
-            "mul %A[a], %A[b] \n\t"
-            "add %A[high], r1 \n\t"
-            "adc %B[high], %[zero] \n\t"
-            "adc %C[high], %[zero] \n\t"
-            "adc %D[high], %[zero] \n\t"
-            "mul %A[a], %B[b] \n\t"
-            "add %A[high], r0 \n\t"
-            "adc %B[high], r1 \n\t"
-            "adc %C[high], %[zero] \n\t"
-            "adc %D[high], %[zero] \n\t"
-            "mul %B[a], %B[b] \n\t"
-            "add %B[high], r0 \n\t"
-            "adc %C[high], r1 \n\t"
-            "adc %D[high], %[zero] \n\t"
-            "mul %C[a], %A[b] \n\t"
-            "add %B[high], r0 \n\t"
-            "adc %C[high], r1 \n\t"
-            "adc %D[high], %[zero] \n\t"
-            "mul %D[a], %A[b] \n\t"
-            "add %C[high], r0 \n\t"
-            "adc %D[high], r1 \n\t"
-            "mul %D[a], %B[b] \n\t"
-            "add %D[high], r0 \n\t"
-            "clr r1 \n\t"
-            : [high] "=&r"(high), [zero] "=&r"(zero)
-            : [a] "r"(a), [b] "r"(b));
-    return high;
-}
-
-/* value >> 4 */
-static inline uint16_t shift_u16_right4(uint16_t value)
-{
-    __asm__("swap %B[value] \n\t"
-            "swap %A[value] \n\t"
-            "andi %A[value], 0x0F \n\t"
-            "eor %A[value], %B[value] \n\t"
-            "andi %B[value], 0x0F \n\t"
-            "eor %A[value], %B[value] \n\t"
-            : [value] "+d"(value));
-    return value;
-}
-
-/* value << 4 */
-static inline uint16_t shift_u16_left4(uint16_t value)
-{
-    __asm__("swap %B[value] \n\t"
-            "swap %A[value] \n\t"
-            "andi %B[value], 0xF0 \n\t"
-            "eor %B[value], %A[value] \n\t"
-            "andi %A[value], 0xF0 \n\t"
-            "eor %B[value], %A[value] \n\t"
-            : [value] "+d"(value));
-    return value;
 }
 
 #endif

@@ -17,22 +17,4 @@ static inline uint16_t mul_u16_high(uint16_t a, uint16_t b)
     return (uint16_t)(((uint32_t)a * b) >> 16);
 }
 
-/* (a * b) >> 8 of a product below 2^40. */
-static inline uint32_t mul_u32_u16_shift8(uint32_t a, uint16_t b)
-{
-    return (uint32_t)(((uint64_t)a * b) >> 8);
-}
-
-/* value >> 4 */
-static inline uint16_t shift_u16_right4(uint16_t value)
-{
-    return (uint16_t)(value >> 4);
-}
-
-/* value << 4 */
-static inline uint16_t shift_u16_left4(uint16_t value)
-{
-    return (uint16_t)(value << 4);
-}
-
 #endif
