@@ -29,7 +29,7 @@ void start_jump(uint16_t word)
     MCUCR = 0;
     TCCR1B = 0;
     TCNT1 = 0;
-    TIFR = TIFR;
+    TIFR = 1 << TOV1 | 1 << OCF1A | 1 << OCF1B; /* all that timer 1 can have left */
     uart_open(UART_UBRR_57143);
     TCCR1B = 0;
     UCSR0A = 1 << U2X0;
