@@ -3,8 +3,8 @@
 
 #include "flash.h"
 #include "linker/memory_map.h"
+#include "trap.h"
 
-#include <assert.h>
 #include <string.h>
 
 static uint8_t flash[MEM_BOOT_END];
@@ -35,7 +35,7 @@ const fake_boot_call_t *fake_boot_call_last(void)
 
 static uint8_t call(fake_call_t who, uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode, const boot_rx_t *rx)
 {
-    assert(addr % 256 == 0 && addr < MEM_BOOT_START && bytes >= 2 && bytes <= 256 && data != NULL);
+    ASSERT(addr % 256 == 0 && addr < MEM_BOOT_START && bytes >= 2 && bytes <= 256 && data != NULL);
     last = (fake_boot_call_t){.who = who, .addr = addr, .bytes = bytes, .mode = mode, .rx = rx};
     return answer;
 }
@@ -52,6 +52,6 @@ uint8_t boot_call_factory(uint32_t addr, const uint8_t *data, uint16_t bytes, ui
 
 void flash_read(uint32_t addr, void *to, uint16_t bytes)
 {
-    assert(addr + bytes <= sizeof flash);
+    ASSERT(addr + bytes <= sizeof flash);
     memcpy(to, flash + addr, bytes);
 }

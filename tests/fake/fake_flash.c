@@ -2,8 +2,8 @@
 #include "fake_flash.h"
 
 #include "linker/memory_map.h"
+#include "trap.h"
 
-#include <assert.h>
 #include <string.h>
 
 static struct {
@@ -102,7 +102,7 @@ static bool is_writable(uint16_t page, uint16_t bytes)
 
 void flash_read(uint32_t addr, void *to, uint16_t bytes)
 {
-    assert(addr + bytes <= sizeof flash.bytes);
+    ASSERT(addr + bytes <= sizeof flash.bytes);
     memcpy(to, flash.bytes + addr, bytes);
 }
 
