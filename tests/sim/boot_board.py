@@ -2,6 +2,7 @@
 """What the tests of the boot loader share: a board that waits at the prompt, typed lines, downloads of the original's
 kind, and a client of the block protocol written from firmware/boot/PROTOCOL.md."""
 import collections
+import pathlib
 import random
 import re
 import struct
@@ -9,7 +10,9 @@ import struct
 from cm5sim import Board
 
 PROMPT = "\r\n - "
-REGIONS = {"application": (0x0000, 0xDD00), "journal": (0xDD00, 0xE000), "motion": (0xE000, 0x1E000)}
+MEMORY_MAP = pathlib.Path(__file__).parents[2] / "linker" / "memory_map.h"
+MAP = {name: int(value, 0) for name, value in re.findall(r"#define (MEM_\w+) (\w+)", MEMORY_MAP.read_text())}
+APP_END, JOURNAL_START = MAP["MEM_APP_END"], MAP["MEM_JOURNAL_START"]
 BOOT_START = 0x1E000
 BOOT_MODE = 0xFFF
 

@@ -4,7 +4,7 @@ it: the loader always answers afterwards, and what the transfer did not name is 
 import struct
 
 import pytest
-from boot_board import (BOOT_START, EE_WRITE, PROMPT, WRITE, crc16, frame, noise, page_body, prompt_board, say)
+from boot_board import (BOOT_START, EE_WRITE, JOURNAL_START, PROMPT, WRITE, crc16, frame, noise, page_body, prompt_board, say)
 from cm5sim import PowerCut
 
 ENTER = b"\x50\x20"
@@ -34,7 +34,7 @@ LOAD_RECORD = range(0xFF6, 0xFFF)
 TRANSFERS = {
     "load, unaligned, three pages": (raw("load e080\r", sum_byte(noise(600, 1))), [(0xE000, 0xE300)], LOAD_RECORD),
     "load of an application": (raw("load 0\r", sum_byte(noise(512, 2))), [(0, 0x200)], LOAD_RECORD),
-    "load over a pending journal page": (raw("load e200\r", sum_byte(noise(256, 3))), [(0xC000, 0xC300), (0xE000, 0xE300)],
+    "load over a pending journal page": (raw("load e200\r", sum_byte(noise(256, 3))), [(JOURNAL_START, JOURNAL_START + 0x300), (0xE000, 0xE300)],
                                          LOAD_RECORD),
     "eep_dn": (raw("eep_dn 100 6\r", noise(6, 4)), [], range(0x100, 0x106)),
     "clear_eeprom": (raw("clear_eeprom 200 6\r", b""), [], range(0x200, 0x206)),
@@ -53,14 +53,14 @@ def pending_record(board, page, data):
     """A journal slot whose save was cut right after its record (journal.h)."""
     record = struct.pack("<2sHBBH", b"MJ", 5, page, 1, crc16(data))
     record += crc16(record).to_bytes(2, "little") + b"\xff\xff"
-    board.flash[0xC000:0xC200] = data
-    board.flash[0xC200:0xC200 + len(record)] = record
+    board.flash[JOURNAL_START:JOURNAL_START + 512] = data
+    board.flash[JOURNAL_START + 512:JOURNAL_START + 512 + len(record)] = record
 
 
 def make_board(name):
     board = prompt_board()
     board.flash[0x0000:0x0400] = noise(0x400, 20)
-    board.flash[0xDF00:0xE500] = noise(0x600, 21)
+    board.flash[0xE000:0xE500] = noise(0x500, 21)
     board.eeprom[0x000:0x800] = noise(0x800, 22)
     if "journal" in name:
         pending_record(board, 0, noise(512, 23))

@@ -4,7 +4,7 @@ tests/sim/service, and the page journal with both of them, cut at every operatio
 import pathlib
 
 import pytest
-from boot_board import BOOT_MODE, BOOT_START, new_board, noise
+from boot_board import BOOT_MODE, BOOT_START, JOURNAL_START, new_board, noise
 from cm5sim import PowerCut
 
 SERVICE = "tests/service.hex"
@@ -165,7 +165,7 @@ def test_power_cut_at_every_operation_of_a_save():
                 page = bytes(board.flash[0x1D000:0x1D200])
                 assert page in (old, new)
                 after = bytes(board.flash)
-                assert after[:0xDD00] == before[:0xDD00] and after[0xE000:0x1D000] == before[0xE000:0x1D000]
+                assert after[:JOURNAL_START] == before[:JOURNAL_START] and after[0xE000:0x1D000] == before[0xE000:0x1D000]
                 assert after[0x1D200:] == before[0x1D200:]
                 assert save(board, 120, third) == OK
                 assert bytes(board.flash[0x1D000:0x1D200]) == third

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from boot_board import BOOT_MODE, PROMPT, crc16, new_board, noise, prompt_board, say
+from boot_board import APP_END, BOOT_MODE, PROMPT, crc16, new_board, noise, prompt_board, say
 
 APPLICATION = 0x11
 
@@ -113,7 +113,7 @@ def test_start_pressed_late_does_not_stay():
 
 @pytest.mark.parametrize("image, stays, word", [
     (None, True, "none"), (application(record=False), False, "plain"), (application(), False, "good"),
-    (application(good=False), True, "bad"), (application(0xDD00), False, "good")])
+    (application(good=False), True, "bad"), (application(APP_END), False, "good")])
 def test_validity_of_the_application(image, stays, word):
     board = board_with(image)
     board.run(ms=600)

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from boot_board import BOOT_MODE, PROMPT, new_board, noise, prompt_board, say
+from boot_board import APP_END, BOOT_MODE, PROMPT, crc16, new_board, noise, prompt_board, say
 
 BAD_COMMAND = "\r\n Bad Command.('help' for instructions definition)"
 BAD_ARGUMENT = "\r\n Bad Argument."
@@ -327,8 +327,7 @@ def test_check_tells_every_page_and_repeats_it_as_one_line():
                          lines[6])
     assert match, lines[6]
     assert match[1] == "none"
-    from boot_board import crc16
-    assert int(match[2], 16) == crc16(board.flash[0:0xDD00])
+    assert int(match[2], 16) == crc16(board.flash[0:APP_END])
     assert int(match[3], 16) == crc16(board.flash[0xE000:0x1E000])
 
 

@@ -44,7 +44,7 @@ def test_a_loader_outside_its_section_is_refused(tmp_path, address, length):
 
 def test_an_application_too_long_is_refused(tmp_path):
     boot = hex_file(tmp_path / "boot.hex", 0x1E000, b"B" * 100)
-    app = hex_file(tmp_path / "app.hex", 0, b"A" * (0xC000 + 1))
+    app = hex_file(tmp_path / "app.hex", 0, b"A" * (0xE000 + 1))
     assert combine(tmp_path / "out.hex", boot, app).returncode == 2
 
 
