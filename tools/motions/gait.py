@@ -100,7 +100,7 @@ def kick():
     """With the right foot: weight onto the left one, back, forward fast, and down again."""
     def leg(x, lift):
         return pose(Foot(x, height=HEIGHT - lift), sway=KICK_SWAY, arms=(-0.8 * x, 0.8 * x))
-    return [(64, pose(sway=KICK_SWAY)), (40, leg(0, 20)), (32, leg(-40, 24)), (16, leg(50, 26)), (40, leg(0, 20)),
+    return [(64, pose(sway=KICK_SWAY)), (40, leg(0, 20)), (32, leg(-30, 24)), (24, leg(45, 24)), (40, leg(0, 20)),
             (40, pose(sway=KICK_SWAY)), (64, READY)]
 
 
@@ -124,8 +124,8 @@ PAGES = [
     (33, "left", "code L; next self; link1 R right; link2 U walk", None, "Turns left on the spot."),
     (34, "side_r", "code R+B1; next self; link1 L+B1 side_l; link2 U walk", sidestep(), "A step to the side."),
     (35, "side_l", "code L+B1; next self; link1 R+B1 side_r; link2 U walk", None, "A step to the other side."),
-    (36, "kick_r", "code R+B4", kick(), "Kicks with the right foot, standing on the left."),
-    (37, "kick_l", "code L+B4", None, "Kicks with the left foot."),
+    (36, "kick_r", "code R+B4; accel 6", kick(), "Kicks with the right foot, standing on the left."),
+    (37, "kick_l", "code L+B4; accel 6", None, "Kicks with the left foot."),
 ]
 
 HEADER = """\

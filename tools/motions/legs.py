@@ -65,3 +65,38 @@ def foot_of(position, side: int) -> Foot:
     turn = -side * angle[YAW]
     return Foot(forward * cos(turn) - left * sin(turn), left * cos(turn) + forward * sin(turn), degrees(turn),
                 down * cos(angle[ROLL]))
+
+
+def between(position):
+    """Where the left foot stands for the right one: (x, y) in mm, its turn to the left in degrees, and how much lower it
+    is. What does not change while both are on the ground does not drag."""
+    right, left = foot_of(position, 1), foot_of(position, -1)
+    forward, sideways, turn = left.x - right.x, left.y - right.y + 2 * HIP_MM, radians(-right.yaw)
+    return (forward * cos(turn) - sideways * sin(turn), forward * sin(turn) + sideways * cos(turn),
+            left.yaw - right.yaw, left.height - right.height)
+
+
+# Where the weight of the body is, for the check of balance. Masses in g, of a kit robot of 18 servos with its battery in
+# the trunk; heights in mm above the hip, distances along a limb from its upper joint.
+TRUNK_G, TRUNK_MM, SHOULDER_MM = 900.0, 55.0, 115.0
+ARM_G, UPPER_ARM_MM, FOREARM_MM = 150.0, 65.0, 90.0
+THIGH_G, SHANK_G, FOOT_G = 180.0, 70.0, 100.0
+
+
+def weight_ahead(position):
+    """How far the weight lies before the middle between the ankles, in mm, with both feet flat on the ground. The lean of the
+    body is what the right leg's pitch angles sum to."""
+    angle = {joint: radians((1 if joint % 2 else -1) * (position[joint] - CENTRE) / UNITS_PER_DEGREE) for joint in range(1, 19)}
+    lean = angle[HIP] + angle[KNEE] + angle[ANKLE]
+    parts = [(TRUNK_G, TRUNK_MM * sin(lean))]
+    ankles = []
+    for left in (0, 1):
+        swing, lift, elbow = (angle[joint + left] for joint in (1, 3, 5))
+        reached = (UPPER_ARM_MM * cos(lift) + FOREARM_MM * cos(lift + elbow)) / 2 * sin(swing - lean)
+        parts.append((ARM_G, SHOULDER_MM * sin(lean) + reached))
+        thigh = angle[HIP + left] - lean
+        knee = THIGH_MM * sin(thigh)
+        ankle = knee + SHANK_MM * sin(thigh + angle[KNEE + left])
+        parts += [(THIGH_G, knee / 2), (SHANK_G, (knee + ankle) / 2), (FOOT_G, ankle)]
+        ankles.append(ankle)
+    return sum(mass * x for mass, x in parts) / sum(mass for mass, _ in parts) - sum(ankles) / 2

@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: MIT
+"""The motion library is sound: as pages, as poses of a body, and as movements that servos can follow. Bounds are told in
+README.md. That the shipped Play image plays it all is shown by tests/sim/test_motions.py."""
+import os
+import pathlib
+import re
+import sys
+
+import pytest
+
+from m512.formats import load
+from m512.image import to_hex
+from m512.page import SCHEDULE_TIME
+from m512.pageops import check
+from m512.player import play
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+import gait  # noqa: E402
+import legs  # noqa: E402
+
+JOINTS = range(1, 19)
+LIBRARY = load(HERE / "motions.m512")
+PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable}
+NUMBER = {page.title: number for number, page in PAGES.items()}
+SECONDS = 128
+
+SERVO_UNITS_PER_TICK = 114 * 360 / 60 / SECONDS * 1024 / 300  # 114 rpm unloaded: 18.24
+MOST_UNITS_PER_TICK = 0.75 * SERVO_UNITS_PER_TICK
+BODY = {  # degrees of the right side, see README.md; the left side is its mirror image
+    1: (-45, 145), 3: (-20, 130), 5: (-90, 50), 7: (-30, 30), 9: (-25, 25), 11: (-30, 120), 13: (-125, 0), 15: (-30, 65),
+    17: (-25, 25)}
+KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "1": 16, "2": 32, "3": 64, "4": 128}
+SOLE_MM = (-30, 45)  # behind and before the ankle
+ON_THE_FLOOR = {"pushups", "pushups_do", "pushups_up", "get_up"}
+LEANING = {"bow", "dance_end", "sit"} | ON_THE_FLOOR
+CHAINS = ["walk walk_r walk_l walk_r walk_l end_r", "walk turn_r turn_r walk_r turn_l turn_l walk_l walk_r end_l",
+          "back back_r back_l back_r back_end_l", "right right", "left", "side_r side_r", "side_l", "kick_r", "kick_l"]
+
+
+def pose(page, step):
+    return {joint: page.word(step, joint) for joint in JOINTS}
+
+
+def first(page):
+    return pose(page, 0)
+
+
+def last(page):
+    return pose(page, page.steps - 1)
+
+
+def mirrored(row):
+    return {joint: 1024 - row[joint + 1 if joint % 2 else joint - 1] for joint in row}
+
+
+def links(page):
+    return {page.next, page.exit, page.link1_page, page.link2_page} - {0}
+
+
+def body_degrees(joint, position):
+    return (1 if joint % 2 else -1) * (position - 512) * 300 / 1024
+
+
+def played(names, law="exact"):
+    """(page, step, positions) of every tick in which something is sent, page after page from the pose `ready`."""
+    positions = [512] * 31
+    for joint, position in gait.READY.items():
+        positions[joint] = position
+    for name in names:
+        page = PAGES[NUMBER[name]]
+        ticks = sum(page.time(k) + page.pause(k) for k in range(page.steps)) * max(1, page.repeat)
+        for tick in play(LIBRARY, NUMBER[name], law, positions, ticks):
+            if tick.goals:
+                yield tick.page, tick.step, {joint: tick.goals[joint] for joint in JOINTS}
+                positions = tick.goals
+
+
+# --- as pages ---
+
+def test_all_pages_are_good():
+    assert check(LIBRARY) == []
+    assert set(NUMBER) >= {"ready", "bow", "wave", "clap", "sit", "stand", "pushups", "walk", "turn_r", "turn_l", "dance"}
+
+
+def test_page_0_holds_no_trim():
+    assert LIBRARY[0].is_empty
+
+
+def test_names_and_codes_are_unique_and_names_need_no_quotes():
+    codes = [page.code for page in PAGES.values() if page.code]
+    assert len(set(codes)) == len(codes) and 255 not in codes
+    assert len(NUMBER) == len(PAGES)
+    assert all(re.fullmatch("[a-z][a-z_]{0,12}", name) for name in NUMBER)
+
+
+def test_every_joint_is_said_in_every_step_and_no_other():
+    for number, page in PAGES.items():
+        assert page.schedule == SCHEDULE_TIME
+        for step in range(page.steps):
+            used = [joint for joint in range(31) if page.word(step, joint) < 1024]
+            assert used == list(JOINTS), (number, step)
+
+
+def test_no_page_is_without_a_way_to_it_and_every_stop_ends():
+    """Each page has a code, or a page leads to it; from any page the exit links come to an end."""
+    led_to = set().union(*(links(page) for page in PAGES.values()))
+    for number, page in PAGES.items():
+        assert page.code or number in led_to, page.title
+        seen = [number]
+        while PAGES[seen[-1]].exit:
+            seen.append(PAGES[seen[-1]].exit)
+            assert len(seen) < 5, seen
+
+
+def test_built_image_is_this_source():
+    folder = pathlib.Path(os.environ.get("M512_BUILD", HERE.parents[1] / "build")) / "motions"
+    data = (folder / "motions.bin").read_bytes()
+    assert len(data) == 65536 and data == LIBRARY.to_bytes()
+    assert (folder / "motions.hex").read_text().split() == to_hex(LIBRARY).split()
+
+
+def test_walk_is_what_the_generator_makes():
+    assert (HERE / "walk.m512").read_text() == gait.text(), "run tools/motions/gait.py"
+
+
+def test_table_of_the_readme_is_true():
+    """Number, name, keys and links of every page, as the table says them."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in (HERE / "README.md").read_text().splitlines()]
+    listed = {int(row[0]): (row[1].strip("`"), row[2], row[4]) for row in rows if len(row) == 5 and row[0].isdigit()}
+    assert set(listed) == set(PAGES)
+    for number, (name, keys, ways) in listed.items():
+        page = PAGES[number]
+        assert name == page.title
+        assert sum(KEYS[key] for key in keys.split()) == page.code, name
+        assert {NUMBER[way] for way in re.findall(r"`(\w+)`", ways)} == links(page), name
+
+
+# --- as poses ---
+
+@pytest.mark.parametrize("name", NUMBER)
+def test_poses_keep_within_servo_and_body(name):
+    page = PAGES[NUMBER[name]]
+    for step in range(page.steps):
+        for joint, position in pose(page, step).items():
+            low, high = BODY[joint - (joint % 2 == 0)]
+            assert low <= body_degrees(joint, position) <= high, (step + 1, joint)
+
+
+def test_poses_of_both_sides_are_mirror_images():
+    """ready and what does the same with both sides is its own mirror image; what has a side has a page or step for each."""
+    for name in ("ready", "bow", "clap", "cheer", "sit", "stand", "pushups", "pushups_do", "pushups_up", "get_up", "dance",
+                 "dance_arms", "dance_end"):
+        page = PAGES[NUMBER[name]]
+        assert all(mirrored(pose(page, step)) == pose(page, step) for step in range(page.steps)), name
+    for name in ("dance_sway", "dance_hands", "dance_pump"):
+        page = PAGES[NUMBER[name]]
+        all_poses = [pose(page, step) for step in range(page.steps)]
+        assert all(mirrored(one) in all_poses for one in all_poses), name
+
+
+@pytest.mark.parametrize("name", [name for name in NUMBER if re.search("_r$|^right$", name)])
+def test_pages_of_the_other_side_are_mirror_images(name):
+    page, other = PAGES[NUMBER[name]], PAGES[NUMBER["left" if name == "right" else name[:-1] + "l"]]
+    assert page.steps == other.steps and page.accel == other.accel
+    for step in range(page.steps):
+        assert mirrored(pose(page, step)) == pose(other, step), step
+        assert page.time(step) == other.time(step)
+
+
+def test_soles_are_flat_on_the_ground_in_every_standing_pose():
+    """Pitch angles of a leg sum to 0, and so do its rolls; a body that leans does so by the same angle on both sides."""
+    for name, number in NUMBER.items():
+        for step in range(PAGES[number].steps):
+            row = pose(PAGES[number], step)
+            right, left = (sum(row[joint + side] - 512 for joint in (11, 13, 15)) for side in (0, 1))
+            assert right == -left if name in LEANING else right == left == 0, (name, step)
+            assert row[9] + row[17] == row[10] + row[18] == 1024, (name, step)
+
+
+def test_weight_is_above_the_soles_in_every_pose_with_both_feet_down():
+    for name in set(NUMBER) - ON_THE_FLOOR:
+        page = PAGES[NUMBER[name]]
+        for step in range(page.steps):
+            row = pose(page, step)
+            if abs(legs.between(row)[3]) < 1:
+                assert SOLE_MM[0] < legs.weight_ahead(row) < SOLE_MM[1], (name, step)
+    crouch = first(PAGES[NUMBER["pushups"]])
+    assert SOLE_MM[0] < legs.weight_ahead(crouch) < SOLE_MM[1]
+
+
+# --- as movements ---
+
+def test_loops_close():
+    for name, after in (("walk_l", "walk"), ("walk_l", "turn_r"), ("back_l", "back")):
+        assert last(PAGES[NUMBER[name]]) == last(PAGES[NUMBER[after]])
+    assert last(PAGES[NUMBER["walk_r"]]) == last(PAGES[NUMBER["turn_l"]])
+    for name in ("right", "left", "side_r", "side_l", "kick_r", "kick_l", "bow", "wave", "clap", "cheer", "stand", "pushups_up",
+                 "dance_end", "end_r", "end_l", "back_end_r", "back_end_l"):
+        assert last(PAGES[NUMBER[name]]) == gait.READY, name
+
+
+@pytest.mark.parametrize("name", NUMBER)
+def test_mean_speed_leaves_the_servo_a_margin_in_steps_and_over_links(name):
+    page = PAGES[NUMBER[name]]
+    for step in range(1, page.steps):
+        assert mean_speed(pose(page, step - 1), pose(page, step), page.time(step)) <= MOST_UNITS_PER_TICK, step + 1
+    for number in links(page) | ({NUMBER[name]} if page.repeat > 1 else set()):
+        follower = PAGES[number]
+        assert mean_speed(last(page), first(follower), follower.time(0)) <= MOST_UNITS_PER_TICK, follower.title
+
+
+def mean_speed(before, after, ticks):
+    return max(abs(after[joint] - before[joint]) for joint in JOINTS) / ticks
+
+
+@pytest.mark.parametrize("law", ["exact", "classic"])
+@pytest.mark.parametrize("names", CHAINS + [name for name in NUMBER if PAGES[NUMBER[name]].code])
+def test_no_tick_asks_more_than_the_servo_has(names, law):
+    before = None
+    for page, step, now in played(names.split(), law):
+        if before:
+            assert max(abs(now[joint] - before[joint]) for joint in JOINTS) <= MOST_UNITS_PER_TICK, (page, step)
+        before = now
+
+
+@pytest.mark.parametrize("names", CHAINS)
+def test_feet_neither_drag_nor_tip_on_the_way(names):
+    """Between the poses as well, tick by tick: while both feet are down they keep their distance (2 mm, for the roundings and
+    the servos' straight ways) and do not turn on the ground; soles stay level to 2 degrees; who stands, keeps the hip's height."""
+    at, before, target = None, gait.READY, gait.READY
+    for page, step, now in played(names.split()):
+        if at != (page, step):
+            at, before, target = (page, step), target, pose(PAGES[page], step - 1)
+        if all(abs(legs.between(row)[3]) < 1 for row in (before, target)):
+            for is_now, was, most in zip(legs.between(now), legs.between(before), (2, 2, 0.5, 1)):
+                assert abs(is_now - was) < most, at
+        for side in (0, 1):
+            assert abs(sum(now[joint + side] - 512 for joint in (11, 13, 15))) < 7, at
+            assert abs(now[9 + side] + now[17 + side] - 1024) < 7, at
+        assert 130 < max(legs.foot_of(now, 1).height, legs.foot_of(now, -1).height) < 134, at
+
+
+def test_walk_goes_where_it_says():
+    """Ground covered by a cycle of six poses, from the feet that stand: three strides, and turns of 24 degrees."""
+    for names, forward, turn in (("walk walk_r walk_l", 3 * gait.STRIDE, 0), ("walk turn_r", 3 * gait.STRIDE, -gait.TURN),
+                                 ("walk walk_r turn_l", 3 * gait.STRIDE, gait.TURN), ("back back_r back_l", 3 * gait.BACK, 0),
+                                 ("right", 0, -gait.TURN), ("left", 0, gait.TURN)):
+        rows = [row for name in names.split() for row in (pose(PAGES[NUMBER[name]], k) for k in range(PAGES[NUMBER[name]].steps))]
+        loop = rows[-7:] if len(rows) > 7 else [gait.READY] + rows
+        x = heading = 0.0
+        for before, after in zip(loop, loop[1:]):
+            heights = [max(legs.foot_of(before, side).height, 0) + legs.foot_of(after, side).height for side in (1, -1)]
+            side = 1 if heights[0] >= heights[1] else -1
+            x -= legs.foot_of(after, side).x - legs.foot_of(before, side).x
+            heading -= legs.foot_of(after, side).yaw - legs.foot_of(before, side).yaw
+        assert x == pytest.approx(forward, abs=2) and heading == pytest.approx(turn, abs=1), names
