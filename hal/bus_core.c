@@ -19,7 +19,6 @@ void bus_core_init(bus_core_t *core)
 {
     memset(core, 0, sizeof *core);
     core->return_delay_half_us = RETURN_DELAY_MAX_HALF_US;
-    dxl_parser_init(&core->parser, core->heard);
     bus_core_set_rate(core, BUS_RATE_1M);
 }
 
@@ -36,7 +35,7 @@ static void send(bus_core_t *core)
     core->parsed = 0;
     core->heard_count = 0;
     core->heard_flags = 0;
-    dxl_parser_init(&core->parser, core->heard);
+    core->status = NULL;
     core->counts.packets++;
     core->state = BUS_SENDING;
     bus_port_send(core->packet, core->size);
@@ -91,9 +90,10 @@ static void fail(bus_core_t *core, bus_status_t why, uint16_t *count)
 /* A status packet with a good checksum has come. */
 static void take_packet(bus_core_t *core)
 {
-    if (core->parser.id != core->asked_id) {
+    const uint8_t *status = core->status;
+    if (status[2] != core->asked_id) {
         fail(core, BUS_ERR_WRONG_ID, &core->counts.wrong_ids);
-    } else if (core->parser.count != core->answer_params) {
+    } else if ((uint8_t)(status[3] - 2u) != core->answer_params) {
         fail(core, BUS_ERR_LENGTH, &core->counts.lengths);
     } else {
         core->counts.answers++;
@@ -102,9 +102,18 @@ static void take_packet(bus_core_t *core)
     }
 }
 
-static void take_byte(bus_core_t *core, uint8_t byte)
+/* Looks at what came since the last time. Returns whether anything did. */
+static bool take_heard(bus_core_t *core)
 {
-    switch (dxl_parser_byte(&core->parser, byte)) {
+    uint8_t count = core->heard_count;
+    if (count == core->parsed) {
+        return false;
+    }
+    core->parsed = count;
+    if (core->failure != BUS_OK) {
+        return true;
+    }
+    switch (dxl_find_status(core->heard, count, &core->status)) {
     case DXL_GOOD:
         take_packet(core);
         break;
@@ -117,18 +126,7 @@ static void take_byte(bus_core_t *core, uint8_t byte)
     default:
         break;
     }
-}
-
-/* Takes apart what came since the last look. Returns whether anything did. */
-static bool take_heard(bus_core_t *core)
-{
-    uint8_t count = core->heard_count;
-    bool news = count != core->parsed;
-    while (core->parsed != count && core->failure == BUS_OK && core->state == BUS_LISTENING) {
-        take_byte(core, core->heard[core->parsed++]);
-    }
-    core->parsed = count;
-    return news;
+    return true;
 }
 
 /* LISTENING, this try has failed: another one once the line is quiet, or the end. */
@@ -175,11 +173,12 @@ bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t 
     if (core->state == BUS_LISTENING) {
         listen(core, now_half_us);
     }
-    if (answer != NULL && core->result == BUS_OK) {
-        answer->id = core->parser.id;
-        answer->error = core->parser.error;
-        answer->count = core->parser.count;
-        answer->params = core->heard;
+    if (answer != NULL && core->result == BUS_OK && core->status != NULL) {
+        const uint8_t *status = core->status;
+        answer->id = status[2];
+        answer->count = (uint8_t)(status[3] - 2u);
+        answer->error = status[4];
+        answer->params = status + DXL_PARAMS_AT;
     }
     return (bus_status_t)core->result;
 }

@@ -47,7 +47,7 @@ typedef struct {
     ring_t *volatile tap;
     bus_counts_t counts;          /* all but strays: main loop */
     volatile uint16_t strays;     /* ISR */
-    dxl_parser_t parser;
+    const uint8_t *status;        /* the good answer, within heard[] */
     uint8_t heard[BUS_HEARD_BYTES];
     uint8_t packet[BUS_PACKET_BYTES];
 } bus_core_t;

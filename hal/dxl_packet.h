@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * dxl_packet.h - builds instruction packets and takes status packets apart, byte by byte.
- * Pure: knows neither UART nor time.  RAM: caller-owned, sizeof(dxl_parser_t) = 8 bytes and
- * the parameters' buffer. */
+ * dxl_packet.h - builds instruction packets and finds status packets in what was heard.
+ * Pure: knows neither UART nor time. No RAM of its own. */
 #ifndef DXL_PACKET_H
 #define DXL_PACKET_H
 
@@ -55,34 +54,18 @@ ALWAYS_INLINE uint8_t dxl_end(dxl_writer_t *writer)
 /* All at once: returns the size. `packet` has room for count + DXL_PACKET_OVERHEAD bytes. */
 uint8_t dxl_build(uint8_t *packet, uint8_t id, uint8_t instruction, const uint8_t *params, uint8_t count);
 
-/* ---- parsing ---- */
+/* ---- taking apart ---- */
 
-/* What a byte led to. */
+/* What the bytes heard so far amount to. */
 typedef enum {
-    DXL_MORE = 0,       /* not at the end yet */
-    DXL_GOOD,           /* a status packet is complete: id, error, params, count are its contents */
-    DXL_BAD_CHECKSUM,   /* complete but wrong; the parser looks for the next header */
+    DXL_MORE = 0,       /* no complete status packet yet */
+    DXL_GOOD,           /* *packet points to it: FF FF ID LEN ERROR params... SUM */
+    DXL_BAD_CHECKSUM,   /* complete but wrong */
     DXL_BAD_LENGTH      /* a length that no status packet can have (below 2, above DXL_ANSWER_PARAMS + 2) */
 } dxl_result_t;
 
-/* Waiting for FF -> FF -> ID -> LEN -> ERROR -> PARAMS -> SUM; anything before FF FF is noise (counted by the caller). */
-typedef struct {
-    uint8_t state;
-    uint8_t id, length, error;
-    uint8_t count;      /* parameters so far; after DXL_GOOD, all */
-    uint8_t sum;
-    uint8_t *params;
-} dxl_parser_t;
-
-/* params: DXL_ANSWER_PARAMS bytes, lent for good. They may be the beginning of the very buffer that the parsed bytes are
- * in, when these are taken from front to back: a parameter is stored at least five bytes before its own place. */
-void dxl_parser_init(dxl_parser_t *parser, uint8_t *params);
-
-/* Takes one byte. A third FF in the header is noise before it: FF FF FF ID still works. After DXL_GOOD and the errors
- * the parser stands at the start again; the contents stay until the next byte. */
-dxl_result_t dxl_parser_byte(dxl_parser_t *parser, uint8_t byte);
-
-/* true before the first byte of a header: what came so far was noise or nothing. */
-bool dxl_parser_is_empty(const dxl_parser_t *parser);
+/* Looks for the first status packet in what was heard since the question. Anything before FF FF ID is noise, a third FF too:
+ * no servo has ID 255. *packet is written on DXL_GOOD only. 30 cycles, and 7 a byte when the packet is complete. */
+dxl_result_t dxl_find_status(const uint8_t *heard, uint8_t count, const uint8_t **packet);
 
 #endif

@@ -5,13 +5,12 @@
 
 #include <string.h>
 
-static dxl_parser_t parser;
-static uint8_t params[DXL_ANSWER_PARAMS];
+static const uint8_t *found;
 static uint8_t packet[32];
 
 void setUp(void)
 {
-    dxl_parser_init(&parser, params);
+    found = NULL;
     memset(packet, 0xEE, sizeof packet);
 }
 
@@ -19,15 +18,17 @@ void tearDown(void)
 {
 }
 
-/* Feeds all bytes; the last result. Every byte before the last must lead to DXL_MORE. */
+/* The bytes arrive one by one; the result after the last. Before it there is never one. */
 static dxl_result_t feed(const uint8_t *bytes, uint8_t count)
 {
-    for (uint8_t i = 0; i + 1u < count; i++) {
-        TEST_ASSERT_EQUAL(DXL_MORE, dxl_parser_byte(&parser, bytes[i]));
+    for (uint8_t i = 0; i < count; i++) {
+        TEST_ASSERT_EQUAL(DXL_MORE, dxl_find_status(bytes, i, &found));
     }
-    return dxl_parser_byte(&parser, bytes[count - 1]);
+    return dxl_find_status(bytes, count, &found);
 }
-#define FEED(...) feed((const uint8_t[]){ __VA_ARGS__ }, sizeof((const uint8_t[]){ __VA_ARGS__ }))
+static uint8_t wire[80];
+#define FEED(...) (memcpy(wire, (const uint8_t[]){ __VA_ARGS__ }, sizeof((const uint8_t[]){ __VA_ARGS__ })), \
+                   feed(wire, sizeof((const uint8_t[]){ __VA_ARGS__ })))
 
 static void test_build_ping_of_id_1_is_the_manuals_example(void)
 {
@@ -35,15 +36,6 @@ static void test_build_ping_of_id_1_is_the_manuals_example(void)
     TEST_ASSERT_EQUAL(6, dxl_build(packet, 1, DXL_PING, NULL, 0));
     TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, packet, 6);
     TEST_ASSERT_EQUAL_HEX8(0xEE, packet[6]);
-}
-
-static void test_parser_may_store_parameters_over_what_it_has_read(void)
-{
-    uint8_t bytes[] = { 0xFF, 0xFF, 0x07, 0x04, 0x21, 0x34, 0x02, 0x9D };
-    dxl_parser_init(&parser, bytes);
-    TEST_ASSERT_EQUAL(DXL_GOOD, feed(bytes, sizeof bytes));
-    TEST_ASSERT_EQUAL_HEX8(0x34, bytes[0]);
-    TEST_ASSERT_EQUAL_HEX8(0x02, bytes[1]);
 }
 
 static void test_build_read_of_temperature_is_the_manuals_example(void)
@@ -73,77 +65,69 @@ static void test_build_sync_write_by_hand_is_the_manuals_example(void)
     TEST_ASSERT_EQUAL_HEX8(0x12, packet[27]);
 }
 
-static void test_parser_takes_a_status_without_parameters(void)
+static void test_status_without_parameters_is_found(void)
 {
     TEST_ASSERT_EQUAL(DXL_GOOD, FEED(0xFF, 0xFF, 0x01, 0x02, 0x00, 0xFC));
-    TEST_ASSERT_EQUAL(1, parser.id);
-    TEST_ASSERT_EQUAL(0, parser.error);
-    TEST_ASSERT_EQUAL(0, parser.count);
+    TEST_ASSERT_EQUAL_PTR(wire, found);
 }
 
-static void test_parser_takes_parameters_and_error(void)
+static void test_status_with_parameters_and_error_is_found(void)
 {
     TEST_ASSERT_EQUAL(DXL_GOOD, FEED(0xFF, 0xFF, 0x01, 0x03, 0x00, 0x20, 0xDB));
-    TEST_ASSERT_EQUAL(1, parser.count);
-    TEST_ASSERT_EQUAL_HEX8(0x20, parser.params[0]);
     TEST_ASSERT_EQUAL(DXL_GOOD, FEED(0xFF, 0xFF, 0x07, 0x04, 0x21, 0x00, 0x02, 0xD1));
-    TEST_ASSERT_EQUAL_HEX8(DXL_ERR_OVERLOAD | DXL_ERR_VOLTAGE, parser.error);
-    TEST_ASSERT_EQUAL(2, parser.count);
+    TEST_ASSERT_EQUAL_HEX8(DXL_ERR_OVERLOAD | DXL_ERR_VOLTAGE, found[4]);
 }
 
-static void test_parser_skips_noise_and_extra_header_bytes(void)
+static void test_noise_and_extra_header_bytes_are_skipped(void)
 {
     TEST_ASSERT_EQUAL(DXL_GOOD, FEED(0x12, 0xFF, 0x00, 0xFF, 0xFF, 0xFF, 0xFF, 0x01, 0x02, 0x00, 0xFC));
-    TEST_ASSERT_EQUAL(1, parser.id);
+    TEST_ASSERT_EQUAL_PTR(wire + 5, found);
 }
 
-static void test_parser_takes_ff_inside_a_packet_as_data(void)
+static void test_ff_inside_a_packet_is_data(void)
 {
     /* 5 + 4 + 0 + FF + FF = 0x207, ~07 = F8 */
     TEST_ASSERT_EQUAL(DXL_GOOD, FEED(0xFF, 0xFF, 0x05, 0x04, 0x00, 0xFF, 0xFF, 0xF8));
-    TEST_ASSERT_EQUAL_HEX8(0xFF, parser.params[1]);
+    TEST_ASSERT_EQUAL_PTR(wire, found);
 }
 
-static void test_parser_names_a_wrong_checksum_and_goes_on(void)
+static void test_wrong_checksum_is_named(void)
 {
     TEST_ASSERT_EQUAL(DXL_BAD_CHECKSUM, FEED(0xFF, 0xFF, 0x01, 0x02, 0x00, 0xFD));
-    TEST_ASSERT_TRUE(dxl_parser_is_empty(&parser));
-    TEST_ASSERT_EQUAL(DXL_GOOD, FEED(0xFF, 0xFF, 0x01, 0x02, 0x00, 0xFC));
+    TEST_ASSERT_NULL(found);
 }
 
-static void test_parser_refuses_lengths_that_no_answer_has(void)
+static void test_lengths_that_no_answer_has_are_refused(void)
 {
     TEST_ASSERT_EQUAL(DXL_BAD_LENGTH, FEED(0xFF, 0xFF, 0x01, 0x01));
     TEST_ASSERT_EQUAL(DXL_BAD_LENGTH, FEED(0xFF, 0xFF, 0x01, DXL_ANSWER_PARAMS + 3u));
-    TEST_ASSERT_EQUAL(DXL_GOOD, FEED(0xFF, 0xFF, 0x01, 0x02, 0x00, 0xFC));
 }
 
-static void test_parser_takes_the_longest_answer(void)
+static void test_longest_answer_is_found(void)
 {
-    uint8_t sum = 1 + DXL_ANSWER_PARAMS + 2;
-    FEED(0xFF, 0xFF, 0x01, DXL_ANSWER_PARAMS + 2u, 0x00);
-    for (uint8_t i = 0; i < DXL_ANSWER_PARAMS; i++) {
-        TEST_ASSERT_EQUAL(DXL_MORE, dxl_parser_byte(&parser, i));
-        sum = (uint8_t)(sum + i);
+    uint8_t count = 0, sum = 1 + DXL_ANSWER_PARAMS + 2;
+    static const uint8_t head[] = { 0xFF, 0xFF, 0x01, DXL_ANSWER_PARAMS + 2u, 0x00 };
+    memcpy(wire, head, sizeof head);
+    for (count = 0; count < DXL_ANSWER_PARAMS; count++) {
+        wire[sizeof head + count] = count;
+        sum = (uint8_t)(sum + count);
     }
-    TEST_ASSERT_EQUAL(DXL_GOOD, dxl_parser_byte(&parser, (uint8_t)~sum));
-    TEST_ASSERT_EQUAL(DXL_ANSWER_PARAMS, parser.count);
-    TEST_ASSERT_EQUAL(DXL_ANSWER_PARAMS - 1, parser.params[DXL_ANSWER_PARAMS - 1]);
+    wire[sizeof head + count] = (uint8_t)~sum;
+    TEST_ASSERT_EQUAL(DXL_GOOD, feed(wire, DXL_ANSWER_PARAMS + 6u));
 }
 
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_build_ping_of_id_1_is_the_manuals_example);
-    RUN_TEST(test_parser_may_store_parameters_over_what_it_has_read);
     RUN_TEST(test_build_read_of_temperature_is_the_manuals_example);
     RUN_TEST(test_build_sync_write_by_hand_is_the_manuals_example);
-    RUN_TEST(test_parser_takes_a_status_without_parameters);
-    RUN_TEST(test_parser_takes_parameters_and_error);
-    RUN_TEST(test_parser_skips_noise_and_extra_header_bytes);
-    RUN_TEST(test_parser_takes_ff_inside_a_packet_as_data);
-    RUN_TEST(test_parser_names_a_wrong_checksum_and_goes_on);
-    RUN_TEST(test_parser_refuses_lengths_that_no_answer_has);
-    RUN_TEST(test_parser_takes_the_longest_answer);
+    RUN_TEST(test_status_without_parameters_is_found);
+    RUN_TEST(test_status_with_parameters_and_error_is_found);
+    RUN_TEST(test_noise_and_extra_header_bytes_are_skipped);
+    RUN_TEST(test_ff_inside_a_packet_is_data);
+    RUN_TEST(test_wrong_checksum_is_named);
+    RUN_TEST(test_lengths_that_no_answer_has_are_refused);
+    RUN_TEST(test_longest_answer_is_found);
     return UNITY_END();
 }
