@@ -16,6 +16,7 @@ from m512.crc16 import crc16
 from m512.errors import BoardError, NoAnswerError
 from m512.link import BAUD, Link
 from m512.memory import FLASH_PAGE
+from m512.page import EMPTY
 
 REQUEST, ANSWER = 0xA5, 0x5A
 HELLO, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE = range(1, 8)
@@ -140,33 +141,43 @@ class BlockLoader:
     # Flash and EEPROM
 
     def read(self, start: int, end: int, progress: Optional[Progress] = None) -> bytes:
-        """Flash bytes [start, end)."""
+        """Memory bytes [start, end). Flash pages whose sums are those of empty ones are not sent over the line."""
         first, last = start // FLASH_PAGE, (end - 1) // FLASH_PAGE
+        known = self._known(first, last) if last < EEPROM_PAGE and last > first + 4 else {}
         out = b""
         for page in range(first, last + 1):
-            out += self._ask(READ, page.to_bytes(2, "little"))
+            out += known.get(page) or self._ask(READ, page.to_bytes(2, "little"))
             if progress:
                 progress(page - first + 1, last - first + 1)
         return out[start - first * FLASH_PAGE:end - first * FLASH_PAGE]
 
+    def _known(self, first: int, last: int) -> Dict[int, bytes]:
+        """Pages that hold nothing: erased flash, or half of an empty motion page."""
+        plain = {page_sum(piece): piece for piece in
+                 (b"\xff" * FLASH_PAGE, bytes(FLASH_PAGE), EMPTY[:FLASH_PAGE], EMPTY[FLASH_PAGE:])}
+        sums = self._sums(first, last - first + 1)
+        return {page: plain[found] for page, found in sums.items() if found in plain}
+
+    def _sums(self, first: int, count: int, progress: Optional[Progress] = None) -> Dict[int, Tuple[int, int]]:
+        out: Dict[int, Tuple[int, int]] = {}
+        for at in range(first, first + count, SUMS_MAX):
+            some = min(SUMS_MAX, first + count - at)
+            data = self._ask(SUMS, at.to_bytes(2, "little") + some.to_bytes(2, "little"), seconds=3)
+            if len(data) != 4 * some:
+                raise NoAnswerError("the loader's answer to SUMS has the wrong length")
+            for k in range(some):
+                out[at + k] = (int.from_bytes(data[4 * k:4 * k + 2], "little"),
+                               int.from_bytes(data[4 * k + 2:4 * k + 4], "little"))
+            if progress:
+                progress(at + some - first, count)
+        return out
+
     def different(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> List[int]:
         """Which of these pages the board holds otherwise."""
-        out, numbers, done = [], sorted(pages), 0
-        while done < len(numbers):
-            first = numbers[done]
-            count = min(SUMS_MAX, numbers[-1] - first + 1)
-            data = self._ask(SUMS, first.to_bytes(2, "little") + count.to_bytes(2, "little"), seconds=3)
-            if len(data) != 4 * count:
-                raise NoAnswerError("the loader's answer to SUMS has the wrong length")
-            while done < len(numbers) and numbers[done] < first + count:
-                at = 4 * (numbers[done] - first)
-                found = int.from_bytes(data[at:at + 2], "little"), int.from_bytes(data[at + 2:at + 4], "little")
-                if found != page_sum(pages[numbers[done]]):
-                    out.append(numbers[done])
-                done += 1
-            if progress:
-                progress(done, len(numbers))
-        return out
+        if not pages:
+            return []
+        sums = self._sums(min(pages), max(pages) - min(pages) + 1, progress)
+        return [number for number in sorted(pages) if sums[number] != page_sum(pages[number])]
 
     def write(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> int:
         """Writes these pages; returns how many of them were equal already. Each is read back by the loader."""

@@ -92,7 +92,7 @@ def reset_by_application(link: Link, say: Callable[[str], None]) -> bool:
     from m512.machine import Machine
 
     try:
-        machine = Machine(link)
+        machine = Machine(link, (0.7,))
     except NoAnswerError:
         return False
     if machine.where().get("state") != "idle":

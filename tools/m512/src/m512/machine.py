@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import time
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 from m512.crc16 import crc16
 from m512.errors import BoardError, NoAnswerError
@@ -25,13 +25,13 @@ ERR_PAGE_FAULTS = (5,)
 class Machine:
     """Play or Edit on a line. Raises NoAnswerError when nobody answers to @ver."""
 
-    def __init__(self, link: Link):
+    def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5)):
         self.link = link
-        self.version = self._fields(self._first_contact())
+        self.version = self._fields(self._first_contact(patience))
 
-    def _first_contact(self) -> str:
+    def _first_contact(self, patience: Sequence[float]) -> str:
         self.link.drain(0.02, 0.5)
-        for seconds in (0.6, 1.5):
+        for seconds in patience:
             try:
                 return self.ask("ver", seconds, tries=1)
             except NoAnswerError:
