@@ -5,16 +5,19 @@ The cable is pulled at many points; afterwards nothing outside the transfer has 
 """
 import json
 import random
+import re
 import time
 
 import pytest
 from block_peer import BlockPeer
+from conftest import REPO
 from factory_peer import FactoryPeer
 
+from m512 import memory
 from m512.block import frame
 from m512.crc16 import crc16
 from m512.image import Image
-from m512.memory import Record
+from m512.memory import APP, RECORD_AT, Record
 from m512.page import EMPTY
 from m512.text import read_text
 
@@ -264,7 +267,7 @@ def test_factory_prompt_with_a_full_line_is_not_crashed(m512, motions):
 
 @pytest.mark.parametrize("pieces, says", [
     ([(0x1E000, bytes(100))], "into the boot loader"),
-    ([(0, bytes(0xDD01))], "0x0DD00..0x0DFFF"),
+    ([(0, bytes(APP[1] + 1))], "where saved pages are kept"),
     ([(0x1DF00, bytes(0x200))], "into the boot loader"),
     ([(0x20000, bytes(512))], "beyond this board's flash"),
     ([(0x100, bytes(100))], "no reset vector at 0"),
@@ -291,6 +294,14 @@ def test_flash_refuses_wrong_kinds_of_motions(m512, tmp_path):
     (tmp_path / "x.bin").write_bytes(image.to_bytes())
     result = m512("flash", tmp_path / "x.bin", "--dry-run")
     assert result.exit_code == 5 and 'page 200 "walk"' in result.stderr
+
+
+def test_areas_are_those_of_the_linker():
+    text = (REPO / "linker" / "memory_map.h").read_text()
+    here = dict(re.findall(r"#define (MEM_\w+) (0x[0-9A-F]+)", text))
+    for name, area in (("APP", APP), ("JOURNAL", memory.JOURNAL), ("MOTION", memory.MOTIONS), ("BOOT", memory.BOOT)):
+        assert area == (int(here[f"MEM_{name}_START"], 16), int(here[f"MEM_{name}_END"], 16)), name
+    assert int(here["MEM_APP_RECORD"], 16) == RECORD_AT
 
 
 def test_record_of_an_application():

@@ -151,6 +151,27 @@ def test_board_cable_pulled(m512, robot, motions):
         assert json.loads(m512("flash", motions, "-p", cable.path, "--json").stdout)["written"] == 0
 
 
+def test_board_put_through_edit(m512, motions, tmp_path):
+    try:
+        with sim.Simulator(["boot-cm5.hex", "edit-cm5.hex"]) as simulator:     # without a loader nobody can save
+            time.sleep(1.0)
+            assert "waits in its boot loader" in m512("pose", "-p", simulator.url).stderr
+            assert m512("run", "-p", simulator.url).exit_code == 0
+            time.sleep(2.0)
+            result = m512("put", motions, "walk:30", "stand", "-p", simulator.url, "--json")
+            assert result.exit_code == 0, result.stderr
+            assert json.loads(result.stdout)["saved"] == [30, 1]
+            assert m512("pages", simulator.url, "rename", "30", "march").exit_code == 0
+            assert m512("get", "all", "-o", tmp_path / "got.bin", "-p", simulator.url).exit_code == 0
+    except MissingError as error:
+        pytest.skip(str(error))
+    from m512.image import from_bytes
+
+    got = from_bytes((tmp_path / "got.bin").read_bytes())
+    assert got[30].name == b"march" and (got[30].next, got[30].exit) == (30, 1) and got[1].name == b"stand"
+    assert got[30].words(0) == read_text(MOTIONS)[3].words(0)
+
+
 def test_sim_option_plays_without_a_robot(m512, motions):
     try:
         sim.find_cm5sim()

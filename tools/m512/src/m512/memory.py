@@ -80,11 +80,15 @@ class Plan:
 
 def _refuse_outside(start: int, end: int, what: str) -> None:
     if end > BOOT[0]:
-        raise RefusedError(f"{what} reaches 0x{end - 1:05X}, into the boot loader (0x1E000..0x1FFFF). That area can only "
-                           "be written with an ISP programmer")
+        raise RefusedError(f"{what} reaches 0x{end - 1:05X}, into the boot loader ({_area(BOOT)}). That area can only be "
+                           "written with an ISP programmer")
     if start < JOURNAL[1] and end > JOURNAL[0]:
-        raise RefusedError(f"{what} reaches into 0x0DD00..0x0DFFF, where saved pages are kept in passing. "
-                           "An application has 0x00000..0x0DCFF")
+        raise RefusedError(f"{what} reaches into {_area(JOURNAL)}, where saved pages are kept in passing. "
+                           f"An application has {_area(APP)}")
+
+
+def _area(area: Tuple[int, int]) -> str:
+    return f"0x{area[0]:05X}..0x{area[1] - 1:05X}"
 
 
 def plan(path: Path, address: Optional[int] = None, board: Optional[str] = None, with_trim: bool = False,

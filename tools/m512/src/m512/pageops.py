@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Dict, Iterable, List, Optional, Tuple
 
 from m512.errors import FileError, RefusedError
-from m512.image import Image
+from m512.image import Image, is_erased
 from m512.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Page, is_used
 from m512.player import page_seconds
 
@@ -14,7 +14,7 @@ def check(image: Image) -> List[Tuple[int, str]]:
     """(page, what is wrong or odd) for a whole image; page 0 is the trim and not a motion."""
     out = []
     for number, page in image.items():
-        if number and bytes(page) == b"\xff" * 512:
+        if number and is_erased(page):
             continue
         fault = page.fault_text(image.kind)
         if fault:
@@ -40,6 +40,8 @@ def _goes_on(image: Image, target: int) -> bool:
 
 def need_good(image: Image, number: int) -> Page:
     page = image[number]
+    if is_erased(page):
+        raise RefusedError(f"page {number} is erased flash: nothing is there")
     if page.fault(image.kind):
         raise RefusedError(f"page {number} is damaged ({page.fault_text(image.kind)}); repair or delete it first")
     return page
@@ -57,7 +59,7 @@ def rename(image: Image, number: int, name: str) -> List[str]:
 
 def _must_be_free(image: Image, number: int, replace: bool) -> None:
     page = image[number]
-    if not page.is_empty and bytes(page) != b"\xff" * 512 and not replace:
+    if not page.is_empty and not is_erased(page) and not replace:
         raise RefusedError(f"page {number} \"{page.title}\" is not empty (--replace overwrites it)")
 
 

@@ -13,7 +13,8 @@ from typing import Dict, Iterable, List, Optional, Tuple
 from m512.errors import TextError
 from m512.image import Image, is_erased
 from m512.page import EMPTY, JOINTS, POS_TORQUE_OFF, POS_UNUSED, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Page
-from m512.textread import VERSION, block_words, read_text
+from m512.textread import VERSION, read_text
+from m512.textsteps import block_words
 from m512.textwords import code_text, position_text, quote_name
 
 STANDARD_FILL = Page().step_bytes(0)

@@ -86,15 +86,16 @@ def pages(context, source, bits):
 
 
 @pages.command("list", epilog="Example: m512 pages lib.bin list --all")
-@click.option("--all", "everything", is_flag=True, help="Empty pages too.")
+@click.option("--all", "everything", is_flag=True, help="Empty and erased pages too.")
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 @click.pass_obj
 def list_(source, everything, as_json):
     """Number, name, steps, play time, links and codes of all pages."""
+    from m512.image import is_erased
     from m512.pagelist import describe, table
 
     rows = [describe(source.image, n, page) for n, page in source.image.items()
-            if everything or not page.is_empty or page.fault(source.image.kind)]
+            if everything or not is_erased(page) and (not page.is_empty or page.fault(source.image.kind))]
     click.echo(json.dumps(rows, indent=2) if as_json else table(rows))
 
 

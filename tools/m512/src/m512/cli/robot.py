@@ -11,7 +11,7 @@ import click
 
 from m512 import ui
 from m512.cli.board import json_option, port_option
-from m512.errors import RefusedError
+from m512.errors import NoAnswerError, RefusedError
 
 ID_MAX = 30
 
@@ -45,7 +45,14 @@ def robot(options):
             yield Machine(link)
         return
     with Link(ports.pick(options["port"])) as link:
-        yield Machine(link)
+        try:
+            machine = Machine(link)
+        except NoAnswerError as error:
+            from m512.loaders import at_prompt
+
+            raise NoAnswerError("the board waits in its boot loader: `m512 run` starts the application" if at_prompt(link)
+                                else f"{error} on {link.url} (m512 doctor looks why)") from None
+        yield machine
 
 
 def _report(machine, as_json):
@@ -215,7 +222,7 @@ def put(source, pages, **options):
 
     For many pages at once, or with Play, `m512 flash` is the way.
     """
-    from m512 import boards, formats
+    from m512 import boards, formats, pageops
     from m512.image import Image
 
     image, moves = formats.load(source), []
@@ -227,11 +234,8 @@ def put(source, pages, **options):
         number = image.find(name if colon else word)
         moves.append((number, int(target) if colon and target.isdigit() else number))
     goal = Image.empty()
-    for number, target in moves:
-        page = image[number]
-        if page.fault():
-            raise RefusedError(f"page {number} is damaged: {page.fault_text()}")
-        goal[target] = page
+    for remark in pageops.place(goal, image, moves, replace=True):
+        ui.say(f"note: {remark}")
     with robot(options) as machine:
         changed = boards.save_pages(machine, goal, [target for _, target in moves])
     ui.say(f"saved: pages {' '.join(map(str, changed)) or 'none, they were there already'}")
