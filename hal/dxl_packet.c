@@ -29,8 +29,9 @@ dxl_result_t dxl_find_status(const uint8_t *heard, uint8_t count, const uint8_t 
         return DXL_MORE;
     }
     uint8_t sum = 0;
-    for (uint8_t i = 2; i < size; i++) {
-        sum = (uint8_t)(sum + heard[i]);
+    const uint8_t *end = heard + size;
+    for (const uint8_t *at = heard + 2; at != end; at++) {
+        sum = (uint8_t)(sum + *at);
     }
     if (sum != 0xFFu) {
         return DXL_BAD_CHECKSUM;

@@ -65,7 +65,7 @@ typedef enum {
 } dxl_result_t;
 
 /* Looks for the first status packet in what was heard since the question. Anything before FF FF ID is noise, a third FF too:
- * no servo has ID 255. *packet is written on DXL_GOOD only. 30 cycles, and 7 a byte when the packet is complete. */
+ * no servo has ID 255. *packet is written on DXL_GOOD only. About 40 cycles, and 8 a byte when the packet is complete. */
 dxl_result_t dxl_find_status(const uint8_t *heard, uint8_t count, const uint8_t **packet);
 
 #endif

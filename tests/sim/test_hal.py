@@ -155,6 +155,17 @@ def test_hold_keeps_the_pc_silent():
     board.expect("held")
 
 
+def test_rate_changes_behind_the_last_stop_bit():
+    board = words()
+    board.send("b", wait=True)
+    board.expect("slow\n")
+    board.baud(117_647)
+    board.expect("fast\n")
+    board.send("v")
+    board.expect("adc ")
+    assert board.uart(1).framing == 0
+
+
 # ---- bus ----
 
 @pytest.mark.parametrize("kind", ["cm5", "cm2"])
@@ -235,6 +246,8 @@ def test_slow_servos_are_left_alone():
     board.expect("walking", ms=3000)
     board.run(ms=300)
     assert bytes(board.servos[7].table)[:24] == before[:24]
+    assert word(board, "walker_slow", 4) == 1 << 7
+    assert word(board, "walker_present", 4) == 1 << 1
     assert word(board, "walker_faults", 1) == 0
 
 

@@ -18,6 +18,7 @@ volatile uint16_t walker_missed, walker_late;
 volatile uint16_t walker_ticks;
 volatile uint8_t walker_fault_id, walker_fault_kind, walker_faults;
 volatile uint8_t walker_buttons;
+volatile uint32_t walker_present, walker_slow;
 bus_counts_t walker_bus;
 
 static servo_link_t servos;
@@ -67,6 +68,8 @@ int main(void)
     board_start();
     servo_link_init(&servos);
     servo_link_scan(&servos);
+    walker_present = servos.present;
+    walker_slow = servos.slow;
     (void)servo_link_torque_on(&servos, SERVO_LINK_ALL);
     memset(compliance, 0x55, sizeof compliance);
     servo_link_slopes(&servos, compliance);

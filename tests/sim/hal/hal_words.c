@@ -6,6 +6,7 @@
  *   x  flow control on, takes all there is, slower than the line: "took COUNT CRC"
  *   h  holds the line, waits 100 ms, goes on: "held"       a  a failed ASSERT            w  hangs (watchdog)
  *   r  restarts through the watchdog                       v  ADC channel 0: "adc VALUE"
+ *   b  says "slow", changes to 117,647 baud, says "fast"
  * Begins with "start CAUSE", and "assert LINE ADDRESS" when there was one. Numbers are hexadecimal. */
 #include "board.h"
 #include "clock.h"
@@ -148,6 +149,11 @@ static void obey(uint8_t word)
         }
     case 'r':
         system_restart();
+    case 'b':
+        say_P(PSTR("slow\n"));
+        console_set_rate(CONSOLE_RATE_115200);
+        say_P(PSTR("fast\n"));
+        break;
     case 'v':
         say(PSTR("adc "), system_adc(0), 0);
         break;
