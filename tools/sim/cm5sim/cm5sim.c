@@ -199,6 +199,7 @@ int main(int argc, char **argv)
         return bus_main(&options, &interrupted);
     }
     if (options.script && !script_load(&script, options.script)) {
+        script_free(&script);
         return EXIT_USAGE;
     }
     const int error = session_open(&session, &options);
