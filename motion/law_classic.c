@@ -65,29 +65,36 @@ static inline int16_t fall_way(int16_t v, uint16_t thrice_ramp)
     return v < 0 ? (int16_t)-way : way;
 }
 
-/* x * c / num (toward zero) from now on by next_share, c = 1, 2, ... */
+/* x * c / num (toward zero) from now on by next_share, c = 1, 2, ... Toward zero is down for x >= 0 and up below: up is
+ * down of the same plus (num - 1) / num, with which the sum of remainders then begins. */
 static inline void spread(player_joint_t *joint, int16_t x, uint16_t num, uint16_t recip16)
 {
-    uint16_t remainder = 0;
+    uint16_t remainder = 0, error = 0;
     int16_t quotient = x;
     if (num != 1) {
         quotient = (int16_t)fix_divide(fix_size(x), num, recip16, &remainder);
-        quotient = x < 0 ? (int16_t)-quotient : quotient;
+        if (x < 0) {
+            quotient = (int16_t)-quotient;
+            error = (uint16_t)(num - 1);
+            if (remainder != 0) {
+                quotient--;
+                remainder = (uint16_t)(num - remainder);
+            }
+        }
     }
     joint->classic.quotient = quotient;
     joint->classic.remainder = remainder;
-    joint->classic.error = 0;
+    joint->classic.error = error;
     joint->classic.value = 0;
 }
 
-/* `negative`: x of spread was below 0 */
-static inline int16_t next_share(player_joint_t *joint, uint16_t num, bool negative)
+static inline int16_t next_share(player_joint_t *joint, uint16_t num)
 {
     int16_t value = (int16_t)(joint->classic.value + joint->classic.quotient);
     uint16_t error = (uint16_t)(joint->classic.error + joint->classic.remainder);
     if (error >= num) {
         error = (uint16_t)(error - num);
-        value = (int16_t)(negative ? value - 1 : value + 1);
+        value++;
     }
     joint->classic.error = error;
     joint->classic.value = value;
@@ -375,16 +382,16 @@ RARE static void begin_fall(player_t *player)
     enter(player, SECTION_FALL, ramp);
 }
 
-/* Way since the section began, of a joint whose speed changes. `negative`: what `spread` spread was. */
-static inline int16_t ramp_acc(player_joint_t *joint, ramp_share_t share, uint16_t num, bool negative)
+/* Way since the section began, of a joint whose speed changes. */
+static inline int16_t ramp_acc(player_joint_t *joint, ramp_share_t share, uint16_t num)
 {
-    int16_t change = next_share(joint, num, negative);
+    int16_t change = next_share(joint, num);
     return ramp_way((int16_t)(joint->classic.carried + (change >> 1)), share);
 }
 
 static inline int16_t line_pos(player_joint_t *joint, uint16_t num)
 {
-    return limit_pos((int16_t)(joint->classic.base + next_share(joint, num, joint->classic.main < 0)));
+    return limit_pos((int16_t)(joint->classic.base + next_share(joint, num)));
 }
 
 /* One tick of RISE. */
@@ -393,7 +400,7 @@ RARE static void make_rise(player_t *player)
     uint16_t num = player->section_ticks, *goal = player->goal_pos;
     ramp_share_t share = ramp_share((uint8_t)player->tick);
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int16_t acc = ramp_acc(joint, share, num, joint->classic.speed < joint->classic.carried);
+        int16_t acc = ramp_acc(joint, share, num);
         joint->classic.acc = acc; /* CRUISE takes it from here */
         *goal++ = (uint16_t)limit_pos((int16_t)(joint->classic.base + acc));
     }
@@ -406,8 +413,7 @@ RARE static void make_fall(player_t *player)
     ramp_share_t share = ramp_share((uint8_t)player->tick);
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         bool through = joint->classic.through;
-        int16_t way = through ? next_share(joint, num, joint->classic.main < 0)
-                              : ramp_acc(joint, share, num, joint->classic.speed > 0);
+        int16_t way = through ? next_share(joint, num) : ramp_acc(joint, share, num);
         *goal++ = (uint16_t)limit_pos((int16_t)(joint->classic.base + way));
     }
 }
@@ -570,9 +576,8 @@ static int32_t speed_now(const player_t *player, const player_joint_t *joint, ui
     if (player->section == SECTION_RISE || (player->section == SECTION_FALL && !joint->classic.through)) {
         return (int32_t)(joint->classic.carried + joint->classic.value) * SPEED_UNIT_Q16_16;
     }
-    int32_t speed = ((int32_t)fix_size(joint->classic.quotient) << FIX_POS_BITS) +
-                    (int32_t)fix_mean(joint->classic.remainder, recip32);
-    return joint->classic.main < 0 ? -speed : speed;
+    return (int32_t)((uint32_t)joint->classic.quotient << FIX_POS_BITS) +
+           (int32_t)fix_mean(joint->classic.remainder, recip32);
 }
 
 /* Whatever a primed step needs of classic_tick's bookkeeping is done, so that its rest, all of it, can be played. */
