@@ -77,7 +77,8 @@ typedef struct {
 
 typedef struct player {
     /* Public, read only for callers. */
-    uint32_t joints;                /* bit per joint: driven by this play (present, and used by a step so far) */
+    uint32_t joints;                /* bit per joint: driven by this play: present, and used by a step that has begun (a
+                                     * step begins with the last tick of the one before) */
     uint8_t page, step;             /* playing now; step 1..7 */
     uint8_t repetition;             /* 1.. PLAY_COUNT */
     uint8_t next_page, link_taken;  /* of the last PLAYER_EV_LINK */

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: MIT
+ * test_player_brake.c - break, pause and resume at every tick of a play, under both laws. */
+#include "player.h"
+#include "sparse_pages.h"
+#include "unity.h"
+
+#define ALL 0x7FFFFFFFul
+#define ACCEL 20
+#define PLAY_TICKS 150
+
+static player_t player;
+static link_t l;
+static uint16_t pose[PAGE_JOINTS];
+
+void setUp(void)
+{
+    sparse_clear();
+    sparse_pages[1].accel = ACCEL;
+    sparse_step(1, 60, 0, 700);
+    sparse_step(1, 12, 0, 760);
+    sparse_step(1, 30, 6, 400);
+    sparse_step(1, 40, 0, 512);
+    for (uint8_t step = 0; step < 4; step++) {
+        sparse_pages[1].step[step].pos[1] = (uint16_t)(1024 - sparse_pages[1].step[step].pos[0]);
+    }
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        pose[i] = 512;
+    }
+    player_init(&player, &sparse_source);
+    link_init(&l, LINK_LATCH);
+}
+
+void tearDown(void)
+{
+}
+
+static void play_to(player_law_t law, uint8_t tick)
+{
+    setUp();
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, law, pose, ALL));
+    while (tick-- != 0) {
+        (void)player_tick(&player, &l);
+    }
+}
+
+static int speed_of(uint16_t before, uint16_t after)
+{
+    return (int)after - (int)before;
+}
+
+static int size_of(int value)
+{
+    return value < 0 ? -value : value;
+}
+
+/* Slows down: each joint keeps its direction, its speed shrinks (but for rounding), and the last tick says so. */
+static uint8_t expect_braking(const uint16_t *before, uint8_t end_events)
+{
+    uint16_t last[2] = {before[0], before[1]};
+    int speed[2] = {1000, 1000}, sign[2] = {0, 0};
+    for (uint8_t ticks = 1; ticks <= 40; ticks++) {
+        uint8_t events = player_tick(&player, &l);
+        for (uint8_t i = 0; i < 2; i++) {
+            int now = speed_of(last[i], player.goal_pos[i]);
+            TEST_ASSERT_LESS_OR_EQUAL_INT(speed[i] + 1, size_of(now));
+            if (now != 0) {
+                TEST_ASSERT_TRUE(sign[i] == 0 || sign[i] == (now > 0 ? 1 : -1));
+                sign[i] = now > 0 ? 1 : -1;
+                speed[i] = size_of(now);
+            }
+            last[i] = player.goal_pos[i];
+        }
+        if ((events & PLAYER_EV_STANDING) != 0) {
+            TEST_ASSERT_EQUAL_HEX8(end_events, events & (PLAYER_EV_STANDING | PLAYER_EV_ENDED));
+            return ticks;
+        }
+        TEST_ASSERT_EQUAL_HEX8(PLAYER_EV_OUTPUT, events);
+    }
+    TEST_FAIL_MESSAGE("does not stand");
+    return 0;
+}
+
+static void break_at_every_tick(player_law_t law)
+{
+    for (uint8_t tick = 1; tick < PLAY_TICKS - 10; tick++) {
+        play_to(law, tick);
+        if (!player_is_moving(&player)) {
+            break;
+        }
+        uint16_t before[2] = {player.goal_pos[0], player.goal_pos[1]};
+        player_break(&player);
+        TEST_ASSERT_TRUE(player_is_moving(&player));
+        TEST_ASSERT_FALSE(player_is_paused(&player));
+        TEST_ASSERT_LESS_OR_EQUAL_UINT8(ACCEL, expect_braking(before, PLAYER_EV_STANDING | PLAYER_EV_ENDED));
+        TEST_ASSERT_FALSE(player_is_moving(&player));
+        TEST_ASSERT_EQUAL_HEX8(0, player_tick(&player, &l));
+    }
+}
+
+static void test_player_breaks_at_any_tick_of_exact_without_turning_back(void)
+{
+    break_at_every_tick(PLAYER_LAW_EXACT);
+}
+
+static void test_player_breaks_at_any_tick_of_classic_without_turning_back(void)
+{
+    break_at_every_tick(PLAYER_LAW_CLASSIC);
+}
+
+/* Pauses, stands, goes on; returns the ticks that were made besides standing. No leap: the page's fastest tick is 26
+ * units by the exact law, and 45 by the classic one without any pause. */
+static uint16_t pause_and_go_on(player_law_t law, uint8_t tick)
+{
+    play_to(law, tick);
+    uint16_t before[2] = {player.goal_pos[0], player.goal_pos[1]}, made = tick;
+    player_pause(&player);
+    TEST_ASSERT_TRUE(player_is_paused(&player));
+    made = (uint16_t)(made + expect_braking(before, PLAYER_EV_STANDING));
+    for (uint8_t i = 0; i < 5; i++) {
+        TEST_ASSERT_EQUAL_HEX8(0, player_tick(&player, &l));
+    }
+    player_resume(&player);
+    TEST_ASSERT_FALSE(player_is_paused(&player));
+    uint8_t events = 0;
+    while ((events & PLAYER_EV_ENDED) == 0 && made < 1000) {
+        uint16_t last = player.goal_pos[0];
+        events = player_tick(&player, &l);
+        TEST_ASSERT_LESS_OR_EQUAL_INT(law == PLAYER_LAW_EXACT ? 30 : 45, size_of(speed_of(last, player.goal_pos[0])));
+        made++;
+    }
+    return made;
+}
+
+static void test_player_exact_goes_on_after_a_pause_in_the_time_left(void)
+{
+    for (uint8_t tick = 1; tick < 148; tick++) {
+        uint16_t made = pause_and_go_on(PLAYER_LAW_EXACT, tick);
+        TEST_ASSERT_EQUAL_UINT16(512, player.goal_pos[0]);
+        /* 148 ticks, one braking, and at most one ramp more where a step had little time left */
+        TEST_ASSERT_UINT16_WITHIN(ACCEL, 148 + ACCEL, made);
+    }
+    /* In the middle of the first step: 60 ticks of time in all, and what slowing down took. */
+    TEST_ASSERT_EQUAL_UINT16(148 + ACCEL, pause_and_go_on(PLAYER_LAW_EXACT, 25));
+}
+
+static void test_player_classic_goes_on_after_a_pause_to_its_end(void)
+{
+    for (uint8_t tick = 1; tick < 140; tick++) {
+        (void)pause_and_go_on(PLAYER_LAW_CLASSIC, tick);
+        TEST_ASSERT_FALSE(player_is_moving(&player));
+        TEST_ASSERT_UINT16_WITHIN(4, 512, player.goal_pos[0]);
+    }
+}
+
+static void test_player_break_while_paused_ends_the_play_where_it_stands(void)
+{
+    uint8_t events = 0;
+    play_to(PLAYER_LAW_EXACT, 30);
+    player_pause(&player);
+    while ((events & PLAYER_EV_STANDING) == 0) {
+        events = player_tick(&player, &l);
+    }
+    uint16_t at = player.goal_pos[0];
+    player_break(&player);
+    TEST_ASSERT_EQUAL_HEX8(PLAYER_EV_STANDING | PLAYER_EV_ENDED, player_tick(&player, &l));
+    TEST_ASSERT_EQUAL_UINT16(at, player.goal_pos[0]);
+    player_resume(&player);
+    TEST_ASSERT_EQUAL_HEX8(0, player_tick(&player, &l));
+}
+
+static void test_player_break_near_the_end_of_the_range_stays_in_range(void)
+{
+    setUp();
+    sparse_pages[1].accel = 8;
+    sparse_pages[1].step[0].time = 10;
+    sparse_pages[1].step[0].pos[0] = 1023;
+    sparse_pages[1].step[0].pos[1] = 0;
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_EXACT, pose, ALL));
+    for (uint8_t tick = 0; tick < 8; tick++) {
+        (void)player_tick(&player, &l);
+    }
+    player_break(&player);
+    while (player_is_moving(&player)) {
+        (void)player_tick(&player, &l);
+        TEST_ASSERT_LESS_OR_EQUAL_UINT16(PAGE_POS_MAX, player.goal_pos[0]);
+        TEST_ASSERT_LESS_OR_EQUAL_UINT16(PAGE_POS_MAX, player.goal_pos[1]);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_player_breaks_at_any_tick_of_exact_without_turning_back);
+    RUN_TEST(test_player_breaks_at_any_tick_of_classic_without_turning_back);
+    RUN_TEST(test_player_exact_goes_on_after_a_pause_in_the_time_left);
+    RUN_TEST(test_player_classic_goes_on_after_a_pause_to_its_end);
+    RUN_TEST(test_player_break_while_paused_ends_the_play_where_it_stands);
+    RUN_TEST(test_player_break_near_the_end_of_the_range_stays_in_range);
+    return UNITY_END();
+}
