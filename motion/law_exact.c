@@ -40,6 +40,10 @@ static inline bool same_direction(int16_t a, int16_t b)
     return (a ^ b) >= 0;
 }
 
+/* The direction of a step stands in the lowest bit of its cruise speed: the speed itself may be 0 for a while. (Speeds at
+ * way-points are even for that.) */
+#define DOWN ((uint32_t)1)
+
 /* What planning a joint needs of its step. */
 typedef struct {
     uint16_t share_q0_16, ramp_recip;
@@ -57,13 +61,15 @@ static inline void plan_joint(player_joint_t *joint, ramp_t ramp, uint16_t from_
         size = fix_by_ramp(cruise - entry, ramp.ramp_recip, ramp.ramp_ticks);
         speed = (int32_t)(entry + (size >> 1));
     }
-    joint->exact.cruise_q16_16 = cruise;
+    cruise &= ~DOWN;
     int32_t accel = (int32_t)size, pos = fix_from_pos(from_pos) + FIX_ROUND_UP;
     if (joint->target_pos < from_pos) {
+        cruise |= DOWN;
         pos--;
         speed = -speed;
         accel = -accel;
     }
+    joint->exact.cruise_q16_16 = cruise;
     joint->exact.pos_q16_16 = pos;
     joint->exact.speed_q16_16 = speed;
     joint->exact.accel_q16_16 = accel;
@@ -160,7 +166,7 @@ FAST static void join_steps(player_t *player)
             coming_mean = fix_mean(fix_size(coming_way), recip);
             if (may_run_on && same_direction(way, coming_way)) {
                 uint32_t mean = joint->mean_q16_16; /* 0 when the joint comes from a stand */
-                exit = mean < coming_mean ? mean : coming_mean;
+                exit = (mean < coming_mean ? mean : coming_mean) & ~DOWN;
             }
         }
         joint->exact.cruise_q16_16 = coming_mean;
@@ -233,8 +239,9 @@ RARE static uint8_t begin_step(player_t *player)
 RARE static void begin_cruise(player_t *player)
 {
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int32_t cruise = (int32_t)joint->exact.cruise_q16_16;
-        joint->exact.speed_q16_16 = joint->exact.speed_q16_16 < 0 ? -cruise : cruise;
+        uint32_t cruise = joint->exact.cruise_q16_16;
+        int32_t speed = (int32_t)(cruise & ~DOWN);
+        joint->exact.speed_q16_16 = (cruise & DOWN) != 0 ? -speed : speed;
         joint->exact.accel_q16_16 = 0;
     }
 }
@@ -244,10 +251,10 @@ RARE static void begin_fall(player_t *player)
     uint16_t recip = player->ramp_recip;
     recip = recip == UINT16_MAX ? recip : (uint16_t)(recip + 1u); /* rather slow early than go past the target */
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        uint32_t cruise = joint->exact.cruise_q16_16;
+        bool down = (joint->exact.cruise_q16_16 & DOWN) != 0;
+        uint32_t cruise = joint->exact.cruise_q16_16 & ~DOWN;
         int32_t accel = (int32_t)fix_by_ramp(cruise - joint->exact.exit_q16_16, recip, player->ramp_ticks);
         int32_t speed = (int32_t)cruise - (accel >> 1);
-        bool down = joint->exact.speed_q16_16 < 0;
         joint->exact.speed_q16_16 = down ? -speed : speed;
         joint->exact.accel_q16_16 = down ? accel : -accel;
     }
@@ -394,7 +401,7 @@ bool exact_rest_start(player_t *player)
         int16_t way = way_between(*goal++, joint->target_pos);
         uint32_t mean = fix_mean(fix_size(way), recip), coming = joint->mean_q16_16, exit = 0;
         if (may_run_on && way != 0 && same_direction(way, way_between(joint->target_pos, joint->coming_pos))) {
-            exit = mean < coming ? mean : coming;
+            exit = (mean < coming ? mean : coming) & ~DOWN;
         }
         joint->mean_q16_16 = mean;
         joint->exact.cruise_q16_16 = coming;
