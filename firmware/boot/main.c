@@ -47,23 +47,20 @@ void start_reset(void)
 }
 
 /* A motion page that the factory application left in EEPROM (section 7a). The state stays AA until both flash pages
- * are right, so a power cut here is made good by the next start. */
+ * are right, so a power cut here is made good by the next start. A page above 127 lies in the boot section or beyond. */
 static void answer_mailbox(void)
 {
-    uint8_t page = memory_ee(MEM_EE_MAILBOX_PAGE);
-    uint8_t state = MAIL_REFUSED;
+    uint16_t page = MEM_MOTION_START / 256 + memory_ee(MEM_EE_MAILBOX_PAGE) * 2u;
+    uint8_t state = MAIL_WRITTEN;
     if (memory_ee(MEM_EE_MAILBOX_STATE) != MAIL_POSTED) {
         return;
     }
     PUT(" Writing ");
-    if (page < 128) {
-        state = MAIL_WRITTEN;
-        memory_cursor.addr = MEMORY_EEPROM + MEM_EE_MAILBOX;
-        for (uint8_t half = 0; half < 2; half++) {
-            memory_fetch(memory_work, 256);
-            if (memory_commit(MEM_MOTION_START / 256 + page * 2 + half, memory_work) > MEMORY_EQUAL) {
-                state = MAIL_REFUSED;
-            }
+    memory_cursor.addr = MEMORY_EEPROM + MEM_EE_MAILBOX;
+    for (uint8_t half = 0; half < 2; half++) {
+        memory_fetch(memory_work, 256);
+        if (memory_commit(page++, memory_work) > MEMORY_EQUAL) {
+            state = MAIL_REFUSED;
         }
     }
     memory_ee_set(MEM_EE_MAILBOX_STATE, state);

@@ -59,6 +59,14 @@ def end_load(board, ms=30000):
     return match[1], int(match[2], 16), int(match[3], 16), int(match[4], 16), int(match[5], 16)
 
 
+def pending_record(board, page, data):
+    """A journal slot whose save was cut right after its record (firmware/common/journal.h)."""
+    record = struct.pack("<2sHBBH", b"MJ", 5, page, 1, crc16(data))
+    record += crc16(record).to_bytes(2, "little") + b"\xff\xff"
+    board.flash[JOURNAL_START:JOURNAL_START + 512] = data
+    board.flash[JOURNAL_START + 512:JOURNAL_START + 512 + len(record)] = record
+
+
 def crc16(data):
     crc = 0xFFFF
     for byte in data:

@@ -4,7 +4,8 @@ it: the loader always answers afterwards, and what the transfer did not name is 
 import struct
 
 import pytest
-from boot_board import (BOOT_START, EE_WRITE, JOURNAL_START, PROMPT, WRITE, crc16, frame, noise, page_body, prompt_board, say)
+from boot_board import (BOOT_START, EE_WRITE, JOURNAL_START, PROMPT, WRITE, frame, noise, page_body, pending_record,
+                        prompt_board, say)
 from cm5sim import PowerCut
 
 ENTER = b"\x50\x20"
@@ -47,14 +48,6 @@ TRANSFERS = {
     "blocks, EEPROM": (raw(frame(1, 1), frame(EE_WRITE, 2, struct.pack("<HH", 0x400, 6) + noise(6, 10))), [],
                        range(0x400, 0x406)),
 }
-
-
-def pending_record(board, page, data):
-    """A journal slot whose save was cut right after its record (journal.h)."""
-    record = struct.pack("<2sHBBH", b"MJ", 5, page, 1, crc16(data))
-    record += crc16(record).to_bytes(2, "little") + b"\xff\xff"
-    board.flash[JOURNAL_START:JOURNAL_START + 512] = data
-    board.flash[JOURNAL_START + 512:JOURNAL_START + 512 + len(record)] = record
 
 
 def make_board(name):

@@ -6,7 +6,9 @@ import subprocess
 import sys
 
 import pytest
-from boot_board import APP_END, BOOT_MODE, PROMPT, crc16, new_board, noise, prompt_board, say
+from boot_board import (APP_END, BOOT_MODE, JOURNAL_START, PROMPT, crc16, new_board, noise, pending_record, prompt_board,
+                        say)
+from cm5sim import Board
 
 APPLICATION = 0x11
 
@@ -144,6 +146,25 @@ def test_our_own_images_have_a_record_that_fits():
     assert result.returncode == 0 and result.stdout.count(" fits") == len(images), result.stdout
 
 
+def test_a_combined_image_starts(tmp_path):
+    root = pathlib.Path(__file__).parents[2]
+    firmware = root / "build" / "firmware"
+    if not (firmware / "play-cm5.hex").exists():
+        pytest.skip("play-cm5 is not built")
+    motions, whole = tmp_path / "motions.bin", tmp_path / "first.hex"
+    motions.write_bytes(noise(65536, 12))
+    subprocess.run([sys.executable, root / "tools" / "combine", whole, firmware / "boot-cm5.hex", firmware / "play-cm5.hex",
+                    "--motions", motions], check=True)
+    board = Board(images=[str(whole)])
+    assert bytes(board.flash[0xE000:0x1E000]) == noise(65536, 12)
+    board.expect(PROMPT, ms=600)
+    assert say(board, "id", ms=2000).endswith("app=good")
+    say(board, "app")
+    board.send("go\r")
+    board.run(ms=200)
+    assert started(board)
+
+
 def test_state_handed_over():
     board = board_with(application())
     assert run_to_application(board)
@@ -214,6 +235,32 @@ def test_other_mailbox_states_are_left_alone(state):
     assert run_to_application(board)
     assert bytes(board.flash) == before and board.eeprom[0xFF4] == state
     assert board.take() == b"\xff"
+
+
+def test_a_pending_page_of_the_journal_is_finished_first():
+    board = new_board()
+    page = noise(512, 31)
+    pending_record(board, 9, page)
+    board.run(ms=60)
+    assert board.take() == b"\xff"
+    assert bytes(board.flash[0xF200:0xF400]) == page
+    board.run(ms=10)
+    assert bytes(board.flash[JOURNAL_START + 522:JOURNAL_START + 524]) == b"\0\0"
+
+
+def test_a_download_drops_a_pending_page():
+    """A page that the recovery could not finish must not come back over what was loaded later."""
+    board = prompt_board()
+    pending_record(board, 0, noise(512, 31))
+    data = noise(256, 32)
+    board.send(b"load e200\r")
+    board.expect("Ready..")
+    board.send(data + bytes([sum(data) & 0xFF]))
+    board.expect("Success", ms=1000)
+    board.reset()
+    board.run(ms=300)
+    assert bytes(board.flash[0xE000:0xE200]) == b"\xff" * 512
+    assert bytes(board.flash[0xE200:0xE300]) == data
 
 
 def test_mailbox_power_cut_at_every_operation():
