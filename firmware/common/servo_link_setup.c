@@ -100,6 +100,7 @@ void servo_link_scan(servo_link_t *link)
     memset(link->present_pos, 0xFF, sizeof link->present_pos);
     memset(link->errors, 0, sizeof link->errors);
     link->slopes_pending = SERVO_LINK_ALL;
+    link->slopes_wait = 2;
     bus_set_rate(BUS_RATE_57142);
     link->slow = for_each(link, SERVO_LINK_ALL, ping);
     bus_set_rate(BUS_RATE_1M);
