@@ -6,6 +6,7 @@
 #include "page_save.h"
 #include "pgm.h"
 #include "report.h"
+#include "system.h"
 #include "text.h"
 #include "tick.h"
 
@@ -283,14 +284,22 @@ static void open_program_line(editor_t *editor)
     (void)shell_byte(&editor->shell, '@');
 }
 
+/* The screen again, whole, before a key that may open a line on it: 0.5 s. */
+static void take_screen_back(editor_t *editor)
+{
+    screen_show(&editor->screen);
+    while (screen_paint(&editor->screen)) {
+        system_kick();
+    }
+}
+
 static void table_key(editor_t *editor, uint8_t key)
 {
     if (editor->screen.hidden && key != '@') {
         if (key == KEY_NONE || key == KEY_CR || key == KEY_LF) {
             return;
         }
-        screen_show(&editor->screen);
-        screen_ask_size(&editor->screen);
+        take_screen_back(editor);
     }
     switch (key) {
     case KEY_UP:
@@ -415,7 +424,7 @@ static void more_key(editor_t *editor, uint8_t key)
         editor->mode = EDITOR_LIST;
         return;
     }
-    screen_show(&editor->screen);
+    take_screen_back(editor);
     editor_leave_line(editor);
     if (key != ' ' && key != KEY_CR && key != KEY_LF && key != 'q' && key != KEY_ESCAPE && key != KEY_CTRL_C) {
         table_key(editor, key);

@@ -14,6 +14,7 @@ static performer_t performer;
 static page_store_t pages;
 static settings_t settings;
 static settings_store_t settings_store;
+static boot_rx_t receiver;   /* what the PC sends during a page write is kept in the console's ring */
 
 static void put(char character)
 {
@@ -35,7 +36,9 @@ static void tell_start(page_service_kind_t service)
 static void start(void)
 {
     board_start();
-    page_service_kind_t service = page_service_init(NULL);
+    ring_t *ring = console_rx_ring();
+    receiver = (boot_rx_t){ ring->bytes, &ring->head, &ring->tail, console_rx_lost(), ring->mask, UINT8_MAX };
+    page_service_kind_t service = page_service_init(&receiver);
     page_save_recover(editor.session.cells);
     page_store_init(&pages);
     (void)settings_load(&settings_store, &settings);

@@ -515,8 +515,8 @@ void screen_follow(screen_t *screen)
     if (is_full(screen) || session->x == CELL_X_HEADER || session->y >= PAGE_JOINTS) {
         return;
     }
-    if (!screen_has_row(screen, session->y)) {
-        session->y = joint_in_row(screen, table_rows(screen));
+    while (!screen_has_row(screen, session->y)) {
+        session->y++;   /* ends at the pause, which always has one */
     }
     uint8_t before = rows_before(screen, session->y);
     uint8_t top = screen->top;

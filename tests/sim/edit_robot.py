@@ -90,8 +90,9 @@ class Robot:
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
-        self.board.close()
+    def __exit__(self, kind, *_):
+        if kind is None:   # a failed test's report still looks at the board
+            self.board.close()
 
     # ---- typing ----
 
@@ -100,7 +101,7 @@ class Robot:
         while self.terminal.answers:
             self.board.send(self.terminal.answers.pop(0).encode())
 
-    def settle(self, ms=0, quiet=30, limit=20000):
+    def settle(self, ms=0, quiet=90, limit=20000):
         """Runs at least `ms`, then until the line has been quiet for `quiet` ms."""
         if ms:
             self.board.run(ms=ms)
@@ -179,10 +180,9 @@ class Robot:
         at = MOTION_START + 512 * number
         return bytes(self.board.flash[at:at + 512])
 
-    @property
-    def ram_page(self):
-        """The page being edited, asked for as a program would."""
-        raise NotImplementedError
+    def ram(self):
+        """The 512 bytes being edited, and the work pose behind them: read from the chip's memory."""
+        return self.board.ram_bytes()
 
 
 def robot(**options):

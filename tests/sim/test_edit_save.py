@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT
+"""SAVE: questions, time, and the power cut at every flash operation and inside it. Afterwards the page is the old or the
+new one, all other pages are untouched, and the next save works."""
+import pytest
+from cm5sim import PowerCut
+
+from edit_robot import MOTION_START, page, robot, seal
+
+OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
+OTHER = page("other", [(11, {1: 900})])
+
+
+def new_bytes():
+    data = bytearray(OLD.data)
+    data[64 + 6], data[64 + 7] = 700 & 0xFF, 700 >> 8
+    data[64 + 64 * 6 + 62] = 9
+    return seal(data)
+
+
+def edit(r):
+    r.line("goto 1 3")
+    r.line("set 700")
+    r.line("goto 7 31")
+    r.line("set 9")
+
+
+def test_save_takes_less_than_60_ms_and_keeps_everything():
+    with robot(pages={1: OLD, 2: OTHER}) as r:
+        edit(r)
+        before = bytes(r.board.flash[MOTION_START:])
+        r.board.probe("page_save")
+        r.keys("save")
+        start = r.board.now_ms
+        r.board.send(b"\r")
+        r.board.expect("OK", ms=200)
+        took = r.board.now_ms - start
+        save_ms = r.board.cycles("page_save").total_max / 16000
+        print(f"save: {save_ms:.1f} ms, both halves changed; {took:.1f} ms from Enter to OK on the terminal (original: 2100)")
+        assert save_ms < 60 and took < 62
+        r.settle()
+        assert r.flash_page(1) == new_bytes() and not r.unsaved
+        assert r.xya[:2] == ("07", "31")
+        assert bytes(r.board.flash[MOTION_START + 1024:]) == before[1024:]
+        assert r.board.resets == 1 or r.board.resets == 0
+
+
+def test_save_of_an_unchanged_page_writes_nothing():
+    with robot(pages={1: OLD}) as r:
+        operations = r.board.operations
+        assert r.line("save") == "save OK, no change"
+        assert r.board.operations == operations
+
+
+def test_save_n_asks_when_the_page_is_not_empty():
+    with robot(pages={1: OLD, 2: OTHER}) as r:
+        assert r.line("save 9") == "save 9 OK"
+        assert r.flash_page(9) == bytes(OLD.data)
+        r.line("save 2", "n")
+        assert "That page is not empty. Are you sure?[y/N]" in r.command and r.flash_page(2) == bytes(OTHER.data)
+        r.line("save 2", "y")
+        assert r.flash_page(2) == bytes(OLD.data) and r.text(2, 76, 4) == "0001"
+
+
+def test_damaged_page_is_saved_only_after_a_question_and_repaired():
+    torn = page("torn", [(30, {})])
+    torn.data[100] ^= 0x10
+    with robot(pages={1: OLD, 2: torn}) as r:
+        r.line("page 2")
+        r.line("save", "n")
+        assert "The stored page is damaged." in r.command and r.flash_page(2) == bytes(torn.data)
+        r.line("save", "y")
+        assert r.flash_page(2) == seal(torn.data) and r.fault == ""
+
+
+def test_page_with_impossible_fields_is_not_saved():
+    nine = page("nine", [(30, {})])
+    nine.steps = 9
+    nine.seal()
+    with robot(pages={1: OLD, 2: nine}) as r:
+        r.line("page 2")
+        assert r.line("save").startswith("save Not saved. Invalid: 9 steps")
+        r.line("step 1")
+        r.line("save", "y")
+        assert r.message.endswith("OK") and r.flash_page(2)[20] == 1
+
+
+def test_without_a_boot_loader_the_page_stays_in_ram():
+    with robot(pages={1: OLD}, images=("edit-cm5.hex",)) as r:
+        edit(r)
+        assert "No boot loader can write" in r.line("save")
+        assert r.unsaved and r.flash_page(1) == bytes(OLD.data) and r.cell(1, 3) == "0700"
+
+
+def save_cut(operation, phase, tear):
+    """One save with the power cut there. Returns the page after the restart, or None when the save ended before."""
+    with robot(pages={1: OLD, 2: OTHER}) as r:
+        edit(r)
+        others = bytes(r.board.flash[MOTION_START + 1024:])
+        r.board.cut_power(operation, phase, tear)
+        try:
+            r.line("save")
+            return None
+        except PowerCut:
+            pass
+        r.board.power_on()
+        r.terminal.screen.reset()
+        r.board.take()
+        r.settle(ms=1500)
+        assert bytes(r.board.flash[MOTION_START + 1024:]) == others
+        state = r.flash_page(1)
+        assert r.fault == "" and r.text(1, 64, 3) == "old"
+        edit(r)
+        r.line("save")
+        assert r.message.endswith("OK") or r.message.endswith("no change")
+        assert r.flash_page(1) == new_bytes()
+        return state
+
+
+def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page():
+    states = {"old": 0, "new": 0}
+    operation = 1
+    while True:
+        for phase, tear in (("before", 0), ("during", 3), ("during", 8), ("after", 0)):
+            state = save_cut(operation, phase, tear)
+            if state is None:
+                break
+            assert state in (bytes(OLD.data), new_bytes()), (operation, phase, tear)
+            states["old" if state == bytes(OLD.data) else "new"] += 1
+        if state is None:
+            break
+        operation += 1
+    print(f"power cuts in a save: {sum(states.values())} ({operation - 1} operations), old {states['old']}, new {states['new']}")
+    assert operation > 5 and states["old"] > 0 and states["new"] > 0

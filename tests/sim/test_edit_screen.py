@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: MIT
+"""Edit's screen, cell by cell, against editor-original.md section 3 and the list in firmware/edit/DIFFERENCES.md."""
+import pytest
+
+from edit_robot import JOINTS, new_page, page, robot, seal, UNUSED
+
+HEADER = ["(Reserved) :", "PlayCount:", "(Reserved) :", "(Reserved) :", "(Reserved) :", "(Reserved) :", "Page Step:",
+          "ControlCode:", "Page Speed:", "DXL Setup:", "Accel Time:", "Link to Next:", "Link to Exit:", "Linked Page1:",
+          "Page1Remocon:", "Linked Page2:", "Page2Remocon:"]
+
+
+def word_text(word):
+    if word >= 0x8000:
+        return f"{word % 10000:04d}"
+    if word & 0x2000:
+        return "????"
+    return f"{word:04d}" if word < 1024 else "----"
+
+
+def frame(data, number, pose, cursor=(0, 0), pose_tail=(0, 0), live=None):
+    """The 34 rows above the command line, worked out from the page's bytes as the specification says."""
+    live = live or {}
+    rows = []
+    steps = data[20]
+    name = bytes(data[:14]).split(b"\0")[0].decode()
+    side = ["%-16s" % name, " PageNumber:%04d" % number, " Addr:%08X" % (0xE000 + 512 * number)]
+    side += ["%13s%03d" % (label, data[14 + i]) for i, label in enumerate(HEADER)]
+    for joint in range(31):
+        code = "%02X" % joint if joint < 0x1A else "%02x" % joint
+        inner = "0x" + code if joint not in live else "%04d" % live[joint]
+        row = "Dynamixel %2d(%s)[%s]" % (joint, inner, pose.get(joint, "????"))
+        for k in range(7):
+            row += ("|" if k == steps else " ") + word_text(data[64 + 64 * k + 2 * joint] | data[65 + 64 * k + 2 * joint] << 8)
+        row += ("|" if steps == 7 else " ") + "%03d" % data[32 + joint]
+        rows.append((row + (side[joint] if joint < len(side) else "")).ljust(80))
+    for label, place in (("   PauseTime       [", 62),
+                         ("   Time( x 7.8mSec)[" if data[16] == 10 else "   Speed           [", 63)):
+        row = label + "%03d]" % pose_tail[place - 62]
+        for k in range(7):
+            row += "  %03d" % data[64 + 64 * k + place] if k else "  %03d" % data[64 + place]
+        rows.append(row)
+    x, y = cursor
+    address = 512 + 2 * y if x == 0 else 64 * x + 2 * y
+    rows[32] = rows[32].ljust(60) + "[X:%02d,Y:%02d,A:%04d]" % (x, y, address)
+    rows.append(" " * 19 + "STP7  STP0 STP1 STP2 STP3 STP4 STP5 STP6    Go Step:")
+    return [row.ljust(80) for row in rows]
+
+
+def assert_frame(r, expected):
+    shown = [r.terminal.row(i + 1) for i in range(len(expected))]
+    for number, (got, want) in enumerate(zip(shown, expected), 1):
+        assert got == want, f"row {number}:\n{got!r}\n{want!r}"
+
+
+READY = page("ready", [(40, {1: 480, 2: 544}, 3), (50, {3: 300})], code=7, next=3, exit=4, link1_page=5, link1_code=6,
+             link2_page=7, link2_code=8)
+
+
+@pytest.mark.parametrize("number, made", [
+    (1, READY),
+    (1, page("speed base", [(64, {1: 0}), (1, {1: 1023})] * 3 + [(9, {})], schedule=0)),
+    (1, page("", [], joints=())),
+    (1, page("123456789012345"[:13], [(255, {}, 255)] * 7, joints=range(31))),
+])
+def test_frame_after_start_is_that_of_the_original(number, made):
+    with robot(pages={number: made}) as r:
+        live = {joint: 512 for joint in JOINTS}
+        assert_frame(r, frame(made.data, number, {}, live=live))
+        assert r.terminal.row(35).rstrip() == "] _"
+        assert r.cursor == (1, 20)
+
+
+def test_frame_without_servos_has_no_live_positions():
+    with robot(pages={1: READY}, servos=()) as r:
+        assert_frame(r, frame(READY.data, 1, {}))
+
+
+def test_frame_shows_goals_of_servos_that_hold():
+    with robot(pages={1: READY}) as r:
+        r.line("on")
+        r.board.reset()
+        r.terminal.screen.reset()
+        r.settle(ms=1500)
+        assert_frame(r, frame(READY.data, 1, {joint: "0512" for joint in JOINTS}))
+
+
+def test_erased_page_shows_a_new_one():
+    with robot() as r:
+        r.board.flash[0xE000 + 512 * 9:0xE000 + 512 * 10] = b"\xff" * 512
+        r.line("page 9")
+        live = {joint: 512 for joint in JOINTS}
+        expected = frame(new_page(), 9, {}, live=live)
+        assert_frame(r, expected)
+        assert r.message == "page 9"
+
+
+def test_page_change_sends_only_what_differs_and_ends_equal_to_a_redraw():
+    pages = {1: READY, 2: page("two", [(40, {1: 480, 2: 544}, 3), (50, {3: 301})], code=7)}
+    with robot(pages=pages) as r:
+        r.settle(200)
+        start = len(r.board.console)
+        r.line("page 2")
+        sent = len(r.board.console) - start
+        changed = r.show()
+        r.line("re")
+        assert sent < 400
+        assert [a for a in r.show().splitlines()[:34]] == changed.splitlines()[:34]
+
+
+def test_step_marker_moves():
+    with robot(pages={1: READY}) as r:
+        for count in (0, 7, 3):
+            r.line(f"step {count}")
+            for row in range(1, 32):
+                for n in range(8):
+                    assert r.text(row, 25 + 5 * n, 1) == ("|" if n == count else " ")
+            assert r.text(10, 77, 3) == f"{count:03d}"
+
+
+def test_words_of_every_kind_are_shown_as_the_original_shows_them():
+    data = bytearray(READY.data)
+    words = [0, 512, 1023, 0x2000, 0x2151, 0x6000, 0x4000, 0x4200, 1024, 0x1FFF, 0x8000, 0xFFFF]
+    for joint, value in enumerate(words):
+        data[64 + 64 * 6 + 2 * joint] = value & 0xFF
+        data[65 + 64 * 6 + 2 * joint] = value >> 8
+    made = page()
+    made.data[:] = seal(data)
+    with robot(pages={1: made}) as r:
+        shown = [r.cell(7, joint) for joint in range(len(words))]
+    assert shown == ["0000", "0512", "1023", "????", "????", "????", "----", "----", "----", "----", "2768", "5535"]
+
+
+def test_hex_shows_and_takes_hexadecimal_and_dec_ends_it():
+    with robot(pages={1: READY}) as r:
+        r.line("goto 1 1")
+        r.line("hex")
+        assert r.cell(1, 1) == "01E0" and r.cell(8, 0) == "55 " and r.xya == ("01", "01", "0042")
+        r.line("set 1f")
+        assert r.cell(1, 1) == "001F"
+        r.line("set 0x3ff")
+        assert r.cell(1, 1) == "03FF"
+        assert r.line("set 400").endswith("Position must be 0x0..0x3FF") or "must be" in r.message
+        r.line("dec")
+        assert r.cell(1, 1) == "1023" and r.cell(8, 0) == "085"
+
+
+def test_damaged_pages_are_shown_as_what_they_are():
+    torn = page("torn", [(30, {})])
+    torn.data[100] ^= 0x10
+    nine = page("nine", [(30, {})])
+    nine.steps = 9
+    nine.seal()
+    cases = {2: (torn, "Invalid: checksum"), 3: (nine, "Invalid: 9 steps"),
+             4: (page("s", [(30, {})], schedule=5), "Invalid: schedule"),
+             5: (page("p", [(30, {})], speed=0), "Invalid: page speed"),
+             6: (page("l", [(30, {})], next=200), "Invalid: link"),
+             7: (page("w", [(30, {3: 1500})]), "Invalid: position")}
+    with robot(pages={1: READY, **{n: made for n, (made, _) in cases.items()}}) as r:
+        for number, (made, text) in cases.items():
+            r.line(f"page {number}")
+            assert r.fault == text
+            assert r.text(1, 64, 4).strip() == made.name.decode()
+        r.line("page 1")
+        assert r.fault == ""
+
+
+def test_small_terminal_leaves_out_absent_joints_and_keeps_the_rest():
+    with robot(pages={1: READY}, rows=24) as r:
+        for row, joint in enumerate(JOINTS, 1):
+            assert r.text(row, 1, 12) == "Dynamixel %2d" % joint
+            assert r.text(row, 26, 4) == word_text(READY.word(0, joint))
+        assert r.text(19, 1, 20).strip() == "" and r.text(20, 64, 16) == "Page2Remocon:008"
+        assert r.terminal.row(21).startswith("   PauseTime") and r.terminal.row(22).startswith("   Time(")
+        assert r.terminal.row(23)[19:].startswith("STP7  STP0") and r.terminal.row(24).rstrip() == "] _"
+        assert r.text(22, 61, 18) == "[X:00,Y:01,A:0514]" and r.cursor == (1, 20)
+        r.keys("\x1b[B" * 18)
+        assert r.text(22, 61, 18) == "[X:00,Y:31,A:0574]"
+        assert r.line("goto 0 20").endswith("That joint is not there and has no row")
+
+
+def test_small_terminal_scrolls_with_the_cursor():
+    with robot(pages={1: page("all", [(40, {}), (40, {})], joints=range(31))}, rows=24, servos=range(0, 31)) as r:
+        assert r.text(20, 1, 12) == "Dynamixel 19"
+        r.line("goto 1 30")
+        assert r.text(20, 1, 12) == "Dynamixel 30" and r.text(1, 1, 12) == "Dynamixel 11"
+        assert r.text(1, 64, 3) == "all" and r.cursor == (20, 26)
+        assert r.text(20, 36, 1) == "|" or r.text(20, 35, 1) == "|"
+        r.line("goto 1 0")
+        assert r.text(1, 1, 12) == "Dynamixel  0" and r.cursor == (1, 26)
+
+
+def test_live_position_of_a_released_joint_follows_the_hand_five_times_a_second():
+    with robot(pages={1: READY}) as r:
+        r.settle(500)
+        seen = set()
+        for step in range(10):
+            r.board.servos[5].push_to(400 + step)
+            r.board.run(ms=200)
+            r.terminal.feed(r.board.take())
+            seen.add(r.text(6, 13, 6))
+            assert r.cell(0, 5) == "????"
+        assert len(seen) >= 9, seen

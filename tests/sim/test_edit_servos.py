@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: MIT
+"""What Edit does to servos: GO, MIRROR, ON, OFF, SET on the work pose, PLAY with its keys, MON; editor-original.md
+sections 7, 8, 10 and 11, and "nothing moves by surprise"."""
+import pytest
+
+from edit_robot import page, robot, UNUSED
+
+POSE = page("pose", [(64, {1: 400, 2: 700}), (64, {3: 612})], code=1)
+
+
+def start(**options):
+    pages = {1: page("neutral", [(40, {})]), 5: POSE,
+             6: page("loop", [(40, {1: 560}), (40, {1: 464})], next=6, exit=7), 7: page("end", [(30, {})]),
+             8: page("long", [(255, {1: 800}), (255, {1: 200})], repeat=20, exit=7, speed=64),
+             9: page("la", [(30, {})], next=9, exit=10), 10: page("lb", [(30, {})], exit=9)}
+    pages.update(options.pop("pages", {}))
+    r = robot(pages=pages, **options)
+    r.line("page 5")
+    return r
+
+
+def goals(r):
+    return {joint: r.board.servos[joint].goal for joint in range(1, 19)}
+
+
+def writes_since(r, mark):
+    return [bytes(packet) for _, packet in r.board.packets[mark:] if packet[4] == 3]
+
+
+def test_on_holds_the_pose_made_by_hand_and_off_lets_go():
+    with start() as r:
+        r.board.servos[3].push_to(300)
+        r.line("on")
+        assert r.cell(0, 3) == "0300" and r.cell(0, 1) == "0512"
+        assert all(r.board.servos[joint].torque for joint in range(1, 19))
+        assert abs(r.board.servos[3].present - 300) <= 1
+        r.line("off 3 4")
+        assert r.cell(0, 3) == "????" and r.cell(0, 5) == "0512"
+        assert not r.board.servos[3].torque and r.board.servos[5].torque
+        r.line("off")
+        assert not any(r.board.servos[joint].torque for joint in range(1, 19))
+
+
+def test_teaching_off_pose_on_write():
+    with start() as r:
+        r.line("off")
+        r.board.servos[7].push_to(650)
+        r.line("on")
+        r.line("write")
+        assert r.cell(3, 7) == "0650" and r.cell(9, 9) == "003"
+        r.line("save")
+        assert r.message.endswith("OK")
+        assert int.from_bytes(r.flash_page(5)[64 + 128 + 14:64 + 128 + 16], "little") == 650
+
+
+def test_go_moves_every_joint_in_about_the_same_time():
+    with start() as r:
+        r.line("on")
+        r.line("go 0")
+        assert r.text(34, 72, 3) == "000" and r.cell(0, 1) == "0400" and r.cell(0, 31) == "000" and r.cell(0, 32) == "064"
+        assert goals(r)[1] == 400 and goals(r)[2] == 700
+        assert r.board.servos[1].table[32] == (512 - 400) // 4 and r.board.servos[2].table[32] == (700 - 512) // 4
+        r.settle(3000)
+        assert abs(r.board.servos[2].present - 700) <= 2
+
+
+def test_go_asks_behind_the_last_step_and_names_joints_without_a_value():
+    with start() as r:
+        r.line("on")
+        r.line("go 4", "n")
+        assert goals(r)[1] == 512
+        assert r.line("go 4", "y").endswith("No value, not moved: ID 1-18")
+        assert goals(r)[1] == 512
+
+
+def test_go_never_drives_unused_or_released_joints():
+    made = page("part", [(64, {1: 400})])
+    made.set_word(0, 2, UNUSED | 100)
+    made.set_word(0, 3, 0x2000 | 100)
+    with start(pages={11: made}, servos=range(1, 20)) as r:
+        r.line("page 11")
+        r.line("on")
+        message = r.line("go 0")
+        r.settle(2000)
+        assert "No value, not moved: ID 2 19" in message
+        assert r.board.servos[2].goal == 512 and r.board.servos[19].goal == 512
+        assert not r.board.servos[3].torque and r.board.servos[3].goal == 512
+        assert r.cell(0, 3) == "????" and r.cell(0, 1) == "0400"
+
+
+def test_mirror_exchanges_the_pairs_and_never_drives_empty_joints():
+    with start() as r:
+        r.line("on")
+        r.line("mirror 0")
+        assert goals(r)[1] == 1024 - 700 and goals(r)[2] == 1024 - 400 and goals(r)[3] == 512
+        before = goals(r)
+        r.line("mirror 5")
+        assert goals(r) == before
+        r.line("pairs 1 3")
+        r.line("mirror 1")
+        assert goals(r)[1] == 1024 - 612
+
+
+def test_set_and_keys_on_the_work_pose_move_the_servo():
+    with start() as r:
+        r.line("on 4")
+        r.line("goto 0 4")
+        r.line("set 600")
+        assert r.board.servos[4].goal == 600 and r.cell(0, 4) == "0600" and r.board.servos[4].table[32] == 22
+        r.settle(2500)
+        r.keys("]")
+        assert r.board.servos[4].goal == 601
+        r.keys("{")
+        assert r.board.servos[4].goal == 591 and r.board.servos[4].table[32] == 8
+        r.keys(" ")
+        assert r.cell(0, 4) == "????" and not r.board.servos[4].torque
+        r.keys(" ")
+        assert r.board.servos[4].torque and r.cell(0, 4) != "????"
+        r.line("goto 0 20")
+        r.line("set 77")
+        assert r.cell(0, 20) == "0077"
+
+
+def test_play_ends_with_ok_and_the_work_pose_shows_where_it_stands():
+    with start() as r:
+        r.line("play", ms=4000)
+        r.settle(2000)
+        assert r.message == "play OK"
+        assert r.cell(0, 1) == "0512" and r.cell(0, 3) == "0612"
+        assert r.board.servos[3].goal == 612
+
+
+def test_play_takes_unsaved_edits_from_ram():
+    with start() as r:
+        r.line("goto 2 3")
+        r.line("set 700")
+        r.line("play", ms=5000)
+        r.settle(1000)
+        assert r.board.servos[3].goal == 700 and r.unsaved
+
+
+def test_play_begins_with_the_approach():
+    with start() as r:
+        r.board.servos[1].push_to(900)
+        r.keys("play\r", ms=3000)
+        trace = [frame for frame in r.board.trace if 1 in frame[2]]
+        steps = [abs(b[2][1] - a[2][1]) for a, b in zip(trace, trace[1:])]
+        assert max(steps[:100]) <= 4   # 60 degrees/s = 1.6 units a tick
+        r.keys(" ")
+
+
+@pytest.mark.parametrize("key, shown, exit_page", [("\r", "[STOP]", True), ("\x1b", "[Exit]", False)])
+def test_play_stops_at_the_end_of_the_page(key, shown, exit_page):
+    with start() as r:
+        r.keys("play 6\r", ms=2500)
+        assert r.message == "play 6"
+        r.keys(key, ms=4000)
+        r.settle(1500)
+        assert r.message == f"play 6{shown} OK"
+        assert (r.board.servos[1].goal == 512) == exit_page
+
+
+@pytest.mark.parametrize("key", [" ", "\x03"])
+def test_play_breaks_at_once_and_slows_down(key):
+    with start() as r:
+        r.keys("play 8\r", ms=3000)
+        r.keys(key, ms=600)
+        assert r.message == "play 8[BREAK] OK"
+        assert all(r.board.servos[joint].torque for joint in range(1, 19))
+        stood = goals(r)
+        r.settle(1000)
+        assert goals(r) == stood
+
+
+def test_play_of_what_cannot_be_played_says_why():
+    torn = page("torn", [(30, {})])
+    torn.data[99] ^= 1
+    with start(pages={20: torn, 21: page("none")}) as r:
+        assert r.line("play 20") == "play 20 Page 20 is damaged: checksum is wrong"
+        assert "empty" in r.line("play 21")
+        r.line("page 0")
+        assert r.line("play") == "play Page must be 1..127"
+
+
+def test_play_ends_in_a_loop_of_exit_links():
+    with start() as r:
+        r.keys("play 9\r", ms=2000)
+        r.keys("\r", ms=3000)
+        r.settle(500)
+        assert r.message == "play 9[STOP] OK, the exit links loop"
+
+
+def test_lost_servo_is_named_in_the_message_row_and_the_screen_stays():
+    with start() as r:
+        before = r.show().splitlines()[:30]
+        r.board.servos[5].fault("silent")
+        r.settle(1500)
+        assert r.message.strip() == "ID 5 does not answer"
+        assert r.show().splitlines()[:30] == before
+        r.board.servos[5].clear()
+        r.settle(1500)
+        assert r.message.strip() == "ID 5 answers again"
+        r.board.servos[6].fault("silent")
+        assert "6" in r.line("on 6")
+
+
+def test_page_0_computes_the_trim():
+    with start() as r:
+        r.line("page 0")
+        assert r.terminal.row(34)[19:40] == "STP7  MSTR SLAV OFST "
+        r.line("goto 1 3")
+        r.line("set 512")
+        r.line("goto 2 3")
+        r.line("set 500")
+        assert r.cell(3, 3) == "-012"
+        r.line("step 3")
+        r.line("save")
+        assert r.message.endswith("OK")
+        r.line("page 5")
+        r.line("on")
+        r.line("go 1")
+        assert r.board.servos[3].goal == 612 - 12 and r.cell(0, 3) == "0612"
+
+
+def test_monitor_shows_packets_and_exit_returns_with_nothing_lost():
+    with start() as r:
+        r.line("set 77")
+        r.line("goto 1 1")
+        r.line("set 401")
+        r.line("mon", "y")
+        for line, expected in (("cid 3", ""), ("ping", "<-[Dynamixel]: ID 03 error 00"), ("read 36 2", "00 02"),
+                               ("write 25 1", "->[Dynamixel]: FF FF 03 04 03 19 01"), ("read 99", "Address must be 0..49"),
+                               ("foo", "Bad Command"), ("go 600 50", "58 02 32 00"), ("cid 99", ""), ("ping", "[Err:RxD Timeout]"),
+                               ("cid 4", ""), ("id 5", "That ID is taken"), ("id 40", "04 03 03 28"), ("scan", "018 Dynamixels"),
+                               ("reset", "RESET YES"), ("swr 30 2 1 0 2", "83 1E 02 01 00 02"), ("dump", "040:")):
+            r.terminal.screen.reset()
+            r.line(line, ms=2500 if line == "scan" else 300)
+            assert expected in r.show().replace("\n", ""), (line, r.show()[:400])
+        assert r.board.servos[3].table[25] == 1
+        r.line("exit", ms=900)
+        assert r.text(2, 76, 4) == "0005" and r.cell(1, 1) == "0401" and r.unsaved
+
+
+def test_balance_shows_until_a_key():
+    with start(servos=[1, 2, 101, 102]) as r:
+        r.keys("balance\r", ms=500)
+        assert r.command.startswith("] ") and "," in r.command and len(r.message.split(",")[0].split()) == 3
+        r.keys("p")
+        assert r.command == "] p"
+
+
+def test_exit_restarts_the_controller():
+    with start() as r:
+        resets = r.board.resets
+        r.line("exit", ms=1500)
+        r.settle()
+        assert r.board.resets == resets + 1 and r.text(2, 76, 4) == "0001"
