@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: MIT
+"""The motion library (tools/motions) on the shipped Play image: every page to its end, and a walk driven by the remote.
+What the pages promise by themselves is checked in tools/motions/test_motions.py."""
+import os
+import pathlib
+import re
+
+import pytest
+
+from m512.image import from_bytes
+from play_robot import DOWN, JOINTS, LEFT, RIGHT, STOP, UP, ask, robot
+
+MOTIONS = (pathlib.Path(os.environ["M512_BUILD"]) / "motions" / "motions.bin").read_bytes()
+LIBRARY = from_bytes(MOTIONS)
+PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable}
+NUMBER = {page.title: number for number, page in PAGES.items()}
+TICK_CYCLES = 125_000
+SERVO_UNITS_PER_TICK = 114 * 360 / 60 / 128 * 1024 / 300  # 18.24: 114 rpm unloaded
+MOST_UNITS_PER_TICK = 0.75 * SERVO_UNITS_PER_TICK
+
+
+@pytest.fixture(scope="module", params=["exact", "classic"])
+def library(request):
+    """One robot for all pages, under either law."""
+    board = robot(pages=MOTIONS)
+    assert ask(board, f"law {request.param}").endswith("OK")
+    board.off_target = {"exact": 0, "classic": 2}[request.param]  # classic leaves its roundings where a play ends
+    return board
+
+
+def last_pose(page):
+    return {joint: page.word(page.steps - 1, joint) for joint in JOINTS}
+
+
+def fastest(trace):
+    """Units per tick of the fastest joint between any two frames; the ticks between them count."""
+    most = 0.0
+    for before, after in zip(trace, trace[1:]):
+        ticks = max(1, round((after.cycle - before.cycle) / TICK_CYCLES))
+        most = max([most] + [abs(after.goals[j] - before.goals[j]) / ticks for j in after.goals if j in before.goals])
+    return most
+
+
+@pytest.mark.parametrize("name", NUMBER)
+def test_page_plays_to_its_end(library, name):
+    """By name; a page that leads on is stopped there, and goes through its exit. The robot stands where the last page of the
+    way ends, no joint was left out, none asked for more than it can do, and the servos followed."""
+    board, page = library, PAGES[NUMBER[name]]
+    assert ask(board, "play " + PAGES[NUMBER["ready"]].title).endswith("OK")
+    board.expect("Ended", ms=8000)
+    board.clear_trace()
+    assert ask(board, f"play {name}").endswith("OK")
+    text = board.expect(f"Page {NUMBER[name]} step {page.steps}" if page.steps > 1 else "step 1", ms=20_000)
+    if page.next:
+        ask(board, "stop")
+        text += board.expect("Stopped after page ", ms=12_000)
+    else:
+        text += board.expect("Ended after page ", ms=12_000)
+    board.run(ms=100)
+    final = PAGES[int(board.take().split()[0])]
+    assert "damaged" not in text and "fault" not in text.lower()
+    for joint, target in last_pose(final).items():
+        assert abs(board.servos[joint].goal - target) <= board.off_target, joint
+        assert abs(board.servos[joint].present - board.servos[joint].goal) <= 3, joint
+    assert all(set(frame.goals) == set(JOINTS) for frame in board.trace)
+    assert fastest(board.trace) <= MOST_UNITS_PER_TICK
+
+
+def drive(board, value, until, ms=6000):
+    """Holds buttons until the status lines tell of a page, then lets go; returns the pages played on the way."""
+    board.rc(value)
+    text = board.expect(f"({until}) step 1", ms=ms)
+    board.rc(0)
+    return re.findall(r"Playing page \d+ (\(\w+\)) step 1", text)
+
+
+def test_remote_drives_a_walk():
+    """Start, left, straight on, right, stop; then back, and forward while going back is a stop."""
+    board = robot(pages=MOTIONS)
+    ask(board, "play ready")
+    board.expect("Ended", ms=6000)
+    board.clear_trace()
+    assert drive(board, UP, "walk_l") == ["(walk)", "(walk_r)", "(walk_l)"]
+    assert drive(board, LEFT, "turn_l") == ["(walk_r)", "(turn_l)"]
+    assert drive(board, LEFT, "turn_l") == ["(turn_l)"]                # goes on turning
+    assert drive(board, UP, "walk_l") == ["(walk_l)"]
+    assert drive(board, RIGHT, "turn_r") == ["(turn_r)"]
+    assert drive(board, LEFT, "turn_l") == ["(walk_r)", "(turn_l)"]    # from one turn to the other: a step between
+    assert drive(board, UP, "walk_r") == ["(walk_l)", "(walk_r)"]
+    board.rc(STOP)
+    board.expect("Stopped after page 26 (end_l)", ms=5000)
+    board.rc(0)
+    assert drive(board, DOWN, "back_l") == ["(back)", "(back_r)", "(back_l)"]
+    board.rc(UP)
+    board.expect("Ended after page 30 (back_end_r)", ms=5000)
+    board.run(ms=100)
+    assert {joint: board.servos[joint].goal for joint in JOINTS} == last_pose(PAGES[NUMBER["ready"]])
+    assert fastest(board.trace) <= MOST_UNITS_PER_TICK
+
+
+def test_every_code_calls_its_page():
+    """From the remote, in a robot that stands; 1, 2, 3, 4 of the remote are 16, 32, 64, 128."""
+    board = robot(pages=MOTIONS)
+    for number, page in PAGES.items():
+        if page.code:
+            board.rc(page.code)
+            board.expect(f"Playing page {number} ({page.title})", ms=4000)
+            board.rc(0)
+            ask(board, "break")
+            board.run(ms=1500)
+            board.take()
