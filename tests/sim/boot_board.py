@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the boot loader share: a board that waits at the prompt, typed lines, downloads of the original's
 kind, and a client of the block protocol written from firmware/boot/PROTOCOL.md."""
+import binascii
 import collections
+import itertools
 import pathlib
 import random
 import re
 import struct
 
-from cm5sim import Board
+from cm5sim import Board, library
+from intelhex import IntelHex
 
 PROMPT = "\r\n - "
 MEMORY_MAP = pathlib.Path(__file__).parents[2] / "linker" / "memory_map.h"
@@ -74,6 +77,29 @@ def crc16(data):
         for _ in range(8):
             crc = (crc << 1 ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
     return crc
+
+
+FACTORY_USED, FACTORY_SUM, FACTORY_CRC = 0x1B90, 0x000B2F60, 0x7406
+
+
+def factory_section():
+    """8 KiB with the imitated routine and, in the places that are free, bytes that give the sum and the CRC by which the
+    factory loader is recognised. For Board(images=[application], bootrst=True).flash[0x1E000:0x20000]."""
+    code = IntelHex(str(library.build_folder() / "firmware" / "tests" / "factory.hex"))
+    section = bytearray(code.tobinarray(start=BOOT_START, size=0x2000))
+    free = [i for i in range(FACTORY_USED) if BOOT_START + i not in set(code.addresses())]
+    left = FACTORY_SUM - sum(section[i] for i in range(FACTORY_USED) if i not in set(free))
+    for place, i in enumerate(free):
+        section[i] = left // (len(free) - place)
+        left -= section[i]
+    head = binascii.crc_hqx(bytes(section[:FACTORY_USED - 6]), 0xFFFF)
+    tail = bytes(section[FACTORY_USED - 6:FACTORY_USED])
+    for x, y, z in itertools.product(range(-40, 41), repeat=3):
+        changed = bytes(byte + step for byte, step in zip(tail, (x, -x, y, -y, z, -z)))
+        if binascii.crc_hqx(changed, head) == FACTORY_CRC:
+            section[FACTORY_USED - 6:FACTORY_USED] = changed
+            return bytes(section)
+    raise AssertionError("no filling found")
 
 
 HELLO, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE = range(1, 8)

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: MIT
 """What the boot section does for applications: the page-write service behind the call table, through the application of
 tests/sim/service, and the page journal with both of them, cut at every operation."""
-import pathlib
-
 import pytest
-from boot_board import BOOT_MODE, BOOT_START, JOURNAL_START, new_board, noise
-from cm5sim import PowerCut
+from boot_board import BOOT_MODE, BOOT_START, JOURNAL_START, factory_section, new_board, noise
+from cm5sim import Board, PowerCut
 
 SERVICE = "tests/service.hex"
 OURS, FACTORY, MAILBOX = 1, 2, 3
@@ -224,3 +222,64 @@ def test_an_unknown_loader_means_the_mailbox():
     before = bytes(board.flash)
     assert ask(board, b"W" + at(0xE0) + noise(256)) == b"\x03"
     assert bytes(board.flash) == before
+
+
+# The factory loader's routine, imitated by tests/sim/service/factory.c
+
+@pytest.fixture(scope="module")
+def factory():
+    return factory_section()
+
+
+def factory_board(section):
+    board = Board(images=[SERVICE], bootrst=True)
+    board.flash[BOOT_START:0x20000] = section
+    return board
+
+
+def test_factory_routine_writes_pages_and_leaves_ram_alone(factory):
+    board = factory_board(factory)
+    assert hello(board) == (FACTORY, CLEAN, 0)
+    data = noise(256, 41)
+    board.ram[0xC00:0xE00] = noise(512, 42)  # where its buffer lies
+    assert ask(board, b"W" + at(0x1D0) + data) == bytes([OK])
+    assert bytes(board.flash[0x1D000:0x1D100]) == data
+    assert bytes(board.ram[0xC00:0xE00]) == noise(512, 42)
+    assert ask(board, b"P" + at(0x1D0) + b"\x04" + bytes(4), 1) == bytes([OK])
+    assert bytes(board.flash[0x1D000:0x1D100]) == bytes(4) + data[4:]
+    assert ask(board, b"W" + at(0x1E0) + data) == bytes([RANGE])
+
+
+def test_factory_routine_that_fails_is_reported(factory):
+    board = factory_board(factory)
+    hello(board)
+    board.lock(0xFB)
+    assert ask(board, b"W" + at(0x1D0) + noise(256)) == bytes([VERIFY])
+
+
+def test_power_cut_at_every_operation_of_a_save_with_the_factory_loader(factory):
+    """The application recovers at its start: the factory loader does not know our journal."""
+    old, new, third, cuts = noise(512, 1), noise(512, 2), noise(512, 3), 0
+    for phase in ("before", "during", "after"):
+        for operation in range(1, 30):
+            board = factory_board(factory)
+            board.flash[0x1D000:0x1D200] = old
+            hello(board)
+            before = bytes(board.flash)
+            board.send(b"J" + bytes([120]) + new)
+            board.cut_power(operation, phase, tear=operation)
+            try:
+                board.run(ms=400)
+                break
+            except PowerCut:
+                cuts += 1
+            board.power_on()
+            hello(board)
+            after = bytes(board.flash)
+            assert after[0x1D000:0x1D200] in (old, new)
+            assert after[:JOURNAL_START] == before[:JOURNAL_START] and after[0xE000:0x1D000] == before[0xE000:0x1D000]
+            assert after[0x1D200:] == before[0x1D200:]
+            assert save(board, 120, third) == OK
+            assert bytes(board.flash[0x1D000:0x1D200]) == third
+    print(f"factory loader: {cuts} power cuts of a save")
+    assert cuts == 3 * 12
