@@ -78,8 +78,8 @@ class BlockLoader:
         deadline = time.monotonic() + seconds
         while True:
             left = deadline - time.monotonic()
-            some = self.link.read_some(max(left, 0), 1)
-            if not some:
+            some = self.link.read_some(left, 1) if left > 0 else b""
+            if not some:       # silence, or chatter without an answer
                 return None
             if some[0] != ANSWER:
                 continue
