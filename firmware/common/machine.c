@@ -9,8 +9,6 @@
 #include "text.h"
 #include "tick.h"
 
-#define PROTOCOL_VERSION 1u
-#define LINE_CHARACTERS 110u     /* the longest request, for @ver */
 #define CHUNK_BYTES 32u          /* a page is read in pieces of this size */
 
 void machine_init(machine_t *machine, performer_t *performer, servo_link_t *servos, page_store_t *pages,
@@ -112,10 +110,8 @@ static machine_status_t do_ver(machine_t *machine, const shell_args_t *args)
         text_number(record.version[2]);
         text_P(record.board == APP_RECORD_CM2 ? PSTR(" board=cm2") : PSTR(" board=cm5"));
     }
-    field(PSTR("protocol"), PROTOCOL_VERSION);
-    field(PSTR("pages"), PAGE_COUNT);
-    field(PSTR("joints"), PAGE_JOINTS);
-    field(PSTR("line"), LINE_CHARACTERS);
+    TEXT(" protocol=1 pages=128 joints=31 line=110");
+    STATIC_ASSERT(PAGE_COUNT == 128 && PAGE_JOINTS == 31, "said in the line above");
     TEXT(" can=list,page,pose,move,torque,play,pause,where");
     if (machine->image->ram_page != NULL) {
         TEXT(",open,save");

@@ -2,7 +2,6 @@
  * machine_motion.c - requests that move something. */
 #include "machine_parts.h"
 
-#include <string.h>
 #include "text.h"
 
 #define SPEED_MAX_DEG_S 360u
@@ -12,32 +11,29 @@ static machine_status_t id_error(void)
     return machine_range_error(PSTR("ID"), 0, SERVO_LINK_JOINTS - 1);
 }
 
-/* Three hexadecimal digits for one joint. */
-static bool hex_position(const char *digits, uint16_t *pos)
-{
-    char word[4];
-    memcpy(word, digits, 3);
-    word[3] = '\0';
-    return (word[1] | 0x20) != 'x' && shell_parse(word, true, pos) && *pos <= PAGE_POS_MAX;
-}
-
-/* Fills to_pos and returns the joints that the digits name; 0: they are not as they must be. */
+/* Fills to_pos and returns the joints that the digits name, three for each; 0: they are not as they must be. */
 static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_JOINTS])
 {
     uint32_t joints = 0;
-    if (strlen(digits) % 3 != 0) {
-        return 0;
-    }
     for (; *digits != '\0'; digits += 3, id++) {
-        if (id >= PAGE_JOINTS) {
+        if (id >= PAGE_JOINTS || digits[1] == '\0') {
             return 0;
         }
-        if (memcmp_P(digits, PSTR("---"), 3) == 0) {
+        if (digits[0] == '-' && digits[1] == '-' && digits[2] == '-') {
             continue;
         }
-        if (!hex_position(digits, &to_pos[id])) {
+        uint16_t pos = 0;
+        for (uint8_t i = 0; i < 3; i++) {
+            const uint8_t digit = shell_digit(digits[i]);
+            if (digit > 15) {
+                return 0;
+            }
+            pos = (uint16_t)(pos << 4 | digit);
+        }
+        if (pos > PAGE_POS_MAX) {
             return 0;
         }
+        to_pos[id] = pos;
         joints |= servo_link_bit(id);
     }
     return joints;
@@ -89,7 +85,7 @@ machine_status_t machine_do_torque(machine_t *machine, const shell_args_t *args)
         if (!machine_number(args, i, 0, PAGE_JOINTS - 1, &id)) {
             return id_error();
         }
-        joints |= servo_link_bit(id);
+        joints |= servo_link_bit((uint8_t)id);
     }
     if (on && !performer_is_idle(machine->performer)) {
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);

@@ -49,17 +49,6 @@ machine_status_t machine_do_open(machine_t *machine, const shell_args_t *args)
     return image_result(machine->image->open(machine->image->context, (uint8_t)page));
 }
 
-static bool hex_byte(const char *digits, uint8_t *byte)
-{
-    const char word[3] = {digits[0], digits[1], '\0'};
-    uint16_t value;
-    if (digits[1] == '\0' || word[1] == 'x' || word[1] == 'X' || !shell_parse(word, true, &value)) {
-        return false;
-    }
-    *byte = (uint8_t)value;
-    return true;
-}
-
 machine_status_t machine_do_data(machine_t *machine, const shell_args_t *args)
 {
     uint16_t offset;
@@ -75,12 +64,14 @@ machine_status_t machine_do_data(machine_t *machine, const shell_args_t *args)
     if (count > DATA_BYTES_MAX) {
         return machine_range_error(PSTR("Bytes of data"), 1, DATA_BYTES_MAX);
     }
-    for (uint8_t i = 0; hex[2 * i] != '\0'; i++) {
-        if (!hex_byte(hex + 2 * i, &bytes[i])) {
+    for (uint8_t i = 0; hex[i] != '\0'; i++) {
+        const uint8_t digit = shell_digit(hex[i]);
+        if (digit > 15 || (i == 2 * count)) {
             (void)machine_error(MACHINE_ERR_RANGE);
             TEXT("Data must be pairs of hexadecimal digits");
             return MACHINE_ERR_RANGE;
         }
+        bytes[i / 2] = (uint8_t)(bytes[i / 2] << 4 | digit);
     }
     memcpy(machine->image->ram_page(machine->image->context) + offset, bytes, count);
     if (machine->image->changed != NULL) {

@@ -230,8 +230,7 @@ bool shell_word_is(const shell_args_t *args, uint8_t index, const char *word_P)
 
 /* ---- numbers ---- */
 
-/* 0..15, or 16 for what is no hexadecimal digit. */
-static uint8_t digit_value(char character)
+uint8_t shell_digit(char character)
 {
     if (character >= '0' && character <= '9') {
         return (uint8_t)(character - '0');
@@ -252,7 +251,7 @@ bool shell_parse(const char *word, bool hex, uint16_t *value)
     const uint8_t base = hex ? 16 : 10;
     uint32_t sum = 0;
     for (; *word != '\0'; word++) {
-        const uint8_t digit = digit_value(*word);
+        const uint8_t digit = shell_digit(*word);
         if (digit >= base) {
             return false;
         }

@@ -65,6 +65,9 @@ bool shell_word_is(const shell_args_t *args, uint8_t index, const char *word_P);
  * 65535. false: *value is untouched. Says nothing. */
 bool shell_parse(const char *word, bool hex, uint16_t *value);
 
+/* Value of a hexadecimal digit, 0..15; 16: it is none. */
+uint8_t shell_digit(char character);
+
 /* Word `index` as a number from min to max. Otherwise says what is wrong, "Page must be 0..127", with `what_P` ("Page",
  * in flash) in front, and returns false with *value untouched. */
 MUST_CHECK bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min, uint16_t max,
