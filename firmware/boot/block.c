@@ -70,49 +70,65 @@ static void put_sums(uint16_t page, uint16_t count)
     }
 }
 
-/* Carries out a good request. false: the session is over. */
-static bool carry_out(const uint8_t *request)
+/* Does what a good request asks, as far as it comes before the answer: its status. *bytes of data go with it, from the
+ * cursor on (SUMS: computed while they are sent). */
+static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
 {
     const block_body_t *body = (const block_body_t *)(request + FRAME_AT_BODY);
-    uint8_t command = request[FRAME_AT_COMMAND], status = REFUSED, detail = 0;
-    uint16_t bytes = 0, count = body->count;
-
+    uint16_t count = body->count;
     switch (command) {
     case HELLO:
-        detail = (uint8_t)memory_app();
-        status = OK;
-        break;
+    case LEAVE:
+        return OK;
     case RATE:
-        if (body->page == UART_UBRR_57143 || body->page == UART_UBRR_117647) {
-            status = OK;
-        }
-        break;
+        return body->page == UART_UBRR_57143 || body->page == UART_UBRR_117647 ? OK : REFUSED;
     case READ:
         memory_cursor.addr = (uint32_t)body->page << 8;
-        bytes = FLASH_PAGE_BYTES;
-        status = OK;
-        break;
+        *bytes = FLASH_PAGE_BYTES;
+        return OK;
     case WRITE:
-        if (request[FRAME_AT_COUNT] == FRAME_BODY_MAX / 2) {
-            status = (uint8_t)memory_commit(body->page, body->data);
-        }
-        break;
+        return request[FRAME_AT_COUNT] == FRAME_BODY_MAX / 2 ? (uint8_t)memory_commit(body->page, body->data) : REFUSED;
     case SUMS:
         if (count <= SUMS_MAX) {
-            bytes = count * 4;
-            status = OK;
+            *bytes = count * 4;
+            return OK;
         }
-        break;
+        return REFUSED;
     case EE_WRITE:
         if (count <= EEPROM_WRITE_MAX) {
             memory_ee_write(body->page, body->bytes, count);
-            status = OK;
+            return OK;
         }
-        break;
-    case LEAVE:
-        status = OK;
+        return REFUSED;
+    default:
+        return REFUSED;
     }
-    answer_begin(request, status, detail, bytes);
+}
+
+/* What comes after the answer. false: the session is over. */
+static bool follow_up(uint8_t command, uint16_t where)
+{
+    if (command == RATE) {
+        uart_open((uint8_t)where);
+    }
+    if (command == LEAVE && where == TO_APPLICATION) {
+        words_go(0);
+    }
+    if (command == LEAVE && where == TO_RESET) {
+        start_reset();
+    }
+    return command != LEAVE;
+}
+
+/* A good request from its action to its answer. false: the session is over. */
+static bool carry_out(const uint8_t *request)
+{
+    const block_body_t *body = (const block_body_t *)(request + FRAME_AT_BODY);
+    uint8_t command = request[FRAME_AT_COMMAND];
+    uint16_t bytes = 0;
+    uint8_t status = perform(command, request, &bytes);
+
+    answer_begin(request, status, command == HELLO ? (uint8_t)memory_app() : 0, bytes);
     if (command == SUMS) {
         put_sums(body->page, bytes / 4);
     } else {
@@ -122,15 +138,7 @@ static bool carry_out(const uint8_t *request)
     }
     answer_end();
     uart_flush();
-    if (status == OK && command == RATE) {
-        uart_open((uint8_t)body->page);
-    }
-    if (command == LEAVE && body->page == TO_APPLICATION) {
-        words_go(0);
-    } else if (command == LEAVE && body->page == TO_RESET) {
-        start_reset();
-    }
-    return command != LEAVE;
+    return status != OK || follow_up(command, body->page);
 }
 
 void block_session(void)

@@ -62,7 +62,8 @@ static void report(uint32_t size, uint32_t sum, uint8_t last, bool is_good)
     print_hex8(last);
 }
 
-/* A byte is written when the next one has come, because the last one is the sum. The page under way is in memory_work. */
+/* A byte is written when the next one has come, because the last one is the sum. The page under way is in
+ * memory_work. */
 void load_flash(uint32_t addr)
 {
     uint16_t page = (uint16_t)(addr >> 8), end = region_end(page);

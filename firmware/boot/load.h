@@ -5,8 +5,8 @@
 
 #include "memory.h"
 
-/* LOAD: raw data to flash from `addr` on, then an 8-bit sum byte, then 111 ms of silence. Writes nothing behind the end
- * of the region that addr is in, never the sum byte; keeps the rest of the first and the last flash page. */
+/* LOAD: raw data to flash from `addr` on, then an 8-bit sum byte, then 111 ms of silence. Writes nothing behind the
+ * end of the region that addr is in, never the sum byte; keeps the rest of the first and the last flash page. */
 void load_flash(uint32_t addr);
 
 /* UP, EEP_UP: `count` raw bytes from memory.h's address `addr` on to the PC once START has been pressed and released, or any byte received (ESC: none). */

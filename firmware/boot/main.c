@@ -47,7 +47,8 @@ void start_reset(void)
 }
 
 /* A motion page that the factory application left in EEPROM (section 7a). The state stays AA until both flash pages
- * are right, so a power cut here is made good by the next start. A page above 127 lies in the boot section or beyond. */
+ * are right, so a power cut here is made good by the next start. A page above 127 lies in the boot section or beyond:
+ * memory_commit refuses it. */
 static void answer_mailbox(void)
 {
     uint16_t page = MEM_MOTION_START / 256 + memory_ee(MEM_EE_MAILBOX_PAGE) * 2u;
@@ -86,7 +87,8 @@ static stay_t ask_to_stay(void)
     if (last == MONITOR_SYNC_1 && byte == MONITOR_SYNC_2) {
         return STAY_STK500;
     }
-    return byte == '#' || held || app == MEMORY_APP_NONE || app == MEMORY_APP_BAD || memory_ee(MEM_EE_BOOT_MODE) == START_MODE_SYSTEM ? STAY_PROMPT : STAY_NO;
+    bool is_startable = app == MEMORY_APP_PLAIN || app == MEMORY_APP_GOOD;
+    return byte == '#' || held || !is_startable || memory_ee(MEM_EE_BOOT_MODE) == START_MODE_SYSTEM ? STAY_PROMPT : STAY_NO;
 }
 
 /* Vectors of our own: of the 35 only two are used, and tables fill the gap between them (boot.ld.in). */

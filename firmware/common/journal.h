@@ -15,8 +15,9 @@
  *
  * Newest = highest sequence (modulo 65536) of the records whose own CRC fits; only that one is ever looked at, so an
  * older one is done whatever its state says. The slot after the newest is the next: every flash page of the area wears
- * once in JOURNAL_SLOTS saves; with one slot the journal lasts as long as a page that is saved each time. A torn data page or record leaves the record invalid,
- * hence the old page; from a valid record on the target is finished at the next start, however often that is cut. */
+ * once in JOURNAL_SLOTS saves; with one slot the journal lasts as long as a page that is saved each time. A torn data
+ * page or record leaves the record invalid or done, hence the old page; from a valid record on the target is finished
+ * at the next start, however often that is cut. */
 #ifndef JOURNAL_H
 #define JOURNAL_H
 

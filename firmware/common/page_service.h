@@ -2,7 +2,8 @@
  * page_service.h - finds who can write flash here, and is the writing half of flash.h for applications.
  *
  *   PAGE_SERVICE_OURS     our loader: call table at 0x1FFE0 (boot_api.h)
- *   PAGE_SERVICE_FACTORY  factory loader 1.31, known by two CRCs and the sum of its 8 KiB: its routine at 0x1F238 (spec, 7b)
+ *   PAGE_SERVICE_FACTORY  factory loader 1.31, known by two CRCs and the sum of its 8 KiB: its routine at 0x1F238
+ *                         (bootloader-original.md, 7b)
  *   PAGE_SERVICE_MAILBOX  some other loader: a page left in EEPROM is hoped to be written at the next start (7a).
  *                         flash_write answers FLASH_ERR_NO_WRITER; use page_service_post and reset
  *   PAGE_SERVICE_NONE     an empty boot section: nobody

@@ -79,7 +79,8 @@ enum {
  * Returns a BOOT_* in the low byte and the number of tries that failed before in the high byte.
  * Takes 9.5 ms (program only: 5 ms) with interrupts off and kicks the watchdog; waits for a running EEPROM write
  * first (up to 8.5 ms). Bytes of UART0 are not kept. */
-typedef uint16_t boot_write_page_t(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode, const boot_rx_t *rx);
+typedef uint16_t boot_write_page_t(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode,
+                                   const boot_rx_t *rx);
 #endif
 
 #endif
