@@ -7,6 +7,10 @@
 
 #include "player.h"
 
+/* Kept out of line, so that each loop over the joints has the registers for itself, and an ordinary tick does not save
+ * registers for what happens once a step. */
+#define RARE __attribute__((noinline))
+
 /* Sections of a step.
  *
  *  speed          ________
@@ -68,6 +72,14 @@ void exact_move(player_t *player);
  * when there is nothing left to do; a tick false when it was the last, on target. */
 bool exact_rest_start(player_t *player);
 bool exact_rest_tick(player_t *player);
+
+/* The classic law's work ahead (classic_ahead.c). prepare: a share of the coming step, up to `count` joints; all: what is
+ * left of it. joints_a_tick, joints_now: how large the shares are in a step of `ticks`; where a section changes, where the
+ * step begins. */
+void classic_prepare(player_t *player, uint8_t count);
+void classic_prepare_all(player_t *player);
+uint8_t classic_joints_a_tick(uint16_t ticks);
+uint8_t classic_joints_now(const player_t *player, bool change, bool begins);
 
 /* Classic while and after that: makes the coming step ready; takes over again behind the finished step. */
 void classic_prepare_at_rest(player_t *player);

@@ -7,5 +7,5 @@ m512_unit_test(test_inputs INCLUDES firmware/common firmware/play
             tests/fake/fake_time.c)
 m512_unit_test(test_performer INCLUDES firmware/common
     SOURCES firmware/common/performer.c firmware/common/performer_ready.c firmware/common/performer_watch.c
-            tests/unit/fake_servo_link.c motion/approach.c motion/brake.c motion/law_classic.c motion/law_exact.c motion/link.c
+            tests/unit/fake_servo_link.c motion/approach.c motion/brake.c motion/law_classic.c motion/classic_ahead.c motion/law_exact.c motion/link.c
             motion/page.c motion/player.c motion/step_plan.c)

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT
+ * classic_math.h - the arithmetic of the classic law, equal to the original's bit by bit and without a division in a
+ * tick. Included by law_classic.c and classic_ahead.c only. Each expression's plain form stands above it (N, A, M, v as in player.md). */
+#ifndef CLASSIC_MATH_H
+#define CLASSIC_MATH_H
+
+#include "fix.h"
+#include "player.h"
+
+static inline int16_t limit_pos(int16_t pos)
+{
+    if ((uint16_t)pos > PAGE_POS_MAX) {
+        pos = pos < 0 ? 0 : (int16_t)PAGE_POS_MAX;
+    }
+    return pos;
+}
+
+/* acc = floor(3 * speed * c / 160) for |speed| <= 2047, c <= 255, without signs and long shifts: speed and acc are made
+ * positive (+ 2048, + 5000), and 3 / 160 is 24 / 256 / 5: a byte dropped, and an exact division by 5 of 16 bits. */
+typedef struct {
+    uint16_t factor; /* 24 c */
+    uint32_t bias;   /* 256 * 5 * 5000 - 24 c * 2048 */
+} ramp_share_t;
+
+static inline ramp_share_t ramp_share(uint8_t c)
+{
+    uint16_t factor = (uint16_t)(24u * c);
+    return (ramp_share_t){factor, 256ul * 5 * 5000 - (uint32_t)factor * 2048};
+}
+
+static inline int16_t ramp_way(int16_t speed, ramp_share_t share)
+{
+    uint16_t fifths = (uint16_t)(((uint32_t)(uint16_t)(speed + 2048) * share.factor + share.bias) >> 8);
+    return (int16_t)((mul_u16_high(fifths, 52429u) >> 2) - 5000u);
+}
+
+/* int16((v * A * 12 / 5) >> 8): way of a FALL to a stand. The truncated and then floored quotient is 3 v A / 320, of
+ * negative products (3 |v| A + 318) / 320 with a minus; 320 is 64 * 5, and / 64 is << 2 and a byte dropped. */
+static inline int16_t fall_way(int16_t v, uint16_t thrice_ramp)
+{
+    uint32_t size = (uint32_t)fix_size(v) * thrice_ramp;
+    if (v < 0) {
+        size += 318;
+    }
+    int16_t way = (int16_t)(mul_u16_high((uint16_t)((size << 2) >> 8), 52429u) >> 2);
+    return v < 0 ? (int16_t)-way : way;
+}
+
+/* x * c / num (toward zero) from now on by next_share, c = 1, 2, ... Toward zero is down for x >= 0 and up below: up is
+ * down of the same plus (num - 1) / num, with which the sum of remainders then begins. */
+static inline void spread(player_joint_t *joint, int16_t x, uint16_t num, uint16_t recip16)
+{
+    uint16_t remainder = 0, error = 0;
+    int16_t quotient = x;
+    if (num != 1) {
+        quotient = (int16_t)fix_divide(fix_size(x), num, recip16, &remainder);
+        if (x < 0) {
+            quotient = (int16_t)-quotient;
+            error = (uint16_t)(num - 1);
+            if (remainder != 0) {
+                quotient--;
+                remainder = (uint16_t)(num - remainder);
+            }
+        }
+    }
+    joint->classic.quotient = quotient;
+    joint->classic.remainder = remainder;
+    joint->classic.error = error;
+    joint->classic.value = 0;
+}
+
+static inline int16_t next_share(player_joint_t *joint, uint16_t num)
+{
+    int16_t value = (int16_t)(joint->classic.value + joint->classic.quotient);
+    uint16_t error = (uint16_t)(joint->classic.error + joint->classic.remainder);
+    if (error >= num) {
+        error = (uint16_t)(error - num);
+        value++;
+    }
+    joint->classic.error = error;
+    joint->classic.value = value;
+    return value;
+}
+
+/* way * part / whole, toward zero; share = part / whole. The estimate is at most one too small, and what is left of
+ * the product below 2 * whole: 16 bits are enough to see which. */
+static inline int16_t share_of(int16_t way, uint16_t part, uint16_t whole, uint16_t share_q0_16)
+{
+    uint16_t size = fix_size(way);
+    uint16_t quotient = mul_u16_high(size, share_q0_16);
+    uint16_t left = (uint16_t)((uint16_t)(size * part) - (uint16_t)(quotient * whole));
+    if (part != 0 && left >= whole) {
+        quotient++;
+    }
+    return way < 0 ? (int16_t)-(int16_t)quotient : (int16_t)quotient;
+}
+
+/* The speed that a joint still has when the step playing now is over: w of the coming one. */
+static inline int16_t classic_speed_left(const player_t *player, const player_joint_t *joint)
+{
+    if (player->hold_ticks != 0) {
+        return 0;
+    }
+    if (player->step_ticks == 0) {
+        return joint->classic.carried; /* a skipped step changes nothing */
+    }
+    return joint->classic.through || player->ramp_ticks == 0 ? joint->classic.speed : 0;
+}
+
+#endif
