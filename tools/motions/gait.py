@@ -65,7 +65,7 @@ def cycle(stride, turn=0.0):
 
 def start(stride):
     """From ready: onto the right foot, the left one goes ahead; ends at phase 330."""
-    return [(24, pose(sway=-0.7 * SWAY)),
+    return [(32, READY), (24, pose(sway=-0.9 * SWAY)),
             (TICKS, pose(Foot(-stride / 4), Foot(stride / 4, height=HEIGHT - LIFT), -SWAY)),
             (TICKS, cycle(stride)[5])]
 
