@@ -331,3 +331,18 @@ def test_format_md_page_by_hand():
     assert page.data[:16] == b"nod" + bytes(11) + bytes([0, 2])
     assert [page.data[i] for i in (16, 20, 22, 24, 31)] == [0x0A, 1, 0x20, 0x20, 0x33]
     assert page.data[66:70] == bytes.fromhex("5802a801") and page.data[126:128] == bytes([8, 40])
+
+
+def test_text_written_says_damage_in_words_rather_than_bytes():
+    image = read_text("motion512 1\npage 1 a\nstep 5 | 1:5\npage 2 b\nstep 5 | 1:5\npage 3 c\nnext 0xC8; base 0x05; speed 0")
+    image[1].checksum ^= 0x40
+    image[2].steps = 9
+    image[2].seal()
+    text = round_trip(image)
+    assert "raw" not in text and f"checksum 0x{image[1].checksum:02X}" in text and "steps 9" in text
+    assert "next 0xC8" in text and "base 0x05" in text and "speed 0" in text and text.count("# damaged:") == 3
+
+
+def test_text_mirror_pairs_reach_from_1_to_18_unless_said():
+    page = page_of("page 1\nstep 1 | 0..18:500\nstep 1 | mirror same")
+    assert page.word(1, 0) == 500 and [page.word(1, j) for j in range(1, 19)] == [524] * 18
