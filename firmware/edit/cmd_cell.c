@@ -36,7 +36,7 @@ COMMAND(cmd_set)
     cell_kind_t kind = cell_kind(session->page, session->x, session->y);
     uint16_t max = cell_max(kind, session->x, session->y), value;
     if (kind == CELL_OFFSET) {
-        TEXT("Follows from MSTR and SLAV");
+        TEXT("Computed");
         return SHELL_ERR_SAID;
     }
     if (!shell_number(args, 1, value_name_P(kind, max), 0, max, &value)) {
@@ -154,7 +154,7 @@ COMMAND(cmd_goto)
         return SHELL_ERR_SAID;
     }
     if (x != CELL_X_HEADER && !screen_has_row(&editor->screen, y)) {
-        TEXT("That joint is not there and has no row");
+        TEXT("That joint has no row");
         return SHELL_ERR_SAID;
     }
     session->x = x;

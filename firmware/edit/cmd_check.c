@@ -152,5 +152,5 @@ COMMAND(cmd_check)
     }
     editor->list_first = args->count > 1 ? (uint8_t)editor->number[0] : 1;
     editor->list_last = args->count > 1 ? (uint8_t)editor->number[0] : (uint8_t)(PAGE_COUNT - 1u);
-    return editor_list(editor, check_item, PSTR("Stored pages:"));
+    return editor_list(editor, check_item, PSTR("Checked:"));
 }

@@ -132,7 +132,7 @@ static bool overwriting_is_meant(editor_t *editor, uint8_t page)
 
 static uint8_t save_by_mailbox(editor_t *editor, uint8_t page)
 {
-    if (!editor_ask(editor, PSTR("Saving restarts the controller (5 s). "))) {
+    if (!editor_ask(editor, PSTR("SAVE restarts (5 s). "))) {
         return EDITOR_TO_ASK;
     }
     page_save_by_mailbox(page, editor->session.cells);
@@ -178,7 +178,6 @@ COMMAND(cmd_exit)
     if (!editor_ask_unsaved(context)) {
         return EDITOR_TO_ASK;
     }
-    TEXT("Restart");
     console_flush();
     system_restart();
 }

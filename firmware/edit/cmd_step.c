@@ -153,7 +153,7 @@ COMMAND(cmd_move)
     session_begin(&editor->session);
     copy_step(&editor->session, from, to);
     if (to == POSE_STEP) {
-        TEXT(" (shown only: GO sends it)");
+        TEXT(" (shown only)");
         for (uint8_t y = 0; y < PAGE_JOINTS; y++) {
             editor->session.marks[y] |= MARK_LABEL;
         }

@@ -235,7 +235,7 @@ bool editor_may_move(editor_t *editor)
     if (performer_is_idle(editor->performer)) {
         return true;
     }
-    TEXT("Not while something moves");
+    TEXT("Something moves");
     return false;
 }
 
@@ -501,11 +501,11 @@ uint8_t editor_list(editor_t *editor, editor_item_t item, const char *title_P)
 static void list_turn(editor_t *editor)
 {
     if (editor->lines + MORE_ROWS >= editor->screen.rows) {
-        TEXT("-- more: space, or any other key --");
+        TEXT("-- more: space --");
         editor->mode = EDITOR_MORE;
     } else if (!editor->item(editor, editor->next_item)) {
         editor->item = NULL;
-        TEXT("-- end: any key --");
+        TEXT("-- end --");
         editor->mode = EDITOR_MORE;
     } else {
         editor->next_item++;
@@ -552,7 +552,8 @@ bool editor_turn(editor_t *editor)
         list_turn(editor);
         return true;
     }
-    if (console_room() < PAINT_ROOM) {
+    /* A row may wait for the line longer than a tick: not while something moves. */
+    if (console_room() < PAINT_ROOM || !performer_is_idle(editor->performer)) {
         return false;
     }
     return screen_paint(&editor->screen);

@@ -77,12 +77,15 @@ class Terminal:
 
 
 class Robot:
-    def __init__(self, pages=None, servos=JOINTS, rows=36, images=("boot-cm5.hex", "edit-cm5.hex"), **board):
+    def __init__(self, pages=None, servos=JOINTS, rows=36, images=("boot-cm5.hex", "edit-cm5.hex"), loader=None,
+                 **board):
         image = Image.empty()
         for number, made in (pages or {}).items():
             image[number] = made
-        motions = image.to_bytes()
+        motions = board.pop("motions", None) or image.to_bytes()
         self.board = Board(images=list(images), motions=motions, servos=servos, **board)
+        if loader is not None:
+            self.board.flash[0x1E000:0x20000] = loader
         self.board.eeprom[0xFFF] = 0x11   # the loader starts the application
         self.terminal = Terminal(rows)
         self.settle(ms=1500)

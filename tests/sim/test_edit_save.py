@@ -4,6 +4,7 @@ new one, all other pages are untouched, and the next save works."""
 import pytest
 from cm5sim import PowerCut
 
+from boot_board import factory_section
 from edit_robot import MOTION_START, page, robot, seal
 
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
@@ -91,9 +92,13 @@ def test_without_a_boot_loader_the_page_stays_in_ram():
         assert r.unsaved and r.flash_page(1) == bytes(OLD.data) and r.cell(1, 3) == "0700"
 
 
-def save_cut(operation, phase, tear):
+OURS = {}
+FACTORY = {"images": ("edit-cm5.hex",), "loader": factory_section(), "bootrst": True}
+
+
+def save_cut(options, operation, phase, tear):
     """One save with the power cut there. Returns the page after the restart, or None when the save ended before."""
-    with robot(pages={1: OLD, 2: OTHER}) as r:
+    with robot(pages={1: OLD, 2: OTHER}, **options) as r:
         edit(r)
         others = bytes(r.board.flash[MOTION_START + 1024:])
         r.board.cut_power(operation, phase, tear)
@@ -116,12 +121,15 @@ def save_cut(operation, phase, tear):
         return state
 
 
-def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page():
+@pytest.mark.parametrize("name, options, cuts", [
+    ("our loader", OURS, (("before", 0), ("during", 3), ("during", 8), ("after", 0))),
+    ("the factory loader", FACTORY, (("before", 0), ("during", 5)))])
+def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page(name, options, cuts):
     states = {"old": 0, "new": 0}
     operation = 1
     while True:
-        for phase, tear in (("before", 0), ("during", 3), ("during", 8), ("after", 0)):
-            state = save_cut(operation, phase, tear)
+        for phase, tear in cuts:
+            state = save_cut(options, operation, phase, tear)
             if state is None:
                 break
             assert state in (bytes(OLD.data), new_bytes()), (operation, phase, tear)
@@ -129,5 +137,5 @@ def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page():
         if state is None:
             break
         operation += 1
-    print(f"power cuts in a save: {sum(states.values())} ({operation - 1} operations), old {states['old']}, new {states['new']}")
+    print(f"power cuts in a save through {name}: {sum(states.values())} ({operation - 1} operations), old {states['old']}, new {states['new']}")
     assert operation > 5 and states["old"] > 0 and states["new"] > 0

@@ -175,7 +175,7 @@ def test_small_terminal_leaves_out_absent_joints_and_keeps_the_rest():
         assert r.text(22, 61, 18) == "[X:00,Y:01,A:0514]" and r.cursor == (1, 20)
         r.keys("\x1b[B" * 18)
         assert r.text(22, 61, 18) == "[X:00,Y:31,A:0574]"
-        assert r.line("goto 0 20").endswith("That joint is not there and has no row")
+        assert r.line("goto 0 20").endswith("That joint has no row")
 
 
 def test_small_terminal_scrolls_with_the_cursor():
