@@ -55,6 +55,7 @@ uint8_t memory_next(void)
     if (at.byte[2] == MEMORY_RAM >> 16) {
         return *(const volatile uint8_t *)at.low;
     }
+    at.byte[2] &= (MEM_BOOT_END - 1) >> 16; /* past the end it begins again, as on the chip */
     return pgm_read_byte_far(at.addr);
 }
 
@@ -122,7 +123,7 @@ void memory_scan(uint16_t page)
 {
     memory_scan_t sums = memory_sums;
     uint8_t at = 0;
-    flash_read((uint32_t)page << 8, memory_scratch, FLASH_PAGE_BYTES);
+    flash_read((uint32_t)(page % FLASH_PAGES) << 8, memory_scratch, FLASH_PAGE_BYTES);
     do {
         uint8_t byte = memory_scratch[at];
         sums.crc = crc16_byte(sums.crc, byte);

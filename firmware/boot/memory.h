@@ -27,7 +27,7 @@ typedef union {
 } memory_cursor_t;
 extern memory_cursor_t memory_cursor;
 
-/* The byte at the cursor, which moves on. EEPROM addresses wrap at its end. */
+/* The byte at the cursor, which moves on. Flash and EEPROM begin again at their ends. */
 uint8_t memory_next(void);
 
 /* The next `count` of them. */

@@ -259,6 +259,13 @@ def test_sixteen_seconds_of_silence_leave(stk):
     stk.expect(PROMPT, ms=1500)
 
 
+def test_reading_past_the_end_begins_again(stk):
+    stk.flash[0:16] = noise(16, 3)
+    ask(stk, b"\x55\xfc\xff\x20", 2)  # word FFFC: eight bytes before the end
+    got = ask(stk, b"\x74\x00\x10F\x20", 18)
+    assert got[1:-1] == bytes(stk.flash[0x1FFF8:0x20000]) + noise(16, 3)[:8]
+
+
 def test_equal_pages_are_not_worn(stk):
     ask(stk, b"\x50\x20", 2)
     for _ in range(3):

@@ -86,6 +86,13 @@ def test_bad_requests_are_refused(board, blocks, command, body):
     assert (bytes(board.flash), bytes(board.eeprom)) == before
 
 
+def test_sums_and_pages_past_the_end_begin_again(board, blocks):
+    board.flash[0:256] = noise(256, 4)
+    assert blocks.sums(0x1FF, 2)[1] == (crc16(noise(256, 4)), sum(noise(256, 4)) & 0xFFFF)
+    assert blocks.ask(READ, page_body(0x200))[2] == noise(256, 4)
+    assert blocks.sums(0xFFFF, 1)
+
+
 def test_eeprom_write(board, blocks):
     data = noise(32)
     assert blocks.ask(EE_WRITE, struct.pack("<HH", 0x123, 32) + data)[0] == OK
