@@ -4,8 +4,8 @@
 
     tools/motions/gait.py [FILE]     writes walk.m512 (or FILE); the test compares what is committed with what this makes
 
-A walk is six poses 60 degrees of the cycle apart. The body sways like a sine, a foot is in the air at the sway's
-height on the other side, and each foot on the ground goes back at one speed, so that the two never drag each other:
+A walk is six poses 60 degrees of the cycle apart. The body sways like a sine, a foot is in the air while the sway is
+greatest to the other side, and each foot on the ground goes back at one speed, so that the two never drag each other:
 
     phase      30     90     150    210    270    330
     sway      +1/2    +1    +1/2   -1/2    -1    -1/2    of SWAY, to the left
@@ -57,7 +57,8 @@ READY = pose()
 def cycle(stride, turn=0.0):
     """The six poses of a walk to the front (or back: stride below 0) that turns to the right by `turn` degrees."""
     def at(right, left, sway, yaw, lift_right=0.0, lift_left=0.0):
-        return pose(Foot(right * stride, 0, -yaw * turn, HEIGHT - lift_right), Foot(left * stride, 0, yaw * turn, HEIGHT - lift_left),
+        return pose(Foot(right * stride, 0, -yaw * turn, HEIGHT - lift_right),
+                    Foot(left * stride, 0, yaw * turn, HEIGHT - lift_left),
                     sway * SWAY, (ARM_SWING * left * stride, ARM_SWING * right * stride))
     return [at(-1, 1 / 2, 1 / 2, 0), at(0, 0, 1, 1 / 4, lift_right=LIFT), at(1, -1 / 2, 1 / 2, 1 / 2),
             at(1 / 2, -1, -1 / 2, 1 / 2), at(0, 0, -1, 1 / 4, lift_left=LIFT), at(-1 / 2, 1, -1 / 2, 0)]
@@ -106,17 +107,20 @@ def kick():
 
 PAGES = [
     # page, name, statements, steps (None: the mirror image of the page before), what it does
-    (20, "walk", "code U; next walk_r; exit end_r; link1 R turn_r", start(STRIDE), "From ready onto the right foot; the left one goes ahead."),
+    (20, "walk", "code U; next walk_r; exit end_r; link1 R turn_r", start(STRIDE),
+     "From ready onto the right foot; the left one goes ahead."),
     (21, "walk_r", "next walk_l; exit end_l; link1 L turn_l; link2 D end_l", [(TICKS, row) for row in cycle(STRIDE)[:3]],
      "The loop: right foot ..."),
     (22, "walk_l", "next walk_r; exit end_r; link1 R turn_r; link2 D end_r", None, "... and left foot."),
     (23, "turn_r", "next self; exit end_r; link1 U walk_r; link2 L walk_r", [(TICKS, row) for row in cycle(STRIDE, TURN)],
      "Walking on, to the right: right foot out, left foot after it."),
-    (24, "turn_l", "next self; exit end_l; link1 U walk_l; link2 R walk_l", None, "The same to the left, begun by the left foot."),
+    (24, "turn_l", "next self; exit end_l; link1 U walk_l; link2 R walk_l", None,
+     "The same to the left, begun by the left foot."),
     (25, "end_r", "", end(STRIDE), "The right foot closes up."),
     (26, "end_l", "", None, "The left foot closes up."),
     (27, "back", "code D; next back_r; exit back_end_r; link1 U back_end_r", start(BACK), "As walk, backwards."),
-    (28, "back_r", "next back_l; exit back_end_l; link1 U back_end_l", [(TICKS, row) for row in cycle(BACK)[:3]], "The loop: right foot ..."),
+    (28, "back_r", "next back_l; exit back_end_l; link1 U back_end_l", [(TICKS, row) for row in cycle(BACK)[:3]],
+     "The loop: right foot ..."),
     (29, "back_l", "next back_r; exit back_end_r; link1 U back_end_r", None, "... and left foot."),
     (30, "back_end_r", "", end(BACK), "The right foot closes up."),
     (31, "back_end_l", "", None, "The left foot closes up."),

@@ -226,8 +226,9 @@ def test_no_tick_asks_more_than_the_servo_has(names, law):
 
 @pytest.mark.parametrize("names", CHAINS)
 def test_feet_neither_drag_nor_tip_on_the_way(names):
-    """Between the poses as well, tick by tick: while both feet are down they keep their distance (2 mm, for the roundings and
-    the servos' straight ways) and do not turn on the ground; soles stay level to 2 degrees; who stands, keeps the hip's height."""
+    """Between the poses as well, tick by tick: while both feet are down they keep their distance (2 mm, for roundings and
+    the straight ways of the joints) and do not turn on the ground; soles stay level to 2 degrees; the hip stays at its
+    height above the foot that carries."""
     at, before, target = None, gait.READY, gait.READY
     for page, step, now in played(names.split()):
         if at != (page, step):
