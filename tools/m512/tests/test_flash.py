@@ -263,6 +263,17 @@ def test_factory_prompt_with_a_full_line_is_not_crashed(m512, motions):
         assert m512("flash", motions, "-p", peer.path).exit_code == 0 and not peer.hurt
 
 
+def test_factory_full_line_does_not_hurt_when_work_begins():
+    from m512.factory import FactoryLoader
+    from m512.link import Link
+
+    with FactoryPeer() as peer:
+        peer.line = bytearray(b"x" * 80)
+        with Link(peer.path) as link:
+            FactoryLoader(link)
+        assert not peer.hurt
+
+
 # Refusals, without a board
 
 @pytest.mark.parametrize("pieces, says", [

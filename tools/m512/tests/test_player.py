@@ -56,6 +56,7 @@ def goals(image, law=EXACT, joint=1, **more):
 def test_player_exact_step_of_one_and_two_ticks():
     assert goals(one_page([600], time=1)) == [600]
     assert goals(one_page([612], time=2)) == [562, 612]
+    assert goals(one_page([613], time=2)) == [563, 613] and goals(one_page([411], time=2)) == [461, 411]   # 50.5 away
 
 
 def test_player_exact_carries_fractions_of_a_tick():
