@@ -125,6 +125,7 @@ static void test_page_slope_is_two_to_the_nibble(void)
     TEST_ASSERT_EQUAL_UINT8(32, page_slope(5));
     TEST_ASSERT_EQUAL_UINT8(128, page_slope(7));
     TEST_ASSERT_EQUAL_UINT8(32, page_slope(0));
+    TEST_ASSERT_EQUAL_UINT8(32, page_slope(8));
     TEST_ASSERT_EQUAL_UINT8(32, page_slope(15));
 }
 

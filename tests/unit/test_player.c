@@ -224,6 +224,26 @@ static void test_player_exact_mirrors_and_never_overshoots_whatever_the_page(voi
     }
 }
 
+/* player.md section 1, rules 7 and 8, where the speed wraps: 800 units in one tick without ramps are K / 4 = 170666 / 4 =
+ * 42666, as int16 -22870, limited to -1023; with that speed, left standing, the next page begins. */
+static void test_player_classic_speed_wraps_before_it_is_limited(void)
+{
+    pose[0] = 100;
+    sparse_pages[1].accel = 0;
+    sparse_pages[1].next = 2;
+    sparse_step(1, 1, 0, 900);
+    sparse_pages[2].accel = 4;
+    sparse_step(2, 20, 0, 700);
+    start_law(1, PLAYER_LAW_CLASSIC);
+    uint8_t seen;
+    (void)run_until(PLAYER_EV_STEP, &seen);
+    (void)run_until(PLAYER_EV_STEP, &seen);
+    int32_t carried = -1023, units = (700 - 900) * 2560l / 12, speed = (units - carried * 2 * 4) / (4 * (20 - 4));
+    int32_t change = (speed - carried) * 1 / 4;
+    int32_t way = ((carried + (change >> 1)) * 1 * 144 / 15) >> 9;
+    TEST_ASSERT_EQUAL_UINT16(900 + way, player.goal_pos[0]);
+}
+
 /* --- joints ------------------------------------------------------------------------------------------------------ */
 
 static void unused_joint_waits(player_law_t law)
@@ -366,7 +386,7 @@ static void test_player_stop_ends_the_repetitions_through_the_exit_page(void)
         (void)player_tick(&player, &l);
     }
     link_stop(&l);
-    (void)run_until(PLAYER_EV_LINK, &seen);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT16(20, run_until(PLAYER_EV_LINK, &seen));
     TEST_ASSERT_EQUAL(LINK_EXIT, player.link_taken);
     TEST_ASSERT_EQUAL_UINT8(3, player.next_page);
     (void)run_to_end();
@@ -465,6 +485,7 @@ int main(void)
     RUN_TEST(test_player_exact_stands_at_a_turning_point_a_pause_and_the_end);
     RUN_TEST(test_player_exact_joins_repetitions_and_pages_like_steps);
     RUN_TEST(test_player_exact_mirrors_and_never_overshoots_whatever_the_page);
+    RUN_TEST(test_player_classic_speed_wraps_before_it_is_limited);
     RUN_TEST(test_player_unused_joint_keeps_its_target_and_starts_from_there);
     RUN_TEST(test_player_absent_joint_is_never_touched_nor_timed);
     RUN_TEST(test_player_dropped_joint_keeps_its_goal);

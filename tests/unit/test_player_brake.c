@@ -187,6 +187,17 @@ static void test_player_break_near_the_end_of_the_range_stays_in_range(void)
     }
 }
 
+/* In CRUISE of the first step: v = (188 - 3.13 * 10) / 40 = 3.92 units a tick (exit at 188 / 60), stopped in 20 ticks by
+ * 3.92 * 20 / 2 = 39 units. */
+static void test_player_break_stops_on_half_the_way_that_its_speed_would_take(void)
+{
+    play_to(PLAYER_LAW_EXACT, 30);
+    uint16_t before[2] = {player.goal_pos[0], player.goal_pos[1]};
+    player_break(&player);
+    (void)expect_braking(before, PLAYER_EV_STANDING | PLAYER_EV_ENDED);
+    TEST_ASSERT_UINT16_WITHIN(1, before[0] + 39, player.goal_pos[0]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -195,6 +206,7 @@ int main(void)
     RUN_TEST(test_player_exact_goes_on_after_a_pause_in_the_time_left);
     RUN_TEST(test_player_classic_goes_on_after_a_pause_to_its_end);
     RUN_TEST(test_player_break_while_paused_ends_the_play_where_it_stands);
+    RUN_TEST(test_player_break_stops_on_half_the_way_that_its_speed_would_take);
     RUN_TEST(test_player_break_near_the_end_of_the_range_stays_in_range);
     return UNITY_END();
 }
