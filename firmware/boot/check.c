@@ -80,7 +80,7 @@ void check_all(void)
     static uint8_t count[3];
     uint16_t page = MEM_MOTION_START / 256;
     memset(count, 0, sizeof count);
-    SAY("Motions (+ valid, . empty, X bad)");
+    SAY("+ valid . empty X bad");
     memory_sums.crc = CRC16_START;
     do {
         if (page % ROW == MEM_MOTION_START / 256 % ROW) {

@@ -56,7 +56,7 @@ static void help(void)
         uint8_t c = print_byte(entry);
         uart_put(c < 0x80 ? c : ' ');
     }
-    SAY("Numbers are hex; # at reset stays here");
+    SAY("Hex numbers; # at reset stays here");
 }
 
 /* Without an argument a dump goes on where the last one (or a transfer) ended. */
@@ -119,7 +119,7 @@ static void clear_eeprom(const parse_t *line)
         return;
     }
     if (line->count == 0) {
-        SAY("Clear EEPROM? (y/N)");
+        SAY("Sure? (y/N)");
         while (!uart_has()) {
         }
         if ((uart_next() & 0xDF) != 'Y') {

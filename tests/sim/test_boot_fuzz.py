@@ -11,7 +11,7 @@ BYTES = int(os.environ.get("M512_FUZZ_BYTES", 120_000))
 CHUNK = 8192
 # What the loader says before it writes: without one of these, in this chunk or the one before, nothing may change.
 # (Three bytes of noise are enough for a valid command: CR l CR.)
-LICENCES = (b"Write Address", b" Mode", b"Boot to", b"Clearing", b"Clear EEPROM?")
+LICENCES = (b"Write Address", b" Mode", b"Boot to", b"Clearing", b"Sure?")
 
 
 def shell_noise(rng, count):
