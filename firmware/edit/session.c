@@ -213,6 +213,7 @@ void session_init(session_t *session)
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         session_set_pose(session, joint, PAGE_POS_TORQUE_OFF);
     }
+    session->cells[CELLS_POSE_AT + PAGE_STEP_AT_SPEED] = NEW_STEP_SPEED;
     session_open(session, 1);
 }
 

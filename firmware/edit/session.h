@@ -2,7 +2,7 @@
  * session.h - what is being edited: one page in RAM, the work pose behind it, the cursor, what was changed.
  * Knows neither terminal nor servo. Reads flash through page_store.h, never writes it. Every change of a byte goes
  * through here: it is noted for undo and its cell is marked for the screen. Caller-owned, main loop only.
- * RAM: 576 bytes of cells, 396 of undo, 66 of marks, 16 more. */
+ * RAM: 576 bytes of cells, 384 of undo, 66 of marks, 9 more. */
 #ifndef SESSION_H
 #define SESSION_H
 
@@ -37,7 +37,8 @@ typedef struct {
     undo_t undo;
 } session_t;
 
-/* Opens page 1, as after power-on; the work pose is all torque off at 0. */
+/* Opens page 1, as after power-on; the work pose is all torque off at 0, its speed that of a
+ * new page: a first WRITE must not store speed 0. */
 void session_init(session_t *session);
 
 /* Opens `page` (0..127) from flash; what was changed is dropped, the undo history too. Cursor and work pose stay. Only

@@ -8,7 +8,7 @@
  *
  *   record = size (2 bytes, all of it) turn (1) { address:9 length-1:7 (2 bytes) bits (length bytes) }*
  *
- * RAM: UNDO_BYTES + 13. A WRITE of 18 joints takes 30 to 46 bytes, one cell 6 or 7, a full page of 18 joints
+ * RAM: UNDO_BYTES + 12. A WRITE of 18 joints takes 30 to 46 bytes, one cell 6 or 7, a full page of 18 joints
  * emptied about 300: the last eight commands are there even when each writes such a step. A single command that changes
  * more than fits (a whole page of more than 20 joints) empties the history; undo_end says so. */
 #ifndef UNDO_H

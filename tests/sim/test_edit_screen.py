@@ -17,7 +17,7 @@ def word_text(word):
     return f"{word:04d}" if word < 1024 else "----"
 
 
-def frame(data, number, pose, cursor=(0, 0), pose_tail=(0, 0), live=None):
+def frame(data, number, pose, cursor=(0, 0), pose_tail=(0, 64), live=None):
     """The 34 rows above the command line, worked out from the page's bytes as the specification says."""
     live = live or {}
     rows = []
