@@ -37,7 +37,7 @@ static void start(void)
 {
     board_start();
     ring_t *ring = console_rx_ring();
-    receiver = (boot_rx_t){ ring->bytes, &ring->head, &ring->tail, console_rx_lost(), ring->mask, UINT8_MAX };
+    receiver = (boot_rx_t){ ring->bytes, &ring->head, &ring->tail, console_rx_lost(), ring->mask };
     page_service_kind_t service = page_service_init(&receiver);
     page_save_recover(editor.session.cells);
     page_store_init(&pages);
