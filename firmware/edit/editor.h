@@ -29,7 +29,7 @@
 #include "shell.h"
 
 #define EDITOR_LINE_BYTES 112u    /* a line of a program (machine.h); the screen shows 77 */
-#define EDITOR_HISTORY_BYTES 40u
+#define EDITOR_HISTORY_BYTES 30u
 #define EDITOR_NO_PAGE 0xFFu
 
 typedef enum {

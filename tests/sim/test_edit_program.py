@@ -52,3 +52,19 @@ def test_play_misses_no_tick_and_space_breaks_it():
         r.board.send(b" ")
         r.board.run(ms=800)
         assert "state=idle" in ask(r, "@where")
+
+
+def test_stack_headroom_after_everything_deep():
+    """Bytes between the highest variable and the lowest stack ever, after the deepest things Edit does."""
+    with robot(pages=PAGES) as r:
+        for line in ("on", "go 0", "write", "insert 0", "int 0 1", "scale 120", "mirror 0", "save", "save 9", "page 2"):
+            r.line(line)
+            if "[y/N]" in r.command:
+                r.keys("y", ms=200)
+        for line, key in (("check 2", "q"), ("list 1 9", "q"), ("play 1", " ")):
+            r.line(line, ms=2500)
+            r.keys(key, ms=700)
+        for line in ("@where", "@list", "@page 1", "@move 60 1 200200"):
+            ask(r, line, ms=500)
+        print(f"stack headroom: {r.board.stack_headroom} bytes (budget 384)")
+        assert r.board.stack_headroom >= 384
