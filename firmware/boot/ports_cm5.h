@@ -12,7 +12,7 @@
 /* While the loader runs the PC's line is gated in (PD5) and the radio's is not. */
 #define PORTS_OPEN() \
     (DDRB = 0x20, PORTB = 0x20, PORTC = 0x7E, DDRC = 0x77, PORTD = 0x31, DDRD = 0x70, PORTE = 0x00, DDRE = 0x0C)
-#define PORTS_HAND_OVER() (PORTC = 0x7E, PORTD = 0x51)
+#define PORTS_HAND_OVER() (PORTD = 0x51) /* the others are as PORTS_OPEN left them */
 
 #define PORTS_START_PRESSED() (!(PIND & 1 << PD0))
 

@@ -6,6 +6,7 @@ import struct
 import pytest
 from boot_board import (BAD_FRAME, BOOT_MODE, EE_WRITE, EQUAL, HELLO, LEAVE, OK, PROMPT, RATE, READ, REFUSED, SUMS, WRITE,
                         Blocks, crc16, frame, noise, page_body, prompt_board, say)
+from cm5sim import PowerCut
 
 LINE_RATE = 2_000_000 / 35 / 10
 
@@ -211,6 +212,22 @@ def answers(page):
     for status in (0, 1):
         content = bytes([WRITE, page, 1, status, 0])
         yield b"\x5A" + content + crc16(content).to_bytes(2, "big")
+
+
+@pytest.mark.parametrize("operation", [1, 2, 7, 20, 31])
+def test_a_transfer_is_resumed_after_a_power_cut(operation):
+    board = prompt_board()
+    data = noise(16 * 256, 13)
+    board.cut_power(operation, "during", tear=operation)
+    with pytest.raises(PowerCut):
+        Blocks(board).update(0xE0, data)
+    board.flush()
+    board.power_on()
+    board.expect(PROMPT, ms=600)
+    written = Blocks(board).update(0xE0, data)
+    assert bytes(board.flash[0xE000:0xE000 + len(data)]) == data
+    assert written <= 16 - (operation - 1) // 2
+    assert all(board.wear(0xE0 + i) == 1 for i in range((operation - 1) // 2)), "what was done is not done again"
 
 
 def transfer(board, data, rate):
