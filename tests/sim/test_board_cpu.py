@@ -77,6 +77,16 @@ def test_far_reads_cross_the_64_kib_line():
     assert board.ram[0x5B] == 1, "RAMPZ counts on"
 
 
+def test_rampz_is_one_bit_wide():
+    board = ready([0xEF0F, 0xBF0B, 0xE0E0, 0xE0F0, 0x9006])
+    # RAMPZ = 0xFF; Z = 0; elpm r0,Z
+    board.flash[0x10000] = 0xA5
+    for _ in range(5):
+        board.step()
+    assert board.ram[0x5B] == 1
+    assert board.ram[0] == 0xA5
+
+
 def test_reset_leaves_the_stack_pointer_at_zero_and_the_ram_random():
     board = bare([RJMP_SELF])
     assert board.ram[0x5D] == 0 and board.ram[0x5E] == 0

@@ -308,6 +308,13 @@ void flash_reset(board_t *board)
     update_line(board);
 }
 
+/* RAMPZ of this chip is one bit wide; simavr reads beyond its flash with more. */
+static void write_rampz(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
+{
+    (void)param;
+    avr->data[address] = value & 1;
+}
+
 void flash_init(board_t *board)
 {
     flash_t *flash = &board->flash;
@@ -318,4 +325,5 @@ void flash_init(board_t *board)
     memset(board->avr->flash, 0xFF, M128_FLASH_BYTES);
     clear_buffer(flash);
     board_io(board, M128_SPMCSR, read_spmcsr, write_spmcsr, board);
+    board_io(board, M128_RAMPZ, NULL, write_rampz, board);
 }
