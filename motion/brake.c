@@ -3,11 +3,6 @@
 #include "fix.h"
 #include "law.h"
 
-uint8_t law_brake_ticks(const player_t *player)
-{
-    return player->ramp_ticks < BRAKE_TICKS_MIN ? BRAKE_TICKS_MIN : player->ramp_ticks;
-}
-
 static void stand_at_goal(const player_t *player, player_joint_t *joint, int32_t speed)
 {
     uint16_t pos = player->goal_pos[joint - player->joint];

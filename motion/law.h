@@ -60,7 +60,10 @@ void classic_freeze(player_t *player);
 /* Slows down from pos and speed in law_brake_ticks: as long as the step's ramp, at least 8 ticks, so that no joint leaves
  * the way that its page would have taken it. brake_tick returns false with the last tick. */
 #define BRAKE_TICKS_MIN 8u
-uint8_t law_brake_ticks(const player_t *player);
+static inline uint8_t law_brake_ticks(const player_t *player)
+{
+    return player->ramp_ticks < BRAKE_TICKS_MIN ? BRAKE_TICKS_MIN : player->ramp_ticks;
+}
 void brake_start(player_t *player);
 bool brake_tick(player_t *player);
 
