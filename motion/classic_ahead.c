@@ -15,43 +15,39 @@
 typedef struct {
     uint16_t divisor;
     uint32_t recip; /* 2^32 / divisor, rounded up */
-    uint32_t limit; /* divisor * 1024 */
 } divider_t;
 
 /* Below this divisor the product with the reciprocal is the quotient: size * divisor < 1024 * divisor^2 < 2^32. */
 #define EXACT_BELOW 2048u
 
-/* int16(num / divisor) toward zero, then limited. size: of num, below 2^20. */
-static inline int16_t divide_speed(uint32_t size, bool negative, const divider_t *by)
+/* int16(size / divisor), then limited: not negative, or -SPEED_MAX when the quotient wraps before it is limited.
+ * size: below 2^20. */
+static int16_t NOINLINE divide_speed(uint32_t size, const divider_t *by)
 {
-    uint16_t quotient = SPEED_MAX;
-    if (size < by->limit) {
-        uint32_t recip = by->recip, product = mul_u32_u16_shift16(recip, (uint16_t)size);
-        uint8_t above = (uint8_t)(size >> 16);
-        if (above != 0) { /* then recip is below 2^26 */
-            product += (uint32_t)(uint16_t)recip * above + ((uint32_t)(uint16_t)((uint16_t)(recip >> 16) * above) << 16);
-        }
-        quotient = (uint16_t)(product >> 16);
-        if (by->divisor >= EXACT_BELOW && (uint32_t)quotient * by->divisor > size) {
+    uint16_t upper = (uint16_t)(size >> 8), divisor = by->divisor;
+    if (upper >> 2 >= divisor) { /* the quotient is 1024 or more */
+        return upper >> 7 >= divisor ? -SPEED_MAX : SPEED_MAX;
+    }
+    uint32_t product = mul_u32_u16_shift16(by->recip, (uint16_t)size);
+    uint8_t above = (uint8_t)(size >> 16);
+    if (above != 0) { /* then recip is below 2^26 */
+        product += mul_u16_u16((uint16_t)by->recip, above) +
+                   ((uint32_t)(uint16_t)((uint16_t)(by->recip >> 16) * above) << 16);
+    }
+    uint16_t quotient = (uint16_t)(product >> 16);
+    if (divisor >= EXACT_BELOW) {
+        if (mul_u16_u16(quotient, divisor) > size) {
             quotient--;
         }
-        if (quotient > SPEED_MAX) {
-            quotient = SPEED_MAX;
-        }
-    } else if (size >> 15 >= by->divisor) {
-        negative = !negative; /* the quotient wraps to the other sign before it is limited */
     }
-    return (int16_t)(negative ? -(int16_t)quotient : (int16_t)quotient);
+    return quotient > SPEED_MAX ? SPEED_MAX : (int16_t)quotient;
 }
 
-/* K = M * 2560 / 12 = M * 640 / 3, toward zero. */
-static int32_t way_in_speed_units(int16_t way)
+/* K = M * 2560 / 12 = M * 640 / 3 = M * 213 + M / 3, of a way 0..1023. */
+static inline uint32_t way_in_speed_units(uint16_t size)
 {
-    uint16_t size = fix_size(way);
-    uint16_t third = mul_u16_high(size, 21846u);
-    uint8_t rest = (uint8_t)(size - 3 * third);
-    int32_t units = (int32_t)(((uint32_t)(third * 5u) << 8) >> 1) + (rest == 0 ? 0 : rest == 1 ? 213 : 426);
-    return way < 0 ? -units : units;
+    uint16_t low = (uint16_t)((uint8_t)size * 213u), high = (uint16_t)((uint8_t)(size >> 8) * 213u);
+    return low + ((uint32_t)high << 8) + mul_u16_high(size, 21846u);
 }
 
 static uint16_t stop_divisor(const player_t *player)
@@ -75,17 +71,52 @@ static void measure_coming(player_t *player, uint16_t longest_way)
     player->through_recip = UINT32_MAX / through_divisor(player) + 1u;
 }
 
+speed_left_t classic_left(const player_t *player)
+{
+    if (player->hold_ticks != 0) {
+        return LEFT_NONE;
+    }
+    if (player->step_ticks == 0) {
+        return LEFT_CARRIED; /* a skipped step changes nothing */
+    }
+    return player->ramp_ticks == 0 ? LEFT_SPEED : LEFT_IF_THROUGH;
+}
+
 static inline void prepare_joint(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, const divider_t *stop,
                                  const divider_t *through)
 {
-    int32_t num = way_in_speed_units((int16_t)(joint->coming_pos - joint->target_pos));
+    int16_t way = (int16_t)(joint->coming_pos - joint->target_pos);
+    bool negative = way < 0;
+    uint32_t size = way_in_speed_units(fix_size(way));
     if (carried != 0) {
-        num -= (int32_t)carried * (int16_t)twice_ramp;
+        uint32_t taken = mul_u16_u16(fix_size(carried), twice_ramp);
+        int32_t num = (int32_t)((negative ? 0 - size : size) - (carried < 0 ? 0 - taken : taken));
+        negative = num < 0;
+        size = (uint32_t)(negative ? -num : num);
     }
-    bool negative = num < 0;
-    uint32_t size = (uint32_t)(negative ? -num : num);
-    joint->stop_speed = size == 0 ? 0 : divide_speed(size, negative, stop);
-    joint->through_speed = size == 0 ? 0 : divide_speed(size, negative, through);
+    int16_t stop_speed = divide_speed(size, stop), through_speed = divide_speed(size, through);
+    joint->stop_speed = negative ? (int16_t)-stop_speed : stop_speed;
+    joint->through_speed = negative ? (int16_t)-through_speed : through_speed;
+}
+
+static inline void take_targets(player_t *player, const uint8_t *word)
+{
+    player_joint_t *joint = player->joint;
+    const uint8_t *present = (const uint8_t *)&player->present;
+    uint8_t *used = (uint8_t *)&player->coming_joints, may = 0, bit = 0;
+    for (uint8_t left = PAGE_JOINTS; left != 0; left--, joint++, word += 2) {
+        if (bit == 0) {
+            bit = 1;
+            may = *present++;
+            *used++ = 0;
+        }
+        uint16_t pos = page_word(word);
+        if (page_pos_is_used(pos) && (may & bit) != 0) {
+            used[-1] |= bit;
+            joint->coming_pos = pos;
+        }
+        bit = (uint8_t)(bit << 1);
+    }
 }
 
 /* Reads the coming step: length, ramp, targets. */
@@ -95,16 +126,7 @@ RARE static void look_at_coming(player_t *player)
     player->source->read(player->source->context, player->coming.page,
                          (uint16_t)(PAGE_STEP_BYTES * player->coming.step), step, PAGE_STEP_BYTES);
     measure_coming(player, player->coming.schedule == PAGE_SCHEDULE_SPEED ? law_longest_way(player, step) : 0);
-    player->coming_joints = 0;
-    const uint8_t *word = step;
-    uint32_t bit = 1;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, word += 2, bit <<= 1) {
-        uint16_t pos = page_word(word);
-        if (page_pos_is_used(pos) && (player->present & bit) != 0) {
-            player->coming_joints |= bit;
-            joint->coming_pos = pos;
-        }
-    }
+    take_targets(player, step);
 }
 
 /* Goes on making the coming step ready: looks at it, or does up to `count` more joints. player->prepared counts both. */
@@ -119,13 +141,18 @@ void classic_prepare(player_t *player, uint8_t count)
         player->prepared = 1;
         return;
     }
-    divider_t stop = {stop_divisor(player), player->coming_recip, (uint32_t)stop_divisor(player) << 10};
-    divider_t through = {through_divisor(player), player->through_recip, (uint32_t)through_divisor(player) << 10};
+    divider_t stop = {stop_divisor(player), player->coming_recip};
+    divider_t through = {through_divisor(player), player->through_recip};
     uint16_t twice_ramp = (uint16_t)(2 * player->coming_ramp_ticks);
-    bool moving = player_is_in_law(player);
-    for (; count != 0 && player->prepared < PREPARED_ALL; count--) {
-        player_joint_t *joint = &player->joint[player->prepared++ - 1];
-        prepare_joint(joint, moving ? classic_speed_left(player, joint) : 0, twice_ramp, &stop, &through);
+    speed_left_t carry = player_is_in_law(player) ? classic_left(player) : LEFT_NONE;
+    uint8_t left = (uint8_t)(PREPARED_ALL - player->prepared);
+    if (count > left) {
+        count = left;
+    }
+    player_joint_t *joint = &player->joint[player->prepared - 1];
+    player->prepared = (uint8_t)(player->prepared + count);
+    for (; count != 0; count--, joint++) {
+        prepare_joint(joint, classic_speed_left(carry, joint), twice_ramp, &stop, &through);
     }
 }
 
@@ -136,7 +163,7 @@ void classic_prepare_all(player_t *player)
     }
 }
 
-/* How many joints to make ready in a tick, so that the coming step is ready in time; a quarter as many where a section
+/* How many joints to make ready in a tick, so that the coming step is ready in time; about a fifth as many where a section
  * changes, none (but in a very short step) where the step begins. */
 #define SHORT_TICKS 8u
 uint8_t classic_joints_a_tick(uint16_t ticks)
@@ -144,16 +171,16 @@ uint8_t classic_joints_a_tick(uint16_t ticks)
     if (ticks < 4) {
         return 16;
     }
-    if (ticks < SHORT_TICKS) {
-        return (uint8_t)((PAGE_JOINTS + ticks - 2u) / (ticks - 1u));
-    }
-    return ticks < 16 ? 9 : ticks < 44 ? 4 : 1;
+    return ticks < SHORT_TICKS ? 24 : ticks < 16 ? 9 : ticks < 44 ? 4 : 1;
 }
 
 uint8_t classic_joints_now(const player_t *player, bool change, bool begins)
 {
-    if (!change || player->step_ticks + player->hold_ticks < SHORT_TICKS) {
+    if (!change || player->quota == 16) {
         return player->quota;
     }
-    return begins || player->prepared == 0 ? 0 : player->quota / 4;
+    if (player->prepared == 0) {
+        return player->quota > 9 ? 1 : 0; /* not a joint, but a look at the step */
+    }
+    return begins ? 0 : (uint8_t)((player->quota + 1u) / 5u);
 }

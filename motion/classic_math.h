@@ -30,42 +30,51 @@ static inline ramp_share_t ramp_share(uint8_t c)
 
 static inline int16_t ramp_way(int16_t speed, ramp_share_t share)
 {
-    uint16_t fifths = (uint16_t)(((uint32_t)(uint16_t)(speed + 2048) * share.factor + share.bias) >> 8);
+    uint16_t fifths = (uint16_t)((mul_u16_u16((uint16_t)(speed + 2048), share.factor) + share.bias) >> 8);
     return (int16_t)((mul_u16_high(fifths, 52429u) >> 2) - 5000u);
 }
 
 /* int16((v * A * 12 / 5) >> 8): way of a FALL to a stand. The truncated and then floored quotient is 3 v A / 320, of
- * negative products (3 |v| A + 318) / 320 with a minus; 320 is 64 * 5, and / 64 is << 2 and a byte dropped. */
+ * negative products (3 |v| A + 318) / 320 with a minus; 320 is 64 * 5, and / 64 is * 4 and a byte dropped. */
 static inline int16_t fall_way(int16_t v, uint16_t thrice_ramp)
 {
-    uint32_t size = (uint32_t)fix_size(v) * thrice_ramp;
+    uint32_t product = mul_u16_u16(fix_size(v), (uint16_t)(4u * thrice_ramp));
     if (v < 0) {
-        size += 318;
+        product += 4 * 318;
     }
-    int16_t way = (int16_t)(mul_u16_high((uint16_t)((size << 2) >> 8), 52429u) >> 2);
+    int16_t way = (int16_t)(mul_u16_high((uint16_t)(product >> 8), 52429u) >> 2);
     return v < 0 ? (int16_t)-way : way;
 }
 
 /* x * c / num (toward zero) from now on by next_share, c = 1, 2, ... Toward zero is down for x >= 0 and up below: up is
  * down of the same plus (num - 1) / num, with which the sum of remainders then begins. */
-static inline void spread(player_joint_t *joint, int16_t x, uint16_t num, uint16_t recip16)
+static inline void spread_line(player_joint_t *joint, int16_t x, uint16_t num, uint16_t recip16)
 {
-    uint16_t remainder = 0, error = 0;
-    int16_t quotient = x;
-    if (num != 1) {
-        quotient = (int16_t)fix_divide(fix_size(x), num, recip16, &remainder);
-        if (x < 0) {
-            quotient = (int16_t)-quotient;
-            error = (uint16_t)(num - 1);
-            if (remainder != 0) {
-                quotient--;
-                remainder = (uint16_t)(num - remainder);
-            }
+    uint16_t remainder, error = 0;
+    int16_t quotient = (int16_t)fix_divide(fix_size(x), num, recip16, &remainder);
+    if (x < 0) {
+        quotient = (int16_t)-quotient;
+        error = (uint16_t)(num - 1);
+        if (remainder != 0) {
+            quotient--;
+            remainder = (uint16_t)(num - remainder);
         }
     }
     joint->classic.quotient = quotient;
     joint->classic.remainder = remainder;
     joint->classic.error = error;
+    joint->classic.value = 0;
+}
+
+/* The same, for sections that often have a single tick. */
+static inline void spread(player_joint_t *joint, int16_t x, uint16_t num, uint16_t recip16)
+{
+    if (num != 1) {
+        spread_line(joint, x, num, recip16);
+        return;
+    }
+    joint->classic.quotient = x;
+    joint->classic.remainder = joint->classic.error = 0;
     joint->classic.value = 0;
 }
 
@@ -95,16 +104,17 @@ static inline int16_t share_of(int16_t way, uint16_t part, uint16_t whole, uint1
     return way < 0 ? (int16_t)-(int16_t)quotient : (int16_t)quotient;
 }
 
-/* The speed that a joint still has when the step playing now is over: w of the coming one. */
-static inline int16_t classic_speed_left(const player_t *player, const player_joint_t *joint)
+/* The speed that a joint still has when the step playing now is over, w of the coming one, and how to know it. */
+typedef enum { LEFT_NONE, LEFT_IF_THROUGH, LEFT_SPEED, LEFT_CARRIED } speed_left_t;
+
+speed_left_t classic_left(const player_t *player);
+
+static inline int16_t classic_speed_left(speed_left_t left, const player_joint_t *joint)
 {
-    if (player->hold_ticks != 0) {
+    if (left == LEFT_NONE || (left == LEFT_IF_THROUGH && !joint->classic.through)) {
         return 0;
     }
-    if (player->step_ticks == 0) {
-        return joint->classic.carried; /* a skipped step changes nothing */
-    }
-    return joint->classic.through || player->ramp_ticks == 0 ? joint->classic.speed : 0;
+    return left == LEFT_CARRIED ? joint->classic.carried : joint->classic.speed;
 }
 
 #endif

@@ -79,7 +79,7 @@ static inline uint16_t fix_ramp_recip(uint8_t ticks)
 static inline uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks)
 {
     uint32_t quotient = mul_u32_u16_shift16(speed, ramp_recip);
-    return ticks < FIX_LONG_RAMP ? quotient : quotient >> 4;
+    return ticks < FIX_LONG_RAMP ? quotient : shift_u32_right4(quotient);
 }
 
 /* dividend / divisor and the remainder, exact, by the divisor's reciprocal (fix_recip16). Costs a multiplication

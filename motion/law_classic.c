@@ -47,10 +47,11 @@ RARE static void prime(player_t *player, link_t *link)
     classic_prepare_all(player);
     player_next_step(player, link, step);
     bool may_run_on = player_looks_ahead(player) && step_plan_classic_hold(&player->now) == 0;
+    speed_left_t left = classic_left(player);
     const uint8_t *at = step;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, at += 2) {
         uint16_t word = page_word(at);
-        joint->classic.carried = classic_speed_left(player, joint);
+        joint->classic.carried = classic_speed_left(left, joint);
         joint->classic.through = may_run_on && page_pos_is_used(word) && runs_on(joint, word);
     }
 }
@@ -105,7 +106,7 @@ RARE static void begin_cruise(player_t *player)
         joint->classic.acc = (int16_t)(way - cruise_way);
         joint->classic.base = (int16_t)*goal++;
         if (cruise != 0) {
-            spread(joint, cruise_way, cruise, recip16);
+            spread_line(joint, cruise_way, cruise, recip16);
         }
     }
     enter(player, SECTION_CRUISE, cruise);
@@ -198,10 +199,11 @@ RARE static uint8_t end_play(player_t *player)
 {
     uint16_t num = player->section_ticks;
     bool has_tick = num != 0;
+    speed_left_t left = classic_left(player);
     uint16_t recip16 = has_tick ? fix_recip16(num) : 0;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         player_joint_t *joint = &player->joint[i];
-        int16_t speed = joint->classic.speed, carried = classic_speed_left(player, joint);
+        int16_t speed = joint->classic.speed, carried = classic_speed_left(left, joint);
         joint->classic.base = (int16_t)player->goal_pos[i];
         joint->classic.carried = carried;
         if (has_tick) {

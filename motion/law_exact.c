@@ -45,29 +45,31 @@ typedef struct {
     uint8_t ramp_ticks;
 } ramp_t;
 
-/* RISE, and the speed of CRUISE, of a step from from_pos to target_pos at `mean` speed, from speed `entry` to exit. */
-static inline void plan_joint(player_joint_t *joint, ramp_t ramp, uint16_t from_pos, uint32_t mean, uint32_t entry)
+/* RISE, and the speed of CRUISE, of a step from *from_pos to target_pos at `mean` speed, from speed `entry` to exit. In an
+ * order that the AVR's registers are enough for: cruise is put away as soon as it is known. */
+static inline void plan_joint(player_joint_t *joint, ramp_t ramp, const uint16_t *from_pos, uint32_t mean, uint32_t entry)
 {
-    uint32_t size = 0, cruise = mean;
-    int32_t speed = (int32_t)mean;
+    uint32_t size = 0, speed = mean;
     if (ramp.ramp_ticks != 0 && mean != 0) {
         uint32_t border = (entry + joint->exact.exit_q16_16) >> 1;
-        cruise += fix_share(mean - border, ramp.share_q0_16);
-        size = fix_by_ramp(cruise - entry, ramp.ramp_recip, ramp.ramp_ticks);
-        speed = (int32_t)(entry + (size >> 1));
+        mean += fix_share(mean - border, ramp.share_q0_16);
+        joint->exact.cruise_q16_16 = mean & ~DOWN;
+        size = fix_by_ramp(mean - entry, ramp.ramp_recip, ramp.ramp_ticks);
+        speed = entry + (size >> 1);
+    } else {
+        joint->exact.cruise_q16_16 = mean & ~DOWN;
     }
-    cruise &= ~DOWN;
-    int32_t accel = (int32_t)size, pos = fix_from_pos(from_pos) + FIX_ROUND_UP;
-    if (joint->target_pos < from_pos) {
-        cruise |= DOWN;
+    uint16_t from = *from_pos;
+    int32_t pos = fix_from_pos(from) + FIX_ROUND_UP;
+    if (joint->target_pos < from) {
+        joint->exact.cruise_q16_16 |= DOWN;
         pos--;
         speed = -speed;
-        accel = -accel;
+        size = -size;
     }
-    joint->exact.cruise_q16_16 = cruise;
+    joint->exact.accel_q16_16 = (int32_t)size;
+    joint->exact.speed_q16_16 = (int32_t)speed;
     joint->exact.pos_q16_16 = pos;
-    joint->exact.speed_q16_16 = speed;
-    joint->exact.accel_q16_16 = accel;
 }
 
 static inline uint16_t move_joint(player_joint_t *joint)
@@ -110,11 +112,13 @@ RARE static void begin_joints(player_t *player)
 {
     ramp_t ramp = ramp_of(player);
     uint16_t *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+    player_joint_t *joint = player->joint;
+    for (uint8_t left = PAGE_JOINTS; left != 0; left--) {
         uint32_t mean = joint->mean_q16_16;
         joint->mean_q16_16 = joint->exact.cruise_q16_16;
-        plan_joint(joint, ramp, *goal, mean, (uint32_t)joint->exact.speed_q16_16);
-        *goal++ = move_joint(joint);
+        plan_joint(joint, ramp, goal, mean, (uint32_t)joint->exact.speed_q16_16);
+        *goal++ = move_joint(joint++);
+        KEEP_COUNTER(left);
     }
 }
 

@@ -17,4 +17,14 @@ static inline uint16_t mul_u16_high(uint16_t a, uint16_t b)
     return (uint16_t)(((uint32_t)a * b) >> 16);
 }
 
+static inline uint32_t shift_u32_right4(uint32_t value)
+{
+    return value >> 4;
+}
+
+static inline uint32_t mul_u16_u16(uint16_t a, uint16_t b)
+{
+    return (uint32_t)a * b;
+}
+
 #endif
