@@ -50,3 +50,24 @@ def test_ram_over_budget_fails_and_says_so(tmp_path):
 def test_flash_budget_of_the_loader_is_smaller(tmp_path):
     assert " 8192 " in report(tmp_path, 10, "boot-x").stdout
     assert " 49152 " in report(tmp_path, 10, "edit-x").stdout
+
+
+# The player's only pointers are page sources: `other`, whose address is taken too and which is deeper, is not called.
+PLAYER = """
+#include <avr/io.h>
+volatile char v;
+static void __attribute__((noinline)) source_read(void) { volatile char b[50]; b[0] = v; PORTB = b[0]; }
+static void __attribute__((noinline)) other(void) { volatile char b[60]; b[0] = v; PORTC = b[0]; }
+void (*volatile pointers[])(void) = { source_read, other };
+static void __attribute__((noinline)) tick(void) { pointers[0](); PORTB = 1; }
+int main(void) { for (;;) tick(); }
+"""
+
+
+def test_pointers_of_the_player_reach_page_sources_only(tmp_path):
+    source, elf = tmp_path / "motion" / "player.c", tmp_path / "play-x.elf"
+    source.parent.mkdir()
+    source.write_text(PLAYER)
+    subprocess.run(["avr-gcc", "-mmcu=atmega128", "-Os", "-g", source, "-o", elf], check=True)
+    done = subprocess.run([TOOL, "--paths", elf], capture_output=True, text=True)
+    assert "tick(0) > source_read(52)" in done.stdout
