@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""What every proof has in common: its figures, its work on all cores, its page.
+
+A proof is a module of this folder with
+
+    TITLE                       a heading
+    __doc__                     its first paragraph stands below the heading
+    add_arguments(group)        its own options (argparse), such as the one that repeats a single state
+    run(options) -> [Figure]    does the work; options.sample asks for a minute's worth (CI), options.jobs is how many
+                                processes may run, options.seed chooses what is left to chance
+
+tools/prove runs them and writes the page. A proof never stops at the first fault: it counts all, and says of each how
+to see it again.
+"""
+import concurrent.futures
+import dataclasses
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+BUILD = TOP / "build"
+RESULTS = BUILD / "prove"
+PAGE = TOP / "tests" / "PROOFS.md"
+
+
+@dataclasses.dataclass(frozen=True)
+class Figure:
+    """One promise and what this run measured of it."""
+
+    promise: str  # one sentence, as a user would read it
+    how: str  # how it is tested
+    measured: str  # what this run gave, with units
+    kept: bool  # the promise held everywhere
+
+
+class Progress:
+    """One line on standard error that says how far a proof is; quiet lines only when it is no terminal."""
+
+    def __init__(self, what, total):
+        self.what, self.total, self.done = what, total, 0
+        self.step = max(1, total // (200 if sys.stderr.isatty() else 10))
+
+    def advance(self, count=1):
+        """`count` more of the total are done."""
+        before, self.done = self.done // self.step, self.done + count
+        if self.done // self.step != before or self.done >= self.total:
+            start, end = ("\r", "" if self.done < self.total else "\n") if sys.stderr.isatty() else ("", "\n")
+            print(f"{start}   {self.what}: {self.done} of {self.total}", end=end, file=sys.stderr, flush=True)
+
+
+def each(work, items, what, jobs):
+    """[work(item) for item in items] in `jobs` processes, in the order of the items, with progress.
+
+    `work` is a function of a module (it is pickled); an exception in it ends the proof.
+    """
+    items = list(items)
+    progress = Progress(what, len(items))
+    results = [None] * len(items)
+    with concurrent.futures.ProcessPoolExecutor(max_workers=jobs) as pool:
+        waiting = {pool.submit(work, item): index for index, item in enumerate(items)}
+        for done in concurrent.futures.as_completed(waiting):
+            results[waiting[done]] = done.result()
+            progress.advance()
+    return results
+
+
+def commit():
+    """The commit of the tree, marked when the tree differs from it; the page itself does not count."""
+    def git(*words):
+        return subprocess.run(["git", "-C", str(TOP), *words], capture_output=True, text=True, check=False).stdout.strip()
+    changed = [line for line in git("status", "--porcelain").splitlines() if not line.endswith(PAGE.name)]
+    return (git("rev-parse", "--short=10", "HEAD") or "no commit") + (" and changes" if changed else "")
+
+
+def keep(name, module, figures, command):
+    """Writes the result of a part for the page."""
+    RESULTS.mkdir(parents=True, exist_ok=True)
+    about = " ".join((module.__doc__ or "").split("\n\n")[0].split())
+    (RESULTS / f"{name}.json").write_text(json.dumps({
+        "title": module.TITLE, "about": about, "command": command, "commit": commit(),
+        "figures": [dataclasses.asdict(figure) for figure in figures]}, indent=1), encoding="utf-8")
+
+
+def table(figures):
+    """The figures as rows of Markdown."""
+    rows = ["| promise | how it is tested | measured | |", "| --- | --- | --- | --- |"]
+    for figure in figures:
+        cells = [figure["promise"], figure["how"], figure["measured"], "kept" if figure["kept"] else "**BROKEN**"]
+        rows.append("| " + " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in cells) + " |")
+    return rows
+
+
+def write_page(names):
+    """tests/PROOFS.md from the results of the parts, in the order of `names`."""
+    lines = ["# Proofs", "",
+             "What Motion512 promises, and what machines found when they tried to break it. Made by `tools/prove`; do not edit.", ""]
+    for name in names:
+        path = RESULTS / f"{name}.json"
+        if not path.exists():
+            lines += [f"## {name}", "", f"Not run here: `tools/prove {name}`.", ""]
+            continue
+        part = json.loads(path.read_text(encoding="utf-8"))
+        lines += [f"## {part['title']}", "", part["about"], "", f"`{part['command']}` at commit {part['commit']}:", ""]
+        lines += [*table(part["figures"]), ""]
+    PAGE.write_text("\n".join(lines), encoding="utf-8")
+
+
+def cores():
+    """How many processes may run at once."""
+    return len(os.sched_getaffinity(0))
