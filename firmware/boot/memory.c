@@ -134,22 +134,25 @@ void memory_scan(uint16_t page)
 }
 
 #define MAGIC_LE 0x3231354Dul /* APP_RECORD_MAGIC read as a number */
+#define LENGTH_AT (MEM_APP_RECORD + APP_RECORD_AT_LENGTH)
 #define CRC_AT (MEM_APP_RECORD + APP_RECORD_AT_CRC)
 
-/* The CRC as app_record.h says: its own two bytes count as 0xFF. The application lies below 64 KiB, where the short
- * reads reach: 46 cycles a byte, 60 ms for 20 KiB. */
+/* A magic with more bits set than it should is one that a power cut left half erased or half written: the image is ours
+ * too, and damaged. The CRC as app_record.h says: its own two bytes count as 0xFF. The application lies below 64 KiB,
+ * where the short reads reach: 46 cycles a byte, 60 ms for 20 KiB. Of its length the low half is enough, the CRC covers
+ * the other. */
 memory_app_t memory_app(void)
 {
-    uint32_t length = pgm_read_dword(MEM_APP_RECORD + APP_RECORD_AT_LENGTH);
+    uint16_t length = pgm_read_word(LENGTH_AT);
     uint16_t crc = CRC16_START;
-    if (pgm_read_dword(MEM_APP_RECORD) != MAGIC_LE) {
-        return pgm_read_word(MEM_APP_START) == 0xFFFF ? MEMORY_APP_NONE : MEMORY_APP_PLAIN;
+    if (pgm_read_word(MEM_APP_START) == 0xFFFF) {
+        return MEMORY_APP_NONE;
     }
-    if (length > MEM_APP_END) {
-        return MEMORY_APP_BAD;
+    if ((pgm_read_dword(MEM_APP_RECORD) & MAGIC_LE) != MAGIC_LE) {
+        return MEMORY_APP_PLAIN;
     }
-    for (uint16_t at = 0; at != (uint16_t)length; at++) {
+    for (uint16_t at = 0; at != length; at++) {
         crc = crc16_byte(crc, (at & ~1u) == CRC_AT ? 0xFF : pgm_read_byte(at));
     }
-    return crc == pgm_read_word(CRC_AT) ? MEMORY_APP_GOOD : MEMORY_APP_BAD;
+    return crc == pgm_read_word(CRC_AT) && length <= MEM_APP_END ? MEMORY_APP_GOOD : MEMORY_APP_BAD;
 }

@@ -4,8 +4,8 @@ it: the loader always answers afterwards, and what the transfer did not name is 
 import struct
 
 import pytest
-from boot_board import (BOOT_START, EE_WRITE, JOURNAL_START, PROMPT, WRITE, frame, noise, page_body, pending_record,
-                        prompt_board, say)
+from boot_board import (BOOT_MODE, BOOT_START, EE_WRITE, JOURNAL_START, PROMPT, WRITE, begin_load, crc16, frame, noise,
+                        page_body, pending_record, prompt_board, say)
 from cm5sim import PowerCut
 
 ENTER = b"\x50\x20"
@@ -99,3 +99,34 @@ def test_cut_at_every_operation(name):
             pytest.fail("the transfer never ends")
     print(f"{name}: {cuts} power cuts")
     assert cuts >= 3
+
+
+def recorded(seed):
+    """1 KiB that says of itself what our applications do (firmware/common/app_record.h)."""
+    image = b"\x0C\x94\x46\x00" + noise(0x88, seed) + b"M512\x00\x04\x00\x00\xff\xff" + noise(0x36A, seed + 1)
+    return image[:0x94] + crc16(image).to_bytes(2, "little") + image[0x96:]
+
+
+def test_an_application_torn_in_its_first_page_is_not_started():
+    """A torn first page has lost its record, and with it what told it from an application that never had one."""
+    refused = 0
+    for operation in (1, 2):
+        for tear in range(12):
+            board = prompt_board()
+            board.flash[0x0000:0x0400] = recorded(30)
+            board.eeprom[BOOT_MODE] = 0x11
+            assert say(board, "id").endswith("app=good")
+            begin_load(board, 0)
+            board.send(sum_byte(recorded(40)[:256]))
+            board.cut_power(operation, "during", tear=tear)
+            with pytest.raises(PowerCut):
+                board.run(ms=500)
+            board.flush()
+            board.take()
+            if bytes(board.flash[:0x400]) == recorded(30):
+                continue
+            board.power_on()
+            board.expect(PROMPT, ms=600)
+            assert say(board, "id").rsplit("=", 1)[1] in ("bad", "none")
+            refused += 1
+    assert refused >= 20
