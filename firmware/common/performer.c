@@ -166,7 +166,7 @@ static void approach_over(performer_t *performer)
 
 /* The compliance bytes of the page that has just begun, to the servos: one tick after its first goals, because the tick in
  * which a page begins has enough to do. */
-static void send_slopes(performer_t *performer)
+static NOINLINE void send_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
     performer->source->read(performer->source->context, performer->engine.player.page, PAGE_AT_COMPLIANCE, compliance,
@@ -187,6 +187,15 @@ static uint8_t why_ended(const performer_t *performer)
         return PERFORMER_END_LOOP;
     }
     return link_is_stopping(&performer->link) ? PERFORMER_END_STOPPED : PERFORMER_END_DONE;
+}
+
+static NOINLINE void approach_or_move_tick(performer_t *performer)
+{
+    const bool under_way = approach_tick(&performer->engine.approach, performer->pose_pos);
+    servo_link_goals(performer->servos, performer->pose_pos, performer->engine.approach.joints & performer->joints);
+    if (!under_way) {
+        approach_over(performer);
+    }
 }
 
 static void play_tick(performer_t *performer)
@@ -222,11 +231,7 @@ void performer_tick(performer_t *performer)
         performer->since_stop_ticks++;
     }
     if (performer->state == PERFORMER_APPROACH) {
-        const bool under_way = approach_tick(&performer->engine.approach, performer->pose_pos);
-        servo_link_goals(performer->servos, performer->pose_pos, performer->engine.approach.joints & performer->joints);
-        if (!under_way) {
-            approach_over(performer);
-        }
+        approach_or_move_tick(performer);
     } else if (performer->state == PERFORMER_PLAY) {
         play_tick(performer);
     }

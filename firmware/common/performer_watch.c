@@ -19,7 +19,10 @@ void performer_tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b, 
         performer->events_lost = (uint8_t)(performer->events_lost + (performer->events_lost < UINT8_MAX ? 1 : 0));
         return;
     }
-    const uint8_t at = (uint8_t)((performer->events_head + performer->events_count) % PERFORMER_EVENTS);
+    uint8_t at = (uint8_t)(performer->events_head + performer->events_count);
+    if (at >= PERFORMER_EVENTS) { /* a division would take 200 cycles */
+        at = (uint8_t)(at - PERFORMER_EVENTS);
+    }
     performer->events[at] = (performer_event_t){.kind = kind, .a = a, .b = b, .c = c};
     performer->events_count++;
 }
@@ -35,7 +38,10 @@ bool performer_next_event(performer_t *performer, performer_event_t *event)
         return true;
     }
     *event = performer->events[performer->events_head];
-    performer->events_head = (uint8_t)((performer->events_head + 1u) % PERFORMER_EVENTS);
+    performer->events_head = (uint8_t)(performer->events_head + 1u);
+    if (performer->events_head >= PERFORMER_EVENTS) {
+        performer->events_head = 0;
+    }
     performer->events_count--;
     return true;
 }

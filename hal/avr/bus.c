@@ -48,8 +48,9 @@ void bus_port_listen(void)
 void bus_init(void)
 {
     UCSR0B = 0;
-    TCCR0 = 0;   /* Timers 0 and 2 stand still: the transmit ISR uses their compare registers */
+    TCCR0 = 0;   /* Timers 0 and 2 stand still, INT0 to INT7 are off: the transmit ISR keeps registers in theirs */
     TCCR2 = 0;
+    EIMSK = 0;
     bus_core_init(&core);
     rate = BUS_RATE_1M;
     pins_init_bus();
@@ -130,7 +131,7 @@ void bus_counts(bus_counts_t *counts)
     bus_core_counts(engine(), counts);
 }
 
-/* 101 times in a frame of 31 joints, so every cycle counts: 36 a byte, response, vector and RETI included. In C, with the
+/* 101 times in a frame of 31 joints, so every cycle counts: 33 a byte, response, vector and RETI included. In C, with the
  * registers that avr-gcc saves in every ISR, it took 63:
  *
  *     UDR0 = *tx_at++;
@@ -140,46 +141,39 @@ void bus_counts(bus_counts_t *counts)
  *         bus_core_on_last(&core);
  *     }
  *
- * The compare registers of Timers 0 and 2, which nobody uses and which stand still, keep r30 and r31, at one cycle instead
- * of two for the stack. A packet is shorter than 256 bytes, so the low byte of the address knows the end. A transmit
- * complete that stands since a gap before the last byte is stale; clearing it here cannot hit the byte's own, which is 160
- * cycles away. */
+ * No instruction here touches a flag (LD Z+ counts, CPSE compares), so SREG need not be saved. Registers that nobody uses
+ * keep r0, r30 and r31, at one cycle instead of two for the stack: the compare registers of Timers 0 and 2, which stand
+ * still, and the sense control of the external interrupts 4 to 7, which are off. A packet is shorter than 256 bytes, so the
+ * low byte of the address knows the end. A transmit complete that stands since a gap before the last byte is stale; clearing
+ * it here cannot hit the byte's own, which is 160 cycles away. */
 ISR(USART0_UDRE_vect, ISR_NAKED)
 {
     __asm__ volatile(
         "out %[r30], r30 \n\t"
-        "in r30, __SREG__ \n\t"
-        "push r30 \n\t"
         "out %[r31], r31 \n\t"
+        "out %[r0], r0 \n\t"
         "lds r30, %[at] \n\t"
         "lds r31, %[at]+1 \n\t"
-        "ld r31, Z \n\t"
-        "out %[udr], r31 \n\t"
-        "inc r30 \n\t"
+        "ld r0, Z+ \n\t"
+        "out %[udr], r0 \n\t"
         "sts %[at], r30 \n\t"
-        "breq 3f \n"
-        "1: lds r31, %[end] \n\t"
-        "cp r30, r31 \n\t"
-        "breq 4f \n"
-        "2: in r31, %[r31] \n\t"
-        "pop r30 \n\t"
-        "out __SREG__, r30 \n\t"
-        "in r30, %[r30] \n\t"
-        "reti \n"
-        "3: lds r31, %[at]+1 \n\t"
-        "inc r31 \n\t"
         "sts %[at]+1, r31 \n\t"
-        "rjmp 1b \n"
-        "4: ldi r31, %[clear_txc] \n\t"
+        "lds r31, %[end] \n\t"
+        "cpse r30, r31 \n\t"
+        "rjmp 1f \n\t"
+        "ldi r31, %[clear_txc] \n\t"
         "out %[ucsra], r31 \n\t"
         "ldi r31, %[turning] \n\t"
         "out %[ucsrb], r31 \n\t"
         "ldi r31, %[state_turning] \n\t"
-        "sts %[state], r31 \n\t"
-        "rjmp 2b \n\t"
+        "sts %[state], r31 \n"
+        "1: in r0, %[r0] \n\t"
+        "in r31, %[r31] \n\t"
+        "in r30, %[r30] \n\t"
+        "reti \n\t"
         :
         : [at] "i"(&tx_at), [end] "i"(&tx_end), [state] "i"(&core.state), [udr] "I"(_SFR_IO_ADDR(UDR0)),
-          [r30] "I"(_SFR_IO_ADDR(OCR0)), [r31] "I"(_SFR_IO_ADDR(OCR2)),
+          [r30] "I"(_SFR_IO_ADDR(OCR0)), [r31] "I"(_SFR_IO_ADDR(OCR2)), [r0] "I"(_SFR_IO_ADDR(EICRB)),
           [ucsra] "I"(_SFR_IO_ADDR(UCSR0A)), [ucsrb] "I"(_SFR_IO_ADDR(UCSR0B)),
           [clear_txc] "M"(MODE_U2X | 1u << TXC0), [turning] "M"(TURNING), [state_turning] "M"(BUS_TURNING));
 }
