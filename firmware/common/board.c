@@ -38,23 +38,6 @@ void board_idle(void)
     }
 }
 
-PGM_P board_reset_text_P(uint8_t cause)
-{
-    if (cause & SYSTEM_RESET_POWER_ON) {
-        return PSTR("power-on");
-    }
-    if (cause & SYSTEM_RESET_BROWN_OUT) {
-        return PSTR("brown-out");
-    }
-    if (cause & SYSTEM_RESET_WATCHDOG) {
-        return PSTR("watchdog");
-    }
-    if (cause & SYSTEM_RESET_EXTERNAL) {
-        return PSTR("reset button");
-    }
-    return cause & SYSTEM_RESET_JTAG ? PSTR("JTAG") : PSTR("unknown");
-}
-
 bool board_record(app_record_t *record)
 {
     static const char magic[4] PROGMEM = APP_RECORD_MAGIC;

@@ -18,10 +18,6 @@ void board_start(void);
  * The main loop is  for (;;) { ...look at everything once...; board_idle(); }. */
 void board_idle(void);
 
-/* "power-on", "reset button", "brown-out", "watchdog", "JTAG" or "unknown": text in flash, for a cause mask. The first
- * that applies in this order: power-on, brown-out, watchdog, external, JTAG. */
-PGM_P board_reset_text_P(uint8_t cause);
-
 /* The record of the running image (app_record.h). false: no magic, or not filled in. */
 bool board_record(app_record_t *record);
 

@@ -108,7 +108,7 @@ static machine_status_t do_ver(machine_t *machine, const shell_args_t *args)
         text_number(record.version[1]);
         text_put('.');
         text_number(record.version[2]);
-        text_P(record.board == APP_RECORD_CM2 ? PSTR(" board=cm2") : PSTR(" board=cm5"));
+        text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" board=cm2") : TEXT_P(" board=cm5"));
     }
     TEXT(" protocol=1 pages=128 joints=31 line=110");
     STATIC_ASSERT(PAGE_COUNT == 128 && PAGE_JOINTS == 31, "said in the line above");
@@ -152,11 +152,11 @@ static machine_status_t do_list(machine_t *machine, const shell_args_t *args)
 {
     uint16_t first = 0, last = PAGE_COUNT - 1;
     if (args->count == 2) {
-        return machine_range_error(PSTR("Last page"), 0, PAGE_COUNT - 1);
+        return machine_range_error(TEXT_P("Last page"), 0, PAGE_COUNT - 1);
     }
     if (args->count == 3 &&
         (!machine_number(args, 1, 0, PAGE_COUNT - 1, &first) || !machine_number(args, 2, first, PAGE_COUNT - 1, &last))) {
-        return machine_range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
+        return machine_range_error(TEXT_P("Page"), 0, PAGE_COUNT - 1);
     }
     for (uint8_t page = (uint8_t)first; page <= last; page++) {
         print_list_entry(machine, page);
@@ -179,7 +179,7 @@ static machine_status_t do_page(machine_t *machine, const shell_args_t *args)
     uint16_t page;
     (void)machine;
     if (!machine_number(args, 1, 0, PAGE_COUNT - 1, &page)) {
-        return machine_range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
+        return machine_range_error(TEXT_P("Page"), 0, PAGE_COUNT - 1);
     }
     text_put(' ');
     text_number(page);
@@ -223,8 +223,11 @@ static machine_status_t do_pose(machine_t *machine, const shell_args_t *args)
 
 static void print_state_name(const performer_t *performer)
 {
-    static const char idle[] PROGMEM = "idle", ready[] PROGMEM = "ready", approach[] PROGMEM = "approach",
-                      paused[] PROGMEM = "paused", playing[] PROGMEM = "playing";
+    TEXT_NAMED(idle, "idle");
+    TEXT_NAMED(ready, "ready");
+    TEXT_NAMED(approach, "approach");
+    TEXT_NAMED(paused, "paused");
+    TEXT_NAMED(playing, "playing");
     static const char *const names[] PROGMEM = {
         [PERFORMER_IDLE] = idle, [PERFORMER_READY] = ready, [PERFORMER_APPROACH] = approach,
         [PERFORMER_STOOD] = paused, [PERFORMER_PLAY] = playing,
@@ -239,12 +242,12 @@ static machine_status_t do_where(machine_t *machine, const shell_args_t *args)
     (void)args;
     TEXT(" state=");
     print_state_name(performer);
-    field(PSTR("page"), performer_is_idle(performer) ? 0 : performer->page);
-    field(PSTR("step"), plays ? performer->engine.player.step : 0);
-    field(PSTR("repetition"), plays ? performer->engine.player.repetition : 0);
-    field(PSTR("code"), plays ? performer->link.code : 0);
-    field(PSTR("dv"), machine->servos->voltage_dv);
-    field(PSTR("missed"), tick_missed());
+    field(TEXT_P("page"), performer_is_idle(performer) ? 0 : performer->page);
+    field(TEXT_P("step"), plays ? performer->engine.player.step : 0);
+    field(TEXT_P("repetition"), plays ? performer->engine.player.repetition : 0);
+    field(TEXT_P("code"), plays ? performer->link.code : 0);
+    field(TEXT_P("dv"), machine->servos->voltage_dv);
+    field(TEXT_P("missed"), tick_missed());
     TEXT(" faulty=");
     text_hex((uint16_t)(performer->faulty >> 16), 4);
     text_hex((uint16_t)performer->faulty, 4);

@@ -8,7 +8,7 @@
 
 static machine_status_t id_error(void)
 {
-    return machine_range_error(PSTR("ID"), 0, SERVO_LINK_JOINTS - 1);
+    return machine_range_error(TEXT_P("ID"), 0, SERVO_LINK_JOINTS - 1);
 }
 
 /* Fills to_pos and returns the joints that the digits name, three for each; 0: they are not as they must be. */
@@ -44,7 +44,7 @@ machine_status_t machine_do_move(machine_t *machine, const shell_args_t *args)
     uint16_t to_pos[PAGE_JOINTS] = {0};
     uint16_t deg_s, id;
     if (!machine_number(args, 1, 1, SPEED_MAX_DEG_S, &deg_s)) {
-        return machine_range_error(PSTR("Degrees/s"), 1, SPEED_MAX_DEG_S);
+        return machine_range_error(TEXT_P("Degrees/s"), 1, SPEED_MAX_DEG_S);
     }
     if (!machine_number(args, 2, 0, PAGE_JOINTS - 1, &id)) {
         return id_error();
@@ -107,10 +107,10 @@ machine_status_t machine_do_play(machine_t *machine, const shell_args_t *args)
 {
     uint16_t page, code = LINK_CODE_NONE;
     if (!machine_number(args, 1, 1, PAGE_COUNT - 1, &page)) {
-        return machine_range_error(PSTR("Page"), 1, PAGE_COUNT - 1);
+        return machine_range_error(TEXT_P("Page"), 1, PAGE_COUNT - 1);
     }
     if (args->count == 3 && !machine_number(args, 2, 0, LINK_CODE_STOP - 1, &code)) {
-        return machine_range_error(PSTR("Code"), 0, LINK_CODE_STOP - 1);
+        return machine_range_error(TEXT_P("Code"), 0, LINK_CODE_STOP - 1);
     }
     const performer_status_t status = performer_start(machine->performer, (uint8_t)page, (uint8_t)code);
     return machine_refusal(status, machine->performer->fault_page, machine->performer->fault);

@@ -44,7 +44,7 @@ machine_status_t machine_do_open(machine_t *machine, const shell_args_t *args)
         return image_error();
     }
     if (!machine_number(args, 1, 0, PAGE_COUNT - 1, &page)) {
-        return machine_range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
+        return machine_range_error(TEXT_P("Page"), 0, PAGE_COUNT - 1);
     }
     return image_result(machine->image->open(machine->image->context, (uint8_t)page));
 }
@@ -59,10 +59,10 @@ machine_status_t machine_do_data(machine_t *machine, const shell_args_t *args)
         return image_error();
     }
     if (!machine_number(args, 1, 0, PAGE_BYTES - 1, &offset) || offset + count > PAGE_BYTES) {
-        return machine_range_error(PSTR("Offset and data"), 0, PAGE_BYTES - 1);
+        return machine_range_error(TEXT_P("Offset and data"), 0, PAGE_BYTES - 1);
     }
     if (count > DATA_BYTES_MAX) {
-        return machine_range_error(PSTR("Bytes of data"), 1, DATA_BYTES_MAX);
+        return machine_range_error(TEXT_P("Bytes of data"), 1, DATA_BYTES_MAX);
     }
     for (uint8_t i = 0; hex[i] != '\0'; i++) {
         const uint8_t digit = shell_digit(hex[i]);
@@ -105,7 +105,7 @@ machine_status_t machine_do_save(machine_t *machine, const shell_args_t *args)
         return image_error();
     }
     if (!machine_number(args, 1, 0, PAGE_COUNT - 1, &page)) {
-        return machine_range_error(PSTR("Page"), 0, PAGE_COUNT - 1);
+        return machine_range_error(TEXT_P("Page"), 0, PAGE_COUNT - 1);
     }
     if (!shell_parse(shell_word(args, 2), true, &crc) || crc != ram_crc(machine)) {
         (void)machine_error(MACHINE_ERR_CRC);

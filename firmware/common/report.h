@@ -11,8 +11,16 @@
 /* "checksum is wrong", "more than 7 steps", ...: what is wrong with a page. */
 void report_page_fault(uint8_t page_status);
 
-/* "Page 9 is damaged: checksum is wrong": why a play did not start. Nothing for PERFORMER_OK. */
+/* "Page 9 is damaged: checksum is wrong", "Page 9 is empty". */
+void report_bad_page(uint8_t page, uint8_t fault);
+
+/* Why a play did not start: report_bad_page, "Busy: stop what is playing first", ... Nothing for PERFORMER_OK. */
 void report_refusal(performer_status_t status, uint8_t page, uint8_t fault);
+
+/* "1-18 20": the joints of a mask; "none". */
+void report_joints(uint32_t joints);
+
+/* report_event.c, Play only: */
 
 /* "overload, overheating": the bits of a servo's error byte. */
 void report_servo_errors(uint8_t errors);
@@ -22,9 +30,6 @@ void report_page(uint8_t page);
 
 /* "11.3 V". */
 void report_voltage(uint8_t dv);
-
-/* "1-18 20": the joints of a mask; "none". */
-void report_joints(uint32_t joints);
 
 /* One sentence for an event. */
 void report_event(const performer_event_t *event);

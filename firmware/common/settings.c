@@ -3,6 +3,7 @@
 #include "crc16.h"
 #include "eeprom.h"
 #include "memory_map.h"
+#include "settings_parts.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -27,32 +28,8 @@ typedef struct {
 STATIC_ASSERT(sizeof(record_t) == 4u + sizeof(settings_t) + 2u && sizeof(record_t) <= COPY_BYTES, "a record fits its place");
 STATIC_ASSERT(MEM_EE_SETTINGS + 2u * COPY_BYTES <= MEM_EE_SETTINGS_END, "two copies fit");
 
-#define NAME(id, text) static const char name_##id[] PROGMEM = #id; static const char meaning_##id[] PROGMEM = text
-NAME(law, "0 exact, 1 classic");
-NAME(remote, "0 latch, 1 hold");
-NAME(approach, "degrees/s, 0 = off");
-NAME(fault, "0 hold, 1 exit page, 2 go on without it");
-NAME(low, "battery warning, 0.1 V, 0 = off");
-NAME(hot, "servo warning, degrees C, 0 = off");
-NAME(neutral, "MIRROR about 0: 512, 1: page 1");
-NAME(flow, "1 = XON/XOFF");
-NAME(fast, "1 = 117,647 baud after start");
-NAME(talk, "1 = status lines while playing");
-
-/* Ranges apart from texts: an image that never calls settings_item does not pay for these. */
-typedef struct {
-    const char *name, *meaning;
-} item_text_t;
-#define ITEM_TEXT(id) { name_##id, meaning_##id }
-static const item_text_t item_texts[SETTINGS_ITEMS] PROGMEM = {
-    ITEM_TEXT(law), ITEM_TEXT(remote), ITEM_TEXT(approach), ITEM_TEXT(fault), ITEM_TEXT(low),
-    ITEM_TEXT(hot), ITEM_TEXT(neutral), ITEM_TEXT(flow), ITEM_TEXT(fast), ITEM_TEXT(talk),
-};
-typedef struct {
-    uint8_t offset, low, high;
-} item_range_t;
 #define ITEM(id, field, low, high) { offsetof(settings_t, field), low, high }
-static const item_range_t items[SETTINGS_ITEMS] PROGMEM = {
+const settings_range_t settings_ranges_P[SETTINGS_ITEMS] PROGMEM = {
     ITEM(law, law, 0, 1),
     ITEM(remote, remote_mode, 0, 1),
     ITEM(approach, approach_deg_s, 0, 240),
@@ -89,9 +66,9 @@ static uint16_t copy_addr(uint8_t copy)
 
 static bool is_sound(const settings_t *settings)
 {
-    item_range_t item;
+    settings_range_t item;
     for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
-        memcpy_P(&item, &items[i], sizeof item);
+        memcpy_P(&item, &settings_ranges_P[i], sizeof item);
         uint8_t value = ((const uint8_t *)settings)[item.offset];
         if (value < item.low || value > item.high) {
             return false;
@@ -185,15 +162,6 @@ void settings_save(settings_store_t *store, const settings_t *settings)
 }
 
 /* ---- by name ---- */
-
-void settings_item(uint8_t index, settings_item_t *item)
-{
-    item_range_t range;
-    item_text_t text;
-    memcpy_P(&range, &items[index], sizeof range);
-    memcpy_P(&text, &item_texts[index], sizeof text);
-    *item = (settings_item_t){ text.name, text.meaning, range.offset, range.low, range.high };
-}
 
 uint8_t settings_value(const settings_t *settings, const settings_item_t *item)
 {

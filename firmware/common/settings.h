@@ -75,7 +75,7 @@ typedef struct {
 
 #define SETTINGS_ITEMS 10u
 
-/* Item `index` 0..SETTINGS_ITEMS-1, copied from flash. */
+/* Item `index` 0..SETTINGS_ITEMS-1, copied from flash. In settings_names.c: Play only. */
 void settings_item(uint8_t index, settings_item_t *item);
 
 uint8_t settings_value(const settings_t *settings, const settings_item_t *item);

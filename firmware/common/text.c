@@ -2,6 +2,11 @@
 #include "text.h"
 
 #include <stdbool.h>
+#include "compiler.h"
+#include "text_pairs.h"
+
+STATIC_ASSERT(TEXT_PAIRS_DEPTH <= TEXT_READER_BYTES, "packed texts are nested no deeper than a reader can follow");
+enum { FIRST_PAIR = 0x80 };
 
 static text_put_t text_out;
 
@@ -22,12 +27,41 @@ void text_string(const char *string)
     }
 }
 
+void text_open_P(text_reader_t *reader, const char *string_P)
+{
+    reader->at_P = string_P;
+    reader->depth = 0;
+}
+
+/* Of a pair the second half waits, the first is what comes next, and may be a pair again. */
+char text_next(text_reader_t *reader)
+{
+    uint8_t code = reader->depth > 0 ? reader->waiting[--reader->depth] : pgm_read_byte(reader->at_P++);
+    while (code >= FIRST_PAIR) {
+        const uint8_t *pair_P = text_pairs[code - FIRST_PAIR];
+        reader->waiting[reader->depth++] = pgm_read_byte(pair_P + 1);
+        code = pgm_read_byte(pair_P);
+    }
+    return (char)code;
+}
+
 void text_P(const char *string_P)
 {
-    char character;
-    while ((character = (char)pgm_read_byte(string_P++)) != '\0') {
+    text_reader_t reader;
+    text_open_P(&reader, string_P);
+    for (char character; (character = text_next(&reader)) != '\0';) {
         text_put(character);
     }
+}
+
+char *text_copy_P(char *to, const char *string_P)
+{
+    text_reader_t reader;
+    text_open_P(&reader, string_P);
+    while ((*to = text_next(&reader)) != '\0') {
+        to++;
+    }
+    return to;
 }
 
 /* Digits by subtraction: a 32-bit division costs ten times as much and a page of code. */

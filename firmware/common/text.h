@@ -8,6 +8,9 @@
 #include <stdint.h>
 #include "pgm.h"
 
+/* How deep a packed text may be nested: codes that wait while another is taken apart. */
+#define TEXT_READER_BYTES 6u
+
 typedef void (*text_put_t)(char character);
 
 /* Every later text goes to `put`. */
@@ -17,8 +20,26 @@ void text_put(char character);
 void text_string(const char *string);   /* from RAM */
 void text_P(const char *string_P);      /* from flash */
 
-/* TEXT("...") prints a text that is kept in flash. */
+/* Texts that are only printed are marked, so that the images can hold them packed (tools/pack_texts):
+ *   TEXT("...")              prints it
+ *   TEXT_P("...")            names it, inside a function, for text_P and all that hand a flash text on to it
+ *   TEXT_NAMED(name, "...")  defines it as an array, for tables
+ * Each takes a literal and nothing else. A text that is compared with what someone typed is a plain PSTR; every function
+ * here takes plain texts as well. Whoever else walks a marked text does so with a text_reader_t. */
 #define TEXT(literal) text_P(PSTR(literal))
+#define TEXT_P(literal) PSTR(literal)
+#define TEXT_NAMED(name, literal) static const char name[] PROGMEM = literal
+
+/* Hands out a flash text one character at a time. */
+typedef struct {
+    const char *at_P;
+    uint8_t depth;                        /* codes that wait */
+    uint8_t waiting[TEXT_READER_BYTES];
+} text_reader_t;
+
+void text_open_P(text_reader_t *reader, const char *string_P);
+char text_next(text_reader_t *reader);           /* '\0' at the end; not to be called again then */
+char *text_copy_P(char *to, const char *string_P);   /* into RAM, with its end; returns where that stands */
 
 void text_number(uint16_t number);                              /* decimal, as short as it is */
 void text_number32(uint32_t number);

@@ -9,9 +9,9 @@
 static const char *value_name_P(cell_kind_t kind, uint16_t max)
 {
     if (kind == CELL_POSITION) {
-        return PSTR("Position");
+        return TEXT_P("Position");
     }
-    return max == PAGE_STEPS ? PSTR("Page Step") : max == UINT8_MAX ? PSTR("Value") : PSTR("Link");
+    return max == PAGE_STEPS ? TEXT_P("Page Step") : max == UINT8_MAX ? TEXT_P("Value") : TEXT_P("Link");
 }
 
 /* An edit of one cell. Page 0: the trim follows. */

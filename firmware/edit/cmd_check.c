@@ -39,7 +39,7 @@ static void check_links(const editor_t *editor, uint8_t page)
             begin_line(page);
             TEXT("leads to page ");
             text_number(to);
-            text_P(page_store_is_good(editor->pages, to) ? PSTR(", which has no steps") : PSTR(", which is not valid"));
+            text_P(page_store_is_good(editor->pages, to) ? TEXT_P(", which has no steps") : TEXT_P(", which is not valid"));
             text_line_end();
         }
     }
@@ -152,5 +152,5 @@ COMMAND(cmd_check)
     }
     editor->list_first = args->count > 1 ? (uint8_t)editor->number[0] : 1;
     editor->list_last = args->count > 1 ? (uint8_t)editor->number[0] : (uint8_t)(PAGE_COUNT - 1u);
-    return editor_list(editor, check_item, PSTR("Checked:"));
+    return editor_list(editor, check_item, TEXT_P("Checked:"));
 }

@@ -22,7 +22,7 @@ COMMAND(cmd_help)
 {
     editor_t *editor = context;
     if (args->count == 1) {
-        return editor_list(editor, help_item, PSTR("Keys: arrows, [ ] -1 +1, { } -10 +10, space"));
+        return editor_list(editor, help_item, TEXT_P("Keys: arrows, [ ] -1 +1, { } -10 +10, space"));
     }
     const shell_command_t *command = shell_find(commands_table_P, commands_count, args, 1);
     if (command == NULL) {
@@ -69,8 +69,7 @@ static void print_page(editor_t *editor, uint8_t page)
     text_line_end();
 }
 
-static const char list_title[] PROGMEM =
-    "Page name         steps next exit  lnk1 code lnk2 code call   time";
+TEXT_NAMED(list_title, "Page name         steps next exit  lnk1 code lnk2 code call   time");
 
 static bool list_page_item(editor_t *editor, uint8_t item)
 {

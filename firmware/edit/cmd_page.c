@@ -67,7 +67,7 @@ COMMAND(cmd_new)
 {
     editor_t *editor = context;
     (void)args;
-    if (!editor_ask(editor, PSTR(""))) {
+    if (!editor_ask(editor, TEXT_P(""))) {
         return EDITOR_TO_ASK;
     }
     session_begin(&editor->session);
@@ -122,17 +122,17 @@ static bool page_is_sound(editor_t *editor)
 static bool overwriting_is_meant(editor_t *editor, uint8_t page)
 {
     if (page != editor->session.page) {
-        return session_is_empty(page) || editor_ask(editor, PSTR("That page is not empty. "));
+        return session_is_empty(page) || editor_ask(editor, TEXT_P("That page is not empty. "));
     }
     if (page_store_is_erased(page) || page_store_check(editor->pages, page) == PAGE_OK) {
         return true;
     }
-    return editor_ask(editor, PSTR("The stored page is damaged. "));
+    return editor_ask(editor, TEXT_P("The stored page is damaged. "));
 }
 
 static uint8_t save_by_mailbox(editor_t *editor, uint8_t page)
 {
-    if (!editor_ask(editor, PSTR("SAVE restarts (5 s). "))) {
+    if (!editor_ask(editor, TEXT_P("SAVE restarts (5 s). "))) {
         return EDITOR_TO_ASK;
     }
     page_save_by_mailbox(page, editor->session.cells);
@@ -142,10 +142,10 @@ static uint8_t save_by_mailbox(editor_t *editor, uint8_t page)
 static uint8_t save_now(editor_t *editor, uint8_t page)
 {
     page_save_status_t status = page_save(editor->pages, page, editor->session.cells);
-    text_P(status == PAGE_SAVE_OK           ? PSTR("OK")
-           : status == PAGE_SAVE_UNCHANGED  ? PSTR("OK, no change")
-           : status == PAGE_SAVE_ERR_VERIFY ? PSTR("Not saved: flash error")
-                                            : PSTR("No boot loader can write: the page stays in RAM"));
+    text_P(status == PAGE_SAVE_OK           ? TEXT_P("OK")
+           : status == PAGE_SAVE_UNCHANGED  ? TEXT_P("OK, no change")
+           : status == PAGE_SAVE_ERR_VERIFY ? TEXT_P("Not saved: flash error")
+                                            : TEXT_P("No boot loader can write: the page stays in RAM"));
     if (page == editor->session.page) {
         session_saved(&editor->session);
     } else if (page == 0) {

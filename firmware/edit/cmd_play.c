@@ -58,17 +58,17 @@ static bool is_worth_telling(const performer_event_t *event)
 static const char *servo_text_P(const performer_event_t *event)
 {
     if (event->kind == PERFORMER_EV_SILENT) {
-        return PSTR(" does not answer");
+        return TEXT_P(" does not answer");
     }
     if (event->kind == PERFORMER_EV_BACK) {
-        return PSTR(" answers again");
+        return TEXT_P(" answers again");
     }
     if (event->kind == PERFORMER_EV_HOT || (event->b & DXL_ERR_HEAT) != 0) {
-        return PSTR(" is hot");
+        return TEXT_P(" is hot");
     }
-    return (event->b & DXL_ERR_OVERLOAD) != 0 ? PSTR(" is overloaded")
-           : (event->b & DXL_ERR_ANGLE) != 0  ? PSTR(" is outside its angle limits")
-                                              : PSTR(" reports low voltage");
+    return (event->b & DXL_ERR_OVERLOAD) != 0 ? TEXT_P(" is overloaded")
+           : (event->b & DXL_ERR_ANGLE) != 0  ? TEXT_P(" is outside its angle limits")
+                                              : TEXT_P(" reports low voltage");
 }
 
 /* Shorter than report_event, which Edit has no flash for. */

@@ -29,7 +29,7 @@ COMMAND(cmd_go)
     if (!editor_may_move(editor)) {
         return SHELL_ERR_SAID;
     }
-    if (step >= session->cells[PAGE_AT_STEPS] && !editor_ask(editor, PSTR(""))) {
+    if (step >= session->cells[PAGE_AT_STEPS] && !editor_ask(editor, TEXT_P(""))) {
         return EDITOR_TO_ASK;
     }
     uint8_t words[PAGE_STEP_BYTES];
@@ -106,8 +106,8 @@ static bool set_pairs(settings_t *settings, const shell_args_t *args)
         settings->neutral = shell_word_is(args, 1, PSTR("page1")) ? SETTINGS_NEUTRAL_PAGE1 : SETTINGS_NEUTRAL_512;
         return true;
     }
-    if (!shell_number(args, 1, PSTR("ID"), 0, PAGE_JOINTS - 1u, &a) ||
-        !shell_number(args, 2, PSTR("ID"), 0, PAGE_JOINTS - 1u, &b)) {
+    if (!shell_number(args, 1, TEXT_P("ID"), 0, PAGE_JOINTS - 1u, &a) ||
+        !shell_number(args, 2, TEXT_P("ID"), 0, PAGE_JOINTS - 1u, &b)) {
         return false;
     }
     return settings_pair(settings, (uint8_t)a, (uint8_t)b);
@@ -135,7 +135,7 @@ static bool joints_of(editor_t *editor, const shell_args_t *args, uint32_t *join
     *joints = args->count > 1 ? 0 : there;
     for (uint8_t i = 1; i < args->count; i++) {
         uint16_t id;
-        if (!shell_number(args, i, PSTR("ID"), 0, PAGE_JOINTS - 1u, &id)) {
+        if (!shell_number(args, i, TEXT_P("ID"), 0, PAGE_JOINTS - 1u, &id)) {
             return false;
         }
         *joints |= servo_link_bit((uint8_t)id);

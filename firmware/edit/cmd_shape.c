@@ -37,11 +37,11 @@ COMMAND(cmd_int)
     session_t *session = &editor->session;
     uint8_t a = (uint8_t)editor->number[0], b = (uint8_t)editor->number[1], steps = session->cells[PAGE_AT_STEPS];
     uint16_t percent = PERCENT_DEFAULT;
-    if (args->count > 3 && !shell_number(args, 3, PSTR("Percent"), 0, PERCENT_WHOLE, &percent)) {
+    if (args->count > 3 && !shell_number(args, 3, TEXT_P("Percent"), 0, PERCENT_WHOLE, &percent)) {
         return SHELL_ERR_SAID;
     }
     if (steps >= PAGE_STEPS || a >= steps || b >= steps) {
-        text_P(steps >= PAGE_STEPS ? PSTR("All 7 steps are used") : PSTR("That step is not used"));
+        text_P(steps >= PAGE_STEPS ? TEXT_P("All 7 steps are used") : TEXT_P("That step is not used"));
         return SHELL_ERR_SAID;
     }
     uint8_t to = (uint8_t)(a + 1u);

@@ -3,48 +3,48 @@
 
 #include "compiler.h"
 #include "pgm.h"
+#include "text.h"
 
-#define HELP(name, text) static const char help_##name[] PROGMEM = text
-HELP(page, "n  opens page n");
-HELP(next, "page");
-HELP(before, "page before");
-HELP(copy, "n  page n into the open page");
-HELP(new, "empties the open page");
-HELP(save, "[n]  into the flash [as page n]");
-HELP(exit, "restarts the controller");
-HELP(name, "[name]");
-HELP(step, "n  steps");
-HELP(go, "n  robot to step n");
-HELP(write, "[n]  robot's pose to the next step, or step n");
-HELP(insert, "n  robot's pose to a new step n");
-HELP(delete, "[n]  the last step, or step n");
-HELP(move, "a b  copies step a over step b; 7 is STP7");
-HELP(swap, "a b  exchanges two steps");
-HELP(int, "a b [r]  new step behind a, r % (50) of the way to b");
-HELP(scale, "p  the page takes p % of its time");
-HELP(take, "a [b]  notes steps for PASTE");
-HELP(paste, "[n]  the noted steps behind the last, or from n on");
-HELP(mirror, "n  robot to the mirror of step n");
-HELP(pairs, "[a b|512|page1]  pairs and middle of MIRROR");
-HELP(set, "v  the cell");
-HELP(goto, "x y");
-HELP(on, "[ids]  holds the pose");
-HELP(off, "[ids]  lets go: pose by hand, ON, WRITE");
-HELP(play, "[n]  CR stop, ESC end here, space break");
-HELP(time, "time base");
-HELP(speed, "speed base");
-HELP(re, "draws the screen anew");
-HELP(rows, "n  of the terminal");
-HELP(hex, "numbers");
-HELP(dec, "numbers");
-HELP(undo, "the last edit");
-HELP(redo, "");
-HELP(list, "[a [b]]  stored pages");
-HELP(find, "text  pages by name");
-HELP(check, "[n]  faults of stored pages");
-HELP(balance, "sensors 102, 101");
-HELP(mon, "servo bus");
-HELP(help, "[command]");
+TEXT_NAMED(help_page, "n  opens page n");
+TEXT_NAMED(help_next, "page");
+TEXT_NAMED(help_before, "page before");
+TEXT_NAMED(help_copy, "n  page n into the open page");
+TEXT_NAMED(help_new, "empties the open page");
+TEXT_NAMED(help_save, "[n]  into the flash [as page n]");
+TEXT_NAMED(help_exit, "restarts the controller");
+TEXT_NAMED(help_name, "[name]");
+TEXT_NAMED(help_step, "n  steps");
+TEXT_NAMED(help_go, "n  robot to step n");
+TEXT_NAMED(help_write, "[n]  robot's pose to the next step, or step n");
+TEXT_NAMED(help_insert, "n  robot's pose to a new step n");
+TEXT_NAMED(help_delete, "[n]  the last step, or step n");
+TEXT_NAMED(help_move, "a b  copies step a over step b; 7 is STP7");
+TEXT_NAMED(help_swap, "a b  exchanges two steps");
+TEXT_NAMED(help_int, "a b [r]  new step behind a, r % (50) of the way to b");
+TEXT_NAMED(help_scale, "p  the page takes p % of its time");
+TEXT_NAMED(help_take, "a [b]  notes steps for PASTE");
+TEXT_NAMED(help_paste, "[n]  the noted steps behind the last, or from n on");
+TEXT_NAMED(help_mirror, "n  robot to the mirror of step n");
+TEXT_NAMED(help_pairs, "[a b|512|page1]  pairs and middle of MIRROR");
+TEXT_NAMED(help_set, "v  the cell");
+TEXT_NAMED(help_goto, "x y");
+TEXT_NAMED(help_on, "[ids]  holds the pose");
+TEXT_NAMED(help_off, "[ids]  lets go: pose by hand, ON, WRITE");
+TEXT_NAMED(help_play, "[n]  CR stop, ESC end here, space break");
+TEXT_NAMED(help_time, "time base");
+TEXT_NAMED(help_speed, "speed base");
+TEXT_NAMED(help_re, "draws the screen anew");
+TEXT_NAMED(help_rows, "n  of the terminal");
+TEXT_NAMED(help_hex, "numbers");
+TEXT_NAMED(help_dec, "numbers");
+TEXT_NAMED(help_undo, "the last edit");
+TEXT_NAMED(help_redo, "");
+TEXT_NAMED(help_list, "[a [b]]  stored pages");
+TEXT_NAMED(help_find, "text  pages by name");
+TEXT_NAMED(help_check, "[n]  faults of stored pages");
+TEXT_NAMED(help_balance, "sensors 102, 101");
+TEXT_NAMED(help_mon, "servo bus");
+TEXT_NAMED(help_help, "[command]");
 
 /* In the order in which HELP lists them. */
 const shell_command_t commands_table_P[] PROGMEM = {

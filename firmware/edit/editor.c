@@ -152,7 +152,7 @@ bool editor_ask(editor_t *editor, const char *question_P)
 
 bool editor_ask_unsaved(editor_t *editor)
 {
-    return !editor->session.is_changed || editor_ask(editor, PSTR(""));
+    return !editor->session.is_changed || editor_ask(editor, TEXT_P(""));
 }
 
 bool editor_may_move(editor_t *editor)

@@ -3,23 +3,17 @@
 
 #include "page_store.h"
 #include "pgm.h"
+#include "text.h"
 
 enum { FIRST_MARKER_COLUMN = 25, STEP_WIDTH = 5, FIRST_STEP_COLUMN = 26, SOFTNESS_COLUMN = 61,
        HEADER_COLUMN = 77, HEADER_LABEL_END = 76, NAME_COLUMN = 64, TITLE_COLUMN = 65, HEX_LOWER_FROM = 0x1A };
 
-const char frame_labels_P[] PROGMEM = "STP7  STP0 STP1 STP2 STP3 STP4 STP5 STP6    Go Step:";
-const char frame_labels_page0_P[] PROGMEM = "STP7  MSTR SLAV OFST";
-
-/* Labels of header rows 3..19, in the order of bytes 14..30. */
-#define HEADER_TEXT_BYTES 14
-static const char header_texts[][HEADER_TEXT_BYTES] PROGMEM = {
-    "(Reserved) :", "PlayCount:", "(Reserved) :", "(Reserved) :", "(Reserved) :", "(Reserved) :", "Page Step:",
-    "ControlCode:", "Page Speed:", "DXL Setup:", "Accel Time:", "Link to Next:", "Link to Exit:", "Linked Page1:",
-    "Page1Remocon:", "Linked Page2:", "Page2Remocon:",
-};
-static const char pause_label[] PROGMEM = "   PauseTime       [";
-static const char speed_label[] PROGMEM = "   Speed           [";
-static const char time_label[] PROGMEM = "   Time( x 7.8mSec)[";
+/* Labels of header rows 1..19, one a line; from row 3 on in the order of bytes 14..30. */
+TEXT_NAMED(header_texts,
+           "PageNumber:\nAddr:\n"
+           "(Reserved) :\nPlayCount:\n(Reserved) :\n(Reserved) :\n(Reserved) :\n(Reserved) :\nPage Step:\n"
+           "ControlCode:\nPage Speed:\nDXL Setup:\nAccel Time:\nLink to Next:\nLink to Exit:\nLinked Page1:\n"
+           "Page1Remocon:\nLinked Page2:\nPage2Remocon:\n");
 
 uint8_t frame_marker_column(uint8_t steps)
 {
@@ -67,7 +61,7 @@ void frame_cell_text(const session_t *session, uint8_t x, uint8_t y, char text[C
 /* "Dynamixel 26(0x1a)[": upper case below 0x1A, lower case from there on, as the original has it. */
 static void joint_label(uint8_t joint, char text[FRAME_LABEL_BYTES])
 {
-    strcpy_P(text, PSTR("Dynamixel   (0x  )["));
+    (void)text_copy_P(text, TEXT_P("Dynamixel   (0x  )["));
     text[10] = joint < 10 ? ' ' : (char)('0' + joint / 10);
     text[11] = (char)('0' + joint % 10);
     cell_digits(joint, 2, true, &text[15]);
@@ -79,9 +73,10 @@ static void joint_label(uint8_t joint, char text[FRAME_LABEL_BYTES])
 void frame_label_text(const session_t *session, uint8_t y, char text[FRAME_LABEL_BYTES])
 {
     if (y == CELL_Y_PAUSE) {
-        strcpy_P(text, pause_label);
+        (void)text_copy_P(text, TEXT_P("   PauseTime       ["));
     } else if (y == CELL_Y_SPEED) {
-        strcpy_P(text, session->cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME ? time_label : speed_label);
+        (void)text_copy_P(text, session->cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME ? TEXT_P("   Time( x 7.8mSec)[")
+                                                                                 : TEXT_P("   Speed           ["));
     } else {
         joint_label(y, text);
         uint16_t word = session_pose(session, y);
@@ -94,16 +89,17 @@ void frame_label_text(const session_t *session, uint8_t y, char text[FRAME_LABEL
 
 uint8_t frame_header_label(uint8_t y, char label[FRAME_LABEL_BYTES])
 {
-    if (y == CELL_Y_NAME) {
-        label[0] = '\0';
-        return NAME_COLUMN;
+    text_reader_t reader;
+    uint8_t length = 0;
+    text_open_P(&reader, header_texts);
+    for (uint8_t row = 0; row < y; row++) {
+        length = 0;
+        while ((label[length] = text_next(&reader)) != '\n') {
+            length++;
+        }
     }
-    if (y < CELL_Y_HEADER) {
-        strcpy_P(label, y == CELL_Y_NUMBER ? PSTR("PageNumber:") : PSTR("Addr:"));
-        return TITLE_COLUMN;
-    }
-    strcpy_P(label, header_texts[y - CELL_Y_HEADER]);
-    return (uint8_t)(HEADER_LABEL_END + 1u - strlen(label));
+    label[length] = '\0';
+    return y < CELL_Y_HEADER ? (uint8_t)TITLE_COLUMN : (uint8_t)(HEADER_LABEL_END + 1u - length);
 }
 
 static void name_text(const session_t *session, char text[FRAME_LABEL_BYTES])
@@ -144,33 +140,30 @@ uint8_t frame_fault(const session_t *session)
 static const char *fault_name_P(uint8_t fault)
 {
     switch (fault) {
-    case PAGE_ERR_CHECKSUM: return PSTR("checksum");
-    case PAGE_ERR_SCHEDULE: return PSTR("schedule");
-    case PAGE_ERR_SPEED: return PSTR("page speed");
-    case PAGE_ERR_LINK: return PSTR("link");
-    case PAGE_ERR_POSITION: return PSTR("position");
+    case PAGE_ERR_CHECKSUM: return TEXT_P("checksum");
+    case PAGE_ERR_SCHEDULE: return TEXT_P("schedule");
+    case PAGE_ERR_SPEED: return TEXT_P("page speed");
+    case PAGE_ERR_LINK: return TEXT_P("link");
+    case PAGE_ERR_POSITION: return TEXT_P("position");
     default: return NULL;
     }
 }
 
 void frame_fault_text(uint8_t fault, char text[FRAME_FAULT_BYTES])
 {
-    memset(text, ' ', FRAME_FAULT_BYTES - 1);
-    text[FRAME_FAULT_BYTES - 1] = '\0';
-    if (fault == 0) {
-        return;
-    }
-    memcpy_P(text, PSTR("Invalid: "), 9);
-    const char *name = fault_name_P(fault);
-    if (name != NULL) {
-        memcpy_P(text + 9, name, strlen_P(name));
-        return;
-    }
-    char *at = text + 9;
-    for (uint8_t unit = 100; unit > 0; unit /= 10) {
-        if (fault >= unit) {
-            *at++ = (char)('0' + fault / unit % 10);
+    char *at = text;
+    if (fault != 0) {
+        const char *name_P = fault_name_P(fault);
+        at = text_copy_P(at, TEXT_P("Invalid: "));
+        for (uint8_t unit = 100; unit > 0 && name_P == NULL; unit /= 10) {
+            if (fault >= unit) {
+                *at++ = (char)('0' + fault / unit % 10);
+            }
         }
+        at = text_copy_P(at, name_P == NULL ? TEXT_P(" steps") : name_P);
     }
-    memcpy_P(at, PSTR(" steps"), 6);
+    while (at < text + FRAME_FAULT_BYTES - 1) {
+        *at++ = ' ';
+    }
+    *at = '\0';
 }

@@ -17,9 +17,6 @@
 #define FRAME_LABEL_BYTES 21u
 #define FRAME_FAULT_BYTES 21u
 
-extern const char frame_labels_P[];
-extern const char frame_labels_page0_P[]; /* the beginning, on page 0 */
-
 uint8_t frame_marker_column(uint8_t steps);
 bool frame_is_marker_column(uint8_t column);
 
@@ -32,7 +29,7 @@ void frame_cell_text(const session_t *session, uint8_t x, uint8_t y, char text[C
 /* Columns 1..19 of table row y, opening bracket included (rows of bytes: 20 columns, blank up to the closing one). */
 void frame_label_text(const session_t *session, uint8_t y, char text[FRAME_LABEL_BYTES]);
 
-/* Label of header row y (0..19), "" when there is none; returns its column. */
+/* Label of header row y (0..19), "" for row 0, which has none; returns its column. */
 uint8_t frame_header_label(uint8_t y, char label[FRAME_LABEL_BYTES]);
 
 /* Name, page number, flash address (y 0..2); returns the column. */

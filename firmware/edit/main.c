@@ -24,11 +24,10 @@ static void put(char character)
 /* What the line must tell before the first screen hides it. */
 static void tell_start(page_service_kind_t service)
 {
-    static const char none[] PROGMEM = "No boot loader can write: no SAVE";
-    static const char mailbox[] PROGMEM = "Unknown loader: SAVE restarts";
     if (service == PAGE_SERVICE_NONE || service == PAGE_SERVICE_MAILBOX) {
         editor_message_begin(&editor);
-        text_P(service == PAGE_SERVICE_NONE ? none : mailbox);
+        text_P(service == PAGE_SERVICE_NONE ? TEXT_P("No boot loader can write: no SAVE")
+                                            : TEXT_P("Unknown loader: SAVE restarts"));
         editor_message_end(&editor);
     }
 }

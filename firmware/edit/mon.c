@@ -33,11 +33,11 @@ static void print_bytes(const char *before_P, const uint8_t *bytes, uint8_t coun
 static const char *status_text_P(bus_status_t status)
 {
     switch (status) {
-    case BUS_ERR_TIMEOUT: return PSTR("[Err:RxD Timeout]");
-    case BUS_ERR_CHECKSUM: return PSTR("[Err:Wrong CheckSum]");
-    case BUS_ERR_FRAMING: return PSTR("[Err:Wrong Header]");
-    case BUS_ERR_WRONG_ID: return PSTR("[Err:TxID != RxID]");
-    default: return PSTR("[Err:Wrong Length]");
+    case BUS_ERR_TIMEOUT: return TEXT_P("[Err:RxD Timeout]");
+    case BUS_ERR_CHECKSUM: return TEXT_P("[Err:Wrong CheckSum]");
+    case BUS_ERR_FRAMING: return TEXT_P("[Err:Wrong Header]");
+    case BUS_ERR_WRONG_ID: return TEXT_P("[Err:TxID != RxID]");
+    default: return TEXT_P("[Err:Wrong Length]");
     }
 }
 
@@ -48,15 +48,15 @@ static bool transact(uint8_t id, uint8_t instruction, const uint8_t *params, uin
     bool silent = id == DXL_BROADCAST && instruction != DXL_PING;
     bus_status_t status = bus_call(id, instruction, params, count, silent ? BUS_NO_ANSWER : answer_params,
                                    silent ? 1 : TRIES, &answer);
-    print_bytes(PSTR("->[Dynamixel]:"), bus_packet(), (uint8_t)(bus_packet()[3] + 4u));
+    print_bytes(TEXT_P("->[Dynamixel]:"), bus_packet(), (uint8_t)(bus_packet()[3] + 4u));
     text_line_end();
     if (silent) {
         return false;
     }
     if (status == BUS_OK) {
-        print_bytes(PSTR("<-[Dynamixel]: ID"), &answer.id, 1);
-        print_bytes(PSTR(" error"), &answer.error, 1);
-        print_bytes(PSTR(" :"), answer.params, answer.count);
+        print_bytes(TEXT_P("<-[Dynamixel]: ID"), &answer.id, 1);
+        print_bytes(TEXT_P(" error"), &answer.error, 1);
+        print_bytes(TEXT_P(" :"), answer.params, answer.count);
         text_line_end();
     } else {
         (void)say(status_text_P(status));
@@ -82,7 +82,7 @@ static uint8_t bytes_of(const shell_args_t *args, uint8_t index, uint8_t *params
 {
     uint8_t count = 0;
     for (; index < args->count && count < PARAMS_MAX; index++, count++) {
-        if (!byte_word(args, index, PSTR("Byte"), UINT8_MAX, &params[count])) {
+        if (!byte_word(args, index, TEXT_P("Byte"), UINT8_MAX, &params[count])) {
             return 0;
         }
     }
@@ -92,7 +92,7 @@ static uint8_t bytes_of(const shell_args_t *args, uint8_t index, uint8_t *params
 static bool is_one_servo(const editor_t *editor)
 {
     if (editor->cid == DXL_BROADCAST) {
-        (void)say(PSTR("One servo only: CID first"));
+        (void)say(TEXT_P("One servo only: CID first"));
     }
     return editor->cid != DXL_BROADCAST;
 }
@@ -116,13 +116,13 @@ static uint8_t send_words(void *context, const shell_args_t *args, uint8_t instr
 static bool send_value(editor_t *editor, const shell_args_t *args, uint8_t address, uint8_t max)
 {
     uint8_t params[2] = { address, 0 };
-    return byte_word(args, 1, PSTR("Value"), max, &params[1]) && transact(editor->cid, DXL_WRITE, params, 2, 0);
+    return byte_word(args, 1, TEXT_P("Value"), max, &params[1]) && transact(editor->cid, DXL_WRITE, params, 2, 0);
 }
 
 WORD(mon_cid)
 {
     editor_t *editor = context;
-    (void)byte_word(args, 1, PSTR("ID"), DXL_BROADCAST, &editor->cid);
+    (void)byte_word(args, 1, TEXT_P("ID"), DXL_BROADCAST, &editor->cid);
     return SHELL_OK;
 }
 
@@ -130,7 +130,7 @@ WORD(mon_ping)
 {
     editor_t *editor = context;
     uint8_t id = editor->cid;
-    if (args->count == 1 || byte_word(args, 1, PSTR("ID"), DXL_BROADCAST, &id)) {
+    if (args->count == 1 || byte_word(args, 1, TEXT_P("ID"), DXL_BROADCAST, &id)) {
         (void)transact(id, DXL_PING, NULL, 0, 0);
     }
     return SHELL_OK;
@@ -140,8 +140,8 @@ WORD(mon_read)
 {
     editor_t *editor = context;
     uint8_t params[2] = { 0, 1 };
-    if (byte_word(args, 1, PSTR("Address"), TABLE_BYTES - 1, &params[0]) && is_one_servo(editor) &&
-        (args->count < 3 || byte_word(args, 2, PSTR("Count"), (uint8_t)(TABLE_BYTES - params[0]), &params[1]))) {
+    if (byte_word(args, 1, TEXT_P("Address"), TABLE_BYTES - 1, &params[0]) && is_one_servo(editor) &&
+        (args->count < 3 || byte_word(args, 2, TEXT_P("Count"), (uint8_t)(TABLE_BYTES - params[0]), &params[1]))) {
         (void)transact(editor->cid, DXL_READ, params, 2, params[1]);
     }
     return SHELL_OK;
@@ -168,8 +168,8 @@ WORD(mon_go)
 {
     editor_t *editor = context;
     uint16_t pos, speed = 0;
-    if (!shell_number(args, 1, PSTR("Position"), 0, PAGE_POS_MAX, &pos) ||
-        (args->count > 2 && !shell_number(args, 2, PSTR("Speed"), 0, PAGE_POS_MAX, &speed))) {
+    if (!shell_number(args, 1, TEXT_P("Position"), 0, PAGE_POS_MAX, &pos) ||
+        (args->count > 2 && !shell_number(args, 2, TEXT_P("Speed"), 0, PAGE_POS_MAX, &speed))) {
         text_line_end();
         return SHELL_ERR_SAID;
     }
@@ -189,11 +189,11 @@ WORD(mon_id)
 {
     editor_t *editor = context;
     uint8_t id;
-    if (!is_one_servo(editor) || !byte_word(args, 1, PSTR("ID"), ID_MAX, &id)) {
+    if (!is_one_servo(editor) || !byte_word(args, 1, TEXT_P("ID"), ID_MAX, &id)) {
         return SHELL_ERR_SAID;
     }
     if (bus_call_ping(id, TRIES, NULL) == BUS_OK) {
-        return say(PSTR("That ID is taken"));
+        return say(TEXT_P("That ID is taken"));
     }
     if (send_value(editor, args, DXL_AT_ID, ID_MAX)) {
         editor->cid = id;
@@ -216,7 +216,7 @@ WORD(mon_reset)
         return SHELL_ERR_SAID;
     }
     if (!shell_word_is(args, 1, PSTR("yes"))) {
-        return say(PSTR("RESET YES: factory values, ID 1"));
+        return say(TEXT_P("RESET YES: factory values, ID 1"));
     }
     (void)transact(editor->cid, DXL_RESET, NULL, 0, 0);
     return SHELL_OK;
@@ -229,7 +229,7 @@ WORD(mon_sync_write)
     uint8_t count = bytes_of(args, 1, params);
     (void)context;
     if (count < 4 || params[1] == 0 || (count - 2) % (params[1] + 1) != 0) {
-        return say(PSTR("SWR address count id byte .. id byte .."));
+        return say(TEXT_P("SWR address count id byte .. id byte .."));
     }
     (void)transact(DXL_BROADCAST, DXL_SYNC_WRITE, params, count, BUS_NO_ANSWER);
     return SHELL_OK;
@@ -249,14 +249,14 @@ static void scan(uint8_t last)
     }
     text_put(' ');
     text_padded(found, 3, '0');
-    (void)say(PSTR(" Dynamixels Found."));
+    (void)say(TEXT_P(" Dynamixels Found."));
 }
 
 WORD(mon_scan)
 {
     uint8_t last = SCAN_LAST;
     (void)context;
-    if (args->count == 1 || byte_word(args, 1, PSTR("ID"), ID_MAX, &last)) {
+    if (args->count == 1 || byte_word(args, 1, TEXT_P("ID"), ID_MAX, &last)) {
         scan(last);
     }
     return SHELL_OK;
@@ -284,7 +284,7 @@ WORD(mon_dump)
             return say(status_text_P(status));
         }
         text_padded(at, 3, '0');
-        print_bytes(PSTR(":"), row, DUMP_ROW);
+        print_bytes(TEXT_P(":"), row, DUMP_ROW);
         text_line_end();
     }
     return SHELL_OK;
@@ -305,7 +305,7 @@ WORD(mon_exit)
 
 WORD(mon_toss_start)
 {
-    (void)say(PSTR("Three ESC end it"));
+    (void)say(TEXT_P("Three ESC end it"));
     mon_toss(context);
     text_line_end();
     return SHELL_OK;
@@ -315,9 +315,13 @@ WORD(mon_toss_start)
 
 WORD(mon_help);
 
-static const char help_n[] PROGMEM = "n", help_none[] PROGMEM = "", help_id[] PROGMEM = "[id]",
-                  help_read[] PROGMEM = "address [count]", help_write[] PROGMEM = "address byte ..",
-                  help_go[] PROGMEM = "position [speed]", help_cid[] PROGMEM = "id  whom it is for";
+TEXT_NAMED(help_n, "n");
+TEXT_NAMED(help_none, "");
+TEXT_NAMED(help_id, "[id]");
+TEXT_NAMED(help_read, "address [count]");
+TEXT_NAMED(help_write, "address byte ..");
+TEXT_NAMED(help_go, "position [speed]");
+TEXT_NAMED(help_cid, "id  whom it is for");
 
 static const shell_command_t table_P[] PROGMEM = {
     { "help", "?", 0, 1, mon_help, help_none },
@@ -368,7 +372,7 @@ void mon_line(editor_t *editor, const shell_args_t *args)
     servo_link_quiet(editor->servos);
     uint8_t result = shell_run(table_P, WORDS, editor, args);
     if (result >= SHELL_ERR_UNKNOWN) {
-        (void)say(result == SHELL_ERR_UNKNOWN ? PSTR(" Bad Command") : PSTR(" Invalid Parameter"));
+        (void)say(result == SHELL_ERR_UNKNOWN ? TEXT_P(" Bad Command") : TEXT_P(" Invalid Parameter"));
     }
 }
 

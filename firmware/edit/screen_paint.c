@@ -4,6 +4,7 @@
 #include "frame.h"
 #include "pgm.h"
 #include "screen_parts.h"
+#include "text.h"
 
 /* ---- sending ---- */
 
@@ -25,7 +26,9 @@ static void send_text(screen_t *screen, const char *text)
 
 static void send_text_P(screen_t *screen, const char *text)
 {
-    for (char character; (character = (char)pgm_read_byte(text)) != '\0'; text++) {
+    text_reader_t reader;
+    text_open_P(&reader, text);
+    for (char character; (character = text_next(&reader)) != '\0';) {
         screen_send(screen, character);
     }
 }
@@ -197,10 +200,10 @@ static bool paint_row(screen_t *screen, uint8_t y)
 static void paint_labels(screen_t *screen)
 {
     screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), FRAME_POSE_COLUMN);
-    send_text_P(screen, frame_labels_P);
+    send_text_P(screen, TEXT_P("STP7  STP0 STP1 STP2 STP3 STP4 STP5 STP6    Go Step:"));
     if (screen->session->page == 0) {
         screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), FRAME_POSE_COLUMN);
-        send_text_P(screen, frame_labels_page0_P);
+        send_text_P(screen, TEXT_P("STP7  MSTR SLAV OFST"));
     }
 }
 
@@ -236,7 +239,7 @@ static void paint_go(screen_t *screen)
 static void paint_unsaved(screen_t *screen)
 {
     screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), 1);
-    send_text_P(screen, screen->session->is_changed ? PSTR("* unsaved") : PSTR("         "));
+    send_text_P(screen, screen->session->is_changed ? TEXT_P("* unsaved") : TEXT_P("         "));
 }
 
 static void paint_fault(screen_t *screen)
@@ -260,7 +263,7 @@ static void paint_item(screen_t *screen, uint16_t item)
         break;
     case ITEM_XYA_FRAME:
         screen_go(screen, screen_row_of(screen, CELL_Y_SPEED), FRAME_FAULT_COLUMN);
-        send_text_P(screen, PSTR("[X:--,Y:--,A:----]"));
+        send_text_P(screen, TEXT_P("[X:--,Y:--,A:----]"));
         break;
     case ITEM_XYA:
         paint_xya(screen);
@@ -276,7 +279,7 @@ static void paint_item(screen_t *screen, uint16_t item)
         break;
     default:
         screen_go(screen, screen_command_row(screen), 1);
-        send_text_P(screen, screen->sink == SCREEN_QUIET ? PSTR("] _") : PSTR("] "));
+        send_text_P(screen, screen->sink == SCREEN_QUIET ? TEXT_P("] _") : TEXT_P("] "));
         break;
     }
 }

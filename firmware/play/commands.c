@@ -20,7 +20,7 @@ static uint8_t page_of_word(const play_t *play, const shell_args_t *args)
     uint16_t number;
     const char *word = shell_word(args, 1);
     if (word[0] >= '0' && word[0] <= '9') {
-        return shell_number(args, 1, PSTR("Page"), 1, PAGE_COUNT - 1, &number) ? (uint8_t)number : 0;
+        return shell_number(args, 1, TEXT_P("Page"), 1, PAGE_COUNT - 1, &number) ? (uint8_t)number : 0;
     }
     /* A name may hold separators: the words are put together again with a space between. */
     char name[PAGE_NAME_BYTES];
@@ -112,7 +112,7 @@ static uint8_t do_code(void *context, const shell_args_t *args)
     play_t *play = context;
     uint16_t code;
     inputs_refusal_t refusal;
-    if (!shell_number(args, 1, PSTR("Code"), 0, 255, &code)) {
+    if (!shell_number(args, 1, TEXT_P("Code"), 0, 255, &code)) {
         return SHELL_ERR_SAID;
     }
     inputs_code(&play->inputs, (uint8_t)code);
@@ -156,25 +156,24 @@ static uint8_t do_version(void *context, const shell_args_t *args)
 
 static uint8_t do_help(void *context, const shell_args_t *args);
 
-#define HELP(name, text) static const char help_##name[] PROGMEM = text
-HELP(baud, "[id ...]  moves slow servos to 1 Mbps");
-HELP(break, "ends now: slows down and holds");
-HELP(code, "n  a code 0..255, as from the remote");
-HELP(faults, "servos, bus, serial line and ticks: what went wrong");
-HELP(help, "[word]  this list");
-HELP(law, "[exact|classic]  the law of motion");
-HELP(list, "the pages that are not empty");
-HELP(off, "[id ...]  torque off");
-HELP(on, "[id ...]  torque on, holding the pose");
-HELP(pause, "slows down and holds until resume");
-HELP(play, "n|name  plays a page");
-HELP(remote, "[latch|hold]  letting go of the buttons: goes on, or stops");
-HELP(resume, "goes on after pause");
-HELP(servos, "[find]  the servos; or searches again");
-HELP(settings, "[name value|defaults]");
-HELP(status, "what is playing");
-HELP(stop, "ends softly, through the exit page; twice within a second: break");
-HELP(version, "of this program");
+TEXT_NAMED(help_baud, "[id ...]  moves slow servos to 1 Mbps");
+TEXT_NAMED(help_break, "ends now: slows down and holds");
+TEXT_NAMED(help_code, "n  a code 0..255, as from the remote");
+TEXT_NAMED(help_faults, "servos, bus, serial line and ticks: what went wrong");
+TEXT_NAMED(help_help, "[word]  this list");
+TEXT_NAMED(help_law, "[exact|classic]  the law of motion");
+TEXT_NAMED(help_list, "the pages that are not empty");
+TEXT_NAMED(help_off, "[id ...]  torque off");
+TEXT_NAMED(help_on, "[id ...]  torque on, holding the pose");
+TEXT_NAMED(help_pause, "slows down and holds until resume");
+TEXT_NAMED(help_play, "n|name  plays a page");
+TEXT_NAMED(help_remote, "[latch|hold]  letting go of the buttons: goes on, or stops");
+TEXT_NAMED(help_resume, "goes on after pause");
+TEXT_NAMED(help_servos, "[find]  the servos; or searches again");
+TEXT_NAMED(help_settings, "[name value|defaults]");
+TEXT_NAMED(help_status, "what is playing");
+TEXT_NAMED(help_stop, "ends softly, through the exit page; twice within a second: break");
+TEXT_NAMED(help_version, "of this program");
 
 static const shell_command_t table[] PROGMEM = {
     {"play", "p", 1, 6, do_play, help_play},

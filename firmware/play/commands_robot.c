@@ -16,7 +16,7 @@ static bool joints_of_words(const play_t *play, const shell_args_t *args, uint8_
     *joints = args->count <= first ? play->servos.present : 0;
     for (uint8_t i = first; i < args->count; i++) {
         uint16_t id;
-        if (!shell_number(args, i, PSTR("ID"), 0, ID_MAX, &id)) {
+        if (!shell_number(args, i, TEXT_P("ID"), 0, ID_MAX, &id)) {
             return false;
         }
         if ((play->servos.present & servo_link_bit(id)) == 0) {
@@ -97,7 +97,7 @@ uint8_t commands_do_baud(void *context, const shell_args_t *args)
     uint32_t joints = args->count == 1 ? play->servos.slow : 0;
     for (uint8_t i = 1; i < args->count; i++) {
         uint16_t id;
-        if (!shell_number(args, i, PSTR("ID"), 0, ID_MAX, &id)) {
+        if (!shell_number(args, i, TEXT_P("ID"), 0, ID_MAX, &id)) {
             return SHELL_ERR_SAID;
         }
         joints |= servo_link_bit(id);

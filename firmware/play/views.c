@@ -30,14 +30,14 @@ static void print_page_line(uint8_t page, const uint8_t *header)
     text_number(header[PAGE_AT_STEPS]);
     TEXT(" x ");
     text_number(header[PAGE_AT_PLAY_COUNT]);
-    print_page_link(PSTR(" code "), header[PAGE_AT_PLAY_CODE]);
-    print_page_link(PSTR(" next "), header[PAGE_AT_NEXT_PAGE]);
-    print_page_link(PSTR(" exit "), header[PAGE_AT_EXIT_PAGE]);
+    print_page_link(TEXT_P(" code "), header[PAGE_AT_PLAY_CODE]);
+    print_page_link(TEXT_P(" next "), header[PAGE_AT_NEXT_PAGE]);
+    print_page_link(TEXT_P(" exit "), header[PAGE_AT_EXIT_PAGE]);
     for (uint8_t at = PAGE_AT_LINKED1_PAGE; at <= PAGE_AT_LINKED2_PAGE; at = (uint8_t)(at + 2)) {
         if (header[at + 1] != 0) {
             TEXT(" on code ");
             text_number(header[at + 1]);
-            print_page_link(PSTR(" to "), header[at]);
+            print_page_link(TEXT_P(" to "), header[at]);
         }
     }
     text_line_end();
@@ -108,9 +108,9 @@ void views_print_status(const play_t *play)
 {
     print_state(&play->performer);
     TEXT("Law ");
-    text_P(play->settings.law == PLAYER_LAW_CLASSIC ? PSTR("classic") : PSTR("exact"));
+    text_P(play->settings.law == PLAYER_LAW_CLASSIC ? TEXT_P("classic") : TEXT_P("exact"));
     TEXT(", remote ");
-    text_P(play->settings.remote_mode == LINK_HOLD ? PSTR("hold") : PSTR("latch"));
+    text_P(play->settings.remote_mode == LINK_HOLD ? TEXT_P("hold") : TEXT_P("latch"));
     TEXT(", approach ");
     if (play->settings.approach_deg_s == 0) {
         TEXT("off");
@@ -167,7 +167,7 @@ void views_print_servos(const play_t *play)
         } else {
             text_padded(servos->present_pos[id], 4, ' ');
         }
-        text_P((servos->torque & joint) != 0 ? PSTR("  torque on ") : PSTR("  torque off"));
+        text_P((servos->torque & joint) != 0 ? TEXT_P("  torque on ") : TEXT_P("  torque off"));
         if ((play->performer.released & joint) != 0) {
             TEXT("  switched off");
         }
@@ -226,27 +226,27 @@ void views_print_faults(const play_t *play)
     TEXT("Bus: packets");
     text_put(' ');
     text_number32(bus.packets);
-    print_count(PSTR("answers"), bus.answers);
-    print_count(PSTR("retries"), bus.retries);
-    print_count(PSTR("time-outs"), bus.timeouts);
-    print_count(PSTR("checksum"), bus.checksums);
-    print_count(PSTR("framing"), bus.framing);
-    print_count(PSTR("wrong ID"), bus.wrong_ids);
+    print_count(TEXT_P("answers"), bus.answers);
+    print_count(TEXT_P("retries"), bus.retries);
+    print_count(TEXT_P("time-outs"), bus.timeouts);
+    print_count(TEXT_P("checksum"), bus.checksums);
+    print_count(TEXT_P("framing"), bus.framing);
+    print_count(TEXT_P("wrong ID"), bus.wrong_ids);
     text_line_end();
     console_counts_t console;
     console_counts(&console);
     TEXT("Serial: overruns");
     text_put(' ');
     text_number(console.overruns);
-    print_count(PSTR("framing"), console.framing);
-    print_count(PSTR("lost"), (uint32_t)console.ring_full + play->inputs.lost);
-    print_count(PSTR("remote packets"), play->inputs.remote.packets);
-    print_count(PSTR("remote noise"), play->inputs.remote.dropped);
+    print_count(TEXT_P("framing"), console.framing);
+    print_count(TEXT_P("lost"), (uint32_t)console.ring_full + play->inputs.lost);
+    print_count(TEXT_P("remote packets"), play->inputs.remote.packets);
+    print_count(TEXT_P("remote noise"), play->inputs.remote.dropped);
     text_line_end();
     TEXT("Ticks: missed");
     text_put(' ');
     text_number(tick_missed());
-    print_count(PSTR("goals late"), play->servos.late);
+    print_count(TEXT_P("goals late"), play->servos.late);
     text_line_end();
 }
 
@@ -270,6 +270,24 @@ void views_print_settings(const play_t *play)
     }
 }
 
+/* The first cause that applies, in this order: power-on, brown-out, watchdog, external, JTAG. */
+static const char *reset_text_P(uint8_t cause)
+{
+    if (cause & SYSTEM_RESET_POWER_ON) {
+        return TEXT_P("power-on");
+    }
+    if (cause & SYSTEM_RESET_BROWN_OUT) {
+        return TEXT_P("brown-out");
+    }
+    if (cause & SYSTEM_RESET_WATCHDOG) {
+        return TEXT_P("watchdog");
+    }
+    if (cause & SYSTEM_RESET_EXTERNAL) {
+        return TEXT_P("reset button");
+    }
+    return cause & SYSTEM_RESET_JTAG ? TEXT_P("JTAG") : TEXT_P("unknown");
+}
+
 void views_print_version(void)
 {
     app_record_t record;
@@ -281,10 +299,10 @@ void views_print_version(void)
             }
             text_number(record.version[i]);
         }
-        text_P(record.board == APP_RECORD_CM2 ? PSTR(" for CM-2") : PSTR(" for CM-5"));
+        text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" for CM-2") : TEXT_P(" for CM-5"));
     }
     TEXT(", last reset: ");
-    text_P(board_reset_text_P(system_reset_cause()));
+    text_P(reset_text_P(system_reset_cause()));
     text_line_end();
     uint16_t line;
     uint32_t address;

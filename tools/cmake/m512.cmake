@@ -62,6 +62,23 @@ function(m512_image target)
         COMMAND avr-objcopy -O ihex -R .eeprom -R .fuse -R .lock -R .noinit ${out}/${target}.elf ${out}/${target}.hex)
 endfunction()
 
+# m512_pack_texts(<image> <variable> SOURCE...)
+# Packs the texts of these sources, together, into the build folder (tools/pack_texts): <variable> becomes the list of
+# sources to build instead. The image's include path must have the originals' folders.
+function(m512_pack_texts image variable)
+    set(folder ${CMAKE_CURRENT_BINARY_DIR}/${image}-texts)
+    set(made ${folder}/texts.c)
+    foreach(source ${ARGN})
+        get_filename_component(name ${source} NAME)
+        list(APPEND made ${folder}/${name})
+    endforeach()
+    set(tool ${CMAKE_SOURCE_DIR}/tools/pack_texts)
+    add_custom_command(OUTPUT ${made} BYPRODUCTS ${folder}/texts.h ${folder}/text_pairs.h ${folder}/texts.txt
+        COMMAND ${tool} --out ${folder} ${ARGN} DEPENDS ${tool} ${ARGN} COMMENT "Packing the texts of ${image}" VERBATIM)
+    add_custom_target(${image}-texts DEPENDS ${made})
+    set(${variable} ${made} PARENT_SCOPE)
+endfunction()
+
 # m512_unit_test(<test_name> SOURCES ... [INCLUDES ...] [TARGET_TOO])
 # One Unity program from <test_name>.c in the current folder and the production sources it links.
 # Host world: a ctest under ASan and UBSan. With TARGET_TOO: the AVR world builds the same file as

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT
+ * settings_parts.h - what settings.c and settings_names.c share: the ranges, apart from the texts, which not every image
+ * has. */
+#ifndef SETTINGS_PARTS_H
+#define SETTINGS_PARTS_H
+
+#include "settings.h"
+
+typedef struct {
+    uint8_t offset, low, high;
+} settings_range_t;
+
+extern const settings_range_t settings_ranges_P[SETTINGS_ITEMS];
+
+#endif
