@@ -180,6 +180,20 @@ static void test_undo_full_page_of_18_joints_fits(void)
     }
 }
 
+/* A run's header has room for 128. */
+static void test_undo_long_run_of_neighbours_comes_back(void)
+{
+    undo_begin(&undo, UNDO_TURN_NONE);
+    for (uint16_t i = 64; i < 64 + 200; i++) {
+        set(i, 0x5A);
+    }
+    TEST_ASSERT_TRUE(undo_end(&undo));
+    TEST_ASSERT_TRUE(undo_back(&undo, &target));
+    for (uint16_t i = 0; i < UNDO_SPACE_BYTES; i++) {
+        TEST_ASSERT_EQUAL_UINT8(0, bytes[i]);
+    }
+}
+
 /* Worst for the run headers: every fifth byte, a run each. */
 static void test_undo_scattered_bytes_fit(void)
 {
@@ -283,6 +297,7 @@ int main(void)
     RUN_TEST(test_undo_turn_alone_is_a_command);
     RUN_TEST(test_undo_too_large_a_command_ends_the_history);
     RUN_TEST(test_undo_full_page_of_18_joints_fits);
+    RUN_TEST(test_undo_long_run_of_neighbours_comes_back);
     RUN_TEST(test_undo_scattered_bytes_fit);
     RUN_TEST(test_undo_eight_steps_of_18_joints_are_kept);
     RUN_TEST(test_undo_random_commands_come_back_in_order);

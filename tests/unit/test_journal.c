@@ -101,17 +101,6 @@ static void test_wear_is_even_over_the_slots(void)
     }
 }
 
-static void test_the_sequence_wraps(void)
-{
-    for (uint32_t i = 0; i < 66000; i++) {
-        fill(new_page, i);
-        TEST_ASSERT_EQUAL(FLASH_OK, journal_save((uint8_t)(i % 128), new_page));
-    }
-    TEST_ASSERT_EQUAL_MEMORY(new_page, target(65999 % 128), 512);
-    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
-    TEST_ASSERT_EQUAL_MEMORY(new_page, target(65999 % 128), 512);
-}
-
 static void test_a_flash_that_does_not_take_the_data_is_reported(void)
 {
     fake_flash_break(PAGE_ADDR / 256, 2);
@@ -209,6 +198,20 @@ static void test_power_cut_anywhere_leaves_the_old_page_or_the_new_one(void)
     TEST_ASSERT_EQUAL_UINT32(12 * 3 * 11, cuts);
 }
 
+static void test_the_sequence_wraps(void)
+{
+    for (uint32_t i = 0; i < 66000; i++) {
+        fill(new_page, i);
+        TEST_ASSERT_EQUAL(FLASH_OK, journal_save((uint8_t)(i % 128), new_page));
+    }
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(65999 % 128), 512);
+    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(65999 % 128), 512);
+    TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1)); /* record complete, target untouched */
+    TEST_ASSERT_EQUAL(JOURNAL_RESTORED, journal_recover(work));
+    TEST_ASSERT_EQUAL_MEMORY(new_page, target(PAGE), 512);
+}
+
 static void test_a_download_can_void_a_pending_page(void)
 {
     TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1)); /* record complete, target untouched */
@@ -224,6 +227,20 @@ static void test_rotten_slot_data_is_not_restored(void)
     TEST_ASSERT_EQUAL(JOURNAL_LOST, journal_recover(work));
     TEST_ASSERT_EQUAL_MEMORY(old_page, target(PAGE), 512);
     TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+}
+
+/* Page 128 would be the boot section. */
+static void test_a_record_of_a_page_beyond_the_last_counts_as_none(void)
+{
+    TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1));
+    uint8_t *record = fake_flash_bytes() + MEM_JOURNAL_START + 512;
+    record[4] = 128;
+    uint16_t crc = crc16_bytes(CRC16_START, record, 8);
+    record[8] = (uint8_t)crc;
+    record[9] = (uint8_t)(crc >> 8);
+    fake_flash_cut(0, FAKE_FLASH_BEFORE, 0, NULL);
+    TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
+    TEST_ASSERT_EQUAL_UINT32(0, fake_flash_ops());
 }
 
 static void test_a_full_of_noise_area_is_an_empty_journal(void)
@@ -277,6 +294,7 @@ int main(void)
     RUN_TEST(test_power_cut_anywhere_leaves_the_old_page_or_the_new_one);
     RUN_TEST(test_a_download_can_void_a_pending_page);
     RUN_TEST(test_rotten_slot_data_is_not_restored);
+    RUN_TEST(test_a_record_of_a_page_beyond_the_last_counts_as_none);
     RUN_TEST(test_a_full_of_noise_area_is_an_empty_journal);
     RUN_TEST(test_the_record_is_laid_out_as_documented);
     RUN_TEST(test_the_fake_flash_only_clears_bits_without_erase);

@@ -534,6 +534,24 @@ static void test_performer_fault_hold_slows_down_and_holds(void)
     TEST_ASSERT_EQUAL_HEX32(0, performer.faulty);
 }
 
+static void test_performer_fault_hold_sends_the_faulty_joint_nothing_more(void)
+{
+    pages[2][PAGE_AT_STEPS] = 2;
+    page_set_pos(pages[2], 1, 1, 412);
+    pages[2][PAGE_AT_STEP0 + PAGE_STEP_BYTES + PAGE_STEP_AT_SPEED] = 64;
+    page_seal(pages[2]);
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    ticks(64 + 30); /* in the middle of the second step */
+    fake_servo_link_fault(&servos, 1, SERVO_FAULT_ERRORS, DXL_ERR_OVERLOAD);
+    ticks(1);
+    const uint16_t held = fake_servo_link.goal_pos[1];
+    ticks(2);
+    TEST_ASSERT_FALSE(performer_is_idle(&performer)); /* the others slow down */
+    reach(PERFORMER_IDLE);
+    TEST_ASSERT_EQUAL_UINT16(held, fake_servo_link.goal_pos[1]);
+}
+
 static void test_performer_fault_limp_goes_on_without_the_joint(void)
 {
     play_with_fault(SETTINGS_FAULT_LIMP, SERVO_FAULT_ERRORS, DXL_ERR_OVERLOAD);
@@ -689,6 +707,7 @@ int main(void)
     RUN_TEST(test_performer_hold_mode_let_go_during_the_approach);
     RUN_TEST(test_performer_stop_code_twice_is_a_break);
     RUN_TEST(test_performer_fault_hold_slows_down_and_holds);
+    RUN_TEST(test_performer_fault_hold_sends_the_faulty_joint_nothing_more);
     RUN_TEST(test_performer_fault_limp_goes_on_without_the_joint);
     RUN_TEST(test_performer_fault_exit_leaves_through_the_exit_page);
     RUN_TEST(test_performer_voltage_error_is_told_and_ends_nothing);

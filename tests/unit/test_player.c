@@ -288,6 +288,7 @@ static void test_player_absent_joint_is_never_touched_nor_timed(void)
 static void dropped_joint_stays(player_law_t law)
 {
     sparse_step(1, 30, 0, 700);
+    sparse_step(1, 30, 0, 500);
     sparse_step(1, 30, 0, 300);
     start_law(1, law);
     for (uint8_t tick = 0; tick < 12; tick++) {

@@ -205,6 +205,7 @@ static void test_trim_is_added_and_limited(void)
     tick_with_goals(SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(510, fake_bus_word(1, DXL_AT_GOAL));
     TEST_ASSERT_EQUAL(480, fake_bus_word(2, DXL_AT_GOAL));
+    TEST_ASSERT_EQUAL(480, servo_link_to_servo(&servos, 2, 500)); /* by which Edit and the deaf are moved */
     (void)servo_link_read_pose(&servos, SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(500, servos.present_pos[1]);
     TEST_ASSERT_EQUAL(500, servos.present_pos[2]);
@@ -354,6 +355,35 @@ static void test_two_lost_answers_are_no_fault(void)
     idle_ticks(20);
     TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));
     TEST_ASSERT_EQUAL_HEX32(0, servos.silent);
+}
+
+static void test_third_lost_answer_in_a_row_is_a_fault(void)
+{
+    servo_fault_t fault;
+    robot(3);
+    fake_bus_servo(2)->fail_next = 3;
+    idle_ticks(4);   /* 1, then 2 three times */
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(2, fault.id);
+    TEST_ASSERT_EQUAL(SERVO_FAULT_SILENT, fault.kind);
+}
+
+/* It may have lost its power meanwhile. */
+static void test_servo_that_is_back_gets_its_slopes_again(void)
+{
+    uint8_t compliance[SERVO_LINK_JOINTS];
+    memset(compliance, 0x33, sizeof compliance);
+    robot(3);
+    servo_link_slopes(&servos, compliance);
+    tick_with_goals(SERVO_LINK_ALL);
+    fake_bus_servo(2)->faults = FAKE_BUS_SILENT;
+    idle_ticks(10);
+    fake_bus_servo(2)->table[DXL_AT_CW_SLOPE] = 32;
+    fake_bus_servo(2)->faults = 0;
+    idle_ticks(10);
+    TEST_ASSERT_EQUAL_HEX32(0, servos.silent);
+    tick_with_goals(SERVO_LINK_ALL);
+    TEST_ASSERT_EQUAL(8, fake_bus_servo(2)->table[DXL_AT_CW_SLOPE]);
 }
 
 static void test_servo_with_wrong_checksums_counts_as_silent(void)
@@ -507,6 +537,8 @@ int main(void)
     RUN_TEST(test_one_servo_a_tick_is_asked_in_turn);
     RUN_TEST(test_silent_servo_is_named_once_within_a_second_and_when_it_is_back);
     RUN_TEST(test_two_lost_answers_are_no_fault);
+    RUN_TEST(test_third_lost_answer_in_a_row_is_a_fault);
+    RUN_TEST(test_servo_that_is_back_gets_its_slopes_again);
     RUN_TEST(test_servo_with_wrong_checksums_counts_as_silent);
     RUN_TEST(test_errors_are_named_when_they_come_and_again_after_they_went);
     RUN_TEST(test_torque_that_goes_off_by_itself_is_named_and_not_driven);

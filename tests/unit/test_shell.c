@@ -261,6 +261,16 @@ static void test_shell_number_out_of_range_names_the_range(void)
     TEST_ASSERT_EQUAL_STRING("Page must be 0..127", out);
 }
 
+static void test_shell_number_below_the_range_is_refused(void)
+{
+    const shell_args_t args = enter("speed 0");
+    clear_out();
+    uint16_t speed = 5;
+    TEST_ASSERT_FALSE(shell_number(&args, 1, PSTR("Speed"), 1, 7, &speed));
+    TEST_ASSERT_EQUAL_UINT16(5, speed);
+    TEST_ASSERT_EQUAL_STRING("Speed must be 1..7", out);
+}
+
 static void test_shell_number_names_the_range_in_hex_mode(void)
 {
     keys("page 80\r");
@@ -388,6 +398,7 @@ int main(void)
     RUN_TEST(test_shell_parse_takes_whole_words_only);
     RUN_TEST(test_shell_number_in_range_says_nothing);
     RUN_TEST(test_shell_number_out_of_range_names_the_range);
+    RUN_TEST(test_shell_number_below_the_range_is_refused);
     RUN_TEST(test_shell_number_names_the_range_in_hex_mode);
     RUN_TEST(test_shell_run_finds_word_and_abbreviation_in_any_case);
     RUN_TEST(test_shell_run_wants_the_whole_word);
