@@ -32,22 +32,22 @@ void machine_end_ok(void)
     TEXT(" OK");
 }
 
-machine_status_t machine_error(machine_status_t status)
+uint8_t machine_error(uint8_t status)
 {
     TEXT(" ERR ");
-    text_number((uint16_t)status);
+    text_number(status);
     text_put(' ');
     return status;
 }
 
-machine_status_t machine_range_error(const char *what_P, uint16_t min, uint16_t max)
+uint8_t machine_range_error(const char *what_P, uint16_t min, uint16_t max)
 {
     (void)machine_error(MACHINE_ERR_RANGE);
     shell_print_range(what_P, min, max, false);
     return MACHINE_ERR_RANGE;
 }
 
-machine_status_t machine_refusal(performer_status_t status, uint8_t page, uint8_t fault)
+uint8_t machine_refusal(performer_status_t status, uint8_t page, uint8_t fault)
 {
     static const uint8_t numbers[] PROGMEM = {
         [PERFORMER_OK] = MACHINE_OK,
@@ -63,7 +63,7 @@ machine_status_t machine_refusal(performer_status_t status, uint8_t page, uint8_
         machine_end_ok();
         return MACHINE_OK;
     }
-    const machine_status_t number = machine_error((machine_status_t)pgm_read_byte(&numbers[status]));
+    const uint8_t number = machine_error(pgm_read_byte(&numbers[status]));
     report_refusal(status, page, fault);
     return number;
 }
@@ -95,8 +95,9 @@ void machine_serve(const machine_t *machine)
 
 /* ---- what is there ---- */
 
-static machine_status_t do_ver(machine_t *machine, const shell_args_t *args)
+static uint8_t do_ver(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     app_record_t record;
     (void)args;
     TEXT(" image=");
@@ -148,8 +149,9 @@ static void print_list_entry(const machine_t *machine, uint8_t page)
     text_put('"');
 }
 
-static machine_status_t do_list(machine_t *machine, const shell_args_t *args)
+static uint8_t do_list(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     uint16_t first = 0, last = PAGE_COUNT - 1;
     if (args->count == 2) {
         return machine_range_error(TEXT_P("Last page"), 0, PAGE_COUNT - 1);
@@ -174,10 +176,10 @@ static uint16_t print_hex_piece(uint16_t crc, const uint8_t *bytes, uint8_t coun
     return crc16_bytes(crc, bytes, count);
 }
 
-static machine_status_t do_page(machine_t *machine, const shell_args_t *args)
+static uint8_t do_page(void *context, const shell_args_t *args)
 {
     uint16_t page;
-    (void)machine;
+    (void)context;
     if (!machine_number(args, 1, 0, PAGE_COUNT - 1, &page)) {
         return machine_range_error(TEXT_P("Page"), 0, PAGE_COUNT - 1);
     }
@@ -197,8 +199,9 @@ static machine_status_t do_page(machine_t *machine, const shell_args_t *args)
 }
 
 /* id:position:torque, position "?" when the servo does not answer. */
-static machine_status_t do_pose(machine_t *machine, const shell_args_t *args)
+static uint8_t do_pose(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     const servo_link_t *servos = machine->servos;
     (void)args;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
@@ -235,8 +238,9 @@ static void print_state_name(const performer_t *performer)
     text_P(performer_is_paused(performer) ? paused : (const char *)pgm_read_ptr(&names[performer->state]));
 }
 
-static machine_status_t do_where(machine_t *machine, const shell_args_t *args)
+static uint8_t do_where(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     const performer_t *performer = machine->performer;
     const bool plays = performer->state == PERFORMER_PLAY;
     (void)args;
@@ -256,8 +260,9 @@ static machine_status_t do_where(machine_t *machine, const shell_args_t *args)
 }
 
 /* Into the boot loader's hands: it listens for '#' for 60 ms before it starts an image again. */
-static machine_status_t do_reset(machine_t *machine, const shell_args_t *args)
+static uint8_t do_reset(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     (void)args;
     if (!performer_is_idle(machine->performer)) {
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
@@ -267,46 +272,64 @@ static machine_status_t do_reset(machine_t *machine, const shell_args_t *args)
 
 /* ---- dispatch ---- */
 
-typedef struct {
-    char word[8];
-    uint8_t args_min, args_max;
-    machine_status_t (*handler)(machine_t *machine, const shell_args_t *args);
-} command_t;
+TEXT_NAMED(word_ver, "@ver  ");
+TEXT_NAMED(word_list, "@list  ");
+TEXT_NAMED(word_page, "@page  ");
+TEXT_NAMED(word_pose, "@pose  ");
+TEXT_NAMED(word_move, "@move  ");
+TEXT_NAMED(word_torque, "@torque  ");
+TEXT_NAMED(word_play, "@play  ");
+TEXT_NAMED(word_stop, "@stop  ");
+TEXT_NAMED(word_break, "@break  ");
+TEXT_NAMED(word_pause, "@pause  ");
+TEXT_NAMED(word_resume, "@resume  ");
+TEXT_NAMED(word_where, "@where  ");
+TEXT_NAMED(word_open, "@open  ");
+TEXT_NAMED(word_data, "@data  ");
+TEXT_NAMED(word_crc, "@crc  ");
+TEXT_NAMED(word_save, "@save  ");
+TEXT_NAMED(word_reset, "@reset  ");
 
-static const command_t table[] PROGMEM = {
-    {"ver", 0, 0, do_ver},       {"list", 0, 2, do_list},     {"page", 1, 1, do_page},
-    {"pose", 0, 0, do_pose},     {"move", 3, 3, machine_do_move},    {"torque", 1, 32, machine_do_torque},
-    {"play", 1, 2, machine_do_play},     {"stop", 0, 0, machine_do_stop},     {"break", 0, 0, machine_do_break},
-    {"pause", 0, 0, machine_do_pause},   {"resume", 0, 0, machine_do_resume}, {"where", 0, 0, do_where},
-    {"open", 1, 1, machine_do_open},     {"data", 2, 2, machine_do_data},     {"crc", 0, 0, machine_do_crc},
-    {"save", 2, 2, machine_do_save},     {"reset", 0, 0, do_reset},
+static const shell_command_t table[] PROGMEM = {
+    {word_ver, do_ver, SHELL_ARGS(0, 0), 0},
+    {word_list, do_list, SHELL_ARGS(0, 2), 0},
+    {word_page, do_page, SHELL_ARGS(1, 1), 0},
+    {word_pose, do_pose, SHELL_ARGS(0, 0), 0},
+    {word_move, machine_do_move, SHELL_ARGS(3, 3), 0},
+    {word_torque, machine_do_torque, SHELL_ARGS(1, SHELL_ANY_ARGS), 0},
+    {word_play, machine_do_play, SHELL_ARGS(1, 2), 0},
+    {word_stop, machine_do_stop, SHELL_ARGS(0, 0), 0},
+    {word_break, machine_do_break, SHELL_ARGS(0, 0), 0},
+    {word_pause, machine_do_pause, SHELL_ARGS(0, 0), 0},
+    {word_resume, machine_do_resume, SHELL_ARGS(0, 0), 0},
+    {word_where, do_where, SHELL_ARGS(0, 0), 0},
+    {word_open, machine_do_open, SHELL_ARGS(1, 1), 0},
+    {word_data, machine_do_data, SHELL_ARGS(2, 2), 0},
+    {word_crc, machine_do_crc, SHELL_ARGS(0, 0), 0},
+    {word_save, machine_do_save, SHELL_ARGS(2, 2), 0},
+    {word_reset, do_reset, SHELL_ARGS(0, 0), 0},
 };
 
-static machine_status_t dispatch(machine_t *machine, const shell_args_t *args)
+static uint8_t dispatch(machine_t *machine, const shell_args_t *args)
 {
-    const uint8_t given = (uint8_t)(args->count - 1);
-    for (uint8_t i = 0; i < ARRAY_COUNT(table); i++) {
-        command_t command;
-        memcpy_P(&command, &table[i], sizeof command);
-        if (strcasecmp(shell_word(args, 0) + 1, command.word) != 0) {
-            continue;
-        }
-        if (given < command.args_min || given > command.args_max) {
-            (void)machine_error(MACHINE_ERR_COUNT);
-            TEXT("Too few or too many words");
-            return MACHINE_ERR_COUNT;
-        }
-        return command.handler(machine, args);
+    const uint8_t status = shell_run(table, ARRAY_COUNT(table), machine, args);
+    if (status == SHELL_ERR_COUNT) {
+        (void)machine_error(MACHINE_ERR_COUNT);
+        TEXT("Too few or too many words");
+        return MACHINE_ERR_COUNT;
     }
-    (void)machine_error(MACHINE_ERR_WORD);
-    TEXT("Unknown word");
-    return MACHINE_ERR_WORD;
+    if (status == SHELL_ERR_UNKNOWN) {
+        (void)machine_error(MACHINE_ERR_WORD);
+        TEXT("Unknown word");
+        return MACHINE_ERR_WORD;
+    }
+    return status;
 }
 
 machine_status_t machine_run(machine_t *machine, const shell_args_t *args)
 {
     text_string(shell_word(args, 0));
-    const machine_status_t status = dispatch(machine, args);
+    const uint8_t status = dispatch(machine, args);
     text_line_end();
-    return status;
+    return (machine_status_t)status;
 }

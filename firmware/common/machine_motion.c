@@ -6,7 +6,7 @@
 
 #define SPEED_MAX_DEG_S 360u
 
-static machine_status_t id_error(void)
+static uint8_t id_error(void)
 {
     return machine_range_error(TEXT_P("ID"), 0, SERVO_LINK_JOINTS - 1);
 }
@@ -39,8 +39,9 @@ static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_
     return joints;
 }
 
-machine_status_t machine_do_move(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_move(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     uint16_t to_pos[PAGE_JOINTS] = {0};
     uint16_t deg_s, id;
     if (!machine_number(args, 1, 1, SPEED_MAX_DEG_S, &deg_s)) {
@@ -71,8 +72,9 @@ static uint32_t switch_on(machine_t *machine, uint32_t joints)
     return on;
 }
 
-machine_status_t machine_do_torque(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_torque(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     const bool on = shell_word_is(args, 1, PSTR("on"));
     uint32_t joints = args->count == 2 ? machine->servos->present : 0;
     if (!on && !shell_word_is(args, 1, PSTR("off"))) {
@@ -103,8 +105,9 @@ machine_status_t machine_do_torque(machine_t *machine, const shell_args_t *args)
     return MACHINE_OK;
 }
 
-machine_status_t machine_do_play(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_play(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     uint16_t page, code = LINK_CODE_NONE;
     if (!machine_number(args, 1, 1, PAGE_COUNT - 1, &page)) {
         return machine_range_error(TEXT_P("Page"), 1, PAGE_COUNT - 1);
@@ -117,32 +120,36 @@ machine_status_t machine_do_play(machine_t *machine, const shell_args_t *args)
 }
 
 /* These four say OK also when there is nothing to do: a program asks @where. */
-machine_status_t machine_do_stop(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_stop(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     (void)args;
     performer_stop(machine->performer);
     machine_end_ok();
     return MACHINE_OK;
 }
 
-machine_status_t machine_do_break(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_break(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     (void)args;
     performer_break(machine->performer);
     machine_end_ok();
     return MACHINE_OK;
 }
 
-machine_status_t machine_do_pause(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_pause(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     (void)args;
     (void)performer_pause(machine->performer);
     machine_end_ok();
     return MACHINE_OK;
 }
 
-machine_status_t machine_do_resume(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_resume(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     (void)args;
     (void)performer_resume(machine->performer);
     machine_end_ok();

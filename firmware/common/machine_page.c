@@ -8,7 +8,7 @@
 
 #define DATA_BYTES_MAX 32u
 
-static machine_status_t image_error(void)
+static uint8_t image_error(void)
 {
     (void)machine_error(MACHINE_ERR_IMAGE);
     TEXT("Not in this image");
@@ -37,8 +37,9 @@ static machine_status_t image_result(machine_status_t status)
     return status;
 }
 
-machine_status_t machine_do_open(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_open(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     uint16_t page;
     if (machine->image->open == NULL) {
         return image_error();
@@ -49,8 +50,9 @@ machine_status_t machine_do_open(machine_t *machine, const shell_args_t *args)
     return image_result(machine->image->open(machine->image->context, (uint8_t)page));
 }
 
-machine_status_t machine_do_data(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_data(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     uint16_t offset;
     uint8_t bytes[DATA_BYTES_MAX];
     const char *hex = shell_word(args, 2);
@@ -86,8 +88,9 @@ static uint16_t ram_crc(const machine_t *machine)
     return crc16_bytes(CRC16_START, machine->image->ram_page(machine->image->context), PAGE_BYTES);
 }
 
-machine_status_t machine_do_crc(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_crc(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     (void)args;
     if (machine->image->ram_page == NULL) {
         return image_error();
@@ -98,8 +101,9 @@ machine_status_t machine_do_crc(machine_t *machine, const shell_args_t *args)
     return MACHINE_OK;
 }
 
-machine_status_t machine_do_save(machine_t *machine, const shell_args_t *args)
+uint8_t machine_do_save(void *context, const shell_args_t *args)
 {
+    machine_t *machine = context;
     uint16_t page, crc;
     if (machine->image->save == NULL || machine->image->ram_page == NULL) {
         return image_error();

@@ -297,15 +297,26 @@ bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, u
 
 /* ---- commands ---- */
 
+/* Takes the reader behind the next space. true: what stood before it is `word`. */
+static bool field_is(text_reader_t *reader, const char *word)
+{
+    bool same = true;
+    for (char character; (character = text_next(reader)) != ' ';) {
+        const char typed = *word >= 'A' && *word <= 'Z' ? (char)(*word | 0x20) : *word;
+        same = same && character == typed;
+        word += same ? 1 : 0;
+    }
+    return same && *word == '\0';
+}
+
 const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count, const shell_args_t *args,
                                   uint8_t index)
 {
     const char *word = shell_word(args, index);
-    if (*word == '\0') {
-        return NULL;
-    }
-    for (; count > 0; count--, table_P++) {
-        if (strcasecmp_P(word, table_P->word) == 0 || strcasecmp_P(word, table_P->abbreviation) == 0) {
+    for (; count > 0 && *word != '\0'; count--, table_P++) {
+        text_reader_t reader;
+        text_open_P(&reader, pgm_read_ptr(&table_P->text));
+        if (field_is(&reader, word) || field_is(&reader, word)) {
             return table_P;
         }
     }
@@ -321,21 +332,32 @@ uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, 
     if (found_P == NULL) {
         return SHELL_ERR_UNKNOWN;
     }
-    shell_command_t command;
-    memcpy_P(&command, found_P, sizeof command);
     const uint8_t given = (uint8_t)(args->count - 1);
-    if (given < command.args_min || given > command.args_max) {
+    const uint8_t allowed = pgm_read_byte(&found_P->args), most = allowed & 0x0F;
+    if (given < allowed >> 4 || (given > most && most != SHELL_ANY_ARGS)) {
         return SHELL_ERR_COUNT;
     }
-    return command.handler(context, args);
+    return ((shell_handler_t)pgm_read_ptr(&found_P->handler))(context, args);
+}
+
+static void print_field(text_reader_t *reader, uint8_t columns)
+{
+    for (char character; (character = text_next(reader)) != ' '; columns--) {
+        text_put(character);
+    }
+    for (; columns > 0; columns--) {
+        text_put(' ');
+    }
 }
 
 void shell_print_help(const shell_command_t *command_P)
 {
-    shell_command_t command;
-    memcpy_P(&command, command_P, sizeof command);
-    text_string_padded(command.word, SHELL_WORD_BYTES);
-    text_string_padded(command.abbreviation, SHELL_SHORT_BYTES);
-    text_P(command.help);
+    text_reader_t reader;
+    text_open_P(&reader, pgm_read_ptr(&command_P->text));
+    print_field(&reader, SHELL_WORD_COLUMNS);
+    print_field(&reader, SHELL_SHORT_COLUMNS);
+    for (char character; (character = text_next(&reader)) != '\0';) {
+        text_put(character);
+    }
     text_line_end();
 }

@@ -76,23 +76,27 @@ MUST_CHECK bool shell_number(const shell_args_t *args, uint8_t index, const char
 /* "Page must be 0..127"; bounds in hexadecimal when `hex`. */
 void shell_print_range(const char *what_P, uint16_t min, uint16_t max, bool hex);
 
-/* One command. Tables of these stand in flash. */
-/* An image short of flash may define these smaller: each saves a byte an entry. */
-#ifndef SHELL_WORD_BYTES
-#define SHELL_WORD_BYTES 10u
-#define SHELL_SHORT_BYTES 5u
-#endif
-#define SHELL_ANY_ARGS 255u
+#define SHELL_ANY_ARGS 15u
 
 typedef uint8_t (*shell_handler_t)(void *context, const shell_args_t *args);
 
+/* One command. Tables of these stand in flash. */
 typedef struct {
-    char word[SHELL_WORD_BYTES];           /* lower case */
-    char abbreviation[SHELL_SHORT_BYTES];  /* or "" */
-    uint8_t args_min, args_max;            /* how many words may follow; SHELL_ANY_ARGS: no upper limit */
+    const char *text;         /* in flash: word, abbreviation or nothing, help, each (but the last) with a space behind:
+                               * "play p n|name  plays a page", "law  [exact|classic]", "ver  ". Lower case. */
     shell_handler_t handler;
-    const char *help;                      /* in flash: "n|name  plays a page" */
+    uint8_t args;             /* SHELL_ARGS: how many words may follow */
+    uint8_t extra;            /* the image's own */
 } shell_command_t;
+
+/* min and max 0..14; max SHELL_ANY_ARGS: no upper limit. */
+#define SHELL_ARGS(min, max) ((uint8_t)((min) << 4 | (max)))
+
+/* Columns of a line of help. An image for narrow terminals may define them smaller. */
+#ifndef SHELL_WORD_COLUMNS
+#define SHELL_WORD_COLUMNS 10u
+#define SHELL_SHORT_COLUMNS 5u
+#endif
 
 /* Outcome of a command: what the handler returned, or the two faults found before it was called. */
 enum {

@@ -81,7 +81,11 @@ static bool byte_word(const shell_args_t *args, uint8_t index, const char *what_
 static uint8_t bytes_of(const shell_args_t *args, uint8_t index, uint8_t *params)
 {
     uint8_t count = 0;
-    for (; index < args->count && count < PARAMS_MAX; index++, count++) {
+    for (; index < args->count; index++, count++) {
+        if (count == PARAMS_MAX) {
+            (void)say(TEXT_P(" Invalid Parameter"));
+            return 0;
+        }
         if (!byte_word(args, index, TEXT_P("Byte"), UINT8_MAX, &params[count])) {
             return 0;
         }
@@ -315,35 +319,49 @@ WORD(mon_toss_start)
 
 WORD(mon_help);
 
-TEXT_NAMED(help_n, "n");
-TEXT_NAMED(help_none, "");
-TEXT_NAMED(help_id, "[id]");
-TEXT_NAMED(help_read, "address [count]");
-TEXT_NAMED(help_write, "address byte ..");
-TEXT_NAMED(help_go, "position [speed]");
-TEXT_NAMED(help_cid, "id  whom it is for");
+
+TEXT_NAMED(word_help, "help ? ");
+TEXT_NAMED(word_dump, "dump d ");
+TEXT_NAMED(word_id, "id  n");
+TEXT_NAMED(word_cid, "cid  id  whom it is for");
+TEXT_NAMED(word_read, "read r address [count]");
+TEXT_NAMED(word_write, "write w address byte ..");
+TEXT_NAMED(word_reg_wr, "reg_wr  address byte ..");
+TEXT_NAMED(word_action, "action  ");
+TEXT_NAMED(word_go, "go g position [speed]");
+TEXT_NAMED(word_hex, "hex  ");
+TEXT_NAMED(word_dec, "dec  ");
+TEXT_NAMED(word_reset, "reset  ");
+TEXT_NAMED(word_ping, "ping  [id]");
+TEXT_NAMED(word_swr, "swr  ");
+TEXT_NAMED(word_scan, "scan  [id]");
+TEXT_NAMED(word_led, "led  n");
+TEXT_NAMED(word_baud, "baud  n");
+TEXT_NAMED(word_search, "search  ");
+TEXT_NAMED(word_toss, "toss  ");
+TEXT_NAMED(word_exit, "exit  ");
 
 static const shell_command_t table_P[] PROGMEM = {
-    { "help", "?", 0, 1, mon_help, help_none },
-    { "dump", "d", 0, 1, mon_dump, help_none },
-    { "id", "", 1, 1, mon_id, help_n },
-    { "cid", "", 1, 1, mon_cid, help_cid },
-    { "read", "r", 1, 2, mon_read, help_read },
-    { "write", "w", 2, PARAMS_MAX, mon_write, help_write },
-    { "reg_wr", "", 2, PARAMS_MAX, mon_reg_write, help_write },
-    { "action", "", 0, 0, mon_action, help_none },
-    { "go", "g", 1, 2, mon_go, help_go },
-    { "hex", "", 0, 0, cmd_hex, help_none },
-    { "dec", "", 0, 0, cmd_dec, help_none },
-    { "reset", "", 0, 1, mon_reset, help_none },
-    { "ping", "", 0, 1, mon_ping, help_id },
-    { "swr", "", 3, PARAMS_MAX, mon_sync_write, help_none },
-    { "scan", "", 0, 1, mon_scan, help_id },
-    { "led", "", 1, 1, mon_led, help_n },
-    { "baud", "", 1, 1, mon_baud, help_n },
-    { "search", "", 0, 0, mon_search, help_none },
-    { "toss", "", 0, 0, mon_toss_start, help_none },
-    { "exit", "", 0, 0, mon_exit, help_none },
+    { word_help, mon_help, SHELL_ARGS(0, 1), 0 },
+    { word_dump, mon_dump, SHELL_ARGS(0, 1), 0 },
+    { word_id, mon_id, SHELL_ARGS(1, 1), 0 },
+    { word_cid, mon_cid, SHELL_ARGS(1, 1), 0 },
+    { word_read, mon_read, SHELL_ARGS(1, 2), 0 },
+    { word_write, mon_write, SHELL_ARGS(2, SHELL_ANY_ARGS), 0 },
+    { word_reg_wr, mon_reg_write, SHELL_ARGS(2, SHELL_ANY_ARGS), 0 },
+    { word_action, mon_action, SHELL_ARGS(0, 0), 0 },
+    { word_go, mon_go, SHELL_ARGS(1, 2), 0 },
+    { word_hex, cmd_hex, SHELL_ARGS(0, 0), 0 },
+    { word_dec, cmd_dec, SHELL_ARGS(0, 0), 0 },
+    { word_reset, mon_reset, SHELL_ARGS(0, 1), 0 },
+    { word_ping, mon_ping, SHELL_ARGS(0, 1), 0 },
+    { word_swr, mon_sync_write, SHELL_ARGS(3, SHELL_ANY_ARGS), 0 },
+    { word_scan, mon_scan, SHELL_ARGS(0, 1), 0 },
+    { word_led, mon_led, SHELL_ARGS(1, 1), 0 },
+    { word_baud, mon_baud, SHELL_ARGS(1, 1), 0 },
+    { word_search, mon_search, SHELL_ARGS(0, 0), 0 },
+    { word_toss, mon_toss_start, SHELL_ARGS(0, 0), 0 },
+    { word_exit, mon_exit, SHELL_ARGS(0, 0), 0 },
 };
 #define WORDS (sizeof table_P / sizeof table_P[0])
 

@@ -156,44 +156,45 @@ static uint8_t do_version(void *context, const shell_args_t *args)
 
 static uint8_t do_help(void *context, const shell_args_t *args);
 
-TEXT_NAMED(help_baud, "[id ...]  moves slow servos to 1 Mbps");
-TEXT_NAMED(help_break, "ends now: slows down and holds");
-TEXT_NAMED(help_code, "n  a code 0..255, as from the remote");
-TEXT_NAMED(help_faults, "servos, bus, serial line and ticks: what went wrong");
-TEXT_NAMED(help_help, "[word]  this list");
-TEXT_NAMED(help_law, "[exact|classic]  the law of motion");
-TEXT_NAMED(help_list, "the pages that are not empty");
-TEXT_NAMED(help_off, "[id ...]  torque off");
-TEXT_NAMED(help_on, "[id ...]  torque on, holding the pose");
-TEXT_NAMED(help_pause, "slows down and holds until resume");
-TEXT_NAMED(help_play, "n|name  plays a page");
-TEXT_NAMED(help_remote, "[latch|hold]  letting go of the buttons: goes on, or stops");
-TEXT_NAMED(help_resume, "goes on after pause");
-TEXT_NAMED(help_servos, "[find]  the servos; or searches again");
-TEXT_NAMED(help_settings, "[name value|defaults]");
-TEXT_NAMED(help_status, "what is playing");
-TEXT_NAMED(help_stop, "ends softly, through the exit page; twice within a second: break");
-TEXT_NAMED(help_version, "of this program");
+
+TEXT_NAMED(word_play, "play p n|name  plays a page");
+TEXT_NAMED(word_stop, "stop s ends softly, through the exit page; twice within a second: break");
+TEXT_NAMED(word_break, "break b ends now: slows down and holds");
+TEXT_NAMED(word_pause, "pause  slows down and holds until resume");
+TEXT_NAMED(word_resume, "resume  goes on after pause");
+TEXT_NAMED(word_code, "code  n  a code 0..255, as from the remote");
+TEXT_NAMED(word_on, "on  [id ...]  torque on, holding the pose");
+TEXT_NAMED(word_off, "off  [id ...]  torque off");
+TEXT_NAMED(word_list, "list  the pages that are not empty");
+TEXT_NAMED(word_status, "status  what is playing");
+TEXT_NAMED(word_servos, "servos  [find]  the servos; or searches again");
+TEXT_NAMED(word_faults, "faults  servos, bus, serial line and ticks: what went wrong");
+TEXT_NAMED(word_law, "law  [exact|classic]  the law of motion");
+TEXT_NAMED(word_remote, "remote  [latch|hold]  letting go of the buttons: goes on, or stops");
+TEXT_NAMED(word_settings, "settings  [name value|defaults]");
+TEXT_NAMED(word_baud, "baud  [id ...]  moves slow servos to 1 Mbps");
+TEXT_NAMED(word_version, "version  of this program");
+TEXT_NAMED(word_help, "help ? [word]  this list");
 
 static const shell_command_t table[] PROGMEM = {
-    {"play", "p", 1, 6, do_play, help_play},
-    {"stop", "s", 0, 0, do_stop, help_stop},
-    {"break", "b", 0, 0, do_break, help_break},
-    {"pause", "", 0, 0, do_pause, help_pause},
-    {"resume", "", 0, 0, do_resume, help_resume},
-    {"code", "", 1, 1, do_code, help_code},
-    {"on", "", 0, SHELL_ANY_ARGS, commands_do_on, help_on},
-    {"off", "", 0, SHELL_ANY_ARGS, commands_do_off, help_off},
-    {"list", "", 0, 0, do_list, help_list},
-    {"status", "", 0, 0, do_status, help_status},
-    {"servos", "", 0, 1, commands_do_servos, help_servos},
-    {"faults", "", 0, 0, do_faults, help_faults},
-    {"law", "", 0, 1, commands_do_law, help_law},
-    {"remote", "", 0, 1, commands_do_remote, help_remote},
-    {"settings", "", 0, 2, commands_do_settings, help_settings},
-    {"baud", "", 0, SHELL_ANY_ARGS, commands_do_baud, help_baud},
-    {"version", "", 0, 0, do_version, help_version},
-    {"help", "?", 0, 1, do_help, help_help},
+    { word_play, do_play, SHELL_ARGS(1, 6), 0 },
+    { word_stop, do_stop, SHELL_ARGS(0, 0), 0 },
+    { word_break, do_break, SHELL_ARGS(0, 0), 0 },
+    { word_pause, do_pause, SHELL_ARGS(0, 0), 0 },
+    { word_resume, do_resume, SHELL_ARGS(0, 0), 0 },
+    { word_code, do_code, SHELL_ARGS(1, 1), 0 },
+    { word_on, commands_do_on, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
+    { word_off, commands_do_off, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
+    { word_list, do_list, SHELL_ARGS(0, 0), 0 },
+    { word_status, do_status, SHELL_ARGS(0, 0), 0 },
+    { word_servos, commands_do_servos, SHELL_ARGS(0, 1), 0 },
+    { word_faults, do_faults, SHELL_ARGS(0, 0), 0 },
+    { word_law, commands_do_law, SHELL_ARGS(0, 1), 0 },
+    { word_remote, commands_do_remote, SHELL_ARGS(0, 1), 0 },
+    { word_settings, commands_do_settings, SHELL_ARGS(0, 2), 0 },
+    { word_baud, commands_do_baud, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
+    { word_version, do_version, SHELL_ARGS(0, 0), 0 },
+    { word_help, do_help, SHELL_ARGS(0, 1), 0 },
 };
 
 static uint8_t do_help(void *context, const shell_args_t *args)

@@ -298,11 +298,11 @@ static uint8_t do_fail(void *context, const shell_args_t *args)
     return SHELL_ERR_SAID;
 }
 
-static const char help_play[] PROGMEM = "n  plays a page";
-static const char help_fail[] PROGMEM = "fails";
+TEXT_NAMED(word_play, "play pl n  plays a page");
+TEXT_NAMED(word_fail, "fail  fails");
 static const shell_command_t table[] PROGMEM = {
-    {"play", "pl", 1, 2, do_play, help_play},
-    {"fail", "", 0, SHELL_ANY_ARGS, do_fail, help_fail},
+    {word_play, do_play, SHELL_ARGS(1, 2), 0},
+    {word_fail, do_fail, SHELL_ARGS(0, SHELL_ANY_ARGS), 0},
 };
 
 static uint8_t run(const char *text)
@@ -327,6 +327,9 @@ static void test_shell_run_wants_the_whole_word(void)
 {
     TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_UNKNOWN, run("pla 1"));
     TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_UNKNOWN, run("playe 1"));
+    TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_UNKNOWN, run("p 1"));
+    TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_UNKNOWN, run("plays")); /* of the help */
+    TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_UNKNOWN, run("fails"));
 }
 
 static void test_shell_run_counts_the_arguments(void)
