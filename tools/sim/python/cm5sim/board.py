@@ -371,6 +371,13 @@ class Board:
         """Arms a power cut so many milliseconds from now."""
         self._lib.board_cut_power_at(self._pointer, self.now_cycles + int(ms * CYCLES_PER_MS))
 
+    def on_operation(self, done):
+        """Calls done() at the end of each operation that is not cut, in the middle of run(); it must not raise. None:
+        no more."""
+        self._done_before = getattr(self, "_done", None)  # may be the one that is just calling
+        self._done = library.OPERATION_DONE(lambda *_: done()) if done else library.OPERATION_DONE()
+        self._lib.board_on_operation(self._pointer, self._done, None)
+
     def lock(self, bits):
         self._lib.board_set_lock(self._pointer, bits)
 

@@ -36,6 +36,7 @@ class ProbeResult(ctypes.Structure):
 P, I, B, S, D = ctypes.c_void_p, ctypes.c_int, ctypes.c_bool, ctypes.c_char_p, ctypes.c_double
 U8, U32, U64, Z = ctypes.c_uint8, ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
 SIZE = ctypes.POINTER(Z)
+OPERATION_DONE = ctypes.CFUNCTYPE(None, P, U64, I, U32)
 _FUNCTIONS = {
     # board.h
     "board_new": (P, I, U32), "board_free": (None, P), "board_load": (B, P, S, U32), "board_error": (S, P),
@@ -63,6 +64,7 @@ _FUNCTIONS = {
     "board_age_flash": (None, P, U32, U32), "board_age_eeprom": (None, P, U32, U32),
     "board_operation": (B, P, U64, ctypes.POINTER(I), ctypes.POINTER(U32)),
     "board_cut_power": (None, P, U64, I, U32), "board_cut_power_at": (None, P, U64),
+    "board_on_operation": (None, P, OPERATION_DONE, P),
     # board_debug.h
     "board_function": (U32, P, S), "board_variable": (U32, P, S), "board_function_at": (S, P, U32),
     "board_pc": (U32, P), "board_stack_low": (U32, P), "board_stack_headroom": (U32, P),

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: MIT
+"""Scenes in which Play and Edit keep settings in EEPROM."""
+import re
+
+from boot_board import MAP, crc16
+
+from . import robot
+from .robot import Memories
+
+AREA = range(MAP["MEM_EE_SETTINGS"], MAP["MEM_EE_SETTINGS_END"])
+COPY_BYTES = 64
+FIELDS = ("law", "remote", "approach", "fault", "low", "hot", "neutral", "flow", "fast", "talk")
+JOINTS = 31
+BODY_BYTES = len(FIELDS) + JOINTS
+
+
+def defaults():
+    """settings.h, in brackets."""
+    partners = [joint + 1 if joint % 2 else joint - 1 for joint in range(1, 19)]
+    return bytes([0, 0, 60, 0, 90, 70, 0, 1, 0, 1, 0xFF, *partners, *[0xFF] * 12])
+
+
+def record(body, sequence):
+    data = bytes([ord("S"), 1, sequence, BODY_BYTES]) + body
+    return data + crc16(data).to_bytes(2, "little")
+
+
+def kept(eeprom):
+    """(body, whether it is damaged) that a start must find: the newer good copy, else the defaults."""
+    good, dirty = None, False
+    for copy in range(2):
+        data = eeprom[AREA.start + COPY_BYTES * copy:][:BODY_BYTES + 6]
+        if data[0] == ord("S") and data[1] == 1 and data[3] == BODY_BYTES and data == record(data[4:-2], data[2]):
+            if good is None or 0 < (data[2] - good[1] & 0xFF) < 0x80:
+                good = data[4:-2], data[2]
+        elif data[0] != 0xFF:
+            dirty = True
+    return (good[0], False) if good else (defaults(), dirty)
+
+
+class Settings:
+    """Play: five settings one after the other, from an EEPROM that never held any."""
+
+    name, about, chunks, rates = "settings", 130, 4, (3, 2, 1)
+    promise = "Settings set in Play are the old or the new ones (before the first save: the defaults)"
+    app = "play"
+    copies = (b"", b"")
+    changes = (("approach", 90), ("law", 1), ("low", 75), ("hot", 66), ("talk", 0))
+    waits = True
+
+    def __init__(self, seed):
+        self.board = robot.new_board("boot-cm5.hex", f"{self.app}-cm5.hex", seed=seed)
+        for copy, data in enumerate(self.copies):
+            at = AREA.start + COPY_BYTES * copy
+            self.board.eeprom[at:at + len(data)] = data
+        robot.application_answers(self.board, self.app)
+        self.memories = Memories(self.board)
+        self.memories.free_eeprom |= set(AREA)
+        self.allowed = [kept(bytes(self.board.eeprom))[0]]
+
+    def saved(self):
+        """Waits until nothing is written any more (one byte at most in a turn of the main loop, equal ones too); what was
+        allowed before is not any longer."""
+        operations = -1
+        while operations != self.board.operations:
+            operations = self.board.operations
+            self.board.run(ms=500)
+        self.allowed = self.allowed[-1:]
+
+    def act(self):
+        for field, value in self.changes:
+            self.set(field, value)
+
+    def set(self, field, value):
+        body = bytearray(self.allowed[-1])
+        body[FIELDS.index(field)] = value
+        self.allowed.append(bytes(body))
+        self.board.take()
+        self.board.send(f"settings {field} {value}\r")
+        self.board.expect(" OK")
+        if self.waits or (field, value) == self.changes[-1]:
+            self.saved()
+
+    def restart(self):
+        robot.power_on(self.board)
+        robot.application_answers(self.board, self.app)
+
+    def verdict(self, cut):
+        start = self.board.console.rfind(b"Motion512")
+        greeting = self.board.console[start:]
+        self.memories.check()
+        body, damaged = kept(bytes(self.board.eeprom))
+        assert body in self.allowed, "the settings are neither old nor new"
+        assert cut or body == self.allowed[-1]
+        self.shown(body, damaged, greeting)
+        robot.loader_answers(self.board)
+        return "defaults" if damaged else "new" if body == self.allowed[-1] else "old"
+
+    def shown(self, body, damaged, greeting):
+        """The application must see the same, and say so when it had to take defaults."""
+        assert (b"settings were damaged" in greeting) == damaged, f"damaged {damaged}, but: {greeting!r}"
+        self.board.take()
+        self.board.send("settings\r")
+        text = self.board.expect(" OK", ms=2000)
+        values = bytes(int(re.search(rf"{field} (\d+) ", text)[1]) for field in FIELDS)
+        assert values == body[:len(FIELDS)], f"kept {body[:10].hex()}, shown {values.hex()}"
+
+
+class SettingsWrap(Settings):
+    """The numbers of the copies pass 255."""
+
+    name, about = "settings-wrap", 30
+    promise = "The same where their numbers begin again at 0"
+    rates, chunks = (1, 2, 1), 2
+    copies = (record(defaults(), 254), record(defaults(), 255))
+
+
+class SettingsDamaged(Settings):
+    """Both copies damaged before."""
+
+    name, about = "settings-damaged", 60
+    promise = "The same over damaged settings: until the first save is whole, the defaults with a message"
+    rates, chunks = (4, 2, 1), 2
+    copies = (b"S" + bytes(range(40)), b"\x00" * 47)
+    changes = Settings.changes[:2]
+
+
+class SettingsQuick(Settings):
+    """Each set while the one before is still being written."""
+
+    name, about = "settings-quick", 60
+    promise = "Settings set faster than they can be written: one of those that were set"
+    rates, chunks = (2, 2, 1), 2
+    waits = False
+
+
+class Pairs(Settings):
+    """Edit: MIRROR's partners."""
+
+    name, about, app = "pairs", 100, "edit"
+    promise = "Partners set by PAIRS in Edit are the old or the new ones"
+    rates, chunks = (4, 2, 1), 3
+
+    def act(self):
+        for one, other in ((1, 3), (5, 5), (2, 4)):
+            body = bytearray(self.allowed[-1])
+            pair = body[len(FIELDS):]
+            for joint in (one, other):
+                if pair[joint] < JOINTS:
+                    pair[pair[joint]] = 0xFF
+                pair[joint] = 0xFF
+            if one != other:
+                pair[one], pair[other] = other, one
+            body[len(FIELDS):] = pair
+            self.allowed.append(bytes(body))
+            self.board.run(ms=100)
+            self.board.send(f"pairs {one} {other}\r")
+            self.board.run(ms=50)
+            self.saved()
+
+    def shown(self, body, damaged, greeting):
+        """Edit tells nothing of damage; the pairs are those kept."""
+        pair = body[len(FIELDS):]
+        self.board.send("pairs\r", wait=True)
+        text = robot.quiet(self.board).decode("latin-1")
+        shown = {(int(a), int(b)) for a, b in re.findall(r"\b(\d+)-(\d+) ", text)}
+        wanted = {(joint, pair[joint]) for joint in range(JOINTS) if joint < pair[joint] < JOINTS}
+        assert shown == wanted, f"kept {sorted(wanted)}, shown {sorted(shown)}"
+
+
+SCENES = (Settings, SettingsWrap, SettingsDamaged, SettingsQuick, Pairs)
