@@ -29,7 +29,7 @@ LOG = proof.RESULTS / "mutation.txt"
 KEYS = {"file", "was", "is", "why", "by", "only", "build", "reason"}
 LEAST_CAUGHT = 0.95
 SAMPLE_RUNS = 3
-TEST_SECONDS, BUILD_SECONDS, REST_SECONDS = 300, 600, 3600
+TEST_SECONDS, BUILD_SECONDS, REST_SECONDS = 240, 900, 3600
 TIMED_OUT = 124
 BUILD_CHECK = "build"  # of `by`: a static assertion or a linker's limit is what has to notice
 # What the simulated board's tests need besides the images.
@@ -195,7 +195,7 @@ class Tree:
         wrong = self.build_for(mutation)
         if wrong:
             return (True, f"build: {wrong}", False) if mutation.by == BUILD_CHECK else (False, f"does not build: {wrong}", True)
-        failed = mutation.by != BUILD_CHECK and self.failing(TEST_SECONDS * 3, mutation.only, "-R", f"^({mutation.by})$")
+        failed = mutation.by != BUILD_CHECK and self.failing(TEST_SECONDS, mutation.only, "-R", f"^({mutation.by})$")
         if failed:
             return True, failed, False
         if mutation.reason or self.named_only:

@@ -52,6 +52,27 @@ def test_flash_budget_of_the_loader_is_smaller(tmp_path):
     assert " 49152 " in report(tmp_path, 10, "edit-x").stdout
 
 
+# Two functions that call each other; and without the call back.
+RECURSION = """
+#include <avr/io.h>
+volatile char v;
+static void __attribute__((noinline)) down(char count);
+static void __attribute__((noinline)) step(char count) { PORTB = count; %s PORTC = count; }
+static void __attribute__((noinline)) down(char count) { PORTD = count; step(count - 1); PORTE = count; }
+int main(void) { for (;;) down(v); }
+"""
+
+
+@pytest.mark.parametrize("way_back, is_fault", [("if (count) down(count);", True), ("", False)])
+def test_recursion_is_a_fault(tmp_path, way_back, is_fault):
+    source, elf = tmp_path / "t.c", tmp_path / "play-x.elf"
+    source.write_text(RECURSION % way_back)
+    subprocess.run(["avr-gcc", "-mmcu=atmega128", "-Os", "-fno-optimize-sibling-calls", source, "-o", elf], check=True)
+    done = subprocess.run([TOOL, elf], capture_output=True, text=True)
+    assert done.returncode == is_fault, done.stderr
+    assert ("calls itself: its stack has no bound" in done.stderr) == is_fault
+
+
 # The player's only pointers are page sources: `other`, whose address is taken too and which is deeper, is not called.
 PLAYER = """
 #include <avr/io.h>
