@@ -32,6 +32,14 @@ def test_a_page_goes_in_and_comes_out():
         assert r.text(1, 64, 4) == "made" and r.text(2, 76, 4) == "0009"
 
 
+def test_data_stays_within_the_page():
+    with robot(pages=PAGES) as r:
+        assert ask(r, "@open 9") == "@open OK"
+        assert ask(r, "@data 508 00112233") == "@data OK"
+        for words in ("508 0011223344", "512 00", "511 0011", f"0 {33 * '00'}", "0 123", "0 1g"):
+            assert ask(r, f"@data {words}").startswith("@data ERR 3 "), words
+
+
 def test_open_does_not_drop_edits():
     with robot(pages=PAGES) as r:
         r.line("goto 1 1")

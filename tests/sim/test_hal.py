@@ -310,6 +310,22 @@ def loaded(board):
     return status, law, approach
 
 
+def test_eeprom_is_read_behind_a_write_and_beyond_256():
+    board = words()
+    board.eeprom[0x7A5:0x7A6] = b"\x11"
+    board.eeprom[0x0A5:0x0A6] = b"\x22"
+    board.send("e")
+    board.expect("eeprom 00000012 00000022", ms=100)
+    assert (board.eeprom[0x7A5], board.eeprom[0x0A5]) == (0x12, 0x22)
+
+
+def test_bus_begins_at_1_mbps():
+    board = Board(images=["tests/hal_words.hex"], servos=[1])
+    board.expect("start")
+    board.send("i")
+    board.expect("ping 00000000", ms=100)
+
+
 def test_settings_are_kept_over_a_power_cycle_and_stay_in_their_area():
     board = words()
     assert loaded(board) == (1, 0, 60)

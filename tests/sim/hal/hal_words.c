@@ -6,12 +6,16 @@
  *   x  flow control on, takes all there is, slower than the line: "took COUNT CRC"
  *   h  holds the line, waits 100 ms, goes on: "held"       a  a failed ASSERT            w  hangs (watchdog)
  *   r  restarts through the watchdog                       v  ADC channel 0: "adc VALUE"
+ *   e  one more into EEPROM byte 7A5, read again at once, and byte 0A5: "eeprom BYTE BYTE"
+ *   i  pings servo 1 at the rate that the bus begins with: "ping STATUS"
  *   b  says "slow", changes to 117,647 baud, says "fast"
  * Begins with "start CAUSE", and "assert LINE ADDRESS" when there was one. Numbers are hexadecimal. */
 #include "board.h"
+#include "bus_call.h"
 #include "clock.h"
 #include "console.h"
 #include "crc16.h"
+#include "eeprom.h"
 #include "flash.h"
 #include "page_store.h"
 #include "settings.h"
@@ -116,9 +120,23 @@ static void hold(void)
     say_P(PSTR("held\n"));
 }
 
+static void write_and_read(void)
+{
+    uint8_t byte = (uint8_t)(eeprom_byte(0x7A5) + 1u);
+    (void)eeprom_start(0x7A5, byte);
+    byte = eeprom_byte(0x7A5);   /* has to wait for the write */
+    say(PSTR("eeprom "), byte, eeprom_byte(0x0A5));
+}
+
 static void obey(uint8_t word)
 {
     switch (word) {
+    case 'e':
+        write_and_read();
+        break;
+    case 'i':
+        say(PSTR("ping "), (uint8_t)bus_call_ping(1, 1, 0), 0);
+        break;
     case 'l':
         load();
         break;
