@@ -6,7 +6,7 @@
 #include "ring.h"
 #include "system.h"
 
-enum { ESC = 0x1B, ESCAPES = 3, HEADER_BYTES = 4, HEARD_BYTES = 64, LENGTH_AT = 3 };
+enum { ESC = 0x1B, ESCAPES = 3, HEADER_BYTES = 4, HEARD_BYTES = 64, LENGTH_AT = 3, LENGTH_MIN = 2 };
 
 typedef struct {
     uint8_t count;     /* bytes of the packet from the PC so far */
@@ -27,11 +27,12 @@ static bool collect(toss_t *toss, uint8_t byte)
     }
     toss->escapes = 0;
     toss->packet[toss->count++] = byte;
-    if (toss->count >= BUS_PACKET_BYTES) {
+    bool is_whole = toss->count > HEADER_BYTES && toss->count == toss->packet[LENGTH_AT] + HEADER_BYTES;
+    /* A length that no packet has: what it belongs to was none. */
+    if (!is_whole && (toss->count >= BUS_PACKET_BYTES || (toss->count == HEADER_BYTES && byte < LENGTH_MIN))) {
         toss->count = 0;
-        return false;
     }
-    return toss->count >= HEADER_BYTES && toss->count == toss->packet[LENGTH_AT] + HEADER_BYTES;
+    return is_whole;
 }
 
 static void pass_on(ring_t *heard)
