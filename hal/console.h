@@ -55,7 +55,8 @@ void console_flush(void);
 
 /* Software flow control towards the PC, off after init. On: XOFF goes out, ahead of the output ring, when the input ring
  * has less than CONSOLE_XOFF_ROOM bytes left, and again for every 32 bytes that still come; XON when it is nearly empty.
- * Off: sends XON if an XOFF is out. (XON and XOFF from the PC are data: they occur in remote packets.) */
+ * Switching on sends XON: the PC may still obey an XOFF from before a restart. Switching off does when an XOFF is out.
+ * (XON and XOFF from the PC are data: they occur in remote packets.) */
 #define CONSOLE_XOFF_ROOM 128u
 #define CONSOLE_XON_COUNT 32u
 void console_set_flow(bool on);

@@ -115,7 +115,7 @@ void console_set_flow(bool on)
 {
     line.flow = on;
     line.held = false;
-    if (!on && line.xoff_is_out) {
+    if (on || line.xoff_is_out) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }
