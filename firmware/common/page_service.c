@@ -121,9 +121,8 @@ bool page_service_post(uint8_t motion_page, const uint8_t data[512])
 page_service_mail_t page_service_mail(void)
 {
     uint8_t state = eeprom_byte(MEM_EE_MAILBOX_STATE);
-    if (state != MAIL_POSTED && state != MAIL_WRITTEN) {
-        return PAGE_SERVICE_MAIL_NONE;
-    }
     set_byte(MEM_EE_MAILBOX_STATE, MAIL_NONE);
-    return state == MAIL_WRITTEN ? PAGE_SERVICE_MAIL_WRITTEN : PAGE_SERVICE_MAIL_IGNORED;
+    return state == MAIL_WRITTEN  ? PAGE_SERVICE_MAIL_WRITTEN
+           : state == MAIL_POSTED ? PAGE_SERVICE_MAIL_IGNORED
+                                  : PAGE_SERVICE_MAIL_NONE;
 }

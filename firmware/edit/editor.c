@@ -235,6 +235,17 @@ static void tick_work(editor_t *editor)
     }
 }
 
+/* Behind the first screen, whose size is known by then: what came before it would be wiped. */
+static void tell_notice(editor_t *editor)
+{
+    if (editor->notice_P != NULL && editor->mode == EDITOR_TABLE) {
+        editor_message_begin(editor);
+        text_P(editor->notice_P);
+        editor_message_end(editor);
+        editor->notice_P = NULL;
+    }
+}
+
 bool editor_turn(editor_t *editor)
 {
     take_bytes(editor);
@@ -253,5 +264,9 @@ bool editor_turn(editor_t *editor)
     if (console_room() < PAINT_ROOM || !performer_is_idle(editor->performer)) {
         return false;
     }
-    return screen_paint(&editor->screen);
+    if (screen_paint(&editor->screen)) {
+        return true;
+    }
+    tell_notice(editor);
+    return false;
 }

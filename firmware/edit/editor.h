@@ -58,6 +58,7 @@ typedef struct editor {
     shell_args_t args;             /* of the line being run */
     uint16_t number[2];            /* its first two words behind the command, checked by the table's ranges */
     editor_item_t item;            /* of the list being shown */
+    const char *notice_P;          /* told once, when the first screen stands; or NULL */
     /* Of main.c. */
     servo_link_t *servos;
     performer_t *performer;

@@ -21,15 +21,13 @@ static void put(char character)
     editor_put(&editor, character);
 }
 
-/* What the line must tell before the first screen hides it. */
-static void tell_start(page_service_kind_t service)
+/* What became of a page that SAVE left in the mailbox, or what SAVE is going to do. */
+static const char *mail_text_P(void)
 {
-    if (service == PAGE_SERVICE_NONE || service == PAGE_SERVICE_MAILBOX) {
-        editor_message_begin(&editor);
-        text_P(service == PAGE_SERVICE_NONE ? TEXT_P("No boot loader can write: no SAVE")
-                                            : TEXT_P("Unknown loader: SAVE restarts"));
-        editor_message_end(&editor);
-    }
+    page_service_mail_t mail = page_service_mail();
+    return mail == PAGE_SERVICE_MAIL_NONE      ? TEXT_P("SAVE will restart")
+           : mail == PAGE_SERVICE_MAIL_WRITTEN ? TEXT_P("Saved")
+                                               : TEXT_P("Not saved");
 }
 
 static void start(void)
@@ -39,6 +37,9 @@ static void start(void)
     receiver = (boot_rx_t){ ring->bytes, &ring->head, &ring->tail, console_rx_lost(), ring->mask };
     page_service_kind_t service = page_service_init(&receiver);
     page_save_recover(editor.session.cells);
+    editor.notice_P = service == PAGE_SERVICE_MAILBOX ? mail_text_P()
+                      : service == PAGE_SERVICE_NONE  ? TEXT_P("No boot loader can write: no SAVE")
+                                                      : NULL;
     page_store_init(&pages);
     (void)settings_load(&settings_store, &settings);
     console_set_flow(settings.flow != 0);
@@ -47,7 +48,6 @@ static void start(void)
     servo_link_scan(&servos);
     performer_init(&performer, &pages.source, &servos, &settings);
     editor_init(&editor, &servos, &performer, &pages, &settings, &settings_store);
-    tell_start(service);
 }
 
 int main(void)
