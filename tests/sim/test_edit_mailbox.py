@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: MIT
+"""SAVE on a loader that is not known: the page goes through the EEPROM mailbox of bootloader-original.md section 7a. The
+loader is imitated (service/mailbox.c); one that knows no mailbox is the other imitation, unrecognised (service/factory.c)."""
+import pytest
+from cm5sim import PowerCut
+
+from edit_robot import MOTION_START, page, robot, seal
+
+OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
+OTHER = page("other", [(11, {1: 900})])
+STATE, NUMBER, BOOT_MODE, DATA = 0xFF4, 0xFF5, 0xFFF, 0x800
+RESTART_MS = 6500   # 520 EEPROM bytes of 8.5 ms, and a start
+IMAGES = {"images": ("tests/mailbox.hex", "edit-cm5.hex"), "bootrst": True}
+
+
+def new_bytes():
+    data = bytearray(OLD.data)
+    data[64 + 6], data[64 + 7] = 700 & 0xFF, 700 >> 8
+    return seal(data)
+
+
+def mailbox_robot(fresh=False, **options):
+    """`fresh`: nothing was ever saved; else the mailbox still holds page 1, so that only what differs is written."""
+    r = robot(pages={1: OLD, 2: OTHER}, **{**IMAGES, **options})
+    if not fresh:
+        r.board.eeprom[DATA:DATA + 512] = bytes(OLD.data)
+        r.board.eeprom[STATE:STATE + 2] = b"\xff\x01"
+    return r
+
+
+def edit(r):
+    r.line("goto 1 3")
+    r.line("set 700")
+
+
+def restarted(r):
+    """After a power cut or a restart: the terminal is the same, what it shows is new."""
+    r.board.power_on()
+    r.terminal.screen.reset()
+    r.board.take()
+    r.settle(ms=1500)
+
+
+def test_start_and_save_say_that_the_controller_restarts():
+    with mailbox_robot() as r:
+        assert "SAVE will restart" in r.command
+        edit(r)
+        operations = r.board.operations
+        assert r.line("save", "n") == "save SAVE restarts (5 s). Are you sure?[y/N]"
+        assert r.board.operations == operations and r.unsaved and r.cell(1, 3) == "0700" and r.board.resets == 1
+
+
+@pytest.mark.parametrize("fresh", [True, False])
+def test_page_goes_through_the_mailbox(fresh):
+    with mailbox_robot(fresh) as r:
+        others = bytes(r.board.flash[MOTION_START + 1024:])
+        edit(r)
+        r.line("save")
+        start = r.board.now_ms
+        r.keys("y", ms=RESTART_MS)
+        assert r.board.resets == 2 and r.board.reset_cause == "watchdog"
+        assert r.flash_page(1) == new_bytes() and bytes(r.board.flash[MOTION_START + 1024:]) == others
+        assert bytes(r.board.eeprom[DATA:DATA + 512]) == new_bytes()
+        assert r.board.eeprom[STATE] == 0xFF and r.board.eeprom[NUMBER] == 1 and r.board.eeprom[BOOT_MODE] == 0x11
+        assert r.command.endswith("Saved") and r.cell(1, 3) == "0700" and not r.unsaved
+        assert r.board.stack_headroom >= 384
+        print(f"mailbox: {'all bytes' if fresh else 'what differs'}; restarted within {r.board.now_ms - start:.0f} ms")
+
+
+def test_save_as_another_page():
+    with mailbox_robot() as r:
+        r.line("save 9")
+        r.keys("y", ms=RESTART_MS)
+        assert r.flash_page(9) == bytes(OLD.data) and r.flash_page(1) == bytes(OLD.data)
+        r.line("save 2", "y")
+        assert "SAVE restarts" in r.command
+        r.keys("y", ms=RESTART_MS)
+        assert r.flash_page(2) == bytes(OLD.data)
+
+
+def test_a_loader_that_knows_no_mailbox_is_told_of():
+    with mailbox_robot(images=("tests/factory.hex", "edit-cm5.hex")) as r:
+        before = bytes(r.board.flash)
+        edit(r)
+        r.line("save")
+        r.keys("y", ms=RESTART_MS)
+        assert r.command.endswith("Not saved") and r.board.eeprom[STATE] == 0xFF
+        assert bytes(r.board.flash) == before
+        r.board.reset()
+        r.settle(ms=1500)
+        assert "SAVE will restart" in r.command
+
+
+def save_cut(fresh, operation, phase, tear):
+    """One save with the power cut there. The page after the restart and what was cut, or None when it ended before."""
+    with mailbox_robot(fresh) as r:
+        edit(r)
+        others = bytes(r.board.flash[MOTION_START + 1024:])
+        r.line("save")
+        r.board.cut_power(operation, phase, tear)
+        try:
+            r.keys("y", ms=RESTART_MS)
+            return None
+        except PowerCut:
+            pass
+        restarted(r)
+        assert bytes(r.board.flash[MOTION_START + 1024:]) == others
+        state = r.flash_page(1)
+        assert state in (bytes(OLD.data), new_bytes()), (operation, phase, tear)
+        assert r.fault == "" and r.text(1, 64, 3) == "old" and r.board.eeprom[STATE] == 0xFF
+        if state == bytes(OLD.data):   # and the next one works
+            edit(r)
+            r.line("save")
+            r.keys("y", ms=RESTART_MS)
+            assert r.flash_page(1) == new_bytes()
+        return state
+
+
+def count(states, state):
+    states["old" if state == bytes(OLD.data) else "new"] += 1
+
+
+def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page():
+    states, operation = {"old": 0, "new": 0}, 1
+    while True:
+        for phase, tear in (("before", 0), ("during", 3), ("during", 8), ("after", 0)):
+            state = save_cut(False, operation, phase, tear)
+            if state is None:
+                break
+            count(states, state)
+        if state is None:
+            break
+        operation += 1
+    print(f"power cuts in a save through the mailbox: {sum(states.values())} ({operation - 1} operations), old {states['old']}, "
+          f"new {states['new']}")
+    assert operation - 1 == 9   # two bytes, FF4, four of flash, FF4 by the loader, FF4 by Edit
+    assert states["old"] >= 9 and states["new"] >= 9
+
+
+@pytest.mark.parametrize("operation", [1, 100, 300, 500, 514, 515, 516, 519])
+def test_power_cut_while_a_whole_page_goes_into_a_fresh_mailbox(operation):
+    assert save_cut(True, operation, "during", 5) is not None
+
+
+@pytest.mark.parametrize("ms", [4300, 4390, 4410, 4430, 4500])
+def test_power_cut_at_any_time(ms):
+    with mailbox_robot(fresh=True) as r:
+        edit(r)
+        r.line("save")
+        r.board.cut_power_at(ms)
+        with pytest.raises(PowerCut):
+            r.keys("y", ms=RESTART_MS)
+        restarted(r)
+        assert r.flash_page(1) in (bytes(OLD.data), new_bytes()) and r.fault == ""
