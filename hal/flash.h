@@ -10,6 +10,7 @@
 
 #include "compiler.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define FLASH_PAGE_BYTES 256u
@@ -24,6 +25,9 @@ typedef enum {
 
 /* Copies `bytes` from byte address `addr` (0..0x1FFFF) on. */
 void flash_read(uint32_t addr, void *to, uint16_t bytes);
+
+/* true when flash holds `data` at byte address `addr`. 25 cycles a byte that is equal. */
+bool flash_equals(uint32_t addr, const void *data, uint16_t bytes);
 
 /* Erases `page` (an index, 0..FLASH_PAGES-1), programs `bytes` of data (even, 2..256; the rest of the page reads
  * 0xFF afterwards) and reads back. `data` is not kept. */

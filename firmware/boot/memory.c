@@ -27,6 +27,17 @@ void flash_read(uint32_t addr, void *to, uint16_t bytes)
     }
 }
 
+bool flash_equals(uint32_t addr, const void *data, uint16_t bytes)
+{
+    const uint8_t *p = data;
+    while (bytes--) {
+        if (pgm_read_byte_far(addr++) != *p++) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* BOOT_OK, BOOT_ERR_RANGE, BOOT_ERR_VERIFY have the numbers of their FLASH_ twins. */
 static flash_status_t write_page(uint16_t page, const uint8_t *data, uint16_t bytes, uint8_t mode)
 {

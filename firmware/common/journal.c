@@ -64,21 +64,9 @@ static uint8_t find_newest(record_t *newest)
     return found;
 }
 
-static bool page_equals(uint16_t page, const uint8_t *data)
-{
-    uint8_t piece[16];
-    for (uint16_t at = 0; at < FLASH_PAGE_BYTES; at = (uint16_t)(at + sizeof piece)) {
-        flash_read(page_addr(page) + at, piece, sizeof piece);
-        if (memcmp(piece, data + at, sizeof piece) != 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
 static flash_status_t write_if_different(uint16_t page, const uint8_t *data)
 {
-    return page_equals(page, data) ? FLASH_OK : flash_write(page, data, FLASH_PAGE_BYTES);
+    return flash_equals(page_addr(page), data, FLASH_PAGE_BYTES) ? FLASH_OK : flash_write(page, data, FLASH_PAGE_BYTES);
 }
 
 static flash_status_t mark_done(uint8_t slot, record_t *record)
@@ -103,7 +91,7 @@ flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARG
         return FLASH_ERR_RANGE;
     }
     uint16_t target = (uint16_t)(FIRST_TARGET + motion_page * TARGET_PAGES);
-    if (page_equals(target, data) && page_equals((uint16_t)(target + 1), data + FLASH_PAGE_BYTES)) {
+    if (flash_equals(page_addr(target), data, JOURNAL_TARGET_BYTES)) {
         return FLASH_OK;
     }
 

@@ -27,11 +27,6 @@ bool machine_is_for(const shell_args_t *args)
 
 /* ---- answers ---- */
 
-void machine_end_ok(void)
-{
-    TEXT(" OK");
-}
-
 uint8_t machine_error(uint8_t status)
 {
     TEXT(" ERR ");
@@ -40,11 +35,17 @@ uint8_t machine_error(uint8_t status)
     return status;
 }
 
-uint8_t machine_range_error(const char *what_P, uint16_t min, uint16_t max)
+uint8_t machine_says(uint8_t status, const char *sentence_P)
+{
+    (void)machine_error(status);
+    text_P(sentence_P);
+    return status;
+}
+
+void machine_range_error(const char *what_P, uint16_t min, uint16_t max)
 {
     (void)machine_error(MACHINE_ERR_RANGE);
     shell_print_range(what_P, min, max, false);
-    return MACHINE_ERR_RANGE;
 }
 
 uint8_t machine_refusal(performer_status_t status, uint8_t page, uint8_t fault)
@@ -60,7 +61,6 @@ uint8_t machine_refusal(performer_status_t status, uint8_t page, uint8_t fault)
         [PERFORMER_ERR_LAW] = MACHINE_ERR_IMAGE,
     };
     if (status == PERFORMER_OK) {
-        machine_end_ok();
         return MACHINE_OK;
     }
     const uint8_t number = machine_error(pgm_read_byte(&numbers[status]));
@@ -68,14 +68,19 @@ uint8_t machine_refusal(performer_status_t status, uint8_t page, uint8_t fault)
     return number;
 }
 
-bool machine_number(const shell_args_t *args, uint8_t index, uint16_t min, uint16_t max, uint16_t *value)
+bool machine_number(const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min, uint16_t max,
+                    uint16_t *value)
 {
-    uint16_t parsed;
-    if (!shell_parse(shell_word(args, index), false, &parsed) || parsed < min || parsed > max) {
-        return false;
+    if (shell_parse(shell_word(args, index), false, value) && *value >= min && *value <= max) {
+        return true;
     }
-    *value = parsed;
-    return true;
+    machine_range_error(what_P, min, max);
+    return false;
+}
+
+bool machine_page_number(const shell_args_t *args, uint8_t index, uint16_t min, uint16_t *page)
+{
+    return machine_number(args, index, TEXT_P("Page"), min, PAGE_COUNT - 1, page);
 }
 
 static void field(const char *name_P, uint16_t value)
@@ -117,7 +122,6 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
     if (machine->image->ram_page != NULL) {
         TEXT(",open,save");
     }
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -153,18 +157,13 @@ static uint8_t do_list(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     uint16_t first = 0, last = PAGE_COUNT - 1;
-    if (args->count == 2) {
-        return machine_range_error(TEXT_P("Last page"), 0, PAGE_COUNT - 1);
-    }
-    if (args->count == 3 &&
-        (!machine_number(args, 1, 0, PAGE_COUNT - 1, &first) || !machine_number(args, 2, first, PAGE_COUNT - 1, &last))) {
-        return machine_range_error(TEXT_P("Page"), 0, PAGE_COUNT - 1);
+    if (args->count > 1 && (!machine_page_number(args, 1, 0, &first) || !machine_page_number(args, 2, first, &last))) {
+        return MACHINE_ERR_RANGE;
     }
     for (uint8_t page = (uint8_t)first; page <= last; page++) {
         print_list_entry(machine, page);
         machine_serve(machine); /* pages without an entry take up to 2 ms each */
     }
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -180,8 +179,8 @@ static uint8_t do_page(void *context, const shell_args_t *args)
 {
     uint16_t page;
     (void)context;
-    if (!machine_number(args, 1, 0, PAGE_COUNT - 1, &page)) {
-        return machine_range_error(TEXT_P("Page"), 0, PAGE_COUNT - 1);
+    if (!machine_page_number(args, 1, 0, &page)) {
+        return MACHINE_ERR_RANGE;
     }
     text_put(' ');
     text_number(page);
@@ -194,7 +193,6 @@ static uint8_t do_page(void *context, const shell_args_t *args)
     }
     text_put(' ');
     text_hex(crc, 4);
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -220,7 +218,6 @@ static uint8_t do_pose(void *context, const shell_args_t *args)
         text_put(':');
         text_put((servos->torque & joint) != 0 ? '1' : '0');
     }
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -255,7 +252,6 @@ static uint8_t do_where(void *context, const shell_args_t *args)
     TEXT(" faulty=");
     text_hex((uint16_t)(performer->faulty >> 16), 4);
     text_hex((uint16_t)performer->faulty, 4);
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -313,23 +309,18 @@ static const shell_command_t table[] PROGMEM = {
 static uint8_t dispatch(machine_t *machine, const shell_args_t *args)
 {
     const uint8_t status = shell_run(table, ARRAY_COUNT(table), machine, args);
-    if (status == SHELL_ERR_COUNT) {
-        (void)machine_error(MACHINE_ERR_COUNT);
-        TEXT("Too few or too many words");
-        return MACHINE_ERR_COUNT;
-    }
-    if (status == SHELL_ERR_UNKNOWN) {
-        (void)machine_error(MACHINE_ERR_WORD);
-        TEXT("Unknown word");
-        return MACHINE_ERR_WORD;
-    }
-    return status;
+    return status == SHELL_ERR_COUNT     ? machine_says(MACHINE_ERR_COUNT, TEXT_P("Too few or too many words"))
+           : status == SHELL_ERR_UNKNOWN ? machine_says(MACHINE_ERR_WORD, TEXT_P("Unknown word"))
+                                         : status;
 }
 
 machine_status_t machine_run(machine_t *machine, const shell_args_t *args)
 {
     text_string(shell_word(args, 0));
     const uint8_t status = dispatch(machine, args);
+    if (status == MACHINE_OK) {
+        TEXT(" OK");
+    }
     text_line_end();
     return (machine_status_t)status;
 }

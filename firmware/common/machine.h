@@ -50,7 +50,8 @@ typedef enum {
     MACHINE_ERR_UNSAVED = 12   /* the page in RAM has edits that would be lost */
 } machine_status_t;
 
-/* What an image adds. Functions may be NULL: the command then is MACHINE_ERR_IMAGE. */
+/* What an image adds. NULL is allowed for service, and for ram_page: then there is no page in RAM, the three below are not
+ * used and the commands for it are MACHINE_ERR_IMAGE. */
 typedef struct {
     const char *name_P;                                    /* "play" */
     /* What may not wait, between the parts of a command that takes long. */

@@ -6,9 +6,9 @@
 
 #define SPEED_MAX_DEG_S 360u
 
-static uint8_t id_error(void)
+static bool id_number(const shell_args_t *args, uint8_t index, uint16_t *id)
 {
-    return machine_range_error(TEXT_P("ID"), 0, SERVO_LINK_JOINTS - 1);
+    return machine_number(args, index, TEXT_P("ID"), 0, SERVO_LINK_JOINTS - 1, id);
 }
 
 /* Fills to_pos and returns the joints that the digits name, three for each; 0: they are not as they must be. */
@@ -34,7 +34,7 @@ static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_
             return 0;
         }
         to_pos[id] = pos;
-        joints |= servo_link_bit(id);
+        servo_link_put(&joints, id, true);
     }
     return joints;
 }
@@ -44,17 +44,12 @@ uint8_t machine_do_move(void *context, const shell_args_t *args)
     machine_t *machine = context;
     uint16_t to_pos[PAGE_JOINTS] = {0};
     uint16_t deg_s, id;
-    if (!machine_number(args, 1, 1, SPEED_MAX_DEG_S, &deg_s)) {
-        return machine_range_error(TEXT_P("Degrees/s"), 1, SPEED_MAX_DEG_S);
-    }
-    if (!machine_number(args, 2, 0, PAGE_JOINTS - 1, &id)) {
-        return id_error();
+    if (!machine_number(args, 1, TEXT_P("Degrees/s"), 1, SPEED_MAX_DEG_S, &deg_s) || !id_number(args, 2, &id)) {
+        return MACHINE_ERR_RANGE;
     }
     const uint32_t joints = parse_pose((uint8_t)id, shell_word(args, 3), to_pos);
     if (joints == 0) {
-        (void)machine_error(MACHINE_ERR_RANGE);
-        TEXT("Positions must be 000..3FF or ---, up to ID 30");
-        return MACHINE_ERR_RANGE;
+        return machine_says(MACHINE_ERR_RANGE, TEXT_P("Positions must be 000..3FF or ---, up to ID 30"));
     }
     return machine_refusal(performer_move(machine->performer, to_pos, joints, deg_s), 0, 0);
 }
@@ -64,7 +59,7 @@ static uint32_t switch_on(machine_t *machine, uint32_t joints)
 {
     uint32_t on = 0;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        if ((joints & servo_link_bit(id)) != 0) {
+        if (servo_link_has(&joints, id)) {
             on |= performer_on(machine->performer, servo_link_bit(id));
             machine_serve(machine);
         }
@@ -78,30 +73,25 @@ uint8_t machine_do_torque(void *context, const shell_args_t *args)
     const bool on = shell_word_is(args, 1, PSTR("on"));
     uint32_t joints = args->count == 2 ? machine->servos->present : 0;
     if (!on && !shell_word_is(args, 1, PSTR("off"))) {
-        (void)machine_error(MACHINE_ERR_RANGE);
-        TEXT("Say on or off");
-        return MACHINE_ERR_RANGE;
+        return machine_says(MACHINE_ERR_RANGE, TEXT_P("Say on or off"));
     }
     for (uint8_t i = 2; i < args->count; i++) {
         uint16_t id;
-        if (!machine_number(args, i, 0, PAGE_JOINTS - 1, &id)) {
-            return id_error();
+        if (!id_number(args, i, &id)) {
+            return MACHINE_ERR_RANGE;
         }
-        joints |= servo_link_bit((uint8_t)id);
+        servo_link_put(&joints, (uint8_t)id, true);
     }
     if (on && !performer_is_idle(machine->performer)) {
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
     }
     if ((joints & machine->servos->present) != joints || joints == 0 ||
         (on && switch_on(machine, joints) != joints)) {
-        (void)machine_error(MACHINE_ERR_SERVOS);
-        TEXT("Not all of these servos answer");
-        return MACHINE_ERR_SERVOS;
+        return machine_says(MACHINE_ERR_SERVOS, TEXT_P("Not all of these servos answer"));
     }
     if (!on) {
         performer_off(machine->performer, joints);
     }
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -109,11 +99,9 @@ uint8_t machine_do_play(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     uint16_t page, code = LINK_CODE_NONE;
-    if (!machine_number(args, 1, 1, PAGE_COUNT - 1, &page)) {
-        return machine_range_error(TEXT_P("Page"), 1, PAGE_COUNT - 1);
-    }
-    if (args->count == 3 && !machine_number(args, 2, 0, LINK_CODE_STOP - 1, &code)) {
-        return machine_range_error(TEXT_P("Code"), 0, LINK_CODE_STOP - 1);
+    if (!machine_page_number(args, 1, 1, &page) ||
+        (args->count == 3 && !machine_number(args, 2, TEXT_P("Code"), 0, LINK_CODE_STOP - 1, &code))) {
+        return MACHINE_ERR_RANGE;
     }
     const performer_status_t status = performer_start(machine->performer, (uint8_t)page, (uint8_t)code);
     return machine_refusal(status, machine->performer->fault_page, machine->performer->fault);
@@ -125,7 +113,6 @@ uint8_t machine_do_stop(void *context, const shell_args_t *args)
     machine_t *machine = context;
     (void)args;
     performer_stop(machine->performer);
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -134,7 +121,6 @@ uint8_t machine_do_break(void *context, const shell_args_t *args)
     machine_t *machine = context;
     (void)args;
     performer_break(machine->performer);
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -143,7 +129,6 @@ uint8_t machine_do_pause(void *context, const shell_args_t *args)
     machine_t *machine = context;
     (void)args;
     (void)performer_pause(machine->performer);
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -152,7 +137,6 @@ uint8_t machine_do_resume(void *context, const shell_args_t *args)
     machine_t *machine = context;
     (void)args;
     (void)performer_resume(machine->performer);
-    machine_end_ok();
     return MACHINE_OK;
 }
 

@@ -8,44 +8,33 @@
 
 #define DATA_BYTES_MAX 32u
 
-static uint8_t image_error(void)
+/* An image with a page in RAM has all the functions for it. */
+static bool has_page(const machine_t *machine)
 {
-    (void)machine_error(MACHINE_ERR_IMAGE);
-    TEXT("Not in this image");
-    return MACHINE_ERR_IMAGE;
+    if (machine->image->ram_page != NULL) {
+        return true;
+    }
+    (void)machine_says(MACHINE_ERR_IMAGE, TEXT_P("Not in this image"));
+    return false;
 }
 
-static machine_status_t image_result(machine_status_t status)
+static uint8_t image_result(uint8_t status)
 {
-    switch (status) {
-    case MACHINE_OK:
-        machine_end_ok();
-        break;
-    case MACHINE_ERR_UNSAVED:
-        (void)machine_error(status);
-        TEXT("The open page has edits that are not saved");
-        break;
-    case MACHINE_ERR_BUSY:
-        (void)machine_error(status);
-        TEXT("Not while something plays");
-        break;
-    default:
-        (void)machine_error(status);
-        TEXT("The page could not be saved");
-        break;
-    }
-    return status;
+    return status == MACHINE_OK ? status
+           : machine_says(status, status == MACHINE_ERR_UNSAVED ? TEXT_P("The open page has edits that are not saved")
+                                  : status == MACHINE_ERR_BUSY  ? TEXT_P("Not while something plays")
+                                                                : TEXT_P("The page could not be saved"));
 }
 
 uint8_t machine_do_open(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     uint16_t page;
-    if (machine->image->open == NULL) {
-        return image_error();
+    if (!has_page(machine)) {
+        return MACHINE_ERR_IMAGE;
     }
-    if (!machine_number(args, 1, 0, PAGE_COUNT - 1, &page)) {
-        return machine_range_error(TEXT_P("Page"), 0, PAGE_COUNT - 1);
+    if (!machine_page_number(args, 1, 0, &page)) {
+        return MACHINE_ERR_RANGE;
     }
     return image_result(machine->image->open(machine->image->context, (uint8_t)page));
 }
@@ -57,29 +46,25 @@ uint8_t machine_do_data(void *context, const shell_args_t *args)
     uint8_t bytes[DATA_BYTES_MAX];
     const char *hex = shell_word(args, 2);
     const uint8_t count = (uint8_t)(strlen(hex) / 2);
-    if (machine->image->ram_page == NULL) {
-        return image_error();
+    if (!has_page(machine)) {
+        return MACHINE_ERR_IMAGE;
     }
-    if (!machine_number(args, 1, 0, PAGE_BYTES - 1, &offset) || offset + count > PAGE_BYTES) {
-        return machine_range_error(TEXT_P("Offset and data"), 0, PAGE_BYTES - 1);
+    if (!machine_number(args, 1, TEXT_P("Offset and data"), 0, PAGE_BYTES - 1, &offset)) {
+        return MACHINE_ERR_RANGE;
     }
-    if (count > DATA_BYTES_MAX) {
-        return machine_range_error(TEXT_P("Bytes of data"), 1, DATA_BYTES_MAX);
+    if (count > DATA_BYTES_MAX || offset + count > PAGE_BYTES) {
+        machine_range_error(TEXT_P("Bytes of data"), 1, DATA_BYTES_MAX);
+        return MACHINE_ERR_RANGE;
     }
     for (uint8_t i = 0; hex[i] != '\0'; i++) {
         const uint8_t digit = shell_digit(hex[i]);
         if (digit > 15 || (i == 2 * count)) {
-            (void)machine_error(MACHINE_ERR_RANGE);
-            TEXT("Data must be pairs of hexadecimal digits");
-            return MACHINE_ERR_RANGE;
+            return machine_says(MACHINE_ERR_RANGE, TEXT_P("Data must be pairs of hexadecimal digits"));
         }
         bytes[i / 2] = (uint8_t)(bytes[i / 2] << 4 | digit);
     }
     memcpy(machine->image->ram_page(machine->image->context) + offset, bytes, count);
-    if (machine->image->changed != NULL) {
-        machine->image->changed(machine->image->context);
-    }
-    machine_end_ok();
+    machine->image->changed(machine->image->context);
     return MACHINE_OK;
 }
 
@@ -92,12 +77,11 @@ uint8_t machine_do_crc(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     (void)args;
-    if (machine->image->ram_page == NULL) {
-        return image_error();
+    if (!has_page(machine)) {
+        return MACHINE_ERR_IMAGE;
     }
     text_put(' ');
     text_hex(ram_crc(machine), 4);
-    machine_end_ok();
     return MACHINE_OK;
 }
 
@@ -105,16 +89,14 @@ uint8_t machine_do_save(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     uint16_t page, crc;
-    if (machine->image->save == NULL || machine->image->ram_page == NULL) {
-        return image_error();
+    if (!has_page(machine)) {
+        return MACHINE_ERR_IMAGE;
     }
-    if (!machine_number(args, 1, 0, PAGE_COUNT - 1, &page)) {
-        return machine_range_error(TEXT_P("Page"), 0, PAGE_COUNT - 1);
+    if (!machine_page_number(args, 1, 0, &page)) {
+        return MACHINE_ERR_RANGE;
     }
     if (!shell_parse(shell_word(args, 2), true, &crc) || crc != ram_crc(machine)) {
-        (void)machine_error(MACHINE_ERR_CRC);
-        TEXT("The CRC does not fit the page in RAM");
-        return MACHINE_ERR_CRC;
+        return machine_says(MACHINE_ERR_CRC, TEXT_P("The CRC does not fit the page in RAM"));
     }
     return image_result(machine->image->save(machine->image->context, (uint8_t)page));
 }

@@ -22,8 +22,9 @@ typedef enum {
  * where nobody can write. */
 void page_save_recover(uint8_t work[PAGE_BYTES]);
 
-/* Sets the checksum byte, saves, reads back, and checks the page for the store again. */
-MUST_CHECK page_save_status_t page_save(page_store_t *store, uint8_t page, uint8_t bytes[PAGE_BYTES]);
+/* Sets the checksum byte, saves and reads back. Afterwards, whatever it says, the store has to look at the page anew
+ * (page_store_refresh): not done here, so that the answer comes first. */
+MUST_CHECK page_save_status_t page_save(uint8_t page, uint8_t bytes[PAGE_BYTES]);
 
 /* Leaves the page in the mailbox of the factory loader and restarts the controller: 4.5 s. Never returns. */
 void page_save_by_mailbox(uint8_t page, uint8_t bytes[PAGE_BYTES]) __attribute__((noreturn));

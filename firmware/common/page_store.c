@@ -18,6 +18,13 @@ void page_store_read(uint8_t page, uint16_t offset, void *to, uint16_t count)
     flash_read(page_store_addr(page) + offset, to, count);
 }
 
+NOINLINE uint8_t page_store_byte(uint8_t page, uint16_t offset)
+{
+    uint8_t byte;
+    page_store_read(page, offset, &byte, 1);
+    return byte;
+}
+
 static void source_read(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
     (void)context;
@@ -30,7 +37,7 @@ static uint8_t source_check(void *context, uint8_t page)
 }
 
 /* The whole page, 64 bytes at a time: the same answer as page_check. */
-static page_status_t look_at(uint8_t page)
+page_status_t page_store_look(uint8_t page)
 {
     uint8_t block[PAGE_STEP_BYTES];
     uint8_t sum = 0, steps = 0;
@@ -54,7 +61,7 @@ static page_status_t look_at(uint8_t page)
 void page_store_refresh(page_store_t *store, uint8_t page)
 {
     uint8_t bit = (uint8_t)(1u << (page & 7u));
-    if (look_at(page) == PAGE_OK) {
+    if (page_store_look(page) == PAGE_OK) {
         store->good[page >> 3] |= bit;
     } else {
         store->good[page >> 3] &= (uint8_t)~bit;
@@ -79,18 +86,14 @@ bool page_store_is_good(const page_store_t *store, uint8_t page)
 
 page_status_t page_store_check(const page_store_t *store, uint8_t page)
 {
-    return page_store_is_good(store, page) ? PAGE_OK : look_at(page);
+    return page_store_is_good(store, page) ? PAGE_OK : page_store_look(page);
 }
 
 bool page_store_is_erased(uint8_t page)
 {
-    uint8_t block[32];
-    for (uint16_t offset = 0; offset < PAGE_BYTES; offset += sizeof block) {
-        page_store_read(page, offset, block, sizeof block);
-        for (uint8_t i = 0; i < sizeof block; i++) {
-            if (block[i] != 0xFF) {
-                return false;
-            }
+    for (uint16_t offset = 0; offset < PAGE_BYTES; offset++) {
+        if (page_store_byte(page, offset) != 0xFF) {
+            return false;
         }
     }
     return true;

@@ -27,9 +27,13 @@ uint32_t page_store_addr(uint8_t page);
 /* Copies part of a page, offset + count <= 512. page 0..127. */
 void page_store_read(uint8_t page, uint16_t offset, void *to, uint16_t count);
 
+/* One byte of it. */
+uint8_t page_store_byte(uint8_t page, uint16_t offset);
+
 bool page_store_is_good(const page_store_t *store, uint8_t page);
 
 /* What is wrong with a page, as page_check would say it; looks at the flash unless the page is good. */
+page_status_t page_store_look(uint8_t page);   /* the same without a store: always looks */
 page_status_t page_store_check(const page_store_t *store, uint8_t page);
 
 /* true when all 512 bytes are 0xFF (erased): then page_store_check says PAGE_ERR_CHECKSUM or so, but nothing is damaged. */

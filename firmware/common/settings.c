@@ -131,6 +131,14 @@ void settings_save_start(settings_store_t *store)
     store->saving = true;
 }
 
+/* Byte `at` of the record to write. Not inlined: the main loop would keep the record's bytes of stack for ever. */
+static NOINLINE uint8_t byte_to_save(const settings_store_t *store, const settings_t *settings, uint8_t at)
+{
+    record_t record = { MAGIC, LAYOUT, (uint8_t)(store->sequence + 1u), sizeof *settings, *settings, { 0, 0 } };
+    seal(&record);
+    return ((const uint8_t *)&record)[at];
+}
+
 bool settings_save_poll(settings_store_t *store, const settings_t *settings)
 {
     uint8_t copy = (uint8_t)(1u - store->copy);
@@ -143,10 +151,8 @@ bool settings_save_poll(settings_store_t *store, const settings_t *settings)
         store->saving = false;
         return false;
     }
-    record_t record = { MAGIC, LAYOUT, (uint8_t)(store->sequence + 1u), sizeof *settings, *settings, { 0, 0 } };
-    seal(&record);
-    uint8_t at = (uint8_t)(store->at % sizeof record);
-    uint8_t byte = store->at == 0 ? NO_MAGIC : ((const uint8_t *)&record)[at];
+    uint8_t at = (uint8_t)(store->at % sizeof(record_t));
+    uint8_t byte = store->at == 0 ? (uint8_t)NO_MAGIC : byte_to_save(store, settings, at);
     if (eeprom_start((uint16_t)(copy_addr(copy) + at), byte)) {
         store->at++;
     }

@@ -33,9 +33,9 @@ static void begin_step(uint8_t page, uint8_t step, uint8_t joint)
 static void check_links(const editor_t *editor, uint8_t page)
 {
     for (uint8_t i = 0; i < LINKS; i++) {
-        uint8_t to = page_facts_byte(page, pgm_read_byte(&link_fields[i]));
+        uint8_t to = page_store_byte(page, pgm_read_byte(&link_fields[i]));
         bool used = to != 0 && to < PAGE_COUNT;
-        if (used && (!page_store_is_good(editor->pages, to) || page_facts_byte(to, PAGE_AT_STEPS) == 0)) {
+        if (used && (!page_store_is_good(editor->pages, to) || page_store_byte(to, PAGE_AT_STEPS) == 0)) {
             begin_line(page);
             TEXT("leads to page ");
             text_number(to);
@@ -48,7 +48,7 @@ static void check_links(const editor_t *editor, uint8_t page)
 static bool leads_to(uint8_t from, uint8_t page)
 {
     for (uint8_t i = 0; i < LINKS; i++) {
-        if (page_facts_byte(from, pgm_read_byte(&link_fields[i])) == page) {
+        if (page_store_byte(from, pgm_read_byte(&link_fields[i])) == page) {
             return true;
         }
     }
@@ -57,7 +57,7 @@ static bool leads_to(uint8_t from, uint8_t page)
 
 static void check_reach(const editor_t *editor, uint8_t page)
 {
-    if (page_facts_byte(page, PAGE_AT_PLAY_CODE) != 0) {
+    if (page_store_byte(page, PAGE_AT_PLAY_CODE) != 0) {
         return;
     }
     for (uint8_t from = 1; from < PAGE_COUNT; from++) {
@@ -73,7 +73,7 @@ static void check_reach(const editor_t *editor, uint8_t page)
 static void check_speed(uint8_t page)
 {
     page_facts_t facts;
-    uint8_t steps = page_facts_byte(page, PAGE_AT_STEPS);
+    uint8_t steps = page_store_byte(page, PAGE_AT_STEPS);
     for (uint8_t step = 0; step < steps; step++) {
         page_facts_step(page, step, &facts);
         uint16_t deg_s = page_facts_deg_s(&facts);
@@ -90,7 +90,7 @@ static void check_speed(uint8_t page)
 static void check_joint(const editor_t *editor, uint8_t page, uint8_t joint)
 {
     uint8_t limits[4];
-    uint8_t steps = page_facts_byte(page, PAGE_AT_STEPS);
+    uint8_t steps = page_store_byte(page, PAGE_AT_STEPS);
     if (bus_call_read(joint, DXL_AT_CW_LIMIT, limits, sizeof limits, NULL) != BUS_OK) {
         return;
     }
@@ -112,13 +112,13 @@ static void check_page(editor_t *editor, uint8_t page)
     page_status_t status = page_store_check(editor->pages, page);
     if (status != PAGE_OK) {
         char text[FRAME_FAULT_BYTES];
-        frame_fault_text(status == PAGE_ERR_STEPS ? page_facts_byte(page, PAGE_AT_STEPS) : (uint8_t)status, text);
+        frame_fault_text(status == PAGE_ERR_STEPS ? page_store_byte(page, PAGE_AT_STEPS) : (uint8_t)status, text);
         begin_line(page);
         text_string(text);
         text_line_end();
         return;
     }
-    if (page_facts_byte(page, PAGE_AT_STEPS) == 0) {
+    if (page_store_byte(page, PAGE_AT_STEPS) == 0) {
         return;
     }
     check_links(editor, page);

@@ -141,11 +141,12 @@ static uint8_t save_by_mailbox(editor_t *editor, uint8_t page)
 /* Says how it went; what follows from it comes behind, so that OK is on the line within 60 ms. */
 static uint8_t save_now(editor_t *editor, uint8_t page)
 {
-    page_save_status_t status = page_save(editor->pages, page, editor->session.cells);
+    page_save_status_t status = page_save(page, editor->session.cells);
     text_P(status == PAGE_SAVE_OK           ? TEXT_P("OK")
            : status == PAGE_SAVE_UNCHANGED  ? TEXT_P("OK, no change")
            : status == PAGE_SAVE_ERR_VERIFY ? TEXT_P("Not saved: flash error")
                                             : TEXT_P("No boot loader can write: the page stays in RAM"));
+    page_store_refresh(editor->pages, page);
     if (page == editor->session.page) {
         session_saved(&editor->session);
     } else if (page == 0) {
@@ -210,24 +211,24 @@ COMMAND(cmd_name)
 
 /* ---- undo ---- */
 
+static uint8_t say_unless(bool done, const char *text)
+{
+    if (!done) {
+        text_P(text);
+    }
+    return SHELL_OK;
+}
+
 COMMAND(cmd_undo)
 {
     editor_t *editor = context;
     (void)args;
-    if (session_undo(&editor->session)) {
-        return SHELL_OK;
-    }
-    TEXT("Nothing to undo");
-    return SHELL_ERR_SAID;
+    return say_unless(session_undo(&editor->session), TEXT_P("Nothing to undo"));
 }
 
 COMMAND(cmd_redo)
 {
     editor_t *editor = context;
     (void)args;
-    if (session_redo(&editor->session)) {
-        return SHELL_OK;
-    }
-    TEXT("Nothing to redo");
-    return SHELL_ERR_SAID;
+    return say_unless(session_redo(&editor->session), TEXT_P("Nothing to redo"));
 }

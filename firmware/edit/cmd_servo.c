@@ -138,7 +138,7 @@ static bool joints_of(editor_t *editor, const shell_args_t *args, uint32_t *join
         if (!shell_number(args, i, TEXT_P("ID"), 0, PAGE_JOINTS - 1u, &id)) {
             return false;
         }
-        *joints |= servo_link_bit((uint8_t)id);
+        servo_link_put(joints, (uint8_t)id, true);
     }
     if ((*joints & ~there) != 0) {
         TEXT("Not there: ID ");

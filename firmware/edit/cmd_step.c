@@ -44,7 +44,7 @@ static void tell_off(editor_t *editor)
     uint32_t off = 0;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         if (robot_has(&editor->robot, joint) && cell_is_off(session_pose(&editor->session, joint))) {
-            off |= servo_link_bit(joint);
+            servo_link_put(&off, joint, true);
         }
     }
     if (off != 0) {

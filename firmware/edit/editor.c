@@ -2,6 +2,7 @@
 #include "editor.h"
 
 #include "commands.h"
+#include "compiler.h"
 #include "console.h"
 #include "editor_parts.h"
 #include "pgm.h"
@@ -96,36 +97,17 @@ void editor_leave_line(editor_t *editor)
 
 static void go_on(editor_t *editor, uint8_t result)
 {
-    switch (result) {
-    case EDITOR_TO_ASK:
-        editor->mode = EDITOR_ASK;
+    STATIC_ASSERT((int)EDITOR_ASK > (int)SHELL_ERR_SAID && EDITOR_MORE == EDITOR_MONITOR + 1, "what a handler returns is a mode");
+    if (result >= EDITOR_ASK && result <= EDITOR_MONITOR) {
+        editor->mode = result;
+        if (result == EDITOR_NAME || result == EDITOR_MONITOR) {
+            shell_clear(&editor->shell);
+            editor->screen.lead = false;
+        }
         return;
-    case EDITOR_TO_NAME:
-        shell_clear(&editor->shell);
-        editor->screen.lead = false;
-        editor->mode = EDITOR_NAME;
-        return;
-    case EDITOR_TO_LIST:
-        editor->mode = EDITOR_LIST;
-        return;
-    case EDITOR_TO_PLAY:
-        editor->mode = EDITOR_PLAY;
-        return;
-    case EDITOR_TO_BALANCE:
-        editor->mode = EDITOR_BALANCE;
-        return;
-    case EDITOR_TO_MONITOR:
-        shell_clear(&editor->shell);
-        editor->mode = EDITOR_MONITOR;
-        return;
-    case SHELL_ERR_UNKNOWN:
-        TEXT("Bad Command");
-        break;
-    case SHELL_ERR_COUNT:
-        TEXT("Invalid Parameter");
-        break;
-    default:
-        break;
+    }
+    if (result >= SHELL_ERR_UNKNOWN) {
+        text_P(result == SHELL_ERR_UNKNOWN ? TEXT_P("Bad Command") : TEXT_P("Invalid Parameter"));
     }
     editor_leave_line(editor);
 }

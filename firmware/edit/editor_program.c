@@ -55,7 +55,8 @@ static void program_changed(void *context)
 static machine_status_t program_save(void *context, uint8_t page)
 {
     editor_t *editor = context;
-    page_save_status_t status = page_save(editor->pages, page, editor->session.cells);
+    page_save_status_t status = page_save(page, editor->session.cells);
+    page_store_refresh(editor->pages, page);
     if (status != PAGE_SAVE_OK && status != PAGE_SAVE_UNCHANGED) {
         return MACHINE_ERR_SAVE;
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * main.c - the Edit image: the one instance of everything, start-up order, main loop. */
 #include "board.h"
+#include "compiler.h"
 #include "console.h"
 #include "editor.h"
 #include "page_save.h"
@@ -30,7 +31,8 @@ static const char *mail_text_P(void)
                                                : TEXT_P("Not saved");
 }
 
-static void start(void)
+/* Not inlined: what it needs of the stack would stay for ever. */
+static NOINLINE void start(void)
 {
     board_start();
     ring_t *ring = console_rx_ring();

@@ -4,13 +4,6 @@
 #include "compiler.h"
 #include "page_store.h"
 
-NOINLINE uint8_t page_facts_byte(uint8_t page, uint16_t offset)
-{
-    uint8_t byte;
-    page_store_read(page, offset, &byte, 1);
-    return byte;
-}
-
 NOINLINE uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint)
 {
     uint8_t word[2];
@@ -20,7 +13,7 @@ NOINLINE uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint)
 
 static void longest_way(uint8_t page, uint8_t step, page_facts_t *facts)
 {
-    uint8_t before = (uint8_t)((step > 0 ? step : page_facts_byte(page, PAGE_AT_STEPS)) - 1u);
+    uint8_t before = (uint8_t)((step > 0 ? step : page_store_byte(page, PAGE_AT_STEPS)) - 1u);
     facts->way_pos = 0;
     facts->joint = 0;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
@@ -38,11 +31,11 @@ static void longest_way(uint8_t page, uint8_t step, page_facts_t *facts)
 void page_facts_step(uint8_t page, uint8_t step, page_facts_t *facts)
 {
     uint16_t at = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + PAGE_STEP_AT_PAUSE);
-    uint8_t page_speed = page_facts_byte(page, PAGE_AT_SPEED);
-    uint16_t pause = page_facts_byte(page, at);
-    uint16_t speed = page_facts_byte(page, (uint16_t)(at + 1u));
+    uint8_t page_speed = page_store_byte(page, PAGE_AT_SPEED);
+    uint16_t pause = page_store_byte(page, at);
+    uint16_t speed = page_store_byte(page, (uint16_t)(at + 1u));
     longest_way(page, step, facts);
-    if (page_facts_byte(page, PAGE_AT_SCHEDULE) == PAGE_SCHEDULE_TIME) {
+    if (page_store_byte(page, PAGE_AT_SCHEDULE) == PAGE_SCHEDULE_TIME) {
         facts->ticks = (uint16_t)(speed * page_speed) / PAGE_SPEED_NOMINAL;
         facts->pause_ticks = (uint16_t)(pause * page_speed) / PAGE_SPEED_NOMINAL;
         return;
@@ -59,7 +52,7 @@ uint16_t page_facts_ticks(uint8_t page)
 {
     page_facts_t facts;
     uint16_t ticks = 0;
-    uint8_t steps = page_facts_byte(page, PAGE_AT_STEPS);
+    uint8_t steps = page_store_byte(page, PAGE_AT_STEPS);
     for (uint8_t step = 0; step < steps; step++) {
         page_facts_step(page, step, &facts);
         ticks = (uint16_t)(ticks + facts.ticks + facts.pause_ticks);

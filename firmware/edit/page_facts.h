@@ -17,9 +17,6 @@ typedef struct {
     uint8_t joint;       /* whose it is */
 } page_facts_t;
 
-/* One byte of a page in flash. */
-uint8_t page_facts_byte(uint8_t page, uint16_t offset);
-
 /* One position word. */
 uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint);
 

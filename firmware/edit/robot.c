@@ -12,7 +12,7 @@ static bool read_pos(robot_t *robot, uint8_t joint, uint8_t at, uint16_t *pos)
 {
     uint8_t bytes[2];
     if (bus_call_read(joint, at, bytes, sizeof bytes, NULL) != BUS_OK) {
-        robot->failed |= servo_link_bit(joint);
+        servo_link_put(&robot->failed, joint, true);
         return false;
     }
     uint16_t word = (uint16_t)(bytes[0] | (uint16_t)bytes[1] << 8);
@@ -20,24 +20,14 @@ static bool read_pos(robot_t *robot, uint8_t joint, uint8_t at, uint16_t *pos)
     return true;
 }
 
-NOINLINE bool robot_in(uint32_t joints, uint8_t joint)
-{
-    return (joints & servo_link_bit(joint)) != 0;
-}
-
 bool robot_has(const robot_t *robot, uint8_t joint)
 {
-    return joint < PAGE_JOINTS && robot_in(robot->servos->present, joint);
-}
-
-uint32_t robot_held(const robot_t *robot)
-{
-    return robot->servos->present & robot->servos->torque;
+    return joint < PAGE_JOINTS && servo_link_has(&robot->servos->present, joint);
 }
 
 static bool is_held(const robot_t *robot, uint8_t joint)
 {
-    return robot_in(robot_held(robot), joint);
+    return robot_has(robot, joint) && servo_link_has(&robot->servos->torque, joint);
 }
 
 static void read_joint(robot_t *robot, uint8_t joint)
@@ -73,11 +63,8 @@ void robot_set_trim(robot_t *robot)
 {
     int16_t trim_pos[PAGE_JOINTS];
     robot->raw = robot->session->page == 0;
-    if (robot->raw || !page_store_trim(robot->pages, trim_pos)) {
-        servo_link_set_trim(robot->servos, NULL);
-    } else {
-        servo_link_set_trim(robot->servos, trim_pos);
-    }
+    bool trimmed = !robot->raw && page_store_trim(robot->pages, trim_pos);
+    servo_link_set_trim(robot->servos, trimmed ? trim_pos : NULL);
     servo_link_read_pose(robot->servos, robot->servos->present);
     robot_read(robot);
 }
@@ -102,7 +89,7 @@ static void write_goal(robot_t *robot, uint8_t joint, uint16_t present, uint16_t
     }
     uint8_t bytes[4] = { (uint8_t)goal, (uint8_t)(goal >> 8), (uint8_t)speed, (uint8_t)(speed >> 8) };
     if (bus_call_write(joint, DXL_AT_GOAL, bytes, sizeof bytes, NULL) != BUS_OK) {
-        robot->failed |= servo_link_bit(joint);
+        servo_link_put(&robot->failed, joint, true);
     }
 }
 
@@ -132,9 +119,9 @@ uint32_t robot_send(robot_t *robot, const uint8_t step[PAGE_STEP_BYTES])
         } else if (cell_is_position(word)) {
             robot_move(robot, joint, word);
         } else if (cell_is_off(word)) {
-            off |= servo_link_bit(joint);
+            servo_link_put(&off, joint, true);
         } else {
-            missing |= servo_link_bit(joint);
+            servo_link_put(&missing, joint, true);
         }
     }
     robot_off(robot, off);
@@ -151,7 +138,7 @@ void robot_on(robot_t *robot, uint32_t joints)
     uint32_t on = performer_on(robot->performer, wanted);
     robot->failed |= wanted & ~on;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (robot_in(on, joint)) {
+        if (servo_link_has(&on, joint)) {
             session_set_pose(robot->session, joint, robot->servos->present_pos[joint] & PAGE_POS_MAX);
         }
     }
@@ -166,7 +153,7 @@ void robot_off(robot_t *robot, uint32_t joints)
     servo_link_quiet(robot->servos);
     performer_off(robot->performer, there);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (robot_in(there, joint)) {
+        if (servo_link_has(&there, joint)) {
             uint16_t pos = session_pose(robot->session, joint) & PAGE_POS_MAX;
             session_set_pose(robot->session, joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
         }

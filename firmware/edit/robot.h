@@ -26,13 +26,8 @@ typedef struct {
 /* Reads trim and all joints that answered the last search. */
 void robot_init(robot_t *robot, session_t *session, servo_link_t *servos, performer_t *performer, page_store_t *pages);
 
-/* Whether `joint` (0..30) is in a mask. Not inlined: a 32-bit shift is a loop. */
-bool robot_in(uint32_t joints, uint8_t joint);
-
+/* Whether joint 0..30 is there; any number may be asked for. */
 bool robot_has(const robot_t *robot, uint8_t joint);
-
-/* Joints that are there and held, or not held. */
-uint32_t robot_held(const robot_t *robot);
 
 /* Reads the work pose anew: goal where torque is on, present position with the ???? mark where it is off. */
 void robot_read(robot_t *robot);

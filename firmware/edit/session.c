@@ -4,8 +4,6 @@
 #include <string.h>
 #include "page_store.h"
 
-#define CHUNK_BYTES 64u
-
 /* The new page of editor-original.md section 1. */
 enum { NEW_PLAY_COUNT = 1, NEW_STEP_SPEED = 64, NEW_LAST_SOFTNESS_AT = 63, ERASED = 0xFF };
 
@@ -89,14 +87,17 @@ void session_set_pose(session_t *session, uint8_t joint, uint16_t word)
 {
     uint16_t address = (uint16_t)(CELLS_POSE_AT + 2u * joint);
     uint16_t old = cell_word(session->cells, address);
+    if (old == word) {
+        return;
+    }
     session->cells[address] = (uint8_t)word;
     session->cells[address + 1u] = (uint8_t)(word >> 8);
-    if (old != word && !(cell_is_off(old) && cell_is_off(word))) {
-        session_mark(session, CELL_X_POSE, joint);
+    bool was_off = cell_is_off(old), is_off = cell_is_off(word);
+    uint16_t marks = was_off || is_off ? MARK_LABEL : 0;
+    if (!was_off || !is_off) {
+        marks |= 1u << CELL_X_POSE;
     }
-    if (old != word && (cell_is_off(old) || cell_is_off(word))) {
-        session->marks[joint] |= MARK_LABEL;
-    }
+    session->marks[joint] |= marks;
 }
 
 uint16_t session_pose(const session_t *session, uint8_t joint)
@@ -126,67 +127,41 @@ void session_update_trim(session_t *session, uint8_t joint)
 
 /* ---- flash ---- */
 
-/* `chunk` bytes at `offset` of flash page `page` as they are edited: an erased page reads as a new one. */
-static void read_page(uint8_t page, bool erased, uint16_t offset, uint8_t chunk[CHUNK_BYTES])
+/* Byte `offset` of flash page `page` as it is edited: an erased page reads as a new one. */
+static uint8_t stored_byte(uint8_t page, bool erased, uint16_t offset)
 {
-    if (!erased) {
-        page_store_read(page, offset, chunk, CHUNK_BYTES);
-        return;
-    }
-    for (uint8_t i = 0; i < CHUNK_BYTES; i++) {
-        chunk[i] = session_new_byte((uint16_t)(offset + i));
-    }
+    return erased ? session_new_byte(offset) : page_store_byte(page, offset);
 }
 
-static uint8_t sum_of(uint8_t page)
-{
-    uint8_t chunk[CHUNK_BYTES];
-    uint8_t sum = 0;
-    for (uint16_t offset = 0; offset < PAGE_BYTES; offset = (uint16_t)(offset + CHUNK_BYTES)) {
-        page_store_read(page, offset, chunk, CHUNK_BYTES);
-        sum = page_sum(sum, chunk, CHUNK_BYTES);
-    }
-    return sum;
-}
-
-/* Byte 31 is not edited and not compared: SAVE makes it. */
+/* Byte 31 is not edited and not compared: SAVE makes it. 2 ms when nothing differs. */
 static bool differs_from_flash(const session_t *session)
 {
-    uint8_t chunk[CHUNK_BYTES];
     bool erased = page_store_is_erased(session->page);
-    for (uint16_t offset = 0; offset < PAGE_BYTES; offset = (uint16_t)(offset + CHUNK_BYTES)) {
-        read_page(session->page, erased, offset, chunk);
-        if (offset == 0) {
-            chunk[PAGE_AT_CHECKSUM] = session->cells[PAGE_AT_CHECKSUM];
-        }
-        if (memcmp(chunk, &session->cells[offset], CHUNK_BYTES) != 0) {
+    for (uint16_t offset = 0; offset < PAGE_BYTES; offset++) {
+        if (session->cells[offset] != stored_byte(session->page, erased, offset) && offset != PAGE_AT_CHECKSUM) {
             return true;
         }
     }
     return false;
 }
 
+static void fill(session_t *session, uint8_t from, bool erased)
+{
+    for (uint16_t offset = 0; offset < PAGE_BYTES; offset++) {
+        session_set_byte(session, offset, stored_byte(from, erased, offset));
+    }
+    session->was_damaged = !erased && page_store_look(from) == PAGE_ERR_CHECKSUM;
+    session->go_step = SESSION_NO_STEP;
+}
+
 void session_load(session_t *session, uint8_t from)
 {
-    uint8_t chunk[CHUNK_BYTES];
-    bool erased = page_store_is_erased(from);
-    for (uint16_t offset = 0; offset < PAGE_BYTES; offset = (uint16_t)(offset + CHUNK_BYTES)) {
-        read_page(from, erased, offset, chunk);
-        for (uint8_t i = 0; i < CHUNK_BYTES; i++) {
-            session_set_byte(session, (uint16_t)(offset + i), chunk[i]);
-        }
-    }
-    session->was_damaged = !erased && sum_of(from) != PAGE_CHECKSUM_SUM;
-    session->go_step = SESSION_NO_STEP;
+    fill(session, from, page_store_is_erased(from));
 }
 
 void session_clear(session_t *session)
 {
-    for (uint16_t address = 0; address < PAGE_BYTES; address++) {
-        session_set_byte(session, address, session_new_byte(address));
-    }
-    session->was_damaged = false;
-    session->go_step = SESSION_NO_STEP;
+    fill(session, 0, true);
 }
 
 void session_open(session_t *session, uint8_t page)
@@ -296,11 +271,11 @@ void session_begin_turn(session_t *session, uint8_t turn)
     begin(session, turn);
 }
 
-bool session_undo(session_t *session)
+static bool travel(session_t *session, bool back)
 {
     undo_target_t target = { session, flip_byte, turn_steps };
-    bool done = undo_back(&session->undo, &target);
-    if (!done && session->undo_reloads) {
+    bool done = back ? undo_back(&session->undo, &target) : undo_forth(&session->undo, &target);
+    if (!done && back && session->undo_reloads) {
         session_open(session, session->page);
         return true;
     }
@@ -308,12 +283,14 @@ bool session_undo(session_t *session)
     return done;
 }
 
+bool session_undo(session_t *session)
+{
+    return travel(session, true);
+}
+
 bool session_redo(session_t *session)
 {
-    undo_target_t target = { session, flip_byte, turn_steps };
-    bool done = undo_forth(&session->undo, &target);
-    session->is_changed = differs_from_flash(session);
-    return done;
+    return travel(session, false);
 }
 
 /* ---- checks ---- */
@@ -335,9 +312,8 @@ bool session_is_empty(uint8_t page)
     if (page_store_is_erased(page)) {
         return true;
     }
-    uint8_t header[PAGE_AT_STEPS + 1];
-    page_store_read(page, 0, header, sizeof header);
-    return header[PAGE_AT_NAME] == 0 && header[PAGE_AT_STEPS] == 0 && sum_of(page) == PAGE_CHECKSUM_SUM;
+    return page_store_byte(page, PAGE_AT_NAME) == 0 && page_store_byte(page, PAGE_AT_STEPS) == 0 &&
+           page_store_look(page) != PAGE_ERR_CHECKSUM;
 }
 
 /* ---- cursor ---- */

@@ -59,6 +59,7 @@ void session_clear(session_t *session);
 /* Permutes whole steps (UNDO_TURN(...)): instead of session_begin, before any session_set. */
 void session_begin_turn(session_t *session, uint8_t turn);
 
+/* One command back, or forth again. false: there is none. */
 bool session_undo(session_t *session);
 bool session_redo(session_t *session);
 

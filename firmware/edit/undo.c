@@ -163,16 +163,28 @@ bool undo_end(undo_t *undo)
 
 static void flip_runs(const undo_t *undo, uint16_t record, const undo_target_t *target)
 {
-    uint16_t end = (uint16_t)(record + word_at(undo, record));
-    uint16_t run = (uint16_t)(record + RECORD_HEADER_BYTES);
-    while (run < end) {
-        uint16_t address = run_address(undo, run);
-        uint8_t bytes = run_bytes(undo, run);
-        run = (uint16_t)(run + RUN_HEADER_BYTES);
-        for (uint8_t i = 0; i < bytes; i++) {
-            target->flip(target->context, (uint16_t)(address + i), undo->log[run + i]);
+    const uint8_t *run = &undo->log[record];
+    const uint8_t *end = run + word_at(undo, record);
+    for (run += RECORD_HEADER_BYTES; run < end;) {
+        uint16_t address = (uint16_t)(run[0] | (run[1] & 1u) << 8);
+        uint8_t bytes = (uint8_t)((run[1] >> 1) + 1u);
+        for (run += RUN_HEADER_BYTES; bytes > 0; bytes--) {
+            target->flip(target->context, address++, *run++);
         }
-        run = (uint16_t)(run + bytes);
+    }
+}
+
+/* Record `index` back or forth: the turn of the steps comes first when it was made, last when it is undone. */
+static void carry_out(const undo_t *undo, uint8_t index, const undo_target_t *target, bool back)
+{
+    uint16_t record = record_at(undo, index);
+    uint8_t turn = undo->log[record + 2u];
+    if (!back) {
+        target->turn(target->context, turn, false);
+    }
+    flip_runs(undo, record, target);
+    if (back) {
+        target->turn(target->context, turn, true);
     }
 }
 
@@ -181,10 +193,7 @@ bool undo_back(undo_t *undo, const undo_target_t *target)
     if (undo->applied == 0) {
         return false;
     }
-    undo->applied--;
-    uint16_t record = record_at(undo, undo->applied);
-    flip_runs(undo, record, target);
-    target->turn(target->context, undo->log[record + 2u], true);
+    carry_out(undo, --undo->applied, target, true);
     return true;
 }
 
@@ -193,9 +202,6 @@ bool undo_forth(undo_t *undo, const undo_target_t *target)
     if (undo->applied == undo->count) {
         return false;
     }
-    uint16_t record = record_at(undo, undo->applied);
-    undo->applied++;
-    target->turn(target->context, undo->log[record + 2u], false);
-    flip_runs(undo, record, target);
+    carry_out(undo, undo->applied++, target, false);
     return true;
 }

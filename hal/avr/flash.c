@@ -2,6 +2,7 @@
 #include "flash.h"
 
 #include <avr/io.h>
+#include <avr/pgmspace.h>
 
 /* One far read and step is ELPM Z+ (24 bits: RAMPZ counts along, so 0x10000 is no border). 9 cycles a byte. */
 void flash_read(uint32_t addr, void *to, uint16_t bytes)
@@ -20,4 +21,15 @@ void flash_read(uint32_t addr, void *to, uint16_t bytes)
         : [count] "+d"(bytes), "+x"(to)
         : [addr] "r"(addr), [rampz] "I"(_SFR_IO_ADDR(RAMPZ))
         : "r30", "r31", "memory");
+}
+
+bool flash_equals(uint32_t addr, const void *data, uint16_t bytes)
+{
+    const uint8_t *p = data;
+    while (bytes-- > 0) {
+        if (pgm_read_byte_far(addr++) != *p++) {
+            return false;
+        }
+    }
+    return true;
 }

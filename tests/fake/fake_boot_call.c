@@ -55,3 +55,9 @@ void flash_read(uint32_t addr, void *to, uint16_t bytes)
     ASSERT(addr + bytes <= sizeof flash);
     memcpy(to, flash + addr, bytes);
 }
+
+bool flash_equals(uint32_t addr, const void *data, uint16_t bytes)
+{
+    ASSERT(addr + bytes <= sizeof flash);
+    return memcmp(flash + addr, data, bytes) == 0;
+}

@@ -106,6 +106,12 @@ void flash_read(uint32_t addr, void *to, uint16_t bytes)
     memcpy(to, flash.bytes + addr, bytes);
 }
 
+bool flash_equals(uint32_t addr, const void *data, uint16_t bytes)
+{
+    ASSERT(addr + bytes <= sizeof flash.bytes);
+    return memcmp(flash.bytes + addr, data, bytes) == 0;
+}
+
 flash_status_t flash_write(uint16_t page, const uint8_t *data, uint16_t bytes)
 {
     uint8_t erased[FLASH_PAGE_BYTES];
