@@ -3,6 +3,7 @@
 
 #include <stddef.h>
 #include <string.h>
+#include "compiler.h"
 #include "text.h"
 
 enum {
@@ -49,7 +50,9 @@ static void rub_out(shell_t *shell)
 {
     if (shell->length > 0) {
         shell->length--;
-        TEXT("\b \b");
+        text_put(KEY_BS);
+        text_put(' ');
+        text_put(KEY_BS);
     }
 }
 
@@ -249,22 +252,25 @@ bool shell_parse(const char *word, bool hex, uint16_t *value)
         return false;
     }
     const uint8_t base = hex ? 16 : 10;
-    uint32_t sum = 0;
+    const uint16_t sum_max = hex ? UINT16_MAX / 16 : UINT16_MAX / 10; /* before another digit */
+    uint16_t sum = 0;
     for (; *word != '\0'; word++) {
         const uint8_t digit = shell_digit(*word);
         if (digit >= base) {
             return false;
         }
-        sum = sum * base + digit;
-        if (sum > UINT16_MAX) {
+        const uint16_t next = (uint16_t)(sum * base + digit);
+        if (sum > sum_max || next < digit) { /* 6553 tens take five more, and start anew then */
             return false;
         }
+        sum = next;
     }
-    *value = (uint16_t)sum;
+    *value = sum;
     return true;
 }
 
-static void print_bound(uint16_t number, bool hex)
+/* Not inlined twice. */
+static NOINLINE void print_bound(uint16_t number, bool hex)
 {
     if (!hex) {
         text_number(number);
@@ -300,13 +306,13 @@ bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, u
 /* Takes the reader behind the next space. true: what stood before it is `word`. */
 static bool field_is(text_reader_t *reader, const char *word)
 {
-    bool same = true;
+    uint8_t differs = 0;
     for (char character; (character = text_next(reader)) != ' ';) {
         const char typed = *word >= 'A' && *word <= 'Z' ? (char)(*word | 0x20) : *word;
-        same = same && character == typed;
-        word += same ? 1 : 0;
+        differs |= (uint8_t)(typed ^ character);
+        word += *word != '\0';
     }
-    return same && *word == '\0';
+    return (differs | (uint8_t)*word) == 0;
 }
 
 const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count, const shell_args_t *args,

@@ -37,8 +37,8 @@ void text_open_P(text_reader_t *reader, const char *string_P)
 char text_next(text_reader_t *reader)
 {
     uint8_t code = reader->depth > 0 ? reader->waiting[--reader->depth] : pgm_read_byte(reader->at_P++);
-    while (code >= FIRST_PAIR) {
-        const uint8_t *pair_P = text_pairs[code - FIRST_PAIR];
+    while ((int8_t)code < ' ' && code != 0) { /* 0x80..0xFF, 0x01..0x1F */
+        const uint8_t *pair_P = text_pairs[(uint8_t)(code - FIRST_PAIR)];
         reader->waiting[reader->depth++] = pgm_read_byte(pair_P + 1);
         code = pgm_read_byte(pair_P);
     }
@@ -64,11 +64,10 @@ char *text_copy_P(char *to, const char *string_P)
     return to;
 }
 
-/* Digits by subtraction: a 32-bit division costs ten times as much and a page of code. */
+/* Digits by subtraction: a division costs ten times as much and a page of code. */
 void text_number32(uint32_t number)
 {
-    static const uint32_t powers[] PROGMEM = {1000000000UL, 100000000UL, 10000000UL, 1000000UL, 100000UL,
-                                              10000UL,      1000UL,      100UL,      10UL,      1UL};
+    static const uint32_t powers[] PROGMEM = {1000000000UL, 100000000UL, 10000000UL, 1000000UL, 100000UL};
     bool begun = false;
     for (uint8_t i = 0; i < sizeof powers / sizeof powers[0]; i++) {
         const uint32_t power = pgm_read_dword(&powers[i]);
@@ -77,46 +76,62 @@ void text_number32(uint32_t number)
             number -= power;
             digit++;
         }
-        begun = begun || digit != '0' || power == 1;
+        begun = begun || digit != '0';
         if (begun) {
             text_put(digit);
         }
+    }
+    /* What is left has five digits, and may be more than 65535. */
+    uint8_t first = 0;
+    while (number >= 10000) {
+        number -= 10000;
+        first++;
+    }
+    if (begun || first > 0) {
+        text_put((char)('0' + first));
+        text_padded((uint16_t)number, 4, '0');
+    } else {
+        text_number((uint16_t)number);
     }
 }
 
 void text_number(uint16_t number)
 {
-    text_number32(number);
+    text_padded(number, 1, '0');
 }
 
 void text_padded(uint16_t number, uint8_t width, char pad)
 {
-    uint8_t digits = 1;
-    for (uint16_t rest = number; rest >= 10; rest /= 10) {
-        digits++;
+    static const uint16_t powers[] PROGMEM = {10000, 1000, 100, 10, 1};
+    bool begun = false;
+    for (uint8_t left = sizeof powers / sizeof powers[0]; left > 0; left--) {
+        const uint16_t power = pgm_read_word(&powers[sizeof powers / sizeof powers[0] - left]);
+        char digit = '0';
+        while (number >= power) {
+            number -= power;
+            digit++;
+        }
+        begun = begun || digit != '0' || left == 1;
+        if (begun || left <= width) {
+            text_put(begun ? digit : pad);
+        }
     }
-    for (; digits < width; digits++) {
-        text_put(pad);
-    }
-    text_number(number);
 }
 
 void text_string_padded(const char *string, uint8_t width)
 {
-    for (; *string != '\0'; string++) {
-        text_put(*string);
-        width = width > 0 ? (uint8_t)(width - 1) : 0;
-    }
-    while (width-- > 0) {
-        text_put(' ');
+    for (; *string != '\0' || width > 0; width -= width > 0) {
+        text_put(*string != '\0' ? *string++ : ' ');
     }
 }
 
 void text_hex(uint16_t number, uint8_t digits)
 {
-    while (digits-- > 0) {
-        const uint8_t nibble = (uint8_t)((number >> (4 * digits)) & 0x0F);
-        text_put((char)(nibble < 10 ? '0' + nibble : 'A' + nibble - 10));
+    for (uint8_t place = 4; place > 0; place--, number = (uint16_t)(number << 4)) {
+        if (place <= digits) {
+            const uint8_t nibble = (uint8_t)(number >> 8) >> 4;
+            text_put((char)(nibble < 10 ? '0' + nibble : 'A' + nibble - 10));
+        }
     }
 }
 

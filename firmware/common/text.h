@@ -24,8 +24,8 @@ void text_P(const char *string_P);      /* from flash */
  *   TEXT("...")              prints it
  *   TEXT_P("...")            names it, inside a function, for text_P and all that hand a flash text on to it
  *   TEXT_NAMED(name, "...")  defines it as an array, for tables
- * Each takes a literal and nothing else. A text that is compared with what someone typed is a plain PSTR; every function
- * here takes plain texts as well. Whoever else walks a marked text does so with a text_reader_t. */
+ * Each takes a literal of printable characters and nothing else (a packed text needs the other codes). A text that is compared with what someone typed is a plain PSTR; every function here
+ * takes plain texts of printable characters as well. Whoever else walks a marked text does so with a text_reader_t. */
 #define TEXT(literal) text_P(PSTR(literal))
 #define TEXT_P(literal) PSTR(literal)
 #define TEXT_NAMED(name, literal) static const char name[] PROGMEM = literal
@@ -43,7 +43,7 @@ char *text_copy_P(char *to, const char *string_P);   /* into RAM, with its end; 
 
 void text_number(uint16_t number);                              /* decimal, as short as it is */
 void text_number32(uint32_t number);
-void text_padded(uint16_t number, uint8_t width, char pad);     /* right aligned; wider numbers are not cut */
+void text_padded(uint16_t number, uint8_t width, char pad);     /* right aligned, width 1..5; wider numbers are not cut */
 void text_string_padded(const char *string, uint8_t width);     /* left aligned, filled with spaces */
 void text_hex(uint16_t number, uint8_t digits);                 /* the lowest `digits` (1..4) digits, upper case, no 0x */
 void text_line_end(void);                                       /* CR LF */

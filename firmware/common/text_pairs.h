@@ -9,7 +9,7 @@
 
 #define TEXT_PAIRS_DEPTH 1u   /* second halves that wait while a first half is taken apart */
 
-/* Code 0x80 + n stands for these two bytes, each a character, 0 (the end) or a code. */
+/* The pairs for 0x80..0xFF, 0x00 (none) and 0x01..0x1F: each byte a character, 0 (the end) or such a code. */
 static const uint8_t text_pairs[][2] PROGMEM = { { 0, 0 } };
 
 #endif

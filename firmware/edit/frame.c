@@ -8,12 +8,12 @@
 enum { FIRST_MARKER_COLUMN = 25, STEP_WIDTH = 5, FIRST_STEP_COLUMN = 26, SOFTNESS_COLUMN = 61,
        HEADER_COLUMN = 77, HEADER_LABEL_END = 76, NAME_COLUMN = 64, TITLE_COLUMN = 65, HEX_LOWER_FROM = 0x1A };
 
-/* Labels of header rows 1..19, one a line; from row 3 on in the order of bytes 14..30. */
+/* Labels of header rows 1..19, a semicolon behind each; from row 3 on in the order of bytes 14..30. */
 TEXT_NAMED(header_texts,
-           "PageNumber:\nAddr:\n"
-           "(Reserved) :\nPlayCount:\n(Reserved) :\n(Reserved) :\n(Reserved) :\n(Reserved) :\nPage Step:\n"
-           "ControlCode:\nPage Speed:\nDXL Setup:\nAccel Time:\nLink to Next:\nLink to Exit:\nLinked Page1:\n"
-           "Page1Remocon:\nLinked Page2:\nPage2Remocon:\n");
+           "PageNumber:;Addr:;"
+           "(Reserved) :;PlayCount:;(Reserved) :;(Reserved) :;(Reserved) :;(Reserved) :;Page Step:;"
+           "ControlCode:;Page Speed:;DXL Setup:;Accel Time:;Link to Next:;Link to Exit:;Linked Page1:;"
+           "Page1Remocon:;Linked Page2:;Page2Remocon:;");
 
 uint8_t frame_marker_column(uint8_t steps)
 {
@@ -94,7 +94,7 @@ uint8_t frame_header_label(uint8_t y, char label[FRAME_LABEL_BYTES])
     text_open_P(&reader, header_texts);
     for (uint8_t row = 0; row < y; row++) {
         length = 0;
-        while ((label[length] = text_next(&reader)) != '\n') {
+        while ((label[length] = text_next(&reader)) != ';') {
             length++;
         }
     }
