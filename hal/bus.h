@@ -95,7 +95,8 @@ bus_status_t bus_wait(bus_answer_t *answer);
 /* Gives up waiting for an answer (a tick's goals must go out); while still sending, waits for the end of that. */
 void bus_cancel(void);
 
-/* Everything heard is also put into `ring` (dropped when full), answers included; NULL: no tap. For a line monitor. */
+/* Everything heard is put into `ring` (dropped when full); NULL: no tap. For a bridge: with a tap only packets without an
+ * answer (BUS_NO_ANSWER) may be submitted, what is heard goes nowhere else. */
 void bus_set_tap(ring_t *ring);
 
 void bus_counts(bus_counts_t *counts);

@@ -84,6 +84,7 @@ static inline void bus_core_on_byte(bus_core_t *core, uint8_t byte, uint8_t flag
     uint8_t count = core->heard_count;
     if (core->tap != 0) {
         (void)ring_put(core->tap, byte);
+        return;   /* 160 cycles are not enough for both */
     }
     if (core->state != BUS_LISTENING) {
         core->strays = (uint16_t)(core->strays + (core->strays != 0xFFFFu));
