@@ -13,6 +13,7 @@ What is looked at, after every piece of 2 to 4 KB:
   * seeds divisible by 3 never save: there the flash must not change at all; seeds 2 modulo 3 run on the factory loader
 """
 import random
+import re
 from typing import NamedTuple
 
 from boot_board import factory_section
@@ -234,16 +235,17 @@ class Noise:
             self.type(b"\x03\x03")
             self.run(20)
             self.heard.clear()
-            self.type(b"\x15zz\r")
+            self.type(b"\x15zz%d\r" % attempt)   # an answer to nothing that was typed before
             for _ in range(100):
                 self.run(15)
-                if b"Bad Command" in self.heard:
+                answer = re.search(rb"zz%d(\r\n)? Bad Command" % attempt, self.heard)
+                if answer:
                     break
             self.run(20)
-            if b"[CID:" in self.heard:
+            if answer and b"[CID:" in self.heard[answer.end():]:
                 self.type(b"exit\r")
                 self.run(1500)
-            elif b"Bad Command" in self.heard:
+            elif answer:
                 return
         raise AssertionError(f"Edit does not answer any more; the console says {bytes(self.heard[-300:])!r}")
 
