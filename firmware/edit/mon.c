@@ -5,12 +5,13 @@
 #include "bus_call.h"
 #include "commands.h"
 #include "dxl.h"
+#include "dxl_packet.h"
 #include "mon.h"
 #include "pgm.h"
 #include "system.h"
 #include "text.h"
 
-enum { TABLE_BYTES = 50, DUMP_ROW = 10, PARAMS_MAX = 32, TRIES = 2, ID_MAX = 253, SCAN_LAST = 127 };
+enum { TABLE_BYTES = 50, DUMP_ROW = 10, PARAMS_MAX = 32, TRIES = 2, ID_MAX = 253, SCAN_LAST = 127, BAD = -1 };
 
 static uint8_t say(const char *text_in_flash)
 {
@@ -41,13 +42,19 @@ static const char *status_text_P(bus_status_t status)
     }
 }
 
-/* Sends, shows both packets, and returns whether it was answered. */
-static bool transact(uint8_t id, uint8_t instruction, const uint8_t *params, uint8_t count, uint8_t answer_params)
+/* Parameters are put where bus_call will want them: into the packet. */
+static uint8_t *params(void)
+{
+    return bus_packet() + DXL_PARAMS_AT;
+}
+
+/* Sends `count` parameters, shows both packets, and returns whether it was answered. */
+static bool transact(uint8_t id, uint8_t instruction, uint8_t count)
 {
     bus_answer_t answer = { 0, 0, 0, NULL };
     bool silent = id == DXL_BROADCAST && instruction != DXL_PING;
-    bus_status_t status = bus_call(id, instruction, params, count, silent ? BUS_NO_ANSWER : answer_params,
-                                   silent ? 1 : TRIES, &answer);
+    uint8_t expected = silent ? BUS_NO_ANSWER : instruction == DXL_READ ? params()[1] : 0;
+    bus_status_t status = bus_call(id, instruction, params(), count, expected, silent ? 1 : TRIES, &answer);
     print_bytes(TEXT_P("->[Dynamixel]:"), bus_packet(), (uint8_t)(bus_packet()[3] + 4u));
     text_line_end();
     if (silent) {
@@ -66,31 +73,38 @@ static bool transact(uint8_t id, uint8_t instruction, const uint8_t *params, uin
 
 /* ---- numbers ---- */
 
-static bool byte_word(const shell_args_t *args, uint8_t index, const char *what_P, uint8_t max, uint8_t *byte)
+/* Word `index` as a number from 0 to max; BAD: it is none, and that was said. */
+static int16_t number_of(const shell_args_t *args, uint8_t index, const char *what_P, uint16_t max)
 {
     uint16_t number;
-    if (!shell_number(args, index, what_P, 0, max, &number)) {
-        text_line_end();
-        return false;
+    if (shell_number(args, index, what_P, 0, max, &number)) {
+        return (int16_t)number;
     }
-    *byte = (uint8_t)number;
-    return true;
+    text_line_end();
+    return BAD;
 }
 
-/* Words from `index` on as bytes; returns how many, 0: something was wrong and was said. */
-static uint8_t bytes_of(const shell_args_t *args, uint8_t index, uint8_t *params)
+static int16_t id_of(const shell_args_t *args, uint8_t max)
 {
-    uint8_t count = 0;
-    for (; index < args->count; index++, count++) {
-        if (count == PARAMS_MAX) {
+    return number_of(args, 1, TEXT_P("ID"), max);
+}
+
+/* All words as parameters; returns how many, 0: something was wrong and was said. */
+static uint8_t bytes_of(const shell_args_t *args)
+{
+    uint8_t *to = params();
+    for (uint8_t index = 1; index < args->count; index++) {
+        if (index > PARAMS_MAX) {
             (void)say(TEXT_P(" Invalid Parameter"));
             return 0;
         }
-        if (!byte_word(args, index, TEXT_P("Byte"), UINT8_MAX, &params[count])) {
+        int16_t byte = number_of(args, index, TEXT_P("Byte"), UINT8_MAX);
+        if (byte == BAD) {
             return 0;
         }
+        *to++ = (uint8_t)byte;
     }
-    return count;
+    return (uint8_t)(args->count - 1u);
 }
 
 static bool is_one_servo(const editor_t *editor)
@@ -109,44 +123,59 @@ static bool is_one_servo(const editor_t *editor)
 static uint8_t send_words(void *context, const shell_args_t *args, uint8_t instruction)
 {
     const editor_t *editor = context;
-    uint8_t params[PARAMS_MAX];
-    uint8_t count = bytes_of(args, 1, params);
+    uint8_t count = bytes_of(args);
     if (count != 0) {
-        (void)transact(editor->cid, instruction, params, count, 0);
+        (void)transact(editor->cid, instruction, count);
     }
     return SHELL_OK;
 }
 
-static bool send_value(editor_t *editor, const shell_args_t *args, uint8_t address, uint8_t max)
+static bool send_value(const editor_t *editor, uint8_t address, int16_t value)
 {
-    uint8_t params[2] = { address, 0 };
-    return byte_word(args, 1, TEXT_P("Value"), max, &params[1]) && transact(editor->cid, DXL_WRITE, params, 2, 0);
+    params()[0] = address;
+    params()[1] = (uint8_t)value;
+    return value != BAD && transact(editor->cid, DXL_WRITE, 2);
+}
+
+static int16_t value_of(const shell_args_t *args, uint8_t max)
+{
+    return number_of(args, 1, TEXT_P("Value"), max);
 }
 
 WORD(mon_cid)
 {
     editor_t *editor = context;
-    (void)byte_word(args, 1, TEXT_P("ID"), DXL_BROADCAST, &editor->cid);
+    int16_t id = id_of(args, DXL_BROADCAST);
+    if (id != BAD) {
+        editor->cid = (uint8_t)id;
+    }
     return SHELL_OK;
 }
 
 WORD(mon_ping)
 {
-    editor_t *editor = context;
-    uint8_t id = editor->cid;
-    if (args->count == 1 || byte_word(args, 1, TEXT_P("ID"), DXL_BROADCAST, &id)) {
-        (void)transact(id, DXL_PING, NULL, 0, 0);
+    const editor_t *editor = context;
+    int16_t id = args->count == 1 ? editor->cid : id_of(args, DXL_BROADCAST);
+    if (id != BAD) {
+        (void)transact((uint8_t)id, DXL_PING, 0);
     }
     return SHELL_OK;
 }
 
 WORD(mon_read)
 {
-    editor_t *editor = context;
-    uint8_t params[2] = { 0, 1 };
-    if (byte_word(args, 1, TEXT_P("Address"), TABLE_BYTES - 1, &params[0]) && is_one_servo(editor) &&
-        (args->count < 3 || byte_word(args, 2, TEXT_P("Count"), (uint8_t)(TABLE_BYTES - params[0]), &params[1]))) {
-        (void)transact(editor->cid, DXL_READ, params, 2, params[1]);
+    const editor_t *editor = context;
+    int16_t at = number_of(args, 1, TEXT_P("Address"), TABLE_BYTES - 1), count = 1;
+    if (at == BAD || !is_one_servo(editor)) {
+        return SHELL_OK;
+    }
+    if (args->count > 2) {
+        count = number_of(args, 2, TEXT_P("Count"), (uint16_t)(TABLE_BYTES - at));
+    }
+    params()[0] = (uint8_t)at;
+    params()[1] = (uint8_t)count;
+    if (count != BAD) {
+        (void)transact(editor->cid, DXL_READ, 2);
     }
     return SHELL_OK;
 }
@@ -163,28 +192,35 @@ WORD(mon_reg_write)
 
 WORD(mon_action)
 {
-    editor_t *editor = context;
-    (void)transact(editor->cid, DXL_ACTION, NULL, 0, 0);
+    const editor_t *editor = context;
+    (void)transact(editor->cid, DXL_ACTION, 0);
     return SHELL_OK;
 }
 
 WORD(mon_go)
 {
-    editor_t *editor = context;
-    uint16_t pos, speed = 0;
-    if (!shell_number(args, 1, TEXT_P("Position"), 0, PAGE_POS_MAX, &pos) ||
-        (args->count > 2 && !shell_number(args, 2, TEXT_P("Speed"), 0, PAGE_POS_MAX, &speed))) {
-        text_line_end();
-        return SHELL_ERR_SAID;
+    const editor_t *editor = context;
+    int16_t speed = 0, pos = number_of(args, 1, TEXT_P("Position"), PAGE_POS_MAX);
+    uint8_t count = 3;
+    if (pos != BAD && args->count > 2) {
+        speed = number_of(args, 2, TEXT_P("Speed"), PAGE_POS_MAX);
+        count = 5;
     }
-    uint8_t params[5] = { DXL_AT_GOAL, (uint8_t)pos, (uint8_t)(pos >> 8), (uint8_t)speed, (uint8_t)(speed >> 8) };
-    (void)transact(editor->cid, DXL_WRITE, params, args->count > 2 ? 5 : 3, 0);
+    uint8_t *to = params();
+    *to++ = DXL_AT_GOAL;
+    *to++ = (uint8_t)pos;
+    *to++ = (uint8_t)(pos >> 8);
+    *to++ = (uint8_t)speed;
+    *to = (uint8_t)(speed >> 8);
+    if (pos != BAD && speed != BAD) {
+        (void)transact(editor->cid, DXL_WRITE, count);
+    }
     return SHELL_OK;
 }
 
 WORD(mon_led)
 {
-    (void)send_value(context, args, DXL_AT_LED, 1);
+    (void)send_value(context, DXL_AT_LED, value_of(args, 1));
     return SHELL_OK;
 }
 
@@ -192,15 +228,15 @@ WORD(mon_led)
 WORD(mon_id)
 {
     editor_t *editor = context;
-    uint8_t id;
-    if (!is_one_servo(editor) || !byte_word(args, 1, TEXT_P("ID"), ID_MAX, &id)) {
+    int16_t id = is_one_servo(editor) ? id_of(args, ID_MAX) : BAD;
+    if (id == BAD) {
         return SHELL_ERR_SAID;
     }
-    if (bus_call_ping(id, TRIES, NULL) == BUS_OK) {
+    if (bus_call_ping((uint8_t)id, TRIES, NULL) == BUS_OK) {
         return say(TEXT_P("That ID is taken"));
     }
-    if (send_value(editor, args, DXL_AT_ID, ID_MAX)) {
-        editor->cid = id;
+    if (send_value(editor, DXL_AT_ID, id)) {
+        editor->cid = (uint8_t)id;
     }
     return SHELL_OK;
 }
@@ -208,34 +244,33 @@ WORD(mon_id)
 WORD(mon_baud)
 {
     if (is_one_servo(context)) {
-        (void)send_value(context, args, DXL_AT_BAUD, DXL_BROADCAST);
+        (void)send_value(context, DXL_AT_BAUD, value_of(args, DXL_BROADCAST));
     }
     return SHELL_OK;
 }
 
 WORD(mon_reset)
 {
-    editor_t *editor = context;
+    const editor_t *editor = context;
     if (!is_one_servo(editor)) {
         return SHELL_ERR_SAID;
     }
     if (!shell_word_is(args, 1, PSTR("yes"))) {
         return say(TEXT_P("RESET YES: factory values, ID 1"));
     }
-    (void)transact(editor->cid, DXL_RESET, NULL, 0, 0);
+    (void)transact(editor->cid, DXL_RESET, 0);
     return SHELL_OK;
 }
 
 /* swr address count, then for each servo its ID and `count` bytes. */
 WORD(mon_sync_write)
 {
-    uint8_t params[PARAMS_MAX];
-    uint8_t count = bytes_of(args, 1, params);
+    uint8_t count = bytes_of(args), each = params()[1];
     (void)context;
-    if (count < 4 || params[1] == 0 || (count - 2) % (params[1] + 1) != 0) {
+    if (count < 4 || each == 0 || (count - 2) % (each + 1) != 0) {
         return say(TEXT_P("SWR address count id byte .. id byte .."));
     }
-    (void)transact(DXL_BROADCAST, DXL_SYNC_WRITE, params, count, BUS_NO_ANSWER);
+    (void)transact(DXL_BROADCAST, DXL_SYNC_WRITE, count);
     return SHELL_OK;
 }
 
@@ -258,10 +293,10 @@ static void scan(uint8_t last)
 
 WORD(mon_scan)
 {
-    uint8_t last = SCAN_LAST;
+    int16_t last = args->count == 1 ? SCAN_LAST : id_of(args, ID_MAX);
     (void)context;
-    if (args->count == 1 || byte_word(args, 1, TEXT_P("ID"), ID_MAX, &last)) {
-        scan(last);
+    if (last != BAD) {
+        scan((uint8_t)last);
     }
     return SHELL_OK;
 }
