@@ -31,6 +31,29 @@ static void set_between(session_t *session, uint8_t a, uint8_t b, uint8_t to, ui
     }
 }
 
+/* value * mul / div, rounded, 1..255; notes when it does not fit. */
+static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
+{
+    uint32_t result = ((uint32_t)value * mul + div / 2u) / div;
+    *cut = *cut || result > UINT8_MAX || (result == 0 && value != 0);
+    return result > UINT8_MAX ? (uint8_t)UINT8_MAX : result == 0 && value != 0 ? 1 : (uint8_t)result;
+}
+
+/* The inserted step takes its part of the time of the step behind it, so that the page takes as long as before; elsewhere, and
+ * with speeds, what the step it leads to has. */
+static void share_time(session_t *session, uint8_t to, uint8_t b, uint8_t percent)
+{
+    uint16_t at = (uint16_t)(step_at(b) + PAGE_STEP_AT_SPEED);
+    uint8_t time = session->cells[at];
+    if (b == to + 1u && session->cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME) {
+        bool cut = false;
+        uint8_t part = scaled(time, percent, PERCENT_WHOLE, &cut);
+        session_set_byte(session, at, time > part ? (uint8_t)(time - part) : 1u);
+        time = part;
+    }
+    session_set_byte(session, (uint16_t)(step_at(to) + PAGE_STEP_AT_SPEED), time);
+}
+
 COMMAND(cmd_int)
 {
     editor_t *editor = context;
@@ -48,20 +71,10 @@ COMMAND(cmd_int)
     session_begin_turn(session, UNDO_TURN(UNDO_TURN_UP, to, LAST_STEP));
     b = b >= to ? (uint8_t)(b + 1u) : b;
     set_between(session, a, b, to, (uint8_t)percent);
-    /* Time or speed of the step it leads to; no pause. */
     session_set_byte(session, (uint16_t)(step_at(to) + PAGE_STEP_AT_PAUSE), 0);
-    session_set_byte(session, (uint16_t)(step_at(to) + PAGE_STEP_AT_SPEED),
-                     session->cells[step_at(b) + PAGE_STEP_AT_SPEED]);
+    share_time(session, to, b, (uint8_t)percent);
     session_set_byte(session, PAGE_AT_STEPS, (uint8_t)(steps + 1u));
     return editor_edited(editor);
-}
-
-/* value * mul / div, rounded, 1..255; notes when it does not fit. */
-static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
-{
-    uint32_t result = ((uint32_t)value * mul + div / 2u) / div;
-    *cut = *cut || result > UINT8_MAX || (result == 0 && value != 0);
-    return result > UINT8_MAX ? (uint8_t)UINT8_MAX : result == 0 && value != 0 ? 1 : (uint8_t)result;
 }
 
 COMMAND(cmd_scale)

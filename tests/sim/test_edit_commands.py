@@ -249,16 +249,36 @@ def test_swap(r):
     assert bytes_of(r) == bytes(BASE.data)
 
 
-def test_int_makes_a_step_between_two(r):
-    r.line("int 0 1 25")
-    between = bytearray(step(BASE.data, 0))
+def between(made, a, b, percent):
+    """The 64 bytes of step a with each joint `percent` of the way to step b, no pause, time 0."""
+    data = bytearray(step(made.data, a))
     for joint in range(1, 19):
-        a, b = BASE.word(0, joint), BASE.word(1, joint)
-        value = a + int(abs(b - a) * 25 / 100 + 0.5) * (1 if b > a else -1)
-        between[2 * joint:2 * joint + 2] = value.to_bytes(2, "little")
-    between[62], between[63] = 0, 50
-    data = stored(BASE.data, {1: between, **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
-    data[20] = 4
+        first, second = made.word(a, joint), made.word(b, joint)
+        value = first + int(abs(second - first) * percent / 100 + 0.5) * (1 if second > first else -1)
+        data[2 * joint:2 * joint + 2] = value.to_bytes(2, "little")
+    data[62:64] = b"\0\0"
+    return data
+
+
+def test_int_makes_a_step_between_two_and_the_page_takes_as_long_as_before(r):
+    r.line("int 0 1 25")
+    data = stored(BASE.data, {1: between(BASE, 0, 1, 25), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
+    data[20], data[64 + 64 + 63], data[64 + 128 + 63] = 4, 13, 37   # of 50: a quarter of the way, a quarter of the time
+    assert bytes_of(r) == seal(data)
+    r.line("undo")
+    assert bytes_of(r) == bytes(BASE.data)
+
+
+def test_int_between_steps_that_do_not_follow_each_other_takes_the_time_of_the_second(r):
+    r.line("int 0 2")
+    data = stored(BASE.data, {1: between(BASE, 0, 2, 50), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
+    data[20], data[64 + 64 + 63] = 4, 60
+    assert bytes_of(r) == seal(data)
+    r.line("undo")
+    r.line("speed")   # a speed is the same on both halves of a way
+    r.line("int 0 1")
+    data = stored(BASE.data, {1: between(BASE, 0, 1, 50), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
+    data[16], data[20], data[64 + 64 + 63] = 0, 4, 50
     assert bytes_of(r) == seal(data)
 
 
