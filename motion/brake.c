@@ -13,7 +13,7 @@ static void stand_at_goal(const player_t *player, player_joint_t *joint, int32_t
 
 void exact_freeze(player_t *player)
 {
-    bool between = player->law == PLAYER_LAW_EXACT && player->held_events != 0, pausing = player->tick >= player->step_ticks;
+    bool between = player->law == PLAYER_LAW_EXACT && player->primed, pausing = player->tick >= player->step_ticks;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         int32_t speed = joint->exact.speed_q16_16;
         if (between) { /* speed is a size there */

@@ -20,21 +20,22 @@
  */
 enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
 
-/* Primes the next step: goes on to the coming step, and finds the one after it; at the last step of a page that means
- * deciding the link. The step's events are held until player_announce. A law does this behind the last tick of a step,
- * when all joints have reached their targets, so that the tick in which the next one begins has only half of the work.
+/* Looks at the next step: `now` becomes the coming step, and the one after it is found; at the last step of a page that
+ * means deciding the link. The step's events are held until it begins (player_announce). A law does this one or two ticks
+ * before the running step ends, so that the ticks in which a step ends and the next one begins have less to do: the link
+ * is decided with the code that is in force two or three ticks (20 ms) before the page's last step begins.
  * step: receives the 64 bytes of the step to look at for joints that run through (classic: of the page that the link
  * names; exact: of the step that will really be played). Valid when player_looks_ahead.
  * Call only while player->coming.page is not 0. */
 void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES]);
 
-/* Makes `now` public; returns the held events, 0 when no step is primed. */
+/* The 64 bytes of the coming step once more. */
+void player_read_coming(const player_t *player, uint8_t step[PAGE_STEP_BYTES]);
+
+/* The primed step begins: makes `now` public and returns the held events; 0 when no step is primed. */
 uint8_t player_announce(player_t *player);
 
 bool player_looks_ahead(const player_t *player);
-
-/* Work that may wait for a quiet tick: compares the compliance of two pages. false: there was nothing to do. */
-bool player_quiet_work(player_t *player);
 
 /* The play ends here, on target. Returns PLAYER_EV_ENDED. */
 uint8_t player_end(player_t *player);
@@ -51,6 +52,7 @@ uint16_t law_longest_way(const player_t *player, const uint8_t step[PAGE_STEP_BY
  * ticks that the step still had in player->step_ticks - player->tick. */
 void exact_start(player_t *player, link_t *link, const uint8_t step[PAGE_STEP_BYTES]);
 uint8_t exact_tick(player_t *player, link_t *link);
+uint8_t exact_go_on(player_t *player, link_t *link); /* the second half of a tick: looks ahead, primes, ends */
 void exact_freeze(player_t *player);
 bool classic_is_here(void);
 void classic_start(player_t *player, link_t *link);

@@ -45,7 +45,9 @@ RARE static void prime(player_t *player, link_t *link)
 {
     uint8_t step[PAGE_STEP_BYTES];
     classic_prepare_all(player);
+    player->joints |= player->coming_joints;
     player_next_step(player, link, step);
+    player->primed = true;
     bool may_run_on = player_looks_ahead(player) && step_plan_classic_hold(&player->now) == 0;
     speed_left_t left = classic_left(player);
     const uint8_t *at = step;
@@ -269,7 +271,7 @@ static bool is_over(const player_t *player)
 
 static void work_ahead(player_t *player, uint8_t joints)
 {
-    if (joints != 0 && !player_quiet_work(player)) {
+    if (joints != 0) {
         classic_prepare(player, joints);
     }
 }

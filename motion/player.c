@@ -14,8 +14,6 @@
  */
 enum { STATE_IDLE, STATE_PLAYING, STATE_BRAKING, STATE_STANDING, STATE_RESTING };
 
-typedef enum { SLOPES_SAME, SLOPES_UNKNOWN, SLOPES_DIFFER } slopes_t;
-
 /* Pages without action that are passed over in one tick before the play gives up. */
 #define PASS_OVER_MAX PAGE_COUNT
 #define ALL_JOINTS 0x7FFFFFFFu
@@ -30,14 +28,19 @@ uint16_t law_longest_way(const player_t *player, const uint8_t step[PAGE_STEP_BY
 {
     uint16_t longest = 0;
     const player_joint_t *joint = player->joint;
-    for (uint32_t present = player->present; present != 0; present >>= 8) {
-        for (uint8_t may = (uint8_t)present, bits = 8; bits != 0; bits--, may >>= 1, joint++, step += 2) {
-            uint16_t word = page_word(step);
-            if ((may & 1) == 0 || !page_pos_is_used(word)) {
-                continue;
+    uint32_t present = player->present;
+    for (uint8_t left = PAGE_JOINTS; left != 0; left--, joint++, present >>= 1) {
+        uint16_t word = page_word(step);
+        step += 2;
+        OPAQUE(word); /* load and step in one */
+        if (((uint8_t)present & 1) != 0 && page_pos_is_used(word)) {
+            uint16_t from = joint->coming_pos, way = (uint16_t)(word - from);
+            if (word < from) {
+                way = (uint16_t)(from - word);
             }
-            uint16_t from = joint->coming_pos, way = (uint16_t)(word >= from ? word - from : from - word);
-            longest = way > longest ? way : longest;
+            if (way > longest) {
+                longest = way;
+            }
         }
     }
     return longest;
@@ -138,9 +141,6 @@ static uint8_t decide(player_t *player, link_t *link)
     player->look_page = page == named ? page : has_steps(player, named) ? named : 0;
     player->coming.page = 0;
     if (page != 0) {
-        if (page != player->now.page) {
-            player->slopes = SLOPES_UNKNOWN;
-        }
         take_header(player, page, header);
     }
     return PLAYER_EV_LINK;
@@ -148,7 +148,7 @@ static uint8_t decide(player_t *player, link_t *link)
 
 static void read_coming(player_t *player, uint8_t bytes[PAGE_STEP_BYTES])
 {
-    read_step(player->source, player->coming.page, player->coming.step, bytes);
+    player_read_coming(player, bytes);
     player->coming.pause = bytes[PAGE_STEP_AT_PAUSE];
     player->coming.time = bytes[PAGE_STEP_AT_SPEED];
 }
@@ -162,11 +162,9 @@ void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYT
 {
     uint8_t events = PLAYER_EV_STEP;
     player->now = player->coming;
-    player->joints |= player->coming_joints;
     player->look_page = player->now.page;
     if (player->now.step == 1) {
-        events |= player->slopes == SLOPES_SAME ? PLAYER_EV_PAGE : PLAYER_EV_PAGE | PLAYER_EV_SLOPES;
-        player->slopes = SLOPES_SAME;
+        events |= PLAYER_EV_PAGE;
         player->repetition = player->coming_repetition;
     }
     if (player->now.step < player->now.steps) {
@@ -187,8 +185,10 @@ void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYT
 
 uint8_t player_announce(player_t *player)
 {
-    uint8_t events = player->held_events;
-    if (events != 0) {
+    uint8_t events = 0;
+    if (player->primed) {
+        events = player->held_events;
+        player->primed = false;
         player->held_events = 0;
         player->page = player->now.page;
         player->step = player->now.step;
@@ -196,17 +196,9 @@ uint8_t player_announce(player_t *player)
     return events;
 }
 
-#define COMPARE_BYTES 31u
-bool player_quiet_work(player_t *player)
+void player_read_coming(const player_t *player, uint8_t step[PAGE_STEP_BYTES])
 {
-    if (player->slopes != SLOPES_UNKNOWN) {
-        return false;
-    }
-    uint8_t mine[COMPARE_BYTES], coming[COMPARE_BYTES];
-    player->source->read(player->source->context, player->now.page, PAGE_AT_COMPLIANCE, mine, COMPARE_BYTES);
-    player->source->read(player->source->context, player->coming.page, PAGE_AT_COMPLIANCE, coming, COMPARE_BYTES);
-    player->slopes = memcmp(mine, coming, COMPARE_BYTES) == 0 ? SLOPES_SAME : SLOPES_DIFFER;
-    return true;
+    read_step(player->source, player->coming.page, player->coming.step, step);
 }
 
 bool player_is_in_law(const player_t *player)
@@ -225,7 +217,7 @@ uint8_t player_end(player_t *player)
 static void stand_at(player_t *player, const uint16_t pose_pos[PAGE_JOINTS], uint32_t present)
 {
     player->present = present & ALL_JOINTS;
-    player->joints = 0;
+    player->joints = player->coming_joints = 0;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         uint16_t pos = pose_pos[i] > PAGE_POS_MAX ? PAGE_POS_MAX : pose_pos[i];
         player->joint[i] = (player_joint_t){.target_pos = pos, .coming_pos = pos};
@@ -258,9 +250,9 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
     player->law = (uint8_t)law;
     player->page = page;
     player->step = 0;
-    player->slopes = SLOPES_DIFFER;
     player->breaking = false;
     player->held_events = 0;
+    player->primed = false;
     if (law == PLAYER_LAW_CLASSIC) {
         classic_start(player, link);
     } else {
@@ -297,18 +289,20 @@ static uint8_t tick_braking(player_t *player)
     return PLAYER_EV_OUTPUT | PLAYER_EV_STANDING;
 }
 
-static uint8_t tick_resting(player_t *player)
+static uint8_t tick_resting(player_t *player, link_t *link)
 {
     bool classic = player->law == PLAYER_LAW_CLASSIC;
-    uint8_t events = player_announce(player);
+    uint8_t events = player_announce(player) | PLAYER_EV_OUTPUT;
     bool more = exact_rest_tick(player);
-    if (classic) {
-        more ? classic_prepare_at_rest(player) : classic_thaw(player);
-    }
     if (!more) {
         player->state = STATE_PLAYING;
     }
-    return events | PLAYER_EV_OUTPUT;
+    if (classic) {
+        more ? classic_prepare_at_rest(player) : classic_thaw(player);
+    } else if (!more) {
+        events |= exact_go_on(player, link);
+    }
+    return events;
 }
 
 uint8_t player_tick(player_t *player, link_t *link)
@@ -319,7 +313,7 @@ uint8_t player_tick(player_t *player, link_t *link)
     case STATE_BRAKING:
         return tick_braking(player);
     case STATE_RESTING:
-        return tick_resting(player);
+        return tick_resting(player, link);
     case STATE_STANDING:
         return player->breaking ? (uint8_t)(PLAYER_EV_STANDING | player_end(player)) : 0;
     default:

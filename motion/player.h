@@ -40,7 +40,7 @@ enum {
     PLAYER_EV_STEP = 1 << 1,    /* a step began: player.page, .step (1..7) */
     PLAYER_EV_PAGE = 1 << 2,    /* and it is the first of a page: player.page, .repetition */
     PLAYER_EV_LINK = 1 << 3,    /* the link after this page was decided: player.link_taken, .next_page */
-    PLAYER_EV_SLOPES = 1 << 4,  /* the page's compliance differs from the last one's: send slopes */
+    PLAYER_EV_BUSY = 1 << 4,    /* a step is about to begin, or began: leave to the next tick what can wait */
     PLAYER_EV_ENDED = 1 << 5,   /* the play is over; player.fault tells whether a bad page ended it */
     PLAYER_EV_STANDING = 1 << 6 /* a break or a pause has brought all joints to a stand */
 };
@@ -94,27 +94,27 @@ typedef struct player {
     uint8_t state;
     uint8_t ramp_ticks, brake_ticks;
     bool breaking;
-    uint8_t held_events;             /* not 0: the next step is primed, it begins with the next tick with these */
+    uint8_t held_events;             /* not 0: `now` is already the next step, which will begin with these */
+    bool primed;                     /* ... and it begins with the next tick */
     union {
         struct {
             uint8_t section, coming_ramp_ticks;
             uint8_t prepared, quota; /* classic: how much of the coming step is ready; how many more joints a tick */
         };
         struct {
-            uint16_t coming_share_q0_16; /* share of the coming step, made in a quiet tick; 0: not yet */
+            uint16_t next_ticks, next_hold_ticks; /* exact: of `now` before it begins */
         };
     };
-    uint8_t slopes;                  /* slopes_t of player.c: does the coming page's compliance differ? */
     uint16_t tick, section_ticks;
     uint16_t step_ticks, hold_ticks, coming_ticks;
     union {
         struct {
             uint16_t carry_q5_11;    /* exact: the fraction of a tick that is left over */
-            uint16_t share_q0_16;    /* exact: RISE / (all but FALL) */
+            uint16_t share_q0_16;    /* exact: RISE / (all but FALL), of the step to begin; 0: not made yet */
         };
         uint32_t through_recip;      /* classic: one over the divisor of through_speed */
     };
-    uint16_t ramp_recip;             /* exact: one over the ramp */
+    uint16_t ramp_recip;             /* exact: one over the ramp, from the look at the next step on over that one's */
     uint32_t coming_recip;           /* exact: one over the coming step's ticks; classic: as through_recip, stop_speed */
     /* Arrays last: the AVR reaches only the first 64 bytes of a structure in one instruction. */
     uint16_t goal_pos[PAGE_JOINTS]; /* public: the tick's output, 0..1023, page coordinates (no trim) */

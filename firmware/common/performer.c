@@ -164,8 +164,8 @@ static void approach_over(performer_t *performer)
     }
 }
 
-/* The compliance bytes of the page that has just begun, to the servos: one tick after its first goals, because the tick in
- * which a page begins has enough to do. */
+/* The compliance bytes of the page that has just begun, to the servos: a tick or more after its first goals, because the tick
+ * in which a page begins has enough to do. */
 static NOINLINE void send_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
@@ -201,14 +201,18 @@ static NOINLINE void approach_or_move_tick(performer_t *performer)
 static void play_tick(performer_t *performer)
 {
     player_t *player = &performer->engine.player;
-    if (performer->slopes_due) {
+    const uint8_t events = player_tick(player, &performer->link);
+    if ((events & PLAYER_EV_PAGE) != 0) {
+        performer->slopes_due = true;
+    } else if (performer->slopes_due && (events & PLAYER_EV_BUSY) == 0) {
         performer->slopes_due = false;
         send_slopes(performer);
     }
-    const uint8_t events = player_tick(player, &performer->link);
-    performer->slopes_due = (events & PLAYER_EV_SLOPES) != 0;
     if ((events & PLAYER_EV_OUTPUT) != 0) {
         servo_link_goals(performer->servos, player->goal_pos, player->joints);
+    }
+    if ((events & PLAYER_EV_BUSY) != 0) {
+        servo_link_hold_rest(performer->servos);
     }
     if ((events & PLAYER_EV_STEP) != 0) {
         performer->page = player->page;

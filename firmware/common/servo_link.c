@@ -189,9 +189,6 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
         count_late(link);
         (void)bus_wait(NULL);
     }
-    if (link->slopes_wait != 0) {
-        link->slopes_wait--;
-    }
     joints &= servo_link_drivable(link);
     link->goals_pos = goal_pos;
     link->goals_joints = joints;
@@ -211,7 +208,7 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
     if (joints == 0) {
         return;
     }
-    if ((link->slopes_pending & joints) != 0 && count_bits(joints) <= JOINTS_WITH_SLOPES) {
+    if (link->slopes_wait != 0 && (link->slopes_pending & joints) != 0 && count_bits(joints) <= JOINTS_WITH_SLOPES) {
         size = build_slopes(link, joints, true);
         link->slopes_pending &= ~joints;
     } else {
@@ -266,7 +263,7 @@ static void end_round(servo_link_t *link)
 static void send_poll(servo_link_t *link)
 {
     link->phase = PHASE_DONE;
-    if (link->present == 0) {
+    if (link->present == 0 || link->held) {
         return;
     }
     if (link->poll_misses == 0) {
@@ -366,13 +363,17 @@ void servo_link_tick(servo_link_t *link)
     if (link->phase != PHASE_DEAF) {
         link->phase = PHASE_POLL;
     }
+    link->held = false;
+    if (link->slopes_wait != 0) {
+        link->slopes_wait--;
+    }
 }
 
 /* Sends what comes after the goals of this tick; true while there was something. */
 static bool send_rest(servo_link_t *link)
 {
     uint32_t pending = link->slopes_pending & link->goals_joints & ~link->no_sync;
-    if (link->phase == PHASE_GOALS && pending != 0 && link->slopes_wait == 0) {
+    if (link->phase == PHASE_GOALS && pending != 0 && link->slopes_wait == 0 && !link->held) {
         if (pending & SLOPES_FIRST) {
             pending &= SLOPES_FIRST;
         }

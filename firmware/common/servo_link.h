@@ -61,7 +61,8 @@ typedef struct {
     uint8_t late;             /* ticks whose goals could not all be sent in time; stays at 255 */
     /* Private. */
     uint8_t phase;
-    uint8_t slopes_wait;                     /* slopes came with the goals of this tick: theirs is the next one */
+    uint8_t slopes_wait;                     /* ticks until slopes may have packets of their own: theirs follow the goals' */
+    bool held;                               /* servo_link_hold_rest */
     uint8_t poll_id, poll_misses;
     uint8_t round_voltage_dv, round_degrees, round_degrees_id;
     const uint16_t *goals_pos;
@@ -96,6 +97,12 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
  * last goes out with the next goals in the same packet, up to 27 joints. Above, it follows in packets of its own for 16 joints
  * each, behind the goals of the two ticks after: the tick of a page change has enough to do. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
+
+/* Behind servo_link_goals, in a tick that has enough to do: slopes and the health poll wait for the next one. */
+static inline void servo_link_hold_rest(servo_link_t *link)
+{
+    link->held = true;
+}
 
 /* Every turn of the main loop: goes on with this tick's traffic. One health poll (READ 24..43) a tick, round robin over
  * `present`: 31 servos take 0.24 s. A servo that misses is asked again in the following ticks and counts as silent after
