@@ -3,6 +3,7 @@
 import re
 
 from boot_board import MAP, crc16
+from m512.machine import DATA_BYTES, Machine
 
 from . import robot
 from .robot import Memories
@@ -36,6 +37,18 @@ def kept(eeprom):
         elif data[0] != 0xFF:
             dirty = True
     return (good[0], False) if good else (defaults(), dirty)
+
+
+def paired(body, one, other):
+    """The settings with two joints made partners (one with itself: none); their former partners lose theirs."""
+    pair = bytearray(body[len(FIELDS):])
+    for joint in (one, other):
+        if pair[joint] < JOINTS:
+            pair[pair[joint]] = 0xFF
+        pair[joint] = 0xFF
+    if one != other:
+        pair[one], pair[other] = other, one
+    return body[:len(FIELDS)] + bytes(pair)
 
 
 class Settings:
@@ -143,16 +156,7 @@ class Pairs(Settings):
 
     def act(self):
         for one, other in ((1, 3), (5, 5), (2, 4)):
-            body = bytearray(self.allowed[-1])
-            pair = body[len(FIELDS):]
-            for joint in (one, other):
-                if pair[joint] < JOINTS:
-                    pair[pair[joint]] = 0xFF
-                pair[joint] = 0xFF
-            if one != other:
-                pair[one], pair[other] = other, one
-            body[len(FIELDS):] = pair
-            self.allowed.append(bytes(body))
+            self.allowed.append(paired(self.allowed[-1], one, other))
             self.board.run(ms=100)
             self.board.send(f"pairs {one} {other}\r")
             self.board.run(ms=50)
@@ -168,4 +172,25 @@ class Pairs(Settings):
         assert shown == wanted, f"kept {sorted(wanted)}, shown {sorted(shown)}"
 
 
-SCENES = (Settings, SettingsWrap, SettingsDamaged, SettingsQuick, Pairs)
+class PairsAndSave(Pairs):
+    """Edit: PAIRS, and SAVE of a page while the settings are still being written byte by byte."""
+
+    name, about, chunks, rates = "pairs-save", 50, 2, (2, 24, 200)
+    copies = (record(defaults(), 1), b"")
+    promise = "A page saved while settings are being written: both old or new"
+
+    def act(self):
+        new = robot.made(5, 1)
+        machine = Machine(robot.SimLink(self.board), (2.0,))
+        machine.ask("open 5")
+        for at in range(0, len(new), DATA_BYTES):
+            machine.ask(f"data {at} {new[at:at + DATA_BYTES].hex()}")
+        self.allowed.append(paired(self.allowed[-1], 1, 3))
+        self.memories.saving(5, new)
+        self.board.send(f"pairs 1 3\r@save 5 0x{crc16(new):04X}\r")
+        self.board.expect("@save OK", ms=3000)
+        self.memories.saved(5)
+        self.saved()
+
+
+SCENES = (Settings, SettingsWrap, SettingsDamaged, SettingsQuick, Pairs, PairsAndSave)
