@@ -115,7 +115,7 @@ def test_start_pressed_late_does_not_stay():
 
 @pytest.mark.parametrize("image, stays, word", [
     (None, True, "none"), (application(record=False), False, "plain"), (application(), False, "good"),
-    (application(good=False), True, "bad"), (application(APP_END), False, "good")])
+    (application(good=False), True, "bad"), (application(APP_END), False, "good"), (application(APP_END + 2), True, "bad")])
 def test_validity_of_the_application(image, stays, word):
     board = board_with(image)
     board.run(ms=600)

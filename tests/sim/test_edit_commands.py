@@ -261,9 +261,9 @@ def between(made, a, b, percent):
 
 
 def test_int_makes_a_step_between_two_and_the_page_takes_as_long_as_before(r):
-    r.line("int 0 1 25")
-    data = stored(BASE.data, {1: between(BASE, 0, 1, 25), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
-    data[20], data[64 + 64 + 63], data[64 + 128 + 63] = 4, 13, 37   # of 50: a quarter of the way, a quarter of the time
+    r.line("int 0 1 34")
+    data = stored(BASE.data, {1: between(BASE, 0, 1, 34), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
+    data[20], data[64 + 64 + 63], data[64 + 128 + 63] = 4, 17, 33   # of 50: a third of the way, a third of the time
     assert bytes_of(r) == seal(data)
     r.line("undo")
     assert bytes_of(r) == bytes(BASE.data)
@@ -299,6 +299,18 @@ def test_take_and_paste_between_pages(r):
     data = stored(data, {0: step(FULL.data, 1), 1: step(FULL.data, 2)})
     assert bytes_of(r) == seal(data)
     assert r.line("paste 6") == "paste 6 No room"
+
+
+def test_paste_within_a_page_reads_before_it_writes(r):
+    r.line("take 0 2")
+    r.line("paste 1")
+    data = stored(BASE.data, {k + 1: step(BASE.data, k) for k in range(3)})
+    data[20] = 4
+    assert bytes_of(r) == seal(data)
+    r.line("undo")
+    r.line("take 1 2")
+    r.line("paste 0")
+    assert bytes_of(r) == seal(stored(BASE.data, {k: step(BASE.data, k + 1) for k in range(2)}))
 
 
 # ---- undo ----

@@ -13,10 +13,12 @@ from block_peer import BlockPeer
 from conftest import REPO
 from factory_peer import FactoryPeer
 
-from m512 import memory
+from m512 import backup, memory
 from m512.block import frame
 from m512.crc16 import crc16
+from m512.factory import FactoryLoader
 from m512.image import Image
+from m512.link import Link
 from m512.memory import APP, RECORD_AT, Record
 from m512.page import EMPTY
 from m512.text import read_text
@@ -246,6 +248,23 @@ def test_factory_lost_bytes_are_found_by_size_and_sent_again(m512, motions):
         assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
 
 
+@pytest.mark.parametrize("lost", [None, 20, 700])
+def test_factory_dumps_begin_anywhere_and_are_asked_for_again_when_damaged(lost):
+    with FactoryPeer(bytearray(old_flash())) as peer:
+        answered = []
+
+        def lose(direction, _, byte):
+            if direction == "<-":
+                answered.append(byte)
+            return None if direction == "<-" and len(answered) == lost else byte
+
+        with Link(peer.path) as link:
+            loader = FactoryLoader(link)
+            peer.garble = lose
+            assert loader.read(0x11234, 0x11333) == bytes(peer.flash[0x11234:0x11333])
+            assert loader.retries == (lost is not None)
+
+
 def test_factory_success_is_not_believed(m512, motions):
     flash = bytearray(b"\xff" * 0x20000)
     flash[0xE000:0x1E000] = EMPTY * 128
@@ -319,6 +338,12 @@ def test_record_of_an_application():
     record = Record.of(make_app(2, 2))
     assert str(record) == "Motion512 edit 1.2.3 for cm2" and record.fits(make_app(2, 2))
     assert Record.of(bytes(300)) is None
+
+
+def test_restore_leaves_the_mailbox_alone():
+    wanted, found = bytearray(4096), bytearray(4096)
+    wanted[0xFF3:0xFF7] = b"\1\xAA\5\2"   # FF4: a page waits; FF5: its number (bootloader-original.md, section 7)
+    assert backup.eeprom_changes(bytes(wanted), bytes(found)) == {0xFF3: 1, 0xFF6: 2}
 
 
 def test_backup_that_was_changed_is_not_restored(m512, tmp_path):
