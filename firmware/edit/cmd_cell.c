@@ -14,100 +14,104 @@ static const char *value_name_P(cell_kind_t kind, uint16_t max)
     return max == PAGE_STEPS ? TEXT_P("Page Step") : max == UINT8_MAX ? TEXT_P("Value") : TEXT_P("Link");
 }
 
-/* An edit of one cell. Page 0: the trim follows. */
-static void set_cell(editor_t *editor, cell_kind_t kind, uint16_t word)
+/* What is under the cursor. */
+typedef struct {
+    uint16_t address;
+    uint8_t kind;    /* cell_kind_t */
+    bool is_pose;    /* a joint of the work pose */
+} here_t;
+
+static here_t look_here(const session_t *session)
 {
-    session_t *session = &editor->session;
-    uint16_t address = cell_address(session->x, session->y);
-    if (kind == CELL_BYTE) {
-        session_set_byte(session, address, (uint8_t)word);
-        return;
-    }
+    here_t here = { cell_address(session->x, session->y), (uint8_t)cell_kind(session->page, session->x, session->y), false };
+    here.is_pose = here.kind == CELL_POSITION && session->x == CELL_X_POSE;
+    return here;
+}
+
+/* An edit of one position. Page 0: the trim follows. */
+static void set_position(session_t *session, uint16_t address, uint16_t word)
+{
+    session_begin(session);
     session_set_word(session, address, word);
     if (session->page == 0 && session->x >= CELL_X_STEP0 && session->x < CELL_X_OFFSET) {
         session_update_trim(session, session->y);
     }
 }
 
+static void set_byte(session_t *session, uint16_t address, uint8_t byte)
+{
+    session_begin(session);
+    session_set_byte(session, address, byte);
+}
+
 COMMAND(cmd_set)
 {
     editor_t *editor = context;
     session_t *session = &editor->session;
-    cell_kind_t kind = cell_kind(session->page, session->x, session->y);
-    uint16_t max = cell_max(kind, session->x, session->y), value;
-    if (kind == CELL_OFFSET) {
+    here_t here = look_here(session);
+    uint16_t max = cell_max((cell_kind_t)here.kind, session->x, session->y), value;
+    if (here.kind == CELL_OFFSET) {
         TEXT("Computed");
         return SHELL_ERR_SAID;
     }
-    if (!shell_number(args, 1, value_name_P(kind, max), 0, max, &value)) {
+    if (!shell_number(args, 1, value_name_P((cell_kind_t)here.kind, max), 0, max, &value)) {
         return SHELL_ERR_SAID;
     }
-    if (session->x == CELL_X_POSE && kind == CELL_POSITION) {
+    if (here.is_pose) {
         if (performer_is_idle(editor->performer)) {
             robot_move(&editor->robot, session->y, value);
         }
         return SHELL_OK;
     }
-    session_begin(session);
-    set_cell(editor, kind, value);
+    if (here.kind == CELL_BYTE) {
+        set_byte(session, here.address, (uint8_t)value);
+    } else {
+        set_position(session, here.address, value);
+    }
     return editor_edited(editor);
 }
 
 /* ---- keys ---- */
 
-static void change_byte_cell(editor_t *editor, int8_t change)
+/* Page Step stops at its ends, all others go round: their maximum is 127 or 255. */
+static uint8_t changed_byte(const session_t *session, uint16_t address, int8_t change)
 {
-    session_t *session = &editor->session;
-    uint16_t address = cell_address(session->x, session->y);
-    int16_t max = (int16_t)cell_max(CELL_BYTE, session->x, session->y);
+    uint8_t max = (uint8_t)cell_max(CELL_BYTE, session->x, session->y);
     int16_t value = (int16_t)(session->cells[address] + change);
-    if (max == (int16_t)PAGE_STEPS) {
-        value = value < 0 ? 0 : value > max ? max : value;
-    } else if (value < 0) {
-        value = (int16_t)(value + max + 1);
-    } else if (value > max) {
-        value = (int16_t)(value - max - 1);
+    if (max == PAGE_STEPS) {
+        return value < 0 ? 0 : value > (int16_t)PAGE_STEPS ? (uint8_t)PAGE_STEPS : (uint8_t)value;
     }
-    set_cell(editor, CELL_BYTE, (uint16_t)value & UINT8_MAX);
+    return (uint8_t)value & max;
 }
 
-/* A step that would leave 0..1023 is not done at all; ---- and ???? stay. */
-static bool changed_word(uint16_t word, int8_t change, uint16_t *result)
+/* ---- and ???? stay; a step that would leave 0..1023 is not done at all: 0xFFFF. */
+static uint16_t changed_word(uint16_t word, int8_t change)
 {
-    int16_t value = (int16_t)((int16_t)word + change);
-    if (!cell_is_position(word) || value < 0 || value > (int16_t)PAGE_POS_MAX) {
-        return false;
-    }
-    *result = (uint16_t)value;
-    return true;
-}
-
-static void change_pose(editor_t *editor, int8_t change)
-{
-    uint8_t joint = editor->session.y;
-    uint16_t pos;
-    if (robot_has(&editor->robot, joint) && performer_is_idle(editor->performer) &&
-        changed_word(session_pose(&editor->session, joint), change, &pos)) {
-        robot_move(&editor->robot, joint, pos);
-    }
+    uint16_t value = (uint16_t)(word + (uint16_t)change);
+    return cell_is_position(word) && cell_is_position(value) ? value : UINT16_MAX;
 }
 
 void cmd_cell_change(editor_t *editor, int8_t change)
 {
     session_t *session = &editor->session;
-    cell_kind_t kind = cell_kind(session->page, session->x, session->y);
-    uint16_t address = cell_address(session->x, session->y), word;
-    if (kind == CELL_POSITION && session->x == CELL_X_POSE) {
-        change_pose(editor, change);
+    here_t here = look_here(session);
+    if (here.kind == CELL_BYTE) {
+        set_byte(session, here.address, changed_byte(session, here.address, change));
+        (void)session_end(session);
+    }
+    if (here.kind != CELL_POSITION) {
         return;
     }
-    session_begin(session);
-    if (kind == CELL_BYTE) {
-        change_byte_cell(editor, change);
-    } else if (kind == CELL_POSITION && changed_word(cell_word(session->cells, address), change, &word)) {
-        set_cell(editor, CELL_POSITION, word);
+    uint16_t pos = changed_word(cell_word(session->cells, here.address), change);
+    if (pos == UINT16_MAX) {
+        return;
     }
-    (void)session_end(session);
+    if (!here.is_pose) {
+        set_position(session, here.address, pos);
+        (void)session_end(session);
+    } else if (robot_has(&editor->robot, session->y) && performer_is_idle(editor->performer)) {
+        robot_move(&editor->robot, session->y, pos);
+    }
 }
 
 static void toggle_pose(editor_t *editor)
@@ -128,17 +132,13 @@ static void toggle_pose(editor_t *editor)
 void cmd_cell_space(editor_t *editor)
 {
     session_t *session = &editor->session;
-    if (cell_kind(session->page, session->x, session->y) != CELL_POSITION) {
-        return;
-    }
-    if (session->x == CELL_X_POSE) {
+    here_t here = look_here(session);
+    if (here.is_pose) {
         toggle_pose(editor);
-        return;
+    } else if (here.kind == CELL_POSITION) {
+        set_position(session, here.address, cell_word(session->cells, here.address) ^ PAGE_POS_TORQUE_OFF);
+        (void)session_end(session);
     }
-    uint16_t address = cell_address(session->x, session->y);
-    session_begin(session);
-    set_cell(editor, CELL_POSITION, cell_word(session->cells, address) ^ PAGE_POS_TORQUE_OFF);
-    (void)session_end(session);
 }
 
 /* ---- cursor and display ---- */
