@@ -75,27 +75,26 @@ void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)
 
 void report_joints(uint32_t joints)
 {
-    bool first = true;
-    for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
-        if ((joints & servo_link_bit(id)) == 0) {
+    uint8_t run = 0; /* joints in a row so far: 0, 1, 2 for more */
+    if (joints == 0) {
+        TEXT("none");
+        return;
+    }
+    for (uint8_t id = 0; joints != 0 || run > 1; id++, joints >>= 1) {
+        if ((joints & 1u) != 0) {
+            if (run == 0) {
+                text_number(id);
+            }
+            run = run == 0 ? 1 : 2;
             continue;
         }
-        uint8_t last = id;
-        while (last + 1u < PAGE_JOINTS && (joints & servo_link_bit(last + 1u)) != 0) {
-            last++;
+        if (run > 1) {
+            text_put('-');
+            text_number((uint16_t)(id - 1u));
         }
-        if (!first) {
+        if (run > 0 && joints != 0) {
             text_put(' ');
         }
-        first = false;
-        text_number(id);
-        if (last > id) {
-            text_put('-');
-            text_number(last);
-        }
-        id = last;
-    }
-    if (first) {
-        TEXT("none");
+        run = 0;
     }
 }

@@ -64,7 +64,7 @@ char *text_copy_P(char *to, const char *string_P)
     return to;
 }
 
-/* Digits by subtraction: a division costs ten times as much and a page of code. */
+/* Digits by subtraction: a 32-bit division costs ten times as much and a page of code. */
 void text_number32(uint32_t number)
 {
     static const uint32_t powers[] PROGMEM = {1000000000UL, 100000000UL, 10000000UL, 1000000UL, 100000UL};
@@ -102,19 +102,17 @@ void text_number(uint16_t number)
 
 void text_padded(uint16_t number, uint8_t width, char pad)
 {
-    static const uint16_t powers[] PROGMEM = {10000, 1000, 100, 10, 1};
-    bool begun = false;
-    for (uint8_t left = sizeof powers / sizeof powers[0]; left > 0; left--) {
-        const uint16_t power = pgm_read_word(&powers[sizeof powers / sizeof powers[0] - left]);
-        char digit = '0';
-        while (number >= power) {
-            number -= power;
-            digit++;
-        }
-        begun = begun || digit != '0' || left == 1;
-        if (begun || left <= width) {
-            text_put(begun ? digit : pad);
-        }
+    char digits[5];
+    uint8_t count = 0;
+    do {
+        digits[count++] = (char)('0' + number % 10);
+        number /= 10;
+    } while (number > 0);
+    for (; width > count; width--) {
+        text_put(pad);
+    }
+    while (count > 0) {
+        text_put(digits[--count]);
     }
 }
 

@@ -43,7 +43,7 @@ char *text_copy_P(char *to, const char *string_P);   /* into RAM, with its end; 
 
 void text_number(uint16_t number);                              /* decimal, as short as it is */
 void text_number32(uint32_t number);
-void text_padded(uint16_t number, uint8_t width, char pad);     /* right aligned, width 1..5; wider numbers are not cut */
+void text_padded(uint16_t number, uint8_t width, char pad);     /* right aligned; wider numbers are not cut */
 void text_string_padded(const char *string, uint8_t width);     /* left aligned, filled with spaces */
 void text_hex(uint16_t number, uint8_t digits);                 /* the lowest `digits` (1..4) digits, upper case, no 0x */
 void text_line_end(void);                                       /* CR LF */
