@@ -118,8 +118,11 @@ void text_padded(uint16_t number, uint8_t width, char pad)
 
 void text_string_padded(const char *string, uint8_t width)
 {
-    for (; *string != '\0' || width > 0; width = (uint8_t)(width - (width > 0))) {
-        text_put(*string != '\0' ? *string++ : ' ');
+    for (; *string != '\0'; width = width > 0 ? (uint8_t)(width - 1u) : 0) {
+        text_put(*string++);
+    }
+    for (; width > 0; width--) {
+        text_put(' ');
     }
 }
 
