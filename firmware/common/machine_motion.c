@@ -54,17 +54,23 @@ uint8_t machine_do_move(void *context, const shell_args_t *args)
     return machine_refusal(performer_move(machine->performer, to_pos, joints, deg_s), 0, 0);
 }
 
-/* One joint at a time, so that nothing else waits for longer than 3 ms. Returns those that are on. */
-static uint32_t switch_on(machine_t *machine, uint32_t joints)
+/* One joint at a time, so that nothing else waits for longer than 3 ms. Returns those that are as they should be. */
+static uint32_t switch_each(machine_t *machine, uint32_t joints, bool on)
 {
-    uint32_t on = 0;
+    uint32_t done = 0;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        if (servo_link_has(&joints, id)) {
-            on |= performer_on(machine->performer, servo_link_bit(id));
+        const uint32_t joint = joints & servo_link_bit(id);
+        if (joint != 0) {
+            if (on) {
+                done |= performer_on(machine->performer, joint);
+            } else {
+                performer_off(machine->performer, joint);
+                done |= joint;
+            }
             machine_serve(machine);
         }
     }
-    return on;
+    return done;
 }
 
 uint8_t machine_do_torque(void *context, const shell_args_t *args)
@@ -86,11 +92,8 @@ uint8_t machine_do_torque(void *context, const shell_args_t *args)
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
     }
     if ((joints & machine->servos->present) != joints || joints == 0 ||
-        (on && switch_on(machine, joints) != joints)) {
+        switch_each(machine, joints, on) != joints) {
         return machine_says(MACHINE_ERR_SERVOS, TEXT_P("Not all of these servos answer"));
-    }
-    if (!on) {
-        performer_off(machine->performer, joints);
     }
     return MACHINE_OK;
 }

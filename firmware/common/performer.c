@@ -67,6 +67,7 @@ static void get_ready(performer_t *performer)
 {
     performer->ready_left = usable(performer);
     performer->joints = 0;
+    performer->faulty = 0;
     performer->leaving = false;
     performer->pausing = false;
     performer->told_battery = false;
@@ -370,6 +371,7 @@ uint32_t performer_on(performer_t *performer, uint32_t joints)
     joints &= performer->servos->present;
     const uint32_t on = servo_link_torque_on(performer->servos, joints);
     performer->released &= ~on;
+    performer->faulty &= ~on;
     return on;
 }
 

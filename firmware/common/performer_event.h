@@ -26,7 +26,7 @@ typedef enum {
     PERFORMER_EV_ENDED,      /* a: page, b: page_status_t of a damaged page, c: performer_end_t */
     PERFORMER_EV_SILENT,     /* a: servo ID */
     PERFORMER_EV_BACK,       /* a: servo ID */
-    PERFORMER_EV_ERRORS,     /* a: servo ID, b: DXL_ERR_ bits */
+    PERFORMER_EV_ERRORS,     /* a: servo ID, b: DXL_ERR_ bits, 0: none any more */
     PERFORMER_EV_TORQUE,     /* a: servo ID: its torque went off by itself */
     PERFORMER_EV_BATTERY,    /* a: lowest voltage of all servos, 0.1 V */
     PERFORMER_EV_HOT,        /* a: servo ID, b: degrees C */

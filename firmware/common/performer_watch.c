@@ -70,16 +70,12 @@ static void act_on_fault(performer_t *performer, uint32_t joint)
 static void take_fault(performer_t *performer, const servo_fault_t *fault)
 {
     const uint32_t joint = servo_link_bit(fault->id);
-    const bool well = fault->kind == SERVO_FAULT_BACK || (fault->kind == SERVO_FAULT_ERRORS && fault->errors == 0);
-    if (well) {
-        performer->faulty &= ~joint;
-    } else {
-        performer->faulty |= joint;
-    }
+    const bool well = fault->kind == SERVO_FAULT_BACK ||
+                      (fault->kind == SERVO_FAULT_ERRORS && fault->errors == 0 &&
+                       servo_link_has(&performer->servos->torque, fault->id));
+    servo_link_put(&performer->faulty, fault->id, !well);
     if (fault->kind == SERVO_FAULT_ERRORS) {
-        if (!well) {
-            performer_tell(performer, PERFORMER_EV_ERRORS, fault->id, fault->errors, 0);
-        }
+        performer_tell(performer, PERFORMER_EV_ERRORS, fault->id, fault->errors, 0);
         if ((fault->errors & ERRORS_GRAVE) == 0) {
             return;
         }

@@ -27,6 +27,9 @@ void report_servo_errors(uint8_t errors)
             text_P((const char *)pgm_read_ptr(&names[bit]));
         }
     }
+    if (first) {
+        TEXT("no error");
+    }
 }
 
 void report_page(uint8_t page)

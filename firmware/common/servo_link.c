@@ -307,7 +307,7 @@ static void take_health(servo_link_t *link, const bus_answer_t *answer)
         servo_link_put(&link->slopes_pending, id, true);
         befell(link, id, SERVO_FAULT_BACK);
     }
-    if (errors & (uint8_t)~link->errors[id]) {
+    if (errors != link->errors[id]) {
         befell(link, id, SERVO_FAULT_ERRORS);
     }
     link->errors[id] = errors;

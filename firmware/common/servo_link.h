@@ -35,7 +35,7 @@ void servo_link_put(uint32_t *mask, uint8_t id, bool on) NOINLINE;
 typedef enum {
     SERVO_FAULT_SILENT = 1,   /* does not answer any more */
     SERVO_FAULT_BACK,         /* answers again (its torque may be off: see `torque`) */
-    SERVO_FAULT_ERRORS,       /* reports errors: DXL_ERR_ bits in `errors` (voltage, angle, heat, overload) */
+    SERVO_FAULT_ERRORS,       /* reports errors: DXL_ERR_ bits in `errors` (voltage, angle, heat, overload), 0: no more */
     SERVO_FAULT_TORQUE,       /* its torque went off by itself */
     SERVO_FAULT_KINDS = SERVO_FAULT_TORQUE
 } servo_fault_kind_t;

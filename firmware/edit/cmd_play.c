@@ -50,41 +50,50 @@ void cmd_play_key(editor_t *editor, uint8_t key)
 
 /* ---- what happened ---- */
 
-static bool is_worth_telling(const performer_event_t *event)
+/* What is the matter with a joint: DXL_ERR_ bits, and two more where servos report none. */
+enum { BIT_SILENT = 3, BIT_LIMP = 4 };
+
+static uint8_t state_of(const editor_t *editor, uint8_t joint)
 {
-    return event->kind >= PERFORMER_EV_SILENT && event->kind <= PERFORMER_EV_HOT;
+    const servo_link_t *servos = editor->servos;
+    if (servo_link_has(&servos->silent, joint)) {
+        return 1u << BIT_SILENT;
+    }
+    uint8_t state = servos->errors[joint];
+    if (editor->performer->told_hot && joint == servos->hottest_id) {
+        state |= DXL_ERR_HEAT;
+    }
+    return state == 0 && servo_link_has(&editor->performer->faulty, joint) ? 1u << BIT_LIMP : state;
 }
 
-static const char *servo_text_P(const performer_event_t *event)
+/* All that is wrong with the servos, at once: faults come in swarms, and the row is one. Shorter than report_event, which
+ * Edit has no flash for; lost torque also shows as ???? in the table. */
+static NOINLINE void tell_faults(editor_t *editor)
 {
-    if (event->kind == PERFORMER_EV_SILENT) {
-        return TEXT_P(" does not answer");
+    TEXT_NAMED(voltage, "Low voltage");
+    TEXT_NAMED(angle, "Angle limit");
+    TEXT_NAMED(heat, "Hot");
+    TEXT_NAMED(silent, "No answer");
+    TEXT_NAMED(limp, "Lost torque");
+    TEXT_NAMED(overload, "Overload");
+    static const char *const names[] PROGMEM = { voltage, angle, heat, silent, limp, overload };   /* by bit */
+    editor->faults_due = false;
+    for (uint8_t bit = 0; bit < ARRAY_COUNT(names); bit++) {
+        uint32_t joints = 0;
+        for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+            servo_link_put(&joints, joint, (state_of(editor, joint) >> bit & 1u) != 0);
+        }
+        editor_tell_joints(editor, (const char *)pgm_read_ptr(&names[bit]), joints);
     }
-    if (event->kind == PERFORMER_EV_BACK) {
-        return TEXT_P(" answers again");
+    if (editor->performer->told_battery) {
+        TEXT(" Battery low");
     }
-    if (event->kind == PERFORMER_EV_HOT || (event->b & DXL_ERR_HEAT) != 0) {
-        return TEXT_P(" is hot");
+    if (editor->screen.line_column == SCREEN_LINE_COLUMN) {
+        TEXT("All servos are well");
     }
-    return (event->b & DXL_ERR_OVERLOAD) != 0 ? TEXT_P(" is overloaded")
-           : (event->b & DXL_ERR_ANGLE) != 0  ? TEXT_P(" is outside its angle limits")
-                                              : TEXT_P(" reports low voltage");
 }
 
-/* Shorter than report_event, which Edit has no flash for. */
-static void tell(editor_t *editor, const performer_event_t *event)
-{
-    editor->screen.lead = true;
-    if (event->kind == PERFORMER_EV_BATTERY) {
-        TEXT("The battery is low");
-        return;
-    }
-    TEXT("ID ");
-    text_number(event->a);
-    text_P(servo_text_P(event));
-}
-
-static void tell_end(const performer_event_t *event)
+static void tell_end(editor_t *editor, const performer_event_t *event)
 {
     switch (event->c) {
     case PERFORMER_END_LOOP:
@@ -95,7 +104,9 @@ static void tell_end(const performer_event_t *event)
         text_number(event->a);
         break;
     case PERFORMER_END_SERVO:
-        TEXT("Ended: a servo failed");
+        screen_open_line(&editor->screen);
+        TEXT("Ended: a servo failed.");
+        tell_faults(editor);
         break;
     default:
         TEXT("OK");
@@ -106,30 +117,31 @@ static void tell_end(const performer_event_t *event)
 /* The play is over: the work pose is what the servos hold now. */
 static void play_ended(editor_t *editor, const performer_event_t *event)
 {
+    if (editor->mode != EDITOR_PLAY) {
+        robot_read(&editor->robot);
+        return;
+    }
     editor->screen.lead = true;
-    tell_end(event);
+    tell_end(editor, event);
     robot_read(&editor->robot);
     editor_leave_line(editor);
 }
 
-void cmd_play_events(editor_t *editor)
+void cmd_play_events(editor_t *editor, bool line_is_free)
 {
     performer_event_t event;
-    if (!performer_next_event(editor->performer, &event)) {
-        return;
-    }
-    if (editor->mode == EDITOR_PLAY) {
+    if (performer_next_event(editor->performer, &event)) {
         if (event.kind == PERFORMER_EV_ENDED) {
             play_ended(editor, &event);
-        } else if (is_worth_telling(&event)) {
-            tell(editor, &event);
+        } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
+            editor->faults_due = !editor->screen.hidden;
         }
-    } else if (event.kind == PERFORMER_EV_ENDED) {
-        robot_read(&editor->robot);
-    } else if (is_worth_telling(&event) && !editor->screen.hidden) {
-        editor_message_begin(editor);
-        tell(editor, &event);
-        editor_message_end(editor);
+    } else if (editor->faults_due && line_is_free) {
+        screen_open_line(&editor->screen);
+        tell_faults(editor);
+        if (editor->mode != EDITOR_PLAY) {
+            editor_message_end(editor);
+        }
     }
 }
 

@@ -13,11 +13,7 @@ static void send_step(editor_t *editor, const uint8_t step[PAGE_STEP_BYTES])
     uint32_t missing = robot_send(&editor->robot, step);
     session_set_byte(&editor->session, CELLS_POSE_AT + PAGE_STEP_AT_PAUSE, step[PAGE_STEP_AT_PAUSE]);
     session_set_byte(&editor->session, CELLS_POSE_AT + PAGE_STEP_AT_SPEED, step[PAGE_STEP_AT_SPEED]);
-    if (missing != 0) {
-        editor->screen.lead = true;
-        TEXT("No value, not moved: ID ");
-        report_joints(missing);
-    }
+    editor_tell_joints(editor, TEXT_P("No value, not moved"), missing);
 }
 
 COMMAND(cmd_go)
@@ -140,10 +136,7 @@ static bool joints_of(editor_t *editor, const shell_args_t *args, uint32_t *join
         }
         servo_link_put(joints, (uint8_t)id, true);
     }
-    if ((*joints & ~there) != 0) {
-        TEXT("Not there: ID ");
-        report_joints(*joints & ~there);
-    }
+    editor_tell_joints(editor, TEXT_P("Not there"), *joints & ~there);
     return true;
 }
 

@@ -68,7 +68,7 @@ void cmd_cell_space(editor_t *editor);
 COMMAND(cmd_play);
 COMMAND(cmd_balance);
 void cmd_play_key(editor_t *editor, uint8_t key);
-void cmd_play_events(editor_t *editor);
+void cmd_play_events(editor_t *editor, bool line_is_free);
 void cmd_balance_tick(editor_t *editor);
 
 

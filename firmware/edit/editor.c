@@ -27,6 +27,7 @@ void editor_init(editor_t *editor, servo_link_t *servos, performer_t *performer,
     editor->answered = 0;
     editor->take_page = EDITOR_NO_PAGE;
     editor->cid = 1;
+    editor->faults_due = false;
     editor->after_cr = false;
     editor->quiet_since = tick_now16();
     session_init(&editor->session);
@@ -69,15 +70,21 @@ void editor_message_end(editor_t *editor)
     }
 }
 
+void editor_tell_joints(editor_t *editor, const char *what_P, uint32_t joints)
+{
+    if (joints != 0) {
+        editor->screen.lead = true;
+        text_P(what_P);
+        TEXT(": ID ");
+        report_joints(joints);
+    }
+}
+
 void editor_tell_failed(editor_t *editor)
 {
     uint32_t failed = editor->robot.failed;
     editor->robot.failed = 0;
-    if (failed != 0) {
-        editor->screen.lead = true;
-        TEXT("No answer from ID ");
-        report_joints(failed);
-    }
+    editor_tell_joints(editor, TEXT_P("No answer"), failed);
 }
 
 /* ---- running a line ---- */
@@ -235,15 +242,16 @@ bool editor_turn(editor_t *editor)
         tick_work(editor);
     }
     performer_poll(editor->performer);
+    uint8_t room = console_room();
     if (editor->mode == EDITOR_TABLE || editor->mode == EDITOR_PLAY) {
-        cmd_play_events(editor);
+        cmd_play_events(editor, room >= CONSOLE_TX_BYTES - 1u);
     }
     if (editor->mode == EDITOR_LIST) {
         list_turn(editor);
         return true;
     }
     /* A row may wait for the line longer than a tick: not while something moves. */
-    if (console_room() < PAINT_ROOM || !performer_is_idle(editor->performer)) {
+    if (editor->faults_due || room < PAINT_ROOM || !performer_is_idle(editor->performer)) {
         return false;
     }
     if (screen_paint(&editor->screen)) {

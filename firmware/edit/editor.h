@@ -54,6 +54,7 @@ typedef struct editor {
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
     uint8_t cid;                   /* the monitor's current ID */
     uint8_t balance_ticks;
+    bool faults_due;               /* something befell a servo: the row says it when the line has room */
     bool after_cr;                 /* the last byte was CR: a LF now belongs to it */
     uint16_t quiet_since;          /* tick of the last byte */
     shell_args_t args;             /* of the line being run */
@@ -115,6 +116,9 @@ void editor_leave_line(editor_t *editor);
 /* A message on the command row while nobody types. */
 void editor_message_begin(editor_t *editor);
 void editor_message_end(editor_t *editor);
+
+/* Tells on the message row what is with these joints: "No answer: ID 5-7". None: nothing. */
+void editor_tell_joints(editor_t *editor, const char *what_P, uint32_t joints) NOINLINE;
 
 /* Tells on the message row which servos did not answer, and forgets them. */
 void editor_tell_failed(editor_t *editor);

@@ -65,7 +65,12 @@ uint8_t commands_do_off(void *context, const shell_args_t *args)
     if (!joints_of_words(play, args, 1, &joints)) {
         return SHELL_ERR_SAID;
     }
-    performer_off(&play->performer, joints);
+    for (uint8_t id = 0; id <= ID_MAX; id++) { /* one at a time: 18 take longer than a tick, and the others may be playing */
+        if ((joints & servo_link_bit(id)) != 0) {
+            performer_off(&play->performer, servo_link_bit(id));
+            play_service(play);
+        }
+    }
     return SHELL_OK;
 }
 

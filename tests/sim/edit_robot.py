@@ -61,7 +61,7 @@ class Terminal:
 
 class Robot:
     def __init__(self, pages=None, servos=JOINTS, rows=36, images=("boot-cm5.hex", "edit-cm5.hex"), loader=None,
-                 **board):
+                 eeprom=b"", **board):
         image = Image.empty()
         for number, made in (pages or {}).items():
             image[number] = made
@@ -69,6 +69,7 @@ class Robot:
         self.board = Board(images=list(images), motions=motions, servos=servos, **board)
         if loader is not None:
             self.board.flash[0x1E000:0x20000] = loader
+        self.board.eeprom[0:len(eeprom)] = eeprom
         self.board.eeprom[0xFFF] = 0x11   # the loader starts the application
         self.terminal = Terminal(rows)
         self.settle(ms=1500)

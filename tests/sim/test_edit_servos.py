@@ -195,13 +195,38 @@ def test_lost_servo_is_named_in_the_message_row_and_the_screen_stays():
         before = r.show().splitlines()[:30]
         r.board.servos[5].fault("silent")
         r.settle(1500)
-        assert r.message.strip() == "ID 5 does not answer"
+        assert r.message.strip() == "No answer: ID 5"
         assert r.show().splitlines()[:30] == before
         r.board.servos[5].clear()
         r.settle(1500)
-        assert r.message.strip() == "ID 5 answers again"
+        assert r.message.strip() == "All servos are well"
         r.board.servos[6].fault("silent")
         assert "6" in r.line("on 6")
+
+
+def test_all_that_is_wrong_stands_in_one_row():
+    with start() as r:
+        r.line("on")
+        for joint in (5, 6, 7, 9):
+            r.board.servos[joint].fault("silent")
+        r.board.servos[12].fault("overload")
+        r.board.servos[2].fault("angle-limit")
+        r.settle(1500)
+        assert r.message.strip() == "Angle limit: ID 2 No answer: ID 5-7 9 Overload: ID 12"
+        for joint in (2, 5, 6, 7, 9, 12):
+            r.board.servos[joint].clear()
+        r.settle(1000)
+        assert r.message.strip() == "Lost torque: ID 12" and r.cell(0, 12) == "????"
+        r.line("on 12")
+        assert r.board.servos[12].torque
+
+
+def test_fault_that_ends_a_play_is_named_behind_its_end():
+    with start() as r:
+        r.keys("play 8\r", ms=2500)
+        r.board.servos[4].fault("overheating")
+        r.settle(1500)
+        assert r.message.strip() == "Ended: a servo failed. Hot: ID 4"
 
 
 def test_page_0_computes_the_trim():

@@ -552,6 +552,25 @@ static void test_performer_fault_hold_sends_the_faulty_joint_nothing_more(void)
     TEST_ASSERT_EQUAL_UINT16(held, fake_servo_link.goal_pos[1]);
 }
 
+static void test_performer_fault_is_over_when_errors_go_or_torque_comes_back(void)
+{
+    play_with_fault(SETTINGS_FAULT_HOLD, SERVO_FAULT_ERRORS, DXL_ERR_ANGLE);
+    fake_servo_link_fault(&servos, 1, SERVO_FAULT_ERRORS, 0);
+    ticks(40);
+    TEST_ASSERT_EQUAL_HEX32(0, performer.faulty);
+    fake_servo_link_fault(&servos, 1, SERVO_FAULT_TORQUE, 0);
+    servos.torque &= ~SERVO_LINK_BIT(1);
+    fake_servo_link_fault(&servos, 2, SERVO_FAULT_ERRORS, DXL_ERR_VOLTAGE);
+    ticks(1);
+    fake_servo_link_fault(&servos, 1, SERVO_FAULT_ERRORS, 0);
+    ticks(1);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1) | SERVO_LINK_BIT(2), performer.faulty);
+    (void)performer_on(&performer, SERVO_LINK_BIT(1));
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), performer.faulty);
+    start(2, 0);
+    TEST_ASSERT_EQUAL_HEX32(0, performer.faulty);
+}
+
 static void test_performer_fault_limp_goes_on_without_the_joint(void)
 {
     play_with_fault(SETTINGS_FAULT_LIMP, SERVO_FAULT_ERRORS, DXL_ERR_OVERLOAD);
@@ -708,6 +727,7 @@ int main(void)
     RUN_TEST(test_performer_stop_code_twice_is_a_break);
     RUN_TEST(test_performer_fault_hold_slows_down_and_holds);
     RUN_TEST(test_performer_fault_hold_sends_the_faulty_joint_nothing_more);
+    RUN_TEST(test_performer_fault_is_over_when_errors_go_or_torque_comes_back);
     RUN_TEST(test_performer_fault_limp_goes_on_without_the_joint);
     RUN_TEST(test_performer_fault_exit_leaves_through_the_exit_page);
     RUN_TEST(test_performer_voltage_error_is_told_and_ends_nothing);

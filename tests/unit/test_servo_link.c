@@ -396,7 +396,7 @@ static void test_servo_with_wrong_checksums_counts_as_silent(void)
     TEST_ASSERT_EQUAL(SERVO_FAULT_SILENT, fault.kind);
 }
 
-static void test_errors_are_named_when_they_come_and_again_after_they_went(void)
+static void test_errors_are_named_when_they_come_when_they_go_and_when_they_come_again(void)
 {
     servo_fault_t fault;
     robot(3);
@@ -411,6 +411,10 @@ static void test_errors_are_named_when_they_come_and_again_after_they_went(void)
     fake_bus_servo(2)->error = 0;
     idle_ticks(3);
     TEST_ASSERT_EQUAL(0, servos.errors[2]);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(SERVO_FAULT_ERRORS, fault.kind);
+    TEST_ASSERT_EQUAL_HEX8(0, fault.errors);
+    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));
     fake_bus_servo(2)->error = DXL_ERR_HEAT;
     idle_ticks(3);
     TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
@@ -540,7 +544,7 @@ int main(void)
     RUN_TEST(test_third_lost_answer_in_a_row_is_a_fault);
     RUN_TEST(test_servo_that_is_back_gets_its_slopes_again);
     RUN_TEST(test_servo_with_wrong_checksums_counts_as_silent);
-    RUN_TEST(test_errors_are_named_when_they_come_and_again_after_they_went);
+    RUN_TEST(test_errors_are_named_when_they_come_when_they_go_and_when_they_come_again);
     RUN_TEST(test_torque_that_goes_off_by_itself_is_named_and_not_driven);
     RUN_TEST(test_voltage_and_temperature_are_those_of_the_last_round);
     RUN_TEST(test_live_poses_come_with_the_polls);
