@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""What was on the servo bus, judged: a frame in every tick, no leap, nobody driven who must not be."""
+from cm5sim.board import CYCLES_PER_TICK, sync_goals
+
+WRITE, REG_WRITE, SYNC_WRITE = 3, 4, 0x83
+TORQUE_AT, GOAL_AT = 24, 30
+
+
+def phase_of(board):
+    """A cycle in which a tick begins."""
+    board.run_to("__vector_12")
+    return board.now_cycles
+
+
+def frames_of(packets):
+    """[(cycle, {joint: goal})] of the SYNC WRITEs that carry goals."""
+    return [(cycle, goals) for cycle, packet in packets if (goals := sync_goals(packet))]
+
+
+def missing_ticks(frames, phase):
+    """How many ticks between the first and the last frame have not exactly one frame of their own."""
+    ticks = [(cycle - phase) // CYCLES_PER_TICK for cycle, _ in frames]
+    return sum(b - a != 1 for a, b in zip(ticks, ticks[1:]))
+
+
+def largest_steps(frames):
+    """(largest step of a goal from tick to tick, largest change of that step), over all joints."""
+    step_max = change_max = 0
+    goal, step = {}, {}
+    for _, goals in frames:
+        steps = {}
+        for joint, pos in goals.items():
+            if joint in goal:
+                steps[joint] = pos - goal[joint]
+                step_max = max(step_max, abs(steps[joint]))
+                if joint in step:
+                    change_max = max(change_max, abs(steps[joint] - step[joint]))
+        goal, step = goals, steps
+    return step_max, change_max
+
+
+def written(packets, address, value=None):
+    """IDs of single WRITEs and REG WRITEs that reach an address (with that value)."""
+    return {packet[2] for _, packet in packets if packet[4] in (WRITE, REG_WRITE)
+            and packet[5] <= address < packet[5] + len(packet) - 7
+            and value in (None, packet[6 + address - packet[5]])}
