@@ -1,105 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Noise at the prompt, in STK500 sessions and in block sessions: no hang, no violation, nothing written without a valid
-command. M512_FUZZ_BYTES says how many bytes in all (default 120,000; the proof is 10,000,000)."""
+"""Noise at the prompt, in STK500 sessions and in block sessions (boot_noise.py). M512_FUZZ_BYTES says how many bytes in all
+(default 120,000; tools/prove fuzz sends 10,000,000)."""
 import os
-import random
 
 import pytest
-from boot_board import PROMPT, WRITE, frame, page_body, prompt_board, say
+from boot_noise import MAKERS, fuzz
 
 BYTES = int(os.environ.get("M512_FUZZ_BYTES", 120_000))
-CHUNK = 8192
-# What the loader says before it writes: without one of these, in this chunk or the one before, nothing may change.
-# (Three bytes of noise are enough for a valid command: CR l CR.)
-LICENCES = (b"Write Address", b" Mode", b"Boot to", b"Clearing", b"Sure?")
 
 
-def shell_noise(rng, count):
-    return rng.randbytes(count)
-
-
-WORDS = (b"help f flash e eep r ram verify v check id up eep_up clear_eeprom x # 0x 0 1 e000 ffffffff 12345678 zz , / \t - * "
-         b"up0 100").split(b" ")
-
-
-def shell_words(rng, count):
-    """Typed text of words that write nothing unless asked twice, torn by noise."""
-    text = bytearray()
-    while len(text) < count:
-        kind = rng.random()
-        if kind < 0.6:
-            text += rng.choice(WORDS) + b" "
-        elif kind < 0.9:
-            text += rng.choice([b"\r", b"\n", b"\r\n", b"\x1b", b"\x08", b"n"])
-        elif kind < 0.95:
-            text += rng.randbytes(rng.randrange(1, 30))
-        else:
-            text += rng.choice([b"#", b"a", b" ", b"0"]) * rng.randrange(1, 300)
-    return bytes(text[:count])
-
-
-def stk_noise(rng, count):
-    """Broken STK500 sessions: right commands with wrong ends and lengths, no ENTER."""
-    data = bytearray()
-    while len(data) < count:
-        data += b"\r0 " if rng.random() < 0.3 else b""
-        command = rng.choice(b"\x30\x41\x42\x45\x51\x52\x55\x56\x64\x74\x75" + rng.randbytes(2))
-        data += bytes([command]) + rng.randbytes(rng.randrange(6)) + rng.choice([b" ", b"!", b""])
-    return bytes(data[:count])
-
-
-def block_noise(rng, count):
-    """Frames, each damaged in one to three bits at least one of which the CRC must catch."""
-    data = bytearray()
-    while len(data) < count:
-        body = page_body(rng.randrange(0x1E0), rng.randbytes(256)) if rng.random() < 0.3 else rng.randbytes(2 * rng.randrange(8))
-        good = bytearray(frame(WRITE if len(body) == 258 else rng.randrange(10), rng.randrange(256), body))
-        where = rng.sample(range(1, len(good)), min(3, len(good) - 1))
-        for i in where[:rng.randrange(1, 4)]:
-            good[i] ^= 1 << rng.randrange(8)
-        data += good
-        if rng.random() < 0.1:
-            data += frame(1, 1)
-    return bytes(data[:count])
-
-
-def bring_back(board):
-    """Silence ends every session and transfer; then the prompt must answer."""
-    board.run(ms=17000)
-    board.send(b"\x1b")
-    board.run(ms=400)
-    board.send(b"n\r")
-    board.run(ms=3000)
-    board.take()
-    board.send(b"\x08" * 80 + b"\r")
-    board.expect(PROMPT, ms=2000)
-    board.run(ms=50)
-    board.take()
-    assert "app=" in say(board, "id")
-
-
-@pytest.mark.parametrize("make", [shell_noise, shell_words, stk_noise, block_noise])
+@pytest.mark.parametrize("make", MAKERS)
 def test_noise(make):
-    rng = random.Random(make.__name__)
-    board = prompt_board()
-    board.allow("pullup")  # RAM shows the registers as well, PINE among them
-    before = b""
-    flash, eeprom, licensed = bytes(board.flash), bytes(board.eeprom), 0
-    sent, total = 0, BYTES // 4
-    resets = board.resets
-    while sent < total:
-        data = make(rng, min(CHUNK, total - sent))
-        board.send(data)
-        while board.waiting:
-            board.run(ms=20)
-        board.run(ms=150)
-        sent += len(data)
-        said = board.take()
-        if (bytes(board.flash), bytes(board.eeprom)) != (flash, eeprom):
-            assert any(licence in before + said for licence in LICENCES), "written without a valid command"
-            licensed += 1
-            flash, eeprom = bytes(board.flash), bytes(board.eeprom)
-        before = said
-    bring_back(board)
-    assert board.resets == resets or make is not block_noise
-    print(f"{make.__name__}: {sent} bytes, {licensed} chunks with a valid writing command by chance")
+    figures = fuzz(make, 0, BYTES // len(MAKERS))
+    print(f"{make.__name__}: {figures.sent} bytes, {figures.licensed} chunks with a valid writing command by chance")

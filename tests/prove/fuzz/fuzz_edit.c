@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT
+ * Edit as a whole: fuzz_image.h says how the input is read. Flash may change in the journal and the motions only, EEPROM
+ * only where settings and the loader's bytes are; afterwards every page is as good as it was, or better. */
+#include "fuzz_image.h"
+#include "fake_eeprom.h"
+#include "fake_flash.h"
+#include "linker/memory_map.h"
+#include "page.h"
+#include "trap.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#define main image_main
+#include "firmware/edit/main.c"
+#undef main
+#include "mon.h"
+
+/* TOSS hands any bytes to the bus: the simulated board has it (fuzz.py). */
+void mon_toss(editor_t *e)
+{
+    (void)e;
+}
+
+/* Out of any mode: Ctrl-C ends plays and lines, ESC lists and questions, Ctrl-U CR a program's line; a monitor says so in
+ * its prompt. Then a line of a program. */
+const char *fuzz_image_last_words(unsigned k)
+{
+    static const char *const words[] = {"\x03", "\x1B", "\x15\r", NULL, "\x03", "@where\r"};
+    if (k == 3) {
+        return strstr(fuzz_image_said(), "[CID:") != NULL ? "exit\r" : "\x03";
+    }
+    return k < 6 ? words[k] : NULL;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static uint8_t before[MEM_BOOT_END];
+    fake_flash_reset();
+    fuzz_image_pages();
+    memcpy(before, fake_flash_bytes(), sizeof before);
+    if (fuzz_image_run(data, size)) {
+        ASSERT(strstr(fuzz_image_said(), "OK") != NULL);
+    }
+    const uint8_t *after = fake_flash_bytes();
+    ASSERT(memcmp(before, after, MEM_JOURNAL_START) == 0);
+    ASSERT(memcmp(before + MEM_BOOT_START, after + MEM_BOOT_START, MEM_BOOT_END - MEM_BOOT_START) == 0);
+    for (unsigned at = MEM_MOTION_START; at < MEM_MOTION_END; at += PAGE_BYTES) {
+        ASSERT(memcmp(before + at, after + at, PAGE_BYTES) == 0 || page_check(after + at) != PAGE_ERR_CHECKSUM);
+    }
+    for (unsigned i = MEM_EE_SETTINGS_END; i < MEM_EE_LOADER; i++) {
+        ASSERT(fake_eeprom_bytes()[i] == 0xFF);
+    }
+    return 0;
+}

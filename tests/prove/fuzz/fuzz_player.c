@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: MIT
+ * Links and player on any pages: the plays end or loop, and no goal ever leaves 0..1023 or a joint that is not theirs.
+ *
+ * Input: law and first page; joints present; then pages 1..6, each 15 header bytes and for each of its steps pause, time
+ * and four words (joints 0, 1, 17, 30); then what happens: an action and its argument. Three bits of the first header byte
+ * say how wild the page is: 0..4 is sealed and in range, 5..6 sealed as it is, 7 has the checksum that is written. */
+#include "fuzz.h"
+#include "player.h"
+#include "trap.h"
+
+#include <string.h>
+
+#define PAGES 6u
+#define TICKS_MAX 3000u
+
+static uint8_t pages[PAGES + 1][PAGE_BYTES];
+static player_t player;
+static link_t links;
+static unsigned ticks_left;
+static uint32_t present;
+static uint16_t pose[PAGE_JOINTS];
+static bool undisturbed;   /* no break, pause or drop since the step began: its targets must be met */
+
+static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
+{
+    (void)context;
+    ASSERT(page < PAGE_COUNT && offset + count <= PAGE_BYTES);
+    if (page <= PAGES) {
+        memcpy(to, &pages[page][offset], count);
+    } else {
+        memset(to, 0xFF, count);
+    }
+}
+
+static uint8_t check_page(void *context, uint8_t page)
+{
+    (void)context;
+    ASSERT(page < PAGE_COUNT);
+    return page <= PAGES ? (uint8_t)page_check(pages[page]) : PAGE_ERR_CHECKSUM;
+}
+
+static const page_source_t source = {.read = read_page, .check = check_page};
+
+static void make_step(uint8_t *page, uint8_t step, bool wild, fuzz_t *fuzz)
+{
+    static const uint8_t joints[] = {0, 1, 17, 30};
+    uint8_t *at = &page[PAGE_AT_STEP0 + step * PAGE_STEP_BYTES];
+    at[PAGE_STEP_AT_PAUSE] = fuzz_byte(fuzz);
+    at[PAGE_STEP_AT_SPEED] = fuzz_byte(fuzz);
+    for (unsigned i = 0; i < sizeof joints; i++) {
+        const uint16_t word = fuzz_word(fuzz);
+        page_set_pos(page, step, joints[i], wild ? word : word & 0x63FF);
+    }
+}
+
+static void make_page(uint8_t *page, fuzz_t *fuzz)
+{
+    const uint8_t options = fuzz_byte(fuzz);
+    const bool wild = (options & 7) >= 5;
+    page_clear(page);
+    for (unsigned at = PAGE_AT_PLAY_COUNT; at < PAGE_AT_CHECKSUM; at++) {
+        page[at] = at < PAGE_AT_STEPS && at > PAGE_AT_SCHEDULE ? 0 : fuzz_byte(fuzz);
+    }
+    if (!wild) {
+        page[PAGE_AT_SCHEDULE] = page[PAGE_AT_SCHEDULE] & 1 ? PAGE_SCHEDULE_TIME : PAGE_SCHEDULE_SPEED;
+        page[PAGE_AT_STEPS] &= 7;
+        page[PAGE_AT_SPEED] |= page[PAGE_AT_SPEED] == 0;
+        for (unsigned at = PAGE_AT_NEXT_PAGE; at <= PAGE_AT_LINKED2_PAGE; at++) {
+            page[at] = at == PAGE_AT_LINKED1_CODE ? page[at] : page[at] % (PAGES + 2);
+        }
+    }
+    memset(&page[PAGE_AT_COMPLIANCE], options, 4);
+    for (uint8_t step = 0; step < PAGE_STEPS && step < page[PAGE_AT_STEPS]; step++) {
+        make_step(page, step, wild, fuzz);
+    }
+    page_seal(page);
+    if ((options & 7) == 7) {
+        page[PAGE_AT_CHECKSUM] = fuzz_byte(fuzz);
+    }
+}
+
+/* Behind the last tick of a step every joint that it used stands where the page wants it. */
+static void must_be_on_target(uint8_t page, uint8_t step)
+{
+    if (!undisturbed || player.law != PLAYER_LAW_EXACT) {
+        return;
+    }
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        const uint16_t word = page_pos(pages[page], (uint8_t)(step - 1), joint);
+        ASSERT((present >> joint & 1) == 0 || !page_pos_is_used(word) || player.goal_pos[joint] == word);
+    }
+}
+
+static void must_be_in_range(void)
+{
+    for (unsigned joint = 0; joint < PAGE_JOINTS; joint++) {
+        ASSERT(player.goal_pos[joint] <= PAGE_POS_MAX);
+        ASSERT((present >> joint & 1) != 0 || player.goal_pos[joint] == pose[joint]);
+    }
+    ASSERT((player.joints & ~present) == 0);
+}
+
+static void tick(void)
+{
+    const uint8_t page = player.page, step = player.step;
+    if (ticks_left == 0) {
+        return;
+    }
+    ticks_left--;
+    const bool moving = player_is_moving(&player);
+    const uint8_t events = player_tick(&player, &links);
+    must_be_in_range();
+    ASSERT(moving || events == 0);
+    if ((events & PLAYER_EV_STEP) != 0) {
+        ASSERT(player.page >= 1 && player.page <= PAGES && player.step >= 1 && player.step <= pages[player.page][PAGE_AT_STEPS]);
+        ASSERT(page_check(pages[player.page]) == PAGE_OK);
+        undisturbed = true;
+    }
+    if ((events & PLAYER_EV_ENDED) != 0) {
+        ASSERT(!player_is_moving(&player));
+        must_be_on_target(page, step);
+        ASSERT(player.fault == PAGE_OK || player.fault_page != 0);
+    }
+}
+
+static void start(uint8_t number, player_law_t law)
+{
+    const bool was_moving = player_is_moving(&player);
+    const page_status_t check = number >= 1 && number <= PAGES ? page_check(pages[number]) : PAGE_ERR_CHECKSUM;
+    link_call(&links, 0);
+    const player_status_t status = player_start(&player, &links, number, law, pose, present);
+    ASSERT(status != PLAYER_ERR_LAW && (status == PLAYER_ERR_BUSY) == was_moving);
+    if (!was_moving) {
+        ASSERT(status != PLAYER_OK || check == PAGE_OK);
+        ASSERT(check != PAGE_OK || !page_is_playable(pages[number]) || status == PLAYER_OK);
+        undisturbed = true;
+    }
+}
+
+static void act(uint8_t action, uint8_t argument)
+{
+    switch (action & 7) {
+    case 1: link_code(&links, argument); break;
+    case 2: link_stop(&links); break;
+    case 3: player_break(&player); undisturbed = false; break;
+    case 4: player_pause(&player); undisturbed = false; break;
+    case 5: player_resume(&player); undisturbed = false; break;
+    case 6: player_drop_joints(&player, (uint32_t)1 << argument % PAGE_JOINTS); undisturbed = false; break;
+    case 7: link_end(&links); break;
+    default: break;
+    }
+    for (unsigned i = 0; i < argument + 1u && player_is_moving(&player); i++) {
+        tick();
+    }
+}
+
+/* A break brings everything to a stand within the ramp (at most 255 ticks). */
+static void must_stand_after_a_break(void)
+{
+    ticks_left = 300;
+    undisturbed = false;
+    player_break(&player);
+    while (player_is_moving(&player) && ticks_left > 0) {
+        tick();
+    }
+    ASSERT(!player_is_moving(&player));
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    fuzz_t fuzz = {data, data + size};
+    const uint8_t options = fuzz_byte(&fuzz), number = fuzz_byte(&fuzz);
+    present = (uint32_t)fuzz_word(&fuzz) << 16 | 3u;
+    present &= 0x7FFFFFFFu;
+    for (unsigned joint = 0; joint < PAGE_JOINTS; joint++) {
+        pose[joint] = (uint16_t)(joint * 33u);
+    }
+    memset(pages, 0, sizeof pages);
+    for (unsigned page = 1; page <= PAGES; page++) {
+        make_page(pages[page], &fuzz);
+    }
+    ticks_left = TICKS_MAX;
+    player_init(&player, &source);
+    memcpy(player.goal_pos, pose, sizeof pose);
+    link_init(&links, options & 2 ? LINK_HOLD : LINK_LATCH);
+    (void)player_first_pose(&source, number & 127, (uint16_t[PAGE_JOINTS]){0});
+    start(options & 4 ? number : number % (PAGES + 2), (player_law_t)(options & 1));
+    while (fuzz_left(&fuzz) > 0 && ticks_left > 0) {
+        const uint8_t action = fuzz_byte(&fuzz);
+        act(action, fuzz_byte(&fuzz));
+    }
+    if (player_is_moving(&player)) {
+        must_stand_after_a_break();
+    }
+    return 0;
+}

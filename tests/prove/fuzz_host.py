@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""libFuzzer on the harnesses of tests/prove/fuzz. Used by fuzz.py."""
+import dataclasses
+import pathlib
+import re
+import shutil
+import subprocess
+
+import proof
+
+HERE = proof.TOP / "tests" / "prove" / "fuzz"
+CORPUS = HERE / "corpus"
+FUZZERS = proof.BUILD / "fuzz"
+REPLAYS = proof.BUILD / "host" / "tests" / "prove" / "fuzz"
+NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem != "fuzz_image")
+LONGEST = {"page": 513, "bus": 400, "remote": 200, "settings": 160, "journal": 64, "player": 500, "loader": 700, "play": 300,
+           "edit": 300}
+ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0:handle_abort=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
+
+
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """What came of one harness."""
+    name: str
+    executions: int
+    edges: int
+    corpus: int
+    finding: str    # "" or how to see it again
+
+
+def build():
+    """Builds the libFuzzer programs; false: there is no clang, or it has no libFuzzer."""
+    host = proof.BUILD / "host"
+    targets = subprocess.run(["cmake", "--build", str(host), "--target", "fuzzers", *(f"fuzz_{name}" for name in NAMES)],
+                             capture_output=True, text=True, check=False)
+    if targets.returncode:
+        raise RuntimeError(f"the harnesses do not build:\n{targets.stdout[-3000:]}")
+    return all((FUZZERS / f"fuzz_{name}").exists() for name in NAMES)
+
+
+def replay(name):
+    """The corpus once, without libFuzzer."""
+    files = list((CORPUS / name).iterdir())
+    done = subprocess.run([REPLAYS / f"fuzz_{name}", CORPUS / name], capture_output=True, text=True, errors="replace", check=False)
+    finding = "" if done.returncode == 0 else f"{name}: {REPLAYS / f'fuzz_{name}'} {CORPUS / name}: {done.stderr.strip()[-300:]}"
+    return Run(name, len(files), 0, len(files), finding)
+
+
+def search(task):
+    """(name, seconds, seed, keep): libFuzzer for so long, from the corpus on. keep: what it found goes to the corpus."""
+    name, seconds, seed, keep = task
+    work = proof.RESULTS / "fuzz" / name
+    shutil.rmtree(work, ignore_errors=True)
+    (work / "found").mkdir(parents=True)
+    command = [FUZZERS / f"fuzz_{name}", f"-max_total_time={seconds}", f"-seed={seed}", f"-max_len={LONGEST[name]}", "-timeout=20",
+               "-len_control=0", "-print_final_stats=1", "-verbosity=1", f"-artifact_prefix={work}/"]
+    words = HERE / f"{name}.dict"
+    command += [f"-dict={words}"] if words.exists() else []
+    done = subprocess.run([*command, work / "found", CORPUS / name], capture_output=True, text=True, errors="replace", check=False,
+                          env=ENVIRONMENT)
+    executions = re.findall(r"number_of_executed_units:\s*(\d+)", done.stderr)
+    edges = re.findall(r"cov: (\d+)", done.stderr)
+    artifacts = [path for path in work.iterdir() if path.is_file()]
+    finding = ""
+    if done.returncode or artifacts:
+        finding = describe(name, artifacts, done.stderr)
+    if keep:
+        merge(name, work)
+    return Run(name, int(executions[-1]) if executions else 0, int(edges[-1]) if edges else 0,
+               len(list((CORPUS / name).iterdir())), finding)
+
+
+def describe(name, artifacts, output):
+    """A finding, made smaller, and the command that repeats it."""
+    said = re.search(r"ASSERT\(.*|runtime error: .*|ERROR: (?:AddressSanitizer|libFuzzer): .*", output)
+    where = pathlib.Path(artifacts[0]) if artifacts else None
+    if where:
+        small = where.with_name("smallest")
+        subprocess.run([FUZZERS / f"fuzz_{name}", "-minimize_crash=1", "-runs=20000", "-max_total_time=20",
+                        f"-exact_artifact_path={small}", where], capture_output=True, check=False, env=ENVIRONMENT)
+        where = small if small.exists() else where
+    what = said.group(0) if said else output.strip()[-200:]
+    return f"{name}: {what}: {(REPLAYS / f'fuzz_{name}').relative_to(proof.TOP)} {where.relative_to(proof.TOP) if where else ''}"
+
+
+def merge(name, work):
+    """The fewest inputs, old and new, that reach all that is reached."""
+    small = work / "small"
+    small.mkdir()
+    subprocess.run([FUZZERS / f"fuzz_{name}", "-set_cover_merge=1", "-use_counters=0", f"-max_len={LONGEST[name]}", small,
+                    CORPUS / name, work / "found"], capture_output=True, check=False, env=ENVIRONMENT)
+    if any(small.iterdir()):
+        shutil.rmtree(CORPUS / name)
+        (CORPUS / name).mkdir()
+        for path in small.iterdir():
+            shutil.copy(path, CORPUS / name / path.name[:12])
