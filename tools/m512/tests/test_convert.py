@@ -226,6 +226,18 @@ def files_of_every_kind(data_of):
             ".csv": formats.encode(data_of / "x.csv", image)[0]}
 
 
+def test_csv_with_any_line_ends(tmp_path):
+    """A lone CR was an exception of the csv module (found by tools/prove fuzz)."""
+    image = Image.empty()
+    image[3].steps = 1
+    image[3].seal()
+    data = formats.encode(tmp_path / "p.csv", image, 3)[0]
+    for end in (b"\r", b"\r\n", b"\n"):
+        assert formats.decode(data.replace(b"\n", end), tmp_path / "p.csv")[3] == image[3]
+    with pytest.raises(FileError):
+        formats.decode(b"page,1\n\"" + b"x" * 200_000, tmp_path / "p.csv")
+
+
 @pytest.mark.parametrize("suffix", [".bin", ".hex", ".mtn", ".m512", ".csv"])
 def test_bad_input_truncated_anywhere(tmp_path, suffix):
     whole = files_of_every_kind(tmp_path)[suffix]

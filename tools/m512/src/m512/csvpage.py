@@ -45,9 +45,10 @@ def write(image: Image, which: Optional[int]) -> Tuple[bytes, List[str]]:
 
 def read(text: str, where: str) -> Image:
     """A 128-page image (256 when the number needs it) with that one page."""
-    rows = list(csv.reader(StringIO(text.replace("\r\n", "\n").replace("\0", ""))))
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").replace("\0", "")
     page, which, line, in_steps = Page(), 0, 0, False
     try:
+        rows = list(csv.reader(StringIO(lines)))
         for line, row in enumerate(rows, 1):
             key, cells = (row[0], row[1:]) if row else ("", [])
             if in_steps:
