@@ -17,9 +17,9 @@ static uint8_t pages[PAGES + 1][PAGE_BYTES];
 static player_t player;
 static link_t links;
 static unsigned ticks_left;
-static uint32_t present;
+static uint32_t present, dropped;
 static uint16_t pose[PAGE_JOINTS];
-static bool undisturbed;   /* no break, pause or drop since the step began: its targets must be met */
+static bool undisturbed;   /* no break or pause since the step began: its targets must be met */
 
 static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
@@ -80,14 +80,15 @@ static void make_page(uint8_t *page, fuzz_t *fuzz)
 }
 
 /* Behind the last tick of a step every joint that it used stands where the page wants it. */
-static void must_be_on_target(uint8_t page, uint8_t step)
+static void must_be_on_target(void)
 {
     if (!undisturbed || player.law != PLAYER_LAW_EXACT) {
         return;
     }
+    ASSERT(player.step >= 1);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        const uint16_t word = page_pos(pages[page], (uint8_t)(step - 1), joint);
-        ASSERT((present >> joint & 1) == 0 || !page_pos_is_used(word) || player.goal_pos[joint] == word);
+        const uint16_t word = page_pos(pages[player.page], (uint8_t)(player.step - 1), joint);
+        ASSERT(((present & ~dropped) >> joint & 1) == 0 || !page_pos_is_used(word) || player.goal_pos[joint] == word);
     }
 }
 
@@ -97,12 +98,11 @@ static void must_be_in_range(void)
         ASSERT(player.goal_pos[joint] <= PAGE_POS_MAX);
         ASSERT((present >> joint & 1) != 0 || player.goal_pos[joint] == pose[joint]);
     }
-    ASSERT((player.joints & ~present) == 0);
+    ASSERT((player.joints & (~present | dropped)) == 0);
 }
 
 static void tick(void)
 {
-    const uint8_t page = player.page, step = player.step;
     if (ticks_left == 0) {
         return;
     }
@@ -118,7 +118,7 @@ static void tick(void)
     }
     if ((events & PLAYER_EV_ENDED) != 0) {
         ASSERT(!player_is_moving(&player));
-        must_be_on_target(page, step);
+        must_be_on_target();
         ASSERT(player.fault == PAGE_OK || player.fault_page != 0);
     }
 }
@@ -137,6 +137,12 @@ static void start(uint8_t number, player_law_t law)
     }
 }
 
+static void drop(uint32_t joints)
+{
+    player_drop_joints(&player, joints);
+    dropped |= joints;
+}
+
 static void act(uint8_t action, uint8_t argument)
 {
     switch (action & 7) {
@@ -145,7 +151,7 @@ static void act(uint8_t action, uint8_t argument)
     case 3: player_break(&player); undisturbed = false; break;
     case 4: player_pause(&player); undisturbed = false; break;
     case 5: player_resume(&player); undisturbed = false; break;
-    case 6: player_drop_joints(&player, (uint32_t)1 << argument % PAGE_JOINTS); undisturbed = false; break;
+    case 6: drop((uint32_t)1 << argument % PAGE_JOINTS); break;
     case 7: link_end(&links); break;
     default: break;
     }
@@ -175,6 +181,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (unsigned joint = 0; joint < PAGE_JOINTS; joint++) {
         pose[joint] = (uint16_t)(joint * 33u);
     }
+    dropped = 0;
     memset(pages, 0, sizeof pages);
     for (unsigned page = 1; page <= PAGES; page++) {
         make_page(pages[page], &fuzz);
