@@ -197,9 +197,9 @@ class Noise:
         self.heard += new
 
     def save_begins(self):
-        """page_save(store r25:24, page r22, bytes r21:20)."""
-        page_number = self.board.ram[22]
-        at = self.board.ram[20] | self.board.ram[21] << 8
+        """page_save(page r24, bytes r23:22)."""
+        page_number = self.board.ram[24]
+        at = self.board.ram[22] | self.board.ram[23] << 8
         data = bytearray(self.board.ram[at:at + 512])
         data[31] = 0
         data[31] = (0xFF - sum(data)) & 0xFF
