@@ -59,6 +59,7 @@ void link_stop(link_t *link)
 {
     stop(link);
     link->stop_is_final = true;
+    link->ending = false;
 }
 
 void link_end(link_t *link)

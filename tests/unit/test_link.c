@@ -217,6 +217,15 @@ static void test_link_end_follows_no_link_until_a_new_call(void)
     expect(NEXT, LINK_NEXT);
 }
 
+static void test_link_of_stop_and_end_the_last_one_counts(void)
+{
+    link_end(&l);
+    link_stop(&l);
+    expect(EXIT, LINK_EXIT);
+    link_end(&l);
+    expect(0, LINK_ENDED);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -242,5 +251,6 @@ int main(void)
     RUN_TEST(test_link_serial_stop_stays_until_a_new_call);
     RUN_TEST(test_link_second_stop_starts_with_fresh_exits);
     RUN_TEST(test_link_end_follows_no_link_until_a_new_call);
+    RUN_TEST(test_link_of_stop_and_end_the_last_one_counts);
     return UNITY_END();
 }
