@@ -101,7 +101,7 @@ static void line_byte(editor_t *editor, uint8_t byte)
     case SHELL_TYPING:
         return;
     case SHELL_TOO_LONG:
-        editor->screen.lead = true;
+        editor_message_begin(editor);   /* there is no room behind it */
         TEXT("Line too long");
         editor_leave_line(editor);
         return;
