@@ -127,6 +127,7 @@ def test_flow_control_stops_a_sender_in_time():
     data = pattern(6000, seed=7)
     at, heard, stopped_at, stops = 0, 0, None, 0
     while at < len(data):
+        assert board.now_ms < 10_000, "the sender waits for an XON that does not come"
         board.run(ms=1)
         output = board.console[heard:]
         heard += len(output)

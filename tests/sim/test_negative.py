@@ -45,6 +45,8 @@ EXPECTED = {
     "illegal": ("illegal", "do_it"),
     "break": ("illegal", "stop_here"),
     "address": ("address", "store"),
+    "interrupt_registers": ("interrupt-registers", "work"),
+    "interrupt_flags": ("interrupt-registers", "work"),
     "sleep": ("sleep", "doze"),
     "sleep_mode": ("unmodelled", "doze"),
     "xdiv": ("unmodelled", "set_clock"),

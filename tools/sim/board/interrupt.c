@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include <string.h>
 
 #include "board_private.h"
 
@@ -63,6 +64,30 @@ static void acknowledge(board_t *board, int vector)
     timer_flags_changed(board);
 }
 
+static registers_t registers_now(const avr_t *avr)
+{
+    registers_t now = { .rampz = avr->data[M128_RAMPZ] };
+    memcpy(now.r, avr->data, sizeof now.r);
+    for (int bit = 0; bit < S_I; bit++) {
+        now.flags |= (uint8_t)(avr->sreg[bit] << bit);
+    }
+    return now;
+}
+
+static void check_registers(board_t *board, int vector, const registers_t *found)
+{
+    registers_t now = registers_now(board->avr);
+    const uint8_t *a = (const uint8_t *)found, *b = (const uint8_t *)&now;
+    for (unsigned i = 0; i < sizeof now; i++) {
+        if (a[i] != b[i]) {
+            violation_note(board, VIOLATION_INTERRUPT,
+                           "interrupt %d came back with register %u (32: SREG, 33: RAMPZ) 0x%02X, found it 0x%02X", vector, i,
+                           b[i], a[i]);
+            return;
+        }
+    }
+}
+
 bool interrupt_take(board_t *board)
 {
     avr_t *avr = board->avr;
@@ -75,6 +100,7 @@ bool interrupt_take(board_t *board)
     if (cpu->depth < sizeof cpu->vector) {
         cpu->entered[cpu->depth] = avr->cycle;
         cpu->vector[cpu->depth] = (uint8_t)vector;
+        cpu->found[cpu->depth] = registers_now(avr);
     }
     cpu->depth++;
     avr->cycle += cpu->sleeping ? RESPONSE_CYCLES + WAKE_CYCLES : RESPONSE_CYCLES;
@@ -101,6 +127,7 @@ void interrupt_return(board_t *board)
     }
     uint64_t took = board->avr->cycle - cpu->entered[cpu->depth];
     int vector = cpu->vector[cpu->depth];
+    check_registers(board, vector, &cpu->found[cpu->depth]);
     if (took > cpu->longest[vector]) {
         cpu->longest[vector] = took;
     }

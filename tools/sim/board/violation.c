@@ -38,6 +38,7 @@ static const char *const names[VIOLATION_COUNT] = {
     [VIOLATION_ILLEGAL] = "illegal",
     [VIOLATION_ADDRESS] = "address",
     [VIOLATION_SLEEP] = "sleep",
+    [VIOLATION_INTERRUPT] = "interrupt-registers",
     [VIOLATION_UNMODELLED] = "unmodelled",
     [VIOLATION_TIMED_SEQUENCE] = "timed-sequence",
     [VIOLATION_UNEXPECTED_RESET] = "unexpected-reset",

@@ -44,6 +44,7 @@ typedef enum {
     VIOLATION_ILLEGAL,         /* an instruction that the ATmega128 does not have, or BREAK */
     VIOLATION_ADDRESS,         /* data access outside registers and SRAM, jump outside flash */
     VIOLATION_SLEEP,           /* sleep from which nothing wakes it */
+    VIOLATION_INTERRUPT,       /* an interrupt routine came back with other registers or flags than it found */
     VIOLATION_UNMODELLED,      /* something the real chip has and this board has not (external RAM, XDIV, ...) */
     /* reset.c */
     VIOLATION_TIMED_SEQUENCE,  /* WDTCR or IVSEL changed without the timed sequence: the chip ignores it */

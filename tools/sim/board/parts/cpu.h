@@ -18,6 +18,11 @@ enum {
     NOTE_STOP = 0x80     /* board_stop_at() */
 };
 
+/* What an interrupt must leave as it found it. */
+typedef struct {
+    uint8_t r[32], flags, rampz; /* flags: SREG without I */
+} registers_t;
+
 typedef struct {
     uint8_t note[M128_FLASH_BYTES / 2];
     uint64_t lines;        /* interrupt requests of our own modules, bit n = vector n */
@@ -30,6 +35,7 @@ typedef struct {
     uint8_t depth;         /* interrupts nested */
     uint64_t entered[16];
     uint8_t vector[16];
+    registers_t found[16]; /* when the interrupt was taken */
     uint64_t interrupt_cycles, count[VECTOR_COUNT], longest[VECTOR_COUNT];
 } cpu_t;
 
