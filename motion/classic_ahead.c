@@ -82,8 +82,11 @@ speed_left_t classic_left(const player_t *player)
     return player->ramp_ticks == 0 ? LEFT_SPEED : LEFT_IF_THROUGH;
 }
 
-static inline void prepare_joint(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, const divider_t *stop,
-                                 const divider_t *through)
+/* Which of its two speeds a joint will need. */
+typedef enum { NEEDS_STOP, NEEDS_THROUGH, NEEDS_EITHER } needs_t;
+
+static inline void prepare_joint(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, needs_t needs,
+                                 const divider_t *stop, const divider_t *through)
 {
     int16_t way = (int16_t)(joint->coming_pos - joint->target_pos);
     bool negative = way < 0;
@@ -94,9 +97,12 @@ static inline void prepare_joint(player_joint_t *joint, int16_t carried, uint16_
         negative = num < 0;
         size = (uint32_t)(negative ? -num : num);
     }
-    int16_t stop_speed = divide_speed(size, stop), through_speed = divide_speed(size, through);
-    joint->stop_speed = negative ? (int16_t)-stop_speed : stop_speed;
-    joint->through_speed = negative ? (int16_t)-through_speed : through_speed;
+    int16_t speed = divide_speed(size, needs == NEEDS_THROUGH ? through : stop);
+    joint->stop_speed = joint->through_speed = negative ? (int16_t)-speed : speed;
+    if (needs == NEEDS_EITHER) {
+        speed = divide_speed(size, through);
+        joint->through_speed = negative ? (int16_t)-speed : speed;
+    }
 }
 
 static inline void take_targets(player_t *player, const uint8_t *word)
@@ -149,10 +155,23 @@ void classic_prepare(player_t *player, uint8_t count)
     if (count > left) {
         count = left;
     }
-    player_joint_t *joint = &player->joint[player->prepared - 1];
+    uint8_t first = (uint8_t)(player->prepared - 1);
+    player_joint_t *joint = &player->joint[first];
     player->prepared = (uint8_t)(player->prepared + count);
-    for (; count != 0; count--, joint++) {
-        prepare_joint(joint, classic_speed_left(carry, joint), twice_ramp, &stop, &through);
+    uint8_t words[PAGE_STEP_BYTES], *at = words;
+    bool known = player->coming.step < player->coming.steps;
+    if (known) { /* not the last step of its page: where it goes on to is settled */
+        player->source->read(player->source->context, player->coming.page,
+                             (uint16_t)(PAGE_STEP_BYTES * (player->coming.step + 1u) + 2u * first), words,
+                             (uint8_t)(2u * count));
+    }
+    bool may_run_on = known && step_plan_classic_hold(&player->coming) == 0;
+    for (; count != 0; count--, joint++, at += 2) {
+        needs_t needs = known ? NEEDS_STOP : NEEDS_EITHER;
+        if (may_run_on && classic_runs_on(joint, page_word(at))) {
+            needs = NEEDS_THROUGH;
+        }
+        prepare_joint(joint, classic_speed_left(carry, joint), twice_ramp, needs, &stop, &through);
     }
 }
 
@@ -164,23 +183,33 @@ void classic_prepare_all(player_t *player)
 }
 
 /* How many joints to make ready in a tick, so that the coming step is ready in time; about a fifth as many where a section
- * changes, none (but in a very short step) where the step begins. */
+ * changes, none (but in a very short step) where the step begins. The short steps have a share for each kind of tick. */
 #define SHORT_TICKS 8u
+#define SHORT_QUOTA 24u
+#define VERY_SHORT_QUOTA 16u
 uint8_t classic_joints_a_tick(uint16_t ticks)
 {
     if (ticks < 4) {
-        return 16;
+        return VERY_SHORT_QUOTA;
     }
-    return ticks < SHORT_TICKS ? 24 : ticks < 16 ? 9 : ticks < 44 ? 4 : 1;
+    return ticks < SHORT_TICKS ? SHORT_QUOTA : ticks < 16 ? 9 : ticks < 44 ? 4 : 1;
 }
 
 uint8_t classic_joints_now(const player_t *player, bool change, bool begins)
 {
-    if (!change || player->quota == 16) {
-        return player->quota;
+    uint8_t quota = player->quota;
+    bool cruises = player->section == SECTION_CRUISE;
+    if (change && player->prepared == 0) {
+        return quota > 9 ? 1 : 0; /* not a joint, but a look at the step */
     }
-    if (player->prepared == 0) {
-        return player->quota > 9 ? 1 : 0; /* not a joint, but a look at the step */
+    if (quota == VERY_SHORT_QUOTA) {
+        return quota;
     }
-    return begins ? 0 : (uint8_t)((player->quota + 1u) / 5u);
+    if (begins) {
+        return 0;
+    }
+    if (quota == SHORT_QUOTA) {
+        return change ? (cruises ? 7 : 9) : cruises ? 19 : 14;
+    }
+    return change ? (uint8_t)((quota + 1u) / 5u) : quota;
 }

@@ -66,15 +66,22 @@ static inline void spread_line(player_joint_t *joint, int16_t x, uint16_t num, u
     joint->classic.value = 0;
 }
 
-/* The same, for sections that often have a single tick. */
+/* The same, for sections that often have one or two ticks. */
 static inline void spread(player_joint_t *joint, int16_t x, uint16_t num, uint16_t recip16)
 {
-    if (num != 1) {
+    if (num > 2) {
         spread_line(joint, x, num, recip16);
         return;
     }
+    uint16_t odd = 0, error = 0;
+    if (num == 2) {
+        odd = (uint16_t)x & 1u;
+        error = x < 0 ? 1u : 0u;
+        x >>= 1;
+    }
     joint->classic.quotient = x;
-    joint->classic.remainder = joint->classic.error = 0;
+    joint->classic.remainder = odd;
+    joint->classic.error = error;
     joint->classic.value = 0;
 }
 
@@ -102,6 +109,13 @@ static inline int16_t share_of(int16_t way, uint16_t part, uint16_t whole, uint1
         quotient++;
     }
     return way < 0 ? (int16_t)-(int16_t)quotient : (int16_t)quotient;
+}
+
+/* Whether a joint goes on in the coming step's direction in the step behind it, whose word for it this is. */
+static inline bool classic_runs_on(const player_joint_t *joint, uint16_t word)
+{
+    return page_pos_is_used(word) && ((joint->target_pos < joint->coming_pos && joint->coming_pos < word) ||
+                                      (joint->target_pos > joint->coming_pos && joint->coming_pos > word));
 }
 
 /* The speed that a joint still has when the step playing now is over, w of the coming one, and how to know it. */

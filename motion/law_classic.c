@@ -32,12 +32,6 @@ static void enter(player_t *player, uint8_t section, uint16_t ticks)
     player->tick = 0;
 }
 
-static inline bool runs_on(const player_joint_t *joint, uint16_t next_pos)
-{
-    return (joint->target_pos < joint->coming_pos && joint->coming_pos < next_pos) ||
-           (joint->target_pos > joint->coming_pos && joint->coming_pos > next_pos);
-}
-
 /* Behind the last tick of a step: the link of a page's last step is decided, and with it which joints run through.
  * Between two steps (primed) a joint has in carried and through what belongs to the step to begin, which leads from
  * target_pos to coming_pos. */
@@ -54,7 +48,7 @@ RARE static void prime(player_t *player, link_t *link)
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, at += 2) {
         uint16_t word = page_word(at);
         joint->classic.carried = classic_speed_left(left, joint);
-        joint->classic.through = may_run_on && page_pos_is_used(word) && runs_on(joint, word);
+        joint->classic.through = may_run_on && classic_runs_on(joint, word);
     }
 }
 
@@ -108,15 +102,42 @@ RARE static void begin_cruise(player_t *player)
         joint->classic.acc = (int16_t)(way - cruise_way);
         joint->classic.base = (int16_t)*goal++;
         if (cruise != 0) {
-            spread_line(joint, cruise_way, cruise, recip16);
+            spread(joint, cruise_way, cruise, recip16);
         }
     }
     enter(player, SECTION_CRUISE, cruise);
 }
 
+/* A FALL of one tick, made at once: what begin_fall and make_fall would do. */
+static void fall_at_once(player_t *player)
+{
+    ramp_share_t share = ramp_share(1);
+    uint16_t *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        int16_t way = joint->classic.acc;
+        if (joint->classic.through) {
+            joint->classic.quotient = way;
+            joint->classic.remainder = 0;
+        } else {
+            int16_t speed = joint->classic.speed;
+            joint->classic.carried = speed;
+            joint->classic.value = (int16_t)-speed;
+            way = ramp_way((int16_t)(speed + ((int16_t)-speed >> 1)), share);
+        }
+        *goal = (uint16_t)limit_pos((int16_t)((int16_t)*goal + way));
+        goal++;
+    }
+    player->tick = 1;
+}
+
 RARE static void begin_fall(player_t *player)
 {
     uint8_t ramp = player->ramp_ticks;
+    enter(player, SECTION_FALL, ramp);
+    if (ramp == 1) {
+        fall_at_once(player);
+        return;
+    }
     uint16_t recip16 = ramp == 0 ? 0 : fix_recip16(ramp);
     const uint16_t *goal = player->goal_pos;
     player_joint_t *joint = player->joint;
@@ -131,7 +152,6 @@ RARE static void begin_fall(player_t *player)
         }
         spread(joint, rest, ramp, recip16);
     }
-    enter(player, SECTION_FALL, ramp);
 }
 
 /* Way since the section began, of a joint whose speed changes. */
@@ -231,7 +251,7 @@ static uint8_t next_section(player_t *player, link_t *link)
         return 0;
     case SECTION_CRUISE:
         begin_fall(player);
-        return 0;
+        return player->tick != 0 ? PLAYER_EV_OUTPUT : 0;
     case SECTION_FALL:
         if (player->hold_ticks != 0) {
             enter(player, SECTION_HOLD, player->hold_ticks);
@@ -295,8 +315,12 @@ uint8_t classic_tick(player_t *player, link_t *link)
             events |= PLAYER_EV_OUTPUT;
         }
     }
+    if (change && player->step_ticks > 3) {
+        events |= PLAYER_EV_BUSY;
+    }
     if (is_over(player) && player->coming.page != 0) {
         prime(player, link);
+        events |= player->step_ticks > 3 ? PLAYER_EV_BUSY : 0;
     } else {
         work_ahead(player, classic_joints_now(player, change, (events & PLAYER_EV_STEP) != 0));
     }

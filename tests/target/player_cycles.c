@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * player_cycles.c - what a tick of the player costs on the ATmega128 with 31 joints all moving, by its own timer: for
  * each law and kind of page the longest tick with and without a step's beginning. Prints a table on UART1 and fails when
- * a budget is broken: any tick 11,000 (classic: only steps of 8 ticks and more: what is shorter is played, but
+ * a budget is broken: any tick 11,000 (classic: only steps of 4 ticks and more: what is shorter is played, but
  * the next step is made ready in a hurry); in a section 170 a joint classic, 65 exact, and 220 a tick whatever the joints. */
 #include <avr/io.h>
 #include <stdio.h>
@@ -41,9 +41,9 @@ typedef struct {
 static const kind_t kinds[] PROGMEM = {
     KIND("64 ticks", 0x0A, 16, 64),   KIND("20 ticks", 0x0A, 32, 20), KIND("8 ticks", 0x0A, 32, 8),
     KIND("speed base", 0x00, 32, 20), KIND("no ramp", 0x0A, 0, 20),   KIND("5 ticks", 0x0A, 32, 5),
-    KIND("3 ticks", 0x0A, 32, 3),     KIND("2 ticks", 0x0A, 32, 2),   KIND("1 tick", 0x0A, 32, 1),
+    KIND("4 ticks", 0x0A, 32, 4),     KIND("3 ticks", 0x0A, 32, 3),     KIND("2 ticks", 0x0A, 32, 2),   KIND("1 tick", 0x0A, 32, 1),
 };
-#define CLASSIC_KINDS 5
+#define CLASSIC_KINDS 7
 
 static uint8_t kind;
 static player_t player;
