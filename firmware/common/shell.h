@@ -49,6 +49,7 @@ typedef struct {
     const char *words; /* word 0, NUL, word 1, NUL, ... */
     uint8_t count;     /* word 0 is the command */
     bool hex;          /* numbers without prefix are hexadecimal */
+    uint16_t number[2]; /* for an image that checks the first two words behind the command in advance */
 } shell_args_t;
 
 /* Puts the complete line into the history, then cuts it up in place. The words live until shell_clear.

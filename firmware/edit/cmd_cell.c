@@ -147,8 +147,7 @@ COMMAND(cmd_goto)
 {
     editor_t *editor = context;
     session_t *session = &editor->session;
-    uint8_t x = (uint8_t)editor->number[0], y = (uint8_t)editor->number[1];
-    (void)args;
+    uint8_t x = (uint8_t)args->number[0], y = (uint8_t)args->number[1];
     if (cell_kind(session->page, x, y) == CELL_NONE) {
         TEXT("There is no cell");
         return SHELL_ERR_SAID;
@@ -209,7 +208,6 @@ COMMAND(cmd_re)
 COMMAND(cmd_rows)
 {
     editor_t *editor = context;
-    (void)args;
-    screen_set_rows(&editor->screen, (uint8_t)editor->number[0]);
+    screen_set_rows(&editor->screen, (uint8_t)args->number[0]);
     return SHELL_OK;
 }

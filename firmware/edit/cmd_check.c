@@ -150,7 +150,7 @@ COMMAND(cmd_check)
     if (!editor_may_move(editor)) {
         return SHELL_ERR_SAID;
     }
-    editor->list_first = args->count > 1 ? (uint8_t)editor->number[0] : 1;
-    editor->list_last = args->count > 1 ? (uint8_t)editor->number[0] : (uint8_t)(PAGE_COUNT - 1u);
+    editor->list_first = args->count > 1 ? (uint8_t)args->number[0] : 1;
+    editor->list_last = args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)(PAGE_COUNT - 1u);
     return editor_list(editor, check_item, TEXT_P("Checked:"));
 }

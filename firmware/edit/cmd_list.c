@@ -86,9 +86,9 @@ static bool list_page_item(editor_t *editor, uint8_t item)
 COMMAND(cmd_list)
 {
     editor_t *editor = context;
-    editor->list_first = args->count > 1 ? (uint8_t)editor->number[0] : 0;
-    editor->list_last = args->count > 2    ? (uint8_t)editor->number[1]
-                        : args->count == 2 ? (uint8_t)editor->number[0]
+    editor->list_first = args->count > 1 ? (uint8_t)args->number[0] : 0;
+    editor->list_last = args->count > 2    ? (uint8_t)args->number[1]
+                        : args->count == 2 ? (uint8_t)args->number[0]
                                            : (uint8_t)(PAGE_COUNT - 1u);
     return editor_list(editor, list_page_item, list_title);
 }

@@ -24,8 +24,7 @@ static uint8_t open_asking(editor_t *editor, uint8_t page)
 COMMAND(cmd_page)
 {
     editor_t *editor = context;
-    (void)args;
-    return open_asking(editor, (uint8_t)editor->number[0]);
+    return open_asking(editor, (uint8_t)args->number[0]);
 }
 
 static uint8_t open_beside(editor_t *editor, bool is_there, int8_t way)
@@ -54,12 +53,11 @@ COMMAND(cmd_before)
 COMMAND(cmd_copy)
 {
     editor_t *editor = context;
-    (void)args;
     if (!editor_ask_unsaved(editor)) {
         return EDITOR_TO_ASK;
     }
     session_begin(&editor->session);
-    session_load(&editor->session, (uint8_t)editor->number[0]);
+    session_load(&editor->session, (uint8_t)args->number[0]);
     return editor_edited(editor);
 }
 
@@ -158,7 +156,7 @@ static uint8_t save_now(editor_t *editor, uint8_t page)
 COMMAND(cmd_save)
 {
     editor_t *editor = context;
-    uint8_t page = args->count > 1 ? (uint8_t)editor->number[0] : editor->session.page;
+    uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : editor->session.page;
     if (!page_is_sound(editor)) {
         return SHELL_ERR_SAID;
     }

@@ -12,7 +12,7 @@
 COMMAND(cmd_play)
 {
     editor_t *editor = context;
-    uint8_t page = args->count > 1 ? (uint8_t)editor->number[0] : editor->session.page;
+    uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : editor->session.page;
     performer_status_t status = performer_start(editor->performer, page, 0);
     if (status != PERFORMER_OK) {
         report_refusal(status, page, editor->performer->fault);

@@ -20,8 +20,7 @@ COMMAND(cmd_go)
 {
     editor_t *editor = context;
     session_t *session = &editor->session;
-    uint8_t step = (uint8_t)editor->number[0];
-    (void)args;
+    uint8_t step = (uint8_t)args->number[0];
     if (!editor_may_move(editor)) {
         return SHELL_ERR_SAID;
     }
@@ -64,8 +63,7 @@ COMMAND(cmd_mirror)
 {
     editor_t *editor = context;
     session_t *session = &editor->session;
-    uint8_t step = (uint8_t)editor->number[0];
-    (void)args;
+    uint8_t step = (uint8_t)args->number[0];
     if (!editor_may_move(editor)) {
         return SHELL_ERR_SAID;
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * cmd_shape.c - what the original lacked: a step between two steps, the time of a page, steps from page to page. */
 #include "commands.h"
+#include "compiler.h"
 #include "pgm.h"
 #include "text.h"
 
@@ -12,12 +13,17 @@ static uint16_t step_at(uint8_t step)
     return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step);
 }
 
+/* value * mul / div, rounded to the nearer, halves up. */
+static NOINLINE uint16_t part_of(uint16_t value, uint16_t mul, uint16_t div)
+{
+    return (uint16_t)(((uint32_t)value * mul + div / 2u) / div);
+}
+
 /* a + (b - a) * percent / 100, rounded to the nearer, halves away from a. */
 static uint16_t between(uint16_t a, uint16_t b, uint8_t percent)
 {
-    uint16_t way = b > a ? (uint16_t)(b - a) : (uint16_t)(a - b);
-    uint16_t part = (uint16_t)(((uint32_t)way * percent + PERCENT_WHOLE / 2) / PERCENT_WHOLE);
-    return b > a ? (uint16_t)(a + part) : (uint16_t)(a - part);
+    return b > a ? (uint16_t)(a + part_of(b - a, percent, PERCENT_WHOLE))
+                 : (uint16_t)(a - part_of(a - b, percent, PERCENT_WHOLE));
 }
 
 static void set_between(session_t *session, uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
@@ -34,9 +40,10 @@ static void set_between(session_t *session, uint8_t a, uint8_t b, uint8_t to, ui
 /* value * mul / div, rounded, 1..255; notes when it does not fit. */
 static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
 {
-    uint32_t result = ((uint32_t)value * mul + div / 2u) / div;
-    *cut = *cut || result > UINT8_MAX || (result == 0 && value != 0);
-    return result > UINT8_MAX ? (uint8_t)UINT8_MAX : result == 0 && value != 0 ? 1 : (uint8_t)result;
+    uint16_t result = part_of(value, mul, div);
+    uint16_t kept = result > UINT8_MAX ? (uint16_t)UINT8_MAX : result == 0 && value != 0 ? 1u : result;
+    *cut = *cut || kept != result;
+    return (uint8_t)kept;
 }
 
 /* The inserted step takes its part of the time of the step behind it, so that the page takes as long as before; elsewhere, and
@@ -58,7 +65,7 @@ COMMAND(cmd_int)
 {
     editor_t *editor = context;
     session_t *session = &editor->session;
-    uint8_t a = (uint8_t)editor->number[0], b = (uint8_t)editor->number[1], steps = session->cells[PAGE_AT_STEPS];
+    uint8_t a = (uint8_t)args->number[0], b = (uint8_t)args->number[1], steps = session->cells[PAGE_AT_STEPS];
     uint16_t percent = PERCENT_DEFAULT;
     if (args->count > 3 && !shell_number(args, 3, TEXT_P("Percent"), 0, PERCENT_WHOLE, &percent)) {
         return SHELL_ERR_SAID;
@@ -81,9 +88,8 @@ COMMAND(cmd_scale)
 {
     editor_t *editor = context;
     session_t *session = &editor->session;
-    uint16_t percent = editor->number[0];
+    uint16_t percent = args->number[0];
     bool cut = false;
-    (void)args;
     bool is_time = session->cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME;
     session_begin(session);
     for (uint8_t step = 0; step < session_steps(session); step++) {
@@ -104,8 +110,8 @@ COMMAND(cmd_scale)
 COMMAND(cmd_take)
 {
     editor_t *editor = context;
-    uint8_t first = (uint8_t)editor->number[0];
-    uint8_t last = args->count > 2 ? (uint8_t)editor->number[1] : first;
+    uint8_t first = (uint8_t)args->number[0];
+    uint8_t last = args->count > 2 ? (uint8_t)args->number[1] : first;
     if (last < first) {
         TEXT("The first step comes first");
         return SHELL_ERR_SAID;
@@ -144,7 +150,7 @@ COMMAND(cmd_paste)
         return SHELL_ERR_SAID;
     }
     if (args->count > 1) {
-        to = (uint8_t)editor->number[0];
+        to = (uint8_t)args->number[0];
     }
     uint8_t count = (uint8_t)(editor->take_last - editor->take_first + 1u);
     if (to + count > PAGE_STEPS) {

@@ -57,9 +57,8 @@ static void tell_off(editor_t *editor)
 COMMAND(cmd_step)
 {
     editor_t *editor = context;
-    (void)args;
     session_begin(&editor->session);
-    set_count(&editor->session, (uint8_t)editor->number[0]);
+    set_count(&editor->session, (uint8_t)args->number[0]);
     return editor_edited(editor);
 }
 
@@ -69,7 +68,7 @@ COMMAND(cmd_write)
     session_t *session = &editor->session;
     uint8_t step = session->cells[PAGE_AT_STEPS];
     if (args->count > 1) {
-        step = (uint8_t)editor->number[0];
+        step = (uint8_t)args->number[0];
     } else if (step >= PAGE_STEPS) {
         TEXT("All 7 steps are used");
         return SHELL_ERR_SAID;
@@ -88,8 +87,7 @@ COMMAND(cmd_insert)
 {
     editor_t *editor = context;
     session_t *session = &editor->session;
-    (void)args;
-    uint8_t step = (uint8_t)editor->number[0];
+    uint8_t step = (uint8_t)args->number[0];
     uint8_t steps = session->cells[PAGE_AT_STEPS];
     session_begin_turn(session, UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
     if (step < steps && steps < PAGE_STEPS) {
@@ -123,7 +121,7 @@ COMMAND(cmd_delete)
     editor_t *editor = context;
     session_t *session = &editor->session;
     if (args->count > 1) {
-        return delete_step(editor, (uint8_t)editor->number[0]);
+        return delete_step(editor, (uint8_t)args->number[0]);
     }
     uint8_t steps = session->cells[PAGE_AT_STEPS];
     if (steps == 0) {
@@ -146,8 +144,7 @@ static void print_pair(uint8_t from, uint8_t to)
 COMMAND(cmd_move)
 {
     editor_t *editor = context;
-    uint8_t from = (uint8_t)editor->number[0], to = (uint8_t)editor->number[1];
-    (void)args;
+    uint8_t from = (uint8_t)args->number[0], to = (uint8_t)args->number[1];
     editor->screen.lead = false;
     print_pair(from, to);
     session_begin(&editor->session);
@@ -167,7 +164,6 @@ COMMAND(cmd_move)
 COMMAND(cmd_swap)
 {
     editor_t *editor = context;
-    (void)args;
-    session_begin_turn(&editor->session, UNDO_TURN(UNDO_TURN_SWAP, editor->number[0], editor->number[1]));
+    session_begin_turn(&editor->session, UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
     return editor_edited(editor);
 }

@@ -115,11 +115,11 @@ bool commands_numbers(editor_t *editor)
 {
     const shell_command_t *command_P = shell_find(commands_table_P, commands_count, &editor->args, 0);
     uint8_t kinds = command_P == NULL ? (uint8_t)OWN : pgm_read_byte(&command_P->extra);
-    for (uint8_t i = 0; i < ARRAY_COUNT(editor->number) && i + 1 < editor->args.count; i++, kinds >>= 4) {
+    for (uint8_t i = 0; i < ARRAY_COUNT(editor->args.number) && i + 1 < editor->args.count; i++, kinds >>= 4) {
         uint8_t kind = kinds & 15u;
         if (kind != OWN &&
             !shell_number(&editor->args, (uint8_t)(i + 1u), pgm_read_ptr(&kinds_P[kind].name), pgm_read_word(&kinds_P[kind].min),
-                          pgm_read_word(&kinds_P[kind].max), &editor->number[i])) {
+                          pgm_read_word(&kinds_P[kind].max), &editor->args.number[i])) {
             return false;
         }
     }

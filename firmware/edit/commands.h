@@ -10,7 +10,7 @@
 extern const shell_command_t commands_table_P[];
 extern const uint8_t commands_count;
 
-/* Checks the numbers behind command word 0 against what the table says of it, and leaves them in editor->number. What is
+/* Checks the numbers behind command word 0 against what the table says of it, and leaves them in args->number. What is
  * wrong has been said when it returns false. An unknown word is fine here. */
 bool commands_numbers(editor_t *editor);
 

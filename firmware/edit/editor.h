@@ -58,7 +58,6 @@ typedef struct editor {
     bool after_cr;                 /* the last byte was CR: a LF now belongs to it */
     uint16_t quiet_since;          /* tick of the last byte */
     shell_args_t args;             /* of the line being run */
-    uint16_t number[2];            /* its first two words behind the command, checked by the table's ranges */
     editor_item_t item;            /* of the list being shown */
     const char *notice_P;          /* told once, when the first screen stands; or NULL */
     /* Of main.c. */

@@ -23,7 +23,7 @@ uint8_t frame_marker_column(uint8_t steps)
 bool frame_is_marker_column(uint8_t column)
 {
     return column >= FIRST_MARKER_COLUMN && column <= FIRST_MARKER_COLUMN + STEP_WIDTH * PAGE_STEPS &&
-           (column - FIRST_MARKER_COLUMN) % STEP_WIDTH == 0;
+           (uint8_t)(column - FIRST_MARKER_COLUMN) % (uint8_t)STEP_WIDTH == 0;
 }
 
 uint8_t frame_cell_column(uint8_t x, uint8_t y)

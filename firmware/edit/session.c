@@ -2,6 +2,7 @@
 #include "session.h"
 
 #include <string.h>
+#include "compiler.h"
 #include "page_store.h"
 
 /* The new page of editor-original.md section 1. */
@@ -223,9 +224,9 @@ bool session_end(session_t *session)
 
 static void swap_steps(session_t *session, uint8_t a, uint8_t b)
 {
-    for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++) {
-        uint16_t at_a = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * a + i);
-        uint16_t at_b = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * b + i);
+    uint16_t at_a = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * a);
+    uint16_t at_b = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * b);
+    for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++, at_a++, at_b++) {
         uint8_t bits = session->cells[at_a] ^ session->cells[at_b];
         if (bits != 0) {
             change_byte(session, at_a, bits);
@@ -271,7 +272,7 @@ void session_begin_turn(session_t *session, uint8_t turn)
     begin(session, turn);
 }
 
-static bool travel(session_t *session, bool back)
+static NOINLINE bool travel(session_t *session, bool back)
 {
     undo_target_t target = { session, flip_byte, turn_steps };
     bool done = back ? undo_back(&session->undo, &target) : undo_forth(&session->undo, &target);
