@@ -38,6 +38,14 @@ def seal(data):
     return bytes(data)
 
 
+def changed(made, changes):
+    """The page's bytes with {address: value} applied, sealed."""
+    data = bytearray(made.data)
+    for address, value in changes.items():
+        data[address] = value
+    return seal(data)
+
+
 def word(data, step, joint):
     at = 64 + 64 * step + 2 * joint
     return data[at] | data[at + 1] << 8
@@ -72,6 +80,7 @@ class Robot:
         self.board.eeprom[0:len(eeprom)] = eeprom
         self.board.eeprom[0xFFF] = 0x11   # the loader starts the application
         self.terminal = Terminal(rows)
+        self.page_at = None
         self.settle(ms=1500)
 
     def __enter__(self):
@@ -167,9 +176,19 @@ class Robot:
         at = MOTION_START + 512 * number
         return bytes(self.board.flash[at:at + 512])
 
-    def ram(self):
-        """The 512 bytes being edited, and the work pose behind them: read from the chip's memory."""
-        return self.board.ram_bytes()
+    def page_address(self):
+        """Where the page being edited lies in RAM: found by its bytes, right after a page was opened."""
+        if self.page_at is None:
+            number = int(self.text(2, 76, 4))
+            assert not self.unsaved
+            self.page_at = bytes(self.board.ram[0x100:0x1100]).find(self.flash_page(number)[:31]) + 0x100
+            assert self.page_at >= 0x100
+        return self.page_at
+
+    def ram_page(self):
+        """The page being edited, sealed as SAVE would."""
+        at = self.page_address()
+        return seal(self.board.ram[at:at + 512])
 
 
 def robot(**options):

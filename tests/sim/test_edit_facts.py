@@ -1,0 +1,431 @@
+# SPDX-License-Identifier: MIT
+"""Facts of editor-original.md that the other test_edit_*.py do not touch, one short session each: keys, lines, steps, servos, the
+monitor, lists. Which test holds which fact: README.md."""
+import pytest
+
+from edit_robot import changed, new_page, page, robot, seal, UNUSED
+
+BASE = page("base", [(40, {1: 480, 2: 544}, 3), (50, {3: 300}), (60, {4: 10})], code=7, next=3, exit=5, link1_page=11, link1_code=12,
+            link2_page=13, link2_code=14)
+NEUTRAL = page("neutral", [(40, {1: 300, 2: 700, 3: 20, 4: 1000})])
+PAGES = {1: BASE, 2: page("other", [(11, {1: 900}), (22, {2: 100})]), 8: NEUTRAL}
+
+
+@pytest.fixture(scope="module")
+def shared():
+    with robot(pages=PAGES) as r:
+        yield r
+
+
+@pytest.fixture
+def r(shared):
+    """Page 1 as it is in flash, X1 Y0, decimal, all servos let go."""
+    shared.keys("\x03")
+    shared.line("dec")
+    shared.line("page 1")
+    if "[y/N]" in shared.command:
+        shared.keys("y")
+    shared.page_address()
+    shared.line("goto 1 0")
+    shared.line("off")
+    for servo in range(1, 19):
+        shared.board.servos[servo].push_to(512)
+    shared.board.clear_trace()
+    return shared
+
+
+def sent(r):
+    """Packets on the bus, without the reading of states that goes on all the time (READ of 20 bytes at 24)."""
+    return [packet for _, packet in r.board.packets if packet[4:7] != bytes([2, 24, 20])]
+
+
+def goals(r):
+    return {joint: r.board.servos[joint].goal for joint in range(1, 19)}
+
+
+# ---- section 4: keys and lines ----
+
+@pytest.mark.parametrize("key", ["!", "\"", "/", "|", "~", "\x7f", "\t", "\b", "\r", "\n", "\x05", "\xe4"])
+def test_other_keys_start_an_empty_line(r, key):
+    r.keys(key.encode("latin-1"))
+    assert r.command in ("]", "] _", "]  ") or key in "\r\n\xe4"
+    r.keys("page 2\r")
+    assert r.text(2, 76, 4) == "0002"
+
+
+@pytest.mark.parametrize("key", ["0", "9", ":", "A", "Z", "\\", "^", "_", "`", "a", "z"])
+def test_word_characters_start_a_line_with_themselves(r, key):
+    r.keys(key)
+    assert r.command.startswith(f"] {key}".rstrip())
+    r.keys("\x03")
+
+
+def test_deleting_at_the_start_of_a_line_does_nothing(r):
+    r.keys("p\b\b\x7f\x7fage 2\b3\r")
+    assert r.message == "age 3 Bad Command" and r.text(2, 76, 4) == "0001"
+
+
+def test_earlier_lines_come_back_with_arrow_and_ctrl_a(r):
+    for line in ("step 2", "step 3", "step 4"):
+        r.line(line)
+    r.keys("x\x1b[A")
+    assert r.command == "] step 4"
+    r.keys("\x1b[A")
+    assert r.command == "] step 3"
+    r.keys("\x01")
+    assert r.command == "] step 2"
+    r.keys("\x1b[B\r")
+    assert r.message == "step 3" and r.cell(9, 9) == "003"
+
+
+def test_nul_and_escape_sequences_do_not_reach_a_line(r):
+    r.keys("pa\0ge\x1b[5~ \x1b[C\x1bOP2\r")
+    assert r.text(2, 76, 4) == "0002"
+
+
+def test_longest_line(r):
+    r.keys("page 2" + " " * 105)   # 111 characters
+    r.keys("\r")
+    assert r.text(2, 76, 4) == "0002"
+    r.keys("page 1" + " " * 106 + "\r")
+    assert r.command == "] Line too long" and r.text(2, 76, 4) == "0002"
+
+
+def test_ctrl_c_leaves_line_question_and_name(r):
+    r.keys("page 2\x03")
+    assert r.cursor == (1, 26)
+    r.keys("new\r")
+    r.keys("\x03")
+    r.keys("name\r")
+    r.keys("abc\x03")
+    assert r.ram_page() == bytes(BASE.data)
+
+
+def test_a_recalled_command_in_the_name(r):
+    r.line("step 3")
+    r.keys("name\r\x01\r")
+    assert r.ram_page()[:14] == b"name".ljust(14, b"\0")   # the line before this one
+
+
+def test_name_on_the_line_and_same_name_is_no_edit(r):
+    r.line("name walk")
+    assert r.ram_page() == changed(BASE, dict(enumerate(b"walk".ljust(14, b"\0")))) and r.unsaved
+    r.line("name base")
+    assert r.ram_page() == bytes(BASE.data) and not r.unsaved
+
+
+# ---- sections 4 and 5: cells and numbers ----
+
+def test_work_pose_of_absent_joints_and_its_pause_and_speed(r):
+    r.line("goto 0 25")
+    assert r.cell(0, 25) == "????"
+    r.line("set 300")
+    assert r.cell(0, 25) == "0300"
+    r.keys("]")
+    assert r.cell(0, 25) == "0300"
+    r.keys(" ")
+    assert r.cell(0, 25) == "????"
+    r.line("goto 0 31")
+    r.line("set 9")
+    r.line("goto 0 32")
+    assert r.xya == ("00", "32", "0575")
+    r.line("set 70")
+    assert r.cell(0, 31) == "009" and r.cell(0, 32) == "070" and not r.unsaved
+    assert sent(r) == []   # nothing was written to a servo
+    r.line("write 5")
+    assert r.ram_page()[64 * 6 + 62:64 * 6 + 64] == bytes([9, 70])
+
+
+def test_time_mode_is_byte_16_and_its_own_cell(r):
+    r.line("goto 9 5")
+    r.line("set 0")
+    assert r.terminal.row(33).startswith("   Speed ") and r.unsaved
+    r.keys("}")
+    assert "Time( x 7.8mSec)" in r.terminal.row(33) and not r.unsaved
+
+
+def test_hex_keys_and_page_number(r):
+    r.line("hex")
+    r.line("goto 1 1")
+    r.keys("}")
+    assert r.cell(1, 1) == "01EA"
+    r.line("page 2", "y")
+    assert r.text(2, 76, 4) == "0002"
+    r.line("page 1A")
+    assert r.text(2, 76, 4) == "001A"
+    r.line("page 9g")
+    assert "Page must be" in r.command
+
+
+@pytest.mark.parametrize("line", ["next 5 x", "new 1", "time 9", "re all", "hex 3", "mon 1", "before 7"])
+def test_ignored_arguments_as_in_the_original(r, line):
+    r.line(line)
+    assert "Invalid Parameter" not in r.show()
+    if line == "new 1":
+        assert "[y/N]" in r.command
+    if line == "mon 1":
+        r.line("exit", ms=1200)
+
+
+def test_run_and_monitor_words_are_no_commands(r):
+    for word in ("run", "rd", "read 1", "ping", "toss"):
+        assert r.line(word) == f"{word} Bad Command"
+
+
+# ---- section 6: steps ----
+
+def test_copy_of_the_own_number_takes_the_edits_back(r):
+    r.line("set 77")
+    r.line("copy 1", "y")
+    assert r.ram_page() == bytes(BASE.data) and not r.unsaved
+
+
+def test_copy_of_an_erased_page_gives_a_new_one(r):
+    r.board.flash[0xE000 + 512 * 40:0xE000 + 512 * 41] = b"\xff" * 512
+    r.line("copy 40")
+    assert r.ram_page() == seal(new_page())
+
+
+def test_insert_behind_the_last_step_does_not_count(r):
+    r.line("on")
+    r.line("insert 5")
+    data = r.ram_page()
+    assert data[20] == 3 and data[64:64 + 64 * 5] == bytes(BASE.data[64:64 + 64 * 5])
+    assert data[64 * 6:64 * 6 + 62] != bytes(BASE.data[64 * 6:64 * 6 + 62])
+
+
+def test_move_takes_the_work_pose_too(r):
+    r.line("goto 0 25")
+    r.line("set 300")
+    r.line("move 7 3")
+    data = r.ram_page()
+    assert data[20] == 3 and data[64 * 4 + 50] | data[64 * 4 + 51] << 8 == 300
+
+
+def test_write_with_joints_let_go_says_so_and_keeps_the_position(r):
+    assert r.line("write 4").endswith("Off: 1-18")
+    assert r.cell(5, 3) == "????"
+    at = 64 * 5 + 6
+    assert r.ram_page()[at:at + 2] == (0x2000 | 512).to_bytes(2, "little")
+
+
+# ---- sections 7 and 8: servos ----
+
+def test_mirror_about_the_first_step_of_page_1_in_flash():
+    with robot(pages={1: NEUTRAL, 5: page("pose", [(40, {1: 350, 2: 712, 3: 900, 4: 990}, 9)])}) as r:
+        r.line("pairs page1")
+        r.line("goto 1 1")
+        r.line("set 1000")   # page 1 in RAM: not the one that counts
+        r.line("page 5", "y")
+        r.line("on")
+        r.line("mirror 0")
+        shown = goals(r)
+        assert shown[1] == 300 - (712 - 700) and shown[2] == 700 - (350 - 300)
+        assert shown[3] == 30 and shown[4] == 120   # 20 + 1000 - 990, 1000 + 20 - 900
+        assert r.cell(0, 31) == "009" and r.text(34, 72, 3).strip() == ""   # the pause too; Go Step is GO's
+        r.line("pairs 512")
+        r.line("mirror 0")
+        shown = goals(r)
+        assert shown[1] == 1024 - 712 and shown[3] == 1024 - 990 and shown[4] == 124
+        r.settle(ms=600)
+        r.board.reset()   # the setting is kept
+        r.terminal.screen.reset()
+        r.settle(ms=1500)
+        assert r.line("pairs").startswith("pairs 1-2 3-4")
+
+
+def test_mirror_stays_inside_the_range(r):
+    r.line("on")
+    r.line("goto 1 1")
+    r.line("set 0")
+    r.line("goto 1 2")
+    r.line("set 1023")
+    r.line("mirror 0")
+    assert goals(r)[1] == 1 and goals(r)[2] == 1023   # 1024 - 1023, and 1024 - 0 kept inside
+
+
+def test_on_does_not_touch_joints_that_hold(r):
+    r.line("on 3")
+    r.line("goto 0 3")
+    r.line("set 700")
+    r.line("on")
+    assert goals(r)[3] == 700 and r.cell(0, 3) == "0700"
+    r.line("on 3")
+    assert goals(r)[3] == 700
+
+
+def test_off_lets_go_with_one_packet_before_it_asks_each_servo(r):
+    r.line("on")
+    r.board.clear_trace()
+    r.line("off 2 5 9")
+    writes = sent(r)
+    assert writes[0][4:13] == bytes([0x83, 24, 1, 2, 0, 5, 0, 9, 0])
+    assert [(packet[2], packet[4:7]) for packet in writes[1:]] == [(j, bytes([3, 24, 0])) for j in (2, 5, 9)]
+    assert [r.board.servos[j].torque for j in (2, 5, 9, 1)] == [False, False, False, True]
+
+
+def test_ids_outside_the_table_are_left_alone():
+    with robot(pages={1: page("all", [(64, {0: 400, 30: 600})], joints=range(31))}, servos=(0, 30, 31, 40)) as r:
+        r.line("on")
+        assert r.board.servos[0].torque and r.board.servos[30].torque
+        assert not r.board.servos[31].torque and not r.board.servos[40].torque
+        r.line("go 0")
+        assert r.board.servos[0].goal == 400 and r.board.servos[30].goal == 600
+        assert r.board.servos[31].goal == 512 and r.board.servos[40].goal == 512
+
+
+# ---- section 10: PLAY ----
+
+def test_play_ignores_other_keys_and_the_last_of_stop_and_exit_counts():
+    pages = {1: page("one", [(60, {1: 560}), (60, {1: 464})], repeat=20, exit=2), 2: page("two", [(40, {1: 700})])}
+    with robot(pages=pages) as r:
+        r.keys("play\r", ms=2000)
+        r.keys("abc]{5\t", ms=200)
+        assert r.message == "play"
+        r.keys("\r\x1b", ms=300)
+        assert r.message.startswith("play[STOP]")
+        r.settle(ms=4000)
+        assert r.message == "play[STOP][Exit] OK" and r.board.servos[1].goal != 700
+        r.keys("play\r", ms=2500)
+        r.keys("\x1b", ms=200)
+        r.keys("\r", ms=5000)
+        r.settle(ms=1000)
+        assert r.message == "play[Exit][STOP] OK" and r.board.servos[1].goal == 700
+
+
+def test_a_break_slows_down_and_stands_within_a_quarter_of_a_second():
+    pages = {1: page("fast", [(100, {1: 100}), (100, {1: 900})], repeat=9)}
+    with robot(pages=pages) as r:
+        r.keys("play\r", ms=4000)
+        r.board.clear_trace()
+        r.board.run(ms=100)
+        key = r.board.now_cycles
+        r.board.send(b" ")
+        r.board.run(ms=700)
+        track = [(cycle, frame[1]) for cycle, _, frame in r.board.trace if 1 in frame]
+        steps = [abs(b[1] - a[1]) for a, b in zip(track, track[1:]) if b[0] > key]
+        assert steps[0] > 2, "it did not move when the key came"
+        moving = [step for step in steps if step > 0]
+        assert all(b <= a + 1 for a, b in zip(moving, moving[1:])) and moving[-1] <= moving[0] / 2
+        assert len(moving) <= 32   # ticks of 7.8 ms
+
+
+def test_play_ends_at_a_damaged_page():
+    torn = page("torn", [(30, {})])
+    torn.data[99] ^= 1
+    with robot(pages={1: page("one", [(30, {1: 500})], next=2), 2: torn}) as r:
+        r.line("play", ms=3000)
+        r.settle(ms=1000)
+        assert "2" in r.message and ("invalid" in r.message or "damaged" in r.message), r.message
+
+
+# ---- section 11: MON and BALANCE ----
+
+def mon(r, *lines):
+    """What the monitor says to the lines, as one text."""
+    r.board.take()
+    heard = b""
+    for line in lines:
+        r.board.send(line.encode() + b"\r")
+        r.board.run(ms=2500 if line in ("search", "scan") else 120)
+        heard += r.board.take()
+    return heard.decode("latin-1")
+
+
+@pytest.fixture
+def m(r):
+    r.line("mon")
+    yield r
+    r.line("exit", ms=1200)
+    assert r.text(2, 76, 4) == "0001"
+
+
+@pytest.mark.parametrize("line, answer", [
+    ("cid", "Invalid Parameter"), ("cid 255", "ID must be 0..254"), ("id", "Invalid Parameter"), ("id 254", "ID must be 0..253"),
+    ("read", "Invalid Parameter"), ("read 50", "Address must be 0..49"), ("read 49 2", "Count must be 0..1"),
+    ("write 24", "Invalid Parameter"), ("write 24 256", "Byte must be 0..255"), ("reg_wr 30", "Invalid Parameter"),
+    ("go 1024", "Position must be 0..1023"), ("go 5 1024", "Speed must be 0..1023"), ("led", "Invalid Parameter"),
+    ("led 2", "Value must be 0..1"), ("baud 255", "Value must be 0..254"), ("swr 30 2 1 0", "SWR address count"),
+    ("swr 30 0 1 1", "SWR address count"), ("reset no", "RESET YES"), ("action 1", "Invalid Parameter"), ("ping 255", "ID must be 0..254"),
+    ("scan 254", "ID must be 0..253"), ("page 1", "Bad Command"), ("save", "Bad Command")])
+def test_monitor_checks_arguments_and_sends_nothing_then(m, line, answer):
+    m.board.clear_trace()
+    assert answer in mon(m, line)
+    assert sent(m) == []
+
+
+@pytest.mark.parametrize("line", ["id 5", "read 3", "dump", "reset yes", "baud 1"])
+def test_monitor_does_to_one_servo_only_what_would_be_fatal_for_all(m, line):
+    m.board.clear_trace()
+    assert "One servo only: CID first" in mon(m, "cid 254", line)
+    assert sent(m) == []
+    mon(m, "cid 1")
+
+
+def test_monitor_registered_moves_and_lamps(m):
+    assert "->[Dynamixel]: FF FF 02 05 04 1E 00 01 D5" in mon(m, "cid 2", "reg_wr 30 0 1")
+    assert m.board.servos[2].goal == 512
+    assert "->[Dynamixel]: FF FF FE 02 05 FA" in mon(m, "cid 254", "action")
+    assert m.board.servos[2].goal == 256
+    mon(m, "led 1")
+    assert all(m.board.servos[j].table[25] == 1 for j in range(1, 19))
+    mon(m, "led 0", "cid 1")
+
+
+def test_monitor_help_hex_and_case(m):
+    heard = mon(m, "?")
+    for word in ("dump", "cid", "reg_wr", "toss", "exit", "swr", "search"):
+        assert word in heard.lower()
+    assert "FF FF 10 02 01 EC" in mon(m, "HEX", "Cid 10", "PING")
+    assert "FF FF 01 02 01 FB" in mon(m, "dec", "cid 1", "ping")
+
+
+def test_monitor_search_finds_servos_at_both_rates():
+    with robot(pages={1: BASE}, servos=(1, 2)) as r:
+        r.line("mon")
+        heard = mon(r, "search")
+        r.board.run(ms=2500)
+        heard += r.board.take().decode("latin-1")
+        assert "57142 bps" in heard and "000 Dynamixels" in heard and "1000000 bps" in heard and "001 002" in heard.replace("  ", " ")
+
+
+def test_balance_without_devices_says_so_and_keeps_the_screen(r):
+    before = r.terminal.screen.display[:30]
+    r.keys("balance\r", ms=700)
+    assert "no answer" in r.command and r.terminal.screen.display[:30] == before
+    r.keys("\x1b", ms=200)
+    assert r.cursor[0] == 1
+
+
+# ---- lists ----
+
+def test_list_shows_every_field(r):
+    r.line("list 1")
+    row = next(row for row in r.terminal.screen.display if " base " in row)
+    assert row.split() == ["1", "base", "3", "3", "5", "11", "12", "13", "14", "7", "1.19", "s"]
+    assert "Page name" in r.show() and "steps next exit" in r.show()
+    r.keys("q")
+
+
+def test_list_pages_by_the_screen_and_q_ends_it():
+    with robot(pages={n: page(f"page {n}", [(30, {})]) for n in range(1, 60)}) as r:
+        r.line("list", ms=800)
+        assert "-- more: space --" in r.show() and "page 40" not in r.show()
+        r.keys(" ", ms=800)
+        assert "page 50" in r.show()
+        r.keys("q", ms=300)
+        assert r.text(1, 64, 6) == "page 1"
+
+
+def test_help_of_one_command_by_its_short_form(r):
+    assert r.line("help p").startswith("help p page") and r.line("? sav").startswith("? sav save")
+
+
+# ---- 12: weaknesses cured ----
+def test_links_are_checked_not_cut(r):
+    r.line("goto 9 14")
+    r.line("set 127")
+    r.keys("]")
+    assert r.cell(9, 14) == "000"   # keys wrap at 127
+    r.keys("[")
+    assert r.cell(9, 14) == "127" and r.ram_page()[25] == 127

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MIT
+"""UNDO and REDO: at least the last eight editing commands; commands that change the whole page among them."""
+import random
+
+import pytest
+
+from edit_robot import JOINTS, page, robot
+
+
+def big(seed, joints):
+    rng = random.Random(seed)
+    return page(f"big {seed}", [(rng.randrange(1, 256), {joint: rng.randrange(1024) for joint in joints}, rng.randrange(256))
+                                for _ in range(7)], joints=joints, code=seed, repeat=seed, speed=30 + seed)
+
+
+PAGES = {1: big(1, range(31)), 2: big(2, range(31)), 3: page("three", [(40, {1: 480}), (50, {2: 300})]), 4: big(4, JOINTS),
+         5: big(5, JOINTS)}
+
+
+@pytest.fixture(scope="module")
+def shared():
+    with robot(pages=PAGES) as r:
+        yield r
+
+
+@pytest.fixture
+def r(shared):
+    shared.keys("\x03")
+    shared.line("page 1")
+    if "[y/N]" in shared.command:
+        shared.keys("y")
+    shared.line("goto 1 0")
+    shared.page_address()
+    return shared
+
+
+def ram_page(r):
+    """The 512 bytes in RAM, byte 31 left out: SAVE makes it."""
+    at = r.page_address()
+    data = bytearray(r.board.ram[at:at + 512])
+    data[31] = 0
+    return bytes(data)
+
+
+def edit(r, *lines):
+    for line in lines:
+        r.line(line)
+        if "[y/N]" in r.command:
+            r.keys("y")
+        assert "cannot be undone" not in r.command, line
+
+
+@pytest.mark.parametrize("command", ["new", "copy 2", "copy 3", "scale 37", "swap 0 6"])
+def test_a_whole_page_of_31_joints_and_7_steps_comes_back(r, command):
+    before = ram_page(r)
+    edit(r, command)
+    assert ram_page(r) != before and r.unsaved
+    edit(r, "undo")
+    assert ram_page(r) == before and not r.unsaved
+
+
+@pytest.mark.parametrize("command", ["new", "copy 5", "scale 37", "swap 0 6", "paste 0"])
+def test_a_whole_page_of_a_robot_comes_back_with_what_was_not_saved(r, command):
+    """18 joints, 7 steps, and edits before that only RAM knows; and goes away again."""
+    edit(r, "page 4", "goto 3 17", "set 1000", "goto 9 10", "set 99")
+    if command == "paste 0":
+        edit(r, "save", "page 5", "take 0 6", "page 4", "goto 3 17", "set 999")
+    before = ram_page(r)
+    edit(r, command)
+    after = ram_page(r)
+    assert after != before
+    edit(r, "undo")
+    assert ram_page(r) == before
+    edit(r, "redo")
+    assert ram_page(r) == after
+    edit(r, "undo")
+    assert ram_page(r) == before
+
+
+def test_the_last_eight_commands_come_back_one_by_one(r):
+    r.line("page 3")
+    r.line("on")
+    states = [ram_page(r)]
+    for line in ("write", "insert 0", "delete 1", "int 0 1 30", "scale 120", "move 1 4", "swap 0 5", "name x", "write 6", "step 2"):
+        edit(r, line)
+        states.append(ram_page(r))
+        assert states[-1] != states[-2], line
+    undone = 0
+    while "Nothing" not in r.line("undo"):
+        undone += 1
+        assert ram_page(r) == states[-1 - undone]
+    assert undone >= 8
+    for state in states[len(states) - undone:]:
+        r.line("redo")
+        assert ram_page(r) == state
+    assert r.line("redo").endswith("Nothing to redo")
+    r.line("off")
+
+
+def test_a_new_edit_ends_what_could_be_redone(r):
+    edit(r, "goto 1 1", "set 5", "set 6", "undo", "set 7")
+    assert r.line("redo").endswith("Nothing to redo")
+    edit(r, "undo")
+    assert r.cell(1, 1) == "0005"
+
+
+def test_failed_commands_and_page_changes(r):
+    edit(r, "goto 1 1", "set 5")
+    for line in ("set 1024", "foo", "write 9", "copy 999", "page"):
+        r.line(line)
+    edit(r, "undo")
+    assert not r.unsaved
+    edit(r, "set 5", "page 2")
+    assert r.line("undo").endswith("Nothing to undo")   # the history is the open page's
+
+
+def test_undo_keeps_cursor_and_work_pose(r):
+    r.line("goto 0 3")
+    r.line("off 3")
+    r.keys(" ")
+    pose = [r.cell(0, y) for y in range(1, 19)]
+    edit(r, "goto 2 5", "set 5", "swap 0 1", "undo", "undo")
+    assert r.xya[:2] == ("02", "05") and [r.cell(0, y) for y in range(1, 19)] == pose
