@@ -137,6 +137,15 @@ static void test_remote_u_typed_right_behind_a_packet_is_text(void)
     TEST_ASSERT_EQUAL_UINT16(0, remote.dropped);
 }
 
+/* Button 6: the last byte is no FF that a next packet might share. */
+static void test_remote_text_behind_a_packet_that_ends_without_ff(void)
+{
+    FEED(0xFF, 0x55, 0x10, 0xEF, 0x02, 0xFD, 'U', 'p', 0xFF, 0x55, 0x10, 0xEF, 0x02, 0xFD, '1');
+    TEST_ASSERT_EQUAL_STRING("Up1", typed);
+    TEST_ASSERT_EQUAL_UINT8(2, packets);
+    TEST_ASSERT_EQUAL_UINT16(0, remote.dropped);
+}
+
 static void test_remote_bytes_above_0x7f_are_never_typed(void)
 {
     FEED('a', 0x80, 0xFE, 'b');
@@ -219,6 +228,7 @@ int main(void)
     RUN_TEST(test_remote_torn_packet_does_not_cost_the_next);
     RUN_TEST(test_remote_lost_byte_does_not_cost_the_next);
     RUN_TEST(test_remote_u_typed_right_behind_a_packet_is_text);
+    RUN_TEST(test_remote_text_behind_a_packet_that_ends_without_ff);
     RUN_TEST(test_remote_bytes_above_0x7f_are_never_typed);
     RUN_TEST(test_remote_run_of_ff_before_packet);
     RUN_TEST(test_remote_lone_ff_costs_no_text);

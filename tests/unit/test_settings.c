@@ -126,6 +126,13 @@ static void test_field_out_of_range_is_damage(void)
     settings_save(&store, &settings);
     TEST_ASSERT_EQUAL(SETTINGS_DAMAGED, settings_load(&store, &loaded));
     TEST_ASSERT_EQUAL(0, loaded.law);
+    fake_eeprom_reset();
+    (void)settings_load(&store, &loaded);
+    settings.law = 1;
+    settings.pair[3] = SETTINGS_JOINTS;
+    settings_save(&store, &settings);
+    TEST_ASSERT_EQUAL(SETTINGS_DAMAGED, settings_load(&store, &loaded));
+    TEST_ASSERT_EQUAL(4, loaded.pair[3]);
 }
 
 static void test_saving_in_steps_never_blocks_and_ends(void)
