@@ -209,7 +209,7 @@ uint8_t classic_joints_now(const player_t *player, bool change, bool begins)
         return 0;
     }
     if (quota == SHORT_QUOTA) {
-        return change ? (cruises ? 7 : 9) : cruises ? 19 : 14;
+        return change ? (cruises ? 5 : 9) : cruises ? 18 : 14;
     }
     return change ? (uint8_t)((quota + 1u) / 5u) : quota;
 }

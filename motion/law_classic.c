@@ -62,11 +62,27 @@ static void enter_step(player_t *player)
     enter(player, SECTION_RISE, player->ramp_ticks);
 }
 
+/* A RISE of one tick, made at once: what spread and make_rise would do. */
+RARE static void rise_at_once(player_t *player)
+{
+    ramp_share_t share = ramp_share(1);
+    uint16_t *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        int16_t carried = joint->classic.carried, change = (int16_t)(joint->classic.speed - carried);
+        joint->classic.value = change;
+        int16_t acc = ramp_way((int16_t)(carried + (change >> 1)), share);
+        joint->classic.acc = acc;
+        *goal = (uint16_t)limit_pos((int16_t)((int16_t)*goal + acc));
+        goal++;
+    }
+    player->tick = 1;
+}
+
 /* The tick after: every joint begins on its target with its speed known. */
 RARE static uint8_t begin_step(player_t *player)
 {
     enter_step(player);
-    uint8_t ramp = player->ramp_ticks;
+    uint8_t ramp = player->ramp_ticks, events = player_announce(player);
     uint16_t recip16 = ramp == 0 ? 0 : fix_recip16(ramp), *goal = player->goal_pos;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         uint16_t from = joint->target_pos, to = joint->coming_pos;
@@ -77,11 +93,15 @@ RARE static uint8_t begin_step(player_t *player)
         joint->classic.main = (int16_t)(to - from);
         joint->classic.acc = 0;
         joint->classic.speed = speed;
-        if (ramp != 0) {
+        if (ramp > 1) {
             spread(joint, (int16_t)(speed - joint->classic.carried), ramp, recip16);
         }
     }
-    return player_announce(player);
+    if (ramp == 1) {
+        rise_at_once(player);
+        events |= PLAYER_EV_OUTPUT;
+    }
+    return events;
 }
 
 RARE static void begin_cruise(player_t *player)
