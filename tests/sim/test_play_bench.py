@@ -1,17 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""The bench of the shipped Play image: it runs, and what a robot's safety hangs on is within its budget. (tools/bench
---strict is the judge of every figure.)"""
+"""The bench of the shipped Play image: it runs, and every figure is within its budget but for those named here. (tools/bench
+--strict is the judge.)"""
 import pathlib
 import subprocess
 
 BENCH = pathlib.Path(__file__).resolve().parents[2] / "tools" / "bench"
-MUST_HOLD = ["exact: rise", "exact: cruise", "exact: fall", "exact: frame with packet and sending, mean",
-             "classic: frame with packet and sending, mean", "variables in RAM", "stack headroom"]
+# What does not hold, and why: all 31 joints in steps that short leave no tick in which to work ahead (motion/README.md).
+KNOWN = {"exact: frame, steps of 2, most", "exact: frame, steps of 1, most", "exact: frame, no way, most",
+         "classic: frame with packet and sending, most", "classic: any tick, steps of 3, most cycles",
+         "classic: frame, steps of 3, most", "classic: frame, no way, most"}
 
 
-def test_bench_prints_its_table_and_the_steady_figures_hold():
-    done = subprocess.run([BENCH], capture_output=True, text=True, check=True)
-    print(done.stdout)
-    for what in MUST_HOLD:
-        row = next(line for line in done.stdout.splitlines() if line.startswith(what))
-        assert "MISSED" not in row, row
+def test_bench_prints_its_table_and_every_other_budget_holds():
+    done = subprocess.run([BENCH, "--strict"], capture_output=True, text=True, check=False)
+    print(done.stdout, done.stderr)
+    rows = done.stdout.splitlines()[1:]
+    missed = {row[:44].rstrip() for row in rows if row.endswith("MISSED")}
+    assert missed <= KNOWN
+    assert done.returncode == (1 if missed else 0)
+    assert sum("<=" in row or ">=" in row for row in rows) == 2 * 14 + 2
