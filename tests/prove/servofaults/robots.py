@@ -91,7 +91,7 @@ class Watched:
     @property
     def cut(self):
         """Joints that the rule switches off."""
-        return frozenset(THERE) - {RELEASED} if self.playing and self.rule == "limp" else frozenset()
+        return frozenset(THERE) - {RELEASED} if self.state in ("walk", "pause") and self.rule == "limp" else frozenset()
 
     @property
     def holding(self):
@@ -109,7 +109,7 @@ class PlayRobot(Watched):
     def __init__(self, state, rule="hold", seed=1):
         self.name = f"play.{state}" + (f".{rule}" if state not in ("rest", "off") else "")
         self.board = play_robot.robot(servos=THERE, pages=motions(), seed=seed)
-        self.rule, self.playing = rule, state == "walk"
+        self.rule, self.state, self.playing = rule, state, state == "walk"
         self.text = ""
         for line in (f"settings fault {RULES.index(rule)}", "on", f"off {RELEASED}"):
             self.line(line)
@@ -168,7 +168,7 @@ class EditRobot(Watched):
 
     def __init__(self, state, rule="hold", seed=1):
         self.name = f"edit.{state}" + (f".{rule}" if state not in ("rest", "teach") else "")
-        self.rule, self.playing = rule, state == "walk"
+        self.rule, self.state, self.playing = rule, state, state == "walk"
         eeprom = _settings(rule)
         self.robot = edit_robot.Robot(servos=THERE, motions=motions(), seed=seed, eeprom=eeprom)
         self.board = self.robot.board
