@@ -21,7 +21,7 @@ from powercuts.cutter import PHASES, Cutter, path_of
 TITLE = "Power cuts"
 SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *settings.SCENES)}
 LIVES = {life.name: life for life in lives.LIVES}
-LIFE_COUNT = 6
+LIFE_COUNT = 5
 SAMPLE_STATES = 4       # of each scene
 DEEPEST = 3
 SHOWN = 12              # failures that are printed one by one
@@ -34,17 +34,21 @@ def add_arguments(group):
 
 def chooser(scene, seed, sample, chunk):
     """Which phases an operation is cut at: all, or one in so many, picked by the seed."""
-    rates = (max(scene.rates[0], 7 * scene.about // SAMPLE_STATES), 24, 200) if sample else scene.rates
-    every_phase = 0 if sample else getattr(scene, "all_phases_until", 0)
+    every_phase = getattr(scene, "all_phases_until", 0)
+    sampled = {(2 * i + 1) * scene.about // (2 * SAMPLE_STATES) + 1 for i in range(SAMPLE_STATES)}
+
+    def number(*words):
+        return zlib.crc32(" ".join(map(str, (seed, scene.name, *words))).encode())
 
     def wanted(path, operation):
         depth = len(path)
-        if depth == DEEPEST or (depth == 0 and not sample and operation % scene.chunks != chunk):
+        if sample and depth == 0:
+            return [PHASES[1 + number(operation) % (len(PHASES) - 1)]] if operation in sampled else []
+        if depth == DEEPEST or (depth == 0 and operation % scene.chunks != chunk):
             return []
-        rate = 1 if depth == 0 and operation <= every_phase else rates[depth]
+        rate = 1 if depth == 0 and operation <= every_phase else 24 if sample else scene.rates[depth]
         phases = PHASES if operation == 1 and depth == 0 else PHASES[1:]     # else "before" is "after" the last one
-        cuts = "/".join(map(str, path))
-        return [phase for phase in phases if zlib.crc32(f"{seed} {scene.name} {cuts} {operation} {phase}".encode()) % rate == 0]
+        return [phase for phase in phases if number(*path, operation, phase) % rate == 0]
     return wanted
 
 
@@ -79,7 +83,8 @@ def repeat(state, seed):
         name, path = path_of(state)
         results = Cutter(SCENES[name](seed), None, only=path, seed=seed).play()
     state, outcome, fault = results[-1]
-    return [proof.Figure(f"The state {state}", "played again", fault or f"{outcome}", fault is None)]
+    return [proof.Figure(f"The state {state}", "played again", fault or {"same": "the same contents as before or after it: counted there"}.get(outcome, outcome),
+                         fault is None)]
 
 
 def pieces(names, seed, sample):

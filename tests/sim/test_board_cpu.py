@@ -262,3 +262,11 @@ def test_running_watchdog_is_stopped_or_changed_by_the_timed_sequence_only(value
     steps(board, 5)
     assert (board.violation is None) == fine
     assert fine or board.violation.kind == "timed-sequence"
+
+
+def test_wild_stores_end_the_run_and_leave_the_process_whole():
+    """simavr does the store all the same; what stood behind its SRAM was the memory of somebody else."""
+    for high in range(0x11, 0x100, 0x0D):
+        with bare([0xE0E0, 0xE0F0 | (high & 0xF0) << 4 | high & 0x0F, 0x8300, RJMP_SELF]) as board:
+            with pytest.raises(Violation, match="outside the memory"):
+                board.run(ms=1)

@@ -267,7 +267,7 @@ class Words:
 class Taken:
     """A page that a factory application left in the mailbox; our loader writes it, and is cut at that, three deep."""
 
-    name, about, chunks, rates = "taken", 5, 3, (1, 1, 4)
+    name, about, chunks, rates = "taken", 5, 3, (1, 3, 40)
     promise = "A page waiting in the mailbox gets into flash, however often the loader is cut at it"
 
     def __init__(self, seed):

@@ -116,7 +116,7 @@ class SaveHalf(Save):
 class SaveUndo(Save):
     """SAVE, UNDO of both changes, SAVE: the old page comes back as a new one."""
 
-    name, about = "save-undo", 22
+    name, about, rates = "save-undo", 22, (2, 24, 200)
     promise = "SAVE, UNDO, SAVE: each leaves the page before or the page after it"
 
     def act(self):
@@ -183,7 +183,7 @@ class Saves(Save):
 class SaveWrap(Saves):
     """The journal's sequence number passes 65,535."""
 
-    name, about, chunks, rates = "save-wrap", 33, 1, (1, 24, 200)
+    name, about, chunks, rates = "save-wrap", 33, 1, (2, 24, 200)
     promise = "The same where the journal's numbers begin again at 0"
 
     def prepare(self):
@@ -209,7 +209,7 @@ class Repair(Save):
 
     name, about, chunks = "repair", 11, 6
     promise = "The journal's repair at the start may itself be cut, and the repair after it: old or new"
-    rates = (1, 2, 40)
+    rates = (1, 3, 80)
 
     def act(self):
         new = robot.made(OPENED, 1)
@@ -246,7 +246,7 @@ class RepairFactory(SaveFactory):
 
     name, chunks = "repair-factory", 4
     promise = "Edit's own repair at its start may be cut as well, three deep"
-    rates = (2, 3, 40)
+    rates = (2, 4, 80)
 
 
 class Mailbox(Save):
@@ -255,10 +255,13 @@ class Mailbox(Save):
 
     name, about, chunks = "mailbox", 520, 6
     promise = "SAVE by the EEPROM mailbox, and the loader that takes it: old or new"
-    rates = (8, 24, 200)
+    rates = (12, 24, 200)
 
     def prepare(self):
+        """The call table is gone, and the page before in the mailbox was an older version of the same one."""
         self.board.flash[MAP["MEM_BOOT_API"]:MAP["MEM_BOOT_END"]] = b"\xff" * 32
+        self.board.eeprom[MAP["MEM_EE_MAILBOX"]:MAP["MEM_EE_MAILBOX"] + PAGE_BYTES] = robot.made(OPENED, 3)
+        self.board.eeprom[MAIL_PAGE] = OPENED
 
     def act(self):
         new = self.edited(OPENED)

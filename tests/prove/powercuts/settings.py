@@ -54,7 +54,7 @@ def paired(body, one, other):
 class Settings:
     """Play: five settings one after the other, from an EEPROM that never held any."""
 
-    name, about, chunks, rates = "settings", 130, 4, (3, 2, 1)
+    name, about, chunks, rates = "settings", 90, 4, (3, 1, 1)
     promise = "Settings set in Play are the old or the new ones (before the first save: the defaults)"
     app = "play"
     copies = (b"", b"")
@@ -124,7 +124,7 @@ class SettingsWrap(Settings):
 
     name, about = "settings-wrap", 30
     promise = "The same where their numbers begin again at 0"
-    rates, chunks = (1, 2, 1), 2
+    rates, chunks = (2, 1, 1), 2
     copies = (record(defaults(), 254), record(defaults(), 255))
 
 
@@ -133,7 +133,7 @@ class SettingsDamaged(Settings):
 
     name, about = "settings-damaged", 60
     promise = "The same over damaged settings: until the first save is whole, the defaults with a message"
-    rates, chunks = (4, 2, 1), 2
+    rates, chunks = (6, 1, 1), 2
     copies = (b"S" + bytes(range(40)), b"\x00" * 47)
     changes = Settings.changes[:2]
 
@@ -143,7 +143,7 @@ class SettingsQuick(Settings):
 
     name, about = "settings-quick", 60
     promise = "Settings set faster than they can be written: one of those that were set"
-    rates, chunks = (2, 2, 1), 2
+    rates, chunks = (2, 1, 1), 2
     waits = False
 
 
@@ -152,7 +152,7 @@ class Pairs(Settings):
 
     name, about, app = "pairs", 100, "edit"
     promise = "Partners set by PAIRS in Edit are the old or the new ones"
-    rates, chunks = (4, 2, 1), 3
+    rates, chunks = (4, 1, 1), 3
 
     def act(self):
         for one, other in ((1, 3), (5, 5), (2, 4)):

@@ -35,11 +35,24 @@ void board_io(board_t *board, uint16_t address, avr_io_read_t read, avr_io_write
     avr->io[io].w.param = param;
 }
 
+/* simavr notices a store beyond the SRAM, and then does it: room for all that a 16-bit pointer reaches, and a word more,
+ * keeps the rest of the process whole until the run has ended with VIOLATION_ADDRESS. */
+static bool widen_data_space(avr_t *avr)
+{
+    uint8_t *data = realloc(avr->data, 0x10000u + 2u);
+    if (!data) {
+        return false;
+    }
+    memset(data + M128_RAM_END, 0, 0x10000u + 2u - M128_RAM_END);
+    avr->data = data;
+    return true;
+}
+
 static avr_t *make_chip(void)
 {
     avr_global_logger_set(no_log);
     avr_t *avr = avr_make_mcu_by_name("atmega128");
-    if (avr && avr_init(avr) == 0) {
+    if (avr && avr_init(avr) == 0 && widen_data_space(avr)) {
         avr->frequency = M128_HZ;
         avr->vcc = avr->avcc = avr->aref = 5000;
         avr->log = LOG_NONE;
