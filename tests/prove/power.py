@@ -22,7 +22,7 @@ TITLE = "Power cuts"
 SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *settings.SCENES)}
 LIVES = {life.name: life for life in lives.LIVES}
 LIFE_COUNT = 5
-SAMPLE_STATES = 4       # of each scene
+SAMPLE_STATES = 3       # of each scene
 DEEPEST = 3
 SHOWN = 12              # failures that are printed one by one
 
@@ -46,7 +46,7 @@ def chooser(scene, seed, sample, chunk):
             return [PHASES[1 + number(operation) % (len(PHASES) - 1)]] if operation in sampled else []
         if depth == DEEPEST or (depth == 0 and operation % scene.chunks != chunk):
             return []
-        rate = 1 if depth == 0 and operation <= every_phase else 24 if sample else scene.rates[depth]
+        rate = 1 if depth == 0 and operation <= every_phase else 40 if sample else scene.rates[depth]
         phases = PHASES if operation == 1 and depth == 0 else PHASES[1:]     # else "before" is "after" the last one
         return [phase for phase in phases if number(*path, operation, phase) % rate == 0]
     return wanted

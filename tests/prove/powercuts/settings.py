@@ -131,7 +131,7 @@ class SettingsWrap(Settings):
 class SettingsDamaged(Settings):
     """Both copies damaged before."""
 
-    name, about = "settings-damaged", 60
+    name, about = "settings-damaged", 86
     promise = "The same over damaged settings: until the first save is whole, the defaults with a message"
     rates, chunks = (6, 1, 1), 2
     copies = (b"S" + bytes(range(40)), b"\x00" * 47)
@@ -141,7 +141,7 @@ class SettingsDamaged(Settings):
 class SettingsQuick(Settings):
     """Each set while the one before is still being written."""
 
-    name, about = "settings-quick", 60
+    name, about = "settings-quick", 35
     promise = "Settings set faster than they can be written: one of those that were set"
     rates, chunks = (2, 1, 1), 2
     waits = False
@@ -150,7 +150,7 @@ class SettingsQuick(Settings):
 class Pairs(Settings):
     """Edit: MIRROR's partners."""
 
-    name, about, app = "pairs", 100, "edit"
+    name, about, app = "pairs", 73, "edit"
     promise = "Partners set by PAIRS in Edit are the old or the new ones"
     rates, chunks = (4, 1, 1), 3
 
@@ -175,7 +175,7 @@ class Pairs(Settings):
 class PairsAndSave(Pairs):
     """Edit: PAIRS, and SAVE of a page while the settings are still being written byte by byte."""
 
-    name, about, chunks, rates = "pairs-save", 50, 2, (2, 24, 200)
+    name, about, chunks, rates = "pairs-save", 44, 2, (2, 24, 200)
     copies = (record(defaults(), 1), b"")
     promise = "A page saved while settings are being written: both old or new"
 
