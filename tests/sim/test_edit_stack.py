@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""Stack: bytes between the highest variable and the lowest stack ever, measured after the deepest things Edit does: every way to
+save, PLAY with everything that happens meanwhile, MON and TOSS, UNDO, lists, programs' lines. Budget 384."""
+import pytest
+
+from boot_board import factory_section
+from edit_robot import page, robot
+
+BUDGET = 384
+# The factory loader's routine takes its data from a fixed place in RAM; the 256 bytes there are kept on the stack meanwhile.
+# Interrupts are off then, so that nothing comes on top of what is measured.
+BUDGET_FACTORY = 128
+
+PAGES = {1: page("one", [(40, {1: 480}), (60, {1: 700, 2: 300}), (60, {1: 300, 2: 700})], repeat=3, exit=2),
+         2: page("two", [(10 + k, {k: 300 + k}) for k in range(7)], joints=range(31))}
+LOADERS = {"ours": ({}, BUDGET),
+           "factory": ({"images": ("edit-cm5.hex",), "loader": factory_section(), "bootrst": True}, BUDGET_FACTORY),
+           "mailbox": ({"images": ("tests/mailbox.hex", "edit-cm5.hex"), "bootrst": True}, BUDGET)}
+
+
+def act(r, line, ms=0):
+    r.line(line, ms=ms)
+    if "[y/N]" in r.command:
+        r.keys("y", ms=ms)
+
+
+def ask(r, line):
+    r.board.send(line.encode() + b"\r")
+    r.board.run(ms=400)
+
+
+@pytest.mark.parametrize("loader", LOADERS)
+def test_headroom_after_everything_deep(loader):
+    options, budget = LOADERS[loader]
+    with robot(pages=PAGES, **options) as r:
+        seen = {}
+
+        def note(what):
+            seen[what] = r.board.stack_headroom
+
+        for line in ("on", "go 0", "write", "insert 0", "int 0 1", "scale 120", "swap 0 1", "take 0 6", "paste 0", "mirror 0", "undo",
+                     "redo", "undo", "copy 2", "undo", "new", "undo", "off 5", "pairs 1 2"):
+            act(r, line)
+        note("edits")
+        for line, key in (("check 2", "q"), ("check", "q"), ("list 1 9", "q"), ("find o", "q"), ("help", "q"), ("balance", "\x1b")):
+            r.line(line, ms=900)
+            r.keys(key, ms=300)
+        note("lists")
+        r.board.servos[7].fault("silent")
+        for line, key in (("play 1", " "), ("play 1", "\r"), ("play 2", "\x03")):
+            r.line(line, ms=2500)
+            r.keys(key, ms=1500)
+        r.board.servos[7].clear()
+        note("play")
+        act(r, "page 1")
+        for line in ("mon", "dump", "swr 30 2 1 0 2 2 0 2", "search", "scan", "id 1", "toss"):
+            act(r, line, ms=2500 if line in ("search", "scan") else 100)
+        r.board.send(b"\xff\xff\x01\x04\x02\x00\x32\xc6\xff\xff\xff\x1b" + b"\0" * 300 + b"\x1b\x1b\x1b")
+        r.board.run(ms=200)
+        act(r, "exit", ms=1500)
+        note("monitor")
+        for line in ("@where", "@list", "@page 1", "@pose", "@torque on", "@move 60 1 200200200", "@play 1", "@where", "@break", "@open 2",
+                     "@crc", "@data 64 " + "00" * 32):
+            ask(r, line)
+        r.board.run(ms=1500)
+        note("programs")
+        r.keys("\x1b[B", ms=900)
+        act(r, "page 1")
+        act(r, "name z")
+        act(r, "save", ms=6500 if loader == "mailbox" else 0)
+        act(r, "save 9", ms=6500 if loader == "mailbox" else 0)
+        note("save")
+        assert r.flash_page(1)[:2] == b"z\0" and r.flash_page(9)[:2] == b"z\0"
+        print(f"stack headroom, {loader} loader: " + ", ".join(f"{what} {left}" for what, left in seen.items()) + f" (budget {budget})")
+        assert seen["programs"] >= BUDGET and seen["save"] >= budget
