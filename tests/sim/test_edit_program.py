@@ -62,17 +62,58 @@ def test_play_misses_no_tick_and_space_breaks_it():
         assert "state=idle" in ask(r, "@where")
 
 
-def test_stack_headroom_after_everything_deep():
-    """Bytes between the highest variable and the lowest stack ever, after the deepest things Edit does."""
+def fields(answer):
+    return dict(word.split("=", 1) for word in answer.split() if "=" in word)
+
+
+def test_version_list_and_pose():
     with robot(pages=PAGES) as r:
-        for line in ("on", "go 0", "write", "insert 0", "int 0 1", "scale 120", "mirror 0", "save", "save 9", "page 2"):
-            r.line(line)
-            if "[y/N]" in r.command:
-                r.keys("y", ms=200)
-        for line, key in (("check 2", "q"), ("list 1 9", "q"), ("play 1", " ")):
-            r.line(line, ms=2500)
-            r.keys(key, ms=700)
-        for line in ("@where", "@list", "@page 1", "@move 60 1 200200"):
-            ask(r, line, ms=500)
-        print(f"stack headroom: {r.board.stack_headroom} bytes (budget 384)")
-        assert r.board.stack_headroom >= 384
+        version = ask(r, "@ver")
+        assert version.startswith("@ver ") and version.endswith(" OK") and "edit" in version and "cm5" in version.lower()
+        listed = ask(r, "@list", ms=600)
+        assert listed.startswith("@list ") and listed.endswith(" OK") and " 1" in listed and " 2" in listed and " 3" not in listed
+        r.board.servos[4].push_to(0x155)
+        r.board.run(ms=400)
+        pose = ask(r, "@pose").split()
+        assert pose[0] == "@pose" and pose[-1] == "OK" and pose[1:-1] == [f"{j}:{341 if j == 4 else 512}:0" for j in range(1, 19)]
+
+
+def test_torque_and_move():
+    with robot(pages=PAGES) as r:
+        assert ask(r, "@torque on", ms=300) == "@torque OK"
+        assert all(r.board.servos[joint].torque for joint in range(1, 19))
+        assert ask(r, "@move 90 3 258---1F4") == "@move OK"
+        r.board.run(ms=2500)
+        assert (r.board.servos[3].goal, r.board.servos[4].goal, r.board.servos[5].goal) == (0x258, 512, 0x1F4)
+        for wrong in ("@move 0 3 258", "@move 90 31 258", "@move 90 3 25", "@move 90 3 400", "@move 90 30 200200", "@move 90 3 xyz"):
+            assert ask(r, wrong).startswith("@move ERR 3 "), wrong
+        assert ask(r, "@torque off 3 5") == "@torque OK"
+        assert [r.board.servos[joint].torque for joint in (3, 4, 5)] == [False, True, False]
+        assert ask(r, "@torque maybe").startswith("@torque ERR ")
+
+
+def test_play_pause_resume_stop():
+    with robot(pages=PAGES) as r:
+        assert ask(r, "@play 0").startswith("@play ERR 3 ") and ask(r, "@play 9").startswith("@play ERR 6 ")
+        assert ask(r, "@play 1") == "@play OK"
+        r.board.run(ms=1500)
+        assert fields(ask(r, "@where"))["page"] == "1"
+        assert ask(r, "@pause") == "@pause OK"
+        r.board.run(ms=1000)
+        stood = [r.board.servos[joint].goal for joint in (1, 2)]
+        r.board.run(ms=500)
+        assert [r.board.servos[joint].goal for joint in (1, 2)] == stood
+        assert ask(r, "@resume") == "@resume OK"
+        r.board.run(ms=800)
+        assert [r.board.servos[joint].goal for joint in (1, 2)] != stood
+        assert ask(r, "@break") == "@break OK"
+        r.board.run(ms=600)
+        assert fields(ask(r, "@where"))["state"] == "idle"
+
+
+def test_reset_restarts_the_controller():
+    with robot(pages=PAGES) as r:
+        resets = r.board.resets
+        r.board.send(b"@reset\r")
+        r.board.run(ms=1500)
+        assert r.board.resets == resets + 1

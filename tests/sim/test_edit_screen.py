@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Edit's screen, cell by cell, against editor-original.md section 3 and the list in firmware/edit/DIFFERENCES.md."""
 import pytest
+from cm5sim import library
 
 from edit_robot import JOINTS, new_page, page, robot, seal, UNUSED
 
@@ -200,3 +201,31 @@ def test_live_position_of_a_released_joint_follows_the_hand_five_times_a_second(
             seen.add(r.text(6, 13, 6))
             assert r.cell(0, 5) == "????"
         assert len(seen) >= 9, seen
+
+
+def test_redraw_asks_for_the_size_again_and_rows_sets_it():
+    with robot(pages={1: READY}) as r:
+        assert r.text(33, 61, 3) == "[X:"
+        r.terminal.screen.resize(24, 80)
+        r.line("re", ms=800)
+        assert r.text(22, 61, 3) == "[X:" and r.terminal.row(24).startswith("]")
+        r.terminal.screen.resize(36, 80)
+        r.line("rows 35", ms=800)
+        assert r.text(33, 61, 3) == "[X:" and r.terminal.row(35).startswith("]")
+        r.line("goto 0 0")
+        assert_frame(r, frame(READY.data, 1, {}, live={joint: 512 for joint in JOINTS}))
+
+
+def test_page_changes_send_a_quarter_of_the_originals_bytes_at_most():
+    """Over real pages: our library, every fourth."""
+    image = (library.build_folder() / "motions" / "motions.bin").read_bytes()
+    with robot(motions=image) as r:
+        used = [n for n in range(1, 128) if image[512 * n + 20] in range(1, 8) and sum(image[512 * n:512 * n + 512]) & 0xFF == 0xFF]
+        sent = []
+        for number in used[::4]:
+            start = len(r.board.console)
+            r.line(f"page {number}")
+            sent.append(len(r.board.console) - start)
+        mean = sum(sent) / len(sent)
+        print(f"page change: {mean:.0f} bytes on average of {len(sent)}, at most {max(sent)} (original 7000..7700)")
+        assert len(sent) >= 8 and mean <= 0.25 * 7000

@@ -2,6 +2,7 @@
 """What Edit does to servos: GO, MIRROR, ON, OFF, SET on the work pose, PLAY with its keys, MON; editor-original.md
 sections 7, 8, 10 and 11, and "nothing moves by surprise"."""
 import pytest
+from cm5sim import Board
 
 from edit_robot import page, robot, UNUSED
 
@@ -280,3 +281,20 @@ def test_exit_restarts_the_controller():
         r.line("exit", ms=1500)
         r.settle()
         assert r.board.resets == resets + 1 and r.text(2, 76, 4) == "0001"
+
+
+def test_play_says_that_the_classic_law_is_not_here():
+    with Board(images=["boot-cm5.hex", "play-cm5.hex"], servos=range(1, 19)) as other:   # the setting is made with Play
+        other.eeprom[0xFFF] = 0x11
+        other.run(ms=2500)
+        other.send("law classic\r")
+        other.run(ms=1500)
+        eeprom = bytes(other.eeprom[0:0x800])
+    with start() as r:
+        r.board.eeprom[0:0x800] = eeprom
+        r.board.reset()
+        r.terminal.screen.reset()
+        r.settle(ms=1500)
+        message = r.line("play 5", ms=300)
+        assert "classic" in message.lower() or "law" in message.lower(), message
+        assert not any(r.board.servos[joint].torque for joint in range(1, 19))
