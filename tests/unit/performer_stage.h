@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT
+ * performer_stage.h - what the tests of the performer share: three servos that only remember, eight pages, and time.
+ *
+ * Page 1: joint 1 to 612 in 64 ticks. Page 2: the same for ever, a stop leads to page 3. Page 3: to 412. The others have no
+ * action. Approach at 60 degrees/s, battery low below 10.0 V, hot from 70 degrees on. setUp and tearDown are here. */
+#ifndef PERFORMER_STAGE_H
+#define PERFORMER_STAGE_H
+
+#include "fake_servo_link.h"
+#include "performer.h"
+
+#define PAGES 8u
+#define ALL_THREE (SERVO_LINK_BIT(1) | SERVO_LINK_BIT(2) | SERVO_LINK_BIT(3))
+
+extern uint8_t pages[PAGES][PAGE_BYTES];
+extern servo_link_t servos;
+extern settings_t settings;
+extern performer_t performer;
+
+/* A page with one step of 64 ticks in which joint 1 goes to `pos`; links to `next`, on stop to `exit`. */
+void make_page(uint8_t page, uint16_t pos, uint8_t next, uint8_t exit);
+
+/* Ticks, with the main loop going round between them. */
+void ticks(uint16_t count);
+
+/* Ticks until the state is reached. */
+void reach(uint8_t state);
+
+/* Starts and expects no refusal. */
+void start(uint8_t page, uint8_t code);
+
+/* The next event of this kind; others are dropped. Fails when there is none. */
+performer_event_t expect_event(uint8_t kind);
+bool has_event(uint8_t kind);
+
+/* PERFORMER_END_... of the next end. */
+uint8_t end_reason(void);
+
+#endif

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT
+ * Joints of a play, its pages and links; both laws. */
+#include "player_stage.h"
+#include "unity.h"
+
+/* --- joints ------------------------------------------------------------------------------------------------------ */
+
+static void unused_joint_waits(player_law_t law)
+{
+    sparse_step(1, 30, 0, 600);
+    sparse_step(1, 30, 0, 700);
+    sparse_pages[1].step[0].pos[3] = 0x43FF;
+    sparse_pages[1].step[0].pos[2] = 0x2200;
+    start_law(1, law);
+    for (uint8_t tick = 0; tick < 30; tick++) {
+        (void)player_tick(&player, &l);
+        TEST_ASSERT_EQUAL_UINT16(512, player.goal_pos[3]);
+        TEST_ASSERT_EQUAL_UINT16(512, player.goal_pos[2]);
+        TEST_ASSERT_EQUAL_HEX32(tick < 29 ? 0x3 : 0xF, player.joints); /* from the step's beginning, when it is reached */
+    }
+    for (uint8_t tick = 0; tick < 30; tick++) {
+        (void)player_tick(&player, &l);
+    }
+    TEST_ASSERT_EQUAL_HEX32(0xF, player.joints);
+    TEST_ASSERT_UINT16_WITHIN(law == PLAYER_LAW_CLASSIC ? 2 : 0, 700, player.goal_pos[3]);
+}
+
+static void test_player_unused_joint_keeps_its_target_and_starts_from_there(void)
+{
+    unused_joint_waits(PLAYER_LAW_EXACT);
+    setUp();
+    unused_joint_waits(PLAYER_LAW_CLASSIC);
+}
+
+static void test_player_absent_joint_is_never_touched_nor_timed(void)
+{
+    sparse_pages[1].schedule = PAGE_SCHEDULE_SPEED;
+    sparse_step(1, 100, 0, 512 + 120);
+    sparse_pages[1].step[0].pos[3] = 0;
+    pose[3] = 900;
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_EXACT, pose, 0x7));
+    TEST_ASSERT_EQUAL_UINT16(16, run_to_end());
+    TEST_ASSERT_EQUAL_UINT16(900, player.goal_pos[3]);
+    TEST_ASSERT_EQUAL_HEX32(0x7, player.joints);
+}
+
+static void dropped_joint_stays(player_law_t law)
+{
+    sparse_step(1, 30, 0, 700);
+    sparse_step(1, 30, 0, 500);
+    sparse_step(1, 30, 0, 300);
+    start_law(1, law);
+    for (uint8_t tick = 0; tick < 12; tick++) {
+        (void)player_tick(&player, &l);
+    }
+    uint16_t at = player.goal_pos[1];
+    TEST_ASSERT_GREATER_THAN_UINT16(520, at);
+    player_drop_joints(&player, 1ul << 1);
+    for (uint16_t tick = 0; player_is_moving(&player) && tick < TICKS_MAX; tick++) {
+        (void)player_tick(&player, &l);
+        TEST_ASSERT_EQUAL_UINT16(at, player.goal_pos[1]);
+    }
+    TEST_ASSERT_EQUAL_HEX32(0xD, player.joints);
+    TEST_ASSERT_UINT16_WITHIN(law == PLAYER_LAW_CLASSIC ? 3 : 0, 300, player.goal_pos[0]);
+}
+
+static void test_player_dropped_joint_keeps_its_goal(void)
+{
+    dropped_joint_stays(PLAYER_LAW_EXACT);
+    setUp();
+    dropped_joint_stays(PLAYER_LAW_CLASSIC);
+}
+
+static void test_player_first_pose_tells_the_joints_of_step_1(void)
+{
+    sparse_step(1, 30, 0, 700);
+    sparse_pages[1].step[0].pos[2] = 0x4000;
+    TEST_ASSERT_EQUAL_HEX32(0xB, player_first_pose(&sparse_source, 1, pose));
+    TEST_ASSERT_EQUAL_UINT16(700, pose[3]);
+    TEST_ASSERT_EQUAL_UINT16(512, pose[2]);
+}
+
+/* --- pages and links --------------------------------------------------------------------------------------------- */
+
+static void test_player_refuses_what_cannot_be_played(void)
+{
+    sparse_step(2, 10, 0, 600);
+    sparse_pages[2].damaged = true;
+    sparse_pages[3].count = 0;
+    sparse_pages[3].next = 3;
+    TEST_ASSERT_EQUAL(PLAYER_ERR_RANGE, player_start(&player, &l, 0, PLAYER_LAW_EXACT, pose, ALL));
+    TEST_ASSERT_EQUAL(PLAYER_ERR_RANGE, player_start(&player, &l, 128, PLAYER_LAW_EXACT, pose, ALL));
+    TEST_ASSERT_EQUAL(PLAYER_ERR_PAGE, player_start(&player, &l, 2, PLAYER_LAW_EXACT, pose, ALL));
+    TEST_ASSERT_EQUAL(PAGE_ERR_CHECKSUM, player.fault);
+    TEST_ASSERT_EQUAL_UINT8(2, player.fault_page);
+    TEST_ASSERT_EQUAL(PLAYER_ERR_EMPTY, player_start(&player, &l, 1, PLAYER_LAW_EXACT, pose, ALL));
+    TEST_ASSERT_EQUAL(PLAYER_ERR_EMPTY, player_start(&player, &l, 3, PLAYER_LAW_EXACT, pose, ALL));
+    sparse_step(1, 10, 0, 600);
+    start(1);
+    TEST_ASSERT_EQUAL(PLAYER_ERR_BUSY, player_start(&player, &l, 1, PLAYER_LAW_EXACT, pose, ALL));
+}
+
+static void repetitions_then_link(player_law_t law)
+{
+    uint8_t seen, repetition = 0;
+    sparse_step(1, 10, 0, 600);
+    sparse_step(1, 10, 0, 500);
+    sparse_pages[1].count = 3;
+    sparse_pages[1].next = 2;
+    sparse_step(2, 10, 0, 550);
+    start_law(1, law);
+    do {
+        (void)run_until(PLAYER_EV_PAGE | PLAYER_EV_LINK, &seen);
+        if ((seen & PLAYER_EV_PAGE) != 0) {
+            TEST_ASSERT_EQUAL_UINT8(++repetition, player.repetition);
+            TEST_ASSERT_EQUAL_UINT8(1, player.page);
+        }
+    } while ((seen & PLAYER_EV_LINK) == 0);
+    TEST_ASSERT_EQUAL_UINT8(3, repetition);
+    TEST_ASSERT_EQUAL_UINT8(2, player.next_page);
+    TEST_ASSERT_EQUAL(LINK_NEXT, player.link_taken);
+    (void)run_until(PLAYER_EV_PAGE, &seen);
+    TEST_ASSERT_EQUAL_UINT8(2, player.page);
+    TEST_ASSERT_EQUAL_UINT8(1, player.repetition);
+    (void)run_to_end();
+    TEST_ASSERT_EQUAL(PAGE_OK, player.fault);
+}
+
+static void test_player_plays_a_page_play_count_times_before_its_link(void)
+{
+    repetitions_then_link(PLAYER_LAW_EXACT);
+    setUp();
+    repetitions_then_link(PLAYER_LAW_CLASSIC);
+}
+
+static void test_player_stop_ends_the_repetitions_through_the_exit_page(void)
+{
+    uint8_t seen;
+    sparse_step(1, 10, 0, 600);
+    sparse_step(1, 10, 0, 500);
+    sparse_pages[1].count = 200;
+    sparse_pages[1].exit = 3;
+    sparse_step(3, 10, 0, 512);
+    start(1);
+    for (uint8_t tick = 0; tick < 42; tick++) {
+        (void)player_tick(&player, &l);
+    }
+    link_stop(&l);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT16(20, run_until(PLAYER_EV_LINK, &seen));
+    TEST_ASSERT_EQUAL(LINK_EXIT, player.link_taken);
+    TEST_ASSERT_EQUAL_UINT8(3, player.next_page);
+    (void)run_to_end();
+    TEST_ASSERT_EQUAL_UINT8(3, player.page);
+}
+
+static void test_player_code_that_comes_during_the_step_before_the_last_counts(void)
+{
+    uint8_t seen;
+    sparse_step(1, 10, 0, 600);
+    sparse_step(1, 10, 0, 500);
+    sparse_pages[1].next = 1;
+    sparse_pages[1].link1 = 2;
+    sparse_pages[1].code1 = 4;
+    sparse_step(2, 10, 0, 512);
+    start(1);
+    for (uint8_t tick = 0; tick < 8; tick++) {
+        (void)player_tick(&player, &l);
+    }
+    link_code(&l, 4); /* the link is decided in the last tick but one of the step before */
+    (void)run_until(PLAYER_EV_LINK, &seen);
+    TEST_ASSERT_EQUAL(LINK_LINKED1, player.link_taken);
+    TEST_ASSERT_EQUAL_UINT8(2, player.next_page);
+}
+
+static void test_player_passes_pages_with_play_count_0(void)
+{
+    uint8_t seen;
+    sparse_step(1, 10, 0, 600);
+    sparse_pages[1].next = 2;
+    sparse_step(2, 10, 0, 700);
+    sparse_pages[2].count = 0;
+    sparse_pages[2].next = 3;
+    sparse_step(3, 10, 0, 800);
+    start(1);
+    (void)run_until(PLAYER_EV_PAGE, &seen);
+    TEST_ASSERT_EQUAL_UINT16(10, run_until(PLAYER_EV_PAGE, &seen));
+    TEST_ASSERT_EQUAL_UINT8(3, player.page);
+    setUp();
+    sparse_pages[2].count = 0;
+    sparse_pages[2].next = 3;
+    sparse_step(3, 10, 0, 800);
+    start(2);
+    TEST_ASSERT_EQUAL_UINT8(3, player.page);
+}
+
+static void bad_next_page_ends_the_play(player_law_t law, bool damaged)
+{
+    uint8_t seen;
+    sparse_step(1, 30, 0, 600);
+    sparse_pages[1].next = 2;
+    sparse_pages[2].damaged = damaged;
+    start_law(1, law);
+    (void)run_until(PLAYER_EV_ENDED, &seen);
+    TEST_ASSERT_EQUAL_UINT8(2, player.fault_page);
+    TEST_ASSERT_EQUAL(damaged ? PAGE_ERR_CHECKSUM : PAGE_EMPTY, player.fault);
+    TEST_ASSERT_UINT16_WITHIN(2, 600, player.goal_pos[0]);
+}
+
+static void test_player_ends_standing_before_a_page_that_cannot_be_played(void)
+{
+    bad_next_page_ends_the_play(PLAYER_LAW_EXACT, true);
+    setUp();
+    bad_next_page_ends_the_play(PLAYER_LAW_EXACT, false);
+    setUp();
+    bad_next_page_ends_the_play(PLAYER_LAW_CLASSIC, true);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_player_unused_joint_keeps_its_target_and_starts_from_there);
+    RUN_TEST(test_player_absent_joint_is_never_touched_nor_timed);
+    RUN_TEST(test_player_dropped_joint_keeps_its_goal);
+    RUN_TEST(test_player_first_pose_tells_the_joints_of_step_1);
+    RUN_TEST(test_player_refuses_what_cannot_be_played);
+    RUN_TEST(test_player_plays_a_page_play_count_times_before_its_link);
+    RUN_TEST(test_player_stop_ends_the_repetitions_through_the_exit_page);
+    RUN_TEST(test_player_code_that_comes_during_the_step_before_the_last_counts);
+    RUN_TEST(test_player_passes_pages_with_play_count_0);
+    RUN_TEST(test_player_ends_standing_before_a_page_that_cannot_be_played);
+    return UNITY_END();
+}

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT
+ * Joints on the fake bus: who is silent, hot, without torque, and who is well again. */
+#include "servo_link_stage.h"
+
+#include <string.h>
+#include "dxl_packet.h"
+#include "unity.h"
+
+/* ---- health ---- */
+
+static void test_one_servo_a_tick_is_asked_in_turn(void)
+{
+    const uint8_t *packet = NULL;
+    bool asked[4] = { false };
+    robot(3);
+    for (uint8_t tick = 0; tick < 3; tick++) {
+        fake_bus_clear_log();
+        tick_with_goals(SERVO_LINK_ALL);
+        TEST_ASSERT_EQUAL(1, logged(DXL_READ, &packet));
+        asked[packet[2]] = true;
+    }
+    TEST_ASSERT_TRUE(asked[1] && asked[2] && asked[3]);
+}
+
+static void test_silent_servo_is_named_once_within_a_second_and_when_it_is_back(void)
+{
+    servo_fault_t fault;
+    robot(18);
+    fake_bus_servo(7)->faults = FAKE_BUS_SILENT;
+    idle_ticks(18 + 2);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(7, fault.id);
+    TEST_ASSERT_EQUAL(SERVO_FAULT_SILENT, fault.kind);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(7), servos.silent);
+    TEST_ASSERT_EQUAL_HEX32(0, servo_link_drivable(&servos) & SERVO_LINK_BIT(7));
+    idle_ticks(60);
+    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));
+    fake_bus_servo(7)->faults = 0;
+    idle_ticks(19);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(SERVO_FAULT_BACK, fault.kind);
+    TEST_ASSERT_EQUAL_HEX32(0, servos.silent);
+    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));
+}
+
+static void test_two_lost_answers_are_no_fault(void)
+{
+    servo_fault_t fault;
+    robot(3);
+    fake_bus_servo(2)->fail_next = 2;
+    idle_ticks(20);
+    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL_HEX32(0, servos.silent);
+}
+
+static void test_third_lost_answer_in_a_row_is_a_fault(void)
+{
+    servo_fault_t fault;
+    robot(3);
+    fake_bus_servo(2)->fail_next = 3;
+    idle_ticks(4);   /* 1, then 2 three times */
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(2, fault.id);
+    TEST_ASSERT_EQUAL(SERVO_FAULT_SILENT, fault.kind);
+}
+
+/* It may have lost its power meanwhile. */
+static void test_servo_that_is_back_gets_its_slopes_again(void)
+{
+    uint8_t compliance[SERVO_LINK_JOINTS];
+    memset(compliance, 0x33, sizeof compliance);
+    robot(3);
+    servo_link_slopes(&servos, compliance);
+    tick_with_goals(SERVO_LINK_ALL);
+    fake_bus_servo(2)->faults = FAKE_BUS_SILENT;
+    idle_ticks(10);
+    fake_bus_servo(2)->table[DXL_AT_CW_SLOPE] = 32;
+    fake_bus_servo(2)->faults = 0;
+    idle_ticks(10);
+    TEST_ASSERT_EQUAL_HEX32(0, servos.silent);
+    tick_with_goals(SERVO_LINK_ALL);
+    TEST_ASSERT_EQUAL(8, fake_bus_servo(2)->table[DXL_AT_CW_SLOPE]);
+}
+
+static void test_servo_with_wrong_checksums_counts_as_silent(void)
+{
+    servo_fault_t fault;
+    robot(3);
+    fake_bus_servo(2)->faults = FAKE_BUS_BAD_CHECKSUM;
+    idle_ticks(8);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(SERVO_FAULT_SILENT, fault.kind);
+}
+
+static void test_errors_are_named_when_they_come_when_they_go_and_when_they_come_again(void)
+{
+    servo_fault_t fault;
+    robot(3);
+    fake_bus_servo(2)->error = DXL_ERR_OVERLOAD | DXL_ERR_RANGE;
+    idle_ticks(3);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(2, fault.id);
+    TEST_ASSERT_EQUAL(SERVO_FAULT_ERRORS, fault.kind);
+    TEST_ASSERT_EQUAL_HEX8(DXL_ERR_OVERLOAD, fault.errors);
+    idle_ticks(9);
+    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));
+    fake_bus_servo(2)->error = 0;
+    idle_ticks(3);
+    TEST_ASSERT_EQUAL(0, servos.errors[2]);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(SERVO_FAULT_ERRORS, fault.kind);
+    TEST_ASSERT_EQUAL_HEX8(0, fault.errors);
+    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));
+    fake_bus_servo(2)->error = DXL_ERR_HEAT;
+    idle_ticks(3);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL_HEX8(DXL_ERR_HEAT, fault.errors);
+}
+
+static void test_torque_that_goes_off_by_itself_is_named_and_not_driven(void)
+{
+    servo_fault_t fault;
+    robot(3);
+    fake_bus_set_word(2, DXL_AT_TORQUE_LIMIT, 0);   /* what a shutdown does */
+    idle_ticks(3);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(2, fault.id);
+    TEST_ASSERT_EQUAL(SERVO_FAULT_TORQUE, fault.kind);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1) | SERVO_LINK_BIT(3), servo_link_drivable(&servos));
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servo_link_torque_on(&servos, SERVO_LINK_BIT(2)));
+    TEST_ASSERT_EQUAL(1023, fake_bus_word(2, DXL_AT_TORQUE_LIMIT));
+}
+
+static void test_voltage_and_temperature_are_those_of_the_last_round(void)
+{
+    robot(3);
+    fake_bus_servo(2)->table[DXL_AT_VOLTAGE] = 88;
+    fake_bus_servo(3)->table[DXL_AT_TEMPERATURE] = 71;
+    idle_ticks(7);
+    TEST_ASSERT_EQUAL(88, servos.voltage_dv);
+    TEST_ASSERT_EQUAL(71, servos.hottest_degrees);
+    TEST_ASSERT_EQUAL(3, servos.hottest_id);
+    fake_bus_servo(2)->table[DXL_AT_VOLTAGE] = 99;
+    idle_ticks(7);
+    TEST_ASSERT_EQUAL(96, servos.voltage_dv);
+}
+
+static void test_live_poses_come_with_the_polls(void)
+{
+    robot(3);
+    servo_link_torque_off(&servos, SERVO_LINK_ALL);
+    fake_bus_set_word(2, DXL_AT_PRESENT, 777);
+    idle_ticks(3);
+    TEST_ASSERT_EQUAL(777, servos.present_pos[2]);
+}
+
+static void test_quiet_keeps_the_bus_free_until_the_next_tick(void)
+{
+    robot(3);
+    servo_link_tick(&servos);
+    servo_link_quiet(&servos);
+    fake_bus_clear_log();
+    rest_of_tick();
+    TEST_ASSERT_EQUAL(0, fake_bus_sent());
+    idle_ticks(1);
+    TEST_ASSERT_EQUAL(1, fake_bus_sent());
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_one_servo_a_tick_is_asked_in_turn);
+    RUN_TEST(test_silent_servo_is_named_once_within_a_second_and_when_it_is_back);
+    RUN_TEST(test_two_lost_answers_are_no_fault);
+    RUN_TEST(test_third_lost_answer_in_a_row_is_a_fault);
+    RUN_TEST(test_servo_that_is_back_gets_its_slopes_again);
+    RUN_TEST(test_servo_with_wrong_checksums_counts_as_silent);
+    RUN_TEST(test_errors_are_named_when_they_come_when_they_go_and_when_they_come_again);
+    RUN_TEST(test_torque_that_goes_off_by_itself_is_named_and_not_driven);
+    RUN_TEST(test_voltage_and_temperature_are_those_of_the_last_round);
+    RUN_TEST(test_live_poses_come_with_the_polls);
+    RUN_TEST(test_quiet_keeps_the_bus_free_until_the_next_tick);
+    return UNITY_END();
+}
