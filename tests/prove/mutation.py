@@ -335,6 +335,7 @@ def run(options):
     if not fits.kept and not options.only:
         return [fits]
     picked = chosen(mutations, options)
+    options.keep = not (options.only or options.named_only or options.scratch)
     with tempfile.TemporaryDirectory(prefix="m512-mutation-") as temporary:
         scratch = options.scratch.resolve() if options.scratch else pathlib.Path(temporary)
         results = run_all(picked, options, scratch)
