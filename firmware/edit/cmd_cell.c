@@ -46,8 +46,8 @@ static void set_byte(session_t *session, uint16_t address, uint8_t byte)
 
 COMMAND(cmd_set)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     here_t here = look_here(session);
     uint16_t max = cell_max((cell_kind_t)here.kind, session->x, session->y), value;
     if (here.kind == CELL_OFFSET) {
@@ -58,7 +58,7 @@ COMMAND(cmd_set)
         return SHELL_ERR_SAID;
     }
     if (here.is_pose) {
-        if (performer_is_idle(editor->performer)) {
+        if (performer_is_idle(&the_performer)) {
             robot_move(&editor->robot, session->y, value);
         }
         return SHELL_OK;
@@ -93,7 +93,7 @@ static uint16_t changed_word(uint16_t word, int8_t change)
 
 void cmd_cell_change(editor_t *editor, int8_t change)
 {
-    session_t *session = &editor->session;
+    session_t *session = &the_session;
     here_t here = look_here(session);
     if (here.kind == CELL_BYTE) {
         set_byte(session, here.address, changed_byte(session, here.address, change));
@@ -109,29 +109,29 @@ void cmd_cell_change(editor_t *editor, int8_t change)
     if (!here.is_pose) {
         set_position(session, here.address, pos);
         (void)session_end(session);
-    } else if (robot_has(&editor->robot, session->y) && performer_is_idle(editor->performer)) {
+    } else if (robot_has(session->y) && performer_is_idle(&the_performer)) {
         robot_move(&editor->robot, session->y, pos);
     }
 }
 
 static void toggle_pose(editor_t *editor)
 {
-    uint8_t joint = editor->session.y;
-    uint16_t word = session_pose(&editor->session, joint);
-    if (!robot_has(&editor->robot, joint)) {
-        session_set_pose(&editor->session, joint, word ^ PAGE_POS_TORQUE_OFF);
-    } else if (!performer_is_idle(editor->performer)) {
+    uint8_t joint = the_session.y;
+    uint16_t word = session_pose(&the_session, joint);
+    if (!robot_has(joint)) {
+        session_set_pose(&the_session, joint, word ^ PAGE_POS_TORQUE_OFF);
+    } else if (!performer_is_idle(&the_performer)) {
         return;
     } else if (cell_is_off(word)) {
         robot_on(&editor->robot, servo_link_bit(joint));
     } else {
-        robot_off(&editor->robot, servo_link_bit(joint));
+        robot_off(servo_link_bit(joint));
     }
 }
 
 void cmd_cell_space(editor_t *editor)
 {
-    session_t *session = &editor->session;
+    session_t *session = &the_session;
     here_t here = look_here(session);
     if (here.is_pose) {
         toggle_pose(editor);
@@ -145,8 +145,8 @@ void cmd_cell_space(editor_t *editor)
 
 COMMAND(cmd_goto)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     uint8_t x = (uint8_t)args->number[0], y = (uint8_t)args->number[1];
     if (cell_kind(session->page, x, y) == CELL_NONE) {
         TEXT("There is no cell");
@@ -163,42 +163,40 @@ COMMAND(cmd_goto)
 
 static uint8_t set_schedule(editor_t *editor, uint8_t schedule)
 {
-    session_begin(&editor->session);
-    session_set_byte(&editor->session, PAGE_AT_SCHEDULE, schedule);
+    session_begin(&the_session);
+    session_set_byte(&the_session, PAGE_AT_SCHEDULE, schedule);
     return editor_edited(editor);
 }
 
 COMMAND(cmd_time)
 {
     (void)args;
-    return set_schedule(context, PAGE_SCHEDULE_TIME);
+    return set_schedule(&the_editor, PAGE_SCHEDULE_TIME);
 }
 
 COMMAND(cmd_speed)
 {
     (void)args;
-    return set_schedule(context, PAGE_SCHEDULE_SPEED);
+    return set_schedule(&the_editor, PAGE_SCHEDULE_SPEED);
 }
 
 COMMAND(cmd_hex)
 {
-    editor_t *editor = context;
     (void)args;
-    editor->session.hex = true;
+    the_session.hex = true;
     return SHELL_OK;
 }
 
 COMMAND(cmd_dec)
 {
-    editor_t *editor = context;
     (void)args;
-    editor->session.hex = false;
+    the_session.hex = false;
     return SHELL_OK;
 }
 
 COMMAND(cmd_re)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     (void)args;
     screen_redraw(&editor->screen);
     screen_ask_size(&editor->screen);
@@ -207,7 +205,7 @@ COMMAND(cmd_re)
 
 COMMAND(cmd_rows)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     screen_set_rows(&editor->screen, (uint8_t)args->number[0]);
     return SHELL_OK;
 }

@@ -30,16 +30,16 @@ static void begin_step(uint8_t page, uint8_t step, uint8_t joint)
     text_put(' ');
 }
 
-static void check_links(const editor_t *editor, uint8_t page)
+static void check_links(uint8_t page)
 {
     for (uint8_t i = 0; i < LINKS; i++) {
         uint8_t to = page_store_byte(page, pgm_read_byte(&link_fields[i]));
         bool used = to != 0 && to < PAGE_COUNT;
-        if (used && (!page_store_is_good(editor->pages, to) || page_store_byte(to, PAGE_AT_STEPS) == 0)) {
+        if (used && (!page_store_is_good(&the_pages, to) || page_store_byte(to, PAGE_AT_STEPS) == 0)) {
             begin_line(page);
             TEXT("leads to page ");
             text_number(to);
-            text_P(page_store_is_good(editor->pages, to) ? TEXT_P(", which has no steps") : TEXT_P(", which is not valid"));
+            text_P(page_store_is_good(&the_pages, to) ? TEXT_P(", which has no steps") : TEXT_P(", which is not valid"));
             text_line_end();
         }
     }
@@ -55,13 +55,13 @@ static bool leads_to(uint8_t from, uint8_t page)
     return false;
 }
 
-static void check_reach(const editor_t *editor, uint8_t page)
+static void check_reach(uint8_t page)
 {
     if (page_store_byte(page, PAGE_AT_PLAY_CODE) != 0) {
         return;
     }
     for (uint8_t from = 1; from < PAGE_COUNT; from++) {
-        if (from != page && page_store_is_good(editor->pages, from) && leads_to(from, page)) {
+        if (from != page && page_store_is_good(&the_pages, from) && leads_to(from, page)) {
             return;
         }
     }
@@ -87,7 +87,7 @@ static void check_speed(uint8_t page)
     }
 }
 
-static void check_joint(const editor_t *editor, uint8_t page, uint8_t joint)
+static void check_joint(uint8_t page, uint8_t joint)
 {
     uint8_t limits[4];
     uint8_t steps = page_store_byte(page, PAGE_AT_STEPS);
@@ -98,7 +98,7 @@ static void check_joint(const editor_t *editor, uint8_t page, uint8_t joint)
     uint16_t high = (uint16_t)(limits[2] | (uint16_t)limits[3] << 8);
     for (uint8_t step = 0; step < steps; step++) {
         uint16_t pos = page_facts_word(page, step, joint);
-        uint16_t goal = servo_link_to_servo(editor->servos, joint, pos & PAGE_POS_MAX);
+        uint16_t goal = servo_link_to_servo(&the_servos, joint, pos & PAGE_POS_MAX);
         if (pos <= PAGE_POS_MAX && (goal < low || goal > high)) {
             begin_step(page, step, joint);
             TEXT("outside the servo's limits");
@@ -107,9 +107,9 @@ static void check_joint(const editor_t *editor, uint8_t page, uint8_t joint)
     }
 }
 
-static void check_page(editor_t *editor, uint8_t page)
+static void check_page(uint8_t page)
 {
-    page_status_t status = page_store_check(editor->pages, page);
+    page_status_t status = page_store_check(&the_pages, page);
     if (status != PAGE_OK) {
         char text[FRAME_FAULT_BYTES];
         frame_fault_text(status == PAGE_ERR_STEPS ? page_store_byte(page, PAGE_AT_STEPS) : (uint8_t)status, text);
@@ -121,12 +121,12 @@ static void check_page(editor_t *editor, uint8_t page)
     if (page_store_byte(page, PAGE_AT_STEPS) == 0) {
         return;
     }
-    check_links(editor, page);
-    check_reach(editor, page);
+    check_links(page);
+    check_reach(page);
     check_speed(page);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (robot_has(&editor->robot, joint)) {
-            check_joint(editor, page, joint);
+        if (robot_has(joint)) {
+            check_joint(page, joint);
         }
     }
 }
@@ -137,17 +137,17 @@ static bool check_item(editor_t *editor, uint8_t item)
     if (page > editor->list_last) {
         return false;
     }
-    servo_link_quiet(editor->servos);
+    servo_link_quiet(&the_servos);
     if (page != 0 && !session_is_empty(page)) {
-        check_page(editor, page);
+        check_page(page);
     }
     return true;
 }
 
 COMMAND(cmd_check)
 {
-    editor_t *editor = context;
-    if (!editor_may_move(editor)) {
+    editor_t *const editor = &the_editor;
+    if (!editor_may_move()) {
         return SHELL_ERR_SAID;
     }
     editor->list_first = args->count > 1 ? (uint8_t)args->number[0] : 1;

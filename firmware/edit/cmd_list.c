@@ -20,7 +20,7 @@ static bool help_item(editor_t *editor, uint8_t item)
 
 COMMAND(cmd_help)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     if (args->count == 1) {
         return editor_list(editor, help_item, TEXT_P("Keys: arrows, [ ] -1 +1, { } -10 +10, space"));
     }
@@ -43,7 +43,7 @@ static void print_time(uint16_t ticks)
     TEXT(" s");
 }
 
-static void print_page(editor_t *editor, uint8_t page)
+static void print_page(uint8_t page)
 {
     char name[PAGE_NAME_BYTES];
     uint8_t header[PAGE_STEP_BYTES];
@@ -52,7 +52,7 @@ static void print_page(editor_t *editor, uint8_t page)
     text_padded(page, 3, ' ');
     TEXT("  ");
     text_string_padded(name, PAGE_NAME_BYTES);
-    page_status_t status = page_store_check(editor->pages, page);
+    page_status_t status = page_store_check(&the_pages, page);
     if (status != PAGE_OK) {
         char text[FRAME_FAULT_BYTES];
         frame_fault_text(status == PAGE_ERR_STEPS ? header[PAGE_AT_STEPS] : (uint8_t)status, text);
@@ -78,14 +78,14 @@ static bool list_page_item(editor_t *editor, uint8_t item)
         return false;
     }
     if (!session_is_empty(page)) {
-        print_page(editor, page);
+        print_page(page);
     }
     return true;
 }
 
 COMMAND(cmd_list)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     editor->list_first = args->count > 1 ? (uint8_t)args->number[0] : 0;
     editor->list_last = args->count > 2    ? (uint8_t)args->number[1]
                         : args->count == 2 ? (uint8_t)args->number[0]
@@ -120,7 +120,7 @@ static bool find_item(editor_t *editor, uint8_t item)
     }
     page_store_name(item, name);
     if (!page_store_is_erased(item) && contains(name, shell_word(&editor->args, 1))) {
-        print_page(editor, item);
+        print_page(item);
     }
     return true;
 }
@@ -128,5 +128,5 @@ static bool find_item(editor_t *editor, uint8_t item)
 COMMAND(cmd_find)
 {
     (void)args;
-    return editor_list(context, find_item, list_title);
+    return editor_list(&the_editor, find_item, list_title);
 }

@@ -23,7 +23,7 @@ static uint8_t open_asking(editor_t *editor, uint8_t page)
 
 COMMAND(cmd_page)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     return open_asking(editor, (uint8_t)args->number[0]);
 }
 
@@ -33,52 +33,52 @@ static uint8_t open_beside(editor_t *editor, bool is_there, int8_t way)
         TEXT("Page must be 0..127");
         return SHELL_ERR_SAID;
     }
-    return open_asking(editor, (uint8_t)(editor->session.page + way));
+    return open_asking(editor, (uint8_t)(the_session.page + way));
 }
 
 COMMAND(cmd_next)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     (void)args;
-    return open_beside(editor, editor->session.page < PAGE_MAX, 1);
+    return open_beside(editor, the_session.page < PAGE_MAX, 1);
 }
 
 COMMAND(cmd_before)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     (void)args;
-    return open_beside(editor, editor->session.page > 0, -1);
+    return open_beside(editor, the_session.page > 0, -1);
 }
 
 COMMAND(cmd_copy)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     if (!editor_ask_unsaved(editor)) {
         return EDITOR_TO_ASK;
     }
-    session_begin(&editor->session);
-    session_load(&editor->session, (uint8_t)args->number[0]);
+    session_begin(&the_session);
+    session_load(&the_session, (uint8_t)args->number[0]);
     return editor_edited(editor);
 }
 
 COMMAND(cmd_new)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     (void)args;
     if (!editor_ask(editor, TEXT_P(""))) {
         return EDITOR_TO_ASK;
     }
-    session_begin(&editor->session);
-    session_clear(&editor->session);
+    session_begin(&the_session);
+    session_clear(&the_session);
     return editor_edited(editor);
 }
 
 /* ---- save ---- */
 
 /* A stored page holds no torque-off marks (motion512.md): they become joints that the step does not use. */
-static void clear_off_marks(editor_t *editor)
+static void clear_off_marks(void)
 {
-    session_t *session = &editor->session;
+    session_t *session = &the_session;
     uint8_t count = 0;
     session_begin(session);
     for (uint16_t address = PAGE_AT_STEP0; address < PAGE_BYTES; address = (uint16_t)(address + 2u)) {
@@ -100,9 +100,9 @@ static void clear_off_marks(editor_t *editor)
 }
 
 /* Faults that a save does not cure. */
-static bool page_is_sound(editor_t *editor)
+static bool page_is_sound(void)
 {
-    session_t *session = &editor->session;
+    session_t *session = &the_session;
     bool was_damaged = session->was_damaged;
     session->was_damaged = false;
     uint8_t fault = frame_fault(session);
@@ -119,10 +119,10 @@ static bool page_is_sound(editor_t *editor)
 
 static bool overwriting_is_meant(editor_t *editor, uint8_t page)
 {
-    if (page != editor->session.page) {
+    if (page != the_session.page) {
         return session_is_empty(page) || editor_ask(editor, TEXT_P("That page is not empty. "));
     }
-    if (page_store_is_erased(page) || page_store_check(editor->pages, page) == PAGE_OK) {
+    if (page_store_is_erased(page) || page_store_check(&the_pages, page) == PAGE_OK) {
         return true;
     }
     return editor_ask(editor, TEXT_P("The stored page is damaged. "));
@@ -133,20 +133,20 @@ static uint8_t save_by_mailbox(editor_t *editor, uint8_t page)
     if (!editor_ask(editor, TEXT_P("SAVE restarts (5 s). "))) {
         return EDITOR_TO_ASK;
     }
-    page_save_by_mailbox(page, editor->session.cells);
+    page_save_by_mailbox(page, the_session.cells);
 }
 
 /* Says how it went; what follows from it comes behind, so that OK is on the line within 60 ms. */
 static uint8_t save_now(editor_t *editor, uint8_t page)
 {
-    page_save_status_t status = page_save(page, editor->session.cells);
+    page_save_status_t status = page_save(page, the_session.cells);
     text_P(status == PAGE_SAVE_OK           ? TEXT_P("OK")
            : status == PAGE_SAVE_UNCHANGED  ? TEXT_P("OK, no change")
            : status == PAGE_SAVE_ERR_VERIFY ? TEXT_P("Not saved: flash error")
                                             : TEXT_P("No boot loader can write: the page stays in RAM"));
-    page_store_refresh(editor->pages, page);
-    if (page == editor->session.page) {
-        session_saved(&editor->session);
+    page_store_refresh(&the_pages, page);
+    if (page == the_session.page) {
+        session_saved(&the_session);
     } else if (page == 0) {
         robot_set_trim(&editor->robot);
     }
@@ -155,16 +155,16 @@ static uint8_t save_now(editor_t *editor, uint8_t page)
 
 COMMAND(cmd_save)
 {
-    editor_t *editor = context;
-    uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : editor->session.page;
-    if (!page_is_sound(editor)) {
+    editor_t *const editor = &the_editor;
+    uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : the_session.page;
+    if (!page_is_sound()) {
         return SHELL_ERR_SAID;
     }
     if (!overwriting_is_meant(editor, page)) {
         return EDITOR_TO_ASK;
     }
     editor->screen.lead = true;
-    clear_off_marks(editor);
+    clear_off_marks();
     if (page_service_kind() == PAGE_SERVICE_MAILBOX) {
         return save_by_mailbox(editor, page);
     }
@@ -174,7 +174,7 @@ COMMAND(cmd_save)
 COMMAND(cmd_exit)
 {
     (void)args;
-    if (!editor_ask_unsaved(context)) {
+    if (!editor_ask_unsaved(&the_editor)) {
         return EDITOR_TO_ASK;
     }
     console_flush();
@@ -185,7 +185,7 @@ COMMAND(cmd_exit)
 
 void cmd_name_done(editor_t *editor, const char *name)
 {
-    session_t *session = &editor->session;
+    session_t *session = &the_session;
     bool ended = false;
     session_begin(session);
     for (uint8_t i = 0; i < PAGE_NAME_BYTES; i++) {
@@ -198,7 +198,7 @@ void cmd_name_done(editor_t *editor, const char *name)
 
 COMMAND(cmd_name)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     if (args->count > 1) {
         cmd_name_done(editor, shell_word(args, 1));
         return SHELL_OK;
@@ -219,14 +219,12 @@ static uint8_t say_unless(bool done, const char *text)
 
 COMMAND(cmd_undo)
 {
-    editor_t *editor = context;
     (void)args;
-    return say_unless(session_undo(&editor->session), TEXT_P("Nothing to undo"));
+    return say_unless(session_undo(&the_session), TEXT_P("Nothing to undo"));
 }
 
 COMMAND(cmd_redo)
 {
-    editor_t *editor = context;
     (void)args;
-    return say_unless(session_redo(&editor->session), TEXT_P("Nothing to redo"));
+    return say_unless(session_redo(&the_session), TEXT_P("Nothing to redo"));
 }

@@ -11,11 +11,10 @@
 
 COMMAND(cmd_play)
 {
-    editor_t *editor = context;
-    uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : editor->session.page;
-    performer_status_t status = performer_start(editor->performer, page, 0);
+    uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : the_session.page;
+    performer_status_t status = performer_start(&the_performer, page, 0);
     if (status != PERFORMER_OK) {
-        report_refusal(status, page, editor->performer->fault);
+        report_refusal(status, page, the_performer.fault);
         return SHELL_ERR_SAID;
     }
     return EDITOR_TO_PLAY;
@@ -27,7 +26,7 @@ void cmd_play_key(editor_t *editor, uint8_t key)
     switch (key) {
     case KEY_CR:
     case KEY_LF:
-        performer_stop(editor->performer);
+        performer_stop(&the_performer);
         TEXT("[STOP]");
         break;
     case KEY_ESCAPE:
@@ -35,12 +34,12 @@ void cmd_play_key(editor_t *editor, uint8_t key)
     case KEY_DOWN:
     case KEY_RIGHT:
     case KEY_LEFT:
-        performer_end(editor->performer);
+        performer_end(&the_performer);
         TEXT("[Exit]");
         break;
     case ' ':
     case KEY_CTRL_C:
-        performer_break(editor->performer);
+        performer_break(&the_performer);
         TEXT("[BREAK]");
         break;
     default:
@@ -53,17 +52,17 @@ void cmd_play_key(editor_t *editor, uint8_t key)
 /* What is the matter with a joint: DXL_ERR_ bits, and two more where servos report none. */
 enum { BIT_SILENT = 3, BIT_LIMP = 4 };
 
-static uint8_t state_of(const editor_t *editor, uint8_t joint)
+static uint8_t state_of(uint8_t joint)
 {
-    const servo_link_t *servos = editor->servos;
+    const servo_link_t *servos = &the_servos;
     if (servo_link_has(&servos->silent, joint)) {
         return 1u << BIT_SILENT;
     }
     uint8_t state = servos->errors[joint];
-    if (editor->performer->told_hot && joint == servos->hottest_id) {
+    if (the_performer.told_hot && joint == servos->hottest_id) {
         state |= DXL_ERR_HEAT;
     }
-    return state == 0 && servo_link_has(&editor->performer->faulty, joint) ? 1u << BIT_LIMP : state;
+    return state == 0 && servo_link_has(&the_performer.faulty, joint) ? 1u << BIT_LIMP : state;
 }
 
 /* All that is wrong with the servos, at once: faults come in swarms, and the row is one. Shorter than report_event, which
@@ -81,11 +80,11 @@ static NOINLINE void tell_faults(editor_t *editor)
     for (uint8_t bit = 0; bit < ARRAY_COUNT(names); bit++) {
         uint32_t joints = 0;
         for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-            servo_link_put(&joints, joint, (state_of(editor, joint) >> bit & 1u) != 0);
+            servo_link_put(&joints, joint, (state_of(joint) >> bit & 1u) != 0);
         }
         editor_tell_joints(editor, (const char *)pgm_read_ptr(&names[bit]), joints);
     }
-    if (editor->performer->told_battery) {
+    if (the_performer.told_battery) {
         TEXT(" Battery low");
     }
     if (editor->screen.line_column == SCREEN_LINE_COLUMN) {
@@ -130,7 +129,7 @@ static void play_ended(editor_t *editor, const performer_event_t *event)
 void cmd_play_events(editor_t *editor, bool line_is_free)
 {
     performer_event_t event;
-    if (performer_next_event(editor->performer, &event)) {
+    if (performer_next_event(&the_performer, &event)) {
         if (event.kind == PERFORMER_EV_ENDED) {
             play_ended(editor, &event);
         } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
@@ -151,7 +150,7 @@ enum { BALANCE_TICKS = 29, BALANCE_FIRST_ID = 102, BALANCE_SECOND_ID = 101, BALA
 
 COMMAND(cmd_balance)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     (void)args;
     editor->balance_ticks = 0;
     return EDITOR_TO_BALANCE;
@@ -177,7 +176,7 @@ void cmd_balance_tick(editor_t *editor)
         return;
     }
     editor->balance_ticks = BALANCE_TICKS - 1;
-    servo_link_quiet(editor->servos);
+    servo_link_quiet(&the_servos);
     screen_open_line(&editor->screen);
     print_device(BALANCE_FIRST_ID, ',');
     print_device(BALANCE_SECOND_ID, ' ');

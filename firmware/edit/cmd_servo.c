@@ -11,17 +11,17 @@ enum { NEUTRAL_POS = 512 };
 static void send_step(editor_t *editor, const uint8_t step[PAGE_STEP_BYTES])
 {
     uint32_t missing = robot_send(&editor->robot, step);
-    session_set_byte(&editor->session, CELLS_POSE_AT + PAGE_STEP_AT_PAUSE, step[PAGE_STEP_AT_PAUSE]);
-    session_set_byte(&editor->session, CELLS_POSE_AT + PAGE_STEP_AT_SPEED, step[PAGE_STEP_AT_SPEED]);
+    session_set_byte(&the_session, CELLS_POSE_AT + PAGE_STEP_AT_PAUSE, step[PAGE_STEP_AT_PAUSE]);
+    session_set_byte(&the_session, CELLS_POSE_AT + PAGE_STEP_AT_SPEED, step[PAGE_STEP_AT_SPEED]);
     editor_tell_joints(editor, TEXT_P("No value, not moved"), missing);
 }
 
 COMMAND(cmd_go)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     uint8_t step = (uint8_t)args->number[0];
-    if (!editor_may_move(editor)) {
+    if (!editor_may_move()) {
         return SHELL_ERR_SAID;
     }
     if (step >= session->cells[PAGE_AT_STEPS] && !editor_ask(editor, TEXT_P(""))) {
@@ -37,10 +37,10 @@ COMMAND(cmd_go)
 /* ---- mirror ---- */
 
 /* Neutral position of a joint: 512, or the first step of page 1 in flash (never its copy in RAM). */
-static uint16_t neutral_of(const editor_t *editor, uint8_t joint)
+static uint16_t neutral_of(uint8_t joint)
 {
     uint8_t word[2];
-    if (editor->settings->neutral != SETTINGS_NEUTRAL_PAGE1 || !page_store_is_good(editor->pages, 1)) {
+    if (the_settings.neutral != SETTINGS_NEUTRAL_PAGE1 || !page_store_is_good(&the_pages, 1)) {
         return NEUTRAL_POS;
     }
     page_store_read(1, (uint16_t)(PAGE_AT_STEP0 + 2u * joint), word, sizeof word);
@@ -49,30 +49,30 @@ static uint16_t neutral_of(const editor_t *editor, uint8_t joint)
 }
 
 /* new[a] = N[a] - (s[b] - N[b]), kept within 0..1023; what is no position passes as it is. */
-static uint16_t mirrored(const editor_t *editor, uint8_t step, uint8_t joint, uint8_t partner)
+static uint16_t mirrored(uint8_t step, uint8_t joint, uint8_t partner)
 {
-    uint16_t word = session_word(&editor->session, step, partner);
+    uint16_t word = session_word(&the_session, step, partner);
     if (!cell_is_position(word)) {
         return word;
     }
-    int16_t pos = (int16_t)((int16_t)neutral_of(editor, joint) + (int16_t)neutral_of(editor, partner) - (int16_t)word);
+    int16_t pos = (int16_t)((int16_t)neutral_of(joint) + (int16_t)neutral_of(partner) - (int16_t)word);
     return pos < 0 ? 0 : pos > (int16_t)PAGE_POS_MAX ? (uint16_t)PAGE_POS_MAX : (uint16_t)pos;
 }
 
 COMMAND(cmd_mirror)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     uint8_t step = (uint8_t)args->number[0];
-    if (!editor_may_move(editor)) {
+    if (!editor_may_move()) {
         return SHELL_ERR_SAID;
     }
     uint8_t words[PAGE_STEP_BYTES];
     memcpy(words, &session->cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        uint8_t partner = editor->settings->pair[joint];
+        uint8_t partner = the_settings.pair[joint];
         if (partner < PAGE_JOINTS) {
-            uint16_t word = mirrored(editor, step, joint, partner);
+            uint16_t word = mirrored(step, joint, partner);
             words[2 * joint] = (uint8_t)word;
             words[2 * joint + 1] = (uint8_t)(word >> 8);
         }
@@ -109,14 +109,13 @@ static bool set_pairs(settings_t *settings, const shell_args_t *args)
 
 COMMAND(cmd_pairs)
 {
-    editor_t *editor = context;
     if (args->count > 1) {
-        if (!set_pairs(editor->settings, args)) {
+        if (!set_pairs(&the_settings, args)) {
             return SHELL_ERR_SAID;
         }
-        settings_save_start(editor->settings_store);
+        settings_save_start(&the_settings_store);
     }
-    print_pairs(editor->settings);
+    print_pairs(&the_settings);
     return SHELL_OK;
 }
 
@@ -125,7 +124,7 @@ COMMAND(cmd_pairs)
 /* IDs of the line; without any, all that are there. */
 static bool joints_of(editor_t *editor, const shell_args_t *args, uint32_t *joints)
 {
-    uint32_t there = editor->servos->present;
+    uint32_t there = the_servos.present;
     *joints = args->count > 1 ? 0 : there;
     for (uint8_t i = 1; i < args->count; i++) {
         uint16_t id;
@@ -140,9 +139,9 @@ static bool joints_of(editor_t *editor, const shell_args_t *args, uint32_t *join
 
 COMMAND(cmd_on)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     uint32_t joints;
-    if (!editor_may_move(editor) || !joints_of(editor, args, &joints)) {
+    if (!editor_may_move() || !joints_of(editor, args, &joints)) {
         return SHELL_ERR_SAID;
     }
     robot_on(&editor->robot, joints);
@@ -151,11 +150,11 @@ COMMAND(cmd_on)
 
 COMMAND(cmd_off)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     uint32_t joints;
     if (!joints_of(editor, args, &joints)) {
         return SHELL_ERR_SAID;
     }
-    robot_off(&editor->robot, joints);
+    robot_off(joints);
     return SHELL_OK;
 }

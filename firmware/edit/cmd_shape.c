@@ -63,8 +63,8 @@ static void share_time(session_t *session, uint8_t to, uint8_t b, uint8_t percen
 
 COMMAND(cmd_int)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     uint8_t a = (uint8_t)args->number[0], b = (uint8_t)args->number[1], steps = session->cells[PAGE_AT_STEPS];
     uint16_t percent = PERCENT_DEFAULT;
     if (args->count > 3 && !shell_number(args, 3, TEXT_P("Percent"), 0, PERCENT_WHOLE, &percent)) {
@@ -86,8 +86,8 @@ COMMAND(cmd_int)
 
 COMMAND(cmd_scale)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     uint16_t percent = args->number[0];
     bool cut = false;
     bool is_time = session->cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME;
@@ -109,18 +109,18 @@ COMMAND(cmd_scale)
 
 COMMAND(cmd_take)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     uint8_t first = (uint8_t)args->number[0];
     uint8_t last = args->count > 2 ? (uint8_t)args->number[1] : first;
     if (last < first) {
         TEXT("The first step comes first");
         return SHELL_ERR_SAID;
     }
-    editor->take_page = editor->session.page;
+    editor->take_page = the_session.page;
     editor->take_first = first;
     editor->take_last = last;
     TEXT("Noted for PASTE");
-    if (editor->session.is_changed) {
+    if (the_session.is_changed) {
         TEXT(" (save it first)");
     }
     return SHELL_OK;
@@ -129,7 +129,7 @@ COMMAND(cmd_take)
 static void paste_step(editor_t *editor, uint8_t from, uint8_t to)
 {
     uint8_t chunk[PAGE_STEP_BYTES];
-    session_t *session = &editor->session;
+    session_t *session = &the_session;
     if (editor->take_page == session->page) {
         memcpy(chunk, &session->cells[step_at(from)], PAGE_STEP_BYTES);
     } else {
@@ -142,8 +142,8 @@ static void paste_step(editor_t *editor, uint8_t from, uint8_t to)
 
 COMMAND(cmd_paste)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     uint8_t to = session_steps(session);
     if (editor->take_page == EDITOR_NO_PAGE) {
         TEXT("Nothing noted: TAKE first");

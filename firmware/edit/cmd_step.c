@@ -26,9 +26,9 @@ static void copy_step(session_t *session, uint8_t from, uint8_t to)
 }
 
 /* Page 0: the trim follows from master pose and this robot's pose. */
-static void update_trim(editor_t *editor, uint8_t step)
+static void update_trim(uint8_t step)
 {
-    session_t *session = &editor->session;
+    session_t *session = &the_session;
     if (session->page != 0 || step > 1) {
         return;
     }
@@ -43,7 +43,7 @@ static void tell_off(editor_t *editor)
 {
     uint32_t off = 0;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (robot_has(&editor->robot, joint) && cell_is_off(session_pose(&editor->session, joint))) {
+        if (robot_has(joint) && cell_is_off(session_pose(&the_session, joint))) {
             servo_link_put(&off, joint, true);
         }
     }
@@ -56,16 +56,16 @@ static void tell_off(editor_t *editor)
 
 COMMAND(cmd_step)
 {
-    editor_t *editor = context;
-    session_begin(&editor->session);
-    set_count(&editor->session, (uint8_t)args->number[0]);
+    editor_t *const editor = &the_editor;
+    session_begin(&the_session);
+    set_count(&the_session, (uint8_t)args->number[0]);
     return editor_edited(editor);
 }
 
 COMMAND(cmd_write)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     uint8_t step = session->cells[PAGE_AT_STEPS];
     if (args->count > 1) {
         step = (uint8_t)args->number[0];
@@ -78,15 +78,15 @@ COMMAND(cmd_write)
         set_count(session, (uint8_t)(step + 1u));
     }
     copy_step(session, POSE_STEP, step);
-    update_trim(editor, step);
+    update_trim(step);
     tell_off(editor);
     return editor_edited(editor);
 }
 
 COMMAND(cmd_insert)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     uint8_t step = (uint8_t)args->number[0];
     uint8_t steps = session->cells[PAGE_AT_STEPS];
     session_begin_turn(session, UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
@@ -104,7 +104,7 @@ COMMAND(cmd_insert)
 /* The steps behind move down; the last one stays as a copy (editor-original.md section 6). */
 static uint8_t delete_step(editor_t *editor, uint8_t step)
 {
-    session_t *session = &editor->session;
+    session_t *session = &the_session;
     uint8_t steps = session->cells[PAGE_AT_STEPS];
     session_begin_turn(session, UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
     if (step < steps) {
@@ -118,8 +118,8 @@ static uint8_t delete_step(editor_t *editor, uint8_t step)
 
 COMMAND(cmd_delete)
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    editor_t *const editor = &the_editor;
+    session_t *session = &the_session;
     if (args->count > 1) {
         return delete_step(editor, (uint8_t)args->number[0]);
     }
@@ -143,27 +143,27 @@ static void print_pair(uint8_t from, uint8_t to)
 
 COMMAND(cmd_move)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     uint8_t from = (uint8_t)args->number[0], to = (uint8_t)args->number[1];
     editor->screen.lead = false;
     print_pair(from, to);
-    session_begin(&editor->session);
-    copy_step(&editor->session, from, to);
+    session_begin(&the_session);
+    copy_step(&the_session, from, to);
     if (to == POSE_STEP) {
         TEXT(" (shown only)");
         for (uint8_t y = 0; y < PAGE_JOINTS; y++) {
-            editor->session.marks[y] |= MARK_LABEL;
+            the_session.marks[y] |= MARK_LABEL;
         }
     } else {
         editor->screen.lead = true;
-        update_trim(editor, to);
+        update_trim(to);
     }
     return editor_edited(editor);
 }
 
 COMMAND(cmd_swap)
 {
-    editor_t *editor = context;
-    session_begin_turn(&editor->session, UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
+    editor_t *const editor = &the_editor;
+    session_begin_turn(&the_session, UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
     return editor_edited(editor);
 }

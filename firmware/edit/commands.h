@@ -14,7 +14,7 @@ extern const uint8_t commands_count;
  * wrong has been said when it returns false. An unknown word is fine here. */
 bool commands_numbers(editor_t *editor);
 
-#define COMMAND(name) uint8_t name(void *context, const shell_args_t *args)
+#define COMMAND(name) uint8_t name(void *context __attribute__((unused)), const shell_args_t *args)
 
 /* cmd_page.c */
 COMMAND(cmd_page);

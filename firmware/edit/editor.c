@@ -14,14 +14,8 @@ enum { ESC_QUIET_TICKS = 7, PAINT_ROOM = CONSOLE_TX_BYTES / 2, BYTES_PER_TURN = 
 
 /* ---- start ---- */
 
-void editor_init(editor_t *editor, servo_link_t *servos, performer_t *performer, page_store_t *pages,
-                 settings_t *settings, settings_store_t *settings_store)
+void editor_init(editor_t *editor)
 {
-    editor->servos = servos;
-    editor->performer = performer;
-    editor->pages = pages;
-    editor->settings = settings;
-    editor->settings_store = settings_store;
     editor->mode = EDITOR_TABLE;
     editor->asked = 0;
     editor->answered = 0;
@@ -30,18 +24,18 @@ void editor_init(editor_t *editor, servo_link_t *servos, performer_t *performer,
     editor->faults_due = false;
     editor->after_cr = false;
     editor->quiet_since = tick_now16();
-    session_init(&editor->session);
-    screen_init(&editor->screen, &editor->session);
+    session_init(&the_session);
+    screen_init(&editor->screen);
     keys_init(&editor->keys);
     shell_init(&editor->shell, editor->line, EDITOR_LINE_BYTES, editor->history, EDITOR_HISTORY_BYTES);
     editor->source.context = editor;
     editor->source.read = editor_source_read;
     editor->source.check = editor_source_check;
-    performer_set_source(performer, &editor->source);
-    robot_init(&editor->robot, &editor->session, servos, performer, pages);
-    screen_set_present(&editor->screen, servos->present);
+    performer_set_source(&the_performer, &editor->source);
+    robot_init(&editor->robot);
+    screen_set_present(&editor->screen, the_servos.present);
     editor_image.context = editor;
-    machine_init(&editor->machine, performer, servos, pages, &editor_image);
+    machine_init(&editor->machine, &the_performer, &the_servos, &the_pages, &editor_image);
     screen_ask_size(&editor->screen);
     screen_sync(&editor->screen);
 }
@@ -141,12 +135,12 @@ bool editor_ask(editor_t *editor, const char *question_P)
 
 bool editor_ask_unsaved(editor_t *editor)
 {
-    return !editor->session.is_changed || editor_ask(editor, TEXT_P(""));
+    return !the_session.is_changed || editor_ask(editor, TEXT_P(""));
 }
 
-bool editor_may_move(editor_t *editor)
+bool editor_may_move(void)
 {
-    if (performer_is_idle(editor->performer)) {
+    if (performer_is_idle(&the_performer)) {
         return true;
     }
     TEXT("Something moves");
@@ -155,7 +149,7 @@ bool editor_may_move(editor_t *editor)
 
 uint8_t editor_edited(editor_t *editor)
 {
-    if (!session_end(&editor->session)) {
+    if (!session_end(&the_session)) {
         editor->screen.lead = true;
         TEXT("This cannot be undone");
     }
@@ -165,7 +159,7 @@ uint8_t editor_edited(editor_t *editor)
 void editor_open(editor_t *editor, uint8_t page)
 {
     bool trim_changes = (page == 0) != editor->robot.raw;
-    session_open(&editor->session, page);
+    session_open(&the_session, page);
     if (trim_changes) {
         robot_set_trim(&editor->robot);
     }
@@ -214,13 +208,13 @@ static void take_bytes(editor_t *editor)
 
 static void tick_work(editor_t *editor)
 {
-    performer_tick(editor->performer);
-    (void)settings_save_poll(editor->settings_store, editor->settings);
+    performer_tick(&the_performer);
+    (void)settings_save_poll(&the_settings_store, &the_settings);
     if (editor->mode == EDITOR_BALANCE) {
         cmd_balance_tick(editor);
     }
-    if (performer_is_idle(editor->performer) && editor->mode != EDITOR_MONITOR) {
-        robot_follow(&editor->robot);
+    if (performer_is_idle(&the_performer) && editor->mode != EDITOR_MONITOR) {
+        robot_follow();
     }
 }
 
@@ -241,7 +235,7 @@ bool editor_turn(editor_t *editor)
     if (tick_take()) {
         tick_work(editor);
     }
-    performer_poll(editor->performer);
+    performer_poll(&the_performer);
     uint8_t room = console_room();
     if (editor->mode == EDITOR_TABLE || editor->mode == EDITOR_PLAY) {
         cmd_play_events(editor, room >= CONSOLE_TX_BYTES - 1u);
@@ -251,7 +245,7 @@ bool editor_turn(editor_t *editor)
         return true;
     }
     /* A row may wait for the line longer than a tick: not while something moves. */
-    if (editor->faults_due || room < PAINT_ROOM || !performer_is_idle(editor->performer)) {
+    if (editor->faults_due || room < PAINT_ROOM || !performer_is_idle(&the_performer)) {
         return false;
     }
     if (screen_paint(&editor->screen)) {

@@ -21,6 +21,7 @@
 #include "machine.h"
 #include "page_store.h"
 #include "performer.h"
+#include "parts.h"
 #include "robot.h"
 #include "screen.h"
 #include "servo_link.h"
@@ -60,12 +61,6 @@ typedef struct editor {
     shell_args_t args;             /* of the line being run */
     editor_item_t item;            /* of the list being shown */
     const char *notice_P;          /* told once, when the first screen stands; or NULL */
-    /* Of main.c. */
-    servo_link_t *servos;
-    performer_t *performer;
-    page_store_t *pages;
-    settings_t *settings;
-    settings_store_t *settings_store;
     /* Parts. */
     keys_t keys;
     screen_t screen;
@@ -73,14 +68,16 @@ typedef struct editor {
     robot_t robot;
     machine_t machine;
     page_source_t source;          /* the open page from RAM, the others from flash */
-    session_t session;
     char line[EDITOR_LINE_BYTES];
     char history[EDITOR_HISTORY_BYTES];
 } editor_t;
 
-/* After board_start, page_store_init, settings_load, servo_link_scan, performer_init. text_init is the caller's. */
-void editor_init(editor_t *editor, servo_link_t *servos, performer_t *performer, page_store_t *pages,
-                 settings_t *settings, settings_store_t *settings_store);
+/* The only one, in main.c; see parts.h. The handlers of commands take it from here and not from their context. */
+extern editor_t the_editor;
+
+/* After board_start, page_store_init, settings_load, servo_link_scan, performer_init on the parts. text_init is the
+ * caller's. */
+void editor_init(editor_t *editor);
 
 /* One turn of the main loop: keys, the tick's work, one piece of the screen. true: there is more to do at once. */
 bool editor_turn(editor_t *editor);
@@ -98,7 +95,7 @@ bool editor_ask(editor_t *editor, const char *question_P);
 bool editor_ask_unsaved(editor_t *editor);
 
 /* Nothing plays; otherwise says so. */
-bool editor_may_move(editor_t *editor);
+bool editor_may_move(void);
 
 /* Begins a list: `title_P` is its first line. Returns EDITOR_TO_LIST. */
 uint8_t editor_list(editor_t *editor, editor_item_t item, const char *title_P);

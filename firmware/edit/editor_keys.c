@@ -113,7 +113,7 @@ static void line_byte(editor_t *editor, uint8_t byte)
         editor_leave_line(editor);
         return;
     }
-    editor->args = shell_split(&editor->shell, editor->session.hex);
+    editor->args = shell_split(&editor->shell, the_session.hex);
     editor_run(editor);
 }
 
@@ -141,7 +141,7 @@ static void monitor_byte(editor_t *editor, uint8_t byte)
     }
     text_line_end();
     if (event == SHELL_LINE) {
-        editor->args = shell_split(&editor->shell, editor->session.hex);
+        editor->args = shell_split(&editor->shell, the_session.hex);
         mon_line(editor, &editor->args);
     }
     shell_clear(&editor->shell);
@@ -213,9 +213,9 @@ void editor_byte(editor_t *editor, uint8_t byte)
     if (end_of_cr) {
         return;
     }
-    if (editor->mode != EDITOR_PLAY && !performer_is_idle(editor->performer) && (byte == ' ' || byte == KEY_CTRL_C) &&
+    if (editor->mode != EDITOR_PLAY && !performer_is_idle(&the_performer) && (byte == ' ' || byte == KEY_CTRL_C) &&
         editor->mode != EDITOR_PROGRAM) {
-        performer_break(editor->performer);
+        performer_break(&the_performer);
         return;
     }
     switch (editor->mode) {

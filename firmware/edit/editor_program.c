@@ -8,72 +8,66 @@
 
 /* ---- pages from RAM and flash, for the performer ---- */
 
-void editor_source_read(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
+void editor_source_read(void *context __attribute__((unused)), uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
-    editor_t *editor = context;
-    if (page == editor->session.page) {
-        memcpy(to, &editor->session.cells[offset], count);
+    if (page == the_session.page) {
+        memcpy(to, &the_session.cells[offset], count);
     } else {
         page_store_read(page, offset, to, count);
     }
 }
 
-uint8_t editor_source_check(void *context, uint8_t page)
+uint8_t editor_source_check(void *context __attribute__((unused)), uint8_t page)
 {
-    editor_t *editor = context;
-    return page == editor->session.page ? (uint8_t)session_check(&editor->session)
-                                        : (uint8_t)page_store_check(editor->pages, page);
+    return page == the_session.page ? (uint8_t)session_check(&the_session)
+                                        : (uint8_t)page_store_check(&the_pages, page);
 }
 
 /* ---- what programs may do with the page in RAM ---- */
 
-static uint8_t *program_page(void *context)
+static uint8_t *program_page(void *context __attribute__((unused)))
 {
-    editor_t *editor = context;
-    return editor->session.cells;
+    return the_session.cells;
 }
 
-static machine_status_t program_open(void *context, uint8_t page)
+static machine_status_t program_open(void *context __attribute__((unused)), uint8_t page)
 {
-    editor_t *editor = context;
-    if (editor->session.is_changed) {
+    editor_t *const editor = &the_editor;
+    if (the_session.is_changed) {
         return MACHINE_ERR_UNSAVED;
     }
     editor_open(editor, page);
     return MACHINE_OK;
 }
 
-static void program_changed(void *context)
+static void program_changed(void *context __attribute__((unused)))
 {
-    editor_t *editor = context;
-    session_t *session = &editor->session;
+    session_t *session = &the_session;
     undo_clear(&session->undo);
     session_mark_all(session);
     session_end(session);
 }
 
-static machine_status_t program_save(void *context, uint8_t page)
+static machine_status_t program_save(void *context __attribute__((unused)), uint8_t page)
 {
-    editor_t *editor = context;
-    page_save_status_t status = page_save(page, editor->session.cells);
-    page_store_refresh(editor->pages, page);
+    page_save_status_t status = page_save(page, the_session.cells);
+    page_store_refresh(&the_pages, page);
     if (status != PAGE_SAVE_OK && status != PAGE_SAVE_UNCHANGED) {
         return MACHINE_ERR_SAVE;
     }
-    if (page == editor->session.page) {
-        session_saved(&editor->session);
+    if (page == the_session.page) {
+        session_saved(&the_session);
     }
     return MACHINE_OK;
 }
 
 /* What goes on between the parts of a long command. */
-static void program_service(void *context)
+static void program_service(void *context __attribute__((unused)))
 {
-    editor_t *editor = context;
     if (tick_take()) {
-        performer_tick(editor->performer);
+        performer_tick(&the_performer);
     }
-    performer_poll(editor->performer);
+    performer_poll(&the_performer);
 }
 
 static const char image_name[] PROGMEM = "edit";

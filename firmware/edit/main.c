@@ -6,20 +6,22 @@
 #include "editor.h"
 #include "page_save.h"
 #include "page_service.h"
+#include "parts.h"
 #include "pgm.h"
 #include "text.h"
 
-static editor_t editor;
-static servo_link_t servos;
-static performer_t performer;
-static page_store_t pages;
-static settings_t settings;
-static settings_store_t settings_store;
+editor_t the_editor;
+session_t the_session;
+page_store_t the_pages;
+servo_link_t the_servos;
+performer_t the_performer;
+settings_t the_settings;
+settings_store_t the_settings_store;
 static boot_rx_t receiver;   /* what the PC sends during a page write is kept in the console's ring */
 
 static void put(char character)
 {
-    editor_put(&editor, character);
+    editor_put(&the_editor, character);
 }
 
 /* What became of a page that SAVE left in the mailbox, or what SAVE is going to do. */
@@ -38,25 +40,25 @@ static NOINLINE void start(void)
     ring_t *ring = console_rx_ring();
     receiver = (boot_rx_t){ ring->bytes, &ring->head, &ring->tail, console_rx_lost(), ring->mask };
     page_service_kind_t service = page_service_init(&receiver);
-    page_save_recover(editor.session.cells);
-    editor.notice_P = service == PAGE_SERVICE_MAILBOX ? mail_text_P()
+    page_save_recover(the_session.cells);
+    the_editor.notice_P = service == PAGE_SERVICE_MAILBOX ? mail_text_P()
                       : service == PAGE_SERVICE_NONE  ? TEXT_P("No boot loader can write: no SAVE")
                                                       : NULL;
-    page_store_init(&pages);
-    (void)settings_load(&settings_store, &settings);
-    console_set_flow(settings.flow != 0);
+    page_store_init(&the_pages);
+    (void)settings_load(&the_settings_store, &the_settings);
+    console_set_flow(the_settings.flow != 0);
     text_init(put);
-    servo_link_init(&servos);
-    servo_link_scan(&servos);
-    performer_init(&performer, &pages.source, &servos, &settings);
-    editor_init(&editor, &servos, &performer, &pages, &settings, &settings_store);
+    servo_link_init(&the_servos);
+    servo_link_scan(&the_servos);
+    performer_init(&the_performer, &the_pages.source, &the_servos, &the_settings);
+    editor_init(&the_editor);
 }
 
 int main(void)
 {
     start();
     for (;;) {
-        if (!editor_turn(&editor)) {
+        if (!editor_turn(&the_editor)) {
             board_idle();
         }
     }

@@ -117,12 +117,12 @@ static bool is_one_servo(const editor_t *editor)
 
 /* ---- words ---- */
 
-#define WORD(name) static uint8_t name(void *context, const shell_args_t *args __attribute__((unused)))
+#define WORD(name) static uint8_t name(void *context __attribute__((unused)), const shell_args_t *args __attribute__((unused)))
 
 /* The words from 1 on, address first, as parameters. */
-static uint8_t send_words(void *context, const shell_args_t *args, uint8_t instruction)
+static uint8_t send_words(const shell_args_t *args, uint8_t instruction)
 {
-    const editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     uint8_t count = bytes_of(args);
     if (count != 0) {
         (void)transact(editor->cid, instruction, count);
@@ -144,7 +144,7 @@ static int16_t value_of(const shell_args_t *args, uint8_t max)
 
 WORD(mon_cid)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     int16_t id = id_of(args, DXL_BROADCAST);
     if (id != BAD) {
         editor->cid = (uint8_t)id;
@@ -154,7 +154,7 @@ WORD(mon_cid)
 
 WORD(mon_ping)
 {
-    const editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     int16_t id = args->count == 1 ? editor->cid : id_of(args, DXL_BROADCAST);
     if (id != BAD) {
         (void)transact((uint8_t)id, DXL_PING, 0);
@@ -164,7 +164,7 @@ WORD(mon_ping)
 
 WORD(mon_read)
 {
-    const editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     int16_t at = number_of(args, 1, TEXT_P("Address"), TABLE_BYTES - 1), count = 1;
     if (at == BAD || !is_one_servo(editor)) {
         return SHELL_OK;
@@ -182,24 +182,24 @@ WORD(mon_read)
 
 WORD(mon_write)
 {
-    return send_words(context, args, DXL_WRITE);
+    return send_words(args, DXL_WRITE);
 }
 
 WORD(mon_reg_write)
 {
-    return send_words(context, args, DXL_REG_WRITE);
+    return send_words(args, DXL_REG_WRITE);
 }
 
 WORD(mon_action)
 {
-    const editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     (void)transact(editor->cid, DXL_ACTION, 0);
     return SHELL_OK;
 }
 
 WORD(mon_go)
 {
-    const editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     int16_t speed = 0, pos = number_of(args, 1, TEXT_P("Position"), PAGE_POS_MAX);
     uint8_t count = 3;
     if (pos != BAD && args->count > 2) {
@@ -220,14 +220,14 @@ WORD(mon_go)
 
 WORD(mon_led)
 {
-    (void)send_value(context, DXL_AT_LED, value_of(args, 1));
+    (void)send_value(&the_editor, DXL_AT_LED, value_of(args, 1));
     return SHELL_OK;
 }
 
 /* A new ID must be free: two servos with one ID can only be told apart by unplugging one. */
 WORD(mon_id)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     int16_t id = is_one_servo(editor) ? id_of(args, ID_MAX) : BAD;
     if (id == BAD) {
         return SHELL_ERR_SAID;
@@ -243,15 +243,15 @@ WORD(mon_id)
 
 WORD(mon_baud)
 {
-    if (is_one_servo(context)) {
-        (void)send_value(context, DXL_AT_BAUD, value_of(args, DXL_BROADCAST));
+    if (is_one_servo(&the_editor)) {
+        (void)send_value(&the_editor, DXL_AT_BAUD, value_of(args, DXL_BROADCAST));
     }
     return SHELL_OK;
 }
 
 WORD(mon_reset)
 {
-    const editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     if (!is_one_servo(editor)) {
         return SHELL_ERR_SAID;
     }
@@ -315,7 +315,7 @@ WORD(mon_search)
 
 WORD(mon_dump)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     uint8_t row[DUMP_ROW];
     for (uint8_t at = 0; at < TABLE_BYTES && is_one_servo(editor); at = (uint8_t)(at + DUMP_ROW)) {
         bus_status_t status = bus_call_read(editor->cid, at, row, DUMP_ROW, NULL);
@@ -332,10 +332,10 @@ WORD(mon_dump)
 /* Servos may have another ID now: what is there is looked up anew. The page was never touched. */
 WORD(mon_exit)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     bus_set_rate(BUS_RATE_1M);
-    servo_link_scan(editor->servos);
-    screen_set_present(&editor->screen, editor->servos->present);
+    servo_link_scan(&the_servos);
+    screen_set_present(&editor->screen, the_servos.present);
     robot_read(&editor->robot);
     screen_show(&editor->screen);
     editor_leave_line(editor);
@@ -345,7 +345,7 @@ WORD(mon_exit)
 WORD(mon_toss_start)
 {
     (void)say(TEXT_P("Three ESC end it"));
-    mon_toss(context);
+    mon_toss(&the_editor);
     text_line_end();
     return SHELL_OK;
 }
@@ -422,7 +422,7 @@ void mon_prompt(editor_t *editor)
 
 void mon_line(editor_t *editor, const shell_args_t *args)
 {
-    servo_link_quiet(editor->servos);
+    servo_link_quiet(&the_servos);
     uint8_t result = shell_run(table_P, WORDS, editor, args);
     if (result >= SHELL_ERR_UNKNOWN) {
         (void)say(result == SHELL_ERR_UNKNOWN ? TEXT_P(" Bad Command") : TEXT_P(" Invalid Parameter"));
@@ -431,15 +431,15 @@ void mon_line(editor_t *editor, const shell_args_t *args)
 
 COMMAND(cmd_mon)
 {
-    editor_t *editor = context;
+    editor_t *const editor = &the_editor;
     (void)args;
-    if (!editor_may_move(editor)) {
+    if (!editor_may_move()) {
         return SHELL_ERR_SAID;
     }
     if (!editor_ask_unsaved(editor)) {
         return EDITOR_TO_ASK;
     }
-    servo_link_quiet(editor->servos);
+    servo_link_quiet(&the_servos);
     screen_hide(&editor->screen);
     mon_prompt(editor);
     return EDITOR_TO_MONITOR;

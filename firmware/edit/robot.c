@@ -4,6 +4,7 @@
 #include <string.h>
 #include "bus_call.h"
 #include "dxl.h"
+#include "parts.h"
 
 enum { WAY_PER_SPEED = 4 };
 
@@ -16,45 +17,45 @@ static bool read_pos(robot_t *robot, uint8_t joint, uint8_t at, uint16_t *pos)
         return false;
     }
     uint16_t word = (uint16_t)(bytes[0] | (uint16_t)bytes[1] << 8);
-    *pos = servo_link_to_page(robot->servos, joint, word);
+    *pos = servo_link_to_page(&the_servos, joint, word);
     return true;
 }
 
-bool robot_has(const robot_t *robot, uint8_t joint)
+bool robot_has(uint8_t joint)
 {
-    return joint < PAGE_JOINTS && servo_link_has(&robot->servos->present, joint);
+    return joint < PAGE_JOINTS && servo_link_has(&the_servos.present, joint);
 }
 
-static bool is_held(const robot_t *robot, uint8_t joint)
+static bool is_held(uint8_t joint)
 {
-    return robot_has(robot, joint) && servo_link_has(&robot->servos->torque, joint);
+    return robot_has(joint) && servo_link_has(&the_servos.torque, joint);
 }
 
 static void read_joint(robot_t *robot, uint8_t joint)
 {
     uint16_t pos;
-    bool held = is_held(robot, joint);
+    bool held = is_held(joint);
     if (read_pos(robot, joint, held ? DXL_AT_GOAL : DXL_AT_PRESENT, &pos)) {
-        session_set_pose(robot->session, joint, held ? pos : (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+        session_set_pose(&the_session, joint, held ? pos : (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
     }
 }
 
 void robot_read(robot_t *robot)
 {
-    servo_link_quiet(robot->servos);
+    servo_link_quiet(&the_servos);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (robot_has(robot, joint)) {
+        if (robot_has(joint)) {
             read_joint(robot, joint);
         }
     }
 }
 
-void robot_follow(robot_t *robot)
+void robot_follow(void)
 {
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        uint16_t pos = robot->servos->present_pos[joint];
-        if (robot_has(robot, joint) && !is_held(robot, joint) && pos != SERVO_LINK_NO_POSE) {
-            session_set_pose(robot->session, joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+        uint16_t pos = the_servos.present_pos[joint];
+        if (robot_has(joint) && !is_held(joint) && pos != SERVO_LINK_NO_POSE) {
+            session_set_pose(&the_session, joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
         }
     }
 }
@@ -62,19 +63,15 @@ void robot_follow(robot_t *robot)
 void robot_set_trim(robot_t *robot)
 {
     int16_t trim_pos[PAGE_JOINTS];
-    robot->raw = robot->session->page == 0;
-    bool trimmed = !robot->raw && page_store_trim(robot->pages, trim_pos);
-    servo_link_set_trim(robot->servos, trimmed ? trim_pos : NULL);
-    servo_link_read_pose(robot->servos, robot->servos->present);
+    robot->raw = the_session.page == 0;
+    bool trimmed = !robot->raw && page_store_trim(&the_pages, trim_pos);
+    servo_link_set_trim(&the_servos, trimmed ? trim_pos : NULL);
+    servo_link_read_pose(&the_servos, the_servos.present);
     robot_read(robot);
 }
 
-void robot_init(robot_t *robot, session_t *session, servo_link_t *servos, performer_t *performer, page_store_t *pages)
+void robot_init(robot_t *robot)
 {
-    robot->session = session;
-    robot->servos = servos;
-    robot->performer = performer;
-    robot->pages = pages;
     robot->failed = 0;
     robot_set_trim(robot);
 }
@@ -83,7 +80,7 @@ static void write_goal(robot_t *robot, uint8_t joint, uint16_t present, uint16_t
 {
     uint16_t way = pos > present ? (uint16_t)(pos - present) : (uint16_t)(present - pos);
     uint16_t speed = way / WAY_PER_SPEED;
-    uint16_t goal = servo_link_to_servo(robot->servos, joint, pos);
+    uint16_t goal = servo_link_to_servo(&the_servos, joint, pos);
     if (speed < ROBOT_SLOWEST) {
         speed = ROBOT_SLOWEST;
     }
@@ -96,13 +93,13 @@ static void write_goal(robot_t *robot, uint8_t joint, uint16_t present, uint16_t
 void robot_move(robot_t *robot, uint8_t joint, uint16_t pos)
 {
     uint16_t present;
-    session_set_pose(robot->session, joint, pos);
-    if (!robot_has(robot, joint)) {
+    session_set_pose(&the_session, joint, pos);
+    if (!robot_has(joint)) {
         return;
     }
-    servo_link_quiet(robot->servos);
-    if (!is_held(robot, joint)) {
-        performer_on(robot->performer, servo_link_bit(joint));
+    servo_link_quiet(&the_servos);
+    if (!is_held(joint)) {
+        performer_on(&the_performer, servo_link_bit(joint));
     }
     if (read_pos(robot, joint, DXL_AT_PRESENT, &present)) {
         write_goal(robot, joint, present, pos);
@@ -114,8 +111,8 @@ uint32_t robot_send(robot_t *robot, const uint8_t step[PAGE_STEP_BYTES])
     uint32_t missing = 0, off = 0;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         uint16_t word = (uint16_t)(step[2 * joint] | (uint16_t)step[2 * joint + 1] << 8);
-        if (!robot_has(robot, joint)) {
-            session_set_pose(robot->session, joint, word);
+        if (!robot_has(joint)) {
+            session_set_pose(&the_session, joint, word);
         } else if (cell_is_position(word)) {
             robot_move(robot, joint, word);
         } else if (cell_is_off(word)) {
@@ -124,38 +121,38 @@ uint32_t robot_send(robot_t *robot, const uint8_t step[PAGE_STEP_BYTES])
             servo_link_put(&missing, joint, true);
         }
     }
-    robot_off(robot, off);
+    robot_off(off);
     return missing;
 }
 
 void robot_on(robot_t *robot, uint32_t joints)
 {
-    uint32_t wanted = joints & robot->servos->present & ~robot->servos->torque;
+    uint32_t wanted = joints & the_servos.present & ~the_servos.torque;
     if (wanted == 0) {
         return;
     }
-    servo_link_quiet(robot->servos);
-    uint32_t on = performer_on(robot->performer, wanted);
+    servo_link_quiet(&the_servos);
+    uint32_t on = performer_on(&the_performer, wanted);
     robot->failed |= wanted & ~on;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         if (servo_link_has(&on, joint)) {
-            session_set_pose(robot->session, joint, robot->servos->present_pos[joint] & PAGE_POS_MAX);
+            session_set_pose(&the_session, joint, the_servos.present_pos[joint] & PAGE_POS_MAX);
         }
     }
 }
 
-void robot_off(robot_t *robot, uint32_t joints)
+void robot_off(uint32_t joints)
 {
-    uint32_t there = joints & robot->servos->present;
+    uint32_t there = joints & the_servos.present;
     if (there == 0) {
         return;
     }
-    servo_link_quiet(robot->servos);
-    performer_off(robot->performer, there);
+    servo_link_quiet(&the_servos);
+    performer_off(&the_performer, there);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         if (servo_link_has(&there, joint)) {
-            uint16_t pos = session_pose(robot->session, joint) & PAGE_POS_MAX;
-            session_set_pose(robot->session, joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+            uint16_t pos = session_pose(&the_session, joint) & PAGE_POS_MAX;
+            session_set_pose(&the_session, joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
         }
     }
 }

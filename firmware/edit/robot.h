@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * robot.h - the work pose and the servos: what is read from them and sent to them one by one while nothing plays.
  * Joint numbers are servo IDs 0..30, positions are page coordinates (trim is added here). Knows no command and no
- * screen. Main loop only; every call may block 1 to 4 ms a servo. RAM: 14 bytes. */
+ * screen. Main loop only; every call may block 1 to 4 ms a servo. RAM: 5 bytes. */
 #ifndef ROBOT_H
 #define ROBOT_H
 
@@ -15,25 +15,21 @@
 #define ROBOT_SLOWEST 8u   /* speed of a move: the way / 4, at least this (editor-original.md section 4) */
 
 typedef struct {
-    session_t *session;
-    servo_link_t *servos;
-    performer_t *performer;
-    page_store_t *pages;
     bool raw;             /* page 0 is open: no trim */
     uint32_t failed;      /* joints that did not answer since robot_clear_failed */
 } robot_t;
 
 /* Reads trim and all joints that answered the last search. */
-void robot_init(robot_t *robot, session_t *session, servo_link_t *servos, performer_t *performer, page_store_t *pages);
+void robot_init(robot_t *robot);
 
 /* Whether joint 0..30 is there; any number may be asked for. */
-bool robot_has(const robot_t *robot, uint8_t joint);
+bool robot_has(uint8_t joint);
 
 /* Reads the work pose anew: goal where torque is on, present position with the ???? mark where it is off. */
 void robot_read(robot_t *robot);
 
 /* The same for joints whose torque is off, from what the background polls have heard: costs no bus traffic. */
-void robot_follow(robot_t *robot);
+void robot_follow(void);
 
 /* The page that is open has changed or trim was saved: page 0 is edited without trim. */
 void robot_set_trim(robot_t *robot);
@@ -47,6 +43,6 @@ uint32_t robot_send(robot_t *robot, const uint8_t step[PAGE_STEP_BYTES]);
 
 /* Torque. On holds the present pose. */
 void robot_on(robot_t *robot, uint32_t joints);
-void robot_off(robot_t *robot, uint32_t joints);
+void robot_off(uint32_t joints);
 
 #endif

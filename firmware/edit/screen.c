@@ -3,6 +3,7 @@
 
 #include "ansi.h"
 #include "frame.h"
+#include "parts.h"
 #include "screen_parts.h"
 
 enum { SHOWN_UNSAVED = 1, SHOWN_HEX = 2, SHOWN_PAGE0 = 4 };
@@ -78,7 +79,7 @@ static uint8_t flags_of(const session_t *session)
 
 void screen_sync(screen_t *screen)
 {
-    session_t *session = screen->session;
+    session_t *session = &the_session;
     uint8_t flags = flags_of(session);
     uint8_t turned = flags ^ screen->shown_flags;
     uint8_t fault = frame_fault(session);
@@ -103,23 +104,22 @@ void screen_sync(screen_t *screen)
 
 /* ---- whole screen ---- */
 
-static void mark_frame(screen_t *screen)
+static void mark_frame(void)
 {
     for (uint8_t y = 0; y < CELLS_ROWS; y++) {
-        screen->session->marks[y] = MARK_CELLS | MARK_HEADER_LABEL | (uint16_t)MARK_STEP_NONE << MARK_STEP_SHIFT;
+        the_session.marks[y] = MARK_CELLS | MARK_HEADER_LABEL | (uint16_t)MARK_STEP_NONE << MARK_STEP_SHIFT;
     }
 }
 
 void screen_redraw(screen_t *screen)
 {
-    mark_frame(screen);
+    mark_frame();
     screen->items = ITEM_ALL;
     screen->at_row = 0;
 }
 
-void screen_init(screen_t *screen, session_t *session)
+void screen_init(screen_t *screen)
 {
-    screen->session = session;
     screen->present = 0;
     screen->rows = SCREEN_ROWS_FULL;
     screen->top = 0;
@@ -178,7 +178,7 @@ void screen_show(screen_t *screen)
 
 void screen_follow(screen_t *screen)
 {
-    session_t *session = screen->session;
+    session_t *session = &the_session;
     if (is_full(screen) || session->x == CELL_X_HEADER || session->y >= PAGE_JOINTS) {
         return;
     }
@@ -196,13 +196,13 @@ void screen_follow(screen_t *screen)
     }
     if (top != screen->top) {
         screen->top = top;
-        mark_frame(screen);
+        mark_frame();
     }
 }
 
 static void move_to_header(screen_t *screen)
 {
-    session_t *session = screen->session;
+    session_t *session = &the_session;
     uint8_t row = screen_row_of(screen, session->y);
     if (row != 0 && cell_kind(session->page, CELL_X_HEADER, (uint8_t)(row - 1u)) != CELL_NONE) {
         session->x = CELL_X_HEADER;
@@ -212,7 +212,7 @@ static void move_to_header(screen_t *screen)
 
 void screen_move(screen_t *screen, session_way_t way)
 {
-    session_t *session = screen->session;
+    session_t *session = &the_session;
     if (is_full(screen)) {
         session_move(session, way);
         return;

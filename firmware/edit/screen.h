@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * screen.h - the editor's full screen on an ANSI/VT100 terminal: sends what changed, and only that.
- * Knows the session and the console, no command and no servo. Main loop only. RAM: 28 bytes.
+ * Knows the session and the console, no command and no servo. Main loop only. RAM: 26 bytes.
  *
  * There is no copy of the screen. A cell's text follows from the session, the session marks the cells that change, and
  * screen_paint sends marked cells, a row at a time, whenever the console has room; so input never waits for a repaint,
@@ -30,7 +30,6 @@ typedef enum {
 } screen_sink_t;
 
 typedef struct {
-    session_t *session;
     uint32_t present;        /* joints that are there */
     uint16_t items;          /* single items to send */
     uint8_t rows;            /* of the terminal, 24..35 */
@@ -43,7 +42,7 @@ typedef struct {
     uint8_t shown_x, shown_y, shown_go, shown_fault, shown_flags;
 } screen_t;
 
-void screen_init(screen_t *screen, session_t *session);
+void screen_init(screen_t *screen);
 
 /* Everything is sent again, on a cleared screen. */
 void screen_redraw(screen_t *screen);

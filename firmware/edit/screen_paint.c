@@ -2,6 +2,7 @@
  * screen_paint.c - sends what is marked, the shortest way. */
 #include "ansi.h"
 #include "frame.h"
+#include "parts.h"
 #include "pgm.h"
 #include "screen_parts.h"
 #include "text.h"
@@ -51,9 +52,9 @@ void screen_go(screen_t *screen, uint8_t row, uint8_t column)
     screen->at_column = column;
 }
 
-static char marker_at(const screen_t *screen, uint8_t column)
+static char marker_at(uint8_t column)
 {
-    uint8_t steps = screen->session->cells[PAGE_AT_STEPS];
+    uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     return steps <= PAGE_STEPS && column == frame_marker_column(steps) ? '|' : ' ';
 }
 
@@ -66,7 +67,7 @@ static void go_in_row(screen_t *screen, uint8_t row, uint8_t y, uint8_t column)
             screen_send(screen, ']');
         }
         while (screen->at_column < column && frame_is_marker_column(screen->at_column)) {
-            screen_send(screen, marker_at(screen, screen->at_column));
+            screen_send(screen, marker_at(screen->at_column));
         }
     }
     screen_go(screen, row, column);
@@ -77,15 +78,15 @@ static void go_in_row(screen_t *screen, uint8_t row, uint8_t y, uint8_t column)
 static void paint_cell(screen_t *screen, uint8_t row, uint8_t x, uint8_t y)
 {
     char text[CELLS_TEXT_BYTES];
-    frame_cell_text(screen->session, x, y, text);
+    frame_cell_text(&the_session, x, y, text);
     go_in_row(screen, row, y, frame_cell_column(x, y));
     send_text(screen, text);
 }
 
 static void paint_marker(screen_t *screen, uint8_t row, uint8_t y, uint8_t steps)
 {
-    uint8_t shown = (uint8_t)(screen->session->marks[y] >> MARK_STEP_SHIFT);
-    uint8_t wanted = screen->session->cells[PAGE_AT_STEPS];
+    uint8_t shown = (uint8_t)(the_session.marks[y] >> MARK_STEP_SHIFT);
+    uint8_t wanted = the_session.cells[PAGE_AT_STEPS];
     if (wanted > PAGE_STEPS) {
         wanted = MARK_STEP_NONE;
     }
@@ -95,11 +96,11 @@ static void paint_marker(screen_t *screen, uint8_t row, uint8_t y, uint8_t steps
     }
 }
 
-static void set_marker_shown(screen_t *screen, uint8_t y)
+static void set_marker_shown(uint8_t y)
 {
-    uint8_t steps = screen->session->cells[PAGE_AT_STEPS];
+    uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     uint16_t shown = steps > PAGE_STEPS ? (uint16_t)MARK_STEP_NONE : steps;
-    uint16_t *marks = &screen->session->marks[y];
+    uint16_t *marks = &the_session.marks[y];
     *marks = (uint16_t)((*marks & ~(0xFu << MARK_STEP_SHIFT)) | shown << MARK_STEP_SHIFT);
 }
 
@@ -108,11 +109,11 @@ static void paint_label(screen_t *screen, uint8_t row, uint8_t y, uint16_t marks
     char text[FRAME_LABEL_BYTES];
     if ((marks & MARK_HEADER_LABEL) != 0) {
         screen_go(screen, row, 1);
-        frame_label_text(screen->session, y, text);
+        frame_label_text(&the_session, y, text);
         send_text(screen, text);
     } else if ((marks & MARK_LABEL) != 0) {
         uint8_t skip = y < PAGE_JOINTS ? FRAME_LIVE_COLUMN - 1 : 0;
-        frame_label_text(screen->session, y, text);
+        frame_label_text(&the_session, y, text);
         text[y < PAGE_JOINTS ? FRAME_LIVE_COLUMN + FRAME_LIVE_CHARS - 1 : FRAME_BRACKET_COLUMN - 5] = '\0';
         screen_go(screen, row, (uint8_t)(skip + 1));
         send_text(screen, text + skip);
@@ -136,7 +137,7 @@ static void paint_left(screen_t *screen, uint8_t y, uint16_t marks)
     }
     paint_label(screen, row, y, marks);
     for (uint8_t x = 0; x <= CELL_X_SOFTNESS; x++) {
-        if ((marks >> x & 1u) != 0 && cell_kind(screen->session->page, x, y) != CELL_NONE) {
+        if ((marks >> x & 1u) != 0 && cell_kind(the_session.page, x, y) != CELL_NONE) {
             paint_cell(screen, row, x, y);
         }
         if (x == CELL_X_POSE) {
@@ -146,7 +147,7 @@ static void paint_left(screen_t *screen, uint8_t y, uint16_t marks)
             paint_marker(screen, row, y, x);
         }
     }
-    set_marker_shown(screen, y);
+    set_marker_shown(y);
 }
 
 static void paint_header(screen_t *screen, uint8_t y, uint16_t marks)
@@ -171,25 +172,25 @@ static void paint_header(screen_t *screen, uint8_t y, uint16_t marks)
         return;
     }
     char text[FRAME_LABEL_BYTES];
-    uint8_t column = frame_title_text(screen->session, y, text);
+    uint8_t column = frame_title_text(&the_session, y, text);
     screen_go(screen, row, column);
     send_text(screen, text);
 }
 
 static bool marker_is_old(const screen_t *screen, uint8_t y)
 {
-    uint8_t steps = screen->session->cells[PAGE_AT_STEPS];
+    uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     uint8_t wanted = steps > PAGE_STEPS ? (uint8_t)MARK_STEP_NONE : steps;
-    return y < PAGE_JOINTS && screen_row_of(screen, y) != 0 && screen->session->marks[y] >> MARK_STEP_SHIFT != wanted;
+    return y < PAGE_JOINTS && screen_row_of(screen, y) != 0 && the_session.marks[y] >> MARK_STEP_SHIFT != wanted;
 }
 
 static bool paint_row(screen_t *screen, uint8_t y)
 {
-    uint16_t marks = screen->session->marks[y] & 0x0FFFu;
+    uint16_t marks = the_session.marks[y] & 0x0FFFu;
     if (marks == 0 && !marker_is_old(screen, y)) {
         return false;
     }
-    screen->session->marks[y] &= 0xF000u;
+    the_session.marks[y] &= 0xF000u;
     paint_left(screen, y, marks);
     paint_header(screen, y, marks);
     return true;
@@ -201,7 +202,7 @@ static void paint_labels(screen_t *screen)
 {
     screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), FRAME_POSE_COLUMN);
     send_text_P(screen, TEXT_P("STP7  STP0 STP1 STP2 STP3 STP4 STP5 STP6    Go Step:"));
-    if (screen->session->page == 0) {
+    if (the_session.page == 0) {
         screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), FRAME_POSE_COLUMN);
         send_text_P(screen, TEXT_P("STP7  MSTR SLAV OFST"));
     }
@@ -211,14 +212,14 @@ static void paint_number(screen_t *screen, uint8_t column, uint16_t number, uint
 {
     char text[CELLS_TEXT_BYTES];
     screen_go(screen, screen_row_of(screen, CELL_Y_SPEED), column);
-    cell_digits(number, digits, screen->session->hex, text);
+    cell_digits(number, digits, the_session.hex, text);
     text[digits] = '\0';
     send_text(screen, text);
 }
 
 static void paint_xya(screen_t *screen)
 {
-    const session_t *session = screen->session;
+    const session_t *session = &the_session;
     paint_number(screen, 64, session->x, 2);
     paint_number(screen, 69, session->y, 2);
     paint_number(screen, 74, cell_address(session->x, session->y), 4);
@@ -227,11 +228,11 @@ static void paint_xya(screen_t *screen)
 static void paint_go(screen_t *screen)
 {
     screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), FRAME_GO_COLUMN);
-    if (screen->session->go_step == SESSION_NO_STEP) {
+    if (the_session.go_step == SESSION_NO_STEP) {
         send_spaces(screen, 3);
     } else {
         char text[CELLS_TEXT_BYTES];
-        cell_byte_text(screen->session->go_step, screen->session->hex, text);
+        cell_byte_text(the_session.go_step, the_session.hex, text);
         send_text(screen, text);
     }
 }
@@ -239,7 +240,7 @@ static void paint_go(screen_t *screen)
 static void paint_unsaved(screen_t *screen)
 {
     screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), 1);
-    send_text_P(screen, screen->session->is_changed ? TEXT_P("* unsaved") : TEXT_P("         "));
+    send_text_P(screen, the_session.is_changed ? TEXT_P("* unsaved") : TEXT_P("         "));
 }
 
 static void paint_fault(screen_t *screen)
@@ -298,7 +299,7 @@ static bool paint_next_item(screen_t *screen, uint16_t among)
 
 static void rest(screen_t *screen)
 {
-    const session_t *session = screen->session;
+    const session_t *session = &the_session;
     if (screen->sink == SCREEN_LINE) {
         screen_go(screen, screen_command_row(screen), screen->line_column);
         return;
