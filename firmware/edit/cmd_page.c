@@ -143,7 +143,7 @@ static uint8_t save_now(editor_t *editor, uint8_t page)
     text_P(status == PAGE_SAVE_OK           ? TEXT_P("OK")
            : status == PAGE_SAVE_UNCHANGED  ? TEXT_P("OK, no change")
            : status == PAGE_SAVE_ERR_VERIFY ? TEXT_P("Not saved: flash error")
-                                            : TEXT_P("No boot loader can write: the page stays in RAM"));
+                                            : TEXT_P("No boot loader can write: kept in RAM"));
     page_store_refresh(&the_pages, page);
     if (page == the_session.page) {
         session_saved(&the_session);
