@@ -198,6 +198,37 @@ static void test_player_break_stops_on_half_the_way_that_its_speed_would_take(vo
     TEST_ASSERT_UINT16_WITHIN(1, before[0] + 39, player.goal_pos[0]);
 }
 
+/* Steps so short that the look at the next one, the end of this one and the pause meet in every order. */
+static void test_player_exact_goes_on_from_any_tick_of_short_steps(void)
+{
+    static const uint8_t times[] = {4, 3, 2, 1, 1, 5};
+    for (uint8_t at = 0; at <= 16; at++) {
+        uint8_t events = 0, ticks = 0;
+        setUp();
+        sparse_pages[2].accel = 4;
+        for (uint8_t step = 0; step < sizeof times; step++) {
+            sparse_step(2, times[step], step == 1 ? 3 : 0, (uint16_t)(step == 4 ? 480 : 520 + 8 * step));
+        }
+        TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 2, PLAYER_LAW_EXACT, pose, ALL));
+        for (uint8_t tick = 0; tick < at; tick++) {
+            (void)player_tick(&player, &l);
+        }
+        player_pause(&player);
+        while ((events & PLAYER_EV_STANDING) == 0) {
+            events = player_tick(&player, &l);
+        }
+        player_resume(&player);
+        uint8_t steps = player.step;
+        while (player_is_moving(&player)) {
+            steps = (uint8_t)(steps + ((player_tick(&player, &l) & PLAYER_EV_STEP) != 0));
+            TEST_ASSERT_LESS_THAN_UINT8(60, ++ticks);
+        }
+        TEST_ASSERT_EQUAL_UINT8(sizeof times, steps); /* each is told once, none is left out */
+        TEST_ASSERT_EQUAL_UINT16(520 + 8 * 5, player.goal_pos[0]);
+        TEST_ASSERT_EQUAL_UINT8(PAGE_OK, player.fault);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -205,6 +236,7 @@ int main(void)
     RUN_TEST(test_player_breaks_at_any_tick_of_classic_without_turning_back);
     RUN_TEST(test_player_exact_goes_on_after_a_pause_in_the_time_left);
     RUN_TEST(test_player_classic_goes_on_after_a_pause_to_its_end);
+    RUN_TEST(test_player_exact_goes_on_from_any_tick_of_short_steps);
     RUN_TEST(test_player_break_while_paused_ends_the_play_where_it_stands);
     RUN_TEST(test_player_break_stops_on_half_the_way_that_its_speed_would_take);
     RUN_TEST(test_player_break_near_the_end_of_the_range_stays_in_range);
