@@ -6,7 +6,9 @@ and has tests in tests/tools that show that it bites.
 """
 import importlib.machinery
 import importlib.util
+import json
 import re
+import shlex
 import subprocess
 
 import proof
@@ -126,11 +128,28 @@ def compiler_figure():
                         not asked)
 
 
+def array_figure():
+    """No arrays of variable length: the stack figures would not hold."""
+    listed = json.loads((proof.BUILD / "avr" / "compile_commands.json").read_text(encoding="utf-8"))
+    # Sources with texts are compiled as they are after packing, from below build/avr/firmware.
+    folders = tuple(f"{folder}/" for folder in (*(proof.TOP / name for name in FIRMWARE), proof.BUILD / "avr" / "firmware"))
+    of = {entry["file"]: entry for entry in listed if entry["file"].startswith(folders)}
+    found = []
+    for entry in of.values():
+        words = shlex.split(entry["command"])
+        words = words[:words.index("-o")] + ["-fsyntax-only", "-Werror=vla"] + words[words.index("-o") + 2:]
+        done = subprocess.run(words, cwd=entry["directory"], capture_output=True, text=True, check=False)
+        found += [line for line in done.stderr.splitlines() if "error:" in line]
+    return proof.Figure("No array has a length that is only known while the program runs",
+                        "the compiler of the images, once more over every file, with -Werror=vla",
+                        f"{len(of)} files" + (f": {'; '.join(found[:3])}" if found else ": none"), not found and bool(of))
+
+
 def run(options):
     """The figures. Those that ctest has under their own names are no part of the sample."""
     if not IMAGES:
         raise SystemExit("static: no images: build first (tools/build)")
     figures = [compiler_figure(), *stack_figures()]
     if not options.sample:
-        figures += [lint_figure(), layer_figure(), spm_figure(), symbol_figure()]
+        figures += [lint_figure(), layer_figure(), spm_figure(), symbol_figure(), array_figure()]
     return figures
