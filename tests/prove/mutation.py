@@ -122,6 +122,7 @@ class Tree:
         names = [name for name in listed.stdout.decode().split("\0") if name] if listed.returncode == 0 else [
             str(path.relative_to(proof.TOP)) for path in proof.TOP.rglob("*")
             if path.is_file() and not NEVER_COPIED & set(path.relative_to(proof.TOP).parts)]
+        known = set(names)
         for name in names:
             source, target = proof.TOP / name, self.top / name
             if source.is_file() and not (target.exists() and target.read_bytes() == source.read_bytes()):
@@ -129,11 +130,11 @@ class Tree:
                 shutil.copy(source, target)
         for path in self.top.rglob("*"):
             inside = path.relative_to(self.top)
-            if inside.parts[0] not in NEVER_COPIED and path.is_file() and str(inside) not in set(names):
+            if inside.parts[0] not in NEVER_COPIED and path.is_file() and str(inside) not in known:
                 path.unlink()
 
     def run(self, seconds, *command, **variables):
-        """(exit status, output) of a command; one that takes too long is ended, with its children: TIMED_OUT."""
+        """(output, exit status) of a command; one that takes too long is ended, with its children: TIMED_OUT."""
         with subprocess.Popen(command, cwd=self.top, env={**self.environment, **variables}, text=True, errors="replace",
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True) as process:
             try:
@@ -144,12 +145,16 @@ class Tree:
                     raise
                 return process.communicate()[0], TIMED_OUT
 
-    def build(self, world, targets=()):
-        """Builds targets of one world, or all. Returns what went wrong, or nothing."""
+    def configure(self, world):
+        """Once."""
         if not (self.top / "build" / world / "build.ninja").exists():
             text, status = self.run(BUILD_SECONDS, "cmake", "--preset", world, "--log-level=WARNING")
             if status != 0:
                 raise SystemExit(f"mutation: cannot configure: {text}")
+
+    def build(self, world, targets=()):
+        """Builds targets of one world, or all. Returns what went wrong, or nothing."""
+        self.configure(world)
         wanted = ["--target", *sorted(targets)] if targets else []
         text, status = self.run(BUILD_SECONDS, "cmake", "--build", f"build/{world}", "-j", str(self.cores), *wanted)
         if status == 0:
@@ -161,11 +166,11 @@ class Tree:
         """What the tests of `by` need. Returns what went wrong, or nothing."""
         if mutation.by == BUILD_CHECK:
             return self.build("avr", mutation.build)
-        if not mutation.needs_board:
-            targets = [f"test_{name}" for name in re.findall(r"unit\.(\w+)", mutation.by)]
-            return self.build("host", targets) if targets or not self.is_configured("host") else ""
-        # An image that was built with the mistake before is built anew, even if this mistake does not concern it.
+        self.configure("host")
         units = [f"test_{name}" for name in re.findall(r"unit\.(\w+)", mutation.by)]
+        if not mutation.needs_board:
+            return self.build("host", units) if units else ""
+        # An image that was built with the mistake before is built anew, even if this mistake does not concern it.
         is_image = mutation.file.startswith(IMAGE_FOLDERS)
         targets = {*(mutation.build if is_image else ()), *(self.stale or ())}
         wrong = ""
@@ -174,9 +179,6 @@ class Tree:
             self.stale = (set(mutation.build) or None) if is_image else set()
             wrong = self.build("avr", () if everything else targets)
         return wrong or self.build("host", [*SIM_TARGETS, *units])
-
-    def is_configured(self, world):
-        return (self.top / "build" / world / "build.ninja").exists()
 
     def failing(self, seconds, only, *choice):
         """The test that fails, of those that ctest's arguments choose; nothing when all pass."""
