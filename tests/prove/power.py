@@ -83,8 +83,9 @@ def repeat(state, seed):
         name, path = path_of(state)
         results = Cutter(SCENES[name](seed), None, only=path, seed=seed).play()
     state, outcome, fault = results[-1]
-    return [proof.Figure(f"The state {state}", "played again", fault or {"same": "the same contents as before or after it: counted there"}.get(outcome, outcome),
-                         fault is None)]
+    if outcome == "same":
+        outcome = "the same contents as before or after the operation: counted there"
+    return [proof.Figure(f"The state {state}", "played again", fault or outcome, fault is None)]
 
 
 def pieces(names, seed, sample):

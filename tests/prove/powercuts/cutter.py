@@ -94,10 +94,11 @@ class Cutter:
                 self._add(self.scene.verdict(cut=bool(self.path)), None)
         except Exception as error:  # whatever went wrong is this state's, and it is told with its name
             self._add(None, f"{type(error).__name__}: {error}")
-        if self.pipe is not None:
-            os.write(self.pipe, json.dumps(self.results).encode())
-            os.close(self.pipe)
-            os._exit(0)
+        finally:
+            if self.pipe is not None:
+                os.write(self.pipe, json.dumps(self.results).encode())
+                os.close(self.pipe)
+                os._exit(0)
 
     def _uncut(self, act):
         """Runs with cuts. False: this is a copy that has come to its end without the cut it was made for."""

@@ -187,7 +187,8 @@ class Motions(Download):
         robot.loader_answers(self.board)
         answer = say(self.board, "check", ms=9000)
         valid, bad = sound_pages(now)
-        assert f",{valid:02X},{PAGES - valid - bad:02X},{bad:02X} boot=" in answer, f"{valid} valid and {bad} bad pages, but {answer[-90:]!r}"
+        counts = f",{valid:02X},{PAGES - valid - bad:02X},{bad:02X} boot="
+        assert counts in answer, f"{valid} valid and {bad} bad pages, but {answer[-90:]!r}"
         if cut and zlib.crc32(now) % self.finish_one_in == 0:
             by_blocks(self.board, self.pages)
             now = self.now()

@@ -253,9 +253,9 @@ class Mailbox(Save):
     """SAVE on an unknown loader: Edit leaves the page in EEPROM and restarts; the loader (ours without its call table)
     writes it."""
 
-    name, about, chunks = "mailbox", 520, 6
+    name, about, chunks = "mailbox", 250, 6
     promise = "SAVE by the EEPROM mailbox, and the loader that takes it: old or new"
-    rates = (12, 24, 200)
+    rates = (5, 24, 200)
 
     def prepare(self):
         """The call table is gone, and the page before in the mailbox was an older version of the same one."""
