@@ -28,6 +28,15 @@ bool performer_is_idle(const performer_t *performer)
     return performer->state == PERFORMER_IDLE;
 }
 
+/* The end of the player: behind the approach, and behind the goals that servo_link may still be sending. */
+uint8_t *performer_spare(performer_t *performer)
+{
+    STATIC_ASSERT(sizeof performer->engine.player - sizeof performer->engine.player.joint + PAGE_BYTES
+                  <= sizeof performer->engine && sizeof performer->engine.approach + PAGE_BYTES <= sizeof performer->engine,
+                  "the spare bytes are the joints' of the player");
+    return performer_is_idle(performer) ? (uint8_t *)(&performer->engine + 1) - PAGE_BYTES : NULL;
+}
+
 bool performer_is_paused(const performer_t *performer)
 {
     return performer->state == PERFORMER_STOOD ||

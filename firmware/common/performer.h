@@ -122,6 +122,9 @@ uint32_t performer_on(performer_t *performer, uint32_t joints);
 void performer_off(performer_t *performer, uint32_t joints);
 
 bool performer_is_idle(const performer_t *performer);
+
+/* PAGE_BYTES of RAM that only a play needs: for what may be lost at the next one. NULL unless idle. A move keeps them. */
+uint8_t *performer_spare(performer_t *performer);
 bool performer_is_paused(const performer_t *performer);
 
 /* Once a tick: makes the goals and hands them to the servos. Cost: that of player_tick and servo_link_goals. */

@@ -80,19 +80,18 @@ static void clear_off_marks(void)
 {
     session_t *session = &the_session;
     uint8_t count = 0;
-    session_begin(session);
     for (uint16_t address = PAGE_AT_STEP0; address < PAGE_BYTES; address = (uint16_t)(address + 2u)) {
         uint16_t word = cell_word(session->cells, address);
         bool is_word = address % PAGE_STEP_BYTES < PAGE_STEP_AT_PAUSE;
         bool is_trim = session->page == 0 && address / PAGE_STEP_BYTES == CELL_X_OFFSET;
         if (is_word && !is_trim && cell_is_off(word)) {
+            if (count++ == 0) {
+                session_begin(session);
+            }
             session_set_word(session, address, (uint16_t)(PAGE_POS_UNUSED | (word & PAGE_POS_MAX)));
-            count++;
         }
     }
-    if (count == 0) {
-        undo_end(&session->undo);
-    } else {
+    if (count != 0) {
         (void)session_end(session);
         text_number(count);
         TEXT(" ???? saved as ----, ");
@@ -157,7 +156,7 @@ COMMAND(cmd_save)
 {
     editor_t *const editor = &the_editor;
     uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : the_session.page;
-    if (!page_is_sound()) {
+    if (!editor_may_move() || !page_is_sound()) {
         return SHELL_ERR_SAID;
     }
     if (!overwriting_is_meant(editor, page)) {

@@ -117,8 +117,10 @@ void editor_run(editor_t *editor)
 {
     editor->asked = 0;
     editor->screen.lead = true;
+    the_session.spare = performer_spare(&the_performer);
     go_on(editor, commands_numbers(editor) ? shell_run(commands_table_P, commands_count, editor, &editor->args)
                                            : (uint8_t)SHELL_ERR_SAID);
+    the_session.spare = NULL;
 }
 
 bool editor_ask(editor_t *editor, const char *question_P)

@@ -50,6 +50,9 @@ static void program_changed(void *context __attribute__((unused)))
 
 static machine_status_t program_save(void *context __attribute__((unused)), uint8_t page)
 {
+    if (!performer_is_idle(&the_performer)) {
+        return MACHINE_ERR_BUSY;
+    }
     page_save_status_t status = page_save(page, the_session.cells);
     page_store_refresh(&the_pages, page);
     if (status != PAGE_SAVE_OK && status != PAGE_SAVE_UNCHANGED) {

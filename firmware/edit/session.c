@@ -3,6 +3,7 @@
 
 #include <string.h>
 #include "compiler.h"
+#include "crc16.h"
 #include "page_store.h"
 
 /* The new page of editor-original.md section 1. */
@@ -177,6 +178,7 @@ void session_open(session_t *session, uint8_t page)
     session_load(session, page);
     undo_clear(&session->undo);
     session->undo_reloads = false;
+    session->spare_for = SESSION_SPARE_NONE;
     session->is_changed = false;
     session_mark(session, CELL_X_HEADER, CELL_Y_NUMBER);
     session_mark(session, CELL_X_HEADER, CELL_Y_ADDRESS);
@@ -206,6 +208,10 @@ static void begin(session_t *session, uint8_t turn)
 {
     session->was_changed = session->is_changed;
     session->undo_reloads = false;
+    session->spare_for = SESSION_SPARE_NONE;
+    if (session->spare != NULL) {
+        memcpy(session->spare, session->cells, PAGE_BYTES);
+    }
     undo_begin(&session->undo, turn);
 }
 
@@ -214,12 +220,47 @@ void session_begin(session_t *session)
     begin(session, UNDO_TURN_NONE);
 }
 
+static uint16_t crc_of_spare(const session_t *session)
+{
+    return crc16_bytes(CRC16_START, session->spare, PAGE_BYTES);
+}
+
+static void keep_spare(session_t *session, uint8_t what_for)
+{
+    if (session->spare != NULL) {
+        session->spare_for = what_for;
+        session->spare_crc = crc_of_spare(session);
+    }
+}
+
+/* Exchanges the page and the spare one, if that is as it was left and meant for this. */
+static bool exchange_spare(session_t *session, bool back)
+{
+    if (session->spare == NULL || session->spare_for != (back ? SESSION_SPARE_UNDO : SESSION_SPARE_REDO) ||
+        session->spare_crc != crc_of_spare(session)) {
+        return false;
+    }
+    for (uint16_t address = 0; address < PAGE_BYTES; address++) {
+        uint8_t bits = session->spare[address] ^ session->cells[address];
+        if (bits != 0) {
+            session->spare[address] ^= bits;
+            change_byte(session, address, bits);
+        }
+    }
+    keep_spare(session, back ? SESSION_SPARE_REDO : SESSION_SPARE_UNDO);
+    return true;
+}
+
 bool session_end(session_t *session)
 {
     bool kept = undo_end(&session->undo);
     session->is_changed = differs_from_flash(session);
-    session->undo_reloads = !kept && !session->was_changed;
-    return kept || session->undo_reloads;
+    if (kept) {
+        return true;
+    }
+    session->undo_reloads = !session->was_changed;
+    keep_spare(session, SESSION_SPARE_UNDO);
+    return session->undo_reloads || session->spare_for != SESSION_SPARE_NONE;
 }
 
 static void swap_steps(session_t *session, uint8_t a, uint8_t b)
@@ -268,14 +309,15 @@ static void flip_byte(void *context, uint16_t address, uint8_t bits)
 
 void session_begin_turn(session_t *session, uint8_t turn)
 {
-    turn_steps(session, turn, false);
     begin(session, turn);
+    turn_steps(session, turn, false);
 }
 
 static NOINLINE bool travel(session_t *session, bool back)
 {
     undo_target_t target = { session, flip_byte, turn_steps };
-    bool done = back ? undo_back(&session->undo, &target) : undo_forth(&session->undo, &target);
+    bool done = (back ? undo_back(&session->undo, &target) : undo_forth(&session->undo, &target)) ||
+                exchange_spare(session, back);
     if (!done && back && session->undo_reloads) {
         session_open(session, session->page);
         return true;

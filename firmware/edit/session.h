@@ -23,6 +23,8 @@ enum {
     MARK_STEP_NONE = 8          /* no marker on the screen */
 };
 
+enum { SESSION_SPARE_NONE = 0, SESSION_SPARE_UNDO, SESSION_SPARE_REDO };
+
 typedef struct {
     uint8_t page;                     /* number of the page being edited */
     uint8_t x, y;                     /* cursor: always on a cell */
@@ -32,6 +34,9 @@ typedef struct {
     bool is_changed;                  /* differs from what flash holds: the unsaved mark */
     bool was_changed;                 /* the same, before the command under way */
     bool undo_reloads;                /* the last command was too large to note, but what was there is in flash */
+    uint8_t spare_for;                /* what session_undo may do with the spare page: SESSION_SPARE_... */
+    uint16_t spare_crc;               /* of the spare page: a play has overwritten it when it no longer fits */
+    uint8_t *spare;                   /* PAGE_BYTES for the page as it was before the command, or NULL: the caller's */
     uint8_t cells[CELLS_BYTES];       /* page, then the work pose (STP7) */
     uint16_t marks[CELLS_ROWS];       /* written here, taken by the screen */
     undo_t undo;
@@ -52,8 +57,8 @@ void session_set_word(session_t *session, uint16_t address, uint16_t word);
 /* Recomputes is_changed. false: the change is done but cannot be undone. */
 bool session_end(session_t *session);
 
-/* Whole-page edits; each within begin and end. They can be undone even when undo.h has no room for them, if the page
- * was as in flash before. session_load: the contents of flash page `from` (COPY). */
+/* Whole-page edits; each within begin and end. They can be undone even when undo.h has no room for them: from the spare
+ * page, if there was one, or if the page was as in flash before. session_load: the contents of flash page `from` (COPY). */
 void session_load(session_t *session, uint8_t from);
 void session_clear(session_t *session);
 /* Permutes whole steps (UNDO_TURN(...)): instead of session_begin, before any session_set. */

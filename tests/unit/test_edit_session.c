@@ -164,6 +164,41 @@ static void test_session_new_on_the_largest_page_is_undone_from_flash(void)
     TEST_ASSERT_FALSE(session_undo(&session));
 }
 
+/* The largest page with edits that flash does not hold: only the spare page can bring it back, and forth again; not when
+ * a play has overwritten it, nor behind another edit. */
+static void test_session_new_on_the_largest_edited_page_is_undone_from_the_spare_page(void)
+{
+    uint8_t spare[PAGE_BYTES], before[PAGE_BYTES], after[PAGE_BYTES];
+    session_begin(&session);
+    for (uint16_t i = 64; i < 512; i++) {
+        session_set_byte(&session, i, (uint8_t)((i % 64 & 1u) != 0 ? 1 : i));
+    }
+    session_end(&session);
+    memcpy(before, session.cells, PAGE_BYTES);
+    session.spare = spare;
+    session_begin(&session);
+    session_clear(&session);
+    TEST_ASSERT_TRUE(session_end(&session));
+    memcpy(after, session.cells, PAGE_BYTES);
+    TEST_ASSERT_FALSE(session_redo(&session));
+    TEST_ASSERT_TRUE(session_undo(&session));
+    TEST_ASSERT_EQUAL_MEMORY(before, session.cells, PAGE_BYTES);
+    TEST_ASSERT_TRUE(session.is_changed);
+    TEST_ASSERT_FALSE(session_undo(&session));
+    TEST_ASSERT_TRUE(session_redo(&session));
+    TEST_ASSERT_EQUAL_MEMORY(after, session.cells, PAGE_BYTES);
+    spare[100] ^= 1;
+    TEST_ASSERT_FALSE(session_undo(&session));
+    TEST_ASSERT_EQUAL_MEMORY(after, session.cells, PAGE_BYTES);
+    spare[100] ^= 1;
+    session.spare = NULL;
+    session_begin(&session);
+    session_end(&session);
+    session.spare = spare;
+    TEST_ASSERT_FALSE(session_undo(&session));
+    session.spare = NULL;
+}
+
 static void test_session_damaged_page_is_shown_and_named(void)
 {
     flash_page(3)[0] = 0;
@@ -243,6 +278,7 @@ int main(void)
     RUN_TEST(test_session_turns_move_whole_steps_and_come_back);
     RUN_TEST(test_session_copy_and_new_can_be_undone);
     RUN_TEST(test_session_new_on_the_largest_page_is_undone_from_flash);
+    RUN_TEST(test_session_new_on_the_largest_edited_page_is_undone_from_the_spare_page);
     RUN_TEST(test_session_damaged_page_is_shown_and_named);
     RUN_TEST(test_session_empty_pages);
     RUN_TEST(test_session_trim_follows_master_and_slave);
