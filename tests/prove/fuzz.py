@@ -17,7 +17,7 @@ TITLE = "Fuzzing"
 BYTES = 10_000_000
 SAMPLE_BYTES = {"loader": 24_000}
 SAMPLE_BYTES_ELSE = 12_000
-SECONDS = 40          # of libFuzzer a harness
+SECONDS = 30          # of libFuzzer a harness
 SAMPLE_SECONDS = 1
 SHRINK_TRIALS = 12
 SHRINKS = 3           # findings of one input that are made smaller
@@ -133,7 +133,7 @@ def images(options, names):
     tasks = []
     for name in names:
         size = size_of(name, options)
-        count = 1 if options.sample else -(-options.bytes // size)
+        count = 1 if options.sample else -(-options.bytes // fuzz_board.mean_size(name))
         tasks += [(name, options.seed * 10_000 + i, size) for i in range(count)]
     tasks.sort(key=lambda task: (-fuzz_board.INPUTS[task[0]].size, task[1]))
     results = proof.each(session, tasks, "sessions on the board", options.jobs)

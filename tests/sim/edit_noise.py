@@ -11,6 +11,9 @@ What is looked at, after every piece of 2 to 4 KB:
   * flash is what the saves say: whenever page_save is entered, the 512 bytes it was given are noted, and the motion area
     must equal the notes; program and loader are untouched, the journal area is only touched by saves
   * seeds divisible by 3 never save: there the flash must not change at all; seeds 2 modulo 3 run on the factory loader
+
+Who types obeys XOFF, so that every command is carried out: some hundred bytes a second. loud=True: who types does not, and
+most of it is lost: thirty times as much in the same time, in other mixtures, and never on the factory loader.
 """
 import random
 import re
@@ -139,9 +142,9 @@ class Grammar:
 class Noise:
     """One robot being shouted at."""
 
-    def __init__(self, seed, number):
+    def __init__(self, seed, number, loud=False):
         self.seed, self.rng = seed, random.Random(f"{seed} {number}")
-        self.factory = seed % 3 == 2
+        self.factory, self.loud = seed % 3 == 2 and not loud, loud
         self.grammar = Grammar(self.rng, seed % 3 != 0)
         self.saves = self.restarts = 0
         self.heard = bytearray()
@@ -220,11 +223,14 @@ class Noise:
     def type(self, data):
         """At line rate, as a terminal with flow control does; without a loader that catches bytes meanwhile it must obey."""
         sent = 0
+        if self.loud:
+            self.board.send(data)
+            sent = len(data)
         while sent < len(data) or self.board.waiting:
             if self.may_send and self.board.waiting < LINE_BUFFER and sent < len(data):
                 self.board.send(data[sent:sent + LINE_BUFFER])
                 sent += LINE_BUFFER
-            self.run(2)
+            self.run(20 if self.loud else 2)
 
     def come_home(self):
         """To the table, from wherever the noise has led, and an answer from there."""
@@ -272,16 +278,16 @@ class Noise:
         return text
 
 
-def fuzz(seed, count, report=None):
+def fuzz(seed, count, report=None, loud=False):
     sent = saves = restarts = bridges = monitors = number = 0
     seconds, headroom = 0.0, 4096
     while sent < count:
-        noise = Noise(seed, number)
+        noise = Noise(seed, number, loud)
         number += 1
-        end = min(count, sent + BYTES_A_BOARD)
+        end = min(count, sent + BYTES_A_BOARD * (2 if loud else 1))
         with noise.board as board:
             while sent < end:
-                text = noise.piece(min(noise.rng.randrange(2000, 4000), end - sent))
+                text = noise.piece(min(noise.rng.randrange(2000, 4000) * (4 if loud else 1), end - sent))
                 sent += len(text)
                 bridges += text.count(b"toss")
                 monitors += text.count(b"mon\r")
