@@ -17,7 +17,7 @@ from proof import Figure
 
 sys.path.append(str(proof.TOP / "tools" / "m512" / "tests"))
 
-FILES = 15_000
+FILES = 10_000
 ANSWERS = 6_000
 COMMANDS = 600
 SAMPLE = 40             # the sample is so many times smaller

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The journal's recovery on any contents of its area. Input: option byte (bit k: slot k's record gets its CRCs; bit 4:
- * the power goes; bit 5: a page that does not take what is written), sequence and record bytes of each slot, then data. */
+ * The journal's recovery on any contents of its area. Input: slots (bit k: slot k's record gets its CRCs), mishaps (bit 0:
+ * the power goes; bit 1: a page does not take what is written), record bytes and data seed of each slot, then their details. */
 #include "fuzz.h"
 #include "fake_flash.h"
 #include "firmware/common/crc16.h"
@@ -78,16 +78,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint8_t work[FLASH_PAGE_BYTES];
     jmp_buf cut;
     fake_flash_reset();
-    const uint8_t options = fuzz_byte(&fuzz);
+    const uint8_t good = fuzz_byte(&fuzz), mishaps = fuzz_byte(&fuzz);
     for (uint8_t slot = 0; slot < JOURNAL_SLOTS; slot++) {
-        make_slot(slot, (options & 1u << slot) != 0, &fuzz);
+        make_slot(slot, (good & 1u << slot % 8) != 0, &fuzz);
     }
     memcpy(before, fake_flash_bytes(), sizeof before);
-    if ((options & 16) != 0) {
+    if ((mishaps & 1) != 0) {
         const uint8_t operation = (uint8_t)(1 + fuzz_byte(&fuzz) % 6);
         fake_flash_cut(operation, (fake_flash_phase_t)(fuzz_byte(&fuzz) % 3), fuzz_byte(&fuzz), &cut);
     }
-    if ((options & 32) != 0) {
+    if ((mishaps & 2) != 0) {
         const uint16_t page = fuzz_word(&fuzz);
         fake_flash_break(page % 0x1E0, (uint8_t)(1 + fuzz_byte(&fuzz) % 3));
     }
