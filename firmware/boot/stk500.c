@@ -41,11 +41,11 @@ static uint8_t arg_count(uint8_t command)
 {
     for (uint8_t i = 0;; i += 2) {
         uint8_t known = print_byte(&commands[i]);
-        if (known == command) {
-            return print_byte(&commands[i + 1]);
-        }
         if (known == 0) {
             return 0xFF;
+        }
+        if (known == command) {
+            return print_byte(&commands[i + 1]);
         }
     }
 }

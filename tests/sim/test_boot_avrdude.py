@@ -202,6 +202,13 @@ def test_signature(stk):
     assert ask(stk, b"\x75\x20", 5) == b"\x14\x1e\x97\x02\x10"
 
 
+@pytest.mark.parametrize("byte", [0x00, 0x01, 0x31, 0xFF])
+def test_a_byte_that_is_no_command_ends_the_session(stk, byte):
+    """0, which ends the table of commands, passed for a command (found by the harness of tests/prove/fuzz)."""
+    stk.send(bytes([byte, 0x20]))
+    stk.expect(PROMPT, ms=500)
+
+
 def test_no_programming_before_enter(stk):
     address, block = page(0xE000, noise(256))
     assert ask(stk, address, 2) == IN_SYNC_OK

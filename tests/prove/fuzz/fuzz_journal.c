@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The journal's recovery on any contents of its area. Input: slots (bit k: slot k's record gets its CRCs), mishaps (bit 0:
- * the power goes; bit 1: a page does not take what is written), record bytes and data seed of each slot, then their details. */
+ * the power goes; bit 1: a page does not take what is written), a sequence, record bytes and data seed of each slot, then their details. */
 #include "fuzz.h"
 #include "fake_flash.h"
 #include "firmware/common/crc16.h"
@@ -22,7 +22,8 @@ static void put16(uint8_t *at, uint16_t value)
     at[1] = (uint8_t)(value >> 8);
 }
 
-static void make_slot(uint8_t slot, bool good, fuzz_t *fuzz)
+/* Sequences of good records are those of saves in a row, in any order: a journal's own lie within its slots. */
+static void make_slot(uint8_t slot, bool good, uint16_t sequence, fuzz_t *fuzz)
 {
     uint8_t *data = fake_flash_bytes() + MEM_JOURNAL_START + 768u * slot, *record = data + 512;
     fuzz_bytes(fuzz, record, RECORD_BYTES);
@@ -34,6 +35,7 @@ static void make_slot(uint8_t slot, bool good, fuzz_t *fuzz)
         record[0] = 'M';
         record[1] = 'J';
         record[5] = 1;
+        put16(&record[2], (uint16_t)(sequence + record[2] % JOURNAL_SLOTS));
         put16(&record[6], crc16_bytes(CRC16_START, data, 512));
         put16(&record[8], crc16_bytes(CRC16_START, record, 8));
     }
@@ -79,8 +81,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     jmp_buf cut;
     fake_flash_reset();
     const uint8_t good = fuzz_byte(&fuzz), mishaps = fuzz_byte(&fuzz);
+    const uint16_t sequence = fuzz_word(&fuzz);
     for (uint8_t slot = 0; slot < JOURNAL_SLOTS; slot++) {
-        make_slot(slot, (good & 1u << slot % 8) != 0, &fuzz);
+        make_slot(slot, (good & 1u << slot % 8) != 0, sequence, &fuzz);
     }
     memcpy(before, fake_flash_bytes(), sizeof before);
     if ((mishaps & 1) != 0) {
