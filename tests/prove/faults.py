@@ -23,6 +23,7 @@ PUSHED_MS = 2600        # a jammed servo notices after a second of pushing
 RULE_MS = {"hold": 1000, "exit": 3500, "limp": 1500}   # until the rule has done its work; exit: the page is played to its end
 STEP_MAX, CHANGE_MAX = 9, 4     # pos a tick: 200 pos in 64 ticks with ramps of 32, braked in 8 at least
 POSE_ERROR_MAX = 4
+OUT_MS = 50             # between the sentence and the last goal that may still have been on its way
 SAMPLE = 60             # states, when only a sample is asked for
 PASSING = {"blink", "late", "late-2"}   # a servo with one of these may answer again by itself
 SITUATIONS = {f"{image}.{state}": (robot, words) for image, robot, states in (
@@ -76,6 +77,9 @@ class Trial:
         for fault, joint in faults:
             self.by_joint[joint].add(fault)
         self.expected = model.expected(self.by_joint, THERE, robot.driven, robot.holding, robot.cut)
+        if isinstance(robot, EditRobot):  # an alarm says why the torque is off; the table shows it, when nothing moves
+            alarmed = {joint for joint, kind in self.expected.must if kind in model.ALARMS.values()}
+            self.expected.must -= {(joint, TORQUE) for joint in alarmed}
         self.other_goals = {joint: self.board.servos[joint].goal for joint in UNUSED + (MARKED_OFF, RELEASED)}
         self.servos = {joint: self.board.servos[joint] for joint in self.by_joint}
         self.named_ms = 0
@@ -149,12 +153,17 @@ class Trial:
         gaps = bus_watch.missing_ticks(frames, robot.phase)
         if gaps:
             self.complain(f"{gaps} ticks without a frame")
-        lost = {joint for joint, kind in robot.told if kind in GRAVE} if acts else set()
+        lost = {}  # joints that the rule takes out, and since when
+        for (joint, kind), ms in robot.told.items() if acts else ():
+            if kind in GRAVE:
+                lost[joint] = min(ms, lost.get(joint, ms))
+        still = {joint for cycle, goals in frames for joint in goals
+                 if cycle / 16000 - robot.started_ms > lost.get(joint, 1e9) + OUT_MS}
+        if still:
+            self.complain(f"still driven: {sorted(still)}")
         last = {joint for cycle, goals in frames if cycle / 16000 > self.board.now_ms - 100 for joint in goals}
-        if last & lost:
-            self.complain(f"still driven: {sorted(last & lost)}")
-        if not over and last != set(robot.driven) - lost and not silent_ms:
-            self.complain(f"no longer driven: {sorted(set(robot.driven) - lost - last)}")
+        if not over and last != set(robot.driven) - set(lost) and not silent_ms:
+            self.complain(f"no longer driven: {sorted(set(robot.driven) - set(lost) - last)}")
         healthy = [joint for joint in SWINGING if joint not in self.by_joint and (joint, SILENT) not in robot.told]
         limp = [joint for joint in healthy if not self.board.servos[joint].torque]
         if limp:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The robots that faults befall: Play and Edit, at rest, being taught, playing; and what their screens say.
 
-Eighteen joints play, of which 16 has the torque-off mark in the page and 17 was switched off by hand; 19 and 20 are there,
-and no page uses them.
+Of twenty servos 1..15 and 17 have positions in the pages, but 17 was switched off by hand; 16 has the torque-off mark in the
+pages, 18..20 are there and no page uses them.
 """
 import re
 
@@ -35,16 +35,18 @@ EDIT_SAYS = {"No answer": SILENT, "Low voltage": VOLTAGE, "Angle limit": ANGLE, 
 
 def motions():
     """A page that swings all joints to and fro until it is stopped, the page it leaves by, and a pose."""
+    placed = (*SWINGING, RELEASED)
+
     def swing(number):
-        return {joint: (LOW, HIGH)[(joint + number) % 2] for joint in SWINGING}
+        return {joint: (LOW, HIGH)[(joint + number) % 2] for joint in placed}
     image = Image.empty()
-    image[WALK] = page("walk", [(64, swing(0)), (64, swing(1))], joints=SWINGING, next=WALK, exit=EXIT)
-    image[EXIT] = page("exit", [(40, {})], joints=SWINGING)
-    image[POSE] = page("pose", [(40, {joint: 540 for joint in SWINGING})], joints=SWINGING)
+    image[WALK] = page("walk", [(64, swing(0)), (64, swing(1))], joints=placed, next=WALK, exit=EXIT)
+    image[EXIT] = page("exit", [(40, {})], joints=placed)
+    image[POSE] = page("pose", [(40, {joint: 540 for joint in placed})], joints=placed)
     for number in (WALK, EXIT, POSE):
         for step in range(7):
             for joint in range(31):
-                if joint not in SWINGING:
+                if joint not in placed:
                     image[number].set_word(step, joint, 700 | (TORQUE_OFF_MARK if joint == MARKED_OFF else UNUSED_MARK))
         image[number].seal()
     return image.to_bytes()
@@ -146,11 +148,20 @@ class PlayRobot(Watched):
         self.board.send(text + "\r")
         return self.board.expect("OK\r\n")
 
+    def does(self, text):
+        """Types a line; whether the answer is OK. News of servos may come between."""
+        self.board.send(text + "\r")
+        try:
+            self.board.expect(" OK\r\n", ms=3000)
+            return True
+        except AssertionError:
+            return False
+
     def on(self, joints):
-        return self.line("on " + " ".join(map(str, sorted(joints)))).endswith("OK")
+        return self.does("on " + " ".join(map(str, sorted(joints))))
 
     def play(self, number):
-        return self.line(f"play {number}").endswith("OK")
+        return self.does(f"play {number}")
 
     def stand(self):
         self.line("break")
