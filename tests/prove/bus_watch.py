@@ -39,6 +39,14 @@ def largest_steps(frames):
     return step_max, change_max
 
 
+def last_step(frames):
+    """The largest step of a goal into the last frame: 0 or 1 when the robot has slowed down to a stand."""
+    if len(frames) < 2:
+        return 0
+    (_, before), (_, last) = frames[-2:]
+    return max((abs(pos - before[joint]) for joint, pos in last.items() if joint in before), default=0)
+
+
 def written(packets, address, value=None):
     """IDs of single WRITEs and REG WRITEs that reach an address (with that value)."""
     return {packet[2] for _, packet in packets if packet[4] in (WRITE, REG_WRITE)

@@ -22,6 +22,7 @@ NAMED_MS = 1000         # the promise
 PUSHED_MS = 2600        # a jammed servo notices after a second of pushing
 RULE_MS = {"hold": 1000, "exit": 3500, "limp": 1500}   # until the rule has done its work; exit: the page is played to its end
 STEP_MAX, CHANGE_MAX = 9, 4     # pos a tick: 200 pos in 64 ticks with ramps of 32, braked in 8 at least
+LAST_STEP_MAX = 2       # before it stands
 POSE_ERROR_MAX = 4
 OUT_MS = 50             # between the sentence and the last goal that may still have been on its way
 SAMPLE = 60             # states, when only a sample is asked for
@@ -150,6 +151,8 @@ class Trial:
         silent_ms = [ms for (joint, kind), ms in robot.told.items() if kind == SILENT]
         if over and frames and (frames[-1][0] / 16000 - robot.started_ms) > robot.ended + 20:
             self.complain("frames behind the end")
+        if over and bus_watch.last_step(frames) > LAST_STEP_MAX:
+            self.complain(f"ended with a snap: {bus_watch.last_step(frames)} pos in the last tick")
         gaps = bus_watch.missing_ticks(frames, robot.phase)
         if gaps:
             self.complain(f"{gaps} ticks without a frame")
