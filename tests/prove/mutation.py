@@ -270,7 +270,11 @@ def run_all(mutations, options, scratch):
         return result
 
     with ThreadPoolExecutor(max_workers=jobs) as pool:
-        results = [result for result in pool.map(do, work) if result]
+        try:
+            results = [result for result in pool.map(do, work) if result]
+        except BaseException:
+            pool.shutdown(cancel_futures=True)  # Ctrl-C ends it with what is under way
+            raise
     order = {mutation: at for at, mutation in enumerate(mutations)}
     return sorted(results, key=lambda result: order.get(result.mutation, -1))
 
