@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What looks into the simulated board: probes, stack figures, symbols, loader of images, VCD, GDB, target_runner."""
+import os
+import pathlib
 import shutil
 import socket
 import struct
@@ -146,6 +148,44 @@ def test_gdb_stops_at_a_function():
     assert "Breakpoint 1, ping ()" in result.stdout and "in main ()" in result.stdout, result.stdout + result.stderr
     assert not runner.is_alive()
     assert b"right" in board.console
+
+
+def own_listeners():
+    """(address, port) of every TCP socket that this process listens on, from /proc."""
+    inodes = set()
+    for entry in pathlib.Path("/proc/self/fd").iterdir():
+        try:
+            inodes.add(os.readlink(entry))
+        except OSError:
+            continue
+    rows = [line.split() for line in pathlib.Path("/proc/self/net/tcp").read_text().splitlines()[1:]]
+    return {tuple(row[1].split(":")) for row in rows if row[3] == "0A" and f"socket:[{row[9]}]" in inodes}
+
+
+@pytest.mark.skipif(not pathlib.Path("/proc/self/net/tcp").exists(), reason="needs Linux's /proc")
+def test_gdb_is_served_to_this_computer_only():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    before = own_listeners()
+    board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
+    board.power_on()
+    assert board._lib.board_gdb(board._pointer, port, False)
+    assert own_listeners() - before == {("0100007F", f"{port:04X}")}, "127.0.0.1 and nothing else"
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.2", port), timeout=5)
+    socket.create_connection(("127.0.0.1", port), timeout=5).close()
+
+
+def test_gdb_on_a_port_in_use_is_an_error():
+    with socket.socket() as holder:
+        holder.bind(("127.0.0.1", 0))
+        holder.listen()
+        port = holder.getsockname()[1]
+        board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
+        board.power_on()
+        assert not board._lib.board_gdb(board._pointer, port, True)
+        board.expect("right")   # and the board runs on without GDB
 
 
 def test_target_runner_wants_the_done_line(tmp_path):

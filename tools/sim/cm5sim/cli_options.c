@@ -61,8 +61,7 @@ static const struct argp_option descriptions[] = {
     {"plot", OPT_PLOT, "FILE", 0, "Joints over time as .svg or .png (needs Python with matplotlib)", 0},
     {"summary", OPT_SUMMARY, 0, 0, "At the end: simulated and real time, CPU load, stack headroom, serial counters", 0},
     {"vcd", OPT_VCD, "FILE", 0, "Pins and serial bytes for a wave viewer", 0},
-    {"gdb", OPT_GDB, "PORT", OPTION_ARG_OPTIONAL, "Wait for avr-gdb on TCP port PORT (default 1234); simavr's server "
-     "listens to the whole network", 0},
+    {"gdb", OPT_GDB, "PORT", OPTION_ARG_OPTIONAL, "Wait for avr-gdb on port PORT (default 1234) of 127.0.0.1", 0},
     {"allow", OPT_ALLOW, "KIND", 0, "Do not stop at this violation", 0},
     {0}};
 
