@@ -13,8 +13,8 @@ CORPUS = HERE / "corpus"
 FUZZERS = proof.BUILD / "fuzz"
 REPLAYS = proof.BUILD / "host" / "tests" / "prove" / "fuzz"
 NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem != "fuzz_image")
-LONGEST = {"page": 513, "bus": 400, "remote": 200, "settings": 160, "journal": 140, "player": 500, "loader": 700, "play": 300,
-           "edit": 300}
+LONGEST = {"page": 513, "bus": 400, "remote": 200, "settings": 160, "journal": 140, "player": 500, "loader": 1200, "play": 1000,
+           "edit": 1000}
 ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0:handle_abort=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
 
 
