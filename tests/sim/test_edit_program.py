@@ -111,6 +111,17 @@ def test_play_pause_resume_stop():
         assert fields(ask(r, "@where"))["state"] == "idle"
 
 
+def test_nothing_is_saved_while_something_plays():
+    """A save holds the interrupts off for longer than a tick."""
+    with robot(pages=PAGES) as r:
+        assert ask(r, "@play 1") == "@play OK"
+        r.board.run(ms=1500)
+        operations, missed = r.board.operations, fields(ask(r, "@where"))["missed"]   # some while the servos are got ready
+        assert ask(r, f"@save 9 0x{crc16(bytes(PAGES[1].data)):04X}").startswith("@save ERR 4 ")
+        r.keys("save 9\r")   # keys wait until it stands: a screen would cost ticks
+        assert r.board.operations == operations and fields(ask(r, "@where"))["missed"] == missed
+
+
 def test_reset_restarts_the_controller():
     with robot(pages=PAGES) as r:
         resets = r.board.resets
