@@ -169,6 +169,8 @@ class Noise:
         self.watch()
         self.model = bytearray(board.flash[:])
         self.run(2500)
+        self.page_at = 0x100 + bytes(board.ram[0x100:0x1100]).find(image[1].data[:31])   # page 1 is open after the start
+        assert self.page_at >= 0x100
 
     # ---- time, with an eye on saves and restarts ----
 
@@ -200,10 +202,9 @@ class Noise:
         self.heard += new
 
     def save_begins(self):
-        """page_save(page r24, bytes r23:22)."""
+        """page_save(page, bytes): the number is in r24, the bytes are always those being edited."""
         page_number = self.board.ram[24]
-        at = self.board.ram[22] | self.board.ram[23] << 8
-        data = bytearray(self.board.ram[at:at + 512])
+        data = bytearray(self.board.ram[self.page_at:self.page_at + 512])
         data[31] = 0
         data[31] = (0xFF - sum(data)) & 0xFF
         self.check_flash()

@@ -50,13 +50,40 @@ def edit(r, *lines):
         assert "cannot be undone" not in r.command, line
 
 
-@pytest.mark.parametrize("command", ["new", "copy 2", "copy 3", "scale 37", "swap 0 6"])
-def test_a_whole_page_of_31_joints_and_7_steps_comes_back(r, command):
+@pytest.mark.parametrize("saved", [True, False])
+@pytest.mark.parametrize("command", ["new", "copy 2", "copy 3", "scale 37", "paste 0", "swap 0 6"])
+def test_a_whole_page_of_31_joints_and_7_steps_comes_back(r, command, saved):
+    """As it was, with what was not saved; and goes away again."""
+    if command == "paste 0":
+        edit(r, "page 2", "take 0 6", "page 1")
+    if not saved:
+        edit(r, "goto 3 17", f"set {(PAGES[1].word(2, 17) + 100) % 1024}", "goto 9 10", "set 99")
     before = ram_page(r)
     edit(r, command)
-    assert ram_page(r) != before and r.unsaved
+    after = ram_page(r)
+    assert after != before and r.unsaved
     edit(r, "undo")
-    assert ram_page(r) == before and not r.unsaved
+    assert ram_page(r) == before and r.unsaved == (not saved)
+    edit(r, "redo")
+    assert ram_page(r) == after
+    edit(r, "undo")
+    assert ram_page(r) == before
+
+
+def test_what_a_play_has_overwritten_is_not_brought_back_as_rubbish(r):
+    """The snapshot of a whole page lies in the idle player."""
+    edit(r, "goto 3 17", "set 999", "new")
+    empty = ram_page(r)
+    r.line("play 3", ms=3000)
+    assert r.message == "play 3 OK"
+    assert r.line("undo").endswith("Nothing to undo") and ram_page(r) == empty
+
+
+def test_a_save_between_changes_nothing(r):
+    before = ram_page(r)
+    edit(r, "goto 3 17", "set 999", "undo", "new", "save 9")
+    edit(r, "undo")
+    assert ram_page(r) == before
 
 
 @pytest.mark.parametrize("command", ["new", "copy 5", "scale 37", "swap 0 6", "paste 0"])
