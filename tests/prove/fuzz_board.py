@@ -163,7 +163,8 @@ KEYS = (b"\x08", b"\x7f" * 5, b"\x01", b"\x15", b"\x1b[A", b"\x1b[B", b"\x1b[", 
 class PlayConsole(Session):
     name = "play-console"
     promise = "Play stands whatever is typed"
-    how = "words of its shell and of programs with good and bad numbers, keys, broken pieces of them and bytes without sense"
+    how = ("words of its shell and of programs with good and bad numbers, keys, broken pieces of them and bytes without sense; half of the "
+           "senders do not stop at XOFF")
 
     def line(self):
         rng = self.rng
@@ -402,7 +403,7 @@ class EditConsole:
     name = "edit-console"
     promise = "Edit stands whatever is typed, and flash is what SAVE wrote"
     how = ("its grammar, answers, keys, lines of programs, the monitor and its bridge, saves, restarts, broken pieces of them and bytes "
-           "without sense")
+           "without sense; three senders in four do not stop at XOFF, and most of theirs is lost, as it would be")
     size = 100_000
     slow_size = 4_000
 
