@@ -26,9 +26,11 @@ def missing_ticks(frames, phase):
 def largest_steps(frames):
     """(largest step of a goal from tick to tick, largest change of that step), over all joints."""
     step_max = change_max = 0
-    goal, step = {}, {}
-    for _, goals in frames:
-        steps = {}
+    goal, step, last = {}, {}, 0
+    for cycle, goals in frames:
+        if cycle - last > 1.5 * CYCLES_PER_TICK:
+            goal = step = {}
+        last, steps = cycle, {}
         for joint, pos in goals.items():
             if joint in goal:
                 steps[joint] = pos - goal[joint]

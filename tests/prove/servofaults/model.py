@@ -113,7 +113,8 @@ def _kinds(faults, driven, held):
     if "late-2" in faults:
         may.add(SILENT)
     if "blink" in faults:
-        may.add(SILENT)
+        may.update({SILENT} | must & {OVERLOAD})  # without power it forgets that it was overloaded
+        must.discard(OVERLOAD)
         if held:  # a robot that plays sees nothing of it: the next goal switches the torque on again
             (may if driven else must).add(TORQUE)
     return must, may
