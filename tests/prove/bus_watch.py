@@ -41,12 +41,12 @@ def largest_steps(frames):
     return step_max, change_max
 
 
-def last_step(frames):
-    """The largest step of a goal into the last frame: 0 or 1 when the robot has slowed down to a stand."""
+def last_step(frames, failed):
+    """The largest step of a goal into the last frame, of joints that did not fail: 0 or 1 when they slowed down to a stand."""
     if len(frames) < 2:
         return 0
     (_, before), (_, last) = frames[-2:]
-    return max((abs(pos - before[joint]) for joint, pos in last.items() if joint in before), default=0)
+    return max((abs(pos - before[joint]) for joint, pos in last.items() if joint in before and joint not in failed), default=0)
 
 
 def written(packets, address, value=None):
