@@ -46,7 +46,8 @@ static void take_screen_back(editor_t *editor)
 static void table_key(editor_t *editor, uint8_t key)
 {
     if (editor->screen.hidden && key != '@') {
-        if (key == KEY_NONE || key == KEY_CR || key == KEY_LF) {
+        /* Drawn anew it would cost half a second of ticks: keys wait until the robot stands. */
+        if (key == KEY_NONE || key == KEY_CR || key == KEY_LF || !performer_is_idle(&the_performer)) {
             return;
         }
         take_screen_back(editor);

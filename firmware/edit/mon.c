@@ -267,7 +267,7 @@ WORD(mon_sync_write)
 {
     uint8_t count = bytes_of(args), each = params()[1];
     (void)context;
-    if (count < 4 || each == 0 || (count - 2) % (each + 1) != 0) {
+    if (count < 4 || each == 0 || (uint16_t)(count - 2) % (uint16_t)(each + 1) != 0) {
         return say(TEXT_P("SWR address count id byte .. id byte .."));
     }
     (void)transact(DXL_BROADCAST, DXL_SYNC_WRITE, count);
