@@ -322,7 +322,8 @@ const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count,
     for (; count > 0 && *word != '\0'; count--, table_P++) {
         text_reader_t reader;
         text_open_P(&reader, pgm_read_ptr(&table_P->text));
-        if (field_is(&reader, word) || field_is(&reader, word)) {
+        const bool is_word = field_is(&reader, word);
+        if (is_word || field_is(&reader, word)) {   /* the short form is the next field */
             return table_P;
         }
     }
