@@ -2,7 +2,8 @@
  * app_record.h - what an application image says of itself: 16 bytes at MEM_APP_RECORD, right behind the vectors.
  * The image is linked with the magic and 0xFF; the post-link step fills in the rest. The boot loader starts an image
  * with a record only when length and CRC fit; an image without the magic is started as it is. A magic of which bits have
- * turned to 1 (a first page torn by a power cut) still counts as a record, and the CRC tells. */
+ * turned to 1 (a first page torn by a power cut, or one that ends before the record) still counts as a record, and the CRC
+ * tells: a foreign program has to reach beyond the record, as any with all its vectors does. */
 #ifndef APP_RECORD_H
 #define APP_RECORD_H
 

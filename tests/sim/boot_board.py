@@ -13,6 +13,7 @@ from cm5sim import Board, library
 from intelhex import IntelHex
 
 PROMPT = "\r\n - "
+PLAIN_APP = b"\xff\xcf" + bytes(0x8E)  # `rjmp .`, and no record where ours have one (app_record.h)
 MEMORY_MAP = pathlib.Path(__file__).parents[2] / "linker" / "memory_map.h"
 MAP = {name: int(value, 0) for name, value in re.findall(r"#define (MEM_\w+) (\w+)", MEMORY_MAP.read_text())}
 APP_END, JOURNAL_START = MAP["MEM_APP_END"], MAP["MEM_JOURNAL_START"]

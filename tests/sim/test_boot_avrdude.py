@@ -12,7 +12,7 @@ import time
 import tty
 
 import pytest
-from boot_board import BOOT_START, PROMPT, new_board, noise, prompt_board, say
+from boot_board import BOOT_START, PLAIN_APP, PROMPT, new_board, noise, prompt_board, say
 
 AVRDUDE = shutil.which("avrdude")
 needs_avrdude = pytest.mark.skipif(not AVRDUDE, reason="avrdude is not installed (tools/packages.txt)")
@@ -183,7 +183,7 @@ def page(address, data, kind=b"F"):
 
 def test_sync_in_the_window_stays_without_a_banner():
     board = new_board()
-    board.flash[0:2] = b"\xff\xcf"
+    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
     board.eeprom[0xFFF] = 0x11
     board.run(ms=30)
     board.send(SYNC)

@@ -4,8 +4,8 @@ import random
 import struct
 
 import pytest
-from boot_board import (BAD_FRAME, BOOT_MODE, EE_WRITE, EQUAL, HELLO, LEAVE, OK, PROMPT, RATE, READ, REFUSED, SUMS, WRITE,
-                        Blocks, crc16, frame, noise, page_body, prompt_board, say)
+from boot_board import (BAD_FRAME, BOOT_MODE, EE_WRITE, EQUAL, HELLO, LEAVE, OK, PLAIN_APP, PROMPT, RATE, READ, REFUSED,
+                        SUMS, WRITE, Blocks, crc16, frame, noise, page_body, prompt_board, say)
 from cm5sim import PowerCut
 
 LINE_RATE = 2_000_000 / 35 / 10
@@ -22,7 +22,7 @@ def blocks(board):
 
 
 def test_frames_of_the_manual(board):
-    board.flash[0:2] = b"\x0c\x94"  # an application without a record
+    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
     board.send(bytes.fromhex("A5010100C89D"))
     board.run(ms=20)
     assert board.take() == bytes.fromhex("5A0101010001EAF8")
@@ -30,7 +30,7 @@ def test_frames_of_the_manual(board):
 
 def test_hello_says_whether_there_is_an_application(board, blocks):
     assert blocks.ask(HELLO) == (OK, 0, b"")
-    board.flash[0:2] = b"\x0c\x94"
+    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
     assert blocks.ask(HELLO) == (OK, 1, b"")
 
 
@@ -113,7 +113,7 @@ def test_leave_to_the_prompt(board, blocks):
 
 
 def test_leave_to_the_application(board, blocks):
-    board.flash[0:2] = b"\xff\xcf"
+    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
     assert blocks.ask(LEAVE, page_body(1))[0] == OK
     board.run(ms=100)
     assert board.pc < 0x100

@@ -2,7 +2,7 @@
 """Downloads of the original's kind: sizes and faults of bootloader-original.md section 3, as written there or as
 firmware/boot/DIFFERENCES.md says."""
 import pytest
-from boot_board import APP_END, BOOT_START, PROMPT, begin_load, end_load, load, noise, prompt_board, say
+from boot_board import APP_END, BOOT_START, PLAIN_APP, PROMPT, begin_load, end_load, load, noise, prompt_board, say
 
 LINE_RATE = 2_000_000 / 35 / 10  # bytes a second
 
@@ -147,7 +147,7 @@ def test_esc_leaves_ready_and_data_may_begin_with_esc(board):
 
 
 def test_start_leaves_ready_without_starting(board):
-    board.flash[0:2] = b"\x0c\x94"
+    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
     board.send("load 2000\r")
     board.expect("Ready..")
     board.press("START")
