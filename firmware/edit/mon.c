@@ -209,9 +209,9 @@ WORD(mon_go)
     uint8_t *to = params();
     *to++ = DXL_AT_GOAL;
     *to++ = (uint8_t)pos;
-    *to++ = (uint8_t)(pos >> 8);
+    *to++ = (uint8_t)((uint16_t)pos >> 8);
     *to++ = (uint8_t)speed;
-    *to = (uint8_t)(speed >> 8);
+    *to = (uint8_t)((uint16_t)speed >> 8);
     if (pos != BAD && speed != BAD) {
         (void)transact(editor->cid, DXL_WRITE, count);
     }

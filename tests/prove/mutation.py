@@ -116,12 +116,14 @@ class Tree:
             self.environment["M512_SHARED"] = str(shared)
 
     def sync(self):
-        """The files of this tree, those that git knows or would; a file that is the same keeps its time."""
-        listed = subprocess.run(["git", "-C", str(proof.TOP), "ls-files", "-z", "-co", "--exclude-standard"],
-                                capture_output=True, check=False)
-        names = [name for name in listed.stdout.decode().split("\0") if name] if listed.returncode == 0 else [
-            str(path.relative_to(proof.TOP)) for path in proof.TOP.rglob("*")
-            if path.is_file() and not NEVER_COPIED & set(path.relative_to(proof.TOP).parts)]
+        """The files of this tree, those that git knows or would (all, without git); a file that is the same keeps its time."""
+        names = [str(path.relative_to(proof.TOP)) for path in proof.TOP.rglob("*")
+                 if path.is_file() and not NEVER_COPIED & set(path.relative_to(proof.TOP).parts)]
+        if shutil.which("git"):
+            listed = subprocess.run(["git", "-C", str(proof.TOP), "ls-files", "-z", "-co", "--exclude-standard"],
+                                    capture_output=True, check=False)
+            if listed.returncode == 0:
+                names = [name for name in listed.stdout.decode().split("\0") if name]
         known = set(names)
         for name in names:
             source, target = proof.TOP / name, self.top / name

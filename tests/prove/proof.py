@@ -17,6 +17,7 @@ import dataclasses
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -71,6 +72,8 @@ def commit():
     """The commit of the tree, marked when the tree differs from it; the page itself does not count."""
     def git(*words):
         return subprocess.run(["git", "-C", str(TOP), *words], capture_output=True, text=True, check=False).stdout.strip()
+    if not shutil.which("git"):
+        return "no commit"
     changed = [line for line in git("status", "--porcelain").splitlines() if not line.endswith(PAGE.name)]
     return (git("rev-parse", "--short=10", "HEAD") or "no commit") + (" and changes" if changed else "")
 
