@@ -80,6 +80,8 @@ FAULTS = {
 }
 TRANSIENT = {name for name in FAULTS if name.endswith("-2")}
 LASTING = [name for name in FAULTS if name not in TRANSIENT]
+# What a servo forgets without power, or is given back with it: together with a blink on the same servo these are no two faults.
+ENDED_BY_BLINK = {"dead", "blocked", "overload"}
 
 
 @dataclasses.dataclass
