@@ -12,7 +12,7 @@ from cm5sim.board import CYCLES_PER_TICK, sync_goals
 from m512.image import from_bytes
 
 UP, DOWN, LEFT, RIGHT, STOP = 1, 2, 4, 8, 512
-SLICE_MS = 20
+SLICE_MS = 10
 PACKET_MS = 100         # a hand on the remote: so often it sends
 LINE_BYTES_A_MS = 5.76
 XON, XOFF = 0x11, 0x13
@@ -52,8 +52,11 @@ class Bus:
 
 
 def ticks_of(page):
-    """How long a page of time-base schedule takes behind its first step: 32 is the speed at which a step's time counts ticks."""
-    return sum(round(page.time(step) * 32 / page.speed) + page.pause(step) for step in range(1, page.steps))
+    """How long a page of time-base schedule takes behind its first two steps: 32 is the speed at which a step's time counts ticks.
+
+    The first begins where the servos are, a unit or two off their goals, and the second at the speed that follows from it.
+    """
+    return sum(round(page.time(step) * 32 / page.speed) + page.pause(step) for step in range(2, page.steps))
 
 
 class Walker:
@@ -251,8 +254,8 @@ class Walker:
     # ---- the yardstick ----
 
     def measure(self):
-        """Plays the reference page: its goals, tick by tick, behind the first step (which begins where the servos are, and they
-        are a unit or two off their goals). Complains about joints that do not stand where the page ends."""
+        """Plays the reference page: its goals, tick by tick, behind its first two steps (ticks_of). Complains about joints that do not
+        stand where the page ends."""
         self.stand()
         for line in ("law exact", "remote latch", "settings approach 60", "on"):
             self.say(line)
