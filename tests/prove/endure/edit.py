@@ -108,7 +108,9 @@ class Editor:
         self.line(f"play {self.open}")
         self.board.run(ms=self.chance.randrange(200, 2500))
         if self.chance.random() < 0.5:
-            self.line("\x03", 200)     # a blank would change a cell, should the play have ended just now
+            self.board.send("\x03")     # a blank would change a cell, should the play have ended just now
+            self.board.run(ms=1500)     # until it stands; a line typed before that is none
+            self.settle()
             self.done["breaks"] += 1
         else:
             self.board.run(ms=3500)
