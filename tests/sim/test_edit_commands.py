@@ -3,7 +3,7 @@
 512 bytes, worked out here from the specification. Intended differences: firmware/edit/DIFFERENCES.md."""
 import pytest
 
-from edit_robot import new_page, page, robot, seal, word, UNUSED
+from edit_robot import changed, new_page, page, robot, seal, word, UNUSED
 
 BASE = page("base", [(40, {1: 480, 2: 544}, 3), (50, {3: 300}), (60, {4: 10})], code=7, next=3)
 OTHER = page("other", [(11, {1: 900}), (22, {2: 100})])
@@ -34,14 +34,6 @@ def bytes_of(r):
         r.keys("y")
     assert r.message.endswith("OK") or r.message.endswith("OK, no change"), r.message
     return r.flash_page(127)
-
-
-def edited(made, changes):
-    """The page's bytes with {address: value} applied, sealed."""
-    data = bytearray(made.data)
-    for address, value in changes.items():
-        data[address] = value
-    return seal(data)
 
 
 def step(data, k):
@@ -154,9 +146,9 @@ def test_time_and_speed_count_as_edits_and_change_the_label(r):
 
 def test_step_sets_the_count(r):
     r.line("step 5")
-    assert bytes_of(r) == edited(BASE, {20: 5})
+    assert bytes_of(r) == changed(BASE, {20: 5})
     r.line("s 0")
-    assert bytes_of(r) == edited(BASE, {20: 0})
+    assert bytes_of(r) == changed(BASE, {20: 0})
 
 
 def pose_step(r):
@@ -226,9 +218,9 @@ def test_delete(r):
     assert bytes_of(r) == seal(data)
     r.line("undo")
     r.line("d 6")
-    assert bytes_of(r) == edited(FULL, {20: 6})
+    assert bytes_of(r) == changed(FULL, {20: 6})
     r.line("d")
-    assert bytes_of(r) == edited(FULL, {20: 5})
+    assert bytes_of(r) == changed(FULL, {20: 5})
     r.line("step 0")
     assert r.line("d") == "d There is no step"
 
@@ -284,7 +276,7 @@ def test_int_between_steps_that_do_not_follow_each_other_takes_the_time_of_the_s
 
 def test_scale_changes_times_and_pauses(r):
     r.line("scale 150")
-    assert bytes_of(r) == edited(BASE, {64 + 62: 5, 64 + 63: 60, 128 + 63: 75, 192 + 63: 90})
+    assert bytes_of(r) == changed(BASE, {64 + 62: 5, 64 + 63: 60, 128 + 63: 75, 192 + 63: 90})
 
 
 def test_take_and_paste_between_pages(r):
@@ -344,7 +336,7 @@ def test_set_writes_the_cell(r, x, y, value, address):
     changes = {address: value & 0xFF}
     if x in range(1, 8) and y <= 30:
         changes[address + 1] = value >> 8
-    assert bytes_of(r) == edited(BASE, changes)
+    assert bytes_of(r) == changed(BASE, changes)
     assert int(r.cell(x, y)) == value
 
 
@@ -362,7 +354,7 @@ def test_keys_change_positions(r, keys, expected):
     r.line("goto 1 1")
     r.keys(keys)
     assert r.cell(1, 1) == f"{expected:04d}" and r.unsaved
-    assert bytes_of(r) == edited(BASE, {66: expected & 0xFF, 67: expected >> 8})
+    assert bytes_of(r) == changed(BASE, {66: expected & 0xFF, 67: expected >> 8})
 
 
 def test_keys_do_not_leave_the_range_and_bytes_wrap(r):
@@ -408,7 +400,7 @@ def test_space_marks_torque_off_and_back(r):
 def test_torque_off_marks_are_saved_as_unused(r):
     r.line("goto 1 1")
     r.keys(" ")
-    data = edited(BASE, {67: 0x41})
+    data = changed(BASE, {67: 0x41})
     assert word(data, 0, 1) == UNUSED | 480
     assert bytes_of(r) == data and r.cell(1, 1) == "----"
 
