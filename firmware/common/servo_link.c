@@ -324,14 +324,14 @@ static void take_health(servo_link_t *link, const bus_answer_t *answer)
 static void take_miss(servo_link_t *link)
 {
     uint8_t id = link->poll_id;
-    if (servo_link_has(&link->silent, id)) {
-        return;
-    }
-    if (++link->poll_misses >= SERVO_LINK_POLL_TRIES) {
-        link->poll_misses = 0;
-        servo_link_put(&link->silent, id, true);
+    if (!servo_link_has(&link->silent, id)) {
+        if (++link->poll_misses < SERVO_LINK_POLL_TRIES) {
+            return;
+        }
+        servo_link_lost(link, id);
         befell(link, id, SERVO_FAULT_SILENT);
     }
+    link->poll_misses = 0;
 }
 
 /* The poll's result, when there is one. */

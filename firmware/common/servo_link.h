@@ -126,6 +126,13 @@ uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo
  * that was so. NULL: no trim. Poses heard before are forgotten. */
 uint32_t servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LINK_JOINTS]);
 
+/* A call of one's own to a joint that is present was not answered, and the caller says so: it counts as silent, so that
+ * servo_link_next_fault tells when it answers again. Those below do this for poses and torque. */
+static inline void servo_link_lost(servo_link_t *link, uint8_t id)
+{
+    servo_link_put(&link->silent, id, true);
+}
+
 /* ---- blocking, for set-up; nothing may be moving; quiet the bus themselves; kick the watchdog ---- */
 
 /* Looks for IDs 0..30 at 57,142 bps, then at 1 Mbps (where the bus stays): 0.25 s with nobody there, two tries each. Finds out

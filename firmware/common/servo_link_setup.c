@@ -154,14 +154,15 @@ uint32_t servo_link_fast_answers(servo_link_t *link, uint32_t ids)
 /* Reads torque, goal, limit and pose of one servo; false: no answer. */
 static bool read_table(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
 {
-    if (bus_call_read(id, READ_FROM, table, READ_BYTES, NULL) != BUS_OK) {
+    const bool heard = bus_call_read(id, READ_FROM, table, READ_BYTES, NULL) == BUS_OK;
+    servo_link_put(&link->silent, id, !heard);
+    if (!heard) {
         return false;
     }
     uint16_t pos = word_at(table + (DXL_AT_PRESENT - READ_FROM)) & 1023u;
     bool on = table[0] != 0 && word_at(table + (DXL_AT_TORQUE_LIMIT - READ_FROM)) != 0;
     link->present_pos[id] = servo_link_to_page(link, id, pos);
     servo_link_put(&link->torque, id, on);
-    servo_link_put(&link->silent, id, false);
     return true;
 }
 

@@ -59,7 +59,7 @@ static uint8_t state_of(uint8_t joint)
         return 1u << BIT_SILENT;
     }
     uint8_t state = servos->errors[joint];
-    if (the_performer.told_hot && joint == servos->hottest_id) {
+    if (joint == servos->hottest_id && the_settings.hot_degrees != 0 && servos->hottest_degrees >= the_settings.hot_degrees) {
         state |= DXL_ERR_HEAT;
     }
     return state == 0 && servo_link_has(&the_performer.faulty, joint) ? 1u << BIT_LIMP : state;
@@ -77,6 +77,12 @@ static NOINLINE void tell_faults(editor_t *editor)
     TEXT_NAMED(overload, "Overload");
     static const char *const names[] PROGMEM = { voltage, angle, heat, silent, limp, overload };   /* by bit */
     editor->faults_due = false;
+    editor->robot.failed = false;   /* they count as silent */
+    screen_open_line(&editor->screen);
+    if (editor->broken_off) {
+        TEXT("Ended: a servo failed.");
+    }
+    const uint8_t column = editor->screen.line_column;
     for (uint8_t bit = 0; bit < ARRAY_COUNT(names); bit++) {
         uint32_t joints = 0;
         for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
@@ -84,10 +90,10 @@ static NOINLINE void tell_faults(editor_t *editor)
         }
         editor_tell_joints(editor, (const char *)pgm_read_ptr(&names[bit]), joints);
     }
+    editor->screen.lead = true;
     if (the_performer.told_battery) {
-        TEXT(" Battery low");
-    }
-    if (editor->screen.line_column == SCREEN_LINE_COLUMN) {
+        TEXT("Battery low");
+    } else if (editor->screen.line_column == column) {
         TEXT("All servos are well");
     }
 }
@@ -103,8 +109,7 @@ static void tell_end(editor_t *editor, const performer_event_t *event)
         text_number(event->a);
         break;
     case PERFORMER_END_SERVO:
-        screen_open_line(&editor->screen);
-        TEXT("Ended: a servo failed.");
+        editor->broken_off = true;
         tell_faults(editor);
         break;
     default:
@@ -116,13 +121,12 @@ static void tell_end(editor_t *editor, const performer_event_t *event)
 /* The play is over: the work pose is what the servos hold now. */
 static void play_ended(editor_t *editor, const performer_event_t *event)
 {
+    robot_read(&editor->robot);
     if (editor->mode != EDITOR_PLAY) {
-        robot_read(&editor->robot);
         return;
     }
     editor->screen.lead = true;
     tell_end(editor, event);
-    robot_read(&editor->robot);
     editor_leave_line(editor);
 }
 
@@ -136,7 +140,6 @@ void cmd_play_events(editor_t *editor, bool line_is_free)
             editor->faults_due = !editor->screen.hidden;
         }
     } else if (editor->faults_due && line_is_free) {
-        screen_open_line(&editor->screen);
         tell_faults(editor);
         if (editor->mode != EDITOR_PLAY) {
             editor_message_end(editor);

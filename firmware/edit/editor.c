@@ -76,9 +76,10 @@ void editor_tell_joints(editor_t *editor, const char *what_P, uint32_t joints)
 
 void editor_tell_failed(editor_t *editor)
 {
-    uint32_t failed = editor->robot.failed;
-    editor->robot.failed = 0;
-    editor_tell_joints(editor, TEXT_P("No answer"), failed);
+    if (editor->robot.failed) {
+        editor->robot.failed = false;
+        editor_tell_joints(editor, TEXT_P("No answer"), the_servos.silent);
+    }
 }
 
 /* ---- running a line ---- */
@@ -116,6 +117,7 @@ static void go_on(editor_t *editor, uint8_t result)
 void editor_run(editor_t *editor)
 {
     editor->asked = 0;
+    editor->broken_off = false;
     editor->screen.lead = true;
     the_session.spare = performer_spare(&the_performer);
     go_on(editor, commands_numbers(editor) ? shell_run(commands_table_P, commands_count, editor, &editor->args)

@@ -56,6 +56,7 @@ typedef struct editor {
     uint8_t cid;                   /* the monitor's current ID */
     uint8_t balance_ticks;
     bool faults_due;               /* something befell a servo: the row says it when the line has room */
+    bool broken_off;               /* a servo's fault has ended the last play: the row says so until the next line is run */
     bool after_cr;                 /* the last byte was CR: a LF now belongs to it */
     uint16_t quiet_since;          /* tick of the last byte */
     shell_args_t args;             /* of the line being run */

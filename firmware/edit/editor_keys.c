@@ -84,7 +84,7 @@ static void table_key(editor_t *editor, uint8_t key)
         open_line(editor, key);
         return;
     }
-    if (editor->robot.failed != 0) {
+    if (editor->robot.failed) {
         editor_message_begin(editor);
         editor_tell_failed(editor);
         editor_message_end(editor);

@@ -8,12 +8,18 @@
 
 enum { WAY_PER_SPEED = 4 };
 
+static void fail(robot_t *robot, uint8_t joint)
+{
+    robot->failed = true;
+    servo_link_lost(&the_servos, joint);
+}
+
 /* A word of the servo as a page position. */
 static bool read_pos(robot_t *robot, uint8_t joint, uint8_t at, uint16_t *pos)
 {
     uint8_t bytes[2];
     if (bus_call_read(joint, at, bytes, sizeof bytes, NULL) != BUS_OK) {
-        servo_link_put(&robot->failed, joint, true);
+        fail(robot, joint);
         return false;
     }
     uint16_t word = (uint16_t)(bytes[0] | (uint16_t)bytes[1] << 8);
@@ -72,7 +78,7 @@ void robot_set_trim(robot_t *robot)
 
 void robot_init(robot_t *robot)
 {
-    robot->failed = 0;
+    robot->failed = false;
     robot_set_trim(robot);
 }
 
@@ -86,7 +92,7 @@ static void write_goal(robot_t *robot, uint8_t joint, uint16_t present, uint16_t
     }
     uint8_t bytes[4] = { (uint8_t)goal, (uint8_t)(goal >> 8), (uint8_t)speed, (uint8_t)(speed >> 8) };
     if (bus_call_write(joint, DXL_AT_GOAL, bytes, sizeof bytes, NULL) != BUS_OK) {
-        servo_link_put(&robot->failed, joint, true);
+        fail(robot, joint);
     }
 }
 
@@ -133,7 +139,7 @@ void robot_on(robot_t *robot, uint32_t joints)
     }
     servo_link_quiet(&the_servos);
     uint32_t on = performer_on(&the_performer, wanted);
-    robot->failed |= wanted & ~on;
+    robot->failed |= on != wanted;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         if (servo_link_has(&on, joint)) {
             session_set_pose(&the_session, joint, the_servos.present_pos[joint] & PAGE_POS_MAX);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * robot.h - the work pose and the servos: what is read from them and sent to them one by one while nothing plays.
  * Joint numbers are servo IDs 0..30, positions are page coordinates (trim is added here). Knows no command and no
- * screen. Main loop only; every call may block 1 to 4 ms a servo. RAM: 5 bytes. */
+ * screen. Main loop only; every call may block 1 to 4 ms a servo. RAM: 2 bytes. */
 #ifndef ROBOT_H
 #define ROBOT_H
 
@@ -16,7 +16,7 @@
 
 typedef struct {
     bool raw;             /* page 0 is open: no trim */
-    uint32_t failed;      /* joints that did not answer since robot_clear_failed */
+    bool failed;          /* a joint did not answer: it is among the_servos.silent now, and the row is to say so */
 } robot_t;
 
 /* Reads trim and all joints that answered the last search. */

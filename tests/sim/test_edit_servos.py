@@ -230,6 +230,46 @@ def test_fault_that_ends_a_play_is_named_behind_its_end():
         assert r.message.strip() == "Ended: a servo failed. Hot: ID 4"
 
 
+def test_end_of_a_play_is_still_told_when_one_more_servo_fails():
+    with start() as r:
+        r.keys("play 8\r", ms=2500)
+        r.board.servos[4].fault("overheating")
+        r.settle(1500)
+        r.board.servos[9].fault("silent")
+        r.settle(1000)
+        assert r.message.strip() == "Ended: a servo failed. Hot: ID 4 No answer: ID 9"
+        r.board.servos[4].clear()
+        r.board.servos[9].clear()
+        r.line("on 4")
+        r.settle(1000)
+        r.board.servos[9].fault("silent")
+        r.settle(1000)
+        assert r.message.strip() == "No answer: ID 9"
+
+
+def test_servo_whose_silence_ends_a_play_is_named_once():
+    with start() as r:
+        r.keys("play 8\r", ms=2500)
+        r.board.servos[4].fault("silent")
+        r.settle(1500)
+        assert r.message.strip() == "Ended: a servo failed. No answer: ID 4"
+        r.board.servos[4].clear()
+        r.settle(1000)
+        assert r.message.strip() == "Ended: a servo failed. All servos are well"
+
+
+def test_servo_that_fails_a_command_is_told_when_it_answers_again():
+    with start() as r:
+        r.board.servos[3].fault("silent", times=3)
+        r.board.send("on 3\r")
+        rows = []
+        for _ in range(200):
+            r.board.run(ms=5)
+            r.pump()
+            rows += [r.message.strip()] * (rows[-1:] != [r.message.strip()])
+        assert rows.index("on 3 No answer: ID 3") < rows.index("All servos are well") == len(rows) - 1, rows
+
+
 def test_page_0_computes_the_trim():
     with start() as r:
         r.line("page 0")

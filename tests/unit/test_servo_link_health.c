@@ -64,6 +64,42 @@ static void test_third_lost_answer_in_a_row_is_a_fault(void)
     TEST_ASSERT_EQUAL(SERVO_FAULT_SILENT, fault.kind);
 }
 
+static void test_joint_that_does_not_tell_its_pose_is_silent_until_it_is_heard(void)
+{
+    servo_fault_t fault;
+    robot(3);
+    fake_bus_servo(2)->faults = FAKE_BUS_SILENT;
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1) | SERVO_LINK_BIT(3), servo_link_read_pose(&servos, SERVO_LINK_ALL));
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servos.silent);
+    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));   /* who asked knows */
+    fake_bus_servo(2)->faults = 0;
+    idle_ticks(3);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(2, fault.id);
+    TEST_ASSERT_EQUAL(SERVO_FAULT_BACK, fault.kind);
+    TEST_ASSERT_EQUAL_HEX32(0, servos.silent);
+}
+
+static void test_joint_lost_while_it_is_asked_again_does_not_keep_the_others_waiting(void)
+{
+    const uint8_t *packet = NULL;
+    bool asked[4] = { false };
+    robot(3);
+    fake_bus_servo(2)->faults = FAKE_BUS_SILENT;
+    do {
+        fake_bus_clear_log();
+        idle_ticks(1);
+    } while (logged(DXL_READ, &packet) != 1 || packet[2] != 2);
+    servo_link_lost(&servos, 2);
+    for (uint8_t tick = 0; tick < 3; tick++) {
+        fake_bus_clear_log();
+        idle_ticks(1);
+        TEST_ASSERT_EQUAL(1, logged(DXL_READ, &packet));
+        asked[packet[2]] = true;
+    }
+    TEST_ASSERT_TRUE(asked[1] && asked[3]);
+}
+
 /* It may have lost its power meanwhile. */
 static void test_servo_that_is_back_gets_its_slopes_again(void)
 {
@@ -173,6 +209,8 @@ int main(void)
     RUN_TEST(test_silent_servo_is_named_once_within_a_second_and_when_it_is_back);
     RUN_TEST(test_two_lost_answers_are_no_fault);
     RUN_TEST(test_third_lost_answer_in_a_row_is_a_fault);
+    RUN_TEST(test_joint_that_does_not_tell_its_pose_is_silent_until_it_is_heard);
+    RUN_TEST(test_joint_lost_while_it_is_asked_again_does_not_keep_the_others_waiting);
     RUN_TEST(test_servo_that_is_back_gets_its_slopes_again);
     RUN_TEST(test_servo_with_wrong_checksums_counts_as_silent);
     RUN_TEST(test_errors_are_named_when_they_come_when_they_go_and_when_they_come_again);
