@@ -52,6 +52,22 @@ RARE static void prime(player_t *player, link_t *link)
     }
 }
 
+/* Behind a section's first tick. An empty section has none: it uses up a call without output. */
+static uint8_t begun(player_t *player, uint8_t events)
+{
+    if (player->section_ticks == 0) {
+        return events;
+    }
+    player->tick = 1;
+    return (uint8_t)(events | PLAYER_EV_OUTPUT);
+}
+
+/* The way that a joint makes in the first tick of a ramp, in which its speed changes by so much. */
+static inline int16_t first_rise_way(int16_t speed, int16_t change)
+{
+    return first_ramp_way((int16_t)(speed + (change >> 1)));
+}
+
 static void enter_step(player_t *player)
 {
     player->step_ticks = player->coming_ticks;
@@ -62,117 +78,81 @@ static void enter_step(player_t *player)
     enter(player, SECTION_RISE, player->ramp_ticks);
 }
 
-/* A RISE of one tick, made at once: what spread and make_rise would do. */
-RARE static void rise_at_once(player_t *player)
-{
-    ramp_share_t share = ramp_share(1);
-    uint16_t *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int16_t carried = joint->classic.carried, change = (int16_t)(joint->classic.speed - carried);
-        joint->classic.value = change;
-        int16_t acc = ramp_way((int16_t)(carried + (change >> 1)), share);
-        joint->classic.acc = acc;
-        *goal = (uint16_t)limit_pos((int16_t)((int16_t)*goal + acc));
-        goal++;
-    }
-    player->tick = 1;
-}
+/* --- a section begins: what it needs of each joint is set up, and its first tick made, in one loop ------------------ */
 
-/* The tick after: every joint begins on its target with its speed known. */
+/* Every joint begins on its target with its speed known. */
 RARE static uint8_t begin_step(player_t *player)
 {
     enter_step(player);
     uint8_t ramp = player->ramp_ticks, events = player_announce(player);
-    uint16_t recip16 = ramp == 0 ? 0 : fix_recip16(ramp), *goal = player->goal_pos;
+    spread_t over = spread_over(ramp);
+    uint16_t *goal = player->goal_pos;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         uint16_t from = joint->target_pos, to = joint->coming_pos;
-        int16_t speed = joint->classic.through ? joint->through_speed : joint->stop_speed;
-        *goal++ = from;
+        int16_t speed = joint->classic.through ? joint->through_speed : joint->stop_speed, acc = 0;
         joint->target_pos = to;
         joint->classic.base = (int16_t)from;
         joint->classic.main = (int16_t)(to - from);
-        joint->classic.acc = 0;
         joint->classic.speed = speed;
-        if (ramp > 1) {
-            spread(joint, (int16_t)(speed - joint->classic.carried), ramp, recip16);
+        if (ramp != 0) {
+            int16_t carried = joint->classic.carried;
+            acc = first_rise_way(carried, first_share(joint, (int16_t)(speed - carried), over));
         }
+        joint->classic.acc = acc;
+        *goal++ = (uint16_t)limit_pos((int16_t)((int16_t)from + acc));
     }
-    if (ramp == 1) {
-        rise_at_once(player);
-        events |= PLAYER_EV_OUTPUT;
-    }
-    return events;
+    return begun(player, events);
 }
 
-RARE static void begin_cruise(player_t *player)
+RARE static uint8_t begin_cruise(player_t *player)
 {
     uint8_t ramp = player->ramp_ticks;
     uint16_t ticks = player->step_ticks, cruise = (uint16_t)(ticks - 2u * ramp), rest = (uint16_t)(ticks - ramp);
-    uint16_t thrice_ramp = (uint16_t)(3u * ramp);
-    uint16_t share = rest == 0 ? 0 : fix_ratio(cruise, rest), recip16 = cruise == 0 ? 0 : fix_recip16(cruise);
-    const uint16_t *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int16_t way = (int16_t)(joint->classic.main - joint->classic.acc), cruise_way;
-        if (joint->classic.through) {
-            cruise_way = share_of(way, cruise, rest, share);
-        } else {
-            cruise_way = (int16_t)(way - fall_way(joint->classic.speed, thrice_ramp));
-        }
-        joint->classic.main = cruise_way;
-        joint->classic.acc = (int16_t)(way - cruise_way);
-        joint->classic.base = (int16_t)*goal++;
-        if (cruise != 0) {
-            spread(joint, cruise_way, cruise, recip16);
-        }
-    }
     enter(player, SECTION_CRUISE, cruise);
-}
-
-/* A FALL of one tick, made at once: what begin_fall and make_fall would do. */
-static void fall_at_once(player_t *player)
-{
-    ramp_share_t share = ramp_share(1);
-    uint16_t *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int16_t way = joint->classic.acc;
-        if (joint->classic.through) {
-            joint->classic.quotient = way;
-            joint->classic.remainder = 0;
-        } else {
-            int16_t speed = joint->classic.speed;
-            joint->classic.carried = speed;
-            joint->classic.value = (int16_t)-speed;
-            way = ramp_way((int16_t)(speed + ((int16_t)-speed >> 1)), share);
-        }
-        *goal = (uint16_t)limit_pos((int16_t)((int16_t)*goal + way));
-        goal++;
+    if (cruise == 0) {
+        return 0;
     }
-    player->tick = 1;
+    spread_t over = spread_over(cruise);
+    uint16_t share = fix_ratio(cruise, rest), *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        int16_t way = (int16_t)(joint->classic.main - joint->classic.acc), fall;
+        if (joint->classic.through) {
+            fall = (int16_t)(way - share_of(way, cruise, rest, share));
+        } else {
+            fall = fall_way(joint->classic.speed, ramp);
+        }
+        joint->classic.acc = fall;
+        int16_t base = (int16_t)*goal, first = first_share(joint, (int16_t)(way - fall), over);
+        joint->classic.base = base;
+        *goal++ = (uint16_t)limit_pos((int16_t)(base + first));
+    }
+    return begun(player, 0);
 }
 
-RARE static void begin_fall(player_t *player)
+RARE static uint8_t begin_fall(player_t *player)
 {
     uint8_t ramp = player->ramp_ticks;
     enter(player, SECTION_FALL, ramp);
-    if (ramp == 1) {
-        fall_at_once(player);
-        return;
+    if (ramp == 0) {
+        return 0;
     }
-    uint16_t recip16 = ramp == 0 ? 0 : fix_recip16(ramp);
-    const uint16_t *goal = player->goal_pos;
-    player_joint_t *joint = player->joint;
-    for (; ramp != 0 && joint < &player->joint[PAGE_JOINTS]; joint++) {
-        joint->classic.base = (int16_t)*goal++;
-        int16_t rest = joint->classic.acc; /* of the way */
-        if (joint->classic.through) {
-            joint->classic.main = rest;
-        } else {
-            joint->classic.carried = joint->classic.speed;
-            rest = (int16_t)-joint->classic.speed; /* of the speed */
+    spread_t over = spread_over(ramp);
+    uint16_t *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        int16_t base = (int16_t)*goal, speed = joint->classic.speed, way = joint->classic.acc;
+        bool through = joint->classic.through;
+        int16_t first = first_share(joint, through ? way : (int16_t)-speed, over);
+        if (!through) {
+            joint->classic.carried = speed;
+            first = first_rise_way(speed, first);
         }
-        spread(joint, rest, ramp, recip16);
+        joint->classic.base = base;
+        *goal++ = (uint16_t)limit_pos((int16_t)(base + first));
     }
+    return begun(player, 0);
 }
+
+/* --- the other ticks of a section ----------------------------------------------------------------------------------- */
 
 /* Way since the section began, of a joint whose speed changes. */
 static inline int16_t ramp_acc(player_joint_t *joint, ramp_share_t share, uint16_t num)
@@ -240,26 +220,20 @@ static void make_goals(player_t *player)
 RARE static uint8_t end_play(player_t *player)
 {
     uint16_t num = player->section_ticks;
-    bool has_tick = num != 0;
-    speed_left_t left = classic_left(player);
-    uint16_t recip16 = has_tick ? fix_recip16(num) : 0;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player_joint_t *joint = &player->joint[i];
-        int16_t speed = joint->classic.speed, carried = classic_speed_left(left, joint);
-        joint->classic.base = (int16_t)player->goal_pos[i];
-        joint->classic.carried = carried;
-        if (has_tick) {
-            spread(joint, (int16_t)(speed - carried), num, recip16);
-        }
-    }
     uint8_t events = player_end(player);
-    if (has_tick) {
-        player->section = SECTION_RISE;
-        player->tick = 1;
-        make_goals(player);
-        events |= PLAYER_EV_OUTPUT;
+    if (num == 0) {
+        return events;
     }
-    return events;
+    speed_left_t left = classic_left(player);
+    spread_t over = spread_over(num);
+    uint16_t *goal = player->goal_pos;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        int16_t carried = classic_speed_left(left, joint);
+        int16_t change = first_share(joint, (int16_t)(joint->classic.speed - carried), over);
+        *goal = (uint16_t)limit_pos((int16_t)((int16_t)*goal + first_rise_way(carried, change)));
+        goal++;
+    }
+    return events | PLAYER_EV_OUTPUT;
 }
 
 /* The running section is used up. */
@@ -267,14 +241,13 @@ static uint8_t next_section(player_t *player, link_t *link)
 {
     switch (player->section) {
     case SECTION_RISE:
-        begin_cruise(player);
-        return 0;
+        return begin_cruise(player);
     case SECTION_CRUISE:
-        begin_fall(player);
-        return player->tick != 0 ? PLAYER_EV_OUTPUT : 0;
+        return begin_fall(player);
     case SECTION_FALL:
         if (player->hold_ticks != 0) {
             enter(player, SECTION_HOLD, player->hold_ticks);
+            player->tick = 1;
             return 0;
         }
         break;
@@ -327,12 +300,11 @@ uint8_t classic_tick(player_t *player, link_t *link)
         if ((events & PLAYER_EV_ENDED) != 0) {
             return events;
         }
-    }
-    if (player->tick < player->section_ticks) {
+    } else {
         player->tick++;
         if (player->section != SECTION_HOLD) {
             make_goals(player);
-            events |= PLAYER_EV_OUTPUT;
+            events = PLAYER_EV_OUTPUT;
         }
     }
     if (change && player->step_ticks > 3) {
@@ -372,6 +344,9 @@ static int32_t speed_now(const player_t *player, const player_joint_t *joint, ui
     }
     if (player->section == SECTION_RISE || (player->section == SECTION_FALL && !joint->classic.through)) {
         return (int32_t)(joint->classic.carried + joint->classic.value) * SPEED_UNIT_Q16_16;
+    }
+    if (player->section_ticks == 1) {
+        return (int32_t)((uint32_t)joint->classic.value << FIX_POS_BITS);
     }
     return (int32_t)((uint32_t)joint->classic.quotient << FIX_POS_BITS) +
            (int32_t)fix_mean(joint->classic.remainder, recip32);

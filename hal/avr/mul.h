@@ -31,6 +31,64 @@ static inline uint16_t mul_u16_high(uint16_t a, uint16_t b)
     return high;
 }
 
+/* (a * b) >> 8 of a 16-bit product, whose upper bits are lost. gcc 5.4 shifts and adds, for 14 cycles instead of 8. */
+static inline uint8_t mul_u16_u8_shift8(uint16_t a, uint8_t b)
+{
+    uint8_t high;
+    __asm__("mul %A[a], %[b] \n\t"
+            "mov %[high], r1 \n\t"
+            "mul %B[a], %[b] \n\t"
+            "add %[high], r0 \n\t"
+            "clr r1 \n\t"
+            : [high] "=&r"(high)
+            : [a] "r"(a), [b] "r"(b));
+    return high;
+}
+
+/* (a * b) >> 8. */
+static inline uint8_t mul_u8_high(uint8_t a, uint8_t b)
+{
+    uint8_t high;
+    __asm__("mul %[a], %[b] \n\t"
+            "mov %[high], r1 \n\t"
+            "clr r1 \n\t"
+            : [high] "=r"(high)
+            : [a] "r"(a), [b] "r"(b));
+    return high;
+}
+
+/* (a * b) >> 16 of a product below 2^40, of which 24 bits are returned; b below 2^24. */
+static inline uint32_t mul_u16_u24_shift16(uint16_t a, uint32_t b)
+{
+    uint32_t high;
+    uint8_t carry;
+    __asm__("clr %C[high] \n\t"
+            "clr %D[high] \n\t"
+            "mul %A[a], %A[b] \n\t"
+            "mov %[carry], r1 \n\t"
+            "mul %B[a], %B[b] \n\t"
+            "movw %A[high], r0 \n\t"
+            "mul %A[a], %B[b] \n\t"
+            "add %[carry], r0 \n\t"
+            "adc %A[high], r1 \n\t"
+            "adc %B[high], %D[high] \n\t"
+            "mul %B[a], %A[b] \n\t"
+            "add %[carry], r0 \n\t"
+            "adc %A[high], r1 \n\t"
+            "adc %B[high], %D[high] \n\t"
+            "mul %A[a], %C[b] \n\t"
+            "add %A[high], r0 \n\t"
+            "adc %B[high], r1 \n\t"
+            "adc %C[high], %D[high] \n\t"
+            "mul %B[a], %C[b] \n\t"
+            "add %B[high], r0 \n\t"
+            "adc %C[high], r1 \n\t"
+            "clr r1 \n\t"
+            : [high] "=&r"(high), [carry] "=&r"(carry)
+            : [a] "r"(a), [b] "r"(b));
+    return high;
+}
+
 /* a * b, all 32 bits. */
 static inline uint32_t mul_u16_u16(uint16_t a, uint16_t b)
 {
