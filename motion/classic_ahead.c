@@ -22,32 +22,25 @@ typedef struct {
 
 /* int16(size / divisor), then limited: not negative, or -SPEED_MAX when the quotient wraps before it is limited.
  * size: below 2^20. */
-static int16_t NOINLINE divide_speed(uint32_t size, const divider_t *by)
+static inline int16_t divide_speed(uint32_t size, const divider_t *by)
 {
     uint16_t upper = (uint16_t)(size >> 8), divisor = by->divisor;
     if (upper >> 2 >= divisor) { /* the quotient is 1024 or more */
         return upper >> 7 >= divisor ? -SPEED_MAX : SPEED_MAX;
     }
-    uint32_t product = mul_u32_u16_shift16(by->recip, (uint16_t)size);
-    uint8_t above = (uint8_t)(size >> 16);
-    if (above != 0) { /* then recip is below 2^26 */
-        product += mul_u16_u16((uint16_t)by->recip, above) +
-                   ((uint32_t)(uint16_t)((uint16_t)(by->recip >> 16) * above) << 16);
-    }
-    uint16_t quotient = (uint16_t)(product >> 16);
+    uint16_t quotient = mul_u24_u32_shift32(size, by->recip);
     if (divisor >= EXACT_BELOW) {
         if (mul_u16_u16(quotient, divisor) > size) {
             quotient--;
         }
     }
-    return quotient > SPEED_MAX ? SPEED_MAX : (int16_t)quotient;
+    return (int16_t)quotient;
 }
 
-/* K = M * 2560 / 12 = M * 640 / 3 = M * 213 + M / 3, of a way 0..1023. */
+/* K = M * 2560 / 12 = M * 640 / 3, of a way 0..1023: 640 / 3 * 2^16 rounded up is less than 1 / 1023 of a third too much. */
 static inline uint32_t way_in_speed_units(uint16_t size)
 {
-    uint16_t low = (uint16_t)((uint8_t)size * 213u), high = (uint16_t)((uint8_t)(size >> 8) * 213u);
-    return low + ((uint32_t)high << 8) + mul_u16_high(size, 21846u);
+    return mul_u16_u24_shift16(size, 13981014u);
 }
 
 static uint16_t stop_divisor(const player_t *player)
@@ -82,27 +75,43 @@ speed_left_t classic_left(const player_t *player)
     return player->ramp_ticks == 0 ? LEFT_SPEED : LEFT_IF_THROUGH;
 }
 
-/* Which of its two speeds a joint will need. */
-typedef enum { NEEDS_STOP, NEEDS_THROUGH, NEEDS_EITHER } needs_t;
-
-static inline void prepare_joint(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, needs_t needs,
-                                 const divider_t *stop, const divider_t *through)
+/* K - w * 2A as a size, and whether it is negative. */
+static inline uint32_t way_to_divide(const player_joint_t *joint, int16_t carried, uint16_t twice_ramp, bool *negative)
 {
     int16_t way = (int16_t)(joint->coming_pos - joint->target_pos);
-    bool negative = way < 0;
     uint32_t size = way_in_speed_units(fix_size(way));
+    bool down = way < 0;
     if (carried != 0) {
         uint32_t taken = mul_u16_u16(fix_size(carried), twice_ramp);
-        int32_t num = (int32_t)((negative ? 0 - size : size) - (carried < 0 ? 0 - taken : taken));
-        negative = num < 0;
-        size = (uint32_t)(negative ? -num : num);
+        size = (carried < 0) == down ? size - taken : size + taken;
+        if ((int32_t)size < 0) {
+            size = 0 - size;
+            down = !down;
+        }
     }
-    int16_t speed = divide_speed(size, needs == NEEDS_THROUGH ? through : stop);
-    joint->stop_speed = joint->through_speed = negative ? (int16_t)-speed : speed;
-    if (needs == NEEDS_EITHER) {
-        speed = divide_speed(size, through);
-        joint->through_speed = negative ? (int16_t)-speed : speed;
-    }
+    *negative = down;
+    return size;
+}
+
+/* Of a joint whose way in the step behind the coming one is known, through_speed says whether it runs through, and stop_speed
+ * is the one speed that it then needs. Of the others they are what their names say. */
+static inline void prepare_known(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, bool through, const divider_t *by)
+{
+    bool negative;
+    uint32_t size = way_to_divide(joint, carried, twice_ramp, &negative);
+    int16_t speed = divide_speed(size, by);
+    joint->stop_speed = negative ? (int16_t)-speed : speed;
+    joint->through_speed = through;
+}
+
+static inline void prepare_both(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, const divider_t by[2])
+{
+    bool negative;
+    uint32_t size = way_to_divide(joint, carried, twice_ramp, &negative);
+    int16_t speed = divide_speed(size, &by[0]);
+    joint->stop_speed = negative ? (int16_t)-speed : speed;
+    speed = divide_speed(size, &by[1]);
+    joint->through_speed = negative ? (int16_t)-speed : speed;
 }
 
 static inline void take_targets(player_t *player, const uint8_t *word)
@@ -135,8 +144,38 @@ RARE static void look_at_coming(player_t *player)
     take_targets(player, step);
 }
 
+/* The step behind the coming one is of the same page: where the joints go on to is settled. */
+bool classic_knows_behind(const player_t *player)
+{
+    return player->coming.step < player->coming.steps;
+}
+
 /* Goes on making the coming step ready: looks at it, or does up to `count` more joints. player->prepared counts both. */
 #define PREPARED_ALL (1u + PAGE_JOINTS)
+#define AT_ONCE 16u
+
+static RARE void prepare_joints(player_t *player, uint8_t first, uint8_t count)
+{
+    divider_t by[2] = {{stop_divisor(player), player->coming_recip}, {through_divisor(player), player->through_recip}};
+    uint16_t twice_ramp = (uint16_t)(2 * player->coming_ramp_ticks);
+    speed_left_t carry = player_is_in_law(player) ? classic_left(player) : LEFT_NONE;
+    player_joint_t *joint = &player->joint[first];
+    if (!classic_knows_behind(player)) {
+        for (; count != 0; count--, joint++) {
+            prepare_both(joint, classic_speed_left(carry, joint), twice_ramp, by);
+        }
+        return;
+    }
+    uint8_t words[2 * AT_ONCE], *at = words;
+    player->source->read(player->source->context, player->coming.page,
+                         (uint16_t)(PAGE_STEP_BYTES * (player->coming.step + 1u) + 2u * first), words, (uint8_t)(2u * count));
+    bool may_run_on = step_plan_classic_hold(&player->coming) == 0;
+    for (; count != 0; count--, joint++, at += 2) {
+        bool through = may_run_on && classic_runs_on(joint, page_word(at));
+        prepare_known(joint, classic_speed_left(carry, joint), twice_ramp, through, through ? &by[1] : &by[0]);
+    }
+}
+
 void classic_prepare(player_t *player, uint8_t count)
 {
     if (player->coming.page == 0 || player->prepared >= PREPARED_ALL) {
@@ -147,32 +186,15 @@ void classic_prepare(player_t *player, uint8_t count)
         player->prepared = 1;
         return;
     }
-    divider_t stop = {stop_divisor(player), player->coming_recip};
-    divider_t through = {through_divisor(player), player->through_recip};
-    uint16_t twice_ramp = (uint16_t)(2 * player->coming_ramp_ticks);
-    speed_left_t carry = player_is_in_law(player) ? classic_left(player) : LEFT_NONE;
-    uint8_t left = (uint8_t)(PREPARED_ALL - player->prepared);
+    uint8_t first = (uint8_t)(player->prepared - 1), left = (uint8_t)(PAGE_JOINTS - first);
     if (count > left) {
         count = left;
     }
-    uint8_t first = (uint8_t)(player->prepared - 1);
-    player_joint_t *joint = &player->joint[first];
+    if (count > AT_ONCE) {
+        count = AT_ONCE;
+    }
     player->prepared = (uint8_t)(player->prepared + count);
-    uint8_t words[PAGE_STEP_BYTES], *at = words;
-    bool known = player->coming.step < player->coming.steps;
-    if (known) { /* not the last step of its page: where it goes on to is settled */
-        player->source->read(player->source->context, player->coming.page,
-                             (uint16_t)(PAGE_STEP_BYTES * (player->coming.step + 1u) + 2u * first), words,
-                             (uint8_t)(2u * count));
-    }
-    bool may_run_on = known && step_plan_classic_hold(&player->coming) == 0;
-    for (; count != 0; count--, joint++, at += 2) {
-        needs_t needs = known ? NEEDS_STOP : NEEDS_EITHER;
-        if (may_run_on && classic_runs_on(joint, page_word(at))) {
-            needs = NEEDS_THROUGH;
-        }
-        prepare_joint(joint, classic_speed_left(carry, joint), twice_ramp, needs, &stop, &through);
-    }
+    prepare_joints(player, first, count);
 }
 
 void classic_prepare_all(player_t *player)

@@ -25,9 +25,10 @@ enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
  * before the running step ends, so that the ticks in which a step ends and the next one begins have less to do: the link
  * is decided with the code that is in force two or three ticks (20 ms) before the page's last step begins.
  * step: receives the 64 bytes of the step to look at for joints that run through (classic: of the page that the link
- * names; exact: of the step that will really be played). Valid when player_looks_ahead.
+ * names; exact: of the step that will really be played), those from byte `from` on: 0, or PAGE_STEP_AT_PAUSE where the words
+ * have been looked at before. Valid when player_looks_ahead.
  * Call only while player->coming.page is not 0. */
-void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES]);
+void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES], uint8_t from);
 
 /* The 64 bytes of the coming step once more. */
 void player_read_coming(const player_t *player, uint8_t step[PAGE_STEP_BYTES]);
@@ -83,6 +84,7 @@ bool exact_rest_tick(player_t *player);
  * step begins. */
 void classic_prepare(player_t *player, uint8_t count);
 void classic_prepare_all(player_t *player);
+bool classic_knows_behind(const player_t *player);
 uint8_t classic_joints_a_tick(uint16_t ticks);
 uint8_t classic_joints_now(const player_t *player, bool change, bool begins);
 

@@ -32,24 +32,40 @@ static void enter(player_t *player, uint8_t section, uint16_t ticks)
     player->tick = 0;
 }
 
-/* Behind the last tick of a step: the link of a page's last step is decided, and with it which joints run through.
- * Between two steps (primed) a joint has in carried and through what belongs to the step to begin, which leads from
+/* Between two steps (primed) a joint has in carried, through and speed what belongs to the step to begin, which leads from
  * target_pos to coming_pos. */
+RARE static void prime_known(player_t *player, speed_left_t left)
+{
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        joint->classic.carried = classic_speed_left(left, joint);
+        joint->classic.speed = joint->stop_speed;
+        joint->classic.through = (uint8_t)joint->through_speed;
+    }
+}
+
+/* The link has been decided. step: the step that it leads to, when the player looks ahead. */
+RARE static void prime_decided(player_t *player, speed_left_t left, const uint8_t *step)
+{
+    bool may_run_on = player_looks_ahead(player) && step_plan_classic_hold(&player->now) == 0;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, step += 2) {
+        bool through = may_run_on && classic_runs_on(joint, page_word(step));
+        joint->classic.carried = classic_speed_left(left, joint);
+        joint->classic.speed = through ? joint->through_speed : joint->stop_speed;
+        joint->classic.through = through;
+    }
+}
+
+/* Behind the last tick of a step: the link of a page's last step is decided, and with it which joints run through. */
 RARE static void prime(player_t *player, link_t *link)
 {
     uint8_t step[PAGE_STEP_BYTES];
     classic_prepare_all(player);
+    bool known = classic_knows_behind(player);
     player->joints |= player->coming_joints;
-    player_next_step(player, link, step);
+    player_next_step(player, link, step, known ? PAGE_STEP_AT_PAUSE : 0);
     player->primed = true;
-    bool may_run_on = player_looks_ahead(player) && step_plan_classic_hold(&player->now) == 0;
     speed_left_t left = classic_left(player);
-    const uint8_t *at = step;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, at += 2) {
-        uint16_t word = page_word(at);
-        joint->classic.carried = classic_speed_left(left, joint);
-        joint->classic.through = may_run_on && classic_runs_on(joint, word);
-    }
+    known ? prime_known(player, left) : prime_decided(player, left, step);
 }
 
 /* Behind a section's first tick. An empty section has none: it uses up a call without output. */
@@ -89,11 +105,10 @@ RARE static uint8_t begin_step(player_t *player)
     uint16_t *goal = player->goal_pos;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         uint16_t from = joint->target_pos, to = joint->coming_pos;
-        int16_t speed = joint->classic.through ? joint->through_speed : joint->stop_speed, acc = 0;
+        int16_t speed = joint->classic.speed, acc = 0;
         joint->target_pos = to;
         joint->classic.base = (int16_t)from;
         joint->classic.main = (int16_t)(to - from);
-        joint->classic.speed = speed;
         if (ramp != 0) {
             int16_t carried = joint->classic.carried;
             acc = first_rise_way(carried, first_share(joint, (int16_t)(speed - carried), over));

@@ -186,7 +186,7 @@ static void measure_coming(player_t *player, const uint8_t step[PAGE_STEP_BYTES]
 RARE static void look(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES])
 {
     player->next_ticks = player->coming_ticks;
-    player_next_step(player, link, step);
+    player_next_step(player, link, step, 0);
     player->next_hold_ticks = step_plan_exact_hold(&player->now, &player->carry_q5_11);
     if (player_looks_ahead(player)) {
         measure_coming(player, step);

@@ -60,9 +60,11 @@ static void read_links(const page_source_t *source, uint8_t page, uint8_t header
                  HEADER_BYTES - PAGE_AT_NEXT_PAGE);
 }
 
-static void read_step(const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES])
+/* The bytes of a step from `from` on, to their places. */
+static void read_step(const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES], uint8_t from)
 {
-    source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), bytes, PAGE_STEP_BYTES);
+    source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step + from), &bytes[from],
+                 (uint8_t)(PAGE_STEP_BYTES - from));
 }
 
 /* --- which page and step comes ----------------------------------------------------------------------------------- */
@@ -146,9 +148,9 @@ static uint8_t decide(player_t *player, link_t *link)
     return PLAYER_EV_LINK;
 }
 
-static void read_coming(player_t *player, uint8_t bytes[PAGE_STEP_BYTES])
+static void read_coming(player_t *player, uint8_t bytes[PAGE_STEP_BYTES], uint8_t from)
 {
-    player_read_coming(player, bytes);
+    read_step(player->source, player->coming.page, player->coming.step, bytes, from);
     player->coming.pause = bytes[PAGE_STEP_AT_PAUSE];
     player->coming.time = bytes[PAGE_STEP_AT_SPEED];
 }
@@ -158,7 +160,7 @@ bool player_looks_ahead(const player_t *player)
     return player->look_page != 0;
 }
 
-void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES])
+void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES], uint8_t from)
 {
     uint8_t events = PLAYER_EV_STEP;
     player->now = player->coming;
@@ -174,10 +176,10 @@ void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYT
     }
     player->held_events = events;
     if (player->coming.page != 0) {
-        read_coming(player, step);
+        read_coming(player, step, from);
     }
     if (player->law == PLAYER_LAW_CLASSIC && player->look_page != player->coming.page && player->look_page != 0) {
-        read_step(player->source, player->look_page, 1, step);
+        read_step(player->source, player->look_page, 1, step, 0);
     } else {
         player->look_page = player->coming.page;
     }
@@ -198,7 +200,7 @@ uint8_t player_announce(player_t *player)
 
 void player_read_coming(const player_t *player, uint8_t step[PAGE_STEP_BYTES])
 {
-    read_step(player->source, player->coming.page, player->coming.step, step);
+    read_step(player->source, player->coming.page, player->coming.step, step, 0);
 }
 
 bool player_is_in_law(const player_t *player)
@@ -245,7 +247,7 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
         return player->fault == PAGE_OK || player->fault == PAGE_EMPTY ? PLAYER_ERR_EMPTY : PLAYER_ERR_PAGE;
     }
     take_header(player, page, bytes);
-    read_coming(player, bytes);
+    read_coming(player, bytes, 0);
     stand_at(player, pose_pos, present);
     player->law = (uint8_t)law;
     player->page = page;
@@ -266,7 +268,7 @@ uint32_t player_first_pose(const page_source_t *source, uint8_t page, uint16_t p
 {
     uint8_t bytes[PAGE_STEP_BYTES];
     uint32_t joints = 0;
-    read_step(source, page, 1, bytes);
+    read_step(source, page, 1, bytes, 0);
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         uint16_t word = page_word(&bytes[2 * i]);
         if (page_pos_is_used(word)) {

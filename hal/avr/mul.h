@@ -156,6 +156,65 @@ static inline uint32_t mul_u32_u16_shift16(uint32_t a, uint16_t b)
     return high;
 }
 
+/* (a * b) >> 32, 16 bits of it; a below 2^24. */
+static inline uint16_t mul_u24_u32_shift32(uint32_t a, uint32_t b)
+{
+    uint16_t high;
+    uint8_t low, mid, top, zero;
+    /* low, mid, top: bytes 1 to 3 of the sum. Each adds what carries into the bytes above. */
+    __asm__("clr %[zero] \n\t"
+            "mul %A[a], %A[b] \n\t"
+            "mov %[low], r1 \n\t"
+            "mul %B[a], %B[b] \n\t"
+            "mov %[mid], r0 \n\t"
+            "mov %[top], r1 \n\t"
+            "mul %B[a], %D[b] \n\t"
+            "movw %A[high], r0 \n\t"
+            "mul %A[a], %B[b] \n\t"
+            "add %[low], r0 \n\t"
+            "adc %[mid], r1 \n\t"
+            "adc %[top], %[zero] \n\t"
+            "adc %A[high], %[zero] \n\t"
+            "adc %B[high], %[zero] \n\t"
+            "mul %B[a], %A[b] \n\t"
+            "add %[low], r0 \n\t"
+            "adc %[mid], r1 \n\t"
+            "adc %[top], %[zero] \n\t"
+            "adc %A[high], %[zero] \n\t"
+            "adc %B[high], %[zero] \n\t"
+            "mul %A[a], %C[b] \n\t"
+            "add %[mid], r0 \n\t"
+            "adc %[top], r1 \n\t"
+            "adc %A[high], %[zero] \n\t"
+            "adc %B[high], %[zero] \n\t"
+            "mul %A[a], %D[b] \n\t"
+            "add %[top], r0 \n\t"
+            "adc %A[high], r1 \n\t"
+            "adc %B[high], %[zero] \n\t"
+            "mul %B[a], %C[b] \n\t"
+            "add %[top], r0 \n\t"
+            "adc %A[high], r1 \n\t"
+            "adc %B[high], %[zero] \n\t"
+            "mul %C[a], %A[b] \n\t"
+            "add %[mid], r0 \n\t"
+            "adc %[top], r1 \n\t"
+            "adc %A[high], %[zero] \n\t"
+            "adc %B[high], %[zero] \n\t"
+            "mul %C[a], %B[b] \n\t"
+            "add %[top], r0 \n\t"
+            "adc %A[high], r1 \n\t"
+            "adc %B[high], %[zero] \n\t"
+            "mul %C[a], %C[b] \n\t"
+            "add %A[high], r0 \n\t"
+            "adc %B[high], r1 \n\t"
+            "mul %C[a], %D[b] \n\t"
+            "add %B[high], r0 \n\t"
+            "clr r1 \n\t"
+            : [high] "=&r"(high), [low] "=&r"(low), [mid] "=&r"(mid), [top] "=&r"(top), [zero] "=&r"(zero)
+            : [a] "r"(a), [b] "r"(b));
+    return high;
+}
+
 /* value >> 4, unrolled: gcc makes a loop of it, 27 cycles instead of 16. */
 static inline uint32_t shift_u32_right4(uint32_t value)
 {

@@ -35,6 +35,12 @@ static inline uint32_t mul_u16_u24_shift16(uint16_t a, uint32_t b)
     return (uint32_t)(((uint64_t)a * b) >> 16);
 }
 
+/* (a * b) >> 32, 16 bits of it; a below 2^24. */
+static inline uint16_t mul_u24_u32_shift32(uint32_t a, uint32_t b)
+{
+    return (uint16_t)(((uint64_t)a * b) >> 32);
+}
+
 static inline uint32_t shift_u32_right4(uint32_t value)
 {
     return value >> 4;

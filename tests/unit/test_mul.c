@@ -45,6 +45,10 @@ static void test_word_and_three_bytes(void)
             uint32_t product = (uint32_t)(((uint64_t)threes[i] * words[k]) >> 16);
             TEST_ASSERT_EQUAL_HEX32(product, mul_u16_u24_shift16(words[k], threes[i]));
         }
+        for (uint8_t k = 0; k < COUNT(longs); k++) {
+            uint16_t product = (uint16_t)(((uint64_t)threes[i] * longs[k]) >> 32);
+            TEST_ASSERT_EQUAL_HEX16(product, mul_u24_u32_shift32(threes[i], longs[k]));
+        }
     }
 }
 
