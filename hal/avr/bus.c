@@ -25,13 +25,17 @@ static inline bus_core_t *engine(void)
     return pointer;
 }
 
-static const uint8_t *volatile tx_at;   /* next byte to send; main loop before UDRIE is set, then ISR */
+/* The address of the next byte to send stands in Timer 1's compare register B, which nobody uses and which is nearer than
+ * RAM; its match only sets a flag. Main loop before UDRIE is set, then ISR. */
+#define TX_AT_LOW OCR1BL
+#define TX_AT_HIGH OCR1BH               /* written first: it waits in the timer's TEMP for the low byte */
 static volatile uint8_t tx_end;         /* low byte of the address behind the last one; main loop */
 static uint8_t rate;
 
 void bus_port_send(const uint8_t *bytes, uint8_t count)
 {
-    tx_at = bytes;
+    TX_AT_HIGH = (uint8_t)((uintptr_t)bytes >> 8);
+    TX_AT_LOW = (uint8_t)(uintptr_t)bytes;
     tx_end = (uint8_t)(uintptr_t)(bytes + count);
     UCSR0B = 1u << TXEN0;
     pins_bus_drive();
@@ -131,7 +135,7 @@ void bus_counts(bus_counts_t *counts)
     bus_core_counts(engine(), counts);
 }
 
-/* 101 times in a frame of 31 joints, so every cycle counts: 33 a byte, response, vector and RETI included. In C, with the
+/* 101 times in a frame of 31 joints, so every cycle counts: 29 a byte, response, vector and RETI included. In C, with the
  * registers that avr-gcc saves in every ISR, it took 63:
  *
  *     UDR0 = *tx_at++;
@@ -152,12 +156,12 @@ ISR(USART0_UDRE_vect, ISR_NAKED)
         "out %[r30], r30 \n\t"
         "out %[r31], r31 \n\t"
         "out %[r0], r0 \n\t"
-        "lds r30, %[at] \n\t"
-        "lds r31, %[at]+1 \n\t"
+        "in r30, %[at_low] \n\t"
+        "in r31, %[at_high] \n\t"
         "ld r0, Z+ \n\t"
         "out %[udr], r0 \n\t"
-        "sts %[at], r30 \n\t"
-        "sts %[at]+1, r31 \n\t"
+        "out %[at_high], r31 \n\t"
+        "out %[at_low], r30 \n\t"
         "lds r31, %[end] \n\t"
         "cpse r30, r31 \n\t"
         "rjmp 1f \n\t"
@@ -172,7 +176,8 @@ ISR(USART0_UDRE_vect, ISR_NAKED)
         "in r30, %[r30] \n\t"
         "reti \n\t"
         :
-        : [at] "i"(&tx_at), [end] "i"(&tx_end), [state] "i"(&core.state), [udr] "I"(_SFR_IO_ADDR(UDR0)),
+        : [at_low] "I"(_SFR_IO_ADDR(TX_AT_LOW)), [at_high] "I"(_SFR_IO_ADDR(TX_AT_HIGH)), [end] "i"(&tx_end),
+          [state] "i"(&core.state), [udr] "I"(_SFR_IO_ADDR(UDR0)),
           [r30] "I"(_SFR_IO_ADDR(OCR0)), [r31] "I"(_SFR_IO_ADDR(OCR2)), [r0] "I"(_SFR_IO_ADDR(EICRB)),
           [ucsra] "I"(_SFR_IO_ADDR(UCSR0A)), [ucsrb] "I"(_SFR_IO_ADDR(UCSR0B)),
           [clear_txc] "M"(MODE_U2X | 1u << TXC0), [turning] "M"(TURNING), [state_turning] "M"(BUS_TURNING));
