@@ -8,6 +8,7 @@
 #include "classic_math.h"
 #include "fix.h"
 #include "law.h"
+#include "pgm.h"
 #include "step_plan.h"
 
 #define SPEED_MAX 1023
@@ -43,6 +44,29 @@ static inline uint32_t way_in_speed_units(uint16_t size)
     return mul_u16_u24_shift16(size, 13981014u);
 }
 
+uint16_t NOINLINE classic_divide_on(uint16_t rest, uint16_t divisor, uint8_t bit)
+{
+    uint16_t quotient = 0;
+    for (uint8_t left = 16; left != 0; left--) {
+        bool over = (rest & 0x8000u) != 0;
+        rest = (uint16_t)((uint16_t)(rest << 1) | bit);
+        quotient = (uint16_t)(quotient << 1);
+        if (over || rest >= divisor) {
+            rest = (uint16_t)(rest - divisor);
+            quotient |= 1u;
+        }
+        OPAQUE(left);
+    }
+    return quotient;
+}
+
+/* 2^32 / divisor, rounded up; of 1: 0. */
+static uint32_t recip_of(uint16_t divisor)
+{
+    uint16_t high = (uint16_t)(UINT16_MAX / divisor), rest = (uint16_t)(UINT16_MAX - (uint16_t)(high * divisor));
+    return ((uint32_t)high << 16 | classic_divide_on(rest, divisor, 1)) + 1u;
+}
+
 static uint16_t stop_divisor(const player_t *player)
 {
     uint16_t ticks = player->coming_ticks;
@@ -60,8 +84,8 @@ static void measure_coming(player_t *player, uint16_t longest_way)
 {
     player->coming_ticks = step_plan_classic_ticks(&player->coming, longest_way);
     player->coming_ramp_ticks = step_plan_classic_ramp(player->coming.accel_time, &player->coming_ticks);
-    player->coming_recip = UINT32_MAX / stop_divisor(player) + 1u;
-    player->through_recip = UINT32_MAX / through_divisor(player) + 1u;
+    player->coming_recip = recip_of(stop_divisor(player));
+    player->through_recip = recip_of(through_divisor(player));
 }
 
 speed_left_t classic_left(const player_t *player)
@@ -204,34 +228,65 @@ void classic_prepare_all(player_t *player)
     }
 }
 
-/* How many joints to make ready in a tick, so that the coming step is ready in time; about a fifth as many where a section
- * changes, none (but in a very short step) where the step begins. The short steps have a share for each kind of tick. */
-#define SHORT_TICKS 8u
-#define SHORT_QUOTA 24u
-#define VERY_SHORT_QUOTA 16u
-uint8_t classic_joints_a_tick(uint16_t ticks)
+/* --- which tick does how much -----------------------------------------------------------------------------------------
+ *
+ * Cycles of a tick without work ahead, 31 joints; a look takes 2,600 (in speed base 3,800), a joint 195 (280 when the link is not
+ * decided), and a frame leaves a tick 8,400, 8,000 with a health poll, 6,300 with slopes:
+ *
+ *   a step begins, in RISE     5,700 (ramp of 1 tick: 3,000, of 2: 4,300)     later ticks of RISE, FALL    4,100
+ *   CRUISE begins              4,600 to 7,600                                 of CRUISE                    1,700
+ *   FALL begins                5,700 (as a step)                              prime                        1,700 to 2,800 */
+enum { PACE_HURRY, PACE_SHORT, PACE_BRISK, PACE_EASY, PACE_SLOW };
+
+#define RAMP_SHORT 2u
+
+typedef struct {
+    uint8_t cruise_begins, long_cruise_begins, fall_begins, cruise, ramp; /* joints to make ready in such a tick */
+} shares_t;
+
+uint8_t classic_pace(uint16_t ticks)
 {
-    if (ticks < 4) {
-        return VERY_SHORT_QUOTA;
-    }
-    return ticks < SHORT_TICKS ? SHORT_QUOTA : ticks < 16 ? 9 : ticks < 44 ? 4 : 1;
+    return ticks < 4 ? PACE_HURRY : ticks < 8 ? PACE_SHORT : ticks < 16 ? PACE_BRISK : ticks < 44 ? PACE_EASY : PACE_SLOW;
 }
 
-uint8_t classic_joints_now(const player_t *player, bool change, bool begins)
+static uint8_t share_now(const player_t *player, bool change)
 {
-    uint8_t quota = player->quota;
-    bool cruises = player->section == SECTION_CRUISE;
-    if (change && player->prepared == 0) {
-        return quota > 9 ? 1 : 0; /* not a joint, but a look at the step */
+    static const shares_t shares[] PROGMEM = {{13, 13, 12, 12, 12}, {11, 3, 12, 16, 8}, {0, 0, 0, 16, 8}, {0, 0, 0, 4, 4},
+                                              {0, 0, 0, 1, 1}};
+    const shares_t *share = &shares[player->pace];
+    bool ramps = player->section == SECTION_RISE || player->section == SECTION_FALL;
+    if (change) {
+        bool dear = player->section_ticks != 1 && player->ramp_ticks != 1; /* and more cheap ticks follow */
+        return pgm_read_byte(ramps ? &share->fall_begins : dear ? &share->long_cruise_begins : &share->cruise_begins);
     }
-    if (quota == VERY_SHORT_QUOTA) {
-        return quota;
+    return pgm_read_byte(ramps ? &share->ramp : &share->cruise);
+}
+
+/* Where a step begins there is only room for a look, and that behind a short ramp. */
+#define HURRY_AT_ONCE 6u
+static bool begin_work(player_t *player)
+{
+    bool hurries = player->pace == PACE_HURRY, looks = hurries || (player->pace == PACE_SHORT && player->ramp_ticks <= RAMP_SHORT);
+    if (looks) {
+        classic_prepare(player, 0);
     }
+    if (hurries) {
+        classic_prepare(player, HURRY_AT_ONCE);
+    }
+    return looks;
+}
+
+bool classic_work_ahead(player_t *player, bool change, bool begins)
+{
     if (begins) {
-        return 0;
+        return begin_work(player);
     }
-    if (quota == SHORT_QUOTA) {
-        return change ? (cruises ? 5 : 9) : cruises ? 18 : 14;
+    bool looks = player->prepared == 0;
+    if (!looks || !change || player->pace <= PACE_SHORT) {
+        uint8_t share = share_now(player, change);
+        if (looks || share != 0) {
+            classic_prepare(player, share);
+        }
     }
-    return change ? (uint8_t)((quota + 1u) / 5u) : quota;
+    return looks;
 }

@@ -126,6 +126,10 @@ static inline int16_t next_share(player_joint_t *joint, uint16_t num)
     return value;
 }
 
+/* 16 bits more of a quotient: (rest * 2^16 + (bit != 0 ? 65535 : 0)) / divisor, rest below the divisor. 200 cycles, where a division of
+ * 32 bits takes 600. */
+uint16_t classic_divide_on(uint16_t rest, uint16_t divisor, uint8_t bit);
+
 /* way * part / whole, toward zero; share = part / whole. The estimate is at most one too small, and what is left of
  * the product below 2 * whole: 16 bits are enough to see which. */
 static inline int16_t share_of(int16_t way, uint16_t part, uint16_t whole, uint16_t share_q0_16)

@@ -79,14 +79,14 @@ void exact_move(player_t *player);
 bool exact_rest_start(player_t *player);
 bool exact_rest_tick(player_t *player);
 
-/* The classic law's work ahead (classic_ahead.c). prepare: a share of the coming step, up to `count` joints; all: what is
- * left of it. joints_a_tick, joints_now: how large the shares are in a step of `ticks`; where a section changes, where the
- * step begins. */
+/* The classic law's work ahead (classic_ahead.c). prepare: a share of the coming step: a look at it, then up to `count` joints;
+ * all: what is left of it. pace: how large the shares are in a step of `ticks`. work_ahead: the share of this tick, in which
+ * perhaps a section changed or the step began; returns whether it looked at the step. */
 void classic_prepare(player_t *player, uint8_t count);
 void classic_prepare_all(player_t *player);
 bool classic_knows_behind(const player_t *player);
-uint8_t classic_joints_a_tick(uint16_t ticks);
-uint8_t classic_joints_now(const player_t *player, bool change, bool begins);
+uint8_t classic_pace(uint16_t ticks);
+bool classic_work_ahead(player_t *player, bool change, bool begins);
 
 /* Classic while and after that: makes the coming step ready; takes over again behind the finished step. */
 void classic_prepare_at_rest(player_t *player);

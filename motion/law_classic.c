@@ -90,7 +90,7 @@ static void enter_step(player_t *player)
     player->ramp_ticks = player->coming_ramp_ticks;
     player->hold_ticks = step_plan_classic_hold(&player->now);
     player->prepared = 0;
-    player->quota = classic_joints_a_tick((uint16_t)(player->step_ticks + player->hold_ticks));
+    player->pace = classic_pace((uint16_t)(player->step_ticks + player->hold_ticks));
     enter(player, SECTION_RISE, player->ramp_ticks);
 }
 
@@ -128,7 +128,7 @@ RARE static uint8_t begin_cruise(player_t *player)
         return 0;
     }
     spread_t over = spread_over(cruise);
-    uint16_t share = fix_ratio(cruise, rest), *goal = player->goal_pos;
+    uint16_t share = cruise == rest ? UINT16_MAX : classic_divide_on(cruise, rest, 0), *goal = player->goal_pos;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         int16_t way = (int16_t)(joint->classic.main - joint->classic.acc), fall;
         if (joint->classic.through) {
@@ -290,18 +290,18 @@ void classic_start(player_t *player, link_t *link)
     prime(player, link);
 }
 
+/* Slopes and health polls wait for a tick with less to do. In a step of three ticks that is its last, shorter ones have none. */
+static bool may_wait(const player_t *player)
+{
+    uint16_t ticks = player->step_ticks;
+    return ticks > 3 || (ticks == 3 && player->section != SECTION_FALL);
+}
+
 /* true when the next call begins a step. */
 static bool is_over(const player_t *player)
 {
     return player->tick >= player->section_ticks &&
            (player->section == SECTION_HOLD || (player->section == SECTION_FALL && player->hold_ticks == 0));
-}
-
-static void work_ahead(player_t *player, uint8_t joints)
-{
-    if (joints != 0) {
-        classic_prepare(player, joints);
-    }
 }
 
 uint8_t classic_tick(player_t *player, link_t *link)
@@ -322,16 +322,14 @@ uint8_t classic_tick(player_t *player, link_t *link)
             events = PLAYER_EV_OUTPUT;
         }
     }
-    if (change && player->step_ticks > 3) {
-        events |= PLAYER_EV_BUSY;
-    }
+    bool busy = change;
     if (is_over(player) && player->coming.page != 0) {
         prime(player, link);
-        events |= player->step_ticks > 3 ? PLAYER_EV_BUSY : 0;
-    } else {
-        work_ahead(player, classic_joints_now(player, change, (events & PLAYER_EV_STEP) != 0));
+        busy = true;
+    } else if (classic_work_ahead(player, change, (events & PLAYER_EV_STEP) != 0)) {
+        busy = true;
     }
-    return events;
+    return busy && may_wait(player) ? (uint8_t)(events | PLAYER_EV_BUSY) : events;
 }
 
 /* --- breaking and pausing ---------------------------------------------------------------------------------------- */

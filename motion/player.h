@@ -99,7 +99,7 @@ typedef struct player {
     union {
         struct {
             uint8_t section, coming_ramp_ticks;
-            uint8_t prepared, quota; /* classic: how much of the coming step is ready; how many more joints a tick */
+            uint8_t prepared, pace;  /* classic: how much of the coming step is ready; how fast more of it has to be */
         };
         struct {
             uint16_t next_ticks, next_hold_ticks; /* exact: of `now` before it begins */
