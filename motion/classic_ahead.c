@@ -117,9 +117,10 @@ static inline uint32_t way_to_divide(const player_joint_t *joint, int16_t carrie
     return size;
 }
 
-/* Of a joint whose way in the step behind the coming one is known, through_speed says whether it runs through, and stop_speed
- * is the one speed that it then needs. Of the others they are what their names say. */
-static inline void prepare_known(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, bool through, const divider_t *by)
+/* Of a joint whose way in the step behind the coming one is known, through_speed says whether it runs through, and
+ * stop_speed is the one speed that it then needs. Of the others they are what their names say. */
+static inline void prepare_known(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, bool through,
+                                 const divider_t *by)
 {
     bool negative;
     uint32_t size = way_to_divide(joint, carried, twice_ramp, &negative);
@@ -192,7 +193,8 @@ static RARE void prepare_joints(player_t *player, uint8_t first, uint8_t count)
     }
     uint8_t words[2 * AT_ONCE], *at = words;
     player->source->read(player->source->context, player->coming.page,
-                         (uint16_t)(PAGE_STEP_BYTES * (player->coming.step + 1u) + 2u * first), words, (uint8_t)(2u * count));
+                         (uint16_t)(PAGE_STEP_BYTES * (player->coming.step + 1u) + 2u * first), words,
+                         (uint8_t)(2u * count));
     bool may_run_on = step_plan_classic_hold(&player->coming) == 0;
     for (; count != 0; count--, joint++, at += 2) {
         bool through = may_run_on && classic_runs_on(joint, page_word(at));
@@ -230,8 +232,8 @@ void classic_prepare_all(player_t *player)
 
 /* --- which tick does how much -----------------------------------------------------------------------------------------
  *
- * Cycles of a tick without work ahead, 31 joints; a look takes 2,600 (in speed base 3,800), a joint 195 (280 when the link is not
- * decided), and a frame leaves a tick 8,400, 8,000 with a health poll, 6,300 with slopes:
+ * Cycles of a tick without work ahead, 31 joints; a look takes 2,600 (in speed base 3,800), a joint 195 (280 when the
+ * link is not decided), and a frame leaves a tick 8,400, 8,000 with a health poll, 6,300 with slopes:
  *
  *   a step begins, in RISE     5,700 (ramp of 1 tick: 3,000, of 2: 4,300)     later ticks of RISE, FALL    4,100
  *   CRUISE begins              4,600 to 7,600                                 of CRUISE                    1,700
@@ -266,7 +268,8 @@ static uint8_t share_now(const player_t *player, bool change)
 #define HURRY_AT_ONCE 6u
 static bool begin_work(player_t *player)
 {
-    bool hurries = player->pace == PACE_HURRY, looks = hurries || (player->pace == PACE_SHORT && player->ramp_ticks <= RAMP_SHORT);
+    bool hurries = player->pace == PACE_HURRY;
+    bool looks = hurries || (player->pace == PACE_SHORT && player->ramp_ticks <= RAMP_SHORT);
     if (looks) {
         classic_prepare(player, 0);
     }

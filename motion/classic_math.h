@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * classic_math.h - the arithmetic of the classic law, equal to the original's bit by bit and without a division in a
- * tick. Included by law_classic.c and classic_ahead.c only. Each expression's plain form stands above it (N, A, M, v as in player.md). */
+ * tick. Included by law_classic.c and classic_ahead.c only. Each expression's plain form stands above it (N, A, M, v as
+ * in player.md). */
 #ifndef CLASSIC_MATH_H
 #define CLASSIC_MATH_H
 
@@ -126,8 +127,8 @@ static inline int16_t next_share(player_joint_t *joint, uint16_t num)
     return value;
 }
 
-/* 16 bits more of a quotient: (rest * 2^16 + (bit != 0 ? 65535 : 0)) / divisor, rest below the divisor. 200 cycles, where a division of
- * 32 bits takes 600. */
+/* 16 bits more of a quotient: (rest * 2^16 + (bit != 0 ? 65535 : 0)) / divisor, rest below the divisor. 280 cycles, where
+ * a division of 32 bits takes 600. */
 uint16_t classic_divide_on(uint16_t rest, uint16_t divisor, uint8_t bit);
 
 /* way * part / whole, toward zero; share = part / whole. The estimate is at most one too small, and what is left of

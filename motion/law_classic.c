@@ -290,7 +290,8 @@ void classic_start(player_t *player, link_t *link)
     prime(player, link);
 }
 
-/* Slopes and health polls wait for a tick with less to do. In a step of three ticks that is its last, shorter ones have none. */
+/* Slopes and health polls wait for a tick with less to do. In a step of three ticks that is its last, shorter ones have
+ * none. */
 static bool may_wait(const player_t *player)
 {
     uint16_t ticks = player->step_ticks;

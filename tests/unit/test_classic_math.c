@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_classic_math.c - the arithmetic of the classic law against the expressions of player.md section 1, over all that it may
- * be given. */
+ * test_classic_math.c - the arithmetic of the classic law against the expressions of player.md section 1, over all that
+ * it may be given. */
 #include <stdlib.h>
 #include "classic_math.h"
 #include "unity.h"
