@@ -4,7 +4,6 @@
 #include "crc16.h"
 #include "linker/memory_map.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 #define MAGIC 0x4A4Du /* "MJ" in memory */
@@ -138,6 +137,12 @@ journal_result_t journal_recover(uint8_t work[FLASH_PAGE_BYTES])
         }
     }
     return mark_done(slot, &record) == FLASH_OK ? result : JOURNAL_FAILED;
+}
+
+bool journal_is_pending(void)
+{
+    record_t record;
+    return find_newest(&record) != NO_SLOT && record.state == STATE_PENDING;
 }
 
 flash_status_t journal_void(void)

@@ -25,6 +25,7 @@
 
 #include "linker/memory_map.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define JOURNAL_SLOTS ((MEM_JOURNAL_END - MEM_JOURNAL_START) / (256u * JOURNAL_SLOT_PAGES))
@@ -47,6 +48,9 @@ typedef enum {
 
 /* Finishes what a power cut left. work : one flash page of RAM, contents undefined afterwards. */
 journal_result_t journal_recover(uint8_t work[FLASH_PAGE_BYTES]);
+
+/* Whether journal_recover has a page to finish: for those who cannot. */
+bool journal_is_pending(void);
 
 /* Drops a pending record, before something else overwrites the motion area. */
 MUST_CHECK flash_status_t journal_void(void);

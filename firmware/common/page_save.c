@@ -7,14 +7,6 @@
 #include "system.h"
 #include "tick.h"
 
-void page_save_recover(uint8_t work[PAGE_BYTES])
-{
-    page_service_kind_t kind = page_service_kind();
-    if (kind == PAGE_SERVICE_OURS || kind == PAGE_SERVICE_FACTORY) {
-        (void)journal_recover(work);
-    }
-}
-
 page_save_status_t page_save(uint8_t page, uint8_t bytes[PAGE_BYTES])
 {
     page_seal(bytes);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * page_save.h - puts a motion page into flash so that a power cut leaves the old page or the new one (journal.h), through
  * whoever can write here (page_service.h). The reading side is page_store.h. Main loop only, nothing may be moving.
- * No RAM. At most 60 ms: six flash pages of 9 ms; flow control keeps the PC silent meanwhile, and our loader's service
+ * After a start, journal_recover comes first, before page_store_init: it finishes what a power cut left. No RAM. At most 60 ms: six flash pages of 9 ms; flow control keeps the PC silent meanwhile, and our loader's service
  * keeps what still arrives. */
 #ifndef PAGE_SAVE_H
 #define PAGE_SAVE_H
@@ -17,10 +17,6 @@ typedef enum {
     PAGE_SAVE_ERR_VERIFY,      /* the flash did not take it: old page, or the next start repairs it */
     PAGE_SAVE_ERR_NO_WRITER    /* nobody here can write flash; page_save_by_mailbox may help */
 } page_save_status_t;
-
-/* Finishes what a power cut left, before page_store_init; work: 256 bytes of RAM, undefined afterwards. Does nothing
- * where nobody can write. */
-void page_save_recover(uint8_t work[PAGE_BYTES]);
 
 /* Sets the checksum byte, saves and reads back. Afterwards, whatever it says, the store has to look at the page anew
  * (page_store_refresh): not done here, so that the answer comes first. */

@@ -4,7 +4,7 @@
 #include "compiler.h"
 #include "console.h"
 #include "editor.h"
-#include "page_save.h"
+#include "journal.h"
 #include "page_service.h"
 #include "parts.h"
 #include "pgm.h"
@@ -40,7 +40,7 @@ static NOINLINE void start(void)
     ring_t *ring = console_rx_ring();
     receiver = (boot_rx_t){ ring->bytes, &ring->head, &ring->tail, console_rx_lost(), ring->mask };
     page_service_kind_t service = page_service_init(&receiver);
-    page_save_recover(the_session.cells);
+    (void)journal_recover(the_session.cells);
     the_editor.notice_P = service == PAGE_SERVICE_MAILBOX ? mail_text_P()
                       : service == PAGE_SERVICE_NONE  ? TEXT_P("No boot loader can write: no SAVE")
                                                       : NULL;

@@ -12,6 +12,7 @@
 #include "board.h"
 #include "commands.h"
 #include "console.h"
+#include "journal.h"
 #include "panel.h"
 #include "play.h"
 #include "report.h"
@@ -172,6 +173,10 @@ static void greet(settings_status_t settings)
 {
     text_line_end();
     views_print_version();
+    if (journal_is_pending()) { /* our loader would have completed it; Play has no room for that */
+        TEXT("A save was cut off: start Edit once, it completes the page");
+        text_line_end();
+    }
     if (settings == SETTINGS_DAMAGED) {
         TEXT("The settings were damaged: these are the defaults");
         text_line_end();

@@ -3,8 +3,10 @@
 new one, all other pages are untouched, and the next save works."""
 import pytest
 from cm5sim import PowerCut
+from cm5sim.board import find_image
+from m512 import memory
 
-from boot_board import factory_section
+from boot_board import APP_END, factory_section
 from edit_robot import MOTION_START, page, robot, seal
 
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
@@ -141,3 +143,30 @@ def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page(name, optio
         operation += 1
     print(f"power cuts in a save through {name}: {sum(states.values())} ({operation - 1} operations), old {states['old']}, new {states['new']}")
     assert operation > 5 and states["old"] > 0 and states["new"] > 0
+
+
+def application(name):
+    """An image as the flash below the journal."""
+    flash = bytearray(b"\xff" * APP_END)
+    for number, data in memory.plan(find_image(name)).pages.items():
+        flash[256 * number:256 * (number + 1)] = data
+    return flash
+
+
+@pytest.mark.parametrize("operation, torn", [(2, False), (7, True), (10, True)])
+def test_play_says_that_a_cut_save_waits_for_edit(operation, torn):
+    with robot(pages={1: OLD, 2: OTHER}, **FACTORY) as r:
+        edit(r)
+        r.board.cut_power(operation, "during", 5)
+        with pytest.raises(PowerCut):
+            r.line("save")
+        assert (r.flash_page(1) not in (bytes(OLD.data), new_bytes())) == torn
+        r.board.flash[0:APP_END] = application("play-cm5.hex")
+        r.board.take()
+        r.board.power_on()
+        assert ("A save was cut off: start Edit once" in r.board.expect("] ", ms=2500)) == torn
+        r.board.power_off()
+        r.board.flash[0:APP_END] = application("edit-cm5.hex")
+        r.board.power_on()
+        r.board.run(ms=1000)
+        assert r.flash_page(1) == (new_bytes() if torn else bytes(OLD.data))

@@ -135,12 +135,16 @@ static bool recovery_is_cut(uint32_t op, fake_flash_phase_t phase, uint32_t seed
     return false;
 }
 
+static bool is_old_or_new(void)
+{
+    return memcmp(target(PAGE), old_page, 512) == 0 || memcmp(target(PAGE), new_page, 512) == 0;
+}
+
 /* Old or new, nothing else touched, and the next save works. */
 static void check_after_cut(void)
 {
-    bool is_old = memcmp(target(PAGE), old_page, 512) == 0;
-    bool is_new = memcmp(target(PAGE), new_page, 512) == 0;
-    TEST_ASSERT_TRUE_MESSAGE(is_old || is_new, "neither the old page nor the new one");
+    TEST_ASSERT_TRUE_MESSAGE(is_old_or_new(), "neither the old page nor the new one");
+    TEST_ASSERT_FALSE(journal_is_pending());
     TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
     for (uint32_t addr = 0; addr < MEM_BOOT_END; addr += 256) {
         bool journal = addr >= MEM_JOURNAL_START && addr < MEM_JOURNAL_END;
@@ -176,6 +180,7 @@ static void test_power_cut_anywhere_leaves_the_old_page_or_the_new_one(void)
                     break;
                 }
                 cuts++;
+                TEST_ASSERT_TRUE(journal_is_pending() || is_old_or_new());
                 static uint8_t torn[MEM_BOOT_END];
                 memcpy(torn, fake_flash_bytes(), sizeof torn);
                 for (uint32_t again = 1;; again++) {
@@ -215,7 +220,9 @@ static void test_the_sequence_wraps(void)
 static void test_a_download_can_void_a_pending_page(void)
 {
     TEST_ASSERT_TRUE(save_is_cut(7, FAKE_FLASH_BEFORE, 1)); /* record complete, target untouched */
+    TEST_ASSERT_TRUE(journal_is_pending());
     TEST_ASSERT_EQUAL(FLASH_OK, journal_void());
+    TEST_ASSERT_FALSE(journal_is_pending());
     TEST_ASSERT_EQUAL(JOURNAL_CLEAN, journal_recover(work));
     TEST_ASSERT_EQUAL_MEMORY(old_page, target(PAGE), 512);
 }

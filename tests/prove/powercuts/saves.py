@@ -2,8 +2,10 @@
 """Scenes in which Edit saves motion pages: through our loader, the factory kind of routine, and a loader's mailbox."""
 import struct
 
-from boot_board import BOOT_MODE, BOOT_START, JOURNAL_START, MAP, PROMPT, crc16, factory_section
+from boot_board import APP_END, BOOT_MODE, BOOT_START, JOURNAL_START, MAP, PROMPT, crc16, factory_section
+from cm5sim.board import find_image
 from edit_robot import seal
+from m512 import memory
 from m512.machine import Machine
 
 from . import robot
@@ -249,6 +251,25 @@ class RepairFactory(SaveFactory):
     rates = (2, 4, 80)
 
 
+class SavePlay(SaveFactory):
+    """The same, and Play comes into the flash before Edit starts again: it says that a save waits, and writes nothing."""
+
+    name = "save-play"
+    promise = "Play on a loader without a journal says when a save was cut off; Edit completes it"
+
+    def restart(self):
+        board = self.board
+        for number, data in memory.plan(find_image("play-cm5.hex")).pages.items():
+            board.flash[256 * number:256 * (number + 1)] = data
+        waits, before = robot.pending(bytes(board.flash)), bytes(board.flash)
+        robot.power_on(board)
+        said = "A save was cut off" in board.expect("] ", ms=2500)
+        assert said == waits and bytes(board.flash) == before
+        board.power_off()
+        board.flash[:APP_END] = self.memories.flash[:APP_END]
+        super().restart()
+
+
 class Mailbox(Save):
     """SAVE on an unknown loader: Edit leaves the page in EEPROM and restarts; the loader (ours without its call table)
     writes it."""
@@ -284,4 +305,4 @@ class Mailbox(Save):
 
 
 SCENES = (Save, SaveHalf, SaveUndo, SaveErased, SaveDamaged, SaveOther, SaveCm2, Saves, SaveWrap, Repair, SaveFactory,
-          RepairFactory, Mailbox)
+          RepairFactory, SavePlay, Mailbox)
