@@ -6,6 +6,7 @@
 #include "dxl.h"
 
 #define EVENTS_FOR_STEPS (PERFORMER_EVENTS - 6u) /* room kept for rarer and graver events */
+#define EVENTS_FOR_OTHERS (PERFORMER_EVENTS - 1u) /* and for the end: who waits for it must hear of it */
 
 /* What the fault rule acts on. A voltage error is told but ends nothing: the battery is low long before it is empty. */
 #define ERRORS_GRAVE (DXL_ERR_ANGLE | DXL_ERR_HEAT | DXL_ERR_OVERLOAD)
@@ -14,7 +15,8 @@
 
 void performer_tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b, uint8_t c)
 {
-    const uint8_t room_for = kind == PERFORMER_EV_STEP ? EVENTS_FOR_STEPS : PERFORMER_EVENTS;
+    const uint8_t room_for = kind == PERFORMER_EV_STEP ? EVENTS_FOR_STEPS
+                             : kind == PERFORMER_EV_ENDED ? PERFORMER_EVENTS : EVENTS_FOR_OTHERS;
     if (performer->events_count >= room_for) {
         performer->events_lost = (uint8_t)(performer->events_lost + (performer->events_lost < UINT8_MAX ? 1 : 0));
         return;

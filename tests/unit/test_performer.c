@@ -184,6 +184,18 @@ static void test_performer_full_queue_keeps_the_end(void)
     TEST_ASSERT_FALSE(performer_next_event(&performer, &event));
 }
 
+static void test_performer_queue_full_of_faults_keeps_the_end(void)
+{
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    for (uint8_t i = 0; i < 2u * PERFORMER_EVENTS; i++) {
+        fake_servo_link_fault(&servos, 1, i & 1u ? SERVO_FAULT_BACK : SERVO_FAULT_SILENT, 0);
+        performer_poll(&performer);
+    }
+    reach(PERFORMER_IDLE);
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_SERVO, end_reason());
+}
+
 /* ---- torque, moves ---- */
 
 static void test_performer_off_takes_a_joint_out_of_the_play(void)
@@ -240,6 +252,7 @@ int main(void)
     RUN_TEST(test_performer_counts_repetitions);
     RUN_TEST(test_performer_names_the_damaged_page_a_link_leads_to);
     RUN_TEST(test_performer_full_queue_keeps_the_end);
+    RUN_TEST(test_performer_queue_full_of_faults_keeps_the_end);
     RUN_TEST(test_performer_off_takes_a_joint_out_of_the_play);
     RUN_TEST(test_performer_on_waits_for_the_end_of_a_play);
     RUN_TEST(test_performer_move_goes_there_and_touches_nobody_else);
