@@ -118,11 +118,11 @@ static void remember(shell_t *shell)
     }
     memmove(shell->history + bytes, shell->history, (size_t)(shell->history_bytes - bytes));
     memcpy(shell->history, shell->line, bytes);
-    /* The oldest line may have been cut: end the list behind the last NUL that is left. */
-    char *end = shell->history + shell->history_bytes - 1;
-    while (*end != '\0') {
-        *end-- = '\0';
-    }
+    /* The last byte ends the list. The oldest line may have been cut: then the list ends behind the NUL before it. */
+    char *end = shell->history + shell->history_bytes;
+    do {
+        *--end = '\0';
+    } while (end[-1] != '\0');
 }
 
 /* true when the byte belonged to an escape sequence. */

@@ -181,6 +181,14 @@ static void test_shell_history_drops_whole_oldest_lines_when_full(void)
     TEST_ASSERT_EQUAL_STRING("second", line);
 }
 
+static void test_shell_recall_stops_at_the_oldest_of_a_full_history(void)
+{
+    enter_and_clear("eleven byte");      /* 12 with its NUL: two of these fill all 24 */
+    enter_and_clear("also twelve");
+    keys("\x01\x01\x01\r");
+    TEST_ASSERT_EQUAL_STRING("also twelve", line);
+}
+
 static void test_shell_history_keeps_words_whole_and_repeats_once(void)
 {
     enter_and_clear("play 1");
@@ -394,6 +402,7 @@ int main(void)
     RUN_TEST(test_shell_recall_stops_at_the_oldest);
     RUN_TEST(test_shell_recall_without_history_does_nothing);
     RUN_TEST(test_shell_history_drops_whole_oldest_lines_when_full);
+    RUN_TEST(test_shell_recall_stops_at_the_oldest_of_a_full_history);
     RUN_TEST(test_shell_history_keeps_words_whole_and_repeats_once);
     RUN_TEST(test_shell_words_are_separated_by_any_of_five);
     RUN_TEST(test_shell_line_of_separators_has_no_word);
