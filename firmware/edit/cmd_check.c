@@ -7,14 +7,17 @@
 #include "frame.h"
 #include "page_facts.h"
 #include "pgm.h"
+#include "system.h"
 #include "text.h"
 
 static const uint8_t link_fields[] PROGMEM = { PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE,
                                                PAGE_AT_LINKED2_PAGE };
 #define LINKS sizeof link_fields
 
+/* One page may fill 200 lines, of 9 ms each, and ask 31 servos that answer late or not at all. */
 static void begin_line(uint8_t page)
 {
+    system_kick();
     TEXT("Page ");
     text_padded(page, 3, ' ');
     TEXT(": ");
@@ -91,6 +94,7 @@ static void check_joint(uint8_t page, uint8_t joint)
 {
     uint8_t limits[4];
     uint8_t steps = page_store_byte(page, PAGE_AT_STEPS);
+    system_kick();
     if (bus_call_read(joint, DXL_AT_CW_LIMIT, limits, sizeof limits, NULL) != BUS_OK) {
         return;
     }

@@ -496,3 +496,16 @@ def test_check_names_what_is_wrong():
         assert "Page   3: no code and no other page calls it" in shown
         assert "Page   3: step 1 ID 5 too fast" in shown
         assert "Page   4: leads to page 9, which has no steps" in shown or "Page   4: leads to page 9, which is not valid" in shown
+
+
+def test_check_of_a_page_that_fills_many_lines_is_no_hang():
+    """126 lines take longer than the watchdog waits."""
+    with robot(pages={5: page("far", [(30, {})] * 7, code=1)}) as r:
+        for servo in r.board.servos:
+            servo.write(6, [600 & 255, 600 >> 8, 700 & 255, 700 >> 8])
+        r.board.forbid("unexpected-reset")
+        r.line("check 5", ms=3000)
+        assert r.show().count("outside the servo's limits") > 10
+        r.keys("\x1b")
+        r.line("list 5")
+        assert "far" in r.show()
