@@ -165,7 +165,7 @@ def edited(results):
 
 
 def run(options):
-    minutes, saves = getattr(options, "minutes", 60), getattr(options, "saves", 3000)
+    minutes, saves = options.minutes, options.saves
     options.keep = minutes >= 60 and saves >= 3000
     if options.sample:
         items = [("walk", options.seed, 1.5), ("crowd", options.seed, 0.3), ("edit", options.seed, 40)]

@@ -264,7 +264,7 @@ def work(name):
 # ---- all of them ----
 
 def run(options):
-    only = getattr(options, "only", None)
+    only = options.only
     options.keep = not only
     names = [only] if only else list(all_states(options.seed))
     if options.sample and not only:

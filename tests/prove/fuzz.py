@@ -179,6 +179,7 @@ def modules(options, names):
 
 def run(options):
     """The whole part."""
+    options.keep = not (options.only or options.inputs or options.bytes < BYTES or options.seconds < SECONDS)
     if options.only:
         return again(options)
     chosen = options.inputs.split(",") if options.inputs else [*fuzz_board.INPUTS, *fuzz_host.NAMES, "m512"]

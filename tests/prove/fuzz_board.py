@@ -43,6 +43,7 @@ class Session:
         self.sent = 0
         self.slowest_ms = 0.0
         self.board = None
+        self.who = {}      # the servos by the ID they started with
 
     # what an input is made of
 
@@ -84,9 +85,9 @@ class Session:
     def fault(self, data):
         servo, name, times = data
         if name == "clear":
-            self.board.servos[servo].clear()
+            self.who[servo].clear()
         else:
-            self.board.servos[servo].fault(name, times)
+            self.who[servo].fault(name, times)
 
     # playing
 
@@ -114,7 +115,7 @@ class Session:
         raise AssertionError(f"no answer to @where; the console says {self.board.console[-200:]!r}")
 
     def look_at_packets(self):
-        ids = set(self.servos)
+        ids = set(self.servos) | set(self.board.servos.ids)   # noise may have given a servo another ID
         for _, packet in self.board.packets:
             instruction, address = packet[4], packet[5] if len(packet) > 6 else 255
             if instruction == SYNC_WRITE:
@@ -130,6 +131,7 @@ class Session:
     def play(self, pieces):
         """Plays the pieces on a new board and looks at everything."""
         self.start()
+        self.who = {servo.id: servo for servo in self.board.servos}
         flash, eeprom = bytes(self.board.flash), bytes(self.board.eeprom)
         for verb, data in pieces:
             getattr(self, verb)(data)
@@ -314,9 +316,12 @@ class Bus(Session):
             super().look_at_packets()
 
     def look(self):
-        """Silence: whoever is well is found again."""
-        for servo in self.servos:
-            self.board.servos[servo].clear()
+        """Silence: whoever is well is found again. Noise may have told a servo to be another one: it gets its ID, rate,
+        delay and answers back."""
+        for servo_id, servo in self.who.items():
+            servo.clear()
+            servo.write(3, [servo_id, 1, 250])
+            servo.write(16, [2])
         self.board.run(ms=3000)
         self.next_look_ms = 0
 

@@ -98,7 +98,7 @@ def pieces(names, seed, sample):
 
 
 def run(options):
-    only, one = getattr(options, "only", None), getattr(options, "scene", None)
+    only, one = options.only, options.scene
     options.keep = not only and not one
     if only:
         return repeat(only, options.seed)
