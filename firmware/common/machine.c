@@ -3,6 +3,7 @@
 
 #include <string.h>
 #include "board.h"
+#include "bound.h"
 #include "crc16.h"
 #include "report.h"
 #include "system.h"
@@ -93,8 +94,8 @@ static void field(const char *name_P, uint16_t value)
 
 void machine_serve(const machine_t *machine)
 {
-    if (machine->image->service != NULL) {
-        machine->image->service(machine->image->context);
+    if (MACHINE_IMAGE(machine)->service != NULL) {
+        MACHINE_IMAGE(machine)->service(MACHINE_IMAGE(machine)->context);
     }
 }
 
@@ -106,7 +107,7 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
     app_record_t record;
     (void)args;
     TEXT(" image=");
-    text_P(machine->image->name_P);
+    text_P(MACHINE_IMAGE(machine)->name_P);
     if (board_record(&record)) {
         TEXT(" version=");
         text_number(record.version[0]);
@@ -119,7 +120,7 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
     TEXT(" protocol=1 pages=128 joints=31 line=110");
     STATIC_ASSERT(PAGE_COUNT == 128 && PAGE_JOINTS == 31, "said in the line above");
     TEXT(" can=list,page,pose,move,torque,play,pause,where");
-    if (machine->image->ram_page != NULL) {
+    if (MACHINE_IMAGE(machine)->ram_page != NULL) {
         TEXT(",open,save");
     }
     return MACHINE_OK;
@@ -129,7 +130,7 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
 static void print_list_entry(const machine_t *machine, uint8_t page)
 {
     uint8_t header[PAGE_AT_STEPS + 1];
-    const bool good = page_store_is_good(machine->pages, page);
+    const bool good = page_store_is_good(MACHINE_PAGES(machine), page);
     page_store_read(page, 0, header, sizeof header);
     if (good ? header[PAGE_AT_NAME] == '\0' && header[PAGE_AT_STEPS] == 0 : page_store_is_erased(page)) {
         return;
@@ -139,7 +140,7 @@ static void print_list_entry(const machine_t *machine, uint8_t page)
     text_put(':');
     if (!good) {
         TEXT("!:\"");
-        report_page_fault((uint8_t)page_store_check(machine->pages, page));
+        report_page_fault((uint8_t)page_store_check(MACHINE_PAGES(machine), page));
         text_put('"');
         return;
     }
@@ -200,7 +201,7 @@ static uint8_t do_page(void *context, const shell_args_t *args)
 static uint8_t do_pose(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
-    const servo_link_t *servos = machine->servos;
+    const servo_link_t *servos = MACHINE_SERVOS(machine);
     (void)args;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         const uint32_t joint = servo_link_bit(id);
@@ -238,7 +239,7 @@ static void print_state_name(const performer_t *performer)
 static uint8_t do_where(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
-    const performer_t *performer = machine->performer;
+    const performer_t *performer = MACHINE_PERFORMER(machine);
     const bool plays = performer->state == PERFORMER_PLAY;
     (void)args;
     TEXT(" state=");
@@ -247,7 +248,7 @@ static uint8_t do_where(void *context, const shell_args_t *args)
     field(TEXT_P("step"), plays ? performer->engine.player.step : 0);
     field(TEXT_P("repetition"), plays ? performer->engine.player.repetition : 0);
     field(TEXT_P("code"), plays ? performer->link.code : 0);
-    field(TEXT_P("dv"), machine->servos->voltage_dv);
+    field(TEXT_P("dv"), MACHINE_SERVOS(machine)->voltage_dv);
     field(TEXT_P("missed"), tick_missed());
     TEXT(" faulty=");
     text_hex((uint16_t)(performer->faulty >> 16), 4);
@@ -260,7 +261,7 @@ static uint8_t do_reset(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     (void)args;
-    if (!performer_is_idle(machine->performer)) {
+    if (!performer_is_idle(MACHINE_PERFORMER(machine))) {
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
     }
     system_restart();

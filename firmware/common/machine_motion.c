@@ -2,6 +2,7 @@
  * machine_motion.c - requests that move something. */
 #include "machine_parts.h"
 
+#include "bound.h"
 #include "text.h"
 
 #define SPEED_MAX_DEG_S 360u
@@ -51,7 +52,7 @@ uint8_t machine_do_move(void *context, const shell_args_t *args)
     if (joints == 0) {
         return machine_says(MACHINE_ERR_RANGE, TEXT_P("Positions must be 000..3FF or ---, up to ID 30"));
     }
-    return machine_refusal(performer_move(machine->performer, to_pos, joints, deg_s), 0, 0);
+    return machine_refusal(performer_move(MACHINE_PERFORMER(machine), to_pos, joints, deg_s), 0, 0);
 }
 
 /* One joint at a time, so that nothing else waits for longer than 3 ms. Returns those that are as they should be. */
@@ -62,9 +63,9 @@ static uint32_t switch_each(machine_t *machine, uint32_t joints, bool on)
         const uint32_t joint = joints & servo_link_bit(id);
         if (joint != 0) {
             if (on) {
-                done |= performer_on(machine->performer, joint);
+                done |= performer_on(MACHINE_PERFORMER(machine), joint);
             } else {
-                performer_off(machine->performer, joint);
+                performer_off(MACHINE_PERFORMER(machine), joint);
                 done |= joint;
             }
             machine_serve(machine);
@@ -77,7 +78,7 @@ uint8_t machine_do_torque(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     const bool on = shell_word_is(args, 1, PSTR("on"));
-    uint32_t joints = args->count == 2 ? machine->servos->present : 0;
+    uint32_t joints = args->count == 2 ? MACHINE_SERVOS(machine)->present : 0;
     if (!on && !shell_word_is(args, 1, PSTR("off"))) {
         return machine_says(MACHINE_ERR_RANGE, TEXT_P("Say on or off"));
     }
@@ -88,10 +89,10 @@ uint8_t machine_do_torque(void *context, const shell_args_t *args)
         }
         servo_link_put(&joints, (uint8_t)id, true);
     }
-    if (on && !performer_is_idle(machine->performer)) {
+    if (on && !performer_is_idle(MACHINE_PERFORMER(machine))) {
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
     }
-    if ((joints & machine->servos->present) != joints || joints == 0 ||
+    if ((joints & MACHINE_SERVOS(machine)->present) != joints || joints == 0 ||
         switch_each(machine, joints, on) != joints) {
         return machine_says(MACHINE_ERR_SERVOS, TEXT_P("Not all of these servos answer"));
     }
@@ -106,8 +107,8 @@ uint8_t machine_do_play(void *context, const shell_args_t *args)
         (args->count == 3 && !machine_number(args, 2, TEXT_P("Code"), 0, LINK_CODE_STOP - 1, &code))) {
         return MACHINE_ERR_RANGE;
     }
-    const performer_status_t status = performer_start(machine->performer, (uint8_t)page, (uint8_t)code);
-    return machine_refusal(status, machine->performer->fault_page, machine->performer->fault);
+    const performer_status_t status = performer_start(MACHINE_PERFORMER(machine), (uint8_t)page, (uint8_t)code);
+    return machine_refusal(status, MACHINE_PERFORMER(machine)->fault_page, MACHINE_PERFORMER(machine)->fault);
 }
 
 /* These four say OK also when there is nothing to do: a program asks @where. */
@@ -115,7 +116,7 @@ uint8_t machine_do_stop(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     (void)args;
-    performer_stop(machine->performer);
+    performer_stop(MACHINE_PERFORMER(machine));
     return MACHINE_OK;
 }
 
@@ -123,7 +124,7 @@ uint8_t machine_do_break(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     (void)args;
-    performer_break(machine->performer);
+    performer_break(MACHINE_PERFORMER(machine));
     return MACHINE_OK;
 }
 
@@ -131,7 +132,7 @@ uint8_t machine_do_pause(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     (void)args;
-    (void)performer_pause(machine->performer);
+    (void)performer_pause(MACHINE_PERFORMER(machine));
     return MACHINE_OK;
 }
 
@@ -139,7 +140,7 @@ uint8_t machine_do_resume(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     (void)args;
-    (void)performer_resume(machine->performer);
+    (void)performer_resume(MACHINE_PERFORMER(machine));
     return MACHINE_OK;
 }
 

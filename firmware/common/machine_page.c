@@ -3,6 +3,7 @@
 #include "machine_parts.h"
 
 #include <string.h>
+#include "bound.h"
 #include "crc16.h"
 #include "text.h"
 
@@ -11,7 +12,7 @@
 /* An image with a page in RAM has all the functions for it. */
 static bool has_page(const machine_t *machine)
 {
-    if (machine->image->ram_page != NULL) {
+    if (MACHINE_IMAGE(machine)->ram_page != NULL) {
         return true;
     }
     (void)machine_says(MACHINE_ERR_IMAGE, TEXT_P("Not in this image"));
@@ -36,7 +37,7 @@ uint8_t machine_do_open(void *context, const shell_args_t *args)
     if (!machine_page_number(args, 1, 0, &page)) {
         return MACHINE_ERR_RANGE;
     }
-    return image_result(machine->image->open(machine->image->context, (uint8_t)page));
+    return image_result(MACHINE_IMAGE(machine)->open(MACHINE_IMAGE(machine)->context, (uint8_t)page));
 }
 
 uint8_t machine_do_data(void *context, const shell_args_t *args)
@@ -63,14 +64,14 @@ uint8_t machine_do_data(void *context, const shell_args_t *args)
         }
         bytes[i / 2] = (uint8_t)(bytes[i / 2] << 4 | digit);
     }
-    memcpy(machine->image->ram_page(machine->image->context) + offset, bytes, count);
-    machine->image->changed(machine->image->context);
+    memcpy(MACHINE_IMAGE(machine)->ram_page(MACHINE_IMAGE(machine)->context) + offset, bytes, count);
+    MACHINE_IMAGE(machine)->changed(MACHINE_IMAGE(machine)->context);
     return MACHINE_OK;
 }
 
 static uint16_t ram_crc(const machine_t *machine)
 {
-    return crc16_bytes(CRC16_START, machine->image->ram_page(machine->image->context), PAGE_BYTES);
+    return crc16_bytes(CRC16_START, MACHINE_IMAGE(machine)->ram_page(MACHINE_IMAGE(machine)->context), PAGE_BYTES);
 }
 
 uint8_t machine_do_crc(void *context, const shell_args_t *args)
@@ -98,6 +99,6 @@ uint8_t machine_do_save(void *context, const shell_args_t *args)
     if (!shell_parse(shell_word(args, 2), true, &crc) || crc != ram_crc(machine)) {
         return machine_says(MACHINE_ERR_CRC, TEXT_P("The CRC does not fit the page in RAM"));
     }
-    return image_result(machine->image->save(machine->image->context, (uint8_t)page));
+    return image_result(MACHINE_IMAGE(machine)->save(MACHINE_IMAGE(machine)->context, (uint8_t)page));
 }
 

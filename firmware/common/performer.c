@@ -2,6 +2,7 @@
 #include "performer.h"
 
 #include <string.h>
+#include "bound.h"
 #include "performer_parts.h"
 
 #define SECOND_STOP_TICKS PLAYER_TICKS_PER_SECOND
@@ -58,7 +59,7 @@ void performer_finish(performer_t *performer, uint8_t end)
 /* Joints that answer the bus and were not switched off by hand. */
 static uint32_t usable(const performer_t *performer)
 {
-    return performer->servos->present & ~performer->released;
+    return PERFORMER_SERVOS(performer)->present & ~performer->released;
 }
 
 static performer_status_t somebody_can_move(const performer_t *performer)
@@ -66,7 +67,7 @@ static performer_status_t somebody_can_move(const performer_t *performer)
     if (!performer_is_idle(performer)) {
         return PERFORMER_ERR_BUSY;
     }
-    if (performer->servos->present == 0) {
+    if (PERFORMER_SERVOS(performer)->present == 0) {
         return PERFORMER_ERR_NO_SERVOS;
     }
     return usable(performer) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
@@ -107,7 +108,7 @@ static performer_status_t refusal(performer_t *performer, player_status_t status
 
 static void call_link(performer_t *performer, uint8_t code)
 {
-    link_init(&performer->link, performer->settings->remote_mode == LINK_HOLD ? LINK_HOLD : LINK_LATCH);
+    link_init(&performer->link, PERFORMER_SETTINGS(performer)->remote_mode == LINK_HOLD ? LINK_HOLD : LINK_LATCH);
     link_call(&performer->link, code);
 }
 
@@ -153,7 +154,7 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
 
 void performer_poll(performer_t *performer)
 {
-    servo_link_poll(performer->servos);
+    servo_link_poll(PERFORMER_SERVOS(performer));
     performer_watch(performer);
     if (performer->state == PERFORMER_READY) {
         performer_ready_poll(performer);
@@ -181,7 +182,7 @@ static NOINLINE void send_slopes(performer_t *performer)
     uint8_t compliance[PAGE_JOINTS];
     performer->source->read(performer->source->context, performer->engine.player.page, PAGE_AT_COMPLIANCE, compliance,
                             sizeof compliance);
-    servo_link_slopes(performer->servos, compliance);
+    servo_link_slopes(PERFORMER_SERVOS(performer), compliance);
 }
 
 static uint8_t why_ended(const performer_t *performer)
@@ -202,7 +203,7 @@ static uint8_t why_ended(const performer_t *performer)
 static NOINLINE void approach_or_move_tick(performer_t *performer)
 {
     const bool under_way = approach_tick(&performer->engine.approach, performer->pose_pos);
-    servo_link_goals(performer->servos, performer->pose_pos, performer->engine.approach.joints & performer->joints);
+    servo_link_goals(PERFORMER_SERVOS(performer), performer->pose_pos, performer->engine.approach.joints & performer->joints);
     if (!under_way) {
         approach_over(performer);
     }
@@ -219,10 +220,10 @@ static void play_tick(performer_t *performer)
         send_slopes(performer);
     }
     if ((events & PLAYER_EV_OUTPUT) != 0) {
-        servo_link_goals(performer->servos, player->goal_pos, player->joints);
+        servo_link_goals(PERFORMER_SERVOS(performer), player->goal_pos, player->joints);
     }
     if ((events & PLAYER_EV_BUSY) != 0) {
-        servo_link_hold_rest(performer->servos);
+        servo_link_hold_rest(PERFORMER_SERVOS(performer));
     }
     if ((events & PLAYER_EV_STEP) != 0) {
         performer->page = player->page;
@@ -240,7 +241,7 @@ static void play_tick(performer_t *performer)
 
 void performer_tick(performer_t *performer)
 {
-    servo_link_tick(performer->servos);
+    servo_link_tick(PERFORMER_SERVOS(performer));
     if (performer->since_stop_ticks < UINT8_MAX) {
         performer->since_stop_ticks++;
     }
@@ -377,8 +378,8 @@ uint32_t performer_on(performer_t *performer, uint32_t joints)
     if (!performer_is_idle(performer)) {
         return 0;
     }
-    joints &= performer->servos->present;
-    const uint32_t on = servo_link_torque_on(performer->servos, joints);
+    joints &= PERFORMER_SERVOS(performer)->present;
+    const uint32_t on = servo_link_torque_on(PERFORMER_SERVOS(performer), joints);
     performer->released &= ~on;
     performer->faulty &= ~on;
     return on;
@@ -388,7 +389,7 @@ void performer_off(performer_t *performer, uint32_t joints)
 {
     performer->released |= joints;
     performer_drop(performer, joints);
-    servo_link_torque_off(performer->servos, joints & performer->servos->present);
+    servo_link_torque_off(PERFORMER_SERVOS(performer), joints & PERFORMER_SERVOS(performer)->present);
     if (!performer_is_idle(performer) && (performer->joints | performer->ready_left) == 0) {
         performer_finish(performer, PERFORMER_END_BROKEN); /* nobody is left who moves */
     }

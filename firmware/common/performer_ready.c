@@ -3,10 +3,11 @@
 #include "performer_parts.h"
 
 #include <string.h>
+#include "bound.h"
 
 static player_law_t law(const performer_t *performer)
 {
-    return performer->settings->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;
+    return PERFORMER_SETTINGS(performer)->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;
 }
 
 /* Binds the player anew and starts it at `page` from pose_pos. */
@@ -33,7 +34,7 @@ static uint8_t lowest_joint(uint32_t joints)
  * apart need the servos' full one. */
 static void ask_one_joint(performer_t *performer)
 {
-    servo_link_t *servos = performer->servos;
+    servo_link_t *servos = PERFORMER_SERVOS(performer);
     const uint8_t id = lowest_joint(performer->ready_left);
     const uint32_t joint = servo_link_bit(id);
     if ((servos->torque & joint) == 0) {
@@ -50,7 +51,7 @@ static void ask_one_joint(performer_t *performer)
     performer->ready_left &= ~joint;
     performer->faulty |= joint;
     performer_tell(performer, PERFORMER_EV_SILENT, id, 0, 0);
-    if (performer->settings->fault_rule != SETTINGS_FAULT_LIMP) {
+    if (PERFORMER_SETTINGS(performer)->fault_rule != SETTINGS_FAULT_LIMP) {
         performer_finish(performer, PERFORMER_END_SERVO);
     }
 }
@@ -83,7 +84,7 @@ static void begin_approach(performer_t *performer)
     }
     uint16_t to_pos[PAGE_JOINTS];
     const uint32_t joints = first_pose(performer, to_pos);
-    const uint16_t limit_deg_s = performer->move_deg_s != 0 ? performer->move_deg_s : performer->settings->approach_deg_s;
+    const uint16_t limit_deg_s = performer->move_deg_s != 0 ? performer->move_deg_s : PERFORMER_SETTINGS(performer)->approach_deg_s;
     uint16_t ticks = 0;
     if (limit_deg_s != 0) {
         ticks = approach_start(&performer->engine.approach, performer->pose_pos, to_pos, joints, limit_deg_s);

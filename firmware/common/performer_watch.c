@@ -3,6 +3,7 @@
  * heat. */
 #include "performer_parts.h"
 
+#include "bound.h"
 #include "dxl.h"
 
 #define EVENTS_FOR_STEPS (PERFORMER_EVENTS - 6u) /* room kept for rarer and graver events */
@@ -57,12 +58,12 @@ static void act_on_fault(performer_t *performer, uint32_t joint)
         return;
     }
     performer_drop(performer, joint);
-    if (performer->settings->fault_rule == SETTINGS_FAULT_LIMP) {
-        servo_link_torque_off(performer->servos, joint);
+    if (PERFORMER_SETTINGS(performer)->fault_rule == SETTINGS_FAULT_LIMP) {
+        servo_link_torque_off(PERFORMER_SERVOS(performer), joint);
         return;
     }
     performer->end = PERFORMER_END_SERVO;
-    if (performer->settings->fault_rule == SETTINGS_FAULT_EXIT && performer->state == PERFORMER_PLAY) {
+    if (PERFORMER_SETTINGS(performer)->fault_rule == SETTINGS_FAULT_EXIT && performer->state == PERFORMER_PLAY) {
         performer_stop_softly(performer);
     } else {
         performer_break(performer);
@@ -74,7 +75,7 @@ static void take_fault(performer_t *performer, const servo_fault_t *fault)
     const uint32_t joint = servo_link_bit(fault->id);
     const bool well = fault->kind == SERVO_FAULT_BACK ||
                       (fault->kind == SERVO_FAULT_ERRORS && fault->errors == 0 &&
-                       servo_link_has(&performer->servos->torque, fault->id));
+                       servo_link_has(&PERFORMER_SERVOS(performer)->torque, fault->id));
     servo_link_put(&performer->faulty, fault->id, !well);
     if (fault->kind == SERVO_FAULT_ERRORS) {
         performer_tell(performer, PERFORMER_EV_ERRORS, fault->id, fault->errors, 0);
@@ -96,15 +97,15 @@ STATIC_ASSERT(PERFORMER_EV_BACK - PERFORMER_EV_SILENT == SERVO_FAULT_BACK - SERV
 static void take_faults(performer_t *performer)
 {
     servo_fault_t fault;
-    while (servo_link_next_fault(performer->servos, &fault)) {
+    while (servo_link_next_fault(PERFORMER_SERVOS(performer), &fault)) {
         take_fault(performer, &fault);
     }
 }
 
 static void watch_battery(performer_t *performer)
 {
-    const uint8_t now_dv = performer->servos->voltage_dv;
-    if (!performer->told_battery && now_dv != 0 && now_dv < performer->settings->battery_low_dv) {
+    const uint8_t now_dv = PERFORMER_SERVOS(performer)->voltage_dv;
+    if (!performer->told_battery && now_dv != 0 && now_dv < PERFORMER_SETTINGS(performer)->battery_low_dv) {
         performer->told_battery = true;
         performer_tell(performer, PERFORMER_EV_BATTERY, now_dv, 0, 0);
     }
@@ -112,11 +113,11 @@ static void watch_battery(performer_t *performer)
 
 static void watch_heat(performer_t *performer)
 {
-    const uint8_t limit = performer->settings->hot_degrees;
-    const uint8_t now = performer->servos->hottest_degrees;
+    const uint8_t limit = PERFORMER_SETTINGS(performer)->hot_degrees;
+    const uint8_t now = PERFORMER_SERVOS(performer)->hottest_degrees;
     if (!performer->told_hot && limit != 0 && now >= limit) {
         performer->told_hot = true;
-        performer_tell(performer, PERFORMER_EV_HOT, performer->servos->hottest_id, now, 0);
+        performer_tell(performer, PERFORMER_EV_HOT, PERFORMER_SERVOS(performer)->hottest_id, now, 0);
     }
 }
 

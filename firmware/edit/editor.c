@@ -34,7 +34,6 @@ void editor_init(editor_t *editor)
     performer_set_source(&the_performer, &editor->source);
     robot_init(&editor->robot);
     screen_set_present(&editor->screen, the_servos.present);
-    editor_image.context = editor;
     machine_init(&editor->machine, &the_performer, &the_servos, &the_pages, &editor_image);
     screen_ask_size(&editor->screen);
     screen_sync(&editor->screen);

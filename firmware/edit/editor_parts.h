@@ -12,7 +12,7 @@ void editor_run(editor_t *editor);
 void editor_key(editor_t *editor, uint8_t key);
 
 /* editor_program.c: the open page from RAM for the performer, and the hooks of machine.h. */
-extern machine_image_t editor_image;
+extern const machine_image_t editor_image;
 void editor_source_read(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count);
 uint8_t editor_source_check(void *context, uint8_t page);
 

@@ -74,5 +74,5 @@ static void program_service(void *context __attribute__((unused)))
 }
 
 static const char image_name[] PROGMEM = "edit";
-machine_image_t editor_image = { image_name, program_service, program_page, program_open, program_changed,
+const machine_image_t editor_image = { image_name, program_service, program_page, program_open, program_changed,
                                          program_save, NULL };
