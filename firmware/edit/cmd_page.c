@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * cmd_page.c - the page as a whole: open, copy, new, save, name, undo, and leaving. */
 #include "commands.h"
+#include "compiler.h"
 #include "console.h"
 #include "frame.h"
 #include "page_save.h"
@@ -98,8 +99,8 @@ static void clear_off_marks(void)
     }
 }
 
-/* Faults that a save does not cure. */
-static bool page_is_sound(void)
+/* Faults that a save does not cure. Not inlined: the text would lie on the stack while the page is saved. */
+static NOINLINE bool page_is_sound(void)
 {
     session_t *session = &the_session;
     bool was_damaged = session->was_damaged;
