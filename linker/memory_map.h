@@ -8,10 +8,10 @@
 
 /* Flash, 128 KiB, 512 flash pages of 256 bytes. */
 #define MEM_FLASH_PAGE_BYTES 256
-/* The journal has what Edit leaves below the motions: 9 slots of 768 bytes (journal.h). */
+/* The journal: 10 slots of 768 bytes (journal.h); two flash pages behind them stay free. */
 #define MEM_APP_START 0x00000
-#define MEM_APP_END 0x0C500
-#define MEM_JOURNAL_START 0x0C500
+#define MEM_APP_END 0x0C000
+#define MEM_JOURNAL_START 0x0C000
 #define MEM_JOURNAL_END 0x0E000
 #define MEM_MOTION_START 0x0E000
 #define MEM_MOTION_END 0x1E000

@@ -111,8 +111,7 @@ def stack_figures():
                      "interrupts do not nest", "bytes free: " + ", ".join(f"{name} {n}" for name, n in free.items()),
                      min(free.values()) > 0),
         proof.Figure("Every image fits into the part of the flash that linker/memory_map.h gives it",
-                     "tools/size_report, against budgets of 48 KiB for an application, 8 KiB for the loader; a negative number is "
-                     "what the journal lends beyond the budget",
+                     "tools/size_report, against budgets of 48 KiB for an application, 8 KiB for the loader",
                      "bytes left of the budget: " + ", ".join(f"{name} {n}" for name, n in flash.items()), not over)]
 
 
