@@ -56,7 +56,7 @@ class Watched:
     """What both images have in common: the clock, what was told and when, the way into a situation."""
 
     rule, playing = "hold", False
-    shown, shown_row = frozenset(), ""     # what the row of Edit said last
+    shown, shown_row, heard = frozenset(), "", 0   # what the row of Edit said last; bytes until then
 
     def watch(self):
         """Forgets what was told; from now on `told` is {(joint, kind): ms after this}."""
@@ -206,16 +206,18 @@ class EditRobot(Watched):
     def listen(self):
         self.robot.pump()
         row, now = self.row(), set()
+        heard, self.heard = self.heard, len(self.board.console)
+        stands = row == self.shown_row and heard == self.heard  # two rows in a row may look alike while they are written
         for says, ids in re.findall(r"([A-Z][a-z ]+): ID ((?:\d+(?:-\d+)? )+)", row + " "):
             now |= {(joint, EDIT_SAYS[says]) for joint in _ids(ids) if says in EDIT_SAYS}
-        if row == self.shown_row and (now or "well" in row or "Battery" in row):  # it is all there, and it says all there is to say
+        if stands and (now or "well" in row or "Battery" in row):  # it is all there, and it says all there is to say
             for told in now:
                 self.note(*told)
             for joint, kind in self.shown - now:
                 if kind == SILENT:
                     self.note(joint, BACK)
             self.shown = now
-        if row == self.shown_row and self.playing and self.ended is None and ("Ended" in row or "OK" in row):
+        if stands and self.playing and self.ended is None and ("Ended" in row or "OK" in row):
             self.ended, self.end_text = self.since_ms, row.strip()
         self.shown_row = row
         for joint in self.held:
