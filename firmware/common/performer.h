@@ -62,7 +62,7 @@ typedef struct {
     uint8_t first_page;         /* the page that plays first: the one asked for, or where its links lead */
     uint8_t end;                /* performer_end_t to report */
     uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
-    bool leaving;               /* a break is under way */
+    bool leaving;               /* a break is under way, or was at the end. Read only for callers */
     bool pausing;               /* APPROACH: a pause is under way */
     bool slopes_due;            /* PLAY: the page's compliance goes out in this tick */
     bool told_battery, told_hot; /* each is told once a play */

@@ -118,9 +118,12 @@ static void tell_end(editor_t *editor, const performer_event_t *event)
     }
 }
 
+enum { LATE_TICKS = 64 };   /* half a second: who saw the robot move and meant to stop it */
+
 /* The play is over: the work pose is what the servos hold now. */
 static void play_ended(editor_t *editor, const performer_event_t *event)
 {
+    editor->wait_ticks = LATE_TICKS;
     robot_read(&editor->robot);
     if (editor->mode != EDITOR_PLAY) {
         return;
@@ -155,7 +158,7 @@ COMMAND(cmd_balance)
 {
     editor_t *const editor = &the_editor;
     (void)args;
-    editor->balance_ticks = 0;
+    editor->wait_ticks = 0;
     return EDITOR_TO_BALANCE;
 }
 
@@ -174,11 +177,7 @@ static void print_device(uint8_t id, char end)
 
 void cmd_balance_tick(editor_t *editor)
 {
-    if (editor->balance_ticks > 0) {
-        editor->balance_ticks--;
-        return;
-    }
-    editor->balance_ticks = BALANCE_TICKS - 1;
+    editor->wait_ticks = BALANCE_TICKS - 1;
     servo_link_quiet(&the_servos);
     screen_open_line(&editor->screen);
     print_device(BALANCE_FIRST_ID, ',');

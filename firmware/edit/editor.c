@@ -197,10 +197,16 @@ static void list_turn(editor_t *editor)
 
 /* ---- the main loop ---- */
 
+/* While a broken play slows down keys wait, for what follows it. */
+static bool may_take_bytes(const editor_t *editor)
+{
+    return editor->mode != EDITOR_LIST && !(editor->mode == EDITOR_PLAY && the_performer.leaving);
+}
+
 static void take_bytes(editor_t *editor)
 {
     uint8_t byte;
-    for (uint8_t i = 0; i < BYTES_PER_TURN && editor->mode != EDITOR_LIST && console_get(&byte); i++) {
+    for (uint8_t i = 0; i < BYTES_PER_TURN && may_take_bytes(editor) && console_get(&byte); i++) {
         editor_byte(editor, byte);
     }
     bool quiet = (uint16_t)(tick_now16() - editor->quiet_since) > ESC_QUIET_TICKS;
@@ -213,7 +219,9 @@ static void tick_work(editor_t *editor)
 {
     performer_tick(&the_performer);
     (void)settings_save_poll(&the_settings_store, &the_settings);
-    if (editor->mode == EDITOR_BALANCE) {
+    if (editor->wait_ticks != 0) {
+        editor->wait_ticks--;
+    } else if (editor->mode == EDITOR_BALANCE) {
         cmd_balance_tick(editor);
     }
     if (performer_is_idle(&the_performer) && editor->mode != EDITOR_MONITOR) {

@@ -54,7 +54,7 @@ typedef struct editor {
     uint8_t list_first, list_last; /* pages of LIST and CHECK */
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
     uint8_t cid;                   /* the monitor's current ID */
-    uint8_t balance_ticks;
+    uint8_t wait_ticks;            /* to BALANCE's next line; or a play has just ended: a space was meant to break it */
     bool faults_due;               /* something befell a servo: the row says it when the line has room */
     bool broken_off;               /* a servo's fault has ended the last play: the row says so until the next line is run */
     bool after_cr;                 /* the last byte was CR: a LF now belongs to it */

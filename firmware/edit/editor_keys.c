@@ -68,7 +68,9 @@ static void table_key(editor_t *editor, uint8_t key)
         cmd_cell_change(editor, key == '}' ? 10 : -10);
         break;
     case ' ':
-        cmd_cell_space(editor);
+        if (editor->wait_ticks == 0) {
+            cmd_cell_space(editor);
+        }
         break;
     case '@':
         open_program_line(editor);

@@ -173,6 +173,26 @@ def test_play_breaks_at_once_and_slows_down(key):
         assert goals(r) == stood
 
 
+def test_space_just_behind_the_end_of_a_play_changes_no_cell():
+    with start() as r:
+        r.line("goto 1 1")
+        r.board.send("play 5\r")
+        while not r.message.startswith("play 5 OK"):
+            r.board.run(ms=5)
+            r.pump()
+        r.keys(" ", ms=1000)
+        assert r.cell(1, 1) == "0400" and not r.unsaved
+        r.keys(" ")
+        assert r.cell(1, 1) == "????" and r.unsaved
+
+
+def test_what_is_typed_while_a_broken_play_slows_down_is_kept():
+    with start() as r:
+        r.keys("play 8\r", ms=3000)
+        r.keys("  page 6\r", ms=1000)
+        assert r.text(2, 76, 4) == "0006" and not r.unsaved
+
+
 def test_play_of_what_cannot_be_played_says_why():
     torn = page("torn", [(30, {})])
     torn.data[99] ^= 1
