@@ -83,9 +83,12 @@ static void clear_off_marks(void)
     uint8_t count = 0;
     for (uint16_t address = PAGE_AT_STEP0; address < PAGE_BYTES; address = (uint16_t)(address + 2u)) {
         uint16_t word = cell_word(session->cells, address);
+        if (!cell_is_off(word)) {
+            continue;
+        }
         bool is_word = address % PAGE_STEP_BYTES < PAGE_STEP_AT_PAUSE;
         bool is_trim = session->page == 0 && address / PAGE_STEP_BYTES == CELL_X_OFFSET;
-        if (is_word && !is_trim && cell_is_off(word)) {
+        if (is_word && !is_trim) {
             if (count++ == 0) {
                 session_begin(session);
             }
