@@ -40,8 +40,8 @@ static NOINLINE void start(void)
     ring_t *ring = console_rx_ring();
     receiver = (boot_rx_t){ ring->bytes, &ring->head, &ring->tail, console_rx_lost(), ring->mask };
     page_service_kind_t service = page_service_init(&receiver);
-    (void)journal_recover(the_session.cells);
-    the_editor.notice_P = service == PAGE_SERVICE_MAILBOX ? mail_text_P()
+    the_editor.notice_P = journal_recover(the_session.cells) == JOURNAL_RESTORED ? TEXT_P("Saved what was cut off")
+                      : service == PAGE_SERVICE_MAILBOX ? mail_text_P()
                       : service == PAGE_SERVICE_NONE  ? TEXT_P("No boot loader can write: no SAVE")
                                                       : NULL;
     page_store_init(&the_pages);

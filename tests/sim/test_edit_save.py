@@ -168,5 +168,7 @@ def test_play_says_that_a_cut_save_waits_for_edit(operation, torn):
         r.board.power_off()
         r.board.flash[0:APP_END] = application("edit-cm5.hex")
         r.board.power_on()
-        r.board.run(ms=1000)
+        r.terminal.screen.reset()
+        r.settle(ms=1500)
         assert r.flash_page(1) == (new_bytes() if torn else bytes(OLD.data))
+        assert (r.message.strip() == "Saved what was cut off") == torn
