@@ -212,12 +212,13 @@ static NOINLINE void approach_or_move_tick(performer_t *performer)
 static void play_tick(performer_t *performer)
 {
     player_t *player = &performer->engine.player;
-    const uint8_t events = player_tick(player, &performer->link);
+    uint8_t events = player_tick(player, &performer->link);
     if ((events & PLAYER_EV_PAGE) != 0) {
         performer->slopes_due = true;
     } else if (performer->slopes_due && (events & PLAYER_EV_BUSY) == 0) {
         performer->slopes_due = false;
         send_slopes(performer);
+        events |= PLAYER_EV_BUSY;
     }
     if ((events & PLAYER_EV_OUTPUT) != 0) {
         servo_link_goals(PERFORMER_SERVOS(performer), player->goal_pos, player->joints);

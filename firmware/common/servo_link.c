@@ -19,7 +19,7 @@ enum { PHASE_QUIET = 0, PHASE_GOALS, PHASE_SLOPES, PHASE_DEAF, PHASE_ACTION, PHA
 /* What a packet holds: 7 bytes around, the checksum, and per joint ID, slopes and goal. */
 #define PACKET_BYTES (BUS_PACKET_BYTES < DXL_PACKET_MAX ? BUS_PACKET_BYTES : DXL_PACKET_MAX)
 #define JOINTS_WITH_SLOPES ((PACKET_BYTES - 8u) / 5u)
-#define SLOPES_FIRST 0x0000FFFFul   /* what a packet of slopes alone takes first */
+#define SLOPES_JOINTS 8u   /* what a packet of slopes alone takes: a byte of the mask */
 STATIC_ASSERT(PACKET_BYTES >= 8u + 3u * SERVO_LINK_JOINTS, "all joints' goals fit into one packet");
 /* The health poll's stretch of the control table. */
 #define POLL_AT DXL_AT_TORQUE_ENABLE
@@ -224,7 +224,6 @@ void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_J
         if (*known != *compliance) {
             *known = *compliance;
             *pending |= bit;
-            link->slopes_wait = 2;
         }
         bit = (uint8_t)(bit << 1);
         if (bit == 0) {
@@ -232,6 +231,7 @@ void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_J
             pending++;
         }
     }
+    link->slopes_wait = 2;
 }
 
 /* REG WRITE of slopes and goal to the next servo that is deaf to SYNC WRITE. */
@@ -374,9 +374,11 @@ static bool send_rest(servo_link_t *link)
 {
     uint32_t pending = link->slopes_pending & link->goals_joints & ~link->no_sync;
     if (link->phase == PHASE_GOALS && pending != 0 && link->slopes_wait == 0 && !link->held) {
-        if (pending & SLOPES_FIRST) {
-            pending &= SLOPES_FIRST;
+        uint32_t first = (1ul << SLOPES_JOINTS) - 1u;
+        while ((pending & first) == 0) {
+            first <<= SLOPES_JOINTS;
         }
+        pending &= first;
         link->slopes_pending &= ~pending;
         link->phase = PHASE_SLOPES;
         (void)bus_submit(build_slopes(link, pending, false), BUS_NO_ANSWER, 1);

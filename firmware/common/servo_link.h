@@ -94,8 +94,8 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
     NOINLINE;   /* a name of its own in the image: the bench counts its cycles */
 
 /* Compliance bytes of a page (motion512.md: nibbles CW, CCW; 0 and above 7 count as 5): what differs from what was sent
- * last goes out with the next goals in the same packet, up to 27 joints. Above, it follows in packets of its own for 16 joints
- * each, behind the goals of the two ticks after: the tick of a page change has enough to do. */
+ * last goes out with the next goals in the same packet, up to 27 joints. Above, it follows in packets of its own for 8 joints
+ * each, behind the goals of the ticks after that have room for it: the tick of a page change has enough to do. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
 
 /* Behind servo_link_goals, in a tick that has enough to do: slopes and the health poll wait for the next one. */

@@ -27,7 +27,7 @@ static void test_31_joints_fit_into_one_packet_of_101_bytes(void)
     const uint8_t *packet = NULL;
     (void)fake_bus_add(0, BUS_RATE_1M);
     robot(30);
-    for (uint8_t i = 0; i < 3; i++) {
+    for (uint8_t i = 0; i < 5; i++) {
         tick_with_goals(SERVO_LINK_ALL);   /* slopes follow */
     }
     fake_bus_clear_log();
@@ -120,10 +120,15 @@ static void test_slopes_of_more_than_27_joints_follow_in_packets_of_their_own(vo
     TEST_ASSERT_EQUAL(3, logged(DXL_SYNC_WRITE, &packet));
     TEST_ASSERT_EQUAL(DXL_AT_CW_SLOPE, packet[5]);
     TEST_ASSERT_EQUAL(2, packet[6]);
+    TEST_ASSERT_EQUAL(8, fake_bus_servo(7)->table[DXL_AT_CCW_SLOPE]);
+    TEST_ASSERT_EQUAL(32, fake_bus_servo(8)->table[DXL_AT_CCW_SLOPE]);
+    tick_with_goals(SERVO_LINK_ALL);
+    TEST_ASSERT_EQUAL(5, logged(DXL_SYNC_WRITE, &packet));
     TEST_ASSERT_EQUAL(8, fake_bus_servo(15)->table[DXL_AT_CCW_SLOPE]);
     TEST_ASSERT_EQUAL(32, fake_bus_servo(16)->table[DXL_AT_CCW_SLOPE]);
     tick_with_goals(SERVO_LINK_ALL);
-    TEST_ASSERT_EQUAL(5, logged(DXL_SYNC_WRITE, &packet));
+    tick_with_goals(SERVO_LINK_ALL);
+    TEST_ASSERT_EQUAL(9, logged(DXL_SYNC_WRITE, &packet));
     TEST_ASSERT_EQUAL(8, fake_bus_servo(28)->table[DXL_AT_CCW_SLOPE]);
     fake_bus_clear_log();
     tick_with_goals(SERVO_LINK_ALL);
