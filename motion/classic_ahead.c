@@ -88,7 +88,7 @@ static void measure_coming(player_t *player, uint16_t longest_way)
     player->through_recip = recip_of(through_divisor(player));
 }
 
-speed_left_t classic_left(const player_t *player)
+uint8_t classic_left(const player_t *player)
 {
     if (player->hold_ticks != 0) {
         return LEFT_NONE;
@@ -117,45 +117,25 @@ static inline uint32_t way_to_divide(const player_joint_t *joint, int16_t carrie
     return size;
 }
 
-/* Of a joint whose way in the step behind the coming one is known, through_speed says whether it runs through, and
- * stop_speed is the one speed that it then needs. Of the others they are what their names say. */
-static inline void prepare_known(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, bool through,
-                                 const divider_t *by)
-{
-    bool negative;
-    uint32_t size = way_to_divide(joint, carried, twice_ramp, &negative);
-    int16_t speed = divide_speed(size, by);
-    joint->stop_speed = negative ? (int16_t)-speed : speed;
-    joint->through_speed = through;
-}
-
-static inline void prepare_both(player_joint_t *joint, int16_t carried, uint16_t twice_ramp, const divider_t by[2])
-{
-    bool negative;
-    uint32_t size = way_to_divide(joint, carried, twice_ramp, &negative);
-    int16_t speed = divide_speed(size, &by[0]);
-    joint->stop_speed = negative ? (int16_t)-speed : speed;
-    speed = divide_speed(size, &by[1]);
-    joint->through_speed = negative ? (int16_t)-speed : speed;
-}
-
-static inline void take_targets(player_t *player, const uint8_t *word)
+static inline void take_targets(player_t *player, const uint8_t *step)
 {
     player_joint_t *joint = player->joint;
     const uint8_t *present = (const uint8_t *)&player->present;
-    uint8_t *used = (uint8_t *)&player->coming_joints, may = 0, bit = 0;
-    for (uint8_t left = PAGE_JOINTS; left != 0; left--, joint++, word += 2) {
-        if (bit == 0) {
-            bit = 1;
-            may = *present++;
-            *used++ = 0;
-        }
-        uint16_t pos = page_word(word);
-        if (page_pos_is_used(pos) && (may & bit) != 0) {
-            used[-1] |= bit;
-            joint->coming_pos = pos;
-        }
-        bit = (uint8_t)(bit << 1);
+    uint8_t *used = (uint8_t *)&player->coming_joints;
+    for (uint8_t byte = sizeof player->present; byte != 0; byte--) {
+        uint8_t may = *present++, taken = 0, bit = 1, end = byte > 1 ? 0 : 1u << (PAGE_JOINTS % 8);
+        do {
+            uint16_t word = page_word(step);
+            step += 2;
+            OPAQUE(word); /* load and step in one */
+            if ((may & bit) != 0 && page_pos_is_used(word)) {
+                joint->coming_pos = word;
+                taken |= bit;
+            }
+            joint++;
+            bit = (uint8_t)(bit << 1);
+        } while (bit != end);
+        *used++ = taken;
     }
 }
 
@@ -179,26 +159,38 @@ bool classic_knows_behind(const player_t *player)
 #define PREPARED_ALL (1u + PAGE_JOINTS)
 #define AT_ONCE 16u
 
+/* Of a joint whose way in the step behind the coming one is known, through_speed says whether it runs through, and
+ * stop_speed is the one speed that it then needs. Of the others they are what their names say. */
 static RARE void prepare_joints(player_t *player, uint8_t first, uint8_t count)
 {
     divider_t by[2] = {{stop_divisor(player), player->coming_recip}, {through_divisor(player), player->through_recip}};
     uint16_t twice_ramp = (uint16_t)(2 * player->coming_ramp_ticks);
-    speed_left_t carry = player_is_in_law(player) ? classic_left(player) : LEFT_NONE;
-    player_joint_t *joint = &player->joint[first];
-    if (!classic_knows_behind(player)) {
-        for (; count != 0; count--, joint++) {
-            prepare_both(joint, classic_speed_left(carry, joint), twice_ramp, by);
-        }
-        return;
-    }
+    uint8_t carry = player_is_in_law(player) ? classic_left(player) : LEFT_NONE;
+    bool known = classic_knows_behind(player), may_run_on = known && step_plan_classic_hold(&player->coming) == 0;
     uint8_t words[2 * AT_ONCE], *at = words;
-    player->source->read(player->source->context, player->coming.page,
-                         (uint16_t)(PAGE_STEP_BYTES * (player->coming.step + 1u) + 2u * first), words,
-                         (uint8_t)(2u * count));
-    bool may_run_on = step_plan_classic_hold(&player->coming) == 0;
-    for (; count != 0; count--, joint++, at += 2) {
-        bool through = may_run_on && classic_runs_on(joint, page_word(at));
-        prepare_known(joint, classic_speed_left(carry, joint), twice_ramp, through, through ? &by[1] : &by[0]);
+    if (may_run_on) {
+        player->source->read(player->source->context, player->coming.page,
+                             (uint16_t)(PAGE_STEP_BYTES * (player->coming.step + 1u) + 2u * first), words,
+                             (uint8_t)(2u * count));
+    }
+    for (player_joint_t *joint = &player->joint[first]; count != 0; count--, joint++) {
+        const divider_t *with = by;
+        bool negative, through = false;
+        if (may_run_on) {
+            uint16_t word = page_word(at);
+            at += 2;
+            OPAQUE(word);
+            through = classic_runs_on(joint, word);
+            with += through ? 1 : 0;
+        }
+        joint->through_speed = through;
+        uint32_t size = way_to_divide(joint, classic_speed_left(carry, joint), twice_ramp, &negative);
+        int16_t *speed = &joint->stop_speed;
+        uint8_t left = known ? 1 : 2;
+        do {
+            int16_t quotient = divide_speed(size, with++);
+            *speed++ = negative ? (int16_t)-quotient : quotient;
+        } while (--left != 0);
     }
 }
 
@@ -216,7 +208,7 @@ void classic_prepare(player_t *player, uint8_t count)
     if (count > left) {
         count = left;
     }
-    if (count > AT_ONCE) {
+    if (count > AT_ONCE && classic_knows_behind(player)) {
         count = AT_ONCE;
     }
     player->prepared = (uint8_t)(player->prepared + count);
@@ -232,8 +224,9 @@ void classic_prepare_all(player_t *player)
 
 /* --- which tick does how much -----------------------------------------------------------------------------------------
  *
- * Cycles of a tick without work ahead, 31 joints; a look takes 2,600 (in speed base 3,800), a joint 195 (280 when the
- * link is not decided), and a frame leaves a tick 8,400, 8,000 with a health poll, 6,300 with slopes:
+ * Cycles of a tick without work ahead, 31 joints; a look takes 2,200 (in speed base 3,400), a joint 190 (310 with a
+ * speed carried, 380 when the link is not decided), and a frame leaves a tick 8,400, 8,000 with a health poll, 7,000 with
+ * slopes:
  *
  *   a step begins, in RISE     5,700 (ramp of 1 tick: 3,000, of 2: 4,300)     later ticks of RISE, FALL    4,100
  *   CRUISE begins              4,600 to 7,600                                 of CRUISE                    1,700
@@ -242,8 +235,10 @@ enum { PACE_HURRY, PACE_SHORT, PACE_BRISK, PACE_EASY, PACE_SLOW };
 
 #define RAMP_SHORT 2u
 
+/* Joints to make ready in such a tick. CRUISE begins cheaper when it has one tick, or two behind a ramp of one; FALL
+ * behind a short ramp. */
 typedef struct {
-    uint8_t cruise_begins, long_cruise_begins, fall_begins, cruise, ramp; /* joints to make ready in such a tick */
+    uint8_t begin, cruise_of_one, cruise_of_two, cruise_begins, short_fall_begins, fall_begins, cruise, ramp;
 } shares_t;
 
 uint8_t classic_pace(uint16_t ticks)
@@ -251,32 +246,46 @@ uint8_t classic_pace(uint16_t ticks)
     return ticks < 4 ? PACE_HURRY : ticks < 8 ? PACE_SHORT : ticks < 16 ? PACE_BRISK : ticks < 44 ? PACE_EASY : PACE_SLOW;
 }
 
-static uint8_t share_now(const player_t *player, bool change)
+/* When the link behind the coming step is not decided, when it is known where the joints go on to. */
+static const shares_t shares[2][PACE_SLOW + 1] PROGMEM = {
+    {{7, 14, 14, 14, 10, 10, 10, 10}, {5, 9, 6, 3, 12, 6, 15, 9}, {0, 0, 0, 0, 6, 4, 12, 7}, {0, 0, 0, 0, 0, 0, 4, 4},
+     {0, 0, 0, 0, 0, 0, 1, 1}},
+    {{7, 14, 14, 14, 10, 10, 10, 10}, {5, 11, 8, 3, 12, 6, 15, 8}, {0, 0, 0, 0, 2, 2, 14, 7}, {0, 0, 0, 0, 0, 0, 4, 4},
+     {0, 0, 0, 0, 0, 0, 1, 1}}};
+
+static uint8_t share_now(const player_t *player, bool change, bool begins)
 {
-    static const shares_t shares[] PROGMEM = {{13, 13, 12, 12, 12}, {11, 3, 12, 16, 8}, {0, 0, 0, 16, 8}, {0, 0, 0, 4, 4},
-                                              {0, 0, 0, 1, 1}};
-    const shares_t *share = &shares[player->pace];
-    bool ramps = player->section == SECTION_RISE || player->section == SECTION_FALL;
-    if (change) {
-        bool dear = player->section_ticks != 1 && player->ramp_ticks != 1; /* and more cheap ticks follow */
-        return pgm_read_byte(ramps ? &share->fall_begins : dear ? &share->long_cruise_begins : &share->cruise_begins);
+    const shares_t *share = &shares[classic_knows_behind(player) ? 1 : 0][player->pace];
+    const uint8_t *at;
+    if (begins) {
+        at = &share->begin;
+    } else if (player->section == SECTION_RISE || player->section == SECTION_FALL) {
+        bool is_short = player->ramp_ticks <= RAMP_SHORT;
+        at = !change ? &share->ramp : is_short ? &share->short_fall_begins : &share->fall_begins;
+    } else {
+        uint16_t ticks = player->section_ticks;
+        bool is_cheap = ticks == 2 && player->ramp_ticks == 1;
+        at = !change ? &share->cruise : ticks == 1 ? &share->cruise_of_one : is_cheap ? &share->cruise_of_two
+                                                                                     : &share->cruise_begins;
     }
-    return pgm_read_byte(ramps ? &share->ramp : &share->cruise);
+    return pgm_read_byte(at);
 }
 
-/* Where a step begins there is only room for a look, and that behind a short ramp. */
-#define HURRY_AT_ONCE 6u
+/* Where a step begins there is only room for a look, and that behind a short ramp; behind a ramp of one tick for joints
+ * too, but for few in speed base. */
+#define BEGIN_IN_SPEED_BASE 1u
 static bool begin_work(player_t *player)
 {
     bool hurries = player->pace == PACE_HURRY;
-    bool looks = hurries || (player->pace == PACE_SHORT && player->ramp_ticks <= RAMP_SHORT);
-    if (looks) {
-        classic_prepare(player, 0);
+    if (!hurries && (player->pace != PACE_SHORT || player->ramp_ticks > RAMP_SHORT)) {
+        return false;
     }
-    if (hurries) {
-        classic_prepare(player, HURRY_AT_ONCE);
+    classic_prepare(player, 0);
+    if (player->ramp_ticks < RAMP_SHORT) {
+        bool measures = player->coming.schedule == PAGE_SCHEDULE_SPEED;
+        classic_prepare(player, measures && !hurries ? BEGIN_IN_SPEED_BASE : share_now(player, true, true));
     }
-    return looks;
+    return true;
 }
 
 bool classic_work_ahead(player_t *player, bool change, bool begins)
@@ -286,7 +295,7 @@ bool classic_work_ahead(player_t *player, bool change, bool begins)
     }
     bool looks = player->prepared == 0;
     if (!looks || !change || player->pace <= PACE_SHORT) {
-        uint8_t share = share_now(player, change);
+        uint8_t share = share_now(player, change, false);
         if (looks || share != 0) {
             classic_prepare(player, share);
         }

@@ -152,11 +152,11 @@ static inline bool classic_runs_on(const player_joint_t *joint, uint16_t word)
 }
 
 /* The speed that a joint still has when the step playing now is over, w of the coming one, and how to know it. */
-typedef enum { LEFT_NONE, LEFT_IF_THROUGH, LEFT_SPEED, LEFT_CARRIED } speed_left_t;
+typedef enum { LEFT_NONE, LEFT_IF_THROUGH, LEFT_SPEED, LEFT_CARRIED } speed_left_t; /* in uint8_t */
 
-speed_left_t classic_left(const player_t *player);
+uint8_t classic_left(const player_t *player);
 
-static inline int16_t classic_speed_left(speed_left_t left, const player_joint_t *joint)
+static inline int16_t classic_speed_left(uint8_t left, const player_joint_t *joint)
 {
     if (left == LEFT_NONE || (left == LEFT_IF_THROUGH && !joint->classic.through)) {
         return 0;

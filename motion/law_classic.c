@@ -34,7 +34,7 @@ static void enter(player_t *player, uint8_t section, uint16_t ticks)
 
 /* Between two steps (primed) a joint has in carried, through and speed what belongs to the step to begin, which leads from
  * target_pos to coming_pos. */
-RARE static void prime_known(player_t *player, speed_left_t left)
+RARE static void prime_known(player_t *player, uint8_t left)
 {
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
         joint->classic.carried = classic_speed_left(left, joint);
@@ -44,7 +44,7 @@ RARE static void prime_known(player_t *player, speed_left_t left)
 }
 
 /* The link has been decided. step: the step that it leads to, when the player looks ahead. */
-RARE static void prime_decided(player_t *player, speed_left_t left, const uint8_t *step)
+RARE static void prime_decided(player_t *player, uint8_t left, const uint8_t *step)
 {
     bool may_run_on = player_looks_ahead(player) && step_plan_classic_hold(&player->now) == 0;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, step += 2) {
@@ -64,7 +64,7 @@ RARE static void prime(player_t *player, link_t *link)
     player->joints |= player->coming_joints;
     player_next_step(player, link, step, known ? PAGE_STEP_AT_PAUSE : 0);
     player->primed = true;
-    speed_left_t left = classic_left(player);
+    uint8_t left = classic_left(player);
     known ? prime_known(player, left) : prime_decided(player, left, step);
 }
 
@@ -239,7 +239,7 @@ RARE static uint8_t end_play(player_t *player)
     if (num == 0) {
         return events;
     }
-    speed_left_t left = classic_left(player);
+    uint8_t left = classic_left(player);
     spread_t over = spread_over(num);
     uint16_t *goal = player->goal_pos;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
