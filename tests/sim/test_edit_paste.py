@@ -53,3 +53,13 @@ def test_200_lines_with_saves_at_line_rate_lose_nothing():
         print(f"paste: {len(lines)} lines, {len(text)} bytes in {r.board.now_ms - start:.0f} ms, 10 saves")
         for number, data in pages.items():
             assert r.flash_page(number) == data, number
+
+
+def test_a_pc_that_was_told_to_wait_may_go_on_after_a_restart():
+    with robot() as r:
+        r.board.take()
+        r.board.send(b"re\r" * 100)
+        r.board.expect(chr(XOFF), ms=3000)
+        r.board.reset()
+        r.board.run(ms=2500)
+        assert [byte for byte in r.board.take() if byte in (XON, XOFF)][-1:] == [XON]
