@@ -15,6 +15,7 @@ from endure.edit import FIRST, LAST, MOTION_START, Editor
 from endure.walk import DOWN, LEFT, RIGHT, UP, Walker
 from m512.image import Image
 from made_page import page
+from powercuts.robot import SLOT_BYTES, SLOTS
 
 TITLE = "Endurance"
 
@@ -24,7 +25,7 @@ MEASURE_MINUTES = 10            # the yardstick is laid on so often
 FLASH_CYCLES, EEPROM_CYCLES = 10_000, 100_000   # what the data sheet promises
 PLAY_HEADROOM, EDIT_HEADROOM = 512, 384
 FLASH_PAGE = MAP["MEM_FLASH_PAGE_BYTES"]
-JOURNAL = MAP["MEM_JOURNAL_START"], MAP["MEM_JOURNAL_END"]
+JOURNAL = MAP["MEM_JOURNAL_START"], MAP["MEM_JOURNAL_START"] + SLOTS * SLOT_BYTES   # two flash pages behind it are no slot
 ALL_JOINTS = range(31)
 BOW = 2
 
