@@ -116,16 +116,19 @@ class Trial:
         """A jammed servo that has not noticed yet."""
         return kind in (OVERLOAD, TORQUE) and "blocked" in self.by_joint[joint] and OVERLOAD not in self.servos[joint].alarms
 
+    def rule_acts(self):
+        return self.robot.playing and any(kind in GRAVE and joint != RELEASED for joint, kind in self.robot.told)
+
     def obey_rule(self):
         """What the rest of the robot does."""
         robot = self.robot
         robot.run(max(0, NAMED_MS - robot.since_ms))
-        acts = robot.playing and any(kind in GRAVE and joint != RELEASED for joint, kind in robot.told)
+        if not self.rule_acts() or robot.rule == "limp":
+            robot.run(500)      # meanwhile a late talker may still fall silent
+        acts = self.rule_acts()
         over = acts and robot.rule != "limp"
         if over:
             robot.run_until(lambda: robot.ended is not None, RULE_MS[robot.rule])
-        else:
-            robot.run(500)
         if over != (robot.ended is not None) and robot.playing:
             self.complain(f"the play {'went on' if over else 'ended'}, rule {robot.rule}")
         elif over and "ervo" not in robot.end_text:
