@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: MIT
+ * The editor's keys and modes: questions before edits are lost, keys on the table and in a line, and what stops a play;
+ * editor-original.md section 4, issue 3. */
+#include "editor_stage.h"
+#include "unity.h"
+
+#include <string.h>
+
+#define UP "\033[A"
+#define DOWN "\033[B"
+#define RIGHT "\033[C"
+#define LEFT "\033[D"
+
+static uint16_t word_at(uint16_t address)
+{
+    return (uint16_t)(the_session.cells[address] | the_session.cells[address + 1] << 8);
+}
+
+static void change_a_cell(void)
+{
+    type("goto 1 3\r");
+    type("set 700\r");
+    TEST_ASSERT_TRUE(the_session.is_changed);
+}
+
+/* ---- questions ---- */
+
+static void test_question_comes_before_edits_are_dropped(void)
+{
+    static const char *const lines[] = {"page 2\r", "next\r", "before\r", "copy 2\r", "new\r", "exit\r", "mon\r"};
+    change_a_cell();
+    for (uint8_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        type(lines[i]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(message(), "Are you sure?[y/N]"), lines[i]);
+        type("n");
+        TEST_ASSERT_EQUAL_UINT16_MESSAGE(700, word_at(70), lines[i]);
+        TEST_ASSERT_EQUAL_UINT8_MESSAGE(1, the_session.page, lines[i]);
+        TEST_ASSERT_EQUAL_UINT8_MESSAGE(EDITOR_TABLE, the_editor.mode, lines[i]);
+    }
+}
+
+static void test_any_key_but_y_says_no(void)
+{
+    static const char *const keys[] = {"n", "\r", " ", "x", "2", "\x03"};
+    change_a_cell();
+    for (uint8_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        type("page 2\r");
+        type(keys[i]);
+        TEST_ASSERT_EQUAL_UINT8_MESSAGE(1, the_session.page, keys[i]);
+        TEST_ASSERT_EQUAL_UINT16_MESSAGE(700, word_at(70), keys[i]);
+    }
+    type("page 2\r");
+    type("Y");
+    TEST_ASSERT_EQUAL_UINT8(2, the_session.page);
+    TEST_ASSERT_FALSE(the_session.is_changed);
+}
+
+static void test_nobody_is_asked_when_nothing_is_lost(void)
+{
+    type("page 2\r");
+    TEST_ASSERT_EQUAL_UINT8(2, the_session.page);
+    type("copy 1\r");
+    TEST_ASSERT_EQUAL_UINT16(403, word_at(70));
+    TEST_ASSERT_TRUE(the_session.is_changed);
+    type("undo\r");
+    type("before\r");
+    TEST_ASSERT_EQUAL_UINT8(1, the_session.page);
+}
+
+static void test_exit_restarts_only_after_the_question(void)
+{
+    change_a_cell();
+    TEST_ASSERT_FALSE(restarts("exit\r"));
+    TEST_ASSERT_FALSE(restarts("n"));
+    TEST_ASSERT_FALSE(restarts("exit\r"));
+    TEST_ASSERT_TRUE(restarts("y"));
+}
+
+static void test_save_writes_the_page_and_takes_the_mark_away(void)
+{
+    change_a_cell();
+    type("save\r");
+    TEST_ASSERT_EQUAL_STRING("save OK", message());
+    TEST_ASSERT_EQUAL_MEMORY(the_session.cells, flash_page(1), PAGE_BYTES);
+    TEST_ASSERT_FALSE(the_session.is_changed);
+}
+
+/* ---- keys on the table ---- */
+
+static void test_arrows_move_the_cursor_and_stop_at_the_edge(void)
+{
+    type(UP LEFT);
+    TEST_ASSERT_EQUAL_UINT8(0, the_session.x);
+    TEST_ASSERT_EQUAL_UINT8(0, the_session.y);
+    type(DOWN DOWN RIGHT);
+    TEST_ASSERT_EQUAL_UINT8(1, the_session.x);
+    TEST_ASSERT_EQUAL_UINT8(2, the_session.y);
+    type("goto 7 32\r");
+    type(DOWN RIGHT);
+    TEST_ASSERT_EQUAL_UINT8(7, the_session.x);
+    TEST_ASSERT_EQUAL_UINT8(32, the_session.y);
+}
+
+static void test_brackets_change_a_position_within_its_range(void)
+{
+    type("goto 1 3\r");
+    type("]}[");
+    TEST_ASSERT_EQUAL_UINT16(413, word_at(70));
+    type("set 1020\r");
+    type("}");
+    TEST_ASSERT_EQUAL_UINT16(1020, word_at(70));
+    type("set 5\r");
+    type("{");
+    TEST_ASSERT_EQUAL_UINT16(5, word_at(70));
+}
+
+static void test_brackets_wrap_a_byte_and_stop_at_seven_steps(void)
+{
+    type("goto 1 31\r");
+    type("[");
+    TEST_ASSERT_EQUAL_UINT8(255, the_session.cells[64 + 62]);
+    type("]");
+    TEST_ASSERT_EQUAL_UINT8(0, the_session.cells[64 + 62]);
+    type("goto 9 9\r");
+    type("}");
+    TEST_ASSERT_EQUAL_UINT8(7, the_session.cells[20]);
+    type("{");
+    TEST_ASSERT_EQUAL_UINT8(0, the_session.cells[20]);
+}
+
+static void test_space_takes_a_position_away_and_gives_it_back(void)
+{
+    type("goto 1 3\r");
+    type(" ");
+    TEST_ASSERT_EQUAL_STRING("????", cell(1, 3));
+    TEST_ASSERT_EQUAL_HEX16(0x2000 + 403, word_at(70));
+    type(" ");
+    TEST_ASSERT_EQUAL_STRING("0403", cell(1, 3));
+    type("goto 1 31\r");
+    type(" ");
+    TEST_ASSERT_EQUAL_UINT8(0, the_session.cells[64 + 62]);
+    TEST_ASSERT_FALSE(the_session.is_changed);
+}
+
+static void test_space_on_the_work_pose_holds_and_lets_go(void)
+{
+    type("goto 0 2\r");
+    type(" ");
+    TEST_ASSERT_EQUAL_UINT8(1, fake_bus_servo(2)->table[24]);
+    TEST_ASSERT_EQUAL_UINT16(512, fake_bus_word(2, 30));
+    TEST_ASSERT_EQUAL_STRING("0512", cell(0, 2));
+    type(" ");
+    TEST_ASSERT_EQUAL_UINT8(0, fake_bus_servo(2)->table[24]);
+    TEST_ASSERT_EQUAL_STRING("????", cell(0, 2));
+}
+
+/* ---- keys in a line ---- */
+
+static void test_cr_lf_and_both_end_a_line_once(void)
+{
+    static const char *const ends[] = {"page 2\r", "page 1\n", "page 2\r\n"};
+    for (uint8_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        type(ends[i]);
+        TEST_ASSERT_EQUAL_UINT8(i == 1 ? 1 : 2, the_session.page);
+        TEST_ASSERT_EQUAL_UINT8(EDITOR_TABLE, the_editor.mode);
+    }
+}
+
+static void test_backspace_and_delete_take_back(void)
+{
+    type("page 19\x08\x7F" "2\r");
+    TEST_ASSERT_EQUAL_UINT8(2, the_session.page);
+}
+
+static void test_ctrl_c_leaves_the_line_and_runs_nothing(void)
+{
+    type("page 2\x03");
+    TEST_ASSERT_EQUAL_UINT8(EDITOR_TABLE, the_editor.mode);
+    type("\r");
+    TEST_ASSERT_EQUAL_UINT8(1, the_session.page);
+}
+
+static void test_ctrl_a_recalls_the_line_before(void)
+{
+    type("page 2\r");
+    type("page 1\r");
+    type("x\x15\x01\x01\r");
+    TEST_ASSERT_EQUAL_UINT8(2, the_session.page);
+}
+
+static void test_line_that_is_too_long_is_not_run(void)
+{
+    type("page 2");
+    for (uint8_t i = 0; i < 13; i++) {
+        type("          ");
+    }
+    type("\r");
+    TEST_ASSERT_EQUAL_UINT8(1, the_session.page);
+    TEST_ASSERT_EQUAL_STRING("Line too long", message());
+}
+
+/* ---- a play ---- */
+
+static uint16_t goal(void)
+{
+    return fake_bus_word(1, 30);
+}
+
+static void start_play(void)
+{
+    type("play 5\r");
+    run_ms(11500);
+    TEST_ASSERT_FALSE(performer_is_idle(&the_performer));
+    TEST_ASSERT_EQUAL_UINT8(EDITOR_PLAY, the_editor.mode);
+}
+
+static void test_space_and_ctrl_c_break_a_play_at_once(void)
+{
+    static const char *const keys[] = {" ", "\x03"};
+    for (uint8_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        start_play();
+        type(keys[i]);
+        TEST_ASSERT_TRUE(performer_is_idle(&the_performer));
+        TEST_ASSERT_EQUAL_STRING("play 5[BREAK] OK", message());
+        const uint16_t stood = goal();
+        run_ms(1000);
+        TEST_ASSERT_EQUAL_UINT16(stood, goal());
+        TEST_ASSERT_EQUAL_UINT8(1, fake_bus_servo(1)->table[24]);
+    }
+}
+
+static void test_cr_and_esc_let_the_page_come_to_its_end(void)
+{
+    static const char *const keys[] = {"\r", "\033"}, *const shown_keys[] = {"play 5[STOP]", "play 5[Exit]"};
+    for (uint8_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        start_play();
+        type(keys[i]);
+        TEST_ASSERT_EQUAL_STRING(shown_keys[i], message());
+        TEST_ASSERT_FALSE(performer_is_idle(&the_performer));
+        for (uint8_t s = 0; s < 60 && !performer_is_idle(&the_performer); s++) {
+            run_ms(1000);
+        }
+        run_ms(100);
+        TEST_ASSERT_EQUAL_UINT16(600, goal());
+        TEST_ASSERT_EQUAL_UINT8(EDITOR_TABLE, the_editor.mode);
+        TEST_ASSERT_NOT_NULL(strstr(message(), "OK"));
+    }
+}
+
+static void test_other_keys_do_nothing_to_a_play(void)
+{
+    start_play();
+    type("x]2y");
+    TEST_ASSERT_FALSE(performer_is_idle(&the_performer));
+    TEST_ASSERT_EQUAL_STRING("play 5", message());
+    TEST_ASSERT_FALSE(the_session.is_changed);
+}
+
+static void test_what_is_typed_behind_a_break_waits_for_the_end(void)
+{
+    start_play();
+    type(" page 2\r");
+    TEST_ASSERT_EQUAL_UINT8(2, the_session.page);
+}
+
+static void test_space_just_behind_the_end_was_meant_for_the_play(void)
+{
+    type("goto 1 3\r");
+    start_play();
+    type("  ");
+    TEST_ASSERT_EQUAL_STRING("0403", cell(1, 3));
+    run_ms(600);
+    type(" ");
+    TEST_ASSERT_EQUAL_STRING("????", cell(1, 3));
+}
+
+static void test_page_0_is_not_played(void)
+{
+    type("play 0\r");
+    TEST_ASSERT_EQUAL_STRING("play 0 Page must be 1..127", message());
+    TEST_ASSERT_TRUE(performer_is_idle(&the_performer));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_question_comes_before_edits_are_dropped);
+    RUN_TEST(test_any_key_but_y_says_no);
+    RUN_TEST(test_nobody_is_asked_when_nothing_is_lost);
+    RUN_TEST(test_exit_restarts_only_after_the_question);
+    RUN_TEST(test_save_writes_the_page_and_takes_the_mark_away);
+    RUN_TEST(test_arrows_move_the_cursor_and_stop_at_the_edge);
+    RUN_TEST(test_brackets_change_a_position_within_its_range);
+    RUN_TEST(test_brackets_wrap_a_byte_and_stop_at_seven_steps);
+    RUN_TEST(test_space_takes_a_position_away_and_gives_it_back);
+    RUN_TEST(test_space_on_the_work_pose_holds_and_lets_go);
+    RUN_TEST(test_cr_lf_and_both_end_a_line_once);
+    RUN_TEST(test_backspace_and_delete_take_back);
+    RUN_TEST(test_ctrl_c_leaves_the_line_and_runs_nothing);
+    RUN_TEST(test_ctrl_a_recalls_the_line_before);
+    RUN_TEST(test_line_that_is_too_long_is_not_run);
+    RUN_TEST(test_space_and_ctrl_c_break_a_play_at_once);
+    RUN_TEST(test_cr_and_esc_let_the_page_come_to_its_end);
+    RUN_TEST(test_other_keys_do_nothing_to_a_play);
+    RUN_TEST(test_what_is_typed_behind_a_break_waits_for_the_end);
+    RUN_TEST(test_space_just_behind_the_end_was_meant_for_the_play);
+    RUN_TEST(test_page_0_is_not_played);
+    return UNITY_END();
+}
