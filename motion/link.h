@@ -39,8 +39,8 @@ void link_call(link_t *link, uint8_t code);
  * heard again (a remote repeats its packets) is not another one: a thumb on `forward` cannot undo somebody's stop. */
 void link_code(link_t *link, uint8_t code);
 
-/* A soft stop, whatever the mode; stays until the play is over or a new one is called. Of link_stop and link_end the last one
- * counts. */
+/* A soft stop, whatever the mode; stays until the play is over or a new one is called. Of link_stop and link_end the last
+ * one counts. */
 void link_stop(link_t *link);
 
 /* The play ends with the repetition that is on, without the exit page: every link is 0. Stays until a new call. */

@@ -9,7 +9,8 @@
  * end of the region that addr is in, never the sum byte; keeps the rest of the first and the last flash page. */
 void load_flash(uint32_t addr);
 
-/* UP, EEP_UP: `count` raw bytes from memory.h's address `addr` on to the PC once START has been pressed and released, or any byte received (ESC: none). */
+/* UP, EEP_UP: `count` raw bytes from memory.h's address `addr` on to the PC once START has been pressed and released, or any
+ * byte received (ESC: none). */
 void load_send(uint32_t addr, uint32_t count);
 
 /* EEP_DN: takes exactly `count` (at most MEMORY_WORK_BYTES) raw bytes, then writes them. 2 s of silence give up. */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * page_save.h - puts a motion page into flash so that a power cut leaves the old page or the new one (journal.h), through
  * whoever can write here (page_service.h). The reading side is page_store.h. Main loop only, nothing may be moving.
- * After a start, journal_recover comes first, before page_store_init: it finishes what a power cut left. No RAM. At most 60 ms: six flash pages of 9 ms; flow control keeps the PC silent meanwhile, and our loader's service
- * keeps what still arrives. */
+ * After a start, journal_recover comes first, before page_store_init: it finishes what a power cut left. No RAM. At most
+ * 60 ms: six flash pages of 9 ms; flow control keeps the PC silent meanwhile, and our loader's service keeps what still
+ * arrives. */
 #ifndef PAGE_SAVE_H
 #define PAGE_SAVE_H
 

@@ -175,8 +175,8 @@ static void approach_over(performer_t *performer)
     }
 }
 
-/* The compliance bytes of the page that has just begun, to the servos: a tick or more after its first goals, because the tick
- * in which a page begins has enough to do. */
+/* The compliance bytes of the page that has just begun, to the servos: a tick or more after its first goals, because the
+ * tick in which a page begins has enough to do. */
 static NOINLINE void send_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
@@ -203,7 +203,8 @@ static uint8_t why_ended(const performer_t *performer)
 static NOINLINE void approach_or_move_tick(performer_t *performer)
 {
     const bool under_way = approach_tick(&performer->engine.approach, performer->pose_pos);
-    servo_link_goals(PERFORMER_SERVOS(performer), performer->pose_pos, performer->engine.approach.joints & performer->joints);
+    const uint32_t joints = performer->engine.approach.joints & performer->joints;
+    servo_link_goals(PERFORMER_SERVOS(performer), performer->pose_pos, joints);
     if (!under_way) {
         approach_over(performer);
     }

@@ -84,7 +84,8 @@ static void begin_approach(performer_t *performer)
     }
     uint16_t to_pos[PAGE_JOINTS];
     const uint32_t joints = first_pose(performer, to_pos);
-    const uint16_t limit_deg_s = performer->move_deg_s != 0 ? performer->move_deg_s : PERFORMER_SETTINGS(performer)->approach_deg_s;
+    const uint16_t limit_deg_s = performer->move_deg_s != 0 ? performer->move_deg_s
+                                                            : PERFORMER_SETTINGS(performer)->approach_deg_s;
     uint16_t ticks = 0;
     if (limit_deg_s != 0) {
         ticks = approach_start(&performer->engine.approach, performer->pose_pos, to_pos, joints, limit_deg_s);
@@ -92,7 +93,8 @@ static void begin_approach(performer_t *performer)
     if (ticks > 0) {
         const uint16_t seconds = (uint16_t)((ticks + PLAYER_TICKS_PER_SECOND - 1) / PLAYER_TICKS_PER_SECOND);
         performer->state = PERFORMER_APPROACH;
-        performer_tell(performer, PERFORMER_EV_APPROACH, performer->page, (uint8_t)(seconds > UINT8_MAX ? UINT8_MAX : seconds), 0);
+        performer_tell(performer, PERFORMER_EV_APPROACH, performer->page,
+                       (uint8_t)(seconds > UINT8_MAX ? UINT8_MAX : seconds), 0);
     } else if (performer->move_deg_s != 0) {
         performer_finish(performer, PERFORMER_END_THERE);
     } else {

@@ -94,8 +94,8 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
     NOINLINE;   /* a name of its own in the image: the bench counts its cycles */
 
 /* Compliance bytes of a page (motion512.md: nibbles CW, CCW; 0 and above 7 count as 5): what differs from what was sent
- * last goes out with the next goals in the same packet, up to 27 joints. Above, it follows in packets of its own for 8 joints
- * each, behind the goals of the ticks after that have room for it: the tick of a page change has enough to do. */
+ * last goes out with the next goals in the same packet, up to 27 joints. Above, it follows in packets of its own for 8
+ * joints each, behind the goals of the ticks after that have room for it: the tick of a page change has enough to do. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
 
 /* Behind servo_link_goals, in a tick that has enough to do: slopes and the health poll wait for the next one. */
@@ -115,7 +115,8 @@ bool servo_link_next_fault(servo_link_t *link, servo_fault_t *fault);
 /* true while something of ours is on the wire. */
 bool servo_link_is_busy(const servo_link_t *link);
 
-/* Waits until the bus is quiet (at most 2 ms) and keeps it so until the next servo_link_tick: before bus calls of one's own. */
+/* Waits until the bus is quiet (at most 2 ms) and keeps it so until the next servo_link_tick: before bus calls of one's
+ * own. */
 void servo_link_quiet(servo_link_t *link);
 
 /* Page coordinates of a joint <-> what the servo is told: trim added or taken off, limited to 0..1023. */
@@ -135,8 +136,8 @@ static inline void servo_link_lost(servo_link_t *link, uint8_t id)
 
 /* ---- blocking, for set-up; nothing may be moving; quiet the bus themselves; kick the watchdog ---- */
 
-/* Looks for IDs 0..30 at 57,142 bps, then at 1 Mbps (where the bus stays): 0.25 s with nobody there, two tries each. Finds out
- * who is deaf to SYNC WRITE (by the LED, which is off afterwards), reads poses and torque. */
+/* Looks for IDs 0..30 at 57,142 bps, then at 1 Mbps (where the bus stays): 0.25 s with nobody there, two tries each. Finds
+ * out who is deaf to SYNC WRITE (by the LED, which is off afterwards), reads poses and torque. */
 void servo_link_scan(servo_link_t *link);
 
 /* Moves slow servos of `ids` to 1 Mbps (their address 4 = 1), then scans. Returns those that were moved. */

@@ -24,8 +24,9 @@ void text_P(const char *string_P);      /* from flash */
  *   TEXT("...")              prints it
  *   TEXT_P("...")            names it, inside a function, for text_P and all that hand a flash text on to it
  *   TEXT_NAMED(name, "...")  defines it as an array, for tables
- * Each takes a literal of printable characters and nothing else (a packed text needs the other codes). A text that is compared with what someone typed is a plain PSTR; every function here
- * takes plain texts of printable characters as well. Whoever else walks a marked text does so with a text_reader_t. */
+ * Each takes a literal of printable characters and nothing else (a packed text needs the other codes). A text that is
+ * compared with what someone typed is a plain PSTR; every function here takes plain texts of printable characters as well.
+ * Whoever else walks a marked text does so with a text_reader_t. */
 #define TEXT(literal) text_P(PSTR(literal))
 #define TEXT_P(literal) PSTR(literal)
 #define TEXT_NAMED(name, literal) static const char name[] PROGMEM = literal

@@ -46,8 +46,8 @@ static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
     return (uint8_t)kept;
 }
 
-/* The inserted step takes its part of the time of the step behind it, so that the page takes as long as before; elsewhere, and
- * with speeds, what the step it leads to has. */
+/* The inserted step takes its part of the time of the step behind it, so that the page takes as long as before; elsewhere,
+ * and with speeds, what the step it leads to has. */
 static void share_time(session_t *session, uint8_t to, uint8_t b, uint8_t percent)
 {
     uint16_t at = (uint16_t)(step_at(b) + PAGE_STEP_AT_SPEED);

@@ -118,8 +118,8 @@ bool commands_numbers(editor_t *editor)
     for (uint8_t i = 0; i < ARRAY_COUNT(editor->args.number) && i + 1 < editor->args.count; i++, kinds >>= 4) {
         uint8_t kind = kinds & 15u;
         if (kind != OWN &&
-            !shell_number(&editor->args, (uint8_t)(i + 1u), pgm_read_ptr(&kinds_P[kind].name), pgm_read_word(&kinds_P[kind].min),
-                          pgm_read_word(&kinds_P[kind].max), &editor->args.number[i])) {
+            !shell_number(&editor->args, (uint8_t)(i + 1u), pgm_read_ptr(&kinds_P[kind].name),
+                          pgm_read_word(&kinds_P[kind].min), pgm_read_word(&kinds_P[kind].max), &editor->args.number[i])) {
             return false;
         }
     }

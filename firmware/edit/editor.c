@@ -98,7 +98,8 @@ void editor_leave_line(editor_t *editor)
 
 static void go_on(editor_t *editor, uint8_t result)
 {
-    STATIC_ASSERT((int)EDITOR_ASK > (int)SHELL_ERR_SAID && EDITOR_MORE == EDITOR_MONITOR + 1, "what a handler returns is a mode");
+    STATIC_ASSERT((int)EDITOR_ASK > (int)SHELL_ERR_SAID && EDITOR_MORE == EDITOR_MONITOR + 1,
+                  "what a handler returns is a mode");
     if (result >= EDITOR_ASK && result <= EDITOR_MONITOR) {
         editor->mode = result;
         if (result == EDITOR_NAME || result == EDITOR_MONITOR) {

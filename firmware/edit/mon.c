@@ -117,7 +117,8 @@ static bool is_one_servo(const editor_t *editor)
 
 /* ---- words ---- */
 
-#define WORD(name) static uint8_t name(void *context __attribute__((unused)), const shell_args_t *args __attribute__((unused)))
+#define UNUSED __attribute__((unused))
+#define WORD(name) static uint8_t name(void *context UNUSED, const shell_args_t *args UNUSED)
 
 /* The words from 1 on, address first, as parameters. */
 static uint8_t send_words(const shell_args_t *args, uint8_t instruction)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * The journal's recovery on any contents of its area. Input: slots (bit k: slot k's record gets its CRCs), mishaps (bit 0:
- * the power goes; bit 1: a page does not take what is written), a sequence, record bytes and data seed of each slot, then their details. */
+ * the power goes; bit 1: a page does not take what is written), a sequence, record bytes and data seed of each slot, then
+ * their details. */
 #include "fuzz.h"
 #include "fake_flash.h"
 #include "firmware/common/crc16.h"
@@ -45,7 +46,8 @@ static void make_slot(uint8_t slot, bool good, uint16_t sequence, fuzz_t *fuzz)
 static void must_be_one_page(void)
 {
     const uint8_t *now = fake_flash_bytes();
-    ASSERT(memcmp(before, now, MEM_JOURNAL_START) == 0 && memcmp(before + MEM_BOOT_START, now + MEM_BOOT_START, 0x2000) == 0);
+    ASSERT(memcmp(before, now, MEM_JOURNAL_START) == 0);
+    ASSERT(memcmp(before + MEM_BOOT_START, now + MEM_BOOT_START, 0x2000) == 0);
     unsigned changed = 0;
     for (unsigned page = 0; page < 128; page++) {
         const unsigned at = MEM_MOTION_START + 512 * page;
