@@ -80,8 +80,8 @@ bool exact_rest_start(player_t *player);
 bool exact_rest_tick(player_t *player);
 
 /* The classic law's work ahead (classic_ahead.c). prepare: a share of the coming step: a look at it, then up to `count`
- * joints; all: what is left of it. pace: how large the shares are in a step of `ticks`. work_ahead: the share of this tick, in
- * which perhaps a section changed or the step began; returns whether it looked at the step. */
+ * joints; all: what is left of it. pace: how large the shares are in a step of `ticks`. work_ahead: the share of this tick,
+ * in which perhaps a section changed or the step began; returns whether it looked at the step. */
 void classic_prepare(player_t *player, uint8_t count);
 void classic_prepare_all(player_t *player);
 bool classic_knows_behind(const player_t *player);

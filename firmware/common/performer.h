@@ -57,7 +57,7 @@ typedef struct {
     uint8_t page;               /* asked for, or playing */
     uint8_t fault_page, fault;  /* the page behind PERFORMER_ERR_PAGE and _EMPTY, and its page_status_t */
     uint32_t released;          /* joints switched off by hand: not driven until performer_on */
-    uint32_t faulty;            /* joints with a fault that is not over: silent, errors, torque lost; none as a play begins */
+    uint32_t faulty;            /* joints with a fault that is not over: silent, errors, torque lost; at a start none */
     /* Private. */
     uint8_t first_page;         /* the page that plays first: the one asked for, or where its links lead */
     uint8_t end;                /* performer_end_t to report */

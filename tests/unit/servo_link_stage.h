@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * servo_link_stage.h - what the tests of servo_link share: joints on the fake bus, and ticks. setUp and tearDown are here. */
+ * servo_link_stage.h - what the tests of servo_link share: joints on the fake bus, and ticks. setUp and tearDown are
+ * here. */
 #ifndef SERVO_LINK_STAGE_H
 #define SERVO_LINK_STAGE_H
 

@@ -44,7 +44,8 @@ static void test_missing_arguments_are_0(void)
 
 static void test_every_character_from_space_to_slash_and_tab_separates(void)
 {
-    const char *lines[] = {"f e000", "f,e000", "f , e000", "f\te000", "f/e000", "f-e000", "f.e000 ", "  f  e000  ", "f#e000"};
+    const char *lines[] = {"f e000", "f,e000", "f , e000", "f\te000", "f/e000", "f-e000", "f.e000 ",
+                           "  f  e000  ", "f#e000"};
     for (unsigned i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         TEST_ASSERT_EQUAL_MESSAGE(PARSE_OK, parse(lines[i]), lines[i]);
         TEST_ASSERT_EQUAL_STRING("F", parsed.word);

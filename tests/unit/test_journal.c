@@ -199,7 +199,8 @@ static void test_power_cut_anywhere_leaves_the_old_page_or_the_new_one(void)
             }
         }
     }
-    printf("journal: %u cuts of a save, %u cuts of a recovery, each cut once more\n", (unsigned)cuts, (unsigned)recovery_cuts);
+    printf("journal: %u cuts of a save, %u cuts of a recovery, each cut once more\n", (unsigned)cuts,
+           (unsigned)recovery_cuts);
     TEST_ASSERT_EQUAL_UINT32(12 * 3 * 11, cuts);
 }
 

@@ -112,7 +112,8 @@ static void tick(void)
     must_be_in_range();
     ASSERT(moving || events == 0);
     if ((events & PLAYER_EV_STEP) != 0) {
-        ASSERT(player.page >= 1 && player.page <= PAGES && player.step >= 1 && player.step <= pages[player.page][PAGE_AT_STEPS]);
+        ASSERT(player.page >= 1 && player.page <= PAGES);
+        ASSERT(player.step >= 1 && player.step <= pages[player.page][PAGE_AT_STEPS]);
         ASSERT(page_check(pages[player.page]) == PAGE_OK);
         undisturbed = true;
     }

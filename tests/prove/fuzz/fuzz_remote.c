@@ -30,7 +30,8 @@ static void account(remote_event_t event)
 /* After a silence a good packet counts, whatever was before it. */
 static void must_hear(uint16_t buttons)
 {
-    const uint8_t packet[] = {0xFF, 0x55, (uint8_t)buttons, (uint8_t)~buttons, (uint8_t)(buttons >> 8), (uint8_t)~(buttons >> 8)};
+    const uint8_t low = (uint8_t)buttons, high = (uint8_t)(buttons >> 8);
+    const uint8_t packet[] = {0xFF, 0x55, low, (uint8_t)~low, high, (uint8_t)~high};
     remote_event_t event = REMOTE_NOTHING;
     account(remote_quiet(&remote));
     for (unsigned i = 0; i < sizeof packet; i++) {

@@ -2,7 +2,8 @@
  * hal_words.c - does what one byte on the serial line says, on the real hal, for test_hal.py:
  *
  *   l  loads the settings: "load STATUS LAW APPROACH"     s / S  saves law 1, approach 77 / law 0, approach 33: "saved"
- *   p  checks all pages: "pages GOOD"                      f  CRC of flash 0xFF20..0x1011F, from the end in blocks of 64: "flash CRC"
+ *   p  checks all pages: "pages GOOD"
+ *   f  CRC of flash 0xFF20..0x1011F, from the end in blocks of 64: "flash CRC"
  *   x  flow control on, takes all there is, slower than the line: "took COUNT CRC"
  *   h  holds the line, waits 100 ms, goes on: "held"       a  a failed ASSERT            w  hangs (watchdog)
  *   r  restarts through the watchdog                       v  ADC channel 0: "adc VALUE"

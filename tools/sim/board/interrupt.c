@@ -81,8 +81,8 @@ static void check_registers(board_t *board, int vector, const registers_t *found
     for (unsigned i = 0; i < sizeof now; i++) {
         if (a[i] != b[i]) {
             violation_note(board, VIOLATION_INTERRUPT,
-                           "interrupt %d came back with register %u (32: SREG, 33: RAMPZ) 0x%02X, found it 0x%02X", vector, i,
-                           b[i], a[i]);
+                           "interrupt %d came back with register %u (32: SREG, 33: RAMPZ) 0x%02X, found it 0x%02X",
+                           vector, i, b[i], a[i]);
             return;
         }
     }
