@@ -2,6 +2,7 @@
 #include "block.h"
 
 #include "check.h"
+#include "compiler.h"
 #include "crc16.h"
 #include "memory.h"
 #include "start.h"
@@ -13,6 +14,9 @@
 #define NOISE_MAX 1000u             /* bytes outside of frames: someone is typing */
 #define SUMS_MAX 64u               /* pages in one answer */
 #define EEPROM_WRITE_MAX 32u       /* 0.27 s: the ring holds what comes meanwhile */
+#define RAM_PAGES_END ((MEMORY_RAM + MEM_RAM_END) / 256u)
+#define EEPROM_PAGES (MEMORY_EEPROM / 256u)
+STATIC_ASSERT(MEM_RAM_END % 256u == 0, "RAM ends with a page");
 
 enum { HELLO = 1, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE };
 enum { OK = 0, REFUSED = MEMORY_REFUSED, BAD_FRAME = 4 };
@@ -83,6 +87,9 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
     case RATE:
         return body->page == UART_UBRR_57143 || body->page == UART_UBRR_117647 ? OK : REFUSED;
     case READ:
+        if (body->page >= RAM_PAGES_END && body->page < EEPROM_PAGES) {
+            return REFUSED; /* nothing is there: the chip would read what its bus held last */
+        }
         memory_cursor.addr = (uint32_t)body->page << 8;
         *bytes = FLASH_PAGE_BYTES;
         return OK;

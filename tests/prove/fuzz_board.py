@@ -319,9 +319,11 @@ class Bus(Session):
         """Silence: whoever is well is found again. Noise may have told a servo to be another one: it gets its ID, rate,
         delay and answers back."""
         for servo_id, servo in self.who.items():
-            servo.clear()
             servo.write(3, [servo_id, 1, 250])
             servo.write(16, [2])
+            servo.clear()
+        for twin in list(self.board.servos)[len(self.who):]:   # of duplicate IDs, which may be other ones by now
+            twin.fault("dead")
         self.board.run(ms=3000)
         self.next_look_ms = 0
 

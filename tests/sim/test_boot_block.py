@@ -48,6 +48,11 @@ def test_read_eeprom_and_call_table(board, blocks):
     assert table[12:14] == b"\x0c\x94", "JMP"
 
 
+def test_read_the_last_page_of_ram(board, blocks):
+    status, _, data = blocks.ask(READ, page_body(0x8010))
+    assert status == OK and data[:64] == bytes(board.ram[0x1000:0x1040])
+
+
 def test_write_and_its_status(board, blocks):
     data = noise(256)
     before = bytes(board.flash)
@@ -80,7 +85,7 @@ def test_sums(board, blocks):
 
 @pytest.mark.parametrize("command, body", [(SUMS, struct.pack("<HH", 0, 65)), (EE_WRITE, struct.pack("<HH", 0, 33) + bytes(34)),
                                            (RATE, page_body(8)), (RATE, page_body(0)), (WRITE, page_body(0x70, bytes(254))),
-                                           (99, b""), (0, b"")])
+                                           (READ, page_body(0x8011)), (READ, page_body(0x80FF)), (99, b""), (0, b"")])
 def test_bad_requests_are_refused(board, blocks, command, body):
     before = bytes(board.flash), bytes(board.eeprom)
     assert blocks.ask(command, body)[0] == REFUSED
