@@ -242,19 +242,22 @@ def test_all_that_is_wrong_stands_in_one_row():
         assert r.board.servos[12].torque
 
 
+def play_until(r, fault):
+    """A play that this fault of servo 4 ends."""
+    r.keys("play 8\r", ms=2500)
+    r.board.servos[4].fault(fault)
+    r.settle(1500)
+
+
 def test_fault_that_ends_a_play_is_named_behind_its_end():
     with start() as r:
-        r.keys("play 8\r", ms=2500)
-        r.board.servos[4].fault("overheating")
-        r.settle(1500)
+        play_until(r, "overheating")
         assert r.message.strip() == "Ended: a servo failed. Hot: ID 4"
 
 
 def test_end_of_a_play_is_still_told_when_one_more_servo_fails():
     with start() as r:
-        r.keys("play 8\r", ms=2500)
-        r.board.servos[4].fault("overheating")
-        r.settle(1500)
+        play_until(r, "overheating")
         r.board.servos[9].fault("silent")
         r.settle(1000)
         assert r.message.strip() == "Ended: a servo failed. Hot: ID 4 No answer: ID 9"
@@ -269,9 +272,7 @@ def test_end_of_a_play_is_still_told_when_one_more_servo_fails():
 
 def test_servo_whose_silence_ends_a_play_is_named_once():
     with start() as r:
-        r.keys("play 8\r", ms=2500)
-        r.board.servos[4].fault("silent")
-        r.settle(1500)
+        play_until(r, "silent")
         assert r.message.strip() == "Ended: a servo failed. No answer: ID 4"
         r.board.servos[4].clear()
         r.settle(1000)
