@@ -36,8 +36,8 @@ def test_deepest_path_goes_through_the_table(tmp_path):
     done = report(tmp_path, 10)
     assert done.returncode == 0, done.stderr
     fields = next(line for line in done.stdout.splitlines() if line.startswith("play-x")).split()
-    # return address of main 2, call 2, pointed 302, call 2, leaf 42; the interrupt: return address and two pushes.
-    assert fields[5:7] == ["350", "4"]
+    # main 2 (gcc 7: 0), call 2, pointed 302, call 2, leaf 42; the interrupt: return address and two pushes.
+    assert fields[5] in ("350", "348") and fields[6] == "4"
     assert "pointed(302) > leaf(42)" in done.stdout
 
 

@@ -239,10 +239,16 @@ static const char *parse_line(rest_t *rest, deed_t *deed)
     return rest->error;
 }
 
-static void add(script_t *script, const deed_t *deed)
+/* NULL, or what is wrong. */
+static const char *add(script_t *script, const deed_t *deed)
 {
-    script->deeds = realloc(script->deeds, (size_t)(script->count + 1) * sizeof *script->deeds);
+    deed_t *deeds = realloc(script->deeds, (size_t)(script->count + 1) * sizeof *deeds);
+    if (deeds == NULL) {
+        return "no memory";
+    }
+    script->deeds = deeds;
     script->deeds[script->count++] = *deed;
+    return NULL;
 }
 
 /* One line of the file. false: a mistake was printed. */
@@ -255,6 +261,7 @@ static bool load_line(script_t *script, int number, char *line)
     rest_t rest = {words, count, NULL};
     if (count > 0) {
         error = parse_line(&rest, &deed);
+        error = error ? error : add(script, &deed);
     }
     if (error) {
         const char *at = count > 0 && rest.words > words ? rest.words[rest.count > 0 ? 0 : -1].text : NULL;
@@ -262,9 +269,6 @@ static bool load_line(script_t *script, int number, char *line)
                 at ? "\")" : "");
         free(deed.text);
         return false;
-    }
-    if (count > 0) {
-        add(script, &deed);
     }
     return true;
 }
