@@ -13,7 +13,7 @@ from boot_board import MAP
 from cm5sim import Violation
 from endure.edit import FIRST, LAST, MOTION_START, Editor
 from endure.walk import DOWN, LEFT, RIGHT, UP, Walker
-from m512.image import Image
+from m512.files.image import Image
 from made_page import page
 from powercuts.robot import SLOT_BYTES, SLOTS
 

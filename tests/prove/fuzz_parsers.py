@@ -42,9 +42,9 @@ class Outcome:
 
 def seeds():
     """{suffix: files}: a small set of pages of every sort, in every format; and the project's own motion texts."""
-    from m512 import formats
-    from m512.image import Image
-    from m512.page import Page
+    from m512.files import formats
+    from m512.files.image import Image
+    from m512.files.page import Page
     rng = random.Random("seeds")
     image = Image.empty()
     for number in (1, 2, 5):
@@ -117,7 +117,7 @@ def mend(suffix, data):
 
 def judge(data, suffix, folder):
     """Whether the file was read. What must not be, comes as an exception."""
-    from m512 import formats
+    from m512.files import formats
     from m512.errors import M512Error
     began = time.monotonic()
     try:

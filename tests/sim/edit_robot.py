@@ -10,7 +10,7 @@
 import pyte
 
 from cm5sim import Board
-from m512.image import Image
+from m512.files.image import Image
 from made_page import JOINTS, page  # noqa: F401 (the tests take them from here)
 
 PAGES = 128

@@ -14,8 +14,8 @@ import pathlib
 import re
 
 from cm5sim import Board
-from m512.image import Image
-from m512.page import SCHEDULE_SPEED
+from m512.files.image import Image
+from m512.files.page import SCHEDULE_SPEED
 from made_page import JOINTS, page  # noqa: F401 (the tests take them from here)
 
 TOP = pathlib.Path(__file__).resolve().parents[2]

@@ -4,7 +4,7 @@ new one, all other pages are untouched, and the next save works."""
 import pytest
 from cm5sim import PowerCut
 from cm5sim.board import find_image
-from m512 import memory
+from m512.board import memory
 
 from boot_board import APP_END, factory_section
 from edit_robot import MOTION_START, page, robot, seal

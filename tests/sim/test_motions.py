@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from m512.image import from_bytes
+from m512.files.image import from_bytes
 from play_robot import DOWN, JOINTS, LEFT, RIGHT, STOP, UP, ask, robot
 
 MOTIONS = (pathlib.Path(os.environ["M512_BUILD"]) / "motions" / "motions.bin").read_bytes()

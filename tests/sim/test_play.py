@@ -3,7 +3,7 @@
 import pytest
 
 from play_robot import JOINTS, PAUSE, STOP, UP, ask, motions, page, robot, tick_of
-from m512.image import Image
+from m512.files.image import Image
 
 TORQUE, GOAL, PUNCH = 24, 30, 48
 UNITS_PER_DEGREE = 1024 / 300

@@ -6,8 +6,8 @@ import os
 
 import pytest
 
-from m512.image import Image, from_bytes, is_erased
-from m512.page import Fault
+from m512.files.image import Image, from_bytes, is_erased
+from m512.files.page import Fault
 from play_robot import SHARED, ask, robot
 
 DATA = SHARED / "data"

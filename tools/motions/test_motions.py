@@ -8,11 +8,11 @@ import sys
 
 import pytest
 
-from m512.formats import load
-from m512.image import to_hex
-from m512.page import SCHEDULE_TIME
-from m512.pageops import check
-from m512.player import play
+from m512.files.formats import load
+from m512.files.image import to_hex
+from m512.files.page import SCHEDULE_TIME
+from m512.pages.operations import check
+from m512.motion.player import play
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))

@@ -6,7 +6,7 @@ There is no terminal emulator before it, only a line: what Edit paints is read a
 import random
 
 from cm5sim import Board
-from m512.image import Image
+from m512.files.image import Image
 from made_page import JOINTS, page
 
 from .walk import Bus

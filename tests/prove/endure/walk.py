@@ -9,7 +9,7 @@ import re
 
 import play_robot
 from cm5sim.board import CYCLES_PER_TICK, sync_goals
-from m512.image import from_bytes
+from m512.files.image import from_bytes
 
 UP, DOWN, LEFT, RIGHT, STOP = 1, 2, 4, 8, 512
 SLICE_MS = 10

@@ -70,7 +70,7 @@ class Life(saves.Save):
     def change(self, step, chance):
         number = chance.choice(PAGES)
         self.memories.saving(number, robot.made(number, 100 + step))
-        self.machine.save_page(number, self.memories.pages[number][-1])
+        self.client.save_page(number, self.memories.pages[number][-1])
         self.memories.saved(number)
 
     def look(self):
@@ -118,7 +118,7 @@ class Wear(Life):
         """(fewest, most) erases of the journal's flash pages, and those of the page saved."""
         for turn in range(self.saves):
             new = robot.made(saves.OPENED, turn)
-            self.machine.save_page(saves.OPENED, new)
+            self.client.save_page(saves.OPENED, new)
         journal = [self.board.wear(JOURNAL_START // 256 + page) for page in range(SLOTS * SLOT_PAGES)]
         target = [self.board.wear((robot.MOTIONS + robot.PAGE_BYTES * saves.OPENED) // 256 + half) for half in range(2)]
         return min(journal), max(journal), max(target)

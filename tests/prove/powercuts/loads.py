@@ -6,7 +6,7 @@ import zlib
 
 from boot_board import APP_END, BOOT_MODE, BOOT_START, MAP, PROMPT, begin_load, end_load, say
 from cm5sim.board import find_image
-from m512 import block, download, loaders, memory
+from m512.board import block, download, loaders, memory
 
 from . import robot
 from .robot import MOTIONS, PAGE_BYTES, PAGES, Memories

@@ -6,8 +6,8 @@ import struct
 
 from boot_board import APP_END, BOOT_MODE, BOOT_START, JOURNAL_START, MAP, PROMPT, crc16, say
 from cm5sim import Board
-from m512.image import Image
-from m512.link import Link
+from m512.files.image import Image
+from m512.board.link import Link
 from made_page import page
 
 MOTIONS = MAP["MEM_MOTION_START"]

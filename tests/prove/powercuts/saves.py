@@ -5,8 +5,8 @@ import struct
 from boot_board import APP_END, BOOT_MODE, BOOT_START, JOURNAL_START, MAP, PROMPT, crc16, factory_section
 from cm5sim.board import find_image
 from edit_robot import seal
-from m512 import memory
-from m512.machine import Machine
+from m512.board import memory
+from m512.board.client import Client
 
 from . import robot
 from .robot import DAMAGED, ERASED, MOTIONS, PAGE_BYTES, SLOT_BYTES, SLOTS, Memories
@@ -32,7 +32,7 @@ class Save:
         self.prepare()
         robot.application_answers(self.board, "edit")
         robot.quiet(self.board)
-        self.machine = Machine(robot.SimLink(self.board), (2.0,))
+        self.client = Client(robot.SimLink(self.board), (2.0,))
         self.memories = Memories(self.board)
 
     def make(self, seed):
@@ -92,7 +92,7 @@ class Save:
         """The next save must be as good as any."""
         new = robot.made(OPENED, 77)
         self.memories.saving(OPENED, new)
-        self.machine.save_page(OPENED, new)
+        self.client.save_page(OPENED, new)
         self.memories.saved(OPENED)
         self.memories.check()
 
@@ -178,7 +178,7 @@ class Saves(Save):
             number = (OPENED, 6, ERASED, OPENED, 127, 1)[turn % 6]
             new = robot.made(number, turn)
             self.memories.saving(number, new)
-            self.machine.save_page(number, new)
+            self.client.save_page(number, new)
             self.memories.saved(number)
 
 
@@ -202,7 +202,7 @@ class SaveWrap(Saves):
         for turn in range(3):
             new = robot.made(OPENED, turn)
             self.memories.saving(OPENED, new)
-            self.machine.save_page(OPENED, new)
+            self.client.save_page(OPENED, new)
             self.memories.saved(OPENED)
 
 
@@ -216,7 +216,7 @@ class Repair(Save):
     def act(self):
         new = robot.made(OPENED, 1)
         self.memories.saving(OPENED, new)
-        self.machine.save_page(OPENED, new)
+        self.client.save_page(OPENED, new)
         self.memories.saved(OPENED)
 
     def restart(self):

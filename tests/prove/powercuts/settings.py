@@ -3,7 +3,7 @@
 import re
 
 from boot_board import MAP, crc16
-from m512.machine import DATA_BYTES, Machine
+from m512.board.client import DATA_BYTES, Client
 
 from . import robot
 from .robot import Memories
@@ -181,10 +181,10 @@ class PairsAndSave(Pairs):
 
     def act(self):
         new = robot.made(5, 1)
-        machine = Machine(robot.SimLink(self.board), (2.0,))
-        machine.ask("open 5")
+        client = Client(robot.SimLink(self.board), (2.0,))
+        client.ask("open 5")
         for at in range(0, len(new), DATA_BYTES):
-            machine.ask(f"data {at} {new[at:at + DATA_BYTES].hex()}")
+            client.ask(f"data {at} {new[at:at + DATA_BYTES].hex()}")
         self.allowed.append(paired(self.allowed[-1], 1, 3))
         self.memories.saving(5, new)
         self.board.send(f"pairs 1 3\r@save 5 0x{crc16(new):04X}\r")

@@ -10,7 +10,7 @@ import bus_watch
 import edit_robot
 import play_robot
 from cm5sim import Board
-from m512.image import Image
+from m512.files.image import Image
 from made_page import page
 
 from .model import ANGLE, HEAT, OVERLOAD, SILENT, TORQUE, VOLTAGE

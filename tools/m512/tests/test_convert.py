@@ -5,11 +5,10 @@ import json
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-
-from m512 import formats, mtn, scale12
 from m512.errors import FileError
-from m512.image import Image, from_bytes, from_hex, to_hex
-from m512.page import EMPTY, Page
+from m512.files import formats, mtn, scale12
+from m512.files.image import Image, from_bytes, from_hex, to_hex
+from m512.files.page import EMPTY, Page
 
 
 def test_convert_mtn_to_image_equals_the_real_robot_image(m512, data, tmp_path):
@@ -195,8 +194,9 @@ def test_hex_addresses_of_both_kinds():
 
 
 def test_hex_of_a_few_pages_and_of_other_things():
-    from intelhex import IntelHex
     from io import StringIO
+
+    from intelhex import IntelHex
 
     def text(address, data):
         file, out = IntelHex(), StringIO()

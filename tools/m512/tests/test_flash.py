@@ -12,16 +12,15 @@ import pytest
 from block_peer import BlockPeer
 from conftest import REPO
 from factory_peer import FactoryPeer
-
-from m512 import backup, memory
-from m512.block import frame
+from m512.board import backup, memory
+from m512.board.block import frame
+from m512.board.factory import FactoryLoader
+from m512.board.link import Link
+from m512.board.memory import APP, RECORD_AT, Record
 from m512.crc16 import crc16
-from m512.factory import FactoryLoader
-from m512.image import Image
-from m512.link import Link
-from m512.memory import APP, RECORD_AT, Record
-from m512.page import EMPTY
-from m512.text import read_text
+from m512.files.image import Image
+from m512.files.page import EMPTY
+from m512.files.text import read_text
 
 MOTIONS = """motion512 1
 page 1 stand
@@ -283,8 +282,8 @@ def test_factory_prompt_with_a_full_line_is_not_crashed(m512, motions):
 
 
 def test_factory_full_line_does_not_hurt_when_work_begins():
-    from m512.factory import FactoryLoader
-    from m512.link import Link
+    from m512.board.factory import FactoryLoader
+    from m512.board.link import Link
 
     with FactoryPeer() as peer:
         peer.line = bytearray(b"x" * 80)

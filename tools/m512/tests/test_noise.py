@@ -4,13 +4,12 @@ import random
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from m512 import link as links
-from m512.block import BlockLoader, frame
+from m512.board import link as links
+from m512.board.block import BlockLoader, frame
+from m512.board.client import Client
+from m512.board.factory import FactoryLoader
 from m512.errors import M512Error
-from m512.factory import FactoryLoader
-from m512.machine import Machine
-from m512.page import EMPTY
+from m512.files.page import EMPTY
 
 
 class NoisyLink(links.Link):
@@ -54,8 +53,8 @@ def survives(action):
 @given(pieces())
 def test_noise_machine(data):
     def talk():
-        machine = Machine(NoisyLink(data), (0.002,))
-        for ask in (machine.list_pages, machine.pose, machine.where, lambda: machine.page(1), lambda: machine.find("x")):
+        client = Client(NoisyLink(data), (0.002,))
+        for ask in (client.list_pages, client.pose, client.where, lambda: client.page(1), lambda: client.find("x")):
             survives(ask)
 
     survives(talk)

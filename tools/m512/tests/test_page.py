@@ -6,8 +6,7 @@ import pytest
 from conftest import REPO
 from hypothesis import given
 from hypothesis import strategies as st
-
-from m512.page import EMPTY, Fault, Kind, Page, is_used
+from m512.files.page import EMPTY, Fault, Kind, Page, is_used
 
 VECTORS = json.loads((REPO / "tests" / "golden" / "page_vectors.json").read_text())["vectors"]
 FIELDS = {"play_count": "repeat", "play_code": "code", "accel_time": "accel", "next_page": "next", "exit_page": "exit",

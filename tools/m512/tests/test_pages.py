@@ -3,12 +3,11 @@
 import json
 
 import pytest
-
-from m512 import pageops
-from m512.difference import images
-from m512.image import Image, from_bytes
-from m512.page import EMPTY, Page
-from m512.text import read_text
+from m512.files.image import Image, from_bytes
+from m512.files.page import EMPTY, Page
+from m512.files.text import read_text
+from m512.pages import operations
+from m512.pages.difference import images
 
 TEXT = """motion512 1
 row 1..4
@@ -150,7 +149,7 @@ def test_pages_damaged_pages_are_not_worked_on(lib):
     broken = image(lib)
     broken[3].data[70] ^= 1
     with pytest.raises(Exception, match="page 3 is damaged"):
-        pageops.copy(broken, 3, 40)
+        operations.copy(broken, 3, 40)
 
 
 def test_pages_help_of_every_action_has_an_example(m512):

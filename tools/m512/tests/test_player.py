@@ -6,10 +6,9 @@ import pytest
 from conftest import REPO, SHARED
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from m512.image import Image, from_bytes
-from m512.page import Page
-from m512.player import CLASSIC, EXACT, page_seconds, play
+from m512.files.image import Image, from_bytes
+from m512.files.page import Page
+from m512.motion.player import CLASSIC, EXACT, page_seconds, play
 
 SETS = ["accel_zero_then_ramps", "clamped_speed", "repeats_and_chain", "reversals_and_pauses", "speed_base_distances",
         "time_base_through_joins", "very_short_steps", "walk_like"]

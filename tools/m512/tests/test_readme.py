@@ -8,8 +8,7 @@ import time
 
 import pytest
 from conftest import REPO
-
-from m512 import sim
+from m512.board import sim
 from m512.cli import COMMANDS, main
 from m512.errors import MissingError
 

@@ -6,11 +6,10 @@ import time
 
 import pytest
 from conftest import REPO
-from pty_peer import Peer
-
-from m512 import sim
+from m512.board import sim
 from m512.errors import MissingError
-from m512.text import read_text
+from m512.files.text import read_text
+from pty_peer import Peer
 
 MOTIONS = """motion512 1
 page 1 stand
@@ -165,7 +164,7 @@ def test_board_put_through_edit(m512, motions, tmp_path):
             assert m512("get", "all", "-o", tmp_path / "got.bin", "-p", simulator.url).exit_code == 0
     except MissingError as error:
         pytest.skip(str(error))
-    from m512.image import from_bytes
+    from m512.files.image import from_bytes
 
     got = from_bytes((tmp_path / "got.bin").read_bytes())
     assert got[30].name == b"march" and (got[30].next, got[30].exit) == (30, 1) and got[1].name == b"stand"

@@ -6,11 +6,10 @@ import pytest
 from conftest import REPO
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from m512.errors import FileError, TextError
-from m512.image import Image, from_bytes
-from m512.page import EMPTY, Page
-from m512.text import read_text, write_text
+from m512.files.image import Image, from_bytes
+from m512.files.page import EMPTY, Page
+from m512.files.text import read_text, write_text
 
 HEAD = "motion512 1\nrow 1..4\n"
 

@@ -24,7 +24,8 @@ def phase(title: str) -> Iterator[Progress]:
     """`with phase("Writing") as progress: ... progress(done, total)`. A bar on a terminal, else a line every 10 s."""
     if sys.stderr.isatty():
         from rich.console import Console
-        from rich.progress import BarColumn, Progress as Bars, TextColumn, TimeRemainingColumn
+        from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
+        from rich.progress import Progress as Bars
 
         with Bars(TextColumn("{task.description:12}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"),
                   TimeRemainingColumn(), console=Console(stderr=True)) as bars:

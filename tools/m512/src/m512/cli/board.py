@@ -20,8 +20,8 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Result on st
 
 def connect(port, wait):
     """(link, loader) of the board on a port."""
-    from m512 import loaders, ports
-    from m512.link import Link
+    from m512.board import loaders, ports
+    from m512.board.link import Link
 
     link = Link(ports.pick(port))
     loader = loaders.enter(link, ui.say, wait)
@@ -51,8 +51,8 @@ def flash_options(function):
 
 
 def _flash(image, address, fast, with_trim, damaged, dry_run, port, wait, as_json, start):
-    from m512 import download, memory
-    from m512.block import BlockLoader
+    from m512.board import download, memory
+    from m512.board.block import BlockLoader
 
     plan = memory.plan(image, address, None, with_trim, damaged)
     for remark in plan.remarks:
@@ -105,7 +105,7 @@ def run(image, **options):
     if image:
         _flash(image, start=True, **options)
         return
-    from m512 import download
+    from m512.board import download
 
     link, loader = connect(options["port"], options["wait"])
     with link:
@@ -114,7 +114,7 @@ def run(image, **options):
 
 
 def _areas(text):
-    from m512.backup import AREAS
+    from m512.board.backup import AREAS
 
     areas = [area for area in text.split(",") if area]
     for area in areas:
@@ -134,7 +134,7 @@ Examples:
 @json_option
 def backup(folder, what, port, wait, as_json):
     """Read motions, EEPROM and application into FOLDER, with a manifest (date, board, CRCs)."""
-    from m512 import backup as backups
+    from m512.board import backup as backups
 
     areas = _areas(what)
     folder = folder or Path(datetime.now().strftime("backup-%Y%m%d-%H%M%S"))
@@ -160,10 +160,11 @@ Examples:
 @json_option
 def restore(folder, what, yes, port, wait, as_json):
     """Show what a backup would change on the board, ask, and write it."""
-    from m512 import backup as backups, download
-    from m512.difference import images
-    from m512.image import from_bytes
-    from m512.memory import MOTIONS, Plan, Record
+    from m512.board import backup as backups
+    from m512.board import download
+    from m512.board.memory import MOTIONS, Plan, Record
+    from m512.files.image import from_bytes
+    from m512.pages.difference import images
 
     saved = backups.load(folder)
     areas = _areas(what) if what else list(saved.data)
@@ -215,7 +216,7 @@ def restore(folder, what, yes, port, wait, as_json):
 
 def _motions_now(loader, saved, pages, progress):
     """The board's motion area, read only where it differs from the backup."""
-    from m512.memory import MOTIONS
+    from m512.board.memory import MOTIONS
 
     out = bytearray(saved)
     numbers = sorted({(n * 256 - MOTIONS[0]) // 512 for n in pages})

@@ -22,7 +22,7 @@ def doctor(port, sim, as_json):
 
     Nothing is written and nothing moves. Exit code 3 when something is bad.
     """
-    from m512.doctor import BAD, examine
+    from m512.board.doctor import BAD, examine
 
     def tell(finding):
         if not as_json:
@@ -32,7 +32,7 @@ def doctor(port, sim, as_json):
                 click.echo(f"                 -> {finding.advice}")
 
     if sim:
-        from m512.sim import Simulator
+        from m512.board.sim import Simulator
 
         with Simulator(["play-cm5.hex"]) as simulator:
             found = examine(simulator.url, tell)

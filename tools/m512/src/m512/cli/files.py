@@ -7,15 +7,15 @@ from pathlib import Path
 
 import click
 
-from m512 import formats
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError
-from m512.page import Page
+from m512.files import formats
+from m512.files.page import Page
 from m512.ui import say
 
 
 def id_list(text):
     """IDs of an option's value."""
-    from m512.textwords import WordError, joints_of
+    from m512.files.text.words import WordError, joints_of
 
     try:
         return joints_of(text.replace(" ", ","), {})
@@ -67,11 +67,11 @@ def convert(source, target, bits, scale, joints, count, number, onto, damaged, e
         if damaged == "drop":
             image[page] = Page()
     if joints:
-        from m512.scale12 import keep_joints
+        from m512.files.scale12 import keep_joints
 
         losses += keep_joints(image, id_list(joints))
     if scale and int(scale) != image.bits:
-        from m512 import scale12
+        from m512.files import scale12
 
         image, report = scale12.scaled(image, int(scale))
         losses += report
@@ -99,14 +99,15 @@ def _fitting(image, source: Path, target: Path) -> int:
 
 def _motions_of(word, bits):
     """The motions of a file, a backup's folder, or a board."""
-    from m512.ports import is_port
+    from m512.board.ports import is_port
 
     if is_port(word):
-        from m512 import boards
+        from m512.board.motions import read_motions
 
-        return boards.read_motions(word)
+        return read_motions(word)
     if Path(word).is_dir():
-        from m512 import backup, image
+        from m512.board import backup
+        from m512.files import image
 
         saved = backup.load(Path(word))
         if "motions" not in saved.data:
@@ -128,7 +129,7 @@ def diff(first, second, bits, as_json):
     """Say in words how the motions in FIRST and SECOND differ: which page, which step, which joint, from, to.
 
     Each is a motion file, the folder of a backup, or the port of a board. Exit code 0 when they are equal, 3 when they differ."""
-    from m512 import difference
+    from m512.pages import difference
 
     found = difference.images(_motions_of(first, int(bits)), _motions_of(second, int(bits)))
     if as_json:

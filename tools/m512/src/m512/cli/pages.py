@@ -8,10 +8,10 @@ from pathlib import Path
 
 import click
 
-from m512 import formats
 from m512.cli.files import id_list
 from m512.errors import EXIT_DIFFERENT, RefusedError
-from m512.page import Page
+from m512.files import formats
+from m512.files.page import Page
 from m512.ui import say
 
 
@@ -23,16 +23,16 @@ class Source:
 
     @cached_property
     def board(self) -> bool:
-        from m512.ports import is_port
+        from m512.board.ports import is_port
 
         return is_port(self.word)
 
     @cached_property
     def image(self):
         if self.board:
-            from m512 import boards
+            from m512.board.motions import read_motions
 
-            return boards.read_motions(self.word)
+            return read_motions(self.word)
         image = formats.load(Path(self.word), self.bits)
         for note in image.notes:
             say(f"note: {note}")
@@ -47,9 +47,9 @@ class Source:
             for loss in losses:
                 say(f"loss: {loss}")
         elif self.board:
-            from m512 import boards
+            from m512.board.motions import write_motions
 
-            boards.write_motions(self.word, self.image)
+            write_motions(self.word, self.image)
         elif in_place:
             formats.save(Path(self.word), self.image)
         else:
@@ -91,8 +91,8 @@ def pages(context, source, bits):
 @click.pass_obj
 def list_(source, everything, as_json):
     """Number, name, steps, play time, links and codes of all pages."""
-    from m512.image import is_erased
-    from m512.pagelist import describe, table
+    from m512.files.image import is_erased
+    from m512.pages.listing import describe, table
 
     rows = [describe(source.image, n, page) for n, page in source.image.items()
             if everything or not is_erased(page) and (not page.is_empty or page.fault(source.image.kind))]
@@ -104,7 +104,7 @@ def list_(source, everything, as_json):
 @click.pass_obj
 def show(source, page):
     """Print pages in the text format."""
-    from m512.textwrite import Style, is_motion, page_text, raw_text
+    from m512.files.text.writer import Style, is_motion, page_text, raw_text
 
     style = Style(source.image)
     for word in page:
@@ -118,9 +118,9 @@ def show(source, page):
 @click.pass_obj
 def check(source, as_json):
     """Say what is wrong: damaged pages, links to nothing, steps without time. Exit code 3 when something is."""
-    from m512 import pageops
+    from m512.pages import operations
 
-    found = pageops.check(source.image)
+    found = operations.check(source.image)
     if as_json:
         click.echo(json.dumps([{"page": n, "problem": text} for n, text in found], indent=2))
     else:
@@ -138,9 +138,9 @@ def check(source, as_json):
 @changes
 def rename(source, page, name, output, in_place):
     """Give a page another name."""
-    from m512 import pageops
+    from m512.pages import operations
 
-    source.store(output, in_place, pageops.rename(source.image, source.image.find(page), name))
+    source.store(output, in_place, operations.rename(source.image, source.image.find(page), name))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin copy 12 40 --in-place")
@@ -150,9 +150,9 @@ def rename(source, page, name, output, in_place):
 @changes
 def copy(source, page, target, replace, output, in_place):
     """Copy a page to another number."""
-    from m512 import pageops
+    from m512.pages import operations
 
-    source.store(output, in_place, pageops.copy(source.image, source.image.find(page), target, replace))
+    source.store(output, in_place, operations.copy(source.image, source.image.find(page), target, replace))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin delete 40 old_wave --in-place")
@@ -160,9 +160,9 @@ def copy(source, page, target, replace, output, in_place):
 @changes
 def delete(source, page, output, in_place):
     """Make pages empty; says which pages still link to them."""
-    from m512 import pageops
+    from m512.pages import operations
 
-    source.store(output, in_place, pageops.delete(source.image, [source.image.find(word) for word in page]))
+    source.store(output, in_place, operations.delete(source.image, [source.image.find(word) for word in page]))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin renumber walk_loop 30 --in-place")
@@ -172,9 +172,9 @@ def delete(source, page, output, in_place):
 @changes
 def renumber(source, page, target, swap, output, in_place):
     """Move a page to another number; all links follow."""
-    from m512 import pageops
+    from m512.pages import operations
 
-    source.store(output, in_place, pageops.renumber(source.image, source.image.find(page), target, swap))
+    source.store(output, in_place, operations.renumber(source.image, source.image.find(page), target, swap))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin extract walk_start walk_loop walk_end -o walk.m512")
@@ -206,7 +206,7 @@ def merge(source, other, page, replace, output, in_place):
 
     Links among the pages taken follow them.
     """
-    from m512 import pageops
+    from m512.pages import operations
 
     image = formats.load(other, source.bits)
     moves = []
@@ -219,7 +219,7 @@ def merge(source, other, page, replace, output, in_place):
             name, target = word, ""
         number = image.find(name)
         moves.append((number, int(target) if target else number))
-    source.store(output, in_place, pageops.place(source.image, image, moves, replace))
+    source.store(output, in_place, operations.place(source.image, image, moves, replace))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of wave, legs of walk_loop)")
@@ -232,10 +232,10 @@ def merge(source, other, page, replace, output, in_place):
 @changes
 def combine(source, base, other, joints, target, other_file, replace, output, in_place):
     """Page TARGET becomes BASE with the JOINTS (1..6 or 1,3,5) of page OTHER: upper body here, lower body there."""
-    from m512 import pageops
+    from m512.pages import operations
 
     donor = formats.load(other_file, source.bits) if other_file else source.image
-    source.store(output, in_place, pageops.combine(source.image, source.image.find(base), donor, donor.find(other),
+    source.store(output, in_place, operations.combine(source.image, source.image.find(base), donor, donor.find(other),
                                                    id_list(joints), target, replace))
 
 
@@ -248,7 +248,7 @@ def combine(source, base, other, joints, target, other_file, replace, output, in
 @changes
 def mirror(source, page, target, pairs, replace, output, in_place):
     """Left for right: paired joints change places, position p becomes 1024 - p."""
-    from m512 import pageops
+    from m512.pages import operations
 
     table = {}
     for pair in pairs.split(","):
@@ -256,7 +256,7 @@ def mirror(source, page, target, pairs, replace, output, in_place):
         if len(ids) not in (1, 2) or any(joint in table for joint in ids):
             raise click.UsageError(f"{pair}: pairs are 1-2,3-4,19; no joint twice")
         table[ids[0]], table[ids[-1]] = ids[-1], ids[0]
-    source.store(output, in_place, pageops.mirror(source.image, source.image.find(page), table, target, replace))
+    source.store(output, in_place, operations.mirror(source.image, source.image.find(page), table, target, replace))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin retime bow 1.5 --in-place   (takes half as long again)")
@@ -265,9 +265,9 @@ def mirror(source, page, target, pairs, replace, output, in_place):
 @changes
 def retime(source, page, factor, output, in_place):
     """Make a page take FACTOR times as long (step times, pauses, ramp)."""
-    from m512 import pageops
+    from m512.pages import operations
 
-    source.store(output, in_place, pageops.retime(source.image, source.image.find(page), factor))
+    source.store(output, in_place, operations.retime(source.image, source.image.find(page), factor))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin time walk_start")
@@ -276,9 +276,9 @@ def retime(source, page, factor, output, in_place):
 @click.pass_obj
 def time(source, page, as_json):
     """Play time of a page and of the chain of pages that follows it."""
-    from m512 import pageops
+    from m512.pages import operations
 
-    parts, end = pageops.chain(source.image, source.image.find(page))
+    parts, end = operations.chain(source.image, source.image.find(page))
     total = sum(seconds for _, _, seconds in parts)
     if as_json:
         click.echo(json.dumps({"pages": [{"page": n, "repeat": r, "seconds": round(s, 4)} for n, r, s in parts],

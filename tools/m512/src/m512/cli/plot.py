@@ -24,7 +24,8 @@ Examples:
 @click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of an image.")
 def plot(source, page, output, law, joints, seconds, bits):
     """Draw joint angles and speeds over time: of a PAGE of a motion file, or of a recorded trace (CSV)."""
-    from m512 import formats, plot as drawing
+    from m512.files import formats
+    from m512.motion import plot as drawing
 
     chosen = id_list(joints) if joints else None
     if page is None:

@@ -29,34 +29,34 @@ def robot_options(function):
 
 @contextmanager
 def robot(options):
-    """The Machine that the options mean; whatever was started for it ends with the command."""
-    from m512 import ports
-    from m512.link import Link
-    from m512.machine import Machine
+    """The Client that the options mean; whatever was started for it ends with the command."""
+    from m512.board import ports
+    from m512.board.client import Client
+    from m512.board.link import Link
 
     if options["motions"] and not options["sim"]:
         raise click.UsageError("--motions is for --sim; a robot gets its motions with `m512 flash` or `put`")
     if options["sim"]:
-        from m512.sim import Simulator
+        from m512.board.sim import Simulator
 
         with Simulator([options["image"]], options["motions"], options["servos"]) as simulator, \
                 Link(simulator.url) as link:
             time.sleep(0.5)
-            yield Machine(link)
+            yield Client(link)
         return
     with Link(ports.pick(options["port"])) as link:
         try:
-            machine = Machine(link)
+            client = Client(link)
         except NoAnswerError as error:
-            from m512.loaders import at_prompt
+            from m512.board.loaders import at_prompt
 
             raise NoAnswerError("the board waits in its boot loader: `m512 run` starts the application" if at_prompt(link)
                                 else f"{error} on {link.url} (m512 doctor looks why)") from None
-        yield machine
+        yield client
 
 
-def _report(machine, as_json):
-    state = machine.where()
+def _report(client, as_json):
+    state = client.where()
     if as_json:
         click.echo(json.dumps({k: int(v) if v.isdigit() and k != "faulty" else v for k, v in state.items()}))
     return state
@@ -73,27 +73,28 @@ Examples:
 @robot_options
 def play(page, key, wait, **options):
     """Play a page of the board, by number or name."""
-    from m512.textwords import Token, WordError, code as parse
+    from m512.files.text.words import Token, WordError
+    from m512.files.text.words import code as parse
 
     try:
         code = parse(Token(key)) if key else 0
     except WordError as error:
         raise click.UsageError(str(error)) from None
-    with robot(options) as machine:
-        number = machine.find(page)
-        machine.play(number, code)
+    with robot(options) as client:
+        number = client.find(page)
+        client.play(number, code)
         ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
         if wait or options["sim"]:
-            _follow(machine)
-        _report(machine, options["as_json"])
+            _follow(client)
+        _report(client, options["as_json"])
 
 
-def _follow(machine):
+def _follow(client):
     """Tells pages and steps until the robot is idle. The first Ctrl-C is a stop, the second a break."""
     before, asked = None, 0
     while True:
         try:
-            state = machine.where()
+            state = client.where()
             here = (state["state"], state["page"], state["repetition"])
             if here != before:
                 ui.say(f"{state['state']}: page {state['page']}, repetition {state['repetition']}")
@@ -105,7 +106,7 @@ def _follow(machine):
             asked += 1
             if asked > 2:
                 raise
-            machine.ask("stop" if asked == 1 else "break")
+            client.ask("stop" if asked == 1 else "break")
             ui.say("stopping through the exit page; Ctrl-C again stops at once" if asked == 1 else "stopping at once")
 
 
@@ -117,9 +118,9 @@ Examples:
 @robot_options
 def stop(now, **options):
     """Stop what is playing."""
-    with robot(options) as machine:
-        machine.ask("break" if now else "stop")
-        _report(machine, options["as_json"])
+    with robot(options) as client:
+        client.ask("break" if now else "stop")
+        _report(client, options["as_json"])
 
 
 @click.command(epilog="""\b
@@ -134,12 +135,12 @@ Examples:
 def pose(positions, speed, as_text, **options):
     """Show the pose of the robot, or move joints to positions (0..1023, or 30deg from the centre)."""
     wanted = _positions(positions)
-    with robot(options) as machine:
+    with robot(options) as client:
         if wanted:
-            machine.move(wanted, speed)
+            client.move(wanted, speed)
             ui.say("moving; waiting for the end")
-            _follow(machine)
-        found = machine.pose()
+            _follow(client)
+        found = client.pose()
     if options["as_json"]:
         click.echo(json.dumps({joint: {"position": at, "torque": on} for joint, (at, on) in found.items()}, indent=2))
     elif as_text:
@@ -151,7 +152,7 @@ def pose(positions, speed, as_text, **options):
 
 
 def _positions(words):
-    from m512.textwords import WordError, joints_of, position
+    from m512.files.text.words import WordError, joints_of, position
 
     out = {}
     for word in words:
@@ -175,9 +176,9 @@ Examples:
 @robot_options
 def torque(state, ids, **options):
     """Switch the torque of all joints, or of some IDs. On holds the pose that the joints are in."""
-    with robot(options) as machine:
-        machine.torque(state == "on", list(ids))
-        _report(machine, options["as_json"])
+    with robot(options) as client:
+        client.torque(state == "on", list(ids))
+        _report(client, options["as_json"])
 
 
 @click.command(epilog="""\b
@@ -190,17 +191,17 @@ Examples:
 @robot_options
 def get(pages, output, force, **options):
     """Read pages (numbers, names, or `all`) from a running board into a file."""
-    from m512 import formats
-    from m512.image import Image
+    from m512.files import formats
+    from m512.files.image import Image
 
     if output.exists() and not force:
         raise RefusedError(f"{output} is there already (--force overwrites it)")
-    with robot(options) as machine:
-        numbers = sorted(machine.list_pages()) if pages == ("all",) else [machine.find(word) for word in pages]
+    with robot(options) as client:
+        numbers = sorted(client.list_pages()) if pages == ("all",) else [client.find(word) for word in pages]
         image = Image.empty()
         with ui.phase("Reading") as progress:
             for done, number in enumerate(numbers):
-                image[number] = machine.page(number)
+                image[number] = client.page(number)
                 progress(done + 1, len(numbers))
     for loss in formats.save(output, image, numbers[0] if len(numbers) == 1 else None):
         ui.say(f"loss: {loss}")
@@ -222,8 +223,10 @@ def put(source, pages, **options):
 
     For many pages at once, or with Play, `m512 flash` is the way.
     """
-    from m512 import boards, formats, pageops
-    from m512.image import Image
+    from m512.board.motions import save_pages
+    from m512.files import formats
+    from m512.files.image import Image
+    from m512.pages import operations
 
     image, moves = formats.load(source), []
     for word in pages:
@@ -234,10 +237,10 @@ def put(source, pages, **options):
         number = image.find(name if colon else word)
         moves.append((number, int(target) if colon and target.isdigit() else number))
     goal = Image.empty()
-    for remark in pageops.place(goal, image, moves, replace=True):
+    for remark in operations.place(goal, image, moves, replace=True):
         ui.say(f"note: {remark}")
-    with robot(options) as machine:
-        changed = boards.save_pages(machine, goal, [target for _, target in moves])
+    with robot(options) as client:
+        changed = save_pages(client, goal, [target for _, target in moves])
     ui.say(f"saved: pages {' '.join(map(str, changed)) or 'none, they were there already'}")
     if options["as_json"]:
         click.echo(json.dumps({"saved": changed}))

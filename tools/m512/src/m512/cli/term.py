@@ -27,15 +27,15 @@ def term(port, log, send, listing, sim, motions, image):
     Everything typed goes to the board, but for Ctrl-]: then h shows help, q quits, l calls the boot loader with '#',
     s sends a file, b a file as it is (binary), g switches logging.
     """
-    from m512 import ports
-    from m512.terminal import Terminal
+    from m512.board import ports
+    from m512.board.terminal import Terminal
 
     if listing:
         for device, text in ports.available():
             click.echo(f"{device}  {text}".rstrip())
         return
     if sim:
-        from m512.sim import Simulator
+        from m512.board.sim import Simulator
 
         with Simulator([image], motions) as simulator:
             Terminal(simulator.url, log).run(send)

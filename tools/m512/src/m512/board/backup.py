@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""Backups: a folder with motions.bin, eeprom.bin, app.bin and manifest.json (date, board, sizes, CRCs)."""
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass
+from datetime import datetime, timezone
+from pathlib import Path
+from typing import Dict, List, Optional
+
+from m512.board.loaders import Loader
+from m512.board.memory import APP, EEPROM_BYTES, FLASH_PAGE, MOTIONS, Record
+from m512.crc16 import crc16
+from m512.errors import FileError
+from m512.files import formats
+
+AREAS = {"motions": MOTIONS, "app": APP, "eeprom": (0, EEPROM_BYTES)}
+MANIFEST = "manifest.json"
+FORMAT, VERSION = "m512-backup", 1
+# What the loaders keep in passing must not come back: a page waiting in the mailbox would be written at the next start.
+MAILBOX_CELLS = range(0xFF4, 0xFF6)
+
+
+@dataclass
+class Backup:
+    folder: Path
+    manifest: dict
+    data: Dict[str, bytes]
+
+
+def take(loader: Loader, folder: Path, areas: List[str], phase) -> Backup:
+    """Reads the areas and writes the folder, manifest last."""
+    if folder.exists() and any(folder.iterdir()):
+        raise FileError(f"{folder} is there already and not empty")
+    data = {}
+    for area in areas:
+        with phase(f"Reading {area}") as progress:
+            read = loader.read_eeprom if area == "eeprom" else loader.read
+            data[area] = read(*AREAS[area], progress)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(f"cannot make {folder}: {error.strerror}") from None
+    record = Record.of(data.get("app", b""))
+    manifest = {
+        "format": FORMAT, "version": VERSION, "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
+        "board": loader.board or None, "loader": loader.name,
+        "application": str(record) if record else None,
+        "files": {area: {"file": f"{area}.bin", "address": AREAS[area][0], "bytes": len(data[area]),
+                         "crc16": f"{crc16(data[area]):04X}", "sha256": hashlib.sha256(data[area]).hexdigest()}
+                  for area in areas}}
+    for area in areas:
+        formats.write_bytes(folder / f"{area}.bin", data[area])
+    formats.write_bytes(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
+    return Backup(folder, manifest, data)
+
+
+def load(folder: Path) -> Backup:
+    """A backup from its folder, checked against its manifest."""
+    text = formats.read_bytes(folder / MANIFEST)
+    try:
+        manifest = json.loads(text)
+        if manifest["format"] != FORMAT or manifest["version"] != VERSION:
+            raise FileError(f"{folder}: a backup of a kind that this program does not know")
+        files = {area: (entry["file"], int(entry["bytes"]), int(entry["crc16"], 16), entry["sha256"])
+                 for area, entry in manifest["files"].items() if area in AREAS}
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise FileError(f"{folder / MANIFEST} is damaged") from None
+    data = {}
+    for area, (name, size, crc, sha) in files.items():
+        if Path(name).name != name:
+            raise FileError(f"{folder / MANIFEST}: {name} is not beside it")
+        found = formats.read_bytes(folder / name)
+        if (len(found), crc16(found), hashlib.sha256(found).hexdigest()) != (size, crc, sha):
+            raise FileError(f"{folder / name} is not what the manifest says: damaged or changed")
+        low, high = AREAS[area]
+        if size != high - low:
+            raise FileError(f"{folder / name} has {size} bytes and not {high - low}")
+        data[area] = found
+    return Backup(folder, manifest, data)
+
+
+def flash_pages(backup: Backup, areas: List[str]) -> Dict[int, bytes]:
+    """The flash areas as page index -> bytes."""
+    return {(AREAS[area][0] + at) // FLASH_PAGE: backup.data[area][at:at + FLASH_PAGE]
+            for area in areas if area != "eeprom" for at in range(0, len(backup.data[area]), FLASH_PAGE)}
+
+
+def eeprom_changes(wanted: bytes, found: bytes) -> Dict[int, int]:
+    """The EEPROM cells to write."""
+    return {at: value for at, value in enumerate(wanted) if found[at] != value and at not in MAILBOX_CELLS}
+
+
+def board_of(backup: Backup) -> Optional[str]:
+    return backup.manifest.get("board")

@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: MIT
+"""Our boot loader's block protocol (firmware/boot/PROTOCOL.md), the PC's side.
+
+Frames: 0xA5 command number n body[2 n] CRC-16, answers the same with 0x5A and a status first in the body. Requests that
+change nothing may be sent again at will; a write is the same page again, so it may be too. Two writes are under way at
+a time, so that the line is never idle.
+"""
+from __future__ import annotations
+
+import re
+import time
+from collections import deque
+from typing import Callable, Dict, Iterable, List, Optional, Tuple
+
+from m512.board.link import BAUD, Link
+from m512.board.memory import FLASH_PAGE
+from m512.crc16 import crc16
+from m512.errors import BoardError, NoAnswerError
+from m512.files.page import EMPTY
+
+REQUEST, ANSWER = 0xA5, 0x5A
+HELLO, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE = range(1, 8)
+OK, EQUAL, REFUSED, BROKEN, BAD_FRAME, BAD_COMMAND = range(6)
+STATUS = {REFUSED: "refused (outside of what may be written)", BROKEN: "the flash does not take the data",
+          BAD_FRAME: "damaged on the line", BAD_COMMAND: "not known to this loader"}
+APP_STATES = {0: "none", 1: "unknown kind", 2: "good", 3: "damaged"}
+WINDOW = 2            # writes under way
+TRIES = 4
+ANSWER_SECONDS = 1.5
+FAST_RATE, FAST_UBRR, SLOW_UBRR = 117647, 16, 34
+SUMS_MAX = 64
+EEPROM_PAGE, EE_WRITE_MAX = 0x8100, 32     # EEPROM is read as pages from here
+BACK_SECONDS = 4.2    # without a good frame the loader ends a session, and a rate
+# The first HELLO then has no byte that is a key of an editor, should one be listening instead of the loader.
+FIRST_NUMBER = 159
+TO_PROMPT, TO_APPLICATION, TO_RESET = range(3)
+
+Progress = Callable[[int, int], None]
+
+
+def frame(command: int, number: int, body: bytes) -> bytes:
+    inner = bytes([command, number, len(body) // 2]) + body
+    return bytes([REQUEST]) + inner + crc16(inner).to_bytes(2, "big")
+
+
+def page_sum(page: bytes) -> Tuple[int, int]:
+    """What SUMS answers for a flash page: its CRC-16 and its plain 16-bit sum."""
+    return crc16(page), sum(page) & 0xFFFF
+
+
+class BlockLoader:
+    """A session with our loader. Use as a context: leaves the loader at its prompt, at the usual rate."""
+
+    name = "Motion512 boot loader"
+
+    def __init__(self, link: Link, identity: str = "", tries: int = 2, seconds: float = ANSWER_SECONDS):
+        self.link, self.number, self.rate = link, FIRST_NUMBER, BAUD
+        self.retries = self.detail = 0
+        # What the loader says of itself, when it was asked at its prompt: "ID Motion512 boot 1.00 CM5 api=1 ..."
+        words = re.search(r"ID Motion512 boot (\S+) (\S+)", identity)
+        self.version, self.board = (words.group(1), words.group(2).lower()) if words else ("", "")
+        self._ask(HELLO, b"", tries, seconds)
+
+    def app_state(self) -> str:
+        """What the loader thinks of the application: none, unknown kind (no record), good, damaged."""
+        self._ask(HELLO, b"")
+        return APP_STATES.get(self.detail, str(self.detail))
+
+    # Frames
+
+    def _send(self, command: int, body: bytes) -> int:
+        self.number = (self.number + 1) & 0xFF
+        self.link.write(frame(command, self.number, body))
+        return self.number
+
+    def _receive(self, seconds: float) -> Optional[Tuple[int, int, int, bytes]]:
+        """(command, number, status, data) of the next good answer; None: none came in time."""
+        deadline = time.monotonic() + seconds
+        while True:
+            left = deadline - time.monotonic()
+            some = self.link.read_some(left, 1) if left > 0 else b""
+            if not some:       # silence, or chatter without an answer
+                return None
+            if some[0] != ANSWER:
+                continue
+            head = self._piece(3)
+            body = self._piece(2 * head[2]) if len(head) == 3 else b""
+            end = self._piece(2)
+            if len(end) == 2 and len(body) == 2 * head[2] >= 2 and crc16(head + body) == int.from_bytes(end, "big"):
+                self.detail = body[1]
+                return head[0], head[1], body[0], body[2:]
+
+    def _piece(self, count: int) -> bytes:
+        out = b""
+        while len(out) < count:
+            some = self.link.read_some(0.2, count - len(out))
+            if not some:
+                break
+            out += some
+        return out
+
+    def _ask(self, command: int, body: bytes, tries: int = TRIES, seconds: float = ANSWER_SECONDS) -> bytes:
+        """One request and its answer's data; repeated when nothing or something damaged comes back."""
+        status = None
+        for attempt in range(tries):
+            self.retries += attempt > 0
+            number = self._send(command, body)
+            answer = self._receive(seconds)
+            while answer and answer[2] != BAD_FRAME and (answer[0], answer[1]) != (command, number):
+                answer = self._receive(seconds)      # of a request before, which came too late
+            if answer is None:
+                self.link.drain()
+                continue
+            status = answer[2]
+            if status in (OK, EQUAL):
+                return answer[3]
+            if status != BAD_FRAME:
+                raise BoardError(f"the loader says: {STATUS.get(status, status)}", status)
+        if status is None:
+            raise NoAnswerError("the boot loader does not answer any more")
+        raise BoardError(f"the loader says: {STATUS[BAD_FRAME]}, {tries} times. Is the cable good?", status)
+
+    # Rate
+
+    def go_faster(self) -> bool:
+        """Tries 117,647 baud; comes back to the usual rate when that does not work."""
+        self._ask(RATE, FAST_UBRR.to_bytes(2, "little"))
+        time.sleep(0.02)
+        try:
+            self.link.set_rate(FAST_RATE)
+            self._ask(HELLO, b"", tries=2, seconds=0.3)
+            self.rate = FAST_RATE
+            return True
+        except Exception:
+            self.link.set_rate(BAUD)
+            time.sleep(BACK_SECONDS)
+            self.link.drain()
+            self._ask(HELLO, b"")
+            return False
+
+    # Flash and EEPROM
+
+    def read(self, start: int, end: int, progress: Optional[Progress] = None) -> bytes:
+        """Memory bytes [start, end). Flash pages whose sums are those of empty ones are not sent over the line."""
+        first, last = start // FLASH_PAGE, (end - 1) // FLASH_PAGE
+        known = self._known(first, last) if last < EEPROM_PAGE and last > first + 4 else {}
+        out = b""
+        for page in range(first, last + 1):
+            out += known.get(page) or self._ask(READ, page.to_bytes(2, "little"))
+            if progress:
+                progress(page - first + 1, last - first + 1)
+        return out[start - first * FLASH_PAGE:end - first * FLASH_PAGE]
+
+    def _known(self, first: int, last: int) -> Dict[int, bytes]:
+        """Pages that hold nothing: erased flash, or half of an empty motion page."""
+        plain = {page_sum(piece): piece for piece in
+                 (b"\xff" * FLASH_PAGE, bytes(FLASH_PAGE), EMPTY[:FLASH_PAGE], EMPTY[FLASH_PAGE:])}
+        sums = self._sums(first, last - first + 1)
+        return {page: plain[found] for page, found in sums.items() if found in plain}
+
+    def _sums(self, first: int, count: int, progress: Optional[Progress] = None) -> Dict[int, Tuple[int, int]]:
+        out: Dict[int, Tuple[int, int]] = {}
+        for at in range(first, first + count, SUMS_MAX):
+            some = min(SUMS_MAX, first + count - at)
+            data = self._ask(SUMS, at.to_bytes(2, "little") + some.to_bytes(2, "little"), seconds=3)
+            if len(data) != 4 * some:
+                raise NoAnswerError("the loader's answer to SUMS has the wrong length")
+            for k in range(some):
+                out[at + k] = (int.from_bytes(data[4 * k:4 * k + 2], "little"),
+                               int.from_bytes(data[4 * k + 2:4 * k + 4], "little"))
+            if progress:
+                progress(at + some - first, count)
+        return out
+
+    def different(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> List[int]:
+        """Which of these pages the board holds otherwise."""
+        if not pages:
+            return []
+        sums = self._sums(min(pages), max(pages) - min(pages) + 1, progress)
+        return [number for number in sorted(pages) if sums[number] != page_sum(pages[number])]
+
+    def write(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> int:
+        """Writes these pages; returns how many of them were equal already. Each is read back by the loader."""
+        waiting = deque(sorted(pages))
+        under_way: Dict[int, int] = {}
+        failures: Dict[int, int] = {}
+        done = equal = 0
+        while waiting or under_way:
+            while waiting and len(under_way) < WINDOW:
+                page = waiting.popleft()
+                under_way[self._send(WRITE, page.to_bytes(2, "little") + pages[page])] = page
+            answer = self._receive(ANSWER_SECONDS)
+            if answer is None or answer[2] == BAD_FRAME or answer[0] != WRITE or answer[1] not in under_way:
+                if answer is not None and answer[2] != BAD_FRAME:
+                    continue
+                # Something was lost: wait for what is still to come, then send again what was not acknowledged.
+                done, equal = self._collect(under_way, done, equal)
+                for page in sorted(under_way.values()):
+                    failures[page] = failures.get(page, 0) + 1
+                    if failures[page] > TRIES:
+                        if answer is None:
+                            raise NoAnswerError("the boot loader does not answer any more")
+                        raise BoardError("the line damages too much: no page comes through. Is the cable good?")
+                self.retries += 1
+                waiting.extendleft(sorted(under_way.values(), reverse=True))
+                under_way.clear()
+                continue
+            page = under_way.pop(answer[1])
+            if answer[2] not in (OK, EQUAL):
+                raise BoardError(f"0x{page * FLASH_PAGE:05X}: {STATUS.get(answer[2], answer[2])}", answer[2])
+            done, equal = done + 1, equal + (answer[2] == EQUAL)
+            if progress:
+                progress(done, len(pages))
+        return equal
+
+    def _collect(self, under_way: Dict[int, int], done: int, equal: int) -> Tuple[int, int]:
+        while True:
+            answer = self._receive(0.3)
+            if answer is None:
+                return done, equal
+            if answer[0] == WRITE and answer[1] in under_way and answer[2] in (OK, EQUAL):
+                under_way.pop(answer[1])
+                done, equal = done + 1, equal + (answer[2] == EQUAL)
+
+    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Optional[Progress] = None) -> bytes:
+        base = EEPROM_PAGE * FLASH_PAGE
+        return self.read(base + start, base + end, progress)
+
+    def write_eeprom(self, cells: Dict[int, int], progress: Optional[Progress] = None) -> None:
+        """Single bytes, by address."""
+        done = 0
+        for at, data in _pieces(sorted(cells.items()), EE_WRITE_MAX):
+            body = at.to_bytes(2, "little") + len(data).to_bytes(2, "little") + data + bytes(len(data) % 2)
+            self._ask(EE_WRITE, body)
+            done += len(data)
+            if progress:
+                progress(done, len(cells))
+
+    # The end
+
+    def leave(self, to: int = TO_PROMPT) -> None:
+        """To the prompt, to the application, or by a reset."""
+        self._ask(LEAVE, to.to_bytes(2, "little"))
+        if self.rate != BAUD:
+            self.link.set_rate(BAUD)
+            self.rate = BAUD
+
+
+def _pieces(cells: Iterable[Tuple[int, int]], most: int) -> List[Tuple[int, bytes]]:
+    """Runs of neighbouring bytes, at most `most` long."""
+    out: List[Tuple[int, bytearray]] = []
+    for at, value in cells:
+        if out and at == out[-1][0] + len(out[-1][1]) and len(out[-1][1]) < most:
+            out[-1][1].append(value)
+        else:
+            out.append((at, bytearray([value])))
+    return [(at, bytes(data)) for at, data in out]

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: MIT
+"""Line commands for programs of Play and Edit (firmware/edit/PROTOCOL.md), the PC's side.
+
+A request is a line that begins with '@'; the answer is the next line that begins with the same word and ends in OK or
+in ERR, a number and a sentence. Everything else on the line (echo, prompt, screen) is passed over.
+"""
+from __future__ import annotations
+
+import re
+import time
+from typing import Dict, List, Optional, Sequence, Tuple
+
+from m512.board.link import Link
+from m512.crc16 import crc16
+from m512.errors import BoardError, NoAnswerError
+from m512.files.page import PAGE_BYTES, Page
+
+ANSWER_SECONDS = 3.0
+TRIES = 3
+DATA_BYTES = 32
+ERR_WORD, ERR_BUSY, ERR_IMAGE = 1, 4, 10
+ERR_PAGE_FAULTS = (5,)
+
+
+class Client:
+    """Play or Edit on a line. Raises NoAnswerError when nobody answers to @ver."""
+
+    def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5)):
+        self.link = link
+        self.version = self._fields(self._first_contact(patience))
+
+    def _first_contact(self, patience: Sequence[float]) -> str:
+        self.link.drain(0.02, 0.5)
+        for seconds in patience:
+            try:
+                return self.ask("ver", seconds, tries=1)
+            except NoAnswerError:
+                pass
+        raise NoAnswerError("neither Play nor Edit answers")
+
+    @staticmethod
+    def _fields(text: str) -> Dict[str, str]:
+        return dict(part.split("=", 1) for part in text.split() if "=" in part)
+
+    def ask(self, request: str, seconds: float = ANSWER_SECONDS, tries: int = TRIES) -> str:
+        """The answer's text between the word and OK. BoardError: the board's ERR."""
+        word = "@" + request.split()[0]
+        for _ in range(tries):
+            self.link.write(f"@{request}\r".encode())
+            line = self._answer(word, f"@{request}", seconds)
+            if line is None:
+                continue
+            if line == "OK" or line.endswith(" OK"):
+                return line[:-2].strip()
+            match = re.match(r"ERR (\d+) ?(.*)", line)
+            if match:
+                raise BoardError(match.group(2) or f"error {match.group(1)}", int(match.group(1)))
+        raise NoAnswerError(f"no answer to {word}")
+
+    def _answer(self, word: str, request: str, seconds: float) -> Optional[str]:
+        """What stands behind the word in the first whole line that answers; None: none in time."""
+        deadline = time.monotonic() + seconds
+        while True:
+            left = deadline - time.monotonic()
+            if left <= 0:
+                return None
+            raw, ended = self.link.look_for(b"\n", left)
+            if not ended:
+                return None
+            # Flow control, a prompt, the echo and terminal sequences may stand before the answer.
+            text = re.sub(rb"\x1b\[[0-9;?]*[A-Za-z]|[\x00\x02\x11\x13\xff]", b"", raw).decode("ascii", "replace").strip()
+            at = text.rfind(word + " ")
+            if at >= 0 and re.search(r"(^| )(OK|ERR \d+ .*)$", text[at + len(word):]):
+                return text[at + len(word):].strip()
+
+    # Pages
+
+    def list_pages(self) -> Dict[int, Tuple[Optional[int], str]]:
+        """page -> (steps, name), or (None, what is wrong)."""
+        text = self.ask("list", 6.0)
+        out = {}
+        for number, steps, name in re.findall(r'(\d+):(\d+|!):"([^"]*)"', text):
+            out[int(number)] = (None if steps == "!" else int(steps), name)
+        return out
+
+    def find(self, word: str) -> int:
+        """A page by number or name."""
+        if word.isdigit():
+            return int(word)
+        pages = {n: name for n, (steps, name) in self.list_pages().items() if steps is not None}
+        for fold in (str, str.lower):
+            hits = [n for n, name in pages.items() if fold(name) == fold(word)]
+            if len(hits) == 1:
+                return hits[0]
+            if hits:
+                raise BoardError(f"the page name {word!r} is not unique: pages " + ", ".join(map(str, hits)))
+        raise BoardError(f"no page of the board is called {word!r}; it has " +
+                         (", ".join(f"{n} {name}" for n, name in pages.items()) or "none"))
+
+    def page(self, number: int) -> Page:
+        for _ in range(TRIES):
+            parts = self.ask(f"page {number}").split()
+            try:
+                data = bytes.fromhex(parts[1])
+                if len(data) == PAGE_BYTES and crc16(data) == int(parts[2], 16) and int(parts[0]) == number:
+                    return Page(data)
+            except (ValueError, IndexError):
+                pass
+        raise NoAnswerError(f"page {number} came damaged, {TRIES} times")
+
+    @property
+    def can_save(self) -> bool:
+        return "save" in self.version.get("can", "").split(",")
+
+    def save_page(self, number: int, page: Page) -> None:
+        """Into the board's flash, through its page in RAM."""
+        self.ask(f"open {number}")
+        data = bytes(page)
+        for at in range(0, PAGE_BYTES, DATA_BYTES):
+            self.ask(f"data {at} {data[at:at + DATA_BYTES].hex()}")
+        self.ask(f"save {number} {crc16(data):04X}", 10.0)
+
+    # Robot
+
+    def pose(self) -> Dict[int, Tuple[Optional[int], bool]]:
+        """id -> (position or None when silent, torque)."""
+        out = {}
+        for joint, position, torque in re.findall(r"(\d+):(\d+|\?):([01])", self.ask("pose")):
+            out[int(joint)] = (None if position == "?" else int(position), torque == "1")
+        return out
+
+    def move(self, positions: Dict[int, int], degrees_per_second: int) -> None:
+        first, last = min(positions), max(positions)
+        digits = "".join(f"{positions[j]:03X}" if j in positions else "---" for j in range(first, last + 1))
+        self.ask(f"move {degrees_per_second} {first} {digits}")
+
+    def torque(self, on: bool, joints: List[int]) -> None:
+        self.ask(" ".join(["torque", "on" if on else "off"] + [str(j) for j in joints]))
+
+    def where(self) -> Dict[str, str]:
+        return self._fields(self.ask("where"))
+
+    def play(self, page: int, code: int = 0) -> None:
+        self.ask(f"play {page}" + (f" {code}" if code else ""))

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: MIT
+"""Looks at everything between this PC and the servos, from near to far, and says what is wrong and what to do.
+
+It writes nothing to the board and moves nothing.
+"""
+from __future__ import annotations
+
+import sys
+import time
+from dataclasses import asdict, dataclass
+from typing import Callable, List, Optional
+
+from m512.errors import M512Error, NoAnswerError
+
+OK, WARN, BAD = "ok", "look", "bad"
+LOW_BATTERY_DV = 96       # below 9.6 V without a load a pack is nearly empty
+MISSED_AT_START = 64      # the search for servos takes some, while nothing moves
+
+
+@dataclass
+class Finding:
+    what: str
+    state: str
+    text: str
+    advice: str = ""
+
+    def as_dict(self) -> dict:
+        return {key: value for key, value in asdict(self).items() if value}
+
+
+def examine(word: str, tell: Callable[[Finding], None]) -> List[Finding]:
+    """All findings, told as they come. `word`: the port, or empty for the only one."""
+    out: List[Finding] = []
+
+    def add(*parts: str) -> None:
+        out.append(Finding(*parts))
+        tell(out[-1])
+
+    _libraries(add)
+    url = _port(word, add)
+    if url:
+        _board(url, add)
+    return out
+
+
+def _libraries(add) -> None:
+    add("python", OK if sys.version_info >= (3, 9) else BAD, "Python " + sys.version.split()[0],
+        "" if sys.version_info >= (3, 9) else "m512 needs Python 3.9 or later")
+    from importlib.util import find_spec
+
+    if not find_spec("matplotlib"):
+        add("plot", WARN, "matplotlib is not installed", "only `m512 plot` needs it: pip install \"m512[plot]\"")
+    from m512.board.sim import find_cm5sim
+
+    try:
+        add("simulator", OK, str(find_cm5sim()))
+    except M512Error as error:
+        add("simulator", WARN, "cm5sim is not here", str(error))
+
+
+def _port(word: str, add) -> Optional[str]:
+    from m512.board import ports
+
+    found = ports.available()
+    add("ports", OK if found or word else BAD, ", ".join(device for device, _ in found) or "none found",
+        "" if found or word else "plug in the USB adapter; on Linux look at `dmesg | tail`")
+    try:
+        url = ports.pick(word)
+        from m512.board.link import Link
+
+        Link(url).close()
+    except M512Error as error:
+        if found or word:
+            add("port", BAD, str(error), "name the port with -p")
+        return None
+    add("port", OK, f"{url} opens")
+    return url
+
+
+def _board(url: str, add) -> None:
+    from m512.board.client import Client
+    from m512.board.link import Link
+
+    with Link(url) as link:
+        try:
+            client = Client(link)
+        except NoAnswerError:
+            _loader(link, add)
+            return
+        except M512Error as error:
+            add("board", BAD, str(error), "check the cable")
+            return
+        version = client.version
+        add("image", OK, f"{version.get('image', '?')} {version.get('version', '')} on a {version.get('board', '?')}")
+        for look in (_robot, _servos, _motions):
+            try:
+                look(client, add)
+            except M512Error as error:
+                add(look.__name__.strip("_"), BAD, str(error), "repeat; if it stays, restart the controller (MODE)")
+
+
+def _loader(link, add) -> None:
+    from m512.board import loaders
+
+    if loaders.at_prompt(link):
+        try:
+            loader = loaders.identify(link)
+        except M512Error as error:
+            add("loader", BAD, str(error), "press MODE and run m512 doctor again")
+            return
+        version = getattr(loader, "version", "")
+        add("loader", OK, f"{loader.name} {version}".strip() + (f" on a {loader.board}" if loader.board else ""))
+        state = loader.app_state() if hasattr(loader, "app_state") else ""
+        if state in ("none", "damaged"):
+            add("application", BAD, f"application: {state}", "flash one: m512 run play-cm5.hex")
+        else:
+            add("application", WARN, "the board waits in its boot loader" + (f"; application: {state}" if state else ""),
+                "m512 run starts it")
+        if hasattr(loader, "app_state"):
+            loader.leave()
+        return
+    heard = link.drain(0.3, 1.0)
+    add("board", BAD, f"{len(heard)} bytes came, but nobody answers as Play, Edit or a boot loader" if heard
+        else "silence",
+        "is the controller on, and the cable in the socket for the PC? Then press MODE while `m512 term` runs: one byte "
+        "0xFF must come. With the factory's firmware, `m512 flash` works all the same")
+
+
+def _robot(client, add) -> None:
+    state = client.where()
+    volts = int(state.get("dv", "0"))
+    if volts:
+        add("battery", WARN if volts < LOW_BATTERY_DV else OK, f"{volts / 10:.1f} V",
+            "charge it soon" if volts < LOW_BATTERY_DV else "")
+    missed = int(state.get("missed", "0"))
+    if missed > MISSED_AT_START:
+        add("ticks", WARN, f"{missed} ticks of motion were missed since the start", "motions are not quite smooth")
+    faulty = int(state.get("faulty", "0"), 16)
+    if faulty:
+        ids = " ".join(str(joint) for joint in range(31) if faulty >> joint & 1)
+        add("faults", BAD, f"servos with a fault: {ids}", "type `faults` in `m512 term` for the reason; let hot ones cool down")
+
+
+def _servos(client, add) -> None:
+    for _ in range(4):      # right after its start the board has not read all of them yet
+        pose = client.pose()
+        if pose and all(at is not None for at, _ in pose.values()):
+            break
+        time.sleep(0.4)
+    if not pose:
+        add("servos", BAD, "no servo answers", "is the battery connected (USB does not feed servos) and the bus cable plugged in? "
+            "New DX servos talk slowly: `servos` and `baud` in `m512 term`")
+        return
+    silent = [joint for joint, (at, _) in pose.items() if at is None]
+    limp = [joint for joint, (_, on) in pose.items() if not on]
+    add("servos", BAD if silent else OK, f"{len(pose)} servos, IDs {_ranges(pose)}"
+        + (f"; silent now: {_ranges(silent)}" if silent else "") + (f"; limp: {_ranges(limp)}" if limp else ""),
+        "check the cable before the first silent one" if silent else "")
+
+
+def _motions(client, add) -> None:
+    pages = client.list_pages()
+    good = [n for n, (steps, _) in pages.items() if steps]
+    damaged = [n for n, (steps, _) in pages.items() if steps is None]
+    if damaged:
+        add("pages", BAD, "damaged: " + " ".join(f"{n} ({pages[n][1]})" for n in damaged),
+            "flash your motions again, or repair the pages in Edit")
+    add("motions", OK if good else WARN, f"{len(good)} pages with an action",
+        "" if good else "flash some: m512 flash library.m512")
+
+
+def _ranges(numbers) -> str:
+    from m512.files.text.writer import ranges
+
+    return ranges(sorted(numbers)) or "none"

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""Writing a Plan to a board through either loader: compare, write what differs, read back.
+
+Because only differing pages are sent, a download that broke off goes on where it stopped when it is repeated.
+"""
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Callable, ContextManager
+
+from m512.board.factory import FactoryLoader
+from m512.board.loaders import Loader
+from m512.board.memory import FLASH_PAGE, Plan
+from m512.errors import BoardError, RefusedError
+
+PhaseMaker = Callable[[str], ContextManager[Callable[[int, int], None]]]
+BOOT_MODE, BOOT_APPLICATION = 0xFFF, 0x11
+
+
+@dataclass
+class Report:
+    pages: int
+    written: int
+    seconds: float
+    retries: int
+
+    def as_dict(self) -> dict:
+        return {"pages": self.pages, "written": self.written, "seconds": round(self.seconds, 2), "retries": self.retries}
+
+    def __str__(self) -> str:
+        if not self.written:
+            return f"all {self.pages} flash pages were there already"
+        again = f", {self.retries} repetitions on the line" if self.retries else ""
+        return (f"{self.written} of {self.pages} flash pages written and read back "
+                f"({self.written * FLASH_PAGE:,} bytes in {self.seconds:.1f} s{again})")
+
+
+def check_board(plan: Plan, loader: Loader) -> None:
+    """Code for another board is refused as soon as the board is known; nothing was written then."""
+    if plan.record and loader.board and plan.record.board != loader.board:
+        raise RefusedError(f"the image is {plan.record}, but this board is a {loader.board}. Nothing was written")
+
+
+def download(loader: Loader, plan: Plan, phase: PhaseMaker) -> Report:
+    check_board(plan, loader)
+    begun = time.monotonic()
+    with phase("Comparing") as progress:
+        todo = loader.different(plan.pages, progress)
+    if todo:
+        pages = {number: plan.pages[number] for number in todo}
+        with phase("Writing") as progress:
+            if isinstance(loader, FactoryLoader):
+                loader.write(pages, progress, plan.pages)
+            else:
+                loader.write(pages, progress)
+        with phase("Verifying") as progress:
+            wrong = loader.different(pages, progress)
+        if wrong:
+            raise BoardError("read back wrong at " + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in wrong[:8])
+                             + ". Repeat the command; if that does not help the flash is worn out")
+    return Report(len(plan.pages), len(todo), time.monotonic() - begun, loader.retries)
+
+
+def start(loader: Loader) -> None:
+    """Starts the application, now and at every power-on to come."""
+    if not isinstance(loader, FactoryLoader) and loader.read_eeprom(BOOT_MODE, BOOT_MODE + 1) == b"\xff":
+        loader.write_eeprom({BOOT_MODE: BOOT_APPLICATION})
+    loader.leave(1)

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""Getting into a board's boot loader, whichever it is, and finding out which.
+
+    prompt there? ---- yes --> identify
+       | no
+    Play or Edit? ---- yes --> @reset, then '#'
+       | no, or it cannot
+    in a session of ours that broke off? --> HELLO
+       | no
+    ask for the MODE button, '#' every 15 ms until the banner comes
+"""
+from __future__ import annotations
+
+import time
+from typing import Callable, Union
+
+from m512.board.block import BlockLoader
+from m512.board.factory import PROMPT, FactoryLoader
+from m512.board.link import Link
+from m512.errors import NoAnswerError, RefusedError
+
+Loader = Union[BlockLoader, FactoryLoader]
+BANNER = b"SYSTEM O.K."
+HASH_SECONDS = 0.015
+WAIT_SECONDS = 60.0
+
+
+def at_prompt(link: Link) -> bool:
+    """Whether a loader answers at its prompt. (The backspace keeps a full line from crashing the factory loader.)"""
+    link.drain(0.02, 0.3)
+    link.write(b"\x08\r")
+    return link.look_for(PROMPT, 0.4)[1]
+
+
+def identify(link: Link) -> Loader:
+    """Which loader is at its prompt. Its own words are asked first: a frame would be typed text to the factory's."""
+    link.drain(0.03)
+    link.write(b"id\r")
+    text, ended = link.look_for(PROMPT, 1.5)
+    if not ended:
+        raise NoAnswerError("the boot loader stopped answering")
+    if b"ID Motion512" in text:
+        return BlockLoader(link, text.decode("ascii", "replace"))
+    if b"Bad Command" in text:
+        return FactoryLoader(link)
+    raise NoAnswerError(f"a boot loader that this program does not know answered {text[-60:]!r}")
+
+
+def call_by_hash(link: Link, seconds: float) -> bool:
+    """'#' again and again until a loader shows its banner; clears the line behind it."""
+    deadline, came, after_ff = time.monotonic() + seconds, b"", 0
+    while time.monotonic() < deadline:
+        # Behind the 0xFF of a start a few '#' are enough; more would only fill its line.
+        if after_ff < 8:
+            link.write(b"#")
+        some = link.read_some(HASH_SECONDS)
+        came = (came + some)[-4096:]
+        if BANNER in came or PROMPT in came:     # a prompt without banner: a broken session of ours has ended
+            link.look_for(PROMPT, 0.3)
+            link.drain(0.1, 1.0)
+            link.write(b"\x08\r")
+            return link.look_for(PROMPT, 1.0)[1]
+        after_ff = after_ff + 1 if came.endswith(b"\xff") or (after_ff and not some) else 0
+        if after_ff > 30:      # half a second of silence behind the 0xFF: it was something else
+            after_ff = 0
+            came = b""
+    return False
+
+
+def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS) -> Loader:
+    """The board's loader, ready for work. `say` tells the user what is waited for."""
+    if at_prompt(link):
+        return identify(link)
+    if reset_by_application(link, say) and call_by_hash(link, 3.0):
+        return identify(link)
+    try:
+        session = BlockLoader(link, tries=1, seconds=0.4)
+        session.leave()
+        return identify(link)
+    except NoAnswerError:
+        pass
+    say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; "
+        "Ctrl-C gives up.")
+    if not call_by_hash(link, seconds):
+        raise NoAnswerError(f"no boot loader answered within {seconds:.0f} s. Is the controller on, the cable in its PC "
+                            "socket, and this the right port? (m512 doctor looks at each)")
+    return identify(link)
+
+
+def reset_by_application(link: Link, say: Callable[[str], None]) -> bool:
+    """Asks Play to restart the controller; whether it will. Edit may hold edits that are not saved: its user decides."""
+    from m512.board.client import Client
+
+    try:
+        client = Client(link, (0.7,))
+    except NoAnswerError:
+        return False
+    if client.where().get("state") != "idle":
+        raise RefusedError("something plays on the robot: `m512 stop` first")
+    if client.version.get("image") != "play":
+        say("Edit runs there. What is not saved in it will be lost.")
+        return False
+    link.write(b"@reset\r")
+    return True

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: MIT
+"""The flash of the board: its areas (twin of linker/memory_map.h), and images that are about to go there.
+
+A Plan is made and judged before a byte is sent: plan() refuses what would hurt.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Dict, List, Optional, Tuple
+
+from m512.crc16 import crc16
+from m512.errors import FileError, RefusedError
+from m512.files import formats
+from m512.files.image import hex_segments
+from m512.files.page import EMPTY, PAGE_BYTES
+
+FLASH_PAGE = 256
+APP = (0x00000, 0x0C000)
+JOURNAL = (0x0C000, 0x0E000)
+MOTIONS = (0x0E000, 0x1E000)
+BOOT = (0x1E000, 0x20000)
+EEPROM_BYTES = 4096
+RECORD_AT, RECORD_BYTES = 0x8C, 16
+BOARDS = {1: "cm5", 2: "cm2"}
+KINDS = {1: "play", 2: "edit", 255: "other"}
+
+
+@dataclass
+class Record:
+    """What an application image says of itself (app_record.h); None fields: it is not filled in."""
+
+    length: int
+    crc: int
+    board: str
+    kind: str
+    version: str
+
+    @classmethod
+    def of(cls, app: bytes) -> Optional["Record"]:
+        raw = app[RECORD_AT:RECORD_AT + RECORD_BYTES]
+        if len(raw) < RECORD_BYTES or raw[:4] != b"M512" or raw[15] != 1:
+            return None
+        return cls(int.from_bytes(raw[4:8], "little"), int.from_bytes(raw[8:10], "little"),
+                   BOARDS.get(raw[10], f"board {raw[10]}"), KINDS.get(raw[11], f"kind {raw[11]}"),
+                   ".".join(str(b) for b in raw[12:15]))
+
+    def fits(self, app: bytes) -> bool:
+        """Whether length and CRC agree with the image."""
+        if not RECORD_AT + RECORD_BYTES <= self.length <= min(len(app), APP[1]):
+            return False
+        body = bytearray(app[:self.length])
+        body[RECORD_AT + 8:RECORD_AT + 10] = b"\xff\xff"
+        return crc16(bytes(body)) == self.crc
+
+    def __str__(self) -> str:
+        return f"Motion512 {self.kind} {self.version} for {self.board}"
+
+
+@dataclass
+class Plan:
+    """Whole flash pages to write: page index -> 256 bytes. `remarks` are for the user."""
+
+    pages: Dict[int, bytes] = field(default_factory=dict)
+    record: Optional[Record] = None
+    has_app: bool = False
+    has_motions: bool = False
+    remarks: List[str] = field(default_factory=list)
+
+    def runs(self, numbers: List[int], gap: int = 0) -> List[Tuple[int, bytes]]:
+        """The pages `numbers` as (address, bytes) runs; up to `gap` pages between them are written along."""
+        out: List[List[int]] = []
+        for number in sorted(numbers):
+            if out and number - out[-1][-1] <= gap + 1 and all(n in self.pages for n in range(out[-1][-1], number)):
+                out[-1] += range(out[-1][-1] + 1, number + 1)
+            else:
+                out.append([number])
+        return [(run[0] * FLASH_PAGE, b"".join(self.pages[n] for n in run)) for run in out]
+
+
+def _refuse_outside(start: int, end: int, what: str) -> None:
+    if end > BOOT[0]:
+        raise RefusedError(f"{what} reaches 0x{end - 1:05X}, into the boot loader ({_area(BOOT)}). That area can only be "
+                           "written with an ISP programmer")
+    if start < JOURNAL[1] and end > JOURNAL[0]:
+        raise RefusedError(f"{what} reaches into {_area(JOURNAL)}, where saved pages are kept in passing. "
+                           f"An application has {_area(APP)}")
+
+
+def _area(area: Tuple[int, int]) -> str:
+    return f"0x{area[0]:05X}..0x{area[1] - 1:05X}"
+
+
+def plan(path: Path, address: Optional[int] = None, board: Optional[str] = None, with_trim: bool = False,
+         damaged: str = "ask") -> Plan:
+    """What flashing a file means. `board`: cm5 or cm2 if known, to refuse code for the other one.
+    `address`: of a raw binary that is no motion image. `with_trim`: page 0 goes too although it holds no trim."""
+    data = formats.read_bytes(path)
+    out = Plan()
+    for start, piece in _segments(path, data, address, out, with_trim, damaged):
+        _refuse_outside(start, start + len(piece), path.name)
+        out.has_app |= start < APP[1]
+        out.has_motions |= start + len(piece) > MOTIONS[0]
+        _add(out, start, piece)
+    if not out.pages:
+        raise FileError(f"{path} holds nothing to flash")
+    if out.has_app:
+        _judge_app(out, path, board)
+    return out
+
+
+def _segments(path: Path, data: bytes, address: Optional[int], out: Plan, with_trim: bool, damaged: str):
+    is_hex = data[:200].lstrip(b"\xef\xbb\xbf \r\n").startswith(b":")
+    if is_hex and address is not None:
+        raise RefusedError("Intel HEX says its addresses itself; --address is for raw binaries")
+    if is_hex:
+        segments = hex_segments(data.decode("ascii", "replace"))
+        if segments and segments[0][0] >= 0x20000:
+            raise RefusedError(f"{path.name} begins at 0x{segments[0][0]:05X}, beyond this board's flash (a CM-510 image?)")
+        return segments
+    if address is not None:
+        return [(address, data)]
+    return _motions(path, formats.decode(data, path), out, with_trim, damaged)
+
+
+def _motions(path: Path, image, out: Plan, with_trim: bool, damaged: str):
+    if image.bits != 10:
+        raise RefusedError("12-bit positions mean nothing to this board: scale them first (m512 convert --scale 10)")
+    image, losses = image.resized(128) if (image.first, image.end) != (0, 128) else (image, [])
+    if losses:
+        raise RefusedError("this board has 128 pages:\n  " + "\n  ".join(losses) + "\nmove or delete them first (m512 pages)")
+    bad = [(n, page.fault_text()) for n, page in image.items() if page.fault() and bytes(page) != b"\xff" * PAGE_BYTES]
+    if bad and damaged == "ask":
+        raise RefusedError("damaged pages (--damaged keep flashes them all the same):\n"
+                           + "\n".join(f"  page {n}: {why}" for n, why in bad))
+    data = image.to_bytes()
+    if not with_trim and data[:PAGE_BYTES] in (EMPTY, b"\xff" * PAGE_BYTES):
+        out.remarks.append("page 0 of the file holds no trim; the robot keeps its own (--with-trim overwrites it)")
+        return [(MOTIONS[0] + PAGE_BYTES, data[PAGE_BYTES:])]
+    return [(MOTIONS[0], data)]
+
+
+def _add(out: Plan, start: int, piece: bytes) -> None:
+    """Into whole flash pages; what a file leaves out of a page is 0xFF."""
+    for at in range(start - start % FLASH_PAGE, start + len(piece), FLASH_PAGE):
+        page = bytearray(out.pages.get(at // FLASH_PAGE, b"\xff" * FLASH_PAGE))
+        low, high = max(at, start), min(at + FLASH_PAGE, start + len(piece))
+        page[low - at:high - at] = piece[low - start:high - start]
+        out.pages[at // FLASH_PAGE] = bytes(page)
+
+
+def app_bytes(pages: Dict[int, bytes]) -> bytes:
+    """The application area as one piece, from the pages that there are."""
+    last = max((n for n in pages if n * FLASH_PAGE < APP[1]), default=-1)
+    return b"".join(pages.get(n, b"\xff" * FLASH_PAGE) for n in range(last + 1))
+
+
+def _judge_app(out: Plan, path: Path, board: Optional[str]) -> None:
+    app = app_bytes(out.pages)
+    if 0 not in out.pages or app[:2] == b"\xff\xff":
+        raise RefusedError(f"{path.name} has no reset vector at 0: not a program for this board")
+    out.record = Record.of(app)
+    if out.record is None:
+        out.remarks.append(f"{path.name} is not one of our images (no record): it is taken for the right board")
+        return
+    if board and out.record.board in BOARDS.values() and out.record.board != board:
+        raise RefusedError(f"{path.name} is {out.record}, but the board is a {board}")
+    if not out.record.fits(app):
+        raise RefusedError(f"{path.name} is damaged: its length or CRC does not fit its record")

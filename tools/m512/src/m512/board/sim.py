@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: MIT
+"""Starts the simulator (cm5sim) on a port of its own, for commands that are given --sim instead of a robot.
+
+It is looked for in $M512_CM5SIM, in the PATH, and in the build folder of a source tree that this package lies in.
+"""
+from __future__ import annotations
+
+import os
+import re
+import select
+import shutil
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+from typing import List, Optional
+
+from m512.errors import MissingError
+
+START_SECONDS = 10.0
+
+
+def build_folder() -> Optional[Path]:
+    """build/ of the source tree, if this package lies in one."""
+    given = os.environ.get("M512_BUILD")
+    if given:
+        return Path(given)
+    for folder in Path(__file__).resolve().parents:
+        if (folder / "linker" / "memory_map.h").exists():
+            return folder / "build"
+    return None
+
+
+def find_cm5sim() -> Path:
+    given, build = os.environ.get("M512_CM5SIM"), build_folder()
+    places = [Path(given)] if given else []
+    found = shutil.which("cm5sim")
+    places += [Path(found)] if found else []
+    places += [build / "host" / "tools" / "sim" / "cm5sim"] if build else []
+    for place in places:
+        if place.exists():
+            return place
+    raise MissingError("the simulator cm5sim is not here. Build it (tools/demo in the source tree does), then put it into "
+                       "the PATH or name it in M512_CM5SIM")
+
+
+def find_image(name: str) -> Path:
+    """A firmware image by path, or by name in build/firmware."""
+    build = build_folder()
+    for place in [Path(name)] + ([build / "firmware" / name] if build else []):
+        if place.exists():
+            return place
+    raise MissingError(f"the firmware image {name} is not here: build it (tools/demo does), or give its path (--image)")
+
+
+class Simulator:
+    """cm5sim with its console on a pty. Use as a context; `url` is the port."""
+
+    def __init__(self, images: List[str], motions: Optional[Path] = None, servos: str = "1-18", extra: Optional[List[str]] = None):
+        self.folder = Path(tempfile.mkdtemp(prefix="m512-sim-"))
+        command = [str(find_cm5sim())] + [str(find_image(image)) for image in images]
+        if motions:
+            from m512.files import formats
+
+            image = formats.load(motions)
+            (self.folder / "motions.bin").write_bytes(image.resized(128)[0].to_bytes())
+            command += ["--motions", str(self.folder / "motions.bin")]
+        command += ["--servos", servos, "--pty", "--no-stdio", "--realtime"] + (extra or [])
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        self.said = b""
+        self.url = self._wait_for_port()
+
+    def _wait_for_port(self) -> str:
+        assert self.process.stdout is not None
+        deadline = time.monotonic() + START_SECONDS
+        while time.monotonic() < deadline:
+            if select.select([self.process.stdout], [], [], 0.1)[0]:
+                some = os.read(self.process.stdout.fileno(), 4096)
+                self.said += some
+                match = re.search(rb"serial port: (\S+)", self.said)
+                if match:
+                    return match.group(1).decode()
+                if not some:
+                    break
+        self.close()
+        raise MissingError("the simulator did not start: " + self.said.decode("utf-8", "replace").strip())
+
+    def __enter__(self) -> "Simulator":
+        return self
+
+    def __exit__(self, *_exc: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        self.process.terminate()
+        try:
+            self.process.wait(5)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+        shutil.rmtree(self.folder, ignore_errors=True)

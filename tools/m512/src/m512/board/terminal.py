@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: MIT
+"""A raw terminal between this one and a board: two threads, one key of its own."""
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import BinaryIO, Optional
+
+from m512.board.link import Link
+from m512.errors import M512Error, PortError
+
+KEY = "\x1d"      # Ctrl-]
+HELP = """
+ Ctrl-] h   this help              Ctrl-] q  quit
+ Ctrl-] l   call the boot loader: press MODE, '#' is sent until it answers
+ Ctrl-] s   send a text file, a line at a time    Ctrl-] b  send a file as it is
+ Ctrl-] g   log to a file, on and off             Ctrl-] Ctrl-]  send Ctrl-]
+"""
+LINE_SECONDS = 2.0      # for the board's answer to a line of a file
+XON, XOFF = 0x11, 0x13
+HIDDEN = (XON, XOFF, 0xFF)     # flow control, and the byte that a controller sends at its start
+
+
+class Terminal:
+    def __init__(self, url: str, log: Optional[Path] = None):
+        self.link = Link(url)
+        self.log: Optional[BinaryIO] = None
+        self.running, self.held, self.trouble = True, False, ""
+        self.heard_at = 0.0
+        if log:
+            self._open_log(log)
+
+    def _open_log(self, path: Path) -> None:
+        try:
+            self.log = open(path, "ab")
+        except OSError as error:
+            raise PortError(f"cannot write {path}: {error.strerror}") from None
+
+    def run(self, send: Optional[Path] = None) -> None:
+        from serial.tools.miniterm import Console
+
+        console = Console()
+        self._say(f"{self.link.url}, 57600 8N1. Ctrl-] h for help, Ctrl-] q to quit.")
+        reader = threading.Thread(target=self._read, args=(console,), daemon=True)
+        if sys.stdin.isatty():
+            console.setup()
+        try:
+            reader.start()
+            if send:
+                self.send_text(send)
+            self._keys(console)
+        finally:
+            self.running = False
+            console.cleanup()
+            reader.join(1)
+            self.link.close()
+            if self.log:
+                self.log.close()
+        if self.trouble:
+            raise PortError(self.trouble)
+
+    @staticmethod
+    def _say(text: str) -> None:
+        sys.stderr.write("\r\n-- " + text.replace("\n", "\r\n") + "\r\n")
+        sys.stderr.flush()
+
+    def _read(self, console) -> None:
+        """From the board to the screen, as it is."""
+        while self.running:
+            try:
+                data = self.link.read_some(0.1)
+            except M512Error as error:
+                self.trouble, self.running = str(error), False
+                self._say(f"{error} (press a key)")
+                return
+            if not data:
+                continue
+            self.heard_at = time.monotonic()
+            self.held = data.rfind(XOFF) > data.rfind(XON) if XOFF in data or XON in data else self.held
+            console.write_bytes(bytes(b for b in data if b not in HIDDEN))
+            if self.log:
+                self.log.write(data)
+                self.log.flush()
+
+    def _keys(self, console) -> None:
+        while self.running:
+            try:
+                key = console.getkey()
+            except KeyboardInterrupt:
+                key = "\x03"
+            if not self.running or key == "":
+                return
+            if key != KEY:
+                # The keyboard sends LF for Enter on POSIX; boards want CR.
+                self.link.write(("\r" if key == "\n" else key).encode("utf-8", "replace"), wait=False)
+            elif not self._own(console):
+                return
+
+    def _own(self, console) -> bool:
+        """The key after Ctrl-]. False: quit."""
+        key = console.getkey().lower()
+        if key == "q":
+            return False
+        if key == KEY:
+            self.link.write(KEY.encode())
+        elif key == "l":
+            self._say("Press MODE; '#' is sent for 30 s")
+            self._call()
+        elif key in "sb":
+            name = self._ask(console, "file: ")
+            if name:
+                (self.send_text if key == "s" else self.send_raw)(Path(name))
+        elif key == "g":
+            self._toggle_log(console)
+        else:
+            self._say(HELP)
+        return True
+
+    def _call(self) -> None:
+        heard, until, more = self.heard_at, time.monotonic() + 30, 3
+        while self.running and time.monotonic() < until and more:
+            self.link.write(b"#")
+            time.sleep(0.015)
+            # The first thing heard is the 0xFF of a start; three more are inside the loader's 60 ms, and the last byte
+            # in it has to be a '#'.
+            more -= self.heard_at > heard
+        time.sleep(0.35)
+        self.link.write(b"\x08\r")
+
+    def _toggle_log(self, console) -> None:
+        if self.log:
+            self.log.close()
+            self.log = None
+            self._say("log closed")
+            return
+        name = self._ask(console, "log to: ")
+        if name:
+            self._open_log(Path(name))
+
+    def _ask(self, console, prompt: str) -> str:
+        sys.stderr.write("\r\n-- " + prompt)
+        sys.stderr.flush()
+        out = ""
+        while True:
+            key = console.getkey()
+            if key in "\r\n":
+                sys.stderr.write("\r\n")
+                return out.strip()
+            if key in ("\x1b", "\x03"):
+                return ""
+            if key in ("\x7f", "\x08"):
+                out = out[:-1]
+                sys.stderr.write("\b \b")
+            else:
+                out += key
+                sys.stderr.write(key)
+            sys.stderr.flush()
+
+    # Files
+
+    def send_text(self, path: Path) -> None:
+        """Line by line; each waits until the board has answered and is quiet, and for XON after XOFF."""
+        data = self._file(path)
+        if data is None:
+            return
+        for line in data.replace(b"\r\n", b"\n").split(b"\n"):
+            while self.held and self.running:
+                time.sleep(0.01)
+            sent = time.monotonic()
+            self.link.write(line + b"\r")
+            while time.monotonic() - sent < LINE_SECONDS and self.running:
+                time.sleep(0.02)
+                if self.heard_at > sent and time.monotonic() - self.heard_at > 0.06:
+                    break
+        self._say(f"{path} sent")
+
+    def send_raw(self, path: Path) -> None:
+        data = self._file(path)
+        if data is not None:
+            self.link.write(data)
+            self._say(f"{path} sent, {len(data):,} bytes")
+
+    def _file(self, path: Path) -> Optional[bytes]:
+        try:
+            return path.read_bytes()
+        except OSError as error:
+            self._say(f"cannot read {path}: {error.strerror}")
+            return None
+
+

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+"""One page as a table for spreadsheets: header fields, then a line a step. An empty cell is a joint not used."""
+from __future__ import annotations
+
+import csv
+from io import StringIO
+from typing import List, Optional, Tuple
+
+from m512.errors import FileError
+from m512.files.image import Image
+from m512.files.page import JOINTS, STEPS, Page
+from m512.files.text.words import Token, WordError, name_bytes, number, position, position_text, quote_name
+
+FIELDS = ("repeat", "schedule", "code", "speed", "accel", "next", "exit", "link1_page", "link1_code", "link2_page",
+          "link2_code", "dxl_setup", "byte63")
+COLUMNS = ["step", "time", "pause"] + [f"id{joint}" for joint in range(JOINTS)]
+
+
+def write(image: Image, which: Optional[int]) -> Tuple[bytes, List[str]]:
+    if which is None:
+        used = [n for n, page in image.items() if n and not page.is_empty]
+        if len(used) != 1:
+            raise FileError("a CSV holds one page: say which (--page NUMBER or NAME)")
+        which = used[0]
+    page = image[which]
+    if page.steps > STEPS:
+        raise FileError(f"page {which} is damaged: {page.fault_text(image.kind)}")
+    out = StringIO()
+    table = csv.writer(out, lineterminator="\n")
+    table.writerow(["page", which])
+    table.writerow(["name", quote_name(page.name).strip('"')])
+    for field in FIELDS:
+        table.writerow([field, getattr(page, field)])
+    table.writerow(["softness"] + [f"0x{page.compliance(joint):02X}" for joint in range(JOINTS)])
+    table.writerow(COLUMNS)
+    for step in range(page.steps):
+        words = ["" if word == 0x4000 else position_text(word, image.kind.pos_max) for word in page.words(step)]
+        table.writerow([step, page.time(step), page.pause(step)] + words)
+    data = out.getvalue()
+    again = read(data, "csv")[which]
+    losses = [] if again == page else [f"page {which}: what lies in unused steps, reserved bytes or behind the name's end"
+                                       + (" and its wrong checksum" if page.fault_text() else "")]
+    return data.encode(), losses
+
+
+def read(text: str, where: str) -> Image:
+    """A 128-page image (256 when the number needs it) with that one page."""
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").replace("\0", "")
+    page, which, line, in_steps = Page(), 0, 0, False
+    try:
+        rows = list(csv.reader(StringIO(lines)))
+        for line, row in enumerate(rows, 1):
+            key, cells = (row[0], row[1:]) if row else ("", [])
+            if in_steps:
+                if any(row):
+                    _read_step(page, row)
+            elif key == "page":
+                which = number(Token(cells[0]), 0, 255, "page")
+            elif key == "name":
+                page.data[:14] = name_bytes(Token(cells[0], True)).ljust(14, b"\0")
+            elif key in FIELDS:
+                setattr(page, key, number(Token(cells[0]), 0, 255, key))
+            elif key == "softness":
+                for joint, cell in enumerate(cells[:JOINTS]):
+                    page.set_compliance(joint, number(Token(cell), 0, 255, "softness"))
+            elif key == "step":
+                if row != COLUMNS:
+                    raise WordError("the columns are " + ",".join(COLUMNS[:4]) + f",..id{JOINTS - 1}")
+                in_steps = True
+            elif any(row):
+                raise WordError(f"unknown field {key!r}")
+    except (WordError, IndexError) as error:
+        raise FileError(f"{where}:{line}: {error if isinstance(error, WordError) else 'a value is missing'}") from None
+    except csv.Error as error:
+        raise FileError(f"{where}: {error}") from None
+    if not in_steps:
+        raise FileError(f"{where}: no line of columns (step,time,pause,id0,...)")
+    image = Image.empty(128 if which < 128 else 256)
+    image[which] = page.seal()
+    return image
+
+
+def _read_step(page: Page, row: List[str]) -> None:
+    if page.steps == STEPS:
+        raise WordError("a page has 7 steps")
+    if len(row) != len(COLUMNS):
+        raise WordError(f"{len(row)} values, not {len(COLUMNS)}")
+    step = page.steps
+    page.set_time(step, number(Token(row[1]), 0, 255, "time"))
+    page.set_pause(step, number(Token(row[2]), 0, 255, "pause"))
+    for joint, cell in enumerate(row[3:]):
+        page.set_word(step, joint, position(cell.strip() or "-", 0x4000, 4095 if len(cell) == 4 else 1023))
+    page.steps += 1

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: MIT
+"""Motion files of every kind, by suffix and contents.
+
+load() says in Image.notes what it had to decide; save() returns what the new format cannot say (its losses).
+"""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import List, Optional, Tuple
+
+from m512.errors import FileError
+from m512.files import image as raw
+from m512.files.image import Image
+
+TEXT, BINARY, HEX, MTN, CSV = "text", "image", "Intel HEX", "RoboPlus .mtn", "CSV"
+BY_SUFFIX = {".m512": TEXT, ".bin": BINARY, ".img": BINARY, ".hex": HEX, ".ihex": HEX, ".mtn": MTN, ".csv": CSV}
+
+
+def read_bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise FileError(f"cannot read {path}: {error.strerror}") from None
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    try:
+        path.write_bytes(data)
+    except OSError as error:
+        raise FileError(f"cannot write {path}: {error.strerror}") from None
+
+
+def recognise(data: bytes, path: Path) -> str:
+    """What a file is, by its contents; the suffix decides only where they do not."""
+    if len(data) in raw.SIZES:
+        return BINARY
+    start = data[:400].lstrip(b"\xef\xbb\xbf \t\r\n")
+    if start.startswith(b":"):
+        return HEX
+    if start.startswith(b"type="):
+        return MTN
+    if start.startswith(b"page,"):
+        return CSV
+    lines = [line.strip() for line in start.split(b"\n")]
+    if any(line.startswith(b"motion512") for line in lines):
+        return TEXT
+    kind = BY_SUFFIX.get(path.suffix.lower())
+    if kind in (None, BINARY) or not data:
+        raise FileError(f"{path}: {len(data):,} bytes that are no motion file this program knows "
+                        "(image, Intel HEX, .mtn, CSV or text)")
+    return kind
+
+
+def _text_of(data: bytes, path: Path) -> str:
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FileError(f"{path}: not text (byte 0x{data[error.start]:02X} at {error.start})") from None
+
+
+def load(path: Path, bits: int = 10, base: Optional[Image] = None, edited: bool = False) -> Image:
+    """Reads any motion file. `bits`: 10 or 12, of an image or HEX file (text says it itself). `base`: gives what the
+    file cannot say (page 0 of a .mtn). `edited`: a .mtn with a wrong file checksum is taken as it is."""
+    data = read_bytes(path)
+    return decode(data, path, bits, base, edited)
+
+
+def decode(data: bytes, path: Path, bits: int = 10, base: Optional[Image] = None, edited: bool = False) -> Image:
+    kind = recognise(data, path)
+    if kind == BINARY:
+        return raw.from_bytes(data, bits)
+    if kind == HEX:
+        return raw.from_hex(_text_of(data, path), bits)
+    if kind == TEXT:
+        from m512.files.text import read_text
+
+        return read_text(_text_of(data, path), str(path), path.parent)
+    if kind == MTN:
+        from m512.files import mtn
+
+        return mtn.read(data, str(path), base, edited)
+    from m512.files import csvpage
+
+    return csvpage.read(_text_of(data, path), str(path))
+
+
+def save(path: Path, image: Image, number: Optional[int] = None, mtn_version: str = "1.01") -> List[str]:
+    """Writes an image in the format of the path's suffix; returns the losses. `number`: the page of a CSV."""
+    data, losses = encode(path, image, number, mtn_version)
+    write_bytes(path, data)
+    return losses
+
+
+def encode(path: Path, image: Image, number: Optional[int] = None, mtn_version: str = "1.01") -> Tuple[bytes, List[str]]:
+    kind = BY_SUFFIX.get(path.suffix.lower())
+    if kind is None:
+        raise FileError(f"{path}: the suffix decides the format: {' '.join(BY_SUFFIX)}")
+    if kind == BINARY:
+        return image.to_bytes(), []
+    if kind == HEX:
+        return raw.to_hex(image).encode(), []
+    if kind == TEXT:
+        from m512.files.text import write_text
+
+        return write_text(image).encode(), []
+    if kind == MTN:
+        from m512.files import mtn
+
+        return mtn.write(image, mtn_version)
+    from m512.files import csvpage
+
+    return csvpage.write(image, number)

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: MIT
+"""Motion areas: raw images and Intel HEX.
+
+| bytes   | pages  | origin                                        |
+| 65,536  | 0..127 | CM-2, CM-5, Motion512                         |
+| 65,024  | 1..127 | the same without page 0                       |
+| 131,072 | 0..255 | CM-510, DARwIn-OP and later (OP3: 12-bit)     |
+
+Which kind a file is follows from its length; whether it is 12-bit does not, and has to be told.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from io import StringIO
+from typing import Dict, Iterator, List, Tuple
+
+from m512.errors import FileError
+from m512.files.page import EMPTY, PAGE_BYTES, Kind, Page
+
+SIZES = {65536: (0, 128), 65024: (1, 128), 131072: (0, 256)}
+HEX_BASE = {128: 0x0E000, 256: 0x1E000}
+TWELVE_BIT_MAX = 4095
+
+
+@dataclass
+class Image:
+    """All pages of a motion area, `first` (0 or 1) to `end` - 1. `notes` says what reading it had to decide."""
+
+    pages: List[Page]
+    first: int = 0
+    bits: int = 10
+    notes: List[str] = field(default_factory=list)
+
+    @classmethod
+    def empty(cls, count: int = 128) -> "Image":
+        return cls([Page() for _ in range(count)])
+
+    @property
+    def end(self) -> int:
+        return self.first + len(self.pages)
+
+    @property
+    def kind(self) -> Kind:
+        return Kind(self.end, 1023 if self.bits == 10 else TWELVE_BIT_MAX)
+
+    def __getitem__(self, number: int) -> Page:
+        if not self.first <= number < self.end:
+            raise FileError(f"page {number} is not in this image (pages {self.first}..{self.end - 1})")
+        return self.pages[number - self.first]
+
+    def __setitem__(self, number: int, page: Page) -> None:
+        self[number].data[:] = page.data
+
+    def items(self) -> Iterator[Tuple[int, Page]]:
+        return enumerate(self.pages, self.first)
+
+    def to_bytes(self) -> bytes:
+        return b"".join(bytes(page) for page in self.pages)
+
+    def names(self) -> Dict[bytes, List[int]]:
+        """Page numbers by name, nameless and untouched pages left out."""
+        found: Dict[bytes, List[int]] = {}
+        for number, page in self.items():
+            if page.name and number:
+                found.setdefault(page.name, []).append(number)
+        return found
+
+    def find(self, word: str) -> int:
+        """A page by number or name (exact, else unambiguous without regard to case)."""
+        if word.isdigit():
+            self[int(word)]
+            return int(word)
+        wanted = word.encode("utf-8", "replace")
+        for fold in (lambda name: name, bytes.lower):
+            hits = [n for name, numbers in self.names().items() if fold(name) == fold(wanted) for n in numbers]
+            if len(hits) == 1:
+                return hits[0]
+            if hits:
+                raise FileError(f"page name {word!r} is not unique: pages " + ", ".join(map(str, hits)))
+        raise FileError(f"no page is called {word!r}")
+
+    def resized(self, count: int) -> Tuple["Image", List[str]]:
+        """The same as pages 0..count-1, with a list of what is lost."""
+        losses = []
+        out = Image.empty(count)
+        out.bits = self.bits
+        for number, page in self.items():
+            if number < count:
+                out[number] = page
+            elif not page.is_empty:
+                losses.append(f"page {number} \"{page.title}\" does not fit into {count} pages")
+        return out, losses
+
+
+def from_bytes(data: bytes, bits: int = 10) -> Image:
+    if len(data) not in SIZES:
+        raise FileError(f"{len(data):,} bytes is not the size of a motion image (65,536, 65,024 or 131,072)")
+    first, _ = SIZES[len(data)]
+    return Image([Page(data[at:at + PAGE_BYTES]) for at in range(0, len(data), PAGE_BYTES)], first, bits)
+
+
+def hex_segments(text: str) -> List[Tuple[int, bytes]]:
+    """Intel HEX text as [(address, bytes)], ascending, adjacent pieces joined."""
+    from intelhex import IntelHex, IntelHexError
+
+    hexfile = IntelHex()
+    try:
+        hexfile.loadhex(StringIO(text))
+    except (IntelHexError, ValueError, UnicodeError) as error:
+        raise FileError(f"not a good Intel HEX file: {error}") from None
+    return [(start, hexfile.tobinstr(start=start, end=end - 1)) for start, end in hexfile.segments()]
+
+
+def from_hex(text: str, bits: int = 10) -> Image:
+    """A motion area in Intel HEX. What the file leaves out stays empty; only whole pages count."""
+    segments = hex_segments(text)
+    if not segments:
+        raise FileError("the Intel HEX file holds no data")
+    low, high = segments[0][0], segments[-1][0] + len(segments[-1][1])
+    if 0x0E000 <= low and high <= 0x1E000:
+        count = 128
+    elif 0x1E000 <= low and high <= 0x3E000:
+        count = 256
+    else:
+        raise FileError(f"addresses 0x{low:05X}..0x{high - 1:05X} are no motion area "
+                        "(0x0E000..0x1DFFF of a CM-2/CM-5, 0x1E000..0x3DFFF of a CM-510)")
+    base, image = HEX_BASE[count], Image.empty(count)
+    image.bits = bits
+    for start, data in segments:
+        if (start - base) % PAGE_BYTES or len(data) % PAGE_BYTES:
+            raise FileError(f"0x{start:05X}..0x{start + len(data) - 1:05X} is not made of whole 512-byte pages")
+        for at in range(0, len(data), PAGE_BYTES):
+            image[(start - base + at) // PAGE_BYTES] = Page(data[at:at + PAGE_BYTES])
+    given = sum(len(data) for _, data in segments) // PAGE_BYTES
+    if given < count:
+        image.notes.append(f"the file holds {given} of {count} pages; the others are taken as empty")
+    return image
+
+
+def to_hex(image: Image) -> str:
+    from intelhex import IntelHex
+
+    hexfile = IntelHex()
+    hexfile.frombytes(image.to_bytes(), offset=HEX_BASE[image.end] + PAGE_BYTES * image.first)
+    out = StringIO()
+    hexfile.write_hex_file(out)
+    return out.getvalue()
+
+
+def is_erased(page: Page) -> bool:
+    """All 0xFF: flash that was never written."""
+    return page.data == b"\xff" * PAGE_BYTES
+
+
+__all__ = ["EMPTY", "Image", "from_bytes", "from_hex", "hex_segments", "is_erased", "to_hex"]

@@ -1,0 +1,354 @@
+# SPDX-License-Identifier: MIT
+"""Reads the text format of motions into an Image. FORMAT.md is the specification.
+
+A Reader walks through the lines once: statements about the file change its tables, statements about a page change the
+page that is open (or, before the first page and after `defaults`, the template of pages to come). Links by name are
+resolved at the end, when all names are known.
+"""
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Dict, List, Optional
+
+from m512.errors import FileError, TextError
+from m512.files.image import Image
+from m512.files.page import JOINTS, PAGE_BYTES, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Page
+from m512.files.text.steps import Draft, JointWords, block_words, make_block
+from m512.files.text.words import (
+    IDENTIFIER,
+    Token,
+    WordError,
+    code,
+    joint_list,
+    joints_of,
+    name_bytes,
+    number,
+    ticks,
+    tokenize,
+)
+
+VERSION = 1
+MAX_INCLUDE_DEPTH = 8
+
+
+class Reader(JointWords):
+    def __init__(self) -> None:
+        super().__init__()
+        self.first, self.end = 0, 128
+        self.template = Draft()
+        self.draft = self.template
+        self.pages: Dict[int, Draft] = {}
+        self.where, self.line, self.folder, self.depth = "", 0, Path("."), 0
+        self.origin: Dict[int, str] = {}
+
+    # Files and lines
+
+    def read(self, text: str, where: str, folder: Path) -> None:
+        outer = self.where, self.line, self.folder
+        self.where, self.folder, self.line = where, folder, 0
+        started, held = False, ""
+        for self.line, line in enumerate(text.splitlines(), 1):
+            if line.endswith("\\"):
+                held += line[:-1] + " "
+                continue
+            held, line = "", held + line
+            try:
+                for statement in tokenize(line):
+                    if not started:
+                        self._version(statement)
+                        started = True
+                    else:
+                        self._statement(statement)
+            except WordError as error:
+                raise TextError(str(error), where, self.line) from None
+        if not started:
+            raise FileError(f"{where}: empty; a motion text starts with \"motion512 {VERSION}\"")
+        self.where, self.line, self.folder = outer
+
+    def _version(self, statement: List[Token]) -> None:
+        if statement[0].text != "motion512":
+            raise WordError(f"a motion text starts with \"motion512 {VERSION}\"")
+        if len(statement) != 2 or number(statement[1], 1, 999, "format version") != VERSION:
+            raise WordError(f"this is format version {statement[1] if len(statement) > 1 else '?'}; "
+                            f"this program reads version {VERSION}")
+
+    def _statement(self, tokens: List[Token]) -> None:
+        word, rest = tokens[0].text, tokens[1:]
+        handler = getattr(self, f"_do_{word}", None)
+        if handler is None or tokens[0].quoted:
+            raise WordError(f"unknown word {tokens[0]}")
+        handler(rest)
+
+    @staticmethod
+    def _count(rest: List[Token], low: int, high: Optional[int], usage: str) -> None:
+        if len(rest) < low or (high is not None and len(rest) > high):
+            raise WordError(f"usage: {usage}")
+
+    # Statements about the file
+
+    def _do_pages(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "pages 0..127 | 1..127 | 0..255")
+        kinds = {"0..127": (0, 128), "1..127": (1, 128), "0..255": (0, 256)}
+        if rest[0].text not in kinds:
+            raise WordError("pages are 0..127, 1..127 or 0..255")
+        if self.pages:
+            raise WordError("\"pages\" comes before the first page")
+        self.first, self.end = kinds[rest[0].text]
+
+    def _do_bits(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "bits 10 | 12")
+        self.bits = number(rest[0], 10, 12, "bits")
+        if self.bits == 11 or self.pages or self.poses:
+            raise WordError("bits are 10 or 12, said before the first pose or page")
+
+    def _do_include(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "include \"file\"")
+        path = self.folder / rest[0].text
+        self.draft = self.template
+        self.depth += 1
+        if self.depth > MAX_INCLUDE_DEPTH:
+            raise WordError(f"include goes deeper than {MAX_INCLUDE_DEPTH} files (in a circle?)")
+        try:
+            text = path.read_text(encoding="utf-8")
+        except (OSError, UnicodeError, ValueError) as error:
+            raise WordError(f"cannot read {path}: {getattr(error, 'strerror', None) or 'not UTF-8 text'}") from None
+        self.read(text, str(path), path.parent)
+        self.depth -= 1
+        self.draft = self.template
+
+    def _do_joint(self, rest: List[Token]) -> None:
+        self._count(rest, 2, 2, "joint ID name")
+        joint, name = number(rest[0], 0, JOINTS - 1, "joint ID"), rest[1].text
+        if not IDENTIFIER.match(name) or name in ("same", "mirror"):
+            raise WordError(f"{rest[1]}: a joint name is a letter, then letters, digits and _ (not same, mirror)")
+        if self.joints.get(name, joint) != joint:
+            raise WordError(f"{name} is joint {self.joints[name]} already")
+        self.joints[name] = joint
+
+    def _do_row(self, rest: List[Token]) -> None:
+        self._count(rest, 1, None, "row IDs (1..18, or a list)")
+        self.row = joint_list(rest, self.joints)
+
+    def _do_pairs(self, rest: List[Token]) -> None:
+        pairs: Dict[int, int] = {}
+        for token in rest:
+            ids = [i for part in token.text.split("-") for i in joints_of(part, self.joints)]
+            if len(ids) not in (1, 2) or any(i in pairs for i in ids):
+                raise WordError(f"{token}: pairs are 1-2 3-4 ..., a single joint 19 is mirrored in place, none twice")
+            pairs[ids[0]], pairs[ids[-1]] = ids[-1], ids[0]
+        self.pairs = pairs
+
+    def _do_pose(self, rest: List[Token]) -> None:
+        self._count(rest, 3, None, "pose name | joints")
+        if not IDENTIFIER.match(rest[0].text) or rest[1].text != "|":
+            raise WordError("usage: pose name | joints")
+        if rest[0].text in self.poses:
+            raise WordError(f"pose {rest[0]} is there already")
+        self.poses[rest[0].text] = self.joint_words(rest[2:], {}, None)
+
+    def _do_defaults(self, rest: List[Token]) -> None:
+        self._count(rest, 0, 0, "defaults")
+        self.draft = self.template
+
+    def _do_page(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 2, "page NUMBER [name]")
+        match = re.fullmatch(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}))?", rest[0].text)
+        if not match:
+            raise WordError(f"page {rest[0]}: a number {self.first}..{self.end - 1} or a range 20..25")
+        low, high = int(match.group(1)), int(match.group(2) or match.group(1))
+        if not self.first <= low <= high < self.end:
+            raise WordError(f"page must be {self.first}..{self.end - 1}, not {rest[0]}")
+        self.draft = Draft(self.template)
+        self.draft.line = self.line
+        if len(rest) == 2:
+            self.draft.page.data[:14] = name_bytes(rest[1]).ljust(14, b"\0")
+        for page in range(low, high + 1):
+            if page in self.pages:
+                raise WordError(f"page {page} is there already ({self.origin[page]})")
+            self.pages[page] = self.draft
+            self.origin[page] = f"{self.where}:{self.line}"
+
+    # Statements about a page (or the template)
+
+    def _byte(self, field: str, rest: List[Token], what: str) -> None:
+        self._count(rest, 1, 1, f"{what} 0..255")
+        setattr(self.draft.page, field, number(rest[0], 0, 255, what))
+
+    def _do_repeat(self, rest: List[Token]) -> None:
+        self._byte("repeat", rest, "repeat")
+
+    def _do_speed(self, rest: List[Token]) -> None:
+        self._byte("speed", rest, "speed")
+
+    def _do_dxl_setup(self, rest: List[Token]) -> None:
+        self._byte("dxl_setup", rest, "dxl_setup")
+
+    def _do_byte63(self, rest: List[Token]) -> None:
+        self._byte("byte63", rest, "byte63")
+
+    def _do_accel(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "accel TIME")
+        self.draft.page.accel = ticks(rest[0], "accel")
+
+    def _do_base(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "base time | speed")
+        names = {"time": SCHEDULE_TIME, "speed": SCHEDULE_SPEED}
+        if rest[0].text in names:
+            self.draft.page.schedule = names[rest[0].text]
+        elif rest[0].text[:2] == "0x":
+            self.draft.page.schedule = number(rest[0], 0, 255, "base")
+        else:
+            raise WordError(f"base is time or speed, not {rest[0]}")
+
+    def _do_code(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "code CODE")
+        self.draft.page.code = code(rest[0])
+
+    def _link(self, field: str, token: Token) -> None:
+        self.draft.links = [link for link in self.draft.links if link[0] != field]
+        self.draft.links.append((field, token, self.line))
+
+    def _do_next(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "next PAGE")
+        self._link("next", rest[0])
+
+    def _do_exit(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "exit PAGE")
+        self._link("exit", rest[0])
+
+    def _do_link1(self, rest: List[Token]) -> None:
+        self._count(rest, 2, 2, "link1 CODE PAGE")
+        self.draft.page.link1_code = code(rest[0])
+        self._link("link1_page", rest[1])
+
+    def _do_link2(self, rest: List[Token]) -> None:
+        self._count(rest, 2, 2, "link2 CODE PAGE")
+        self.draft.page.link2_code = code(rest[0])
+        self._link("link2_page", rest[1])
+
+    def _do_softness(self, rest: List[Token]) -> None:
+        self._count(rest, 1, None, "softness [LEVEL] joint:LEVEL ... (LEVEL 1..7, or CW/CCW)")
+        for place, token in enumerate(rest):
+            joints, _, level = token.text.rpartition(":")
+            if not joints and place:
+                raise WordError(f"{token}: the level of all joints comes first, then joint:level")
+            parts = [number(Token(part), 0, 15, "softness") for part in level.split("/")]
+            if len(parts) > 2:
+                raise WordError(f"{token}: a level, or clockwise/counter-clockwise levels")
+            for joint in (joints_of(joints, self.joints) if joints else range(JOINTS)):
+                self.draft.page.set_compliance(joint, parts[0] << 4 | parts[-1])
+
+    def _do_steps(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "steps N")
+        self._page_only("steps")
+        self.draft.step_count = number(rest[0], 0, 255, "steps")
+
+    def _do_checksum(self, rest: List[Token]) -> None:
+        self._count(rest, 1, 1, "checksum 0xNN")
+        self._page_only("checksum")
+        self.draft.checksum = number(rest[0], 0, 255, "checksum")
+
+    def _do_raw(self, rest: List[Token]) -> None:
+        self._count(rest, 2, None, "raw OFFSET hex bytes")
+        offset = number(rest[0], 0, PAGE_BYTES - 1, "offset")
+        try:
+            data = bytes.fromhex("".join(token.text for token in rest[1:]))
+        except ValueError:
+            raise WordError("raw: the bytes are pairs of hex digits") from None
+        if offset + len(data) > PAGE_BYTES:
+            raise WordError(f"raw: {len(data)} bytes at {offset} go beyond the page's 512")
+        self.draft.raw.append((offset, data))
+
+    def _do_erased(self, rest: List[Token]) -> None:
+        """Flash that was never written."""
+        self._count(rest, 0, 0, "erased")
+        self._page_only("erased")
+        self.draft.raw.append((0, b"\xff" * PAGE_BYTES))
+
+    def _page_only(self, what: str) -> None:
+        if self.draft is self.template:
+            raise WordError(f"{what} belongs into a page")
+
+    # Steps
+
+    def _do_step(self, rest: List[Token]) -> None:
+        self._page_only("step")
+        if len(self.draft.steps) == STEPS:
+            raise WordError("a page has 7 steps; go on in another page (link it with next)")
+        self.draft.steps.append(self.block(self.draft, self.line, rest, "step", self.draft.steps[-1] if self.draft.steps else None))
+
+    def _do_spare(self, rest: List[Token]) -> None:
+        self._page_only("spare")
+        self._count(rest, 3, None, "spare K TIME [pause TIME] | joints")
+        k = number(rest[0], 0, STEPS - 1, "step")
+        self.draft.spares[k] = self.block(self.draft, self.line, rest[1:], "spare K", None)
+
+    def _do_offset(self, rest: List[Token]) -> None:
+        """Page 0: step 2 holds signed offsets."""
+        if self.draft is not self.pages.get(0):
+            raise WordError("offset belongs into page 0, the trim")
+        words = block_words(self.draft.spares.get(2, self.draft.fill))
+        for token in rest[1:] if rest and rest[0].text == "|" else rest:
+            joints, _, value = token.text.rpartition(":")
+            signed = number(Token(value.lstrip("+")), -1023, 1023, "an offset")
+            for joint in joints_of(joints, self.joints):
+                words[joint] = signed & 0xFFFF
+        self.draft.spares[2] = make_block(words, 0, 0)
+
+    def _do_fill(self, rest: List[Token]) -> None:
+        if self.draft.steps or self.draft.spares:
+            raise WordError("fill comes before the page's steps")
+        base = Page().step_bytes(0)
+        if rest and rest[0].text == "|":
+            rest = [Token("0")] + rest
+        self.draft.fill = self.block(self.draft, self.line, rest, "fill", None, base)
+
+    # The end
+
+    def image(self) -> Image:
+        image = Image([Page() for _ in range(self.first, self.end)], self.first, self.bits)
+        built = {id(draft): draft for draft in self.pages.values()}
+        for draft in built.values():
+            self._check_units(draft)
+        names: Dict[bytes, List[int]] = {}
+        for page, draft in self.pages.items():
+            names.setdefault(draft.page.name, []).append(page)
+        for page, draft in self.pages.items():
+            for field, token, line in draft.links:
+                where = self.origin[page].rsplit(":", 1)[0]
+                try:
+                    setattr(draft.page, field, self._resolve(token, page, names))
+                except WordError as error:
+                    raise TextError(str(error), where, line) from None
+            image[page] = draft.build()
+        return image
+
+    def _check_units(self, draft: Draft) -> None:
+        for unit, line in draft.units:
+            if draft.page.schedule == SCHEDULE_SPEED and unit == "s":
+                raise TextError("a time in s or ms, but the page has speed base", self.where, line)
+            if draft.page.schedule == SCHEDULE_TIME and unit == "dps":
+                raise TextError("a speed in dps, but the page has time base", self.where, line)
+
+    def _resolve(self, token: Token, page: int, names: Dict[bytes, List[int]]) -> int:
+        if not token.quoted:
+            if token.text in ("none", "self"):
+                return page if token.text == "self" else 0
+            if token.text[:2] == "0x":
+                return number(token, 0, 255, "a raw link")
+            if token.text.isdigit():
+                return number(token, 0, self.end - 1, "a link")
+        hits = names.get(name_bytes(token).split(b"\0")[0], [])
+        if len(hits) != 1:
+            raise WordError(f"no page is called {token}" if not hits else
+                            f"{token} is the name of pages {', '.join(map(str, hits))}: link by number")
+        return hits[0]
+
+
+def read_text(text: str, where: str = "text", folder: Path = Path(".")) -> Image:
+    """The image that a text describes. Raises TextError with file and line."""
+    reader = Reader()
+    reader.read(text.lstrip("\ufeff"), where, folder)
+    reader.where = where
+    return reader.image()

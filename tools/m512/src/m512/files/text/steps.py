@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+"""Steps of the text format: a page as it is being written, and the words of a line of joints. Used by textread.py."""
+from __future__ import annotations
+
+import re
+from typing import Dict, List, Optional, Tuple
+
+from m512.files.page import JOINTS, STEPS, Page
+from m512.files.text.words import Token, WordError, joints_of, mirrored, position, step_speed, ticks
+
+Words = Dict[int, int]   # joint -> position word
+
+
+class Draft:
+    """A page being written: the header as a Page, steps as words, and what is decided at the end."""
+
+    def __init__(self, template: Optional["Draft"] = None):
+        self.page = template.page.copy() if template else Page()
+        self.fill = bytes(template.fill if template else self.page.step_bytes(0))
+        self.steps: List[bytes] = []
+        self.spares: Dict[int, bytes] = {}
+        self.step_count: Optional[int] = None
+        self.checksum: Optional[int] = None
+        self.raw: List[Tuple[int, bytes]] = list(template.raw) if template else []
+        self.links: List[Tuple[str, Token, int]] = list(template.links) if template else []
+        self.units: List[Tuple[str, int]] = []
+        self.line = 0
+
+    def build(self) -> Page:
+        page = self.page.copy()
+        page.steps = len(self.steps) if self.step_count is None else self.step_count
+        for k in range(STEPS):
+            block = self.steps[k] if k < len(self.steps) else self.spares.get(k, self.fill)
+            page.set_step_bytes(k, block)
+        sealed = True
+        for offset, data in self.raw:
+            page.data[offset:offset + len(data)] = data
+            sealed = sealed and not offset <= 31 < offset + len(data)
+        if sealed:
+            page.seal()
+        if self.checksum is not None:
+            page.checksum = self.checksum
+        return page
+
+
+def block_words(block: bytes) -> Words:
+    return {j: block[2 * j] | block[2 * j + 1] << 8 for j in range(JOINTS)}
+
+
+def make_block(words: Words, pause: int, time: int) -> bytes:
+    return b"".join(words[j].to_bytes(2, "little") for j in range(JOINTS)) + bytes([pause, time])
+
+
+class JointWords:
+    """What lines of joints are read with: names, rows, pairs and poses, and the resolution."""
+
+    def __init__(self) -> None:
+        self.bits = 10
+        self.joints: Dict[str, int] = {}
+        self.row: List[int] = []
+        self.pairs = {a: b for k in range(1, 18, 2) for a, b in ((k, k + 1), (k + 1, k))}
+        self.poses: Dict[str, Words] = {}
+
+    @property
+    def pos_max(self) -> int:
+        return (1 << self.bits) - 1
+
+    def block(self, draft: Draft, line: int, rest: List[Token], what: str, before: Optional[bytes],
+              base: Optional[bytes] = None) -> bytes:
+        """`TIME [pause TIME] | joints` as the 64 bytes of a step. `before`: the step before it; `base`: what joints that
+        are not named have, if not the page's fill."""
+        bar = next((i for i, token in enumerate(rest) if token.text == "|" and not token.quoted), len(rest))
+        head, joints = rest[:bar], rest[bar + 1:]
+        if len(head) not in (1, 3) or (len(head) == 3 and head[1].text != "pause"):
+            raise WordError(f"usage: {what} TIME [pause TIME] | joints")
+        pause = ticks(head[2], "pause") if len(head) == 3 else 0
+        if head[0].text.endswith("dps"):
+            time = step_speed(head[0])
+            draft.units.append(("dps", line))
+        else:
+            time = ticks(head[0], "time")
+            if head[0].text.endswith("s"):
+                draft.units.append(("s", line))
+        words = block_words(base if base is not None else draft.fill)
+        words = self.joint_words(joints, words, block_words(before) if before else None)
+        return make_block(words, pause, time)
+
+    def joint_words(self, tokens: List[Token], words: Words, before: Optional[Words]) -> Words:
+        """Applies the joint part of a line, left to right, to `words`. `before`: the step before, for `same`."""
+        words, at = dict(words), 0
+        while at < len(tokens):
+            text = tokens[at].text
+            if tokens[at].quoted or text == "|":
+                raise WordError(f"unexpected {tokens[at]}")
+            if text == "mirror":
+                at += 1
+                source = self._source(tokens[at].text if at < len(tokens) else "", before)
+                words.update(self._mirror(source))
+            elif text == "same" or text.startswith("@"):
+                words.update(self._source(text, before))
+            elif ":" in text:
+                joints, _, value = text.rpartition(":")
+                for joint in joints_of(joints, self.joints):
+                    words[joint] = position(value, words.get(joint, 0x4000), self.pos_max)
+            else:
+                at += self._positional(tokens[at:], words) - 1
+            at += 1
+        return words
+
+    def _source(self, text: str, before: Optional[Words]) -> Words:
+        if text == "same":
+            if before is None:
+                raise WordError("same: there is no step before this one")
+            return before
+        if text[:1] != "@" or text[1:] not in self.poses:
+            raise WordError(f"no pose is called {text[1:]}" if text[:1] == "@" else "mirror @pose or mirror same")
+        return self.poses[text[1:]]
+
+    def _mirror(self, words: Words) -> Words:
+        out = {}
+        for joint, word in words.items():
+            pair = self.pairs.get(joint)
+            out[joint if pair is None else pair] = word if pair is None else mirrored(word, self.pos_max)
+        return out
+
+    def _positional(self, tokens: List[Token], words: Words) -> int:
+        count = 0
+        while count < len(tokens) and not re.match(r"@|same\Z|mirror\Z|.*:", tokens[count].text):
+            count += 1
+        if not self.row:
+            raise WordError(f"{tokens[0]}: neither joint:position nor a pose; a row of positions needs a \"row\" line")
+        if count != len(self.row):
+            raise WordError(f"{count} positions; the row has {len(self.row)} joints")
+        for joint, token in zip(self.row, tokens):
+            word = position(token.text, words.get(joint, 0x4000), self.pos_max)
+            if token.text != "." or joint in words:
+                words[joint] = word
+        return count

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""Plays pages by either law, for plots and play times.
+
+An independent telling of the specification of the player; the firmware's player is in C. A play is a generator of
+Ticks, one each 1/128 s. Only next and exit links are followed: there is no remote control here.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Iterator, List, Optional, Sequence
+
+from m512.files.image import Image
+from m512.files.page import JOINTS, Page
+from m512.motion.law_classic import Classic
+from m512.motion.law_exact import Exact
+from m512.motion.walk import Step, Walk, pause_ticks, step_ticks
+
+CLASSIC, EXACT = "classic", "exact"
+NEUTRAL = 512
+
+
+@dataclass
+class Tick:
+    """What one tick did. goals is None in a pause and in idle ticks: nothing is sent."""
+
+    number: int
+    page: int
+    step: int                      # 1..7
+    goals: Optional[List[int]]
+
+
+def play(image: Image, page: int, law: str = EXACT, pose: Optional[Sequence[int]] = None,
+         limit: int = 128 * 60, stop_at: Optional[int] = None) -> Iterator[Tick]:
+    """The ticks of a play that starts with `page`, at most `limit` of them. `pose`: where the joints stand."""
+    walk = Walk(image, page)
+    machine = (Classic if law == CLASSIC else Exact)(walk, list(pose or [NEUTRAL] * JOINTS))
+    for number in range(limit):
+        if number == stop_at:
+            walk.stopping = True
+        goals = machine.tick()
+        if machine.ended:
+            return
+        yield Tick(number, machine.here.page, machine.here.number, goals)
+
+
+def page_seconds(page: Page, start: Optional[Sequence[int]] = None) -> float:
+    """Ideal play time of one repetition. `start`: the pose before it; without one a page in speed base is taken to begin
+    where it ends, as pages that are repeated do."""
+    if page.steps == 0 or page.speed == 0:
+        return 0.0
+    steps = [Step(0, k + 1, page) for k in range(min(page.steps, 7))]
+    pose = list(start or [NEUTRAL] * JOINTS)
+    if start is None:
+        for step in steps:
+            pose = [step.target(j, pose[j]) for j in range(JOINTS)]
+    total = Fraction(0)
+    for step in steps:
+        after = [step.target(j, pose[j]) for j in range(JOINTS)]
+        total += max(step_ticks(step, [b - a for a, b in zip(pose, after)]), Fraction(1)) + pause_ticks(step)
+        pose = after
+    return float(total / 128)
+
+
+def end_pose_before(image: Image, number: int) -> List[int]:
+    """Where the joints stand when page `number` begins: as the page that leads to it leaves them; for a page that
+    repeats or follows itself as it leaves them itself; else in the middle."""
+    page, pose = image[number], [NEUTRAL] * JOINTS
+    leads = [p for n, p in image.items() if n and n != number and p.next == number and p.is_playable and not p.fault(image.kind)]
+    source = leads[0] if leads else page if page.repeat > 1 or page.next == number else None
+    if source is None or source.fault(image.kind):
+        return pose
+    for step in range(source.steps):
+        pose = [Step(0, step + 1, source).target(j, pose[j]) for j in range(JOINTS)]
+    return [min(p, 1023) for p in pose]

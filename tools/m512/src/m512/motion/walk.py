@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""The order in which a play goes through steps: pages, repetitions, next and exit links. Knows no law of motion."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Dict, Optional, Sequence, Tuple
+
+from m512.files.image import Image
+from m512.files.page import SCHEDULE_TIME, Page, is_used
+
+
+@dataclass
+class Step:
+    """A step as the player meets it, `following` the one it looks ahead to (None: the play ends here)."""
+
+    page: int
+    number: int                    # 1..7
+    data: Page
+    first_of_page: bool = False
+
+    def target(self, joint: int, before: int) -> int:
+        word = self.data.word(self.number - 1, joint)
+        return word if is_used(word) else before
+
+
+class Walk:
+    """The order of steps: pages, repetitions, links. `why` says what ended it when it was not the last link."""
+
+    def __init__(self, image: Image, page: int):
+        self.image, self.page = image, page
+        self.step, self.left = 0, 0
+        self.follow: Optional[int] = None    # page after this one, decided at the beginning of its last step
+        self.stopping, self.ended, self.why = False, False, ""
+        self.exits: Dict[int, None] = {}
+        self._enter(page)
+
+    def _enter(self, number: int) -> None:
+        """Begins a page; those with PLAY_COUNT 0 are passed over along their link."""
+        seen = set()
+        while True:
+            if number == 0 or number in seen:
+                self.ended = True
+                return
+            page = self.image[number]
+            fault = page.fault_text(self.image.kind)
+            if fault or page.steps == 0:
+                self.ended, self.why = True, f"page {number} " + (f"is damaged: {fault}" if fault else "has no steps")
+                return
+            if page.repeat:
+                self.page, self.step, self.left = number, 0, page.repeat
+                return
+            seen.add(number)
+            number = self._link(page)
+
+    def _link(self, page: Page) -> int:
+        target = page.exit if self.stopping else page.next
+        if self.stopping and target in self.exits:
+            self.why = f"the exit links come back to page {target}"
+            return 0
+        if self.stopping and target:
+            self.exits[target] = None
+        return target if self.image.first <= target < self.image.end else 0
+
+    def advance(self) -> Optional[Tuple[Step, Optional[Step]]]:
+        """The next step and the one to look ahead to; None at the end."""
+        if self.ended:
+            return None
+        page = self.image[self.page]
+        if self.step == page.steps:
+            if self.follow != self.page or not self.left:
+                self._enter(self.follow or 0)
+                if self.ended:
+                    return None
+            self.step = 0
+            page = self.image[self.page]
+        self.step += 1
+        here = Step(self.page, self.step, page, self.step == 1)
+        if self.step < page.steps:
+            return here, Step(self.page, self.step + 1, page)
+        self.left = 0 if self.stopping else (self.left - 1) & 0xFF
+        self.follow = self.page if self.left else self._link(page)
+        if not self.follow:
+            return here, None
+        return here, Step(self.follow, 1, self.image[self.follow], True)
+
+
+def step_ticks(step: Step, move: Sequence[int]) -> Fraction:
+    """The ideal length of a step in ticks."""
+    page, time = step.data, step.data.time(step.number - 1)
+    if page.schedule == SCHEDULE_TIME:
+        return Fraction(time * page.speed, 32)
+    return Fraction(40 * 32 * max(map(abs, move)), 3 * max(time, 1) * page.speed)
+
+
+def pause_ticks(step: Step) -> Fraction:
+    page, pause = step.data, step.data.pause(step.number - 1)
+    return Fraction(pause * page.speed, 32) if page.schedule == SCHEDULE_TIME else Fraction(pause * 32, page.speed)

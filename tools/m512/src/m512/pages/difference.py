@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""How two motion areas differ, in words: which page, which field or step and joint, from, to."""
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import List, Optional
+
+from m512.files.image import Image, is_erased
+from m512.files.page import EMPTY, JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Page
+from m512.files.text.words import code_text, position_text
+
+
+@dataclass(frozen=True)
+class Change:
+    page: int
+    name: str
+    what: str
+    before: str
+    after: str
+    step: Optional[int] = None
+    joint: Optional[int] = None
+
+    def __str__(self) -> str:
+        where = f"page {self.page}" + (f" \"{self.name}\"" if self.name else "")
+        if self.step is not None:
+            where += f", step {self.step}"
+        if self.joint is not None:
+            where += f", ID {self.joint}"
+        move = f" ({int(self.after) - int(self.before):+d})" if self.before.isdigit() and self.after.isdigit() \
+            and self.joint is not None else ""
+        what = f" {self.what}" if self.what else ""
+        if not self.before and not self.after:
+            return f"{where}:{what}"
+        return f"{where}:{what} {self.before} -> {self.after}{move}"
+
+    def as_dict(self) -> dict:
+        return {key: value for key, value in asdict(self).items() if value is not None}
+
+
+FIELDS = {"repeat": "repeat", "speed": "speed", "dxl_setup": "dxl_setup", "accel": "accel", "next": "next", "exit": "exit",
+          "link1_page": "linked page 1", "link2_page": "linked page 2", "byte63": "byte 63"}
+CODES = {"code": "code", "link1_code": "code of linked page 1", "link2_code": "code of linked page 2"}
+SCHEDULES = {SCHEDULE_TIME: "time base", SCHEDULE_SPEED: "speed base"}
+
+
+def images(first: Image, second: Image) -> List[Change]:
+    out: List[Change] = []
+    for number in range(min(first.first, second.first), max(first.end, second.end)):
+        a = first[number] if first.first <= number < first.end else None
+        b = second[number] if second.first <= number < second.end else None
+        if a is None or b is None:
+            here = a or b
+            if here is not None and not here.is_empty and not is_erased(here):
+                out.append(Change(number, here.title, f"only in the {'second' if a is None else 'first'}", "", ""))
+        elif a != b and not _both_nothing(a, b):
+            out += pages(number, a, b, first)
+    return out
+
+
+def _both_nothing(a: Page, b: Page) -> bool:
+    """Flash that was never written and the empty page are the same to a robot."""
+    return is_erased(a) and bytes(b) == EMPTY or is_erased(b) and bytes(a) == EMPTY
+
+
+def pages(number: int, a: Page, b: Page, image: Optional[Image] = None) -> List[Change]:
+    """All changes between two versions of a page; never empty when their bytes differ."""
+    pos_max = image.kind.pos_max if image else 1023
+    whole = _whole(number, a, b)
+    if whole:
+        return whole
+    name, out = b.title or a.title, []   # type: str, List[Change]
+
+    def add(what: str, before: object, after: object, step: Optional[int] = None, joint: Optional[int] = None) -> None:
+        if before != after:
+            out.append(Change(number, name, what, str(before), str(after), step, joint))
+
+    add("name", f'"{a.title}"', f'"{b.title}"')
+    if a.name == b.name and a.data[:14] != b.data[:14]:
+        add("bytes behind the name", bytes(a.data[:14]).hex(" "), bytes(b.data[:14]).hex(" "))
+    add("schedule", *(SCHEDULES.get(p.schedule, f"0x{p.schedule:02X}") for p in (a, b)))
+    for field, what in FIELDS.items():
+        add(what, getattr(a, field), getattr(b, field))
+    for field, what in CODES.items():
+        add(what, code_text(getattr(a, field)), code_text(getattr(b, field)))
+    add("steps", a.steps, b.steps)
+    add("reserved bytes", bytes(a.data[14:15] + a.data[17:20]).hex(" "), bytes(b.data[14:15] + b.data[17:20]).hex(" "))
+    for joint in range(JOINTS):
+        add("softness", *(f"{p.compliance(joint) >> 4}/{p.compliance(joint) & 15}" for p in (a, b)), joint=joint)
+    used = min(max(a.steps, b.steps), STEPS)
+    for step in range(used):
+        add("pause", a.pause(step), b.pause(step), step)
+        add("time" if b.schedule == SCHEDULE_TIME else "speed", a.time(step), b.time(step), step)
+        for joint in range(JOINTS):
+            add("", position_text(a.word(step, joint), pos_max), position_text(b.word(step, joint), pos_max), step, joint)
+    for step in range(used, STEPS):
+        if a.step_bytes(step) != b.step_bytes(step):
+            out.append(Change(number, name, "contents of an unused step differ", "", "", step))
+    if Fault.CHECKSUM in (a.fault(), b.fault()):
+        add("checksum", f"0x{a.checksum:02X}", f"0x{b.checksum:02X}")
+    return out
+
+
+def _whole(number: int, a: Page, b: Page) -> List[Change]:
+    """Pages that came, went or have nothing in common."""
+    if is_erased(a) or is_erased(b):
+        other = b if is_erased(a) else a
+        states = [("erased flash" if is_erased(p) else _summary(p)) for p in (a, b)]
+        return [Change(number, other.title, "", *states)]
+    if a.is_empty and not b.is_empty:
+        return [Change(number, b.title, "", "empty", _summary(b))]
+    if b.is_empty and not a.is_empty:
+        return [Change(number, a.title, "", _summary(a), "empty")]
+    return []
+
+
+def _summary(page: Page) -> str:
+    if page.fault() is not Fault.OK:
+        return "damaged page"
+    return f"{page.steps} step{'s' if page.steps != 1 else ''}" if not page.is_empty else "empty"

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: MIT
+"""What `m512 pages` does to pages. Each function changes the image it is given and returns remarks for the user."""
+from __future__ import annotations
+
+from typing import Dict, Iterable, List, Optional, Tuple
+
+from m512.errors import FileError, RefusedError
+from m512.files.image import Image, is_erased
+from m512.files.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Page, is_used
+from m512.motion.player import page_seconds
+
+
+def check(image: Image) -> List[Tuple[int, str]]:
+    """(page, what is wrong or odd) for a whole image; page 0 is the trim and not a motion."""
+    out = []
+    for number, page in image.items():
+        if number and is_erased(page):
+            continue
+        fault = page.fault_text(image.kind)
+        if fault:
+            out.append((number, f"damaged: {fault}"))
+            continue
+        if not number or not page.is_playable:
+            continue
+        for link in Page.LINKS:
+            target = getattr(page, link)
+            if target and (not image.first <= target < image.end or not _goes_on(image, target)):
+                out.append((number, f"{link.replace('_', ' ')} leads to page {target}, which has no action"))
+        if page.link1_page and not page.link1_code or page.link2_page and not page.link2_code:
+            out.append((number, "a linked page has no code and is never followed"))
+        if page.schedule == SCHEDULE_TIME and any(page.time(k) == 0 for k in range(page.steps)):
+            out.append((number, "a step has time 0 and is played in one tick"))
+    return out
+
+
+def _goes_on(image: Image, target: int) -> bool:
+    page = image[target]
+    return not page.fault(image.kind) and page.steps != 0
+
+
+def need_good(image: Image, number: int) -> Page:
+    page = image[number]
+    if is_erased(page):
+        raise RefusedError(f"page {number} is erased flash: nothing is there")
+    if page.fault(image.kind):
+        raise RefusedError(f"page {number} is damaged ({page.fault_text(image.kind)}); repair or delete it first")
+    return page
+
+
+def rename(image: Image, number: int, name: str) -> List[str]:
+    raw = name.encode("ascii", "replace")
+    if len(raw) > 13 or any(not 0x20 <= b < 0x7F for b in raw):
+        raise FileError(f"{name!r}: a page name has at most 13 ASCII characters")
+    page = need_good(image, number)
+    page.name = raw
+    page.seal()
+    return []
+
+
+def _must_be_free(image: Image, number: int, replace: bool) -> None:
+    page = image[number]
+    if not page.is_empty and not is_erased(page) and not replace:
+        raise RefusedError(f"page {number} \"{page.title}\" is not empty (--replace overwrites it)")
+
+
+def copy(image: Image, source: int, target: int, replace: bool = False) -> List[str]:
+    _must_be_free(image, target, replace)
+    page = need_good(image, source).copy()
+    for link in Page.LINKS:
+        if getattr(page, link) == source:      # a page that links to itself goes on doing so
+            setattr(page, link, target)
+    image[target] = page.seal()
+    return [f"the copy has the same name {page.title!r} and code {page.code}"] if page.name or page.code else []
+
+
+def delete(image: Image, numbers: Iterable[int]) -> List[str]:
+    remarks = []
+    gone = set(numbers)
+    for number in gone:
+        image[number] = Page()
+    for number, page in image.items():
+        if number not in gone:
+            remarks += [f"page {number} \"{page.title}\" still links to page {getattr(page, link)} ({link})"
+                        for link in Page.LINKS if getattr(page, link) in gone]
+    return remarks
+
+
+def relink(page: Page, moved: Dict[int, int]) -> bool:
+    """Follows pages that moved; returns whether a link changed (the page is sealed then)."""
+    changed = False
+    for link in Page.LINKS:
+        target = getattr(page, link)
+        if target and target in moved and moved[target] != target:
+            setattr(page, link, moved[target])
+            changed = True
+    if changed:
+        page.seal()
+    return changed
+
+
+def renumber(image: Image, source: int, target: int, swap: bool = False) -> List[str]:
+    """Moves a page; all links in the image follow."""
+    if not source or not target:
+        raise RefusedError("page 0 is the trim and stays where it is")
+    if not swap:
+        _must_be_free(image, target, False)
+    need_good(image, source)
+    moved = {source: target, target: source}
+    image[source].data, image[target].data = image[target].data, image[source].data
+    if not swap:
+        image[source] = Page()
+        del moved[target]
+    touched = [number for number, page in image.items() if not page.fault(image.kind) and relink(page, moved)]
+    return [f"links changed in pages {', '.join(map(str, touched))}"] if touched else []
+
+
+def place(image: Image, source: Image, moves: List[Tuple[int, int]], replace: bool = False) -> List[str]:
+    """Takes pages (number there, number here) from another image; links among them follow."""
+    if source.bits != image.bits:
+        raise RefusedError(f"the sources have {image.bits} and {source.bits} bits: scale one of them first (convert --scale)")
+    remarks, moved = [], dict(moves)
+    for there, here in moves:
+        _must_be_free(image, here, replace)
+    for there, here in moves:
+        page = need_good(source, there).copy()
+        relink(page, moved)
+        for link in Page.LINKS:
+            old = getattr(source[there], link)
+            if old and old not in moved:
+                remarks.append(f"page {here} \"{page.title}\": {link} {old} is not among the pages taken")
+        image[here] = page
+    return remarks
+
+
+def combine(image: Image, base: int, other_image: Image, other: int, joints: Iterable[int], target: int,
+            replace: bool = False) -> List[str]:
+    """`target` = page `base` with `joints` from page `other` (of another image, or the same)."""
+    _must_be_free(image, target, replace or target == base)
+    page, donor, remarks = need_good(image, base).copy(), need_good(other_image, other), []
+    if donor.steps > page.steps:
+        remarks.append(f"steps {page.steps}..{donor.steps - 1} of page {other} are left out: page {base} has {page.steps}")
+    for joint in joints:
+        page.set_compliance(joint, donor.compliance(joint))
+        for step in range(page.steps):
+            page.set_word(step, joint, donor.word(step, joint) if step < donor.steps else POS_UNUSED)
+    uneven = [step for step in range(min(page.steps, donor.steps)) if page.time(step) != donor.time(step)]
+    if uneven:
+        remarks.append(f"times are those of page {base}; page {other} differs in steps {' '.join(map(str, uneven))}")
+    image[target] = page.seal()
+    return remarks
+
+
+def mirror(image: Image, number: int, pairs: Dict[int, int], target: Optional[int] = None, replace: bool = False) -> List[str]:
+    """Left for right: joints of a pair exchange positions (p becomes 1024 - p) and softness."""
+    target = number if target is None else target
+    _must_be_free(image, target, replace or target == number)
+    old, remarks, top = need_good(image, number), [], image.kind.pos_max
+    page = old.copy()
+    for joint, pair in pairs.items():
+        page.set_compliance(pair, old.compliance(joint))
+        for step in range(STEPS):
+            word = old.word(step, joint)
+            if is_used(word) and word <= top:
+                word = top + 1 - word
+                if word > top:
+                    word = top
+                    if step < page.steps:
+                        remarks.append(f"step {step} ID {pair}: {top + 1} is cut to {top}")
+            page.set_word(step, pair, word)
+    image[target] = page.seal()
+    return remarks
+
+
+def retime(image: Image, number: int, factor: float) -> List[str]:
+    """Makes a page take `factor` times as long: step times, pauses and ramp, rounded to ticks."""
+    if not 0.01 <= factor <= 100:
+        raise FileError("the factor is 0.01..100")
+    page = need_good(image, number)
+    before = page_seconds(page)
+    for step in range(page.steps):
+        time_based = page.schedule == SCHEDULE_TIME
+        page.set_time(step, _scaled(page.time(step), factor if time_based else 1 / factor, 1, f"step {step}"))
+        page.set_pause(step, _scaled(page.pause(step), factor, 0, f"the pause of step {step}"))
+    page.accel = min(max(round(page.accel * factor), 1 if page.accel else 0), 255)
+    page.seal()
+    return [f"page {number}: {before:.3f} s -> {page_seconds(page):.3f} s (asked for {before * factor:.3f} s)"]
+
+
+def _scaled(value: int, factor: float, least: int, what: str) -> int:
+    scaled = int(value * factor + 0.5)
+    if scaled > 255:
+        raise RefusedError(f"{what} would be {scaled} units, at most 255 fit: raise the page's speed instead")
+    return max(scaled, least) if value else 0
+
+
+def chain(image: Image, number: int) -> Tuple[List[Tuple[int, int, float]], str]:
+    """[(page, repetitions, seconds)] along the next links, and how it ends."""
+    out: List[Tuple[int, int, float]] = []
+    pose: Optional[List[int]] = None
+    seen: Dict[int, None] = {}
+    while True:
+        if number in seen:
+            return out, f"goes on with page {number} for ever"
+        if not image.first <= number < image.end or image[number].fault(image.kind):
+            return out, f"ends at page {number}, which is damaged or not there"
+        page = image[number]
+        seen[number] = None
+        if page.is_playable:
+            once = page_seconds(page, pose)
+            pose = end_pose(page, pose)
+            again = page_seconds(page, pose)
+            out.append((number, page.repeat, once + (page.repeat - 1) * again))
+        if not page.next:
+            return out, "ends"
+        number = page.next
+
+
+def end_pose(page: Page, pose: Optional[List[int]] = None) -> List[int]:
+    out = list(pose or [512] * JOINTS)
+    for step in range(page.steps):
+        for joint in range(JOINTS):
+            if is_used(page.word(step, joint)):
+                out[joint] = page.word(step, joint)
+    return out

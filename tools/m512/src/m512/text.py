@@ -1,8 +1,0 @@
-# SPDX-License-Identifier: MIT
-"""The readable text format of motions: the source of truth for people and version control. See FORMAT.md."""
-from m512.textread import read_text
-from m512.textwrite import write_text
-
-SUFFIX = ".m512"
-
-__all__ = ["SUFFIX", "read_text", "write_text"]
