@@ -6,6 +6,7 @@
 #include "bound.h"
 #include "crc16.h"
 #include "report.h"
+#include "system.h"
 #include "text.h"
 #include "tick.h"
 
@@ -263,7 +264,7 @@ static uint8_t do_reset(void *context, const shell_args_t *args)
     if (!performer_is_idle(MACHINE_PERFORMER(machine))) {
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
     }
-    MACHINE_IMAGE(machine)->restart(MACHINE_IMAGE(machine)->context);
+    system_restart();
 }
 
 /* ---- dispatch ---- */

@@ -20,7 +20,7 @@ void text_put(char character);
 void text_string(const char *string);   /* from RAM */
 void text_P(const char *string_P);      /* from flash */
 
-/* Texts that are only printed are marked, so that the images can hold them packed (tools/pack_texts):
+/* Texts that are only printed are marked, so that the images can hold them packed (tools/dev/pack_texts):
  *   TEXT("...")              prints it
  *   TEXT_P("...")            names it, inside a function, for text_P and all that hand a flash text on to it
  *   TEXT_NAMED(name, "...")  defines it as an array, for tables

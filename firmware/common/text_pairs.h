@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * text_pairs.h - the dictionary of packed texts, for text.c alone. This one is empty: it is that of programs whose texts
- * are not packed (all tests). An image whose texts are packed has its own, made by tools/pack_texts; its text.c lies
+ * are not packed (all tests). An image whose texts are packed has its own, made by tools/dev/pack_texts; its text.c lies
  * beside that in the build folder and finds it first. */
 #ifndef TEXT_PAIRS_H
 #define TEXT_PAIRS_H

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
  * cmd_page.c - the page as a whole: open, copy, new, save, name, undo, and leaving. */
-#include "board.h"
 #include "commands.h"
 #include "compiler.h"
 #include "console.h"
@@ -8,6 +7,7 @@
 #include "page_save.h"
 #include "page_service.h"
 #include "pgm.h"
+#include "system.h"
 #include "text.h"
 
 #define PAGE_MAX (PAGE_COUNT - 1u)
@@ -137,7 +137,6 @@ static uint8_t save_by_mailbox(editor_t *editor, uint8_t page)
         return EDITOR_TO_ASK;
     }
     page_save_by_mailbox(page, the_session.cells);
-    board_restart(&the_settings_store, &the_settings);
 }
 
 /* Says how it went; what follows from it comes behind, so that OK is on the line within 60 ms. */
@@ -181,7 +180,8 @@ COMMAND(cmd_exit)
     if (!editor_ask_unsaved(&the_editor)) {
         return EDITOR_TO_ASK;
     }
-    board_restart(&the_settings_store, &the_settings);
+    console_flush();
+    system_restart();
 }
 
 /* ---- name ---- */

@@ -11,7 +11,7 @@
  *   0x1FFEC  4  JMP boot_write_page
  *   0x1FFF0 14  0xFF, reserved for three more entries
  *   0x1FFFE  2  CRC-16 (crc16.h) of 0x1E000..0x1FFFD, high byte first: over the whole section it comes out as 0
- *              (set by tools/app_record)
+ *              (set by tools/dev/app_record)
  *
  * The entry is called as a plain avr-gcc function (its registers, r1 = 0, EIND absent on this chip: a word address
  * of 16 bits reaches all 128 KiB). It uses no RAM but the caller's stack, at most BOOT_API_STACK_BYTES in all,

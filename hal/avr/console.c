@@ -24,8 +24,7 @@ static struct {
     volatile bool xoff_is_out;       /* under flow control: the PC was told to stop */
     volatile uint8_t since_xoff;     /* bytes that came all the same, modulo XOFF_AGAIN_BYTES */
     volatile bool has_sent;          /* TXC means something */
-    bool flow;
-    uint8_t holds;                   /* console_hold without its console_resume */
+    bool flow, held;
     console_counts_t counts;         /* ISR */
 } line;
 
@@ -60,7 +59,7 @@ bool console_get(uint8_t *byte)
     if (!ring_get(&line.rx, byte)) {
         return false;
     }
-    if (line.xoff_is_out && line.holds == 0 && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
+    if (line.xoff_is_out && !line.held && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }
@@ -115,7 +114,7 @@ void console_flush(void)
 void console_set_flow(bool on)
 {
     line.flow = on;
-    line.holds = 0;
+    line.held = false;
     if (on || line.xoff_is_out) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
@@ -127,7 +126,7 @@ void console_hold(void)
     if (!line.flow) {
         return;
     }
-    line.holds++;
+    line.held = true;
     line.xoff_is_out = true;
     line.since_xoff = 0;
     send_flow(CONSOLE_XOFF);
@@ -138,10 +137,8 @@ void console_hold(void)
 
 void console_resume(void)
 {
-    if (line.holds != 0) {
-        line.holds--;
-    }
-    if (line.holds == 0 && line.xoff_is_out && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
+    line.held = false;
+    if (line.xoff_is_out && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }

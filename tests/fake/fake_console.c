@@ -13,8 +13,7 @@ static char output[OUTPUT_BYTES + 1];
 static size_t output_count;
 static uint8_t room, rate, received, sent;
 static volatile uint8_t lost;
-static bool flow;
-static uint8_t holds;
+static bool flow, held;
 static console_counts_t counters;
 
 void fake_console_reset(void)
@@ -28,7 +27,7 @@ void fake_console_reset(void)
     sent = 0;
     lost = 0;
     flow = false;
-    holds = 0;
+    held = false;
 }
 
 void fake_console_type_bytes(const void *bytes, size_t count)
@@ -76,7 +75,7 @@ uint8_t fake_console_rate(void)
 
 int fake_console_is_held(void)
 {
-    return holds != 0;
+    return held;
 }
 
 void console_init(void)
@@ -142,17 +141,17 @@ void console_flush(void)
 void console_set_flow(bool on)
 {
     flow = on;
-    holds = 0;
+    held = false;
 }
 
 void console_hold(void)
 {
-    holds = (uint8_t)(holds + (flow ? 1 : 0));
+    held = flow;
 }
 
 void console_resume(void)
 {
-    holds = (uint8_t)(holds - (holds != 0 ? 1 : 0));
+    held = false;
 }
 
 ring_t *console_rx_ring(void)

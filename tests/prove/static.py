@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What can be seen without running anything: in the sources, and in the images as they are shipped.
 
-Every check is a command of its own (tools/lint, check_layers, check_spm, check_symbols, size_report), a ctest by its name,
+Every check is a command of its own (tools/dev/lint, check_layers, check_spm, check_symbols, size_report), a ctest by its name,
 and has tests in tests/tools that show that it bites.
 """
 import importlib.machinery
@@ -14,7 +14,7 @@ import subprocess
 import proof
 
 TITLE = "Static checks"
-TOOLS = proof.TOP / "tools"
+TOOLS = proof.TOP / "tools" / "dev"
 IMAGES = sorted((proof.BUILD / "firmware").glob("*-cm?.elf"))
 FIRMWARE = ("motion", "hal", "firmware")
 ESCAPES = re.compile(r"NOLINT|cppcheck-suppress|#pragma GCC diagnostic")
@@ -57,7 +57,7 @@ def lint_figure():
     passed = len([path for path in sources(*FIRMWARE) if path.suffix == ".c"])
     escapes = sum(bool(ESCAPES.search(path.read_text(encoding="utf-8"))) for path in sources(*FIRMWARE, "tools/sim"))
     return proof.Figure(
-        "clang-tidy and cppcheck find nothing", "tools/lint: mistakes, not style: bugprone, clang's analyzer (null, memory, "
+        "clang-tidy and cppcheck find nothing", "tools/dev/lint: mistakes, not style: bugprone, clang's analyzer (null, memory, "
         "dead stores, unreachable states), performance, redundant or misleading code, functions above 60 lines (.clang-tidy); "
         "cppcheck for an 8-bit machine (warnings, performance, portability)",
         f"{tidied[1] if tidied else 0} files against {rules} rules of clang-tidy, {passed} files of the images by cppcheck; "
@@ -68,7 +68,7 @@ def layer_figure():
     """Includes point down only."""
     kept, text = command(TOOLS / "check_layers")
     return proof.Figure("No part knows what lies above it, and registers are named in hal/avr and the loader only",
-                        "tools/check_layers: every include of motion, hal, firmware and the fakes", last_lines(text), kept)
+                        "tools/dev/check_layers: every include of motion, hal, firmware and the fakes", last_lines(text), kept)
 
 
 def spm_figure():
@@ -78,7 +78,7 @@ def spm_figure():
     kept, text = command(TOOLS / "check_spm", *IMAGES, *tests)
     count = {name: int(number) for name, number in re.findall(r"(boot-\w+)\.elf: (\d+) SPM", text)}
     return proof.Figure("Only the boot loader can write flash, in one function",
-                        "tools/check_spm: every SPM instruction in the disassembly of every image",
+                        "tools/dev/check_spm: every SPM instruction in the disassembly of every image",
                         f"{len(IMAGES) + len(tests)} images; " + ", ".join(f"{name}: {n}" for name, n in count.items())
                         + " SPM, all in boot_write_page; none elsewhere" if kept else last_lines(text), kept)
 
@@ -89,7 +89,7 @@ def symbol_figure():
     total = sum(int(number) for number in re.findall(r"(\d+) symbols", text))
     return proof.Figure(
         "No image has dynamic memory, floating point, formats, jumps out of functions, or string functions without a bound",
-        "tools/check_symbols: the symbols of the linked images (malloc, __addsf3, printf, longjmp, strcpy, ...)",
+        "tools/dev/check_symbols: the symbols of the linked images (malloc, __addsf3, printf, longjmp, strcpy, ...)",
         f"{len(IMAGES)} images, {total} symbols: none" if kept else last_lines(text), kept)
 
 
@@ -103,26 +103,26 @@ def stack_figures():
     flash = {report.name: report.flash_budget - report.flash for report in reports}
     over = [fault for report in reports for fault in report.broken if "flash" in fault]
     return [
-        proof.Figure("No function calls itself, directly or by others", "tools/size_report: the graph of calls of the "
+        proof.Figure("No function calls itself, directly or by others", "tools/dev/size_report: the graph of calls of the "
                      "disassembly, calls by pointer included", f"{calls} functions" + (f"; {', '.join(recursive)}" if recursive
                                                                                     else ": none"), not recursive),
         proof.Figure("Variables, the deepest stack and an interrupt on top of it fit into the 4 KiB",
-                     "tools/size_report: the frames and pushes that the compiler emitted, along the deepest path of calls; "
+                     "tools/dev/size_report: the frames and pushes that the compiler emitted, along the deepest path of calls; "
                      "interrupts do not nest", "bytes free: " + ", ".join(f"{name} {n}" for name, n in free.items()),
                      min(free.values()) > 0),
         proof.Figure("Every image fits into the part of the flash that linker/memory_map.h gives it",
-                     "tools/size_report, against budgets of 48 KiB for an application, 8 KiB for the loader",
+                     "tools/dev/size_report, against budgets of 48 KiB for an application, 8 KiB for the loader",
                      "bytes left of the budget: " + ", ".join(f"{name} {n}" for name, n in flash.items()), not over)]
 
 
 def compiler_figure():
     """No warning is left, and none is asked away."""
-    flags = (proof.TOP / "tools" / "cmake" / "m512.cmake").read_text(encoding="utf-8")
+    flags = (proof.TOP / "tools" / "dev" / "cmake" / "m512.cmake").read_text(encoding="utf-8")
     wanted = re.search(r"set\(M512_WARNINGS (.*?)\)", flags, re.S)[1].split()
     files = len(sources(*FIRMWARE, "tools/sim"))
     asked = [flag for flag in ("-Wall", "-Wextra", "-Werror", "-Wconversion", "-Wshadow") if flag not in wanted]
     return proof.Figure("Every warning is an error, in both worlds",
-                        "the compilers' options (tools/cmake/m512.cmake): avr-gcc for the images, gcc for the PC, which has "
+                        "the compilers' options (tools/dev/cmake/m512.cmake): avr-gcc for the images, gcc for the PC, which has "
                         "the useful half of -Wconversion",
                         f"{files} C files, {len(wanted) - 1} warnings" + (f"; not asked for: {' '.join(asked)}" if asked else ""),
                         not asked)
@@ -148,7 +148,7 @@ def array_figure():
 def run(options):
     """The figures. Those that ctest has under their own names are no part of the sample."""
     if not IMAGES:
-        raise SystemExit("static: no images: build first (tools/build)")
+        raise SystemExit("static: no images: build first (tools/dev/build)")
     figures = [compiler_figure(), *stack_figures()]
     if not options.sample:
         figures += [lint_figure(), layer_figure(), spm_figure(), symbol_figure(), array_figure()]

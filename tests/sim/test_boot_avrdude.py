@@ -15,7 +15,7 @@ import pytest
 from boot_board import BOOT_START, PLAIN_APP, PROMPT, new_board, noise, prompt_board, say
 
 AVRDUDE = shutil.which("avrdude")
-needs_avrdude = pytest.mark.skipif(not AVRDUDE, reason="avrdude is not installed (tools/packages.txt)")
+needs_avrdude = pytest.mark.skipif(not AVRDUDE, reason="avrdude is not installed (tools/dev/packages.txt)")
 
 
 def run_avrdude(board, *arguments, part="m128", limit=240):

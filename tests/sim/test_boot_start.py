@@ -141,7 +141,7 @@ def test_our_own_images_have_a_record_that_fits():
     images = sorted(build.glob("play-*.elf")) + sorted(build.glob("edit-*.elf"))
     if not images:
         pytest.skip("no application image is built")
-    tool = pathlib.Path(__file__).parents[2] / "tools" / "app_record"
+    tool = pathlib.Path(__file__).parents[2] / "tools" / "dev" / "app_record"
     result = subprocess.run([sys.executable, tool, "show", *images], capture_output=True, text=True)
     assert result.returncode == 0 and result.stdout.count(" fits") == len(images), result.stdout
 

@@ -5,7 +5,7 @@ import subprocess
 
 import pytest
 
-TOOL = pathlib.Path(__file__).parents[2] / "tools" / "check_layers"
+TOOL = pathlib.Path(__file__).parents[2] / "tools" / "dev" / "check_layers"
 
 
 def check(tree, files):

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""tools/check_spm sees an SPM where it may not be, and misses none where it must be."""
+"""tools/dev/check_spm sees an SPM where it may not be, and misses none where it must be."""
 import pathlib
 import shutil
 import subprocess
 
 import pytest
 
-TOOL = pathlib.Path(__file__).parents[2] / "tools" / "check_spm"
+TOOL = pathlib.Path(__file__).parents[2] / "tools" / "dev" / "check_spm"
 pytestmark = pytest.mark.skipif(not shutil.which("avr-gcc"), reason="avr-gcc is not installed")
 
 PLAIN = "int main(void) { for (;;) { } }"

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""tools/check_symbols finds each thing that no image may hold, and nothing in a program without them."""
+"""tools/dev/check_symbols finds each thing that no image may hold, and nothing in a program without them."""
 import pathlib
 import shutil
 import subprocess
 
 import pytest
 
-TOOL = pathlib.Path(__file__).parents[2] / "tools" / "check_symbols"
+TOOL = pathlib.Path(__file__).parents[2] / "tools" / "dev" / "check_symbols"
 pytestmark = pytest.mark.skipif(not shutil.which("avr-gcc"), reason="avr-gcc is not installed")
 
 # v: what the compiler cannot know, so that nothing is computed ahead.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""tools/combine: one image of loader, application and motions; and tools/app_record on what goes into it."""
+"""tools/combine: one image of loader, application and motions; and tools/dev/app_record on what goes into it."""
 import pathlib
 import subprocess
 import sys
@@ -68,12 +68,12 @@ def record(crc=None, length=0x200):
 def test_show_knows_a_record_that_fits(tmp_path):
     path = tmp_path / "app.bin"
     path.write_bytes(record())
-    result = subprocess.run([sys.executable, TOOLS / "app_record", "show", path], capture_output=True, text=True)
+    result = subprocess.run([sys.executable, TOOLS / "dev" / "app_record", "show", path], capture_output=True, text=True)
     assert result.returncode == 0 and "play for cm5, version 1.2.3, 512 bytes" in result.stdout and "fits" in result.stdout
 
 
 def test_show_tells_a_record_that_does_not(tmp_path):
     path = tmp_path / "app.bin"
     path.write_bytes(record(0x1234))
-    result = subprocess.run([sys.executable, TOOLS / "app_record", "show", path], capture_output=True, text=True)
+    result = subprocess.run([sys.executable, TOOLS / "dev" / "app_record", "show", path], capture_output=True, text=True)
     assert result.returncode == 1 and "DOES NOT FIT" in result.stdout

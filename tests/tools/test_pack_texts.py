@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""tools/pack_texts: what it reads, what it packs, what it refuses; and the texts of the images it was used for."""
+"""tools/dev/pack_texts: what it reads, what it packs, what it refuses; and the texts of the images it was used for."""
 import ast
 import importlib.util
 import os
@@ -23,7 +23,7 @@ def load(path):
     return module
 
 
-tool = load(ROOT / "tools" / "pack_texts")
+tool = load(ROOT / "tools" / "dev" / "pack_texts")
 
 
 def texts_of(source):
@@ -104,7 +104,7 @@ def test_literals_mean_what_the_compiler_says(tmp_path):
 ])
 def test_what_it_cannot_read_is_an_error_with_file_and_line(tmp_path, line, complaint):
     (tmp_path / "odd.c").write_text("int x;\n\n" + line + "\n")
-    run = subprocess.run([ROOT / "tools/pack_texts", "--out", tmp_path / "out", tmp_path / "odd.c"],
+    run = subprocess.run([ROOT / "tools/dev/pack_texts", "--out", tmp_path / "out", tmp_path / "odd.c"],
                          capture_output=True, text=True)
     assert run.returncode == 1
     assert f"odd.c:3: " in run.stderr and complaint in run.stderr
@@ -118,7 +118,7 @@ def pack_files(folder, **sources):
     for name, text in sources.items():
         paths.append(folder / f"{name}.c")
         paths[-1].write_text(text)
-    subprocess.run([ROOT / "tools/pack_texts", "--out", folder / "out", *paths], check=True, capture_output=True)
+    subprocess.run([ROOT / "tools/dev/pack_texts", "--out", folder / "out", *paths], check=True, capture_output=True)
     return folder / "out"
 
 

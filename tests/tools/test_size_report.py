@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 
-TOOL = pathlib.Path(__file__).parents[2] / "tools" / "size_report"
+TOOL = pathlib.Path(__file__).parents[2] / "tools" / "dev" / "size_report"
 pytestmark = pytest.mark.skipif(not shutil.which("avr-gcc"), reason="avr-gcc is not installed")
 
 # leaf: 40 bytes of frame and the two pushed bytes of Y; pointed: 300 and two, called through a table in flash.

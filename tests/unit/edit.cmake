@@ -27,7 +27,7 @@ if(NOT M512_AVR)
     target_compile_definitions(editor_stage PUBLIC CONSOLE_TX_BYTES=64 BUS_PACKET_BYTES=102 DXL_ANSWER_PARAMS=20
         PERFORMER_EVENTS=7u SHELL_WORD_COLUMNS=8u SHELL_SHORT_COLUMNS=4u)
     target_compile_options(editor_stage PRIVATE ${M512_WARNINGS} -Wno-conversion -Wno-sign-conversion ${M512_SANITIZE})
-    set_target_properties(editor_stage PROPERTIES EXPORT_COMPILE_COMMANDS OFF) # tools/lint knows these from their own image
+    set_target_properties(editor_stage PROPERTIES EXPORT_COMPILE_COMMANDS OFF) # tools/dev/lint knows these from their own image
 endif()
 foreach(test screen commands editor)
     m512_unit_test(test_edit_${test})

@@ -12,7 +12,7 @@ set(M512_SANITIZE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-om
 
 # m512_image(<target> BOARD cm5|cm2 KIND app|boot|test SOURCES ... [DIR sub] [DEFINES ...] [OPTIONS ...] [ORDER file])
 # OPTIONS: compiler options of this image alone, given to the link-time compiler as well.
-# ORDER: which function stands beside which (tools/order_functions).
+# ORDER: which function stands beside which (tools/dev/order_functions).
 # Links one AVR image and writes <target>.elf and <target>.hex below build/firmware[/sub].
 # app, boot: at the addresses of linker/memory_map.h; test: a program of its own from address 0.
 function(m512_image target)
@@ -47,23 +47,23 @@ function(m512_image target)
             "${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in;${CMAKE_SOURCE_DIR}/linker/memory_map.h;${ARG_ORDER}")
     endif()
     target_link_options(${target} PRIVATE -Wl,-Map=${out}/${target}.map)
-    # The last step of linking: what an image says of itself (tools/app_record).
+    # The last step of linking: what an image says of itself (tools/dev/app_record).
     string(REGEX MATCH "^(play|edit)" kind ${target})
     if(NOT kind)
         set(kind other)
     endif()
     if(ARG_KIND STREQUAL "app")
-        add_custom_command(TARGET ${target} POST_BUILD COMMAND ${CMAKE_SOURCE_DIR}/tools/app_record app
+        add_custom_command(TARGET ${target} POST_BUILD COMMAND ${CMAKE_SOURCE_DIR}/tools/dev/app_record app
             ${out}/${target}.elf --board ${ARG_BOARD} --kind ${kind} --version ${PROJECT_VERSION})
     elseif(ARG_KIND STREQUAL "boot")
-        add_custom_command(TARGET ${target} POST_BUILD COMMAND ${CMAKE_SOURCE_DIR}/tools/app_record boot ${out}/${target}.elf)
+        add_custom_command(TARGET ${target} POST_BUILD COMMAND ${CMAKE_SOURCE_DIR}/tools/dev/app_record boot ${out}/${target}.elf)
     endif()
     add_custom_command(TARGET ${target} POST_BUILD
         COMMAND avr-objcopy -O ihex -R .eeprom -R .fuse -R .lock -R .noinit ${out}/${target}.elf ${out}/${target}.hex)
 endfunction()
 
 # m512_pack_texts(<image> <variable> SOURCE...)
-# Packs the texts of these sources, together, into the build folder (tools/pack_texts): <variable> becomes the list of
+# Packs the texts of these sources, together, into the build folder (tools/dev/pack_texts): <variable> becomes the list of
 # sources to build instead. The image's include path must have the originals' folders.
 function(m512_pack_texts image variable)
     set(folder ${CMAKE_CURRENT_BINARY_DIR}/${image}-texts)
@@ -72,38 +72,75 @@ function(m512_pack_texts image variable)
         get_filename_component(name ${source} NAME)
         list(APPEND made ${folder}/${name})
     endforeach()
-    set(tool ${CMAKE_SOURCE_DIR}/tools/pack_texts)
+    set(tool ${CMAKE_SOURCE_DIR}/tools/dev/pack_texts)
     add_custom_command(OUTPUT ${made} BYPRODUCTS ${folder}/texts.h ${folder}/text_pairs.h ${folder}/texts.txt
         COMMAND ${tool} --out ${folder} ${ARGN} DEPENDS ${tool} ${ARGN} COMMENT "Packing the texts of ${image}" VERBATIM)
     add_custom_target(${image}-texts DEPENDS ${made})
     set(${variable} ${made} PARENT_SCOPE)
 endfunction()
 
+# unity: the C test framework, compiled once a world.
+# m512_unity(): makes that target on first use.
+function(m512_unity)
+    if(TARGET unity)
+        return()
+    endif()
+    add_library(unity OBJECT ${UNITY_DIR}/unity.c)
+    target_include_directories(unity PUBLIC ${UNITY_DIR})
+    target_compile_options(unity PRIVATE -w)
+    if(M512_AVR)
+        target_include_directories(unity PUBLIC ${CMAKE_SOURCE_DIR}/tests/target)
+        target_compile_definitions(unity PUBLIC UNITY_INCLUDE_CONFIG_H F_CPU=16000000UL)
+    else()
+        target_compile_options(unity PRIVATE ${M512_SANITIZE})
+    endif()
+endfunction()
+
+# m512_checked(<variable> SOURCE...)
+# Production and fake sources (paths from the top) for programs of the PC, with all warnings, ASan and UBSan. Each is
+# compiled once, whoever links it: <variable> becomes the list of their objects.
+set(M512_CHECKED_INCLUDES . tests/fake tests/unit hal motion linker firmware/common)
+list(TRANSFORM M512_CHECKED_INCLUDES PREPEND ${CMAKE_SOURCE_DIR}/)
+function(m512_checked variable)
+    set(objects)
+    foreach(source ${ARGN})
+        string(REGEX REPLACE "[/.]" "_" name checked_${source})
+        if(NOT TARGET ${name})
+            add_library(${name} OBJECT ${CMAKE_SOURCE_DIR}/${source})
+            target_include_directories(${name} PRIVATE ${M512_CHECKED_INCLUDES} ${UNITY_DIR})
+            target_compile_options(${name} PRIVATE ${M512_WARNINGS} ${M512_SANITIZE})
+        endif()
+        list(APPEND objects $<TARGET_OBJECTS:${name}>)
+    endforeach()
+    set(${variable} ${objects} PARENT_SCOPE)
+endfunction()
+
 # m512_unit_test(<test_name> SOURCES ... [INCLUDES ...] [TARGET_TOO])
 # One Unity program from <test_name>.c in the current folder and the production sources it links.
 # Host world: a ctest under ASan and UBSan. With TARGET_TOO: the AVR world builds the same file as
 # build/firmware/tests/<test_name>.hex, and the host world runs that on the simulated ATmega128 as ctest target.<name>.
+# INCLUDES: folders of headers that the test itself needs beyond M512_CHECKED_INCLUDES.
 function(m512_unit_test name)
     cmake_parse_arguments(ARG "TARGET_TOO" "" "SOURCES;INCLUDES" ${ARGN})
-    list(TRANSFORM ARG_SOURCES PREPEND ${CMAKE_SOURCE_DIR}/)
     list(TRANSFORM ARG_INCLUDES PREPEND ${CMAKE_SOURCE_DIR}/)
     string(REGEX REPLACE "^test_" "" short ${name})
+    m512_unity()
     if(M512_AVR)
         if(ARG_TARGET_TOO)
+            list(TRANSFORM ARG_SOURCES PREPEND ${CMAKE_SOURCE_DIR}/)
             m512_image(${name} BOARD cm5 KIND test DIR tests SOURCES ${name}.c ${ARG_SOURCES}
-                ${UNITY_DIR}/unity.c ${CMAKE_SOURCE_DIR}/tests/target/target_main.c ${CMAKE_SOURCE_DIR}/hal/avr/trap.c)
-            target_include_directories(${name} PRIVATE ${UNITY_DIR} ${CMAKE_SOURCE_DIR}/tests/target ${ARG_INCLUDES})
-            target_compile_definitions(${name} PRIVATE UNITY_INCLUDE_CONFIG_H)
-            set_source_files_properties(${UNITY_DIR}/unity.c PROPERTIES COMPILE_OPTIONS "-w")
+                ${CMAKE_SOURCE_DIR}/tests/target/target_main.c ${CMAKE_SOURCE_DIR}/hal/avr/trap.c)
+            target_include_directories(${name} PRIVATE ${ARG_INCLUDES})
+            target_link_libraries(${name} PRIVATE unity)
         endif()
         return()
     endif()
-    add_executable(${name} ${name}.c ${ARG_SOURCES} ${UNITY_DIR}/unity.c)
-    target_include_directories(${name} PRIVATE ${UNITY_DIR} ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/tests/fake
-        ${CMAKE_SOURCE_DIR}/hal ${CMAKE_SOURCE_DIR}/motion ${CMAKE_SOURCE_DIR}/linker ${ARG_INCLUDES})
+    m512_checked(objects ${ARG_SOURCES})
+    add_executable(${name} ${name}.c ${objects})
+    target_include_directories(${name} PRIVATE ${M512_CHECKED_INCLUDES} ${ARG_INCLUDES})
     target_compile_options(${name} PRIVATE ${M512_WARNINGS} ${M512_SANITIZE})
     target_link_options(${name} PRIVATE ${M512_SANITIZE})
-    set_source_files_properties(${UNITY_DIR}/unity.c PROPERTIES COMPILE_OPTIONS "-w")
+    target_link_libraries(${name} PRIVATE unity)
     add_test(NAME unit.${short} COMMAND ${name})
     if(ARG_TARGET_TOO)
         add_test(NAME target.${short} COMMAND target_runner ${M512_FIRMWARE_DIR}/tests/${name}.hex)
@@ -111,7 +148,7 @@ function(m512_unit_test name)
 endfunction()
 
 # m512_pytest(<ctest name> <file or folder> [TIMEOUT s]): a pytest file, run with the interpreter of the project's
-# virtual environment (build/venv, made by tools/setup) when there is one.
+# virtual environment (build/venv, made by tools/dev/setup) when there is one.
 function(m512_pytest name path)
     cmake_parse_arguments(ARG "" "TIMEOUT" "" ${ARGN})
     if(NOT ARG_TIMEOUT)

@@ -11,7 +11,7 @@ if(UNITY_DIR)
 elseif(EXISTS ${UNITY_INSTALLED}/unity.c)
     set(UNITY_FOUND_DIR ${UNITY_INSTALLED})
 else()
-    execute_process(COMMAND ${CMAKE_SOURCE_DIR}/tools/get_unity ${UNITY_PRIVATE}
+    execute_process(COMMAND ${CMAKE_SOURCE_DIR}/tools/dev/get_unity ${UNITY_PRIVATE}
                     OUTPUT_VARIABLE UNITY_FOUND_DIR OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE UNITY_RESULT)
     if(NOT UNITY_RESULT EQUAL 0)
         include(FetchContent)
