@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT
+ * shape.h - how a motion is shaped while it plays: rate, amplitude, blend, limit (shaping.md).
+ * A step is shaped once, when the player looks at it; what is set acts from the first step that has not been looked at,
+ * two steps ahead at most. Pure; caller-owned; main loop only. The main play is shaped, layers play as stored.
+ *
+ *   blend      p1 = p + W (q - p)         q: the same step and joint of the partner page, right (W > 0) or left
+ *   amplitude  p2 = c + A (p1 - c)        c: the joint in the centre pose
+ *   clamp      0..1023, rounded once, here, halves away from c (from p where the joint has no centre)
+ *   rate       ticks / R                  of the step and of its pause
+ *   limit      a step in which a joint's mean speed is above the servo's top speed is made longer
+ *
+ * With nothing set (shape_is_neutral) every goal is what it is without this module, bit by bit.
+ * RAM: sizeof(shape_t), 38 bytes on the AVR. */
+#ifndef SHAPE_H
+#define SHAPE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "compiler.h"
+#include "page.h"
+
+#define SHAPE_RATE_MIN 10u
+#define SHAPE_RATE_MAX 400u
+#define SHAPE_AMPLITUDE_MAX 150u
+#define SHAPE_BLEND_MAX 100        /* right; left is -SHAPE_BLEND_MAX */
+#define SHAPE_NORMAL 100u          /* percent: rate and amplitude as stored */
+#define SHAPE_CENTRE_DEFAULT 1u    /* page whose step 1 is the centre pose */
+
+typedef enum {
+    SHAPE_OK = 0,
+    SHAPE_ERR_RANGE /* the number is out of its range; nothing changed */
+} shape_status_t;
+
+/* Read freely; write through the functions. */
+typedef struct shape {
+    uint16_t rate_percent;                       /* 10..400 */
+    int8_t blend_percent;                        /* -100..100 */
+    uint8_t centre_page;                         /* 1..127; 0: no centre pose, no joint is scaled */
+    uint8_t top_speed_q4_4;                      /* servo units a tick; 0: no limit */
+    bool scales;                                 /* some amplitude is not 100 */
+    uint8_t amplitude_percent[PAGE_JOINTS];      /* 0..150 */
+} shape_t;
+
+/* Nothing set; the centre page and the voltage stay. */
+void shape_reset(shape_t *shape);
+
+/* Nothing set, centre page 1, no limit until the voltage is known. */
+void shape_init(shape_t *shape);
+
+/* percent: see the ranges above. joints: bit per joint; at least one. */
+MUST_CHECK shape_status_t shape_set_rate(shape_t *shape, uint16_t percent);
+MUST_CHECK shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints);
+MUST_CHECK shape_status_t shape_set_blend(shape_t *shape, int16_t percent);
+
+/* 0..127. */
+MUST_CHECK shape_status_t shape_set_centre(shape_t *shape, uint8_t page);
+
+/* The battery's present voltage, 0.1 V (a servo's register 42). Sets the limit to 90 % of the top speed of an AX-12, 8.7 units
+ * a tick at 11.1 V, in proportion to the voltage (body.md). 0: not known, no limit. */
+void shape_set_voltage(shape_t *shape, uint8_t decivolts);
+
+/* true when rate, amplitude and blend are 100, 100, 0: then no limit acts either. */
+bool shape_is_neutral(const shape_t *shape);
+
+#endif
