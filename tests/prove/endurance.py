@@ -18,6 +18,7 @@ from made_page import page
 from powercuts.robot import SLOT_BYTES, SLOTS
 
 TITLE = "Endurance"
+PROMISE = "Hours of walking and thousands of saves lose no tick, no character and no page."
 
 TICK_CYCLES, CYCLES_PER_US = 125_000, 16
 ENTRY_CYCLES = 200              # between a tick and its interrupt's first instruction, other interrupts included
@@ -122,7 +123,7 @@ def walked(result, joints):
         proof.Figure("No tick is missed, none has two frames, no goal is late.", how,
                      f"{bus['frames']} frames, {bus['missed']} ticks without, {bus['doubled']} with two; Play counts {counts['missed']} "
                      f"missed, {counts['late']} late; {result['resets']} resets",
-                     not (bus["missed"] or bus["doubled"] or counts["missed"] or counts["late"] or result["resets"])),
+                     not (bus["missed"] or bus["doubled"] or counts["missed"] or counts["late"] or result["resets"]), headline=True),
         proof.Figure("Nothing drifts.", "the tick's phase at the end against the start; a page's goals tick by tick, in the first minute "
                      f"and every {MEASURE_MINUTES} minutes up to the last; where the joints stand behind it",
                      f"phase off by {result['phase']} cycles; {result['measured']} times the same {result['yardstick']} frames; frames go out "
@@ -156,7 +157,7 @@ def edited(results):
                      f"Edit in {len(results)} runs of {max(result['minutes'] for result in results):.0f} simulated minutes: {edits} edits with "
                      f"undo, saves by key and by program, {plays} plays", f"{saves} saves, {len(complaints)} complaints, {resets} resets, "
                      f"{missed} ticks missed in plays, {overruns} overruns; stack headroom {headroom} bytes (at least {EDIT_HEADROOM})",
-                     not (complaints or resets or missed or overruns) and headroom >= EDIT_HEADROOM),
+                     not (complaints or resets or missed or overruns) and headroom >= EDIT_HEADROOM, headline=True),
         proof.Figure("The journal wears evenly, and lasts.", "erases of each of its flash pages in the same runs, extrapolated to the "
                      f"{FLASH_CYCLES} that the data sheet allows",
                      f"{low}..{high} erases a journal page ({worst['saves']} saves a run): {lasts} saves until {FLASH_CYCLES}; a motion page "

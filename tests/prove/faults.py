@@ -17,6 +17,7 @@ from servofaults.model import FAULTS, GRAVE, OVERLOAD, SILENT, TORQUE
 from servofaults.robots import BACK, MARKED_OFF, POSE, RELEASED, SWINGING, THERE, UNUSED, EditRobot, PlayRobot
 
 TITLE = "Servo faults"
+PROMISE = "Every fault of a servo is named within a second, and the rest of the robot does not leap."
 
 NAMED_MS = 1000         # the promise
 PUSHED_MS = 2600        # a jammed servo notices after a second of pushing
@@ -284,7 +285,7 @@ def run(options):
         "the setting says, without a leap; when the fault is over the servo is reported, switched on again and plays.",
         "whole images on the strict board; each fault in each situation, alone, in pairs on one servo and on two, and cables",
         f"{len(names)} states ({kinds[True]} of one fault, {kinds[False]} of more), {len(broken)} broken"
-        + "".join(f"; tools/prove faults --only {name}" for name in list(broken)[:3]), not broken)]
+        + "".join(f"; tools/prove faults --only {name}" for name in list(broken)[:3]), not broken, headline=True)]
     for image, what in (("play", "on Play's console"), ("edit", "in Edit's message row")):
         chosen = [result for name, result in results.items() if name.startswith(image)]
         if chosen:

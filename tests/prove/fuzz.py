@@ -14,6 +14,7 @@ import proof
 from proof import Figure
 
 TITLE = "Fuzzing"
+PROMISE = "Whatever bytes arrive on a line or in a file, nothing hangs, restarts or writes what nobody asked for."
 BYTES = 10_000_000
 SAMPLE_BYTES = {"loader": 24_000}
 SAMPLE_BYTES_ELSE = 12_000

@@ -24,6 +24,7 @@ from concurrent.futures import ThreadPoolExecutor
 import proof
 
 TITLE = "Seeded mistakes"
+PROMISE = "The tests notice the mistakes that a tired programmer makes."
 TABLE = pathlib.Path(__file__).with_name("mutations.ini")
 LOG = proof.RESULTS / "mutation.txt"
 KEYS = {"file", "was", "is", "why", "by", "only", "build", "reason"}
@@ -311,8 +312,8 @@ def judge_all(results, total):
     return [proof.Figure(
         f"Of seeded mistakes at least {LEAST_CAUGHT:.0%} do not get past tools/test, and each of the others has its reason",
         "each written into a copy of the sources, built, tested; --only NAME repeats one",
-        f"{len(caught)} of {total} caught ({len(caught) / max(total, 1):.1%}): {kinds(caught)}; {late} of them by other tests "
-        f"than expected. Survivors: {told}", len(caught) >= LEAST_CAUGHT * total and len(known) == len(survivors) and not faults)]
+        f"{len(caught)} of {total} caught ({len(caught) / max(total, 1):.1%}); {kinds(caught)}; {late} of them by other tests "
+        f"than expected. Survivors: {told}", len(caught) >= LEAST_CAUGHT * total and len(known) == len(survivors) and not faults, headline=True)]
 
 
 def table_figure(mutations):

@@ -19,6 +19,7 @@ from powercuts import lives, loads, robot, saves, settings
 from powercuts.cutter import PHASES, Cutter, path_of
 
 TITLE = "Power cuts"
+PROMISE = "Whenever the power fails, each motion page, setting and download is old or new, and the robot starts again."
 SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *settings.SCENES)}
 LIVES = {life.name: life for life in lives.LIVES}
 LIFE_COUNT = 5
@@ -148,7 +149,7 @@ def total_figure(results, seconds, spent):
     return proof.Figure("After a power cut everything is old or new, the loader answers, and the robot goes on",
                         f"{kinds} scenes and {LIFE_COUNT} lives of each kind below",
                         f"{len(states):,} states, {broken} broken; {seconds / 60:.1f} min, {spent / 60:.1f} min of one core",
-                        broken == 0)
+                        broken == 0, headline=True)
 
 
 def wear_figure(found, count):

@@ -4,12 +4,14 @@
 A proof is a module of this folder with
 
     TITLE                       a heading
-    __doc__                     its first paragraph stands below the heading
+    PROMISE                     one sentence: what a user may rely on when every figure is kept
+    __doc__                     its first paragraph stands below the heading of its page
     add_arguments(group)        its own options (argparse), such as the one that repeats a single state
     run(options) -> [Figure]    does the work; options.sample asks for a minute's worth (CI), options.jobs is how many
                                 processes may run, options.seed chooses what is left to chance
 
-tools/prove runs them and writes the page. A proof never stops at the first fault: it counts all, and says of each how
+tools/prove runs them and writes two kinds of pages: tests/PROOFS.md, a row a part, and tests/proofs/<part>.md, a row a
+figure. A proof never stops at the first fault: it counts all, and says of each how
 to see it again.
 """
 import concurrent.futures
@@ -25,6 +27,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 BUILD = TOP / "build"
 RESULTS = BUILD / "prove"
 PAGE = TOP / "tests" / "PROOFS.md"
+DETAILS = TOP / "tests" / "proofs"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,6 +38,7 @@ class Figure:
     how: str  # how it is tested
     measured: str  # what this run gave, with units
     kept: bool  # the promise held everywhere
+    headline: bool = False  # `measured`, up to its first semicolon, stands on the short page
 
 
 class Progress:
@@ -74,7 +78,7 @@ def commit():
         return subprocess.run(["git", "-C", str(TOP), *words], capture_output=True, text=True, check=False).stdout.strip()
     if not shutil.which("git"):
         return "no commit"
-    changed = [line for line in git("status", "--porcelain").splitlines() if not line.endswith(PAGE.name)]
+    changed = [line for line in git("status", "--porcelain").splitlines() if PAGE.name not in line and f"{DETAILS.name}/" not in line]
     return (git("rev-parse", "--short=10", "HEAD") or "no commit") + (" and changes" if changed else "")
 
 
@@ -83,7 +87,7 @@ def keep(name, module, figures, command):
     RESULTS.mkdir(parents=True, exist_ok=True)
     about = " ".join((module.__doc__ or "").split("\n\n")[0].split())
     (RESULTS / f"{name}.json").write_text(json.dumps({
-        "title": module.TITLE, "about": about, "command": command, "commit": commit(),
+        "title": module.TITLE, "promise": module.PROMISE, "about": about, "command": command, "commit": commit(),
         "figures": [dataclasses.asdict(figure) for figure in figures]}, indent=1), encoding="utf-8")
 
 
@@ -96,19 +100,41 @@ def table(figures):
     return rows
 
 
-def write_page(names):
-    """tests/PROOFS.md from the results of the parts, in the order of `names`."""
-    lines = ["# Proofs", "",
-             "What Motion512 promises, and what machines found when they tried to break it. Made by `tools/prove`; do not edit.", ""]
+def headline(figures):
+    """What stands on the short page of a part's figures."""
+    broken = [figure for figure in figures if not figure["kept"]]
+    if broken:
+        return f"**{len(broken)} of {len(figures)} broken**"
+    short = [figure["measured"].split(";")[0] for figure in figures if figure["headline"]]
+    return "; ".join(short or [f"{len(figures)} of {len(figures)} figures kept"])
+
+
+def write_pages(names):
+    """tests/PROOFS.md and tests/proofs/ from the results of the parts that ran here, in the order of `names`.
+
+    A part that did not run here keeps its page and its row.
+    """
+    DETAILS.mkdir(exist_ok=True)
+    old = {}
+    if PAGE.exists():
+        old = {line.split("proofs/")[1].split(".md")[0]: line
+               for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("| [")}
+    rows = []
     for name in names:
         path = RESULTS / f"{name}.json"
         if not path.exists():
-            lines += [f"## {name}", "", f"Not run here: `tools/prove {name}`.", ""]
+            rows += [old[name]] if name in old else []
             continue
         part = json.loads(path.read_text(encoding="utf-8"))
-        lines += [f"## {part['title']}", "", part["about"], "", f"`{part['command']}` at commit {part['commit']}:", ""]
-        lines += [*table(part["figures"]), ""]
-    PAGE.write_text("\n".join(lines), encoding="utf-8")
+        lines = [f"# {part['title']}", "", part["about"], "", f"`{part['command']}` at commit {part['commit']}:", "",
+                 *table(part["figures"])]
+        (DETAILS / f"{name}.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        rows.append(f"| [{part['title']}](proofs/{name}.md) | {part['promise']} | {headline(part['figures'])} | "
+                    f"`{part['command']}` | {part['commit']} |")
+    PAGE.write_text("\n".join([
+        "# Proofs", "", "What Motion512 promises, and what machines found when they tried to break it. `tools/prove` makes this page; "
+        "do not edit it.", "", "| | promise | found | command | at commit |", "| --- | --- | --- | --- | --- |", *rows]) + "\n",
+        encoding="utf-8")
 
 
 def cores():

@@ -14,6 +14,7 @@ import subprocess
 import proof
 
 TITLE = "Static checks"
+PROMISE = "No image can recurse, allocate, overflow its memory, or write flash outside the loader."
 TOOLS = proof.TOP / "tools" / "dev"
 IMAGES = sorted((proof.BUILD / "firmware").glob("*-cm?.elf"))
 FIRMWARE = ("motion", "hal", "firmware")
