@@ -8,7 +8,6 @@ a time, so that the line is never idle.
 from __future__ import annotations
 
 import re
-import time
 from collections import deque
 from typing import Callable, Dict, Iterable, List, Optional, Tuple
 
@@ -75,9 +74,9 @@ class BlockLoader:
 
     def _receive(self, seconds: float) -> Optional[Tuple[int, int, int, bytes]]:
         """(command, number, status, data) of the next good answer; None: none came in time."""
-        deadline = time.monotonic() + seconds
+        deadline = self.link.now() + seconds
         while True:
-            left = deadline - time.monotonic()
+            left = deadline - self.link.now()
             some = self.link.read_some(left, 1) if left > 0 else b""
             if not some:       # silence, or chatter without an answer
                 return None
@@ -125,7 +124,7 @@ class BlockLoader:
     def go_faster(self) -> bool:
         """Tries 117,647 baud; comes back to the usual rate when that does not work."""
         self._ask(RATE, FAST_UBRR.to_bytes(2, "little"))
-        time.sleep(0.02)
+        self.link.sleep(0.02)
         try:
             self.link.set_rate(FAST_RATE)
             self._ask(HELLO, b"", tries=2, seconds=0.3)
@@ -133,7 +132,7 @@ class BlockLoader:
             return True
         except Exception:
             self.link.set_rate(BAUD)
-            time.sleep(BACK_SECONDS)
+            self.link.sleep(BACK_SECONDS)
             self.link.drain()
             self._ask(HELLO, b"")
             return False

@@ -7,7 +7,6 @@ in ERR, a number and a sentence. Everything else on the line (echo, prompt, scre
 from __future__ import annotations
 
 import re
-import time
 from typing import Dict, List, Optional, Sequence, Tuple
 
 from m512.board.link import Link
@@ -59,9 +58,9 @@ class Client:
 
     def _answer(self, word: str, request: str, seconds: float) -> Optional[str]:
         """What stands behind the word in the first whole line that answers; None: none in time."""
-        deadline = time.monotonic() + seconds
+        deadline = self.link.now() + seconds
         while True:
-            left = deadline - time.monotonic()
+            left = deadline - self.link.now()
             if left <= 0:
                 return None
             raw, ended = self.link.look_for(b"\n", left)

@@ -37,6 +37,13 @@ class Link:
         except Exception:     # a port that is gone may fail to close in many ways, and nobody can help it
             pass
 
+    def now(self) -> float:
+        """Seconds on the clock that this line's time limits are counted by. Simulated lines have their own."""
+        return time.monotonic()
+
+    def sleep(self, seconds: float) -> None:
+        time.sleep(seconds)
+
     def _lost(self, error: Exception) -> PortError:
         return PortError(f"the line to {self.url} broke ({error}). Check the cable; "
                          "then repeat the command, it goes on where it stopped")
@@ -102,13 +109,13 @@ class Link:
 
     def look_for(self, end: bytes, seconds: float, limit: int = 1 << 20) -> "tuple[bytes, bool]":
         """(what came, whether `end` was in it)."""
-        out, deadline = b"", time.monotonic() + seconds
+        out, deadline = b"", self.now() + seconds
         while len(out) < limit:
             at = out.find(end)
             if at >= 0:
                 self.held = out[at + len(end):] + self.held
                 return out[:at + len(end)], True
-            left = deadline - time.monotonic()
+            left = deadline - self.now()
             some = self._receive(4096, min(left, 0.25)) if left > 0 else b""
             if not some and left <= 0:
                 break
@@ -117,8 +124,8 @@ class Link:
 
     def drain(self, quiet: float = 0.05, at_most: float = 2.0) -> bytes:
         """Reads until the line has been silent for `quiet` seconds."""
-        out, deadline = b"", time.monotonic() + at_most
-        while time.monotonic() < deadline:
+        out, deadline = b"", self.now() + at_most
+        while self.now() < deadline:
             some = self._receive(4096, quiet)
             if not some:
                 break

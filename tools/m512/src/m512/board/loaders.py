@@ -11,7 +11,6 @@
 """
 from __future__ import annotations
 
-import time
 from typing import Callable, Union
 
 from m512.board.block import BlockLoader
@@ -48,8 +47,8 @@ def identify(link: Link) -> Loader:
 
 def call_by_hash(link: Link, seconds: float) -> bool:
     """'#' again and again until a loader shows its banner; clears the line behind it."""
-    deadline, came, after_ff = time.monotonic() + seconds, b"", 0
-    while time.monotonic() < deadline:
+    deadline, came, after_ff = link.now() + seconds, b"", 0
+    while link.now() < deadline:
         # Behind the 0xFF of a start a few '#' are enough; more would only fill its line.
         if after_ff < 8:
             link.write(b"#")

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+"""A line between a PC and a board, in simulated time: slow, late, in lumps, with holes, lost, doubled and changed bytes.
+
+A Wire is one direction. It knows no protocol and no clock: whoever uses it says what time it is. Bytes stay in order, as
+on every serial bridge. What was sent arrives, even when the sender has died meanwhile: an operating system's buffer and a
+bridge's memory outlive a program.
+
+    to_board, to_pc = wires(weather(random.Random(seed)), seed)
+    to_board.send(now, b"load e000\\r")
+    board.hear(to_board.arrived(now))        # whenever time has passed
+"""
+from __future__ import annotations
+
+import dataclasses
+import random
+from collections import deque
+
+BYTE_SECONDS = 10 / 57143          # the UART at the board's end (UBRR 34 at 16 MHz): bytes never come closer than this
+OUTAGE_MOST = 3.0                  # seconds; the longest hole that weather() makes
+
+
+@dataclasses.dataclass(frozen=True)
+class Weather:
+    """What a line is like. Chances are per byte; times in seconds."""
+
+    kind: str = "good"
+    speed: float = 1.0             # of the line rate: 0.05 .. 1
+    late: float = 0.001            # each byte arrives that much later
+    lump: float = 0.0              # bytes are collected for so long and then handed over together
+    hole_every: float = 0.0        # mean time between two holes in which nothing passes; 0: none
+    hole: float = 0.0              # the longest hole; what was sent into it comes behind it
+    lose: float = 0.0
+    double: float = 0.0
+    change: float = 0.0            # one bit of a byte is turned
+    packet_double: float = 0.0     # a bridge sends a packet of up to 64 bytes again
+
+    def __str__(self):
+        shown = [f"{field.name}={getattr(self, field.name):.4g}" for field in dataclasses.fields(self)[1:]
+                 if getattr(self, field.name) != field.default]
+        return " ".join([self.kind, *shown])
+
+
+def weather(chance: random.Random) -> Weather:
+    """A line as chance has it: one of the plain kinds, or everything at once."""
+    slow = dict(speed=chance.uniform(0.05, 0.9))
+    late = dict(late=chance.choice((0.016, 0.05, 0.2, 0.6)) * chance.uniform(0.5, 1.0))
+    lumpy = dict(lump=chance.choice((0.004, 0.016, 0.1, 0.4)))
+    holes = dict(hole_every=10 ** chance.uniform(-1, 1), hole=chance.choice((0.09, 0.2, 0.6, OUTAGE_MOST)))
+    lossy = dict(lose=10 ** chance.uniform(-5, -2))
+    doubling = dict(double=chance.choice((10 ** chance.uniform(-5, -1), 10 ** chance.uniform(-5, -1), 1.0)))
+    packets = dict(packet_double=10 ** chance.uniform(-3, -0.5))
+    changing = dict(change=10 ** chance.uniform(-5, -2.5))
+    kinds = {"good": {}, "slow": slow, "late": late, "lumpy": lumpy, "holes": holes, "lossy": lossy, "doubling": doubling,
+             "packets": packets, "changing": changing, "slow and late": {**slow, **late},
+             "slow with holes": {**slow, **holes}, "late and lossy": {**late, **lossy},
+             "holes and doubling": {**holes, **doubling}, "holes and loss": {**holes, **lossy},
+             "everything": {**slow, **late, **lumpy, **holes, **lossy, **changing, "double": 10 ** chance.uniform(-4, -1.5)}}
+    kind = chance.choice(list(kinds))
+    return Weather(kind, **kinds[kind])
+
+
+class Wire:
+    """One direction of a line."""
+
+    PACKET = 64
+
+    def __init__(self, weather: Weather, seed: int):
+        self.weather, self.chance = weather, random.Random(seed)
+        self.waiting: deque[tuple[float, int]] = deque()     # (when, byte) on their way
+        self.sent_until = self.arrived_until = float("-inf")
+        self.hole = (float("inf"), float("inf"))
+        self.first = True
+        self.broken = False
+
+    def cut(self):
+        """The cable comes off: what is under way is lost, and all that follows."""
+        self.waiting.clear()
+        self.broken = True
+
+    def send(self, now: float, data: bytes) -> None:
+        """Bytes handed to the sender's operating system at `now`."""
+        if self.broken:
+            return
+        if self.first:
+            self.first = False
+            self._next_hole(now)
+        for at in range(0, len(data), self.PACKET):
+            packet = data[at:at + self.PACKET]
+            again = self.weather.packet_double and self.chance.random() < self.weather.packet_double
+            for byte in packet + (packet if again else b""):
+                self._send(now, byte)
+
+    def _send(self, now: float, byte: int) -> None:
+        weather, chance = self.weather, self.chance
+        self.sent_until = max(now, self.sent_until) + BYTE_SECONDS / weather.speed
+        if weather.lose and chance.random() < weather.lose:
+            return
+        if weather.change and chance.random() < weather.change:
+            byte ^= 1 << chance.randrange(8)
+        when = self._through_holes(self.sent_until + weather.late)
+        if weather.lump:
+            when = (when // weather.lump + 1) * weather.lump
+        for _ in range(2 if weather.double and chance.random() < weather.double else 1):
+            self.arrived_until = max(when, self.arrived_until + BYTE_SECONDS)
+            self.waiting.append((self.arrived_until, byte))
+
+    def _through_holes(self, when: float) -> float:
+        while when >= self.hole[1]:
+            self._next_hole(self.hole[1])
+        return self.hole[1] if when >= self.hole[0] else when
+
+    def _next_hole(self, now: float) -> None:
+        if self.weather.hole_every:
+            start = now + self.chance.expovariate(1 / self.weather.hole_every)
+            self.hole = (start, start + self.weather.hole * self.chance.random())
+
+    def next_arrival(self) -> float:
+        """When the next byte comes; infinity: none is under way."""
+        return self.waiting[0][0] if self.waiting else float("inf")
+
+    def arrived(self, now: float, limit: int = 1 << 30) -> bytes:
+        """The bytes that have come by `now`; each is handed over once."""
+        out = bytearray()
+        while self.waiting and self.waiting[0][0] <= now and len(out) < limit:
+            out.append(self.waiting.popleft()[1])
+        return bytes(out)
+
+
+def wires(weather: Weather, seed: int) -> tuple[Wire, Wire]:
+    """Both directions of a line: to the board, to the PC."""
+    return Wire(weather, 2 * seed), Wire(weather, 2 * seed + 1)
