@@ -22,8 +22,10 @@ void board_console_pause(board_t *board, uint64_t cycles);
 size_t board_console_waiting(const board_t *board);
 void board_console_flush(board_t *board);
 
-/* Everything the board has sent since board_new(), as the PC heard it. The pointer is good until the next run. */
+/* Everything the board has sent since board_new(), as the PC heard it. The pointer is good until the next run.
+ * Forgetting begins anew with nothing (a run of hours would fill the memory); the room stays for what comes. */
 const uint8_t *board_console_output(const board_t *board, size_t *count);
+void board_console_forget(board_t *board);
 
 /* Called for each byte the PC hears, when its stop bit has passed. bad: framing error (wrong rate). */
 typedef void (*board_byte_fn)(void *context, uint64_t now_cycles, uint8_t byte, bool bad);

@@ -165,6 +165,12 @@ const uint8_t *board_console_output(const board_t *board, size_t *count)
     return board->console.output;
 }
 
+void board_console_forget(board_t *board)
+{
+    board->console.output_count = 0;
+    board->console.stop_from = 0;
+}
+
 void board_on_console(board_t *board, board_byte_fn heard, void *context)
 {
     board->console.heard = heard;

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT */
+#include "motion_api.h"
+
+#include <string.h>
+
+#include "player.h"
+
+enum { MARK_BYTES = 3 };
+
+static struct {
+    uint8_t pages[PAGE_COUNT][PAGE_BYTES];
+    uint16_t pose[PAGE_JOINTS];
+    link_t link;
+    player_t player;
+    uint16_t goals[MOTION_API_CURVE_TICKS][PAGE_JOINTS];
+    uint8_t marks[MOTION_API_CURVE_TICKS][MARK_BYTES];
+} api;
+
+static bool is_page(int page) { return page >= 0 && page < (int)PAGE_COUNT; }
+
+static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
+{
+    (void)context;
+    memcpy(to, api.pages[page] + offset, count);
+}
+
+static uint8_t check_page(void *context, uint8_t page)
+{
+    (void)context;
+    return (uint8_t)page_check(api.pages[page]);
+}
+
+static const page_source_t source = { .read = read_page, .check = check_page };
+
+uint8_t *motion_api_pages(void) { return api.pages[0]; }
+
+int motion_api_check(int page) { return is_page(page) ? (int)page_check(api.pages[page]) : -1; }
+
+int motion_api_check_step(int page, int step)
+{
+    if (!is_page(page) || step < 0 || step >= (int)PAGE_STEPS) {
+        return -1;
+    }
+    return (int)page_check_step(api.pages[page] + PAGE_AT_STEP0 + (unsigned)step * PAGE_STEP_BYTES);
+}
+
+void motion_api_seal(int page)
+{
+    if (is_page(page)) {
+        page_seal(api.pages[page]);
+    }
+}
+
+void motion_api_clear(int page)
+{
+    if (is_page(page)) {
+        page_clear(api.pages[page]);
+    }
+}
+
+bool motion_api_is_playable(int page) { return is_page(page) && page_is_playable(api.pages[page]); }
+
+uint16_t *motion_api_pose(void) { return api.pose; }
+
+uint32_t motion_api_first_pose(int page)
+{
+    return is_page(page) ? player_first_pose(&source, (uint8_t)page, api.pose) : 0;
+}
+
+int motion_api_start(int page, int law, int mode, int code, uint32_t present)
+{
+    if (!is_page(page)) {
+        return PLAYER_ERR_RANGE;
+    }
+    player_init(&api.player, &source);
+    link_init(&api.link, mode ? LINK_HOLD : LINK_LATCH);
+    link_call(&api.link, (uint8_t)code);
+    return (int)player_start(&api.player, &api.link, (uint8_t)page, law ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT,
+                             api.pose, present);
+}
+
+int motion_api_fault_page(void) { return api.player.fault_page; }
+
+void motion_api_code(int code) { link_code(&api.link, (uint8_t)code); }
+
+int motion_api_tick(void) { return player_tick(&api.player, &api.link); }
+
+const uint16_t *motion_api_goals(void) { return api.player.goal_pos; }
+
+uint32_t motion_api_joints(void) { return api.player.joints; }
+
+int motion_api_page(void) { return api.player.page; }
+
+int motion_api_step(void) { return api.player.step; }
+
+int motion_api_repetition(void) { return api.player.repetition; }
+
+bool motion_api_is_moving(void) { return player_is_moving(&api.player); }
+
+uint32_t motion_api_curve(uint32_t ticks)
+{
+    uint32_t played = 0;
+    while (played < ticks && played < MOTION_API_CURVE_TICKS && player_is_moving(&api.player)) {
+        int events = motion_api_tick();
+        memcpy(api.goals[played], api.player.goal_pos, sizeof api.goals[played]);
+        api.marks[played][0] = api.player.page;
+        api.marks[played][1] = api.player.step;
+        api.marks[played][2] = (uint8_t)events;
+        played++;
+    }
+    return played;
+}
+
+const uint16_t *motion_api_curve_goals(void) { return api.goals[0]; }
+
+const uint8_t *motion_api_curve_marks(void) { return api.marks[0]; }

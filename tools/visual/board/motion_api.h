@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT
+ * motion_api.h - the firmware's own page checks and player (motion/) as flat functions, for a web page: motion.wasm.
+ * What is drawn with it is what the robot will play; nothing of the law is written a second time.
+ * Numbers only; memory is shared through the pointers below, which never change. One document per module instance.
+ * Everything declared here is exported under its own name. Page numbers are 0..127; a wrong one is refused. */
+#ifndef MOTION_API_H
+#define MOTION_API_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#pragma GCC visibility push(default)
+
+/* The motion area: 128 pages of 512 bytes. The page writes it; play and checks read it. */
+uint8_t *motion_api_pages(void);
+
+/* page_status_t of a page (0: good, 1: checksum, 2: steps, 3: schedule, 4: speed, 5: link, 6: position); -1: no page. */
+int motion_api_check(int page);
+
+/* The same for its seven steps alone: 0 or 6 (PAGE_ERR_POSITION); -1: no such step. */
+int motion_api_check_step(int page, int step);
+
+/* Sets the checksum byte; makes a page empty. */
+void motion_api_seal(int page);
+void motion_api_clear(int page);
+bool motion_api_is_playable(int page);
+
+/* Where the joints stand before a play: 31 words, servo units. To be filled before motion_api_start(). */
+uint16_t *motion_api_pose(void);
+
+/* Where step 1 of a page wants its joints: fills those places of the pose; returns their bits. */
+uint32_t motion_api_first_pose(int page);
+
+/* Begins a page. law: player_law_t (0 exact, 1 classic); mode: link_mode_t (0 latch, 1 hold); code: the call's code, 0
+ * for a call by number; present: bit per joint that may be driven. Returns player_status_t, 0 = started. A play that is
+ * on ends first. motion_api_fault_page(): the page that was refused. */
+int motion_api_start(int page, int law, int mode, int code, uint32_t present);
+int motion_api_fault_page(void);
+
+/* A code arrives (0 released, 255 stop). Works at the next decision of a link, as in the robot. */
+void motion_api_code(int code);
+
+/* One tick of 1/128 s: PLAYER_EV_ bits. Afterwards the goals, and where the play is. */
+int motion_api_tick(void);
+const uint16_t *motion_api_goals(void);
+uint32_t motion_api_joints(void);
+int motion_api_page(void);
+int motion_api_step(void);
+int motion_api_repetition(void);
+bool motion_api_is_moving(void);
+
+/* Plays on for at most `ticks` (up to MOTION_API_CURVE_TICKS) and writes the way: 31 goals a tick, and what happened in
+ * each (page, step and events: three bytes). Returns the ticks played; fewer than asked for means that the play ended. */
+#define MOTION_API_CURVE_TICKS 16384
+uint32_t motion_api_curve(uint32_t ticks);
+const uint16_t *motion_api_curve_goals(void);
+const uint8_t *motion_api_curve_marks(void);
+
+#pragma GCC visibility pop
+
+#endif
