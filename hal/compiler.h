@@ -19,6 +19,9 @@
 /* Of a number: it is known and in its registers here, whatever the optimizer would rather do. In loops that are counted in
  * cycles: gcc 5.4 splits loads from their pointers' steps, counters from their loops and bits over four registers. */
 
+/* Defined in a header, one copy a program: a static function there is one copy a file that uses it. */
+#define ONE_COPY __attribute__((weak))
+
 #define ARRAY_COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 #endif

@@ -6,12 +6,16 @@
 #define CRC16_H
 
 #include <stdint.h>
+#include "hal/compiler.h"
 
 #define CRC16_START 0xFFFFu
 
+ONE_COPY uint16_t crc16_byte(uint16_t crc, uint8_t byte);
+ONE_COPY uint16_t crc16_bytes(uint16_t crc, const void *from, uint16_t bytes);
+
 /* The bitwise division of one byte, folded: (x = high ^ byte; x ^= x >> 4) gives the eight quotient bits at once, and
  * x times the polynomial, x << 12 ^ x << 5 ^ x, is added by halves because the machine has eight bits. */
-static inline uint16_t crc16_byte(uint16_t crc, uint8_t byte)
+ONE_COPY uint16_t crc16_byte(uint16_t crc, uint8_t byte)
 {
     uint8_t x = (uint8_t)((uint8_t)(crc >> 8) ^ byte);
     x = (uint8_t)(x ^ (x >> 4));
@@ -20,7 +24,7 @@ static inline uint16_t crc16_byte(uint16_t crc, uint8_t byte)
     return (uint16_t)(high << 8 | low);
 }
 
-static inline uint16_t crc16_bytes(uint16_t crc, const void *from, uint16_t bytes)
+ONE_COPY uint16_t crc16_bytes(uint16_t crc, const void *from, uint16_t bytes)
 {
     const uint8_t *p = from;
     while (bytes--) {
