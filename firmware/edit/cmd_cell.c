@@ -21,35 +21,33 @@ typedef struct {
     bool is_pose;    /* a joint of the work pose */
 } here_t;
 
-static here_t look_here(const session_t *session)
+static here_t look_here(void)
 {
-    here_t here = { cell_address(session->x, session->y), (uint8_t)cell_kind(session->page, session->x, session->y), false };
-    here.is_pose = here.kind == CELL_POSITION && session->x == CELL_X_POSE;
+    here_t here = { cell_address(the_session.x, the_session.y), (uint8_t)cell_kind(the_session.page, the_session.x, the_session.y), false };
+    here.is_pose = here.kind == CELL_POSITION && the_session.x == CELL_X_POSE;
     return here;
 }
 
 /* An edit of one position. Page 0: the trim follows. */
-static void set_position(session_t *session, uint16_t address, uint16_t word)
+static void set_position(uint16_t address, uint16_t word)
 {
-    session_begin(session);
-    session_set_word(session, address, word);
-    if (session->page == 0 && session->x >= CELL_X_STEP0 && session->x < CELL_X_OFFSET) {
-        session_update_trim(session, session->y);
+    session_begin();
+    session_set_word(address, word);
+    if (the_session.page == 0 && the_session.x >= CELL_X_STEP0 && the_session.x < CELL_X_OFFSET) {
+        session_update_trim(the_session.y);
     }
 }
 
-static void set_byte(session_t *session, uint16_t address, uint8_t byte)
+static void set_byte(uint16_t address, uint8_t byte)
 {
-    session_begin(session);
-    session_set_byte(session, address, byte);
+    session_begin();
+    session_set_byte(address, byte);
 }
 
 COMMAND(cmd_set)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
-    here_t here = look_here(session);
-    uint16_t max = cell_max((cell_kind_t)here.kind, session->x, session->y), value;
+    here_t here = look_here();
+    uint16_t max = cell_max((cell_kind_t)here.kind, the_session.x, the_session.y), value;
     if (here.kind == CELL_OFFSET) {
         TEXT("Computed");
         return SHELL_ERR_SAID;
@@ -59,25 +57,25 @@ COMMAND(cmd_set)
     }
     if (here.is_pose) {
         if (performer_is_idle(&the_performer)) {
-            robot_move(&editor->robot, session->y, value);
+            robot_move(the_session.y, value);
         }
         return SHELL_OK;
     }
     if (here.kind == CELL_BYTE) {
-        set_byte(session, here.address, (uint8_t)value);
+        set_byte(here.address, (uint8_t)value);
     } else {
-        set_position(session, here.address, value);
+        set_position(here.address, value);
     }
-    return editor_edited(editor);
+    return editor_edited();
 }
 
 /* ---- keys ---- */
 
 /* Page Step stops at its ends, all others go round: their maximum is 127 or 255. */
-static uint8_t changed_byte(const session_t *session, uint16_t address, int8_t change)
+static uint8_t changed_byte(uint16_t address, int8_t change)
 {
-    uint8_t max = (uint8_t)cell_max(CELL_BYTE, session->x, session->y);
-    int16_t value = (int16_t)(session->cells[address] + change);
+    uint8_t max = (uint8_t)cell_max(CELL_BYTE, the_session.x, the_session.y);
+    int16_t value = (int16_t)(the_session.cells[address] + change);
     if (max == PAGE_STEPS) {
         return value < 0 ? 0 : value > (int16_t)PAGE_STEPS ? (uint8_t)PAGE_STEPS : (uint8_t)value;
     }
@@ -91,53 +89,51 @@ static uint16_t changed_word(uint16_t word, int8_t change)
     return cell_is_position(word) && cell_is_position(value) ? value : UINT16_MAX;
 }
 
-void cmd_cell_change(editor_t *editor, int8_t change)
+void cmd_cell_change(int8_t change)
 {
-    session_t *session = &the_session;
-    here_t here = look_here(session);
+    here_t here = look_here();
     if (here.kind == CELL_BYTE) {
-        set_byte(session, here.address, changed_byte(session, here.address, change));
-        (void)session_end(session);
+        set_byte(here.address, changed_byte(here.address, change));
+        (void)session_end();
     }
     if (here.kind != CELL_POSITION) {
         return;
     }
-    uint16_t pos = changed_word(cell_word(session->cells, here.address), change);
+    uint16_t pos = changed_word(cell_word(the_session.cells, here.address), change);
     if (pos == UINT16_MAX) {
         return;
     }
     if (!here.is_pose) {
-        set_position(session, here.address, pos);
-        (void)session_end(session);
-    } else if (robot_has(session->y) && performer_is_idle(&the_performer)) {
-        robot_move(&editor->robot, session->y, pos);
+        set_position(here.address, pos);
+        (void)session_end();
+    } else if (robot_has(the_session.y) && performer_is_idle(&the_performer)) {
+        robot_move(the_session.y, pos);
     }
 }
 
-static void toggle_pose(editor_t *editor)
+static void toggle_pose(void)
 {
     uint8_t joint = the_session.y;
-    uint16_t word = session_pose(&the_session, joint);
+    uint16_t word = session_pose(joint);
     if (!robot_has(joint)) {
-        session_set_pose(&the_session, joint, word ^ PAGE_POS_TORQUE_OFF);
+        session_set_pose(joint, word ^ PAGE_POS_TORQUE_OFF);
     } else if (!performer_is_idle(&the_performer)) {
         return;
     } else if (cell_is_off(word)) {
-        robot_on(&editor->robot, servo_link_bit(joint));
+        robot_on(servo_link_bit(joint));
     } else {
         robot_off(servo_link_bit(joint));
     }
 }
 
-void cmd_cell_space(editor_t *editor)
+void cmd_cell_space(void)
 {
-    session_t *session = &the_session;
-    here_t here = look_here(session);
+    here_t here = look_here();
     if (here.is_pose) {
-        toggle_pose(editor);
+        toggle_pose();
     } else if (here.kind == CELL_POSITION) {
-        set_position(session, here.address, cell_word(session->cells, here.address) ^ PAGE_POS_TORQUE_OFF);
-        (void)session_end(session);
+        set_position(here.address, cell_word(the_session.cells, here.address) ^ PAGE_POS_TORQUE_OFF);
+        (void)session_end();
     }
 }
 
@@ -145,39 +141,37 @@ void cmd_cell_space(editor_t *editor)
 
 COMMAND(cmd_goto)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
     uint8_t x = (uint8_t)args->number[0], y = (uint8_t)args->number[1];
-    if (cell_kind(session->page, x, y) == CELL_NONE) {
+    if (cell_kind(the_session.page, x, y) == CELL_NONE) {
         TEXT("There is no cell");
         return SHELL_ERR_SAID;
     }
-    if (x != CELL_X_HEADER && !screen_has_row(&editor->screen, y)) {
+    if (x != CELL_X_HEADER && !screen_has_row(y)) {
         TEXT("That joint has no row");
         return SHELL_ERR_SAID;
     }
-    session->x = x;
-    session->y = y;
+    the_session.x = x;
+    the_session.y = y;
     return SHELL_OK;
 }
 
-static uint8_t set_schedule(editor_t *editor, uint8_t schedule)
+static uint8_t set_schedule(uint8_t schedule)
 {
-    session_begin(&the_session);
-    session_set_byte(&the_session, PAGE_AT_SCHEDULE, schedule);
-    return editor_edited(editor);
+    session_begin();
+    session_set_byte(PAGE_AT_SCHEDULE, schedule);
+    return editor_edited();
 }
 
 COMMAND(cmd_time)
 {
     (void)args;
-    return set_schedule(&the_editor, PAGE_SCHEDULE_TIME);
+    return set_schedule(PAGE_SCHEDULE_TIME);
 }
 
 COMMAND(cmd_speed)
 {
     (void)args;
-    return set_schedule(&the_editor, PAGE_SCHEDULE_SPEED);
+    return set_schedule(PAGE_SCHEDULE_SPEED);
 }
 
 COMMAND(cmd_hex)
@@ -196,16 +190,14 @@ COMMAND(cmd_dec)
 
 COMMAND(cmd_re)
 {
-    editor_t *const editor = &the_editor;
     (void)args;
-    screen_redraw(&editor->screen);
-    screen_ask_size(&editor->screen);
+    screen_redraw();
+    screen_ask_size();
     return SHELL_OK;
 }
 
 COMMAND(cmd_rows)
 {
-    editor_t *const editor = &the_editor;
-    screen_set_rows(&editor->screen, (uint8_t)args->number[0]);
+    screen_set_rows((uint8_t)args->number[0]);
     return SHELL_OK;
 }

@@ -135,10 +135,10 @@ static void check_page(uint8_t page)
     }
 }
 
-static bool check_item(editor_t *editor, uint8_t item)
+static bool check_item(uint8_t item)
 {
-    uint8_t page = (uint8_t)(item + editor->list_first);
-    if (page > editor->list_last) {
+    uint8_t page = (uint8_t)(item + the_editor.list_first);
+    if (page > the_editor.list_last) {
         return false;
     }
     servo_link_quiet(&the_servos);
@@ -150,11 +150,10 @@ static bool check_item(editor_t *editor, uint8_t item)
 
 COMMAND(cmd_check)
 {
-    editor_t *const editor = &the_editor;
     if (!editor_may_move()) {
         return SHELL_ERR_SAID;
     }
-    editor->list_first = args->count > 1 ? (uint8_t)args->number[0] : 1;
-    editor->list_last = args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)(PAGE_COUNT - 1u);
-    return editor_list(editor, check_item, TEXT_P("Checked:"));
+    the_editor.list_first = args->count > 1 ? (uint8_t)args->number[0] : 1;
+    the_editor.list_last = args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)(PAGE_COUNT - 1u);
+    return editor_list(check_item, TEXT_P("Checked:"));
 }

@@ -8,9 +8,8 @@
 
 /* ---- HELP ---- */
 
-static bool help_item(editor_t *editor, uint8_t item)
+static bool help_item(uint8_t item)
 {
-    (void)editor;
     if (item >= commands_count) {
         return false;
     }
@@ -20,9 +19,8 @@ static bool help_item(editor_t *editor, uint8_t item)
 
 COMMAND(cmd_help)
 {
-    editor_t *const editor = &the_editor;
     if (args->count == 1) {
-        return editor_list(editor, help_item, TEXT_P("Keys: arrows, [ ] -1 +1, { } -10 +10, space"));
+        return editor_list(help_item, TEXT_P("Keys: arrows, [ ] -1 +1, { } -10 +10, space"));
     }
     const shell_command_t *command = shell_find(commands_table_P, commands_count, args, 1);
     if (command == NULL) {
@@ -71,10 +69,10 @@ static void print_page(uint8_t page)
 
 TEXT_NAMED(list_title, "Page name         steps next exit  lnk1 code lnk2 code call   time");
 
-static bool list_page_item(editor_t *editor, uint8_t item)
+static bool list_page_item(uint8_t item)
 {
-    uint8_t page = (uint8_t)(item + editor->list_first);
-    if (page > editor->list_last) {
+    uint8_t page = (uint8_t)(item + the_editor.list_first);
+    if (page > the_editor.list_last) {
         return false;
     }
     if (!session_is_empty(page)) {
@@ -85,12 +83,11 @@ static bool list_page_item(editor_t *editor, uint8_t item)
 
 COMMAND(cmd_list)
 {
-    editor_t *const editor = &the_editor;
-    editor->list_first = args->count > 1 ? (uint8_t)args->number[0] : 0;
-    editor->list_last = args->count > 2    ? (uint8_t)args->number[1]
+    the_editor.list_first = args->count > 1 ? (uint8_t)args->number[0] : 0;
+    the_editor.list_last = args->count > 2    ? (uint8_t)args->number[1]
                         : args->count == 2 ? (uint8_t)args->number[0]
                                            : (uint8_t)(PAGE_COUNT - 1u);
-    return editor_list(editor, list_page_item, list_title);
+    return editor_list(list_page_item, list_title);
 }
 
 static char lower(char character)
@@ -112,14 +109,14 @@ static bool contains(const char *name, const char *part)
     return false;
 }
 
-static bool find_item(editor_t *editor, uint8_t item)
+static bool find_item(uint8_t item)
 {
     char name[PAGE_NAME_BYTES];
     if (item >= PAGE_COUNT) {
         return false;
     }
     page_store_name(item, name);
-    if (!page_store_is_erased(item) && contains(name, shell_word(&editor->args, 1))) {
+    if (!page_store_is_erased(item) && contains(name, shell_word(&the_editor.args, 1))) {
         print_page(item);
     }
     return true;
@@ -128,5 +125,5 @@ static bool find_item(editor_t *editor, uint8_t item)
 COMMAND(cmd_find)
 {
     (void)args;
-    return editor_list(&the_editor, find_item, list_title);
+    return editor_list(find_item, list_title);
 }

@@ -13,65 +13,60 @@
 #define PAGE_MAX (PAGE_COUNT - 1u)
 #define NAME_CHARS (PAGE_NAME_BYTES - 1u)
 
-static uint8_t open_asking(editor_t *editor, uint8_t page)
+static uint8_t open_asking(uint8_t page)
 {
-    if (!editor_ask_unsaved(editor)) {
+    if (!editor_ask_unsaved()) {
         return EDITOR_TO_ASK;
     }
-    editor_open(editor, page);
+    editor_open(page);
     return SHELL_OK;
 }
 
 COMMAND(cmd_page)
 {
-    editor_t *const editor = &the_editor;
-    return open_asking(editor, (uint8_t)args->number[0]);
+    return open_asking((uint8_t)args->number[0]);
 }
 
-static uint8_t open_beside(editor_t *editor, bool is_there, int8_t way)
+static uint8_t open_beside(bool is_there, int8_t way)
 {
     if (!is_there) {
         TEXT("Page must be 0..127");
         return SHELL_ERR_SAID;
     }
-    return open_asking(editor, (uint8_t)(the_session.page + way));
+    return open_asking((uint8_t)(the_session.page + way));
 }
 
 COMMAND(cmd_next)
 {
-    editor_t *const editor = &the_editor;
     (void)args;
-    return open_beside(editor, the_session.page < PAGE_MAX, 1);
+    return open_beside(the_session.page < PAGE_MAX, 1);
 }
 
 COMMAND(cmd_before)
 {
-    editor_t *const editor = &the_editor;
     (void)args;
-    return open_beside(editor, the_session.page > 0, -1);
+    return open_beside(the_session.page > 0, -1);
 }
 
 COMMAND(cmd_copy)
 {
-    editor_t *const editor = &the_editor;
-    if (!editor_ask_unsaved(editor)) {
+    if (!editor_ask_unsaved()) {
         return EDITOR_TO_ASK;
     }
-    session_begin(&the_session);
-    session_load(&the_session, (uint8_t)args->number[0]);
-    return editor_edited(editor);
+    session_begin();
+    session_load((uint8_t)args->number[0]);
+    return editor_edited();
 }
 
 COMMAND(cmd_new)
 {
-    editor_t *const editor = &the_editor;
     (void)args;
-    if (!editor_ask(editor, TEXT_P(""))) {
+    if (!editor_ask(TEXT_P(""))) {
         return EDITOR_TO_ASK;
     }
-    session_begin(&the_session);
-    session_clear(&the_session);
-    return editor_edited(editor);
+    session_begin();
+    session_clear();
+    return editor_edited();
 }
 
 /* ---- save ---- */
@@ -79,24 +74,23 @@ COMMAND(cmd_new)
 /* A stored page holds no torque-off marks (motion512.md): they become joints that the step does not use. */
 static void clear_off_marks(void)
 {
-    session_t *session = &the_session;
     uint8_t count = 0;
     for (uint16_t address = PAGE_AT_STEP0; address < PAGE_BYTES; address = (uint16_t)(address + 2u)) {
-        uint16_t word = cell_word(session->cells, address);
+        uint16_t word = cell_word(the_session.cells, address);
         if (!cell_is_off(word)) {
             continue;
         }
         bool is_word = address % PAGE_STEP_BYTES < PAGE_STEP_AT_PAUSE;
-        bool is_trim = session->page == 0 && address / PAGE_STEP_BYTES == CELL_X_OFFSET;
+        bool is_trim = the_session.page == 0 && address / PAGE_STEP_BYTES == CELL_X_OFFSET;
         if (is_word && !is_trim) {
             if (count++ == 0) {
-                session_begin(session);
+                session_begin();
             }
-            session_set_word(session, address, (uint16_t)(PAGE_POS_UNUSED | (word & PAGE_POS_MAX)));
+            session_set_word(address, (uint16_t)(PAGE_POS_UNUSED | (word & PAGE_POS_MAX)));
         }
     }
     if (count != 0) {
-        (void)session_end(session);
+        (void)session_end();
         text_number(count);
         TEXT(" ???? saved as ----, ");
     }
@@ -105,11 +99,10 @@ static void clear_off_marks(void)
 /* Faults that a save does not cure. Not inlined: the text would lie on the stack while the page is saved. */
 static NOINLINE bool page_is_sound(void)
 {
-    session_t *session = &the_session;
-    bool was_damaged = session->was_damaged;
-    session->was_damaged = false;
-    uint8_t fault = frame_fault(session);
-    session->was_damaged = was_damaged;
+    bool was_damaged = the_session.was_damaged;
+    the_session.was_damaged = false;
+    uint8_t fault = frame_fault();
+    the_session.was_damaged = was_damaged;
     if (fault == 0) {
         return true;
     }
@@ -120,27 +113,27 @@ static NOINLINE bool page_is_sound(void)
     return false;
 }
 
-static bool overwriting_is_meant(editor_t *editor, uint8_t page)
+static bool overwriting_is_meant(uint8_t page)
 {
     if (page != the_session.page) {
-        return session_is_empty(page) || editor_ask(editor, TEXT_P("That page is not empty. "));
+        return session_is_empty(page) || editor_ask(TEXT_P("That page is not empty. "));
     }
     if (page_store_is_erased(page) || page_store_check(&the_pages, page) == PAGE_OK) {
         return true;
     }
-    return editor_ask(editor, TEXT_P("The stored page is damaged. "));
+    return editor_ask(TEXT_P("The stored page is damaged. "));
 }
 
-static uint8_t save_by_mailbox(editor_t *editor, uint8_t page)
+static uint8_t save_by_mailbox(uint8_t page)
 {
-    if (!editor_ask(editor, TEXT_P("SAVE restarts (5 s). "))) {
+    if (!editor_ask(TEXT_P("SAVE restarts (5 s). "))) {
         return EDITOR_TO_ASK;
     }
     page_save_by_mailbox(page, the_session.cells);
 }
 
 /* Says how it went; what follows from it comes behind, so that OK is on the line within 60 ms. */
-static uint8_t save_now(editor_t *editor, uint8_t page)
+static uint8_t save_now(uint8_t page)
 {
     page_save_status_t status = page_save(page, the_session.cells);
     text_P(status == PAGE_SAVE_OK           ? TEXT_P("OK")
@@ -149,35 +142,34 @@ static uint8_t save_now(editor_t *editor, uint8_t page)
                                             : TEXT_P("No boot loader can write: kept in RAM"));
     page_store_refresh(&the_pages, page);
     if (page == the_session.page) {
-        session_saved(&the_session);
+        session_saved();
     } else if (page == 0) {
-        robot_set_trim(&editor->robot);
+        robot_set_trim();
     }
     return SHELL_OK;
 }
 
 COMMAND(cmd_save)
 {
-    editor_t *const editor = &the_editor;
     uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : the_session.page;
     if (!editor_may_move() || !page_is_sound()) {
         return SHELL_ERR_SAID;
     }
-    if (!overwriting_is_meant(editor, page)) {
+    if (!overwriting_is_meant(page)) {
         return EDITOR_TO_ASK;
     }
-    editor->screen.lead = true;
+    the_screen.lead = true;
     clear_off_marks();
     if (page_service_kind() == PAGE_SERVICE_MAILBOX) {
-        return save_by_mailbox(editor, page);
+        return save_by_mailbox(page);
     }
-    return save_now(editor, page);
+    return save_now(page);
 }
 
 COMMAND(cmd_exit)
 {
     (void)args;
-    if (!editor_ask_unsaved(&the_editor)) {
+    if (!editor_ask_unsaved()) {
         return EDITOR_TO_ASK;
     }
     console_flush();
@@ -186,24 +178,22 @@ COMMAND(cmd_exit)
 
 /* ---- name ---- */
 
-void cmd_name_done(editor_t *editor, const char *name)
+void cmd_name_done(const char *name)
 {
-    session_t *session = &the_session;
     bool ended = false;
-    session_begin(session);
+    session_begin();
     for (uint8_t i = 0; i < PAGE_NAME_BYTES; i++) {
         char character = ended || i >= NAME_CHARS ? '\0' : name[i];
         ended = character == '\0';
-        session_set_byte(session, (uint16_t)(PAGE_AT_NAME + i), (uint8_t)character);
+        session_set_byte((uint16_t)(PAGE_AT_NAME + i), (uint8_t)character);
     }
-    (void)editor_edited(editor);
+    (void)editor_edited();
 }
 
 COMMAND(cmd_name)
 {
-    editor_t *const editor = &the_editor;
     if (args->count > 1) {
-        cmd_name_done(editor, shell_word(args, 1));
+        cmd_name_done(shell_word(args, 1));
         return SHELL_OK;
     }
     TEXT("name:");
@@ -223,11 +213,11 @@ static uint8_t say_unless(bool done, const char *text)
 COMMAND(cmd_undo)
 {
     (void)args;
-    return say_unless(session_undo(&the_session), TEXT_P("Nothing to undo"));
+    return say_unless(session_undo(), TEXT_P("Nothing to undo"));
 }
 
 COMMAND(cmd_redo)
 {
     (void)args;
-    return say_unless(session_redo(&the_session), TEXT_P("Nothing to redo"));
+    return say_unless(session_redo(), TEXT_P("Nothing to redo"));
 }

@@ -20,9 +20,9 @@ COMMAND(cmd_play)
     return EDITOR_TO_PLAY;
 }
 
-void cmd_play_key(editor_t *editor, uint8_t key)
+void cmd_play_key(uint8_t key)
 {
-    editor->screen.lead = false;
+    the_screen.lead = false;
     switch (key) {
     case KEY_CR:
     case KEY_LF:
@@ -68,7 +68,7 @@ static uint8_t state_of(uint8_t joint)
 
 /* All that is wrong with the servos, at once: faults come in swarms, and the row is one. Shorter than report_event, which
  * Edit has no flash for; lost torque also shows as ???? in the table. */
-static NOINLINE void tell_faults(editor_t *editor)
+static NOINLINE void tell_faults(void)
 {
     TEXT_NAMED(voltage, "Low voltage");
     TEXT_NAMED(angle, "Angle limit");
@@ -77,29 +77,29 @@ static NOINLINE void tell_faults(editor_t *editor)
     TEXT_NAMED(limp, "Lost torque");
     TEXT_NAMED(overload, "Overload");
     static const char *const names[] PROGMEM = { voltage, angle, heat, silent, limp, overload };   /* by bit */
-    editor->faults_due = false;
-    editor->robot.failed = false;   /* they count as silent */
-    screen_open_line(&editor->screen);
-    if (editor->broken_off) {
+    the_editor.faults_due = false;
+    the_robot.failed = false;   /* they count as silent */
+    screen_open_line();
+    if (the_editor.broken_off) {
         TEXT("Ended: a servo failed.");
     }
-    const uint8_t column = editor->screen.line_column;
+    const uint8_t column = the_screen.line_column;
     for (uint8_t bit = 0; bit < ARRAY_COUNT(names); bit++) {
         uint32_t joints = 0;
         for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
             servo_link_put(&joints, joint, (state_of(joint) >> bit & 1u) != 0);
         }
-        editor_tell_joints(editor, (const char *)pgm_read_ptr(&names[bit]), joints);
+        editor_tell_joints((const char *)pgm_read_ptr(&names[bit]), joints);
     }
-    editor->screen.lead = true;
+    the_screen.lead = true;
     if (the_performer.told_battery) {
         TEXT("Battery low");
-    } else if (editor->screen.line_column == column) {
+    } else if (the_screen.line_column == column) {
         TEXT("All servos are well");
     }
 }
 
-static void tell_end(editor_t *editor, const performer_event_t *event)
+static void tell_end(const performer_event_t *event)
 {
     switch (event->c) {
     case PERFORMER_END_LOOP:
@@ -110,8 +110,8 @@ static void tell_end(editor_t *editor, const performer_event_t *event)
         text_number(event->a);
         break;
     case PERFORMER_END_SERVO:
-        editor->broken_off = true;
-        tell_faults(editor);
+        the_editor.broken_off = true;
+        tell_faults();
         break;
     default:
         TEXT("OK");
@@ -122,31 +122,31 @@ static void tell_end(editor_t *editor, const performer_event_t *event)
 enum { LATE_TICKS = 64 };   /* half a second: who saw the robot move and meant to stop it */
 
 /* The play is over: the work pose is what the servos hold now. */
-static void play_ended(editor_t *editor, const performer_event_t *event)
+static void play_ended(const performer_event_t *event)
 {
-    editor->wait_ticks = LATE_TICKS;
-    robot_read(&editor->robot);
-    if (editor->mode != EDITOR_PLAY) {
+    the_editor.wait_ticks = LATE_TICKS;
+    robot_read();
+    if (the_editor.mode != EDITOR_PLAY) {
         return;
     }
-    editor->screen.lead = true;
-    tell_end(editor, event);
-    editor_leave_line(editor);
+    the_screen.lead = true;
+    tell_end(event);
+    editor_leave_line();
 }
 
-void cmd_play_events(editor_t *editor, bool line_is_free)
+void cmd_play_events(bool line_is_free)
 {
     performer_event_t event;
     if (performer_next_event(&the_performer, &event)) {
         if (event.kind == PERFORMER_EV_ENDED) {
-            play_ended(editor, &event);
+            play_ended(&event);
         } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
-            editor->faults_due = !editor->screen.hidden;
+            the_editor.faults_due = !the_screen.hidden;
         }
-    } else if (editor->faults_due && line_is_free) {
-        tell_faults(editor);
-        if (editor->mode != EDITOR_PLAY) {
-            editor_message_end(editor);
+    } else if (the_editor.faults_due && line_is_free) {
+        tell_faults();
+        if (the_editor.mode != EDITOR_PLAY) {
+            editor_message_end();
         }
     }
 }
@@ -157,9 +157,8 @@ enum { BALANCE_TICKS = 29, BALANCE_FIRST_ID = 102, BALANCE_SECOND_ID = 101, BALA
 
 COMMAND(cmd_balance)
 {
-    editor_t *const editor = &the_editor;
     (void)args;
-    editor->wait_ticks = 0;
+    the_editor.wait_ticks = 0;
     return EDITOR_TO_BALANCE;
 }
 
@@ -176,11 +175,11 @@ static void print_device(uint8_t id, char end)
     }
 }
 
-void cmd_balance_tick(editor_t *editor)
+void cmd_balance_tick(void)
 {
-    editor->wait_ticks = BALANCE_TICKS - 1;
+    the_editor.wait_ticks = BALANCE_TICKS - 1;
     servo_link_quiet(&the_servos);
-    screen_open_line(&editor->screen);
+    screen_open_line();
     print_device(BALANCE_FIRST_ID, ',');
     print_device(BALANCE_SECOND_ID, ' ');
 }

@@ -8,29 +8,27 @@
 enum { NEUTRAL_POS = 512 };
 
 /* Sends a step and says what could not be sent. */
-static void send_step(editor_t *editor, const uint8_t step[PAGE_STEP_BYTES])
+static void send_step(const uint8_t step[PAGE_STEP_BYTES])
 {
-    uint32_t missing = robot_send(&editor->robot, step);
-    session_set_byte(&the_session, CELLS_POSE_AT + PAGE_STEP_AT_PAUSE, step[PAGE_STEP_AT_PAUSE]);
-    session_set_byte(&the_session, CELLS_POSE_AT + PAGE_STEP_AT_SPEED, step[PAGE_STEP_AT_SPEED]);
-    editor_tell_joints(editor, TEXT_P("No value, not moved"), missing);
+    uint32_t missing = robot_send(step);
+    session_set_byte(CELLS_POSE_AT + PAGE_STEP_AT_PAUSE, step[PAGE_STEP_AT_PAUSE]);
+    session_set_byte(CELLS_POSE_AT + PAGE_STEP_AT_SPEED, step[PAGE_STEP_AT_SPEED]);
+    editor_tell_joints(TEXT_P("No value, not moved"), missing);
 }
 
 COMMAND(cmd_go)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
     uint8_t step = (uint8_t)args->number[0];
     if (!editor_may_move()) {
         return SHELL_ERR_SAID;
     }
-    if (step >= session->cells[PAGE_AT_STEPS] && !editor_ask(editor, TEXT_P(""))) {
+    if (step >= the_session.cells[PAGE_AT_STEPS] && !editor_ask(TEXT_P(""))) {
         return EDITOR_TO_ASK;
     }
     uint8_t words[PAGE_STEP_BYTES];
-    memcpy(words, &session->cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
-    session->go_step = step;
-    send_step(editor, words);
+    memcpy(words, &the_session.cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
+    the_session.go_step = step;
+    send_step(words);
     return SHELL_OK;
 }
 
@@ -51,7 +49,7 @@ static uint16_t neutral_of(uint8_t joint)
 /* new[a] = N[a] - (s[b] - N[b]), kept within 0..1023; what is no position passes as it is. */
 static uint16_t mirrored(uint8_t step, uint8_t joint, uint8_t partner)
 {
-    uint16_t word = session_word(&the_session, step, partner);
+    uint16_t word = session_word(step, partner);
     if (!cell_is_position(word)) {
         return word;
     }
@@ -61,14 +59,12 @@ static uint16_t mirrored(uint8_t step, uint8_t joint, uint8_t partner)
 
 COMMAND(cmd_mirror)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
     uint8_t step = (uint8_t)args->number[0];
     if (!editor_may_move()) {
         return SHELL_ERR_SAID;
     }
     uint8_t words[PAGE_STEP_BYTES];
-    memcpy(words, &session->cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
+    memcpy(words, &the_session.cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         uint8_t partner = the_settings.pair[joint];
         if (partner < PAGE_JOINTS) {
@@ -77,7 +73,7 @@ COMMAND(cmd_mirror)
             words[2 * joint + 1] = (uint8_t)(word >> 8);
         }
     }
-    send_step(editor, words);
+    send_step(words);
     return SHELL_OK;
 }
 
@@ -122,7 +118,7 @@ COMMAND(cmd_pairs)
 /* ---- torque ---- */
 
 /* IDs of the line; without any, all that are there. */
-static bool joints_of(editor_t *editor, const shell_args_t *args, uint32_t *joints)
+static bool joints_of(const shell_args_t *args, uint32_t *joints)
 {
     uint32_t there = the_servos.present;
     *joints = args->count > 1 ? 0 : there;
@@ -133,26 +129,24 @@ static bool joints_of(editor_t *editor, const shell_args_t *args, uint32_t *join
         }
         servo_link_put(joints, (uint8_t)id, true);
     }
-    editor_tell_joints(editor, TEXT_P("Not there"), *joints & ~there);
+    editor_tell_joints(TEXT_P("Not there"), *joints & ~there);
     return true;
 }
 
 COMMAND(cmd_on)
 {
-    editor_t *const editor = &the_editor;
     uint32_t joints;
-    if (!editor_may_move() || !joints_of(editor, args, &joints)) {
+    if (!editor_may_move() || !joints_of(args, &joints)) {
         return SHELL_ERR_SAID;
     }
-    robot_on(&editor->robot, joints);
+    robot_on(joints);
     return SHELL_OK;
 }
 
 COMMAND(cmd_off)
 {
-    editor_t *const editor = &the_editor;
     uint32_t joints;
-    if (!joints_of(editor, args, &joints)) {
+    if (!joints_of(args, &joints)) {
         return SHELL_ERR_SAID;
     }
     robot_off(joints);

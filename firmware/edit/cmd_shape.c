@@ -26,13 +26,13 @@ static uint16_t between(uint16_t a, uint16_t b, uint8_t percent)
                  : (uint16_t)(a - part_of(a - b, percent, PERCENT_WHOLE));
 }
 
-static void set_between(session_t *session, uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
+static void set_between(uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
 {
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        uint16_t first = session_word(session, a, joint);
-        uint16_t second = session_word(session, b, joint);
+        uint16_t first = session_word(a, joint);
+        uint16_t second = session_word(b, joint);
         bool both = cell_is_position(first) && cell_is_position(second);
-        session_set_word(session, (uint16_t)(step_at(to) + 2u * joint),
+        session_set_word((uint16_t)(step_at(to) + 2u * joint),
                          both ? between(first, second, percent) : (uint16_t)PAGE_POS_UNUSED);
     }
 }
@@ -48,24 +48,22 @@ static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
 
 /* The inserted step takes its part of the time of the step behind it, so that the page takes as long as before; elsewhere,
  * and with speeds, what the step it leads to has. */
-static void share_time(session_t *session, uint8_t to, uint8_t b, uint8_t percent)
+static void share_time(uint8_t to, uint8_t b, uint8_t percent)
 {
     uint16_t at = (uint16_t)(step_at(b) + PAGE_STEP_AT_SPEED);
-    uint8_t time = session->cells[at];
-    if (b == to + 1u && session->cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME) {
+    uint8_t time = the_session.cells[at];
+    if (b == to + 1u && the_session.cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME) {
         bool cut = false;
         uint8_t part = scaled(time, percent, PERCENT_WHOLE, &cut);
-        session_set_byte(session, at, time > part ? (uint8_t)(time - part) : 1u);
+        session_set_byte(at, time > part ? (uint8_t)(time - part) : 1u);
         time = part;
     }
-    session_set_byte(session, (uint16_t)(step_at(to) + PAGE_STEP_AT_SPEED), time);
+    session_set_byte((uint16_t)(step_at(to) + PAGE_STEP_AT_SPEED), time);
 }
 
 COMMAND(cmd_int)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
-    uint8_t a = (uint8_t)args->number[0], b = (uint8_t)args->number[1], steps = session->cells[PAGE_AT_STEPS];
+    uint8_t a = (uint8_t)args->number[0], b = (uint8_t)args->number[1], steps = the_session.cells[PAGE_AT_STEPS];
     uint16_t percent = PERCENT_DEFAULT;
     if (args->count > 3 && !shell_number(args, 3, TEXT_P("Percent"), 0, PERCENT_WHOLE, &percent)) {
         return SHELL_ERR_SAID;
@@ -75,50 +73,47 @@ COMMAND(cmd_int)
         return SHELL_ERR_SAID;
     }
     uint8_t to = (uint8_t)(a + 1u);
-    session_begin_turn(session, UNDO_TURN(UNDO_TURN_UP, to, LAST_STEP));
+    session_begin_turn(UNDO_TURN(UNDO_TURN_UP, to, LAST_STEP));
     b = b >= to ? (uint8_t)(b + 1u) : b;
-    set_between(session, a, b, to, (uint8_t)percent);
-    session_set_byte(session, (uint16_t)(step_at(to) + PAGE_STEP_AT_PAUSE), 0);
-    share_time(session, to, b, (uint8_t)percent);
-    session_set_byte(session, PAGE_AT_STEPS, (uint8_t)(steps + 1u));
-    return editor_edited(editor);
+    set_between(a, b, to, (uint8_t)percent);
+    session_set_byte((uint16_t)(step_at(to) + PAGE_STEP_AT_PAUSE), 0);
+    share_time(to, b, (uint8_t)percent);
+    session_set_byte(PAGE_AT_STEPS, (uint8_t)(steps + 1u));
+    return editor_edited();
 }
 
 COMMAND(cmd_scale)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
     uint16_t percent = args->number[0];
     bool cut = false;
-    bool is_time = session->cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME;
-    session_begin(session);
-    for (uint8_t step = 0; step < session_steps(session); step++) {
+    bool is_time = the_session.cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME;
+    session_begin();
+    for (uint8_t step = 0; step < session_steps(); step++) {
         uint16_t at = (uint16_t)(step_at(step) + PAGE_STEP_AT_PAUSE);
-        session_set_byte(session, at, scaled(session->cells[at], percent, PERCENT_WHOLE, &cut));
+        session_set_byte(at, scaled(the_session.cells[at], percent, PERCENT_WHOLE, &cut));
         at++;
-        session_set_byte(session, at, is_time ? scaled(session->cells[at], percent, PERCENT_WHOLE, &cut)
-                                              : scaled(session->cells[at], PERCENT_WHOLE, percent, &cut));
+        session_set_byte(at, is_time ? scaled(the_session.cells[at], percent, PERCENT_WHOLE, &cut)
+                                              : scaled(the_session.cells[at], PERCENT_WHOLE, percent, &cut));
     }
     if (cut) {
         TEXT("Cut at 1 or 255");
     }
-    return editor_edited(editor);
+    return editor_edited();
 }
 
 /* ---- steps from page to page ---- */
 
 COMMAND(cmd_take)
 {
-    editor_t *const editor = &the_editor;
     uint8_t first = (uint8_t)args->number[0];
     uint8_t last = args->count > 2 ? (uint8_t)args->number[1] : first;
     if (last < first) {
         TEXT("The first step comes first");
         return SHELL_ERR_SAID;
     }
-    editor->take_page = the_session.page;
-    editor->take_first = first;
-    editor->take_last = last;
+    the_editor.take_page = the_session.page;
+    the_editor.take_first = first;
+    the_editor.take_last = last;
     TEXT("Noted for PASTE");
     if (the_session.is_changed) {
         TEXT(" (save it first)");
@@ -126,45 +121,42 @@ COMMAND(cmd_take)
     return SHELL_OK;
 }
 
-static void paste_step(editor_t *editor, uint8_t from, uint8_t to)
+static void paste_step(uint8_t from, uint8_t to)
 {
     uint8_t chunk[PAGE_STEP_BYTES];
-    session_t *session = &the_session;
-    if (editor->take_page == session->page) {
-        memcpy(chunk, &session->cells[step_at(from)], PAGE_STEP_BYTES);
+    if (the_editor.take_page == the_session.page) {
+        memcpy(chunk, &the_session.cells[step_at(from)], PAGE_STEP_BYTES);
     } else {
-        page_store_read(editor->take_page, step_at(from), chunk, PAGE_STEP_BYTES);
+        page_store_read(the_editor.take_page, step_at(from), chunk, PAGE_STEP_BYTES);
     }
     for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++) {
-        session_set_byte(session, (uint16_t)(step_at(to) + i), chunk[i]);
+        session_set_byte((uint16_t)(step_at(to) + i), chunk[i]);
     }
 }
 
 COMMAND(cmd_paste)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
-    uint8_t to = session_steps(session);
-    if (editor->take_page == EDITOR_NO_PAGE) {
+    uint8_t to = session_steps();
+    if (the_editor.take_page == EDITOR_NO_PAGE) {
         TEXT("Nothing noted: TAKE first");
         return SHELL_ERR_SAID;
     }
     if (args->count > 1) {
         to = (uint8_t)args->number[0];
     }
-    uint8_t count = (uint8_t)(editor->take_last - editor->take_first + 1u);
+    uint8_t count = (uint8_t)(the_editor.take_last - the_editor.take_first + 1u);
     if (to + count > PAGE_STEPS) {
         TEXT("No room");
         return SHELL_ERR_SAID;
     }
-    session_begin(session);
-    if (to + count > session->cells[PAGE_AT_STEPS]) {
-        session_set_byte(session, PAGE_AT_STEPS, (uint8_t)(to + count));
+    session_begin();
+    if (to + count > the_session.cells[PAGE_AT_STEPS]) {
+        session_set_byte(PAGE_AT_STEPS, (uint8_t)(to + count));
     }
     /* Upwards or downwards, so that overlapping steps of the same page are read before they are written. */
     for (uint8_t i = 0; i < count; i++) {
-        uint8_t k = to > editor->take_first ? (uint8_t)(count - 1u - i) : i;
-        paste_step(editor, (uint8_t)(editor->take_first + k), (uint8_t)(to + k));
+        uint8_t k = to > the_editor.take_first ? (uint8_t)(count - 1u - i) : i;
+        paste_step((uint8_t)(the_editor.take_first + k), (uint8_t)(to + k));
     }
-    return editor_edited(editor);
+    return editor_edited();
 }

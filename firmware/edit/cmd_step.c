@@ -13,42 +13,41 @@ static uint16_t step_at(uint8_t step)
     return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step);   /* step 7 is the work pose */
 }
 
-static void set_count(session_t *session, uint8_t steps)
+static void set_count(uint8_t steps)
 {
-    session_set_byte(session, PAGE_AT_STEPS, steps);
+    session_set_byte(PAGE_AT_STEPS, steps);
 }
 
-static void copy_step(session_t *session, uint8_t from, uint8_t to)
+static void copy_step(uint8_t from, uint8_t to)
 {
     for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++) {
-        session_set_byte(session, (uint16_t)(step_at(to) + i), session->cells[step_at(from) + i]);
+        session_set_byte((uint16_t)(step_at(to) + i), the_session.cells[step_at(from) + i]);
     }
 }
 
 /* Page 0: the trim follows from master pose and this robot's pose. */
 static void update_trim(uint8_t step)
 {
-    session_t *session = &the_session;
-    if (session->page != 0 || step > 1) {
+    if (the_session.page != 0 || step > 1) {
         return;
     }
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        session_update_trim(session, joint);
+        session_update_trim(joint);
     }
     TEXT("Offset Updated");
 }
 
 /* A pose with joints let go is written with ???? cells: said, because it is seldom meant. */
-static void tell_off(editor_t *editor)
+static void tell_off(void)
 {
     uint32_t off = 0;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (robot_has(joint) && cell_is_off(session_pose(&the_session, joint))) {
+        if (robot_has(joint) && cell_is_off(session_pose(joint))) {
             servo_link_put(&off, joint, true);
         }
     }
     if (off != 0) {
-        editor->screen.lead = true;
+        the_screen.lead = true;
         TEXT("Off: ");
         report_joints(off);
     }
@@ -56,81 +55,73 @@ static void tell_off(editor_t *editor)
 
 COMMAND(cmd_step)
 {
-    editor_t *const editor = &the_editor;
-    session_begin(&the_session);
-    set_count(&the_session, (uint8_t)args->number[0]);
-    return editor_edited(editor);
+    session_begin();
+    set_count((uint8_t)args->number[0]);
+    return editor_edited();
 }
 
 COMMAND(cmd_write)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
-    uint8_t step = session->cells[PAGE_AT_STEPS];
+    uint8_t step = the_session.cells[PAGE_AT_STEPS];
     if (args->count > 1) {
         step = (uint8_t)args->number[0];
     } else if (step >= PAGE_STEPS) {
         TEXT("All 7 steps are used");
         return SHELL_ERR_SAID;
     }
-    session_begin(session);
+    session_begin();
     if (args->count == 1) {
-        set_count(session, (uint8_t)(step + 1u));
+        set_count((uint8_t)(step + 1u));
     }
-    copy_step(session, POSE_STEP, step);
+    copy_step(POSE_STEP, step);
     update_trim(step);
-    tell_off(editor);
-    return editor_edited(editor);
+    tell_off();
+    return editor_edited();
 }
 
 COMMAND(cmd_insert)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
     uint8_t step = (uint8_t)args->number[0];
-    uint8_t steps = session->cells[PAGE_AT_STEPS];
-    session_begin_turn(session, UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
+    uint8_t steps = the_session.cells[PAGE_AT_STEPS];
+    session_begin_turn(UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
     if (step < steps && steps < PAGE_STEPS) {
-        set_count(session, (uint8_t)(steps + 1u));
+        set_count((uint8_t)(steps + 1u));
     }
-    copy_step(session, POSE_STEP, step);
+    copy_step(POSE_STEP, step);
     if (steps >= PAGE_STEPS) {
         TEXT("Step 6 fell out: UNDO");
     }
-    tell_off(editor);
-    return editor_edited(editor);
+    tell_off();
+    return editor_edited();
 }
 
 /* The steps behind move down; the last one stays as a copy (editor-original.md section 6). */
-static uint8_t delete_step(editor_t *editor, uint8_t step)
+static uint8_t delete_step(uint8_t step)
 {
-    session_t *session = &the_session;
-    uint8_t steps = session->cells[PAGE_AT_STEPS];
-    session_begin_turn(session, UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
+    uint8_t steps = the_session.cells[PAGE_AT_STEPS];
+    session_begin_turn(UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
     if (step < steps) {
-        set_count(session, (uint8_t)(steps - 1u));
+        set_count((uint8_t)(steps - 1u));
     }
     if (step < LAST_STEP) {
-        copy_step(session, LAST_STEP - 1u, LAST_STEP);
+        copy_step(LAST_STEP - 1u, LAST_STEP);
     }
-    return editor_edited(editor);
+    return editor_edited();
 }
 
 COMMAND(cmd_delete)
 {
-    editor_t *const editor = &the_editor;
-    session_t *session = &the_session;
     if (args->count > 1) {
-        return delete_step(editor, (uint8_t)args->number[0]);
+        return delete_step((uint8_t)args->number[0]);
     }
-    uint8_t steps = session->cells[PAGE_AT_STEPS];
+    uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     if (steps == 0) {
         TEXT("There is no step");
         return SHELL_ERR_SAID;
     }
-    session_begin(session);
-    set_count(session, (uint8_t)(steps - 1u));
-    return editor_edited(editor);
+    session_begin();
+    set_count((uint8_t)(steps - 1u));
+    return editor_edited();
 }
 
 static void print_pair(uint8_t from, uint8_t to)
@@ -143,27 +134,25 @@ static void print_pair(uint8_t from, uint8_t to)
 
 COMMAND(cmd_move)
 {
-    editor_t *const editor = &the_editor;
     uint8_t from = (uint8_t)args->number[0], to = (uint8_t)args->number[1];
-    editor->screen.lead = false;
+    the_screen.lead = false;
     print_pair(from, to);
-    session_begin(&the_session);
-    copy_step(&the_session, from, to);
+    session_begin();
+    copy_step(from, to);
     if (to == POSE_STEP) {
         TEXT(" (shown only)");
         for (uint8_t y = 0; y < PAGE_JOINTS; y++) {
             the_session.marks[y] |= MARK_LABEL;
         }
     } else {
-        editor->screen.lead = true;
+        the_screen.lead = true;
         update_trim(to);
     }
-    return editor_edited(editor);
+    return editor_edited();
 }
 
 COMMAND(cmd_swap)
 {
-    editor_t *const editor = &the_editor;
-    session_begin_turn(&the_session, UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
-    return editor_edited(editor);
+    session_begin_turn(UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
+    return editor_edited();
 }

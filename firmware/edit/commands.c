@@ -111,15 +111,15 @@ const shell_command_t commands_table_P[] PROGMEM = {
 };
 const uint8_t commands_count = ARRAY_COUNT(commands_table_P);
 
-bool commands_numbers(editor_t *editor)
+bool commands_numbers(void)
 {
-    const shell_command_t *command_P = shell_find(commands_table_P, commands_count, &editor->args, 0);
+    const shell_command_t *command_P = shell_find(commands_table_P, commands_count, &the_editor.args, 0);
     uint8_t kinds = command_P == NULL ? (uint8_t)OWN : pgm_read_byte(&command_P->extra);
-    for (uint8_t i = 0; i < ARRAY_COUNT(editor->args.number) && i + 1 < editor->args.count; i++, kinds >>= 4) {
+    for (uint8_t i = 0; i < ARRAY_COUNT(the_editor.args.number) && i + 1 < the_editor.args.count; i++, kinds >>= 4) {
         uint8_t kind = kinds & 15u;
         if (kind != OWN &&
-            !shell_number(&editor->args, (uint8_t)(i + 1u), pgm_read_ptr(&kinds_P[kind].name),
-                          pgm_read_word(&kinds_P[kind].min), pgm_read_word(&kinds_P[kind].max), &editor->args.number[i])) {
+            !shell_number(&the_editor.args, (uint8_t)(i + 1u), pgm_read_ptr(&kinds_P[kind].name),
+                          pgm_read_word(&kinds_P[kind].min), pgm_read_word(&kinds_P[kind].max), &the_editor.args.number[i])) {
             return false;
         }
     }

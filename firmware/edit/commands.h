@@ -12,7 +12,7 @@ extern const uint8_t commands_count;
 
 /* Checks the numbers behind command word 0 against what the table says of it, and leaves them in args->number. What is
  * wrong has been said when it returns false. An unknown word is fine here. */
-bool commands_numbers(editor_t *editor);
+bool commands_numbers(void);
 
 #define COMMAND(name) uint8_t name(void *context __attribute__((unused)), const shell_args_t *args)
 
@@ -28,7 +28,7 @@ COMMAND(cmd_name);
 COMMAND(cmd_undo);
 COMMAND(cmd_redo);
 /* Stores a name typed after "name:". */
-void cmd_name_done(editor_t *editor, const char *name);
+void cmd_name_done(const char *name);
 
 /* cmd_step.c */
 COMMAND(cmd_step);
@@ -61,15 +61,15 @@ COMMAND(cmd_dec);
 COMMAND(cmd_re);
 COMMAND(cmd_rows);
 /* The keys [ ] { } (a change by -1, 1, 10, -10) and space on the cell under the cursor. */
-void cmd_cell_change(editor_t *editor, int8_t change);
-void cmd_cell_space(editor_t *editor);
+void cmd_cell_change(int8_t change);
+void cmd_cell_space(void);
 
 /* cmd_play.c */
 COMMAND(cmd_play);
 COMMAND(cmd_balance);
-void cmd_play_key(editor_t *editor, uint8_t key);
-void cmd_play_events(editor_t *editor, bool line_is_free);
-void cmd_balance_tick(editor_t *editor);
+void cmd_play_key(uint8_t key);
+void cmd_play_events(bool line_is_free);
+void cmd_balance_tick(void);
 
 
 /* cmd_list.c, cmd_check.c */
@@ -80,7 +80,7 @@ COMMAND(cmd_check);
 
 /* mon.c */
 COMMAND(cmd_mon);
-void mon_line(editor_t *editor, const shell_args_t *args);
-void mon_prompt(editor_t *editor);
+void mon_line(const shell_args_t *args);
+void mon_prompt(void);
 
 #endif

@@ -10,136 +10,138 @@
 #include "text.h"
 #include "tick.h"
 
+editor_t the_editor;
+
 enum { ESC_QUIET_TICKS = 7, PAINT_ROOM = CONSOLE_TX_BYTES / 2, BYTES_PER_TURN = 32, MORE_ROWS = 2 };
 
 /* ---- start ---- */
 
-void editor_init(editor_t *editor)
+void editor_init(void)
 {
-    editor->mode = EDITOR_TABLE;
-    editor->asked = 0;
-    editor->answered = 0;
-    editor->take_page = EDITOR_NO_PAGE;
-    editor->cid = 1;
-    editor->faults_due = false;
-    editor->after_cr = false;
-    editor->quiet_since = tick_now16();
-    session_init(&the_session);
-    screen_init(&editor->screen);
-    keys_init(&editor->keys);
-    shell_init(&editor->shell, editor->line, EDITOR_LINE_BYTES, editor->history, EDITOR_HISTORY_BYTES);
-    editor->source.context = editor;
-    editor->source.read = editor_source_read;
-    editor->source.check = editor_source_check;
-    performer_set_source(&the_performer, &editor->source);
-    robot_init(&editor->robot);
-    screen_set_present(&editor->screen, the_servos.present);
-    machine_init(&editor->machine, &the_performer, &the_servos, &the_pages, &editor_image);
-    screen_ask_size(&editor->screen);
-    screen_sync(&editor->screen);
+    the_editor.mode = EDITOR_TABLE;
+    the_editor.asked = 0;
+    the_editor.answered = 0;
+    the_editor.take_page = EDITOR_NO_PAGE;
+    the_editor.cid = 1;
+    the_editor.faults_due = false;
+    the_editor.after_cr = false;
+    the_editor.quiet_since = tick_now16();
+    session_init();
+    screen_init();
+    keys_init(&the_editor.keys);
+    shell_init(&the_editor.shell, the_editor.line, EDITOR_LINE_BYTES, the_editor.history, EDITOR_HISTORY_BYTES);
+    the_editor.source.context = NULL;
+    the_editor.source.read = editor_source_read;
+    the_editor.source.check = editor_source_check;
+    performer_set_source(&the_performer, &the_editor.source);
+    robot_init();
+    screen_set_present(the_servos.present);
+    machine_init(&the_editor.machine, &the_performer, &the_servos, &the_pages, &editor_image);
+    screen_ask_size();
+    screen_sync();
 }
 
 /* ---- messages ---- */
 
-void editor_put(editor_t *editor, char character)
+void editor_put(char character)
 {
     if (character == '\n') {
-        editor->lines++;
+        the_editor.lines++;
     }
-    screen_put(&editor->screen, character);
+    screen_put(character);
 }
 
-void editor_message_begin(editor_t *editor)
+void editor_message_begin(void)
 {
-    if (!editor->screen.hidden) {
-        screen_open_line(&editor->screen);
+    if (!the_screen.hidden) {
+        screen_open_line();
     }
 }
 
-void editor_message_end(editor_t *editor)
+void editor_message_end(void)
 {
-    if (!editor->screen.hidden) {
-        editor->screen.sink = SCREEN_QUIET;
+    if (!the_screen.hidden) {
+        the_screen.sink = SCREEN_QUIET;
     }
 }
 
-void editor_tell_joints(editor_t *editor, const char *what_P, uint32_t joints)
+void editor_tell_joints(const char *what_P, uint32_t joints)
 {
     if (joints != 0) {
-        editor->screen.lead = true;
+        the_screen.lead = true;
         text_P(what_P);
         TEXT(": ID ");
         report_joints(joints);
     }
 }
 
-void editor_tell_failed(editor_t *editor)
+void editor_tell_failed(void)
 {
-    if (editor->robot.failed) {
-        editor->robot.failed = false;
-        editor_tell_joints(editor, TEXT_P("No answer"), the_servos.silent);
+    if (the_robot.failed) {
+        the_robot.failed = false;
+        editor_tell_joints(TEXT_P("No answer"), the_servos.silent);
     }
 }
 
 /* ---- running a line ---- */
 
-void editor_leave_line(editor_t *editor)
+void editor_leave_line(void)
 {
-    editor_tell_failed(editor);
-    shell_clear(&editor->shell);
-    editor->mode = EDITOR_TABLE;
-    editor->answered = 0;
-    editor->screen.lead = false;
-    if (!editor->screen.hidden) {
-        editor->screen.sink = SCREEN_QUIET;
+    editor_tell_failed();
+    shell_clear(&the_editor.shell);
+    the_editor.mode = EDITOR_TABLE;
+    the_editor.answered = 0;
+    the_screen.lead = false;
+    if (!the_screen.hidden) {
+        the_screen.sink = SCREEN_QUIET;
     }
-    screen_sync(&editor->screen);
+    screen_sync();
 }
 
-static void go_on(editor_t *editor, uint8_t result)
+static void go_on(uint8_t result)
 {
     STATIC_ASSERT((int)EDITOR_ASK > (int)SHELL_ERR_SAID && EDITOR_MORE == EDITOR_MONITOR + 1,
                   "what a handler returns is a mode");
     if (result >= EDITOR_ASK && result <= EDITOR_MONITOR) {
-        editor->mode = result;
+        the_editor.mode = result;
         if (result == EDITOR_NAME || result == EDITOR_MONITOR) {
-            shell_clear(&editor->shell);
-            editor->screen.lead = false;
+            shell_clear(&the_editor.shell);
+            the_screen.lead = false;
         }
         return;
     }
     if (result >= SHELL_ERR_UNKNOWN) {
         text_P(result == SHELL_ERR_UNKNOWN ? TEXT_P("Bad Command") : TEXT_P("Invalid Parameter"));
     }
-    editor_leave_line(editor);
+    editor_leave_line();
 }
 
-void editor_run(editor_t *editor)
+void editor_run(void)
 {
-    editor->asked = 0;
-    editor->broken_off = false;
-    editor->screen.lead = true;
+    the_editor.asked = 0;
+    the_editor.broken_off = false;
+    the_screen.lead = true;
     the_session.spare = performer_spare(&the_performer);
-    go_on(editor, commands_numbers(editor) ? shell_run(commands_table_P, commands_count, editor, &editor->args)
+    go_on(commands_numbers() ? shell_run(commands_table_P, commands_count, NULL, &the_editor.args)
                                            : (uint8_t)SHELL_ERR_SAID);
     the_session.spare = NULL;
 }
 
-bool editor_ask(editor_t *editor, const char *question_P)
+bool editor_ask(const char *question_P)
 {
-    editor->asked++;
-    if (editor->asked <= editor->answered) {
+    the_editor.asked++;
+    if (the_editor.asked <= the_editor.answered) {
         return true;
     }
-    editor->screen.lead = true;
+    the_screen.lead = true;
     text_P(question_P);
     TEXT("Are you sure?[y/N]");
     return false;
 }
 
-bool editor_ask_unsaved(editor_t *editor)
+bool editor_ask_unsaved(void)
 {
-    return !the_session.is_changed || editor_ask(editor, TEXT_P(""));
+    return !the_session.is_changed || editor_ask(TEXT_P(""));
 }
 
 bool editor_may_move(void)
@@ -151,118 +153,118 @@ bool editor_may_move(void)
     return false;
 }
 
-uint8_t editor_edited(editor_t *editor)
+uint8_t editor_edited(void)
 {
-    if (!session_end(&the_session)) {
-        editor->screen.lead = true;
+    if (!session_end()) {
+        the_screen.lead = true;
         TEXT("This cannot be undone");
     }
     return SHELL_OK;
 }
 
-void editor_open(editor_t *editor, uint8_t page)
+void editor_open(uint8_t page)
 {
-    bool trim_changes = (page == 0) != editor->robot.raw;
-    session_open(&the_session, page);
+    bool trim_changes = (page == 0) != the_robot.raw;
+    session_open(page);
     if (trim_changes) {
-        robot_set_trim(&editor->robot);
+        robot_set_trim();
     }
 }
 
 /* ---- lists ---- */
 
-uint8_t editor_list(editor_t *editor, editor_item_t item, const char *title_P)
+uint8_t editor_list(editor_item_t item, const char *title_P)
 {
-    screen_hide(&editor->screen);
-    editor->item = item;
-    editor->next_item = 0;
-    editor->lines = 0;
+    screen_hide();
+    the_editor.item = item;
+    the_editor.next_item = 0;
+    the_editor.lines = 0;
     text_P(title_P);
     text_line_end();
     return EDITOR_TO_LIST;
 }
 
-static void list_turn(editor_t *editor)
+static void list_turn(void)
 {
-    if (editor->lines + MORE_ROWS >= editor->screen.rows) {
+    if (the_editor.lines + MORE_ROWS >= the_screen.rows) {
         TEXT("-- more: space --");
-        editor->mode = EDITOR_MORE;
-    } else if (!editor->item(editor, editor->next_item)) {
-        editor->item = NULL;
+        the_editor.mode = EDITOR_MORE;
+    } else if (!the_editor.item(the_editor.next_item)) {
+        the_editor.item = NULL;
         TEXT("-- end --");
-        editor->mode = EDITOR_MORE;
+        the_editor.mode = EDITOR_MORE;
     } else {
-        editor->next_item++;
+        the_editor.next_item++;
     }
 }
 
 /* ---- the main loop ---- */
 
 /* While a broken play slows down keys wait, for what follows it. */
-static bool may_take_bytes(const editor_t *editor)
+static bool may_take_bytes(void)
 {
-    return editor->mode != EDITOR_LIST && !(editor->mode == EDITOR_PLAY && the_performer.leaving);
+    return the_editor.mode != EDITOR_LIST && !(the_editor.mode == EDITOR_PLAY && the_performer.leaving);
 }
 
-static void take_bytes(editor_t *editor)
+static void take_bytes(void)
 {
     uint8_t byte;
-    for (uint8_t i = 0; i < BYTES_PER_TURN && may_take_bytes(editor) && console_get(&byte); i++) {
-        editor_byte(editor, byte);
+    for (uint8_t i = 0; i < BYTES_PER_TURN && may_take_bytes() && console_get(&byte); i++) {
+        editor_byte(byte);
     }
-    bool quiet = (uint16_t)(tick_now16() - editor->quiet_since) > ESC_QUIET_TICKS;
-    if (quiet && keys_is_open(&editor->keys)) {
-        editor_key(editor, keys_quiet(&editor->keys));
+    bool quiet = (uint16_t)(tick_now16() - the_editor.quiet_since) > ESC_QUIET_TICKS;
+    if (quiet && keys_is_open(&the_editor.keys)) {
+        editor_key(keys_quiet(&the_editor.keys));
     }
 }
 
-static void tick_work(editor_t *editor)
+static void tick_work(void)
 {
     performer_tick(&the_performer);
     (void)settings_save_poll(&the_settings_store, &the_settings);
-    if (editor->wait_ticks != 0) {
-        editor->wait_ticks--;
-    } else if (editor->mode == EDITOR_BALANCE) {
-        cmd_balance_tick(editor);
+    if (the_editor.wait_ticks != 0) {
+        the_editor.wait_ticks--;
+    } else if (the_editor.mode == EDITOR_BALANCE) {
+        cmd_balance_tick();
     }
-    if (performer_is_idle(&the_performer) && editor->mode != EDITOR_MONITOR) {
+    if (performer_is_idle(&the_performer) && the_editor.mode != EDITOR_MONITOR) {
         robot_follow();
     }
 }
 
 /* Behind the first screen, whose size is known by then: what came before it would be wiped. */
-static void tell_notice(editor_t *editor)
+static void tell_notice(void)
 {
-    if (editor->notice_P != NULL && editor->mode == EDITOR_TABLE) {
-        editor_message_begin(editor);
-        text_P(editor->notice_P);
-        editor_message_end(editor);
-        editor->notice_P = NULL;
+    if (the_editor.notice_P != NULL && the_editor.mode == EDITOR_TABLE) {
+        editor_message_begin();
+        text_P(the_editor.notice_P);
+        editor_message_end();
+        the_editor.notice_P = NULL;
     }
 }
 
-bool editor_turn(editor_t *editor)
+bool editor_turn(void)
 {
-    take_bytes(editor);
+    take_bytes();
     if (tick_take()) {
-        tick_work(editor);
+        tick_work();
     }
     performer_poll(&the_performer);
     uint8_t room = console_room();
-    if (editor->mode == EDITOR_TABLE || editor->mode == EDITOR_PLAY) {
-        cmd_play_events(editor, room >= CONSOLE_TX_BYTES - 1u);
+    if (the_editor.mode == EDITOR_TABLE || the_editor.mode == EDITOR_PLAY) {
+        cmd_play_events(room >= CONSOLE_TX_BYTES - 1u);
     }
-    if (editor->mode == EDITOR_LIST) {
-        list_turn(editor);
+    if (the_editor.mode == EDITOR_LIST) {
+        list_turn();
         return true;
     }
     /* A row may wait for the line longer than a tick: not while something moves. */
-    if (editor->faults_due || room < PAINT_ROOM || !performer_is_idle(&the_performer)) {
+    if (the_editor.faults_due || room < PAINT_ROOM || !performer_is_idle(&the_performer)) {
         return false;
     }
-    if (screen_paint(&editor->screen)) {
+    if (screen_paint()) {
         return true;
     }
-    tell_notice(editor);
+    tell_notice();
     return false;
 }

@@ -44,7 +44,7 @@ enum { EDITOR_TO_ASK = EDITOR_ASK, EDITOR_TO_NAME = EDITOR_NAME, EDITOR_TO_LIST 
 
 struct editor;
 /* Prints item `item` as one line, or nothing. false: there is no such item, the list ends. */
-typedef bool (*editor_item_t)(struct editor *editor, uint8_t item);
+typedef bool (*editor_item_t)(uint8_t item);
 
 /* Small things first: the AVR reaches 63 bytes behind a pointer with one instruction. */
 typedef struct editor {
@@ -64,9 +64,7 @@ typedef struct editor {
     const char *notice_P;          /* told once, when the first screen stands; or NULL */
     /* Parts. */
     keys_t keys;
-    screen_t screen;
     shell_t shell;
-    robot_t robot;
     machine_t machine;
     page_source_t source;          /* the open page from RAM, the others from flash */
     char line[EDITOR_LINE_BYTES];
@@ -78,46 +76,46 @@ extern editor_t the_editor;
 
 /* After board_start, page_store_init, settings_load, servo_link_scan, performer_init on the parts. text_init is the
  * caller's. */
-void editor_init(editor_t *editor);
+void editor_init(void);
 
 /* One turn of the main loop: keys, the tick's work, one piece of the screen. true: there is more to do at once. */
-bool editor_turn(editor_t *editor);
+bool editor_turn(void);
 
 /* One character of text: what text_init is given calls this. */
-void editor_put(editor_t *editor, char character);
+void editor_put(char character);
 
 /* One byte from the console. */
-void editor_byte(editor_t *editor, uint8_t byte);
+void editor_byte(uint8_t byte);
 
 /* ---- for the commands ---- */
 
 /* Questions. true: go on (it was answered, or need not be asked); false: return EDITOR_TO_ASK. */
-bool editor_ask(editor_t *editor, const char *question_P);
-bool editor_ask_unsaved(editor_t *editor);
+bool editor_ask(const char *question_P);
+bool editor_ask_unsaved(void);
 
 /* Nothing plays; otherwise says so. */
 bool editor_may_move(void);
 
 /* Begins a list: `title_P` is its first line. Returns EDITOR_TO_LIST. */
-uint8_t editor_list(editor_t *editor, editor_item_t item, const char *title_P);
+uint8_t editor_list(editor_item_t item, const char *title_P);
 
 /* Ends an editing command: tells when it cannot be undone. Returns SHELL_OK. */
-uint8_t editor_edited(editor_t *editor);
+uint8_t editor_edited(void);
 
 /* Opens a page: trim, Go Step. */
-void editor_open(editor_t *editor, uint8_t page);
+void editor_open(uint8_t page);
 
 /* The line has been dealt with: back to the table. */
-void editor_leave_line(editor_t *editor);
+void editor_leave_line(void);
 
 /* A message on the command row while nobody types. */
-void editor_message_begin(editor_t *editor);
-void editor_message_end(editor_t *editor);
+void editor_message_begin(void);
+void editor_message_end(void);
 
 /* Tells on the message row what is with these joints: "No answer: ID 5-7". None: nothing. */
-void editor_tell_joints(editor_t *editor, const char *what_P, uint32_t joints) NOINLINE;
+void editor_tell_joints(const char *what_P, uint32_t joints) NOINLINE;
 
 /* Tells on the message row which servos did not answer, and forgets them. */
-void editor_tell_failed(editor_t *editor);
+void editor_tell_failed(void);
 
 #endif

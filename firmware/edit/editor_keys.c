@@ -9,231 +9,231 @@
 
 enum { BACKSLASH = '\\', FIRST_WORD_KEY = '0', LAST_WORD_KEY = 'Z', FIRST_LOWER_KEY = '^', LAST_LOWER_KEY = 'z' };
 
-static void open_line(editor_t *editor, uint8_t key)
+static void open_line(uint8_t key)
 {
     bool starts = (key >= FIRST_WORD_KEY && key <= LAST_WORD_KEY) || key == BACKSLASH ||
                   (key >= FIRST_LOWER_KEY && key <= LAST_LOWER_KEY);
-    shell_clear(&editor->shell);
-    editor->mode = EDITOR_LINE;
-    screen_open_line(&editor->screen);
+    shell_clear(&the_editor.shell);
+    the_editor.mode = EDITOR_LINE;
+    screen_open_line();
     if (starts) {
-        (void)shell_byte(&editor->shell, key);
+        (void)shell_byte(&the_editor.shell, key);
     }
 }
 
-static void open_program_line(editor_t *editor)
+static void open_program_line(void)
 {
-    if (!editor->screen.hidden) {
-        editor->screen.hidden = true;
-        editor->screen.sink = SCREEN_PLAIN;
+    if (!the_screen.hidden) {
+        the_screen.hidden = true;
+        the_screen.sink = SCREEN_PLAIN;
         text_line_end();
     }
-    editor->screen.sink = SCREEN_QUIET;
-    editor->mode = EDITOR_PROGRAM;
-    shell_clear(&editor->shell);
-    (void)shell_byte(&editor->shell, '@');
+    the_screen.sink = SCREEN_QUIET;
+    the_editor.mode = EDITOR_PROGRAM;
+    shell_clear(&the_editor.shell);
+    (void)shell_byte(&the_editor.shell, '@');
 }
 
 /* The screen again, whole, before a key that may open a line on it: 0.5 s. */
-static void take_screen_back(editor_t *editor)
+static void take_screen_back(void)
 {
-    screen_show(&editor->screen);
-    while (screen_paint(&editor->screen)) {
+    screen_show();
+    while (screen_paint()) {
         system_kick();
     }
 }
 
-static void table_key(editor_t *editor, uint8_t key)
+static void table_key(uint8_t key)
 {
-    if (editor->screen.hidden && key != '@') {
+    if (the_screen.hidden && key != '@') {
         /* Drawn anew it would cost half a second of ticks: keys wait until the robot stands. */
         if (key == KEY_NONE || key == KEY_CR || key == KEY_LF || !performer_is_idle(&the_performer)) {
             return;
         }
-        take_screen_back(editor);
+        take_screen_back();
     }
     switch (key) {
     case KEY_UP:
     case KEY_DOWN:
     case KEY_RIGHT:
     case KEY_LEFT:
-        screen_move(&editor->screen, (session_way_t)(SESSION_UP + (key - KEY_UP)));
+        screen_move((session_way_t)(SESSION_UP + (key - KEY_UP)));
         break;
     case ']':
     case '[':
-        cmd_cell_change(editor, key == ']' ? 1 : -1);
+        cmd_cell_change(key == ']' ? 1 : -1);
         break;
     case '}':
     case '{':
-        cmd_cell_change(editor, key == '}' ? 10 : -10);
+        cmd_cell_change(key == '}' ? 10 : -10);
         break;
     case ' ':
-        if (editor->wait_ticks == 0) {
-            cmd_cell_space(editor);
+        if (the_editor.wait_ticks == 0) {
+            cmd_cell_space();
         }
         break;
     case '@':
-        open_program_line(editor);
+        open_program_line();
         return;
     case KEY_SIZE:
-        screen_set_rows(&editor->screen, editor->keys.rows);
+        screen_set_rows(the_editor.keys.rows);
         break;
     case KEY_NONE:
     case KEY_ESCAPE:
     case KEY_CTRL_C:
         return;
     default:
-        open_line(editor, key);
+        open_line(key);
         return;
     }
-    if (editor->robot.failed) {
-        editor_message_begin(editor);
-        editor_tell_failed(editor);
-        editor_message_end(editor);
+    if (the_robot.failed) {
+        editor_message_begin();
+        editor_tell_failed();
+        editor_message_end();
     }
-    screen_sync(&editor->screen);
+    screen_sync();
 }
 
-static void line_byte(editor_t *editor, uint8_t byte)
+static void line_byte(uint8_t byte)
 {
     if (byte == KEY_CTRL_C) {
-        editor_leave_line(editor);
+        editor_leave_line();
         return;
     }
-    switch (shell_byte(&editor->shell, byte)) {
+    switch (shell_byte(&the_editor.shell, byte)) {
     case SHELL_TYPING:
         return;
     case SHELL_TOO_LONG:
-        editor_message_begin(editor);   /* there is no room behind it */
+        editor_message_begin();   /* there is no room behind it */
         TEXT("Line too long");
-        editor_leave_line(editor);
+        editor_leave_line();
         return;
     case SHELL_LINE:
         break;
     }
-    if (editor->mode == EDITOR_NAME) {
-        cmd_name_done(editor, editor->line);
-        editor_leave_line(editor);
+    if (the_editor.mode == EDITOR_NAME) {
+        cmd_name_done(the_editor.line);
+        editor_leave_line();
         return;
     }
-    editor->args = shell_split(&editor->shell, the_session.hex);
-    editor_run(editor);
+    the_editor.args = shell_split(&the_editor.shell, the_session.hex);
+    editor_run();
 }
 
-static void program_byte(editor_t *editor, uint8_t byte)
+static void program_byte(uint8_t byte)
 {
-    shell_event_t event = shell_byte(&editor->shell, byte);
+    shell_event_t event = shell_byte(&the_editor.shell, byte);
     if (event == SHELL_TYPING) {
         return;
     }
-    editor->screen.sink = SCREEN_PLAIN;
+    the_screen.sink = SCREEN_PLAIN;
     if (event == SHELL_LINE) {
-        editor->args = shell_split(&editor->shell, false);
-        (void)machine_run(&editor->machine, &editor->args);
+        the_editor.args = shell_split(&the_editor.shell, false);
+        (void)machine_run(&the_editor.machine, &the_editor.args);
     }
-    shell_clear(&editor->shell);
-    editor->mode = EDITOR_TABLE;
-    screen_sync(&editor->screen);
+    shell_clear(&the_editor.shell);
+    the_editor.mode = EDITOR_TABLE;
+    screen_sync();
 }
 
-static void monitor_byte(editor_t *editor, uint8_t byte)
+static void monitor_byte(uint8_t byte)
 {
-    shell_event_t event = shell_byte(&editor->shell, byte);
+    shell_event_t event = shell_byte(&the_editor.shell, byte);
     if (event == SHELL_TYPING) {
         return;
     }
     text_line_end();
     if (event == SHELL_LINE) {
-        editor->args = shell_split(&editor->shell, the_session.hex);
-        mon_line(editor, &editor->args);
+        the_editor.args = shell_split(&the_editor.shell, the_session.hex);
+        mon_line(&the_editor.args);
     }
-    shell_clear(&editor->shell);
-    if (editor->mode == EDITOR_MONITOR) {
-        mon_prompt(editor);
+    shell_clear(&the_editor.shell);
+    if (the_editor.mode == EDITOR_MONITOR) {
+        mon_prompt();
     }
 }
 
-static void ask_key(editor_t *editor, uint8_t key)
+static void ask_key(uint8_t key)
 {
     if (key == KEY_NONE || key == KEY_SIZE) {
         return;
     }
     if (key == 'y' || key == 'Y') {
-        editor->answered++;
-        editor_run(editor);
+        the_editor.answered++;
+        editor_run();
     } else {
-        editor_leave_line(editor);
+        editor_leave_line();
     }
 }
 
-static void more_key(editor_t *editor, uint8_t key)
+static void more_key(uint8_t key)
 {
     if (key == KEY_NONE || key == KEY_SIZE) {
         return;
     }
-    if (editor->item != NULL && (key == ' ' || key == KEY_CR)) {
-        editor->lines = 0;
+    if (the_editor.item != NULL && (key == ' ' || key == KEY_CR)) {
+        the_editor.lines = 0;
         text_line_end();
-        editor->mode = EDITOR_LIST;
+        the_editor.mode = EDITOR_LIST;
         return;
     }
-    take_screen_back(editor);
-    editor_leave_line(editor);
+    take_screen_back();
+    editor_leave_line();
     if (key != ' ' && key != KEY_CR && key != KEY_LF && key != 'q' && key != KEY_ESCAPE && key != KEY_CTRL_C) {
-        table_key(editor, key);
+        table_key(key);
     }
 }
 
-void editor_key(editor_t *editor, uint8_t key)
+void editor_key(uint8_t key)
 {
-    switch (editor->mode) {
+    switch (the_editor.mode) {
     case EDITOR_ASK:
-        ask_key(editor, key);
+        ask_key(key);
         break;
     case EDITOR_MORE:
-        more_key(editor, key);
+        more_key(key);
         break;
     case EDITOR_PLAY:
-        cmd_play_key(editor, key);
+        cmd_play_key(key);
         break;
     case EDITOR_BALANCE:
         if (key != KEY_NONE && key != KEY_SIZE) {
-            editor_leave_line(editor);
-            table_key(editor, key);
+            editor_leave_line();
+            table_key(key);
         }
         break;
     default:
-        table_key(editor, key);
+        table_key(key);
         break;
     }
 }
 
-void editor_byte(editor_t *editor, uint8_t byte)
+void editor_byte(uint8_t byte)
 {
-    bool end_of_cr = byte == KEY_LF && editor->after_cr;
-    editor->after_cr = byte == KEY_CR;
-    editor->quiet_since = tick_now16();
+    bool end_of_cr = byte == KEY_LF && the_editor.after_cr;
+    the_editor.after_cr = byte == KEY_CR;
+    the_editor.quiet_since = tick_now16();
     if (end_of_cr) {
         return;
     }
-    if (editor->mode != EDITOR_PLAY && !performer_is_idle(&the_performer) && (byte == ' ' || byte == KEY_CTRL_C) &&
-        editor->mode != EDITOR_PROGRAM) {
+    if (the_editor.mode != EDITOR_PLAY && !performer_is_idle(&the_performer) && (byte == ' ' || byte == KEY_CTRL_C) &&
+        the_editor.mode != EDITOR_PROGRAM) {
         performer_break(&the_performer);
         return;
     }
-    switch (editor->mode) {
+    switch (the_editor.mode) {
     case EDITOR_LINE:
     case EDITOR_NAME:
-        line_byte(editor, byte);
+        line_byte(byte);
         break;
     case EDITOR_PROGRAM:
-        program_byte(editor, byte);
+        program_byte(byte);
         break;
     case EDITOR_MONITOR:
-        monitor_byte(editor, byte);
+        monitor_byte(byte);
         break;
     default:
-        editor_key(editor, keys_byte(&editor->keys, byte));
+        editor_key(keys_byte(&the_editor.keys, byte));
         break;
     }
 }

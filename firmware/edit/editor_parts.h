@@ -5,11 +5,11 @@
 
 #include "editor.h"
 
-/* editor.c: runs the line in editor->args, anew after each answered question. */
-void editor_run(editor_t *editor);
+/* editor.c: runs the line in the_editor.args, anew after each answered question. */
+void editor_run(void);
 
 /* editor_keys.c: one key, by mode. */
-void editor_key(editor_t *editor, uint8_t key);
+void editor_key(uint8_t key);
 
 /* editor_program.c: the open page from RAM for the performer, and the hooks of machine.h. */
 extern const machine_image_t editor_image;

@@ -19,7 +19,7 @@ void editor_source_read(void *context __attribute__((unused)), uint8_t page, uin
 
 uint8_t editor_source_check(void *context __attribute__((unused)), uint8_t page)
 {
-    return page == the_session.page ? (uint8_t)session_check(&the_session)
+    return page == the_session.page ? (uint8_t)session_check()
                                         : (uint8_t)page_store_check(&the_pages, page);
 }
 
@@ -32,20 +32,18 @@ static uint8_t *program_page(void *context __attribute__((unused)))
 
 static machine_status_t program_open(void *context __attribute__((unused)), uint8_t page)
 {
-    editor_t *const editor = &the_editor;
     if (the_session.is_changed) {
         return MACHINE_ERR_UNSAVED;
     }
-    editor_open(editor, page);
+    editor_open(page);
     return MACHINE_OK;
 }
 
 static void program_changed(void *context __attribute__((unused)))
 {
-    session_t *session = &the_session;
-    undo_clear(&session->undo);
-    session_mark_all(session);
-    session_end(session);
+    undo_clear(&the_session.undo);
+    session_mark_all();
+    session_end();
 }
 
 static machine_status_t program_save(void *context __attribute__((unused)), uint8_t page)
@@ -59,7 +57,7 @@ static machine_status_t program_save(void *context __attribute__((unused)), uint
         return MACHINE_ERR_SAVE;
     }
     if (page == the_session.page) {
-        session_saved(&the_session);
+        session_saved();
     }
     return MACHINE_OK;
 }

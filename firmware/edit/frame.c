@@ -39,18 +39,18 @@ uint8_t frame_cell_column(uint8_t x, uint8_t y)
     return y >= CELL_Y_PAUSE ? (uint8_t)(column + 1u) : column;
 }
 
-void frame_cell_text(const session_t *session, uint8_t x, uint8_t y, char text[CELLS_TEXT_BYTES])
+void frame_cell_text(uint8_t x, uint8_t y, char text[CELLS_TEXT_BYTES])
 {
     uint16_t address = cell_address(x, y);
-    switch (cell_kind(session->page, x, y)) {
+    switch (cell_kind(the_session.page, x, y)) {
     case CELL_POSITION:
-        cell_position_text(cell_word(session->cells, address), session->hex, text);
+        cell_position_text(cell_word(the_session.cells, address), the_session.hex, text);
         break;
     case CELL_OFFSET:
-        cell_offset_text(cell_word(session->cells, address), text);
+        cell_offset_text(cell_word(the_session.cells, address), text);
         break;
     case CELL_BYTE:
-        cell_byte_text(session->cells[address], session->hex, text);
+        cell_byte_text(the_session.cells[address], the_session.hex, text);
         break;
     case CELL_NONE:
         text[0] = '\0';
@@ -70,19 +70,19 @@ static void joint_label(uint8_t joint, char text[FRAME_LABEL_BYTES])
     }
 }
 
-void frame_label_text(const session_t *session, uint8_t y, char text[FRAME_LABEL_BYTES])
+void frame_label_text(uint8_t y, char text[FRAME_LABEL_BYTES])
 {
     if (y == CELL_Y_PAUSE) {
         (void)text_copy_P(text, TEXT_P("   PauseTime       ["));
     } else if (y == CELL_Y_SPEED) {
-        (void)text_copy_P(text, session->cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME ? TEXT_P("   Time( x 7.8mSec)[")
+        (void)text_copy_P(text, the_session.cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME ? TEXT_P("   Time( x 7.8mSec)[")
                                                                                  : TEXT_P("   Speed           ["));
     } else {
         joint_label(y, text);
-        uint16_t word = session_pose(session, y);
+        uint16_t word = session_pose(y);
         uint16_t live = word & PAGE_POS_MAX;
         if (cell_is_off(word) && live != 0) {
-            cell_digits(live, 4, session->hex, &text[FRAME_LIVE_COLUMN]);
+            cell_digits(live, 4, the_session.hex, &text[FRAME_LIVE_COLUMN]);
         }
     }
 }
@@ -102,39 +102,39 @@ uint8_t frame_header_label(uint8_t y, char label[FRAME_LABEL_BYTES])
     return y < CELL_Y_HEADER ? (uint8_t)TITLE_COLUMN : (uint8_t)(HEADER_LABEL_END + 1u - length);
 }
 
-static void name_text(const session_t *session, char text[FRAME_LABEL_BYTES])
+static void name_text(char text[FRAME_LABEL_BYTES])
 {
     bool ended = false;
     for (uint8_t i = 0; i < PAGE_NAME_BYTES; i++) {
-        uint8_t byte = session->cells[i];
+        uint8_t byte = the_session.cells[i];
         ended = ended || byte == 0;
         text[i] = ended ? ' ' : byte < ' ' || byte > '~' ? '.' : (char)byte;
     }
     text[PAGE_NAME_BYTES] = '\0';
 }
 
-uint8_t frame_title_text(const session_t *session, uint8_t y, char text[FRAME_LABEL_BYTES])
+uint8_t frame_title_text(uint8_t y, char text[FRAME_LABEL_BYTES])
 {
     if (y == CELL_Y_NAME) {
-        name_text(session, text);
+        name_text(text);
         return NAME_COLUMN;
     }
     if (y == CELL_Y_NUMBER) {
-        cell_digits(session->page, 4, session->hex, text);
+        cell_digits(the_session.page, 4, the_session.hex, text);
         text[4] = '\0';
         return 76;
     }
-    uint32_t address = page_store_addr(session->page);
+    uint32_t address = page_store_addr(the_session.page);
     cell_digits((uint16_t)(address >> 16), 4, true, text);
     cell_digits((uint16_t)address, 4, true, text + 4);
     text[8] = '\0';
     return 70;
 }
 
-uint8_t frame_fault(const session_t *session)
+uint8_t frame_fault(void)
 {
-    page_status_t status = session_check(session);
-    return status == PAGE_ERR_STEPS ? session->cells[PAGE_AT_STEPS] : (uint8_t)status;
+    page_status_t status = session_check();
+    return status == PAGE_ERR_STEPS ? the_session.cells[PAGE_AT_STEPS] : (uint8_t)status;
 }
 
 static const char *fault_name_P(uint8_t fault)

@@ -24,20 +24,20 @@ bool frame_is_marker_column(uint8_t column);
 uint8_t frame_cell_column(uint8_t x, uint8_t y);
 
 /* The cell's text: 4 characters for positions, 3 for bytes. */
-void frame_cell_text(const session_t *session, uint8_t x, uint8_t y, char text[CELLS_TEXT_BYTES]);
+void frame_cell_text(uint8_t x, uint8_t y, char text[CELLS_TEXT_BYTES]);
 
 /* Columns 1..19 of table row y, opening bracket included (rows of bytes: 20 columns, blank up to the closing one). */
-void frame_label_text(const session_t *session, uint8_t y, char text[FRAME_LABEL_BYTES]);
+void frame_label_text(uint8_t y, char text[FRAME_LABEL_BYTES]);
 
 /* Label of header row y (0..19), "" for row 0, which has none; returns its column. */
 uint8_t frame_header_label(uint8_t y, char label[FRAME_LABEL_BYTES]);
 
 /* Name, page number, flash address (y 0..2); returns the column. */
-uint8_t frame_title_text(const session_t *session, uint8_t y, char text[FRAME_LABEL_BYTES]);
+uint8_t frame_title_text(uint8_t y, char text[FRAME_LABEL_BYTES]);
 
 /* What is wrong with the page as one byte (0 nothing, else page_status_t, Page Step included when that is it) and as
  * 20 characters. */
-uint8_t frame_fault(const session_t *session);
+uint8_t frame_fault(void);
 void frame_fault_text(uint8_t fault, char text[FRAME_FAULT_BYTES]);
 
 #endif

@@ -10,8 +10,6 @@
 #include "pgm.h"
 #include "text.h"
 
-editor_t the_editor;
-session_t the_session;
 page_store_t the_pages;
 servo_link_t the_servos;
 performer_t the_performer;
@@ -21,7 +19,7 @@ static boot_rx_t receiver;   /* what the PC sends during a page write is kept in
 
 static void put(char character)
 {
-    editor_put(&the_editor, character);
+    editor_put(character);
 }
 
 /* What became of a page that SAVE left in the mailbox, or what SAVE is going to do. */
@@ -51,14 +49,14 @@ static NOINLINE void start(void)
     servo_link_init(&the_servos);
     servo_link_scan(&the_servos);
     performer_init(&the_performer, &the_pages.source, &the_servos, &the_settings);
-    editor_init(&the_editor);
+    editor_init();
 }
 
 int main(void)
 {
     start();
     for (;;) {
-        if (!editor_turn(&the_editor)) {
+        if (!editor_turn()) {
             board_idle();
         }
     }

@@ -107,12 +107,12 @@ static uint8_t bytes_of(const shell_args_t *args)
     return (uint8_t)(args->count - 1u);
 }
 
-static bool is_one_servo(const editor_t *editor)
+static bool is_one_servo(void)
 {
-    if (editor->cid == DXL_BROADCAST) {
+    if (the_editor.cid == DXL_BROADCAST) {
         (void)say(TEXT_P("One servo only: CID first"));
     }
-    return editor->cid != DXL_BROADCAST;
+    return the_editor.cid != DXL_BROADCAST;
 }
 
 /* ---- words ---- */
@@ -123,19 +123,18 @@ static bool is_one_servo(const editor_t *editor)
 /* The words from 1 on, address first, as parameters. */
 static uint8_t send_words(const shell_args_t *args, uint8_t instruction)
 {
-    editor_t *const editor = &the_editor;
     uint8_t count = bytes_of(args);
     if (count != 0) {
-        (void)transact(editor->cid, instruction, count);
+        (void)transact(the_editor.cid, instruction, count);
     }
     return SHELL_OK;
 }
 
-static bool send_value(const editor_t *editor, uint8_t address, int16_t value)
+static bool send_value(uint8_t address, int16_t value)
 {
     params()[0] = address;
     params()[1] = (uint8_t)value;
-    return value != BAD && transact(editor->cid, DXL_WRITE, 2);
+    return value != BAD && transact(the_editor.cid, DXL_WRITE, 2);
 }
 
 static int16_t value_of(const shell_args_t *args, uint8_t max)
@@ -145,18 +144,16 @@ static int16_t value_of(const shell_args_t *args, uint8_t max)
 
 WORD(mon_cid)
 {
-    editor_t *const editor = &the_editor;
     int16_t id = id_of(args, DXL_BROADCAST);
     if (id != BAD) {
-        editor->cid = (uint8_t)id;
+        the_editor.cid = (uint8_t)id;
     }
     return SHELL_OK;
 }
 
 WORD(mon_ping)
 {
-    editor_t *const editor = &the_editor;
-    int16_t id = args->count == 1 ? editor->cid : id_of(args, DXL_BROADCAST);
+    int16_t id = args->count == 1 ? the_editor.cid : id_of(args, DXL_BROADCAST);
     if (id != BAD) {
         (void)transact((uint8_t)id, DXL_PING, 0);
     }
@@ -165,9 +162,8 @@ WORD(mon_ping)
 
 WORD(mon_read)
 {
-    editor_t *const editor = &the_editor;
     int16_t at = number_of(args, 1, TEXT_P("Address"), TABLE_BYTES - 1), count = 1;
-    if (at == BAD || !is_one_servo(editor)) {
+    if (at == BAD || !is_one_servo()) {
         return SHELL_OK;
     }
     if (args->count > 2) {
@@ -176,7 +172,7 @@ WORD(mon_read)
     params()[0] = (uint8_t)at;
     params()[1] = (uint8_t)count;
     if (count != BAD) {
-        (void)transact(editor->cid, DXL_READ, 2);
+        (void)transact(the_editor.cid, DXL_READ, 2);
     }
     return SHELL_OK;
 }
@@ -193,14 +189,12 @@ WORD(mon_reg_write)
 
 WORD(mon_action)
 {
-    editor_t *const editor = &the_editor;
-    (void)transact(editor->cid, DXL_ACTION, 0);
+    (void)transact(the_editor.cid, DXL_ACTION, 0);
     return SHELL_OK;
 }
 
 WORD(mon_go)
 {
-    editor_t *const editor = &the_editor;
     int16_t speed = 0, pos = number_of(args, 1, TEXT_P("Position"), PAGE_POS_MAX);
     uint8_t count = 3;
     if (pos != BAD && args->count > 2) {
@@ -214,52 +208,50 @@ WORD(mon_go)
     *to++ = (uint8_t)speed;
     *to = (uint8_t)((uint16_t)speed >> 8);
     if (pos != BAD && speed != BAD) {
-        (void)transact(editor->cid, DXL_WRITE, count);
+        (void)transact(the_editor.cid, DXL_WRITE, count);
     }
     return SHELL_OK;
 }
 
 WORD(mon_led)
 {
-    (void)send_value(&the_editor, DXL_AT_LED, value_of(args, 1));
+    (void)send_value(DXL_AT_LED, value_of(args, 1));
     return SHELL_OK;
 }
 
 /* A new ID must be free: two servos with one ID can only be told apart by unplugging one. */
 WORD(mon_id)
 {
-    editor_t *const editor = &the_editor;
-    int16_t id = is_one_servo(editor) ? id_of(args, ID_MAX) : BAD;
+    int16_t id = is_one_servo() ? id_of(args, ID_MAX) : BAD;
     if (id == BAD) {
         return SHELL_ERR_SAID;
     }
     if (bus_call_ping((uint8_t)id, TRIES, NULL) == BUS_OK) {
         return say(TEXT_P("That ID is taken"));
     }
-    if (send_value(editor, DXL_AT_ID, id)) {
-        editor->cid = (uint8_t)id;
+    if (send_value(DXL_AT_ID, id)) {
+        the_editor.cid = (uint8_t)id;
     }
     return SHELL_OK;
 }
 
 WORD(mon_baud)
 {
-    if (is_one_servo(&the_editor)) {
-        (void)send_value(&the_editor, DXL_AT_BAUD, value_of(args, DXL_BROADCAST));
+    if (is_one_servo()) {
+        (void)send_value(DXL_AT_BAUD, value_of(args, DXL_BROADCAST));
     }
     return SHELL_OK;
 }
 
 WORD(mon_reset)
 {
-    editor_t *const editor = &the_editor;
-    if (!is_one_servo(editor)) {
+    if (!is_one_servo()) {
         return SHELL_ERR_SAID;
     }
     if (!shell_word_is(args, 1, PSTR("yes"))) {
         return say(TEXT_P("RESET YES: factory values, ID 1"));
     }
-    (void)transact(editor->cid, DXL_RESET, 0);
+    (void)transact(the_editor.cid, DXL_RESET, 0);
     return SHELL_OK;
 }
 
@@ -316,10 +308,9 @@ WORD(mon_search)
 
 WORD(mon_dump)
 {
-    editor_t *const editor = &the_editor;
     uint8_t row[DUMP_ROW];
-    for (uint8_t at = 0; at < TABLE_BYTES && is_one_servo(editor); at = (uint8_t)(at + DUMP_ROW)) {
-        bus_status_t status = bus_call_read(editor->cid, at, row, DUMP_ROW, NULL);
+    for (uint8_t at = 0; at < TABLE_BYTES && is_one_servo(); at = (uint8_t)(at + DUMP_ROW)) {
+        bus_status_t status = bus_call_read(the_editor.cid, at, row, DUMP_ROW, NULL);
         if (status != BUS_OK) {
             return say(status_text_P(status));
         }
@@ -333,20 +324,19 @@ WORD(mon_dump)
 /* Servos may have another ID now: what is there is looked up anew. The page was never touched. */
 WORD(mon_exit)
 {
-    editor_t *const editor = &the_editor;
     bus_set_rate(BUS_RATE_1M);
     servo_link_scan(&the_servos);
-    screen_set_present(&editor->screen, the_servos.present);
-    robot_read(&editor->robot);
-    screen_show(&editor->screen);
-    editor_leave_line(editor);
+    screen_set_present(the_servos.present);
+    robot_read();
+    screen_show();
+    editor_leave_line();
     return SHELL_OK;
 }
 
 WORD(mon_toss_start)
 {
     (void)say(TEXT_P("Three ESC end it"));
-    mon_toss(&the_editor);
+    mon_toss();
     text_line_end();
     return SHELL_OK;
 }
@@ -412,19 +402,19 @@ WORD(mon_help)
 
 /* ---- in and out of the monitor ---- */
 
-void mon_prompt(editor_t *editor)
+void mon_prompt(void)
 {
     TEXT(" [CID:");
-    text_padded(editor->cid, 3, '0');
+    text_padded(the_editor.cid, 3, '0');
     TEXT("(0X");
-    text_hex(editor->cid, 2);
+    text_hex(the_editor.cid, 2);
     TEXT(")] ");
 }
 
-void mon_line(editor_t *editor, const shell_args_t *args)
+void mon_line(const shell_args_t *args)
 {
     servo_link_quiet(&the_servos);
-    uint8_t result = shell_run(table_P, WORDS, editor, args);
+    uint8_t result = shell_run(table_P, WORDS, NULL, args);
     if (result >= SHELL_ERR_UNKNOWN) {
         (void)say(result == SHELL_ERR_UNKNOWN ? TEXT_P(" Bad Command") : TEXT_P(" Invalid Parameter"));
     }
@@ -432,16 +422,15 @@ void mon_line(editor_t *editor, const shell_args_t *args)
 
 COMMAND(cmd_mon)
 {
-    editor_t *const editor = &the_editor;
     (void)args;
     if (!editor_may_move()) {
         return SHELL_ERR_SAID;
     }
-    if (!editor_ask_unsaved(editor)) {
+    if (!editor_ask_unsaved()) {
         return EDITOR_TO_ASK;
     }
     servo_link_quiet(&the_servos);
-    screen_hide(&editor->screen);
-    mon_prompt(editor);
+    screen_hide();
+    mon_prompt();
     return EDITOR_TO_MONITOR;
 }

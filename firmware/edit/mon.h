@@ -8,6 +8,6 @@
 /* The PC speaks to the servos itself: packets from the console go to the bus as they are, everything heard on the bus
  * goes to the console. Three ESC outside a packet end it. Blocks until then; the watchdog is kicked. Uses the editor's
  * line and history buffers. */
-void mon_toss(editor_t *editor);
+void mon_toss(void);
 
 #endif

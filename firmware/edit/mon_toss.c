@@ -54,12 +54,12 @@ static void send(toss_t *toss, ring_t *heard)
     toss->count = 0;
 }
 
-void mon_toss(editor_t *editor)
+void mon_toss(void)
 {
     toss_t toss = { 0, 0, { 0 } };
     ring_t heard;
     uint8_t byte;
-    ring_init(&heard, (uint8_t *)editor->line, HEARD_BYTES);
+    ring_init(&heard, (uint8_t *)the_editor.line, HEARD_BYTES);
     bus_set_tap(&heard);
     while (toss.escapes < ESCAPES) {
         system_kick();

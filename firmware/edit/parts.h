@@ -11,8 +11,7 @@
 #include "session.h"
 #include "settings.h"
 
-extern session_t the_session;      /* the page being edited */
-extern page_store_t the_pages;     /* those in flash */
+extern page_store_t the_pages;     /* the motion pages in flash */
 extern servo_link_t the_servos;
 extern performer_t the_performer;
 extern settings_t the_settings;

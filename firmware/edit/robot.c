@@ -6,20 +6,22 @@
 #include "dxl.h"
 #include "parts.h"
 
+robot_t the_robot;
+
 enum { WAY_PER_SPEED = 4 };
 
-static void fail(robot_t *robot, uint8_t joint)
+static void fail(uint8_t joint)
 {
-    robot->failed = true;
+    the_robot.failed = true;
     servo_link_lost(&the_servos, joint);
 }
 
 /* A word of the servo as a page position. */
-static bool read_pos(robot_t *robot, uint8_t joint, uint8_t at, uint16_t *pos)
+static bool read_pos(uint8_t joint, uint8_t at, uint16_t *pos)
 {
     uint8_t bytes[2];
     if (bus_call_read(joint, at, bytes, sizeof bytes, NULL) != BUS_OK) {
-        fail(robot, joint);
+        fail(joint);
         return false;
     }
     uint16_t word = (uint16_t)(bytes[0] | (uint16_t)bytes[1] << 8);
@@ -37,21 +39,21 @@ static bool is_held(uint8_t joint)
     return robot_has(joint) && servo_link_has(&the_servos.torque, joint);
 }
 
-static void read_joint(robot_t *robot, uint8_t joint)
+static void read_joint(uint8_t joint)
 {
     uint16_t pos;
     bool held = is_held(joint);
-    if (read_pos(robot, joint, held ? DXL_AT_GOAL : DXL_AT_PRESENT, &pos)) {
-        session_set_pose(&the_session, joint, held ? pos : (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+    if (read_pos(joint, held ? DXL_AT_GOAL : DXL_AT_PRESENT, &pos)) {
+        session_set_pose(joint, held ? pos : (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
     }
 }
 
-void robot_read(robot_t *robot)
+void robot_read(void)
 {
     servo_link_quiet(&the_servos);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         if (robot_has(joint)) {
-            read_joint(robot, joint);
+            read_joint(joint);
         }
     }
 }
@@ -61,28 +63,28 @@ void robot_follow(void)
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         uint16_t pos = the_servos.present_pos[joint];
         if (robot_has(joint) && !is_held(joint) && pos != SERVO_LINK_NO_POSE) {
-            session_set_pose(&the_session, joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+            session_set_pose(joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
         }
     }
 }
 
-void robot_set_trim(robot_t *robot)
+void robot_set_trim(void)
 {
     int16_t trim_pos[PAGE_JOINTS];
-    robot->raw = the_session.page == 0;
-    bool trimmed = !robot->raw && page_store_trim(&the_pages, trim_pos);
+    the_robot.raw = the_session.page == 0;
+    bool trimmed = !the_robot.raw && page_store_trim(&the_pages, trim_pos);
     servo_link_set_trim(&the_servos, trimmed ? trim_pos : NULL);
     servo_link_read_pose(&the_servos, the_servos.present);
-    robot_read(robot);
+    robot_read();
 }
 
-void robot_init(robot_t *robot)
+void robot_init(void)
 {
-    robot->failed = false;
-    robot_set_trim(robot);
+    the_robot.failed = false;
+    robot_set_trim();
 }
 
-static void write_goal(robot_t *robot, uint8_t joint, uint16_t present, uint16_t pos)
+static void write_goal(uint8_t joint, uint16_t present, uint16_t pos)
 {
     uint16_t way = pos > present ? (uint16_t)(pos - present) : (uint16_t)(present - pos);
     uint16_t speed = way / WAY_PER_SPEED;
@@ -92,14 +94,14 @@ static void write_goal(robot_t *robot, uint8_t joint, uint16_t present, uint16_t
     }
     uint8_t bytes[4] = { (uint8_t)goal, (uint8_t)(goal >> 8), (uint8_t)speed, (uint8_t)(speed >> 8) };
     if (bus_call_write(joint, DXL_AT_GOAL, bytes, sizeof bytes, NULL) != BUS_OK) {
-        fail(robot, joint);
+        fail(joint);
     }
 }
 
-void robot_move(robot_t *robot, uint8_t joint, uint16_t pos)
+void robot_move(uint8_t joint, uint16_t pos)
 {
     uint16_t present;
-    session_set_pose(&the_session, joint, pos);
+    session_set_pose(joint, pos);
     if (!robot_has(joint)) {
         return;
     }
@@ -107,20 +109,20 @@ void robot_move(robot_t *robot, uint8_t joint, uint16_t pos)
     if (!is_held(joint)) {
         performer_on(&the_performer, servo_link_bit(joint));
     }
-    if (read_pos(robot, joint, DXL_AT_PRESENT, &present)) {
-        write_goal(robot, joint, present, pos);
+    if (read_pos(joint, DXL_AT_PRESENT, &present)) {
+        write_goal(joint, present, pos);
     }
 }
 
-uint32_t robot_send(robot_t *robot, const uint8_t step[PAGE_STEP_BYTES])
+uint32_t robot_send(const uint8_t step[PAGE_STEP_BYTES])
 {
     uint32_t missing = 0, off = 0;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         uint16_t word = (uint16_t)(step[2 * joint] | (uint16_t)step[2 * joint + 1] << 8);
         if (!robot_has(joint)) {
-            session_set_pose(&the_session, joint, word);
+            session_set_pose(joint, word);
         } else if (cell_is_position(word)) {
-            robot_move(robot, joint, word);
+            robot_move(joint, word);
         } else if (cell_is_off(word)) {
             servo_link_put(&off, joint, true);
         } else {
@@ -131,7 +133,7 @@ uint32_t robot_send(robot_t *robot, const uint8_t step[PAGE_STEP_BYTES])
     return missing;
 }
 
-void robot_on(robot_t *robot, uint32_t joints)
+void robot_on(uint32_t joints)
 {
     uint32_t wanted = joints & the_servos.present & ~the_servos.torque;
     if (wanted == 0) {
@@ -139,10 +141,10 @@ void robot_on(robot_t *robot, uint32_t joints)
     }
     servo_link_quiet(&the_servos);
     uint32_t on = performer_on(&the_performer, wanted);
-    robot->failed |= on != wanted;
+    the_robot.failed |= on != wanted;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         if (servo_link_has(&on, joint)) {
-            session_set_pose(&the_session, joint, the_servos.present_pos[joint] & PAGE_POS_MAX);
+            session_set_pose(joint, the_servos.present_pos[joint] & PAGE_POS_MAX);
         }
     }
 }
@@ -157,8 +159,8 @@ void robot_off(uint32_t joints)
     performer_off(&the_performer, there);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         if (servo_link_has(&there, joint)) {
-            uint16_t pos = session_pose(&the_session, joint) & PAGE_POS_MAX;
-            session_set_pose(&the_session, joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+            uint16_t pos = session_pose(joint) & PAGE_POS_MAX;
+            session_set_pose(joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
         }
     }
 }

@@ -19,30 +19,32 @@ typedef struct {
     bool failed;          /* a joint did not answer: it is among the_servos.silent now, and the row is to say so */
 } robot_t;
 
+extern robot_t the_robot;       /* the only one: all functions here are about it */
+
 /* Reads trim and all joints that answered the last search. */
-void robot_init(robot_t *robot);
+void robot_init(void);
 
 /* Whether joint 0..30 is there; any number may be asked for. */
 bool robot_has(uint8_t joint);
 
 /* Reads the work pose anew: goal where torque is on, present position with the ???? mark where it is off. */
-void robot_read(robot_t *robot);
+void robot_read(void);
 
 /* The same for joints whose torque is off, from what the background polls have heard: costs no bus traffic. */
 void robot_follow(void);
 
 /* The page that is open has changed or trim was saved: page 0 is edited without trim. */
-void robot_set_trim(robot_t *robot);
+void robot_set_trim(void);
 
 /* Moves one joint to `pos`, torque on; speed from the way it has to go. A joint that is not there only shows it. */
-void robot_move(robot_t *robot, uint8_t joint, uint16_t pos);
+void robot_move(uint8_t joint, uint16_t pos);
 
 /* Sends a step's words: positions move, ???? lets go, everything else is left alone. Returns the joints that are there
  * and had no position and no ????. */
-uint32_t robot_send(robot_t *robot, const uint8_t step[PAGE_STEP_BYTES]);
+uint32_t robot_send(const uint8_t step[PAGE_STEP_BYTES]);
 
 /* Torque. On holds the present pose. */
-void robot_on(robot_t *robot, uint32_t joints);
+void robot_on(uint32_t joints);
 void robot_off(uint32_t joints);
 
 #endif

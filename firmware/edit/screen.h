@@ -42,44 +42,46 @@ typedef struct {
     uint8_t shown_x, shown_y, shown_go, shown_fault, shown_flags;
 } screen_t;
 
-void screen_init(screen_t *screen);
+extern screen_t the_screen;     /* the only one: all functions here are about it */
+
+void screen_init(void);
 
 /* Everything is sent again, on a cleared screen. */
-void screen_redraw(screen_t *screen);
+void screen_redraw(void);
 
 /* The terminal has this many rows. Redraws when that changes the layout. */
-void screen_set_rows(screen_t *screen, uint8_t rows);
+void screen_set_rows(uint8_t rows);
 
 /* These joints are there. Redraws when that changes the layout. */
-void screen_set_present(screen_t *screen, uint32_t present);
+void screen_set_present(uint32_t present);
 
 /* Gives the screen away (plain text follows below a cleared screen), and takes it back. */
-void screen_hide(screen_t *screen);
-void screen_show(screen_t *screen);
+void screen_hide(void);
+void screen_show(void);
 
 /* Looks what follows from the session besides cells: X Y A, marks, page number. Call after each key or command. */
-void screen_sync(screen_t *screen);
+void screen_sync(void);
 
 /* Sends the next piece, at most about 110 bytes. false: all is on the screen and the cursor rests at its cell (or at the
  * end of the line, sink SCREEN_LINE). */
-bool screen_paint(screen_t *screen);
+bool screen_paint(void);
 
 /* Empties the command row for a new line. */
-void screen_open_line(screen_t *screen);
+void screen_open_line(void);
 
 /* One character of text, to where the sink says. */
-void screen_put(screen_t *screen, char character);
+void screen_put(char character);
 
 /* Moves the cursor over what is shown. */
-void screen_move(screen_t *screen, session_way_t way);
+void screen_move(session_way_t way);
 
 /* Whether joint `joint` has a row (perhaps scrolled out). */
-bool screen_has_row(const screen_t *screen, uint8_t joint);
+bool screen_has_row(uint8_t joint);
 
 /* Scrolls so that the cursor's cell is in sight. */
-void screen_follow(screen_t *screen);
+void screen_follow(void);
 
 /* Asks the terminal for its size; the answer is a cursor position report. */
-void screen_ask_size(screen_t *screen);
+void screen_ask_size(void);
 
 #endif

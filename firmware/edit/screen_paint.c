@@ -9,47 +9,47 @@
 
 /* ---- sending ---- */
 
-void screen_send(screen_t *screen, char character)
+void screen_send(char character)
 {
     ansi_put(character);
-    screen->at_column++;
-    if (screen->at_column > SCREEN_COLUMNS) {
-        screen->at_row = 0;
+    the_screen.at_column++;
+    if (the_screen.at_column > SCREEN_COLUMNS) {
+        the_screen.at_row = 0;
     }
 }
 
-static void send_text(screen_t *screen, const char *text)
+static void send_text(const char *text)
 {
     while (*text != '\0') {
-        screen_send(screen, *text++);
+        screen_send(*text++);
     }
 }
 
-static void send_text_P(screen_t *screen, const char *text)
+static void send_text_P(const char *text)
 {
     text_reader_t reader;
     text_open_P(&reader, text);
     for (char character; (character = text_next(&reader)) != '\0';) {
-        screen_send(screen, character);
+        screen_send(character);
     }
 }
 
-static void send_spaces(screen_t *screen, uint8_t count)
+static void send_spaces(uint8_t count)
 {
     while (count-- > 0) {
-        screen_send(screen, ' ');
+        screen_send(' ');
     }
 }
 
-void screen_go(screen_t *screen, uint8_t row, uint8_t column)
+void screen_go(uint8_t row, uint8_t column)
 {
-    if (screen->at_row == row && column > screen->at_column) {
-        ansi_right((uint8_t)(column - screen->at_column));
-    } else if (screen->at_row != row || screen->at_column != column) {
+    if (the_screen.at_row == row && column > the_screen.at_column) {
+        ansi_right((uint8_t)(column - the_screen.at_column));
+    } else if (the_screen.at_row != row || the_screen.at_column != column) {
         ansi_goto(row, column);
     }
-    screen->at_row = row;
-    screen->at_column = column;
+    the_screen.at_row = row;
+    the_screen.at_column = column;
 }
 
 static char marker_at(uint8_t column)
@@ -60,30 +60,30 @@ static char marker_at(uint8_t column)
 
 /* Goes right within table row y. Short gaps are written anew, which is shorter than a cursor sequence: what stands there
  * is the bracket of the work pose, a marker or nothing. */
-static void go_in_row(screen_t *screen, uint8_t row, uint8_t y, uint8_t column)
+static void go_in_row(uint8_t row, uint8_t y, uint8_t column)
 {
-    if (screen->at_row == row && y < PAGE_JOINTS && column > screen->at_column && column - screen->at_column <= 2) {
-        if (screen->at_column == FRAME_BRACKET_COLUMN) {
-            screen_send(screen, ']');
+    if (the_screen.at_row == row && y < PAGE_JOINTS && column > the_screen.at_column && column - the_screen.at_column <= 2) {
+        if (the_screen.at_column == FRAME_BRACKET_COLUMN) {
+            screen_send(']');
         }
-        while (screen->at_column < column && frame_is_marker_column(screen->at_column)) {
-            screen_send(screen, marker_at(screen->at_column));
+        while (the_screen.at_column < column && frame_is_marker_column(the_screen.at_column)) {
+            screen_send(marker_at(the_screen.at_column));
         }
     }
-    screen_go(screen, row, column);
+    screen_go(row, column);
 }
 
 /* ---- a table row ---- */
 
-static void paint_cell(screen_t *screen, uint8_t row, uint8_t x, uint8_t y)
+static void paint_cell(uint8_t row, uint8_t x, uint8_t y)
 {
     char text[CELLS_TEXT_BYTES];
-    frame_cell_text(&the_session, x, y, text);
-    go_in_row(screen, row, y, frame_cell_column(x, y));
-    send_text(screen, text);
+    frame_cell_text(x, y, text);
+    go_in_row(row, y, frame_cell_column(x, y));
+    send_text(text);
 }
 
-static void paint_marker(screen_t *screen, uint8_t row, uint8_t y, uint8_t steps)
+static void paint_marker(uint8_t row, uint8_t y, uint8_t steps)
 {
     uint8_t shown = (uint8_t)(the_session.marks[y] >> MARK_STEP_SHIFT);
     uint8_t wanted = the_session.cells[PAGE_AT_STEPS];
@@ -91,8 +91,8 @@ static void paint_marker(screen_t *screen, uint8_t row, uint8_t y, uint8_t steps
         wanted = MARK_STEP_NONE;
     }
     if (y < PAGE_JOINTS && shown != wanted && (steps == shown || steps == wanted)) {
-        go_in_row(screen, row, y, frame_marker_column(steps));
-        screen_send(screen, steps == wanted ? '|' : ' ');
+        go_in_row(row, y, frame_marker_column(steps));
+        screen_send(steps == wanted ? '|' : ' ');
     }
 }
 
@@ -104,53 +104,53 @@ static void set_marker_shown(uint8_t y)
     *marks = (uint16_t)((*marks & ~(0xFu << MARK_STEP_SHIFT)) | shown << MARK_STEP_SHIFT);
 }
 
-static void paint_label(screen_t *screen, uint8_t row, uint8_t y, uint16_t marks)
+static void paint_label(uint8_t row, uint8_t y, uint16_t marks)
 {
     char text[FRAME_LABEL_BYTES];
     if ((marks & MARK_HEADER_LABEL) != 0) {
-        screen_go(screen, row, 1);
-        frame_label_text(&the_session, y, text);
-        send_text(screen, text);
+        screen_go(row, 1);
+        frame_label_text(y, text);
+        send_text(text);
     } else if ((marks & MARK_LABEL) != 0) {
         uint8_t skip = y < PAGE_JOINTS ? FRAME_LIVE_COLUMN - 1 : 0;
-        frame_label_text(&the_session, y, text);
+        frame_label_text(y, text);
         text[y < PAGE_JOINTS ? FRAME_LIVE_COLUMN + FRAME_LIVE_CHARS - 1 : FRAME_BRACKET_COLUMN - 5] = '\0';
-        screen_go(screen, row, (uint8_t)(skip + 1));
-        send_text(screen, text + skip);
+        screen_go(row, (uint8_t)(skip + 1));
+        send_text(text + skip);
     }
 }
 
 /* The bracket behind the work pose belongs to the label, but stands right of its cell. */
-static void paint_bracket(screen_t *screen, uint8_t row, uint16_t marks)
+static void paint_bracket(uint8_t row, uint16_t marks)
 {
     if ((marks & MARK_HEADER_LABEL) != 0) {
-        screen_go(screen, row, FRAME_BRACKET_COLUMN);
-        screen_send(screen, ']');
+        screen_go(row, FRAME_BRACKET_COLUMN);
+        screen_send(']');
     }
 }
 
-static void paint_left(screen_t *screen, uint8_t y, uint16_t marks)
+static void paint_left(uint8_t y, uint16_t marks)
 {
-    uint8_t row = screen_row_of(screen, y);
+    uint8_t row = screen_row_of(y);
     if (row == 0) {
         return;
     }
-    paint_label(screen, row, y, marks);
+    paint_label(row, y, marks);
     for (uint8_t x = 0; x <= CELL_X_SOFTNESS; x++) {
         if ((marks >> x & 1u) != 0 && cell_kind(the_session.page, x, y) != CELL_NONE) {
-            paint_cell(screen, row, x, y);
+            paint_cell(row, x, y);
         }
         if (x == CELL_X_POSE) {
-            paint_bracket(screen, row, marks);
+            paint_bracket(row, marks);
         }
         if (x <= PAGE_STEPS) {
-            paint_marker(screen, row, y, x);
+            paint_marker(row, y, x);
         }
     }
     set_marker_shown(y);
 }
 
-static void paint_header(screen_t *screen, uint8_t y, uint16_t marks)
+static void paint_header(uint8_t y, uint16_t marks)
 {
     if (y > CELL_Y_HEADER_LAST) {
         return;
@@ -160,170 +160,168 @@ static void paint_header(screen_t *screen, uint8_t y, uint16_t marks)
         char label[FRAME_LABEL_BYTES];
         uint8_t column = frame_header_label(y, label);
         if (label[0] != '\0') {
-            screen_go(screen, row, column);
-            send_text(screen, label);
+            screen_go(row, column);
+            send_text(label);
         }
     }
     if ((marks >> CELL_X_HEADER & 1u) == 0) {
         return;
     }
     if (y >= CELL_Y_HEADER) {
-        paint_cell(screen, row, CELL_X_HEADER, y);
+        paint_cell(row, CELL_X_HEADER, y);
         return;
     }
     char text[FRAME_LABEL_BYTES];
-    uint8_t column = frame_title_text(&the_session, y, text);
-    screen_go(screen, row, column);
-    send_text(screen, text);
+    uint8_t column = frame_title_text(y, text);
+    screen_go(row, column);
+    send_text(text);
 }
 
-static bool marker_is_old(const screen_t *screen, uint8_t y)
+static bool marker_is_old(uint8_t y)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     uint8_t wanted = steps > PAGE_STEPS ? (uint8_t)MARK_STEP_NONE : steps;
-    return y < PAGE_JOINTS && screen_row_of(screen, y) != 0 && the_session.marks[y] >> MARK_STEP_SHIFT != wanted;
+    return y < PAGE_JOINTS && screen_row_of(y) != 0 && the_session.marks[y] >> MARK_STEP_SHIFT != wanted;
 }
 
-static bool paint_row(screen_t *screen, uint8_t y)
+static bool paint_row(uint8_t y)
 {
     uint16_t marks = the_session.marks[y] & 0x0FFFu;
-    if (marks == 0 && !marker_is_old(screen, y)) {
+    if (marks == 0 && !marker_is_old(y)) {
         return false;
     }
     the_session.marks[y] &= 0xF000u;
-    paint_left(screen, y, marks);
-    paint_header(screen, y, marks);
+    paint_left(y, marks);
+    paint_header(y, marks);
     return true;
 }
 
 /* ---- single items ---- */
 
-static void paint_labels(screen_t *screen)
+static void paint_labels(void)
 {
-    screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), FRAME_POSE_COLUMN);
-    send_text_P(screen, TEXT_P("STP7  STP0 STP1 STP2 STP3 STP4 STP5 STP6    Go Step:"));
+    screen_go((uint8_t)(screen_command_row() - 1u), FRAME_POSE_COLUMN);
+    send_text_P(TEXT_P("STP7  STP0 STP1 STP2 STP3 STP4 STP5 STP6    Go Step:"));
     if (the_session.page == 0) {
-        screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), FRAME_POSE_COLUMN);
-        send_text_P(screen, TEXT_P("STP7  MSTR SLAV OFST"));
+        screen_go((uint8_t)(screen_command_row() - 1u), FRAME_POSE_COLUMN);
+        send_text_P(TEXT_P("STP7  MSTR SLAV OFST"));
     }
 }
 
-static void paint_number(screen_t *screen, uint8_t column, uint16_t number, uint8_t digits)
+static void paint_number(uint8_t column, uint16_t number, uint8_t digits)
 {
     char text[CELLS_TEXT_BYTES];
-    screen_go(screen, screen_row_of(screen, CELL_Y_SPEED), column);
+    screen_go(screen_row_of(CELL_Y_SPEED), column);
     cell_digits(number, digits, the_session.hex, text);
     text[digits] = '\0';
-    send_text(screen, text);
+    send_text(text);
 }
 
-static void paint_xya(screen_t *screen)
+static void paint_xya(void)
 {
-    const session_t *session = &the_session;
-    paint_number(screen, 64, session->x, 2);
-    paint_number(screen, 69, session->y, 2);
-    paint_number(screen, 74, cell_address(session->x, session->y), 4);
+    paint_number(64, the_session.x, 2);
+    paint_number(69, the_session.y, 2);
+    paint_number(74, cell_address(the_session.x, the_session.y), 4);
 }
 
-static void paint_go(screen_t *screen)
+static void paint_go(void)
 {
-    screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), FRAME_GO_COLUMN);
+    screen_go((uint8_t)(screen_command_row() - 1u), FRAME_GO_COLUMN);
     if (the_session.go_step == SESSION_NO_STEP) {
-        send_spaces(screen, 3);
+        send_spaces(3);
     } else {
         char text[CELLS_TEXT_BYTES];
         cell_byte_text(the_session.go_step, the_session.hex, text);
-        send_text(screen, text);
+        send_text(text);
     }
 }
 
-static void paint_unsaved(screen_t *screen)
+static void paint_unsaved(void)
 {
-    screen_go(screen, (uint8_t)(screen_command_row(screen) - 1u), 1);
-    send_text_P(screen, the_session.is_changed ? TEXT_P("* unsaved") : TEXT_P("         "));
+    screen_go((uint8_t)(screen_command_row() - 1u), 1);
+    send_text_P(the_session.is_changed ? TEXT_P("* unsaved") : TEXT_P("         "));
 }
 
-static void paint_fault(screen_t *screen)
+static void paint_fault(void)
 {
     char text[FRAME_FAULT_BYTES];
-    screen_go(screen, screen_row_of(screen, CELL_Y_PAUSE), FRAME_FAULT_COLUMN);
-    frame_fault_text(screen->shown_fault, text);
-    send_text(screen, text);
+    screen_go(screen_row_of(CELL_Y_PAUSE), FRAME_FAULT_COLUMN);
+    frame_fault_text(the_screen.shown_fault, text);
+    send_text(text);
 }
 
-static void paint_item(screen_t *screen, uint16_t item)
+static void paint_item(uint16_t item)
 {
     switch (item) {
     case ITEM_CLEAR:
         ansi_clear();
-        screen->at_row = 1;
-        screen->at_column = 1;
+        the_screen.at_row = 1;
+        the_screen.at_column = 1;
         break;
     case ITEM_LABELS:
-        paint_labels(screen);
+        paint_labels();
         break;
     case ITEM_XYA_FRAME:
-        screen_go(screen, screen_row_of(screen, CELL_Y_SPEED), FRAME_FAULT_COLUMN);
-        send_text_P(screen, TEXT_P("[X:--,Y:--,A:----]"));
+        screen_go(screen_row_of(CELL_Y_SPEED), FRAME_FAULT_COLUMN);
+        send_text_P(TEXT_P("[X:--,Y:--,A:----]"));
         break;
     case ITEM_XYA:
-        paint_xya(screen);
+        paint_xya();
         break;
     case ITEM_GO:
-        paint_go(screen);
+        paint_go();
         break;
     case ITEM_UNSAVED:
-        paint_unsaved(screen);
+        paint_unsaved();
         break;
     case ITEM_FAULT:
-        paint_fault(screen);
+        paint_fault();
         break;
     default:
-        screen_go(screen, screen_command_row(screen), 1);
-        send_text_P(screen, screen->sink == SCREEN_QUIET ? TEXT_P("] _") : TEXT_P("] "));
+        screen_go(screen_command_row(), 1);
+        send_text_P(the_screen.sink == SCREEN_QUIET ? TEXT_P("] _") : TEXT_P("] "));
         break;
     }
 }
 
-static bool paint_next_item(screen_t *screen, uint16_t among)
+static bool paint_next_item(uint16_t among)
 {
     for (uint16_t item = ITEM_CLEAR; item < ITEM_ALL; item = (uint16_t)(item << 1)) {
-        if ((screen->items & among & item) != 0) {
-            screen->items &= (uint16_t)~item;
-            paint_item(screen, item);
+        if ((the_screen.items & among & item) != 0) {
+            the_screen.items &= (uint16_t)~item;
+            paint_item(item);
             return true;
         }
     }
     return false;
 }
 
-static void rest(screen_t *screen)
+static void rest(void)
 {
-    const session_t *session = &the_session;
-    if (screen->sink == SCREEN_LINE) {
-        screen_go(screen, screen_command_row(screen), screen->line_column);
+    if (the_screen.sink == SCREEN_LINE) {
+        screen_go(screen_command_row(), the_screen.line_column);
         return;
     }
-    uint8_t row = session->x == CELL_X_HEADER ? (uint8_t)(session->y + 1u) : screen_row_of(screen, session->y);
-    screen_go(screen, row, frame_cell_column(session->x, session->y));
+    uint8_t row = the_session.x == CELL_X_HEADER ? (uint8_t)(the_session.y + 1u) : screen_row_of(the_session.y);
+    screen_go(row, frame_cell_column(the_session.x, the_session.y));
 }
 
-bool screen_paint(screen_t *screen)
+bool screen_paint(void)
 {
-    if (screen->hidden) {
+    if (the_screen.hidden) {
         return false;
     }
-    if (paint_next_item(screen, ITEM_CLEAR | ITEM_PROMPT)) {
+    if (paint_next_item(ITEM_CLEAR | ITEM_PROMPT)) {
         return true;
     }
     for (uint8_t y = 0; y < CELLS_ROWS; y++) {
-        if (paint_row(screen, y)) {
+        if (paint_row(y)) {
             return true;
         }
     }
-    if (paint_next_item(screen, ITEM_ALL)) {
+    if (paint_next_item(ITEM_ALL)) {
         return true;
     }
-    rest(screen);
+    rest();
     return false;
 }

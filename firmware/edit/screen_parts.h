@@ -19,11 +19,11 @@ enum {
 };
 
 /* Screen row of table row y; 0: it is not in sight. */
-uint8_t screen_row_of(const screen_t *screen, uint8_t y);
-uint8_t screen_command_row(const screen_t *screen);
+uint8_t screen_row_of(uint8_t y);
+uint8_t screen_command_row(void);
 
 /* Places the terminal's cursor; sends one character there. */
-void screen_go(screen_t *screen, uint8_t row, uint8_t column);
-void screen_send(screen_t *screen, char character);
+void screen_go(uint8_t row, uint8_t column);
+void screen_send(char character);
 
 #endif

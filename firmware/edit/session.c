@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "session.h"
 
+#include <stddef.h>
 #include <string.h>
 #include "compiler.h"
 #include "crc16.h"
 #include "page_store.h"
+
+session_t the_session;
 
 /* The new page of editor-original.md section 1. */
 enum { NEW_PLAY_COUNT = 1, NEW_STEP_SPEED = 64, NEW_LAST_SOFTNESS_AT = 63, ERASED = 0xFF };
@@ -35,95 +38,95 @@ uint8_t session_new_byte(uint16_t offset)
 
 /* ---- marks ---- */
 
-void session_mark(session_t *session, uint8_t x, uint8_t y)
+void session_mark(uint8_t x, uint8_t y)
 {
-    session->marks[y] |= (uint16_t)(1u << x);
+    the_session.marks[y] |= (uint16_t)(1u << x);
 }
 
-void session_mark_all(session_t *session)
+void session_mark_all(void)
 {
     for (uint8_t y = 0; y < CELLS_ROWS; y++) {
-        session->marks[y] |= MARK_CELLS;
+        the_session.marks[y] |= MARK_CELLS;
     }
 }
 
 /* A changed byte: its cell, and what else is made of it. */
-static void mark_byte(session_t *session, uint16_t address)
+static void mark_byte(uint16_t address)
 {
     uint8_t x, y;
     if (cell_at(address, &x, &y)) {
-        session_mark(session, x, y);
+        session_mark(x, y);
     }
     if (address == PAGE_AT_SCHEDULE) {
-        session->marks[CELL_Y_SPEED] |= MARK_LABEL;
+        the_session.marks[CELL_Y_SPEED] |= MARK_LABEL;
     }
 }
 
 /* ---- bytes ---- */
 
-static void change_byte(session_t *session, uint16_t address, uint8_t bits)
+static void change_byte(uint16_t address, uint8_t bits)
 {
-    session->cells[address] ^= bits;
-    mark_byte(session, address);
+    the_session.cells[address] ^= bits;
+    mark_byte(address);
 }
 
-void session_set_byte(session_t *session, uint16_t address, uint8_t byte)
+void session_set_byte(uint16_t address, uint8_t byte)
 {
-    uint8_t bits = session->cells[address] ^ byte;
+    uint8_t bits = the_session.cells[address] ^ byte;
     if (bits == 0) {
         return;
     }
-    change_byte(session, address, bits);
+    change_byte(address, bits);
     if (address < CELLS_POSE_AT) {
-        undo_note(&session->undo, address, bits);
+        undo_note(&the_session.undo, address, bits);
     }
 }
 
-void session_set_word(session_t *session, uint16_t address, uint16_t word)
+void session_set_word(uint16_t address, uint16_t word)
 {
-    session_set_byte(session, address, (uint8_t)word);
-    session_set_byte(session, (uint16_t)(address + 1u), (uint8_t)(word >> 8));
+    session_set_byte(address, (uint8_t)word);
+    session_set_byte((uint16_t)(address + 1u), (uint8_t)(word >> 8));
 }
 
-void session_set_pose(session_t *session, uint8_t joint, uint16_t word)
+void session_set_pose(uint8_t joint, uint16_t word)
 {
     uint16_t address = (uint16_t)(CELLS_POSE_AT + 2u * joint);
-    uint16_t old = cell_word(session->cells, address);
+    uint16_t old = cell_word(the_session.cells, address);
     if (old == word) {
         return;
     }
-    session->cells[address] = (uint8_t)word;
-    session->cells[address + 1u] = (uint8_t)(word >> 8);
+    the_session.cells[address] = (uint8_t)word;
+    the_session.cells[address + 1u] = (uint8_t)(word >> 8);
     bool was_off = cell_is_off(old), is_off = cell_is_off(word);
     uint16_t marks = was_off || is_off ? MARK_LABEL : 0;
     if (!was_off || !is_off) {
         marks |= 1u << CELL_X_POSE;
     }
-    session->marks[joint] |= marks;
+    the_session.marks[joint] |= marks;
 }
 
-uint16_t session_pose(const session_t *session, uint8_t joint)
+uint16_t session_pose(uint8_t joint)
 {
-    return cell_word(session->cells, (uint16_t)(CELLS_POSE_AT + 2u * joint));
+    return cell_word(the_session.cells, (uint16_t)(CELLS_POSE_AT + 2u * joint));
 }
 
-uint16_t session_word(const session_t *session, uint8_t step, uint8_t joint)
+uint16_t session_word(uint8_t step, uint8_t joint)
 {
-    return page_pos(session->cells, step, joint);
+    return page_pos(the_session.cells, step, joint);
 }
 
-uint8_t session_steps(const session_t *session)
+uint8_t session_steps(void)
 {
-    uint8_t steps = session->cells[PAGE_AT_STEPS];
+    uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     return steps > PAGE_STEPS ? (uint8_t)PAGE_STEPS : steps;
 }
 
-void session_update_trim(session_t *session, uint8_t joint)
+void session_update_trim(uint8_t joint)
 {
-    uint16_t master = session_word(session, 0, joint);
-    uint16_t slave = session_word(session, 1, joint);
+    uint16_t master = session_word(0, joint);
+    uint16_t slave = session_word(1, joint);
     if (cell_is_position(master) && cell_is_position(slave)) {
-        session_set_word(session, cell_address(CELL_X_OFFSET, joint), (uint16_t)(slave - master));
+        session_set_word(cell_address(CELL_X_OFFSET, joint), (uint16_t)(slave - master));
     }
 }
 
@@ -136,156 +139,155 @@ static uint8_t stored_byte(uint8_t page, bool erased, uint16_t offset)
 }
 
 /* Byte 31 is not edited and not compared: SAVE makes it. 2 ms when nothing differs. */
-static bool differs_from_flash(const session_t *session)
+static bool differs_from_flash(void)
 {
-    bool erased = page_store_is_erased(session->page);
+    bool erased = page_store_is_erased(the_session.page);
     for (uint16_t offset = 0; offset < PAGE_BYTES; offset++) {
-        if (session->cells[offset] != stored_byte(session->page, erased, offset) && offset != PAGE_AT_CHECKSUM) {
+        if (the_session.cells[offset] != stored_byte(the_session.page, erased, offset) && offset != PAGE_AT_CHECKSUM) {
             return true;
         }
     }
     return false;
 }
 
-static void fill(session_t *session, uint8_t from, bool erased)
+static void fill(uint8_t from, bool erased)
 {
     for (uint16_t offset = 0; offset < PAGE_BYTES; offset++) {
-        session_set_byte(session, offset, stored_byte(from, erased, offset));
+        session_set_byte(offset, stored_byte(from, erased, offset));
     }
-    session->was_damaged = !erased && page_store_look(from) == PAGE_ERR_CHECKSUM;
-    session->go_step = SESSION_NO_STEP;
+    the_session.was_damaged = !erased && page_store_look(from) == PAGE_ERR_CHECKSUM;
+    the_session.go_step = SESSION_NO_STEP;
 }
 
-void session_load(session_t *session, uint8_t from)
+void session_load(uint8_t from)
 {
-    fill(session, from, page_store_is_erased(from));
+    fill(from, page_store_is_erased(from));
 }
 
-void session_clear(session_t *session)
+void session_clear(void)
 {
-    fill(session, 0, true);
+    fill(0, true);
 }
 
-void session_open(session_t *session, uint8_t page)
+void session_open(uint8_t page)
 {
-    if ((page == 0) != (session->page == 0)) {
+    if ((page == 0) != (the_session.page == 0)) {
         for (uint8_t y = 0; y < PAGE_JOINTS; y++) {
-            session_mark(session, CELL_X_OFFSET, y);
+            session_mark(CELL_X_OFFSET, y);
         }
     }
-    session->page = page;
-    undo_clear(&session->undo);
-    session_load(session, page);
-    undo_clear(&session->undo);
-    session->undo_reloads = false;
-    session->spare_for = SESSION_SPARE_NONE;
-    session->is_changed = false;
-    session_mark(session, CELL_X_HEADER, CELL_Y_NUMBER);
-    session_mark(session, CELL_X_HEADER, CELL_Y_ADDRESS);
+    the_session.page = page;
+    undo_clear(&the_session.undo);
+    session_load(page);
+    undo_clear(&the_session.undo);
+    the_session.undo_reloads = false;
+    the_session.spare_for = SESSION_SPARE_NONE;
+    the_session.is_changed = false;
+    session_mark(CELL_X_HEADER, CELL_Y_NUMBER);
+    session_mark(CELL_X_HEADER, CELL_Y_ADDRESS);
 }
 
-void session_init(session_t *session)
+void session_init(void)
 {
-    memset(session, 0, sizeof *session);
-    undo_clear(&session->undo);
+    memset(&the_session, 0, sizeof the_session);
+    undo_clear(&the_session.undo);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        session_set_pose(session, joint, PAGE_POS_TORQUE_OFF);
+        session_set_pose(joint, PAGE_POS_TORQUE_OFF);
     }
-    session->cells[CELLS_POSE_AT + PAGE_STEP_AT_SPEED] = NEW_STEP_SPEED;
-    session_open(session, 1);
+    the_session.cells[CELLS_POSE_AT + PAGE_STEP_AT_SPEED] = NEW_STEP_SPEED;
+    session_open(1);
 }
 
-void session_saved(session_t *session)
+void session_saved(void)
 {
-    session->was_damaged = false;
-    session->undo_reloads = false;
-    session->is_changed = differs_from_flash(session);
+    the_session.was_damaged = false;
+    the_session.undo_reloads = false;
+    the_session.is_changed = differs_from_flash();
 }
 
 /* ---- editing commands ---- */
 
-static void begin(session_t *session, uint8_t turn)
+static void begin(uint8_t turn)
 {
-    session->was_changed = session->is_changed;
-    session->undo_reloads = false;
-    session->spare_for = SESSION_SPARE_NONE;
-    if (session->spare != NULL) {
-        memcpy(session->spare, session->cells, PAGE_BYTES);
+    the_session.was_changed = the_session.is_changed;
+    the_session.undo_reloads = false;
+    the_session.spare_for = SESSION_SPARE_NONE;
+    if (the_session.spare != NULL) {
+        memcpy(the_session.spare, the_session.cells, PAGE_BYTES);
     }
-    undo_begin(&session->undo, turn);
+    undo_begin(&the_session.undo, turn);
 }
 
-void session_begin(session_t *session)
+void session_begin(void)
 {
-    begin(session, UNDO_TURN_NONE);
+    begin(UNDO_TURN_NONE);
 }
 
-static uint16_t crc_of_spare(const session_t *session)
+static uint16_t crc_of_spare(void)
 {
-    return crc16_bytes(CRC16_START, session->spare, PAGE_BYTES);
+    return crc16_bytes(CRC16_START, the_session.spare, PAGE_BYTES);
 }
 
-static void keep_spare(session_t *session, uint8_t what_for)
+static void keep_spare(uint8_t what_for)
 {
-    if (session->spare != NULL) {
-        session->spare_for = what_for;
-        session->spare_crc = crc_of_spare(session);
+    if (the_session.spare != NULL) {
+        the_session.spare_for = what_for;
+        the_session.spare_crc = crc_of_spare();
     }
 }
 
 /* Exchanges the page and the spare one, if that is as it was left and meant for this. */
-static bool exchange_spare(session_t *session, bool back)
+static bool exchange_spare(bool back)
 {
-    if (session->spare == NULL || session->spare_for != (back ? SESSION_SPARE_UNDO : SESSION_SPARE_REDO) ||
-        session->spare_crc != crc_of_spare(session)) {
+    if (the_session.spare == NULL || the_session.spare_for != (back ? SESSION_SPARE_UNDO : SESSION_SPARE_REDO) ||
+        the_session.spare_crc != crc_of_spare()) {
         return false;
     }
     for (uint16_t address = 0; address < PAGE_BYTES; address++) {
-        uint8_t bits = session->spare[address] ^ session->cells[address];
+        uint8_t bits = the_session.spare[address] ^ the_session.cells[address];
         if (bits != 0) {
-            session->spare[address] ^= bits;
-            change_byte(session, address, bits);
+            the_session.spare[address] ^= bits;
+            change_byte(address, bits);
         }
     }
-    keep_spare(session, back ? SESSION_SPARE_REDO : SESSION_SPARE_UNDO);
+    keep_spare(back ? SESSION_SPARE_REDO : SESSION_SPARE_UNDO);
     return true;
 }
 
-bool session_end(session_t *session)
+bool session_end(void)
 {
-    bool kept = undo_end(&session->undo);
-    session->is_changed = differs_from_flash(session);
+    bool kept = undo_end(&the_session.undo);
+    the_session.is_changed = differs_from_flash();
     if (kept) {
         return true;
     }
-    session->undo_reloads = !session->was_changed;
-    keep_spare(session, SESSION_SPARE_UNDO);
-    return session->undo_reloads || session->spare_for != SESSION_SPARE_NONE;
+    the_session.undo_reloads = !the_session.was_changed;
+    keep_spare(SESSION_SPARE_UNDO);
+    return the_session.undo_reloads || the_session.spare_for != SESSION_SPARE_NONE;
 }
 
-static void swap_steps(session_t *session, uint8_t a, uint8_t b)
+static void swap_steps(uint8_t a, uint8_t b)
 {
     uint16_t at_a = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * a);
     uint16_t at_b = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * b);
     for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++, at_a++, at_b++) {
-        uint8_t bits = session->cells[at_a] ^ session->cells[at_b];
+        uint8_t bits = the_session.cells[at_a] ^ the_session.cells[at_b];
         if (bits != 0) {
-            change_byte(session, at_a, bits);
-            change_byte(session, at_b, bits);
+            change_byte(at_a, bits);
+            change_byte(at_b, bits);
         }
     }
 }
 
 /* UP first last: first -> first+1 -> .. -> last -> first. DOWN is the way back. Rotations are made of swaps of
  * neighbours, so nothing needs a spare step. */
-static void turn_steps(void *context, uint8_t turn, bool back)
+static void turn_steps(void *context __attribute__((unused)), uint8_t turn, bool back)
 {
-    session_t *session = context;
     uint8_t first = (turn >> 3) & 7u;
     uint8_t last = turn & 7u;
     uint8_t kind = turn & 0xC0u;
     if (kind == UNDO_TURN_SWAP) {
-        swap_steps(session, first, last);
+        swap_steps(first, last);
         return;
     }
     if (kind == UNDO_TURN_NONE) {
@@ -293,59 +295,59 @@ static void turn_steps(void *context, uint8_t turn, bool back)
     }
     if ((kind == UNDO_TURN_UP) != back) {
         for (uint8_t step = last; step > first; step--) {
-            swap_steps(session, (uint8_t)(step - 1u), step);
+            swap_steps((uint8_t)(step - 1u), step);
         }
     } else {
         for (uint8_t step = first; step < last; step++) {
-            swap_steps(session, step, (uint8_t)(step + 1u));
+            swap_steps(step, (uint8_t)(step + 1u));
         }
     }
 }
 
-static void flip_byte(void *context, uint16_t address, uint8_t bits)
+static void flip_byte(void *context __attribute__((unused)), uint16_t address, uint8_t bits)
 {
-    change_byte(context, address, bits);
+    change_byte(address, bits);
 }
 
-void session_begin_turn(session_t *session, uint8_t turn)
+void session_begin_turn(uint8_t turn)
 {
-    begin(session, turn);
-    turn_steps(session, turn, false);
+    begin(turn);
+    turn_steps(NULL, turn, false);
 }
 
-static NOINLINE bool travel(session_t *session, bool back)
+static NOINLINE bool travel(bool back)
 {
-    undo_target_t target = { session, flip_byte, turn_steps };
-    bool done = (back ? undo_back(&session->undo, &target) : undo_forth(&session->undo, &target)) ||
-                exchange_spare(session, back);
-    if (!done && back && session->undo_reloads) {
-        session_open(session, session->page);
+    undo_target_t target = { NULL, flip_byte, turn_steps };
+    bool done = (back ? undo_back(&the_session.undo, &target) : undo_forth(&the_session.undo, &target)) ||
+                exchange_spare(back);
+    if (!done && back && the_session.undo_reloads) {
+        session_open(the_session.page);
         return true;
     }
-    session->is_changed = differs_from_flash(session);
+    the_session.is_changed = differs_from_flash();
     return done;
 }
 
-bool session_undo(session_t *session)
+bool session_undo(void)
 {
-    return travel(session, true);
+    return travel(true);
 }
 
-bool session_redo(session_t *session)
+bool session_redo(void)
 {
-    return travel(session, false);
+    return travel(false);
 }
 
 /* ---- checks ---- */
 
-page_status_t session_check(const session_t *session)
+page_status_t session_check(void)
 {
-    if (session->was_damaged) {
+    if (the_session.was_damaged) {
         return PAGE_ERR_CHECKSUM;
     }
-    page_status_t status = page_check_header(session->cells);
-    for (uint8_t step = 0; status == PAGE_OK && step < session_steps(session); step++) {
-        status = page_check_step(&session->cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step]);
+    page_status_t status = page_check_header(the_session.cells);
+    for (uint8_t step = 0; status == PAGE_OK && step < session_steps(); step++) {
+        status = page_check_step(&the_session.cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step]);
     }
     return status;
 }
@@ -361,41 +363,41 @@ bool session_is_empty(uint8_t page)
 
 /* ---- cursor ---- */
 
-static void enter(session_t *session, uint8_t x, uint8_t y)
+static void enter(uint8_t x, uint8_t y)
 {
-    if (cell_kind(session->page, x, y) != CELL_NONE) {
-        session->x = x;
-        session->y = y;
+    if (cell_kind(the_session.page, x, y) != CELL_NONE) {
+        the_session.x = x;
+        the_session.y = y;
     }
 }
 
 /* Up and down: where a column ends, the one left of it goes on. */
-static void enter_row(session_t *session, uint8_t y)
+static void enter_row(uint8_t y)
 {
-    uint8_t x = session->x;
+    uint8_t x = the_session.x;
     if (y >= CELLS_ROWS) {
         return;
     }
-    while (cell_kind(session->page, x, y) == CELL_NONE) {
+    while (cell_kind(the_session.page, x, y) == CELL_NONE) {
         x--;
     }
-    enter(session, x, y);
+    enter(x, y);
 }
 
-void session_move(session_t *session, session_way_t way)
+void session_move(session_way_t way)
 {
     switch (way) {
     case SESSION_UP:
-        enter_row(session, (uint8_t)(session->y - 1u));
+        enter_row((uint8_t)(the_session.y - 1u));
         break;
     case SESSION_DOWN:
-        enter_row(session, (uint8_t)(session->y + 1u));
+        enter_row((uint8_t)(the_session.y + 1u));
         break;
     case SESSION_RIGHT:
-        enter(session, (uint8_t)(session->x + 1u), session->y);
+        enter((uint8_t)(the_session.x + 1u), the_session.y);
         break;
     case SESSION_LEFT:
-        enter(session, (uint8_t)(session->x - 1u), session->y);
+        enter((uint8_t)(the_session.x - 1u), the_session.y);
         break;
     }
 }

@@ -42,63 +42,65 @@ typedef struct {
     undo_t undo;
 } session_t;
 
+extern session_t the_session;   /* the only one: all functions here are about it */
+
 /* Opens page 1, as after power-on; the work pose is all torque off at 0, its speed that of a
  * new page: a first WRITE must not store speed 0. */
-void session_init(session_t *session);
+void session_init(void);
 
 /* Opens `page` (0..127) from flash; what was changed is dropped, the undo history too. Cursor and work pose stay. Only
  * cells that differ are marked. An erased page opens as a new one. */
-void session_open(session_t *session, uint8_t page);
+void session_open(uint8_t page);
 
 /* Editing commands: begin, any number of session_set..., end. */
-void session_begin(session_t *session);
-void session_set_byte(session_t *session, uint16_t address, uint8_t byte);
-void session_set_word(session_t *session, uint16_t address, uint16_t word);
+void session_begin(void);
+void session_set_byte(uint16_t address, uint8_t byte);
+void session_set_word(uint16_t address, uint16_t word);
 /* Recomputes is_changed. false: the change is done but cannot be undone. */
-bool session_end(session_t *session);
+bool session_end(void);
 
 /* Whole-page edits; each within begin and end. They can be undone even when undo.h has no room for them: from the spare
  * page, if there was one, or if the page was as in flash before. session_load: the contents of flash page `from` (COPY). */
-void session_load(session_t *session, uint8_t from);
-void session_clear(session_t *session);
+void session_load(uint8_t from);
+void session_clear(void);
 /* Permutes whole steps (UNDO_TURN(...)): instead of session_begin, before any session_set. */
-void session_begin_turn(session_t *session, uint8_t turn);
+void session_begin_turn(uint8_t turn);
 
 /* One command back, or forth again. false: there is none. */
-bool session_undo(session_t *session);
-bool session_redo(session_t *session);
+bool session_undo(void);
+bool session_redo(void);
 
 /* The work pose: never undone. */
-void session_set_pose(session_t *session, uint8_t joint, uint16_t word);
-uint16_t session_pose(const session_t *session, uint8_t joint);
+void session_set_pose(uint8_t joint, uint16_t word);
+uint16_t session_pose(uint8_t joint);
 
 /* Page 0: the trim of `joint` (third step) from master pose and this robot's pose, when both are positions. */
-void session_update_trim(session_t *session, uint8_t joint);
+void session_update_trim(uint8_t joint);
 
 /* Number of steps, 0..7 whatever the page says. */
-uint8_t session_steps(const session_t *session);
+uint8_t session_steps(void);
 
 /* Word of joint in step 0..6. */
-uint16_t session_word(const session_t *session, uint8_t step, uint8_t joint);
+uint16_t session_word(uint8_t step, uint8_t joint);
 
 /* What flash would hold for byte `offset` of a new page. */
 uint8_t session_new_byte(uint16_t offset);
 
 /* What is wrong with the page as it stands here: its checksum as it was opened, the rest as it is now. */
-page_status_t session_check(const session_t *session);
+page_status_t session_check(void);
 
 /* true when flash page `page` holds nothing: erased, or a good page without name and step. */
 bool session_is_empty(uint8_t page);
 
 /* The page was written to flash as it is. */
-void session_saved(session_t *session);
+void session_saved(void);
 
 /* Marks. */
-void session_mark(session_t *session, uint8_t x, uint8_t y);
-void session_mark_all(session_t *session);
+void session_mark(uint8_t x, uint8_t y);
+void session_mark_all(void);
 
 /* Moves the cursor one cell, as editor-original.md section 4 says; what does not exist is not entered. */
 typedef enum { SESSION_UP, SESSION_DOWN, SESSION_RIGHT, SESSION_LEFT } session_way_t;
-void session_move(session_t *session, session_way_t way);
+void session_move(session_way_t way);
 
 #endif

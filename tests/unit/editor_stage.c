@@ -18,8 +18,6 @@
 
 enum { TURN_HALF_US = 1000, TURNS_A_TICK_MAX = 1000, ROOM_A_TURN = 3 };   /* 57,600 baud: 5.8 bytes a ms */
 
-editor_t the_editor;
-session_t the_session;
 page_store_t the_pages;
 servo_link_t the_servos;
 performer_t the_performer;
@@ -39,9 +37,8 @@ bool page_service_post(uint8_t motion_page, const uint8_t data[512])
     return motion_page < PAGE_COUNT;
 }
 
-void mon_toss(editor_t *editor)
+void mon_toss(void)
 {
-    (void)editor;
 }
 
 /* ---- the terminal ---- */
@@ -177,7 +174,7 @@ void run_ms(uint32_t ms)
         fake_time_half_us(TURN_HALF_US);
         const uint8_t room = console_room();
         fake_console_set_room((uint8_t)(room + ROOM_A_TURN < CONSOLE_TX_BYTES ? room + ROOM_A_TURN : CONSOLE_TX_BYTES));
-        for (uint16_t i = 0; editor_turn(&the_editor); i++) {
+        for (uint16_t i = 0; editor_turn(); i++) {
             TEST_ASSERT_TRUE_MESSAGE(i < TURNS_A_TICK_MAX, "the editor does not come to rest");
             take_output();
         }
@@ -240,7 +237,7 @@ static void store_pages(void)
 
 static void put(char character)
 {
-    editor_put(&the_editor, character);
+    editor_put(character);
 }
 
 void setUp(void)
@@ -265,7 +262,7 @@ void setUp(void)
     servo_link_init(&the_servos);
     servo_link_scan(&the_servos);
     performer_init(&the_performer, &the_pages.source, &the_servos, &the_settings);
-    editor_init(&the_editor);
+    editor_init();
     run_ms(2000);
     clear_sent();
 }

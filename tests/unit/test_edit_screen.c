@@ -155,7 +155,7 @@ static void test_keys_do_not_wait_for_the_screen(void)
     fake_console_type("]]}");
     for (uint8_t turn = 0; turn < 50; turn++) {
         fake_console_set_room(0);
-        TEST_ASSERT_FALSE(editor_turn(&the_editor));
+        TEST_ASSERT_FALSE(editor_turn());
     }
     TEST_ASSERT_EQUAL_UINT16(415, the_session.cells[70] | the_session.cells[71] << 8);
     TEST_ASSERT_EQUAL(0, fake_console_output_count());

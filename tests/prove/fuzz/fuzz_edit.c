@@ -17,9 +17,8 @@
 #include "mon.h"
 
 /* TOSS hands any bytes to the bus: the simulated board has it (fuzz.py). */
-void mon_toss(editor_t *e)
+void mon_toss(void)
 {
-    (void)e;
 }
 
 /* Out of any mode: Ctrl-C ends plays and lines, ESC lists and questions, Ctrl-U CR a program's line; a monitor says so in
