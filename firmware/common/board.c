@@ -38,6 +38,14 @@ void board_idle(void)
     }
 }
 
+void board_restart(settings_store_t *store, const settings_t *settings)
+{
+    system_kick();
+    settings_save_finish(store, settings);
+    console_flush();
+    system_restart();
+}
+
 bool board_record(app_record_t *record)
 {
     static const char magic[4] PROGMEM = APP_RECORD_MAGIC;

@@ -6,7 +6,6 @@
 #include "bound.h"
 #include "crc16.h"
 #include "report.h"
-#include "system.h"
 #include "text.h"
 #include "tick.h"
 
@@ -264,7 +263,7 @@ static uint8_t do_reset(void *context, const shell_args_t *args)
     if (!performer_is_idle(MACHINE_PERFORMER(machine))) {
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
     }
-    system_restart();
+    MACHINE_IMAGE(machine)->restart(MACHINE_IMAGE(machine)->context);
 }
 
 /* ---- dispatch ---- */

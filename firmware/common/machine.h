@@ -50,8 +50,8 @@ typedef enum {
     MACHINE_ERR_UNSAVED = 12   /* the page in RAM has edits that would be lost */
 } machine_status_t;
 
-/* What an image adds. NULL is allowed for service, and for ram_page: then there is no page in RAM, the three below are not
- * used and the commands for it are MACHINE_ERR_IMAGE. */
+/* What an image adds. NULL is allowed for service, and for ram_page: then there is no page in RAM, open, changed and
+ * save are not used and the commands for it are MACHINE_ERR_IMAGE. */
 typedef struct {
     const char *name_P;                                    /* "play" */
     /* What may not wait, between the parts of a command that takes long. */
@@ -63,6 +63,8 @@ typedef struct {
     void (*changed)(void *context);
     /* Saves the page in RAM as page n. */
     machine_status_t (*save)(void *context, uint8_t page);
+    /* board_restart with the image's settings. Never NULL. */
+    void (*restart)(void *context) __attribute__((noreturn));
     void *context;
 } machine_image_t;
 

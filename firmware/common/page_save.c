@@ -4,7 +4,6 @@
 #include "console.h"
 #include "journal.h"
 #include "page_service.h"
-#include "system.h"
 #include "tick.h"
 
 page_save_status_t page_save(uint8_t page, uint8_t bytes[PAGE_BYTES])
@@ -27,6 +26,4 @@ void page_save_by_mailbox(uint8_t page, uint8_t bytes[PAGE_BYTES])
 {
     page_seal(bytes);
     (void)!page_service_post(page, bytes);
-    console_flush();
-    system_restart();
 }

@@ -23,7 +23,8 @@ typedef enum {
  * (page_store_refresh): not done here, so that the answer comes first. */
 MUST_CHECK page_save_status_t page_save(uint8_t page, uint8_t bytes[PAGE_BYTES]);
 
-/* Leaves the page in the mailbox of the factory loader and restarts the controller: 4.5 s. Never returns. */
-void page_save_by_mailbox(uint8_t page, uint8_t bytes[PAGE_BYTES]) __attribute__((noreturn));
+/* Sets the checksum byte and leaves the page in the mailbox of the factory loader, which saves it at the next start (4.5 s):
+ * board_restart has to follow. */
+void page_save_by_mailbox(uint8_t page, uint8_t bytes[PAGE_BYTES]);
 
 #endif

@@ -159,12 +159,17 @@ bool settings_save_poll(settings_store_t *store, const settings_t *settings)
     return true;
 }
 
+void settings_save_finish(settings_store_t *store, const settings_t *settings)
+{
+    while (settings_save_poll(store, settings)) {
+        eeprom_wait();
+    }
+}
+
 void settings_save(settings_store_t *store, const settings_t *settings)
 {
     settings_save_start(store);
-    do {
-        eeprom_wait();
-    } while (settings_save_poll(store, settings));
+    settings_save_finish(store, settings);
 }
 
 /* ---- by name ---- */

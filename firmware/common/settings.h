@@ -63,7 +63,10 @@ settings_status_t settings_load(settings_store_t *store, settings_t *settings);
 void settings_save_start(settings_store_t *store);
 bool settings_save_poll(settings_store_t *store, const settings_t *settings);   /* true: not done yet */
 
-/* Both in one, blocking: up to 0.45 s. Not while something moves. */
+/* Blocks until a save under way is done: up to 0.45 s, nothing when there is none. Not while something moves. */
+void settings_save_finish(settings_store_t *store, const settings_t *settings);
+
+/* Start and finish in one. */
 void settings_save(settings_store_t *store, const settings_t *settings);
 
 /* Settings by name, for a line shell: all but the pairs. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * cmd_page.c - the page as a whole: open, copy, new, save, name, undo, and leaving. */
+#include "board.h"
 #include "commands.h"
 #include "compiler.h"
 #include "console.h"
@@ -7,7 +8,6 @@
 #include "page_save.h"
 #include "page_service.h"
 #include "pgm.h"
-#include "system.h"
 #include "text.h"
 
 #define PAGE_MAX (PAGE_COUNT - 1u)
@@ -130,6 +130,7 @@ static uint8_t save_by_mailbox(uint8_t page)
         return EDITOR_TO_ASK;
     }
     page_save_by_mailbox(page, the_session.cells);
+    board_restart(&the_settings_store, &the_settings);
 }
 
 /* Says how it went; what follows from it comes behind, so that OK is on the line within 60 ms. */
@@ -172,8 +173,7 @@ COMMAND(cmd_exit)
     if (!editor_ask_unsaved()) {
         return EDITOR_TO_ASK;
     }
-    console_flush();
-    system_restart();
+    board_restart(&the_settings_store, &the_settings);
 }
 
 /* ---- name ---- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * editor_program.c - the page in RAM for others: for the performer, and for programs on the line (machine.h). */
 #include <string.h>
+#include "board.h"
 #include "editor_parts.h"
 #include "page_save.h"
 #include "pgm.h"
@@ -71,6 +72,11 @@ static void program_service(void *context __attribute__((unused)))
     performer_poll(&the_performer);
 }
 
+static void __attribute__((noreturn)) program_restart(void *context __attribute__((unused)))
+{
+    board_restart(&the_settings_store, &the_settings);
+}
+
 static const char image_name[] PROGMEM = "edit";
 const machine_image_t editor_image = { image_name, program_service, program_page, program_open, program_changed,
-                                         program_save, NULL };
+                                         program_save, program_restart, NULL };

@@ -32,7 +32,15 @@ static void serve_machine(void *context)
     play_service(context);
 }
 
-static const machine_image_t machine_image = {.name_P = machine_name, .service = serve_machine, .context = &play};
+static void __attribute__((noreturn)) restart(void *context)
+{
+    (void)context;
+    board_restart(&play.store, &play.settings);
+}
+
+static const machine_image_t machine_image = {
+    .name_P = machine_name, .service = serve_machine, .restart = restart, .context = &play
+};
 
 /* Characters since the last line end: what a status line must cover. */
 static uint8_t column;

@@ -429,3 +429,14 @@ def test_links_are_checked_not_cut(r):
     assert r.cell(9, 14) == "000"   # keys wrap at 127
     r.keys("[")
     assert r.cell(9, 14) == "127" and r.ram_page()[25] == 127
+
+
+@pytest.mark.parametrize("restart", ["exit", "@reset"])
+def test_setting_answered_ok_outlives_a_restart_at_once(restart):
+    with robot() as r:
+        r.keys("pairs 1 5\r")
+        r.board.send(restart + "\r", wait=True)
+        r.board.run(ms=1000)   # through the loader
+        r.terminal.screen.reset()
+        r.settle(ms=1500)
+        assert "1-5" in r.line("pairs")
