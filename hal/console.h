@@ -62,7 +62,8 @@ void console_flush(void);
 void console_set_flow(bool on);
 
 /* With flow control on: sends XOFF now, blocks until it has left, and keeps the PC silent until console_resume. Before
- * times without interrupts (a page write). Does nothing with flow control off. */
+ * times without interrupts (a page write). Holds are counted (at most 255): the PC goes on when every hold has had its
+ * resume, so that a search of servos may hold it while a full shell does. Both do nothing with flow control off. */
 void console_hold(void);
 void console_resume(void);
 

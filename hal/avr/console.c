@@ -24,7 +24,8 @@ static struct {
     volatile bool xoff_is_out;       /* under flow control: the PC was told to stop */
     volatile uint8_t since_xoff;     /* bytes that came all the same, modulo XOFF_AGAIN_BYTES */
     volatile bool has_sent;          /* TXC means something */
-    bool flow, held;
+    bool flow;
+    uint8_t holds;                   /* console_hold without its console_resume */
     console_counts_t counts;         /* ISR */
 } line;
 
@@ -59,7 +60,7 @@ bool console_get(uint8_t *byte)
     if (!ring_get(&line.rx, byte)) {
         return false;
     }
-    if (line.xoff_is_out && !line.held && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
+    if (line.xoff_is_out && line.holds == 0 && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }
@@ -114,7 +115,7 @@ void console_flush(void)
 void console_set_flow(bool on)
 {
     line.flow = on;
-    line.held = false;
+    line.holds = 0;
     if (on || line.xoff_is_out) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
@@ -126,7 +127,7 @@ void console_hold(void)
     if (!line.flow) {
         return;
     }
-    line.held = true;
+    line.holds++;
     line.xoff_is_out = true;
     line.since_xoff = 0;
     send_flow(CONSOLE_XOFF);
@@ -137,8 +138,10 @@ void console_hold(void)
 
 void console_resume(void)
 {
-    line.held = false;
-    if (line.xoff_is_out && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
+    if (line.holds != 0) {
+        line.holds--;
+    }
+    if (line.holds == 0 && line.xoff_is_out && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }

@@ -13,7 +13,8 @@ static char output[OUTPUT_BYTES + 1];
 static size_t output_count;
 static uint8_t room, rate, received, sent;
 static volatile uint8_t lost;
-static bool flow, held;
+static bool flow;
+static uint8_t holds;
 static console_counts_t counters;
 
 void fake_console_reset(void)
@@ -27,7 +28,7 @@ void fake_console_reset(void)
     sent = 0;
     lost = 0;
     flow = false;
-    held = false;
+    holds = 0;
 }
 
 void fake_console_type_bytes(const void *bytes, size_t count)
@@ -75,7 +76,7 @@ uint8_t fake_console_rate(void)
 
 int fake_console_is_held(void)
 {
-    return held;
+    return holds != 0;
 }
 
 void console_init(void)
@@ -141,17 +142,17 @@ void console_flush(void)
 void console_set_flow(bool on)
 {
     flow = on;
-    held = false;
+    holds = 0;
 }
 
 void console_hold(void)
 {
-    held = flow;
+    holds = (uint8_t)(holds + (flow ? 1 : 0));
 }
 
 void console_resume(void)
 {
-    held = false;
+    holds = (uint8_t)(holds - (holds != 0 ? 1 : 0));
 }
 
 ring_t *console_rx_ring(void)

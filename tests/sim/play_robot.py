@@ -24,6 +24,7 @@ SESSIONS = TOP / "tests" / "golden" / "sessions"
 GOLDEN = TOP / "tests" / "golden"
 IMAGE = "play-cm5.hex"
 UP, DOWN, LEFT, RIGHT, PAUSE, STOP = 1, 2, 4, 8, 256, 512
+XON, XOFF = 0x11, 0x13
 
 
 def walk_steps(turn=0):
@@ -82,6 +83,23 @@ def ask(board, line, ms=3000):
     board.send(line + "\r")
     text = board.expect("\r\n] ", ms=ms)
     return text.replace("\r\n", "\n").split("\n", 1)[1][:-2].strip("\n")
+
+
+def paste(board, text, behind_xoff=16):
+    """Types at line rate as a terminal with software flow control does: `behind_xoff` bytes still leave behind an XOFF.
+    Returns what the board said meanwhile, without these two."""
+    data, sent, may_send, heard = text.encode("latin-1"), 0, True, bytearray()
+    while sent < len(data) or board.waiting:
+        if may_send and board.waiting < behind_xoff and sent < len(data):
+            board.send(data[sent:sent + behind_xoff])
+            sent += behind_xoff
+        board.run(ms=1)
+        new = board.take()
+        for byte in new:
+            if byte in (XON, XOFF):
+                may_send = byte == XON
+        heard += new
+    return bytes(heard).translate(None, bytes((XON, XOFF)))
 
 
 def tick_of(board):

@@ -2,7 +2,7 @@
 """Play on the simulated robot: what it does beside talking. The words are in test_play_sessions.py."""
 import pytest
 
-from play_robot import JOINTS, PAUSE, STOP, UP, ask, motions, page, robot, tick_of
+from play_robot import JOINTS, PAUSE, STOP, UP, ask, motions, page, paste, robot, tick_of
 from m512.files.image import Image
 
 TORQUE, GOAL, PUNCH = 24, 30, 48
@@ -302,7 +302,26 @@ def test_search_answers_when_it_is_done_and_misses_nothing_typed():
     assert "4 servos: 1-3 7" in board.expect("Motion512 Play", ms=2000)
 
 
+def test_search_in_a_pasted_script_loses_nothing_of_it():
+    board = robot(servos=[1, 2, 3])
+    words = ["version"] * 20 + ["servos find"] + ["version"] * 60 + ["servos find", "servos find"] + ["version"] * 60
+    heard = paste(board, "\r".join(words) + "\r")
+    board.run(ms=3000)
+    heard += board.take().translate(None, b"\x11\x13")
+    assert heard.count(b"Motion512 Play") == 140 and heard.count(b"3 servos: 1-3") == 3
+    assert counts(board)["lost"] == 0
+
+
 # --- settings, boards ---
+
+def test_setting_answered_ok_outlives_a_reset_at_once():
+    board = robot()
+    assert ask(board, "settings approach 77").endswith("OK")
+    board.send("@reset\r", wait=True)
+    board.expect("Motion512 Play", ms=2000)
+    board.expect("] ", ms=2000)
+    assert "approach 77 " in ask(board, "settings")
+
 
 def test_settings_outlive_power_off():
     board = robot()
