@@ -264,6 +264,7 @@ static uint8_t do_reset(void *context, const shell_args_t *args)
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
     }
     MACHINE_IMAGE(machine)->restart(MACHINE_IMAGE(machine)->context);
+    return MACHINE_OK;
 }
 
 /* ---- dispatch ---- */

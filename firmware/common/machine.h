@@ -63,8 +63,8 @@ typedef struct {
     void (*changed)(void *context);
     /* Saves the page in RAM as page n. */
     machine_status_t (*save)(void *context, uint8_t page);
-    /* board_restart with the image's settings. Never NULL. */
-    void (*restart)(void *context) __attribute__((noreturn));
+    /* board_restart with the image's settings: does not come back. Never NULL. */
+    void (*restart)(void *context);
     void *context;
 } machine_image_t;
 

@@ -234,6 +234,11 @@ void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_J
     link->slopes_wait = 2;
 }
 
+uint8_t servo_link_write_answer(const servo_link_t *link, uint8_t id)
+{
+    return servo_link_has(&link->no_reply, id) ? BUS_NO_ANSWER : 0;
+}
+
 /* REG WRITE of slopes and goal to the next servo that is deaf to SYNC WRITE. */
 static void send_deaf(servo_link_t *link)
 {
@@ -244,7 +249,7 @@ static void send_deaf(servo_link_t *link)
                                 (uint8_t)(pos >> 8) };
     servo_link_put(&link->slopes_pending, id, false);
     (void)bus_submit(dxl_build(bus_packet(), id, DXL_REG_WRITE, params, sizeof params),
-                     servo_link_has(&link->no_reply, id) ? BUS_NO_ANSWER : 0, 1);
+                     servo_link_write_answer(link, id), 1);
 }
 
 /* ---- health ---- */

@@ -127,6 +127,14 @@ uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo
  * that was so. NULL: no trim. Poses heard before are forgotten. */
 uint32_t servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LINK_JOINTS]);
 
+/* WRITE of `count` (1..4) bytes from address `at` on to one servo that is present; blocks 0.4..0.9 ms. A servo that does not
+ * answer WRITE (no_reply) is told and not waited for: true then says only that it was sent. false: an answer that was due
+ * did not come. For the RAM area (address 24 on). servo_link_quiet first. */
+MUST_CHECK bool servo_link_write(const servo_link_t *link, uint8_t id, uint8_t at, const uint8_t *from, uint8_t count);
+
+/* What a WRITE to this servo is answered with, as bus_submit's answer_params: the one place that knows `no_reply`. */
+uint8_t servo_link_write_answer(const servo_link_t *link, uint8_t id);
+
 /* A call of one's own to a joint that is present was not answered, and the caller says so: it counts as silent, so that
  * servo_link_next_fault tells when it answers again. Those below do this for poses and torque. */
 static inline void servo_link_lost(servo_link_t *link, uint8_t id)

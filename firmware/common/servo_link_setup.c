@@ -10,6 +10,7 @@
 #include <string.h>
 
 #define PING_TRIES 2u
+#define WRITE_BYTES_MAX 4u
 /* Torque enable .. present position: what torque_on and read_pose look at. */
 #define READ_FROM DXL_AT_TORQUE_ENABLE
 #define READ_BYTES (DXL_AT_PRESENT + 2u - READ_FROM)
@@ -43,12 +44,19 @@ static bool read_byte(uint8_t id, uint8_t at, uint8_t *byte)
     return bus_call_read(id, at, byte, 1, NULL) == BUS_OK;
 }
 
-/* WRITE of one or two bytes to one servo, whether it answers or not. */
+bool servo_link_write(const servo_link_t *link, uint8_t id, uint8_t at, const uint8_t *from, uint8_t count)
+{
+    uint8_t params[1u + WRITE_BYTES_MAX] = { at };
+    memcpy(&params[1], from, count);
+    return bus_call(id, DXL_WRITE, params, (uint8_t)(count + 1u), servo_link_write_answer(link, id), BUS_CALL_TRIES, NULL)
+        == BUS_OK;
+}
+
+/* One or two bytes; whoever calls looks at the servo afterwards. */
 static void write_one(const servo_link_t *link, uint8_t id, uint8_t at, uint16_t value, uint8_t count)
 {
-    const uint8_t params[3] = { at, (uint8_t)value, (uint8_t)(value >> 8) };
-    uint8_t answer = servo_link_has(&link->no_reply, id) ? BUS_NO_ANSWER : 0;
-    (void)bus_call(id, DXL_WRITE, params, (uint8_t)(count + 1u), answer, BUS_CALL_TRIES, NULL);
+    const uint8_t bytes[2] = { (uint8_t)value, (uint8_t)(value >> 8) };
+    (void)!servo_link_write(link, id, at, bytes, count);
 }
 
 /* ---- search ---- */

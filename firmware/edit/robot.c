@@ -93,7 +93,7 @@ static void write_goal(uint8_t joint, uint16_t present, uint16_t pos)
         speed = ROBOT_SLOWEST;
     }
     uint8_t bytes[4] = { (uint8_t)goal, (uint8_t)(goal >> 8), (uint8_t)speed, (uint8_t)(speed >> 8) };
-    if (bus_call_write(joint, DXL_AT_GOAL, bytes, sizeof bytes, NULL) != BUS_OK) {
+    if (!servo_link_write(&the_servos, joint, DXL_AT_GOAL, bytes, sizeof bytes)) {
         fail(joint);
     }
 }

@@ -42,6 +42,22 @@ def test_on_holds_the_pose_made_by_hand_and_off_lets_go():
         assert not any(r.board.servos[joint].torque for joint in range(1, 19))
 
 
+def test_servos_that_answer_read_only_are_driven_and_not_called_dead():
+    with start() as r:
+        for joint in range(1, 19):
+            r.board.servos[joint].write(16, [1])   # status return level; Edit looks at it when it starts
+        r.board.reset()
+        r.terminal.screen.reset()
+        r.settle(ms=1500)
+        r.line("page 5")
+        r.line("on")
+        mark = len(r.board.packets)
+        r.line("go 0", ms=2000)
+        assert "ervo" not in r.message
+        assert goals(r)[1] == 400 and r.board.servos[1].table[32] == (512 - 400) // 4
+        assert len([packet for packet in writes_since(r, mark) if packet[2] == 1]) == 1   # not asked again
+
+
 def test_teaching_off_pose_on_write():
     with start() as r:
         r.line("off")
