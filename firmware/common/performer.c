@@ -5,10 +5,6 @@
 #include "bound.h"
 #include "performer_parts.h"
 
-#define SECOND_STOP_TICKS PLAYER_TICKS_PER_SECOND
-
-/* ---- beginning and end ---- */
-
 void performer_init(performer_t *performer, const page_source_t *source, servo_link_t *servos,
                     const settings_t *settings)
 {
@@ -24,9 +20,27 @@ void performer_set_source(performer_t *performer, const page_source_t *source)
     player_init(&performer->engine.player, source);
 }
 
+/* ---- what it is doing ---- */
+
 bool performer_is_idle(const performer_t *performer)
 {
     return performer->state == PERFORMER_IDLE;
+}
+
+bool performer_is_paused(const performer_t *performer)
+{
+    return performer->state == PERFORMER_STOOD ||
+           (performer->state == PERFORMER_PLAY && player_is_paused(&performer->engine.player));
+}
+
+uint32_t performer_usable(const performer_t *performer)
+{
+    return PERFORMER_SERVOS(performer)->present & ~performer->released;
+}
+
+bool performer_next_event(performer_t *performer, performer_event_t *event)
+{
+    return performer_event_take(&performer->events, event);
 }
 
 /* The end of the player: behind the approach, and behind the goals that servo_link may still be sending. */
@@ -38,29 +52,7 @@ uint8_t *performer_spare(performer_t *performer)
     return performer_is_idle(performer) ? (uint8_t *)(&performer->engine + 1) - PAGE_BYTES : NULL;
 }
 
-bool performer_is_paused(const performer_t *performer)
-{
-    return performer->state == PERFORMER_STOOD ||
-           (performer->state == PERFORMER_PLAY && player_is_paused(&performer->engine.player));
-}
-
-void performer_finish(performer_t *performer, uint8_t end)
-{
-    uint8_t page_fault = PAGE_OK;
-    if (performer->state == PERFORMER_PLAY) {
-        const player_t *player = &performer->engine.player;
-        performer->page = player->fault != PAGE_OK ? player->fault_page : player->page;
-        page_fault = player->fault;
-    }
-    performer->state = PERFORMER_IDLE;
-    performer_tell(performer, PERFORMER_EV_ENDED, performer->page, page_fault, end);
-}
-
-/* Joints that answer the bus and were not switched off by hand. */
-static uint32_t usable(const performer_t *performer)
-{
-    return PERFORMER_SERVOS(performer)->present & ~performer->released;
-}
+/* ---- start ---- */
 
 static performer_status_t somebody_can_move(const performer_t *performer)
 {
@@ -70,20 +62,17 @@ static performer_status_t somebody_can_move(const performer_t *performer)
     if (PERFORMER_SERVOS(performer)->present == 0) {
         return PERFORMER_ERR_NO_SERVOS;
     }
-    return usable(performer) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
+    return performer_usable(performer) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
 }
 
-static void get_ready(performer_t *performer)
+/* Binds the player anew and starts it at `page` from pose_pos. */
+static player_status_t start_player(performer_t *performer, uint8_t page, uint32_t joints)
 {
-    performer->ready_left = usable(performer);
-    performer->joints = 0;
-    performer->faulty = 0;
-    performer->leaving = false;
-    performer->pausing = false;
-    performer->told_battery = false;
-    performer->told_hot = false;
-    performer->end = PERFORMER_END_DONE;
-    performer->state = PERFORMER_READY;
+    player_t *player = &performer->engine.player;
+    const player_law_t law =
+        PERFORMER_SETTINGS(performer)->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;
+    player_init(player, performer->source);
+    return player_start(player, &performer->link, page, law, performer->pose_pos, joints);
 }
 
 static performer_status_t refusal(performer_t *performer, player_status_t status)
@@ -120,7 +109,7 @@ performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t
     }
     /* A start without joints, only to hear what the player has against this page. It may use the links up: call again. */
     call_link(performer, code);
-    status = refusal(performer, performer_start_player(performer, page, 0));
+    status = refusal(performer, start_player(performer, page, 0));
     if (status != PERFORMER_OK) {
         player_init(&performer->engine.player, performer->source);
         return status;
@@ -130,7 +119,7 @@ performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t
     performer->first_page = performer->engine.player.page;
     performer->move_deg_s = 0;
     performer->since_stop_ticks = UINT8_MAX;
-    get_ready(performer);
+    performer_get_ready(performer);
     return PERFORMER_OK;
 }
 
@@ -146,43 +135,57 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
     performer->move_deg_s = deg_s;
     performer->move_joints = joints;
     performer->since_stop_ticks = UINT8_MAX;
-    get_ready(performer);
+    performer_get_ready(performer);
     return PERFORMER_OK;
 }
 
-/* ---- the loop and the tick ---- */
+/* ---- from one state to the next ---- */
 
-void performer_poll(performer_t *performer)
+/* Every joint stands where the page or the move begins. */
+static void begin(performer_t *performer)
 {
-    servo_link_poll(PERFORMER_SERVOS(performer));
-    performer_watch(performer);
-    if (performer->state == PERFORMER_READY) {
-        performer_ready_poll(performer);
+    if (performer->move_deg_s != 0) {
+        performer_go_idle(performer, PERFORMER_END_THERE);
+        return;
+    }
+    performer->state = PERFORMER_PLAY;
+    performer->slopes_due = false;
+    if (start_player(performer, performer->page, performer->joints) != PLAYER_OK) {
+        performer_go_idle(performer, PERFORMER_END_PAGE);
+    }
+}
+
+static void poll_ready(performer_t *performer)
+{
+    if (performer->leaving) {
+        performer_go_idle(performer, performer->end_reason);
+        return;
+    }
+    switch (performer_ready_poll(performer)) {
+    case READY_SILENT:
+        performer_go_idle(performer, PERFORMER_END_SERVO);
+        break;
+    case READY_APPROACH:
+        performer->state = PERFORMER_APPROACH;
+        break;
+    case READY_THERE:
+        begin(performer);
+        break;
+    default:
+        break;
     }
 }
 
 static void approach_over(performer_t *performer)
 {
     if (performer->leaving) {
-        performer_finish(performer, performer->end);
+        performer_go_idle(performer, performer->end_reason);
     } else if (performer->pausing) {
         performer->state = PERFORMER_STOOD;
-        performer_tell(performer, PERFORMER_EV_PAUSED, performer->page, 0, 0);
-    } else if (performer->move_deg_s != 0) {
-        performer_finish(performer, PERFORMER_END_THERE);
+        performer_event_put(&performer->events, PERFORMER_EV_PAUSED, performer->page, 0, 0);
     } else {
-        performer_begin_page(performer);
+        begin(performer);
     }
-}
-
-/* The compliance bytes of the page that has just begun, to the servos: a tick or more after its first goals, because the
- * tick in which a page begins has enough to do. */
-static NOINLINE void send_slopes(performer_t *performer)
-{
-    uint8_t compliance[PAGE_JOINTS];
-    performer->source->read(performer->source->context, performer->engine.player.page, PAGE_AT_COMPLIANCE, compliance,
-                            sizeof compliance);
-    servo_link_slopes(PERFORMER_SERVOS(performer), compliance);
 }
 
 static uint8_t why_ended(const performer_t *performer)
@@ -191,8 +194,8 @@ static uint8_t why_ended(const performer_t *performer)
     if (player->fault != PAGE_OK) {
         return PERFORMER_END_PAGE;
     }
-    if (performer->leaving || performer->end != PERFORMER_END_DONE) {
-        return performer->end;
+    if (performer->leaving || performer->end_reason != PERFORMER_END_DONE) {
+        return performer->end_reason;
     }
     if (player->link_taken == LINK_END_OF_EXIT_LOOP) {
         return PERFORMER_END_LOOP;
@@ -200,7 +203,49 @@ static uint8_t why_ended(const performer_t *performer)
     return link_is_stopping(&performer->link) ? PERFORMER_END_STOPPED : PERFORMER_END_DONE;
 }
 
-static NOINLINE void approach_or_move_tick(performer_t *performer)
+/* ---- the loop ---- */
+
+static void act_on(performer_t *performer, performer_verdict_t verdict, uint32_t joint)
+{
+    performer_drop(performer, joint);
+    if (verdict == WATCH_LIMP) {
+        servo_link_torque_off(PERFORMER_SERVOS(performer), joint);
+        return;
+    }
+    performer->end_reason = PERFORMER_END_SERVO;
+    if (verdict == WATCH_EXIT) {
+        performer_stop_softly(performer);
+    } else {
+        performer_break(performer);
+    }
+}
+
+void performer_poll(performer_t *performer)
+{
+    uint32_t failed;
+    performer_verdict_t verdict;
+    servo_link_poll(PERFORMER_SERVOS(performer));
+    while ((verdict = performer_watch(performer, &failed)) != WATCH_GO_ON) {
+        act_on(performer, verdict, failed);
+    }
+    if (performer->state == PERFORMER_READY) {
+        poll_ready(performer);
+    }
+}
+
+/* ---- the tick ---- */
+
+/* The compliance bytes of the page that has just begun, to the servos. Not inlined: the tick would keep 31 bytes of stack
+ * for what happens once a page. */
+static NOINLINE void send_slopes(performer_t *performer)
+{
+    uint8_t compliance[PAGE_JOINTS];
+    performer->source->read(performer->source->context, performer->engine.player.page, PAGE_AT_COMPLIANCE, compliance,
+                            sizeof compliance);
+    servo_link_slopes(PERFORMER_SERVOS(performer), compliance);
+}
+
+static void approach_or_move_tick(performer_t *performer)
 {
     const bool under_way = approach_tick(&performer->engine.approach, performer->pose_pos);
     const uint32_t joints = performer->engine.approach.joints & performer->joints;
@@ -210,35 +255,44 @@ static NOINLINE void approach_or_move_tick(performer_t *performer)
     }
 }
 
+/* Tells what the player did in this tick. */
+static void tell(performer_t *performer, uint8_t events)
+{
+    const player_t *player = &performer->engine.player;
+    if ((events & PLAYER_EV_STEP) != 0) {
+        performer->page = player->page;
+        performer_event_put(&performer->events, PERFORMER_EV_STEP, player->page, player->step, player->repetition);
+    }
+    if ((events & PLAYER_EV_LINK) != 0) {
+        performer_event_put(&performer->events, PERFORMER_EV_LINK, player->next_page, player->link_taken, 0);
+    }
+    if ((events & PLAYER_EV_ENDED) != 0 || ((events & PLAYER_EV_STANDING) != 0 && performer->leaving)) {
+        performer_go_idle(performer, why_ended(performer));
+    } else if ((events & PLAYER_EV_STANDING) != 0) {
+        performer_event_put(&performer->events, PERFORMER_EV_PAUSED, player->page, 0, 0);
+    }
+}
+
+/* A page's slopes go out a tick or more after its first goals: the tick in which a page begins has enough to do. */
 static void play_tick(performer_t *performer)
 {
     player_t *player = &performer->engine.player;
-    uint8_t events = player_tick(player, &performer->link);
+    const uint8_t events = player_tick(player, &performer->link);
+    bool busy = (events & PLAYER_EV_BUSY) != 0;
     if ((events & PLAYER_EV_PAGE) != 0) {
         performer->slopes_due = true;
-    } else if (performer->slopes_due && (events & PLAYER_EV_BUSY) == 0) {
+    } else if (performer->slopes_due && !busy) {
         performer->slopes_due = false;
         send_slopes(performer);
-        events |= PLAYER_EV_BUSY;
+        busy = true;
     }
     if ((events & PLAYER_EV_OUTPUT) != 0) {
         servo_link_goals(PERFORMER_SERVOS(performer), player->goal_pos, player->joints);
     }
-    if ((events & PLAYER_EV_BUSY) != 0) {
-        servo_link_hold_rest(PERFORMER_SERVOS(performer));
+    if (busy) {
+        servo_link_defer_rest(PERFORMER_SERVOS(performer));
     }
-    if ((events & PLAYER_EV_STEP) != 0) {
-        performer->page = player->page;
-        performer_tell(performer, PERFORMER_EV_STEP, player->page, player->step, player->repetition);
-    }
-    if ((events & PLAYER_EV_LINK) != 0) {
-        performer_tell(performer, PERFORMER_EV_LINK, player->next_page, player->link_taken, 0);
-    }
-    if ((events & PLAYER_EV_ENDED) != 0 || ((events & PLAYER_EV_STANDING) != 0 && performer->leaving)) {
-        performer_finish(performer, why_ended(performer));
-    } else if ((events & PLAYER_EV_STANDING) != 0) {
-        performer_tell(performer, PERFORMER_EV_PAUSED, player->page, 0, 0);
-    }
+    tell(performer, events);
 }
 
 void performer_tick(performer_t *performer)
@@ -251,148 +305,5 @@ void performer_tick(performer_t *performer)
         approach_or_move_tick(performer);
     } else if (performer->state == PERFORMER_PLAY) {
         play_tick(performer);
-    }
-}
-
-/* ---- stop, break, pause ---- */
-
-static void resume_if_paused(performer_t *performer)
-{
-    if (player_is_paused(&performer->engine.player)) {
-        player_resume(&performer->engine.player);
-    }
-}
-
-void performer_stop_softly(performer_t *performer)
-{
-    link_stop(&performer->link);
-    resume_if_paused(performer);
-}
-
-void performer_break(performer_t *performer)
-{
-    if (performer_is_idle(performer) || performer->leaving) {
-        return;
-    }
-    performer->leaving = true;
-    if (performer->end == PERFORMER_END_DONE) {
-        performer->end = PERFORMER_END_BROKEN;
-    }
-    if (performer->state == PERFORMER_APPROACH) {
-        approach_break(&performer->engine.approach);
-    } else if (performer->state == PERFORMER_STOOD) {
-        performer_finish(performer, performer->end);
-    } else if (performer->state == PERFORMER_PLAY) {
-        player_break(&performer->engine.player);
-    }
-}
-
-/* One more stop: true when it is the second within a second, or comes before the first step, and so was made a break. */
-static bool stop_is_break(performer_t *performer)
-{
-    const bool again = performer->since_stop_ticks < SECOND_STOP_TICKS;
-    performer->since_stop_ticks = 0;
-    if (performer->state == PERFORMER_PLAY && !again) {
-        return false;
-    }
-    performer_break(performer);
-    return true;
-}
-
-void performer_stop(performer_t *performer)
-{
-    if (!stop_is_break(performer)) {
-        performer_stop_softly(performer);
-    }
-}
-
-void performer_end(performer_t *performer)
-{
-    if (performer->state != PERFORMER_PLAY) {
-        performer_break(performer);
-        return;
-    }
-    link_end(&performer->link);
-    resume_if_paused(performer);
-}
-
-bool performer_pause(performer_t *performer)
-{
-    if (performer->leaving || performer->move_deg_s != 0 || performer_is_paused(performer)) {
-        return false;
-    }
-    if (performer->state == PERFORMER_PLAY) {
-        player_pause(&performer->engine.player);
-        return true;
-    }
-    if (performer->state == PERFORMER_APPROACH && !performer->pausing) {
-        performer->pausing = true;
-        approach_break(&performer->engine.approach);
-        return true;
-    }
-    return false;
-}
-
-bool performer_resume(performer_t *performer)
-{
-    if (performer->leaving || !performer_is_paused(performer)) {
-        return false;
-    }
-    if (performer->state == PERFORMER_PLAY) {
-        player_resume(&performer->engine.player);
-    } else {
-        get_ready(performer);
-    }
-    return true;
-}
-
-void performer_code(performer_t *performer, uint8_t code)
-{
-    if (performer_is_idle(performer)) {
-        return;
-    }
-    if (code == LINK_CODE_STOP && stop_is_break(performer)) {
-        return;
-    }
-    link_code(&performer->link, code);
-    if (code == LINK_CODE_STOP) {
-        resume_if_paused(performer);
-    }
-    /* A hand that lets go before the first step: there is no page yet to leave softly. */
-    if (performer->state != PERFORMER_PLAY && link_is_stopping(&performer->link)) {
-        performer_break(performer);
-    }
-}
-
-/* ---- torque ---- */
-
-void performer_drop(performer_t *performer, uint32_t joints)
-{
-    performer->joints &= ~joints;
-    performer->ready_left &= ~joints;
-    if (performer->state == PERFORMER_PLAY) {
-        player_drop_joints(&performer->engine.player, joints);
-    }
-}
-
-uint32_t performer_on(performer_t *performer, uint32_t joints)
-{
-    if (!performer_is_idle(performer)) {
-        return 0;
-    }
-    joints &= PERFORMER_SERVOS(performer)->present;
-    const uint32_t on = servo_link_torque_on(PERFORMER_SERVOS(performer), joints);
-    performer->released &= ~on;
-    performer->faulty &= ~on;
-    return on;
-}
-
-void performer_off(performer_t *performer, uint32_t joints)
-{
-    performer->released |= joints;
-    performer_drop(performer, joints);
-    servo_link_torque_off(PERFORMER_SERVOS(performer), joints & PERFORMER_SERVOS(performer)->present);
-    if (!performer_is_idle(performer) && (performer->joints | performer->ready_left) == 0) {
-        performer_finish(performer, PERFORMER_END_BROKEN); /* nobody is left who moves */
     }
 }

@@ -46,10 +46,6 @@ typedef enum {
     PERFORMER_PLAY
 } performer_state_t;
 
-#ifndef PERFORMER_EVENTS
-#define PERFORMER_EVENTS 12u /* at least 7; an image may have less than Play */
-#endif
-
 /* Scalars first, arrays last: the AVR reaches 63 bytes behind a pointer in one instruction. */
 typedef struct {
     /* Read only for callers. */
@@ -60,12 +56,12 @@ typedef struct {
     uint32_t faulty;            /* joints with a fault that is not over: silent, errors, torque lost; at a start none */
     /* Private. */
     uint8_t first_page;         /* the page that plays first: the one asked for, or where its links lead */
-    uint8_t end;                /* performer_end_t to report */
+    uint8_t end_reason;         /* performer_end_t to report */
     uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
     bool leaving;               /* a break is under way, or was at the end. Read only for callers */
     bool pausing;               /* APPROACH: a pause is under way */
     bool slopes_due;            /* PLAY: the page's compliance goes out in this tick */
-    bool told_battery, told_hot; /* each is told once a play */
+    bool battery_told, heat_told; /* each is told once a play. Read only for callers */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
     uint32_t joints;            /* that this play may drive */
     uint32_t ready_left;        /* joints READY has still to ask */
@@ -73,9 +69,8 @@ typedef struct {
     const page_source_t *source;
     servo_link_t *servos;
     const settings_t *settings;
-    uint8_t events_head, events_count, events_lost;
     link_t link;                /* read only for callers */
-    performer_event_t events[PERFORMER_EVENTS];
+    performer_events_t events;
     uint16_t pose_pos[PAGE_JOINTS];
     union {
         player_t player;        /* state PLAY; kept after the end. Read only for callers */
@@ -103,7 +98,7 @@ MUST_CHECK performer_status_t performer_move(performer_t *performer, const uint1
 void performer_stop(performer_t *performer);
 
 /* Ends with the repetition that is on, without the exit page. On the way to the first pose it is a break. */
-void performer_end(performer_t *performer);
+void performer_stop_without_exit(performer_t *performer);
 
 /* Ends at once: all joints slow down to a stand and hold. */
 void performer_break(performer_t *performer);
@@ -122,10 +117,13 @@ uint32_t performer_on(performer_t *performer, uint32_t joints);
 void performer_off(performer_t *performer, uint32_t joints);
 
 bool performer_is_idle(const performer_t *performer);
+bool performer_is_paused(const performer_t *performer);
+
+/* Joints that answer the bus and were not switched off by hand. */
+uint32_t performer_usable(const performer_t *performer);
 
 /* PAGE_BYTES of RAM that only a play needs: for what may be lost at the next one. NULL unless idle. A move keeps them. */
 uint8_t *performer_spare(performer_t *performer);
-bool performer_is_paused(const performer_t *performer);
 
 /* Once a tick: makes the goals and hands them to the servos. Cost: that of player_tick and servo_link_goals. */
 void performer_tick(performer_t *performer) NOINLINE; /* by itself, so that the bench can measure it */

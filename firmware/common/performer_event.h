@@ -1,9 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * performer_event.h - what a performer tells: kinds of events and reasons for an end. report.h turns them into sentences. */
+ * performer_event.h - what a performer tells: kinds of events, reasons for an end, and the queue in which they wait until
+ * the image prints them (report.h makes sentences of them). Main loop only. The queue is caller-owned:
+ * RAM 4 * PERFORMER_EVENTS + 3 bytes. */
 #ifndef PERFORMER_EVENT_H
 #define PERFORMER_EVENT_H
 
+#include <stdbool.h>
 #include <stdint.h>
+
+#ifndef PERFORMER_EVENTS
+#define PERFORMER_EVENTS 12u /* at least 7; an image may have less than Play */
+#endif
 
 /* Why a play ended. */
 typedef enum {
@@ -36,5 +43,20 @@ typedef enum {
 typedef struct {
     uint8_t kind, a, b, c;
 } performer_event_t;
+
+typedef struct {
+    uint8_t count;      /* events that wait; read only for callers */
+    uint8_t first, lost;
+    performer_event_t event[PERFORMER_EVENTS];
+} performer_events_t;
+
+/* All bytes 0: empty. */
+
+/* Puts an event behind the others. When the queue is full the event is dropped and counted. Steps find it full first,
+ * then everything else, and the end of a play last: who waits for the end must hear of it. */
+void performer_event_put(performer_events_t *events, uint8_t kind, uint8_t a, uint8_t b, uint8_t c);
+
+/* Takes the oldest event; behind the last one PERFORMER_EV_LOST when some were dropped. false: none. */
+bool performer_event_take(performer_events_t *events, performer_event_t *event);
 
 #endif

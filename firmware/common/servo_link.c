@@ -268,7 +268,7 @@ static void end_round(servo_link_t *link)
 static void send_poll(servo_link_t *link)
 {
     link->phase = PHASE_DONE;
-    if (link->present == 0 || link->held) {
+    if (link->present == 0 || link->rest_deferred) {
         return;
     }
     if (link->poll_misses == 0) {
@@ -283,7 +283,7 @@ static void send_poll(servo_link_t *link)
     link->phase = PHASE_POLLING;
 }
 
-static void befell(servo_link_t *link, uint8_t id, servo_fault_kind_t kind)
+static void note_fault(servo_link_t *link, uint8_t id, servo_fault_kind_t kind)
 {
     servo_link_put(&link->untold[kind - 1], id, true);
 }
@@ -293,7 +293,7 @@ static void take_torque(servo_link_t *link, uint8_t id, const uint8_t *table)
     const uint8_t *limit = table + (DXL_AT_TORQUE_LIMIT - POLL_AT);
     bool on = table[0] != 0 && (limit[0] | limit[1]) != 0;
     if (!on && servo_link_has(&link->torque, id)) {
-        befell(link, id, SERVO_FAULT_TORQUE);
+        note_fault(link, id, SERVO_FAULT_TORQUE);
     }
     servo_link_put(&link->torque, id, on);
 }
@@ -310,10 +310,10 @@ static void take_health(servo_link_t *link, const bus_answer_t *answer)
     if (servo_link_has(&link->silent, id)) {
         servo_link_put(&link->silent, id, false);
         servo_link_put(&link->slopes_pending, id, true);
-        befell(link, id, SERVO_FAULT_BACK);
+        note_fault(link, id, SERVO_FAULT_BACK);
     }
     if (errors != link->errors[id]) {
-        befell(link, id, SERVO_FAULT_ERRORS);
+        note_fault(link, id, SERVO_FAULT_ERRORS);
     }
     link->errors[id] = errors;
     take_torque(link, id, table);
@@ -334,7 +334,7 @@ static void take_miss(servo_link_t *link)
             return;
         }
         servo_link_lost(link, id);
-        befell(link, id, SERVO_FAULT_SILENT);
+        note_fault(link, id, SERVO_FAULT_SILENT);
     }
     link->poll_misses = 0;
 }
@@ -368,7 +368,7 @@ void servo_link_tick(servo_link_t *link)
     if (link->phase != PHASE_DEAF) {
         link->phase = PHASE_POLL;
     }
-    link->held = false;
+    link->rest_deferred = false;
     if (link->slopes_wait != 0) {
         link->slopes_wait--;
     }
@@ -378,7 +378,7 @@ void servo_link_tick(servo_link_t *link)
 static bool send_rest(servo_link_t *link)
 {
     uint32_t pending = link->slopes_pending & link->goals_joints & ~link->no_sync;
-    if (link->phase == PHASE_GOALS && pending != 0 && link->slopes_wait == 0 && !link->held) {
+    if (link->phase == PHASE_GOALS && pending != 0 && link->slopes_wait == 0 && !link->rest_deferred) {
         uint32_t first = (1ul << SLOPES_JOINTS) - 1u;
         while ((pending & first) == 0) {
             first <<= SLOPES_JOINTS;

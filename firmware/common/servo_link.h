@@ -31,7 +31,7 @@ uint32_t servo_link_bit(uint8_t id) NOINLINE;
 bool servo_link_has(const uint32_t *mask, uint8_t id) NOINLINE;
 void servo_link_put(uint32_t *mask, uint8_t id, bool on) NOINLINE;
 
-/* What may befall a servo. */
+/* What may happen to a servo. */
 typedef enum {
     SERVO_FAULT_SILENT = 1,   /* does not answer any more */
     SERVO_FAULT_BACK,         /* answers again (its torque may be off: see `torque`) */
@@ -62,14 +62,14 @@ typedef struct {
     /* Private. */
     uint8_t phase;
     uint8_t slopes_wait;                     /* ticks until slopes may have packets of their own: theirs follow the goals' */
-    bool held;                               /* servo_link_hold_rest */
+    bool rest_deferred;                      /* servo_link_defer_rest */
     uint8_t poll_id, poll_misses;
     uint8_t round_voltage_dv, round_degrees, round_degrees_id;
     const uint16_t *goals_pos;
     uint32_t goals_joints;                   /* of this tick */
     uint32_t slopes_pending;                 /* joints that have not got their slopes yet */
     uint32_t deaf_left;                      /* deaf joints whose REG WRITE is still to be sent */
-    uint32_t untold[SERVO_FAULT_KINDS];      /* [kind - 1]: joints it befell and nobody was told of */
+    uint32_t untold[SERVO_FAULT_KINDS];      /* [kind - 1]: joints with a fault that nobody was told of */
     /* Public again. */
     uint16_t present_pos[SERVO_LINK_JOINTS]; /* last pose heard, page coordinates, or SERVO_LINK_NO_POSE */
     int16_t trim_pos[SERVO_LINK_JOINTS];     /* in force */
@@ -99,9 +99,9 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
 
 /* Behind servo_link_goals, in a tick that has enough to do: slopes and the health poll wait for the next one. */
-static inline void servo_link_hold_rest(servo_link_t *link)
+static inline void servo_link_defer_rest(servo_link_t *link)
 {
-    link->held = true;
+    link->rest_deferred = true;
 }
 
 /* Every turn of the main loop: goes on with this tick's traffic. One health poll (READ 24..43) a tick, round robin over
@@ -109,7 +109,7 @@ static inline void servo_link_hold_rest(servo_link_t *link)
  * SERVO_LINK_POLL_TRIES misses: named within 0.3 s. Silent ones stay in the round. */
 void servo_link_poll(servo_link_t *link);
 
-/* The next thing that befell a servo and was not told yet. false: nothing. */
+/* The next fault, or end of one, that was not told yet. false: none. */
 bool servo_link_next_fault(servo_link_t *link, servo_fault_t *fault);
 
 /* true while something of ours is on the wire. */

@@ -23,17 +23,17 @@ static uint16_t word_at(const uint8_t *bytes)
 
 /* ---- one after the other ---- */
 
-/* What is done to one servo; true: it worked. */
-typedef bool (*deed_t)(servo_link_t *link, uint8_t id);
+/* Something that is done to one servo; true: it worked. */
+typedef bool (*servo_action_t)(servo_link_t *link, uint8_t id);
 
 /* Does it to each of `ids`; returns those it worked for. */
-static uint32_t for_each(servo_link_t *link, uint32_t ids, deed_t deed)
+static uint32_t for_each(servo_link_t *link, uint32_t ids, servo_action_t action)
 {
     uint32_t done = 0;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if (servo_link_has(&ids, id)) {
             system_kick();
-            servo_link_put(&done, id, deed(link, id));
+            servo_link_put(&done, id, action(link, id));
         }
     }
     return done;

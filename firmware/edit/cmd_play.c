@@ -34,7 +34,7 @@ void cmd_play_key(uint8_t key)
     case KEY_DOWN:
     case KEY_RIGHT:
     case KEY_LEFT:
-        performer_end(&the_performer);
+        performer_stop_without_exit(&the_performer);
         TEXT("[Exit]");
         break;
     case ' ':
@@ -92,7 +92,7 @@ static NOINLINE void tell_faults(void)
         editor_tell_joints((const char *)pgm_read_ptr(&names[bit]), joints);
     }
     the_screen.lead = true;
-    if (the_performer.told_battery) {
+    if (the_performer.battery_told) {
         TEXT("Battery low");
     } else if (the_screen.line_column == column) {
         TEXT("All servos are well");

@@ -5,8 +5,8 @@
 #include "console.h"
 #include "panel.h"
 
-#define TYPED_HOLD 48u    /* typed bytes waiting: the PC is told to wait; 80 more still fit */
-#define TYPED_RESUME 16u
+#define TYPED_XOFF 48u    /* typed bytes waiting: the PC is told to wait; 80 more still fit */
+#define TYPED_XON 16u
 
 void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages, const settings_t *settings)
 {
@@ -105,11 +105,11 @@ static void keep_typed(inputs_t *inputs)
 static void control_flow(inputs_t *inputs)
 {
     const uint8_t waiting = ring_count(&inputs->typed);
-    if (!inputs->holding && waiting >= TYPED_HOLD) {
-        inputs->holding = true;
+    if (!inputs->pc_waits && waiting >= TYPED_XOFF) {
+        inputs->pc_waits = true;
         console_hold();
-    } else if (inputs->holding && waiting <= TYPED_RESUME) {
-        inputs->holding = false;
+    } else if (inputs->pc_waits && waiting <= TYPED_XON) {
+        inputs->pc_waits = false;
         console_resume();
     }
 }

@@ -39,7 +39,7 @@ typedef struct {
     uint8_t code;              /* the last one, from wherever */
     uint8_t silent_ticks;      /* since the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
     uint8_t quiet_ticks;       /* since the last byte */
-    bool holding;              /* the PC was told to wait */
+    bool pc_waits;             /* the PC was told to wait */
     bool refused;
     inputs_refusal_t refusal;
     ring_t typed;

@@ -5,7 +5,7 @@
  *                       |                                 |
  *                       +--> typed text --> shell         +--> events --> status lines
  *                                             |
- *                                             +--> commands
+ *                                             +--> commands --> views
  *
  * One loop. What may not wait (play_service) also runs while text waits for room on the serial line, so a tick is late
  * by no more than the longest single step of the rest: a few ms of a search by name. Nothing moves at power-on. */
@@ -13,20 +13,15 @@
 #include "commands.h"
 #include "console.h"
 #include "journal.h"
-#include "panel.h"
 #include "play.h"
 #include "report.h"
-#include "system.h"
 #include "text.h"
-#include "tick.h"
 #include "views.h"
-
-#define LAMP_TICKS 6u       /* a traffic lamp stays lit this long: 47 ms */
-#define BLINK_TICKS_LOG2 5u /* paused: Play blinks, 250 ms on, 250 ms off */
 
 static play_t play;
 
 static const char machine_name[] PROGMEM = "play";
+
 static void serve_machine(void *context)
 {
     play_service(context);
@@ -45,44 +40,7 @@ static const machine_image_t machine_image = {
 /* Characters since the last line end: what a status line must cover. */
 static uint8_t column;
 
-/* ---- lamps ---- */
-
-static void show_traffic(uint8_t led, uint8_t count, uint8_t *last, uint8_t *ticks_left)
-{
-    if (count != *last) {
-        *last = count;
-        *ticks_left = LAMP_TICKS;
-    } else if (*ticks_left > 0) {
-        (*ticks_left)--;
-    }
-    panel_set(led, *ticks_left > 0);
-}
-
-static void show_lamps(void)
-{
-    static uint8_t sent, sent_ticks, received, received_ticks;
-    show_traffic(PANEL_LED_TXD, console_sent(), &sent, &sent_ticks);
-    show_traffic(PANEL_LED_RXD, console_received(), &received, &received_ticks);
-    const bool dark = performer_is_paused(&play.performer) && (tick_now16() >> BLINK_TICKS_LOG2) % 2 != 0;
-    panel_set(PANEL_LED_PLAY, !performer_is_idle(&play.performer) && !dark);
-    panel_set(PANEL_LED_AUX, play.performer.faulty != 0 || play.performer.told_battery || play.performer.told_hot);
-}
-
-/* ---- what may not wait ---- */
-
-void play_service(play_t *p)
-{
-    if (tick_take()) {
-        performer_tick(&p->performer);
-        panel_tick();
-        inputs_tick(&p->inputs);
-        show_lamps();
-    }
-    inputs_take(&p->inputs);
-    performer_poll(&p->performer);
-    (void)settings_save_poll(&p->store, &p->settings);
-    system_kick();
-}
+/* ---- text ---- */
 
 static void put(char character)
 {
@@ -92,19 +50,6 @@ static void put(char character)
         board_idle();
     }
 }
-
-void play_find_servos(play_t *p)
-{
-    int16_t trim_pos[PAGE_JOINTS];
-    console_hold();
-    servo_link_scan(&p->servos);
-    (void)page_store_trim(&p->pages, trim_pos);
-    (void)servo_link_set_trim(&p->servos, trim_pos);
-    console_resume();
-    tick_forgive();
-}
-
-/* ---- text ---- */
 
 static void prompt(void)
 {
@@ -214,7 +159,7 @@ static void start(void)
 /* Whether the loop has something to do that no interrupt will announce. */
 static bool has_work(void)
 {
-    return ring_count(&play.inputs.typed) > 0 || play.performer.events_count > 0 ||
+    return ring_count(&play.inputs.typed) > 0 || play.performer.events.count > 0 ||
            play.performer.state == PERFORMER_READY;
 }
 

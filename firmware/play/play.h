@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * play.h - the parts of the Play image, put together in main.c and handed to every command. */
+ * play.h - the parts of the Play image and what may not wait. main.c defines the one play_t and hands it to every command.
+ * Above it: commands*.c, views.c, main.c. */
 #ifndef PLAY_H
 #define PLAY_H
 

@@ -156,7 +156,7 @@ static void test_performer_end_follows_no_link(void)
     start(2, 0);
     reach(PERFORMER_PLAY);
     ticks(10);
-    performer_end(&performer);
+    performer_stop_without_exit(&performer);
     reach(PERFORMER_IDLE);
     TEST_ASSERT_EQUAL_UINT16(612, fake_servo_link.goal_pos[1]);
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_STOPPED, end_reason());

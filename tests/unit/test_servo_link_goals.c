@@ -146,7 +146,7 @@ static void test_a_busy_tick_leaves_slopes_and_the_poll_to_the_next_one(void)
     fake_bus_clear_log();
     servo_link_tick(&servos);
     servo_link_goals(&servos, goals, SERVO_LINK_ALL);
-    servo_link_hold_rest(&servos);
+    servo_link_defer_rest(&servos);
     rest_of_tick();
     TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
     TEST_ASSERT_EQUAL(DXL_AT_GOAL, packet[5]);

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+#include "play.h"
+
+#include "console.h"
+#include "panel.h"
+#include "system.h"
+#include "tick.h"
+
+#define LAMP_TICKS 6u       /* a traffic lamp stays lit this long: 47 ms */
+#define BLINK_TICKS_LOG2 5u /* paused: Play blinks, 250 ms on, 250 ms off */
+
+/* ---- lamps ---- */
+
+static void show_traffic(uint8_t led, uint8_t count, uint8_t *last, uint8_t *ticks_left)
+{
+    if (count != *last) {
+        *last = count;
+        *ticks_left = LAMP_TICKS;
+    } else if (*ticks_left > 0) {
+        (*ticks_left)--;
+    }
+    panel_set(led, *ticks_left > 0);
+}
+
+static void show_lamps(const performer_t *performer)
+{
+    static uint8_t sent, sent_ticks, received, received_ticks;
+    show_traffic(PANEL_LED_TXD, console_sent(), &sent, &sent_ticks);
+    show_traffic(PANEL_LED_RXD, console_received(), &received, &received_ticks);
+    const bool dark = performer_is_paused(performer) && (tick_now16() >> BLINK_TICKS_LOG2) % 2 != 0;
+    panel_set(PANEL_LED_PLAY, !performer_is_idle(performer) && !dark);
+    panel_set(PANEL_LED_AUX, performer->faulty != 0 || performer->battery_told || performer->heat_told);
+}
+
+/* ---- what may not wait ---- */
+
+void play_service(play_t *play)
+{
+    if (tick_take()) {
+        performer_tick(&play->performer);
+        panel_tick();
+        inputs_tick(&play->inputs);
+        show_lamps(&play->performer);
+    }
+    inputs_take(&play->inputs);
+    performer_poll(&play->performer);
+    (void)settings_save_poll(&play->store, &play->settings);
+    system_kick();
+}
+
+void play_find_servos(play_t *play)
+{
+    int16_t trim_pos[PAGE_JOINTS];
+    console_hold();
+    servo_link_scan(&play->servos);
+    (void)page_store_trim(&play->pages, trim_pos);
+    (void)servo_link_set_trim(&play->servos, trim_pos);
+    console_resume();
+    tick_forgive();
+}
