@@ -13,6 +13,7 @@
 static const uint8_t link_fields[] PROGMEM = { PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE,
                                                PAGE_AT_LINKED2_PAGE };
 #define LINKS sizeof link_fields
+#define BATTERY_DV 96
 
 /* One page may fill 200 lines, of 9 ms each, and ask 31 servos that answer late or not at all. */
 static void begin_line(uint8_t page)
@@ -73,14 +74,27 @@ static void check_reach(uint8_t page)
     text_line_end();
 }
 
+/* Tenths of a volt, as the first servo that answers measures them; without one, the CM-5's battery. */
+static uint8_t supply_dv(void)
+{
+    uint8_t supply = BATTERY_DV;
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        if (robot_has(joint) && bus_call_read(joint, DXL_AT_VOLTAGE, &supply, 1, NULL) == BUS_OK) {
+            return supply;
+        }
+    }
+    return BATTERY_DV;
+}
+
 static void check_speed(uint8_t page)
 {
     page_facts_t facts;
     uint8_t steps = page_store_byte(page, PAGE_AT_STEPS);
+    uint16_t fastest_deg_s = PAGE_FACTS_FASTEST_DEG_S(supply_dv());
     for (uint8_t step = 0; step < steps; step++) {
         page_facts_step(page, step, &facts);
         uint16_t deg_s = page_facts_deg_s(&facts);
-        if (deg_s > PAGE_FACTS_FASTEST_DEG_S) {
+        if (deg_s > fastest_deg_s) {
             begin_step(page, step, facts.joint);
             TEXT("too fast, ");
             text_number(deg_s);

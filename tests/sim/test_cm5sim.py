@@ -335,7 +335,7 @@ def test_allowed_violation_passes():
     ([], "no image given"),
     (["robot.hex", "--board", "cm7"], "cm5 or cm2"),
     (["robot.hex", "--servos", "1-999"], "IDs are 0..253"),
-    (["robot.hex", "--servos", "3:mx28"], "models are ax12 and dx117"),
+    (["robot.hex", "--servos", "3:mx28"], "models are ax12, ax18 and dx117"),
     (["robot.hex", "--time", "5"], "a time like 10s"),
     (["robot.hex", "--fault", "3:tired"], "no such fault"),
     (["robot.hex", "--allow", "fun"], "no such violation"),

@@ -483,6 +483,16 @@ def test_help_list_find_show_and_give_the_screen_back(r):
     assert r.text(2, 65, 15) == "PageNumber:0001"
 
 
+def test_check_knows_how_fast_a_servo_is_at_this_battery():
+    """100 units in 12 ticks are 313 degrees/s: an AX-12 does 283 at 9.6 V and 354 at 12 V."""
+    pages = {1: page("fast", [(30, {5: 400}), (12, {5: 500})], code=1)}
+    for volts, too_fast in ((9.6, True), (12, False)):
+        with robot(pages=pages) as r:
+            r.board.battery(volts)
+            r.line("check", ms=3000)
+            assert ("Page   1: step 1 ID 5 too fast" in r.show()) == too_fast, r.show()
+
+
 def test_check_names_what_is_wrong():
     torn = page("torn", [(30, {})])
     torn.data[100] ^= 1

@@ -93,7 +93,8 @@ def test_gravity_makes_it_droop(robot):
     robot.expect("moving")
     robot.servos[3].outside_load = -0.3
     robot.run(ms=500)
-    assert 588 <= robot.servos[3].present <= 593 and robot.servos[3].load == pytest.approx(0.3, abs=0.03)
+    # 0.45 N m, give or take the friction of 0.05; the motor has 1.24 at 9.6 V: duty 0.32 .. 0.40, 10.6 .. 13.3 units off
+    assert 586 <= robot.servos[3].present <= 590 and robot.servos[3].load == pytest.approx(0.36, abs=0.045)
 
 
 def test_weak_battery_is_reported_by_the_servo(robot):

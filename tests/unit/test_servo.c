@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * The servo's body: motion, load, heat, power, alarms. Speeds by hand: 300 degrees are 1023 units, so 1 rpm is
- * 20.46 units/s; a speed unit (0.111 rpm) 2.271 units/s; 114 rpm 2332 units/s. */
+ * A servo with the built-in body: motion, load, heat, power, alarms. By hand: 300 degrees are 1024 units, so 1 rpm is
+ * 20.48 units/s and a speed unit (0.111 rpm) 2.273 units/s. Motor of an AX-12 (servo_motor.h): A = 1.55 N m at 12 V, 1.24 at
+ * the bus's 9.6 V; B = 1.5 N m / (59 rpm = 6.178 rad/s) = 0.2428 N m s; friction 0.05 N m; the rotor alone (0.003 kg m2)
+ * follows with 0.003 / 0.2428 = 12.4 ms. At 9.6 V it turns (1.24 - 0.05) / 0.2428 = 4.90 rad/s = 958.6 units/s. */
 #include "servo_wire.h"
 
 static wire_t wire;
@@ -39,10 +41,10 @@ static void test_servo_nothing_moves_at_power_on(void)
 
 static void test_servo_moves_at_the_moving_speed(void)
 {
-    put(SERVO_SPEED, 100, 2); /* 227.1 units/s */
+    put(SERVO_SPEED, 100, 2); /* 227.3 units/s */
     put(SERVO_GOAL, 1023, 2);
     wire_wait(&wire, 1000 * MS);
-    TEST_ASSERT_UINT16_WITHIN(3, 512 + 226, present()); /* 4 ms of it lost in starting */
+    TEST_ASSERT_UINT16_WITHIN(4, 512 + 224, present()); /* 12 ms of it lost in starting */
     TEST_ASSERT_UINT16_WITHIN(1, 100, register_of(&wire, servo, SERVO_PRESENT_SPEED, 2));
     TEST_ASSERT_EQUAL_UINT8(1, servo->table[SERVO_MOVING]);
 }
@@ -51,33 +53,34 @@ static void test_servo_speed_0_is_as_fast_as_the_supply_allows(void)
 {
     put(SERVO_GOAL, 1000, 2);
     wire_wait(&wire, 150 * MS);
-    TEST_ASSERT_UINT16_WITHIN(12, 512 + 340, present()); /* 2332 * (0.150 - 0.004) */
-    wire_wait(&wire, 400 * MS);
+    TEST_ASSERT_UINT16_WITHIN(4, 512 + 132, present()); /* 958.6 * (0.150 - 0.0124) */
+    wire_wait(&wire, 600 * MS);
     TEST_ASSERT_UINT16_WITHIN(1, 1000, present());
     TEST_ASSERT_EQUAL_UINT8(0, servo->table[SERVO_MOVING]);
     servo_bus_supply(wire.bus, wire.now, 7.2); /* three quarters */
     put(SERVO_GOAL, 0, 2);
     wire_wait(&wire, 200 * MS);
-    TEST_ASSERT_UINT16_WITHIN(15, 1000 - 343, present()); /* 1749 * 0.196 */
+    TEST_ASSERT_UINT16_WITHIN(4, 1000 - 133, present()); /* (1.55 * 0.6 - 0.05) / 0.2428 = 708.9 units/s, 0.1876 s of it */
 }
 
 static void test_servo_lags_behind_a_ramp_by_slope_times_speed(void)
 {
     servo_push_to(servo, wire.now, 200);
     put(SERVO_GOAL, 200, 2);
-    for (uint16_t tick = 1; tick <= 60; tick++) { /* 10 units a tick of 7.8125 ms: 1280 units/s */
+    for (uint16_t tick = 1; tick <= 60; tick++) { /* 5 units a tick of 7.8125 ms: 640 units/s = 3.272 rad/s */
         wire_wait(&wire, 125000);
-        put(SERVO_GOAL, (uint16_t)(200 + 10 * tick), 2);
+        put(SERVO_GOAL, (uint16_t)(200 + 5 * tick), 2);
     }
-    /* Output 1280 / 2332 = 0.549; error 1 + (0.549 - 0.031) / 0.969 * 32 = 18.1, the step just written adds 10. */
-    TEST_ASSERT_INT_WITHIN(6, 24, 800 - present());
+    /* Duty (0.2428 * 3.272 + 0.05) / 1.24 = 0.681; error 1 + (0.681 - 0.0313) / 0.9687 * 32 = 22.5; half the step just
+     * written comes on top. */
+    TEST_ASSERT_INT_WITHIN(3, 25, 500 - present());
     put(SERVO_CW_SLOPE, 128, 1);
     put(SERVO_CCW_SLOPE, 128, 1);
-    for (uint16_t tick = 1; tick <= 20; tick++) {
+    for (uint16_t tick = 1; tick <= 60; tick++) {
         wire_wait(&wire, 125000);
-        put(SERVO_GOAL, (uint16_t)(800 + 10 * tick), 2);
+        put(SERVO_GOAL, (uint16_t)(500 + 5 * tick), 2);
     }
-    TEST_ASSERT_GREATER_THAN_INT(40, 1000 - present());
+    TEST_ASSERT_INT_WITHIN(6, 89, 800 - present()); /* 1 + 0.6707 * 128 + 2.5 */
 }
 
 static void test_servo_result_does_not_depend_on_who_looks(void)
@@ -144,9 +147,9 @@ static void test_servo_both_limits_0_is_endless_turn(void)
 static void test_servo_blocked_for_a_second_is_overload_and_shuts_down(void)
 {
     servo_bus_fault(wire.bus, wire.now, servo, SERVO_FAULT_BLOCKED, SERVO_FAULT_ALWAYS);
-    put(SERVO_SPEED, 50, 2); /* slow or not, what is blocked pushes with all it has */
+    put(SERVO_SPEED, 50, 2); /* slow or not, what is blocked pushes with all it has, 0.4 s later */
     put(SERVO_GOAL, 700, 2);
-    wire_wait(&wire, 900 * MS);
+    wire_wait(&wire, 1300 * MS);
     TEST_ASSERT_EQUAL_UINT16(512, present());
     TEST_ASSERT_EQUAL_UINT16(1023, register_of(&wire, servo, SERVO_PRESENT_LOAD, 2));
     TEST_ASSERT_EQUAL_HEX8(0, servo->alarms);
@@ -176,12 +179,12 @@ static void test_servo_load_makes_it_droop_and_shows(void)
     put(SERVO_GOAL, 512, 2);
     servo->outside_load = -0.5; /* gravity, half of stall torque, towards smaller positions */
     wire_wait(&wire, 1000 * MS);
-    /* Output 0.5 = 0.031 + (error - 1) / 32 * 0.969: error 16.5, within the friction's 0.02 / 0.969 * 32 = 0.7. */
-    TEST_ASSERT_INT_WITHIN(1, 16, 512 - present());
-    TEST_ASSERT_INT_WITHIN(30, 511, register_of(&wire, servo, SERVO_PRESENT_LOAD, 2));
+    /* 0.75 N m, and the friction may hold or need 0.05: duty 0.70 / 1.24 .. 0.80 / 1.24 = 0.0313 + (error - 1) / 32 * 0.9687. */
+    TEST_ASSERT_INT_WITHIN(2, 20, 512 - present());
+    TEST_ASSERT_INT_WITHIN(42, 619, register_of(&wire, servo, SERVO_PRESENT_LOAD, 2));
     servo->outside_load = 0.5;
     wire_wait(&wire, 1000 * MS);
-    TEST_ASSERT_INT_WITHIN(30, 1024 + 511, register_of(&wire, servo, SERVO_PRESENT_LOAD, 2));
+    TEST_ASSERT_INT_WITHIN(42, 1024 + 619, register_of(&wire, servo, SERVO_PRESENT_LOAD, 2));
 }
 
 static void test_servo_each_direction_has_its_own_slope(void)
@@ -190,10 +193,10 @@ static void test_servo_each_direction_has_its_own_slope(void)
     put(SERVO_GOAL, 512, 2);
     servo->outside_load = -0.5;
     wire_wait(&wire, 1000 * MS);
-    TEST_ASSERT_INT_WITHIN(2, 31, 512 - present()); /* 1 + (0.5 - 0.031 - 0.02) / 0.969 * 64 */
+    TEST_ASSERT_INT_WITHIN(3, 39, 512 - present()); /* 1 + (0.5645 .. 0.6452 - 0.0313) / 0.9687 * 64 */
     servo->outside_load = 0.5;
     wire_wait(&wire, 1000 * MS);
-    TEST_ASSERT_INT_WITHIN(1, 16, present() - 512);
+    TEST_ASSERT_INT_WITHIN(2, 20, present() - 512);
 }
 
 static void test_servo_long_stall_heats(void)
@@ -201,7 +204,7 @@ static void test_servo_long_stall_heats(void)
     put(SERVO_ALARM_SHUTDOWN, 0, 1);
     servo_bus_fault(wire.bus, wire.now, servo, SERVO_FAULT_BLOCKED, SERVO_FAULT_ALWAYS);
     put(SERVO_GOAL, 700, 2);
-    wire_wait(&wire, 120000 * MS); /* one time constant: 30 + 55 * 0.632 */
+    wire_wait(&wire, 120000 * MS); /* one time constant: 30 + 86 * 0.8^2 * 0.632; 9.6 V are 0.8 of 12 */
     TEST_ASSERT_UINT16_WITHIN(1, 64, register_of(&wire, servo, SERVO_TEMPERATURE, 1));
     put(SERVO_TORQUE_ENABLE, 0, 1);
     wire_wait(&wire, 120000 * MS);
@@ -234,7 +237,7 @@ static void test_servo_power_cycle_keeps_eeprom_and_loses_ram(void)
     TEST_ASSERT_EQUAL_UINT8(32, servo->table[SERVO_CCW_SLOPE]);
     TEST_ASSERT_EQUAL_UINT8(0, servo->table[SERVO_LOCK]);
     TEST_ASSERT_EQUAL_UINT8(0, servo->table[SERVO_TORQUE_ENABLE]);
-    TEST_ASSERT_UINT16_WITHIN(1, 600, servo_get(servo, SERVO_GOAL, 2));
+    TEST_ASSERT_UINT16_WITHIN(2, 600, servo_get(servo, SERVO_GOAL, 2)); /* slope 64 leaves it 1.6 short */
 }
 
 static void test_servo_lock_leaves_only_24_to_35_open(void)

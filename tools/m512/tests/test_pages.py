@@ -133,6 +133,28 @@ def test_pages_retime_and_time(m512, lib):
     assert out["pages"][1]["seconds"] == pytest.approx(2 * 180 / 128, abs=0.01)
 
 
+FAST = """motion512 1
+row 1..2
+page 1 fast
+  accel 0
+  step 50 | 400 512
+  step 12 | 496 512
+  step 12 | 400 512
+"""
+
+
+def test_pages_time_says_where_a_servo_cannot_follow(m512, tmp_path):
+    """96 units in 12 ticks are 300 degrees/s. An AX-12 does 59 rpm = 354 degrees/s at 12 V: 327 at 11.1, 283 at 9.6."""
+    path = tmp_path / "fast.bin"
+    path.write_bytes(read_text(FAST).to_bytes())
+    said = m512("pages", path, "time", "fast").stdout.splitlines()
+    assert said[-2:] == [f"page   1 step {step}: too fast at 9.6 V: joint 1 is asked for 300 degrees/s, an unloaded AX-12 does 283"
+                         for step in (2, 3)]
+    assert len(said) == 4
+    assert not json.loads(m512("pages", path, "time", "fast", "--volts", "11.1", "--json").stdout)["too_fast"]
+    assert m512("pages", path, "time", "fast", "--volts", "2").exit_code == 2
+
+
 def test_pages_actions_want_a_place_for_the_result(m512, lib):
     before = lib.read_bytes()
     assert m512("pages", lib, "rename", "walk", "x").exit_code == 5

@@ -34,6 +34,11 @@ void board_on_console(board_t *board, board_byte_fn heard, void *context);
 /* The servo bus (servo_bus.h), made with the board, empty. Add servos before power-on or while it runs. */
 struct servo_bus *board_servo_bus(board_t *board);
 
+/* Hangs the servos' shafts on a body, in lock step with the board; NULL: each turns its own rotor again. Which calls a body
+ * answers and when: servo_body.h. What `body` points to must live as long as it is attached. */
+struct servo_body;
+void board_body(board_t *board, const struct servo_body *body);
+
 /* Every byte the board puts on the servo bus (from_board) and every byte it hears from it. */
 typedef void (*board_bus_fn)(void *context, uint64_t now_cycles, uint8_t byte, bool from_board, bool bad);
 void board_on_bus(board_t *board, board_bus_fn heard, void *context);

@@ -88,6 +88,12 @@ void bus_wire_supply(board_t *board, double volts)
     bus_wire_follow(board);
 }
 
+void board_body(board_t *board, const struct servo_body *body)
+{
+    servo_bus_body(board->wire.bus, board->avr->cycle, body);
+    bus_wire_follow(board);
+}
+
 struct servo_bus *board_servo_bus(board_t *board) { return board->wire.bus; }
 
 void board_on_bus(board_t *board, board_bus_fn heard, void *context)

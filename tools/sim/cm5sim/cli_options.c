@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli_text.h"
+#include "servo_api.h"
 
 const char *argp_program_version = "cm5sim 1.0 (Motion512)";
 
@@ -85,13 +86,13 @@ static const char *parse_servos(options_t *options, char *list)
     char *rest;
     for (char *part = strtok_r(list, ",", &rest); part; part = strtok_r(NULL, ",", &rest)) {
         const char *rate = cut(part, '@'), *model = cut(part, ':'), *last = cut(part, '-');
-        const bool dx117 = model && strcmp(model, "dx117") == 0;
-        long first_id, last_id, bps = dx117 ? 57142 : 1000000;
+        const int which = model ? servo_api_model(model) : SERVO_AX12;
+        long first_id, last_id, bps = which == SERVO_DX117 ? 57142 : 1000000;
         if (!cli_number(part, 0, 253, &first_id) || !cli_number(last ? last : part, first_id, 253, &last_id)) {
             return "IDs are 0..253, as 5 or 1-18";
         }
-        if (model && !dx117 && strcmp(model, "ax12") != 0) {
-            return "models are ax12 and dx117";
+        if (which < 0) {
+            return "models are ax12, ax18 and dx117";
         }
         if (rate && !cli_number(rate, 7843, 2000000, &bps)) {
             return "rates are 7843..2000000";
@@ -101,7 +102,7 @@ static const char *parse_servos(options_t *options, char *list)
                 return "too many servos";
             }
             options->servos[options->servo_count++] =
-                (servo_plan_t){(uint8_t)id, dx117 ? SERVO_DX117 : SERVO_AX12, (uint32_t)bps};
+                (servo_plan_t){(uint8_t)id, (servo_model_t)which, (uint32_t)bps};
         }
     }
     return NULL;

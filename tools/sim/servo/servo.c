@@ -39,6 +39,8 @@ static const item_t items[] = {
     {SERVO_PUNCH, 2, 0, 1023},
 };
 
+#define BATTERY_V 9.6 /* the CM-5's battery: 8 cells of 1.2 V */
+#define STANDSTILL 1.0 /* units per second: slower is not called moving */
 #define WHEEL_SPEED_MAX 2047 /* endless turn: bit 10 is the direction */
 #define LOCK_OPEN_FIRST SERVO_TORQUE_ENABLE /* what a locked servo still lets write: addresses 24..35 */
 #define LOCK_OPEN_LAST (SERVO_TORQUE_LIMIT + 1)
@@ -47,6 +49,10 @@ static const uint8_t shipped_ax12[SERVO_EEPROM_BYTES] = {
     12, 0, 24, 1, 1, 250, 0, 0, 0xFF, 3, 0, 70, 60, 140, 0xFF, 3, 2, 36, 36, 0, 0, 0, 0, 0};
 static const uint8_t shipped_dx117[SERVO_EEPROM_BYTES] = {
     117, 0, 24, 1, 34, 250, 0, 0, 0xFF, 3, 0, 85, 60, 190, 0xFF, 3, 2, 36, 36, 0, 0, 0, 0, 0};
+static const uint8_t shipped_ax18[SERVO_EEPROM_BYTES] = {
+    18, 0, 24, 1, 1, 250, 0, 0, 0xFF, 3, 0, 75, 60, 140, 0xD7, 3, 2, 36, 36, 0, 0, 0, 0, 0};
+static const uint8_t *const shipped[] = {
+    [SERVO_AX12] = shipped_ax12, [SERVO_DX117] = shipped_dx117, [SERVO_AX18] = shipped_ax18};
 
 static void put(servo_t *servo, uint8_t address, uint16_t value)
 {
@@ -64,20 +70,26 @@ uint32_t servo_rate_bps(const servo_t *servo)
     return 2000000u / (servo->table[SERVO_BAUD] + 1u);
 }
 
+static uint16_t present_position(const servo_t *servo)
+{
+    const double position = servo->position > 1023 ? 1023 : servo->position < 0 ? 0 : servo->position;
+    return (uint16_t)(position + 0.5);
+}
+
 /* RAM addresses as they are after power-on. */
 static void start_ram(servo_t *servo)
 {
     memset(servo->table + SERVO_EEPROM_BYTES, 0, SERVO_TABLE_BYTES - SERVO_EEPROM_BYTES);
     servo->table[SERVO_CW_MARGIN] = servo->table[SERVO_CCW_MARGIN] = 1;
     servo->table[SERVO_CW_SLOPE] = servo->table[SERVO_CCW_SLOPE] = 32;
-    put(servo, SERVO_GOAL, (uint16_t)(servo->position + 0.5));
+    put(servo, SERVO_GOAL, present_position(servo));
     put(servo, SERVO_TORQUE_LIMIT, servo_get(servo, SERVO_MAX_TORQUE, 2));
     put(servo, SERVO_PUNCH, 32);
     servo->registered_count = 0;
     servo->overloaded = servo->shutdown = false;
     servo->alarms = 0;
-    servo->stalled_ms = 0;
-    servo->output = 0;
+    servo->stalled_steps = 0;
+    servo->output = servo->motor_nm = 0;
 }
 
 void servo_init(servo_t *servo, uint8_t id, servo_model_t model, uint32_t rate_bps)
@@ -86,7 +98,7 @@ void servo_init(servo_t *servo, uint8_t id, servo_model_t model, uint32_t rate_b
     servo->model = model;
     servo->position = 512;
     servo->ambient_c = servo->temperature_c = 30;
-    servo->supply_v = SERVO_NOMINAL_V;
+    servo->supply_v = BATTERY_V;
     servo->noise_state = 0x1234567u + id;
     servo->late_us = 20000;
     servo_factory_reset(servo);
@@ -96,7 +108,7 @@ void servo_init(servo_t *servo, uint8_t id, servo_model_t model, uint32_t rate_b
 
 void servo_factory_reset(servo_t *servo)
 {
-    memcpy(servo->table, servo->model == SERVO_DX117 ? shipped_dx117 : shipped_ax12, SERVO_EEPROM_BYTES);
+    memcpy(servo->table, shipped[servo->model], SERVO_EEPROM_BYTES);
     start_ram(servo);
 }
 
@@ -151,29 +163,36 @@ static uint16_t magnitude_and_direction(double value, double unit)
 /* The read-only registers from the physics. */
 static void update_registers(servo_t *servo)
 {
-    const double position = servo->position > 1023 ? 1023 : servo->position;
-    put(servo, SERVO_PRESENT, (uint16_t)(position + 0.5));
+    put(servo, SERVO_PRESENT, present_position(servo));
     put(servo, SERVO_PRESENT_SPEED,
         magnitude_and_direction(servo->velocity, SERVO_UNITS_PER_RPM * SERVO_SPEED_UNIT_RPM));
     /* A motor that pushes towards larger positions (counterclockwise) is loaded counterclockwise: bit 10 clear. */
     put(servo, SERVO_PRESENT_LOAD, magnitude_and_direction(servo->output, 1.0 / 1023));
-    servo->table[SERVO_MOVING] = servo->velocity != 0;
+    servo->table[SERVO_MOVING] = servo->velocity > STANDSTILL || servo->velocity < -STANDSTILL;
+}
+
+/* The steps that are due, with the built-in body. */
+static void turn_alone(servo_t *servo, uint64_t now_cycles)
+{
+    while (now_cycles >= servo->step_cycles + SERVO_STEP_CYCLES) {
+        if (servo_motion_is_at_rest(servo)) {
+            const uint64_t steps = (now_cycles - servo->step_cycles) / SERVO_STEP_CYCLES;
+            servo_motion_rest(servo, (double)steps * SERVO_STEP_S);
+            servo->step_cycles += steps * SERVO_STEP_CYCLES;
+            break;
+        }
+        servo_motion_step(servo);
+        servo->step_cycles += SERVO_STEP_CYCLES;
+        if (servo->powered) {
+            update_alarms(servo);
+        }
+    }
 }
 
 void servo_advance(servo_t *servo, uint64_t now_cycles)
 {
-    while (now_cycles - servo->step_cycles >= SERVO_CYCLES_PER_MS && now_cycles > servo->step_cycles) {
-        if (servo_motion_is_at_rest(servo)) {
-            const uint64_t steps = (now_cycles - servo->step_cycles) / SERVO_CYCLES_PER_MS;
-            servo_motion_rest(servo, (double)steps / 1000);
-            servo->step_cycles += steps * SERVO_CYCLES_PER_MS;
-            break;
-        }
-        servo_motion_step(servo);
-        servo->step_cycles += SERVO_CYCLES_PER_MS;
-        if (servo->powered) {
-            update_alarms(servo);
-        }
+    if (!servo->in_body) {
+        turn_alone(servo, now_cycles);
     }
     if (servo->powered) {
         update_alarms(servo);
@@ -232,7 +251,7 @@ uint8_t servo_write(servo_t *servo, uint8_t address, const uint8_t *data, uint8_
     const uint8_t last = (uint8_t)(address + count - 1);
     if (address <= SERVO_TORQUE_LIMIT + 1 && last >= SERVO_TORQUE_LIMIT && servo_get(servo, SERVO_TORQUE_LIMIT, 2)) {
         servo->overloaded = servo->shutdown = false;
-        servo->stalled_ms = 0;
+        servo->stalled_steps = 0;
     }
     /* A goal switches the torque on, as on the real servo: a limp joint must not be sent goals. */
     if (address <= SERVO_GOAL + 1 && last >= SERVO_GOAL && !servo->shutdown) {
@@ -245,6 +264,9 @@ uint8_t servo_write(servo_t *servo, uint8_t address, const uint8_t *data, uint8_
 void servo_push_to(servo_t *servo, uint64_t now_cycles, double position)
 {
     servo_advance(servo, now_cycles);
+    if (servo->in_body) {
+        return;
+    }
     servo->position = position < 0 ? 0 : position > 1023 ? 1023 : position;
     servo->velocity = 0;
     update_registers(servo);

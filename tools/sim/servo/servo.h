@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: MIT
  * servo.h - one virtual Dynamixel servo: control table, what writing a register does, alarms, power.
  * Knows no wire and no packet framing (servo_protocol.h) and no simavr. Time is counted in controller cycles
- * (16 MHz). Position moves lazily: servo_advance() brings the servo up to a moment, in fixed 1 ms steps on the
- * absolute time axis, so the result does not depend on how often anyone looks.
+ * (16 MHz). Position moves lazily: servo_advance() brings the servo up to a moment, in fixed steps of 1/1024 s on the
+ * absolute time axis, so the result does not depend on how often anyone looks. Where all servos move one body
+ * (servo_body.h), the bus makes these steps instead, for all of them together.
  * Facts: dynamixel.md; start values and ranges are those of the public AX-12 manual. */
 #ifndef SIM_SERVO_H
 #define SIM_SERVO_H
 
 #include <stdbool.h>
 #include <stdint.h>
+
+#include "servo_body.h"
 
 #define SERVO_CYCLES_PER_US 16u
 #define SERVO_CYCLES_PER_MS 16000u
@@ -17,7 +20,7 @@
 #define SERVO_PACKET_MAX 143  /* AX-12 receive buffer: a longer instruction packet is lost */
 #define SERVO_BROADCAST 254
 
-typedef enum { SERVO_AX12, SERVO_DX117 } servo_model_t;
+typedef enum { SERVO_AX12, SERVO_DX117, SERVO_AX18 } servo_model_t;
 
 /* Addresses of the control table. Two-byte items are little endian. */
 enum {
@@ -66,14 +69,18 @@ typedef struct servo {
     bool overloaded;  /* latched until the torque limit is written or power is lost */
     uint16_t skew_us; /* extra answer delay: how far this one's clock is off */
 
-    /* Physics (servo_motion.h). Positions in servo units, 1023 = 300 degrees. */
+    /* Physics (servo_motion.h). Positions in servo units, 1024 = 300 degrees. */
+    bool in_body;                /* a body turns the shaft, not servo_advance() */
     double position, velocity;   /* units, units per second */
-    double output;               /* motor output -1..1, positive towards larger positions */
-    double outside_load;         /* -1..1 of stall torque, what gravity or a hand does */
+    double output;               /* duty of the motor -1..1, positive towards larger positions */
+    double motor_nm;             /* its torque in the last step */
+    double governor;             /* duty that the moving speed leaves, 0..1 */
+    double held_at;              /* position in which it was blocked */
+    double outside_load;         /* -1..1 of stall torque at 12 V, what gravity or a hand does */
     double temperature_c, ambient_c;
     double supply_v;
-    uint32_t stalled_ms;
-    uint64_t step_cycles;        /* integrated up to here: a multiple of 1 ms */
+    uint32_t stalled_steps;
+    uint64_t step_cycles;        /* integrated up to here: a multiple of SERVO_STEP_CYCLES */
 
     /* A registered write (REG WRITE). */
     uint8_t registered_address, registered_count, registered[SERVO_PACKET_MAX];
@@ -117,7 +124,8 @@ uint8_t servo_check_write(const servo_t *servo, uint8_t address, const uint8_t *
 /* Rate of address 4, bits per second. */
 uint32_t servo_rate_bps(const servo_t *servo);
 
-/* A hand turns the horn (servo units, clamped to 0..1023). With torque on the servo pulls back. */
+/* A hand turns the horn (servo units, clamped to 0..1023). With torque on the servo pulls back. Does nothing in a body:
+ * there a hand pushes (outside_load). */
 void servo_push_to(servo_t *servo, uint64_t now_cycles, double position);
 
 #endif

@@ -2,6 +2,7 @@
 #include "servo_api.h"
 
 #include <stddef.h>
+#include <string.h>
 
 int servo_api_count(const servo_bus_t *bus)
 {
@@ -16,6 +17,17 @@ servo_t *servo_api_at(const servo_bus_t *bus, int index)
 uint8_t servo_api_id(const servo_t *servo)
 {
     return servo->table[SERVO_ID];
+}
+
+int servo_api_model(const char *name)
+{
+    static const char *const names[] = {[SERVO_AX12] = "ax12", [SERVO_DX117] = "dx117", [SERVO_AX18] = "ax18"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (strcmp(name, names[i]) == 0) {
+            return (int)i;
+        }
+    }
+    return -1;
 }
 
 uint16_t servo_api_get(servo_t *servo, uint64_t now_cycles, uint8_t address, uint8_t bytes)
@@ -48,6 +60,7 @@ double servo_api_state(servo_t *servo, uint64_t now_cycles, servo_api_state_t wh
     case SERVO_API_CELSIUS: return servo->temperature_c;
     case SERVO_API_HELD: return servo->held;
     case SERVO_API_LATE_US: return servo->late_us;
+    case SERVO_API_TORQUE: return servo->motor_nm;
     }
     return 0;
 }

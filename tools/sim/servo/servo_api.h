@@ -10,6 +10,9 @@ int servo_api_count(const servo_bus_t *bus);
 servo_t *servo_api_at(const servo_bus_t *bus, int index); /* in order of plugging in */
 uint8_t servo_api_id(const servo_t *servo);
 
+/* "ax12", "ax18", "dx117" as servo_model_t; -1: no such model. */
+int servo_api_model(const char *name);
+
 /* Register of the control table, one or two bytes. */
 uint16_t servo_api_get(servo_t *servo, uint64_t now_cycles, uint8_t address, uint8_t bytes);
 
@@ -28,7 +31,8 @@ typedef enum {
     SERVO_API_AMBIENT,   /* degrees C */
     SERVO_API_CELSIUS,   /* temperature, degrees C */
     SERVO_API_HELD,      /* not 0: blocked */
-    SERVO_API_LATE_US    /* how late the fault "late" answers */
+    SERVO_API_LATE_US,   /* how late the fault "late" answers */
+    SERVO_API_TORQUE     /* of the motor, N m, positive towards larger positions */
 } servo_api_state_t;
 double servo_api_state(servo_t *servo, uint64_t now_cycles, servo_api_state_t which);
 void servo_api_set_state(servo_t *servo, uint64_t now_cycles, servo_api_state_t which, double value);

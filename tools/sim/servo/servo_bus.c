@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "servo_motion.h"
 #include "servo_protocol.h"
 
 #define PROCESS_US 16u   /* the least time between a packet and its answer, also with return delay 0 */
@@ -94,6 +95,9 @@ static bool sample(const servo_bus_t *bus, uint64_t start, uint64_t end, uint8_t
 static void update_next(servo_bus_t *bus)
 {
     bus->next_cycles = is_talking(&bus->noise) ? byte_end(&bus->noise) : SERVO_BUS_NEVER;
+    if (bus->body.step && bus->body_cycles + SERVO_STEP_CYCLES < bus->next_cycles) {
+        bus->next_cycles = bus->body_cycles + SERVO_STEP_CYCLES;
+    }
     for (int i = 0; i < bus->count; i++) {
         const servo_talk_t *talk = &bus->servos[i]->talk;
         if (is_talking(talk) && byte_end(talk) < bus->next_cycles) {
@@ -228,18 +232,74 @@ static void pass_byte(servo_bus_t *bus, servo_talk_t *talk)
     }
 }
 
+/* ---- the body ---- */
+
+static void take_shafts(servo_bus_t *bus)
+{
+    for (int i = 0; i < bus->count; i++) {
+        servo_motion_turned(bus->servos[i], bus->shafts[i].angle_rad, bus->shafts[i].speed_rad_s);
+        servo_advance(bus->servos[i], bus->body_cycles);
+    }
+}
+
+static void step_body(servo_bus_t *bus)
+{
+    for (int i = 0; i < bus->count; i++) {
+        bus->shafts[i].torque_nm = servo_motion_torque(bus->servos[i]);
+    }
+    bus->body.step(bus->body.context, bus->shafts, bus->count);
+    bus->body_cycles += SERVO_STEP_CYCLES;
+    take_shafts(bus);
+}
+
+/* Each servo's shaft as it stands now, in the body or by itself. */
+static void look_at_body(servo_bus_t *bus)
+{
+    for (int i = 0; i < bus->count; i++) {
+        servo_t *servo = bus->servos[i];
+        servo->in_body = bus->body.step != NULL;
+        bus->shafts[i].angle_rad = (servo->position - 512) / SERVO_UNITS_PER_RADIAN;
+        bus->shafts[i].speed_rad_s = servo->velocity / SERVO_UNITS_PER_RADIAN;
+        servo->step_cycles = bus->body_cycles;
+    }
+    if (bus->body.look) {
+        bus->body.look(bus->body.context, bus->shafts, bus->count);
+        take_shafts(bus);
+    }
+}
+
+void servo_bus_body(servo_bus_t *bus, uint64_t now_cycles, const servo_body_t *body)
+{
+    servo_bus_advance(bus, now_cycles);
+    bus->body = body ? *body : (servo_body_t){0};
+    bus->body_cycles = now_cycles - now_cycles % SERVO_STEP_CYCLES;
+    look_at_body(bus);
+    update_next(bus);
+}
+
+/* ---- time ---- */
+
+static void pass_next_byte(servo_bus_t *bus)
+{
+    servo_talk_t *next = &bus->noise;
+    for (int i = 0; i < bus->count; i++) {
+        servo_talk_t *talk = &bus->servos[i]->talk;
+        if (is_talking(talk) && (!is_talking(next) || byte_end(talk) < byte_end(next))) {
+            next = talk;
+        }
+    }
+    pass_byte(bus, next);
+}
+
 void servo_bus_advance(servo_bus_t *bus, uint64_t now_cycles)
 {
     while (bus->next_cycles <= now_cycles) {
-        servo_talk_t *next = &bus->noise;
-        for (int i = 0; i < bus->count; i++) {
-            servo_talk_t *talk = &bus->servos[i]->talk;
-            if (is_talking(talk) && (!is_talking(next) || byte_end(talk) < byte_end(next))) {
-                next = talk;
-            }
-        }
         bus->now_cycles = bus->next_cycles;
-        pass_byte(bus, next);
+        if (bus->body.step && bus->next_cycles == bus->body_cycles + SERVO_STEP_CYCLES) {
+            step_body(bus);
+        } else {
+            pass_next_byte(bus);
+        }
         update_next(bus);
     }
     if (now_cycles > bus->now_cycles) {
@@ -302,6 +362,7 @@ void servo_bus_free(servo_bus_t *bus)
             free(bus->servos[i]);
         }
         free(bus->servos);
+        free(bus->shafts);
         free(bus);
     }
 }
@@ -323,7 +384,11 @@ servo_t *servo_bus_add(servo_bus_t *bus, uint8_t id, servo_model_t model, uint32
     if (servos) {
         bus->servos = servos;
     }
-    if (servo == NULL || servos == NULL) {
+    servo_shaft_t *shafts = realloc(bus->shafts, (size_t)(bus->count + 1) * sizeof *shafts);
+    if (shafts) {
+        bus->shafts = shafts;
+    }
+    if (servo == NULL || servos == NULL || shafts == NULL) {
         free(servo);
         return NULL;
     }
@@ -334,8 +399,12 @@ servo_t *servo_bus_add(servo_bus_t *bus, uint8_t id, servo_model_t model, uint32
         }
     }
     servo->supply_v = bus->supply_v;
-    servo->step_cycles = bus->now_cycles - bus->now_cycles % SERVO_CYCLES_PER_MS;
+    servo->step_cycles = bus->now_cycles - bus->now_cycles % SERVO_STEP_CYCLES;
+    shafts[bus->count] = (servo_shaft_t){.id = id};
     bus->servos[bus->count++] = servo;
+    if (bus->body.step) {
+        look_at_body(bus);
+    }
     servo_power(servo, bus->now_cycles, bus->powered);
     return servo;
 }

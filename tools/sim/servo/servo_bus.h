@@ -9,6 +9,7 @@
 #define SIM_SERVO_BUS_H
 
 #include "servo.h"
+#include "servo_body.h"
 #include "servo_fault.h"
 
 #define SERVO_BUS_NEVER UINT64_MAX
@@ -23,6 +24,9 @@ typedef void (*servo_bus_packet_fn)(void *context, uint64_t now_cycles, const ui
 typedef struct servo_bus {
     servo_t **servos; /* in order of servo_bus_add() */
     int count;
+    servo_body_t body;     /* step NULL: each servo turns its own rotor */
+    servo_shaft_t *shafts; /* one a servo */
+    uint64_t body_cycles;  /* when the body was stepped last: a multiple of SERVO_STEP_CYCLES */
     bool powered;
     double supply_v;
     uint64_t now_cycles;
@@ -46,6 +50,10 @@ void servo_bus_free(servo_bus_t *bus);
 /* Plugs in a servo (see servo_init()); it gets power if the bus has it. Several may have the same ID. The pointer
  * stays good until servo_bus_free(). NULL: no memory. */
 servo_t *servo_bus_add(servo_bus_t *bus, uint8_t id, servo_model_t model, uint32_t rate_bps);
+
+/* Hangs all shafts on a body (its struct is copied), or takes them off it again: NULL. They jump to where the body has them
+ * now. Servos that are plugged in later join it. From here on the bus has an event every 1/1024 s. */
+void servo_bus_body(servo_bus_t *bus, uint64_t now_cycles, const servo_body_t *body);
 
 /* First servo with this ID now, or NULL. */
 servo_t *servo_bus_find(const servo_bus_t *bus, uint8_t id);

@@ -19,8 +19,8 @@ FAULTS = ("silent", "dead", "duplicate", "checksum", "noise", "late", "short", "
 ERROR_NAMES = {1: "voltage", 2: "angle-limit", 4: "overheating", 8: "range", 16: "checksum", 32: "overload",
                64: "instruction"}
 COUNTERS = ("packets", "answers", "checksum_errors", "framing_errors", "gaps", "oversize", "deaf")
-_STATES = ("position", "velocity", "output", "outside_load", "ambient", "celsius", "held", "late_us")
-_SETTABLE = _STATES[3:]
+_STATES = ("position", "velocity", "output", "outside_load", "ambient", "celsius", "held", "late_us", "torque_nm")
+_SETTABLE = _STATES[3:-1]
 _REGISTERS = {  # name: (address, bytes)
     "model": (0, 2), "id": (3, 1), "return_delay": (5, 1), "goal": (30, 2), "speed": (32, 2), "torque_limit": (34, 2),
     "present": (36, 2), "present_speed": (38, 2), "present_load": (40, 2), "voltage_tenths": (42, 1),
@@ -43,6 +43,7 @@ def declare(lib):
             ("servo_api_counter", u32, [p, ctypes.c_int]),
             ("servo_api_fault", ctypes.c_bool, [p, u64, p, ctypes.c_char_p, u32]),
             ("servo_api_clear", None, [p, u64, p]),
+            ("servo_api_model", ctypes.c_int, [ctypes.c_char_p]),
             ("servo_bus_add", p, [p, u8, ctypes.c_int, u32]),
             ("servo_bus_find", p, [p, u8]),
             ("servo_bus_noise", None, [p, u64, ctypes.c_char_p, u8, u32]),
@@ -145,8 +146,10 @@ class Servos:
         self.lib, self.bus, self.now = lib, bus, now
 
     def add(self, servo_id, model="ax12", rate=None):
-        dx117 = model == "dx117"
-        pointer = self.lib.servo_bus_add(self.bus, servo_id, int(dx117), rate or (57142 if dx117 else 1_000_000))
+        number = self.lib.servo_api_model(model.encode())
+        if number < 0:
+            raise ValueError(f"no servo model {model!r}; known: ax12, ax18, dx117")
+        pointer = self.lib.servo_bus_add(self.bus, servo_id, number, rate or (57142 if model == "dx117" else 1_000_000))
         if not pointer:
             raise MemoryError("no memory for a servo")
         return Servo(self, pointer)

@@ -270,21 +270,30 @@ def retime(source, page, factor, output, in_place):
     source.store(output, in_place, operations.retime(source.image, source.image.find(page), factor))
 
 
-@pages.command(epilog="Example: m512 pages lib.bin time walk_start")
+@pages.command(epilog="Example: m512 pages lib.bin time walk_start --volts 11.1")
 @click.argument("page")
+@click.option("--volts", type=click.FloatRange(6, 16), default=9.6, show_default=True, help="Supply of the servos.")
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 @click.pass_obj
-def time(source, page, as_json):
-    """Play time of a page and of the chain of pages that follows it."""
+def time(source, page, volts, as_json):
+    """Play time of a page and of the chain of pages that follows it, and where it is too fast for an AX-12."""
+    from m512.motion import speed
     from m512.pages import operations
 
-    parts, end = operations.chain(source.image, source.image.find(page))
+    number = source.image.find(page)
+    parts, end = operations.chain(source.image, number)
+    fast = speed.too_fast(source.image, number, volts)
     total = sum(seconds for _, _, seconds in parts)
     if as_json:
         click.echo(json.dumps({"pages": [{"page": n, "repeat": r, "seconds": round(s, 4)} for n, r, s in parts],
-                               "seconds": round(total, 4), "end": end}, indent=2))
+                               "seconds": round(total, 4), "end": end, "volts": volts,
+                               "too_fast": [{"page": f.page, "step": f.step, "joint": f.joint,
+                                             "degrees_s": round(f.degrees_s)} for f in fast]}, indent=2))
         return
     for number, repeat, seconds in parts:
         times = f" ({repeat} times)" if repeat != 1 else ""
         click.echo(f"page {number:3} {source.image[number].title:13} {seconds:8.3f} s{times}")
     click.echo(f"{'all':22} {total:8.3f} s, {end}")
+    for part in fast:
+        click.echo(f"page {part.page:3} step {part.step}: too fast at {volts:g} V: joint {part.joint} is asked for "
+                   f"{part.degrees_s:.0f} degrees/s, an unloaded AX-12 does {speed.no_load_degrees_s(volts):.0f}")

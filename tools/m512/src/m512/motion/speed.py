@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""What a servo can do, and where a motion asks for more.
+
+An AX-12 turns 59 rpm without load at 12 V (its maker's sheet), less in proportion at a lower supply. Goals that run away
+faster are not reached: the joint lags, and the motion is another one than was made.
+"""
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from typing import Deque, List, Optional, Sequence
+
+from m512.files.image import Image
+from m512.files.page import JOINTS
+from m512.motion.player import EXACT, play
+
+NO_LOAD_RPM, SHEET_V = 59.0, 12.0
+BATTERY_V = 9.6                      # a CM-5's pack: 8 cells of 1.2 V
+DEGREES_PER_UNIT = 300 / 1024
+TICKS_PER_SECOND = 128
+WINDOW = 4                           # ticks over which speed is measured: goals are whole units
+
+
+@dataclass
+class TooFast:
+    """The fastest joint of a step that asks too much."""
+
+    page: int
+    step: int                        # 1..7
+    joint: int
+    degrees_s: float
+
+
+def no_load_degrees_s(volts: float) -> float:
+    return NO_LOAD_RPM * 6 * volts / SHEET_V
+
+
+def no_load_units_per_tick(volts: float) -> float:
+    return no_load_degrees_s(volts) / DEGREES_PER_UNIT / TICKS_PER_SECOND
+
+
+def too_fast(image: Image, number: int, volts: float = BATTERY_V, law: str = EXACT,
+             pose: Optional[Sequence[int]] = None, seconds: float = 60) -> List[TooFast]:
+    """Steps of a play from page `number` on (along its next links) in which a joint is asked for more than an unloaded servo
+    does at this supply. `pose`: where the joints stand; else in page `number`'s first step, for the robot goes there slowly."""
+    limit, found = no_load_units_per_tick(volts), {}
+    recent: Deque[List[int]] = deque(maxlen=WINDOW + 1)
+    for tick in play(image, number, law, pose or _first_pose(image, number), int(seconds * TICKS_PER_SECOND)):
+        if tick.goals is None:
+            continue
+        recent.append(tick.goals)
+        speed, joint = max((abs(tick.goals[j] - recent[0][j]) / WINDOW, j) for j in range(JOINTS))
+        if len(recent) > WINDOW and speed > limit:
+            place = tick.page, tick.step
+            if place not in found or found[place].degrees_s < speed * DEGREES_PER_UNIT * TICKS_PER_SECOND:
+                found[place] = TooFast(*place, joint, speed * DEGREES_PER_UNIT * TICKS_PER_SECOND)
+    return list(found.values())
+
+
+def _first_pose(image: Image, number: int) -> List[int]:
+    page = image[number]
+    return [page.word(0, joint) if page.steps and page.word(0, joint) <= 1023 else 512 for joint in range(JOINTS)]
