@@ -179,7 +179,8 @@ static void test_servo_load_makes_it_droop_and_shows(void)
     put(SERVO_GOAL, 512, 2);
     servo->outside_load = -0.5; /* gravity, half of stall torque, towards smaller positions */
     wire_wait(&wire, 1000 * MS);
-    /* 0.75 N m, and the friction may hold or need 0.05: duty 0.70 / 1.24 .. 0.80 / 1.24 = 0.0313 + (error - 1) / 32 * 0.9687. */
+    /* 0.75 N m, and the friction may hold or need 0.05: duty 0.70 / 1.24 .. 0.80 / 1.24, which is
+     * 0.0313 + (error - 1) / 32 * 0.9687. */
     TEST_ASSERT_INT_WITHIN(2, 20, 512 - present());
     TEST_ASSERT_INT_WITHIN(42, 619, register_of(&wire, servo, SERVO_PRESENT_LOAD, 2));
     servo->outside_load = 0.5;

@@ -5,7 +5,7 @@
 
 #define WHEEL_UNITS (360.0 * 1024 / 300) /* one turn */
 #define CENTRE 512.0
-#define GOVERNOR_PER_S 20.0              /* how fast the moving speed gives duty: settles in 0.1 s, without overshoot unloaded */
+#define GOVERNOR_PER_S 20.0              /* how fast the moving speed gives duty: settles in 0.1 s */
 #define HOLD_NM_PER_RADIAN 100.0         /* a blocked horn in a physical body: 1 N m bends it by 0.6 degrees */
 #define HOLD_NM_S 0.5
 
@@ -126,7 +126,8 @@ static void watch_stall(servo_t *servo)
 static void shaft_turned(servo_t *servo)
 {
     watch_stall(servo);
-    servo->temperature_c = servo_motor_heat(motor_of(servo), servo->motor_nm, servo->temperature_c, servo->ambient_c, SERVO_STEP_S);
+    servo->temperature_c =
+        servo_motor_heat(motor_of(servo), servo->motor_nm, servo->temperature_c, servo->ambient_c, SERVO_STEP_S);
 }
 
 void servo_motion_turned(servo_t *servo, double angle_rad, double speed_rad_s)

@@ -4,8 +4,8 @@
  *
  *   torque |\  duty 1            torque = A * duty * V / 12 V - B * speed, less the friction of the gears
  *    stall | \
- *          |  \                  A and B follow from the maker's sheet: at 12 V and full duty the shaft stalls at stall_nm and
- *        0 +---\---- speed       turns at no_load_rpm, both with the friction of the gears in them.
+ *          |  \                  A and B follow from the maker's sheet: at 12 V and full duty the shaft stalls at
+ *        0 +---\---- speed       stall_nm and turns at no_load_rpm, both with the friction of the gears in them.
  *          no load
  */
 #ifndef SIM_SERVO_MOTOR_H

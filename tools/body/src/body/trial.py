@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: MIT
+"""One motion on one body: does it stand, and where does it go?
+
+    from body.trial import try_motion
+    outcome = try_motion(image, page=20, seconds=12)               # 65,536 bytes as in flash; nominal humanoid, exact law
+    outcome.fell_s, outcome.forward_mm_s, outcome.turn_deg_s, outcome.on_feet
+
+The player is the firmware's, compiled for this machine; servos and body are those of the simulated board, without its chip
+(quick.py): about 15 times as fast as the robot. A trial is a value: the same arguments give the same outcome, to the last bit on
+one machine and one version of MuJoCo.
+"""
+import functools
+import math
+from dataclasses import dataclass, field
+
+from .chance import NOMINAL
+from .description import Description, load
+from .physics import PUSH_S, Physics
+from .quick import Quick
+
+TICKS_PER_S = 128
+CHUNK = 4                        # ticks between looks, and between keys: 31 ms, about the pace of a remote's packets
+FALLEN = 0.5                     # the trunk is tilted by 60 degrees
+ON_FEET = 0.9                    # and by less than 26
+WARM_S = 1.5                     # speeds are measured from here on: without the start
+SETTLE_S = 0.25                  # in the first pose, before the play
+AFTER_S = 0.75                   # after the play: does it stay?
+STOP = 255                       # the code of a stop
+
+
+@dataclass(frozen=True)
+class Look:
+    """Where the trunk is: seconds since the play began, mm in the frame of the start, degrees to the left."""
+
+    time_s: float
+    x_mm: float
+    y_mm: float
+    heading: float
+    upright: float
+
+
+@dataclass
+class Outcome:
+    """What came of it. Speeds are means from WARM_S on; ways and heading are those of the whole play."""
+
+    seconds: float = 0.0         # how long it played; to the fall if it fell
+    fell_s: float = None         # when; None: it did not
+    ended: bool = False          # the play came to its end by itself
+    on_feet: bool = False        # in the end it stands upright, and nothing but its soles touches the floor
+    x_mm: float = 0.0
+    y_mm: float = 0.0
+    heading: float = 0.0
+    forward_mm_s: float = 0.0    # along the way it went: the length of the path of the middle of its steps, with its sign
+    sideways_mm_s: float = 0.0   # seen from the robot, to the left
+    turn_deg_s: float = 0.0
+    track: list = field(default_factory=list)
+    loads: dict = field(default_factory=dict)       # servo -> quick.Load
+    touched: set = field(default_factory=set)       # pairs of geoms that touched each other, the floor not counted
+
+    @property
+    def most_units_per_tick(self):
+        return max((load.most_units_per_tick for load in self.loads.values()), default=0.0)
+
+    @property
+    def most_torque_nm(self):
+        """The largest mean torque of a servo."""
+        return max((load.torque_nm for load in self.loads.values()), default=0.0)
+
+    def said(self):
+        how = f"fell after {self.fell_s:.1f} s" if self.fell_s is not None else "on its feet" if self.on_feet else "not on its feet"
+        return (f"{how}; {self.x_mm:.0f} mm forward, {self.y_mm:.0f} to the left, turned {self.heading:.0f} degrees in "
+                f"{self.seconds:.1f} s ({self.forward_mm_s:.0f} mm/s, {self.turn_deg_s:.1f} degrees/s)")
+
+
+@functools.lru_cache(maxsize=8)
+def _robot(name):
+    return load(name)
+
+
+def first_pose(image, page, robot):
+    """{servo: position} of step 1 of a page; what the page does not use stays at 512."""
+    at = page * 512 + 64
+    words = {servo: image[at + 2 * servo] | image[at + 2 * servo + 1] << 8 for servo in robot.servos}
+    return {servo: word if word <= 1023 else 512 for servo, word in words.items()}
+
+
+def try_motion(image, page, seconds, robot="humanoid", variation=NOMINAL, law="exact", keys=(), models=None, pose=None,
+               lie=None, falls=True):
+    """Plays `page` for at most `seconds`, and looks.
+
+    robot     a name, a path, or a Description
+    keys      [(second, code)] of a remote, code 0 let go, 255 (STOP) stop; in rising order
+    models    {servo: "ax18"}; the others are AX-12
+    pose      {servo: position} to begin in; else step 1 of the page, in which the approach leaves the robot
+    lie       "face" or "back": begins lying there instead of standing
+    falls     False: tilting is no fall (motions that go to the floor); what counts then is on_feet
+    """
+    robot = robot if isinstance(robot, Description) else _robot(str(robot))
+    physics = Physics(robot, variation)
+    begin = first_pose(image, page, robot) | (pose or {})
+    if lie:
+        physics.lie(begin, face_down=lie == "face")
+    else:
+        physics.stand(begin)
+    quick = Quick(image, physics, models)
+    quick.torque_on()
+    quick.run(int(SETTLE_S * TICKS_PER_S))
+    quick.start(page, law)
+    return _play(quick, physics, seconds, list(keys), falls and not lie)
+
+
+def _play(quick, physics, seconds, keys, falls):
+    outcome, zero_s = Outcome(), physics.time_s
+    frame = physics.x_mm, physics.y_mm, math.radians(physics.heading)
+    pushes = sorted(physics.variation.pushes, key=lambda push: push.at_s)
+    pushed = None
+    playing = True
+    while playing and (now := physics.time_s - zero_s) < seconds:
+        while keys and keys[0][0] <= now:
+            quick.keys(keys.pop(0)[1])
+        pushed = _push(physics, pushes, pushed, now)
+        playing = quick.run(CHUNK)
+        outcome.track.append(_look(physics, frame, zero_s))
+        outcome.touched |= {pair for pair in physics.touching() if "floor" not in pair}
+        if falls and physics.upright < FALLEN:
+            outcome.fell_s = physics.time_s - zero_s
+            break
+    outcome.seconds, outcome.ended = physics.time_s - zero_s, not playing
+    outcome.loads = quick.loads()
+    physics.let_go()
+    if outcome.fell_s is None:
+        quick.run(int(AFTER_S * TICKS_PER_S))
+        if falls and physics.upright < FALLEN:
+            outcome.fell_s = physics.time_s - zero_s
+        outcome.on_feet = stands(physics)
+    _measure(outcome)
+    return outcome
+
+
+def _push(physics, pushes, pushed, now):
+    """Begins and ends pushes; returns when the running one ends."""
+    if pushed is not None and now >= pushed:
+        physics.let_go()
+        pushed = None
+    if pushed is None and pushes and pushes[0].at_s <= now:
+        push = pushes.pop(0)
+        physics.push(push.newton_s, push.towards)
+        pushed = now + PUSH_S
+    return pushed
+
+
+def stands(physics):
+    """Upright, and nothing but soles on the floor."""
+    on_floor = {name for pair in physics.touching() if "floor" in pair for name in pair} - {"floor"}
+    return physics.upright > ON_FEET and on_floor <= {"right_sole", "left_sole"}
+
+
+def _look(physics, frame, zero_s):
+    x0, y0, turned = frame
+    x, y = physics.x_mm - x0, physics.y_mm - y0
+    return Look(physics.time_s - zero_s, x * math.cos(turned) + y * math.sin(turned), y * math.cos(turned) - x * math.sin(turned),
+                physics.heading - math.degrees(turned), physics.upright)
+
+
+def _measure(outcome):
+    if not outcome.track:
+        return
+    last = outcome.track[-1]
+    outcome.x_mm, outcome.y_mm, outcome.heading = last.x_mm, last.y_mm, last.heading
+    warm = [look for look in outcome.track if look.time_s >= min(WARM_S, last.time_s / 2)]
+    span = warm[-1].time_s - warm[0].time_s
+    if span <= 0:
+        return
+    outcome.turn_deg_s = (warm[-1].heading - warm[0].heading) / span
+    # In the robot's own frame, a second at a time: sway cancels out, a turn does not shorten the way.
+    forward = sideways = 0.0
+    stride = max(1, round(1.0 * TICKS_PER_S / CHUNK))
+    marks = warm[::stride] + ([warm[-1]] if (len(warm) - 1) % stride else [])
+    for before, after in zip(marks, marks[1:]):
+        ahead = math.radians((before.heading + after.heading) / 2)
+        dx, dy = after.x_mm - before.x_mm, after.y_mm - before.y_mm
+        forward += dx * math.cos(ahead) + dy * math.sin(ahead)
+        sideways += dy * math.cos(ahead) - dx * math.sin(ahead)
+    outcome.forward_mm_s, outcome.sideways_mm_s = forward / span, sideways / span
