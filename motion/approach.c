@@ -8,9 +8,9 @@
  *             /                  \        way = v * (N - A), so v = way / (N - A)
  *            RISE A   cruise   FALL A     RISE: speed v c / A in tick c; FALL: v (A - c) / A
  *
- * The longest way takes the limit; all others take as long. `speed` holds A times the speed, so that it grows by v itself
- * and nothing is lost: v, truncated to 2^-16 units a tick, is less than 0.6 unit short over the longest approach possible
- * (1023 units at 1 degree/s, 38,363 ticks), which the last tick, exactly on target, swallows. */
+ * The longest way takes the limit; all others take as long. v, truncated to 2^-16 units a tick, is less than 0.6 unit short
+ * over the longest approach possible (1023 units at 1 degree/s, 38,363 ticks), which the last tick, exactly on target,
+ * swallows. v c stays below 1024 units: A <= N - A. */
 #define RAMP_TICKS_MAX 32u
 #define ONE_Q16_16 ((int32_t)65536)
 /* Servo units per tick at 1 degree/s: 1024 / 300 / 128 = 2 / 75. */
@@ -72,6 +72,14 @@ static uint8_t ramp_shift(const approach_t *approach)
     return shift;
 }
 
+/* c of this tick: how many A-ths of v the speed is. */
+static uint8_t ramp_at(const approach_t *approach)
+{
+    uint16_t left = (uint16_t)(approach->total_ticks - approach->tick), at = approach->ramp_ticks;
+    at = approach->tick < at ? approach->tick : at;
+    return (uint8_t)(left < at ? left : at);
+}
+
 bool approach_tick(approach_t *approach, uint16_t goal_pos[PAGE_JOINTS])
 {
     if (approach->tick >= approach->total_ticks) {
@@ -79,21 +87,13 @@ bool approach_tick(approach_t *approach, uint16_t goal_pos[PAGE_JOINTS])
     }
     approach->tick++;
     const bool last = approach->tick == approach->total_ticks;
-    const bool falls = approach->tick > approach->total_ticks - approach->ramp_ticks;
-    const bool rises = !falls && approach->tick <= approach->ramp_ticks;
-    const uint8_t shift = ramp_shift(approach);
+    const uint8_t at = ramp_at(approach), shift = ramp_shift(approach);
     uint32_t bit = 1;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, bit <<= 1) {
-        if ((approach->joints & bit) == 0) {
-            continue;
+        if ((approach->joints & bit) != 0) {
+            approach->pos_q16_16[i] += approach->cruise_q16_16[i] * at >> shift;
+            goal_pos[i] = last ? approach->target_pos[i] : rounded(approach->pos_q16_16[i]);
         }
-        if (rises) {
-            approach->speed_ramp[i] += approach->cruise_q16_16[i];
-        } else if (falls) {
-            approach->speed_ramp[i] -= approach->cruise_q16_16[i];
-        }
-        approach->pos_q16_16[i] += approach->speed_ramp[i] >> shift;
-        goal_pos[i] = last ? approach->target_pos[i] : rounded(approach->pos_q16_16[i]);
     }
     return !last;
 }
@@ -104,11 +104,12 @@ void approach_break(approach_t *approach)
     if (approach->tick + ramp >= approach->total_ticks) {
         return; /* slowing down already, or over */
     }
-    approach->total_ticks = (uint16_t)(approach->tick + ramp);
-    const uint8_t shift = ramp_shift(approach);
+    const uint8_t at = ramp_at(approach), shift = ramp_shift(approach);
+    approach->tick = ramp; /* at the beginning of FALL */
+    approach->total_ticks = (uint16_t)(2u * ramp);
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         /* FALL from the present speed s: s (A - c) / A, c = 1..A, sums up to s (A - 1) / 2. */
-        approach->cruise_q16_16[i] = approach->speed_ramp[i] >> shift;
+        approach->cruise_q16_16[i] = approach->cruise_q16_16[i] * at >> shift;
         approach->target_pos[i] =
             rounded(approach->pos_q16_16[i] + approach->cruise_q16_16[i] * (int32_t)(ramp - 1) / 2);
     }

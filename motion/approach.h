@@ -15,7 +15,6 @@ typedef struct {
     uint32_t joints;
     uint16_t tick, ramp_ticks, total_ticks;
     int32_t pos_q16_16[PAGE_JOINTS];
-    int32_t speed_ramp[PAGE_JOINTS];      /* speed, q16.16 units per tick, times ramp_ticks */
     int32_t cruise_q16_16[PAGE_JOINTS];   /* speed between the ramps */
     uint16_t target_pos[PAGE_JOINTS];
 } approach_t;

@@ -14,6 +14,7 @@
 #define FIX_H
 
 #include <stdint.h>
+#include "compiler.h"
 #include "mul.h"
 
 #define FIX_POS_BITS 16
@@ -44,6 +45,9 @@ static inline uint32_t fix_recip32(uint16_t ticks)
 /* Mean speed q16.16 of a way 0..65535 over the ticks of fix_recip32. Floor; at most 2^-16 * way + 1 units of 2^-16 small. */
 static inline uint32_t fix_mean(uint16_t way, uint32_t recip32)
 {
+    if (recip32 == UINT32_MAX) { /* one tick: spares a step that needs all in it the multiplication */
+        return way == 0 ? 0 : ((uint32_t)way << 16) - 1u;
+    }
     return mul_u32_u16_shift16(recip32, way);
 }
 
@@ -75,11 +79,14 @@ static inline uint16_t fix_ramp_recip(uint8_t ticks)
     return (uint16_t)(quotient * 16u + (remainder * 16u) / ticks);
 }
 
-/* speed / ticks: never more, relative error below 2^-12 and 2^-16. */
+/* speed / ticks, exact for 1 and 2 ticks; else never more, relative error below 2^-12 and 2^-16. */
 static inline uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks)
 {
+    if (ticks <= 2) {
+        return ticks == 2 ? speed >> 1 : speed;
+    }
     uint32_t quotient = mul_u32_u16_shift16(speed, ramp_recip);
-    return ticks < FIX_LONG_RAMP ? quotient : shift_u32_right4(quotient);
+    return ticks < FIX_LONG_RAMP ? quotient : quotient >> 4;
 }
 
 /* dividend / divisor and the remainder, exact, by the divisor's reciprocal (fix_recip16). Costs a multiplication

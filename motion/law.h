@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: MIT
- * law.h - the seam between the player (pages, links, states: player.c) and its two laws (law_exact.c, law_classic.c).
- * Included by these only. A law sees `now` and `coming`, keeps what it needs in player_joint_t, and asks the player for
- * the next step with player_next_step. */
+ * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence.c), the two laws
+ * (law_exact.c, law_classic.c), slowing down (brake.c). Included by these only.
+ *
+ * How a step follows another; the work is spread over three ticks, so that none has too much with 31 joints:
+ *
+ *   last but one    look     the link of a page's last step is decided; the step behind the coming one is read and shaped
+ *   last            take     the joints are at their targets; the coming step becomes `now`, and is planned for half of them
+ *   first of `now`  begin    the other half, and the tick itself
+ *
+ * Functions that run once a step are NOINLINE: inlined, they make every ordinary tick save registers for them. */
 #ifndef LAW_H
 #define LAW_H
 
+#include <stddef.h>
 #include "player.h"
-
-/* Kept out of line, so that each loop over the joints has the registers for itself, and an ordinary tick does not save
- * registers for what happens once a step. */
-#define RARE __attribute__((noinline))
 
 /* Sections of a step.
  *
@@ -20,45 +24,71 @@
  */
 enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
 
-/* Looks at the next step: `now` becomes the coming step, and the one after it is found; at the last step of a page that
- * means deciding the link. The step's events are held until it begins (player_announce). A law does this one or two ticks
- * before the running step ends, so that the ticks in which a step ends and the next one begins have less to do: the link
- * is decided with the code that is in force two or three ticks (20 ms) before the page's last step begins.
- * step: receives the 64 bytes of the step to look at for joints that run through (classic: of the page that the link
- * names; exact: of the step that will really be played), those from byte `from` on: 0, or PAGE_STEP_AT_PAUSE where the words
- * have been looked at before. Valid when player_looks_ahead.
+/* Every joint that this play owns; the same with its goal. */
+#define FOR_OWN_JOINTS(player, joint_)                                                                               \
+    for (player_joint_t *joint_ = (player)->joint, *end_ = joint_ + PAGE_JOINTS; joint_ < end_; joint_++)            \
+        if (joint_->owner == (player)->self)
+#define FOR_OWN_GOALS(player, joint_, goal_)                                                                         \
+    uint16_t *goal_ = (player)->goal_pos;                                                                            \
+    for (player_joint_t *joint_ = (player)->joint, *end_ = joint_ + PAGE_JOINTS; joint_ < end_; joint_++, goal_++)   \
+        if (joint_->owner == (player)->self)
+
+/* --- sequence.c --------------------------------------------------------------------------------------------------- */
+
+/* Finds the page that plays first and takes its first step as `coming`. false: none (player.fault tells why); then only
+ * .fault and .fault_page have changed. */
+bool sequence_start(player_t *player, link_t *link, uint8_t page);
+
+/* Takes the positions of the first step: fills coming_pos. Returns the longest way of a joint that is not lent; lent_way is
+ * that of the others. */
+uint16_t sequence_take_first(player_t *player);
+
+/* Finds the step behind the coming one, which decides the link at the last step of a page, and reads it. From now on `now`
+ * is the coming step and `coming` the one behind it (page 0: the play ends behind `now`), whose words are in looked_at
+ * (classic: those of the page that the link names, although another will be played).
  * Call only while player->coming.page is not 0. */
-void player_next_step(player_t *player, link_t *link, uint8_t step[PAGE_STEP_BYTES], uint8_t from);
+void sequence_look(player_t *player, link_t *link) NOINLINE;
 
-/* The 64 bytes of the coming step once more. */
-void player_read_coming(const player_t *player, uint8_t step[PAGE_STEP_BYTES]);
+/* coming_pos to target_pos, looked_at to coming_pos, with coming_joints. Returns as sequence_take_first; 0 where no length depends on it. Without a
+ * coming step no joint is used. */
+uint16_t sequence_take(player_t *player);
 
-/* The primed step begins: makes `now` public and returns the held events; 0 when no step is primed. */
-uint8_t player_announce(player_t *player);
+/* `now` begins: makes it public and returns its events. 0 when none is about to begin. */
+uint8_t sequence_announce(player_t *player);
 
-bool player_looks_ahead(const player_t *player);
+/* --- player.c ----------------------------------------------------------------------------------------------------- */
 
-/* The play ends here, on target. Returns PLAYER_EV_ENDED. */
+/* The play ends here. Returns PLAYER_EV_ENDED. */
 uint8_t player_end(player_t *player);
 
-/* false while the rest of an interrupted step is played. */
-bool player_is_in_law(const player_t *player);
+/* --- the laws ----------------------------------------------------------------------------------------------------- */
 
-/* The longest way that a present joint has to go in the coming step, from its coming_pos, which is still that of the
- * step before. */
-uint16_t law_longest_way(const player_t *player, const uint8_t step[PAGE_STEP_BYTES]);
-
-/* Both laws. start: every joint stands on target_pos = coming_pos = goal_pos (`step`: the bytes of the first step).
- * tick: one tick, PLAYER_EV_ bits. freeze: leaves pos and speed of every joint in the words of the exact law, and the
- * ticks that the step still had in player->step_ticks - player->tick. */
-void exact_start(player_t *player, link_t *link, const uint8_t step[PAGE_STEP_BYTES]);
+/* start: every joint stands on target_pos = coming_pos, `coming` is the first step.
+ * tick: one tick, PLAYER_EV_ bits.
+ * freeze: leaves pos and speed of every joint in .exact, and the ticks that the step still had in step_ticks - tick.
+ * step_over: at the end of a tick: looks and takes; exact ends the play with the last tick, classic one tick later. */
+void exact_start(player_t *player, link_t *link);
 uint8_t exact_tick(player_t *player, link_t *link);
-uint8_t exact_go_on(player_t *player, link_t *link); /* the second half of a tick: looks ahead, primes, ends */
+uint8_t exact_step_over(player_t *player, link_t *link);
 void exact_freeze(player_t *player);
+
 bool classic_is_here(void);
 void classic_start(player_t *player, link_t *link);
 uint8_t classic_tick(player_t *player, link_t *link);
+void classic_step_over(player_t *player, link_t *link);
 void classic_freeze(player_t *player);
+void classic_thaw(player_t *player); /* classic takes over again behind a pause, or behind the rest of a step */
+
+/* The rest of an interrupted step, from a stand to target_pos, by the exact law whatever the play's: in the ticks that the
+ * step still had, but at least in those that slowing down took. Start returns false when there is nothing left to do; a
+ * tick false when it was the last, on target. */
+bool exact_rest_start(player_t *player);
+bool exact_rest_tick(player_t *player);
+
+/* One tick's way at the present speed and acceleration of every joint. */
+void exact_move(player_t *player);
+
+/* --- brake.c ------------------------------------------------------------------------------------------------------ */
 
 /* Slows down from pos and speed in law_brake_ticks: as long as the step's ramp, at least 8 ticks, so that no joint leaves
  * the way that its page would have taken it. brake_tick returns false with the last tick. */
@@ -69,27 +99,5 @@ static inline uint8_t law_brake_ticks(const player_t *player)
 }
 void brake_start(player_t *player);
 bool brake_tick(player_t *player);
-
-/* One tick's way at the present speed and acceleration of every joint. */
-void exact_move(player_t *player);
-
-/* The rest of an interrupted step, from a stand to target_pos, by the exact law whatever the play's, in the ticks that the
- * step still had, but at least in those that slowing down took. Start returns false
- * when there is nothing left to do; a tick false when it was the last, on target. */
-bool exact_rest_start(player_t *player);
-bool exact_rest_tick(player_t *player);
-
-/* The classic law's work ahead (classic_ahead.c). prepare: a share of the coming step: a look at it, then up to `count`
- * joints; all: what is left of it. pace: how large the shares are in a step of `ticks`. work_ahead: the share of this tick,
- * in which perhaps a section changed or the step began; returns whether it looked at the step. */
-void classic_prepare(player_t *player, uint8_t count);
-void classic_prepare_all(player_t *player);
-bool classic_knows_behind(const player_t *player);
-uint8_t classic_pace(uint16_t ticks);
-bool classic_work_ahead(player_t *player, bool change, bool begins);
-
-/* Classic while and after that: makes the coming step ready; takes over again behind the finished step. */
-void classic_prepare_at_rest(player_t *player);
-void classic_thaw(player_t *player);
 
 #endif

@@ -1,20 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * law_classic.c - the original's law, sample by sample (player.md section 1; names M, N, A, K, P, v, w as there).
+ * law_classic.c - the original's law, sample by sample (player.md section 1; names M, N, A, P, K, v, w as there).
  *
  *   speed          ________
  *                /        \        through: v goes on into the next step
  *      w -------/          \       stop: back to 0 in FALL
  *            RISE  CRUISE   FALL  HOLD
  *
- * Nothing is divided in a tick: x * c / num for c = 1, 2, .. num is a running sum (classic_math.h). What a remote code
- * cannot change any more is made ready while the step before is played (classic_ahead.c). Whether a joint stops or goes
- * through is known when the step before is over, and at the last step of a page that is when the link is decided.
+ * The original begins a step, plans it and makes its first tick in one call. Here that is spread over three calls (law.h).
+ * A tick divides once, c / num for all joints (classic_math.h).
  *
  * Ranges: |M| <= 1023; |v|, |w| <= 1023; acc within +-4893; M - acc within +-5916. */
-/* The loops over all joints need it: a quarter fewer cycles for 0.6 KiB of flash. Before the headers, or their inline
- * functions are called. */
-#pragma GCC optimize("O2")
-
 #include "classic_math.h"
 #include "fix.h"
 #include "law.h"
@@ -23,7 +18,7 @@
 /* 720 / 1024 degrees/s in q16.16 servo units per tick: 0.01875 * 2^16 = 1228.8 */
 #define SPEED_UNIT_Q16_16 1229
 
-/* --- sections ---------------------------------------------------------------------------------------------------- */
+/* --- sections ----------------------------------------------------------------------------------------------------- */
 
 static void enter(player_t *player, uint8_t section, uint16_t ticks)
 {
@@ -32,190 +27,256 @@ static void enter(player_t *player, uint8_t section, uint16_t ticks)
     player->tick = 0;
 }
 
-/* Between two steps (primed) a joint has in carried, through and speed what belongs to the step to begin, which leads from
- * target_pos to coming_pos. */
-RARE static void prime_known(player_t *player, uint8_t left)
+ALWAYS_INLINE void put(player_classic_t *classic, uint16_t *goal, int16_t way)
 {
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        joint->classic.carried = classic_speed_left(left, joint);
-        joint->classic.speed = joint->stop_speed;
-        joint->classic.through = (uint8_t)joint->through_speed;
+    classic->out_pos = limit_pos((int16_t)(classic->start_pos + way));
+    *goal = (uint16_t)classic->out_pos;
+}
+
+/* g, the speed that a joint has at the end of the step; a skipped step (N = 0) leaves w, and one without ramps v. */
+static int16_t speed_left(const player_t *player, const player_classic_t *classic)
+{
+    if (player->section == SECTION_HOLD) {
+        return 0;
     }
-}
-
-/* The link has been decided. step: the step that it leads to, when the player looks ahead. */
-RARE static void prime_decided(player_t *player, uint8_t left, const uint8_t *step)
-{
-    bool may_run_on = player_looks_ahead(player) && step_plan_classic_hold(&player->now) == 0;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, step += 2) {
-        bool through = may_run_on && classic_runs_on(joint, page_word(step));
-        joint->classic.carried = classic_speed_left(left, joint);
-        joint->classic.speed = through ? joint->through_speed : joint->stop_speed;
-        joint->classic.through = through;
+    if (player->step_ticks == 0) {
+        return classic->carried;
     }
+    return player->ramp_ticks == 0 || classic->through ? classic->speed : 0;
 }
 
-/* Behind the last tick of a step: the link of a page's last step is decided, and with it which joints run through. */
-RARE static void prime(player_t *player, link_t *link)
+/* --- from step to step -------------------------------------------------------------------------------------------- */
+
+/* next_word: a position word; PAGE_POS_UNUSED: the joint stays. */
+static bool runs_on(int16_t from, int16_t to, uint16_t next_word)
 {
-    uint8_t step[PAGE_STEP_BYTES];
-    classic_prepare_all(player);
-    bool known = classic_knows_behind(player);
-    player->joints |= player->coming_joints;
-    player_next_step(player, link, step, known ? PAGE_STEP_AT_PAUSE : 0);
-    player->primed = true;
-    uint8_t left = classic_left(player);
-    known ? prime_known(player, left) : prime_decided(player, left, step);
+    int16_t next = (int16_t)next_word;
+    return next_word != PAGE_POS_UNUSED && ((from < to && to < next) || (from > to && to > next));
 }
 
-/* Behind a section's first tick. An empty section has none: it uses up a call without output. */
-static uint8_t begun(player_t *player, uint8_t events)
+/* Joints begin on their target; behind a pause (or at the start) where they are. A joint that the step does not use stays
+ * there, and its target too. Returns the longest way. */
+static uint16_t aim_joints(player_t *player, bool may_run_on)
 {
-    if (player->section_ticks == 0) {
-        return events;
-    }
-    player->tick = 1;
-    return (uint8_t)(events | PLAYER_EV_OUTPUT);
-}
-
-/* The way that a joint makes in the first tick of a ramp, in which its speed changes by so much. */
-static inline int16_t first_rise_way(int16_t speed, int16_t change)
-{
-    return first_ramp_way((int16_t)(speed + (change >> 1)));
-}
-
-static void enter_step(player_t *player)
-{
-    player->step_ticks = player->coming_ticks;
-    player->ramp_ticks = player->coming_ramp_ticks;
-    player->hold_ticks = step_plan_classic_hold(&player->now);
-    player->prepared = 0;
-    player->pace = classic_pace((uint16_t)(player->step_ticks + player->hold_ticks));
-    enter(player, SECTION_RISE, player->ramp_ticks);
-}
-
-/* --- a section begins: what it needs of each joint is set up, and its first tick made, in one loop ------------------ */
-
-/* Every joint begins on its target with its speed known. */
-RARE static uint8_t begin_step(player_t *player)
-{
-    enter_step(player);
-    uint8_t ramp = player->ramp_ticks, events = player_announce(player);
-    spread_t over = spread_over(ramp);
-    uint16_t *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        uint16_t from = joint->target_pos, to = joint->coming_pos;
-        int16_t speed = joint->classic.speed, acc = 0;
-        joint->target_pos = to;
-        joint->classic.base = (int16_t)from;
-        joint->classic.main = (int16_t)(to - from);
-        if (ramp != 0) {
-            int16_t carried = joint->classic.carried;
-            acc = first_rise_way(carried, first_share(joint, (int16_t)(speed - carried), over));
+    uint16_t longest = 0;
+    uint32_t used = player->coming_joints;
+    const uint16_t *coming = player->coming_pos, *next = player->looked_at;
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, coming++, next++, used >>= 1) {
+        if (joint->owner != player->self) {
+            continue;
         }
-        joint->classic.acc = acc;
-        *goal++ = (uint16_t)limit_pos((int16_t)((int16_t)from + acc));
+        player_classic_t *classic = &joint->classic;
+        int16_t from = player->section == SECTION_HOLD ? classic->out_pos : (int16_t)joint->target_pos, to = from;
+        int16_t carried = 0;
+        if (((uint8_t)used & 1u) != 0) {
+            to = (int16_t)*coming;
+            carried = speed_left(player, classic);
+            uint16_t way = fix_size((int16_t)(to - from));
+            longest = way > longest ? way : longest;
+        }
+        classic->carried = carried;
+        classic->through = may_run_on && runs_on(from, to, *next);
+        classic->start_pos = from;
+        classic->to_go = (int16_t)(to - from);
     }
-    return begun(player, events);
+    return longest;
 }
 
-RARE static uint8_t begin_cruise(player_t *player)
+typedef struct {
+    uint16_t stop, through; /* 4 (N - A), 4 N - 2 A */
+    uint16_t twice_ramp;    /* 2 A */
+} divisors_t;
+
+/* v = (K - w * 2A) / divisor. */
+static int16_t plan_speed(const player_classic_t *classic, const divisors_t *by)
+{
+    bool down = classic->to_go < 0;
+    uint32_t size = way_in_speed_units(fix_size(classic->to_go));
+    if (classic->carried != 0) {
+        uint32_t taken = mul_u16_u16(fix_size(classic->carried), by->twice_ramp);
+        size = (classic->carried < 0) == down ? size - taken : size + taken;
+        if ((int32_t)size < 0) {
+            size = 0 - size;
+            down = !down;
+        }
+    }
+    int16_t speed = divide_speed(size, classic->through ? by->through : by->stop);
+    return down ? (int16_t)-speed : speed;
+}
+
+/* v of a step that is skipped: the divisor is 1, and int16(K) may be anything. It counts where the play ends behind it. */
+static int16_t skipped_speed(const player_classic_t *classic)
+{
+    uint16_t size = (uint16_t)way_in_speed_units(fix_size(classic->to_go));
+    int16_t speed = classic->to_go < 0 ? (int16_t)(0u - size) : (int16_t)size;
+    return speed > CLASSIC_SPEED_MAX ? CLASSIC_SPEED_MAX : speed < -CLASSIC_SPEED_MAX ? -CLASSIC_SPEED_MAX : speed;
+}
+
+/* v of the joints first to end - 1. */
+static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
+{
+    uint16_t ticks = player->step_ticks;
+    uint8_t ramp = player->ramp_ticks;
+    divisors_t by = {(uint16_t)(4 * (ticks - ramp)), (uint16_t)(4 * ticks - 2 * ramp), (uint16_t)(2 * ramp)};
+    for (player_joint_t *joint = &player->joint[first]; joint < &player->joint[end]; joint++) {
+        if (joint->owner == player->self) {
+            player_classic_t *classic = &joint->classic;
+            classic->speed = ticks != 0 ? plan_speed(classic, &by) : skipped_speed(classic);
+        }
+    }
+    player->planned = end;
+}
+
+/* Joints that are planned in the tick before their step begins. */
+#define PLANNED_AHEAD 8u
+
+/* Behind the last tick of a step: what begins with the next call. */
+static NOINLINE void take(player_t *player)
+{
+    uint16_t lent_way = player->lent_way;
+    player->joints |= player->coming_joints;
+    uint16_t hold_ticks = step_plan_classic_hold(&player->now, &player->carry_q5_11);
+    uint16_t way = aim_joints(player, player->look_page != 0 && hold_ticks == 0);
+    way = way > lent_way ? way : lent_way;
+    player->hold_ticks = hold_ticks;
+    player->step_ticks = step_plan_classic_ticks(&player->now, way, &player->carry_q5_11);
+    player->ramp_ticks = step_plan_classic_ramp(player->now.accel_time, &player->step_ticks);
+    (void)sequence_take(player);
+    player->arrived = true;
+    plan_joints(player, 0, PLANNED_AHEAD);
+}
+
+void classic_start(player_t *player, link_t *link)
+{
+    (void)sequence_take_first(player);
+    enter(player, SECTION_HOLD, 0);
+    player->hold_ticks = 0;
+    sequence_look(player, link);
+    take(player);
+}
+
+/* Calls until the step is over; in RISE, which is followed by two sections at least, only that they are many. */
+static uint16_t calls_left(const player_t *player)
+{
+    uint16_t left = (uint16_t)(player->section_ticks - player->tick);
+    switch (player->section) {
+    case SECTION_RISE:
+        return UINT16_MAX;
+    case SECTION_CRUISE:
+        left = (uint16_t)(left + (player->ramp_ticks != 0 ? player->ramp_ticks : 1u)); /* an empty section takes a call */
+        return (uint16_t)(left + player->hold_ticks);
+    case SECTION_FALL:
+        return (uint16_t)(left + player->hold_ticks);
+    default:
+        return left;
+    }
+}
+
+void classic_step_over(player_t *player, link_t *link)
+{
+    uint16_t left = calls_left(player);
+    if (player->arrived || left > 1 || (!player->looked && player->coming.page == 0)) {
+        return;
+    }
+    if (!player->looked) {
+        sequence_look(player, link);
+    }
+    if (left == 0) {
+        take(player);
+    }
+}
+
+/* --- a section begins ----------------------------------------------------------------------------------------------- */
+
+static NOINLINE uint8_t begin_step(player_t *player)
+{
+    uint8_t events = sequence_announce(player);
+    plan_joints(player, player->planned, PAGE_JOINTS);
+    enter(player, SECTION_RISE, player->ramp_ticks);
+    if (player->ramp_ticks == 0) {
+        FOR_OWN_GOALS(player, joint, goal) {
+            joint->classic.acc = 0;
+            put(&joint->classic, goal, 0);
+        }
+    }
+    return events;
+}
+
+static NOINLINE void begin_cruise(player_t *player)
 {
     uint8_t ramp = player->ramp_ticks;
-    uint16_t ticks = player->step_ticks, cruise = (uint16_t)(ticks - 2u * ramp), rest = (uint16_t)(ticks - ramp);
+    uint16_t ticks = player->step_ticks, cruise = (uint16_t)(ticks - 2u * ramp);
     enter(player, SECTION_CRUISE, cruise);
     if (cruise == 0) {
-        return 0;
+        return; /* only in a skipped step */
     }
-    spread_t over = spread_over(cruise);
-    uint16_t share = cruise == rest ? UINT16_MAX : classic_divide_on(cruise, rest, 0), *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int16_t way = (int16_t)(joint->classic.main - joint->classic.acc), fall;
-        if (joint->classic.through) {
-            fall = (int16_t)(way - share_of(way, cruise, rest, share));
+    part_t part = part_of(cruise, (uint16_t)(ticks - ramp));
+    FOR_OWN_JOINTS(player, joint) {
+        player_classic_t *classic = &joint->classic;
+        classic->start_pos = classic->out_pos;
+        classic->to_go = (int16_t)(classic->to_go - classic->acc);
+        if (classic->through) {
+            classic->main = share_of(classic->to_go, part);
         } else {
-            fall = fall_way(joint->classic.speed, ramp);
+            classic->main = (int16_t)(classic->to_go - fall_way(classic->speed, ramp));
         }
-        joint->classic.acc = fall;
-        int16_t base = (int16_t)*goal, first = first_share(joint, (int16_t)(way - fall), over);
-        joint->classic.base = base;
-        *goal++ = (uint16_t)limit_pos((int16_t)(base + first));
     }
-    return begun(player, 0);
 }
 
-RARE static uint8_t begin_fall(player_t *player)
+static NOINLINE void begin_fall(player_t *player)
 {
-    uint8_t ramp = player->ramp_ticks;
-    enter(player, SECTION_FALL, ramp);
-    if (ramp == 0) {
+    enter(player, SECTION_FALL, player->ramp_ticks);
+    FOR_OWN_JOINTS(player, joint) {
+        player_classic_t *classic = &joint->classic;
+        classic->start_pos = classic->out_pos;
+        classic->to_go = (int16_t)(classic->to_go - classic->main);
+    }
+}
+
+/* --- a tick of a section ------------------------------------------------------------------------------------------- */
+
+static NOINLINE void make_rise(player_t *player)
+{
+    part_t part = part_of(player->tick, player->section_ticks);
+    ramp_share_t share = ramp_share((uint8_t)player->tick);
+    FOR_OWN_GOALS(player, joint, goal) {
+        player_classic_t *classic = &joint->classic;
+        int16_t change = share_of((int16_t)(classic->speed - classic->carried), part);
+        classic->acc = ramp_way((int16_t)(classic->carried + (change >> 1)), share);
+        put(classic, goal, classic->acc);
+    }
+}
+
+static NOINLINE void make_cruise(player_t *player)
+{
+    part_t part = part_of(player->tick, player->section_ticks);
+    FOR_OWN_GOALS(player, joint, goal) {
+        player_classic_t *classic = &joint->classic;
+        put(classic, goal, share_of(classic->main, part));
+    }
+}
+
+static NOINLINE void make_fall(player_t *player)
+{
+    part_t part = part_of(player->tick, player->section_ticks);
+    ramp_share_t share = ramp_share((uint8_t)player->tick);
+    FOR_OWN_GOALS(player, joint, goal) {
+        player_classic_t *classic = &joint->classic;
+        int16_t way = share_of(classic->through ? classic->to_go : (int16_t)-classic->speed, part);
+        if (!classic->through) {
+            way = ramp_way((int16_t)(classic->speed + (way >> 1)), share);
+        }
+        put(classic, goal, way);
+    }
+}
+
+/* One tick of the running section; an empty one uses up the call without output. */
+static uint8_t make_tick(player_t *player)
+{
+    if (player->section_ticks == 0) {
         return 0;
     }
-    spread_t over = spread_over(ramp);
-    uint16_t *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int16_t base = (int16_t)*goal, speed = joint->classic.speed, way = joint->classic.acc;
-        bool through = joint->classic.through;
-        int16_t first = first_share(joint, through ? way : (int16_t)-speed, over);
-        if (!through) {
-            joint->classic.carried = speed;
-            first = first_rise_way(speed, first);
-        }
-        joint->classic.base = base;
-        *goal++ = (uint16_t)limit_pos((int16_t)(base + first));
-    }
-    return begun(player, 0);
-}
-
-/* --- the other ticks of a section ----------------------------------------------------------------------------------- */
-
-/* Way since the section began, of a joint whose speed changes. */
-static inline int16_t ramp_acc(player_joint_t *joint, ramp_share_t share, uint16_t num)
-{
-    int16_t change = next_share(joint, num);
-    return ramp_way((int16_t)(joint->classic.carried + (change >> 1)), share);
-}
-
-static inline int16_t line_pos(player_joint_t *joint, uint16_t num)
-{
-    return limit_pos((int16_t)(joint->classic.base + next_share(joint, num)));
-}
-
-/* One tick of RISE. */
-RARE static void make_rise(player_t *player)
-{
-    uint16_t num = player->section_ticks, *goal = player->goal_pos;
-    ramp_share_t share = ramp_share((uint8_t)player->tick);
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int16_t acc = ramp_acc(joint, share, num);
-        joint->classic.acc = acc; /* CRUISE takes it from here */
-        *goal++ = (uint16_t)limit_pos((int16_t)(joint->classic.base + acc));
-    }
-}
-
-/* One tick of FALL: joints that stop, and joints that go through. */
-RARE static void make_fall(player_t *player)
-{
-    uint16_t num = player->section_ticks, *goal = player->goal_pos;
-    ramp_share_t share = ramp_share((uint8_t)player->tick);
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        bool through = joint->classic.through;
-        int16_t way = through ? next_share(joint, num) : ramp_acc(joint, share, num);
-        *goal++ = (uint16_t)limit_pos((int16_t)(joint->classic.base + way));
-    }
-}
-
-/* One tick of CRUISE. */
-RARE static void make_cruise(player_t *player)
-{
-    uint16_t num = player->section_ticks, *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        *goal++ = (uint16_t)line_pos(joint, num);
-    }
-}
-
-static void make_goals(player_t *player)
-{
+    player->tick++;
     switch (player->section) {
     case SECTION_RISE:
         make_rise(player);
@@ -223,57 +284,49 @@ static void make_goals(player_t *player)
     case SECTION_CRUISE:
         make_cruise(player);
         break;
-    default:
+    case SECTION_FALL:
         make_fall(player);
         break;
+    default:
+        return 0;
     }
+    return PLAYER_EV_OUTPUT;
 }
 
 /* When nothing follows, the original has begun a step all the same before it finds out: it sends one more tick, the first
  * of a RISE from the last output with the last step's speed and the last section's length. The traces in tests/golden
  * end with it, 0 to 8 units off the target. */
-RARE static uint8_t end_play(player_t *player)
+static NOINLINE uint8_t end_play(player_t *player)
 {
-    uint16_t num = player->section_ticks;
     uint8_t events = player_end(player);
-    if (num == 0) {
+    if (player->section_ticks == 0) {
         return events;
     }
-    uint8_t left = classic_left(player);
-    spread_t over = spread_over(num);
-    uint16_t *goal = player->goal_pos;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        int16_t carried = classic_speed_left(left, joint);
-        int16_t change = first_share(joint, (int16_t)(joint->classic.speed - carried), over);
-        *goal = (uint16_t)limit_pos((int16_t)((int16_t)*goal + first_rise_way(carried, change)));
-        goal++;
+    part_t part = part_of(1, player->section_ticks);
+    ramp_share_t first = ramp_share(1);
+    FOR_OWN_GOALS(player, joint, goal) {
+        player_classic_t *classic = &joint->classic;
+        int16_t carried = speed_left(player, classic);
+        int16_t change = share_of((int16_t)(classic->speed - carried), part);
+        classic->start_pos = classic->out_pos;
+        put(classic, goal, ramp_way((int16_t)(carried + (change >> 1)), first));
     }
-    return events | PLAYER_EV_OUTPUT;
+    return (uint8_t)(events | PLAYER_EV_OUTPUT);
 }
 
-/* The running section is used up. */
-static uint8_t next_section(player_t *player, link_t *link)
+/* The running section is used up. false: nothing follows. */
+static bool next_section(player_t *player)
 {
-    switch (player->section) {
-    case SECTION_RISE:
-        return begin_cruise(player);
-    case SECTION_CRUISE:
-        return begin_fall(player);
-    case SECTION_FALL:
-        if (player->hold_ticks != 0) {
-            enter(player, SECTION_HOLD, player->hold_ticks);
-            player->tick = 1;
-            return 0;
-        }
-        break;
-    default:
-        break;
+    if (player->section == SECTION_RISE) {
+        begin_cruise(player);
+    } else if (player->section == SECTION_CRUISE) {
+        begin_fall(player);
+    } else if (player->section == SECTION_FALL && player->hold_ticks != 0) {
+        enter(player, SECTION_HOLD, player->hold_ticks);
+    } else {
+        return false;
     }
-    if (player->coming.page == 0) {
-        return end_play(player);
-    }
-    prime(player, link); /* the first step, or one behind the rest of an interrupted one */
-    return begin_step(player);
+    return true;
 }
 
 bool classic_is_here(void)
@@ -281,63 +334,27 @@ bool classic_is_here(void)
     return true;
 }
 
-void classic_start(player_t *player, link_t *link)
-{
-    player->step_ticks = player->hold_ticks = 0;
-    player->ramp_ticks = 0;
-    player->prepared = 0;
-    enter(player, SECTION_HOLD, 0);
-    prime(player, link);
-}
-
-/* Slopes and health polls wait for a tick with less to do. In a step of three ticks that is its last, shorter ones have
- * none. */
-static bool may_wait(const player_t *player)
-{
-    uint16_t ticks = player->step_ticks;
-    return ticks > 3 || (ticks == 3 && player->section != SECTION_FALL);
-}
-
-/* true when the next call begins a step. */
-static bool is_over(const player_t *player)
-{
-    return player->tick >= player->section_ticks &&
-           (player->section == SECTION_HOLD || (player->section == SECTION_FALL && player->hold_ticks == 0));
-}
-
 uint8_t classic_tick(player_t *player, link_t *link)
 {
     uint8_t events = 0;
-    bool change = player->tick >= player->section_ticks;
-    if (player->held_events != 0) {
+    if (player->arrived) {
         events = begin_step(player);
-    } else if (change) {
-        events = next_section(player, link);
-        if ((events & PLAYER_EV_ENDED) != 0) {
-            return events;
-        }
-    } else {
-        player->tick++;
-        if (player->section != SECTION_HOLD) {
-            make_goals(player);
-            events = PLAYER_EV_OUTPUT;
-        }
+    } else if (player->tick >= player->section_ticks && !next_section(player)) {
+        return end_play(player);
     }
-    bool busy = change;
-    if (is_over(player) && player->coming.page != 0) {
-        prime(player, link);
-        busy = true;
-    } else if (classic_work_ahead(player, change, (events & PLAYER_EV_STEP) != 0)) {
-        busy = true;
-    }
-    return busy && may_wait(player) ? (uint8_t)(events | PLAYER_EV_BUSY) : events;
+    events |= make_tick(player);
+    classic_step_over(player, link);
+    return events;
 }
 
-/* --- breaking and pausing ---------------------------------------------------------------------------------------- */
+/* --- breaking and pausing ----------------------------------------------------------------------------------------- */
 
 static uint16_t ticks_left(const player_t *player)
 {
     uint16_t left = (uint16_t)(player->section_ticks - player->tick);
+    if (player->arrived) {
+        return player->step_ticks;
+    }
     switch (player->section) {
     case SECTION_RISE:
         return (uint16_t)(player->step_ticks - player->tick);
@@ -350,67 +367,50 @@ static uint16_t ticks_left(const player_t *player)
     }
 }
 
-/* Speed at this moment, q16.16. recip32: 2^32 / section_ticks */
-static int32_t speed_now(const player_t *player, const player_joint_t *joint, uint32_t recip32)
+/* Speed at this moment, q16.16. */
+static int32_t speed_now(const player_t *player, const player_classic_t *classic)
 {
-    if (player->section == SECTION_HOLD || player->section_ticks == 0) {
+    uint16_t num = player->section_ticks;
+    if (player->arrived) {
+        return (int32_t)classic->carried * SPEED_UNIT_Q16_16;
+    }
+    if (player->section == SECTION_HOLD || num == 0 || player->tick == 0) {
         return 0;
     }
-    if (player->section == SECTION_RISE || (player->section == SECTION_FALL && !joint->classic.through)) {
-        return (int32_t)(joint->classic.carried + joint->classic.value) * SPEED_UNIT_Q16_16;
+    part_t part = part_of(player->tick, num);
+    if (player->section == SECTION_RISE) {
+        int16_t change = share_of((int16_t)(classic->speed - classic->carried), part);
+        return (int32_t)(classic->carried + change) * SPEED_UNIT_Q16_16;
     }
-    if (player->section_ticks == 1) {
-        return (int32_t)((uint32_t)joint->classic.value << FIX_POS_BITS);
+    if (player->section == SECTION_FALL && !classic->through) {
+        return (int32_t)(classic->speed - share_of(classic->speed, part)) * SPEED_UNIT_Q16_16;
     }
-    return (int32_t)((uint32_t)joint->classic.quotient << FIX_POS_BITS) +
-           (int32_t)fix_mean(joint->classic.remainder, recip32);
-}
-
-/* Whatever a primed step needs of classic_tick's bookkeeping is done, so that its rest, all of it, can be played. */
-static void freeze_primed(player_t *player)
-{
-    enter_step(player);
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        joint->target_pos = joint->coming_pos;
-        joint->classic.value = 0;
-        joint->classic.speed = joint->classic.carried;
-    }
-    player->section_ticks = 1; /* RISE even where the ramp is 0: the speed is `carried` */
+    return (int32_t)(player->section == SECTION_CRUISE ? classic->main : classic->to_go) * FIX_POS_ONE / (int32_t)num;
 }
 
 void classic_freeze(player_t *player)
 {
-    if (player->held_events != 0) {
-        freeze_primed(player);
-    }
-    uint32_t recip32 = player->section_ticks == 0 ? 0 : fix_recip32(player->section_ticks);
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        player_joint_t *joint = &player->joint[i];
-        int32_t speed = speed_now(player, joint, recip32);
-        joint->exact.pos_q16_16 = ((int32_t)player->goal_pos[i] << FIX_POS_BITS) + FIX_POS_ONE / 2;
+    FOR_OWN_JOINTS(player, joint) {
+        int32_t speed = speed_now(player, &joint->classic);
+        uint16_t out_pos = (uint16_t)joint->classic.out_pos;
+        joint->exact.pos_q16_16 = fix_from_pos(out_pos) + FIX_ROUND_UP;
         joint->exact.speed_q16_16 = speed;
-        joint->coming_pos = joint->target_pos; /* not looked at yet */
     }
     player->step_ticks = ticks_left(player);
-    if (player->section != SECTION_HOLD) {
+    if (player->arrived || player->section != SECTION_HOLD) {
         player->tick = 0;
     }
-    player->prepared = 0;
-}
-
-void classic_prepare_at_rest(player_t *player)
-{
-    classic_prepare(player, PAGE_JOINTS / 8 + 1);
 }
 
 void classic_thaw(player_t *player)
 {
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
-        joint->classic.speed = joint->classic.carried = 0;
-        joint->classic.through = false;
+    FOR_OWN_JOINTS(player, joint) {
+        int16_t pos = (int16_t)fix_pos(joint->exact.pos_q16_16);
+        int16_t to_go = player->arrived ? (int16_t)((int16_t)joint->target_pos - pos) : 0;
+        joint->classic = (player_classic_t){.start_pos = pos, .out_pos = pos, .to_go = to_go};
     }
-    if (player->section != SECTION_HOLD) {
+    if (!player->arrived && player->section != SECTION_HOLD) {
         enter(player, SECTION_FALL, 0); /* used up */
     }
-    player->step_ticks = 1; /* not a skipped one */
+    player->step_ticks = player->arrived ? 0 : 1; /* 0 only where the step is skipped */
 }

@@ -20,12 +20,13 @@ uint8_t classic_tick(player_t *player, link_t *link)
     return player_end(player);
 }
 
-void classic_freeze(player_t *player)
+void classic_step_over(player_t *player, link_t *link)
 {
     (void)player;
+    (void)link;
 }
 
-void classic_prepare_at_rest(player_t *player)
+void classic_freeze(player_t *player)
 {
     (void)player;
 }

@@ -21,6 +21,8 @@ enum {
     PAGE_AT_NAME = 0,
     PAGE_AT_PLAY_COUNT = 15,
     PAGE_AT_SCHEDULE = 16,
+    PAGE_AT_BLEND_RIGHT = 17,  /* partner page of shape.h; 0: none */
+    PAGE_AT_BLEND_LEFT = 18,
     PAGE_AT_STEPS = 20,
     PAGE_AT_PLAY_CODE = 21,
     PAGE_AT_SPEED = 22,

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * player.h - plays pages: each tick (1/128 s) turns pages and links into 31 goal positions.
+ * player.h - plays pages: each tick (1/128 s) turns pages and links into goal positions.
  * Pure: knows neither bus nor flash; pages come through page_source_t a few bytes at a time, straight from where they
  * are kept. Caller-owned state, main loop only, one call per tick. Law of motion: player.md.
- * RAM: sizeof(player_t) + sizeof(link_t) <= 1024 bytes (tests/unit/test_player.c holds it to that on the ATmega128). */
+ *
+ * A play is a player_t. What belongs to a joint is in player_joint_t and goal_pos, which two plays may share: each moves the
+ * joints whose `owner` it is (layers.h).
+ * RAM: player_t, link_t and 31 joints are at most 1024 bytes (tests/target/player_cycles.c holds them to that). */
 #ifndef PLAYER_H
 #define PLAYER_H
 
@@ -11,19 +14,12 @@
 #include "compiler.h"
 #include "link.h"
 #include "page.h"
+#include "page_source.h"
+#include "shape.h"
 
 #define PLAYER_TICKS_PER_SECOND 128u
 
 typedef enum { PLAYER_LAW_EXACT = 0, PLAYER_LAW_CLASSIC } player_law_t;
-
-/* Where pages come from. Both calls must be cheap: a tick makes up to six reads of up to 64 bytes. */
-typedef struct {
-    void *context;
-    /* Copies `count` bytes at byte `offset` of page `page` (0..127). */
-    void (*read)(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count);
-    /* page_status_t of the whole page, from a cache. */
-    uint8_t (*check)(void *context, uint8_t page);
-} page_source_t;
 
 typedef enum {
     PLAYER_OK = 0,
@@ -40,7 +36,6 @@ enum {
     PLAYER_EV_STEP = 1 << 1,    /* a step began: player.page, .step (1..7) */
     PLAYER_EV_PAGE = 1 << 2,    /* and it is the first of a page: player.page, .repetition */
     PLAYER_EV_LINK = 1 << 3,    /* the link after this page was decided: player.link_taken, .next_page */
-    PLAYER_EV_BUSY = 1 << 4,    /* a step is about to begin, or began: leave to the next tick what can wait */
     PLAYER_EV_ENDED = 1 << 5,   /* the play is over; player.fault tells whether a bad page ended it */
     PLAYER_EV_STANDING = 1 << 6 /* a break or a pause has brought all joints to a stand */
 };
@@ -50,33 +45,48 @@ typedef struct {
     uint8_t page, step, steps;                /* step 1..steps */
     uint8_t schedule, page_speed, accel_time; /* of its page */
     uint8_t pause, time;                      /* bytes 62 and 63 of the step */
+    uint16_t rate_percent;                    /* 100: as stored (shape.h) */
+    uint8_t top_speed_q4_4;                   /* servo units a tick; 0: no limit (shape.h) */
 } player_step_t;
 
-/* One joint. Speeds are servo units per tick; see law_exact.c and law_classic.c for what stands in which section. */
+/* A joint under the exact law, and under either law while it slows down and while the rest of an interrupted step is
+ * played. Speeds are servo units per tick. */
 typedef struct {
-    uint16_t target_pos;      /* where the step playing now ends */
-    uint16_t coming_pos;      /* where the coming one ends */
+    int32_t pos_q16_16;         /* with its rounding: see law_exact.c */
+    int32_t speed_q16_16;       /* the way of the coming tick */
+    int32_t accel_q16_16;
+    uint32_t cruise_q16_16;     /* size of the speed between the ramps */
+    uint32_t exit_q16_16;       /* size of the speed at the step's end */
+    bool down;                  /* the step leads to a smaller position */
+} player_exact_t;
+
+/* A joint under the classic law. Speeds in its units: 0.01875 servo units per tick. Names as in player.md. */
+typedef struct {
+    int16_t start_pos;          /* output when the section began */
+    int16_t out_pos;            /* last output */
+    int16_t speed;              /* v */
+    int16_t carried;            /* w at the step's beginning */
+    int16_t acc;                /* way made in RISE */
+    int16_t main;               /* way of CRUISE */
+    int16_t to_go;              /* M, less the ways of the sections before this one */
+    bool through;
+} player_classic_t;
+
+/* Who moves a joint. */
+enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE };
+
+typedef struct {
+    uint16_t target_pos;        /* where the running step ends */
+    uint8_t owner;
     union {
-        uint32_t mean_q16_16; /* exact: size of the coming step's mean speed */
-        struct {
-            int16_t stop_speed, through_speed; /* classic: the coming step's speed, either way */
-        };
-    };
-    union {
-        struct {
-            int32_t pos_q16_16, speed_q16_16, accel_q16_16;
-            uint32_t cruise_q16_16, exit_q16_16; /* sizes */
-        } exact;
-        struct {
-            int16_t base, speed, carried, acc, main, value, quotient;
-            uint16_t remainder, error;
-            bool through;
-        } classic;
+        player_exact_t exact;
+        player_classic_t classic;
     };
 } player_joint_t;
 
 typedef struct player {
     /* Public, read only for callers. */
+    uint16_t *goal_pos;             /* the tick's output: 31 goals 0..1023, page coordinates (no trim) */
     uint32_t joints;                /* bit per joint: driven by this play: present, and used by a step that has begun (a
                                      * step begins with the last tick of the one before) */
     uint8_t page, step;             /* playing now; step 1..7 */
@@ -84,55 +94,56 @@ typedef struct player {
     uint8_t next_page, link_taken;  /* of the last PLAYER_EV_LINK */
     uint8_t fault_page, fault;      /* page that ended the play, and why: page_status_t or PAGE_EMPTY; PAGE_OK: none */
     uint8_t law;                    /* player_law_t */
+    uint32_t present;               /* joints that may be driven, those lent to others included */
+    uint32_t lent;                  /* joints that player_start gives to no play: set it between init and start (layers.h) */
     /* The planner's own. */
-    const page_source_t *source;
-    uint32_t present, coming_joints; /* joints that may be driven; those that the coming step uses */
-    player_step_t now, coming;
-    uint8_t look_page;               /* classic: the page that the link named, before pages without action are passed */
-    uint8_t count_left;              /* repetitions, 8 bits as in the original */
-    uint8_t coming_repetition;
+    uint8_t self;                   /* PLAYER_OWNER_MAIN or _LAYER */
     uint8_t state;
-    uint8_t ramp_ticks, brake_ticks;
     bool breaking;
-    uint8_t held_events;             /* not 0: `now` is already the next step, which will begin with these */
-    bool primed;                     /* ... and it begins with the next tick */
-    union {
-        struct {
-            uint8_t section, coming_ramp_ticks;
-            uint8_t prepared, pace;  /* classic: how much of the coming step is ready; how fast more of it has to be */
-        };
-        struct {
-            uint16_t next_ticks, next_hold_ticks; /* exact: of `now` before it begins */
-        };
-    };
-    uint16_t tick, section_ticks;
-    uint16_t step_ticks, hold_ticks, coming_ticks;
-    union {
-        struct {
-            uint16_t carry_q5_11;    /* exact: the fraction of a tick that is left over */
-            uint16_t share_q0_16;    /* exact: RISE / (all but FALL), of the step to begin; 0: not made yet */
-        };
-        uint32_t through_recip;      /* classic: one over the divisor of through_speed */
-    };
-    uint16_t ramp_recip;             /* exact: one over the ramp, from the look at the next step on over that one's */
-    uint32_t coming_recip;           /* exact: one over the coming step's ticks; classic: as through_recip, stop_speed */
-    /* Arrays last: the AVR reaches only the first 64 bytes of a structure in one instruction. */
-    uint16_t goal_pos[PAGE_JOINTS]; /* public: the tick's output, 0..1023, page coordinates (no trim) */
-    player_joint_t joint[PAGE_JOINTS];
+    bool looked;                    /* the step behind the coming one has been looked at (law.h) */
+    bool arrived;                   /* the joints are at the end of a step; `now` begins with the next tick */
+    uint8_t announced_events;       /* PLAYER_EV_ bits of that beginning */
+    uint8_t section;                /* classic */
+    uint16_t tick, section_ticks;   /* tick: of the section (classic), of the step with its pause (exact) */
+    uint16_t step_ticks, hold_ticks;
+    uint8_t ramp_ticks, brake_ticks;
+    uint16_t ramp_recip, ramp_share_q0_16; /* exact: 1 / A; A / (N - A) */
+    uint8_t planned;                /* joints below this are planned for `now` */
+    bool runs_on;                   /* exact: a joint may keep its speed at the step's end */
+    uint16_t carry_q5_11;           /* the fraction of a tick that is left over */
+    uint32_t step_recip, coming_recip; /* exact: 2^32 over the ticks */
+    uint16_t coming_ticks;          /* exact: of the coming step */
+    uint16_t lent_way;              /* longest way of a joint lent to another play in the coming step */
+    player_step_t now, coming;      /* the step that plays, or begins next; the one behind it */
+    uint8_t look_page;              /* classic: the page that the link named, before pages without action are passed over */
+    uint8_t count_left;             /* repetitions, 8 bits as in the original */
+    uint8_t coming_repetition;
+    uint32_t coming_joints, looked_joints; /* that these steps use */
+    const page_source_t *source;
+    const shape_t *shape;           /* NULL: as stored */
+    player_joint_t *joint;
+    uint16_t coming_pos[PAGE_JOINTS]; /* where the coming step ends, lent joints included */
+    uint16_t looked_at[PAGE_JOINTS];  /* position words of the step that was looked at; PAGE_POS_UNUSED: stays */
 } player_t;
 
-/* Binds the source and sets everything idle. */
-void player_init(player_t *player, const page_source_t *source);
+/* Binds the source of pages, the joints and their goals (both arrays of PAGE_JOINTS; the goals may outlive the play) and sets
+ * everything idle. The play is the main one. */
+void player_init(player_t *player, const page_source_t *source, player_joint_t joint[PAGE_JOINTS],
+                 uint16_t goal_pos[PAGE_JOINTS]);
 
-/* Begins at step 1 of `page` with the joints standing at pose_pos (page coordinates). The caller has told `link` of the
- * call (link_call). `present`: bit per joint that may be driven; others are never touched.
+/* Plays by `shape` from the next step that is looked at; NULL: as stored. Call it any time after player_init. */
+void player_set_shape(player_t *player, const shape_t *shape);
+
+/* Begins at step 1 of `page` with the joints standing at pose_pos (page coordinates; may be goal_pos itself; values above
+ * 1023 count as 1023), which becomes goal_pos. The caller has told
+ * `link` of the call (link_call). `present`: bit per joint that may be driven; others are never touched.
  * player.page is at once the page that will really be played first (pages with PLAY_COUNT 0 are passed over).
  * Any error: nothing changed but .fault and .fault_page. The first output comes with the next player_tick. */
 MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
                                         const uint16_t pose_pos[PAGE_JOINTS], uint32_t present);
 
-/* Where step 1 of `page` wants its joints: fills those places of pose_pos and returns their bits. For the approach. */
-uint32_t player_first_pose(const page_source_t *source, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
+/* Where step 1 of `page`, shaped, wants its joints: fills those places of pose_pos and returns their bits. For the approach. */
+uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
 
 /* One tick. Returns PLAYER_EV_ bits; 0 when idle. */
 uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* by itself, so that the bench can measure it */
@@ -150,5 +161,11 @@ bool player_is_paused(const player_t *player);   /* told to pause: slowing down 
 
 /* Takes joints out of a running play (torque lost, servo silent): they keep their last goal and are not in `joints`. */
 void player_drop_joints(player_t *player, uint32_t joints);
+
+/* A joint stands at `pos` and belongs to this play from now on; it moves again with the next step. For layers.h. */
+void player_give_joint(player_t *player, uint8_t joint, uint16_t pos);
+
+/* What the play asks of a joint of its own at this moment, 0..1023, whether this tick made output or not. */
+uint16_t player_asks(const player_t *player, uint8_t joint);
 
 #endif

@@ -3,7 +3,46 @@
 
 /* Nominal: 40 units of way at speed 1 take 40 * 40 / 3 ticks (720 degrees/s = 256 speed units; 1024 units = 300 deg). */
 
-uint16_t step_plan_classic_ticks(const player_step_t *step, uint16_t longest_way)
+/* --- rate, limit, fractions -------------------------------------------------------------------------------------- */
+
+#define TICK_BITS 11 /* lengths are in 1/2048 tick */
+
+/* length in 1/2048 tick; what is left after the whole ticks is carried on */
+static uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_11)
+{
+    length_q21_11 += *carry_q5_11;
+    uint32_t ticks = length_q21_11 >> TICK_BITS;
+    if (ticks > UINT16_MAX) {
+        *carry_q5_11 = 0;
+        return UINT16_MAX;
+    }
+    *carry_q5_11 = (uint16_t)(length_q21_11 & ((1u << TICK_BITS) - 1));
+    return (uint16_t)ticks;
+}
+
+/* length / rate, floor; of a length above LENGTH_MAX that of LENGTH_MAX. */
+#define LENGTH_MAX ((uint32_t)UINT16_MAX << TICK_BITS)
+static uint32_t at_rate(uint32_t length, uint16_t rate_percent)
+{
+    if (rate_percent == SHAPE_NORMAL) {
+        return length;
+    }
+    if (length > LENGTH_MAX) {
+        length = LENGTH_MAX;
+    }
+    return length / rate_percent * SHAPE_NORMAL + length % rate_percent * SHAPE_NORMAL / rate_percent;
+}
+
+/* The least ticks in which no joint's mean speed is above the top speed; 0: no limit. */
+static uint16_t least_ticks(const player_step_t *step, uint16_t longest_way)
+{
+    uint8_t top = step->top_speed_q4_4;
+    return (uint16_t)(top == 0 ? 0u : (16u * longest_way + top - 1u) / top);
+}
+
+/* --- classic ------------------------------------------------------------------------------------------------------ */
+
+static uint16_t stored_classic_ticks(const player_step_t *step, uint16_t longest_way)
 {
     uint16_t units = (uint16_t)((uint16_t)((uint16_t)step->time * step->page_speed) >> 5);
     if (units == 0) {
@@ -16,13 +55,33 @@ uint16_t step_plan_classic_ticks(const player_step_t *step, uint16_t longest_way
     return (uint16_t)(way / speed);
 }
 
-uint16_t step_plan_classic_hold(const player_step_t *step)
+/* The shortest step that rule 6 does not skip. */
+#define CLASSIC_SHORTEST 3u
+
+uint16_t step_plan_classic_ticks(const player_step_t *step, uint16_t longest_way, uint16_t *carry_q5_11)
+{
+    uint16_t stored = stored_classic_ticks(step, longest_way), ticks = stored;
+    uint16_t least = least_ticks(step, longest_way);
+    if (step->rate_percent != SHAPE_NORMAL) {
+        ticks = whole_ticks(at_rate((uint32_t)stored << TICK_BITS, step->rate_percent), carry_q5_11);
+        least = least < CLASSIC_SHORTEST && stored >= CLASSIC_SHORTEST ? CLASSIC_SHORTEST : least;
+    }
+    if (ticks < least) {
+        ticks = least;
+    }
+    return ticks > STEP_PLAN_CLASSIC_MAX ? STEP_PLAN_CLASSIC_MAX : ticks;
+}
+
+uint16_t step_plan_classic_hold(const player_step_t *step, uint16_t *carry_q5_11)
 {
     if (step->pause == 0) {
         return 0; /* spares the usual case a division */
     }
-    uint16_t pause = (uint16_t)(step->pause << 5);
-    return (uint16_t)(pause / step->page_speed);
+    uint16_t pause = (uint16_t)((uint16_t)(step->pause << 5) / step->page_speed);
+    if (step->rate_percent == SHAPE_NORMAL) {
+        return pause;
+    }
+    return whole_ticks(at_rate((uint32_t)pause << TICK_BITS, step->rate_percent), carry_q5_11);
 }
 
 uint8_t step_plan_classic_ramp(uint8_t accel_time, uint16_t *ticks)
@@ -40,33 +99,30 @@ uint8_t step_plan_classic_ramp(uint8_t accel_time, uint16_t *ticks)
     return ramp;
 }
 
-/* length in 1/2048 tick; what is left after the whole ticks is carried on */
-static uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_11)
+/* --- exact -------------------------------------------------------------------------------------------------------- */
+
+/* The ideal length in 1/2048 tick, as stored. */
+static uint32_t stored_exact_length(const player_step_t *step, uint16_t longest_way)
 {
-    length_q21_11 += *carry_q5_11;
-    uint32_t ticks = length_q21_11 >> 11;
-    if (ticks > UINT16_MAX) {
-        *carry_q5_11 = 0;
-        return UINT16_MAX;
+    uint16_t product = (uint16_t)((uint16_t)step->time * step->page_speed);
+    if (step->schedule == PAGE_SCHEDULE_TIME) {
+        return (uint32_t)product << 6; /* / 32, * 2048 */
     }
-    *carry_q5_11 = (uint16_t)(length_q21_11 & 0x7FF);
-    return (uint16_t)ticks;
+    if (product == 0) {
+        product = step->page_speed; /* speed 0 counts as the slowest speed there is */
+    }
+    return (longest_way * (uint32_t)(1280ul << TICK_BITS)) / ((uint32_t)3 * product);
 }
 
 uint16_t step_plan_exact_ticks(const player_step_t *step, uint16_t longest_way, uint16_t *carry_q5_11)
 {
-    uint16_t product = (uint16_t)((uint16_t)step->time * step->page_speed);
-    uint32_t length;
-    if (step->schedule == PAGE_SCHEDULE_TIME) {
-        length = (uint32_t)product << 6; /* / 32, * 2048 */
-    } else {
-        if (product == 0) {
-            product = step->page_speed; /* speed 0 counts as the slowest speed there is */
-        }
-        length = (longest_way * (uint32_t)(1280ul << 11)) / ((uint32_t)3 * product);
+    uint32_t length = at_rate(stored_exact_length(step, longest_way), step->rate_percent);
+    uint16_t least = least_ticks(step, longest_way);
+    if (least == 0) {
+        least = 1;
     }
-    if (length < 2048) {
-        length = 2048;
+    if (length < (uint32_t)least << TICK_BITS) {
+        length = (uint32_t)least << TICK_BITS;
     }
     return whole_ticks(length, carry_q5_11);
 }
@@ -78,7 +134,7 @@ uint16_t step_plan_exact_hold(const player_step_t *step, uint16_t *carry_q5_11)
     }
     uint32_t length = step->schedule == PAGE_SCHEDULE_TIME ? ((uint32_t)step->pause * step->page_speed) << 6
                                                            : ((uint32_t)step->pause << 16) / step->page_speed;
-    return whole_ticks(length, carry_q5_11);
+    return whole_ticks(at_rate(length, step->rate_percent), carry_q5_11);
 }
 
 uint8_t step_plan_exact_ramp(uint8_t accel_time, uint16_t ticks)

@@ -17,7 +17,7 @@ void performer_init(performer_t *performer, const page_source_t *source, servo_l
 void performer_set_source(performer_t *performer, const page_source_t *source)
 {
     performer->source = source;
-    player_init(&performer->engine.player, source);
+    player_init(&performer->engine.player, source, performer->engine.joint, performer->pose_pos);
 }
 
 /* ---- what it is doing ---- */
@@ -46,8 +46,8 @@ bool performer_next_event(performer_t *performer, performer_event_t *event)
 /* The end of the player: behind the approach, and behind the goals that servo_link may still be sending. */
 uint8_t *performer_spare(performer_t *performer)
 {
-    STATIC_ASSERT(sizeof performer->engine.player - sizeof performer->engine.player.joint + PAGE_BYTES
-                  <= sizeof performer->engine && sizeof performer->engine.approach + PAGE_BYTES <= sizeof performer->engine,
+    STATIC_ASSERT(sizeof performer->engine.player + PAGE_BYTES <= sizeof performer->engine &&
+                  sizeof performer->engine.approach + PAGE_BYTES <= sizeof performer->engine,
                   "the spare bytes are the joints' of the player");
     return performer_is_idle(performer) ? (uint8_t *)(&performer->engine + 1) - PAGE_BYTES : NULL;
 }
@@ -71,7 +71,7 @@ static player_status_t start_player(performer_t *performer, uint8_t page, uint32
     player_t *player = &performer->engine.player;
     const player_law_t law =
         PERFORMER_SETTINGS(performer)->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;
-    player_init(player, performer->source);
+    player_init(player, performer->source, performer->engine.joint, performer->pose_pos);
     return player_start(player, &performer->link, page, law, performer->pose_pos, joints);
 }
 
@@ -111,7 +111,7 @@ performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t
     call_link(performer, code);
     status = refusal(performer, start_player(performer, page, 0));
     if (status != PERFORMER_OK) {
-        player_init(&performer->engine.player, performer->source);
+        player_init(&performer->engine.player, performer->source, performer->engine.joint, performer->pose_pos);
         return status;
     }
     call_link(performer, code);
@@ -278,19 +278,15 @@ static void play_tick(performer_t *performer)
 {
     player_t *player = &performer->engine.player;
     const uint8_t events = player_tick(player, &performer->link);
-    bool busy = (events & PLAYER_EV_BUSY) != 0;
     if ((events & PLAYER_EV_PAGE) != 0) {
         performer->slopes_due = true;
-    } else if (performer->slopes_due && !busy) {
+    } else if (performer->slopes_due) {
         performer->slopes_due = false;
         send_slopes(performer);
-        busy = true;
+        servo_link_defer_rest(PERFORMER_SERVOS(performer));
     }
     if ((events & PLAYER_EV_OUTPUT) != 0) {
         servo_link_goals(PERFORMER_SERVOS(performer), player->goal_pos, player->joints);
-    }
-    if (busy) {
-        servo_link_defer_rest(PERFORMER_SERVOS(performer));
     }
     tell(performer, events);
 }

@@ -73,7 +73,10 @@ typedef struct {
     performer_events_t events;
     uint16_t pose_pos[PAGE_JOINTS];
     union {
-        player_t player;        /* state PLAY; kept after the end. Read only for callers */
+        struct {
+            player_t player;    /* state PLAY; kept after the end. Read only for callers */
+            player_joint_t joint[PAGE_JOINTS];
+        };
         approach_t approach;    /* state APPROACH */
     } engine;
 } performer_t;

@@ -60,7 +60,7 @@ static uint32_t first_pose(const performer_t *performer, uint16_t to_pos[PAGE_JO
         return performer->move_joints & performer->joints;
     }
     memcpy(to_pos, performer->pose_pos, sizeof performer->pose_pos);
-    return player_first_pose(performer->source, performer->first_page, to_pos) & performer->joints;
+    return player_first_pose(performer->source, NULL, performer->first_page, to_pos) & performer->joints;
 }
 
 static performer_ready_t plan_approach(performer_t *performer)

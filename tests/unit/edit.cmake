@@ -14,9 +14,9 @@ if(NOT M512_AVR)
     file(GLOB stage CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/firmware/edit/*.c ${CMAKE_SOURCE_DIR}/firmware/common/*.c)
     list(REMOVE_ITEM stage ${CMAKE_SOURCE_DIR}/firmware/edit/main.c ${CMAKE_SOURCE_DIR}/firmware/edit/mon_toss.c
         ${CMAKE_SOURCE_DIR}/firmware/common/page_service.c)
-    foreach(source hal/bus_call hal/debounce hal/dxl_packet motion/approach motion/brake motion/law_exact
-            motion/law_classic_none motion/link motion/page motion/player motion/step_plan
-            tests/fake/fake_bus tests/fake/fake_console tests/fake/fake_eeprom tests/fake/fake_flash
+    list(TRANSFORM M512_PLAYER_SMALL PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE player)
+    list(APPEND stage ${player})
+    foreach(source hal/bus_call hal/debounce hal/dxl_packet motion/approach tests/fake/fake_bus tests/fake/fake_console tests/fake/fake_eeprom tests/fake/fake_flash
             tests/fake/fake_panel tests/fake/fake_system tests/fake/fake_time tests/unit/editor_stage)
         list(APPEND stage ${CMAKE_SOURCE_DIR}/${source}.c)
     endforeach()

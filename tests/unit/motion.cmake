@@ -17,7 +17,7 @@ if(TARGET test_page_vectors)
     target_include_directories(test_page_vectors PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endif()
 
-set(player_sources motion/player.c motion/law_exact.c motion/law_classic.c motion/classic_ahead.c motion/brake.c motion/step_plan.c motion/link.c motion/page.c)
+set(player_sources ${M512_PLAYER_FULL})
 foreach(test test_player test_player_links)
     m512_unit_test(${test} TARGET_TOO SOURCES ${player_sources} tests/unit/sparse_pages.c tests/unit/player_stage.c INCLUDES tests/unit)
 endforeach()

@@ -7,9 +7,8 @@ m512_unit_test(test_inputs INCLUDES firmware/common firmware/play
             tests/fake/fake_time.c)
 set(performer_sources performer.c performer_event.c performer_ready.c performer_stop.c performer_watch.c)
 list(TRANSFORM performer_sources PREPEND firmware/common/)
-list(APPEND performer_sources tests/unit/fake_servo_link.c tests/unit/performer_stage.c motion/approach.c motion/brake.c
-    motion/law_classic.c motion/classic_ahead.c motion/law_exact.c motion/link.c motion/page.c motion/player.c
-    motion/step_plan.c)
+list(APPEND performer_sources tests/unit/fake_servo_link.c tests/unit/performer_stage.c motion/approach.c
+    ${M512_PLAYER_FULL})
 foreach(test test_performer test_performer_stop test_performer_fault)
     m512_unit_test(${test} INCLUDES firmware/common SOURCES ${performer_sources})
 endforeach()

@@ -28,7 +28,6 @@ static void test_way_of_a_ramp_for_every_speed_and_tick(void)
         for (int32_t c = 1; c <= 255; c++) {
             TEST_ASSERT_EQUAL_INT32(plain_ramp_way(speed, c), ramp_way(speed, ramp_share((uint8_t)c)));
         }
-        TEST_ASSERT_EQUAL_INT32(plain_ramp_way(speed, 1), first_ramp_way(speed));
     }
 }
 
@@ -41,45 +40,60 @@ static void test_way_of_a_fall_for_every_speed_and_length(void)
     }
 }
 
-/* x * c / num for every c */
-static void check_shares(int16_t x, uint16_t num)
+static void check_share(int16_t x, uint16_t c, uint16_t num)
 {
-    player_joint_t joint;
-    spread_t over = spread_over(num);
-    TEST_ASSERT_EQUAL_INT32(x / num, first_share(&joint, x, over));
-    for (int32_t c = 2; c <= num; c++) {
-        TEST_ASSERT_EQUAL_INT32(x * c / num, next_share(&joint, num));
-    }
+    TEST_ASSERT_EQUAL_INT32((int32_t)x * c / num, share_of(x, part_of(c, num)));
 }
 
-static void test_shares_of_every_way_over_few_ticks(void)
+static void test_share_of_every_way_over_few_ticks(void)
 {
-    for (int16_t x = -WAY_MAX; x <= WAY_MAX; x++) {
-        for (uint16_t num = 1; num <= 9; num++) {
-            check_shares(x, num);
-        }
-    }
-}
-
-static void test_shares_over_many_ticks(void)
-{
-    static const uint16_t nums[] = {10, 16, 63, 64, 255, 256, 1023, 13640, 32767};
-    for (int16_t x = -WAY_MAX; x <= WAY_MAX; x = (int16_t)(x + 493)) {
-        for (size_t i = 0; i < sizeof nums / sizeof nums[0]; i++) {
-            check_shares(x, nums[i]);
-        }
-    }
-}
-
-/* way * part / whole, part = whole - A, as at the end of RISE */
-static void test_share_of_the_way_that_cruise_makes(void)
-{
-    for (uint16_t whole = 2; whole < 600; whole = (uint16_t)(whole + 1 + whole / 16)) {
-        for (uint16_t part = 1; part < whole; part = (uint16_t)(part + 1 + part / 8)) {
-            for (int16_t way = -WAY_MAX; way <= WAY_MAX; way = (int16_t)(way + 91)) {
-                TEST_ASSERT_EQUAL_INT32((int32_t)way * part / whole, share_of(way, part, whole, fix_ratio(part, whole)));
+    for (uint16_t num = 1; num <= 9; num++) {
+        for (uint16_t c = 1; c <= num; c++) {
+            for (int16_t x = -WAY_MAX; x <= WAY_MAX; x++) {
+                check_share(x, c, num);
             }
         }
+    }
+}
+
+static void test_share_over_many_ticks(void)
+{
+    static const uint16_t nums[] = {10, 16, 63, 64, 255, 256, 1023, 13640, 32767};
+    for (size_t i = 0; i < sizeof nums / sizeof nums[0]; i++) {
+        for (uint16_t c = 1; c <= nums[i]; c = (uint16_t)(c + 1 + nums[i] / 500)) {
+            for (int16_t x = -WAY_MAX; x <= WAY_MAX; x = (int16_t)(x + 493)) {
+                check_share(x, c, nums[i]);
+            }
+            check_share(32767, c, nums[i]);
+            check_share(-32767, c, nums[i]);
+        }
+    }
+}
+
+/* K = M * 2560 / 12 */
+static void test_way_in_speed_units_of_every_way(void)
+{
+    for (uint16_t way = 0; way <= 1023; way++) {
+        TEST_ASSERT_EQUAL_UINT32((uint32_t)way * 2560 / 12, way_in_speed_units(way));
+    }
+}
+
+static int32_t plain_speed(uint32_t size, uint16_t divisor)
+{
+    int32_t speed = (int16_t)(uint16_t)(size / divisor);
+    return speed > SPEED_MAX ? SPEED_MAX : speed < -SPEED_MAX ? -SPEED_MAX : speed;
+}
+
+/* |K - 2 w A| <= 218240 + 2046 A, over 4 (A + 1) and more, or over 4 where there is no ramp. */
+static void test_speed_for_every_kind_of_divisor(void)
+{
+    for (uint32_t divisor = 8; divisor <= 65535; divisor += 1 + divisor / 50) {
+        for (uint32_t size = 0; size < 218240 + 512 * divisor && size < 1u << 20; size += 1 + size / 200) {
+            TEST_ASSERT_EQUAL_INT32(plain_speed(size, (uint16_t)divisor), divide_speed(size, (uint16_t)divisor));
+        }
+    }
+    for (uint32_t size = 0; size <= 218240; size++) { /* steps of a tick: 4 */
+        TEST_ASSERT_EQUAL_INT32(plain_speed(size, 4), divide_speed(size, 4));
     }
 }
 
@@ -88,8 +102,9 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_way_of_a_ramp_for_every_speed_and_tick);
     RUN_TEST(test_way_of_a_fall_for_every_speed_and_length);
-    RUN_TEST(test_shares_of_every_way_over_few_ticks);
-    RUN_TEST(test_shares_over_many_ticks);
-    RUN_TEST(test_share_of_the_way_that_cruise_makes);
+    RUN_TEST(test_share_of_every_way_over_few_ticks);
+    RUN_TEST(test_share_over_many_ticks);
+    RUN_TEST(test_way_in_speed_units_of_every_way);
+    RUN_TEST(test_speed_for_every_kind_of_divisor);
     return UNITY_END();
 }

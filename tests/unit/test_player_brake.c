@@ -9,6 +9,8 @@
 #define PLAY_TICKS 150
 
 static player_t player;
+static player_joint_t joints[PAGE_JOINTS];
+static uint16_t goals_of_all[PAGE_JOINTS];
 static link_t l;
 static uint16_t pose[PAGE_JOINTS];
 
@@ -26,7 +28,7 @@ void setUp(void)
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         pose[i] = 512;
     }
-    player_init(&player, &sparse_source);
+    player_init(&player, &sparse_source, joints, goals_of_all);
     link_init(&l, LINK_LATCH);
 }
 

@@ -12,6 +12,8 @@
 #define STEPS 7
 
 static player_t player;
+static player_joint_t joints[PAGE_JOINTS];
+static uint16_t goals_of_all[PAGE_JOINTS];
 static link_t l;
 static uint16_t pose[PAGE_JOINTS];
 
@@ -25,7 +27,7 @@ static unsigned ticks[STEPS], holds[STEPS];
 void setUp(void)
 {
     sparse_clear();
-    player_init(&player, &sparse_source);
+    player_init(&player, &sparse_source, joints, goals_of_all);
     link_init(&l, LINK_LATCH);
 }
 

@@ -11,6 +11,8 @@
 
 static image_t image;
 static player_t player;
+static player_joint_t joints[PAGE_JOINTS];
+static uint16_t goals_of_all[PAGE_JOINTS];
 static link_t l;
 
 void setUp(void)
@@ -57,7 +59,7 @@ static void play_set(const char *name, uint32_t present)
     for (unsigned i = 0; i < PAGE_JOINTS; i++) {
         pose[i] = 512;
     }
-    player_init(&player, &source);
+    player_init(&player, &source, joints, goals_of_all);
     link_init(&l, LINK_LATCH);
     TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_CLASSIC, pose, present));
     long first = -1, expected = read_line(csv, goals), compared = 0;
@@ -90,6 +92,10 @@ GOLDEN(accel_zero_then_ramps)
 GOLDEN(repeats_and_chain)
 GOLDEN(clamped_speed)
 GOLDEN(walk_like)
+GOLDEN(pauses_behind_ramps)
+GOLDEN(pauses_speed_base)
+GOLDEN(end_in_a_pause)
+GOLDEN(corners)
 
 int main(void)
 {
@@ -102,5 +108,9 @@ int main(void)
     RUN_TEST(test_player_classic_golden_repeats_and_chain);
     RUN_TEST(test_player_classic_golden_clamped_speed);
     RUN_TEST(test_player_classic_golden_walk_like);
+    RUN_TEST(test_player_classic_golden_pauses_behind_ramps);
+    RUN_TEST(test_player_classic_golden_pauses_speed_base);
+    RUN_TEST(test_player_classic_golden_end_in_a_pause);
+    RUN_TEST(test_player_classic_golden_corners);
     return UNITY_END();
 }

@@ -51,13 +51,15 @@ typedef struct {
 static image_t image;
 static page_source_t source;
 static player_t player;
+static player_joint_t joints[PAGE_JOINTS];
+static uint16_t goals_of_all[PAGE_JOINTS];
 static link_t l;
 static char data_dir[512];
 
 void setUp(void)
 {
     source = image_source(&image);
-    player_init(&player, &source);
+    player_init(&player, &source, joints, goals_of_all);
     link_init(&l, LINK_LATCH);
 }
 
@@ -167,7 +169,7 @@ static void play_page(unsigned page, player_law_t law, figures_t *figures)
         pose[i] = 512;
     }
     link_call(&l, 0);
-    (void)player_first_pose(&source, (uint8_t)page, pose);
+    (void)player_first_pose(&source, NULL, (uint8_t)page, pose);
     player_status_t status = player_start(&player, &l, (uint8_t)page, law, pose, ALL_JOINTS);
     if (!page_is_playable(image.bytes[page])) {
         return;

@@ -75,7 +75,7 @@ static void test_player_first_pose_tells_the_joints_of_step_1(void)
 {
     sparse_step(1, 30, 0, 700);
     sparse_pages[1].step[0].pos[2] = 0x4000;
-    TEST_ASSERT_EQUAL_HEX32(0xB, player_first_pose(&sparse_source, 1, pose));
+    TEST_ASSERT_EQUAL_HEX32(0xB, player_first_pose(&sparse_source, NULL, 1, pose));
     TEST_ASSERT_EQUAL_UINT16(700, pose[3]);
     TEST_ASSERT_EQUAL_UINT16(512, pose[2]);
 }
@@ -186,6 +186,7 @@ static void test_player_passes_pages_with_play_count_0(void)
     TEST_ASSERT_EQUAL_UINT16(10, run_until(PLAYER_EV_PAGE, &seen));
     TEST_ASSERT_EQUAL_UINT8(3, player.page);
     setUp();
+    sparse_step(2, 10, 0, 700);
     sparse_pages[2].count = 0;
     sparse_pages[2].next = 3;
     sparse_step(3, 10, 0, 800);

@@ -15,6 +15,8 @@
 
 static uint8_t pages[PAGES + 1][PAGE_BYTES];
 static player_t player;
+static player_joint_t joints[PAGE_JOINTS];
+static uint16_t goals_of_all[PAGE_JOINTS];
 static link_t links;
 static unsigned ticks_left;
 static uint32_t present, dropped;
@@ -188,10 +190,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         make_page(pages[page], &fuzz);
     }
     ticks_left = TICKS_MAX;
-    player_init(&player, &source);
+    player_init(&player, &source, joints, goals_of_all);
     memcpy(player.goal_pos, pose, sizeof pose);
     link_init(&links, options & 2 ? LINK_HOLD : LINK_LATCH);
-    (void)player_first_pose(&source, number & 127, (uint16_t[PAGE_JOINTS]){0});
+    (void)player_first_pose(&source, NULL, number & 127, (uint16_t[PAGE_JOINTS]){0});
     start(options & 4 ? number : number % (PAGES + 2), (player_law_t)(options & 1));
     while (fuzz_left(&fuzz) > 0 && ticks_left > 0) {
         const uint8_t action = fuzz_byte(&fuzz);

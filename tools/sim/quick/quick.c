@@ -14,6 +14,8 @@ struct quick {
     uint8_t status[PAGE_COUNT];
     page_source_t source;
     player_t player;
+    player_joint_t joint[PAGE_JOINTS];
+    uint16_t player_goal_pos[PAGE_JOINTS];
     link_t link;
     servo_bus_t *bus;
     uint64_t now_cycles;
@@ -50,7 +52,7 @@ quick_t *quick_new(const uint8_t *image)
         quick->status[page] = (uint8_t)page_check(quick->image + page * PAGE_BYTES);
     }
     quick->source = (page_source_t){.context = quick, .read = read_page, .check = check_page};
-    player_init(&quick->player, &quick->source);
+    player_init(&quick->player, &quick->source, quick->joint, quick->player_goal_pos);
     link_init(&quick->link, LINK_LATCH);
     return quick;
 }
@@ -92,8 +94,8 @@ static void send_goals(quick_t *quick, uint32_t joints)
         const uint8_t joint = joint_of(servo);
         if (joint < PAGE_JOINTS && joints >> joint & 1) {
             const uint16_t goal = quick->goal_pos[joint];
-            const uint8_t data[SLOPES_AND_GOAL] = {slope(compliance[joint] >> 4), slope(compliance[joint] & 15),
-                                                   (uint8_t)goal, (uint8_t)(goal >> 8)};
+            const uint8_t data[SLOPES_AND_GOAL] = {slope(compliance[joint] >> 4), slope(compliance[joint] & 15), (uint8_t)goal,
+                                                   (uint8_t)(goal >> 8)};
             servo_write(servo, SERVO_CW_SLOPE, data, SLOPES_AND_GOAL);
         }
     }

@@ -12,6 +12,8 @@ static struct {
     uint16_t pose[PAGE_JOINTS];
     link_t link;
     player_t player;
+    player_joint_t joint[PAGE_JOINTS];
+    uint16_t goal_pos[PAGE_JOINTS];
     uint16_t goals[MOTION_API_CURVE_TICKS][PAGE_JOINTS];
     uint8_t marks[MOTION_API_CURVE_TICKS][MARK_BYTES];
 } api;
@@ -64,7 +66,7 @@ uint16_t *motion_api_pose(void) { return api.pose; }
 
 uint32_t motion_api_first_pose(int page)
 {
-    return is_page(page) ? player_first_pose(&source, (uint8_t)page, api.pose) : 0;
+    return is_page(page) ? player_first_pose(&source, NULL, (uint8_t)page, api.pose) : 0;
 }
 
 int motion_api_start(int page, int law, int mode, int code, uint32_t present)
@@ -72,7 +74,7 @@ int motion_api_start(int page, int law, int mode, int code, uint32_t present)
     if (!is_page(page)) {
         return PLAYER_ERR_RANGE;
     }
-    player_init(&api.player, &source);
+    player_init(&api.player, &source, api.joint, api.goal_pos);
     link_init(&api.link, mode ? LINK_HOLD : LINK_LATCH);
     link_call(&api.link, (uint8_t)code);
     return (int)player_start(&api.player, &api.link, (uint8_t)page, law ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT,
@@ -85,7 +87,7 @@ void motion_api_code(int code) { link_code(&api.link, (uint8_t)code); }
 
 int motion_api_tick(void) { return player_tick(&api.player, &api.link); }
 
-const uint16_t *motion_api_goals(void) { return api.player.goal_pos; }
+const uint16_t *motion_api_goals(void) { return api.goal_pos; }
 
 uint32_t motion_api_joints(void) { return api.player.joints; }
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from functools import cached_property
 from pathlib import Path
-from typing import Optional
 
 import click
 
@@ -19,7 +18,7 @@ from m512.ui import say
 class Source:
     """The file or board that an action works on; read when the action first asks."""
 
-    def __init__(self, word: str, bits: Optional[int]):
+    def __init__(self, word: str, bits: int):
         self.word, self.bits = word, bits
 
     @cached_property
@@ -76,14 +75,14 @@ Examples:
   m512 pages lib.bin merge other.mtn 3 5:20 -o new.bin
   m512 pages /dev/ttyUSB0 list --json""")
 @click.argument("source", metavar="FILE|PORT")
-@click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of an image file (default: what its positions look like).")
+@click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of an image file.")
 @click.pass_context
 def pages(context, source, bits):
     """List, check, edit, merge, mirror and retime the pages of a motion file, or of a board on a PORT.
 
     Pages are given by number or name. Actions that change something want -o FILE or --in-place.
     """
-    context.obj = Source(source, bits and int(bits))
+    context.obj = Source(source, int(bits))
 
 
 @pages.command("list", epilog="Example: m512 pages lib.bin list --all")

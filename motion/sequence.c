@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT
+ * sequence.c - which page and which step comes: repetitions, links, pages without action; and its bytes, shaped. */
+#include <string.h>
+#include "law.h"
+#include "shape_step.h"
+
+#define HEADER_BYTES 31u /* up to the checksum */
+
+/* --- reading ------------------------------------------------------------------------------------------------------ */
+
+/* The header's bytes from `from` on, to their places; the name is left as it is. */
+static void read_header(const page_source_t *source, uint8_t page, uint8_t header[HEADER_BYTES], uint8_t from)
+{
+    source->read(source->context, page, from, &header[from], (uint8_t)(HEADER_BYTES - from));
+}
+
+static void read_step(const page_source_t *source, const shape_t *shape, uint8_t page, uint8_t step,
+                      uint8_t bytes[PAGE_STEP_BYTES])
+{
+    source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), bytes, PAGE_STEP_BYTES);
+    if (shape != NULL) {
+        shape_step(shape, source, page, step, bytes);
+    }
+}
+
+uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS])
+{
+    uint8_t bytes[PAGE_STEP_BYTES];
+    uint32_t joints = 0;
+    read_step(source, shape, page, 1, bytes);
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        uint16_t word = page_word(&bytes[2 * i]);
+        if (page_pos_is_used(word)) {
+            pose_pos[i] = word;
+            joints |= (uint32_t)1 << i;
+        }
+    }
+    return joints;
+}
+
+/* --- which page --------------------------------------------------------------------------------------------------- */
+
+static uint8_t fail(player_t *player, uint8_t page, uint8_t fault)
+{
+    player->fault_page = page;
+    player->fault = fault;
+    return 0;
+}
+
+/* The link that is followed. One above the last page counts as none. */
+static uint8_t follow(link_t *link, uint8_t page, const uint8_t header[HEADER_BYTES], link_taken_t *taken)
+{
+    uint8_t next = link_decide(link, page, header, taken);
+    return next < PAGE_COUNT ? next : 0;
+}
+
+/* Notes a page in a set of pages. false: it is there already. */
+static bool note(uint8_t set[PAGE_COUNT / 8], uint8_t page)
+{
+    uint8_t bit = (uint8_t)(1u << (page % 8)), *byte = &set[page / 8];
+    bool fresh = (*byte & bit) == 0;
+    *byte |= bit;
+    return fresh;
+}
+
+/* The first page with action, from `page` on along the links of pages with PLAY_COUNT 0. 0: none, or a fault. Leaves
+ * that page's header in `header`. */
+static uint8_t resolve(player_t *player, link_t *link, uint8_t page, uint8_t header[HEADER_BYTES])
+{
+    uint8_t passed_over[PAGE_COUNT / 8] = {0};
+    while (page != 0) {
+        uint8_t status = player->source->check(player->source->context, page);
+        if (status != PAGE_OK) {
+            return fail(player, page, status);
+        }
+        read_header(player->source, page, header, PAGE_AT_PLAY_COUNT);
+        if (page_is_playable(header)) {
+            return page;
+        }
+        if (header[PAGE_AT_STEPS] == 0 || !note(passed_over, page)) {
+            return fail(player, page, PAGE_EMPTY);
+        }
+        link_taken_t taken;
+        page = follow(link, page, header, &taken);
+    }
+    return 0;
+}
+
+static void take_header(player_t *player, uint8_t page, const uint8_t header[HEADER_BYTES])
+{
+    player_step_t *step = &player->coming;
+    step->page = page;
+    step->step = 1;
+    step->steps = header[PAGE_AT_STEPS];
+    step->schedule = header[PAGE_AT_SCHEDULE];
+    step->page_speed = header[PAGE_AT_SPEED];
+    step->accel_time = header[PAGE_AT_ACCEL_TIME];
+    player->count_left = header[PAGE_AT_PLAY_COUNT];
+    player->coming_repetition = 1;
+}
+
+bool sequence_start(player_t *player, link_t *link, uint8_t page)
+{
+    uint8_t header[HEADER_BYTES];
+    player->fault_page = 0;
+    player->fault = PAGE_OK;
+    page = resolve(player, link, page, header);
+    if (page != 0) {
+        take_header(player, page, header);
+    }
+    return page != 0;
+}
+
+/* At the last step of a page: the same page again, or along its link. */
+static uint8_t decide(player_t *player, link_t *link)
+{
+    player->count_left--;
+    if (player->count_left != 0 && !link_is_stopping(link)) {
+        player->coming.step = 1;
+        player->coming_repetition++;
+        return 0;
+    }
+    uint8_t header[HEADER_BYTES];
+    link_taken_t taken;
+    read_header(player->source, player->now.page, header, PAGE_AT_NEXT_PAGE);
+    uint8_t named = follow(link, player->now.page, header, &taken);
+    player->link_taken = (uint8_t)taken;
+    player->next_page = named;
+    uint8_t page = resolve(player, link, named, header);
+    player->look_page = named;
+    player->coming.page = 0;
+    if (page != 0) {
+        take_header(player, page, header);
+    }
+    return PLAYER_EV_LINK;
+}
+
+/* --- which step --------------------------------------------------------------------------------------------------- */
+
+/* The original looks ahead to the page that the link names, even when that one is then passed over or ends the play. */
+static bool looks_elsewhere(const player_t *player)
+{
+    return player->law == PLAYER_LAW_CLASSIC && player->look_page != player->coming.page;
+}
+
+/* Words of a step to looked_at. */
+static void note_words(player_t *player, const uint8_t step[PAGE_STEP_BYTES])
+{
+    uint32_t may = player->present, used = 0, bit = 1;
+    for (uint16_t *to = player->looked_at; to < &player->looked_at[PAGE_JOINTS]; to++, step += 2, may >>= 1, bit <<= 1) {
+        uint16_t word = page_word(step);
+        if (((uint8_t)may & 1u) == 0 || !page_pos_is_used(word)) {
+            word = PAGE_POS_UNUSED;
+        } else {
+            used |= bit;
+        }
+        *to = word;
+    }
+    player->looked_joints = used;
+}
+
+/* Reads the coming step. */
+static void look_at_coming(player_t *player)
+{
+    uint8_t step[PAGE_STEP_BYTES];
+    player_step_t *coming = &player->coming;
+    const shape_t *shape = player->shape;
+    bool shapes = shape != NULL && !shape_is_neutral(shape);
+    read_step(player->source, shape, coming->page, coming->step, step);
+    coming->pause = step[PAGE_STEP_AT_PAUSE];
+    coming->time = step[PAGE_STEP_AT_SPEED];
+    coming->rate_percent = shapes ? shape->rate_percent : SHAPE_NORMAL;
+    coming->top_speed_q4_4 = shapes ? shape->top_speed_q4_4 : 0;
+    note_words(player, step);
+}
+
+/* Reads step 1 of the page that the link named. */
+static void look_elsewhere(player_t *player)
+{
+    uint8_t step[PAGE_STEP_BYTES];
+    read_step(player->source, player->shape, player->look_page, 1, step);
+    note_words(player, step);
+}
+
+static void look_at_nothing(player_t *player)
+{
+    uint8_t step[PAGE_STEP_BYTES];
+    memset(step, PAGE_POS_UNUSED >> 8, sizeof step);
+    note_words(player, step);
+}
+
+void sequence_look(player_t *player, link_t *link)
+{
+    uint8_t events = PLAYER_EV_STEP;
+    player->now = player->coming;
+    player->look_page = player->now.page;
+    player->looked = true;
+    if (player->now.step == 1) {
+        events |= PLAYER_EV_PAGE;
+        player->repetition = player->coming_repetition;
+    }
+    if (player->now.step < player->now.steps) {
+        player->coming.step++;
+    } else {
+        events |= decide(player, link);
+    }
+    player->announced_events = events;
+    uint8_t page = looks_elsewhere(player) ? player->look_page : player->coming.page;
+    if (page == 0) {
+        look_at_nothing(player);
+    } else if (page == player->coming.page) {
+        look_at_coming(player);
+    } else {
+        look_elsewhere(player);
+    }
+}
+
+uint16_t sequence_take(player_t *player)
+{
+    uint16_t own_way = 0, lent_way = 0;
+    player->looked = false;
+    if (looks_elsewhere(player)) { /* the step that will really be played */
+        player->coming.page != 0 ? look_at_coming(player) : look_at_nothing(player);
+    }
+    bool measures = player->coming.schedule == PAGE_SCHEDULE_SPEED || player->coming.top_speed_q4_4 != 0;
+    const uint16_t *looked_at = player->looked_at;
+    player_joint_t *joint = player->joint;
+    for (uint16_t *pos = player->coming_pos; pos < &player->coming_pos[PAGE_JOINTS]; pos++, joint++) {
+        uint16_t from = *pos, to = *looked_at++;
+        bool is_own = joint->owner == player->self;
+        if (is_own) {
+            joint->target_pos = from;
+        }
+        if (to == PAGE_POS_UNUSED) {
+            continue;
+        }
+        *pos = to;
+        if (measures) {
+            uint16_t way = to > from ? (uint16_t)(to - from) : (uint16_t)(from - to);
+            uint16_t *longest = is_own ? &own_way : &lent_way;
+            *longest = way > *longest ? way : *longest;
+        }
+    }
+    player->coming_joints = player->looked_joints;
+    player->lent_way = lent_way;
+    return own_way;
+}
+
+uint16_t sequence_take_first(player_t *player)
+{
+    player->look_page = player->coming.page;
+    look_at_coming(player);
+    return sequence_take(player);
+}
+
+uint8_t sequence_announce(player_t *player)
+{
+    if (!player->arrived) {
+        return 0;
+    }
+    player->arrived = false;
+    player->page = player->now.page;
+    player->step = player->now.step;
+    return player->announced_events;
+}

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+#include "shape.h"
+
+/* 90 % of 8.7 units a tick at 11.1 V (body.md): 0.9 * 8.7 / 111 * 16 = 1.1287 sixteenths of a unit for each 0.1 V. */
+#define TOP_SPEED_NUMERATOR 289u
+#define TOP_SPEED_DENOMINATOR 256u
+
+void shape_reset(shape_t *shape)
+{
+    shape->rate_percent = SHAPE_NORMAL;
+    shape->blend_percent = 0;
+    shape->scales = false;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        shape->amplitude_percent[i] = SHAPE_NORMAL;
+    }
+}
+
+void shape_init(shape_t *shape)
+{
+    shape_reset(shape);
+    shape->centre_page = SHAPE_CENTRE_DEFAULT;
+    shape->top_speed_q4_4 = 0;
+}
+
+shape_status_t shape_set_rate(shape_t *shape, uint16_t percent)
+{
+    if (percent < SHAPE_RATE_MIN || percent > SHAPE_RATE_MAX) {
+        return SHAPE_ERR_RANGE;
+    }
+    shape->rate_percent = percent;
+    return SHAPE_OK;
+}
+
+shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints)
+{
+    if (percent > SHAPE_AMPLITUDE_MAX || joints == 0) {
+        return SHAPE_ERR_RANGE;
+    }
+    shape->scales = false;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++, joints >>= 1) {
+        if (((uint8_t)joints & 1u) != 0) {
+            shape->amplitude_percent[i] = (uint8_t)percent;
+        }
+        shape->scales |= shape->amplitude_percent[i] != SHAPE_NORMAL;
+    }
+    return SHAPE_OK;
+}
+
+shape_status_t shape_set_blend(shape_t *shape, int16_t percent)
+{
+    if (percent < -SHAPE_BLEND_MAX || percent > SHAPE_BLEND_MAX) {
+        return SHAPE_ERR_RANGE;
+    }
+    shape->blend_percent = (int8_t)percent;
+    return SHAPE_OK;
+}
+
+shape_status_t shape_set_centre(shape_t *shape, uint8_t page)
+{
+    if (page >= PAGE_COUNT) {
+        return SHAPE_ERR_RANGE;
+    }
+    shape->centre_page = page;
+    return SHAPE_OK;
+}
+
+void shape_set_voltage(shape_t *shape, uint8_t decivolts)
+{
+    uint16_t top = (uint16_t)((uint32_t)decivolts * TOP_SPEED_NUMERATOR / TOP_SPEED_DENOMINATOR);
+    shape->top_speed_q4_4 = top > UINT8_MAX ? UINT8_MAX : (uint8_t)top;
+}
+
+bool shape_is_neutral(const shape_t *shape)
+{
+    return shape->rate_percent == SHAPE_NORMAL && shape->blend_percent == 0 && !shape->scales;
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT
+ * shape_step.c - blend, amplitude and clamp of a step's position words (shaping.md). One rounding, at the end:
+ *
+ *   p2 = c + A (p + W (q - p) - c)        as c + d / 10000,  d = A (100 (p - c) + W (q - p)) in percents
+ *
+ * Rounded half away from c, so that a mirrored motion stays mirrored. A joint without a centre is not scaled; c is p then.
+ * Ranges: |p - c|, |q - p| <= 1023, so |d| <= 150 * (100 + 100) * 1023 = 30,690,000. */
+#include "shape_step.h"
+#include "mul.h"
+
+#define NO_POS PAGE_POS_UNUSED
+#define WHOLE 10000u
+
+static void read_words(const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES])
+{
+    source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), bytes, PAGE_STEP_BYTES - 2u);
+}
+
+/* Position of joint i in a step, NO_POS where there is none. */
+static uint16_t pos_of(const uint8_t bytes[PAGE_STEP_BYTES], uint8_t i)
+{
+    uint16_t word = page_word(&bytes[2 * i]);
+    return page_pos_is_used(word) ? word : NO_POS;
+}
+
+static uint8_t header_byte(const page_source_t *source, uint8_t page, uint8_t at)
+{
+    uint8_t byte;
+    source->read(source->context, page, at, &byte, 1);
+    return byte;
+}
+
+/* The page that `page` is blended with; 0: none, or not one of the same number of steps. */
+static uint8_t partner_of(const shape_t *shape, const page_source_t *source, uint8_t page)
+{
+    uint8_t at = shape->blend_percent > 0 ? PAGE_AT_BLEND_RIGHT : PAGE_AT_BLEND_LEFT;
+    uint8_t partner = shape->blend_percent == 0 ? 0 : header_byte(source, page, at);
+    if (partner == 0 || partner >= PAGE_COUNT || source->check(source->context, partner) != PAGE_OK ||
+        header_byte(source, partner, PAGE_AT_STEPS) != header_byte(source, page, PAGE_AT_STEPS)) {
+        return 0;
+    }
+    return partner;
+}
+
+/* Reads the centre pose. false: there is none. */
+static bool read_centre(const shape_t *shape, const page_source_t *source, uint8_t bytes[PAGE_STEP_BYTES])
+{
+    uint8_t page = shape->centre_page;
+    if (page == 0 || source->check(source->context, page) != PAGE_OK ||
+        header_byte(source, page, PAGE_AT_STEPS) == 0) {
+        return false;
+    }
+    read_words(source, page, 1, bytes);
+    return true;
+}
+
+/* size / 10000, halves up; size up to 30,690,000. By the reciprocal of 625, 2^25 / 625 = 53687.09 rounded down: at most one
+ * too small. A division of 32 bits takes 650 cycles, and there are 31 of these in a tick. */
+static uint16_t round_to_whole(uint32_t size)
+{
+    uint32_t sixteenth = (size + WHOLE / 2) >> 4;
+    uint16_t quotient = (uint16_t)(mul_u32_u16_shift16(sixteenth, 53687u) >> 9);
+    if (sixteenth - mul_u16_u16(quotient, 625u) >= 625u) {
+        quotient++;
+    }
+    return quotient;
+}
+
+static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, int8_t blend)
+{
+    int32_t way = (int32_t)((int16_t)p - (int16_t)c) * 100 + (int32_t)((int16_t)q - (int16_t)p) * blend;
+    way *= amplitude;
+    bool down = way < 0;
+    int16_t whole = (int16_t)round_to_whole((uint32_t)(down ? -way : way));
+    int16_t pos = (int16_t)((int16_t)c + (down ? -whole : whole));
+    return pos < 0 ? 0 : pos > (int16_t)PAGE_POS_MAX ? PAGE_POS_MAX : (uint16_t)pos;
+}
+
+void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES])
+{
+    uint8_t partner_bytes[PAGE_STEP_BYTES], centre_bytes[PAGE_STEP_BYTES];
+    uint8_t partner = partner_of(shape, source, page);
+    if (partner == 0 && !shape->scales) {
+        return;
+    }
+    bool has_centre = read_centre(shape, source, centre_bytes);
+    int8_t blend = shape->blend_percent < 0 ? (int8_t)-shape->blend_percent : shape->blend_percent;
+    if (partner != 0) {
+        read_words(source, partner, step, partner_bytes);
+    }
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        uint16_t p = pos_of(bytes, i), q = partner != 0 ? pos_of(partner_bytes, i) : NO_POS;
+        uint16_t c = has_centre ? pos_of(centre_bytes, i) : NO_POS;
+        if (p != NO_POS && (q != NO_POS || c != NO_POS)) {
+            uint8_t amplitude = c != NO_POS ? shape->amplitude_percent[i] : SHAPE_NORMAL;
+            uint16_t pos = shaped(p, q != NO_POS ? q : p, c != NO_POS ? c : p, amplitude, blend);
+            bytes[2 * i] = (uint8_t)pos;
+            bytes[2 * i + 1] = (uint8_t)(pos >> 8);
+        }
+    }
+}
