@@ -8,30 +8,33 @@
 #include <stddef.h>
 #include <string.h>
 
-/* One copy. Bytes only on the AVR, so the struct is the record: no padding on either machine. */
+/* One copy: this head, the settings (bytes only, so the struct is the record), CRC-16 of all before, low byte first. A
+ * program of another version may have written fewer settings or more: new ones are only ever added at the end, and those
+ * that a record does not have are the defaults. */
 typedef struct {
     uint8_t magic;
     uint8_t layout;
     uint8_t sequence;
     uint8_t body_bytes;
-    settings_t body;
-    uint8_t crc[2];         /* CRC-16 of all before, low byte first */
-} record_t;
+} head_t;
 
 #define COPY_BYTES 64u
 #define MAGIC 'S'
 #define LAYOUT 1u
 /* A save goes: magic away, everything behind it, magic back; so no mixture of old and new ever carries the magic. */
-#define SAVE_STEPS (sizeof(record_t) + 1u)
+#define CRC_BYTES 2u
+#define BODY_BYTES_MAX (COPY_BYTES - sizeof(head_t) - CRC_BYTES)
+#define RECORD_BYTES (sizeof(head_t) + sizeof(settings_t) + CRC_BYTES)
+#define SAVE_STEPS (RECORD_BYTES + 1u)
 #define NO_MAGIC 0x00u
 
-STATIC_ASSERT(sizeof(record_t) == 4u + sizeof(settings_t) + 2u && sizeof(record_t) <= COPY_BYTES, "a record fits its place");
+STATIC_ASSERT(sizeof(settings_t) <= BODY_BYTES_MAX, "a record fits its place");
 STATIC_ASSERT(MEM_EE_SETTINGS + 2u * COPY_BYTES <= MEM_EE_SETTINGS_END, "two copies fit");
 
 #define ITEM(id, field, low, high) { offsetof(settings_t, field), low, high }
 const settings_range_t settings_ranges_P[SETTINGS_ITEMS] PROGMEM = {
     ITEM(law, law, 0, 1),
-    ITEM(remote, remote_mode, 0, 1),
+    ITEM(remote, remote_mode, 0, SETTINGS_REMOTE_DRIVE),
     ITEM(approach, approach_deg_s, 0, 240),
     ITEM(fault, fault_rule, 0, SETTINGS_FAULT_LIMP),
     ITEM(low, battery_low_dv, 0, 200),
@@ -40,6 +43,8 @@ const settings_range_t settings_ranges_P[SETTINGS_ITEMS] PROGMEM = {
     ITEM(flow, flow, 0, 1),
     ITEM(fast, fast_line, 0, 1),
     ITEM(talk, talk, 0, 1),
+    ITEM(centre, centre_page, 0, 127),
+    ITEM(drive, drive_ds, 0, 250),
 };
 
 void settings_defaults(settings_t *settings)
@@ -51,6 +56,8 @@ void settings_defaults(settings_t *settings)
     settings->hot_degrees = 70;
     settings->flow = 1;
     settings->talk = 1;
+    settings->centre_page = 1;
+    settings->drive_ds = 10;
     for (uint8_t joint = 0; joint < SETTINGS_JOINTS; joint++) {
         uint8_t partner = joint & 1u ? (uint8_t)(joint + 1u) : (uint8_t)(joint - 1u);
         settings->pair[joint] = joint >= 1u && joint <= 18u ? partner : SETTINGS_NO_PARTNER;
@@ -82,41 +89,43 @@ static bool is_sound(const settings_t *settings)
     return true;
 }
 
-static void seal(record_t *record)
+/* Reads one copy. false: it is not a good record; *magic is what stands in its first place. */
+static bool load_copy(uint8_t copy, uint8_t *magic, uint8_t *sequence, settings_t *settings)
 {
-    uint16_t crc = crc16_bytes(CRC16_START, record, offsetof(record_t, crc));
-    record->crc[0] = (uint8_t)crc;
-    record->crc[1] = (uint8_t)(crc >> 8);
-}
-
-/* Reads one copy; false when it is not a good record of this layout. */
-static bool load_copy(uint8_t copy, record_t *record)
-{
-    uint8_t crc[2];
-    eeprom_read(copy_addr(copy), record, sizeof *record);
-    memcpy(crc, record->crc, sizeof crc);
-    seal(record);
-    return record->magic == MAGIC && record->layout == LAYOUT && record->body_bytes == sizeof record->body
-        && memcmp(crc, record->crc, sizeof crc) == 0 && is_sound(&record->body);
+    uint8_t bytes[COPY_BYTES];
+    head_t head;
+    eeprom_read(copy_addr(copy), bytes, sizeof bytes);
+    memcpy(&head, bytes, sizeof head);
+    *magic = head.magic;
+    *sequence = head.sequence;
+    if (head.magic != MAGIC || head.layout != LAYOUT || head.body_bytes > BODY_BYTES_MAX) {
+        return false;
+    }
+    const uint8_t crc_at = (uint8_t)(sizeof head + head.body_bytes);
+    const uint16_t crc = crc16_bytes(CRC16_START, bytes, crc_at);
+    settings_defaults(settings);
+    memcpy(settings, bytes + sizeof head, head.body_bytes < sizeof *settings ? head.body_bytes : sizeof *settings);
+    return bytes[crc_at] == (uint8_t)crc && bytes[crc_at + 1u] == (uint8_t)(crc >> 8) && is_sound(settings);
 }
 
 settings_status_t settings_load(settings_store_t *store, settings_t *settings)
 {
-    record_t record;
     settings_status_t status = SETTINGS_EMPTY;
     store->saving = false;
     store->copy = 1;
     store->sequence = 0;
     settings_defaults(settings);
     for (uint8_t copy = 0; copy < 2u; copy++) {
-        if (load_copy(copy, &record)) {
-            if (status != SETTINGS_OK || (int8_t)(uint8_t)(record.sequence - store->sequence) > 0) {
-                *settings = record.body;
+        settings_t loaded;
+        uint8_t magic, sequence;
+        if (load_copy(copy, &magic, &sequence, &loaded)) {
+            if (status != SETTINGS_OK || (int8_t)(uint8_t)(sequence - store->sequence) > 0) {
+                *settings = loaded;
                 store->copy = copy;
-                store->sequence = record.sequence;
+                store->sequence = sequence;
             }
             status = SETTINGS_OK;
-        } else if (status == SETTINGS_EMPTY && record.magic != 0xFF) {
+        } else if (status == SETTINGS_EMPTY && magic != 0xFF) {
             status = SETTINGS_DAMAGED;
         }
     }
@@ -134,9 +143,15 @@ void settings_save_start(settings_store_t *store)
 /* Byte `at` of the record to write. Not inlined: the main loop would keep the record's bytes of stack for ever. */
 static NOINLINE uint8_t byte_to_save(const settings_store_t *store, const settings_t *settings, uint8_t at)
 {
-    record_t record = { MAGIC, LAYOUT, (uint8_t)(store->sequence + 1u), sizeof *settings, *settings, { 0, 0 } };
-    seal(&record);
-    return ((const uint8_t *)&record)[at];
+    const head_t head = { MAGIC, LAYOUT, (uint8_t)(store->sequence + 1u), sizeof *settings };
+    if (at < sizeof head) {
+        return ((const uint8_t *)&head)[at];
+    }
+    if (at < sizeof head + sizeof *settings) {
+        return ((const uint8_t *)settings)[at - sizeof head];
+    }
+    const uint16_t crc = crc16_bytes(crc16_bytes(CRC16_START, &head, sizeof head), settings, sizeof *settings);
+    return (uint8_t)(at == sizeof head + sizeof *settings ? crc : crc >> 8);
 }
 
 bool settings_save_poll(settings_store_t *store, const settings_t *settings)
@@ -151,7 +166,7 @@ bool settings_save_poll(settings_store_t *store, const settings_t *settings)
         store->saving = false;
         return false;
     }
-    uint8_t at = (uint8_t)(store->at % sizeof(record_t));
+    uint8_t at = (uint8_t)(store->at % RECORD_BYTES);
     uint8_t byte = store->at == 0 ? (uint8_t)NO_MAGIC : byte_to_save(store, settings, at);
     if (eeprom_start((uint16_t)(copy_addr(copy) + at), byte)) {
         store->at++;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * settings.h - what the user may set, kept in EEPROM over power-off: two copies with sequence number and CRC, written
  * in turn, so that a power cut during a save leaves the old or the new settings, never others.
- * Main loop only. RAM: settings_t 41 bytes and settings_store_t 4 bytes; 50 of stack, both the caller's.
+ * Main loop only. RAM: settings_t 43 bytes and settings_store_t 4 bytes; 120 of stack, both the caller's.
  * EEPROM: MEM_EE_SETTINGS.. (two copies of 64 bytes), far from the loader's bytes. */
 #ifndef SETTINGS_H
 #define SETTINGS_H
@@ -21,13 +21,20 @@ enum {
     SETTINGS_FAULT_LIMP = 2   /* the faulty joint's torque off, the play goes on without it */
 };
 
+/* What the remote's buttons do. */
+enum {
+    SETTINGS_REMOTE_LATCH = 0, /* default: a code stays in force until another one comes (link_mode_t) */
+    SETTINGS_REMOTE_HOLD = 1,  /* letting go is a stop */
+    SETTINGS_REMOTE_DRIVE = 2  /* as latch, but L and R steer while a page with partners plays */
+};
+
 /* Mirror's middle. */
 enum { SETTINGS_NEUTRAL_512 = 0, SETTINGS_NEUTRAL_PAGE1 = 1 /* step 1 of page 1 when that is valid */ };
 
 /* All bytes, so that a record is the struct. Defaults in brackets. */
 typedef struct {
     uint8_t law;                 /* player_law_t [0, exact] */
-    uint8_t remote_mode;         /* link_mode_t [0, latch] */
+    uint8_t remote_mode;         /* SETTINGS_REMOTE_ [latch] */
     uint8_t approach_deg_s;      /* 0..240 [60]; 0 = no approach: the first step starts where the robot stands */
     uint8_t fault_rule;          /* SETTINGS_FAULT_ [hold] */
     uint8_t battery_low_dv;      /* 0.1 V, 0 = no warning [90]; by the servos' own voltmeters */
@@ -37,6 +44,9 @@ typedef struct {
     uint8_t fast_line;           /* 1: the console changes to 117,647 baud after start [0] */
     uint8_t talk;                /* 1: status lines while playing [1] */
     uint8_t pair[SETTINGS_JOINTS]; /* partner of each joint for MIRROR [1-2, 3-4 .. 17-18], SETTINGS_NO_PARTNER: none */
+    uint8_t centre_page;         /* its first step is the centre of `amplitude`; 0: no joint is scaled [1] */
+    uint8_t drive_ds;            /* 0.1 s without @drive until the play is stopped, 0 = it never is [10] */
+    /* New ones here, at the end: older records stay readable. */
 } settings_t;
 
 typedef enum {
@@ -76,7 +86,7 @@ typedef struct {
     uint8_t offset, low, high;
 } settings_item_t;
 
-#define SETTINGS_ITEMS 10u
+#define SETTINGS_ITEMS 12u
 
 /* Item `index` 0..SETTINGS_ITEMS-1, copied from flash. In settings_names.c: Play only. */
 void settings_item(uint8_t index, settings_item_t *item);

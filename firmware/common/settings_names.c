@@ -7,7 +7,7 @@
 NAME(law);
 TEXT_NAMED(meaning_law, "0 exact, 1 classic");
 NAME(remote);
-TEXT_NAMED(meaning_remote, "0 latch, 1 hold");
+TEXT_NAMED(meaning_remote, "0 latch, 1 hold, 2 drive");
 NAME(approach);
 TEXT_NAMED(meaning_approach, "degrees/s, 0 = off");
 NAME(fault);
@@ -24,6 +24,10 @@ NAME(fast);
 TEXT_NAMED(meaning_fast, "1 = 117,647 baud after start");
 NAME(talk);
 TEXT_NAMED(meaning_talk, "1 = status lines while playing");
+NAME(centre);
+TEXT_NAMED(meaning_centre, "amplitude is about step 1 of this page, 0 = off");
+NAME(drive);
+TEXT_NAMED(meaning_drive, "0.1 s without @drive until the stop, 0 = never");
 
 #define ITEM_TEXT(id) { name_##id, meaning_##id }
 static const struct {
@@ -31,6 +35,7 @@ static const struct {
 } texts_P[SETTINGS_ITEMS] PROGMEM = {
     ITEM_TEXT(law), ITEM_TEXT(remote), ITEM_TEXT(approach), ITEM_TEXT(fault), ITEM_TEXT(low),
     ITEM_TEXT(hot), ITEM_TEXT(neutral), ITEM_TEXT(flow), ITEM_TEXT(fast), ITEM_TEXT(talk),
+    ITEM_TEXT(centre), ITEM_TEXT(drive),
 };
 
 void settings_item(uint8_t index, settings_item_t *item)

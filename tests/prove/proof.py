@@ -14,14 +14,13 @@ tools/prove runs them and writes two kinds of pages: tests/PROOFS.md, a row a pa
 figure. A proof never stops at the first fault: it counts all, and says of each how
 to see it again.
 """
-import concurrent.futures
 import dataclasses
 import json
-import os
 import pathlib
 import shutil
 import subprocess
-import sys
+
+from campaign import Progress, cores, each  # noqa: F401  (what proofs run their work with)
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 BUILD = TOP / "build"
@@ -39,37 +38,6 @@ class Figure:
     measured: str  # what this run gave, with units
     kept: bool  # the promise held everywhere
     headline: bool = False  # `measured`, up to its first semicolon, stands on the short page
-
-
-class Progress:
-    """One line on standard error that says how far a proof is; quiet lines only when it is no terminal."""
-
-    def __init__(self, what, total):
-        self.what, self.total, self.done = what, total, 0
-        self.step = max(1, total // (200 if sys.stderr.isatty() else 10))
-
-    def advance(self, count=1):
-        """`count` more of the total are done."""
-        before, self.done = self.done // self.step, self.done + count
-        if self.done // self.step != before or self.done >= self.total:
-            start, end = ("\r", "" if self.done < self.total else "\n") if sys.stderr.isatty() else ("", "\n")
-            print(f"{start}   {self.what}: {self.done} of {self.total}", end=end, file=sys.stderr, flush=True)
-
-
-def each(work, items, what, jobs):
-    """[work(item) for item in items] in `jobs` processes, in the order of the items, with progress.
-
-    `work` is a function of a module (it is pickled); an exception in it ends the proof.
-    """
-    items = list(items)
-    progress = Progress(what, len(items))
-    results = [None] * len(items)
-    with concurrent.futures.ProcessPoolExecutor(max_workers=jobs) as pool:
-        waiting = {pool.submit(work, item): index for index, item in enumerate(items)}
-        for done in concurrent.futures.as_completed(waiting):
-            results[waiting[done]] = done.result()
-            progress.advance()
-    return results
 
 
 def commit():
@@ -135,8 +103,3 @@ def write_pages(names):
         "# Proofs", "", "What Motion512 promises, and what machines found when they tried to break it. `tools/prove` makes this page; "
         "do not edit it.", "", "| | promise | found | command | at commit |", "| --- | --- | --- | --- | --- |", *rows]) + "\n",
         encoding="utf-8")
-
-
-def cores():
-    """How many processes may run at once."""
-    return len(os.sched_getaffinity(0))

@@ -135,6 +135,25 @@ static void test_field_out_of_range_is_damage(void)
     TEST_ASSERT_EQUAL(4, loaded.pair[3]);
 }
 
+/* What version 1.0.0 wrote: 41 bytes of settings. The CRC is Python's binascii.crc_hqx(all before it, 0xFFFF). */
+static void test_record_of_an_older_program_keeps_its_settings(void)
+{
+    static const uint8_t written[] = {
+        'S', 1, 5, 41, 1, 1, 77, 2, 88, 66, 1, 0, 0, 0,
+        0xFF, 2, 1, 4, 3, 6, 5, 8, 7, 10, 9, 12, 11, 14, 13, 16, 15, 18, 17,
+        0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x2E, 0xFA
+    };
+    TEST_ASSERT_EQUAL(47, sizeof written);
+    memcpy(fake_eeprom_bytes() + MEM_EE_SETTINGS, written, sizeof written);
+    TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&store, &loaded));
+    TEST_ASSERT_EQUAL(1, loaded.law);
+    TEST_ASSERT_EQUAL(77, loaded.approach_deg_s);
+    TEST_ASSERT_EQUAL(0, loaded.talk);
+    TEST_ASSERT_EQUAL(17, loaded.pair[18]);
+    TEST_ASSERT_EQUAL(1, loaded.centre_page);   /* the defaults of what it did not know */
+    TEST_ASSERT_EQUAL(10, loaded.drive_ds);
+}
+
 static void test_saving_in_steps_never_blocks_and_ends(void)
 {
     uint16_t calls = 0;
@@ -241,6 +260,7 @@ int main(void)
     RUN_TEST(test_only_the_settings_area_is_written);
     RUN_TEST(test_damaged_newer_copy_falls_back_to_the_older);
     RUN_TEST(test_field_out_of_range_is_damage);
+    RUN_TEST(test_record_of_an_older_program_keeps_its_settings);
     RUN_TEST(test_saving_in_steps_never_blocks_and_ends);
     RUN_TEST(test_power_cut_at_every_write_leaves_old_or_new);
     RUN_TEST(test_copy_under_way_has_no_magic);

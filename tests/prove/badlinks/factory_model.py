@@ -305,6 +305,12 @@ class Board:
         self.errands.append((self.now + seconds, what))
         self.errands.sort(key=lambda errand: errand[0])
 
+    def advance_by(self, seconds: float) -> None:
+        """Lets time pass, whatever comes to the PC."""
+        until = self.now + seconds
+        while self.now < until:
+            self.advance(until, stops=False)
+
     def _step(self, value):
         process = self.process
         wants = next(process) if self.fresh else process.send(value)
@@ -313,8 +319,8 @@ class Board:
         self.fresh, self.wants = False, wants
         self.wake = FOREVER if wants[1] is None else self.now + wants[1]
 
-    def advance(self, until: float) -> None:
-        """Lets time pass until then, or until something has come to the PC's end."""
+    def advance(self, until: float, stops: bool = True) -> None:
+        """Lets time pass until then, or, when it `stops` for that, until something has come to the PC's end."""
         while True:
             ring = getattr(self.loader, "ring", ())
             if self.wants[0] == "byte" and ring:
@@ -324,7 +330,7 @@ class Board:
             errand = self.errands[0][0] if self.errands else FOREVER
             when = min(self.wake, arrival, errand)
             pc = self.to_pc.next_arrival()
-            if pc <= min(when, until):
+            if stops and pc <= min(when, until):
                 self.now = max(self.now, pc)
                 return
             if when > until:

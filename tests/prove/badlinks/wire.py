@@ -33,6 +33,7 @@ class Weather:
     double: float = 0.0
     change: float = 0.0            # one bit of a byte is turned
     packet_double: float = 0.0     # a bridge sends a packet of up to 64 bytes again
+    hiccup: float = 0.0            # ... or pauses for 0.12 to 0.6 s somewhere in it
 
     def __str__(self):
         shown = [f"{field.name}={getattr(self, field.name):.4g}" for field in dataclasses.fields(self)[1:]
@@ -49,9 +50,11 @@ def weather(chance: random.Random) -> Weather:
     lossy = dict(lose=10 ** chance.uniform(-5, -2))
     doubling = dict(double=chance.choice((10 ** chance.uniform(-5, -1), 10 ** chance.uniform(-5, -1), 1.0)))
     packets = dict(packet_double=10 ** chance.uniform(-3, -0.5))
+    hiccups = dict(hiccup=10 ** chance.uniform(-2, -0.5))
     changing = dict(change=10 ** chance.uniform(-5, -2.5))
     kinds = {"good": {}, "slow": slow, "late": late, "lumpy": lumpy, "holes": holes, "lossy": lossy, "doubling": doubling,
-             "packets": packets, "changing": changing, "slow and late": {**slow, **late},
+             "packets": packets, "changing": changing, "hiccups": hiccups,
+             "hiccups and doubling": {**hiccups, **doubling}, "slow and late": {**slow, **late},
              "slow with holes": {**slow, **holes}, "late and lossy": {**late, **lossy},
              "holes and doubling": {**holes, **doubling}, "holes and loss": {**holes, **lossy},
              "everything": {**slow, **late, **lumpy, **holes, **lossy, **changing, "double": 10 ** chance.uniform(-4, -1.5)}}
@@ -87,12 +90,14 @@ class Wire:
         for at in range(0, len(data), self.PACKET):
             packet = data[at:at + self.PACKET]
             again = self.weather.packet_double and self.chance.random() < self.weather.packet_double
-            for byte in packet + (packet if again else b""):
-                self._send(now, byte)
+            packet += packet if again else b""
+            pause = self.chance.randrange(len(packet)) if self.weather.hiccup and self.chance.random() < self.weather.hiccup else -1
+            for k, byte in enumerate(packet):
+                self._send(now, byte, self.chance.uniform(0.12, 0.6) if k == pause else 0.0)
 
-    def _send(self, now: float, byte: int) -> None:
+    def _send(self, now: float, byte: int, pause: float) -> None:
         weather, chance = self.weather, self.chance
-        self.sent_until = max(now, self.sent_until) + BYTE_SECONDS / weather.speed
+        self.sent_until = max(now, self.sent_until) + pause + BYTE_SECONDS / weather.speed
         if weather.lose and chance.random() < weather.lose:
             return
         if weather.change and chance.random() < weather.change:
@@ -110,6 +115,7 @@ class Wire:
         return self.hole[1] if when >= self.hole[0] else when
 
     def _next_hole(self, now: float) -> None:
+        self.hole = (float("inf"), float("inf"))
         if self.weather.hole_every:
             start = now + self.chance.expovariate(1 / self.weather.hole_every)
             self.hole = (start, start + self.weather.hole * self.chance.random())

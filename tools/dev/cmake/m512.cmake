@@ -156,7 +156,7 @@ function(m512_pytest name path)
     endif()
     add_test(NAME ${name} COMMAND ${M512_PYTHON} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/${path})
     set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
-        ENVIRONMENT "PYTHONPATH=${CMAKE_SOURCE_DIR}/tools/sim/python:${CMAKE_SOURCE_DIR}/tools/m512/src:${CMAKE_SOURCE_DIR}/tools/body/src;PYTHONDONTWRITEBYTECODE=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
+        ENVIRONMENT "PYTHONPATH=${CMAKE_SOURCE_DIR}/tools/sim/python:${CMAKE_SOURCE_DIR}/tools/m512/src:${CMAKE_SOURCE_DIR}/tools/body/src:${CMAKE_SOURCE_DIR}/tools/campaign;PYTHONDONTWRITEBYTECODE=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
 endfunction()
 
 if(NOT M512_AVR)

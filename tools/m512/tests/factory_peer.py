@@ -21,7 +21,7 @@ class FactoryPeer(Peer):
         self.eeprom = bytearray(b"\xff" * 4096)
         self.eeprom[0xFFF] = 0x11
         self.before = bytes(self.flash)
-        self.hurt, self.downloads, self.words = [], [], []
+        self.hurt, self.downloads, self.words, self.mails = [], [], [], []
         self.state, self.since, self.presses_mode = state, time.monotonic(), presses_mode
         self.line, self.last, self.dump_at, self.page = bytearray(), 0, 0, bytearray(256)
         self.app_heard = bytearray()
@@ -35,6 +35,11 @@ class FactoryPeer(Peer):
             self.state, self.since, self.last = RESET, time.monotonic(), 0
             self.line.clear()
             self.send(b"\xff")
+            if self.eeprom[0xFF4] == 0xAA:       # the mailbox
+                at = 0xE000 + 512 * self.eeprom[0xFF5]
+                self.flash[at:at + 512] = self.eeprom[0x800:0xA00]
+                self.mails.append(self.eeprom[0xFF5])
+                self.eeprom[0xFF4] = 0x55
 
     def on_silence(self, seconds):
         now = time.monotonic()

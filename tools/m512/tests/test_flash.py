@@ -154,14 +154,14 @@ def test_restore_asks_first(m512, peer, motions, tmp_path):
 
 
 def pull_cable(peer, when):
-    """After `when` of a thousand parts: of a transfer of ours; of the dumps, or in a download, of the factory's."""
+    """After `when` of a thousand parts: of a transfer of ours; of the dumps, or at a byte of a download, of the factory's."""
     if isinstance(peer, BlockPeer):
         peer.cut_after = 20 + when * 2
     elif when % 2:
         peer.cut_after = 100 + when * 300
     else:
         def pull(direction, _, byte):
-            if direction == "->" and peer.state == 5 and len(peer.received) >= when:
+            if direction == "->" and peer.state == 5 and len(peer.received) >= when % 250:
                 peer.pull()
                 return None
             return byte
@@ -220,13 +220,18 @@ def test_block_wrong_board_is_refused_before_anything_is_written(m512, tmp_path)
 
 # The factory's
 
-def test_factory_downloads_are_aligned_whole_pages_without_checksum_byte(m512, motions):
+def test_factory_downloads_are_single_pages_below_the_reserve_and_the_rest_goes_through_the_mailbox(m512, tmp_path):
+    text = MOTIONS + "page 116 low\n  step 50 | 1..18:1\npage 127 last\n  step 50 | 1..18:2\n"
+    (tmp_path / "x.m512").write_text(text)
     flash = bytearray(b"\xff" * 0x20000)
     flash[0xE000:0x1E000] = EMPTY * 128
     with FactoryPeer(flash) as peer:
-        m512("flash", motions, "-p", peer.path)
-        assert peer.downloads and all(a % 256 == 0 and n % 256 == 0 and a + n <= 0x1E000 for a, n in peer.downloads)
-        assert not peer.hurt
+        result = m512("flash", tmp_path / "x.m512", "-p", peer.path)
+        assert result.exit_code == 0, result.stderr
+        assert peer.downloads and all(a % 256 == 0 and 0 < n <= 256 and a < 0x1C800 for a, n in peer.downloads)
+        assert peer.mails == [116, 127] and not peer.hurt
+        assert peer.flash[0xE200:0x1E000] == read_text(text).to_bytes()[512:]
+        assert peer.eeprom[0xFF4] == 0xFF and peer.eeprom[0xFFF] == 0x11
 
 
 def test_factory_lost_bytes_are_found_by_size_and_sent_again(m512, motions):
@@ -236,7 +241,7 @@ def test_factory_lost_bytes_are_found_by_size_and_sent_again(m512, motions):
         state = {"lost": 0}
 
         def lose(direction, _, byte):
-            if direction == "->" and peer.state == 5 and state["lost"] < 1 and len(peer.received) == 300:
+            if direction == "->" and peer.state == 5 and state["lost"] < 1 and len(peer.received) == 100:
                 state["lost"] += 1
                 return None
             return byte
@@ -270,7 +275,7 @@ def test_factory_success_is_not_believed(m512, motions):
     with FactoryPeer(flash) as peer:
         peer.dead_pages.add(0xE600)
         result = m512("flash", motions, "-p", peer.path)
-        assert result.exit_code == 8 and "read back wrong at 0x0E600" in result.stderr
+        assert result.exit_code == 8 and "read back wrong at 0x0E600" in result.stderr and "worn out" in result.stderr
 
 
 def test_factory_prompt_with_a_full_line_is_not_crashed(m512, motions):

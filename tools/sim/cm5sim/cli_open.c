@@ -144,6 +144,9 @@ int session_open(session_t *session, const options_t *options)
     }
     const char *error = load_memories(session);
     error = error ? error : files_plug_in_servos(session->bus, options, board_now(session->board));
+    if (options->hung_on) {
+        board_body(session->board, options->hung_on);
+    }
     error = error ? error : console_open(&session->console, options, input, session);
     error = error ? error : open_instruments(session);
     if (error) {

@@ -27,7 +27,7 @@ static const char doc[] =
 enum {
     OPT_BOARD = 256, OPT_SERVOS, OPT_MOTIONS, OPT_PTY, OPT_TCP, OPT_BUS_PTY, OPT_RC, OPT_SCRIPT, OPT_GDB, OPT_VCD,
     OPT_TRACE, OPT_PLOT, OPT_REALTIME, OPT_FAST, OPT_FLASH, OPT_EEPROM, OPT_SERVO_EEPROM, OPT_TIME, OPT_SEED,
-    OPT_FAULT, OPT_ALLOW, OPT_NO_STDIO, OPT_SUMMARY
+    OPT_FAULT, OPT_ALLOW, OPT_NO_STDIO, OPT_SUMMARY, OPT_BODY, OPT_VIEW
 };
 
 static const struct argp_option descriptions[] = {
@@ -39,6 +39,9 @@ static const struct argp_option descriptions[] = {
      "exists", 0},
     {"fault", OPT_FAULT, "ID:NAME", 0, "Faulty servo: silent, dead, duplicate, checksum, noise, late, short, "
      "two-talkers, overload, overheating, low-voltage, angle-limit, blocked", 0},
+    {"body", OPT_BODY, "NAME", 0, "A body in physics (MuJoCo): humanoid, gp, or a file; tells falls, way, heading. A hand "
+     "holds it until its knees have moved and stand still", 0},
+    {"view", OPT_VIEW, 0, 0, "With --body: shows it in MuJoCo's viewer (needs a display)", 0},
     {"seed", OPT_SEED, "N", 0, "What is in the SRAM at power-on (default 1)", 0},
     {"flash", OPT_FLASH, "FILE", 0, "Flash (131,072 bytes): read at the start if it exists, written at the end", 0},
     {"eeprom", OPT_EEPROM, "FILE", 0, "EEPROM (4,096 bytes), likewise", 0},
@@ -195,6 +198,9 @@ static void check_all(struct argp_state *state, const options_t *options)
     if (!options->bus_pty && options->image_count == 0 && options->flash == NULL) {
         argp_error(state, "no image given (for example play-cm5.hex); --help shows examples");
     }
+    if ((options->body && options->bus_pty) || (options->view && !options->body)) {
+        argp_error(state, "--view shows the --body, and --body needs a board (no --bus-pty)");
+    }
     if (options->no_stdio && !options->use_pty && !options->use_tcp && !options->script
         && options->time_cycles == UINT64_MAX) {
         argp_error(state, "--no-stdio without --pty, --tcp, --script or --time would run for ever, unseen");
@@ -213,6 +219,8 @@ static bool parse_robot(int key, char *arg, struct argp_state *state, options_t 
     case OPT_FLASH: options->flash = arg; break;
     case OPT_EEPROM: options->eeprom = arg; break;
     case OPT_SERVO_EEPROM: options->servo_eeprom = arg; break;
+    case OPT_BODY: options->body = arg; break;
+    case OPT_VIEW: options->view = true; break;
     case OPT_ALLOW: parse_allow(state, options, arg); break;
     case ARGP_KEY_ARG: add_image(state, options, arg); break;
     default: return false;

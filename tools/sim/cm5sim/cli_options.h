@@ -38,6 +38,9 @@ typedef struct {
     bool use_pty, use_tcp, bus_pty, rc, use_gdb, quiet, no_stdio, summary;
     const char *pty_link, *bus_link;
     int tcp_port, gdb_port; /* tcp_port 0: any free one */
+    const char *body;             /* a body of tools/body, or a file; NULL: none */
+    bool view;                    /* show it */
+    const servo_body_t *hung_on;  /* what the servos hang on, NULL: nothing */
     const char *script, *vcd, *trace, *plot, *flash, *eeprom, *servo_eeprom;
     pace_t pace;
     uint64_t time_cycles; /* end of the run, UINT64_MAX: none */

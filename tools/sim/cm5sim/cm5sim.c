@@ -4,13 +4,16 @@
 #include <inttypes.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "board_debug.h"
 #include "cli_bus.h"
 #include "cli_script.h"
 #include "cli_session.h"
+#include "cm5sim.h"
 
 #define SLICE_CYCLES (2u * BOARD_CYCLES_PER_MS)     /* real time: keys are looked at this often */
 #define LINGER_CYCLES (1000u * BOARD_CYCLES_PER_MS) /* after the end of piped input, silence that ends the run */
@@ -188,12 +191,31 @@ static void run(session_t *session, script_t *script)
     }
 }
 
-int main(int argc, char **argv)
+/* --body: a script of Python loads MuJoCo and calls cm5sim_run() of the same program as a library. */
+static int run_in_body(int argc, char **argv)
+{
+    char **more = calloc((size_t)argc + 2, sizeof *more);
+    if (more) {
+        more[0] = (char *)CM5SIM_PYTHON;
+        more[1] = (char *)CM5SIM_BODY_SCRIPT;
+        memcpy(more + 2, argv + 1, (size_t)argc * sizeof *more); /* with the NULL behind the last */
+        execv(CM5SIM_PYTHON, more);
+    }
+    fprintf(stderr, "cm5sim: --body needs %s with MuJoCo: tools/dev/setup demo test physics\n", CM5SIM_PYTHON);
+    free(more);
+    return EXIT_FILE;
+}
+
+int cm5sim_run(int argc, char **argv, const servo_body_t *body)
 {
     options_t options;
     session_t session;
     script_t script;
     options_parse(&options, argc, argv);
+    if (options.body && body == NULL) {
+        return run_in_body(argc, argv);
+    }
+    options.hung_on = body;
     catch_signals();
     if (options.bus_pty) {
         return bus_main(&options, &interrupted);

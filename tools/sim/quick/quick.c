@@ -94,8 +94,8 @@ static void send_goals(quick_t *quick, uint32_t joints)
         const uint8_t joint = joint_of(servo);
         if (joint < PAGE_JOINTS && joints >> joint & 1) {
             const uint16_t goal = quick->goal_pos[joint];
-            const uint8_t data[SLOPES_AND_GOAL] = {slope(compliance[joint] >> 4), slope(compliance[joint] & 15), (uint8_t)goal,
-                                                   (uint8_t)(goal >> 8)};
+            const uint8_t data[SLOPES_AND_GOAL] = {slope(compliance[joint] >> 4), slope(compliance[joint] & 15),
+                                                   (uint8_t)goal, (uint8_t)(goal >> 8)};
             servo_write(servo, SERVO_CW_SLOPE, data, SLOPES_AND_GOAL);
         }
     }

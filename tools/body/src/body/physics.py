@@ -116,6 +116,10 @@ class Physics:
                 self.data.qpos[self._places[servo][0]] = self.joint_angle(servo, position)
         mujoco.mj_forward(self.model, self.data)
 
+    def joint(self, servo):
+        """Angle of a joint, radians."""
+        return float(self.data.qpos[self._places[servo][0]])
+
     def stand(self, positions, heading=0.0):
         """On its soles in this pose: the trunk leans as flat soles make it lean."""
         self._root((1, 0, 0, 0))
@@ -135,6 +139,33 @@ class Physics:
         mujoco.mju_euler2Quat(quat, numpy.array((0.0, radians(90 if face_down else -90), 0.0)), "xyz")
         self._root(quat, heading)
         self._down_to_the_floor()
+
+    def hold(self):
+        """A hand takes it by the trunk, upright, where straight legs just reach the floor."""
+        self.data.qpos[:ROOT_NUMBERS] = self.model.qpos0[:ROOT_NUMBERS]
+        self.data.qvel[:ROOT_SPEEDS] = 0
+        self.data.eq_active[self._hand()] = 1
+        mujoco.mj_forward(self.model, self.data)
+
+    def put_down(self, heading=0.0):
+        """The hand puts it on its soles, joints as they are, and lets go."""
+        self.data.eq_active[self._hand()] = 0
+        self.stand({}, heading)
+
+    @property
+    def is_held(self):
+        return bool(self.data.eq_active[self._hand()])
+
+    def _hand(self):
+        try:
+            return self.model.equality("hand").id
+        except KeyError:
+            raise ValueError(f"{self.robot.path}: no <weld name=\"hand\" body1=\"trunk\">: nothing can hold this robot") from None
+
+    @property
+    def fastest_joint(self):
+        """Degrees a second."""
+        return degrees(max(abs(self.data.qvel[speed]) for _, speed in self._places.values()))
 
     def _root(self, quat, heading=0.0):
         turned, about = numpy.zeros(4), numpy.array((cos(radians(heading) / 2), 0, 0, sin(radians(heading) / 2)))

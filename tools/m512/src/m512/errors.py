@@ -10,6 +10,7 @@ EXIT_PORT = 6          # no port, no access, or the cable came off
 EXIT_NO_ANSWER = 7     # the port is there but nobody answers as expected
 EXIT_BOARD = 8         # the board answered with an error
 EXIT_MISSING = 9       # an optional library or the simulator is not installed
+EXIT_CANCELLED = 130   # Ctrl-C, as shells have it
 
 
 class M512Error(Exception):
@@ -50,6 +51,12 @@ class BoardError(M512Error):
     def __init__(self, message: str, number=None):
         super().__init__(message)
         self.number = number
+
+
+class CancelledError(M512Error):
+    """The user pressed Ctrl-C; the text says how things stand."""
+
+    exit_code = EXIT_CANCELLED
 
 
 class MissingError(M512Error):

@@ -283,6 +283,16 @@ class Board:
         self._taken += len(seen)
         return seen.decode("latin-1")
 
+    def attach(self, body):
+        """Hangs the servos' shafts on a body (body.physics.Physics), in lock step with the board; None: each turns by itself
+        again. After the body was put somewhere else by hand, attach it again: the servos then see it at once."""
+        self._body = body                            # kept alive
+        if body is None:
+            self._lib.board_body(self._pointer, None)
+            return
+        seam = self._lib.servo_mujoco_body(ctypes.addressof(body.seam))
+        self._lib.board_body(self._pointer, seam)
+
     def uart(self, number):
         """Counters of UART 0 (bus) or 1 (console): sent, received, overruns, framing, deaf."""
         counts = library.UartCounts()

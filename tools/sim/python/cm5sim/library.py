@@ -33,6 +33,11 @@ class ProbeResult(ctypes.Structure):
         "calls", "total_max", "total_sum", "own_max", "own_sum", "last_total", "last_own", "max_at")]
 
 
+class ServoBody(ctypes.Structure):
+    """servo_body_t: what the shafts hang on."""
+    _fields_ = [("context", ctypes.c_void_p), ("look", ctypes.c_void_p), ("step", ctypes.c_void_p)]
+
+
 P, I, B, S, D = ctypes.c_void_p, ctypes.c_int, ctypes.c_bool, ctypes.c_char_p, ctypes.c_double
 U8, U32, U64, Z = ctypes.c_uint8, ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
 SIZE = ctypes.POINTER(Z)
@@ -52,6 +57,7 @@ _FUNCTIONS = {
     "board_console_pause": (None, P, U64), "board_console_waiting": (Z, P), "board_console_flush": (None, P),
     "board_console_output": (P, P, SIZE), "board_servo_bus": (P, P), "board_trace_start": (B, P),
     "board_trace": (ctypes.POINTER(TracePacket), P, SIZE),
+    "board_body": (None, P, ctypes.POINTER(ServoBody)), "servo_mujoco_body": (ServoBody, P),
     "board_uart_counts": (None, P, I, ctypes.POINTER(UartCounts)), "board_press": (None, P, I, B),
     "board_leds": (U8, P), "board_pin": (I, P, ctypes.c_char, I), "board_battery": (None, P, D),
     "board_thermistor": (None, P, D),

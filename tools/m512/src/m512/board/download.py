@@ -5,14 +5,13 @@ Because only differing pages are sent, a download that broke off goes on where i
 """
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
-from typing import Callable, ContextManager
+from typing import Callable, ContextManager, Dict
 
 from m512.board.factory import FactoryLoader
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, Plan
-from m512.errors import BoardError, RefusedError
+from m512.errors import BoardError, CancelledError, PortError, RefusedError
 
 PhaseMaker = Callable[[str], ContextManager[Callable[[int, int], None]]]
 BOOT_MODE, BOOT_APPLICATION = 0xFFF, 0x11
@@ -44,22 +43,33 @@ def check_board(plan: Plan, loader: Loader) -> None:
 
 def download(loader: Loader, plan: Plan, phase: PhaseMaker) -> Report:
     check_board(plan, loader)
-    begun = time.monotonic()
+    begun = loader.link.now()
     with phase("Comparing") as progress:
         todo = loader.different(plan.pages, progress)
     if todo:
         pages = {number: plan.pages[number] for number in todo}
         with phase("Writing") as progress:
             if isinstance(loader, FactoryLoader):
-                loader.write(pages, progress, plan.pages)
-            else:
-                loader.write(pages, progress)
+                _to_factory(loader, pages, progress, plan.pages)       # reads back page by page
+                return Report(len(plan.pages), len(todo), loader.link.now() - begun, loader.retries)
+            loader.write(pages, progress)
         with phase("Verifying") as progress:
             wrong = loader.different(pages, progress)
         if wrong:
             raise BoardError("read back wrong at " + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in wrong[:8])
                              + ". Repeat the command; if that does not help the flash is worn out")
-    return Report(len(plan.pages), len(todo), time.monotonic() - begun, loader.retries)
+    return Report(len(plan.pages), len(todo), loader.link.now() - begun, loader.retries)
+
+
+def _to_factory(loader: FactoryLoader, pages: Dict[int, bytes], progress: Callable[[int, int], None],
+                around: Dict[int, bytes]) -> None:
+    """Writes; whatever ends it early says how the board stands and what is safe to do."""
+    try:
+        loader.write(pages, progress, around)
+    except KeyboardInterrupt:
+        raise CancelledError("stopped. " + loader.how_it_stands()) from None
+    except PortError as error:
+        raise PortError(f"{error}. {loader.how_it_stands()}") from None
 
 
 def start(loader: Loader) -> None:

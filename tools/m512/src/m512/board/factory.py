@@ -1,28 +1,35 @@
 # SPDX-License-Identifier: MIT
-"""The factory boot loader, the PC's side, by the safe way: whole pages, no checksum byte, everything read back by dumps.
+"""The factory boot loader, the PC's side: its prompt, its dumps, its EEPROM, and in which way each page is written.
 
-It has no acknowledges and no guard of its own section, so this side takes care: never an unaligned start, never past
-0x1E000, one argument for `load`, CR alone, no pause in a download.
+It acknowledges nothing, guards nothing, and takes late data for typed text. So every line is typed, its echo compared, and
+only then ended; words are long ones, of which no single wrong bit makes another word; all that was written is read back by
+dumps. What writes flash is in factory_flash.py and mailbox.py, which say why they cannot hurt the loader.
 """
 from __future__ import annotations
 
 import re
-from typing import Callable, Dict, List, Optional, Tuple
+from typing import Callable, Dict, Iterator, List, Optional, Set, Tuple
 
+from m512.board import factory_flash, mailbox
+from m512.board.factory_flash import Unsure
 from m512.board.link import Link
-from m512.board.memory import BOOT, FLASH_PAGE, Plan
+from m512.board.memory import APP, FLASH_PAGE, MOTIONS, Plan
 from m512.errors import BoardError, NoAnswerError, RefusedError
 
 PROMPT = b"\r\n - "
+# Empties the line, whatever stands in it, and asks for a prompt. The line holds 80 characters; some may get lost.
+KNOCK = b"\x08" * 100 + b"\r"
 DUMP_BYTES = 128
-DUMP_AHEAD = 4           # dumps asked for in advance; 2 bytes each of the loader's 255
-TRIES = 3
-GAP_PAGES = 6            # equal pages written along rather than starting another download (0.5 s)
-CHUNK = 1024
-EEPROM_PIECE = 64
-_DUMP_LINE = re.compile(rb"\r\n ([0-9A-F]{8}) : ((?:[0-9A-F]{2} ){16})")
-_REPORT = re.compile(rb"(Success|Error).*Rewriting:0X([0-9A-F]{4}).*Size:0X([0-9A-F]{8})  Checksum:([0-9A-F]{2})-([0-9A-F]{2})",
-                     re.S)
+DUMP_CHARACTERS = 660
+DUMP_AHEAD = 4           # dumps asked for in advance, a few bytes each of the loader's 255
+TRIES = 4
+DUMP_TRIES = 8
+EEPROM_PIECE = 32
+EEPROM_SECONDS = 0.0085
+START_SECONDS = 0.4
+ECHO_QUIET = 0.02        # behind an echo: a line that doubles would show it by then
+PATIENCE = 4.0           # longest silence that is not yet the end of hope, on a line that answers at once
+_DUMP_LINE = re.compile(rb"\r\n ([0-9A-F]{8}) : ((?:[0-9A-F]{2} ){16})([\x20-\x7f]{16})")
 
 Progress = Callable[[int, int], None]
 
@@ -34,66 +41,108 @@ class FactoryLoader:
     def __init__(self, link: Link):
         self.link = link
         self.retries = 0
-        self.to_prompt()
+        self.pace = 1 / 5714             # seconds a byte, there and back: measured by echoes
+        self.open_at: Optional[int] = None
+        self.mode_before: Optional[int] = None
+        self.stays = False
+        self.clean()
 
-    def to_prompt(self) -> None:
-        """A clean line: backspace (keeps a line of 80 characters from crashing it), CR, prompt."""
+    # The line
+
+    def patience(self, count: int) -> float:
+        """How long an answer of `count` bytes may take, judged by what this line has shown so far."""
+        return PATIENCE + 3 * self.pace * count
+
+    def clean(self) -> None:
+        """An empty line behind a prompt. Not while a download may be open."""
         for _ in range(TRIES):
-            self.link.drain()
-            self.link.write(b"\x08\r")
-            if self.link.look_for(PROMPT, 1.0)[1]:
+            self.link.drain(0.05, 5.0)
+            self.link.write(KNOCK)
+            if self.link.look_for(PROMPT, self.patience(4 * len(KNOCK)))[1]:
                 self.link.drain(0.02)
                 return
-        raise NoAnswerError("the boot loader does not answer any more. Press MODE and repeat the command; "
-                            "it goes on where it stopped")
+        raise NoAnswerError("the boot loader does not answer any more. " + self.how_it_stands())
 
-    def command(self, line: str, seconds: float = 2.0) -> bytes:
-        """A line's answer, up to the prompt."""
-        self.link.write(line.encode() + b"\r")
-        return self.link.read_until(PROMPT, seconds, f"`{line}` to the boot loader")
+    def how_it_stands(self) -> str:
+        """The board's state after trouble, and what is safe to do."""
+        state = ""
+        if self.open_at is not None:
+            state = (f"The board may still wait for the rest of a download to 0x{self.open_at:05X}; only pages that this command "
+                     "writes can change by it. Type nothing into a terminal now. ")
+        again = "Wait a second and repeat the command: it goes on where it stopped. Its boot loader is unharmed"
+        stays = "; until that has worked the controller stays in it at every start" if self.stays else \
+            "; MODE may be pressed as well"
+        return state + again + stays
+
+    def type_line(self, line: str) -> None:
+        """Types a line but for its end, once the echo shows that it arrived as it is."""
+        for _ in range(TRIES):
+            begun = self.link.now()
+            self.link.write(line.encode())
+            echo = b""
+            while len(echo) < len(line):
+                some = self.link.read_some(self.patience(2 * len(line)), len(line) - len(echo))
+                if not some:
+                    break
+                echo += some
+            if echo == line.encode() and not self.link.drain(ECHO_QUIET, 0.1):      # not twice
+                self.pace = max(1 / 5714, (self.link.now() - begun - ECHO_QUIET) / (2 * len(line)))
+                return
+            self.retries += 1
+            self.clean()
+        raise NoAnswerError(f"what is typed arrives damaged (`{line}` came back as {echo!r}). Is the cable good?")
+
+    def command(self, line: str, count: int = 60) -> bytes:
+        """A line's answer of about `count` bytes, up to the prompt."""
+        self.type_line(line)
+        self.link.write(b"\r")
+        return self.link.read_until(PROMPT, self.patience(count), f"`{line}` to the boot loader")
 
     # Reading
 
     def _dump(self, word: str, start: int, end: int, modulo: int, progress: Optional[Progress]) -> bytes:
-        """Memory by dumps of 128 bytes, a few asked for ahead."""
+        """Memory by dumps of 128 bytes, a few asked for ahead as long as all goes well."""
         first = start - start % DUMP_BYTES
-        out, tries = bytearray(), 0
+        out, tries, ahead = bytearray(), 0, DUMP_AHEAD
         while first + len(out) < end:
             at = first + len(out)
             count = (end - at + DUMP_BYTES - 1) // DUMP_BYTES
             try:
-                for piece in self._dumps(word, at, count, modulo):
+                for piece in self._dumps(word, at, count, modulo, ahead):
                     out += piece
                     tries = 0
                     if progress:
                         progress(min(first + len(out), end) - start, end - start)
             except NoAnswerError:
-                tries += 1
+                tries, ahead = tries + 1, 1
                 self.retries += 1
-                if tries == TRIES:
+                if tries == DUMP_TRIES:
                     raise
-                self.to_prompt()
+                self.clean()
         return bytes(out[start - first:end - first])
 
-    def _dumps(self, word: str, at: int, count: int, modulo: int):
+    def _dumps(self, word: str, at: int, count: int, modulo: int, ahead: int) -> Iterator[bytes]:
         asked = 0
         for done in range(count):
-            while asked < min(count, done + DUMP_AHEAD):
+            while asked < min(count, done + ahead):
                 self.link.write((f"{word} {at:x}" if asked == 0 else word).encode() + b"\r")
                 asked += 1
-            text = self.link.read_until(PROMPT, 2.0, f"a dump of 0x{at:X}")
-            lines = _DUMP_LINE.findall(text)
-            wanted = [(at + done * DUMP_BYTES + 16 * k) % modulo for k in range(DUMP_BYTES // 16)]
-            if [int(address, 16) for address, _ in lines] != wanted:
+            here = at + done * DUMP_BYTES
+            text = self.link.read_until(PROMPT, self.patience(DUMP_CHARACTERS), f"a dump of 0x{here:X}")
+            rows = _DUMP_LINE.findall(text)
+            wanted = [(here + 16 * k) % modulo for k in range(DUMP_BYTES // 16)]
+            data = [bytes.fromhex(digits.decode()) for _, digits, _ in rows]
+            if [int(address, 16) for address, _, _ in rows] != wanted or any(
+                    _as_text(piece) != shown for piece, (_, _, shown) in zip(data, rows)):
                 self.link.drain(0.2, 3)
-                raise NoAnswerError(f"the dump of 0x{at + done * DUMP_BYTES:X} came damaged")
-            yield b"".join(bytes.fromhex(data.decode()) for _, data in lines)
+                raise NoAnswerError(f"the dump of 0x{here:X} came damaged")
+            yield b"".join(data)
 
     def read(self, start: int, end: int, progress: Optional[Progress] = None) -> bytes:
-        return self._dump("f", start, end, 0x20000, progress)
+        return self._dump("flash", start, end, 0x20000, progress)
 
     def read_eeprom(self, start: int = 0, end: int = 4096, progress: Optional[Progress] = None) -> bytes:
-        return self._dump("e", start, end, 0x1000, progress)
+        return self._dump("eeprom", start, end, 0x1000, progress)
 
     def different(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> List[int]:
         """Which of these pages the board holds otherwise."""
@@ -108,83 +157,133 @@ class FactoryLoader:
             done += len(data) // FLASH_PAGE
         return out
 
-    # Writing
+    # Writing flash
 
     def write(self, pages: Dict[int, bytes], progress: Optional[Progress] = None,
               around: Optional[Dict[int, bytes]] = None) -> int:
-        """Writes these pages. `around`: pages known to be there already, which may be written along."""
-        plan = Plan({**(around or {}), **pages})
-        runs = plan.runs(list(pages), GAP_PAGES)
-        total, done = sum(len(data) for _, data in runs), 0
-        for address, data in runs:
-            before = done
-            self._load(address, data, progress and (lambda n: progress((before + n) // FLASH_PAGE, total // FLASH_PAGE)))
-            done += len(data)
+        """Writes these pages and reads them back. `around`: pages known to be there, which may be written along."""
+        if any(page * FLASH_PAGE < APP[1] for page in pages):
+            self.stay()                # a program that is half there must not be started
+        known, done = {**(around or {}), **pages}, 0
+        for unit in factory_flash.units(set(known)):
+            todo = {page for page in unit if page in pages}
+            if todo:
+                whole = self._with_neighbour({page: known[page] for page in unit})
+                self._write_unit(whole, todo, progress and (lambda n: progress(done + n, len(pages))))
+                done += len(todo)
         return 0
 
-    def _load(self, address: int, data: bytes, progress: Optional[Callable[[int], None]]) -> None:
-        if address % FLASH_PAGE or len(data) % FLASH_PAGE or address + len(data) > BOOT[0] or not data:
-            raise RefusedError(f"a download to 0x{address:X} of {len(data)} bytes would hurt")    # our own mistake
-        trouble = ""
-        for _ in range(TRIES):
-            trouble = self._load_once(address, data, progress)
-            if not trouble:
-                return
-            self.retries += 1
-            self.to_prompt()
-        raise BoardError(f"download to 0x{address:05X}: {trouble}, {TRIES} times")
+    def _with_neighbour(self, unit: Dict[int, bytes]) -> Dict[int, bytes]:
+        """Half a motion page is written together with its other half, as the board holds it."""
+        if len(unit) > 1:
+            return unit
+        page = next(iter(unit))
+        if page * FLASH_PAGE < MOTIONS[0]:
+            raise RefusedError("a program of 256 bytes cannot be written safely through the factory's loader: "
+                               "make it 512 bytes long")
+        other = page ^ 1
+        return {**unit, other: self.read(other * FLASH_PAGE, (other + 1) * FLASH_PAGE)}
 
-    def _load_once(self, address: int, data: bytes, progress: Optional[Callable[[int], None]]) -> str:
-        """One download; what went wrong, or nothing."""
-        self.link.write(f"load {address:x}\r".encode())
-        ready = self.link.read_until(b"Ready..", 2.0, "`load` to the boot loader")
-        if f"Write Address : {address:08X}".encode() not in ready:
-            # Nothing was sent yet. Only silence or a reset leaves `Ready..` here.
-            raise BoardError("the boot loader took another address than it was given. Press MODE and repeat the command")
-        for at in range(0, len(data), CHUNK):
-            self.link.write(data[at:at + CHUNK], wait=False)
-            if progress:
-                progress(at)
-        self.link.write(b"")
-        text, ended = self.link.look_for(PROMPT, 3.0 + len(data) / 4000)
-        report = _REPORT.search(text)
-        if not ended or not report:
-            return "no report came after it"
-        size, total, last = int(report.group(3), 16), int(report.group(4), 16), int(report.group(5), 16)
-        if size != len(data):
-            return f"{len(data) - size} of {len(data)} bytes were lost on the line"
-        if total != sum(data[:-1]) & 0xFF or last != data[-1]:
-            return "the sum does not fit"
-        return ""
+    def _write_unit(self, unit: Dict[int, bytes], todo: Set[int], progress: Optional[Callable[[int], None]]) -> None:
+        first, count = min(unit), len(todo)
+        for _ in range(TRIES):
+            look: Set[int] = set()
+            for number, page in enumerate(sorted(todo)):
+                if factory_flash.in_reserve(first):
+                    mailbox.write_motion_page(self, mailbox.motion_page_of(first), unit[first] + unit[first + 1])
+                    look = set(unit)
+                    break
+                factory_flash.write_page(self, page, unit)
+                look |= factory_flash.endangered(page, unit)
+                if progress:
+                    progress(min(number, count))
+            todo = set(self.different({page: unit[page] for page in look}))
+            if not todo:
+                return
+        raise BoardError("read back wrong at " + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in sorted(todo)[:8])
+                         + f", {TRIES} times. If repeating the command does not help, the flash is worn out")
+
+    # Writing EEPROM
 
     def write_eeprom(self, cells: Dict[int, int], progress: Optional[Progress] = None) -> None:
+        """Single bytes, by address. Not read back."""
         done = 0
-        for at, data in _runs(cells):
-            self.link.write(f"eep_dn {at:x} {len(data):x}\r".encode())
-            self.link.read_until(b"Ready", 2.0, "`eep_dn` to the boot loader")
-            self.link.write(data)
-            self.link.read_until(PROMPT, 2.0 + 0.02 * len(data), "the end of an EEPROM write")
+        for at, data in _pieces(cells):
+            for _ in range(TRIES):
+                if self._eeprom_piece(at, data):
+                    break
+                self.retries += 1
+                self.clean()
+            else:
+                raise NoAnswerError("EEPROM bytes do not arrive. " + self.how_it_stands())
             done += len(data)
             if progress:
                 progress(done, len(cells))
 
-    # The end
+    def _eeprom_piece(self, at: int, data: bytes) -> bool:
+        """Whether it went well. If not, the loader may wait for the rest; what clean() types is enough of it."""
+        self.type_line(f"eep_dn {at:x} {len(data):x}")
+        self.link.write(b"\r")
+        answer, ready = self.link.look_for(b"Ready", self.patience(80))
+        if not ready:
+            return False
+        if b"Write Address : %08X" % at not in answer:
+            raise Unsure(factory_flash.WRONG_ADDRESS)
+        self.link.write(data)
+        return self.link.look_for(PROMPT, self.patience(len(data) + 20) + EEPROM_SECONDS * len(data))[1]
+
+    # Starting and staying
+
+    def stay(self) -> None:
+        """From now on the controller stays in this loader at every start, until leave()."""
+        if self.stays:
+            return
+        self.mode_before = self.read_eeprom(mailbox.BOOT_MODE, mailbox.BOOT_MODE + 1)[0]
+        self._mode("sys")
+        self.stays = True
+
+    def _mode(self, word: str) -> None:
+        wanted = 0xFF if word == "sys" else None
+        for _ in range(TRIES):
+            self.command(word)
+            found = self.read_eeprom(mailbox.BOOT_MODE, mailbox.BOOT_MODE + 1)[0]
+            if (found == 0xFF) == (wanted == 0xFF):
+                return
+        raise BoardError(f"`{word}` does not change the boot mode")
+
+    def restart(self) -> None:
+        """A reset; afterwards the loader is at its prompt again (it stays: see stay())."""
+        self.type_line("reset")
+        self.link.write(b"\r")
+        self.link.look_for(PROMPT, START_SECONDS + self.patience(100))
+        self.clean()
 
     def leave(self, to: int = 0) -> None:
         """0 stay at the prompt, 1 start the application (and at every start from now on), 2 reset."""
+        if to == 1 or (self.stays and self.mode_before != 0xFF):
+            self._mode("app")
+        self.stays = False
         if to == 1:
-            self.command("app")
-            self.link.write(b"go\r")
-            self.link.read_until(b"Jump Address", 2.0, "`go` to the boot loader")
+            self.type_line("go")
+            self.link.write(b"\r")
+            self.link.read_until(b"Jump Address", self.patience(60), "`go` to the boot loader")
         elif to == 2:
-            self.link.write(b"reset\r")
+            self.type_line("reset")
+            self.link.write(b"\r")
 
 
-def _runs(cells: Dict[int, int]) -> List[Tuple[int, bytes]]:
+def _as_text(data: bytes) -> bytes:
+    return bytes(byte if 0x20 <= byte <= 0x7F else 0x2E for byte in data)
+
+
+def _pieces(cells: Dict[int, int]) -> List[Tuple[int, bytes]]:
+    """Runs of neighbouring bytes. A byte too many would be typed text, so the end of a line stands alone."""
     out: List[Tuple[int, bytearray]] = []
     for at in sorted(cells):
-        if out and at == out[-1][0] + len(out[-1][1]) and len(out[-1][1]) < EEPROM_PIECE:
-            out[-1][1].append(cells[at])
+        last = out[-1] if out else (-1, bytearray())
+        if at == last[0] + len(last[1]) and len(last[1]) < EEPROM_PIECE and cells[at] not in b"\r\n" \
+                and last[1][-1] not in b"\r\n":
+            last[1].append(cells[at])
         else:
             out.append((at, bytearray([cells[at]])))
     return [(at, bytes(data)) for at, data in out]

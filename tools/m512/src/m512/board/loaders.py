@@ -14,53 +14,75 @@ from __future__ import annotations
 from typing import Callable, Union
 
 from m512.board.block import BlockLoader
-from m512.board.factory import PROMPT, FactoryLoader
+from m512.board.factory import KNOCK, PROMPT, FactoryLoader
 from m512.board.link import Link
 from m512.errors import NoAnswerError, RefusedError
 
 Loader = Union[BlockLoader, FactoryLoader]
 BANNER = b"SYSTEM O.K."
-HASH_SECONDS = 0.015
+HASH_SECONDS = 0.025           # the window behind a start is 60 ms
+HASHES_MOST = 2300             # with the rest of what is sent blindly: less than factory_flash.BLIND_MOST
+KNOCK_SECONDS = 1.5
 WAIT_SECONDS = 60.0
 
 
 def at_prompt(link: Link) -> bool:
-    """Whether a loader answers at its prompt. (The backspace keeps a full line from crashing the factory loader.)"""
+    """Whether a loader answers at its prompt.
+
+    A factory loader may be in a download that somebody else has left open. It takes the knock for data then, which goes
+    where that download's bytes would have gone, and the pause behind it ends the download.
+    """
     link.drain(0.02, 0.3)
-    link.write(b"\x08\r")
-    return link.look_for(PROMPT, 0.4)[1]
+    for _ in range(2):
+        link.write(KNOCK)
+        came, prompt = link.look_for(PROMPT, KNOCK_SECONDS)
+        if prompt:
+            link.drain(0.03)
+            return True
+        if came.strip(b"\x00\x08 "):        # somebody else is there
+            return False
+    return False
 
 
 def identify(link: Link) -> Loader:
     """Which loader is at its prompt. Its own words are asked first: a frame would be typed text to the factory's."""
-    link.drain(0.03)
-    link.write(b"id\r")
-    text, ended = link.look_for(PROMPT, 1.5)
-    if not ended:
+    text = b""
+    for _ in range(3):
+        link.drain(0.05)
+        link.write(b"id\r")
+        text, ended = link.look_for(PROMPT, KNOCK_SECONDS)
+        if b"ID Motion512" in text:
+            return BlockLoader(link, text.decode("ascii", "replace"))
+        if b"Bad Command" in text:
+            return FactoryLoader(link)
+        if not ended:
+            break
+    if not text:
         raise NoAnswerError("the boot loader stopped answering")
-    if b"ID Motion512" in text:
-        return BlockLoader(link, text.decode("ascii", "replace"))
-    if b"Bad Command" in text:
-        return FactoryLoader(link)
     raise NoAnswerError(f"a boot loader that this program does not know answered {text[-60:]!r}")
 
 
 def call_by_hash(link: Link, seconds: float) -> bool:
-    """'#' again and again until a loader shows its banner; clears the line behind it."""
-    deadline, came, after_ff = link.now() + seconds, b"", 0
+    """'#' again and again until a loader shows its banner; clears the line behind it.
+
+    A loader sends 0xFF when it starts and then listens for 60 ms. When HASHES_MOST have been sent without knowing to whom,
+    only that 0xFF is answered any more.
+    """
+    deadline, came, after_ff, sent = link.now() + seconds, b"", 0, 0
     while link.now() < deadline:
         # Behind the 0xFF of a start a few '#' are enough; more would only fill its line.
-        if after_ff < 8:
+        if after_ff < 8 and (sent < HASHES_MOST or 0 < after_ff):
             link.write(b"#")
+            sent += 1
         some = link.read_some(HASH_SECONDS)
         came = (came + some)[-4096:]
         if BANNER in came or PROMPT in came:     # a prompt without banner: a broken session of ours has ended
             link.look_for(PROMPT, 0.3)
             link.drain(0.1, 1.0)
-            link.write(b"\x08\r")
-            return link.look_for(PROMPT, 1.0)[1]
+            link.write(KNOCK)
+            return link.look_for(PROMPT, KNOCK_SECONDS)[1]
         after_ff = after_ff + 1 if came.endswith(b"\xff") or (after_ff and not some) else 0
-        if after_ff > 30:      # half a second of silence behind the 0xFF: it was something else
+        if after_ff > 30:      # nothing behind the 0xFF for a while: it was something else
             after_ff = 0
             came = b""
     return False

@@ -10,6 +10,7 @@ import click
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError
 from m512.files import formats
 from m512.files.page import Page
+from m512.files.wording import Findings, named_pages_text
 from m512.ui import say
 
 
@@ -37,35 +38,28 @@ Examples:
   m512 convert lib.bin wave.csv --page 15   one page as a table""")
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("target", type=click.Path(path_type=Path))
-@click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of SOURCE (images do not tell).")
+@click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of SOURCE (default: what its positions look like).")
 @click.option("--scale", type=click.Choice(["10", "12"]), help="Scale positions to this resolution.")
 @click.option("--joints", help="Keep these IDs (1..20 or 1,3,5) and set all others unused.")
-@click.option("--pages", "count", type=click.Choice(["128", "256"]), help="Pages of the result (default: as SOURCE).")
+@click.option("--pages", "count", type=click.Choice(["128", "256"]), help="Pages of the result (default: as SOURCE; 128 for a .mtn).")
 @click.option("--page", "number", help="The page (number or name) of a CSV.")
 @click.option("--onto", type=click.Path(path_type=Path), help="Motion file whose page 0 (trim) a .mtn takes over.")
 @click.option("--damaged", type=click.Choice(["ask", "keep", "drop"]), default="keep",
               help="Damaged pages: keep byte for byte, replace by empty ones, or refuse to go on.", show_default=True)
-@click.option("--edited", is_flag=True, help="Take a .mtn whose file checksum is wrong (edited by hand).")
 @click.option("--mtn-version", type=click.Choice(["1.00", "1.01"]), default="1.01", help="Version of a .mtn to write.")
 @click.option("--force", is_flag=True, help="Overwrite TARGET.")
 @click.option("--json", "as_json", is_flag=True, help="Report on stdout as JSON.")
-def convert(source, target, bits, scale, joints, count, number, onto, damaged, edited, mtn_version, force, as_json):
+def convert(source, target, bits, scale, joints, count, number, onto, damaged, mtn_version, force, as_json):
     """Convert the motions in SOURCE to TARGET.
 
     The suffix of TARGET decides: .bin (raw image), .hex (Intel HEX), .mtn (RoboPlus), .csv (one page), .m512 (text).
-    SOURCE is recognised by its contents. All losses are listed; a conversion that loses nothing says nothing.
+    SOURCE is recognised by its contents. All losses are listed; a conversion that loses nothing says nothing. Pages of yours
+    are left out only when an option says so.
     """
     if target.exists() and not force:
         raise RefusedError(f"{target} is there already (--force overwrites it)")
-    image = formats.load(source, int(bits), formats.load(onto) if onto else None, edited)
+    image = formats.load(source, bits and int(bits), formats.load(onto) if onto else None)
     notes, losses = list(image.notes), []
-    bad = damaged_pages(image)
-    if bad and damaged == "ask":
-        raise RefusedError("damaged pages (--damaged keep or drop):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
-    for page, why in bad:
-        notes.append(f"page {page} is damaged ({why}): {'replaced by an empty page' if damaged == 'drop' else 'kept as it is'}")
-        if damaged == "drop":
-            image[page] = Page()
     if joints:
         from m512.files.scale12 import keep_joints
 
@@ -75,19 +69,45 @@ def convert(source, target, bits, scale, joints, count, number, onto, damaged, e
 
         image, report = scale12.scaled(image, int(scale))
         losses += report
-    wanted = int(count) if count else _fitting(image, source, target)
-    if wanted != image.end:
-        image, lost = image.resized(wanted)
-        losses += lost
+    bad = _treat_damaged(image, damaged, notes)
+    image, lost = _fitted(image, count, source, target)
+    losses += lost
     losses += formats.save(target, image, image.find(number) if number else None, mtn_version)
     if as_json:
         click.echo(json.dumps({"source": str(source), "target": str(target), "pages": len(image.pages), "bits": image.bits,
-                               "damaged": [n for n, _ in bad], "notes": notes, "losses": losses}, indent=2))
+                               "damaged": bad, "notes": notes, "losses": losses}, indent=2))
         return
     for note in notes:
         say(f"note: {note}")
     for loss in losses:
         say(f"loss: {loss}")
+
+
+def _treat_damaged(image, how, notes):
+    """Keeps or drops damaged pages, or refuses to go on; returns their numbers."""
+    bad = damaged_pages(image)
+    if bad and how == "ask":
+        raise RefusedError("damaged pages (--damaged keep or drop):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
+    found, few = Findings(), len(bad) <= 3
+    for page, why in bad:
+        done = "replaced by an empty page" if how == "drop" else "kept byte for byte"
+        found.add(page, "", f"damaged, {done}" + ("" if few else " (m512 pages FILE check says what is wrong)"), why if few else "")
+        if how == "drop":
+            image[page] = Page()
+    notes += found.lines()
+    return [page for page, _ in bad]
+
+
+def _fitted(image, count, source, target):
+    """The image with as many pages as the result has, and what that loses. Pages of the user's are lost only when asked."""
+    wanted = int(count) if count else _fitting(image, source, target)
+    if wanted == image.end:
+        return image, []
+    lost = image.beyond(wanted)
+    if lost and not count:
+        raise RefusedError(f"{named_pages_text(lost)}: no room among the {wanted} pages of this kind of board, nothing was written. "
+                           f"--pages 256 keeps all (for a board of 256 pages), --pages {wanted} leaves {'it' if len(lost) == 1 else 'them'} out")
+    return image.resized(wanted)
 
 
 def _fitting(image, source: Path, target: Path) -> int:
@@ -123,7 +143,7 @@ Examples:
   m512 diff /dev/ttyUSB0 walk.m512 --json        the board, with Play or Edit or a loader""")
 @click.argument("first")
 @click.argument("second")
-@click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of images.")
+@click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of images (default: what the positions look like).")
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 def diff(first, second, bits, as_json):
     """Say in words how the motions in FIRST and SECOND differ: which page, which step, which joint, from, to.
@@ -131,7 +151,7 @@ def diff(first, second, bits, as_json):
     Each is a motion file, the folder of a backup, or the port of a board. Exit code 0 when they are equal, 3 when they differ."""
     from m512.pages import difference
 
-    found = difference.images(_motions_of(first, int(bits)), _motions_of(second, int(bits)))
+    found = difference.images(_motions_of(first, bits and int(bits)), _motions_of(second, bits and int(bits)))
     if as_json:
         click.echo(json.dumps([change.as_dict() for change in found], indent=2))
     else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from functools import cached_property
 from pathlib import Path
+from typing import Optional
 
 import click
 
@@ -18,7 +19,7 @@ from m512.ui import say
 class Source:
     """The file or board that an action works on; read when the action first asks."""
 
-    def __init__(self, word: str, bits: int):
+    def __init__(self, word: str, bits: Optional[int]):
         self.word, self.bits = word, bits
 
     @cached_property
@@ -75,14 +76,14 @@ Examples:
   m512 pages lib.bin merge other.mtn 3 5:20 -o new.bin
   m512 pages /dev/ttyUSB0 list --json""")
 @click.argument("source", metavar="FILE|PORT")
-@click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of an image file.")
+@click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of an image file (default: what its positions look like).")
 @click.pass_context
 def pages(context, source, bits):
     """List, check, edit, merge, mirror and retime the pages of a motion file, or of a board on a PORT.
 
     Pages are given by number or name. Actions that change something want -o FILE or --in-place.
     """
-    context.obj = Source(source, int(bits))
+    context.obj = Source(source, bits and int(bits))
 
 
 @pages.command("list", epilog="Example: m512 pages lib.bin list --all")

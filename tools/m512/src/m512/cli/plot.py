@@ -21,7 +21,7 @@ Examples:
 @click.option("--law", type=click.Choice(["both", "exact", "classic"]), default="both", show_default=True)
 @click.option("--joints", help="IDs to draw (1..6 or 1,3,5). Default: all that move.")
 @click.option("--seconds", default=10.0, show_default=True, type=click.FloatRange(0.1, 600), help="Longest time drawn.")
-@click.option("--bits", type=click.Choice(["10", "12"]), default="10", help="Resolution of an image.")
+@click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of an image (default: what its positions look like).")
 def plot(source, page, output, law, joints, seconds, bits):
     """Draw joint angles and speeds over time: of a PAGE of a motion file, or of a recorded trace (CSV)."""
     from m512.files import formats
@@ -31,7 +31,7 @@ def plot(source, page, output, law, joints, seconds, bits):
     if page is None:
         sets = [drawing.of_trace(source, chosen)]
     else:
-        image = formats.load(source, int(bits))
+        image = formats.load(source, bits and int(bits))
         number = image.find(page)
         sets = drawing.of_page_by_both_laws(image, number, seconds, chosen) if law == "both" else \
             [drawing.of_page(image, number, law, seconds, chosen)]

@@ -10,6 +10,7 @@ from typing import List, Optional, Tuple
 
 from m512.errors import FileError
 from m512.files import image as raw
+from m512.files import scale12
 from m512.files.image import Image
 
 TEXT, BINARY, HEX, MTN, CSV = "text", "image", "Intel HEX", "RoboPlus .mtn", "CSV"
@@ -58,19 +59,18 @@ def _text_of(data: bytes, path: Path) -> str:
         raise FileError(f"{path}: not text (byte 0x{data[error.start]:02X} at {error.start})") from None
 
 
-def load(path: Path, bits: int = 10, base: Optional[Image] = None, edited: bool = False) -> Image:
-    """Reads any motion file. `bits`: 10 or 12, of an image or HEX file (text says it itself). `base`: gives what the
-    file cannot say (page 0 of a .mtn). `edited`: a .mtn with a wrong file checksum is taken as it is."""
-    data = read_bytes(path)
-    return decode(data, path, bits, base, edited)
+def load(path: Path, bits: Optional[int] = None, base: Optional[Image] = None) -> Image:
+    """Reads any motion file. `bits`: 10 or 12; None takes what the positions look like, with a note (text says it itself).
+    `base`: gives what the file cannot say (page 0 of a .mtn)."""
+    return decode(read_bytes(path), path, bits, base)
 
 
-def decode(data: bytes, path: Path, bits: int = 10, base: Optional[Image] = None, edited: bool = False) -> Image:
+def decode(data: bytes, path: Path, bits: Optional[int] = None, base: Optional[Image] = None) -> Image:
     kind = recognise(data, path)
     if kind == BINARY:
-        return raw.from_bytes(data, bits)
+        return scale12.judged(raw.from_bytes(data, bits or 10), bits)
     if kind == HEX:
-        return raw.from_hex(_text_of(data, path), bits)
+        return scale12.judged(raw.from_hex(_text_of(data, path), bits or 10), bits)
     if kind == TEXT:
         from m512.files.text import read_text
 
@@ -78,7 +78,7 @@ def decode(data: bytes, path: Path, bits: int = 10, base: Optional[Image] = None
     if kind == MTN:
         from m512.files import mtn
 
-        return mtn.read(data, str(path), base, edited)
+        return mtn.read(data, str(path), base, bits)
     from m512.files import csvpage
 
     return csvpage.read(_text_of(data, path), str(path))

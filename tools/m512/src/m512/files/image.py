@@ -15,7 +15,8 @@ from io import StringIO
 from typing import Dict, Iterator, List, Tuple
 
 from m512.errors import FileError
-from m512.files.page import EMPTY, PAGE_BYTES, Kind, Page
+from m512.files.page import EMPTY, PAGE_BYTES, Fault, Kind, Page
+from m512.files.wording import Findings, named_pages_text
 
 SIZES = {65536: (0, 128), 65024: (1, 128), 131072: (0, 256)}
 HEX_BASE = {128: 0x0E000, 256: 0x1E000}
@@ -79,17 +80,34 @@ class Image:
                 raise FileError(f"page name {word!r} is not unique: pages " + ", ".join(map(str, hits)))
         raise FileError(f"no page is called {word!r}")
 
+    def beyond(self, count: int) -> Dict[int, str]:
+        """{number: title} of the used pages that 0..count-1 have no room for."""
+        return {number: page.title for number, page in self.items()
+                if number >= count and not page.is_empty and len(set(page.data)) > 1}
+
     def resized(self, count: int) -> Tuple["Image", List[str]]:
-        """The same as pages 0..count-1, with a list of what is lost."""
+        """The same as pages 0..count-1, with a list of what is lost. Links to pages that are no longer there become empty."""
         losses = []
-        out = Image.empty(count)
-        out.bits = self.bits
+        out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes))
+        lost = self.beyond(count)
+        if lost:
+            losses.append(f"{named_pages_text(lost)}: no room among {count} pages, left out")
+        cut = Findings()
         for number, page in self.items():
             if number < count:
                 out[number] = page
-            elif not page.is_empty:
-                losses.append(f"page {number} \"{page.title}\" does not fit into {count} pages")
-        return out, losses
+                _cut_links(out[number], number, count, cut)
+        return out, losses + cut.lines()
+
+
+def _cut_links(page: Page, number: int, count: int, cut: Findings) -> None:
+    """Empties the links of a good page that lead beyond the last page."""
+    if page.fault(Kind(256, TWELVE_BIT_MAX)) is Fault.OK:
+        for link in page.LINKS:
+            if getattr(page, link) >= count:
+                cut.add(number, page.title, "links to pages that are left out are now empty", f"{link.replace('_', ' ')} {getattr(page, link)}")
+                setattr(page, link, 0)
+        page.seal()
 
 
 def from_bytes(data: bytes, bits: int = 10) -> Image:

@@ -6,59 +6,95 @@ One 12-bit unit is exactly 0.3 10-bit units. What does not fit is cut and report
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Iterable, List, Tuple
+from typing import Iterable, List, Optional, Tuple
 
-from m512.files.image import Image
+from m512.files.image import TWELVE_BIT_MAX, Image
 from m512.files.page import JOINTS, POS_UNUSED, STEPS, Fault, Page, is_used
+from m512.files.wording import pages_text
 
-SHOWN = 4   # cut positions told one by one, per page
+SHOWN = 4   # cut positions told one by one
+HINT = "m512 convert --bits 12 --scale 10 makes it fit a board of 10 bits"
+
+
+def judged(image: Image, bits: Optional[int]) -> Image:
+    """The image, taken as one of 12 bits when nobody said how many it has and it looks like that: more than half of the positions that whole
+    pages use lie beyond 1023 (12-bit poses stand about 2048). A 0 does not count, nor what is beyond 4095: unused joints often hold such things.
+    Told in one note, whatever was said."""
+    words = [(number, word) for number, page in image.items() if number and page.fault() is not Fault.CHECKSUM
+             for step in range(min(page.steps, STEPS)) for word in page.words(step) if 0 < word <= TWELVE_BIT_MAX and is_used(word)]
+    high = [(number, word) for number, word in words if word > 1023]
+    if bits == 12 or 2 * len(high) <= len(words):
+        return image
+    count = len({number for number, _ in high})
+    image.bits = bits or 12
+    image.notes.append(f"looks like 12 bit (positions up to {max(word for _, word in high)} in {count} pages) and is "
+                       + ("read as 10 bit, as asked" if bits else "read so") + f"; {HINT}")
+    return image
 
 
 def scaled(image: Image, bits: int) -> Tuple[Image, List[str]]:
     """A copy of `image` with `bits` (10 or 12), and the report. Pages with a wrong checksum stay as they are."""
     out = Image([page.copy() for page in image.pages], image.first, bits, list(image.notes))
-    report, worst, count = [], Fraction(0), 0
+    work = _Work(bits)
     for number, page in out.items():
         if page.fault() is Fault.CHECKSUM:
-            report.append(f"page {number} has a wrong checksum: not scaled")
+            work.damaged.append(number)
             continue
-        cut, impossible, error, changed = _scale_page(page, bits)
-        worst, count = max(worst, error), count + changed
-        if cut:
-            more = f" and {len(cut) - SHOWN} more" if len(cut) > SHOWN else ""
-            report.append(f"page {number}: {len(cut)} positions cut at the end of the range: {', '.join(cut[:SHOWN])}{more}")
-        if impossible:
-            report.append(f"page {number}: {impossible} positions were no {image.bits}-bit positions and are now unused")
+        work.scale_page(number, page)
         page.seal()
-    head = [f"{count} positions scaled from {image.bits} to {bits} bits; rounding moved none by more than "
-            f"{float(worst):.2g} units"]
-    return out, head + report if count else report
+    return out, work.report(image.bits)
 
 
-def _scale_page(page: Page, bits: int) -> Tuple[List[str], int, Fraction, int]:
-    factor = Fraction(3, 10) if bits == 10 else Fraction(10, 3)
-    top_in, centre_in, centre, top = (4095, 2048, 512, 1023) if bits == 10 else (1023, 512, 2048, 4095)
-    cut: List[str] = []
-    impossible, worst, changed = 0, Fraction(0), 0
-    for step in range(min(page.steps, STEPS)):
-        for joint in range(JOINTS):
-            word = page.word(step, joint)
-            if not is_used(word):
-                continue
-            if word > top_in:
-                page.set_word(step, joint, POS_UNUSED)
-                impossible += 1
-                continue
-            exact = factor * (word - centre_in)
-            value = centre + round_away(exact)
-            fitting = min(max(value, 0), top)
-            if value != fitting:
-                cut.append(f"step {step} ID {joint} ({word} would be {value})")
-            else:
-                worst = max(worst, abs(value - centre - exact))
-            page.set_word(step, joint, fitting)
-            changed += 1
-    return cut, impossible, worst, changed
+class _Work:
+    """What one scaling does, for its report."""
+
+    def __init__(self, bits: int):
+        self.bits = bits
+        self.factor = Fraction(3, 10) if bits == 10 else Fraction(10, 3)
+        self.top_in, self.centre_in, self.centre, self.top = (4095, 2048, 512, 1023) if bits == 10 else (1023, 512, 2048, 4095)
+        self.count, self.worst = 0, Fraction(0)
+        self.damaged: List[int] = []
+        self.cut: List[Tuple[int, int, str]] = []            # page, joint, in words
+        self.impossible: List[Tuple[int, int]] = []          # page, joint
+
+    def scale_page(self, number: int, page: Page) -> None:
+        for step in range(min(page.steps, STEPS)):
+            for joint in range(JOINTS):
+                word = page.word(step, joint)
+                if is_used(word) and word > self.top_in:
+                    page.set_word(step, joint, POS_UNUSED)
+                    self.impossible.append((number, joint))
+                elif is_used(word):
+                    page.set_word(step, joint, self._scale(word, number, step, joint))
+
+    def _scale(self, word: int, number: int, step: int, joint: int) -> int:
+        exact = self.factor * (word - self.centre_in)
+        value = self.centre + round_away(exact)
+        self.count += 1
+        if not 0 <= value <= self.top:
+            self.cut.append((number, joint, f"page {number} step {step} ID {joint}: {word} would be {value}"))
+            return min(max(value, 0), self.top)
+        self.worst = max(self.worst, abs(value - self.centre - exact))
+        return value
+
+    def report(self, bits_before: int) -> List[str]:
+        out = [f"{pages_text(self.damaged)}: checksum wrong, not scaled"] if self.damaged else []
+        if self.count:
+            out.insert(0, f"{self.count} positions scaled from {bits_before} to {self.bits} bits; rounding moved none by more than "
+                       f"{float(self.worst):.2g} units")
+        if self.cut:
+            out.append(f"{len(self.cut)} positions cut at the end of the range: IDs {_ids(joint for _, joint, _ in self.cut)} in "
+                       f"{pages_text(page for page, _, _ in self.cut)} ({'; '.join(text for _, _, text in self.cut[:SHOWN])}"
+                       + (f" and {len(self.cut) - SHOWN} more" if len(self.cut) > SHOWN else "")
+                       + "). --joints leaves out what the robot has not")
+        if self.impossible:
+            out.append(f"{len(self.impossible)} positions were no {bits_before}-bit positions and are now unused: IDs "
+                       f"{_ids(joint for _, joint in self.impossible)} in {pages_text(page for page, _ in self.impossible)}")
+        return out
+
+
+def _ids(joints: Iterable[int]) -> str:
+    return " ".join(map(str, sorted(set(joints))))
 
 
 def round_away(value: Fraction) -> int:

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""The shipped image on the simulated board, its servos in a physical body: in lock step, and what comes of it."""
+import pathlib
+import re
+import subprocess
+
+import pytest
+from cm5sim import Board
+from cm5sim.library import build_folder
+
+from body.description import load
+from body.hand import Hand
+from body.physics import Physics
+from body.trial import try_motion
+from m512.files.formats import load as load_motions
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+LIBRARY = load_motions(TOP / "tools" / "motions" / "motions.m512")
+NUMBER = {page.title: number for number, page in LIBRARY.items() if number and page.is_playable}
+IMAGE = LIBRARY.to_bytes()
+
+
+def robot_on_its_feet(volts=11.1):
+    """A board with Play and a humanoid that has played `ready` in the hand and been put down."""
+    physics = Physics(load("humanoid"))
+    board = Board(images=["play-cm5.hex"], motions=IMAGE, servos=range(1, 19))
+    board.battery(volts)
+    hand = Hand(physics)
+    board.attach(physics)
+    board.expect("] ", ms=3000)
+    board.send("play ready\r")
+    for _ in range(1000):
+        board.run(ticks=1)
+        if hand.look() == "down":
+            break
+    assert hand.put_down_s is not None
+    board.attach(physics)
+    board.expect("Ended after page 1", ms=3000)
+    return board, physics, hand
+
+
+def test_walks_as_without_its_chip():
+    """The player on the ATmega128, commands and wire included, leads the body as far as the same player on this machine."""
+    board, physics, hand = robot_on_its_feet()
+    start = physics.x_mm
+    board.send("play walk\r")
+    board.expect("page 20 (walk)", ms=3000)
+    for _ in range(16):
+        board.run(ms=250)
+        hand.look()
+    expected = try_motion(IMAGE, NUMBER["walk"], 4).x_mm
+    assert hand.falls == 0 and physics.upright > 0.98
+    assert physics.x_mm - start == pytest.approx(expected, rel=0.2) and expected > 80
+
+
+def test_registers_show_what_the_body_does():
+    board, physics, _ = robot_on_its_feet()
+    knee = board.servos[13]
+    assert knee.present == pytest.approx(physics.robot.position(13, physics.joint(13)), abs=1)
+    assert 1 < abs(knee.present - knee.goal) < 25 and knee.load != 0          # it carries: it droops
+    assert board.servos[7].load == pytest.approx(0, abs=0.08)
+    for servo in board.servos:
+        servo.write(24, [0])
+    board.run(ms=700)
+    assert abs(knee.present - knee.goal) > 60                                 # limp: it collapses
+    assert physics.z_mm < 270
+
+
+def test_detached_servos_stay_where_they_are_and_turn_by_themselves():
+    board, physics, _ = robot_on_its_feet()
+    present = board.servos.present
+    board.attach(None)
+    assert all(abs(board.servos.present[servo] - present[servo]) <= 1 for servo in present)
+    before = physics.time_s
+    board.run(ms=500)
+    assert physics.time_s == before and board.servos[13].present == pytest.approx(board.servos[13].goal, abs=2)
+
+
+def cm5sim(*words, script=None, tmp_path=None):
+    command = [str(build_folder() / "host" / "tools" / "sim" / "cm5sim"), *words]
+    if script:
+        (tmp_path / "script.txt").write_text(script)
+        command += ["--script", str(tmp_path / "script.txt")]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+
+
+def test_command_tells_falls_way_and_heading(tmp_path):
+    (tmp_path / "motions.bin").write_bytes(IMAGE)
+    begin = 'expect "] " within 3s\nsend "play ready\\r"\nexpect "Ended" within 5s\nwait 500ms\n'
+    how = ["play-cm5.hex", "--motions", str(tmp_path / "motions.bin"), "--body", "humanoid"]
+    run = cm5sim(*how, script=begin + "quit\n", tmp_path=tmp_path)
+    assert run.returncode == 0, run.stderr
+    assert "put down on its soles" in run.stderr and re.search(r"0 falls; -?\d+ mm forward, .* heading -?\d degrees .*; stands", run.stderr)
+    toes_up = "servo 15 load 1\nservo 16 load -1\nwait 2s\nquit\n"           # shanks forward: onto its face
+    run = cm5sim(*how, script=begin + toes_up, tmp_path=tmp_path)
+    assert "s: fell" in run.stderr and re.search(r"1 falls; \d+ mm forward, .*; lies", run.stderr), run.stderr
+
+
+def test_command_says_what_is_wrong_with_a_body():
+    for words, code, says in ((["play-cm5.hex", "--body", "robocop"], 4, "known here: gp, humanoid"),
+                              (["play-cm5.hex", "--view"], 2, "--view shows the --body"),
+                              (["--body", "humanoid", "--bus-pty"], 2, "--body needs a board")):
+        run = cm5sim("--time", "10ms", "--fast", *words)
+        assert run.returncode == code and says in run.stderr, run.stderr

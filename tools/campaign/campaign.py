@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""Runs many jobs of one kind: on the cores of this machine, or on machines that a Dask scheduler knows.
+
+    from campaign import each
+    results = each(work, items, "bodies", jobs=4)                      # processes of this machine
+    results = each(work, items, "bodies", scheduler="tcp://10.0.0.5:8786")
+
+work(item) is a function of a module (or a functools.partial of one); it and the items are pickled. Results come in the order of
+the items, wherever each was made: a job must take all that it leaves to chance from its item (a seed), nothing from its place.
+
+With a scheduler, every worker needs this project, built, with the Python packages of `tools/dev/setup`: at the same path as here, or
+at the one that its environment variable M512_TOP names.
+"""
+import concurrent.futures
+import os
+import pathlib
+import pickle
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+_scheduler = None
+
+
+class Progress:
+    """One line on standard error that says how far a campaign is; quiet lines only when it is no terminal."""
+
+    def __init__(self, what, total):
+        self.what, self.total, self.done = what, total, 0
+        self.step = max(1, total // (200 if sys.stderr.isatty() else 10))
+
+    def advance(self, count=1):
+        """`count` more of the total are done."""
+        before, self.done = self.done // self.step, self.done + count
+        if self.done // self.step != before or self.done >= self.total:
+            start, end = ("\r", "" if self.done < self.total else "\n") if sys.stderr.isatty() else ("", "\n")
+            print(f"{start}   {self.what}: {self.done} of {self.total}", end=end, file=sys.stderr, flush=True)
+
+
+def cores():
+    """How many processes may run at once."""
+    return len(os.sched_getaffinity(0))
+
+
+def use(scheduler):
+    """Where each() runs when it is not told: the address of a Dask scheduler, or None for this machine."""
+    global _scheduler
+    _scheduler = scheduler
+
+
+def each(work, items, what, jobs=None, scheduler=None):
+    """[work(item) for item in items], in the order of the items, with progress. An exception in a job ends the campaign.
+
+    jobs: processes at once (None: one a core); with a scheduler its workers decide. ConnectionError: no scheduler answers.
+    """
+    items = list(items)
+    address = scheduler or _scheduler
+    progress = Progress(what, len(items))
+    results = [None] * len(items)
+    for index, result in (_on_scheduler if address else _here)(work, items, address or jobs):
+        results[index] = result
+        progress.advance()
+    return results
+
+
+def _here(work, items, jobs):
+    with concurrent.futures.ProcessPoolExecutor(max_workers=jobs or cores()) as pool:
+        waiting = {pool.submit(work, item): index for index, item in enumerate(items)}
+        try:
+            for done in concurrent.futures.as_completed(waiting):
+                yield waiting[done], done.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def _on_scheduler(work, items, address):
+    try:
+        import cloudpickle
+        from distributed import Client, as_completed
+    except ModuleNotFoundError as missing:
+        raise ConnectionError(f"a scheduler needs Dask ({missing}); run: tools/dev/setup campaign") from None
+    cloudpickle.register_pickle_by_value(sys.modules[__name__])       # workers need nothing of ours to begin with
+    try:
+        client = Client(address, timeout="10s")
+    except OSError as error:
+        raise ConnectionError(f"no Dask scheduler answers at {address} ({error})") from None
+    paths = [str(pathlib.Path(path).resolve().relative_to(TOP)) for path in sys.path
+             if path and pathlib.Path(path).resolve().is_relative_to(TOP) and "site-packages" not in path]
+    with client:
+        futures = client.map(_call, [pickle.dumps((work, item)) for item in items], top=str(TOP), paths=paths, pure=False)
+        index_of = {future.key: index for index, future in enumerate(futures)}
+        for future, result in as_completed(futures, with_results=True):
+            yield index_of[future.key], result
+
+
+def _call(pickled, top, paths):
+    """One job on a worker: finds the project there, then calls. Sent by value, so it imports for itself."""
+    import os
+    import pathlib
+    import pickle
+    import sys
+    here = pathlib.Path(os.environ.get("M512_TOP", top))
+    if not (here / "tools").is_dir():
+        raise FileNotFoundError(f"this worker has no Motion512 at {here}: set its environment variable M512_TOP")
+    os.environ.setdefault("M512_BUILD", str(here / "build"))
+    for path in reversed(paths):
+        if str(here / path) not in sys.path:
+            sys.path.insert(0, str(here / path))
+    work, item = pickle.loads(pickled)
+    return work(item)

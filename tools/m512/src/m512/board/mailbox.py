@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MIT
+"""Motion pages through the factory loader's mailbox: 512 bytes of EEPROM that it copies to flash at its next start.
+
+Slow (about 6 s a page), and safe on any line: `eep_dn` takes exactly as many bytes as were announced, whenever they come;
+the EEPROM is read back before the loader is told to copy; and the loader itself knows where a motion page lies. A page
+number of 0x80 and up would be the loader's own section (bootloader-original.md, 7a): it is written first and alone, and
+read back, before the mark that says "please write".
+"""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Dict
+
+from m512.board.memory import FLASH_PAGE, MOTIONS
+from m512.errors import BoardError, NoAnswerError, RefusedError
+
+if TYPE_CHECKING:
+    from m512.board.factory import FactoryLoader
+
+MAILBOX, STATE, NUMBER, BOOT_MODE = 0x800, 0xFF4, 0xFF5, 0xFFF
+PLEASE, DONE, NOTHING = 0xAA, 0x55, 0xFF
+PAGE_BYTES, PAGES = 512, 128
+TRIES = 3
+
+
+def write_motion_page(loader: "FactoryLoader", number: int, data: bytes) -> None:
+    """Writes motion page `number`. The loader restarts and is at its prompt again."""
+    if not 0 <= number < PAGES or len(data) != PAGE_BYTES:
+        raise RefusedError(f"no motion page {number} for the mailbox")       # our own mistake
+    loader.stay()
+    _settle(loader, STATE, NOTHING)
+    wanted = dict(enumerate(data, MAILBOX))
+    for _ in range(TRIES):
+        loader.write_eeprom(different(loader, wanted))
+        if not different(loader, wanted):
+            break
+    else:
+        raise BoardError("the EEPROM does not take the page")
+    _settle(loader, NUMBER, number)
+    _settle(loader, STATE, PLEASE)
+    if different(loader, {**wanted, NUMBER: number}):
+        _settle(loader, STATE, NOTHING)
+        raise BoardError("the EEPROM has changed by itself; nothing was written")
+    loader.restart()
+    _settle(loader, STATE, NOTHING)
+
+
+def different(loader: "FactoryLoader", wanted: Dict[int, int]) -> Dict[int, int]:
+    """Those of the cells that the board holds otherwise."""
+    out, cells = {}, sorted(wanted)
+    for run in _runs(cells):
+        found = loader.read_eeprom(run[0], run[-1] + 1)
+        out.update({at: wanted[at] for at in run if found[at - run[0]] != wanted[at]})
+    return out
+
+
+def _runs(cells: list) -> list:
+    out: list = []
+    for at in cells:
+        if out and at == out[-1][-1] + 1:
+            out[-1].append(at)
+        else:
+            out.append([at])
+    return out
+
+
+def _settle(loader: "FactoryLoader", cell: int, value: int) -> None:
+    """One EEPROM cell, written when it differs and read back."""
+    for _ in range(TRIES):
+        if not different(loader, {cell: value}):
+            return
+        loader.write_eeprom({cell: value})
+    if different(loader, {cell: value}):
+        raise NoAnswerError(f"EEPROM 0x{cell:03X} does not keep 0x{value:02X}")
+
+
+def motion_page_of(flash_page: int) -> int:
+    return (flash_page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+"""The outside of a .mtn: byte-order mark, line ends and the two bytes of checksum behind the last line.
+
+Editors and version control change these without knowing: a line end behind the checksum, the byte-order mark taken off
+although the sum counted it, CR LF, a checksum that is gone or stale. None of it makes the text wrong. So the text is taken whenever it is
+whole, and what was found is told.
+"""
+from __future__ import annotations
+
+from typing import Iterator, List, Optional, Tuple
+
+from m512.errors import FileError
+
+BOM = b"\xef\xbb\xbf"
+LAST = b"page_end"
+BLANK = b" \t\r\n\0\x1a"
+LONGEST_TAIL = 16      # what an editor can make of two bytes; more is text
+
+
+def file_checksum(body: bytes) -> bytes:
+    """The trailer: complement of the 16-bit sum of all bytes before it, high byte first."""
+    return (~sum(body) & 0xFFFF).to_bytes(2, "big")
+
+
+def unwrap(data: bytes, where: str) -> Tuple[str, List[str]]:
+    """The text, its lines ended by LF, and remarks. Bytes that are no UTF-8 survive as surrogate escapes.
+    FileError: the text is not whole."""
+    at = data.rfind(LAST)
+    if at < 0:
+        raise FileError(f"{where}: no page ends in it (no line \"page_end\"): the file is not a whole .mtn")
+    end = at + len(LAST)
+    _must_end_here(data, end, where)
+    text = data[:end].replace(b"\r\n", b"\n").replace(b"\r", b"\n") + b"\n"
+    while text.startswith(BOM):
+        text = text[len(BOM):]
+    return text.decode("utf-8", "surrogateescape"), _judge(data, end)
+
+
+def _must_end_here(data: bytes, end: int, where: str) -> None:
+    tail = data[end:].strip(BLANK)
+    if tail.startswith(b"page_begin") or len(tail) > LONGEST_TAIL:
+        line = data[:end].count(b"\n") + 2
+        page = data[:end].count(LAST) + 1
+        raise FileError(f"{where}:{line}: page {page} has no end: the file breaks off, or something else stands behind page {page - 1}")
+
+
+def _judge(data: bytes, end: int) -> List[str]:
+    """What the checksum says, in a sentence; nothing if all is as RoboPlus wrote it."""
+    if data[:-2].endswith(LAST + b"\n") and file_checksum(data[:-2]) == data[-2:]:
+        return []
+    for changes, body, trailer in _as_it_was(data, end):
+        if file_checksum(body) == trailer:
+            return [f"the file was changed on its way ({', '.join(changes)}), but its checksum shows that the text is as it was written"]
+    found = _trailer(data[end:])
+    pages = data.count(LAST)
+    if found is None:
+        return [f"the file has no checksum, so only you can tell whether it is complete: {pages} pages were read"]
+    return [f"the file's checksum is {found.hex(' ')} and should be {file_checksum(data[:end] + _line_end(data[end:])).hex(' ')}: "
+            f"it was edited by hand, or damaged. All {pages} pages could be read; look at them before a robot plays them"]
+
+
+def _line_end(tail: bytes) -> bytes:
+    return b"\r\n" if tail.startswith(b"\r\n") else b"\n"
+
+
+def _trailer(tail: bytes) -> Optional[bytes]:
+    """The bytes that stand where the checksum belongs; None: nothing does."""
+    return tail.strip(BLANK)[:2] or None
+
+
+def _tails(tail: bytes) -> Iterator[Tuple[List[str], bytes]]:
+    """Where the checksum may be: behind the line's end or without one, before white space, written again as UTF-8."""
+    for line_end in (b"\n", b"\r\n", b"\r", b""):
+        rest = tail[len(line_end):]
+        if not tail.startswith(line_end) or len(rest) < 2:
+            continue
+        if not rest[2:].strip(BLANK):
+            yield ["something blank added at its end"] if rest[2:] else [], rest[:2]
+        for encoding in ("latin-1", "cp1252"):
+            try:
+                again = rest.decode("utf-8").encode(encoding)
+            except UnicodeError:
+                continue
+            if len(again) > 1 and not again[2:].strip(BLANK):
+                yield ["the checksum saved as text"], again[:2]
+
+
+def _as_it_was(data: bytes, end: int) -> Iterator[Tuple[List[str], bytes, bytes]]:
+    """Bodies as they may have been when the sum was made, with what happened since."""
+    text = data[:end]
+    bare = text[len(BOM):] if text.startswith(BOM) else text
+    marks = [(["byte-order mark added"] if bare != text else [], bare), (["byte-order mark removed"] if bare == text else [], BOM + bare)]
+    for mark, marked in marks:
+        unix = marked.replace(b"\r\n", b"\n")
+        for ends, body in ((["line ends now CR LF"] if unix != marked else [], unix + b"\n"),
+                           (["line ends mixed"], marked + b"\r\n"), (["line ends now LF"], unix.replace(b"\n", b"\r\n") + b"\r\n"),
+                           (["a line end added"], unix)):
+            for changes, trailer in _tails(data[end:]):
+                yield mark + ends + changes, body, trailer

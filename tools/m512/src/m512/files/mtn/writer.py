@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: MIT
+"""Pages as the text of a .mtn, and what the text cannot say: it knows 26 joints, time base and two links a page."""
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import partial
+from typing import Callable, List, Optional, Tuple
+
+from m512.errors import RefusedError
+from m512.files.image import Image
+from m512.files.mtn.envelope import BOM, file_checksum
+from m512.files.mtn.reader import IDS, PAGES, UNITS_PER_SECOND, UNUSED_WORD
+from m512.files.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Fault, Kind, Page, is_used
+from m512.files.wording import Findings, named_pages_text
+
+
+def rate_of(speed: int) -> Optional[Fraction]:
+    """The rate (one decimal) that comes nearest to 32 / speed among those that read back as `speed`; None: none does."""
+    exact = Fraction(32, speed) if speed else Fraction(0)
+    near = int(exact * 10)
+    fits = [Fraction(tenths, 10) for tenths in range(max(1, near - 1), near + 3) if 320 // tenths == speed]
+    return min(fits, key=lambda rate: abs(rate - exact), default=None)
+
+
+def write(image: Image, version: str = "1.01") -> Tuple[bytes, List[str]]:
+    """The file and its losses. RefusedError: pages that the text cannot hold at all (damaged, 12-bit positions)."""
+    _must_fit(image)
+    losses = Findings()
+    enabled = _enabled(image)
+    lines = ["type=motion", f"version={version}", "enable=" + " ".join(str(int(e)) for e in enabled)]
+    if version == "1.01":
+        lines.append("motor_type=" + " ".join(["0"] * IDS))
+    if image.first == 0 and any(image[0].word(2, j) not in (POS_UNUSED, 0) for j in range(JOINTS)):
+        losses.add(0, "", "the robot's trim is not in a .mtn")
+    blank = 0
+    for number in range(1, PAGES + 1):
+        page = image[number] if number < image.end and not _is_blank(image[number]) else Page()
+        _page_losses(page, enabled, partial(losses.add, number, page.title))
+        blank += _changes_without_effect(page)
+        lines += _page_lines(page)
+    told = losses.lines()
+    if blank:
+        told.append(f"{blank} pages: what lies in unused steps, unused joints and byte 63 takes RoboPlus' usual values "
+                    "(no effect on playing)")
+    body = BOM + "\n".join(lines + [""]).encode("utf-8")
+    return body + file_checksum(body), told
+
+
+def _is_blank(page: Page) -> bool:
+    """Flash that was never written, or filled with one value: nothing of anybody's."""
+    return len(set(page.data)) == 1
+
+
+def _must_fit(image: Image) -> None:
+    if image.bits != 10:
+        raise RefusedError("a .mtn holds positions of 10 bits and these have 12: convert --bits 12 --scale 10 makes them fit")
+    kind = Kind(PAGES + 1)
+    bad = {number: page.title if page.fault(kind) is not Fault.CHECKSUM else "" for number, page in image.items()
+           if number and page.fault(kind) and not _is_blank(page)}
+    if bad:
+        one = next(iter(bad))
+        raise RefusedError(f"{named_pages_text(bad)} cannot be written into a .mtn because of damage (page {one}: "
+                           f"{image[one].fault_text(kind)}). convert --damaged drop leaves such pages out")
+
+
+def _enabled(image: Image) -> List[bool]:
+    """A joint is enabled when any page drives it."""
+    pages = [page for number, page in image.items() if number and not _is_blank(page)]
+    return [any(is_used(page.word(step, joint)) for page in pages for step in range(page.steps)) for joint in range(IDS)]
+
+
+def _name_text(page: Page) -> str:
+    text = page.name[:13].decode("utf-8", "replace")
+    return "".join(char for char in text if char >= " " and char != "\ufffd")
+
+
+def _rate(page: Page) -> Fraction:
+    """The rate that is written, to one decimal."""
+    near = Fraction(int(Fraction(320, page.speed) + Fraction(1, 2)), 10)
+    return rate_of(page.speed) or max(near, Fraction(2, 10))
+
+
+def _page_lines(page: Page) -> List[str]:
+    levels = " ".join(str(min(max(page.compliance(joint) >> 4, 0), 15)) for joint in range(IDS))
+    rate_text = f"{float(_rate(page)):.1f}"
+    out = ["page_begin", f"name={_name_text(page)}", f"compliance={levels}",
+           f"play_param={page.next} {page.exit} {page.repeat} {rate_text} {page.accel}"]
+    for step in range(page.steps):
+        positions = " ".join(str(min(page.word(step, joint) & 0x1FFF, 1023)) for joint in range(IDS))
+        pause, time = page.pause(step) / UNITS_PER_SECOND, page.time(step) / UNITS_PER_SECOND
+        out.append(f"step={positions} {pause:.3f} {time:.3f}")
+    return out + ["page_end"]
+
+
+def _page_losses(page: Page, enabled: List[bool], lose: Callable[..., None]) -> None:
+    """What matters, in words: lose(sentence, value)."""
+    if _name_text(page).encode("utf-8") != page.name:
+        lose("the name changes", repr(_name_text(page)))
+    if page.schedule != SCHEDULE_TIME:
+        lose("speed base is not known there: its speeds would be read as times")
+    if page.code:
+        lose("play codes are left out", str(page.code))
+    for which in ("link1", "link2"):
+        target, key = getattr(page, which + "_page"), getattr(page, which + "_code")
+        if target or key:
+            lose("links by code are left out", f"page {target} on code {key}")
+    if page.dxl_setup or page.data[14] or any(page.data[17:20]):
+        lose("bytes 14, 17..19 or 23 are left out")
+    if rate_of(page.speed) is None and page.steps:
+        lose("the page speed is no rate of one decimal", f"{page.speed} becomes {int(32 // _rate(page))}")
+    uneven = [j for j in range(IDS) if page.compliance(j) >> 4 != page.compliance(j) & 15]
+    if uneven and page.steps:
+        lose("softness differs clockwise and counter-clockwise; the clockwise one is taken", "IDs " + " ".join(map(str, uneven)))
+    _joint_losses(page, enabled, lose)
+
+
+def _changes_without_effect(page: Page) -> bool:
+    """Whether something changes that no play shows."""
+    return (page.byte63 != 0x55 or any(page.compliance(j) for j in range(IDS, JOINTS))
+            or any(page.word(s, j) != (UNUSED_WORD if j < IDS else 0) or page.pause(s) or page.time(s)
+                   for s in range(page.steps, STEPS) for j in range(JOINTS))
+            or any(page.word(s, j) & POS_UNUSED for s in range(page.steps) for j in range(IDS, JOINTS)))
+
+
+def _joint_losses(page: Page, enabled: List[bool], lose: Callable[..., None]) -> None:
+    words = [(joint, page.word(step, joint)) for step in range(page.steps) for joint in range(JOINTS)]
+    high = sorted({joint for joint, word in words if joint >= IDS and word and is_used(word)})
+    driven = sorted({joint for joint, word in words if joint < IDS and enabled[joint] and not is_used(word)})
+    if high:
+        lose("positions of joints above ID 25 are left out", "IDs " + " ".join(map(str, high)))
+    if driven:
+        lose("joints that some steps leave alone would be driven there", "IDs " + " ".join(map(str, driven)))

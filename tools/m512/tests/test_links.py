@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: MIT
+"""Flashing through a factory loader over bad lines, in simulated time: the reported cases, and whether the model of the
+loader does what the description of it measured. Thousands of schedules: `tools/prove links`."""
+import random
+import sys
+
+import pytest
+from conftest import REPO
+
+sys.path.insert(0, str(REPO / "tests" / "prove"))
+
+from badlinks import runs  # noqa: E402
+from badlinks.factory_model import Board, Loader  # noqa: E402
+from badlinks.line import CANCELLED, KILLED, Killed, Line  # noqa: E402
+from badlinks.wire import BYTE_SECONDS, Weather, Wire, wires  # noqa: E402
+from m512.board import download, loaders, typed  # noqa: E402
+from m512.board.factory import FactoryLoader  # noqa: E402
+from m512.board.factory_flash import LAST_START  # noqa: E402
+from m512.board.memory import Plan  # noqa: E402
+from m512.errors import CancelledError, M512Error  # noqa: E402
+
+
+class Bench:
+    """A board with a factory kind of loader at its prompt, and a line to it."""
+
+    def __init__(self, weather=Weather(), ends=None):
+        self.loader = Loader(random.Random(1).randbytes(0x20000))
+        self.loader.eeprom[0xFFF] = 0xFF
+        self.before = bytes(self.loader.flash)
+        self.wires = wires(weather, 1)
+        self.board = Board(self.loader, *self.wires)
+        self.board.advance_by(1 + 30 * weather.late)
+        self.wires[1].waiting.clear()
+        self.line = Line(self.board, *self.wires, ends)
+
+    def say(self, text, seconds=1.0):
+        self.line.write(text)
+        self.line.sleep(seconds)
+        out, self.line.held = self.line.held, b""
+        return out
+
+    def changed(self):
+        return sorted({at // 256 for at in range(0x20000) if self.loader.flash[at] != self.before[at]})
+
+
+# The model, by the table of the description (section 3): address 2000, n data bytes and a checksum byte
+
+@pytest.mark.parametrize("n, pages", [(1, 1), (254, 1), (255, 1), (256, 2), (257, 2), (512, 3), (1000, 4)])
+def test_model_writes_as_many_pages_as_were_measured(n, pages):
+    bench, data = Bench(), random.Random(n).randbytes(n)
+    assert b"Write Address : 00002000\r\n Ready.." in bench.say(b"load 2000\r", 0.1)
+    data += bytes([sum(data) & 0xFF])
+    answer = bench.say(data, 0.6)
+    assert answer.startswith(b"Success") and b"Size:0X%08X" % len(data) in answer
+    assert bench.changed() == list(range(0x20, 0x20 + pages))
+    assert bench.loader.flash[0x2000:0x2000 + len(data)] == data
+    rest = len(data) % 256
+    if rest:      # left-overs of the page before, 00 when there was none
+        last = 0x2000 + len(data) - rest
+        expected = bench.loader.flash[last - 256 + rest:last] if n > 255 else bytes(256 - rest)
+        assert bench.loader.flash[last + rest:last + 256] == expected
+
+
+@pytest.mark.parametrize("address, count, pages", [
+    ("2080", 17, [0x20]), ("20ff", 301, [0x21, 0x22]), ("2001", 257, [0x21]), ("1e000", 20, [0x1E0]), ("1ff00", 400, [0, 0x1FF]),
+    ("e000 10", 5, [0]), ("0xe000", 5, [0x1E0])])
+def test_model_takes_every_address(address, count, pages):
+    bench = Bench()
+    bench.say(b"load " + address.encode() + b"\r", 0.1)
+    bench.say(random.Random(3).randbytes(count), 0.6)
+    assert bench.changed() == pages
+
+
+@pytest.mark.parametrize("gap, over", [(0.105, False), (0.113, True)])
+def test_model_ends_a_download_by_silence(gap, over):
+    bench = Bench()
+    bench.say(b"load 2000\r", 0.1)
+    bench.say(b"a", gap)
+    bench.say(b"b" * 5, 0.6)
+    assert bench.loader.eeprom[0xFFB] == (1 if over else 6) and bool(bench.loader.line) == over
+
+
+def test_model_crashes_at_80_characters_and_empties_a_full_ring():
+    bench = Bench()
+    bench.say(b"x" * 79 + b"\r")
+    assert not bench.loader.crashes
+    bench.say(b"x" * 80 + b"\r")
+    assert bench.loader.crashes
+    bench = Bench()
+    bench.say(b"f 0\r" + b"a" * 256, 0.5)       # typed ahead while it is busy
+    assert len(bench.loader.line) < 256 - 80
+
+
+def test_model_copies_the_mailbox_and_brings_lines_back():
+    bench = Bench()
+    bench.loader.eeprom[0x800:0xA00] = b"q" * 512
+    bench.loader.eeprom[0xFF4], bench.loader.eeprom[0xFF5] = 0xAA, 120
+    assert b" Writing " in bench.say(b"reset\r") and bench.loader.eeprom[0xFF4] == 0x55
+    assert bench.changed() == [0x1D0, 0x1D1] and bench.loader.flash[0x1D000:0x1D200] == b"q" * 512
+    assert bench.say(b"help\r", 2) and b"help" in bench.say(b"\x01", 0.1)
+
+
+# The wire
+
+def test_wire_keeps_the_order_and_the_rate_and_outlives_the_sender():
+    wire = Wire(Weather(speed=0.5, late=0.2), 1)
+    wire.send(10.0, bytes(range(100)))
+    assert wire.arrived(10.2) == b"" and wire.arrived(10.2 + 100 * BYTE_SECONDS) != bytes(range(100))
+    assert wire.next_arrival() < float("inf") and wire.arrived(99) and wire.next_arrival() == float("inf")
+
+
+# m512
+
+def motion_pages(*numbers):
+    chance = random.Random(5)
+    return {(0xE000 + 512 * number) // 256 + half: chance.randbytes(256) for number in numbers for half in (0, 1)}
+
+
+@pytest.mark.parametrize("speed", [1.0, 0.43, 0.05])
+def test_slow_line_as_reported(speed):
+    bench, pages = Bench(Weather("slow", speed=speed)), motion_pages(3, 115, 127)
+    loader = FactoryLoader(bench.line)
+    loader.write(pages)
+    assert bench.changed() == sorted(pages) and not bench.loader.crashes
+    assert all(bench.loader.flash[256 * page:][:256] == data for page, data in pages.items())
+
+
+def test_nothing_but_announced_bytes_while_a_download_may_be_open():
+    """The report never comes: what has been sent behind `load` is the page, and nothing else."""
+    bench, pages = Bench(), motion_pages(3)
+    loader, sent = FactoryLoader(bench.line), []
+    write = bench.line.write
+
+    def deaf(data, wait=True):
+        sent.append(data)
+        write(data, wait)
+        if len(data) > 20 and bench.loader.where in ("ready", "loading"):
+            bench.wires[1].cut()
+
+    bench.line.write = deaf
+    with pytest.raises(M512Error, match="may still wait.*Type nothing into a terminal.*unharmed"):
+        loader.write(pages)
+    behind = b"".join(sent[sent.index(b"load e600") + 2:])
+    data = pages[0xE6]
+    assert len(behind) <= 256 and behind.lstrip(b"\0") in data
+
+
+def test_page_below_the_reserve_takes_255_bytes_too_many():
+    """Its last download is one byte: whatever follows up to a page's worth stays in that page."""
+    pages = motion_pages(115)
+    last = max(pages)
+    assert (last + 1) * 256 == LAST_START
+    bench = Bench()
+    loader, write = FactoryLoader(bench.line), bench.line.write
+
+    def doubled(data, wait=True):
+        write(data + b"#" * 255 if len(data) == 1 and bench.loader.where == "ready" else data, wait)
+
+    bench.line.write = doubled
+    with pytest.raises(M512Error):
+        loader.write(pages)
+    assert set(bench.changed()) <= set(pages)
+
+
+@pytest.mark.parametrize("text, expected", [
+    (b"abc\rdef", []), (b"l\r", [1]), (b"xyz l 5\r", [7]), (b"a\x01b\n", [3]), (b"x" * 80 + b"\r", [80]), (b"\0" * 200 + b"\r", []),
+    (b"\0l\0\r", [3]), (b"DOWN,5\rx", [6]), (b"lx\rld\r", [5]), (b"lo\x08\r", [3])])
+def test_typed_text_is_cut_before_the_line_end_that_would_do_harm(text, expected):
+    assert typed.cuts(text) == expected
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_pause_anywhere_in_a_page_that_reads_like_commands(seed):
+    """Behind the pause the rest of the data is typed text for the loader."""
+    chance = random.Random(seed)
+    pages = {0x30 + k: runs.contents(chance, 256) for k in range(6)}
+    bench = Bench()
+    loader, write = FactoryLoader(bench.line), bench.line.write
+
+    def paused(data, wait=True):
+        at = chance.randrange(len(data)) if bench.loader.where == "ready" and chance.random() < 0.3 else 0
+        write(data[:at], wait)
+        if at:
+            bench.wires[0].sent_until = bench.board.now + 0.25
+        write(data[at:], wait)
+
+    bench.line.write = paused
+    try:
+        loader.write(pages)
+    except M512Error:
+        pass
+    bench.board.advance_by(5)
+    assert set(bench.changed()) <= set(pages) and not bench.loader.crashes
+
+
+@pytest.mark.parametrize("kind, error", [(CANCELLED, CancelledError), (KILLED, Killed)])
+def test_cancelled_in_a_download_says_how_things_stand(kind, error):
+    bench, pages = Bench(), motion_pages(3)
+    loader = loaders.enter(bench.line, lambda text: None)
+    write = bench.line.write
+
+    def stop(data, wait=True):
+        if bench.loader.where == "ready":
+            bench.line.end_at, bench.line.end_kind = bench.board.now, kind
+        write(data, wait)
+
+    bench.line.write = stop
+    with pytest.raises(error) as caught:
+        download.download(loader, Plan(pages), runs.phase)
+    sent = bench.line.sent
+    bench.board.advance_by(5)
+    assert bench.line.sent == sent and set(bench.changed()) <= set(pages)
+    if kind == CANCELLED:
+        assert "may still wait" in str(caught.value) and caught.value.exit_code == 130
