@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT
+ * played.c - the player as a shared library for played.py: one main play over a motion area in memory. Every function works
+ * on that one play. */
+#include <string.h>
+#include "link.h"
+#include "player.h"
+#include "shape.h"
+
+static uint8_t pages[PAGE_COUNT][PAGE_BYTES];
+static uint8_t status[PAGE_COUNT];
+static player_t player;
+static player_joint_t joint[PAGE_JOINTS];
+static uint16_t goal_pos[PAGE_JOINTS];
+static link_t links;
+static shape_t shape;
+
+static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
+{
+    (void)context;
+    memcpy(to, &pages[page][offset], count);
+}
+
+static uint8_t check_page(void *context, uint8_t page)
+{
+    (void)context;
+    return status[page];
+}
+
+static const page_source_t source = {.read = read_page, .check = check_page};
+
+/* A link above 127 makes no page bad here: the law counts it as none (player.md), and so the player must. */
+static uint8_t judge(const uint8_t page[PAGE_BYTES])
+{
+    static const uint8_t links_at[] = {PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE, PAGE_AT_LINKED2_PAGE};
+    uint8_t copy[PAGE_BYTES];
+    if (page_sum(0, page, PAGE_BYTES) != PAGE_CHECKSUM_SUM) {
+        return PAGE_ERR_CHECKSUM;
+    }
+    memcpy(copy, page, PAGE_BYTES);
+    for (unsigned i = 0; i < sizeof links_at; i++) {
+        copy[links_at[i]] = 0;
+    }
+    page_seal(copy);
+    return (uint8_t)page_check(copy);
+}
+
+/* image: PAGE_COUNT pages. Nothing plays, nothing is shaped. */
+void played_load(const uint8_t *image)
+{
+    memcpy(pages, image, sizeof pages);
+    for (unsigned page = 0; page < PAGE_COUNT; page++) {
+        status[page] = judge(pages[page]);
+    }
+    shape_init(&shape);
+}
+
+/* A play is called; codes may arrive before it starts. call: 0 = by number. */
+void played_call(int call)
+{
+    link_init(&links, LINK_LATCH);
+    link_call(&links, (uint8_t)call);
+}
+
+/* Returns player_status_t. */
+int played_start(int law, int page, uint32_t present, const uint16_t *pose_pos)
+{
+    player_init(&player, &source, joint, goal_pos);
+    player_set_shape(&player, &shape);
+    return (int)player_start(&player, &links, (uint8_t)page, (player_law_t)law, pose_pos, present);
+}
+
+/* A code arrives and is released. */
+void played_code(int code)
+{
+    link_code(&links, (uint8_t)code);
+    link_code(&links, LINK_CODE_NONE);
+}
+
+int played_tick(void)
+{
+    return player_tick(&player, &links);
+}
+
+const uint16_t *played_goals(void)
+{
+    return goal_pos;
+}
+
+int played_fault(void)
+{
+    return player.fault;
+}
+
+int played_page(void)
+{
+    return player.page;
+}
+
+int played_step(void)
+{
+    return player.step;
+}
+
+/* Each returns shape_status_t. */
+int played_rate(int percent)
+{
+    return (int)shape_set_rate(&shape, (uint16_t)percent);
+}
+
+int played_amplitude(int percent, uint32_t joints)
+{
+    return (int)shape_set_amplitude(&shape, (uint16_t)percent, joints);
+}
+
+int played_blend(int percent)
+{
+    return (int)shape_set_blend(&shape, (int16_t)percent);
+}
+
+int played_centre(int page)
+{
+    return (int)shape_set_centre(&shape, (uint8_t)page);
+}
+
+void played_voltage(int decivolts)
+{
+    shape_set_voltage(&shape, (uint8_t)decivolts);
+}
+
+void played_reset(void)
+{
+    shape_reset(&shape);
+}
