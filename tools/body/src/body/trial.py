@@ -106,10 +106,13 @@ def try_motion(image, page, seconds, robot="humanoid", variation=NOMINAL, law="e
     quick.torque_on()
     quick.run(int(SETTLE_S * TICKS_PER_S))
     quick.start(page, law)
-    return _play(quick, physics, seconds, list(keys), falls and not lie)
+    return watch(quick, physics, seconds, keys, falls and not lie)
 
 
-def _play(quick, physics, seconds, keys, falls):
+def watch(player, physics, seconds, keys=(), falls=True):
+    """The Outcome of a play that has just begun. player: run(ticks) lets time pass and says whether it still plays, keys(code)
+    holds keys of the remote, loads() tells what servos bore (quick.Quick, onboard.OnBoard)."""
+    keys = list(keys)
     outcome, zero_s = Outcome(), physics.time_s
     frame = physics.x_mm, physics.y_mm, math.radians(physics.heading)
     pushes = sorted(physics.variation.pushes, key=lambda push: push.at_s)
@@ -117,19 +120,19 @@ def _play(quick, physics, seconds, keys, falls):
     playing = True
     while playing and (now := physics.time_s - zero_s) < seconds:
         while keys and keys[0][0] <= now:
-            quick.keys(keys.pop(0)[1])
+            player.keys(keys.pop(0)[1])
         pushed = _push(physics, pushes, pushed, now)
-        playing = quick.run(CHUNK)
+        playing = player.run(CHUNK)
         outcome.track.append(_look(physics, frame, zero_s))
         outcome.touched |= {pair for pair in physics.touching() if "floor" not in pair}
         if falls and physics.upright < FALLEN:
             outcome.fell_s = physics.time_s - zero_s
             break
     outcome.seconds, outcome.ended = physics.time_s - zero_s, not playing
-    outcome.loads = quick.loads()
+    outcome.loads = player.loads()
     physics.let_go()
     if outcome.fell_s is None:
-        quick.run(int(AFTER_S * TICKS_PER_S))
+        player.run(int(AFTER_S * TICKS_PER_S))
         if falls and physics.upright < FALLEN:
             outcome.fell_s = physics.time_s - zero_s
         outcome.on_feet = stands(physics)

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""What the library's motions promise in physics: on the nominal body in figures, on bodies by chance that they end as they should.
+
+`tools/prove physics` asks them all; a search for better motions asks those that it works on (`bodies()`, `nominal()`).
+The bodies of `walk` are pushed, tilted, slippery, off their zeros (../body/src/body/chance.py); so are all others.
+"""
+from dataclasses import dataclass
+
+from body.chance import random_body
+from body.description import load
+from body.trial import STOP, try_motion
+
+ROBOT = load("humanoid")
+UP, DOWN, LEFT, RIGHT = 1, 2, 4, 8
+PUSHES_PER_S = 1 / 12
+
+
+@dataclass(frozen=True)
+class Stands:
+    """A motion that ends on the robot's feet on at least `share` of the bodies."""
+
+    page: str
+    seconds: float
+    keys: tuple = ()             # of the remote: (second, code)
+    lie: str = None              # begins on its "face" or "back", arms by chance
+    floor: bool = False          # goes to the floor on the way
+    share: float = 0.99
+    bodies: int = 200            # in a whole campaign
+
+
+@dataclass(frozen=True)
+class Goes:
+    """Figures of a motion on the nominal body at 11.1 V: (least, most), None: any."""
+
+    page: str
+    seconds: float
+    keys: tuple = ()
+    forward_mm_s: tuple = (None, None)
+    turn_deg_s: tuple = (None, None)
+    degrees_per_metre: float = None      # heading, at most
+    drift_mm_a_turn: float = None
+    side_mm: tuple = (None, None)        # the way to the right in all
+    forward_mm: tuple = (None, None)     # the way to the front in all
+
+
+def round_trip(code, turn_code, seconds):
+    """A remote that walks, turns now and then, and stops in time."""
+    keys, at = [], 0.0
+    while at < seconds - 8:
+        keys += [(at, code), (at + 5, turn_code), (at + 7, code)]
+        at += 8
+    return (*keys, (seconds - 4, STOP))
+
+
+STANDS = [
+    Stands("walk", 60, round_trip(UP, UP, 60), bodies=1000),
+    Stands("right", 14, ((0, RIGHT), (10, STOP))),
+    Stands("left", 14, ((0, LEFT), (10, STOP))),
+    Stands("side_r", 14, ((0, RIGHT + 16), (10, STOP))),
+    Stands("side_l", 14, ((0, LEFT + 16), (10, STOP))),
+    Stands("back", 24, ((0, DOWN), (20, STOP))),
+    Stands("ready", 3), Stands("bow", 6), Stands("wave", 6), Stands("clap", 6), Stands("cheer", 6), Stands("sit", 6),
+    Stands("stand", 6), Stands("dance", 24, ((14, STOP),)), Stands("kick_r", 8), Stands("kick_l", 8),
+    Stands("pushups", 40, ((6, STOP),), floor=True),
+    Stands("get_up", 20, lie="face", floor=True),
+]
+GOES = [
+    Goes("walk", 12, ((0, UP),), forward_mm_s=(150, None), degrees_per_metre=5),
+    Goes("back", 12, ((0, DOWN),), forward_mm_s=(None, -60)),
+    Goes("right", 12, ((0, RIGHT),), turn_deg_s=(None, -30), drift_mm_a_turn=50),
+    Goes("left", 12, ((0, LEFT),), turn_deg_s=(30, None), drift_mm_a_turn=50),
+]
+EASY = ("ready", "bow", "wave", "clap", "cheer", "sit", "stand")     # a sample of these must never fail
+
+
+def number_of(library, page):
+    """The number of a page by its name. KeyError: the library has none."""
+    for number, made in library.items():
+        if number and made.title == page:
+            return number
+    raise KeyError(f"the library has no page {page}")
+
+
+def body_of(promise, seed):
+    pushes = 0 if promise.floor or promise.lie else max(1, round(promise.seconds * PUSHES_PER_S))
+    return random_body(ROBOT, seed, promise.seconds - 1, pushes=pushes)
+
+
+def arms_by_chance(seed):
+    import random
+    chance = random.Random(f"arms {seed}")
+    return {servo: 512 + chance.uniform(-140, 140) for servo in (1, 2, 3, 4, 5, 6)}
+
+
+def stands(image, number, promise, seed):
+    """One body: (kept, what happened)."""
+    outcome = try_motion(image, number, promise.seconds, robot=ROBOT, variation=body_of(promise, seed), keys=promise.keys,
+                         lie=promise.lie, pose=arms_by_chance(seed) if promise.lie else None, falls=not promise.floor)
+    return outcome.fell_s is None and outcome.on_feet, outcome.said()
+
+
+def goes(image, number, promise):
+    """The nominal body: (what is missing, what happened)."""
+    outcome = try_motion(image, number, promise.seconds, robot=ROBOT, keys=promise.keys)
+    missing = [] if outcome.fell_s is None else ["it falls"]
+    for name in ("forward_mm_s", "turn_deg_s", "forward_mm"):
+        low, high = getattr(promise, name)
+        value = outcome.x_mm if name == "forward_mm" else getattr(outcome, name)
+        if low is not None and value < low or high is not None and value > high:
+            missing.append(f"{name} {value:.0f}, promised {low if low is not None else high}")
+    if promise.degrees_per_metre is not None and abs(outcome.x_mm) > 1:
+        off = abs(outcome.heading) / abs(outcome.x_mm / 1000)
+        if off > promise.degrees_per_metre:
+            missing.append(f"{off:.1f} degrees a metre, promised {promise.degrees_per_metre}")
+    if promise.drift_mm_a_turn is not None and abs(outcome.heading) > 30:
+        drift = (outcome.x_mm ** 2 + outcome.y_mm ** 2) ** 0.5 / (abs(outcome.heading) / 360)
+        if drift > promise.drift_mm_a_turn:
+            missing.append(f"drifts {drift:.0f} mm a turn, promised {promise.drift_mm_a_turn}")
+    return missing, outcome.said()
