@@ -122,6 +122,9 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
     if (MACHINE_IMAGE(machine)->ram_page != NULL) {
         TEXT(",open,save");
     }
+    if (MACHINE_IMAGE(machine)->more != NULL) {
+        TEXT(",shape");
+    }
     return MACHINE_OK;
 }
 
@@ -252,6 +255,9 @@ static uint8_t do_where(void *context, const shell_args_t *args)
     TEXT(" faulty=");
     text_hex((uint16_t)(performer->faulty >> 16), 4);
     text_hex((uint16_t)performer->faulty, 4);
+    if (MACHINE_IMAGE(machine)->where != NULL) {
+        MACHINE_IMAGE(machine)->where(MACHINE_IMAGE(machine)->context);
+    }
     return MACHINE_OK;
 }
 
@@ -260,7 +266,7 @@ static uint8_t do_reset(void *context, const shell_args_t *args)
 {
     machine_t *machine = context;
     (void)args;
-    if (!performer_is_idle(MACHINE_PERFORMER(machine))) {
+    if (!performer_is_still(MACHINE_PERFORMER(machine))) {
         return machine_refusal(PERFORMER_ERR_BUSY, 0, 0);
     }
     MACHINE_IMAGE(machine)->restart(MACHINE_IMAGE(machine)->context);
@@ -309,7 +315,10 @@ static const shell_command_t table[] PROGMEM = {
 
 static uint8_t dispatch(machine_t *machine, const shell_args_t *args)
 {
-    const uint8_t status = shell_run(table, ARRAY_COUNT(table), machine, args);
+    uint8_t status = shell_run(table, ARRAY_COUNT(table), machine, args);
+    if (status == SHELL_ERR_UNKNOWN && MACHINE_IMAGE(machine)->more != NULL) {
+        status = MACHINE_IMAGE(machine)->more(MACHINE_IMAGE(machine)->context, args);
+    }
     return status == SHELL_ERR_COUNT     ? machine_says(MACHINE_ERR_COUNT, TEXT_P("Too few or too many words"))
            : status == SHELL_ERR_UNKNOWN ? machine_says(MACHINE_ERR_WORD, TEXT_P("Unknown word"))
                                          : status;

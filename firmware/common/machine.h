@@ -20,6 +20,8 @@
  *     @play n [code]  @stop  @break  @pause  @resume
  *     @where                     state, page, step, repetition, code, voltage, faults
  *     @reset                     restarts the controller (no answer but the loader's start), unless something plays
+ *     @rate percent  @amplitude percent [id ...]  @blend percent  @drive blend rate amplitude  @layer n|off [id ...]
+ *     @aim id pos [deg_s]  @swing id centre amplitude ms [phase]  @free [id ...]  @shape [reset]       Play only
  *     @open n  @data offset hex  @crc  @save n crc      a page in: images with a page in RAM only
  *
  * firmware/edit/PROTOCOL.md is the manual with examples. */
@@ -47,7 +49,9 @@ typedef enum {
     MACHINE_ERR_CRC = 9,       /* the CRC does not fit: nothing was changed */
     MACHINE_ERR_IMAGE = 10,    /* not in this image */
     MACHINE_ERR_SAVE = 11,     /* the page could not be saved */
-    MACHINE_ERR_UNSAVED = 12   /* the page in RAM has edits that would be lost */
+    MACHINE_ERR_UNSAVED = 12,  /* the page in RAM has edits that would be lost */
+    MACHINE_ERR_FULL = 13,     /* code moves as many joints as it can */
+    MACHINE_ERR_IDLE = 14      /* nothing is playing */
 } machine_status_t;
 
 /* What an image adds. NULL is allowed for service, and for ram_page: then there is no page in RAM, open, changed and
@@ -65,6 +69,10 @@ typedef struct {
     machine_status_t (*save)(void *context, uint8_t page);
     /* board_restart with the image's settings: does not come back. Never NULL. */
     void (*restart)(void *context);
+    /* More requests than those above: as shell_run, the answer's word and OK are printed around it. NULL: none. */
+    uint8_t (*more)(void *context, const shell_args_t *args);
+    /* Further fields of @where, each with a blank in front. NULL: none. */
+    void (*where)(void *context);
     void *context;
 } machine_image_t;
 

@@ -4,6 +4,14 @@
 #include <string.h>
 #include "bound.h"
 #include "performer_parts.h"
+#include "performer_shape.h"
+
+static void fresh_player(performer_t *performer)
+{
+    player_t *player = &performer->engine.player;
+    player_init(player, performer->source, performer->engine.joint, performer->goal_pos);
+    player_set_shape(player, &performer->shape);
+}
 
 void performer_init(performer_t *performer, const page_source_t *source, servo_link_t *servos,
                     const settings_t *settings)
@@ -11,13 +19,14 @@ void performer_init(performer_t *performer, const page_source_t *source, servo_l
     memset(performer, 0, sizeof *performer);
     performer->servos = servos;
     performer->settings = settings;
+    shape_init(&performer->shape);
     performer_set_source(performer, source);
 }
 
 void performer_set_source(performer_t *performer, const page_source_t *source)
 {
     performer->source = source;
-    player_init(&performer->engine.player, source, performer->engine.joint, performer->pose_pos);
+    fresh_player(performer);
 }
 
 /* ---- what it is doing ---- */
@@ -25,6 +34,11 @@ void performer_set_source(performer_t *performer, const page_source_t *source)
 bool performer_is_idle(const performer_t *performer)
 {
     return performer->state == PERFORMER_IDLE;
+}
+
+bool performer_is_still(const performer_t *performer)
+{
+    return performer_is_idle(performer) && performer_layers_joints(performer) == 0;
 }
 
 bool performer_is_paused(const performer_t *performer)
@@ -47,7 +61,7 @@ bool performer_next_event(performer_t *performer, performer_event_t *event)
 uint8_t *performer_spare(performer_t *performer)
 {
     STATIC_ASSERT(sizeof performer->engine.player + PAGE_BYTES <= sizeof performer->engine &&
-                  sizeof performer->engine.approach + PAGE_BYTES <= sizeof performer->engine,
+                      sizeof performer->engine.approach + PAGE_BYTES <= sizeof performer->engine,
                   "the spare bytes are the joints' of the player");
     return performer_is_idle(performer) ? (uint8_t *)(&performer->engine + 1) - PAGE_BYTES : NULL;
 }
@@ -65,14 +79,12 @@ static performer_status_t somebody_can_move(const performer_t *performer)
     return performer_usable(performer) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
 }
 
-/* Binds the player anew and starts it at `page` from pose_pos. */
+/* Starts a fresh player at `page` from where the goals are. */
 static player_status_t start_player(performer_t *performer, uint8_t page, uint32_t joints)
 {
-    player_t *player = &performer->engine.player;
     const player_law_t law =
         PERFORMER_SETTINGS(performer)->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;
-    player_init(player, performer->source, performer->engine.joint, performer->pose_pos);
-    return player_start(player, &performer->link, page, law, performer->pose_pos, joints);
+    return player_start(&performer->engine.player, &performer->link, page, law, performer->goal_pos, joints);
 }
 
 static performer_status_t refusal(performer_t *performer, player_status_t status)
@@ -108,15 +120,17 @@ performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t
         return status;
     }
     /* A start without joints, only to hear what the player has against this page. It may use the links up: call again. */
+    performer_shape_follow(performer);
     call_link(performer, code);
+    fresh_player(performer);
     status = refusal(performer, start_player(performer, page, 0));
+    performer->first_page = performer->engine.player.page;
+    fresh_player(performer);
     if (status != PERFORMER_OK) {
-        player_init(&performer->engine.player, performer->source, performer->engine.joint, performer->pose_pos);
         return status;
     }
     call_link(performer, code);
     performer->page = page;
-    performer->first_page = performer->engine.player.page;
     performer->move_deg_s = 0;
     performer->since_stop_ticks = UINT8_MAX;
     performer_get_ready(performer);
@@ -150,6 +164,8 @@ static void begin(performer_t *performer)
     }
     performer->state = PERFORMER_PLAY;
     performer->slopes_due = false;
+    fresh_player(performer);
+    performer_layers_bind(performer, true);
     if (start_player(performer, performer->page, performer->joints) != PLAYER_OK) {
         performer_go_idle(performer, PERFORMER_END_PAGE);
     }
@@ -212,7 +228,7 @@ static void act_on(performer_t *performer, performer_verdict_t verdict, uint32_t
         servo_link_torque_off(PERFORMER_SERVOS(performer), joint);
         return;
     }
-    performer->end_reason = PERFORMER_END_SERVO;
+    performer->end_reason = PERFORMER_END_SERVO; /* of a play, if one is on */
     if (verdict == WATCH_EXIT) {
         performer_stop_softly(performer);
     } else {
@@ -235,21 +251,27 @@ void performer_poll(performer_t *performer)
 
 /* ---- the tick ---- */
 
-/* The compliance bytes of the page that has just begun, to the servos. Not inlined: the tick would keep 31 bytes of stack
+static void send_goals(performer_t *performer, uint32_t joints)
+{
+    servo_link_goals(PERFORMER_SERVOS(performer), performer->goal_pos, joints | performer_layers_joints(performer));
+}
+
+/* The compliance bytes of the page that has just begun, to the servos. Not inlined: the tick would keep 62 bytes of stack
  * for what happens once a page. */
 static NOINLINE void send_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
     performer->source->read(performer->source->context, performer->engine.player.page, PAGE_AT_COMPLIANCE, compliance,
                             sizeof compliance);
+    performer_layers_slopes(performer, compliance);
     servo_link_slopes(PERFORMER_SERVOS(performer), compliance);
 }
 
 static void approach_or_move_tick(performer_t *performer)
 {
-    const bool under_way = approach_tick(&performer->engine.approach, performer->pose_pos);
-    const uint32_t joints = performer->engine.approach.joints & performer->joints;
-    servo_link_goals(PERFORMER_SERVOS(performer), performer->pose_pos, joints);
+    const bool under_way = approach_tick(&performer->engine.approach, performer->goal_pos);
+    (void)performer_layers_tick(performer, false);
+    send_goals(performer, performer->engine.approach.joints & performer->joints);
     if (!under_way) {
         approach_over(performer);
     }
@@ -276,19 +298,25 @@ static void tell(performer_t *performer, uint8_t events)
 /* A page's slopes go out a tick or more after its first goals: the tick in which a page begins has enough to do. */
 static void play_tick(performer_t *performer)
 {
-    player_t *player = &performer->engine.player;
-    const uint8_t events = player_tick(player, &performer->link);
+    const bool slopes_due = performer->slopes_due;
+    const uint8_t events = performer_layers_tick(performer, true);
     if ((events & PLAYER_EV_PAGE) != 0) {
         performer->slopes_due = true;
-    } else if (performer->slopes_due) {
+    } else if (slopes_due) {
         performer->slopes_due = false;
         send_slopes(performer);
-        servo_link_defer_rest(PERFORMER_SERVOS(performer));
     }
     if ((events & PLAYER_EV_OUTPUT) != 0) {
-        servo_link_goals(PERFORMER_SERVOS(performer), player->goal_pos, player->joints);
+        send_goals(performer, performer->engine.player.joints);
     }
     tell(performer, events);
+}
+
+static void idle_tick(performer_t *performer)
+{
+    if ((performer_layers_tick(performer, false) & PLAYER_EV_OUTPUT) != 0) {
+        send_goals(performer, 0);
+    }
 }
 
 void performer_tick(performer_t *performer)
@@ -297,9 +325,14 @@ void performer_tick(performer_t *performer)
     if (performer->since_stop_ticks < UINT8_MAX) {
         performer->since_stop_ticks++;
     }
+    if (performer_drive_is_lost(performer)) {
+        performer_drive_lost(performer);
+    }
     if (performer->state == PERFORMER_APPROACH) {
         approach_or_move_tick(performer);
     } else if (performer->state == PERFORMER_PLAY) {
         play_tick(performer);
+    } else {
+        idle_tick(performer);
     }
 }

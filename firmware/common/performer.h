@@ -21,11 +21,13 @@
 #include <stdint.h>
 #include "approach.h"
 #include "compiler.h"
+#include "layers.h"
 #include "link.h"
 #include "performer_event.h"
 #include "player.h"
 #include "servo_link.h"
 #include "settings.h"
+#include "shape.h"
 
 typedef enum {
     PERFORMER_OK = 0,
@@ -69,9 +71,14 @@ typedef struct {
     const page_source_t *source;
     servo_link_t *servos;
     const settings_t *settings;
+    layers_t *layers;           /* performer_shape.h; an image without layers never sets it */
+    uint16_t drive_left_ticks;  /* until the next performer_drive must have come; 0: nobody waits for it */
+    bool is_driven;             /* performer_drive has set the shape */
+    uint8_t shape_voltage_dv;   /* that the shape knows of */
+    shape_t shape;              /* of the main play. Set it by the functions of shape.h at any time */
     link_t link;                /* read only for callers */
     performer_events_t events;
-    uint16_t pose_pos[PAGE_JOINTS];
+    uint16_t goal_pos[PAGE_JOINTS]; /* last goals of all joints; READY fills it with the pose */
     union {
         struct {
             player_t player;    /* state PLAY; kept after the end. Read only for callers */
@@ -103,7 +110,7 @@ void performer_stop(performer_t *performer);
 /* Ends with the repetition that is on, without the exit page. On the way to the first pose it is a break. */
 void performer_stop_without_exit(performer_t *performer);
 
-/* Ends at once: all joints slow down to a stand and hold. */
+/* Ends at once: all joints slow down to a stand and hold, those moved by code too. */
 void performer_break(performer_t *performer);
 
 /* Slows down to a stand, holds; resume goes on from there. false: nothing to pause or to resume (a move cannot be
@@ -119,7 +126,8 @@ void performer_code(performer_t *performer, uint8_t code);
 uint32_t performer_on(performer_t *performer, uint32_t joints);
 void performer_off(performer_t *performer, uint32_t joints);
 
-bool performer_is_idle(const performer_t *performer);
+bool performer_is_idle(const performer_t *performer);    /* no play and no move is on */
+bool performer_is_still(const performer_t *performer);   /* nor does code move a joint (performer_shape.h) */
 bool performer_is_paused(const performer_t *performer);
 
 /* Joints that answer the bus and were not switched off by hand. */

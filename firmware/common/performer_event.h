@@ -37,6 +37,8 @@ typedef enum {
     PERFORMER_EV_TORQUE,     /* a: servo ID: its torque went off by itself */
     PERFORMER_EV_BATTERY,    /* a: lowest voltage of all servos, 0.1 V */
     PERFORMER_EV_HOT,        /* a: servo ID, b: degrees C */
+    PERFORMER_EV_LAYER_ENDED, /* a: the page it ended in */
+    PERFORMER_EV_DRIVE_LOST, /* the program that drove has fallen silent: the play is being stopped */
     PERFORMER_EV_LOST        /* a: how many events found the queue full */
 } performer_event_kind_t;
 

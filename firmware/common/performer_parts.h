@@ -16,6 +16,7 @@
 /* performer_stop.c */
 void performer_go_idle(performer_t *performer, uint8_t reason);         /* tells why: performer_end_t */
 void performer_stop_softly(performer_t *performer);                     /* state PLAY: through the exit page; a pause ends */
+void performer_drive_lost(performer_t *performer);                      /* no performer_drive in time: ends what is on */
 void performer_drop(performer_t *performer, uint32_t joints);           /* out of what is going on */
 
 /* performer_ready.c */

@@ -4,6 +4,7 @@
 
 #include <string.h>
 #include "bound.h"
+#include "performer_shape.h"
 
 void performer_get_ready(performer_t *performer)
 {
@@ -35,6 +36,11 @@ static performer_ready_t ask_one_joint(performer_t *performer)
     servo_link_t *servos = PERFORMER_SERVOS(performer);
     const uint8_t id = lowest_joint(performer->ready_left);
     const uint32_t joint = servo_link_bit(id);
+    if ((performer_layers_joints(performer) & joint) != 0) { /* under way already: its goal is where it is */
+        performer->ready_left &= ~joint;
+        performer->joints |= joint;
+        return READY_ASKING;
+    }
     if ((servos->torque & joint) == 0) {
         if (servo_link_torque_on(servos, joint) != 0) {
             return READY_ASKING;
@@ -43,7 +49,7 @@ static performer_ready_t ask_one_joint(performer_t *performer)
         servo_link_full_speed(servos, joint);
         performer->ready_left &= ~joint;
         performer->joints |= joint;
-        performer->pose_pos[id] = servos->present_pos[id];
+        performer->goal_pos[id] = servos->present_pos[id];
         return READY_ASKING;
     }
     performer->ready_left &= ~joint;
@@ -59,8 +65,8 @@ static uint32_t first_pose(const performer_t *performer, uint16_t to_pos[PAGE_JO
         memcpy(to_pos, performer->engine.approach.target_pos, sizeof performer->engine.approach.target_pos);
         return performer->move_joints & performer->joints;
     }
-    memcpy(to_pos, performer->pose_pos, sizeof performer->pose_pos);
-    return player_first_pose(performer->source, NULL, performer->first_page, to_pos) & performer->joints;
+    memcpy(to_pos, performer->goal_pos, sizeof performer->goal_pos);
+    return player_first_pose(performer->source, &performer->shape, performer->first_page, to_pos) & performer->joints;
 }
 
 static performer_ready_t plan_approach(performer_t *performer)
@@ -71,9 +77,9 @@ static performer_ready_t plan_approach(performer_t *performer)
         return READY_THERE;
     }
     uint16_t to_pos[PAGE_JOINTS];
-    const uint32_t joints = first_pose(performer, to_pos);
+    const uint32_t joints = first_pose(performer, to_pos) & ~performer_layers_joints(performer);
     const uint16_t ticks =
-        approach_start(&performer->engine.approach, performer->pose_pos, to_pos, joints, limit_deg_s);
+        approach_start(&performer->engine.approach, performer->goal_pos, to_pos, joints, limit_deg_s);
     if (ticks == 0) {
         return READY_THERE;
     }

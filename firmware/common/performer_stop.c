@@ -3,6 +3,7 @@
 #include "performer_parts.h"
 
 #include "bound.h"
+#include "performer_shape.h"
 
 #define SECOND_STOP_TICKS PLAYER_TICKS_PER_SECOND
 
@@ -15,6 +16,11 @@ void performer_go_idle(performer_t *performer, uint8_t reason)
         page_fault = player->fault;
     }
     performer->state = PERFORMER_IDLE;
+    performer_layers_bind(performer, false);
+    if (reason != PERFORMER_END_DONE && reason != PERFORMER_END_THERE) {
+        performer_layers_break(performer);
+    }
+    performer_drive_end(performer);
     performer_event_put(&performer->events, PERFORMER_EV_ENDED, performer->page, page_fault, reason);
 }
 
@@ -24,6 +30,7 @@ static void resume_if_paused(performer_t *performer)
 {
     if (player_is_paused(&performer->engine.player)) {
         player_resume(&performer->engine.player);
+        performer_layers_pause(performer, false);
     }
 }
 
@@ -35,6 +42,7 @@ void performer_stop_softly(performer_t *performer)
 
 void performer_break(performer_t *performer)
 {
+    performer_layers_break(performer);
     if (performer_is_idle(performer) || performer->leaving) {
         return;
     }
@@ -67,6 +75,20 @@ void performer_stop(performer_t *performer)
 {
     if (!stop_is_break(performer)) {
         performer_stop_softly(performer);
+    }
+}
+
+void performer_drive_lost(performer_t *performer)
+{
+    if (performer_is_idle(performer)) {
+        performer_drive_end(performer);
+        return;
+    }
+    performer_event_put(&performer->events, PERFORMER_EV_DRIVE_LOST, 0, 0, 0);
+    if (performer->state == PERFORMER_PLAY) {
+        performer_stop_softly(performer);
+    } else {
+        performer_break(performer);
     }
 }
 
@@ -106,11 +128,13 @@ bool performer_pause(performer_t *performer)
         return false;
     }
     if (performer->state == PERFORMER_PLAY) {
+        performer_layers_pause(performer, true);
         player_pause(&performer->engine.player);
         return true;
     }
     if (performer->state == PERFORMER_APPROACH && !performer->pausing) {
         performer->pausing = true;
+        performer_layers_pause(performer, true);
         approach_break(&performer->engine.approach);
         return true;
     }
@@ -122,6 +146,7 @@ bool performer_resume(performer_t *performer)
     if (performer->leaving || !performer_is_paused(performer)) {
         return false;
     }
+    performer_layers_pause(performer, false);
     if (performer->state == PERFORMER_PLAY) {
         player_resume(&performer->engine.player);
     } else {
@@ -136,6 +161,7 @@ void performer_drop(performer_t *performer, uint32_t joints)
 {
     performer->joints &= ~joints;
     performer->ready_left &= ~joints;
+    performer_layers_drop(performer, joints);
     if (performer->state == PERFORMER_PLAY) {
         player_drop_joints(&performer->engine.player, joints);
     }

@@ -4,6 +4,7 @@
 
 #include "bound.h"
 #include "dxl.h"
+#include "performer_shape.h"
 
 /* What the fault rule acts on. A voltage error is told but ends nothing: the battery is low long before it is empty. */
 #define ERRORS_GRAVE (DXL_ERR_ANGLE | DXL_ERR_HEAT | DXL_ERR_OVERLOAD)
@@ -48,7 +49,8 @@ static performer_verdict_t rule(const performer_t *performer)
 
 static bool takes_part(const performer_t *performer, uint32_t joint)
 {
-    return !performer_is_idle(performer) && ((performer->joints | performer->ready_left) & joint) != 0;
+    const uint32_t of_play = performer_is_idle(performer) ? 0 : performer->joints | performer->ready_left;
+    return ((of_play | performer_layers_joints(performer)) & joint) != 0;
 }
 
 static performer_verdict_t take_faults(performer_t *performer, uint32_t *joint)
@@ -90,6 +92,7 @@ performer_verdict_t performer_watch(performer_t *performer, uint32_t *joint)
     if (verdict == WATCH_GO_ON) {
         watch_battery(performer);
         watch_heat(performer);
+        performer_shape_follow(performer);
     }
     return verdict;
 }

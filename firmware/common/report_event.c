@@ -184,6 +184,13 @@ void report_event(const performer_event_t *event)
         text_number(event->b);
         TEXT(" C");
         break;
+    case PERFORMER_EV_LAYER_ENDED:
+        TEXT("The layer ended after ");
+        report_page(event->a);
+        break;
+    case PERFORMER_EV_DRIVE_LOST:
+        TEXT("Nobody drives any more: stopping");
+        break;
     case PERFORMER_EV_LOST:
         text_number(event->a);
         TEXT(" messages were dropped");

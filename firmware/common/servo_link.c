@@ -268,7 +268,7 @@ static void end_round(servo_link_t *link)
 static void send_poll(servo_link_t *link)
 {
     link->phase = PHASE_DONE;
-    if (link->present == 0 || link->rest_deferred) {
+    if (link->present == 0) {
         return;
     }
     if (link->poll_misses == 0) {
@@ -368,7 +368,6 @@ void servo_link_tick(servo_link_t *link)
     if (link->phase != PHASE_DEAF) {
         link->phase = PHASE_POLL;
     }
-    link->rest_deferred = false;
     if (link->slopes_wait != 0) {
         link->slopes_wait--;
     }
@@ -378,7 +377,7 @@ void servo_link_tick(servo_link_t *link)
 static bool send_rest(servo_link_t *link)
 {
     uint32_t pending = link->slopes_pending & link->goals_joints & ~link->no_sync;
-    if (link->phase == PHASE_GOALS && pending != 0 && link->slopes_wait == 0 && !link->rest_deferred) {
+    if (link->phase == PHASE_GOALS && pending != 0 && link->slopes_wait == 0) {
         uint32_t first = (1ul << SLOPES_JOINTS) - 1u;
         while ((pending & first) == 0) {
             first <<= SLOPES_JOINTS;

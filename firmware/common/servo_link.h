@@ -62,7 +62,6 @@ typedef struct {
     /* Private. */
     uint8_t phase;
     uint8_t slopes_wait;                     /* ticks until slopes may have packets of their own: theirs follow the goals' */
-    bool rest_deferred;                      /* servo_link_defer_rest */
     uint8_t poll_id, poll_misses;
     uint8_t round_voltage_dv, round_degrees, round_degrees_id;
     const uint16_t *goals_pos;
@@ -97,12 +96,6 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
  * last goes out with the next goals in the same packet, up to 27 joints. Above, it follows in packets of its own for 8
  * joints each, behind the goals of the ticks after that have room for it: the tick of a page change has enough to do. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
-
-/* Behind servo_link_goals, in a tick that has enough to do: slopes and the health poll wait for the next one. */
-static inline void servo_link_defer_rest(servo_link_t *link)
-{
-    link->rest_deferred = true;
-}
 
 /* Every turn of the main loop: goes on with this tick's traffic. One health poll (READ 24..43) a tick, round robin over
  * `present`: 31 servos take 0.24 s. A servo that misses is asked again in the following ticks and counts as silent after

@@ -79,4 +79,4 @@ static void __attribute__((noreturn)) program_restart(void *context __attribute_
 
 static const char image_name[] PROGMEM = "edit";
 const machine_image_t editor_image = { image_name, program_service, program_page, program_open, program_changed,
-                                         program_save, program_restart, NULL };
+                                         program_save, program_restart, NULL, NULL, NULL };

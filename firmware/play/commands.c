@@ -49,7 +49,7 @@ TEXT_NAMED(word_status, "status  what is playing");
 TEXT_NAMED(word_servos, "servos  [find]  the servos; or searches again");
 TEXT_NAMED(word_faults, "faults  servos, bus, serial line and ticks: what went wrong");
 TEXT_NAMED(word_law, "law  [exact|classic]  the law of motion");
-TEXT_NAMED(word_remote, "remote  [latch|hold]  letting go of the buttons: goes on, or stops");
+TEXT_NAMED(word_remote, "remote  [latch|hold|drive]  letting go: goes on, or stops; drive: L and R steer");
 TEXT_NAMED(word_settings, "settings  [name value|defaults]");
 TEXT_NAMED(word_baud, "baud  [id ...]  moves slow servos to 1 Mbps");
 TEXT_NAMED(word_version, "version  of this program");
@@ -76,11 +76,18 @@ static const shell_command_t table[] PROGMEM = {
     { word_help, do_help, SHELL_ARGS(0, 1), 0 },
 };
 
+/* Both tables: words of Play, and those that programs may use too. */
+static const shell_command_t *find(const shell_args_t *args, uint8_t index)
+{
+    const shell_command_t *command = shell_find(table, ARRAY_COUNT(table), args, index);
+    return command != NULL ? command : shell_find(commands_shape_table, COMMANDS_SHAPE_COUNT, args, index);
+}
+
 static uint8_t do_help(void *context, const shell_args_t *args)
 {
     (void)context;
     if (args->count == 2) {
-        const shell_command_t *command = shell_find(table, ARRAY_COUNT(table), args, 1);
+        const shell_command_t *command = find(args, 1);
         if (command == NULL) {
             TEXT("Unknown word ");
             text_string(shell_word(args, 1));
@@ -91,6 +98,9 @@ static uint8_t do_help(void *context, const shell_args_t *args)
     }
     for (uint8_t i = 0; i < ARRAY_COUNT(table); i++) {
         shell_print_help(&table[i]);
+    }
+    for (uint8_t i = 0; i < COMMANDS_SHAPE_COUNT; i++) {
+        shell_print_help(&commands_shape_table[i]);
     }
     return SHELL_OK;
 }
@@ -122,6 +132,10 @@ void commands_run(play_t *play)
     if (machine_is_for(&args)) {
         (void)machine_run(&play->machine, &args);
     } else if (args.count > 0) {
-        answer(shell_run(table, ARRAY_COUNT(table), play, &args), &args);
+        uint8_t status = shell_run(table, ARRAY_COUNT(table), play, &args);
+        if (status == SHELL_ERR_UNKNOWN) {
+            status = shell_run(commands_shape_table, COMMANDS_SHAPE_COUNT, play, &args);
+        }
+        answer(status, &args);
     }
 }

@@ -9,4 +9,8 @@
 /* Runs the line that the shell has completed and prints its answer with CR LF. */
 void commands_run(play_t *play);
 
+/* The same for a line "@word ..." that is no word of machine.h: prints the answer without the word in front and OK behind.
+ * Returns machine_status_t, SHELL_ERR_UNKNOWN or SHELL_ERR_COUNT. */
+uint8_t commands_run_for_program(play_t *play, const shell_args_t *args);
+
 #endif

@@ -4,7 +4,9 @@
  *   commands.c              the table, help, the answer
  *     commands_play.c       play, stop, break, pause, resume, code
  *     commands_robot.c      on, off, servos, baud
- *     commands_settings.c   law, remote, settings */
+ *     commands_settings.c   law, remote, settings
+ *     commands_shape.c      rate, amplitude, blend, drive, shape: for programs too
+ *       commands_ask.c      numbers and joints of a line, errors */
 #ifndef COMMANDS_PARTS_H
 #define COMMANDS_PARTS_H
 
@@ -27,6 +29,23 @@ uint8_t commands_do_baud(void *context, const shell_args_t *args);
 uint8_t commands_do_law(void *context, const shell_args_t *args);
 uint8_t commands_do_remote(void *context, const shell_args_t *args);
 uint8_t commands_do_settings(void *context, const shell_args_t *args);
+
+/* Words for persons and programs. */
+#define COMMANDS_SHAPE_COUNT 5u
+extern const shell_command_t commands_shape_table[COMMANDS_SHAPE_COUNT];
+
+/* Begins an error: its number (machine_status_t), when a program asks. Returns it as the handler's status. */
+uint8_t commands_error(const play_t *play, uint8_t number);
+uint8_t commands_sentence(const play_t *play, uint8_t number, const char *sentence_P);   /* the whole of it */
+
+/* Word `index` as a number from min to max, or from -size_max to size_max. false: it has been said what is wrong. */
+bool commands_number(const play_t *play, const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min,
+                     uint16_t max, uint16_t *value);
+bool commands_signed(const play_t *play, const shell_args_t *args, uint8_t index, const char *what_P, int16_t size_max,
+                     int16_t *value);
+
+/* The joints named from word `first` on; all that are present when there is no word. false: it has been said why. */
+bool commands_joints(const play_t *play, const shell_args_t *args, uint8_t first, uint32_t *joints);
 
 /* Says why the performer did not do it; the status to return. */
 static inline uint8_t commands_refuse(performer_status_t status, uint8_t page, uint8_t fault)

@@ -54,7 +54,7 @@ uint8_t commands_do_stop(void *context, const shell_args_t *args)
 {
     play_t *play = context;
     (void)args;
-    if (performer_is_idle(&play->performer)) {
+    if (performer_is_still(&play->performer)) {
         return nothing_is_playing();
     }
     performer_stop(&play->performer);
@@ -65,7 +65,7 @@ uint8_t commands_do_break(void *context, const shell_args_t *args)
 {
     play_t *play = context;
     (void)args;
-    if (performer_is_idle(&play->performer)) {
+    if (performer_is_still(&play->performer)) {
         return nothing_is_playing();
     }
     performer_break(&play->performer);

@@ -8,34 +8,11 @@
 
 #define ID_MAX (SERVO_LINK_JOINTS - 1u)
 
-/* The joints named from word `first` on, all that are present when there is no word. false: said what is wrong. */
-static bool joints_of_words(const play_t *play, const shell_args_t *args, uint8_t first, uint32_t *joints)
-{
-    *joints = args->count <= first ? play->servos.present : 0;
-    for (uint8_t i = first; i < args->count; i++) {
-        uint16_t id;
-        if (!shell_number(args, i, TEXT_P("ID"), 0, ID_MAX, &id)) {
-            return false;
-        }
-        if ((play->servos.present & servo_link_bit(id)) == 0) {
-            TEXT("Servo ");
-            text_number(id);
-            TEXT(" is not there");
-            return false;
-        }
-        *joints |= servo_link_bit(id);
-    }
-    if (*joints == 0) {
-        return commands_refuse(PERFORMER_ERR_NO_SERVOS, 0, 0) == SHELL_OK;
-    }
-    return true;
-}
-
 uint8_t commands_do_on(void *context, const shell_args_t *args)
 {
     play_t *play = context;
     uint32_t joints;
-    if (!joints_of_words(play, args, 1, &joints)) {
+    if (!commands_joints(play, args, 1, &joints)) {
         return SHELL_ERR_SAID;
     }
     if (!performer_is_idle(&play->performer)) {
@@ -60,7 +37,7 @@ uint8_t commands_do_off(void *context, const shell_args_t *args)
 {
     play_t *play = context;
     uint32_t joints;
-    if (!joints_of_words(play, args, 1, &joints)) {
+    if (!commands_joints(play, args, 1, &joints)) {
         return SHELL_ERR_SAID;
     }
     for (uint8_t id = 0; id <= ID_MAX; id++) { /* one at a time: 18 take longer than a tick, and the others may be playing */
@@ -80,7 +57,7 @@ uint8_t commands_do_servos(void *context, const shell_args_t *args)
         return SHELL_ERR_SAID;
     }
     if (args->count > 1) {
-        if (!performer_is_idle(&play->performer)) {
+        if (!performer_is_still(&play->performer)) {
             return commands_refuse(PERFORMER_ERR_BUSY, 0, 0);
         }
         play_find_servos(play);
@@ -94,13 +71,13 @@ uint8_t commands_do_servos(void *context, const shell_args_t *args)
 uint8_t commands_do_baud(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    if (!performer_is_idle(&play->performer)) {
+    if (!performer_is_still(&play->performer)) {
         return commands_refuse(PERFORMER_ERR_BUSY, 0, 0);
     }
     uint32_t joints = args->count == 1 ? play->servos.slow : 0;
     for (uint8_t i = 1; i < args->count; i++) {
         uint16_t id;
-        if (!shell_number(args, i, TEXT_P("ID"), 0, ID_MAX, &id)) {
+        if (!commands_number(play, args, i, TEXT_P("ID"), 0, ID_MAX, &id)) {
             return SHELL_ERR_SAID;
         }
         joints |= servo_link_bit(id);

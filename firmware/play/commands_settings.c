@@ -2,6 +2,8 @@
  * commands_settings.c - what is kept over power-off. */
 #include "commands_parts.h"
 
+#include <string.h>
+#include "pgm.h"
 #include "text.h"
 #include "views.h"
 
@@ -10,36 +12,43 @@ static void save(play_t *play)
     settings_save_start(&play->store);
 }
 
-/* One of two words for a setting of 0 and 1; prints the choice when there is no word. */
-static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, const char *zero_P, const char *one_P)
+/* One of several words for a setting of 0, 1, ...: `words_P` holds them one behind the other, each with its NUL, and an
+ * empty one at the end. Prints the choice when the line has no word. */
+static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, const char *words_P)
 {
-    if (args->count == 1) {
-        text_P(*setting == 0 ? zero_P : one_P);
-        text_line_end();
-        return SHELL_OK;
+    const char *word_P = words_P;
+    for (uint8_t value = 0; pgm_read_byte(word_P) != '\0'; value++, word_P += strlen_P(word_P) + 1) {
+        if (args->count == 1 && *setting == value) {
+            text_P(word_P);
+            text_line_end();
+            return SHELL_OK;
+        }
+        if (args->count > 1 && shell_word_is(args, 1, word_P)) {
+            *setting = value;
+            save(play);
+            return SHELL_OK;
+        }
     }
-    if (!shell_word_is(args, 1, zero_P) && !shell_word_is(args, 1, one_P)) {
-        TEXT("Say ");
-        text_P(zero_P);
-        TEXT(" or ");
-        text_P(one_P);
-        return SHELL_ERR_SAID;
+    TEXT("Say ");
+    for (word_P = words_P; pgm_read_byte(word_P) != '\0'; word_P += strlen_P(word_P) + 1) {
+        if (word_P != words_P) {
+            TEXT(" or ");
+        }
+        text_P(word_P);
     }
-    *setting = shell_word_is(args, 1, one_P) ? 1 : 0;
-    save(play);
-    return SHELL_OK;
+    return SHELL_ERR_SAID;
 }
 
 uint8_t commands_do_law(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    return choose(play, args, &play->settings.law, PSTR("exact"), PSTR("classic"));
+    return choose(play, args, &play->settings.law, PSTR("exact\0classic\0"));
 }
 
 uint8_t commands_do_remote(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    return choose(play, args, &play->settings.remote_mode, PSTR("latch"), PSTR("hold"));
+    return choose(play, args, &play->settings.remote_mode, PSTR("latch\0hold\0drive\0"));
 }
 
 static uint8_t set_one(play_t *play, const shell_args_t *args)

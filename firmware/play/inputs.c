@@ -70,6 +70,12 @@ bool inputs_next_refusal(inputs_t *inputs, inputs_refusal_t *refusal)
     return true;
 }
 
+/* L and R steer instead of being part of a code. */
+static bool steers(const inputs_t *inputs)
+{
+    return inputs->settings->remote_mode == SETTINGS_REMOTE_DRIVE && steer_is_possible(inputs->performer);
+}
+
 /* A remote repeats its packet while buttons are held. Stop and pause count when they are pressed, codes always: a packet
  * lost on the air is made good by the next. */
 static void take_packet(inputs_t *inputs)
@@ -81,7 +87,7 @@ static void take_packet(inputs_t *inputs)
     inputs->remote_buttons = buttons;
     inputs->silent_ticks = buttons == 0 ? INPUTS_SILENCE_TICKS : 0;
     if (act == REMOTE_ACT_CODE) {
-        inputs_code(inputs, code);
+        inputs_code(inputs, steers(inputs) ? (uint8_t)(code & ~(REMOTE_LEFT | REMOTE_RIGHT)) : code);
     } else if (act != act_before) {
         if (act == REMOTE_ACT_STOP) {
             inputs_code(inputs, LINK_CODE_STOP);
@@ -157,9 +163,17 @@ static void take_panel(inputs_t *inputs)
     }
 }
 
+static void steer(inputs_t *inputs)
+{
+    const uint8_t held = (uint8_t)inputs->remote_buttons;
+    const int8_t direction = (int8_t)(((held & REMOTE_RIGHT) != 0) - ((held & REMOTE_LEFT) != 0));
+    steer_tick(&inputs->steer, inputs->performer, direction != 0 && steers(inputs) ? direction : 0);
+}
+
 void inputs_tick(inputs_t *inputs)
 {
     take_panel(inputs);
+    steer(inputs);
     if (inputs->quiet_ticks < INPUTS_QUIET_TICKS && ++inputs->quiet_ticks == INPUTS_QUIET_TICKS) {
         if (remote_quiet(&inputs->remote) == REMOTE_TEXT) {
             keep_typed(inputs);

@@ -2,7 +2,7 @@
  * inputs.h - where codes come from: remote control, panel, serial port; and the typed text beside them.
  * Takes the console's bytes, gives remote packets to the performer at once and keeps what was typed for the shell, so
  * that a stop on the remote never waits behind a long answer. Prints nothing. Main loop only. Caller-owned;
- * RAM: sizeof(inputs_t), 190 bytes. Source: remote.md. */
+ * RAM: sizeof(inputs_t), 192 bytes. Source: remote.md. */
 #ifndef INPUTS_H
 #define INPUTS_H
 
@@ -13,6 +13,7 @@
 #include "remote.h"
 #include "ring.h"
 #include "settings.h"
+#include "steer.h"
 
 #define INPUTS_TYPED_BYTES 128u
 #define INPUTS_SILENCE_TICKS 64u  /* hold mode: 500 ms without a packet is a stop */
@@ -41,6 +42,7 @@ typedef struct {
     uint8_t quiet_ticks;       /* since the last byte */
     bool pc_waits;             /* the PC was told to wait */
     bool refused;
+    steer_t steer;
     inputs_refusal_t refusal;
     ring_t typed;
     uint8_t typed_bytes[INPUTS_TYPED_BYTES];

@@ -33,8 +33,20 @@ static void __attribute__((noreturn)) restart(void *context)
     board_restart(&play.store, &play.settings);
 }
 
+static uint8_t run_more(void *context, const shell_args_t *args)
+{
+    return commands_run_for_program(context, args);
+}
+
+static void tell_shape(void *context)
+{
+    const play_t *p = context;
+    views_print_shape_fields(&p->performer);
+}
+
 static const machine_image_t machine_image = {
-    .name_P = machine_name, .service = serve_machine, .restart = restart, .context = &play
+    .name_P = machine_name, .service = serve_machine, .restart = restart, .more = run_more, .where = tell_shape,
+    .context = &play
 };
 
 /* Characters since the last line end: what a status line must cover. */

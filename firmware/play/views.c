@@ -4,6 +4,7 @@
 #include "board.h"
 #include "bus.h"
 #include "console.h"
+#include "performer_shape.h"
 #include "report.h"
 #include "system.h"
 #include "text.h"
@@ -107,10 +108,15 @@ static void print_state(const performer_t *performer)
 void views_print_status(const play_t *play)
 {
     print_state(&play->performer);
+    if (!shape_is_neutral(&play->performer.shape) || performer_layers_joints(&play->performer) != 0) {
+        views_print_shape(&play->performer);
+    }
     TEXT("Law ");
     text_P(play->settings.law == PLAYER_LAW_CLASSIC ? TEXT_P("classic") : TEXT_P("exact"));
     TEXT(", remote ");
-    text_P(play->settings.remote_mode == LINK_HOLD ? TEXT_P("hold") : TEXT_P("latch"));
+    text_P(play->settings.remote_mode == SETTINGS_REMOTE_HOLD    ? TEXT_P("hold")
+           : play->settings.remote_mode == SETTINGS_REMOTE_DRIVE ? TEXT_P("drive")
+                                                                 : TEXT_P("latch"));
     TEXT(", approach ");
     if (play->settings.approach_deg_s == 0) {
         TEXT("off");
@@ -131,6 +137,97 @@ void views_print_status(const play_t *play)
         TEXT(" C");
     }
     text_line_end();
+}
+
+/* ---- shape ---- */
+
+static void print_signed(int16_t number)
+{
+    if (number < 0) {
+        text_put('-');
+    }
+    text_number((uint16_t)(number < 0 ? -number : number));
+}
+
+/* The joints whose amplitude is `percent`. */
+static uint32_t joints_with(const shape_t *shape, uint8_t percent)
+{
+    uint32_t joints = 0;
+    for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
+        servo_link_put(&joints, id, shape->amplitude_percent[id] == percent);
+    }
+    return joints;
+}
+
+/* "Amplitude 100 %", or a line for each amplitude that some joint has. */
+static void print_amplitudes(const shape_t *shape)
+{
+    uint32_t told = 0;
+    for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
+        if (servo_link_has(&told, id)) {
+            continue;
+        }
+        const uint32_t joints = joints_with(shape, shape->amplitude_percent[id]);
+        told |= joints;
+        TEXT("Amplitude ");
+        text_number(shape->amplitude_percent[id]);
+        TEXT(" %");
+        if (joints != SERVO_LINK_ALL) {
+            TEXT(" of ");
+            report_joints(joints);
+        }
+        text_line_end();
+    }
+}
+
+void views_print_shape(const performer_t *performer)
+{
+    const shape_t *shape = &performer->shape;
+    const uint8_t page = performer_layer_page(performer);
+    TEXT("Rate ");
+    text_number(shape->rate_percent);
+    TEXT(" %, blend ");
+    print_signed(shape->blend_percent);
+    TEXT(" %");
+    text_line_end();
+    print_amplitudes(shape);
+    if (page != 0) {
+        TEXT("Layer: ");
+        report_page(page);
+        TEXT(" on ");
+        report_joints(performer_layers_joints(performer));
+        text_line_end();
+    }
+    if (performer_code_joints(performer) != 0) {
+        TEXT("Moved by code: ");
+        report_joints(performer_code_joints(performer));
+        text_line_end();
+    }
+}
+
+static void print_field(const char *name_P, uint16_t value)
+{
+    text_P(name_P);
+    text_number(value);
+}
+
+void views_print_shape_fields(const performer_t *performer)
+{
+    const shape_t *shape = &performer->shape;
+    const uint32_t code = performer_code_joints(performer);
+    const uint8_t amplitude = shape->amplitude_percent[0];
+    print_field(TEXT_P(" rate="), shape->rate_percent);
+    TEXT(" blend=");
+    print_signed(shape->blend_percent);
+    if (joints_with(shape, amplitude) == SERVO_LINK_ALL) {
+        print_field(TEXT_P(" amplitude="), amplitude);
+    } else {
+        TEXT(" amplitude=mixed");
+    }
+    print_field(TEXT_P(" layer="), performer_layer_page(performer));
+    TEXT(" by_code=");
+    text_hex((uint16_t)(code >> 16), 4);
+    text_hex((uint16_t)code, 4);
 }
 
 /* ---- servos ---- */

@@ -8,6 +8,7 @@
 
 #include "fake_servo_link.h"
 #include "performer.h"
+#include "performer_shape.h"
 
 #define PAGES 8u
 #define ALL_THREE (SERVO_LINK_BIT(1) | SERVO_LINK_BIT(2) | SERVO_LINK_BIT(3))

@@ -69,6 +69,19 @@ uint8_t page_store_find_code(const page_store_t *store, uint8_t code)
     return code == 16 ? 5 : code == 1 ? 2 : 0;
 }
 
+static uint8_t partner; /* of the page that plays */
+
+static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
+{
+    (void)context;
+    (void)page;
+    (void)offset;
+    memset(to, 0, count);
+    ((uint8_t *)to)[0] = partner;
+}
+
+static const page_source_t source = {.read = read_page};
+
 /* ---- helpers ---- */
 
 void setUp(void)
@@ -79,6 +92,9 @@ void setUp(void)
     memset(&performer, 0, sizeof performer);
     memset(&settings, 0, sizeof settings);
     memset(told, 0, sizeof told);
+    performer.source = &source;
+    shape_init(&performer.shape);
+    partner = 0;
     start_status = PERFORMER_OK;
     inputs_init(&inputs, &performer, &pages, &settings);
     inputs_tick(&inputs);
@@ -334,6 +350,77 @@ static void test_inputs_unfinished_packet_does_not_swallow_text(void)
     TEST_ASSERT_EQUAL_STRING("help\r", text);
 }
 
+/* ---- remote drive ---- */
+
+/* A hand that holds `buttons` for `count` ticks: the remote repeats its packet. */
+static void hold(uint16_t buttons, uint8_t count)
+{
+    for (; count > 0; count--) {
+        if (count % 8u == 0) {
+            remote(buttons);
+        }
+        ticks(1);
+    }
+}
+
+static void drive_mode(uint8_t partner_page)
+{
+    settings.remote_mode = SETTINGS_REMOTE_DRIVE;
+    partner = partner_page;
+    performer.state = PERFORMER_PLAY;
+    performer.page = 4;
+}
+
+static void test_inputs_left_and_right_steer_to_the_full_in_a_second_and_back(void)
+{
+    drive_mode(6);
+    hold(REMOTE_RIGHT, 64);
+    TEST_ASSERT_INT_WITHIN(6, 50, performer.shape.blend_percent);
+    hold(REMOTE_RIGHT, 72);
+    TEST_ASSERT_EQUAL_INT8(100, performer.shape.blend_percent);
+    hold(0, 64);
+    TEST_ASSERT_INT_WITHIN(6, 50, performer.shape.blend_percent);
+    hold(0, 72);
+    TEST_ASSERT_EQUAL_INT8(0, performer.shape.blend_percent);
+    hold(REMOTE_LEFT, 136);
+    TEST_ASSERT_EQUAL_INT8(-100, performer.shape.blend_percent);
+    ticks(200); /* the remote falls silent: nothing is held any more */
+    TEST_ASSERT_EQUAL_INT8(0, performer.shape.blend_percent);
+}
+
+static void test_inputs_what_steers_is_no_part_of_the_code(void)
+{
+    drive_mode(6);
+    remote(REMOTE_UP | REMOTE_LEFT);
+    remote(REMOTE_BUTTON1 | REMOTE_RIGHT);
+    TEST_ASSERT_EQUAL_STRING("code 1 0;code 16 0;", told);
+}
+
+static void test_inputs_page_without_partners_is_not_steered(void)
+{
+    drive_mode(0);
+    hold(REMOTE_LEFT, 16);
+    TEST_ASSERT_EQUAL_INT8(0, performer.shape.blend_percent);
+    TEST_ASSERT_EQUAL_STRING("code 4 0;code 4 0;", told);
+}
+
+static void test_inputs_only_the_setting_drive_steers(void)
+{
+    drive_mode(6);
+    settings.remote_mode = SETTINGS_REMOTE_LATCH;
+    hold(REMOTE_LEFT, 8);
+    TEST_ASSERT_EQUAL_INT8(0, performer.shape.blend_percent);
+    TEST_ASSERT_EQUAL_STRING("code 4 0;", told);
+}
+
+static void test_inputs_nobody_steers_leaves_the_blend_alone(void)
+{
+    drive_mode(6);
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&performer.shape, 40));
+    hold(REMOTE_UP, 64);
+    TEST_ASSERT_EQUAL_INT8(40, performer.shape.blend_percent);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -350,6 +437,11 @@ int main(void)
     RUN_TEST(test_inputs_hold_mode_repeated_packets_keep_it_alive);
     RUN_TEST(test_inputs_hold_mode_never_heard_remote_is_not_missed);
     RUN_TEST(test_inputs_stop_after_a_lost_release_counts_again);
+    RUN_TEST(test_inputs_left_and_right_steer_to_the_full_in_a_second_and_back);
+    RUN_TEST(test_inputs_what_steers_is_no_part_of_the_code);
+    RUN_TEST(test_inputs_page_without_partners_is_not_steered);
+    RUN_TEST(test_inputs_only_the_setting_drive_steers);
+    RUN_TEST(test_inputs_nobody_steers_leaves_the_blend_alone);
     RUN_TEST(test_inputs_arrows_are_codes);
     RUN_TEST(test_inputs_start_button_stops_what_is_playing);
     RUN_TEST(test_inputs_button_held_at_power_on_is_no_press);

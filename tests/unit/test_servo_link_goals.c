@@ -135,28 +135,6 @@ static void test_slopes_of_more_than_27_joints_follow_in_packets_of_their_own(vo
     TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
 }
 
-static void test_a_busy_tick_leaves_slopes_and_the_poll_to_the_next_one(void)
-{
-    const uint8_t *packet = NULL;
-    uint8_t compliance[SERVO_LINK_JOINTS];
-    memset(compliance, 0x33, sizeof compliance);
-    robot(28);
-    servo_link_slopes(&servos, compliance);
-    tick_with_goals(SERVO_LINK_ALL);
-    fake_bus_clear_log();
-    servo_link_tick(&servos);
-    servo_link_goals(&servos, goals, SERVO_LINK_ALL);
-    servo_link_defer_rest(&servos);
-    rest_of_tick();
-    TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
-    TEST_ASSERT_EQUAL(DXL_AT_GOAL, packet[5]);
-    TEST_ASSERT_EQUAL(0, logged(DXL_READ, &packet));
-    tick_with_goals(SERVO_LINK_ALL);
-    TEST_ASSERT_EQUAL(3, logged(DXL_SYNC_WRITE, &packet));
-    TEST_ASSERT_EQUAL(DXL_AT_CW_SLOPE, packet[5]);
-    TEST_ASSERT_EQUAL(1, logged(DXL_READ, &packet));
-}
-
 static void test_27_joints_with_slopes_are_within_the_servos_143_bytes(void)
 {
     robot(27);
@@ -211,7 +189,6 @@ int main(void)
     RUN_TEST(test_trim_is_added_and_limited);
     RUN_TEST(test_slopes_go_with_the_goals_once);
     RUN_TEST(test_slopes_of_more_than_27_joints_follow_in_packets_of_their_own);
-    RUN_TEST(test_a_busy_tick_leaves_slopes_and_the_poll_to_the_next_one);
     RUN_TEST(test_27_joints_with_slopes_are_within_the_servos_143_bytes);
     RUN_TEST(test_deaf_servos_get_reg_write_and_one_action);
     RUN_TEST(test_deaf_servos_that_do_not_fit_into_a_tick_go_on_in_the_next);

@@ -15,7 +15,7 @@
 
 static uint8_t pages[PAGES + 1][PAGE_BYTES];
 static player_t player;
-static player_joint_t joints[PAGE_JOINTS];
+static player_joint_t states[PAGE_JOINTS];
 static uint16_t goals_of_all[PAGE_JOINTS];
 static link_t links;
 static unsigned ticks_left;
@@ -190,7 +190,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         make_page(pages[page], &fuzz);
     }
     ticks_left = TICKS_MAX;
-    player_init(&player, &source, joints, goals_of_all);
+    player_init(&player, &source, states, goals_of_all);
     memcpy(player.goal_pos, pose, sizeof pose);
     link_init(&links, options & 2 ? LINK_HOLD : LINK_LATCH);
     (void)player_first_pose(&source, NULL, number & 127, (uint16_t[PAGE_JOINTS]){0});

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT
+ * performer_drive_none.c - nobody drives this image: the half of performer_shape.h about driving, empty. */
+#include "performer_shape.h"
+
+bool performer_drive_is_lost(performer_t *performer)
+{
+    (void)performer;
+    return false;
+}
+
+void performer_drive_end(performer_t *performer)
+{
+    (void)performer;
+}
+
+void performer_shape_follow(performer_t *performer)
+{
+    (void)performer;
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT
+ * performer_layers_none.c - this image has no layers: the half of performer_shape.h about them, empty. */
+#include "performer_shape.h"
+
+uint32_t performer_layers_joints(const performer_t *performer)
+{
+    (void)performer;
+    return 0;
+}
+
+uint8_t performer_layers_tick(performer_t *performer, bool main)
+{
+    return main ? player_tick(&performer->engine.player, &performer->link) : 0;
+}
+
+void performer_layers_bind(performer_t *performer, bool main)
+{
+    (void)performer;
+    (void)main;
+}
+
+void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS])
+{
+    (void)performer;
+    (void)compliance;
+}
+
+void performer_layers_drop(performer_t *performer, uint32_t joints)
+{
+    (void)performer;
+    (void)joints;
+}
+
+void performer_layers_break(performer_t *performer)
+{
+    (void)performer;
+}
+
+void performer_layers_pause(performer_t *performer, bool pause)
+{
+    (void)performer;
+    (void)pause;
+}
+
+uint8_t performer_layer_page(const performer_t *performer)
+{
+    (void)performer;
+    return 0;
+}
+
+uint32_t performer_code_joints(const performer_t *performer)
+{
+    (void)performer;
+    return 0;
+}

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT
+ * The performer: driving by a program, and what shapes a play from outside. */
+#include "performer_stage.h"
+
+#include "unity.h"
+
+#define SECOND 128u
+
+static void drive(int16_t blend, uint16_t rate, uint16_t amplitude)
+{
+    TEST_ASSERT_TRUE(performer_drive(&performer, blend, rate, amplitude));
+}
+
+static void test_drive_sets_all_three(void)
+{
+    drive(-40, 150, 60);
+    TEST_ASSERT_EQUAL_INT8(-40, performer.shape.blend_percent);
+    TEST_ASSERT_EQUAL_UINT16(150, performer.shape.rate_percent);
+    TEST_ASSERT_EQUAL_UINT8(60, performer.shape.amplitude_percent[0]);
+    TEST_ASSERT_EQUAL_UINT8(60, performer.shape.amplitude_percent[30]);
+}
+
+static void test_drive_out_of_range_changes_nothing(void)
+{
+    static const struct {
+        int16_t blend;
+        uint16_t rate, amplitude;
+    } wrong[] = { { 101, 100, 100 }, { -101, 100, 100 }, { 10, 9, 100 }, { 10, 401, 100 }, { 10, 200, 151 } };
+    for (uint8_t i = 0; i < ARRAY_COUNT(wrong); i++) {
+        TEST_ASSERT_FALSE(performer_drive(&performer, wrong[i].blend, wrong[i].rate, wrong[i].amplitude));
+        TEST_ASSERT_TRUE(shape_is_neutral(&performer.shape));
+    }
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    ticks(5 * SECOND);
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_PLAY, performer.state); /* a refused line drives nobody */
+}
+
+static void test_drive_that_falls_silent_ends_through_the_exit_page(void)
+{
+    settings.drive_ds = 10;
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    drive(0, 100, 100);
+    ticks(SECOND - 1);
+    TEST_ASSERT_FALSE(has_event(PERFORMER_EV_DRIVE_LOST));
+    ticks(1);
+    TEST_ASSERT_TRUE(has_event(PERFORMER_EV_DRIVE_LOST));
+    reach(PERFORMER_IDLE);
+    TEST_ASSERT_EQUAL_UINT8(3, performer.page);
+    TEST_ASSERT_EQUAL_UINT16(412, fake_servo_link.goal_pos[1]); /* where the exit page leads */
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_STOPPED, end_reason());
+}
+
+static void test_drive_again_and_again_goes_on(void)
+{
+    settings.drive_ds = 10;
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    for (uint8_t i = 0; i < 20; i++) {
+        drive(0, 100, 100);
+        ticks(SECOND - 1);
+    }
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_PLAY, performer.state);
+}
+
+static void test_drive_without_watchdog_goes_on(void)
+{
+    settings.drive_ds = 0;
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    drive(0, 100, 100);
+    ticks(10 * SECOND);
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_PLAY, performer.state);
+}
+
+static void test_drive_lost_on_the_way_to_the_first_pose_breaks(void)
+{
+    settings.drive_ds = 1;
+    make_page(2, 912, 2, 3);
+    start(2, 0);
+    reach(PERFORMER_APPROACH);
+    drive(0, 100, 100);
+    ticks(13);
+    reach(PERFORMER_IDLE);
+    TEST_ASSERT_LESS_THAN_UINT16(912, fake_servo_link.goal_pos[1]);
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_BROKEN, end_reason());
+}
+
+static void test_what_drive_has_set_ends_with_the_play(void)
+{
+    settings.drive_ds = 10;
+    start(1, 0);
+    reach(PERFORMER_PLAY);
+    drive(30, 200, 50);
+    reach(PERFORMER_IDLE);
+    TEST_ASSERT_TRUE(shape_is_neutral(&performer.shape));
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    ticks(5 * SECOND); /* nobody drives this one */
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_PLAY, performer.state);
+}
+
+static void test_drive_that_falls_silent_before_a_play_is_over(void)
+{
+    settings.drive_ds = 10;
+    drive(30, 200, 50);
+    ticks(SECOND);
+    TEST_ASSERT_TRUE(shape_is_neutral(&performer.shape));
+    TEST_ASSERT_FALSE(has_event(PERFORMER_EV_DRIVE_LOST));
+}
+
+static void test_rate_set_by_hand_outlives_the_play(void)
+{
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&performer.shape, 200));
+    start(1, 0);
+    reach(PERFORMER_PLAY);
+    uint16_t count = 0;
+    for (; performer.state == PERFORMER_PLAY; count++) {
+        ticks(1);
+    }
+    TEST_ASSERT_UINT16_WITHIN(2, 32, count); /* 64 ticks at 200 % */
+    TEST_ASSERT_EQUAL_UINT16(612, fake_servo_link.goal_pos[1]);
+    TEST_ASSERT_EQUAL_UINT16(200, performer.shape.rate_percent);
+}
+
+static void test_limit_follows_the_voltage(void)
+{
+    ticks(1);
+    TEST_ASSERT_EQUAL_UINT8(0, performer.shape.top_speed_q4_4);
+    servos.voltage_dv = 111;
+    ticks(1);
+    TEST_ASSERT_UINT8_WITHIN(1, 125, performer.shape.top_speed_q4_4); /* 0.9 * 8.7 units a tick, in sixteenths */
+    servos.voltage_dv = 96;
+    ticks(1);
+    TEST_ASSERT_UINT8_WITHIN(1, 108, performer.shape.top_speed_q4_4); /* 0.9 * 7.5 */
+}
+
+static void test_centre_page_is_that_of_the_settings(void)
+{
+    settings.centre_page = 7;
+    start(1, 0);
+    TEST_ASSERT_EQUAL_UINT8(7, performer.shape.centre_page);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_drive_sets_all_three);
+    RUN_TEST(test_drive_out_of_range_changes_nothing);
+    RUN_TEST(test_drive_that_falls_silent_ends_through_the_exit_page);
+    RUN_TEST(test_drive_again_and_again_goes_on);
+    RUN_TEST(test_drive_without_watchdog_goes_on);
+    RUN_TEST(test_drive_lost_on_the_way_to_the_first_pose_breaks);
+    RUN_TEST(test_what_drive_has_set_ends_with_the_play);
+    RUN_TEST(test_drive_that_falls_silent_before_a_play_is_over);
+    RUN_TEST(test_rate_set_by_hand_outlives_the_play);
+    RUN_TEST(test_limit_follows_the_voltage);
+    RUN_TEST(test_centre_page_is_that_of_the_settings);
+    return UNITY_END();
+}
