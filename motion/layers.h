@@ -5,12 +5,14 @@
  *
  *   main play --- layers_start, aim, swing ---> page layer or code      the joint changes hands: its goal follows what the
  *             <-- the layer ends, free --------                          new owner asks for at the hand-over speed at most,
- *                                                                        until it has caught up; then it is that owner's
+ *                                                                        from where it is, until it has caught up behind the
+ *                                                                        owner's first step with it
  *
- * A joint changes hands from where its goal is. Pure; caller-owned; main loop only. */
+ * Pure; caller-owned; main loop only. */
 #ifndef LAYERS_H
 #define LAYERS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include "compiler.h"
 #include "link.h"
@@ -19,6 +21,7 @@
 #define LAYERS_CODE_JOINTS 4u          /* joints that code may move at once */
 #define LAYERS_SPEED_MAX_DEG_S 360u
 #define LAYERS_PERIOD_MIN_TICKS 16u    /* of a swing: 1/8 s */
+#define LAYERS_SWING_SPEED_MAX 8u      /* servo units a tick; what an AX-12 can do at 11.1 V (body.md) */
 
 typedef enum {
     LAYERS_OK = 0,
@@ -32,10 +35,11 @@ typedef enum {
 
 /* A joint moved by code: centre + amplitude * sin(phase). An aim is a swing without amplitude. */
 typedef struct {
-    uint8_t joint;                       /* LAYERS_NO_JOINT: free */
-    uint8_t speed_q4_4;                  /* an aim's speed limit, servo units a tick; 0: the hand-over speed */
+    uint8_t joint;                          /* LAYERS_NO_JOINT: the slot is free */
+    bool there;                             /* it has caught up */
+    uint16_t speed_q8_8, allowance_q8_8;    /* until then: servo units a tick, and what is left over of them */
     uint16_t centre_pos, amplitude_pos;
-    uint32_t phase, phase_step;          /* a turn is 2^32 */
+    uint32_t phase, phase_step;             /* a turn is 2^32 */
 } layers_code_t;
 #define LAYERS_NO_JOINT 0xFFu
 
@@ -44,12 +48,12 @@ typedef struct {
     player_t play;               /* the page layer */
     link_t link;
     uint32_t code_joints;        /* moved by code */
-    uint32_t changing;           /* joints on their way to a new owner */
+    bool changing;               /* a joint is on its way to a new owner */
     /* Private. */
     player_t *main;              /* NULL: see layers_bind */
     uint16_t *goal_pos;
-    uint16_t speed_q8_8;         /* of the hand-over, servo units a tick */
-    uint16_t allowance_q8_8;
+    uint16_t speed_q8_8, allowance_q8_8; /* of the hand-over */
+    bool paused;
     layers_code_t code[LAYERS_CODE_JOINTS];
 } layers_t;
 
@@ -63,20 +67,22 @@ void layers_set_speed(layers_t *layers, uint16_t deg_s);
  * play's memory becomes something else's (an approach). Ends a page layer; code-made motion goes on. */
 void layers_bind(layers_t *layers, player_t *main);
 
-/* A second page on `joints` (0: those that its first step uses), of which only those of the main play's `present` are
- * taken. Plays by the main play's law, as stored; follows its own links, code 0. A page layer that was on ends first.
- * Any error: nothing changed. */
+/* A second page on `joints` (0: those that its first step uses), of which only those of the main play's `present` that code
+ * does not move are taken. Plays by the main play's law, as stored; follows its own links, code 0. A page layer that was on
+ * ends first. The page itself has to have an action. Any error: nothing changed but play.fault and .fault_page. */
 MUST_CHECK layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints);
 
 /* The page layer ends now; its joints go back to the main play. Without one: nothing. */
 void layers_end(layers_t *layers);
 
-/* Joint `id` goes to pos (0..1023) at deg_s degrees/s at most (1..360; 0: the hand-over speed) and stays there. Needs no
+/* Both replace what code did with that joint; a page layer loses it.
+ * Joint `id` goes to pos (0..1023) at deg_s degrees/s at most (1..360; 0: the hand-over speed) and stays there. Needs no
  * main play, but goal_pos[id] has to be where the joint is. */
 MUST_CHECK layers_status_t layers_aim(layers_t *layers, uint8_t id, uint16_t pos, uint16_t deg_s);
 
-/* Joint `id` swings: centre + amplitude * sin, 0..1023 all the way; period_ticks LAYERS_PERIOD_MIN_TICKS..65535 (1/128 s),
- * phase_deg 0..359 at the beginning. */
+/* Joint `id` swings: centre + amplitude * sin, which has to stay within 0..1023 and LAYERS_SWING_SPEED_MAX (else
+ * LAYERS_ERR_RANGE); period_ticks LAYERS_PERIOD_MIN_TICKS..65535 (1/128 s), phase_deg 0..359 at the beginning. The sine is
+ * right to 1/800 of the amplitude. */
 MUST_CHECK layers_status_t layers_swing(layers_t *layers, uint8_t id, uint16_t centre, uint16_t amplitude,
                                         uint16_t period_ticks, uint16_t phase_deg);
 
@@ -86,6 +92,9 @@ void layers_free(layers_t *layers, uint32_t joints);
 /* One tick of everything: the main play (when bound) and the layers. Returns the main play's PLAYER_EV_ bits, those of the
  * page layer in *layer_events. goal_pos is what to send; PLAYER_EV_OUTPUT in either: send it. */
 uint8_t layers_tick(layers_t *layers, link_t *main_link, uint8_t *layer_events) NOINLINE;
+
+/* Whether a tick of the layers may still move something: a page layer plays, a joint changes hands or swings. */
+bool layers_are_moving(const layers_t *layers);
 
 /* Joints whose goals the layers make: to be sent with the main play's `joints`. */
 uint32_t layers_joints(const layers_t *layers);

@@ -68,10 +68,15 @@ void player_drop_joints(player_t *player, uint32_t joints)
     player->present &= ~joints;
     player->joints &= ~joints;
     player->coming_joints &= ~joints;
+    player->looked_joints &= ~joints;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, joints >>= 1) {
-        if (((uint8_t)joints & 1u) != 0 && player->joint[i].owner == player->self) {
+        if (((uint8_t)joints & 1u) == 0) {
+            continue;
+        }
+        player->looked_at[i] = PAGE_POS_UNUSED;
+        player->coming_pos[i] = player->goal_pos[i];
+        if (player->joint[i].owner == player->self) {
             stand(player, &player->joint[i], player->goal_pos[i]);
-            player->coming_pos[i] = player->goal_pos[i];
         }
     }
 }

@@ -77,7 +77,7 @@ enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE };
 
 typedef struct {
     uint16_t target_pos;        /* where the running step ends */
-    uint8_t owner;
+    uint8_t owner, hand_over;   /* hand_over: layers.c's; 0: nothing is under way */
     union {
         player_exact_t exact;
         player_classic_t classic;

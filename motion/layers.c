@@ -1,0 +1,409 @@
+/* SPDX-License-Identifier: MIT */
+#include "layers.h"
+
+#include <string.h>
+#include "approach.h"
+
+/* Servo units a tick of degrees/s: 1024 / 300 / 128, in q8.8. */
+static uint16_t units_per_tick_q8_8(uint16_t deg_s)
+{
+    return (uint16_t)((uint32_t)deg_s * 512u / 75u);
+}
+
+static NOINLINE uint32_t bit_of(uint8_t joint)
+{
+    return (uint32_t)1 << joint;
+}
+
+/* Every joint of a mask, which is used up. */
+#define FOR_JOINTS(i_, joints_) for (uint8_t i_ = 0; (joints_) != 0; i_++, (joints_) >>= 1) if (((uint8_t)(joints_) & 1u) != 0)
+
+/* hand_over of a joint: its owner has not begun a step with it; plays its first step; has completed that, and the joint has
+ * to catch up only. */
+enum { HAND_OVER_DONE, HAND_OVER_FRESH, HAND_OVER_FIRST_STEP, HAND_OVER_CATCHES_UP };
+
+/* --- code-made motion: the slots --------------------------------------------------------------------------------- */
+
+static layers_code_t *slot_of(layers_t *layers, uint8_t joint)
+{
+    for (uint8_t i = 0; i < LAYERS_CODE_JOINTS; i++) {
+        if (layers->code[i].joint == joint) {
+            return &layers->code[i];
+        }
+    }
+    return NULL;
+}
+
+/* sin of a phase, as a size 0..65535: y = 4 x (1 - x) of the half turn x, then 0.775 y + 0.225 y^2. */
+static uint16_t sine_size(uint32_t phase)
+{
+    uint32_t x = (phase >> 15) & 0xFFFFu, y = (x * (0x10000u - x)) >> 14;
+    y = y > 0xFFFFu ? 0xFFFFu : y;
+    return (uint16_t)((y * 50790u + ((y * y) >> 16) * 14746u) >> 16);
+}
+
+static uint16_t asked_by_code(const layers_code_t *code)
+{
+    uint16_t way = (uint16_t)(((uint32_t)code->amplitude_pos * sine_size(code->phase) + 0x8000u) >> 16);
+    bool below = (code->phase & 0x80000000u) != 0;
+    return below ? (uint16_t)(code->centre_pos - way) : (uint16_t)(code->centre_pos + way);
+}
+
+/* --- hand-over ---------------------------------------------------------------------------------------------------- */
+
+/* Servo units that a joint may go in this tick; what is left over is kept. */
+static uint8_t allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
+{
+    uint16_t sum = (uint16_t)(*allowance_q8_8 + speed_q8_8);
+    *allowance_q8_8 = sum & 0xFFu;
+    return (uint8_t)(sum >> 8);
+}
+
+/* One tick from `from` toward `to`. */
+static uint16_t approach_by(uint16_t from, uint16_t to, uint8_t most)
+{
+    if (to > from) {
+        return to - from > most ? (uint16_t)(from + most) : to;
+    }
+    return from - to > most ? (uint16_t)(from - most) : to;
+}
+
+/* The joint belongs to `play` and begins to follow it from where it is. */
+static void change_hands(layers_t *layers, player_t *play, uint8_t joint)
+{
+    player_give_joint(play, joint, layers->goal_pos[joint]);
+    play->joint[joint].hand_over = HAND_OVER_FRESH;
+    layers->changing = true;
+}
+
+/* Joints go back to the main play, or stay where they are when that does not play or may not drive them. */
+static void hand_back(layers_t *layers, uint32_t joints)
+{
+    player_t *main = layers->main;
+    if (main == NULL) {
+        return;
+    }
+    main->lent &= ~joints;
+    FOR_JOINTS(i, joints) {
+        change_hands(layers, main, i);
+    }
+}
+
+/* --- init, bind --------------------------------------------------------------------------------------------------- */
+
+static void forget_code(layers_t *layers)
+{
+    layers->code_joints = 0;
+    for (uint8_t i = 0; i < LAYERS_CODE_JOINTS; i++) {
+        layers->code[i].joint = LAYERS_NO_JOINT;
+    }
+}
+
+void layers_init(layers_t *layers, uint16_t goal_pos[PAGE_JOINTS])
+{
+    memset(layers, 0, sizeof *layers);
+    layers->goal_pos = goal_pos;
+    layers_set_speed(layers, 0);
+    forget_code(layers);
+}
+
+void layers_set_speed(layers_t *layers, uint16_t deg_s)
+{
+    layers->speed_q8_8 = units_per_tick_q8_8(deg_s != 0 ? deg_s : APPROACH_SPEED_DEFAULT);
+}
+
+static void init_play(layers_t *layers)
+{
+    player_init(&layers->play, layers->main->source, layers->main->joint, layers->goal_pos);
+    layers->play.self = PLAYER_OWNER_LAYER;
+}
+
+void layers_bind(layers_t *layers, player_t *main)
+{
+    layers->main = main;
+    layers->changing = false;
+    layers->paused = false;
+    memset(&layers->play, 0, sizeof layers->play);
+    if (main != NULL) {
+        init_play(layers);
+        main->lent = layers->code_joints;
+    }
+}
+
+/* --- page layer --------------------------------------------------------------------------------------------------- */
+
+static layers_status_t refuse(layers_t *layers, uint8_t page, uint8_t fault, layers_status_t status)
+{
+    layers->play.fault_page = page;
+    layers->play.fault = fault;
+    return status;
+}
+
+static layers_status_t check_page(layers_t *layers, uint8_t page)
+{
+    const page_source_t *source = layers->main->source;
+    uint8_t header[PAGE_AT_STEPS + 1u];
+    if (page == 0 || page >= PAGE_COUNT) {
+        return LAYERS_ERR_RANGE;
+    }
+    uint8_t fault = source->check(source->context, page);
+    if (fault != PAGE_OK) {
+        return refuse(layers, page, fault, LAYERS_ERR_PAGE);
+    }
+    source->read(source->context, page, 0, header, sizeof header);
+    return page_is_playable(header) ? LAYERS_OK : refuse(layers, page, PAGE_EMPTY, LAYERS_ERR_EMPTY);
+}
+
+static uint32_t joints_of_first_step(const layers_t *layers, uint8_t page)
+{
+    uint16_t pose_pos[PAGE_JOINTS];
+    return player_first_pose(layers->main->source, NULL, page, pose_pos);
+}
+
+layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
+{
+    if (layers->main == NULL || !player_is_moving(layers->main)) {
+        return LAYERS_ERR_IDLE;
+    }
+    layers_status_t status = check_page(layers, page);
+    if (status != LAYERS_OK) {
+        return status;
+    }
+    joints = (joints != 0 ? joints : joints_of_first_step(layers, page)) & layers->main->present & ~layers->code_joints;
+    if (joints == 0) {
+        return LAYERS_ERR_JOINTS;
+    }
+    layers_end(layers);
+    init_play(layers);
+    link_init(&layers->link, LINK_LATCH);
+    if (player_start(&layers->play, &layers->link, page, (player_law_t)layers->main->law, layers->goal_pos, joints) != PLAYER_OK) {
+        return LAYERS_ERR_PAGE; /* cannot be: the page has just been checked */
+    }
+    FOR_JOINTS(i, joints) {
+        change_hands(layers, &layers->play, i);
+    }
+    if (player_is_paused(layers->main)) {
+        player_pause(&layers->play);
+    }
+    return LAYERS_OK;
+}
+
+void layers_end(layers_t *layers)
+{
+    if (layers->main != NULL && player_is_moving(&layers->play)) {
+        uint32_t joints = layers->play.present;
+        init_play(layers);
+        hand_back(layers, joints);
+    }
+}
+
+/* --- aim, swing, free --------------------------------------------------------------------------------------------- */
+
+/* A slot for the joint, which now belongs to code. */
+static layers_status_t take_for_code(layers_t *layers, uint8_t id, layers_code_t **slot)
+{
+    player_t *main = layers->main;
+    const uint32_t bit = bit_of(id);
+    if (id >= PAGE_JOINTS || (main != NULL && player_is_moving(main) && (main->present & bit) == 0)) {
+        return LAYERS_ERR_JOINTS;
+    }
+    *slot = slot_of(layers, id);
+    if (*slot == NULL) {
+        *slot = slot_of(layers, LAYERS_NO_JOINT);
+    }
+    if (*slot == NULL) {
+        return LAYERS_ERR_FULL;
+    }
+    if (main != NULL) {
+        player_drop_joints(&layers->play, bit);
+        main->joint[id].owner = PLAYER_OWNER_CODE;
+        main->lent |= bit;
+    }
+    layers->code_joints |= bit;
+    memset(*slot, 0, sizeof **slot);
+    (*slot)->joint = id;
+    (*slot)->speed_q8_8 = layers->speed_q8_8;
+    return LAYERS_OK;
+}
+
+layers_status_t layers_aim(layers_t *layers, uint8_t id, uint16_t pos, uint16_t deg_s)
+{
+    layers_code_t *slot;
+    if (pos > PAGE_POS_MAX || deg_s > LAYERS_SPEED_MAX_DEG_S) {
+        return LAYERS_ERR_RANGE;
+    }
+    layers_status_t status = take_for_code(layers, id, &slot);
+    if (status == LAYERS_OK) {
+        slot->centre_pos = pos;
+        if (deg_s != 0) {
+            slot->speed_q8_8 = units_per_tick_q8_8(deg_s);
+        }
+    }
+    return status;
+}
+
+layers_status_t layers_swing(layers_t *layers, uint8_t id, uint16_t centre, uint16_t amplitude, uint16_t period_ticks,
+                             uint16_t phase_deg)
+{
+    layers_code_t *slot;
+    if (centre > PAGE_POS_MAX || amplitude > centre || amplitude > PAGE_POS_MAX - centre || phase_deg > 359u ||
+        period_ticks < LAYERS_PERIOD_MIN_TICKS) {
+        return LAYERS_ERR_RANGE;
+    }
+    if ((uint32_t)amplitude * 44u > (uint32_t)period_ticks * (7u * LAYERS_SWING_SPEED_MAX)) { /* 2 pi A / T */
+        return LAYERS_ERR_RANGE;
+    }
+    layers_status_t status = take_for_code(layers, id, &slot);
+    if (status == LAYERS_OK) {
+        slot->centre_pos = centre;
+        slot->amplitude_pos = amplitude;
+        slot->phase_step = UINT32_MAX / period_ticks;
+        slot->phase = (UINT32_MAX / 360u) * phase_deg;
+    }
+    return status;
+}
+
+void layers_free(layers_t *layers, uint32_t joints)
+{
+    joints &= layers->code_joints;
+    layers->code_joints &= ~joints;
+    for (uint8_t i = 0; i < LAYERS_CODE_JOINTS; i++) {
+        uint8_t joint = layers->code[i].joint;
+        if (joint != LAYERS_NO_JOINT && (layers->code_joints & bit_of(joint)) == 0) {
+            layers->code[i].joint = LAYERS_NO_JOINT;
+        }
+    }
+    hand_back(layers, joints);
+}
+
+/* --- a tick ------------------------------------------------------------------------------------------------------- */
+
+/* A step of one of the plays has begun. */
+static void note_step(const player_t *play)
+{
+    for (player_joint_t *joint = play->joint; joint < &play->joint[PAGE_JOINTS]; joint++) {
+        if (joint->owner == play->self && (joint->hand_over == HAND_OVER_FRESH || joint->hand_over == HAND_OVER_FIRST_STEP)) {
+            joint->hand_over++;
+        }
+    }
+}
+
+/* Where a joint that changes hands goes in this tick, on its way to what its owner asks for. */
+static uint16_t follow(layers_t *layers, uint8_t i, uint16_t from, uint8_t most)
+{
+    player_joint_t *joint = &layers->main->joint[i];
+    const player_t *owner = joint->owner == PLAYER_OWNER_LAYER ? &layers->play : layers->main;
+    uint16_t asked = player_is_moving(owner) ? player_asks(owner, i) : from; /* nobody asks for more: it stays */
+    uint16_t goal = approach_by(from, asked, most);
+    if (!player_is_moving(owner) || (goal == asked && joint->hand_over == HAND_OVER_CATCHES_UP)) {
+        joint->hand_over = HAND_OVER_DONE;
+    }
+    return goal;
+}
+
+static void follow_plays(layers_t *layers, const uint16_t before_pos[PAGE_JOINTS])
+{
+    uint8_t most = allow(&layers->allowance_q8_8, layers->speed_q8_8);
+    const player_joint_t *joint = layers->main->joint;
+    layers->changing = false;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++, joint++) {
+        if (joint->hand_over != HAND_OVER_DONE && joint->owner != PLAYER_OWNER_CODE) {
+            layers->goal_pos[i] = follow(layers, i, before_pos[i], most);
+            layers->changing |= joint->hand_over != HAND_OVER_DONE;
+        }
+    }
+}
+
+static void move_by_code(layers_t *layers)
+{
+    for (layers_code_t *code = layers->code; code < &layers->code[LAYERS_CODE_JOINTS]; code++) {
+        if (code->joint == LAYERS_NO_JOINT) {
+            continue;
+        }
+        uint16_t *goal = &layers->goal_pos[code->joint], asked = asked_by_code(code);
+        if (code->there) {
+            *goal = asked;
+        } else {
+            *goal = approach_by(*goal, asked, allow(&code->allowance_q8_8, code->speed_q8_8));
+            code->there = *goal == asked;
+        }
+        code->phase += code->phase_step;
+    }
+}
+
+/* As layers_tick, while something but the main play moves joints. */
+static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *layer_events)
+{
+    uint16_t before_pos[PAGE_JOINTS];
+    uint8_t events = 0;
+    if (layers->main != NULL) {
+        memcpy(before_pos, layers->goal_pos, sizeof before_pos);
+        events = player_tick(layers->main, main_link);
+        *layer_events = player_tick(&layers->play, &layers->link);
+        if ((events & PLAYER_EV_STEP) != 0) {
+            note_step(layers->main);
+        }
+        if ((*layer_events & PLAYER_EV_STEP) != 0) {
+            note_step(&layers->play);
+        }
+        follow_plays(layers, before_pos);
+        if ((*layer_events & PLAYER_EV_ENDED) != 0) {
+            hand_back(layers, layers->play.present);
+        }
+    }
+    if (!layers->paused) {
+        move_by_code(layers);
+    }
+    *layer_events |= PLAYER_EV_OUTPUT;
+    return events;
+}
+
+uint8_t layers_tick(layers_t *layers, link_t *main_link, uint8_t *layer_events)
+{
+    *layer_events = 0;
+    if (layers->changing || layers_joints(layers) != 0) {
+        return tick_all(layers, main_link, layer_events);
+    }
+    return layers->main != NULL ? player_tick(layers->main, main_link) : 0;
+}
+
+bool layers_are_moving(const layers_t *layers)
+{
+    bool moving = layers->changing || player_is_moving(&layers->play);
+    for (uint8_t i = 0; i < LAYERS_CODE_JOINTS; i++) {
+        const layers_code_t *code = &layers->code[i];
+        moving |= code->joint != LAYERS_NO_JOINT && (!code->there || code->amplitude_pos != 0);
+    }
+    return moving;
+}
+
+uint32_t layers_joints(const layers_t *layers)
+{
+    return layers->code_joints | (player_is_moving(&layers->play) ? layers->play.present : 0);
+}
+
+/* --- for both kinds ------------------------------------------------------------------------------------------------ */
+
+void layers_drop_joints(layers_t *layers, uint32_t joints)
+{
+    player_drop_joints(&layers->play, joints);
+    layers_free(layers, joints);
+}
+
+void layers_break(layers_t *layers)
+{
+    player_break(&layers->play);
+    layers_free(layers, layers->code_joints);
+}
+
+void layers_pause(layers_t *layers)
+{
+    player_pause(&layers->play);
+    layers->paused = true;
+}
+
+void layers_resume(layers_t *layers)
+{
+    player_resume(&layers->play);
+    layers->paused = false;
+}

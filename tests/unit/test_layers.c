@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: MIT
+ * test_layers.c - a second page and code-made motion over a walk: who moves a joint, how fast it changes hands, and that
+ * nobody else notices (shaping.md, "Layers"). */
+#include <string.h>
+#include "layers.h"
+#include "sparse_pages.h"
+#include "unity.h"
+
+#define ALL 0x7FFFFFFFul
+#define WALK 1u  /* page 1: four steps of 12 ticks with all four joints, round and round */
+#define WAVE 2u  /* page 2: two steps of 30 ticks with joints 2 and 3, round and round */
+#define SHORT 3u /* page 3: one step of 20 ticks, then it ends */
+#define CYCLE 48u
+#define RUN 400u
+#define LAYER_JOINTS 0xCul
+/* 60 degrees/s are 1.6 units a tick. */
+#define HAND_OVER_MOST 2
+
+static player_t player;
+static player_joint_t joints[PAGE_JOINTS];
+static uint16_t goal_pos[PAGE_JOINTS];
+static link_t l;
+static layers_t layers;
+static uint8_t layer_events;
+static uint16_t alone[RUN][2]; /* joints 0 and 1 of the walk without a layer */
+static int fastest;            /* change of a goal in a tick that any of the pages makes by itself */
+
+static void make_pages(uint8_t schedule)
+{
+    static const uint16_t walk[4][4] = {{480, 560, 440, 600}, {512, 500, 512, 470}, {560, 470, 590, 420}, {520, 520, 500, 540}};
+    sparse_clear();
+    for (uint8_t step = 0; step < 4; step++) {
+        sparse_step(WALK, schedule == PAGE_SCHEDULE_TIME ? 12 : 100, 0, 512);
+        for (uint8_t i = 0; i < 4; i++) {
+            sparse_pages[WALK].step[step].pos[i] = walk[step][i];
+        }
+    }
+    sparse_pages[WALK].schedule = schedule;
+    sparse_pages[WALK].next = WALK;
+    sparse_pages[WALK].accel = 4;
+    sparse_step(WAVE, 30, 0, 800);
+    sparse_step(WAVE, 30, 5, 700);
+    sparse_pages[WAVE].next = WAVE;
+    sparse_step(SHORT, 20, 0, 640);
+}
+
+void setUp(void)
+{
+    make_pages(PAGE_SCHEDULE_TIME);
+    memset(joints, 0, sizeof joints);
+    layers_init(&layers, goal_pos);
+}
+
+void tearDown(void)
+{
+}
+
+static void start(player_law_t law)
+{
+    uint16_t pose[PAGE_JOINTS];
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        pose[i] = 512;
+    }
+    player_init(&player, &sparse_source, joints, goal_pos);
+    layers_bind(&layers, &player);
+    link_init(&l, LINK_LATCH);
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, WALK, law, pose, ALL));
+}
+
+static int size(int way)
+{
+    return way < 0 ? -way : way;
+}
+
+/* One tick; returns the main play's events. The joints that change hands keep the speed, all others that of the pages; a
+ * quarter more, because one that has caught up comes into its next step with another speed than without the layer. */
+static uint8_t tick(void)
+{
+    uint16_t before[4];
+    uint8_t was_changing[4];
+    for (uint8_t i = 0; i < 4; i++) {
+        before[i] = goal_pos[i];
+        was_changing[i] = joints[i].hand_over;
+    }
+    uint8_t events = layers_tick(&layers, &l, &layer_events);
+    for (uint8_t i = 0; i < 4; i++) {
+        int way = size((int)goal_pos[i] - (int)before[i]);
+        TEST_ASSERT_LESS_OR_EQUAL(PAGE_POS_MAX, goal_pos[i]);
+        TEST_ASSERT_LESS_OR_EQUAL_MESSAGE(was_changing[i] != 0 ? HAND_OVER_MOST : fastest + fastest / 4, way, "a joint leaps");
+    }
+    return events;
+}
+
+/* Records the walk alone, and how fast it and the wave are by themselves. */
+static void play_alone(player_law_t law)
+{
+    fastest = 1023;
+    layers_init(&layers, goal_pos);
+    start(law);
+    int found = 0;
+    for (uint16_t t = 0; t < RUN; t++) {
+        int before = goal_pos[2], other = goal_pos[3];
+        (void)tick();
+        found = size(goal_pos[2] - before) > found ? size(goal_pos[2] - before) : found;
+        found = size(goal_pos[3] - other) > found ? size(goal_pos[3] - other) : found;
+        alone[t][0] = goal_pos[0];
+        alone[t][1] = goal_pos[1];
+        found = t > 0 && size(alone[t][0] - alone[t - 1][0]) > found ? size(alone[t][0] - alone[t - 1][0]) : found;
+        found = t > 0 && size(alone[t][1] - alone[t - 1][1]) > found ? size(alone[t][1] - alone[t - 1][1]) : found;
+    }
+    fastest = found;
+}
+
+/* The layer comes at tick `on`, and goes 60 ticks later. */
+static void layer_from(player_law_t law, uint16_t on)
+{
+    layers_init(&layers, goal_pos);
+    start(law);
+    for (uint16_t t = 0; t < RUN; t++) {
+        if (t == on) {
+            TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
+        } else if (t == on + 60u) {
+            TEST_ASSERT_GREATER_THAN(530, goal_pos[2]); /* on its way up */
+            layers_end(&layers);
+        }
+        (void)tick();
+        TEST_ASSERT_EQUAL_UINT16_MESSAGE(alone[t][0], goal_pos[0], "a joint of the walk is disturbed");
+        TEST_ASSERT_EQUAL_UINT16_MESSAGE(alone[t][1], goal_pos[1], "a joint of the walk is disturbed");
+    }
+    TEST_ASSERT_EQUAL_HEX32(0, layers_joints(&layers));
+    TEST_ASSERT_FALSE(layers_are_moving(&layers)); /* everybody has caught up */
+}
+
+static void at_every_tick(player_law_t law, uint8_t schedule)
+{
+    make_pages(schedule);
+    play_alone(law);
+    for (uint16_t on = 0; on < CYCLE; on++) {
+        layer_from(law, on);
+    }
+}
+
+static void test_layers_exact_at_every_tick_of_a_walk(void)
+{
+    at_every_tick(PLAYER_LAW_EXACT, PAGE_SCHEDULE_TIME);
+}
+
+static void test_layers_classic_at_every_tick_of_a_walk(void)
+{
+    at_every_tick(PLAYER_LAW_CLASSIC, PAGE_SCHEDULE_TIME);
+}
+
+/* In speed base the longest way may be that of a joint that is lent. */
+static void test_layers_in_speed_base_keep_the_timing(void)
+{
+    at_every_tick(PLAYER_LAW_EXACT, PAGE_SCHEDULE_SPEED);
+    at_every_tick(PLAYER_LAW_CLASSIC, PAGE_SCHEDULE_SPEED);
+}
+
+static void test_layers_page_ends_by_itself_and_gives_its_joints_back(void)
+{
+    play_alone(PLAYER_LAW_EXACT);
+    start(PLAYER_LAW_EXACT);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, SHORT, LAYER_JOINTS));
+    TEST_ASSERT_EQUAL_HEX32(LAYER_JOINTS, layers_joints(&layers));
+    for (uint16_t t = 0; t < 20; t++) {
+        TEST_ASSERT_TRUE(player_is_moving(&layers.play));
+        (void)tick();
+    }
+    TEST_ASSERT_BITS_HIGH(PLAYER_EV_ENDED, layer_events);
+    TEST_ASSERT_EQUAL_HEX32(0, layers_joints(&layers));
+    for (uint16_t t = 0; t < RUN; t++) {
+        (void)tick();
+    }
+    TEST_ASSERT_FALSE(layers_are_moving(&layers));
+}
+
+static void test_layers_default_joints_are_those_of_the_first_step(void)
+{
+    sparse_pages[SHORT].step[0].pos[0] = PAGE_POS_UNUSED;
+    sparse_pages[SHORT].step[0].pos[3] = PAGE_POS_UNUSED;
+    start(PLAYER_LAW_EXACT);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, SHORT, 0));
+    TEST_ASSERT_EQUAL_HEX32(0x6, layers_joints(&layers));
+}
+
+static void test_layers_refuse_and_change_nothing(void)
+{
+    TEST_ASSERT_EQUAL(LAYERS_ERR_IDLE, layers_start(&layers, WAVE, LAYER_JOINTS));
+    start(PLAYER_LAW_EXACT);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
+    sparse_pages[4].damaged = true;
+    TEST_ASSERT_EQUAL(LAYERS_ERR_PAGE, layers_start(&layers, 4, LAYER_JOINTS));
+    TEST_ASSERT_EQUAL_UINT8(4, layers.play.fault_page);
+    sparse_pages[4].damaged = false;
+    TEST_ASSERT_EQUAL(LAYERS_ERR_EMPTY, layers_start(&layers, 4, LAYER_JOINTS));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_start(&layers, 0, LAYER_JOINTS));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_start(&layers, 128, LAYER_JOINTS));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_JOINTS, layers_start(&layers, SHORT, 0x80000000ul));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_aim(&layers, 1, 1024, 0));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_aim(&layers, 1, 500, 361));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_JOINTS, layers_aim(&layers, 31, 500, 0));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_swing(&layers, 1, 100, 101, 256, 0));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_swing(&layers, 1, 1000, 24, 256, 0));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_swing(&layers, 1, 512, 10, 15, 0));
+    TEST_ASSERT_EQUAL(LAYERS_ERR_RANGE, layers_swing(&layers, 1, 512, 100, 64, 0)); /* 9.8 units a tick */
+    TEST_ASSERT_EQUAL_HEX32(LAYER_JOINTS, layers_joints(&layers));
+    TEST_ASSERT_TRUE(player_is_moving(&layers.play));
+    for (uint8_t id = 4; id < 8; id++) {
+        TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, id, 500, 0));
+    }
+    TEST_ASSERT_EQUAL(LAYERS_ERR_FULL, layers_aim(&layers, 8, 500, 0));
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 7, 520, 0)); /* the same joint again */
+}
+
+static void test_layers_aim_works_while_nothing_plays(void)
+{
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        goal_pos[i] = 512;
+    }
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 19, 592, 30)); /* 0.8 units a tick: 100 ticks */
+    for (uint16_t t = 1; t <= 110; t++) {
+        uint16_t before = goal_pos[19];
+        TEST_ASSERT_EQUAL_HEX8(0, layers_tick(&layers, &l, &layer_events));
+        TEST_ASSERT_LESS_OR_EQUAL(1, goal_pos[19] - before);
+        TEST_ASSERT_EQUAL(t >= 101, goal_pos[19] == 592);
+        TEST_ASSERT_EQUAL_UINT16(512, goal_pos[18]);
+    }
+    TEST_ASSERT_FALSE(layers_are_moving(&layers));
+    TEST_ASSERT_EQUAL_HEX32(1ul << 19, layers_joints(&layers));
+    layers_free(&layers, ALL);
+    TEST_ASSERT_EQUAL_HEX32(0, layers_joints(&layers));
+    TEST_ASSERT_EQUAL_UINT16(592, goal_pos[19]);
+}
+
+/* 512 + 200 sin: known values at every twelfth of a turn. */
+static void test_layers_swing_is_a_sine(void)
+{
+    static const int known[12] = {0, 100, 173, 200, 173, 100, 0, -100, -173, -200, -173, -100};
+    goal_pos[5] = 512;
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_swing(&layers, 5, 512, 200, 240, 0));
+    for (uint16_t t = 0; t < 480; t++) {
+        (void)layers_tick(&layers, &l, &layer_events);
+        if (t >= 240 && t % 20 == 0) { /* it has caught up by then */
+            TEST_ASSERT_INT_WITHIN(1, 512 + known[t / 20 % 12], goal_pos[5]);
+        }
+    }
+}
+
+static void test_layers_swing_over_a_walk_and_free(void)
+{
+    play_alone(PLAYER_LAW_EXACT);
+    fastest = fastest < 8 ? 8 : fastest;
+    layers_init(&layers, goal_pos);
+    start(PLAYER_LAW_EXACT);
+    for (uint16_t t = 0; t < RUN; t++) {
+        if (t == 30) {
+            TEST_ASSERT_EQUAL(LAYERS_OK, layers_swing(&layers, 2, 600, 60, 64, 90));
+        } else if (t == 200) {
+            layers_free(&layers, 1ul << 2);
+        }
+        (void)tick();
+        TEST_ASSERT_EQUAL_UINT16(alone[t][0], goal_pos[0]);
+        TEST_ASSERT_EQUAL_UINT16(alone[t][1], goal_pos[1]);
+    }
+    TEST_ASSERT_FALSE(layers_are_moving(&layers));
+}
+
+static void test_layers_break_and_pause_hold_for_both(void)
+{
+    play_alone(PLAYER_LAW_EXACT);
+    start(PLAYER_LAW_EXACT);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
+    for (uint16_t t = 0; t < 100; t++) {
+        (void)tick();
+    }
+    player_pause(&player);
+    layers_pause(&layers);
+    for (uint16_t t = 0; t < 20; t++) {
+        (void)tick();
+    }
+    uint16_t stood[4];
+    memcpy(stood, goal_pos, sizeof stood);
+    (void)tick();
+    TEST_ASSERT_EQUAL_MEMORY(stood, goal_pos, sizeof stood);
+    player_resume(&player);
+    layers_resume(&layers);
+    for (uint16_t t = 0; t < 50; t++) {
+        (void)tick();
+    }
+    TEST_ASSERT_TRUE(memcmp(stood, goal_pos, sizeof stood) != 0);
+    player_break(&player);
+    layers_break(&layers);
+    for (uint16_t t = 0; t < 40; t++) {
+        (void)tick();
+    }
+    TEST_ASSERT_FALSE(player_is_moving(&player) || layers_are_moving(&layers));
+}
+
+static void test_layers_dropped_joint_stands(void)
+{
+    play_alone(PLAYER_LAW_EXACT);
+    start(PLAYER_LAW_EXACT);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 1, 700, 0));
+    for (uint16_t t = 0; t < 50; t++) {
+        (void)tick();
+    }
+    uint16_t at[2] = {goal_pos[1], goal_pos[3]};
+    player_drop_joints(&player, 0xA);
+    layers_drop_joints(&layers, 0xA);
+    for (uint16_t t = 0; t < 100; t++) {
+        (void)tick();
+        TEST_ASSERT_EQUAL_UINT16(at[0], goal_pos[1]);
+        TEST_ASSERT_EQUAL_UINT16(at[1], goal_pos[3]);
+        TEST_ASSERT_EQUAL_HEX32(0, (layers_joints(&layers) | player.joints) & 0xA);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_layers_exact_at_every_tick_of_a_walk);
+    RUN_TEST(test_layers_classic_at_every_tick_of_a_walk);
+    RUN_TEST(test_layers_in_speed_base_keep_the_timing);
+    RUN_TEST(test_layers_page_ends_by_itself_and_gives_its_joints_back);
+    RUN_TEST(test_layers_default_joints_are_those_of_the_first_step);
+    RUN_TEST(test_layers_refuse_and_change_nothing);
+    RUN_TEST(test_layers_aim_works_while_nothing_plays);
+    RUN_TEST(test_layers_swing_is_a_sine);
+    RUN_TEST(test_layers_swing_over_a_walk_and_free);
+    RUN_TEST(test_layers_break_and_pause_hold_for_both);
+    RUN_TEST(test_layers_dropped_joint_stands);
+    return UNITY_END();
+}
