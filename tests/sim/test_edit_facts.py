@@ -3,7 +3,7 @@
 monitor, lists. Which test holds which fact: README.md."""
 import pytest
 
-from edit_robot import changed, new_page, page, robot, seal, UNUSED
+from edit_robot import changed, new_page, page, robot, seal
 
 BASE = page("base", [(40, {1: 480, 2: 544}, 3), (50, {3: 300}), (60, {4: 10})], code=7, next=3, exit=5, link1_page=11, link1_code=12,
             link2_page=13, link2_code=14)

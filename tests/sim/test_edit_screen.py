@@ -3,7 +3,7 @@
 import pytest
 from cm5sim import library
 
-from edit_robot import JOINTS, new_page, page, robot, seal, UNUSED
+from edit_robot import JOINTS, new_page, page, robot, seal
 
 HEADER = ["(Reserved) :", "PlayCount:", "(Reserved) :", "(Reserved) :", "(Reserved) :", "(Reserved) :", "Page Step:",
           "ControlCode:", "Page Speed:", "DXL Setup:", "Accel Time:", "Link to Next:", "Link to Exit:", "Linked Page1:",

@@ -107,7 +107,7 @@ def test_what_it_cannot_read_is_an_error_with_file_and_line(tmp_path, line, comp
     run = subprocess.run([ROOT / "tools/dev/pack_texts", "--out", tmp_path / "out", tmp_path / "odd.c"],
                          capture_output=True, text=True)
     assert run.returncode == 1
-    assert f"odd.c:3: " in run.stderr and complaint in run.stderr
+    assert "odd.c:3: " in run.stderr and complaint in run.stderr
     assert not (tmp_path / "out").exists()
 
 

@@ -4,7 +4,7 @@ import contextlib
 import functools
 import zlib
 
-from boot_board import APP_END, BOOT_MODE, BOOT_START, MAP, PROMPT, begin_load, end_load, say
+from boot_board import APP_END, BOOT_MODE, MAP, PROMPT, begin_load, end_load, say
 from cm5sim.board import find_image
 from m512.board import block, download, loaders, memory
 

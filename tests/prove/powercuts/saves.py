@@ -2,7 +2,7 @@
 """Scenes in which Edit saves motion pages: through our loader, the factory kind of routine, and a loader's mailbox."""
 import struct
 
-from boot_board import APP_END, BOOT_MODE, BOOT_START, JOURNAL_START, MAP, PROMPT, crc16, factory_section
+from boot_board import APP_END, BOOT_MODE, BOOT_START, JOURNAL_START, MAP, crc16, factory_section
 from cm5sim.board import find_image
 from edit_robot import seal
 from m512.board import memory

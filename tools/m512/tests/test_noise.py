@@ -88,5 +88,5 @@ def test_noise_answers_of_a_block_with_every_byte_changed():
         for value in random.Random(at).sample(range(256), 20):
             changed = answer[:at] + bytes([value]) + answer[at + 1:]
             if changed != answer:
-                survives(lambda: BlockLoader(NoisyLink(changed), "", 1, 0.002))
+                survives(lambda data=changed: BlockLoader(NoisyLink(data), "", 1, 0.002))
     assert BlockLoader(NoisyLink(answer), "", 1, 0.002).detail == 2

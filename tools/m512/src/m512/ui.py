@@ -14,9 +14,19 @@ from m512.errors import RefusedError
 Progress = Callable[[int, int], None]
 
 
+def plain(text: str) -> str:
+    """Text without control characters: what a board or a file says must not steer the terminal."""
+    return "".join(char if char in "\n\t" or char.isprintable() else f"\\x{ord(char):02X}" for char in text)
+
+
+def show(text: str) -> None:
+    """A result, on stdout."""
+    click.echo(plain(text))
+
+
 def say(text: str) -> None:
     """Remarks go to stderr: stdout is for results."""
-    click.echo(text, err=True)
+    click.echo(plain(text), err=True)
 
 
 @contextmanager

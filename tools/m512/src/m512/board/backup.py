@@ -63,6 +63,8 @@ def load(folder: Path) -> Backup:
         manifest = json.loads(text)
         if manifest["format"] != FORMAT or manifest["version"] != VERSION:
             raise FileError(f"{folder}: a backup of a kind that this program does not know")
+        if not all(isinstance(entry["file"], str) for entry in manifest["files"].values()):
+            raise ValueError
         files = {area: (entry["file"], int(entry["bytes"]), int(entry["crc16"], 16), entry["sha256"])
                  for area, entry in manifest["files"].items() if area in AREAS}
     except (ValueError, KeyError, TypeError, AttributeError):

@@ -51,6 +51,7 @@ class BlockLoader:
     """A session with our loader. Use as a context: leaves the loader at its prompt, at the usual rate."""
 
     name = "Motion512 boot loader"
+    was_at_prompt = False     # before this program came
 
     def __init__(self, link: Link, identity: str = "", tries: int = 2, seconds: float = ANSWER_SECONDS):
         self.link, self.number, self.rate = link, FIRST_NUMBER, BAUD

@@ -84,7 +84,7 @@ class Client:
 
     def find(self, word: str) -> int:
         """A page by number or name."""
-        if word.isdigit():
+        if word.isascii() and word.isdigit():
             return int(word)
         pages = {n: name for n, (steps, name) in self.list_pages().items() if steps is not None}
         for fold in (str, str.lower):

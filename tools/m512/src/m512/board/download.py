@@ -6,7 +6,7 @@ Because only differing pages are sent, a download that broke off goes on where i
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Callable, ContextManager, Dict
+from typing import Callable, ContextManager, Dict, List, Optional
 
 from m512.board.factory import FactoryLoader
 from m512.board.loaders import Loader
@@ -41,11 +41,13 @@ def check_board(plan: Plan, loader: Loader) -> None:
         raise RefusedError(f"the image is {plan.record}, but this board is a {loader.board}. Nothing was written")
 
 
-def download(loader: Loader, plan: Plan, phase: PhaseMaker) -> Report:
+def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: Optional[List[int]] = None) -> Report:
+    """`todo`: the pages of the plan that differ, if that is known."""
     check_board(plan, loader)
     begun = loader.link.now()
-    with phase("Comparing") as progress:
-        todo = loader.different(plan.pages, progress)
+    if todo is None:
+        with phase("Comparing") as progress:
+            todo = loader.different(plan.pages, progress)
     if todo:
         pages = {number: plan.pages[number] for number in todo}
         with phase("Writing") as progress:

@@ -37,6 +37,7 @@ Progress = Callable[[int, int], None]
 class FactoryLoader:
     name = "factory boot loader"
     board = ""            # it does not say
+    was_at_prompt = False # before this program came
 
     def __init__(self, link: Link):
         self.link = link
@@ -148,9 +149,7 @@ class FactoryLoader:
         """Which of these pages the board holds otherwise."""
         out, done = [], 0
         for address, data in Plan(pages).runs(list(pages)):
-            before = done
-            found = self.read(address, address + len(data),
-                              progress and (lambda n, _: progress(before + n // FLASH_PAGE, len(pages))))
+            found = self.read(address, address + len(data), progress and _behind(progress, done, len(pages)))
             for at in range(0, len(data), FLASH_PAGE):
                 if found[at:at + FLASH_PAGE] != data[at:at + FLASH_PAGE]:
                     out.append((address + at) // FLASH_PAGE)
@@ -169,7 +168,7 @@ class FactoryLoader:
             todo = {page for page in unit if page in pages}
             if todo:
                 whole = self._with_neighbour({page: known[page] for page in unit})
-                self._write_unit(whole, todo, progress and (lambda n: progress(done + n, len(pages))))
+                self._write_unit(whole, todo, progress and (lambda n, before=done: progress(before + n, len(pages))))
                 done += len(todo)
         return 0
 
@@ -270,6 +269,11 @@ class FactoryLoader:
         elif to == 2:
             self.type_line("reset")
             self.link.write(b"\r")
+
+
+def _behind(progress: Progress, done: int, total: int) -> Progress:
+    """Progress in bytes as progress in pages, behind those that are done."""
+    return lambda count, _: progress(done + count // FLASH_PAGE, total)
 
 
 def _as_text(data: bytes) -> bytes:

@@ -6,7 +6,7 @@ Every trouble with the line itself becomes a PortError that says what to look at
 from __future__ import annotations
 
 import time
-from typing import Callable, Optional
+from typing import Any, Callable, Optional
 
 from m512.errors import NoAnswerError, PortError
 
@@ -20,7 +20,8 @@ class Link:
 
         self.url, self.trace = url, trace
         try:
-            self.port = serial.serial_for_url(url, baudrate=BAUD, timeout=0, write_timeout=20)
+            self.port = serial.serial_for_url(url, baudrate=BAUD, timeout=0, write_timeout=20, exclusive=True)
+            _keep_others_out(self.port)
         except (serial.SerialException, OSError, ValueError) as error:
             raise PortError(explain(url, error)) from None
         self.held = b""     # bytes read and given back
@@ -32,6 +33,7 @@ class Link:
         self.close()
 
     def close(self) -> None:
+        _let_others_in(self.port)
         try:
             self.port.close()
         except Exception:     # a port that is gone may fail to close in many ways, and nobody can help it
@@ -133,6 +135,27 @@ class Link:
         return out
 
 
+def _keep_others_out(port: Any) -> None:
+    """Lets nobody else open the device meanwhile (POSIX; Windows does so anyway). Not every device can."""
+    try:
+        import fcntl
+        import termios
+
+        fcntl.ioctl(port.fileno(), termios.TIOCEXCL)
+    except Exception:
+        pass
+
+
+def _let_others_in(port: Any) -> None:
+    try:
+        import fcntl
+        import termios
+
+        fcntl.ioctl(port.fileno(), termios.TIOCNXCL)
+    except Exception:
+        pass
+
+
 def explain(url: str, error: Exception) -> str:
     """Why a port cannot be opened, and what to do."""
     text = str(error)
@@ -142,7 +165,7 @@ def explain(url: str, error: Exception) -> str:
     if "No such file" in text or "FileNotFound" in text or "could not find" in text.lower():
         return f"{url}: no such port. Is the adapter plugged in? `m512 doctor` lists the ports"
     if "busy" in text.lower() or "lock" in text.lower():
-        return f"{url}: in use by another program (a terminal?)"
+        return f"{url}: in use by another program (a terminal, another m512?). End that first"
     if "refused" in text.lower():
         return f"{url}: nobody listens there"
     return f"{url}: cannot be opened ({text})"

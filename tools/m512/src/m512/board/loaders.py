@@ -20,6 +20,7 @@ from m512.errors import NoAnswerError, RefusedError
 
 Loader = Union[BlockLoader, FactoryLoader]
 BANNER = b"SYSTEM O.K."
+STAY, START, RESET = range(3)  # leave()
 HASH_SECONDS = 0.025           # the window behind a start is 60 ms
 HASHES_MOST = 2300             # with the rest of what is sent blindly: less than factory_flash.BLIND_MOST
 KNOCK_SECONDS = 1.5
@@ -91,7 +92,9 @@ def call_by_hash(link: Link, seconds: float) -> bool:
 def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS) -> Loader:
     """The board's loader, ready for work. `say` tells the user what is waited for."""
     if at_prompt(link):
-        return identify(link)
+        loader = identify(link)
+        loader.was_at_prompt = True
+        return loader
     if reset_by_application(link, say) and call_by_hash(link, 3.0):
         return identify(link)
     try:
@@ -106,6 +109,11 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS)
         raise NoAnswerError(f"no boot loader answered within {seconds:.0f} s. Is the controller on, the cable in its PC "
                             "socket, and this the right port? (m512 doctor looks at each)")
     return identify(link)
+
+
+def give_back(loader: Loader) -> None:
+    """Leaves the board as enter() found it: at the prompt of its loader, or restarted. For when nothing was written."""
+    loader.leave(STAY if loader.was_at_prompt else RESET)
 
 
 def reset_by_application(link: Link, say: Callable[[str], None]) -> bool:

@@ -11,10 +11,11 @@ from typing import Dict, List, Optional, Tuple
 
 from m512.crc16 import crc16
 from m512.errors import FileError, RefusedError
-from m512.files import formats
-from m512.files.image import hex_segments
-from m512.files.page import EMPTY, PAGE_BYTES
+from m512.files import formats, scale12
+from m512.files.image import Image, hex_segments
+from m512.files.page import EMPTY, PAGE_BYTES, Page
 
+Segments = List[Tuple[int, bytes]]       # (address, bytes)
 FLASH_PAGE = 256
 APP = (0x00000, 0x0C000)
 JOURNAL = (0x0C000, 0x0E000)
@@ -109,7 +110,7 @@ def plan(path: Path, address: Optional[int] = None, board: Optional[str] = None,
     return out
 
 
-def _segments(path: Path, data: bytes, address: Optional[int], out: Plan, with_trim: bool, damaged: str):
+def _segments(path: Path, data: bytes, address: Optional[int], out: Plan, with_trim: bool, damaged: str) -> Segments:
     is_hex = data[:200].lstrip(b"\xef\xbb\xbf \r\n").startswith(b":")
     if is_hex and address is not None:
         raise RefusedError("Intel HEX says its addresses itself; --address is for raw binaries")
@@ -117,13 +118,34 @@ def _segments(path: Path, data: bytes, address: Optional[int], out: Plan, with_t
         segments = hex_segments(data.decode("ascii", "replace"))
         if segments and segments[0][0] >= 0x20000:
             raise RefusedError(f"{path.name} begins at 0x{segments[0][0]:05X}, beyond this board's flash (a CM-510 image?)")
-        return segments
+        for start, piece in segments:
+            _refuse_outside(start, start + len(piece), path.name)
+        code = [(start, piece[:MOTIONS[0] - start]) for start, piece in segments if start < MOTIONS[0]]
+        motions = [(max(start, MOTIONS[0]), piece[max(MOTIONS[0] - start, 0):]) for start, piece in segments
+                   if start + len(piece) > MOTIONS[0]]
+        return code + (_hex_motions(path, motions, out, with_trim, damaged) if motions else [])
     if address is not None:
         return [(address, data)]
     return _motions(path, formats.decode(data, path), out, with_trim, damaged)
 
 
-def _motions(path: Path, image, out: Plan, with_trim: bool, damaged: str):
+def _hex_motions(path: Path, segments: Segments, out: Plan, with_trim: bool, damaged: str) -> Segments:
+    """The motion pages of an Intel HEX file, judged as those of every other file. Pages that it leaves out stay as they are."""
+    image, given = Image.empty(), set()
+    for start, piece in segments:
+        if (start - MOTIONS[0]) % PAGE_BYTES or len(piece) % PAGE_BYTES:
+            raise FileError(f"{path.name}: 0x{start:05X}..0x{start + len(piece) - 1:05X} is not made of whole 512-byte motion pages")
+        for at in range(0, len(piece), PAGE_BYTES):
+            number = (start - MOTIONS[0] + at) // PAGE_BYTES
+            image[number] = Page(piece[at:at + PAGE_BYTES])
+            given.add(number)
+    judged = scale12.judged(image, None)
+    whole = [(address + at, data[at:at + PAGE_BYTES]) for address, data in _motions(path, judged, out, with_trim, damaged)
+             for at in range(0, len(data), PAGE_BYTES)]
+    return [(address, data) for address, data in whole if (address - MOTIONS[0]) // PAGE_BYTES in given]
+
+
+def _motions(path: Path, image: Image, out: Plan, with_trim: bool, damaged: str) -> Segments:
     if image.bits != 10:
         raise RefusedError("12-bit positions mean nothing to this board: scale them first (m512 convert --scale 10)")
     image, losses = image.resized(128) if (image.first, image.end) != (0, 128) else (image, [])

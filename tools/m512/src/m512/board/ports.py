@@ -12,12 +12,14 @@ from m512.errors import PortError
 
 def is_port(word: str) -> bool:
     """Whether a word means a port rather than a file: a device, COM3, or a URL such as socket://host:port."""
-    if re.match(r"(COM[0-9]+|[a-z0-9]+://.*)\Z", word, re.I) or word.startswith(("/dev/", "\\\\.\\")):
+    if re.match(r"(COM[0-9]+|[a-z0-9]+://.*)\Z", word, re.I) or word.startswith("\\\\.\\"):
         return True
+    if re.match(r"/dev/(std(in|out|err)|fd/.*|null|zero|u?random|full)\Z", word):
+        return False
     try:
         return stat.S_ISCHR(os.stat(word).st_mode)
     except (OSError, ValueError):
-        return False
+        return word.startswith("/dev/")
 
 
 def available() -> List[Tuple[str, str]]:

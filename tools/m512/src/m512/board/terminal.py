@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 import time
+from itertools import chain
 from pathlib import Path
 from typing import BinaryIO, Optional
 
@@ -18,6 +19,7 @@ HELP = """
  Ctrl-] s   send a text file, a line at a time    Ctrl-] b  send a file as it is
  Ctrl-] g   log to a file, on and off             Ctrl-] Ctrl-]  send Ctrl-]
 """
+PIPE_QUIET = 0.3        # silence that ends an answer when lines come from a pipe
 LINE_SECONDS = 2.0      # for the board's answer to a line of a file
 XON, XOFF = 0x11, 0x13
 HIDDEN = (XON, XOFF, 0xFF)     # flow control, and the byte that a controller sends at its start
@@ -39,13 +41,15 @@ class Terminal:
             raise PortError(f"cannot write {path}: {error.strerror}") from None
 
     def run(self, send: Optional[Path] = None) -> None:
+        if not sys.stdin.isatty():
+            self._run_plain(send)
+            return
         from serial.tools.miniterm import Console
 
         console = Console()
         self._say(f"{self.link.url}, 57600 8N1. Ctrl-] h for help, Ctrl-] q to quit.")
         reader = threading.Thread(target=self._read, args=(console,), daemon=True)
-        if sys.stdin.isatty():
-            console.setup()
+        console.setup()
         try:
             reader.start()
             if send:
@@ -60,6 +64,23 @@ class Terminal:
                 self.log.close()
         if self.trouble:
             raise PortError(self.trouble)
+
+    def _run_plain(self, send: Optional[Path]) -> None:
+        """Standard input is no terminal: its lines go to the board, one after another's answer, and what the board says to
+        standard output."""
+        try:
+            first = (self._file(send) or b"").decode("utf-8", "replace").splitlines() if send else []
+            for line in chain(first, sys.stdin):
+                self.link.write(line.rstrip("\r\n").encode("utf-8", "replace") + b"\r")
+                answer = self.link.drain(PIPE_QUIET, LINE_SECONDS)
+                sys.stdout.buffer.write(bytes(b for b in answer if b not in HIDDEN))
+                sys.stdout.buffer.flush()
+                if self.log:
+                    self.log.write(answer)
+        finally:
+            self.link.close()
+            if self.log:
+                self.log.close()
 
     @staticmethod
     def _say(text: str) -> None:

@@ -46,13 +46,18 @@ class LazyGroup(click.Group):
             formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
 
     def invoke(self, ctx):
-        from m512.errors import M512Error
+        from m512.errors import EXIT_CANCELLED, M512Error
 
         try:
             return super().invoke(ctx)
         except M512Error as error:
-            click.echo(f"m512: {error}", err=True)
+            from m512.ui import say
+
+            say(f"m512: {error}")
             sys.exit(error.exit_code)
+        except (KeyboardInterrupt, click.Abort):
+            click.echo("m512: stopped", err=True)
+            sys.exit(EXIT_CANCELLED)
         except BrokenPipeError:
             sys.stderr.close()
             sys.exit(0)
@@ -60,7 +65,7 @@ class LazyGroup(click.Group):
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
              epilog="Exit codes: 0 done, 2 wrong command line, 3 differences or faults found, 4 bad file, 5 refused, "
-                    "6 port lost or not there, 7 no answer, 8 error answer of the board, 9 something not installed.")
+                    "6 port lost or not there, 7 no answer, 8 error answer of the board, 9 something not installed, 130 Ctrl-C.")
 @click.version_option(__version__, prog_name="m512")
 def main():
     """Motions, firmware and terminal of CM-2/CM-5 robot controllers.

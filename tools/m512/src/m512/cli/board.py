@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
 
 import click
 
 from m512 import ui
-from m512.errors import RefusedError
+from m512.errors import M512Error, PortError, RefusedError
 
 port_option = click.option("-p", "--port", envvar="M512_PORT", default="", metavar="PORT",
                            help="Serial port: device, part of its name, or socket://host:port. Default: the only one.")
@@ -75,7 +76,7 @@ def _flash(image, address, fast, with_trim, damaged, dry_run, port, wait, as_jso
             loader.leave(0)
             ui.say("The board waits in its boot loader; `m512 run` starts the application.")
         if as_json:
-            click.echo(json.dumps(dict(report.as_dict(), loader=loader.name, board=loader.board, started=start)))
+            ui.show(json.dumps(dict(report.as_dict(), loader=loader.name, board=loader.board, started=start)))
 
 
 @click.command(epilog="""\b
@@ -135,17 +136,19 @@ Examples:
 def backup(folder, what, port, wait, as_json):
     """Read motions, EEPROM and application into FOLDER, with a manifest (date, board, CRCs)."""
     from m512.board import backup as backups
+    from m512.board import loaders
 
     areas = _areas(what)
     folder = folder or Path(datetime.now().strftime("backup-%Y%m%d-%H%M%S"))
     link, loader = connect(port, wait)
     with link:
-        made = backups.take(loader, folder, areas, ui.phase)
-        loader.leave(2)
+        with as_found(loader):
+            made = backups.take(loader, folder, areas, ui.phase)
+        loaders.give_back(loader)
     if as_json:
-        click.echo(json.dumps(made.manifest, indent=2))
+        ui.show(json.dumps(made.manifest, indent=2))
     ui.say(f"{folder}: " + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas)
-           + ". The controller restarts.")
+           + ("" if loader.was_at_prompt else ". The controller restarts."))
 
 
 @click.command(epilog="""\b
@@ -161,10 +164,8 @@ Examples:
 def restore(folder, what, yes, port, wait, as_json):
     """Show what a backup would change on the board, ask, and write it."""
     from m512.board import backup as backups
-    from m512.board import download
-    from m512.board.memory import MOTIONS, Plan, Record
-    from m512.files.image import from_bytes
-    from m512.pages.difference import images
+    from m512.board import download, loaders
+    from m512.board.memory import Plan
 
     saved = backups.load(folder)
     areas = _areas(what) if what else list(saved.data)
@@ -173,45 +174,71 @@ def restore(folder, what, yes, port, wait, as_json):
         raise RefusedError(f"the backup has no {', '.join(missing)}")
     link, loader = connect(port, wait)
     with link:
-        board = backups.board_of(saved)
-        if "app" in areas and board and loader.board and board != loader.board:
-            raise RefusedError(f"this backup's application is from a {board}, this board is a {loader.board}")
         pages = backups.flash_pages(saved, areas)
-        with ui.phase("Comparing") as progress:
-            todo = loader.different(pages, progress) if pages else []
-        cells = {}
-        if "eeprom" in areas:
-            with ui.phase("Reading EEPROM") as progress:
-                cells = backups.eeprom_changes(saved.data["eeprom"], loader.read_eeprom(progress=progress))
-        changes = []
-        in_motions = [n for n in todo if n * 256 >= MOTIONS[0]]
-        if in_motions:
-            with ui.phase("Reading") as progress:
-                found = _motions_now(loader, saved.data["motions"], in_motions, progress)
-            changes = images(from_bytes(found), from_bytes(saved.data["motions"]))
-            for change in changes:
-                ui.say(str(change))
-        in_app = len(todo) - len(in_motions)
-        if in_app:
-            record = Record.of(saved.data["app"])
-            ui.say(f"application: {in_app} flash pages differ" + (f"; the backup holds {record}" if record else ""))
+        with as_found(loader):
+            todo, cells, changes = _compare(loader, saved, areas, pages)
+            if todo or cells:
+                ui.confirm("Write this to the board?", yes)
+        if todo:
+            ui.say(str(download.download(loader, Plan(pages), ui.phase, todo)))
         if cells:
-            ui.say(f"EEPROM: {len(cells)} cells differ")
+            with ui.phase("EEPROM") as progress:
+                loader.write_eeprom(cells, progress)
+            ui.say(f"{len(cells)} EEPROM cells written")
         if todo or cells:
-            ui.confirm("Write this to the board?", yes)
-            if todo:
-                report = download.download(loader, Plan({n: pages[n] for n in todo}), ui.phase)
-                ui.say(str(report))
-            if cells:
-                with ui.phase("EEPROM") as progress:
-                    loader.write_eeprom(cells, progress)
-                ui.say(f"{len(cells)} EEPROM cells written")
+            loader.leave(2)
         else:
             ui.say("The board holds this already.")
-        loader.leave(2)
+            loaders.give_back(loader)
     if as_json:
-        click.echo(json.dumps({"flash_pages": len(todo), "eeprom_cells": len(cells),
-                               "changes": [change.as_dict() for change in changes]}, indent=2))
+        ui.show(json.dumps({"flash_pages": len(todo), "eeprom_cells": len(cells),
+                            "changes": [change.as_dict() for change in changes]}, indent=2))
+
+
+@contextmanager
+def as_found(loader):
+    """Whatever ends this early (an error, a no, Ctrl-C) leaves the board as it was found."""
+    from m512.board import loaders
+
+    try:
+        yield
+    except PortError:
+        raise
+    except (M512Error, KeyboardInterrupt, click.Abort):
+        loaders.give_back(loader)
+        raise
+
+
+def _compare(loader, saved, areas, pages):
+    """(flash pages that differ, EEPROM cells that differ, changes of motions), told in words."""
+    from m512.board import backup as backups
+    from m512.board.memory import MOTIONS, Record
+    from m512.files.image import from_bytes
+    from m512.pages.difference import images
+
+    board = backups.board_of(saved)
+    if "app" in areas and board and loader.board and board != loader.board:
+        raise RefusedError(f"this backup's application is from a {board}, this board is a {loader.board}")
+    with ui.phase("Comparing") as progress:
+        todo = loader.different(pages, progress) if pages else []
+    cells, changes = {}, []
+    if "eeprom" in areas:
+        with ui.phase("Reading EEPROM") as progress:
+            cells = backups.eeprom_changes(saved.data["eeprom"], loader.read_eeprom(progress=progress))
+    in_motions = [n for n in todo if n * 256 >= MOTIONS[0]]
+    if in_motions:
+        with ui.phase("Reading") as progress:
+            found = _motions_now(loader, saved.data["motions"], in_motions, progress)
+        changes = images(from_bytes(found), from_bytes(saved.data["motions"]))
+        for change in changes:
+            ui.say(str(change))
+    in_app = len(todo) - len(in_motions)
+    if in_app:
+        record = Record.of(saved.data["app"])
+        ui.say(f"application: {in_app} flash pages differ" + (f"; the backup holds {record}" if record else ""))
+    if cells:
+        ui.say(f"EEPROM: {len(cells)} cells differ")
+    return todo, cells, changes
 
 
 def _motions_now(loader, saved, pages, progress):

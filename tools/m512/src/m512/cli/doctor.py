@@ -6,6 +6,7 @@ import json
 
 import click
 
+from m512 import ui
 from m512.cli.board import json_option, port_option
 from m512.errors import EXIT_DIFFERENT
 
@@ -27,9 +28,9 @@ def doctor(port, sim, as_json):
     def tell(finding):
         if not as_json:
             mark = {"ok": "ok  ", "look": "look", "bad": "BAD "}[finding.state]
-            click.echo(f"{mark} {finding.what:11} {finding.text}")
+            ui.show(f"{mark} {finding.what:11} {finding.text}")
             if finding.advice:
-                click.echo(f"                 -> {finding.advice}")
+                ui.show(f"                 -> {finding.advice}")
 
     if sim:
         from m512.board.sim import Simulator
@@ -39,5 +40,5 @@ def doctor(port, sim, as_json):
     else:
         found = examine(port, tell)
     if as_json:
-        click.echo(json.dumps([finding.as_dict() for finding in found], indent=2))
+        ui.show(json.dumps([finding.as_dict() for finding in found], indent=2))
     raise SystemExit(EXIT_DIFFERENT if any(finding.state == BAD for finding in found) else 0)

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import click
 
+from m512 import ui
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError
-from m512.files import formats
+from m512.files import formats, storage
 from m512.files.page import Page
 from m512.files.wording import Findings, named_pages_text
-from m512.ui import say
 
 
 def id_list(text):
@@ -37,7 +37,7 @@ Examples:
                                             scaled from 12 to 10 bits, with a report
   m512 convert lib.bin wave.csv --page 15   one page as a table""")
 @click.argument("source", type=click.Path(path_type=Path))
-@click.argument("target", type=click.Path(path_type=Path))
+@click.argument("target", type=click.Path(path_type=Path), default="-")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of SOURCE (default: what its positions look like).")
 @click.option("--scale", type=click.Choice(["10", "12"]), help="Scale positions to this resolution.")
 @click.option("--joints", help="Keep these IDs (1..20 or 1,3,5) and set all others unused.")
@@ -52,11 +52,14 @@ Examples:
 def convert(source, target, bits, scale, joints, count, number, onto, damaged, mtn_version, force, as_json):
     """Convert the motions in SOURCE to TARGET.
 
+    Without a TARGET, or with -, the text goes to standard output; a SOURCE of - is standard input. For git:
+    git config diff.motions.textconv "m512 convert", and *.bin diff=motions in .gitattributes.
+
     The suffix of TARGET decides: .bin (raw image), .hex (Intel HEX), .mtn (RoboPlus), .csv (one page), .m512 (text).
     SOURCE is recognised by its contents. All losses are listed; a conversion that loses nothing says nothing. Pages of yours
     are left out only when an option says so.
     """
-    if target.exists() and not force:
+    if storage.exists(target) and not force:
         raise RefusedError(f"{target} is there already (--force overwrites it)")
     image = formats.load(source, bits and int(bits), formats.load(onto) if onto else None)
     notes, losses = list(image.notes), []
@@ -74,13 +77,13 @@ def convert(source, target, bits, scale, joints, count, number, onto, damaged, m
     losses += lost
     losses += formats.save(target, image, image.find(number) if number else None, mtn_version)
     if as_json:
-        click.echo(json.dumps({"source": str(source), "target": str(target), "pages": len(image.pages), "bits": image.bits,
+        ui.show(json.dumps({"source": str(source), "target": str(target), "pages": len(image.pages), "bits": image.bits,
                                "damaged": bad, "notes": notes, "losses": losses}, indent=2))
         return
     for note in notes:
-        say(f"note: {note}")
+        ui.say(f"note: {note}")
     for loss in losses:
-        say(f"loss: {loss}")
+        ui.say(f"loss: {loss}")
 
 
 def _treat_damaged(image, how, notes):
@@ -153,8 +156,8 @@ def diff(first, second, bits, as_json):
 
     found = difference.images(_motions_of(first, bits and int(bits)), _motions_of(second, bits and int(bits)))
     if as_json:
-        click.echo(json.dumps([change.as_dict() for change in found], indent=2))
+        ui.show(json.dumps([change.as_dict() for change in found], indent=2))
     else:
         for change in found:
-            click.echo(str(change))
+            ui.show(str(change))
     raise SystemExit(EXIT_DIFFERENT if found else 0)

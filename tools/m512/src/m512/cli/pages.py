@@ -9,11 +9,11 @@ from typing import Optional
 
 import click
 
+from m512 import ui
 from m512.cli.files import id_list
 from m512.errors import EXIT_DIFFERENT, RefusedError
-from m512.files import formats
+from m512.files import formats, storage
 from m512.files.page import Page
-from m512.ui import say
 
 
 class Source:
@@ -33,36 +33,66 @@ class Source:
         if self.board:
             from m512.board.motions import read_motions
 
-            return read_motions(self.word)
+            image = read_motions(self.word)
+            self.found = image.resized(image.end)[0]
+            return image
         image = formats.load(Path(self.word), self.bits)
         for note in image.notes:
-            say(f"note: {note}")
+            ui.say(f"note: {note}")
         return image
 
-    def store(self, output, in_place, remarks):
+    def store(self, remarks, output, in_place, force, yes):
         """Writes the changed image where it was asked for."""
         for remark in remarks:
-            say(f"note: {remark}")
+            ui.say(f"note: {remark}")
         if output:
+            if storage.exists(Path(output)) and not force:
+                raise RefusedError(f"{output} is there already (--force overwrites it)")
             losses = formats.save(Path(output), self.image)
             for loss in losses:
-                say(f"loss: {loss}")
+                ui.say(f"loss: {loss}")
         elif self.board:
-            from m512.board.motions import write_motions
-
-            write_motions(self.word, self.image)
+            self._to_board(yes)
         elif in_place:
-            formats.save(Path(self.word), self.image)
+            if self._is_written_by_hand():
+                raise RefusedError(f"{self.word} is somebody's text: --in-place would make numbers of its comments, poses, names "
+                                   "and includes. Change the text itself, or write the result elsewhere: -o new.m512")
+            for loss in formats.save(Path(self.word), self.image):
+                ui.say(f"loss: {loss}")
         else:
-            raise RefusedError("say where the result goes: -o FILE, or --in-place"
-                               + (" (which rewrites the text without its comments and poses)"
-                                  if self.word.endswith(".m512") else ""))
+            raise RefusedError("say where the result goes: -o FILE, or --in-place")
+
+    def _is_written_by_hand(self) -> bool:
+        """Whether the file is a text that this program would write otherwise."""
+        from m512.files.text import read_text, write_text
+
+        data = formats.read_bytes(Path(self.word))
+        if formats.recognise(data, Path(self.word)) != formats.TEXT:
+            return False
+        text = data.decode("utf-8-sig")
+        return write_text(read_text(text, self.word, Path(self.word).parent)) != text
+
+    def _to_board(self, yes):
+        """Shows what changes, asks, writes."""
+        from m512.board.motions import write_motions
+        from m512.pages import difference
+
+        changes = difference.images(self.found, self.image)
+        for change in changes:
+            ui.say(str(change))
+        if not changes:
+            ui.say("The board holds this already.")
+            return
+        ui.confirm("Write this to the board?", yes)
+        write_motions(self.word, self.image)
 
 
 def changes(function):
     """Options of the actions that change pages."""
     function = click.option("-o", "--output", type=click.Path(), help="Write the result here.")(function)
     function = click.option("--in-place", is_flag=True, help="Write the result back to the file.")(function)
+    function = click.option("--force", is_flag=True, help="Overwrite the file of -o.")(function)
+    function = click.option("--yes", is_flag=True, help="Write to a board without asking.")(function)
     return click.pass_obj(function)
 
 
@@ -97,7 +127,7 @@ def list_(source, everything, as_json):
 
     rows = [describe(source.image, n, page) for n, page in source.image.items()
             if everything or not is_erased(page) and (not page.is_empty or page.fault(source.image.kind))]
-    click.echo(json.dumps(rows, indent=2) if as_json else table(rows))
+    ui.show(json.dumps(rows, indent=2) if as_json else table(rows))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin show walk_loop")
@@ -111,7 +141,7 @@ def show(source, page):
     for word in page:
         number = source.image.find(word)
         writer = page_text if is_motion(source.image[number], source.image) else raw_text
-        click.echo(writer(source.image[number], (number, number), style))
+        ui.show(writer(source.image[number], (number, number), style))
 
 
 @pages.command(epilog="Example: m512 pages lib.bin check || echo look at it")
@@ -121,15 +151,18 @@ def check(source, as_json):
     """Say what is wrong: damaged pages, links to nothing, steps without time. Exit code 3 when something is."""
     from m512.pages import operations
 
-    found = operations.check(source.image)
+    found, remarks = operations.check(source.image), operations.remarks(source.image)
     if as_json:
-        click.echo(json.dumps([{"page": n, "problem": text} for n, text in found], indent=2))
+        ui.show(json.dumps([{"page": n, "problem": text} for n, text in found]
+                           + [{"page": n, "note": text} for n, text in remarks], indent=2))
     else:
         for number, text in found:
             title = source.image[number].title
-            click.echo(f"page {number}" + (f" \"{title}\"" if title else "") + f": {text}")
+            ui.show(f"page {number}" + (f" \"{title}\"" if title else "") + f": {text}")
+        for number, text in remarks:
+            ui.say(f"note: page {number} \"{source.image[number].title}\": {text}")
         if not found:
-            click.echo(f"{sum(not page.is_empty for _, page in source.image.items())} pages in use, all good")
+            ui.show(f"{sum(not page.is_empty for _, page in source.image.items())} pages in use, all good")
     raise SystemExit(EXIT_DIFFERENT if found else 0)
 
 
@@ -137,11 +170,11 @@ def check(source, as_json):
 @click.argument("page")
 @click.argument("name")
 @changes
-def rename(source, page, name, output, in_place):
+def rename(source, page, name, **where):
     """Give a page another name."""
     from m512.pages import operations
 
-    source.store(output, in_place, operations.rename(source.image, source.image.find(page), name))
+    source.store(operations.rename(source.image, source.image.find(page), name), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin copy 12 40 --in-place")
@@ -149,21 +182,21 @@ def rename(source, page, name, output, in_place):
 @click.argument("target", type=int)
 @replacing
 @changes
-def copy(source, page, target, replace, output, in_place):
+def copy(source, page, target, replace, **where):
     """Copy a page to another number."""
     from m512.pages import operations
 
-    source.store(output, in_place, operations.copy(source.image, source.image.find(page), target, replace))
+    source.store(operations.copy(source.image, source.image.find(page), target, replace), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin delete 40 old_wave --in-place")
 @click.argument("page", nargs=-1, required=True)
 @changes
-def delete(source, page, output, in_place):
+def delete(source, page, **where):
     """Make pages empty; says which pages still link to them."""
     from m512.pages import operations
 
-    source.store(output, in_place, operations.delete(source.image, [source.image.find(word) for word in page]))
+    source.store(operations.delete(source.image, [source.image.find(word) for word in page]), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin renumber walk_loop 30 --in-place")
@@ -171,17 +204,17 @@ def delete(source, page, output, in_place):
 @click.argument("target", type=int)
 @click.option("--swap", is_flag=True, help="Exchange with a page that is there.")
 @changes
-def renumber(source, page, target, swap, output, in_place):
+def renumber(source, page, target, swap, **where):
     """Move a page to another number; all links follow."""
     from m512.pages import operations
 
-    source.store(output, in_place, operations.renumber(source.image, source.image.find(page), target, swap))
+    source.store(operations.renumber(source.image, source.image.find(page), target, swap), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin extract walk_start walk_loop walk_end -o walk.m512")
 @click.argument("page", nargs=-1, required=True)
 @changes
-def extract(source, page, output, in_place):
+def extract(source, page, **where):
     """Keep these pages only, at their numbers."""
     numbers = {source.image.find(word) for word in page}
     remarks = []
@@ -191,7 +224,7 @@ def extract(source, page, output, in_place):
         else:
             remarks += [f"page {number} \"{here.title}\": {link} {getattr(here, link)} is left behind"
                         for link in Page.LINKS if getattr(here, link) not in numbers | {0}]
-    source.store(output, in_place, remarks)
+    source.store(remarks, **where)
 
 
 @pages.command(epilog="""\b
@@ -202,7 +235,7 @@ Examples:
 @click.argument("page", nargs=-1, required=True)
 @replacing
 @changes
-def merge(source, other, page, replace, output, in_place):
+def merge(source, other, page, replace, **where):
     """Take pages from OTHER: `3` to its own number, `3:20` or `wave:20` to number 20, `all` that are not empty.
 
     Links among the pages taken follow them.
@@ -220,7 +253,7 @@ def merge(source, other, page, replace, output, in_place):
             name, target = word, ""
         number = image.find(name)
         moves.append((number, int(target) if target else number))
-    source.store(output, in_place, operations.place(source.image, image, moves, replace))
+    source.store(operations.place(source.image, image, moves, replace), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of wave, legs of walk_loop)")
@@ -231,13 +264,13 @@ def merge(source, other, page, replace, output, in_place):
 @click.option("--from", "other_file", type=click.Path(path_type=Path), help="File that holds OTHER.")
 @replacing
 @changes
-def combine(source, base, other, joints, target, other_file, replace, output, in_place):
+def combine(source, base, other, joints, target, other_file, replace, **where):
     """Page TARGET becomes BASE with the JOINTS (1..6 or 1,3,5) of page OTHER: upper body here, lower body there."""
     from m512.pages import operations
 
     donor = formats.load(other_file, source.bits) if other_file else source.image
-    source.store(output, in_place, operations.combine(source.image, source.image.find(base), donor, donor.find(other),
-                                                   id_list(joints), target, replace))
+    source.store(operations.combine(source.image, source.image.find(base), donor, donor.find(other),
+                                                   id_list(joints), target, replace), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin mirror kick_left 41 --in-place")
@@ -247,7 +280,7 @@ def combine(source, base, other, joints, target, other_file, replace, output, in
               help="Joints that change places; a single one is turned round.")
 @replacing
 @changes
-def mirror(source, page, target, pairs, replace, output, in_place):
+def mirror(source, page, target, pairs, replace, **where):
     """Left for right: paired joints change places, position p becomes 1024 - p."""
     from m512.pages import operations
 
@@ -257,18 +290,18 @@ def mirror(source, page, target, pairs, replace, output, in_place):
         if len(ids) not in (1, 2) or any(joint in table for joint in ids):
             raise click.UsageError(f"{pair}: pairs are 1-2,3-4,19; no joint twice")
         table[ids[0]], table[ids[-1]] = ids[-1], ids[0]
-    source.store(output, in_place, operations.mirror(source.image, source.image.find(page), table, target, replace))
+    source.store(operations.mirror(source.image, source.image.find(page), table, target, replace), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin retime bow 1.5 --in-place   (takes half as long again)")
 @click.argument("page")
 @click.argument("factor", type=float)
 @changes
-def retime(source, page, factor, output, in_place):
+def retime(source, page, factor, **where):
     """Make a page take FACTOR times as long (step times, pauses, ramp)."""
     from m512.pages import operations
 
-    source.store(output, in_place, operations.retime(source.image, source.image.find(page), factor))
+    source.store(operations.retime(source.image, source.image.find(page), factor), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin time walk_start --volts 11.1")
@@ -286,15 +319,15 @@ def time(source, page, volts, as_json):
     fast = speed.too_fast(source.image, number, volts)
     total = sum(seconds for _, _, seconds in parts)
     if as_json:
-        click.echo(json.dumps({"pages": [{"page": n, "repeat": r, "seconds": round(s, 4)} for n, r, s in parts],
+        ui.show(json.dumps({"pages": [{"page": n, "repeat": r, "seconds": round(s, 4)} for n, r, s in parts],
                                "seconds": round(total, 4), "end": end, "volts": volts,
                                "too_fast": [{"page": f.page, "step": f.step, "joint": f.joint,
                                              "degrees_s": round(f.degrees_s)} for f in fast]}, indent=2))
         return
     for number, repeat, seconds in parts:
         times = f" ({repeat} times)" if repeat != 1 else ""
-        click.echo(f"page {number:3} {source.image[number].title:13} {seconds:8.3f} s{times}")
-    click.echo(f"{'all':22} {total:8.3f} s, {end}")
+        ui.show(f"page {number:3} {source.image[number].title:13} {seconds:8.3f} s{times}")
+    ui.show(f"{'all':22} {total:8.3f} s, {end}")
     for part in fast:
-        click.echo(f"page {part.page:3} step {part.step}: too fast at {volts:g} V: joint {part.joint} is asked for "
+        ui.show(f"page {part.page:3} step {part.step}: too fast at {volts:g} V: joint {part.joint} is asked for "
                    f"{part.degrees_s:.0f} degrees/s, an unloaded AX-12 does {speed.no_load_degrees_s(volts):.0f}")

@@ -8,6 +8,7 @@ import click
 
 from m512 import ui
 from m512.cli.files import id_list
+from m512.errors import RefusedError
 
 
 @click.command(epilog="""\b
@@ -18,15 +19,18 @@ Examples:
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("page", required=False)
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help=".png, .svg or .pdf")
+@click.option("--force", is_flag=True, help="Overwrite the file.")
 @click.option("--law", type=click.Choice(["both", "exact", "classic"]), default="both", show_default=True)
 @click.option("--joints", help="IDs to draw (1..6 or 1,3,5). Default: all that move.")
 @click.option("--seconds", default=10.0, show_default=True, type=click.FloatRange(0.1, 600), help="Longest time drawn.")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of an image (default: what its positions look like).")
-def plot(source, page, output, law, joints, seconds, bits):
+def plot(source, page, output, force, law, joints, seconds, bits):
     """Draw joint angles and speeds over time: of a PAGE of a motion file, or of a recorded trace (CSV)."""
-    from m512.files import formats
+    from m512.files import formats, storage
     from m512.motion import plot as drawing
 
+    if storage.exists(output) and not force:
+        raise RefusedError(f"{output} is there already (--force overwrites it)")
     chosen = id_list(joints) if joints else None
     if page is None:
         sets = [drawing.of_trace(source, chosen)]

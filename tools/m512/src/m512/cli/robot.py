@@ -58,7 +58,7 @@ def robot(options):
 def _report(client, as_json):
     state = client.where()
     if as_json:
-        click.echo(json.dumps({k: int(v) if v.isdigit() and k != "faulty" else v for k, v in state.items()}))
+        ui.show(json.dumps({k: int(v) if v.isdigit() and k != "faulty" else v for k, v in state.items()}))
     return state
 
 
@@ -142,13 +142,13 @@ def pose(positions, speed, as_text, **options):
             _follow(client)
         found = client.pose()
     if options["as_json"]:
-        click.echo(json.dumps({joint: {"position": at, "torque": on} for joint, (at, on) in found.items()}, indent=2))
+        ui.show(json.dumps({joint: {"position": at, "torque": on} for joint, (at, on) in found.items()}, indent=2))
     elif as_text:
-        click.echo("step 1s | " + " ".join(f"{joint}:{at}" for joint, (at, _) in found.items() if at is not None))
+        ui.show("step 1s | " + " ".join(f"{joint}:{at}" for joint, (at, _) in found.items() if at is not None))
     else:
         for joint, (at, on) in found.items():
             degrees = "" if at is None else f"{(at - 512) * 300 / 1024:+7.1f} deg"
-            click.echo(f"ID {joint:2}  {'silent' if at is None else at:>6}  {degrees}  {'holds' if on else 'limp'}")
+            ui.show(f"ID {joint:2}  {'silent' if at is None else at:>6}  {degrees}  {'holds' if on else 'limp'}")
 
 
 def _positions(words):
@@ -207,7 +207,7 @@ def get(pages, output, force, **options):
         ui.say(f"loss: {loss}")
     ui.say(f"{output}: pages {' '.join(map(str, numbers))}")
     if options["as_json"]:
-        click.echo(json.dumps({"file": str(output), "pages": numbers}))
+        ui.show(json.dumps({"file": str(output), "pages": numbers}))
 
 
 @click.command(epilog="""\b
@@ -243,6 +243,6 @@ def put(source, pages, **options):
         changed = save_pages(client, goal, [target for _, target in moves])
     ui.say(f"saved: pages {' '.join(map(str, changed)) or 'none, they were there already'}")
     if options["as_json"]:
-        click.echo(json.dumps({"saved": changed}))
+        ui.show(json.dumps({"saved": changed}))
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from m512 import ui
 from m512.cli.board import port_option
 
 
@@ -32,7 +33,7 @@ def term(port, log, send, listing, sim, motions, image):
 
     if listing:
         for device, text in ports.available():
-            click.echo(f"{device}  {text}".rstrip())
+            ui.show(f"{device}  {text}".rstrip())
         return
     if sim:
         from m512.board.sim import Simulator

@@ -28,6 +28,8 @@ def write(image: Image, which: Optional[int]) -> Tuple[bytes, List[str]]:
     out = StringIO()
     table = csv.writer(out, lineterminator="\n")
     table.writerow(["page", which])
+    if image.bits != 10:
+        table.writerow(["bits", image.bits])
     table.writerow(["name", quote_name(page.name).strip('"')])
     for field in FIELDS:
         table.writerow([field, getattr(page, field)])
@@ -46,7 +48,7 @@ def write(image: Image, which: Optional[int]) -> Tuple[bytes, List[str]]:
 def read(text: str, where: str) -> Image:
     """A 128-page image (256 when the number needs it) with that one page."""
     lines = text.replace("\r\n", "\n").replace("\r", "\n").replace("\0", "")
-    page, which, line, in_steps = Page(), 0, 0, False
+    page, which, line, in_steps, bits = Page(), 0, 0, False, 0
     try:
         rows = list(csv.reader(StringIO(lines)))
         for line, row in enumerate(rows, 1):
@@ -56,6 +58,10 @@ def read(text: str, where: str) -> Image:
                     _read_step(page, row)
             elif key == "page":
                 which = number(Token(cells[0]), 0, 255, "page")
+            elif key == "bits":
+                bits = number(Token(cells[0]), 10, 12, "bits")
+                if bits == 11:
+                    raise WordError("bits are 10 or 12")
             elif key == "name":
                 page.data[:14] = name_bytes(Token(cells[0], True)).ljust(14, b"\0")
             elif key in FIELDS:
@@ -76,8 +82,19 @@ def read(text: str, where: str) -> Image:
     if not in_steps:
         raise FileError(f"{where}: no line of columns (step,time,pause,id0,...)")
     image = Image.empty(128 if which < 128 else 256)
+    image.bits = _resolution(page, bits, where)
+    if image.bits != bits and image.bits == 12:
+        image.notes.append("positions above 1023: taken as 12 bit (a line `bits,12` says so)")
     image[which] = page.seal()
     return image
+
+
+def _resolution(page: Page, said: int, where: str) -> int:
+    """10 or 12 bits: as the table says, else as its positions need it."""
+    highest = max((word for step in range(page.steps) for word in page.words(step) if word <= 4095), default=0)
+    if said == 10 and highest > 1023:
+        raise FileError(f"{where}: bits are 10 and there is a position {highest} (0..1023)")
+    return said or (12 if highest > 1023 else 10)
 
 
 def _read_step(page: Page, row: List[str]) -> None:
@@ -89,5 +106,5 @@ def _read_step(page: Page, row: List[str]) -> None:
     page.set_time(step, number(Token(row[1]), 0, 255, "time"))
     page.set_pause(step, number(Token(row[2]), 0, 255, "pause"))
     for joint, cell in enumerate(row[3:]):
-        page.set_word(step, joint, position(cell.strip() or "-", 0x4000, 4095 if len(cell) == 4 else 1023))
+        page.set_word(step, joint, position(cell.strip() or "-", 0x4000, 4095))
     page.steps += 1

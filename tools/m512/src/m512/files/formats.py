@@ -10,7 +10,7 @@ from typing import List, Optional, Tuple
 
 from m512.errors import FileError
 from m512.files import image as raw
-from m512.files import scale12
+from m512.files import scale12, storage
 from m512.files.image import Image
 
 TEXT, BINARY, HEX, MTN, CSV = "text", "image", "Intel HEX", "RoboPlus .mtn", "CSV"
@@ -18,17 +18,11 @@ BY_SUFFIX = {".m512": TEXT, ".bin": BINARY, ".img": BINARY, ".hex": HEX, ".ihex"
 
 
 def read_bytes(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise FileError(f"cannot read {path}: {error.strerror}") from None
+    return storage.read(path)
 
 
 def write_bytes(path: Path, data: bytes) -> None:
-    try:
-        path.write_bytes(data)
-    except OSError as error:
-        raise FileError(f"cannot write {path}: {error.strerror}") from None
+    storage.write(path, data)
 
 
 def recognise(data: bytes, path: Path) -> str:
@@ -92,7 +86,7 @@ def save(path: Path, image: Image, number: Optional[int] = None, mtn_version: st
 
 
 def encode(path: Path, image: Image, number: Optional[int] = None, mtn_version: str = "1.01") -> Tuple[bytes, List[str]]:
-    kind = BY_SUFFIX.get(path.suffix.lower())
+    kind = BY_SUFFIX.get(path.suffix.lower(), TEXT if storage.is_stream(path) else None)
     if kind is None:
         raise FileError(f"{path}: the suffix decides the format: {' '.join(BY_SUFFIX)}")
     if kind == BINARY:

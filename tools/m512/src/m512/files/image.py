@@ -10,6 +10,7 @@ Which kind a file is follows from its length; whether it is 12-bit does not, and
 """
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from io import StringIO
 from typing import Dict, Iterator, List, Tuple
@@ -68,7 +69,7 @@ class Image:
 
     def find(self, word: str) -> int:
         """A page by number or name (exact, else unambiguous without regard to case)."""
-        if word.isdigit():
+        if word.isascii() and word.isdigit():
             self[int(word)]
             return int(word)
         wanted = word.encode("utf-8", "replace")
@@ -121,6 +122,8 @@ def hex_segments(text: str) -> List[Tuple[int, bytes]]:
     """Intel HEX text as [(address, bytes)], ascending, adjacent pieces joined."""
     from intelhex import IntelHex, IntelHexError
 
+    if not re.search(r"^:00[0-9A-Fa-f]{4}01", text, re.M):
+        raise FileError("not a whole Intel HEX file: its end record is missing, so its end may be")
     hexfile = IntelHex()
     try:
         hexfile.loadhex(StringIO(text))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Iterator, List, Optional
+from typing import Iterator, List, Union
 
 PAGE_BYTES = 512
 JOINTS = 31
@@ -59,7 +59,7 @@ class Page:
 
     __slots__ = ("data",)
 
-    def __init__(self, data: Optional[bytes] = None):
+    def __init__(self, data: Union[bytes, bytearray, None] = None):
         if data is None:
             data = EMPTY
         if len(data) != PAGE_BYTES:

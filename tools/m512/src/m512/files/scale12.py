@@ -6,7 +6,7 @@ One 12-bit unit is exactly 0.3 10-bit units. What does not fit is cut and report
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Iterable, List, Optional, Tuple
+from typing import Dict, Iterable, List, Optional, Tuple
 
 from m512.files.image import TWELVE_BIT_MAX, Image
 from m512.files.page import JOINTS, POS_UNUSED, STEPS, Fault, Page, is_used
@@ -105,7 +105,8 @@ def round_away(value: Fraction) -> int:
 
 def keep_joints(image: Image, joints: Iterable[int]) -> List[str]:
     """Sets all other joints unused, in place; says how many positions that drops. Pages with a wrong checksum stay."""
-    kept, dropped = set(joints), {}
+    kept = set(joints)
+    dropped: Dict[int, int] = {}
     for number, page in image.items():
         if page.fault() is Fault.CHECKSUM:
             continue

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass, field
+from io import BytesIO
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence, Tuple
 
 from m512.errors import FileError, MissingError
+from m512.files import storage
 from m512.files.image import Image
 from m512.files.page import TICKS_PER_SECOND, Page
 from m512.motion.player import CLASSIC, EXACT, end_pose_before, play
@@ -127,12 +129,13 @@ def draw(sets: Sequence[Curves], output: Path) -> int:
     axes[1][0].set_ylabel("degrees/s")
     if 0 < len(moving) <= MAX_JOINTS_IN_LEGEND:
         axes[0][-1].legend(fontsize=7, ncols=2, loc="upper right")
+    drawn = BytesIO()
     try:
-        figure.savefig(output, dpi=120, metadata={"Date": None} if output.suffix == ".svg" else None)
-    except OSError as error:
-        raise FileError(f"cannot write {output}: {error.strerror}") from None
+        figure.savefig(drawn, format=output.suffix[1:].lower(), dpi=120,
+                       metadata={"Date": None} if output.suffix.lower() == ".svg" else None)
     finally:
         pyplot.close(figure)
+    storage.write(output, drawn.getvalue())
     return len(moving)
 
 

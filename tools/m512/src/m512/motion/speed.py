@@ -43,7 +43,8 @@ def too_fast(image: Image, number: int, volts: float = BATTERY_V, law: str = EXA
              pose: Optional[Sequence[int]] = None, seconds: float = 60) -> List[TooFast]:
     """Steps of a play from page `number` on (along its next links) in which a joint is asked for more than an unloaded servo
     does at this supply. `pose`: where the joints stand; else in page `number`'s first step, for the robot goes there slowly."""
-    limit, found = no_load_units_per_tick(volts), {}
+    limit = no_load_units_per_tick(volts)
+    found: dict = {}
     recent: Deque[List[int]] = deque(maxlen=WINDOW + 1)
     for tick in play(image, number, law, pose or _first_pose(image, number), int(seconds * TICKS_PER_SECOND)):
         if tick.goals is None:

@@ -77,7 +77,7 @@ def pages(number: int, a: Page, b: Page, image: Optional[Image] = None) -> List[
     add("name", f'"{a.title}"', f'"{b.title}"')
     if a.name == b.name and a.data[:14] != b.data[:14]:
         add("bytes behind the name", bytes(a.data[:14]).hex(" "), bytes(b.data[:14]).hex(" "))
-    add("schedule", *(SCHEDULES.get(p.schedule, f"0x{p.schedule:02X}") for p in (a, b)))
+    add("schedule", _schedule(a), _schedule(b))
     for field, what in FIELDS.items():
         add(what, getattr(a, field), getattr(b, field))
     for field, what in CODES.items():
@@ -85,7 +85,7 @@ def pages(number: int, a: Page, b: Page, image: Optional[Image] = None) -> List[
     add("steps", a.steps, b.steps)
     add("reserved bytes", bytes(a.data[14:15] + a.data[17:20]).hex(" "), bytes(b.data[14:15] + b.data[17:20]).hex(" "))
     for joint in range(JOINTS):
-        add("softness", *(f"{p.compliance(joint) >> 4}/{p.compliance(joint) & 15}" for p in (a, b)), joint=joint)
+        add("softness", _softness(a, joint), _softness(b, joint), joint=joint)
     used = min(max(a.steps, b.steps), STEPS)
     for step in range(used):
         add("pause", a.pause(step), b.pause(step), step)
@@ -100,12 +100,20 @@ def pages(number: int, a: Page, b: Page, image: Optional[Image] = None) -> List[
     return out
 
 
+def _schedule(page: Page) -> str:
+    return SCHEDULES.get(page.schedule, f"0x{page.schedule:02X}")
+
+
+def _softness(page: Page, joint: int) -> str:
+    return f"{page.compliance(joint) >> 4}/{page.compliance(joint) & 15}"
+
+
 def _whole(number: int, a: Page, b: Page) -> List[Change]:
     """Pages that came, went or have nothing in common."""
     if is_erased(a) or is_erased(b):
         other = b if is_erased(a) else a
-        states = [("erased flash" if is_erased(p) else _summary(p)) for p in (a, b)]
-        return [Change(number, other.title, "", *states)]
+        before, after = (("erased flash" if is_erased(p) else _summary(p)) for p in (a, b))
+        return [Change(number, other.title, "", before, after)]
     if a.is_empty and not b.is_empty:
         return [Change(number, b.title, "", "empty", _summary(b))]
     if b.is_empty and not a.is_empty:

@@ -9,6 +9,8 @@ from m512.files.image import Image, is_erased
 from m512.files.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Page, is_used
 from m512.motion.player import page_seconds
 
+NOMINAL_SPEED = 32
+
 
 def check(image: Image) -> List[Tuple[int, str]]:
     """(page, what is wrong or odd) for a whole image; page 0 is the trim and not a motion."""
@@ -30,6 +32,17 @@ def check(image: Image) -> List[Tuple[int, str]]:
             out.append((number, "a linked page has no code and is never followed"))
         if page.schedule == SCHEDULE_TIME and any(page.time(k) == 0 for k in range(page.steps)):
             out.append((number, "a step has time 0 and is played in one tick"))
+    return out
+
+
+def remarks(image: Image) -> List[Tuple[int, str]]:
+    """(page, what is right and may surprise)."""
+    out = []
+    for number, page in image.items():
+        if number and not page.fault(image.kind) and page.is_playable and page.schedule == SCHEDULE_TIME and page.speed != NOMINAL_SPEED:
+            factor = page.speed / NOMINAL_SPEED
+            out.append((number, f"speed {page.speed}: its steps and pauses last {factor:.4g} times what they say "
+                                f"(0.5 s becomes {0.5 * factor:.4g} s); {NOMINAL_SPEED} plays them as written"))
     return out
 
 

@@ -10,8 +10,8 @@ from m512.errors import FileError
 from m512.files.image import Image
 from m512.files.mtn.envelope import unwrap
 from m512.files.mtn.long_pages import place_long_pages
-from m512.files.scale12 import HINT
 from m512.files.page import POS_UNUSED, SCHEDULE_TIME, STEPS, Page
+from m512.files.scale12 import HINT
 from m512.files.wording import pages_text
 
 IDS = 26                 # the text has IDs 0..25

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Dict, List, Optional
 
 from m512.errors import FileError, TextError
+from m512.files import storage
 from m512.files.image import Image
 from m512.files.page import JOINTS, PAGE_BYTES, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Page
 from m512.files.text.steps import Draft, JointWords, block_words, make_block
@@ -20,6 +21,7 @@ from m512.files.text.words import (
     Token,
     WordError,
     code,
+    continues,
     joint_list,
     joints_of,
     name_bytes,
@@ -49,7 +51,7 @@ class Reader(JointWords):
         self.where, self.folder, self.line = where, folder, 0
         started, held = False, ""
         for self.line, line in enumerate(text.splitlines(), 1):
-            if line.endswith("\\"):
+            if continues(held + line):
                 held += line[:-1] + " "
                 continue
             held, line = "", held + line
@@ -62,6 +64,8 @@ class Reader(JointWords):
                         self._statement(statement)
             except WordError as error:
                 raise TextError(str(error), where, self.line) from None
+        if held:
+            raise TextError("the last line ends in a backslash: what it goes on with is missing", where, self.line)
         if not started:
             raise FileError(f"{where}: empty; a motion text starts with \"motion512 {VERSION}\"")
         self.where, self.line, self.folder = outer
@@ -110,9 +114,11 @@ class Reader(JointWords):
         if self.depth > MAX_INCLUDE_DEPTH:
             raise WordError(f"include goes deeper than {MAX_INCLUDE_DEPTH} files (in a circle?)")
         try:
-            text = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeError, ValueError) as error:
-            raise WordError(f"cannot read {path}: {getattr(error, 'strerror', None) or 'not UTF-8 text'}") from None
+            text = storage.read(path).decode("utf-8")
+        except FileError as error:
+            raise WordError(str(error)) from None
+        except (UnicodeError, ValueError):
+            raise WordError(f"cannot read {path}: not UTF-8 text") from None
         self.read(text, str(path), path.parent)
         self.depth -= 1
         self.draft = self.template
@@ -337,7 +343,7 @@ class Reader(JointWords):
                 return page if token.text == "self" else 0
             if token.text[:2] == "0x":
                 return number(token, 0, 255, "a raw link")
-            if token.text.isdigit():
+            if token.text.isascii() and token.text.isdigit():
                 return number(token, 0, self.end - 1, "a link")
         hits = names.get(name_bytes(token).split(b"\0")[0], [])
         if len(hits) != 1:

@@ -15,8 +15,8 @@ class Draft:
     """A page being written: the header as a Page, steps as words, and what is decided at the end."""
 
     def __init__(self, template: Optional["Draft"] = None):
-        self.page = template.page.copy() if template else Page()
-        self.fill = bytes(template.fill if template else self.page.step_bytes(0))
+        self.page: Page = template.page.copy() if template else Page()
+        self.fill: bytes = bytes(template.fill if template else self.page.step_bytes(0))
         self.steps: List[bytes] = []
         self.spares: Dict[int, bytes] = {}
         self.step_count: Optional[int] = None
@@ -117,7 +117,7 @@ class JointWords:
         return self.poses[text[1:]]
 
     def _mirror(self, words: Words) -> Words:
-        out = {}
+        out: Words = {}
         for joint, word in words.items():
             pair = self.pairs.get(joint)
             out[joint if pair is None else pair] = word if pair is None else mirrored(word, self.pos_max)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import List, Optional
+from typing import List
 
 from m512.files.page import JOINTS, POS_TORQUE_OFF, POS_UNUSED, TICKS_PER_SECOND
 
@@ -51,6 +51,21 @@ def tokenize(line: str) -> List[List[Token]]:
         else:
             statements[-1].append(Token(match.group("bare")))
     return [statement for statement in statements if statement]
+
+
+def continues(line: str) -> bool:
+    """Whether a backslash at the end of a line joins the next one to it. In a comment it is a part of the comment."""
+    if not line.endswith("\\"):
+        return False
+    at = 0
+    while at < len(line):
+        match = _TOKEN.match(line, at)
+        if not match or match.group("bad"):
+            return True
+        if match.group("comment") is not None:
+            return False
+        at = match.end()
+    return True
 
 
 def name_bytes(token: Token) -> bytes:
@@ -163,7 +178,7 @@ def code(token: Token) -> int:
     """A remote code: `none`, a number, or keys joined by +."""
     if token.text == "none":
         return 0
-    if token.text[:1].isdigit():
+    if token.text[:1].isascii() and token.text[:1].isdigit():
         return number(token, 0, 255, "code")
     value = 0
     for key in token.text.split("+"):
@@ -193,6 +208,9 @@ def position(text: str, before: int, pos_max: int) -> int:
     if text[:2].lower() == "0x":
         return number(token, 0, 0xFFFF, "a raw word")
     degrees = re.fullmatch(r"([+-]?[0-9]{1,9}(?:\.[0-9]*)?)deg", text)
+    if degrees and text[0] == "+":
+        raise WordError(f"{text}: an angle is from the centre, a + is from where the joint is. Say {text[1:]} for the angle, or "
+                        f"+{round(float(text[1:-3]) * (UNITS_PER_DEGREE if pos_max == 1023 else 4096 / 360))} to go so far")
     if degrees:
         scale = UNITS_PER_DEGREE if pos_max == 1023 else 4096 / 360
         value = (pos_max + 1) // 2 + round(float(degrees.group(1)) * scale)
@@ -219,9 +237,9 @@ def position_text(word: int, pos_max: int) -> str:
     return f"0x{word:04X}"
 
 
-def mirrored(word: Optional[int], pos_max: int) -> Optional[int]:
+def mirrored(word: int, pos_max: int) -> int:
     """A position on the other side of the neutral middle (512, or 2048); unused words as they are."""
-    if word is None or word > pos_max:
+    if word > pos_max:
         return word
     value = (pos_max + 1) - word
     if value > pos_max:

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: MIT
+"""Files read and written: whole or not at all, and pipes too ("-" is standard input or output)."""
+from __future__ import annotations
+
+import os
+import stat
+import sys
+import tempfile
+from pathlib import Path
+
+from m512.errors import FileError
+
+MOST_BYTES = 16 << 20        # no motion file, firmware or trace is larger; /dev/zero is
+
+
+def is_stream(path: Path) -> bool:
+    """Whether bytes go to or come from something that is no file: "-", a pipe, a terminal."""
+    if str(path) == "-":
+        return True
+    try:
+        return not (stat.S_ISREG(path.stat().st_mode) or path.is_dir())
+    except OSError:
+        return False
+
+
+def exists(path: Path) -> bool:
+    """Whether writing would overwrite something."""
+    return path.exists() and not is_stream(path)
+
+
+def read(path: Path) -> bytes:
+    """All bytes of a file or pipe."""
+    try:
+        if str(path) == "-":
+            data = sys.stdin.buffer.read(MOST_BYTES + 1)
+        else:
+            with open(path, "rb") as file:
+                data = file.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise FileError(f"cannot read {path}: {error.strerror}") from None
+    if len(data) > MOST_BYTES:
+        raise FileError(f"cannot read {path}: more than {MOST_BYTES >> 20} MiB, which is no file for this program")
+    return data
+
+
+def write(path: Path, data: bytes) -> None:
+    """Replaces a file in one step: after a crash or a full disk the old one is still there."""
+    try:
+        if str(path) == "-":
+            sys.stdout.buffer.write(data)
+            sys.stdout.buffer.flush()
+        elif is_stream(path):
+            with open(path, "wb") as stream:
+                stream.write(data)
+        else:
+            _replace(Path(os.path.realpath(path)), data)
+    except OSError as error:
+        raise FileError(f"cannot write {path}: {error.strerror}") from None
+
+
+def _replace(path: Path, data: bytes) -> None:
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(name, path.stat().st_mode & 0o7777 if path.exists() else 0o666 & ~_umask())
+        os.replace(name, path)
+    except BaseException:
+        os.unlink(name)
+        raise
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

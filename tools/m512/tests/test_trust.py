@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: MIT
+"""Nothing of a user's is lost in silence: files that are there, hand-written texts, boards, motions in HEX files, terminals."""
+import json
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from block_peer import PROMPTED, BlockPeer
+from conftest import REPO
+from m512 import __version__
+from m512.board.link import Link
+from m512.board.memory import plan
+from m512.errors import FileError, M512Error, PortError, TextError
+from m512.files import formats, storage
+from m512.files.image import Image, to_hex
+from m512.files.page import EMPTY
+from m512.files.text import read_text, write_text
+
+TEXT = """motion512 1
+page 1 stand
+  step 1s | 1..18:512
+page 3 walk
+  next self
+  step 50 | 1..18:400
+"""
+BY_HAND = TEXT.replace("page 3", "# my walk\npage 3")
+
+
+@pytest.fixture
+def files(tmp_path):
+    image = read_text(TEXT)
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    (tmp_path / "hand.m512").write_text(BY_HAND)
+    (tmp_path / "own.m512").write_text(write_text(image))
+    return tmp_path
+
+
+def run(*args, **options):
+    env = {**os.environ, "PYTHONPATH": str(REPO / "tools" / "m512" / "src")}
+    return subprocess.run([sys.executable, "-m", "m512", *map(str, args)], capture_output=True, env=env, timeout=60, **options)
+
+
+# Motions in Intel HEX: the rules of every motion file
+
+def hex_file(path, *pieces):
+    from intelhex import IntelHex
+
+    file = IntelHex()
+    for address, data in pieces:
+        file.frombytes(data, offset=address)
+    file.write_hex_file(str(path))
+    return path
+
+
+def test_hex_of_motions_leaves_the_trim_alone(tmp_path):
+    (tmp_path / "x.hex").write_text(to_hex(read_text(TEXT)))
+    found = plan(tmp_path / "x.hex")
+    assert min(found.pages) == 0xE200 // 256 and "keeps its own" in found.remarks[0]
+    assert min(plan(tmp_path / "x.hex", with_trim=True).pages) == 0xE000 // 256
+
+
+def test_hex_of_motions_with_a_damaged_page_is_refused(tmp_path):
+    image = read_text(TEXT)
+    image[3].data[100] ^= 1
+    (tmp_path / "x.hex").write_text(to_hex(image))
+    with pytest.raises(M512Error, match="page 3: checksum"):
+        plan(tmp_path / "x.hex")
+    assert plan(tmp_path / "x.hex", damaged="keep").pages
+
+
+def test_hex_without_its_end_is_refused(tmp_path):
+    text = to_hex(read_text(TEXT))
+    (tmp_path / "x.hex").write_text("\n".join(text.splitlines()[:-1]) + "\n")
+    with pytest.raises(FileError, match="end record is missing"):
+        plan(tmp_path / "x.hex")
+    with pytest.raises(FileError, match="end record is missing"):
+        formats.load(tmp_path / "x.hex")
+
+
+def test_hex_with_some_motion_pages_changes_only_those(tmp_path):
+    page = bytes(read_text(TEXT)[3])
+    found = plan(hex_file(tmp_path / "x.hex", (0xE000 + 3 * 512, page), (0xE000 + 9 * 512, page)))
+    assert sorted(found.pages) == [0xE6, 0xE7, 0xF2, 0xF3]
+    with pytest.raises(FileError, match="whole 512-byte motion pages"):
+        plan(hex_file(tmp_path / "half.hex", (0xE000 + 3 * 512, page[:256])))
+
+
+# Files that are there
+
+def test_in_place_does_not_make_numbers_of_a_hand_written_text(m512, files):
+    result = m512("pages", files / "hand.m512", "rename", "3", "new", "--in-place")
+    assert result.exit_code == 5 and "somebody's text" in result.stderr and "-o" in result.stderr
+    assert (files / "hand.m512").read_text() == BY_HAND
+    assert m512("pages", files / "own.m512", "rename", "3", "new", "--in-place").exit_code == 0
+    assert "new" in (files / "own.m512").read_text()
+
+
+def test_output_that_is_there_wants_force(m512, files):
+    (files / "there.bin").write_bytes(b"mine")
+    result = m512("pages", files / "x.bin", "delete", "3", "-o", files / "there.bin")
+    assert result.exit_code == 5 and "--force" in result.stderr and (files / "there.bin").read_bytes() == b"mine"
+    assert m512("pages", files / "x.bin", "delete", "3", "-o", files / "there.bin", "--force").exit_code == 0
+
+
+def test_plot_that_is_there_wants_force(m512, files):
+    (files / "there.png").write_bytes(b"mine")
+    result = m512("plot", files / "x.bin", "3", "-o", files / "there.png")
+    assert result.exit_code == 5 and (files / "there.png").read_bytes() == b"mine"
+
+
+def test_files_are_replaced_whole_or_not_at_all(files, monkeypatch):
+    target = files / "x.bin"
+    before, mode = target.read_bytes(), target.stat().st_mode
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(FileError, match="No space left"):
+        storage.write(target, b"half")
+    assert target.read_bytes() == before and sorted(path.name for path in files.iterdir()) == ["hand.m512", "own.m512", "x.bin"]
+    monkeypatch.undo()
+    storage.write(target, b"whole")
+    assert target.read_bytes() == b"whole" and target.stat().st_mode == mode
+
+
+# Boards
+
+@pytest.fixture
+def board():
+    flash = bytearray(b"\xff" * 0x20000)
+    flash[0xE000:0x1E000] = read_text(TEXT).to_bytes()
+    with BlockPeer(flash) as peer:
+        yield peer
+
+
+def test_changing_a_board_shows_the_change_and_asks(m512, board):
+    before = bytes(board.flash)
+    result = m512("pages", board.path, "delete", "3")
+    assert result.exit_code == 5 and "walk" in result.stderr and "--yes" in result.stderr and bytes(board.flash) == before
+    assert m512("pages", board.path, "delete", "3", "--yes").exit_code == 0
+    assert board.flash[0xE000 + 3 * 512:][:512] == EMPTY
+
+
+@pytest.mark.parametrize("at_prompt, left", [(True, 0), (False, 2)])
+def test_restore_answered_no_leaves_the_board_as_it_was_found(m512, board, tmp_path, at_prompt, left):
+    assert m512("backup", tmp_path / "b", "-p", board.path, "--what", "motions").exit_code == 0
+    with board.lock:
+        board.flash[0xE000 + 600] ^= 1
+        board.state = PROMPTED if at_prompt else 0
+        board.left.clear()
+    before = bytes(board.flash)
+    result = m512("restore", tmp_path / "b", "-p", board.path, "--wait", "5")
+    assert result.exit_code == 5 and bytes(board.flash) == before
+    assert board.left[-1] == left
+
+
+def test_port_is_opened_by_one_program_alone(board):
+    with Link(board.path), pytest.raises(PortError, match="in use by another program"):
+        Link(board.path)
+    Link(board.path).close()
+
+
+def test_what_a_board_or_a_file_says_does_not_steer_the_terminal(m512, files):
+    image = Image.empty()
+    image[5] = read_text(TEXT)[3]
+    image[5].data[:6] = b"\x1b[2Jm\x07"
+    (files / "evil.bin").write_bytes(image.to_bytes())
+    for action in (["list"], ["check"], ["show", "5"], ["time", "5"]):
+        result = m512("pages", files / "evil.bin", *action)
+        assert not re.search(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", result.stdout + result.stderr)
+    result = m512("convert", files / "\x1b[31mnothing", files / "y.bin")
+    assert result.exit_code == 4 and "\x1b" not in result.stderr and "\\x1B" in result.stderr
+
+
+# Text
+
+def test_backslash_at_the_end_of_the_file_or_of_a_comment_swallows_nothing():
+    with pytest.raises(TextError, match="backslash"):
+        read_text(TEXT + "  step 1s | 1..18:9 \\")
+    text = TEXT + "# C:\\motions\\\n  step 60 | 1..18:9\n"
+    assert read_text(text)[3].steps == 2
+    assert read_text(TEXT + "  step 60 | \\\n 1..18:9 # so\n")[3].steps == 2
+
+
+def test_plus_before_an_angle_is_not_taken_for_an_absolute_one():
+    with pytest.raises(TextError, match="30deg for the angle, or \\+102"):
+        read_text(TEXT + "  step 60 | same 1:+30deg\n")
+    assert read_text(TEXT + "  step 60 | same 1:-30deg\n")[3].word(1, 1) == 410
+
+
+def test_check_says_what_a_page_speed_does_to_the_times(m512, tmp_path):
+    (tmp_path / "x.m512").write_text("motion512 1\npage 1 slow\n  speed 64\n  step 0.5s | 1:512\n")
+    result = m512("pages", tmp_path / "x.m512", "check")
+    assert result.exit_code == 0 and "0.5 s becomes 1 s" in result.stderr
+
+
+def test_include_of_an_endless_file_is_an_error(tmp_path):
+    (tmp_path / "x.m512").write_text('motion512 1\ninclude "/dev/zero"\n')
+    with pytest.raises(M512Error, match="/dev/zero"):
+        formats.load(tmp_path / "x.m512")
+
+
+def test_csv_of_12_bits_stays_12_bits(m512, tmp_path):
+    text = "motion512 1\nbits 12\npage 3 high\n  step 50 | 1:4000 2:700\n"
+    (tmp_path / "x.m512").write_text(text)
+    assert m512("convert", tmp_path / "x.m512", tmp_path / "x.csv").exit_code == 0
+    back = formats.load(tmp_path / "x.csv")
+    assert back.bits == 12 and back[3] == read_text(text)[3] and not back[3].fault(back.kind)
+    (tmp_path / "y.csv").write_text((tmp_path / "x.csv").read_text().replace("bits,12\n", ""))
+    assert formats.load(tmp_path / "y.csv").bits == 12
+    (tmp_path / "z.csv").write_text((tmp_path / "x.csv").read_text().replace("bits,12\n", "bits,10\n"))
+    with pytest.raises(FileError, match="bits are 10"):
+        formats.load(tmp_path / "z.csv")
+
+
+# Pipes
+
+def test_convert_is_a_textconv_of_git(files):
+    result = run("convert", files / "x.bin")
+    assert result.returncode == 0 and read_text(result.stdout.decode()).to_bytes() == (files / "x.bin").read_bytes()
+    git = ["git", "-c", "user.name=a", "-c", "user.email=a@b", "-c", "core.attributesFile=" + str(files / "attributes"), "-c",
+           f"diff.motions.textconv=env PYTHONPATH={REPO / 'tools/m512/src'} {sys.executable} -m m512 convert"]
+    (files / "attributes").write_text("*.bin diff=motions\n")
+    subprocess.run(["git", "init", "-q"], cwd=files, check=True)
+    subprocess.run([*git, "add", "x.bin"], cwd=files, check=True)
+    subprocess.run([*git, "commit", "-qm", "x"], cwd=files, check=True)
+    changed = read_text(TEXT.replace("400", "401"))
+    (files / "x.bin").write_bytes(changed.to_bytes())
+    shown = subprocess.run([*git, "diff"], cwd=files, capture_output=True, text=True).stdout
+    assert "401" in shown and "Binary" not in shown
+
+
+@pytest.mark.parametrize("source", ["-", "/dev/stdin"])
+def test_standard_input_and_output(files, source):
+    data = (files / "x.bin").read_bytes()
+    assert b"walk" in run("pages", source, "list", input=data).stdout
+    assert run("convert", source, "/dev/stdout", input=data).stdout.startswith(b"motion512 1")
+
+
+def test_process_substitution(files):
+    command = f"{sys.executable} -m m512 diff <(cat {files}/x.bin) {files}/own.m512"
+    env = {**os.environ, "PYTHONPATH": str(REPO / "tools" / "m512" / "src")}
+    assert subprocess.run(["bash", "-c", command], env=env).returncode == 0
+
+
+# No tracebacks
+
+def test_page_number_of_superscript_digits(m512, files):
+    result = m512("pages", files / "x.bin", "show", "\u00b3")
+    assert result.exit_code == 4 and "no page is called" in result.stderr
+
+
+def test_manifest_with_a_number_for_a_file_name(m512, tmp_path):
+    entry = {"file": 5, "bytes": 65536, "crc16": "0000", "sha256": ""}
+    (tmp_path / "manifest.json").write_text(json.dumps({"format": "m512-backup", "version": 1, "files": {"motions": entry}}))
+    result = m512("restore", tmp_path)
+    assert result.exit_code == 4 and "damaged" in result.stderr
+
+
+def test_terminal_takes_lines_from_a_pipe(board):
+    result = run("term", "-p", board.path, input=b"id\n")
+    assert result.returncode == 0 and b"ID Motion512 boot" in result.stdout and b"Traceback" not in result.stderr
+
+
+def test_ctrl_c_has_an_exit_code_of_its_own(m512, files, monkeypatch):
+    def stop(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(formats, "load", stop)
+    result = m512("pages", files / "x.bin", "list")
+    assert result.exit_code == 130 and "stopped" in result.stderr
+
+
+# The package
+
+def test_version_is_that_of_the_project():
+    text = (REPO / "CMakeLists.txt").read_text()
+    assert __version__ == re.search(r"project\(motion512 VERSION ([0-9.]+)", text).group(1)
+
+
+def test_package_says_that_it_is_typed_and_its_licence():
+    text = (REPO / "tools" / "m512" / "pyproject.toml").read_text()
+    assert 'license = "MIT"' in text and "py.typed" in text and "matplotlib>=3.6" in text
+    assert (REPO / "tools" / "m512" / "src" / "m512" / "py.typed").exists()
