@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""Pictures: links stand where MuJoCo has them, the robot stands on the floor, and a command makes a file without a display."""
+import pathlib
+import subprocess
+import sys
+
+import mujoco
+import numpy
+import pytest
+
+from body.description import load
+from body.picture import flat, places, scene
+
+PICTURE = pathlib.Path(__file__).resolve().parents[1] / "picture"
+
+
+@pytest.mark.parametrize("name", ["humanoid", "gp"])
+def test_links_stand_where_mujoco_has_them(name):
+    robot, chance = load(name), numpy.random.default_rng(6)
+    model = mujoco.MjModel.from_xml_string(robot.xml())
+    data = mujoco.MjData(model)
+    for _ in range(20):
+        pose = {servo: 512 + chance.uniform(-150, 150) for servo in robot.servos}
+        for servo, position in pose.items():
+            data.joint(robot.joints[servo].name).qpos[0] = robot.angle(servo, position)
+        mujoco.mj_forward(model, data)
+        for body, (origin, turned) in places(robot, pose).items():
+            away = 1000 * (data.body(body).xpos - data.body("trunk").xpos)
+            assert origin == pytest.approx(away, abs=1e-6) and turned == pytest.approx(data.body(body).xmat.reshape(3, 3), abs=1e-9)
+
+
+def test_shapes_are_as_large_as_their_geoms():
+    """The sole 100 x 60 x 6 mm, on the floor; the hand reaches 110 mm below the elbow."""
+    robot = load("humanoid")
+    faces = scene(robot, {})
+    corners = numpy.concatenate([face.corners for face in faces])
+    assert corners[:, 2].min() == pytest.approx(0)
+    sole = numpy.concatenate([face.corners for face in faces if face.colour == (0.10, 0.10, 0.11)])
+    right = sole[sole[:, 1] < 0]
+    assert numpy.ptp(right, axis=0) == pytest.approx((100, 60, 6))
+    assert corners[:, 2].max() > 297.5 + 36                          # the head is above the shoulders
+    hand = numpy.concatenate([face.corners for face in faces if face.colour == (0.16, 0.42, 0.68) and abs(face.corners[:, 1]).min() > 60])
+    assert hand[:, 2].min() == pytest.approx(297.5 - 14 - 67.5 - 110, abs=1)
+
+
+def test_the_nearest_is_drawn_last_and_backs_are_left_out():
+    robot = load("humanoid")
+    faces = scene(robot, {})
+    from_front, from_behind = flat(faces, (0, 0)), flat(faces, (180, 0))
+    eyes = (0.98, 0.78, 0.20)
+    def first_eye(parts):
+        hues = [numpy.array(colour) / max(colour) for _, colour in parts]
+        return min(k for k, hue in enumerate(hues) if numpy.allclose(hue, numpy.array(eyes) / eyes[0])) / len(parts)
+    assert first_eye(from_front) > 0.5 > first_eye(from_behind)
+    assert len(from_front) < len(faces)
+
+
+@pytest.mark.parametrize("ending, begins", [("png", b"\x89PNG"), ("svg", b"<?xml")])
+def test_command_makes_a_file_without_a_display(tmp_path, ending, begins):
+    path = tmp_path / f"a.{ending}"
+    subprocess.run([sys.executable, str(PICTURE), "ready", "walk", "bow:2", "-o", str(path)], check=True, env={"PATH": "/usr/bin:/bin"})
+    assert path.read_bytes().startswith(begins)
+
+
+@pytest.mark.parametrize("words, says", [(["nix"], "no page is called 'nix'"), (["bow:9"], "has steps 1.."),
+                                         (["bow", "--body", "x"], "known here: gp, humanoid")])
+def test_command_says_what_is_wrong(tmp_path, words, says):
+    run = subprocess.run([sys.executable, str(PICTURE), *words, "-o", str(tmp_path / "a.png")], capture_output=True, text=True, check=False)
+    assert run.returncode == 1 and says in run.stderr
