@@ -21,6 +21,10 @@ static struct {
     uint8_t buffer[BOARD_API_BUFFER_BYTES];
 } api;
 
+/* The page's end of the seam. */
+__attribute__((import_module("body"), import_name("look"))) void body_look(servo_shaft_t *shafts, int count);
+__attribute__((import_module("body"), import_name("step"))) void body_step(servo_shaft_t *shafts, int count);
+
 static uint32_t clip(uint32_t count) { return count < sizeof api.buffer ? count : (uint32_t)sizeof api.buffer; }
 
 static servo_bus_t *bus(void) { return board_servo_bus(api.board); }
@@ -273,6 +277,26 @@ void board_api_servo_load(int index, double load)
     servo_t *servo = servo_now(index);
     if (servo) {
         servo_api_set_state(servo, board_now(api.board), SERVO_API_LOAD, fmin(fmax(load, -1), 1));
+    }
+}
+
+static void look(void *context, servo_shaft_t *shafts, int count)
+{
+    (void)context;
+    body_look(shafts, count);
+}
+
+static void step(void *context, servo_shaft_t *shafts, int count)
+{
+    (void)context;
+    body_step(shafts, count);
+}
+
+void board_api_body(bool attached)
+{
+    static const servo_body_t body = { .context = NULL, .look = look, .step = step };
+    if (api.board) {
+        board_body(api.board, attached ? &body : NULL);
     }
 }
 
