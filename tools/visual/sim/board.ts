@@ -10,6 +10,7 @@ export const EEPROM_BYTES = 0x1000;
 export const MOTIONS_ADDRESS = 0xe000;
 const SERVO_EEPROM_BYTES = 24;
 const SERVO_FIELDS = 10;
+const SHAFT_FIELDS = 4;
 const BUFFER_BYTES = 0x80000;
 
 export type Sender = 'pc' | 'remote';
@@ -28,6 +29,12 @@ export interface ServoReading {
   readonly celsius: number;
   readonly faults: number;
   readonly led: boolean;
+}
+
+/** What the servos' shafts hang on: servo_body.h. Each shaft is four doubles: ID, torque, angle, speed. */
+export interface ShaftBody {
+  look(shafts: Float64Array): void;
+  step(shafts: Float64Array): void;
 }
 
 interface Exports {
@@ -66,6 +73,7 @@ interface Exports {
   board_api_servo_register(index: number, address: number, bytes: number): number;
   board_api_servo_push(index: number, position: number): void;
   board_api_servo_load(index: number, load: number): void;
+  board_api_body(attached: number): void;
   board_api_faults(): number;
   board_api_fault_name(fault: number): number;
   board_api_fault(index: number, fault: number, answers: number): number;
@@ -75,22 +83,36 @@ interface Exports {
 export class Board {
   private readonly api: Exports;
   private readonly bufferAt: number;
+  private readonly seam: { body: ShaftBody | null };
 
-  private constructor(api: Exports, seed: number) {
+  private constructor(api: Exports, seed: number, seam: { body: ShaftBody | null }) {
     this.api = api;
+    this.seam = seam;
     this.bufferAt = api.board_api_buffer();
     if (!api.board_api_new(0, seed)) throw new Error('no memory for a simulated board');
   }
 
   /** A CM-5 without power, erased, without servos. seed: contents of its SRAM at power-on. */
   static async make(module: WebAssembly.Module, seed = 1): Promise<Board> {
-    const instance: WebAssembly.Instance = await WebAssembly.instantiate(
-      module,
-      wasiImports(() => (instance.exports as unknown as Exports).memory),
-    );
+    const seam: { body: ShaftBody | null } = { body: null };
+    const shafts = (at: number, count: number): Float64Array =>
+      new Float64Array((instance.exports as unknown as Exports).memory.buffer, at, count * SHAFT_FIELDS);
+    const instance: WebAssembly.Instance = await WebAssembly.instantiate(module, {
+      ...wasiImports(() => (instance.exports as unknown as Exports).memory),
+      body: {
+        look: (at: number, count: number) => seam.body?.look(shafts(at, count)),
+        step: (at: number, count: number) => seam.body?.step(shafts(at, count)),
+      },
+    });
     const api = instance.exports as unknown as Exports; // the names above are board_api.h's: tests/board.test.ts
     api._initialize();
-    return new Board(api, seed);
+    return new Board(api, seed, seam);
+  }
+
+  /** Hangs the servos' shafts on a body, which moves in lock step with the board; null: each turns its own rotor. */
+  setBody(body: ShaftBody | null): void {
+    this.seam.body = body;
+    this.api.board_api_body(Number(body !== null));
   }
 
   addServo(id: number): void {

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The robot's body as numbers: build/wasm/body.json, made from tools/body by body/body_files.py. Servo positions to
+// angles, angles to places of the links.
+
+import { within, turn } from './space.ts';
+import type { Place, Quaternion, Vector } from './space.ts';
+
+export interface Link {
+  readonly name: string;
+  /** null: the trunk, which nothing carries. Parents stand before their children. */
+  readonly parent: string | null;
+  readonly pos: Vector;
+  readonly quat: Quaternion;
+}
+
+export interface Joint {
+  readonly servo: number;
+  readonly name: string;
+  /** The link that it turns. */
+  readonly body: string;
+  readonly direction: 1 | -1;
+  /** Servo position of angle 0. */
+  readonly zero: number;
+  /** Radians. */
+  readonly low: number;
+  readonly high: number;
+  readonly axis: Vector;
+}
+
+export interface Shape {
+  readonly name: string | null;
+  readonly body: string;
+  readonly type: 'box' | 'capsule' | 'sphere' | 'cylinder';
+  /** box: half edges; sphere: radius; capsule and cylinder: radius and half length along its z. */
+  readonly size: readonly number[];
+  readonly pos: Vector;
+  readonly quat: Quaternion;
+  readonly material: string;
+}
+
+export interface Body {
+  readonly name: string;
+  readonly links: readonly Link[];
+  readonly joints: readonly Joint[];
+  readonly shapes: readonly Shape[];
+  readonly materials: Readonly<Record<string, readonly [number, number, number, number]>>;
+}
+
+/** 1024 positions are 300 degrees. */
+const RADIANS_PER_UNIT = (300 / 1024) * (Math.PI / 180);
+
+export function jointAngle(joint: Joint, position: number): number {
+  return joint.direction * (position - joint.zero) * RADIANS_PER_UNIT;
+}
+
+export function servoPosition(joint: Joint, angleRad: number): number {
+  return joint.zero + (joint.direction * angleRad) / RADIANS_PER_UNIT;
+}
+
+/** "right_hip_pitch" as people read it. */
+export function jointTitle(joint: Joint): string {
+  return joint.name.replaceAll('_', ' ');
+}
+
+/** Places of all links. angleOf: radians of the joint that turns this link, 0 for a link without one. */
+export function placeLinks(body: Body, trunk: Place, angleOf: (joint: Joint) => number): Map<string, Place> {
+  const joints = new Map(body.joints.map((joint) => [joint.body, joint]));
+  const places = new Map<string, Place>();
+  for (const link of body.links) {
+    const carrier = link.parent === null ? null : places.get(link.parent);
+    if (!carrier) {
+      places.set(link.name, trunk);
+      continue;
+    }
+    const joint = joints.get(link.name);
+    const still = within(carrier, link);
+    const turned = joint ? { pos: [0, 0, 0] as const, quat: turn(joint.axis, angleOf(joint)) } : null;
+    places.set(link.name, turned ? within(still, turned) : still);
+  }
+  return places;
+}
+
+/** The four lower corners of a sole, in the frame of its link. */
+export function soleCorners(body: Body, name: string): Vector[] {
+  const sole = body.shapes.find((shape) => shape.name === name);
+  if (!sole) return [];
+  const [x = 0, y = 0, z = 0] = sole.size;
+  return [[x, y], [x, -y], [-x, y], [-x, -y]].map(([dx = 0, dy = 0]) => [sole.pos[0] + dx, sole.pos[1] + dy, sole.pos[2] - z]);
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The states of a connection as a table. Pure: whoever runs it (connection.ts) does the deeds and reports the events.
+//
+//   closed --connect--> opening --opened--> asking --known--> ready
+//     ^                  |  ^                 | \                |
+//     |               failed |retry       silent  foreign      lost
+//     |                  v   |                v    v             v
+//     +----stop------- waiting <---lost--- silent  foreign     waiting --gave-up--> closed
+
+export type ConnectionState =
+  | 'closed' // nothing is open
+  | 'opening' // the port is being opened
+  | 'asking' // open; `@ver` was sent
+  | 'ready' // a firmware that we know answers
+  | 'silent' // open, and nothing that we know answers: a terminal still works; asked again from time to time
+  | 'foreign' // open, and a firmware answers that speaks something else
+  | 'waiting'; // the port was lost; tried again with growing pauses
+
+export type ConnectionEvent =
+  | 'connect' | 'opened' | 'open-failed' | 'known' | 'unknown' | 'no-answer' | 'ask-again' | 'lost' | 'retry' | 'gave-up' | 'stop';
+
+const table: Record<ConnectionState, Partial<Record<ConnectionEvent, ConnectionState>>> = {
+  closed: { connect: 'opening' },
+  opening: { opened: 'asking', 'open-failed': 'waiting', 'gave-up': 'closed', stop: 'closed' },
+  asking: { known: 'ready', unknown: 'foreign', 'no-answer': 'silent', lost: 'waiting', stop: 'closed' },
+  ready: { lost: 'waiting', 'ask-again': 'asking', stop: 'closed' },
+  silent: { 'ask-again': 'asking', lost: 'waiting', stop: 'closed' },
+  foreign: { 'ask-again': 'asking', lost: 'waiting', stop: 'closed' },
+  waiting: { retry: 'opening', 'gave-up': 'closed', stop: 'closed' },
+};
+
+/** The next state; null: the event means nothing here and nothing is to be done. */
+export function nextState(state: ConnectionState, event: ConnectionEvent): ConnectionState | null {
+  return table[state][event] ?? null;
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Keeps one port connected: opens it, finds out what runs there, notices when it is lost and tries again. The states and
+// when they change stand in connection-table.ts.
+
+import type { Clock } from './clock.ts';
+import { nextState } from './connection-table.ts';
+import type { ConnectionEvent, ConnectionState } from './connection-table.ts';
+import { Line } from './line.ts';
+import { BAUD_RATE } from './port.ts';
+import type { Port } from './port.ts';
+import { PROTOCOL, askVersion } from './protocol.ts';
+import type { Version } from './protocol.ts';
+import { Requests } from './requests.ts';
+import { RobotError } from './robot-error.ts';
+
+const RETRY_FIRST_MS = 250;
+const RETRY_MOST_MS = 4000;
+const GIVE_UP_MS = 120_000;
+const ASK_MS = 700;
+const ASK_AGAIN_MS = 400;
+
+export interface ConnectionEvents {
+  state(state: ConnectionState): void;
+  text(bytes: Uint8Array): void;
+}
+
+export class Connection {
+  private readonly port: Port;
+  private readonly clock: Clock;
+  private readonly events: ConnectionEvents;
+  private current: ConnectionState = 'closed';
+  private line: Line | null = null;
+  private asked: Requests | null = null;
+  private cancelTimer: () => void = () => undefined;
+  private retryMs = RETRY_FIRST_MS;
+  private lostAtMs = 0;
+  /** What runs there; null until it is known. */
+  version: Version | null = null;
+  /** Why the state is silent, foreign or waiting. */
+  error: RobotError | null = null;
+
+  constructor(port: Port, clock: Clock, events: ConnectionEvents) {
+    this.port = port;
+    this.clock = clock;
+    this.events = events;
+  }
+
+  get state(): ConnectionState {
+    return this.current;
+  }
+
+  get name(): string {
+    return this.port.name;
+  }
+
+  /** Requests of the open line. Throws RobotError not-connected when there is none. */
+  get requests(): Requests {
+    if (!this.asked) throw new RobotError('not-connected');
+    return this.asked;
+  }
+
+  connect(): void {
+    this.lostAtMs = this.clock.now();
+    this.retryMs = RETRY_FIRST_MS;
+    this.on('connect');
+  }
+
+  /** The board was restarted on purpose, or another image runs: finds out anew what it is. */
+  askAgain(): void {
+    this.on('ask-again');
+  }
+
+  /** The system tells that the port is there again: no need to wait for the next try. */
+  retryNow(): void {
+    if (this.current === 'waiting') this.on('retry');
+  }
+
+  async close(): Promise<void> {
+    this.on('stop');
+    await this.shut();
+  }
+
+  /** What a person types, and the bytes of a remote. Rejects when there is no line. */
+  async write(bytes: Uint8Array): Promise<void> {
+    if (!this.line) throw new RobotError('not-connected');
+    await this.line.write(bytes);
+  }
+
+  private on(event: ConnectionEvent): void {
+    const next = nextState(this.current, event);
+    if (!next) return;
+    this.cancelTimer();
+    this.cancelTimer = () => undefined;
+    this.current = next;
+    this.events.state(next);
+    this.enter(next);
+  }
+
+  private enter(state: ConnectionState): void {
+    switch (state) {
+      case 'opening': return void this.open();
+      case 'asking': return void this.ask();
+      case 'silent': return this.later(ASK_AGAIN_MS, 'ask-again');
+      case 'waiting': return this.wait();
+      case 'closed': return this.asked?.end('not-connected');
+      case 'ready': case 'foreign': return;
+      default: state satisfies never;
+    }
+  }
+
+  private later(delayMs: number, event: ConnectionEvent): void {
+    this.cancelTimer = this.clock.after(delayMs, () => this.on(event));
+  }
+
+  private async open(): Promise<void> {
+    await this.shut();
+    try {
+      await this.port.open({ baudRate: BAUD_RATE });
+    } catch (cause) {
+      this.error = new RobotError('port-busy', cause instanceof Error ? cause.message : '', { cause });
+      this.on('open-failed');
+      return;
+    }
+    if (this.current !== 'opening') return void this.shut(); // stopped meanwhile
+    this.line = new Line(this.port, this.clock, {
+      text: (bytes) => this.events.text(bytes),
+      answer: (line) => this.asked?.take(line),
+      lost: (cause) => this.lose(cause),
+    });
+    this.asked = new Requests(this.line, this.clock);
+    this.on('opened');
+  }
+
+  private async ask(): Promise<void> {
+    this.version = null;
+    try {
+      const version = await askVersion(this.requests, { timeoutMs: ASK_MS });
+      this.version = version;
+      this.retryMs = RETRY_FIRST_MS;
+      this.error = version.protocol === PROTOCOL ? null : new RobotError('foreign', `protocol ${version.protocol}`);
+      this.on(this.error ? 'unknown' : 'known');
+    } catch (cause) {
+      this.error = cause instanceof RobotError ? cause : new RobotError('foreign', String(cause));
+      this.on(this.error.code === 'no-answer' ? 'no-answer' : 'unknown');
+    }
+  }
+
+  private lose(cause: unknown): void {
+    this.lostAtMs = this.clock.now();
+    this.asked?.end('port-lost');
+    this.error = new RobotError('port-lost', '', { cause });
+    this.on('lost');
+  }
+
+  private wait(): void {
+    if (this.clock.now() - this.lostAtMs > GIVE_UP_MS) return this.on('gave-up');
+    this.later(this.retryMs, 'retry');
+    this.retryMs = Math.min(this.retryMs * 2, RETRY_MOST_MS);
+  }
+
+  private async shut(): Promise<void> {
+    const line = this.line;
+    this.line = null;
+    this.asked?.end('not-connected');
+    this.asked = null;
+    if (!line) return;
+    await line.close();
+    await this.port.close().catch(() => undefined); // a lost port cannot be closed
+  }
+}

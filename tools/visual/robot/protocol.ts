@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// The requests of firmware/edit/PROTOCOL.md as functions. Each rejects as Requests.ask() does, and with RobotError
+// 'foreign' when an answer is not what the protocol says.
+
+import type { RequestOptions, Requests } from './requests.ts';
+import { RobotError } from './robot-error.ts';
+
+/** What `@ver` says. */
+export interface Version {
+  readonly image: string; // "play", "edit"
+  readonly version: string; // "1.0.0"; empty for an image without a record
+  readonly board: string; // "cm5", "cm2"
+  readonly protocol: number;
+  /** What it can do: list, page, pose, ... */
+  readonly can: ReadonlySet<string>;
+}
+
+export type PlayState = 'idle' | 'ready' | 'approach' | 'paused' | 'playing';
+
+/** What `@where` says. */
+export interface Where {
+  readonly state: PlayState;
+  readonly page: number;
+  readonly step: number;
+  readonly repetition: number;
+  readonly code: number;
+  readonly batteryVolts: number;
+  /** Bit per servo ID. */
+  readonly faulty: number;
+  /** Everything it said, by name: later versions say more. */
+  readonly fields: ReadonlyMap<string, string>;
+}
+
+export interface JointPose {
+  readonly id: number;
+  /** Servo units, null when the servo does not answer. */
+  readonly position: number | null;
+  readonly torque: boolean;
+}
+
+export interface PageEntry {
+  readonly page: number;
+  readonly name: string;
+  /** 0 for a page that is damaged: `fault` says how. */
+  readonly steps: number;
+  readonly fault: string;
+}
+
+export const PROTOCOL = 1;
+const STATES: readonly string[] = ['idle', 'ready', 'approach', 'paused', 'playing'];
+const LIST_MS = 4000;
+const PAGE_MS = 2000;
+
+function fields(answer: string): Map<string, string> {
+  return new Map(answer.split(' ').filter(Boolean).map((word) => {
+    const equals = word.indexOf('=');
+    return equals < 0 ? [word, ''] as const : [word.slice(0, equals), word.slice(equals + 1)] as const;
+  }));
+}
+
+function strange(request: string, answer: string): RobotError {
+  return new RobotError('foreign', `${request}: ${answer.slice(0, 60)}`);
+}
+
+export async function askVersion(requests: Requests, options?: RequestOptions): Promise<Version> {
+  const answer = await requests.ask('@ver', options);
+  const said = fields(answer);
+  const image = said.get('image');
+  if (!image) throw strange('@ver', answer);
+  return {
+    image,
+    version: said.get('version') ?? '',
+    board: said.get('board') ?? '',
+    protocol: Number(said.get('protocol') ?? 0),
+    can: new Set((said.get('can') ?? '').split(',')),
+  };
+}
+
+export async function askWhere(requests: Requests, options?: RequestOptions): Promise<Where> {
+  const answer = await requests.ask('@where', options);
+  const said = fields(answer);
+  const number = (name: string): number => Number(said.get(name) ?? 0);
+  const state = said.get('state') ?? '';
+  if (!STATES.includes(state)) throw strange('@where', answer);
+  return {
+    state: state as PlayState,
+    page: number('page'), step: number('step'), repetition: number('repetition'), code: number('code'),
+    batteryVolts: number('dv') / 10,
+    faulty: Number.parseInt(said.get('faulty') ?? '0', 16),
+    fields: said,
+  };
+}
+
+export async function askPose(requests: Requests, options?: RequestOptions): Promise<JointPose[]> {
+  const answer = await requests.ask('@pose', options);
+  return answer.split(' ').filter(Boolean).map((word) => {
+    const match = /^(\d+):(\d+|\?):([01])$/.exec(word);
+    if (!match) throw strange('@pose', answer);
+    return { id: Number(match[1]), position: match[2] === '?' ? null : Number(match[2]), torque: match[3] === '1' };
+  });
+}
+
+export async function askList(requests: Requests): Promise<PageEntry[]> {
+  const answer = await requests.ask('@list', { timeoutMs: LIST_MS });
+  return Array.from(answer.matchAll(/(\d+):(\d+|!):"([^"]*)"/g), (match) => {
+    const damaged = match[2] === '!';
+    const words = match[3] ?? '';
+    return { page: Number(match[1]), steps: damaged ? 0 : Number(match[2]), name: damaged ? '' : words, fault: damaged ? words : '' };
+  });
+}
+
+/** CRC-16, polynomial 0x1021, start 0xFFFF. */
+export function crc16(bytes: Uint8Array): number {
+  let crc = 0xffff;
+  for (const byte of bytes) {
+    crc ^= byte << 8;
+    for (let bit = 0; bit < 8; bit++) crc = ((crc << 1) ^ (crc & 0x8000 ? 0x1021 : 0)) & 0xffff;
+  }
+  return crc;
+}
+
+/** The 512 bytes of a page, checked by their CRC. */
+export async function askPage(requests: Requests, page: number): Promise<Uint8Array> {
+  const answer = await requests.ask(`@page ${page}`, { timeoutMs: PAGE_MS });
+  const match = /^(\d+) ([0-9A-Fa-f]{1024}) ([0-9A-Fa-f]{4})$/.exec(answer);
+  if (!match || Number(match[1]) !== page) throw strange('@page', answer);
+  const hex = match[2] ?? '';
+  const bytes = Uint8Array.from({ length: 512 }, (_, i) => Number.parseInt(hex.slice(2 * i, 2 * i + 2), 16));
+  if (crc16(bytes) !== Number.parseInt(match[3] ?? '', 16)) throw strange('@page', 'the CRC does not fit');
+  return bytes;
+}
+
+export async function play(requests: Requests, page: number, code = 0): Promise<void> {
+  await requests.ask(code ? `@play ${page} ${code}` : `@play ${page}`);
+}
+
+export type Command = 'stop' | 'break' | 'pause' | 'resume' | 'reset';
+
+export async function command(requests: Requests, what: Command): Promise<void> {
+  await requests.ask(`@${what}`);
+}
+
+/** Without IDs: all servos. */
+export async function setTorque(requests: Requests, on: boolean, ids: readonly number[] = []): Promise<void> {
+  await requests.ask(['@torque', on ? 'on' : 'off', ...ids].join(' '), { timeoutMs: PAGE_MS });
+}

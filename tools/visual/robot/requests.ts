@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Requests and answers of PROTOCOL.md over a line: one at a time, in order, each with a time limit.
+//
+//   waiting in the queue --sent--> under way --answer--> resolved, or rejected with the board's ERR
+//                                     |
+//                                     +--time over--> rejected; late answers to it are dropped until the line is settled
+
+import type { Clock } from './clock.ts';
+import type { Line } from './line.ts';
+import { isAnswer } from './line-parser.ts';
+import { RobotError } from './robot-error.ts';
+
+const ANSWER_MS = 1000;
+/** After a time-out nothing is sent for so long, or until the late answer has come: it must not answer the next one. */
+const SETTLE_MS = 500;
+
+export interface RequestOptions {
+  readonly timeoutMs?: number;
+  readonly signal?: AbortSignal;
+}
+
+interface Request {
+  readonly text: string;
+  readonly timeoutMs: number;
+  readonly resolve: (answer: string) => void;
+  readonly reject: (error: RobotError) => void;
+}
+
+export class Requests {
+  private readonly line: Pick<Line, 'write' | 'expect' | 'forget'>;
+  private readonly clock: Clock;
+  private readonly queue: Request[] = [];
+  private current: Request | null = null;
+  private abandoned: string | null = null;
+  private cancelTimer: () => void = () => undefined;
+  private isEnded = false;
+
+  constructor(line: Pick<Line, 'write' | 'expect' | 'forget'>, clock: Clock) {
+    this.line = line;
+    this.clock = clock;
+  }
+
+  /** Sends a request, `@where` for example; resolves to the words between its own first word and OK.
+   *  Rejects with RobotError: refused, no-answer, not-connected, port-lost, cancelled. */
+  ask(text: string, options: RequestOptions = {}): Promise<string> {
+    return new Promise((resolve, reject) => {
+      if (this.isEnded) return reject(new RobotError('not-connected'));
+      const request = { text, timeoutMs: options.timeoutMs ?? ANSWER_MS, resolve, reject };
+      options.signal?.addEventListener('abort', () => this.cancel(request), { once: true });
+      if (options.signal?.aborted) return reject(new RobotError('cancelled'));
+      this.queue.push(request);
+      this.next();
+    });
+  }
+
+  /** An answer line has come. */
+  take(line: string): void {
+    if (this.abandoned !== null && isAnswer(this.abandoned, line)) {
+      this.settle();
+      return;
+    }
+    const request = this.current;
+    if (!request || !isAnswer(request.text, line)) return; // nobody asked
+    this.finish();
+    const word = request.text.split(' ', 1)[0] ?? '';
+    const refusal = / ERR (\d+) (.*)$/.exec(line);
+    if (refusal) request.reject(new RobotError('refused', refusal[2] ?? '', { number: Number(refusal[1]) }));
+    else request.resolve(line.slice(word.length, -' OK'.length).trim());
+    this.next();
+  }
+
+  /** The line is gone: everything that waits is rejected, and so is what comes later. */
+  end(code: 'port-lost' | 'not-connected'): void {
+    this.isEnded = true;
+    this.cancelTimer();
+    const all = this.current ? [this.current, ...this.queue] : [...this.queue];
+    this.current = null;
+    this.queue.length = 0;
+    for (const request of all) request.reject(new RobotError(code));
+  }
+
+  private next(): void {
+    if (this.current || this.abandoned !== null) return;
+    const request = this.queue.shift();
+    if (!request) return;
+    this.current = request;
+    this.line.expect(request.text);
+    this.cancelTimer = this.clock.after(request.timeoutMs, () => this.timeOut(request));
+    const bytes = new TextEncoder().encode(`${request.text}\r`);
+    this.line.write(bytes).catch((cause: unknown) => {
+      if (this.current !== request) return;
+      this.line.forget();
+      this.finish();
+      request.reject(cause instanceof RobotError ? cause : new RobotError('port-lost', '', { cause }));
+      this.next();
+    });
+  }
+
+  private finish(): void {
+    this.cancelTimer();
+    this.current = null;
+  }
+
+  private timeOut(request: Request): void {
+    this.abandon(request, new RobotError('no-answer', request.text));
+  }
+
+  private cancel(request: Request): void {
+    const at = this.queue.indexOf(request);
+    if (at >= 0) {
+      this.queue.splice(at, 1);
+      request.reject(new RobotError('cancelled'));
+    } else if (this.current === request) {
+      this.abandon(request, new RobotError('cancelled'));
+    }
+  }
+
+  private abandon(request: Request, error: RobotError): void {
+    this.finish();
+    this.abandoned = request.text;
+    this.cancelTimer = this.clock.after(SETTLE_MS, () => {
+      this.line.forget();
+      this.settle();
+    });
+    request.reject(error);
+  }
+
+  private settle(): void {
+    this.cancelTimer();
+    this.abandoned = null;
+    this.next();
+  }
+}

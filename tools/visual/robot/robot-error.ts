@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// What can go wrong between the page and a board. The sentence for each code stands in view/texts.ts.
+
+export type RobotErrorCode =
+  | 'no-answer' // the board said nothing within the time
+  | 'refused' // the board answered ERR: its number and words are in `words`
+  | 'not-connected' // there is no open port
+  | 'port-lost' // the cable was pulled, or the port died
+  | 'port-busy' // the port cannot be opened: another program has it, or no permission
+  | 'foreign' // something else answers there
+  | 'in-loader' // the boot loader waits at its prompt
+  | 'cancelled' // somebody stopped it
+  | 'typing'; // somebody is typing a line in the terminal
+
+/** Every rejection of this folder. `words`: what the board said, if it said anything. */
+export class RobotError extends Error {
+  readonly code: RobotErrorCode;
+  readonly words: string;
+  /** The ERR number of a refusal, else 0. */
+  readonly number: number;
+
+  constructor(code: RobotErrorCode, words = '', options: { cause?: unknown; number?: number } = {}) {
+    super(words === '' ? code : `${code}: ${words}`, { cause: options.cause });
+    this.name = 'RobotError';
+    this.code = code;
+    this.words = words;
+    this.number = options.number ?? 0;
+  }
+}

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// The robot's body in MuJoCo: torques of the servos in, angles and speeds of their shafts out, 1024 times a second. And
+// what happens to a robot in a room: a hand that grips a limb, a hand that holds it upright, a floor that tilts.
+
+import type { Body } from '../model/body.ts';
+import { jointAngle, soleCorners } from '../model/body.ts';
+import { add, cross, heading, inverse, length, multiply, rotate, scale, subtract, turn } from '../model/space.ts';
+import type { Place, Quaternion, Vector } from '../model/space.ts';
+import type { Floor, Grip } from './messages.ts';
+import { OBJECT } from './mujoco.ts';
+import type { Data, Model, Mujoco } from './mujoco.ts';
+
+export const STEPS_PER_SECOND = 1024;
+/** servo_shaft_t: ID, torque in N m, angle in radians, speed in radians a second. */
+export const SHAFT_FIELDS = 4;
+
+const GRAVITY = 9.81;
+const GRIP = { newtonPerMetre: 150, newtonSecondPerMetre: 6, limitNewton: 14 };
+/** The hand that holds the trunk: critically damped for a robot of 1.8 kg. */
+const HOLD = { move: 400, moveDamp: 50, turn: 20, turnDamp: 1.6, farthestM: 0.1, clearanceM: 0.001, liftedM: 0.36, releaseSteps: 400 };
+const UPRIGHT = 0.9; // cosine of the tilt below which the soles are not the lowest part
+const FALLEN = 0.55;
+
+interface Shaft {
+  readonly angleAt: number;
+  readonly speedAt: number;
+  readonly torqueAt: number;
+  readonly direction: 1 | -1;
+  readonly offsetRad: number;
+}
+
+export class PhysicalBody {
+  private readonly mujoco: Mujoco;
+  private readonly model: Model;
+  private readonly data: Data;
+  private readonly shafts = new Map<number, Shaft>();
+  private readonly soles: { readonly link: number; readonly corners: readonly Vector[] }[];
+  private readonly trunkLink: number;
+  private readonly floorGeom: number;
+  private readonly massKg: number;
+  private grip: { link: number; point: Vector; target: Vector; before: Vector | null } | null = null;
+  private holdHeading = 0;
+  private holdAt: Vector = [0, 0, 0];
+  private holding = 0; // 1: held, between: being let go, 0: free
+  private isHeld = false;
+
+  /** xml: body.xml. Throws MuJoCo's words when it is no model. */
+  constructor(mujoco: Mujoco, xml: string, body: Body) {
+    this.mujoco = mujoco;
+    this.model = mujoco.MjModel.from_xml_string(xml);
+    this.data = new mujoco.MjData(this.model);
+    for (const joint of body.joints) this.addShaft(joint);
+    this.soles = (['right', 'left'] as const).map((side) => ({
+      link: this.id(OBJECT.body, `${side}_foot`), corners: soleCorners(body, `${side}_sole`),
+    }));
+    this.trunkLink = this.id(OBJECT.body, body.links[0]?.name ?? 'trunk');
+    this.floorGeom = this.id(OBJECT.geom, 'floor');
+    this.massKg = this.model.body_mass.reduce((sum, mass) => sum + mass, 0);
+    mujoco.mj_forward(this.model, this.data);
+  }
+
+  /** Puts the robot on its feet in the room's middle, with these joint angles. */
+  begin(angleOf: (servo: number) => number, body: Body): void {
+    this.mujoco.mj_resetData(this.model, this.data);
+    for (const joint of body.joints) {
+      const shaft = this.shafts.get(joint.servo);
+      if (shaft) this.data.qpos[shaft.angleAt] = angleOf(joint.servo);
+    }
+    this.mujoco.mj_forward(this.model, this.data);
+    const qpos = this.data.qpos;
+    qpos[2] = (qpos[2] ?? 0) - this.lowestSole() + HOLD.clearanceM;
+    this.mujoco.mj_forward(this.model, this.data);
+  }
+
+  /** The seam's look(): angles and speeds as they are. */
+  look(shafts: Float64Array): void {
+    const { qpos, qvel } = this.data;
+    for (let at = 0; at < shafts.length; at += SHAFT_FIELDS) {
+      const shaft = this.shafts.get(shafts[at] ?? -1);
+      if (!shaft) continue;
+      shafts[at + 2] = shaft.direction * ((qpos[shaft.angleAt] ?? 0) - shaft.offsetRad);
+      shafts[at + 3] = shaft.direction * (qvel[shaft.speedAt] ?? 0);
+    }
+  }
+
+  /** The seam's step(): lets 1/1024 s pass under these torques. */
+  step(shafts: Float64Array): void {
+    const ctrl = this.data.ctrl;
+    for (let at = 0; at < shafts.length; at += SHAFT_FIELDS) {
+      const shaft = this.shafts.get(shafts[at] ?? -1);
+      if (shaft) ctrl[shaft.torqueAt] = shaft.direction * (shafts[at + 1] ?? 0);
+    }
+    this.pull();
+    this.mujoco.mj_step(this.model, this.data);
+    this.look(shafts);
+  }
+
+  setGrip(grip: Grip | null): void {
+    const link = grip ? this.id(OBJECT.body, grip.link) : -1;
+    if (!grip || link <= 0) this.grip = null;
+    else this.grip = { link, point: grip.point, target: grip.target, before: this.grip?.link === link ? this.grip.before : null };
+  }
+
+  /** Held: upright, over the place where it is, feet just off the floor. Let go: in 0.4 s. */
+  setHeld(held: boolean): void {
+    this.isHeld = held;
+    if (!held) return;
+    this.holding = 1;
+    this.holdHeading = heading(this.trunk.quat);
+    this.holdAt = this.trunk.pos;
+  }
+
+  get held(): boolean {
+    return this.holding > 0;
+  }
+
+  /** A tilted floor is gravity that leans: the picture tilts, the numbers stay small. */
+  setFloor(floor: Floor): void {
+    const gravity = this.model.opt.gravity;
+    gravity[0] = GRAVITY * Math.sin(floor.tiltFront) * Math.cos(floor.tiltLeft);
+    gravity[1] = GRAVITY * Math.sin(floor.tiltLeft);
+    gravity[2] = -GRAVITY * Math.cos(floor.tiltFront) * Math.cos(floor.tiltLeft);
+    this.model.geom_friction[3 * this.floorGeom] = Math.min(Math.max(floor.friction, 0), 2);
+  }
+
+  get trunk(): Place {
+    const q = this.data.qpos;
+    return { pos: [q[0] ?? 0, q[1] ?? 0, q[2] ?? 0], quat: [q[3] ?? 1, q[4] ?? 0, q[5] ?? 0, q[6] ?? 0] };
+  }
+
+  get hasFallen(): boolean {
+    return rotate(this.trunk.quat, [0, 0, 1])[2] < FALLEN;
+  }
+
+  dispose(): void {
+    this.data.delete();
+    this.model.delete();
+  }
+
+  private addShaft(joint: Body['joints'][number]): void {
+    const index = this.id(OBJECT.joint, joint.name);
+    const motor = Array.from({ length: this.model.nu }, (_, i) => i).find((i) => this.model.actuator_trnid[2 * i] === index);
+    if (index < 0 || motor === undefined) throw new Error(`the body has no motor for servo ${joint.servo}`);
+    this.shafts.set(joint.servo, {
+      angleAt: this.model.jnt_qposadr[index] ?? 0,
+      speedAt: this.model.jnt_dofadr[index] ?? 0,
+      torqueAt: motor,
+      direction: joint.direction,
+      offsetRad: jointAngle(joint, 512), // shaft angle 0 is servo position 512
+    });
+  }
+
+  private id(kind: number, name: string): number {
+    return this.mujoco.mj_name2id(this.model, kind, name);
+  }
+
+  private linkPlace(link: number): Place {
+    const { xpos, xquat } = this.data;
+    return {
+      pos: [xpos[3 * link] ?? 0, xpos[3 * link + 1] ?? 0, xpos[3 * link + 2] ?? 0],
+      quat: [xquat[4 * link] ?? 1, xquat[4 * link + 1] ?? 0, xquat[4 * link + 2] ?? 0, xquat[4 * link + 3] ?? 0],
+    };
+  }
+
+  private lowestSole(): number {
+    let lowest = Infinity;
+    for (const { link, corners } of this.soles) {
+      const foot = this.linkPlace(link);
+      for (const corner of corners) lowest = Math.min(lowest, foot.pos[2] + rotate(foot.quat, corner)[2]);
+    }
+    return lowest;
+  }
+
+  private pull(): void {
+    if (!this.grip && this.holding === 0) return;
+    const forces = this.data.xfrc_applied;
+    forces.fill(0);
+    if (this.grip) this.pullGrip(forces, this.grip);
+    if (this.holding > 0) this.pullTrunk(forces);
+    if (!this.grip && this.holding === 0) forces.fill(0);
+  }
+
+  private pullGrip(forces: Float64Array, grip: NonNullable<PhysicalBody['grip']>): void {
+    const place = this.linkPlace(grip.link);
+    const point = add(place.pos, rotate(place.quat, grip.point));
+    const speed = grip.before ? scale(subtract(point, grip.before), STEPS_PER_SECOND) : ([0, 0, 0] as const);
+    grip.before = point;
+    const pull = subtract(scale(subtract(grip.target, point), GRIP.newtonPerMetre), scale(speed, GRIP.newtonSecondPerMetre));
+    const force = scale(pull, Math.min(1, GRIP.limitNewton / Math.max(length(pull), 1e-9)));
+    this.apply(forces, grip.link, force, cross(subtract(point, this.middle(grip.link)), force));
+  }
+
+  private pullTrunk(forces: Float64Array): void {
+    if (!this.isHeld) this.holding = Math.max(0, this.holding - 1 / HOLD.releaseSteps);
+    const { pos, quat } = this.trunk;
+    const qvel = this.data.qvel;
+    const speed: Vector = [qvel[0] ?? 0, qvel[1] ?? 0, qvel[2] ?? 0];
+    const spin = rotate(quat, [qvel[3] ?? 0, qvel[4] ?? 0, qvel[5] ?? 0]);
+    const isUpright = rotate(quat, [0, 0, 1])[2] > UPRIGHT;
+    const height = isUpright ? pos[2] - this.lowestSole() + HOLD.clearanceM : HOLD.liftedM;
+    const away = subtract([this.holdAt[0], this.holdAt[1], height], pos);
+    const near = scale(away, Math.min(1, HOLD.farthestM / Math.max(length(away), 1e-9)));
+    const lift: Vector = [0, 0, this.massKg * GRAVITY];
+    const force = add(add(scale(near, HOLD.move), scale(speed, -HOLD.moveDamp)), lift);
+    const torque = add(scale(turnOf(multiply(turn([0, 0, 1], this.holdHeading), inverse(quat))), HOLD.turn), scale(spin, -HOLD.turnDamp));
+    this.apply(forces, this.trunkLink, scale(force, this.holding), scale(torque, this.holding));
+  }
+
+  private middle(link: number): Vector {
+    const at = this.data.xipos;
+    return [at[3 * link] ?? 0, at[3 * link + 1] ?? 0, at[3 * link + 2] ?? 0];
+  }
+
+  /** A force at the link's centre of mass and a torque, added to what acts already. */
+  private apply(forces: Float64Array, link: number, force: Vector, torque: Vector): void {
+    [...force, ...torque].forEach((value, i) => {
+      forces[6 * link + i] = (forces[6 * link + i] ?? 0) + value;
+    });
+  }
+}
+
+/** A rotation as axis times angle, the short way. */
+function turnOf(q: Quaternion): Vector {
+  const sign = q[0] < 0 ? -1 : 1;
+  const sine = Math.hypot(q[1], q[2], q[3]);
+  const angle = 2 * Math.atan2(sine, Math.abs(q[0]));
+  return sine < 1e-9 ? [0, 0, 0] : [(q[1] / sine) * angle * sign, (q[2] / sine) * angle * sign, (q[3] / sine) * angle * sign];
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Imports point down only: model < robot < sim; the view uses model and robot; app and main.ts join them all.
+import { readFileSync, readdirSync } from 'node:fs';
+import { dirname, relative, resolve } from 'node:path';
+import { expect, test } from 'vitest';
+
+const ROOT = resolve(import.meta.dirname, '..');
+const MAY: Readonly<Record<string, readonly string[]>> = {
+  model: ['model'],
+  robot: ['robot', 'model'],
+  sim: ['sim', 'robot', 'model'],
+  view: ['view', 'robot', 'model'],
+  app: ['app', 'view', 'sim', 'robot', 'model'],
+};
+/** Packages that a layer may use; everything else is one of ours. */
+const PACKAGES: Readonly<Record<string, RegExp>> = { model: /^$/, robot: /^$/, sim: /^@mujoco\/mujoco$/, view: /^(three|@xterm)/, app: /^$/ };
+
+export function importsOf(source: string): string[] {
+  return Array.from(source.matchAll(/(?:from|import)\s*\(?\s*'([^']+)'/g), (match) => match[1] ?? '');
+}
+
+export function wrongImports(folder: string, file: string, source: string): string[] {
+  return importsOf(source).filter((name) => {
+    if (!name.startsWith('.')) return !PACKAGES[folder]?.test(name);
+    const to = relative(ROOT, resolve(dirname(file), name));
+    if (to.startsWith('..')) return folder !== 'app'; // build products: assets.ts
+    return !MAY[folder]?.includes(to.split('/')[0] ?? '');
+  });
+}
+
+test.each(Object.keys(MAY))('%s imports only what lies below it', (folder) => {
+  const files = readdirSync(resolve(ROOT, folder)).filter((name) => name.endsWith('.ts'));
+  expect(files.length).toBeGreaterThan(0);
+  const wrong = files.flatMap((name) => {
+    const file = resolve(ROOT, folder, name);
+    return wrongImports(folder, file, readFileSync(file, 'utf8')).map((to) => `${folder}/${name}: ${to}`);
+  });
+  expect(wrong).toEqual([]);
+});
+
+test('an import upwards is found', () => {
+  const file = resolve(ROOT, 'model/x.ts');
+  expect(wrongImports('model', file, "import { a } from '../robot/port.ts';")).toHaveLength(1);
+  expect(wrongImports('robot', file, "import type { A } from '../view/desk.ts';")).toHaveLength(1);
+  expect(wrongImports('view', file, "const x = await import('../sim/worker.ts');")).toHaveLength(1);
+  expect(wrongImports('model', file, "import * as THREE from 'three';")).toHaveLength(1);
+});
+
+test('no listing of ours uses document, window or storage below the view', () => {
+  const browser = /\b(document|window|localStorage|indexedDB)\b\./;
+  for (const folder of ['model', 'robot', 'sim']) {
+    for (const name of readdirSync(resolve(ROOT, folder)).filter((n) => n.endsWith('.ts'))) {
+      expect(browser.test(readFileSync(resolve(ROOT, folder, name), 'utf8')), `${folder}/${name}`).toBe(false);
+    }
+  }
+});

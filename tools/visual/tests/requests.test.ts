@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Requests against the real firmware on the simulated board, bytes split at random, in simulated time.
+import { afterEach, expect, test } from 'vitest';
+import { Connection } from '../robot/connection.ts';
+import type { ConnectionState } from '../robot/connection-table.ts';
+import { askList, askPage, askPose, askVersion, askWhere, command, play } from '../robot/protocol.ts';
+import { remotePacket } from '../robot/remote.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import { RobotBench, robotImages, settle } from './robot-bench.ts';
+
+const open: Connection[] = [];
+afterEach(async () => {
+  for (const connection of open.splice(0)) await connection.close();
+});
+
+async function connect(bench: RobotBench) {
+  const states: ConnectionState[] = [];
+  const heard: number[] = [];
+  const connection = new Connection(bench.port, bench.clock, {
+    state: (state) => states.push(state),
+    text: (bytes) => heard.push(...bytes),
+  });
+  open.push(connection);
+  connection.connect();
+  return { connection, states, text: () => String.fromCharCode(...heard) };
+}
+
+async function ready(image: 'play' | 'edit', seed: number) {
+  const bench = await RobotBench.make(image, seed);
+  const link = await connect(bench);
+  for (let i = 0; i < 200 && link.connection.state !== 'ready'; i++) await bench.run(50);
+  expect(link.connection.state, `seed ${seed}`).toBe('ready');
+  return { bench, ...link };
+}
+
+test.each([['play', 11], ['edit', 12]] as const)('%s: the questions of the protocol', async (image, seed) => {
+  const { bench, connection } = await ready(image, seed);
+  const requests = connection.requests;
+  expect(connection.version).toMatchObject({ image, board: 'cm5', protocol: 1 });
+  expect(connection.version?.can.has('save')).toBe(image === 'edit');
+  expect(await bench.until(askWhere(requests))).toMatchObject({ state: 'idle', batteryVolts: 9.6, faulty: 0 });
+  const pose = await bench.until(askPose(requests));
+  expect(pose.map((joint) => joint.id)).toEqual(Array.from({ length: 18 }, (_, i) => i + 1));
+  expect(pose[0]).toEqual({ id: 1, position: 512, torque: false });
+  const list = await bench.until(askList(requests));
+  expect(list).toContainEqual({ page: 2, name: 'bow', steps: expect.any(Number), fault: '' });
+  const { motions } = await robotImages('play');
+  for (const page of [2, 100]) {
+    expect(await bench.until(askPage(requests, page))).toEqual(motions.slice(page * 512, page * 512 + 512));
+  }
+});
+
+test('many questions at once are answered in their order', async () => {
+  const { bench, connection } = await ready('play', 13);
+  const answers = await bench.until(Promise.all([
+    askWhere(connection.requests), askPose(connection.requests), askVersion(connection.requests), askWhere(connection.requests),
+  ]));
+  expect(answers[1]).toHaveLength(18);
+  expect(answers[2].image).toBe('play');
+  expect(answers[3].state).toBe('idle');
+});
+
+test('a refusal carries the number and the words of the board', async () => {
+  const { bench, connection } = await ready('play', 14);
+  const refused = bench.until(play(connection.requests, 300));
+  await expect(refused).rejects.toMatchObject({ code: 'refused', number: 3, words: expect.stringContaining('Page') });
+});
+
+test('a terminal beside the program sees its own text and nothing of the program', async () => {
+  const { bench, connection, text } = await ready('play', 15);
+  const before = text();
+  for (let i = 0; i < 20; i++) await bench.until(askWhere(connection.requests));
+  expect(text()).toBe(before);
+  expect(text()).not.toContain('@');
+  await connection.write(new TextEncoder().encode('version\r'));
+  await bench.run(300);
+  expect(text().slice(before.length)).toMatch(/^version\r\nMotion512 Play .*\r\n OK\r\n\] $/s);
+});
+
+test('a walk by remote is heard of by @where, and ends by @stop', async () => {
+  const { bench, connection } = await ready('play', 16);
+  bench.board.send('remote', remotePacket(['up']));
+  await bench.run(5000);
+  expect(await bench.until(askWhere(connection.requests))).toMatchObject({ state: 'playing', code: 1 });
+  await bench.until(command(connection.requests, 'stop'));
+  await bench.run(5000);
+  expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+});
+
+test('a board that says nothing: time-out, and the late answer does not answer the next question', async () => {
+  const { bench, connection } = await ready('play', 17);
+  const hurried = bench.until(connection.requests.ask('@list', { timeoutMs: 5 }));
+  await expect(hurried).rejects.toMatchObject({ code: 'no-answer' });
+  const list = await bench.until(askList(connection.requests));
+  expect(list.length).toBeGreaterThan(30);
+  bench.board.setPower(false);
+  await expect(bench.until(askWhere(connection.requests))).rejects.toMatchObject({ code: 'no-answer' });
+});
+
+test('cancelled by the caller, in the queue and under way', async () => {
+  const { bench, connection } = await ready('play', 18);
+  const first = new AbortController();
+  const second = new AbortController();
+  const both = Promise.allSettled([
+    connection.requests.ask('@list', { signal: first.signal }), connection.requests.ask('@pose', { signal: second.signal }),
+  ]);
+  first.abort();
+  second.abort();
+  const [one, two] = await bench.until(both);
+  expect([one, two].map((r) => r.status === 'rejected' && (r.reason as RobotError).code)).toEqual(['cancelled', 'cancelled']);
+  expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+});
+
+test('the cable is pulled with a question under way, and put back', async () => {
+  const { bench, connection, states } = await ready('play', 19);
+  const asked = askList(connection.requests);
+  asked.catch(() => undefined);
+  await bench.run(20);
+  bench.port.unplug();
+  await expect(bench.until(asked)).rejects.toMatchObject({ code: 'port-lost' });
+  expect(connection.state).toBe('waiting');
+  await bench.run(3000);
+  expect(connection.state).toBe('ready');
+  expect(states.slice(-4)).toEqual(['waiting', 'opening', 'asking', 'ready']);
+  expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+});
+
+test('a board without power is silent, and found when it is switched on', async () => {
+  const bench = await RobotBench.make('play', 20);
+  bench.board.setPower(false);
+  const { connection, states } = await connect(bench);
+  await bench.run(1500);
+  expect(states).toContain('silent');
+  expect(states).not.toContain('ready');
+  bench.board.setPower(true);
+  await bench.run(6000);
+  expect(connection.state).toBe('ready');
+});
+
+test('a board in its boot loader: what it says is text, and the state says silent', async () => {
+  const bench = await RobotBench.make('play', 21);
+  bench.board.setPower(false);
+  bench.board.writeEeprom(4095, Uint8Array.of(0xff));
+  bench.board.setPower(true);
+  const { states, text } = await connect(bench);
+  await bench.run(2500);
+  expect(states).toContain('silent');
+  expect(states).not.toContain('ready');
+  expect(text()).toContain('- ');
+});
+
+test('closing while something waits rejects it', async () => {
+  const { connection } = await ready('play', 22);
+  const asked = askWhere(connection.requests);
+  asked.catch(() => undefined);
+  await connection.close();
+  await settle();
+  await expect(asked).rejects.toBeInstanceOf(RobotError);
+  expect(() => connection.requests).toThrow(RobotError);
+});
