@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Builds the page into build/visual. Relative addresses everywhere: the folder works from any sub-path of any host.
 import { defineConfig } from 'vite';
+import { mujocoWithoutEval } from './mujoco-plugin.ts';
+import { offline } from './offline-plugin.ts';
 
 export default defineConfig({
   base: './',
   publicDir: false,
-  build: { outDir: '../../build/visual', emptyOutDir: true, target: 'es2022', assetsInlineLimit: 0, modulePreload: { polyfill: false } },
-  worker: { format: 'es' },
+  plugins: [mujocoWithoutEval(), offline()],
+  build: { outDir: '../../build/visual', emptyOutDir: true, target: 'es2022', assetsInlineLimit: 0, modulePreload: { polyfill: false }, chunkSizeWarningLimit: 1200 },
+  worker: { format: 'es', plugins: () => [mujocoWithoutEval()] },
 });

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The files beside the page: WebAssembly, images, motions, body. Their addresses are relative, so that the folder works
+// from any place; each is fetched once.
+
+import boardUrl from '../../../build/wasm/board.wasm?url';
+import bodyXmlUrl from '../../../build/wasm/body.xml?url';
+import mujocoUrl from '../../../build/wasm/mujoco.wasm.gz?url';
+import bootUrl from '../../../build/firmware/boot-cm5.hex?url';
+import editUrl from '../../../build/firmware/edit-cm5.hex?url';
+import playUrl from '../../../build/firmware/play-cm5.hex?url';
+import motionsUrl from '../../../build/motions/motions.bin?url';
+import bodyUrl from '../../../build/wasm/body.json?url';
+import type { Body } from '../model/body.ts';
+import type { Images } from '../sim/machine.ts';
+
+async function get(url: string): Promise<Response> {
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`${url.split('/').at(-1)} could not be loaded (${response.status})`);
+  return response;
+}
+
+export async function robotBody(): Promise<Body> {
+  const body: unknown = await (await get(bodyUrl)).json();
+  return body as Body; // made by body_files.py; tests/body.test.ts checks its shape
+}
+
+export async function boardModule(): Promise<WebAssembly.Module> {
+  return WebAssembly.compile(await (await get(boardUrl)).arrayBuffer());
+}
+
+export async function robotImages(image: 'play' | 'edit'): Promise<Images> {
+  const [boot, application, motions] = await Promise.all([
+    get(bootUrl).then((r) => r.text()), get(image === 'play' ? playUrl : editUrl).then((r) => r.text()), get(motionsUrl).then((r) => r.arrayBuffer()),
+  ]);
+  return { boot, application, motions: new Uint8Array(motions) };
+}
+
+/** 2.5 MB, packed here rather than by the host, which may not pack at all. */
+export async function physics(): Promise<{ bodyXml: string; wasm: ArrayBuffer }> {
+  const [bodyXml, packed] = await Promise.all([get(bodyXmlUrl).then((r) => r.text()), get(mujocoUrl)]);
+  const stream = packed.body?.pipeThrough(new DecompressionStream('gzip'));
+  return { bodyXml, wasm: await new Response(stream).arrayBuffer() };
+}

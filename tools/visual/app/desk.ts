@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// The robot on the desk: joins the simulated robot or a port with the protocol and the views. The only place that knows
+// them all.
+
+import type { Body } from '../model/body.ts';
+import type { Connection } from '../robot/connection.ts';
+import type { ConnectionState } from '../robot/connection-table.ts';
+import { askList, askWhere, command, play, setTorque } from '../robot/protocol.ts';
+import type { Command } from '../robot/protocol.ts';
+import { remotePacket } from '../robot/remote.ts';
+import type { RemoteButton } from '../robot/remote.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import type { RobotState } from '../robot/robot-state.ts';
+import type { Desk, DeskState, Floor, Hand, ImageName, PanelButton, Tab } from '../view/desk.ts';
+import { Store } from '../view/store.ts';
+import { doingText, errorText } from '../view/texts.ts';
+import { Listeners } from './listeners.ts';
+import { LastSaid } from './said.ts';
+import { SimulatedSource } from './simulated-source.ts';
+import { YourSource } from './your-source.ts';
+
+const WHERE_MS = 300;
+const REMOTE_REPEAT_MS = 100;
+
+const START: DeskState = {
+  source: 'simulated', connection: 'closed', portName: '', version: null, where: null, pages: [], image: 'play', physics: 'loading', speed: 1,
+  stopped: null, doing: { text: 'Starting …', tone: 'calm' }, said: null, faultNames: [], tab: 'remote',
+};
+
+export class RobotDesk implements Desk {
+  readonly body: Body;
+  readonly state = new Store<DeskState>(START);
+  private readonly frames = new Listeners<RobotState>();
+  private readonly texts = new Listeners<Uint8Array>();
+  private readonly simulated: SimulatedSource;
+  private readonly yours: YourSource;
+  private readonly lastSaid = new LastSaid();
+  private held: ReadonlySet<RemoteButton> = new Set();
+  private whereTimer: ReturnType<typeof setTimeout> | undefined;
+  private typing = '';
+
+  constructor(body: Body) {
+    this.body = body;
+    const events = {
+      frame: (state: RobotState) => this.frames.tell(state),
+      text: (bytes: Uint8Array) => this.hear(bytes),
+      connection: (state: ConnectionState) => this.connectionChanged(state),
+      change: (change: Partial<DeskState>) => this.state.set(change),
+    };
+    this.simulated = new SimulatedSource(body, events);
+    this.yours = new YourSource(body, events, () => this.mayAsk());
+    setInterval(() => this.repeatRemote(), REMOTE_REPEAT_MS);
+  }
+
+  /** Starts the robot in the page. */
+  start(): Promise<void> {
+    return this.simulated.start(this.state.get().image);
+  }
+
+  onFrame(listener: (state: RobotState) => void): () => void {
+    return this.frames.add(listener);
+  }
+
+  onText(listener: (bytes: Uint8Array) => void): () => void {
+    return this.texts.add(listener);
+  }
+
+  show(tab: Tab): void {
+    this.state.set({ tab });
+  }
+
+  play(page: number): Promise<void> {
+    return this.deed(async () => {
+      if (this.isSimulated) await this.simulated.prepare();
+      await play(this.connection.requests, page);
+    });
+  }
+
+  command(what: Command): Promise<void> {
+    return this.deed(() => command(this.connection.requests, what));
+  }
+
+  setTorque(on: boolean): Promise<void> {
+    return this.deed(() => setTorque(this.connection.requests, on));
+  }
+
+  remote(held: ReadonlySet<RemoteButton>): void {
+    this.held = held;
+    if (held.size > 0 && this.isSimulated) void this.simulated.prepare();
+    this.sendRemote();
+  }
+
+  type(bytes: Uint8Array): void {
+    for (const byte of bytes) this.typing = byte === 0x0d || byte === 0x03 ? '' : this.typing + String.fromCharCode(byte);
+    void this.connection.write(bytes).catch((error: unknown) => this.fail(error));
+  }
+
+  useSimulated(): void {
+    if (this.isSimulated) return;
+    void this.yours.close();
+    this.state.set({ source: 'simulated' });
+    this.simulated.resume();
+  }
+
+  async connectYours(): Promise<void> {
+    try {
+      if (!(await this.yours.choose())) return; // the chooser was closed: no error
+    } catch (error) {
+      return this.fail(error);
+    }
+    this.simulated.pause();
+    this.state.set({ source: 'yours', version: null, where: null, pages: [] });
+    this.yours.connect();
+  }
+
+  setSpeed(speed: number): void {
+    this.state.set({ speed });
+    this.simulated.post({ kind: 'speed', speed });
+  }
+
+  oneTick(): void {
+    this.setSpeed(0);
+    this.simulated.post({ kind: 'tick' });
+  }
+
+  setPower(on: boolean): void {
+    this.simulated.post({ kind: 'power', on });
+    if (on) setTimeout(() => this.simulated.connection?.askAgain(), 1500);
+  }
+
+  press(button: PanelButton, down: boolean): void {
+    this.simulated.post({ kind: 'button', button, down });
+  }
+
+  setBattery(volts: number): void {
+    this.simulated.post({ kind: 'battery', volts });
+  }
+
+  setFault(servo: number, fault: number, on: boolean): void {
+    this.simulated.post({ kind: 'fault', servo, fault, answers: on ? -1 : 0 });
+  }
+
+  turnServo(servo: number, position: number): void {
+    this.simulated.post({ kind: 'turn-servo', servo, position });
+  }
+
+  pull(hand: Hand | null): void {
+    this.simulated.post({ kind: 'grip', grip: hand });
+  }
+
+  hold(held: boolean): void {
+    this.simulated.post({ kind: 'hold', held });
+  }
+
+  setFloor(floor: Floor): void {
+    this.simulated.post({ kind: 'floor', floor });
+  }
+
+  runImage(image: ImageName): void {
+    this.state.set({ image });
+    void this.simulated.restart(image);
+  }
+
+  forget(): Promise<void> {
+    return this.simulated.forget(this.state.get().image);
+  }
+
+  private get isSimulated(): boolean {
+    return this.state.get().source === 'simulated';
+  }
+
+  private get connection(): Connection {
+    const connection = this.isSimulated ? this.simulated.connection : this.yours.connection;
+    if (!connection) throw new RobotError('not-connected');
+    return connection;
+  }
+
+  private async deed(deed: () => Promise<void>): Promise<void> {
+    try {
+      await deed();
+      this.state.set({ said: null });
+      void this.askWhere();
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  private fail(error: unknown): void {
+    if (!(error instanceof RobotError)) throw error;
+    this.state.set({ said: { text: errorText(error), tone: 'bad' } });
+  }
+
+  private hear(bytes: Uint8Array): void {
+    this.texts.tell(bytes);
+    const said = this.lastSaid.take(bytes);
+    if (said) this.state.set({ said: { text: said.text, tone: said.isTrouble ? 'bad' : 'calm' } });
+  }
+
+  private connectionChanged(state: ConnectionState): void {
+    const { version, name } = this.connection;
+    this.state.set({ connection: state, version, portName: name, where: null });
+    this.say();
+    if (state !== 'ready') return;
+    void askList(this.connection.requests).then((pages) => this.state.set({ pages }), (error: unknown) => this.fail(error));
+    if (this.isSimulated) void this.simulated.prepare().catch((error: unknown) => this.fail(error));
+    void this.askWhere();
+  }
+
+  private say(): void {
+    const state = this.state.get();
+    const tone = state.stopped !== null || state.connection === 'foreign' || state.connection === 'waiting' ? 'bad' : 'calm';
+    this.state.set({ doing: { text: doingText(state, state.where), tone } });
+  }
+
+  /** A program's question would spoil a line that somebody types, and puts Edit's screen away. */
+  private mayAsk(): boolean {
+    const { connection, version, tab } = this.state.get();
+    const isEditOnScreen = version?.image === 'edit' && tab === 'terminal';
+    return connection === 'ready' && this.typing === '' && !isEditOnScreen;
+  }
+
+  private async askWhere(): Promise<void> {
+    clearTimeout(this.whereTimer);
+    this.whereTimer = setTimeout(() => void this.askWhere(), WHERE_MS);
+    if (!this.mayAsk() || this.state.get().version?.image !== 'play' || this.state.get().speed === 0) return;
+    try {
+      const where = await askWhere(this.connection.requests, { timeoutMs: 3000 });
+      this.state.set({ where });
+      this.say();
+    } catch (error) {
+      if (error instanceof RobotError && error.code === 'no-answer') this.connection.askAgain();
+    }
+  }
+
+  private repeatRemote(): void {
+    if (this.held.size > 0) this.sendRemote();
+  }
+
+  private sendRemote(): void {
+    const packet = remotePacket(this.held);
+    if (this.isSimulated) this.simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
+    else void this.connection.write(packet).catch((error: unknown) => this.fail(error));
+  }
+}

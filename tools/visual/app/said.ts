@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The last whole line that the board said by itself, for the strip. Prompts, echoes, bare OKs and the escape sequences of a
+// full screen are no messages.
+
+const LINE_MAX = 200;
+const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|fault|lost|cannot|bad|not /i;
+
+export interface Said {
+  readonly text: string;
+  readonly isTrouble: boolean;
+}
+
+export class LastSaid {
+  private line = '';
+  private isScreen = false;
+
+  /** The newest message among these bytes, or null. */
+  take(bytes: Uint8Array): Said | null {
+    let newest: Said | null = null;
+    for (const byte of bytes) {
+      if (byte === 0x1b) this.isScreen = true; // a screen is being drawn until the next line begins
+      if (byte === 0x0a || byte === 0x0d) {
+        newest = this.end() ?? newest;
+      } else if (this.line.length < LINE_MAX) {
+        this.line += String.fromCharCode(byte);
+      }
+    }
+    return newest;
+  }
+
+  private end(): Said | null {
+    const text = this.line.trim();
+    const isMessage = !this.isScreen && text.length > 3 && !text.startsWith('] ') && /^[\x20-\x7e]+$/.test(text);
+    this.line = '';
+    this.isScreen = false;
+    return isMessage ? { text, isTrouble: TELLS_TROUBLE.test(text) } : null;
+  }
+}

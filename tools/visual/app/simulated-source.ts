@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// The robot in the page: its worker, its memory in the browser, and the hands that a person would lend it: one holds it up
+// until its legs bear it.
+
+import type { Body } from '../model/body.ts';
+import { Connection } from '../robot/connection.ts';
+import type { ConnectionState } from '../robot/connection-table.ts';
+import { wallClock } from '../robot/clock.ts';
+import { askWhere, play } from '../robot/protocol.ts';
+import type { RobotState } from '../robot/robot-state.ts';
+import type { FromSim, ToSim } from '../sim/messages.ts';
+import { SimulatedRobot } from '../sim/robot-client.ts';
+import type { DeskState, ImageName } from '../view/desk.ts';
+import { forgetRobot, loadRobot, saveRobot } from '../view/robot-store.ts';
+import type { KeptRobot } from '../view/robot-store.ts';
+import { TEXTS, violationText } from '../view/texts.ts';
+import { boardModule, physics, robotImages } from './assets.ts';
+
+const KEY = 'cm5';
+/** Page of the motion library in which the robot stands by itself. */
+const READY_PAGE = 1;
+const STAND_LIMIT_MS = 8000;
+
+export interface SourceEvents {
+  frame(state: RobotState): void;
+  text(bytes: Uint8Array): void;
+  connection(state: ConnectionState): void;
+  change(change: Partial<DeskState>): void;
+}
+
+export class SimulatedSource {
+  private readonly body: Body;
+  private readonly events: SourceEvents;
+  private robot: SimulatedRobot | null = null;
+  private isShown = true;
+  private standing: Promise<void> | null = null;
+  private last: RobotState | null = null;
+  connection: Connection | null = null;
+
+  constructor(body: Body, events: SourceEvents) {
+    this.body = body;
+    this.events = events;
+  }
+
+  async start(image: ImageName): Promise<void> {
+    const [module, images, kept] = await Promise.all([boardModule(), robotImages(image), this.load()]);
+    const worker = new Worker(new URL('../sim/worker.ts', import.meta.url), { type: 'module' });
+    const robot = new SimulatedRobot(worker, { message: (message) => this.take(message) });
+    this.robot = robot;
+    this.standing = null;
+    robot.post({ kind: 'start', module, body: this.body, images, kept });
+    this.connection = new Connection(robot.port, wallClock, {
+      state: (state) => this.isShown && this.events.connection(state),
+      text: (bytes) => this.isShown && this.events.text(bytes),
+    });
+    this.connection.connect();
+    void this.addPhysics(robot);
+  }
+
+  async restart(image: ImageName): Promise<void> {
+    const robot = this.robot;
+    this.robot = null;
+    if (robot) await this.keep(await robot.memories());
+    await this.end(robot);
+    await this.start(image);
+  }
+
+  async forget(image: ImageName): Promise<void> {
+    const robot = this.robot;
+    this.robot = null;
+    await this.end(robot);
+    await forgetRobot(KEY).catch(() => this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } }));
+    await this.start(image);
+  }
+
+  post(message: ToSim): void {
+    this.robot?.post(message);
+  }
+
+  pause(): void {
+    this.isShown = false;
+    this.post({ kind: 'speed', speed: 0 });
+  }
+
+  resume(): void {
+    this.isShown = true;
+    this.post({ kind: 'speed', speed: 1 });
+    this.events.change({ speed: 1, version: this.connection?.version ?? null, where: null });
+    if (this.connection) this.events.connection(this.connection.state);
+  }
+
+  /** Does what a person does before a motion: holds the robot, lets it go to its standing pose, lets go of it. At once when
+   *  it stands already. Rejects with RobotError when the robot refuses. */
+  prepare(): Promise<void> {
+    this.standing ??= this.stand().catch((error: unknown) => {
+      this.standing = null;
+      throw error;
+    });
+    return this.standing;
+  }
+
+  private async stand(): Promise<void> {
+    const connection = this.connection;
+    if (!connection || connection.version?.image !== 'play' || !this.last?.isHeld) return;
+    await play(connection.requests, READY_PAGE);
+    const endMs = performance.now() + STAND_LIMIT_MS;
+    while (performance.now() < endMs) {
+      const where = await askWhere(connection.requests, { timeoutMs: 3000 });
+      if (where.state === 'idle') break;
+    }
+    this.post({ kind: 'hold', held: false });
+  }
+
+  private async addPhysics(robot: SimulatedRobot): Promise<void> {
+    try {
+      const { bodyXml, wasm } = await physics();
+      robot.post({ kind: 'physics', bodyXml, wasm }, [wasm]);
+    } catch {
+      this.events.change({ physics: 'off', said: { text: TEXTS.noPhysics, tone: 'bad' } });
+    }
+  }
+
+  private take(message: FromSim): void {
+    switch (message.kind) {
+      case 'state':
+        this.last = message.state;
+        return this.isShown ? this.events.frame(message.state) : undefined;
+      case 'started': return this.events.change({ faultNames: message.faults, stopped: null });
+      case 'physics':
+        return this.events.change(message.error === null ? { physics: 'on' } : { physics: 'off', said: { text: `${TEXTS.noPhysics} (${message.error})`, tone: 'bad' } });
+      case 'memories': return void this.keep(message.memories);
+      case 'violation': return this.stop(violationText(message.violation, message.text));
+      case 'crashed': return this.stop(TEXTS.crashed);
+      case 'bytes': return; // the port has them
+      default: message satisfies never;
+    }
+  }
+
+  private stop(why: string): void {
+    this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
+  }
+
+  private async end(robot: SimulatedRobot | null): Promise<void> {
+    await this.connection?.close();
+    this.connection = null;
+    robot?.dispose();
+    this.events.change({ physics: 'loading', version: null, where: null, said: null });
+  }
+
+  private async load(): Promise<KeptRobot | null> {
+    try {
+      return await loadRobot(KEY);
+    } catch {
+      this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } });
+      return null;
+    }
+  }
+
+  private async keep(memories: KeptRobot): Promise<void> {
+    try {
+      await saveRobot(KEY, memories);
+    } catch {
+      this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } });
+    }
+  }
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Your robot on a serial port of this computer (Web Serial). The picture follows its servos: `@pose` as often as the line
+// lets it, and the feet stand on the ground, for nobody tells where the robot is in its room.
+
+import { jointAngle } from '../model/body.ts';
+import type { Body } from '../model/body.ts';
+import { Connection } from '../robot/connection.ts';
+import { wallClock } from '../robot/clock.ts';
+import { askPose } from '../robot/protocol.ts';
+import type { JointPose } from '../robot/protocol.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import type { ServoState } from '../robot/robot-state.ts';
+import { WebSerialPort } from '../robot/web-serial-port.ts';
+import { Standing } from '../sim/standing.ts';
+import { TEXTS } from '../view/texts.ts';
+import type { SourceEvents } from './simulated-source.ts';
+
+const PAUSE_MS = 20;
+const RESTING_MS = 300;
+
+export class YourSource {
+  private readonly events: SourceEvents;
+  private readonly mayAsk: () => boolean;
+  private readonly standing: Standing;
+  private port: SerialPort | null = null;
+  private startedMs = 0;
+  connection: Connection | null = null;
+
+  constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
+    this.events = events;
+    this.mayAsk = mayAsk;
+    this.standing = new Standing(body);
+    if ('serial' in navigator) navigator.serial.addEventListener('connect', () => this.connection?.retryNow());
+  }
+
+  /** Lets the person choose a port, unless one was allowed before. false: the chooser was closed. */
+  async choose(): Promise<boolean> {
+    if (!('serial' in navigator)) throw new RobotError('port-busy', TEXTS.noSerial);
+    try {
+      const [known] = await navigator.serial.getPorts();
+      this.port = known ?? (await navigator.serial.requestPort());
+      return true;
+    } catch (error) {
+      if (error instanceof DOMException && error.name === 'NotFoundError') return false;
+      throw new RobotError('port-busy', error instanceof Error ? error.message : '', { cause: error });
+    }
+  }
+
+  connect(): void {
+    if (!this.port) return;
+    this.standing.begin();
+    this.startedMs = performance.now();
+    this.connection = new Connection(new WebSerialPort(this.port), wallClock, {
+      state: (state) => this.events.connection(state),
+      text: (bytes) => this.events.text(bytes),
+    });
+    this.connection.connect();
+    void this.follow(this.connection);
+  }
+
+  async close(): Promise<void> {
+    const connection = this.connection;
+    this.connection = null;
+    await connection?.close();
+  }
+
+  private async follow(connection: Connection): Promise<void> {
+    while (this.connection === connection) {
+      let pauseMs = RESTING_MS;
+      if (this.mayAsk()) {
+        try {
+          this.show(await askPose(connection.requests));
+          pauseMs = PAUSE_MS;
+        } catch (error) {
+          if (error instanceof RobotError && error.code === 'no-answer') connection.askAgain();
+        }
+      }
+      await new Promise((resolve) => setTimeout(resolve, pauseMs));
+    }
+  }
+
+  private show(pose: readonly JointPose[]): void {
+    const positions = new Map(pose.map((joint) => [joint.id, joint.position]));
+    const servos: ServoState[] = pose.map(({ id, position, torque }) => ({
+      id, goalPos: null, position: position ?? 512, torque, alarms: 0, celsius: 0, faults: 0,
+    }));
+    const trunk = this.standing.move((joint) => jointAngle(joint, positions.get(joint.servo) ?? joint.zero));
+    const ticks = Math.floor(((performance.now() - this.startedMs) / 1000) * 128);
+    this.events.frame({ ticks, servos, trunk, leds: 0, isPowered: true, isHeld: false, hasFallen: false, lateMs: 0, trace: new Float32Array(0) });
+  }
+}

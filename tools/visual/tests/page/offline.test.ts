@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The page needs no host but its own, any sub-path will do, and none at all on the second visit.
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+
+let browser: Browser;
+const servers: PageServer[] = [];
+const serve = async (...options: string[]): Promise<PageServer> => {
+  const server = await PageServer.start(...options);
+  servers.push(server);
+  return server;
+};
+beforeAll(async () => {
+  browser = await startBrowser();
+});
+afterAll(async () => {
+  await browser.close();
+  for (const server of servers) await server.stop();
+});
+
+test('from a sub-path, and the second visit with the server stopped', async () => {
+  const server = await serve('--under', '/some/where');
+  const visitor = await Visitor.come(browser, server.address);
+  await visitor.untilStanding();
+  await visitor.page.evaluate(async () => {
+    await navigator.serviceWorker.ready;
+  });
+  await server.stop();
+  await visitor.page.reload();
+  await visitor.untilStanding();
+  await visitor.leave();
+});
+
+test('the policy holds: no code from text, in the page', async () => {
+  const server = await serve();
+  const visitor = await Visitor.come(browser, server.address);
+  // Playwright's own scripts may do what the policy forbids; a text that the page is to run later may not.
+  const ran = await visitor.page.evaluate(async () => {
+    (setTimeout as (code: string) => void)('document.title = "made from text"');
+    await new Promise((resolve) => setTimeout(resolve, 200));
+    return document.title;
+  });
+  expect(ran).not.toBe('made from text');
+  expect(visitor.faults.join()).toMatch(/content security policy/i);
+  await server.stop();
+});

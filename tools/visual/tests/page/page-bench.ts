@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The built page, served on this machine, in Debian's Chromium. A console error, an error of the page or a request to any
+// other host fails the test in close().
+
+import { spawn } from 'node:child_process';
+import type { ChildProcess } from 'node:child_process';
+import { existsSync } from 'node:fs';
+import { chromium } from 'playwright-core';
+import type { Browser, BrowserContext, Page } from 'playwright-core';
+
+const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
+const FLAGS = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+  '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(process.getuid?.() === 0 ? ['--no-sandbox'] : [])];
+const VIEWPORT = { width: 1000, height: 640 };
+
+export class PageServer {
+  readonly address: string;
+  private readonly process: ChildProcess;
+
+  private constructor(process: ChildProcess, address: string) {
+    this.process = process;
+    this.address = address;
+  }
+
+  static async start(...options: string[]): Promise<PageServer> {
+    const server = spawn(new URL('../../serve', import.meta.url).pathname, options, { stdio: ['ignore', 'pipe', 'inherit'] });
+    const address = await new Promise<string>((resolve, reject) => {
+      server.stdout.once('data', (line: Buffer) => resolve(line.toString().trim()));
+      server.once('exit', () => reject(new Error('the server ended: is the page built? tools/dev/build web')));
+    });
+    return new PageServer(server, address);
+  }
+
+  stop(): Promise<void> {
+    return new Promise((resolve) => {
+      if (this.process.exitCode !== null || this.process.signalCode !== null) return resolve();
+      this.process.once('exit', () => resolve());
+      this.process.kill();
+    });
+  }
+}
+
+export async function startBrowser(): Promise<Browser> {
+  if (!BROWSER) throw new Error('there is no Chromium: tools/dev/setup webtest');
+  return chromium.launch({ executablePath: BROWSER, headless: true, args: FLAGS });
+}
+
+/** One visitor with a browser profile of its own. */
+export class Visitor {
+  readonly page: Page;
+  readonly faults: string[] = [];
+  private readonly context: BrowserContext;
+
+  private constructor(context: BrowserContext, page: Page) {
+    this.context = context;
+    this.page = page;
+  }
+
+  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light'): Promise<Visitor> {
+    const context = await browser.newContext({ viewport: VIEWPORT, colorScheme: theme });
+    const visitor = new Visitor(context, await context.newPage());
+    visitor.watch(new URL(address).origin);
+    await visitor.page.goto(address);
+    return visitor;
+  }
+
+  private watch(origin: string): void {
+    this.page.on('console', (message) => message.type() === 'error' && this.faults.push(`console: ${message.text()}`));
+    this.page.on('pageerror', (error) => this.faults.push(`error: ${error.message}`));
+    this.context.on('request', (request) => {
+      const url = request.url();
+      if (!url.startsWith(origin) && !url.startsWith('data:') && !url.startsWith('blob:')) this.faults.push(`foreign request: ${url}`);
+    });
+  }
+
+  /** What the strip says of what the robot does. */
+  get doing() {
+    return this.page.getByRole('status', { name: 'What the robot does' });
+  }
+
+  button(name: string) {
+    return this.page.getByRole('button', { name, exact: true });
+  }
+
+  async open(tab: 'Remote' | 'Terminal' | 'Lab'): Promise<void> {
+    await this.page.getByRole('tab', { name: tab }).click();
+  }
+
+  /** Waits until the firmware answers; with physics, until the robot stands by itself. */
+  async untilStanding(): Promise<void> {
+    await this.page.getByText('The robot stands and waits.', { exact: true }).waitFor({ timeout: 90_000 });
+  }
+
+  /** The terminal's screen as text. */
+  screen(): Promise<string> {
+    return this.page.locator('terminal-pane').evaluate((pane) => (pane as unknown as { screenText: string }).screenText);
+  }
+
+  /** Types into the terminal as a person does. */
+  async type(text: string): Promise<void> {
+    await this.page.getByRole('textbox', { name: 'Terminal of the robot' }).focus();
+    for (const part of text.split(/(\r)/)) part === '\r' ? await this.page.keyboard.press('Enter') : await this.page.keyboard.type(part);
+  }
+
+  async untilScreenSays(text: string | RegExp, limitMs = 60_000): Promise<void> {
+    const end = Date.now() + limitMs;
+    for (let screen = await this.screen(); !screen.match(text); screen = await this.screen()) {
+      if (Date.now() > end) throw new Error(`the terminal never said ${text}; it shows:\n${screen}`);
+      await this.page.waitForTimeout(100);
+    }
+  }
+
+  /** Leaves; throws when anything was wrong meanwhile. */
+  async leave(): Promise<void> {
+    await this.context.close();
+    if (this.faults.length > 0) throw new Error(this.faults.join('\n'));
+  }
+}

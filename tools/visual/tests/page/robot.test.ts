@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// What people do with the robot in the page, as they do it: mouse and keyboard, found by what stands on things.
+import { mkdir } from 'node:fs/promises';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+
+const SHOTS = new URL('../../../../build/visual-shots/', import.meta.url).pathname;
+let browser: Browser;
+let server: PageServer;
+
+beforeAll(async () => {
+  await mkdir(SHOTS, { recursive: true });
+  [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
+});
+afterAll(async () => {
+  await browser.close();
+  await server.stop();
+});
+
+test('a pupil: it stands, walks while a key is held, is pushed over, is put on its feet and stands again', async () => {
+  const pupil = await Visitor.come(browser, server.address);
+  await pupil.untilStanding();
+  await pupil.page.keyboard.down('ArrowUp');
+  await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor({ timeout: 60_000 });
+  await pupil.page.keyboard.up('ArrowUp');
+  await pupil.page.screenshot({ path: `${SHOTS}walking.png`, timeout: 60_000 });
+  await pupil.button('Stop').click();
+  await pupil.untilStanding();
+  await pupil.open('Lab');
+  for (let push = 0; push < 12 && !(await pupil.doing.innerText()).includes('lies on the floor'); push++) {
+    await pupil.button('Push ahead').click();
+    await pupil.page.waitForTimeout(600);
+  }
+  await pupil.doing.filter({ hasText: 'The robot lies on the floor.' }).waitFor();
+  await pupil.button('Put on its feet').click();
+  await pupil.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor({ timeout: 60_000 });
+  await pupil.doing.filter({ hasNotText: 'lies' }).waitFor({ timeout: 60_000 });
+  await pupil.button('Let go').click();
+  await pupil.untilStanding();
+  await pupil.leave();
+});
+
+test('somebody who debugs: Edit in the terminal, a page saved, and the browser keeps it over a reload', async () => {
+  const person = await Visitor.come(browser, server.address);
+  await person.untilStanding();
+  await person.open('Lab');
+  await person.button('Run Edit').click();
+  await person.open('Terminal');
+  await person.untilScreenSays('PageNumber');
+  await person.type('page 100\r');
+  await person.untilScreenSays('PageNumber:0100');
+  await person.type('name salute\r');
+  await person.untilScreenSays('salute');
+  await person.type('save\r');
+  await person.untilScreenSays(/OK|saved/i);
+  await person.page.waitForTimeout(1500); // the page keeps the memory 0.3 s after the last write
+  await person.page.reload();
+  await person.untilStanding();
+  await person.open('Terminal');
+  await person.type('list\r');
+  await person.untilScreenSays(/100.*salute/);
+  await person.leave();
+});
+
+test('a broken servo: the firmware says so, the page shows it', async () => {
+  const person = await Visitor.come(browser, server.address, 'dark');
+  await person.untilStanding();
+  await person.open('Lab');
+  await person.page.getByLabel('Fault of servo 5', { exact: true }).selectOption('does not answer');
+  await person.button('Bow').click();
+  await person.page.getByRole('log', { name: 'Last message' }).filter({ hasText: /servo 5\b/i }).waitFor({ timeout: 60_000 });
+  await person.page.screenshot({ path: `${SHOTS}lab-dark.png`, timeout: 60_000 });
+  await person.leave();
+});
+
+test('time: slow, paused, tick by tick', async () => {
+  const person = await Visitor.come(browser, server.address);
+  await person.untilStanding();
+  await person.open('Lab');
+  const clock = person.page.locator('lab-pane .clock');
+  const seconds = async (): Promise<number> => Number.parseFloat(await clock.innerText());
+  await person.button('Pause').click();
+  await person.page.waitForTimeout(300);
+  const stands = await seconds();
+  await person.page.waitForTimeout(700);
+  expect(await seconds()).toBe(stands);
+  for (let i = 0; i < 30; i++) await person.button('One tick').click();
+  await person.page.waitForTimeout(400);
+  expect(await seconds()).toBeCloseTo(stands + 30 / 128, 0);
+  await person.button('real time').click();
+  await expect.poll(seconds, { timeout: 20_000 }).toBeGreaterThan(stands + 1);
+  await person.leave();
+});

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// The page: head, picture, areas in tabs, strip.
+
+import { ActionBar } from './action-bar.ts';
+import type { Desk, DeskState, Tab } from './desk.ts';
+import { define, make } from './element.ts';
+import { LabPane } from './lab-pane.ts';
+import { RemotePad } from './remote-pad.ts';
+import { RobotView } from './robot-view.ts';
+import { StatusStrip } from './status-strip.ts';
+import { TerminalPane } from './terminal-pane.ts';
+import './app-shell.css';
+
+const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['terminal', 'Terminal'], ['lab', 'Lab']];
+
+export class AppShell extends HTMLElement {
+  desk!: Desk; // set before it is connected
+  private readonly tabs = new Map<Tab, HTMLButtonElement>();
+  private readonly panels = new Map<Tab, HTMLElement>();
+  private readonly simulated = make('button', { onclick: () => this.desk.useSimulated() }, 'Robot in this page');
+  private readonly yours = make('button', { onclick: () => void this.desk.connectYours() }, 'Your robot …');
+  private unwatch: () => void = () => undefined;
+
+  connectedCallback(): void {
+    const robot = this.give(new RobotView());
+    const lab = this.give(new LabPane());
+    lab.onTilt = (front, left) => robot.tilt(front, left);
+    this.addPanel('remote', this.give(new RemotePad()));
+    this.addPanel('terminal', this.give(new TerminalPane()));
+    this.addPanel('lab', lab);
+    this.replaceChildren(
+      this.head(),
+      make('main', {}, make('div', { class: 'stage' }, robot, this.give(new ActionBar())),
+        make('div', { class: 'areas' }, this.tabList(), ...this.panels.values())),
+      this.give(new StatusStrip()),
+    );
+    this.unwatch = this.desk.state.watch((state) => this.render(state));
+  }
+
+  disconnectedCallback(): void {
+    this.unwatch();
+  }
+
+  private give<T extends HTMLElement & { desk: Desk }>(element: T): T {
+    element.desk = this.desk;
+    return element;
+  }
+
+  private addPanel(name: Tab, content: HTMLElement): void {
+    this.panels.set(name, make('div', { id: `area-${name}`, role: 'tabpanel', 'aria-labelledby': `tab-${name}`, class: `area ${name}` }, content));
+  }
+
+  private head(): HTMLElement {
+    const theme = make('button', { 'aria-label': 'Light or dark', title: 'Light or dark', onclick: () => this.changeTheme() }, '◐');
+    return make('header', {}, make('h1', {}, 'Motion512'),
+      make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours), make('a', { href: './licences.html' }, 'Licences'), theme);
+  }
+
+  private changeTheme(): void {
+    const root = document.documentElement;
+    const isDark = getComputedStyle(root).getPropertyValue('--ground').trim() === '#14181c';
+    root.dataset['theme'] = isDark ? 'light' : 'dark';
+  }
+
+  private tabList(): HTMLElement {
+    const list = make('div', { role: 'tablist', 'aria-label': 'Areas' });
+    for (const [name, title] of TABS) {
+      const tab = make('button', { role: 'tab', id: `tab-${name}`, 'aria-controls': `area-${name}`, onclick: () => this.desk.show(name) }, title);
+      tab.addEventListener('keydown', (event) => this.moveTab(event, name));
+      this.tabs.set(name, tab);
+      list.append(tab);
+    }
+    return list;
+  }
+
+  private moveTab(event: KeyboardEvent, from: Tab): void {
+    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (by === undefined) return;
+    event.preventDefault();
+    const index = TABS.findIndex(([name]) => name === from);
+    const [next] = TABS[(index + by + TABS.length) % TABS.length] ?? [from];
+    this.desk.show(next);
+    this.tabs.get(next)?.focus();
+  }
+
+  private render(state: DeskState): void {
+    for (const [name, tab] of this.tabs) {
+      tab.setAttribute('aria-selected', String(name === state.tab));
+      tab.tabIndex = name === state.tab ? 0 : -1;
+      const panel = this.panels.get(name);
+      if (panel) panel.hidden = name !== state.tab;
+    }
+    this.simulated.setAttribute('aria-pressed', String(state.source === 'simulated'));
+    this.yours.setAttribute('aria-pressed', String(state.source === 'yours'));
+    this.yours.textContent = state.source === 'yours' && state.connection !== 'closed' ? state.portName : 'Your robot …';
+  }
+}
+
+define('app-shell', AppShell);

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The robot on the desk as the views see it: what they may know, and what they may ask for. main.ts puts the simulated
+// robot or a port behind it; no view ever touches a stream or a worker.
+
+import type { Body } from '../model/body.ts';
+import type { Vector } from '../model/space.ts';
+import type { ConnectionState } from '../robot/connection-table.ts';
+import type { Command, PageEntry, Version, Where } from '../robot/protocol.ts';
+import type { RemoteButton } from '../robot/remote.ts';
+import type { RobotState } from '../robot/robot-state.ts';
+import type { Store } from './store.ts';
+
+export type Source = 'simulated' | 'yours';
+export type ImageName = 'play' | 'edit';
+export type PanelButton = 'up' | 'down' | 'left' | 'right' | 'start' | 'mode';
+export type Tab = 'remote' | 'terminal' | 'lab';
+
+/** What is said in the strip. `board`: in the words that the board used. */
+export interface Notice {
+  readonly text: string;
+  readonly tone: 'calm' | 'good' | 'bad';
+}
+
+export interface DeskState {
+  readonly source: Source;
+  readonly connection: ConnectionState;
+  readonly portName: string;
+  readonly version: Version | null;
+  readonly where: Where | null;
+  readonly pages: readonly PageEntry[];
+  /** Image that the simulated robot runs. */
+  readonly image: ImageName;
+  readonly physics: 'loading' | 'on' | 'off';
+  readonly speed: number;
+  /** The robot in the page has stopped for good; this says why. */
+  readonly stopped: string | null;
+  /** What the robot does. */
+  readonly doing: Notice;
+  /** What went wrong last, or was said last; null: nothing. */
+  readonly said: Notice | null;
+  readonly faultNames: readonly string[];
+  readonly tab: Tab;
+}
+
+/** A hand at a point of a link (metres, in the link's frame), pulling towards a place in the room. */
+export interface Hand {
+  readonly link: string;
+  readonly point: Vector;
+  readonly target: Vector;
+}
+
+export interface Floor {
+  readonly tiltFront: number;
+  readonly tiltLeft: number;
+  readonly friction: number;
+}
+
+export interface Desk {
+  readonly body: Body;
+  readonly state: Store<DeskState>;
+  /** Up to 60 times a second. */
+  onFrame(listener: (state: RobotState) => void): () => void;
+  /** What the board says to a terminal. */
+  onText(listener: (bytes: Uint8Array) => void): () => void;
+
+  show(tab: Tab): void;
+  play(page: number): Promise<void>;
+  command(command: Command): Promise<void>;
+  setTorque(on: boolean): Promise<void>;
+  remote(held: ReadonlySet<RemoteButton>): void;
+  type(bytes: Uint8Array): void;
+
+  useSimulated(): void;
+  /** Opens the browser's chooser; call it in a click. */
+  connectYours(): Promise<void>;
+
+  /** Only the simulated robot has these; with yours they do nothing. */
+  setSpeed(speed: number): void;
+  oneTick(): void;
+  setPower(on: boolean): void;
+  press(button: PanelButton, down: boolean): void;
+  setBattery(volts: number): void;
+  setFault(servo: number, fault: number, on: boolean): void;
+  turnServo(servo: number, position: number): void;
+  pull(hand: Hand | null): void;
+  hold(held: boolean): void;
+  setFloor(floor: Floor): void;
+  /** Starts the robot anew with that image; motions and settings stay. */
+  runImage(image: ImageName): void;
+  /** Forgets flash and EEPROM: a robot fresh from the factory. */
+  forget(): Promise<void>;
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// The laboratory of the simulated robot: time, power, floor, battery, servos and their faults.
+
+import type { Desk, DeskState, ImageName, PanelButton } from './desk.ts';
+import { define, make } from './element.ts';
+import { ServoTable } from './servo-table.ts';
+import { TEXTS } from './texts.ts';
+import './lab-pane.css';
+
+const SPEEDS: readonly (readonly [number, string])[] = [[0.1, '0.1×'], [0.25, '¼×'], [0.5, '½×'], [1, 'real time'], [2, '2×'], [4, '4×']];
+const PANEL: readonly (readonly [PanelButton, string])[] = [['up', '▲'], ['down', '▼'], ['left', '◀'], ['right', '▶'], ['start', 'START'], ['mode', 'MODE']];
+const LEDS = ['Power', 'TxD', 'RxD', 'Aux', 'Manage', 'Program', 'Play'];
+const RADIANS = Math.PI / 180;
+
+export class LabPane extends HTMLElement {
+  desk!: Desk; // set before it is connected
+  /** Tells the picture to lean. */
+  onTilt: (front: number, left: number) => void = () => undefined;
+  private readonly speeds = new Map<number, HTMLButtonElement>();
+  private readonly leds = make('div', { class: 'leds', role: 'img', 'aria-label': 'Lamps' });
+  private readonly clock = make('p', { class: 'clock' });
+  private readonly floor = { tiltFront: 0, tiltLeft: 0, friction: 0.8 };
+  private readonly disposals: (() => void)[] = [];
+
+  connectedCallback(): void {
+    const servos = new ServoTable();
+    servos.desk = this.desk;
+    this.replaceChildren(make('p', { class: 'only-simulated' }, TEXTS.labForYours), make('div', { class: 'sections' },
+      this.timeSection(), this.powerSection(), this.roomSection(), this.imageSection(), servos));
+    this.disposals.push(this.desk.state.watch((state) => this.render(state)), this.desk.onFrame((state) => {
+      this.clock.textContent = `${(state.ticks / 128).toFixed(1)} s${state.lateMs > 50 ? `, ${Math.round(state.lateMs)} ms late` : ''}`;
+      this.showLeds(state.leds);
+    }));
+  }
+
+  disconnectedCallback(): void {
+    for (const dispose of this.disposals.splice(0)) dispose();
+  }
+
+  private render(state: DeskState): void {
+    this.classList.toggle('off', state.source !== 'simulated');
+    for (const [speed, button] of this.speeds) button.setAttribute('aria-pressed', String(speed === state.speed));
+  }
+
+  private showLeds(bits: number): void {
+    if (this.leds.dataset['bits'] === String(bits)) return;
+    this.leds.dataset['bits'] = String(bits);
+    this.leds.replaceChildren(...LEDS.map((name, i) => make('span', { class: (bits >> i) & 1 ? 'lit' : '' }, name)));
+    const lit = LEDS.filter((_, i) => (bits >> i) & 1);
+    this.leds.setAttribute('aria-label', `Lamps lit: ${lit.join(', ') || 'none'}`);
+  }
+
+  private section(title: string, ...children: (Node | string)[]): HTMLElement {
+    return make('section', { 'aria-label': title }, make('h2', {}, title), ...children);
+  }
+
+  private timeSection(): HTMLElement {
+    const row = make('div', { class: 'row' });
+    const pause = make('button', { onclick: () => this.desk.setSpeed(0) }, 'Pause');
+    this.speeds.set(0, pause);
+    row.append(pause, make('button', { onclick: () => this.desk.oneTick() }, 'One tick'));
+    for (const [speed, title] of SPEEDS) {
+      const button = make('button', { onclick: () => this.desk.setSpeed(speed) }, title);
+      this.speeds.set(speed, button);
+      row.append(button);
+    }
+    return this.section('Time', row, this.clock);
+  }
+
+  private powerSection(): HTMLElement {
+    const row = make('div', { class: 'row' },
+      make('button', { onclick: () => this.desk.setPower(true) }, 'Power on'), make('button', { onclick: () => this.desk.setPower(false) }, 'Power off'),
+      make('button', { onclick: () => void this.desk.setTorque(false) }, 'Torque off'));
+    for (const [name, sign] of PANEL) row.append(this.panelButton(name, sign));
+    return this.section('Power and panel', row, this.leds, this.slider('Battery', 6, 12.6, 0.1, 9.6, ' V', (volts) => this.desk.setBattery(volts)));
+  }
+
+  private panelButton(name: PanelButton, sign: string): HTMLButtonElement {
+    const button = make('button', { 'aria-label': `panel button ${name}` }, sign);
+    button.addEventListener('pointerdown', () => this.desk.press(name, true));
+    for (const end of ['pointerup', 'pointerleave'] as const) button.addEventListener(end, () => this.desk.press(name, false));
+    button.addEventListener('keydown', (event) => event.key === 'Enter' && !event.repeat && this.desk.press(name, true));
+    button.addEventListener('keyup', (event) => event.key === 'Enter' && this.desk.press(name, false));
+    return button;
+  }
+
+  private roomSection(): HTMLElement {
+    const set = (change: Partial<typeof this.floor>): void => {
+      Object.assign(this.floor, change);
+      this.desk.setFloor({ ...this.floor });
+      this.onTilt(this.floor.tiltFront, this.floor.tiltLeft);
+    };
+    return this.section('Hand and floor',
+      make('div', { class: 'row' }, make('button', { onclick: () => this.desk.hold(true) }, 'Put on its feet'), make('button', { onclick: () => this.desk.hold(false) }, 'Let go'),
+        make('button', { onclick: () => this.push(1) }, 'Push ahead'), make('button', { onclick: () => this.push(-1) }, 'Push back')),
+      this.slider('Slope to the front', -15, 15, 1, 0, '°', (angle) => set({ tiltFront: angle * RADIANS })),
+      this.slider('Slope to the left', -15, 15, 1, 0, '°', (angle) => set({ tiltLeft: angle * RADIANS })),
+      this.slider('Grip of the floor', 0, 1.5, 0.05, 0.8, '', (friction) => set({ friction })));
+  }
+
+  /** What a drag of the mouse at the head does, by keyboard: a pull for 0.3 s. */
+  private push(direction: 1 | -1): void {
+    const trunk = this.desk.body.links[0]?.name ?? 'trunk';
+    const stop = this.desk.onFrame((state) => {
+      stop();
+      const [x, y, z] = state.trunk.pos;
+      this.desk.pull({ link: trunk, point: [0, 0, 0.03], target: [x + direction * 0.2, y, z + 0.03] });
+      setTimeout(() => this.desk.pull(null), 300);
+    });
+  }
+
+  private imageSection(): HTMLElement {
+    const image = (name: ImageName, title: string): HTMLButtonElement => make('button', { onclick: () => this.desk.runImage(name) }, title);
+    return this.section('Firmware', make('div', { class: 'row' }, image('play', 'Run Play'), image('edit', 'Run Edit'),
+      make('button', { onclick: () => void this.desk.forget() }, 'Factory fresh')));
+  }
+
+  private slider(title: string, min: number, max: number, step: number, value: number, unit: string, set: (value: number) => void): HTMLElement {
+    const output = make('output', {}, `${value}${unit}`);
+    const input = make('input', { type: 'range', min, max, step, value });
+    input.addEventListener('input', () => {
+      output.value = `${input.valueAsNumber}${unit}`;
+      set(input.valueAsNumber);
+    });
+    return make('label', { class: 'slider' }, make('span', {}, title), input, output);
+  }
+}
+
+define('lab-pane', LabPane);

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// The room: camera, light, floor and the figure in it. Draws when it is told to; holds no state of the robot.
+
+import {
+  AmbientLight, BufferGeometry, CircleGeometry, Color, DirectionalLight, Fog, Group, HemisphereLight, Line, LineBasicMaterial, Mesh,
+  MeshStandardMaterial, PCFShadowMap, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, GridHelper, Plane,
+} from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import type { Body } from '../model/body.ts';
+import type { Place, Vector } from '../model/space.ts';
+import type { RobotState } from '../robot/robot-state.ts';
+import type { Quality } from './picture-quality.ts';
+import { RobotFigure } from './robot-figure.ts';
+
+const ROOM_RADIUS = 12;
+const FOLLOW = 0.08; // of the way a frame
+const MOST_PIXELS = 2;
+
+export interface Picked {
+  readonly link: string;
+  /** In the frame of the link. */
+  readonly point: Vector;
+  readonly world: Vector;
+}
+
+export class RobotScene {
+  readonly figure: RobotFigure;
+  readonly controls: OrbitControls;
+  /** There is no graphics chip, or the browser may not use it. */
+  readonly isSoftware: boolean;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(32, 1, 0.02, 60);
+  private readonly room = new Group();
+  private readonly light = new DirectionalLight(0xffffff, 2.4);
+  private readonly floor = new MeshStandardMaterial({ roughness: 1 });
+  private readonly string: Line;
+  private readonly followed = new Vector3(0, 0, 0.17);
+  private readonly raycaster = new Raycaster();
+  private grid: GridHelper | null = null;
+
+  /** Throws when the browser has no WebGL. */
+  constructor(canvas: HTMLCanvasElement, body: Body) {
+    this.isSoftware = drawsBySoftware();
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.isSoftware });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.figure = new RobotFigure(body);
+    this.camera.up.set(0, 0, 1);
+    this.camera.position.set(0.8, -0.52, 0.4);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.target.copy(this.followed);
+    Object.assign(this.controls, { minDistance: 0.3, maxDistance: 4, maxPolarAngle: Math.PI * 0.52, enableDamping: true, dampingFactor: 0.12 });
+    this.string = new Line(new BufferGeometry().setFromPoints([new Vector3(), new Vector3()]), new LineBasicMaterial({ color: 0x2f9bff }));
+    this.string.visible = false;
+    this.string.frustumCulled = false;
+    this.furnish();
+  }
+
+  /** Colours of the room, from the page's theme. */
+  paint(background: string, floor: string, lines: string): void {
+    this.scene.background = new Color(background);
+    this.scene.fog = new Fog(background, 2.5, 8);
+    this.floor.color.set(floor);
+    this.grid?.removeFromParent();
+    this.grid?.dispose();
+    this.grid = new GridHelper(2 * ROOM_RADIUS, 2 * ROOM_RADIUS * 10, lines, lines);
+    this.grid.rotateX(Math.PI / 2);
+    this.grid.position.z = 0.0005;
+    this.grid.material.transparent = true;
+    this.grid.material.opacity = 0.75;
+    this.room.add(this.grid);
+  }
+
+  resize(width: number, height: number, quality: Quality): void {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXELS) * quality.pixels);
+    this.light.castShadow = quality.shadows;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / Math.max(height, 1);
+    this.camera.updateProjectionMatrix();
+  }
+
+  tilt(front: number, left: number): void {
+    this.room.rotation.set(-left, front, 0);
+  }
+
+  show(state: RobotState, follow: boolean): void {
+    this.figure.show(state.trunk, state.servos);
+    if (follow) this.follow(state.trunk);
+    this.light.position.set(this.followed.x + 0.5, this.followed.y - 0.7, 1.9);
+    this.light.target.position.copy(this.followed);
+  }
+
+  draw(): void {
+    this.controls.update();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** What is under a point of the picture (-1..1, y up). */
+  pick(x: number, y: number): Picked | null {
+    this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
+    const hit = this.raycaster.intersectObjects(this.figure.meshes, false)[0];
+    const link: unknown = hit?.object.userData['link'];
+    if (!hit || typeof link !== 'string') return null;
+    const frame = this.figure.link(link);
+    const local = frame ? frame.worldToLocal(hit.point.clone()) : hit.point;
+    return { link, point: local.toArray(), world: this.room.worldToLocal(hit.point.clone()).toArray() };
+  }
+
+  /** The place under a point of the picture, in the plane through `world` that faces the camera. */
+  drag(x: number, y: number, world: Vector): Vector {
+    this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
+    const towards = this.camera.getWorldDirection(new Vector3());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(towards, this.room.localToWorld(new Vector3(...world)));
+    const hit = this.raycaster.ray.intersectPlane(plane, new Vector3());
+    return hit ? this.room.worldToLocal(hit).toArray() : world;
+  }
+
+  /** The string between hand and limb; null: none. */
+  pull(link: string, point: Vector, target: Vector): void;
+  pull(link: null): void;
+  pull(link: string | null, point?: Vector, target?: Vector): void {
+    const frame = link === null ? undefined : this.figure.link(link);
+    this.string.visible = frame !== undefined;
+    if (!frame || !point || !target) return;
+    const from = this.room.worldToLocal(frame.localToWorld(new Vector3(...point)));
+    this.string.geometry.setFromPoints([from, new Vector3(...target)]);
+  }
+
+  dispose(): void {
+    this.controls.dispose();
+    this.figure.dispose();
+    this.renderer.dispose();
+  }
+
+  private furnish(): void {
+    const floor = new Mesh(new CircleGeometry(ROOM_RADIUS, 64), this.floor);
+    floor.receiveShadow = true;
+    this.light.castShadow = true;
+    this.light.shadow.mapSize.set(1024, 1024);
+    this.light.shadow.radius = 4;
+    this.light.shadow.bias = -0.0004;
+    Object.assign(this.light.shadow.camera, { left: -0.6, right: 0.6, top: 0.6, bottom: -0.6, near: 0.5, far: 4 });
+    this.room.add(floor, this.figure.root, this.string, this.light, this.light.target);
+    this.scene.add(this.room, new HemisphereLight(0xffffff, 0x8a8f98, 1.25), new AmbientLight(0xffffff, 0.35));
+  }
+
+  private follow(trunk: Place): void {
+    const wanted = new Vector3(trunk.pos[0], trunk.pos[1], Math.max(0.1, trunk.pos[2] * 0.6));
+    const step = wanted.sub(this.followed).multiplyScalar(FOLLOW);
+    this.followed.add(step);
+    this.controls.target.add(step);
+    this.camera.position.add(step);
+  }
+}
+
+function drawsBySoftware(): boolean {
+  const context = document.createElement('canvas').getContext('webgl2');
+  const facts = context?.getExtension('WEBGL_debug_renderer_info');
+  const name: unknown = context && facts ? context.getParameter(facts.UNMASKED_RENDERER_WEBGL) : '';
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return typeof name === 'string' && /swiftshader|llvmpipe|software/i.test(name);
+}

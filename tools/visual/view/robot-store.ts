@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What the simulated robot keeps without power, in IndexedDB: flash, EEPROM and its servos' EEPROMs, under one key.
+
+export interface KeptRobot {
+  readonly flash: Uint8Array;
+  readonly eeprom: Uint8Array;
+  readonly servos: Uint8Array;
+}
+
+const DATABASE = 'motion512';
+const STORE = 'robot';
+
+function request<T>(asked: IDBRequest<T>): Promise<T> {
+  return new Promise((resolve, reject) => {
+    asked.onsuccess = () => resolve(asked.result);
+    asked.onerror = () => reject(asked.error);
+  });
+}
+
+async function open(): Promise<IDBDatabase> {
+  const asked = indexedDB.open(DATABASE, 1);
+  asked.onupgradeneeded = () => asked.result.createObjectStore(STORE);
+  return request(asked);
+}
+
+async function withStore<T>(mode: IDBTransactionMode, deed: (store: IDBObjectStore) => IDBRequest<T>): Promise<T> {
+  const database = await open();
+  try {
+    return await request(deed(database.transaction(STORE, mode).objectStore(STORE)));
+  } finally {
+    database.close();
+  }
+}
+
+/** null: nothing was kept. Rejects when the browser keeps nothing. */
+export async function loadRobot(key: string): Promise<KeptRobot | null> {
+  const kept: unknown = await withStore('readonly', (store) => store.get(key) as IDBRequest<unknown>);
+  const robot = kept as Partial<KeptRobot> | undefined;
+  const isWhole = robot?.flash?.length === 0x20000 && robot.eeprom?.length === 0x1000 && robot.servos instanceof Uint8Array;
+  return isWhole ? (robot as KeptRobot) : null;
+}
+
+export async function saveRobot(key: string, robot: KeptRobot): Promise<void> {
+  await withStore('readwrite', (store) => store.put(robot, key));
+}
+
+export async function forgetRobot(key: string): Promise<void> {
+  await withStore('readwrite', (store) => store.delete(key) as IDBRequest<undefined>);
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The strip at the bottom: what the robot does, and what was said last, in the words that the board used.
+
+import type { Desk, DeskState, Notice } from './desk.ts';
+import { define, make } from './element.ts';
+import { TEXTS } from './texts.ts';
+import './status-strip.css';
+
+export class StatusStrip extends HTMLElement {
+  desk!: Desk; // set before it is connected
+  private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'polite', 'aria-label': 'What the robot does' });
+  private readonly said = make('p', { class: 'said', role: 'log', 'aria-live': 'polite', 'aria-label': 'Last message' });
+  private readonly facts = make('p', { class: 'facts' });
+  private readonly disposals: (() => void)[] = [];
+  private fallen = '';
+
+  connectedCallback(): void {
+    this.replaceChildren(this.doing, this.said, this.facts);
+    this.disposals.push(this.desk.state.watch((state) => this.render(state)), this.desk.onFrame((state) => {
+      const fallen = state.hasFallen ? TEXTS.fallen : state.isHeld ? TEXTS.held : '';
+      if (fallen === this.fallen) return;
+      this.fallen = fallen;
+      this.render(this.desk.state.get());
+    }));
+  }
+
+  disconnectedCallback(): void {
+    for (const dispose of this.disposals.splice(0)) dispose();
+  }
+
+  private render(state: DeskState): void {
+    this.write(this.doing, { ...state.doing, text: [state.doing.text, this.fallen].filter(Boolean).join(' ') });
+    this.write(this.said, state.said);
+    const where = state.where;
+    const version = state.version;
+    this.facts.textContent = [
+      version ? `${version.image === 'edit' ? 'Edit' : version.image === 'play' ? 'Play' : version.image} ${version.version}` : '',
+      where && where.batteryVolts > 0 ? `${where.batteryVolts.toFixed(1)} V` : '',
+      state.speed === 1 || state.source === 'yours' ? '' : state.speed === 0 ? 'time stands still' : `${state.speed}× time`,
+    ].filter(Boolean).join(' · ');
+  }
+
+  private write(line: HTMLElement, notice: Notice | null): void {
+    const text = notice?.text ?? '';
+    if (line.textContent !== text) line.textContent = text;
+    line.dataset['tone'] = notice?.tone ?? 'calm';
+  }
+}
+
+define('status-strip', StatusStrip);

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The terminal on the robot's serial line: Edit's full screen at 80x35, Play's shell, the boot loader's prompt. Its letters
+// are as large as the pane lets 80 columns be.
+
+import { Terminal } from '@xterm/xterm';
+import '@xterm/xterm/css/xterm.css';
+import type { Desk } from './desk.ts';
+import { define, make } from './element.ts';
+import './terminal-pane.css';
+
+const COLUMNS = 80;
+const ROWS_MOST = 35;
+const ROWS_LEAST = 24;
+/** Width and height of a letter for a font size of 1. */
+const LETTER = { width: 0.602, height: 1.17 };
+const FONT = { least: 7, most: 16 };
+const LINES_KEPT = 2000;
+
+export class TerminalPane extends HTMLElement {
+  desk!: Desk; // set before it is connected
+  private terminal: Terminal | null = null;
+  private readonly disposals: (() => void)[] = [];
+
+  connectedCallback(): void {
+    const screen = make('div', { class: 'screen' });
+    this.replaceChildren(screen);
+    const terminal = new Terminal({
+      cols: COLUMNS, rows: ROWS_MOST, scrollback: LINES_KEPT, fontFamily: '"DejaVu Sans Mono", ui-monospace, monospace', cursorBlink: false,
+      screenReaderMode: false, theme: { background: '#10151a', foreground: '#d8e0e6', cursor: '#6db3f8' },
+    });
+    this.terminal = terminal;
+    terminal.open(screen);
+    terminal.textarea?.setAttribute('aria-label', 'Terminal of the robot');
+    terminal.onData((text) => this.desk.type(new TextEncoder().encode(text)));
+    terminal.onBinary((text) => this.desk.type(Uint8Array.from(text, (c) => c.charCodeAt(0))));
+    const observer = new ResizeObserver(() => this.fit(terminal));
+    observer.observe(this);
+    this.disposals.push(this.desk.onText((bytes) => terminal.write(bytes)), () => observer.disconnect(), () => terminal.dispose());
+  }
+
+  disconnectedCallback(): void {
+    for (const dispose of this.disposals.splice(0)) dispose();
+    this.terminal = null;
+  }
+
+  override focus(): void {
+    this.terminal?.focus();
+  }
+
+  /** What stands on the screen, line by line: for tests and for screen readers. */
+  get screenText(): string {
+    const buffer = this.terminal?.buffer.active;
+    if (!buffer) return '';
+    return Array.from({ length: this.terminal?.rows ?? 0 }, (_, row) => buffer.getLine(buffer.baseY + row)?.translateToString(true) ?? '').join('\n');
+  }
+
+  private fit(terminal: Terminal): void {
+    const width = this.clientWidth - 24;
+    const height = this.clientHeight - 24;
+    if (width <= 0 || height <= 0) return;
+    const byWidth = width / (COLUMNS * LETTER.width);
+    const byHeight = height / (ROWS_MOST * LETTER.height);
+    const size = Math.max(FONT.least, Math.min(FONT.most, byWidth, Math.max(byHeight, FONT.least)));
+    const rows = Math.floor(height / (size * LETTER.height));
+    terminal.options.fontSize = Math.floor(size * 2) / 2;
+    terminal.resize(COLUMNS, Math.max(ROWS_LEAST, Math.min(ROWS_MOST, rows)));
+  }
+}
+
+define('terminal-pane', TerminalPane);

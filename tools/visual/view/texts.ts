@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Every sentence of the page that is more than a label, in one place: what happened, and what to do.
+
+import type { ConnectionState } from '../robot/connection-table.ts';
+import type { Where } from '../robot/protocol.ts';
+import type { RobotError, RobotErrorCode } from '../robot/robot-error.ts';
+import type { DeskState } from './desk.ts';
+
+const ERRORS: Record<RobotErrorCode, string> = {
+  'no-answer': 'The robot did not answer. Is it switched on? If its screen shows a "-", type GO in the terminal.',
+  refused: 'The robot refused:',
+  'not-connected': 'No robot is connected. Choose one at the top.',
+  'port-lost': 'The cable was pulled. Plug it in again; the page reconnects by itself.',
+  'port-busy': 'The port cannot be opened. Close the other program that uses it, then try again.',
+  foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
+  'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
+  cancelled: 'Stopped.',
+  typing: 'A line is being typed in the terminal. Finish it with Enter first.',
+};
+
+/** One sentence for an error; the board's own words are quoted behind it. */
+export function errorText(error: RobotError): string {
+  const sentence = ERRORS[error.code];
+  return error.words === '' || error.code === 'no-answer' ? sentence : `${sentence} ${error.words}`;
+}
+
+const CONNECTIONS: Record<ConnectionState, string> = {
+  closed: 'No robot is connected.',
+  opening: 'Opening the port ...',
+  asking: 'Asking the robot who it is ...',
+  ready: 'Connected.',
+  silent: 'The port is open, but no Motion512 answers. Switch the robot on; if its screen shows a "-", type GO in the terminal.',
+  foreign: 'This robot runs another firmware. Flash ours with: m512 flash edit-cm5.hex. The terminal works meanwhile.',
+  waiting: 'The cable is out. Plug it in again; the page reconnects by itself.',
+};
+
+export function connectionText(state: ConnectionState): string {
+  return CONNECTIONS[state];
+}
+
+function pageTitle(state: DeskState, page: number): string {
+  const name = state.pages.find((entry) => entry.page === page)?.name;
+  return name ? `page ${page} (${name})` : `page ${page}`;
+}
+
+/** What the robot does, in one sentence. */
+export function doingText(state: DeskState, where: Where | null): string {
+  if (state.stopped !== null) return state.stopped;
+  if (state.connection !== 'ready') return CONNECTIONS[state.connection];
+  if (!where) return state.version?.image === 'edit' ? 'Edit runs: its screen is in the terminal.' : 'Ready.';
+  switch (where.state) {
+    case 'idle': return 'The robot stands and waits.';
+    case 'ready': return 'The robot stands and waits.';
+    case 'approach': return `Going slowly to the first pose of ${pageTitle(state, where.page)}.`;
+    case 'paused': return `Paused in ${pageTitle(state, where.page)}, step ${where.step}.`;
+    case 'playing': return `Playing ${pageTitle(state, where.page)}, step ${where.step}.`;
+    default: return where.state satisfies never;
+  }
+}
+
+/** A thing that the chip would not forgive. */
+export function violationText(kind: string, text: string): string {
+  return `The firmware did what no chip allows (${kind}): ${text}. Start the robot anew in the Lab.`;
+}
+
+export const TEXTS = {
+  noSerial: 'This browser cannot reach a serial port. Use Chrome or Edge on a computer or Android; the robot in the page works here.',
+  noWebGl: 'This browser draws no 3D picture (WebGL is off). Everything else works.',
+  noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
+  fallen: 'The robot lies on the floor.',
+  held: 'A hand holds the robot.',
+  crashed: 'The simulated robot has crashed. Start it anew in the Lab; what it had saved is kept.',
+  kept: 'Saved in this browser.',
+  notKept: 'This browser does not keep the robot\'s memory (private window, or the disk is full). What you save is gone with the page.',
+  labForYours: 'The Lab belongs to the simulated robot. Choose it at the top.',
+} as const;
+
+export const FAULT_TITLES: Readonly<Record<string, string>> = {
+  silent: 'does not answer', dead: 'unplugged', duplicate: 'its ID twice', checksum: 'wrong checksums', noise: 'noise before answers',
+  late: 'answers late', short: 'answers cut off', 'two-talkers': 'answers for others', overload: 'overloaded', overheating: 'too hot',
+  'low-voltage': 'low voltage', 'angle-limit': 'angle limit', blocked: 'blocked',
+};

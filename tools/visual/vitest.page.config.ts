@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+// The built page in a real browser. One page at a time: it runs in real time.
+import { defineConfig } from 'vitest/config';
+
+export default defineConfig({
+  test: { include: ['tests/page/*.test.ts'], testTimeout: 120_000, hookTimeout: 60_000, fileParallelism: false, maxWorkers: 1 },
+});
