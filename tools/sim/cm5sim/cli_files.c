@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -57,9 +58,10 @@ const char *files_load_image(board_t *board, const char *name)
 {
     char built[400];
     const char *path = name;
-    if (access(name, R_OK) != 0 && name[0] != '/'
-        && snprintf(built, sizeof built, "%s/%s", CM5SIM_FIRMWARE_DIR, name) < (int)sizeof built
-        && access(built, R_OK) == 0) {
+    const char *build = getenv("M512_BUILD");
+    const int length = build ? snprintf(built, sizeof built, "%s/firmware/%s", build, name)
+                             : snprintf(built, sizeof built, "%s/%s", CM5SIM_FIRMWARE_DIR, name);
+    if (access(name, R_OK) != 0 && name[0] != '/' && length < (int)sizeof built && access(built, R_OK) == 0) {
         path = built;
     }
     if (access(path, R_OK) != 0) {

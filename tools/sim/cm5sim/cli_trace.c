@@ -53,12 +53,14 @@ bool trace_plot(const char *trace_path, const char *picture_path)
     if (python == NULL) {
         python = access(CM5SIM_PYTHON, X_OK) == 0 ? CM5SIM_PYTHON : "python3";
     }
+    const char *script = getenv("M512_PLOT_SCRIPT");
+    script = script ? script : CM5SIM_PLOT_SCRIPT;
     const pid_t child = fork();
     if (child == 0) {
         sigset_t none;
         sigemptyset(&none);
         (void)sigprocmask(SIG_SETMASK, &none, NULL);
-        execlp(python, python, CM5SIM_PLOT_SCRIPT, trace_path, picture_path, (char *)NULL);
+        execlp(python, python, script, trace_path, picture_path, (char *)NULL);
         fprintf(stderr, "cm5sim: cannot run %s for --plot\n", python);
         _exit(127);
     }

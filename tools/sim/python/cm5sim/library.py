@@ -7,12 +7,14 @@ import pathlib
 
 from . import servo
 
-TOP = pathlib.Path(__file__).resolve().parents[4]
+HERE = pathlib.Path(__file__).resolve().parent
+ROBOT = HERE / "robot"  # in a wheel: what it takes from the build tree, in the same folders (setup.py), and lib/
 
 
 def build_folder():
-    """The build tree: environment M512_BUILD, or build/ of the repository this file is in."""
-    return pathlib.Path(os.environ.get("M512_BUILD", TOP / "build"))
+    """The build tree: environment M512_BUILD, the one in the wheel, or build/ of the repository this file is in."""
+    given = os.environ.get("M512_BUILD")
+    return pathlib.Path(given) if given else ROBOT if ROBOT.exists() else HERE.parents[3] / "build"
 
 
 class ViolationRecord(ctypes.Structure):
@@ -87,6 +89,8 @@ def load():
     path = build_folder() / "host" / "tools" / "sim" / "libcm5sim.so"
     if not path.exists():
         raise FileNotFoundError(f"{path} is missing: build target cm5sim_shared of the host preset first")
+    for needed in sorted((ROBOT / "lib").glob("*.so*")):
+        ctypes.CDLL(str(needed), mode=ctypes.RTLD_GLOBAL)
     lib = ctypes.CDLL(str(path))
     for name, (result, *arguments) in _FUNCTIONS.items():
         function = getattr(lib, name)

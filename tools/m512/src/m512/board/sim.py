@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Starts the simulator (cm5sim) on a port of its own, for commands that are given --sim instead of a robot.
 
-It is looked for in $M512_CM5SIM, in the PATH, and in the build folder of a source tree that this package lies in.
+It is looked for in $M512_CM5SIM, in the build folder of a source tree that this package lies in, beside this Python (`pip install cm5sim`
+puts it there, with firmware images and motions), and in the PATH.
 """
 from __future__ import annotations
 
@@ -10,6 +11,7 @@ import re
 import select
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -34,31 +36,47 @@ def build_folder() -> Optional[Path]:
 def find_cm5sim() -> Path:
     given, build = os.environ.get("M512_CM5SIM"), build_folder()
     places = [Path(given)] if given else []
+    places += [build / "host" / "tools" / "sim" / "cm5sim"] if build else []
+    places += [Path(sys.executable).with_name("cm5sim")]
     found = shutil.which("cm5sim")
     places += [Path(found)] if found else []
-    places += [build / "host" / "tools" / "sim" / "cm5sim"] if build else []
     for place in places:
         if place.exists():
             return place
-    raise MissingError("the simulator cm5sim is not here. Build it (tools/demo in the source tree does), then put it into "
-                       "the PATH or name it in M512_CM5SIM")
+    raise MissingError("the simulator cm5sim is not here: install its wheel beside m512 (pip install cm5sim-....whl of a release, or "
+                       "tools/sim/python of a built source tree), or name the program in M512_CM5SIM")
+
+
+def wheel_folder() -> Optional[Path]:
+    """What the wheel cm5sim brings: firmware/, motions/; None if it is not installed."""
+    from importlib.util import find_spec
+
+    spec = find_spec("cm5sim")
+    folder = Path(spec.origin).parent / "robot" if spec and spec.origin else None
+    return folder if folder and folder.exists() else None
 
 
 def find_image(name: str) -> Path:
-    """A firmware image by path, or by name in build/firmware."""
-    build = build_folder()
-    for place in [Path(name)] + ([build / "firmware" / name] if build else []):
+    """A firmware image by path, or by name in firmware/ of the build folder or of the simulator's wheel."""
+    for place in [Path(name)] + [folder / "firmware" / name for folder in (build_folder(), wheel_folder()) if folder]:
         if place.exists():
             return place
     raise MissingError(f"the firmware image {name} is not here: build it (tools/demo does), or give its path (--image)")
 
 
+def our_motions() -> Optional[Path]:
+    """The motion library of the build folder or of the simulator's wheel, if there is one."""
+    places = [folder / "motions" / "motions.bin" for folder in (build_folder(), wheel_folder()) if folder]
+    return next((place for place in places if place.exists()), None)
+
+
 class Simulator:
-    """cm5sim with its console on a pty. Use as a context; `url` is the port."""
+    """cm5sim with its console on a pty, and our motions unless others are given. Use as a context; `url` is the port."""
 
     def __init__(self, images: List[str], motions: Optional[Path] = None, servos: str = "1-18", extra: Optional[List[str]] = None):
         self.folder = Path(tempfile.mkdtemp(prefix="m512-sim-"))
         command = [str(find_cm5sim())] + [str(find_image(image)) for image in images]
+        motions = motions or our_motions()
         if motions:
             from m512.files import formats
 
