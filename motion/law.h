@@ -39,9 +39,8 @@ enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
  * .fault and .fault_page have changed. */
 bool sequence_start(player_t *player, link_t *link, uint8_t page);
 
-/* Takes the positions of the first step: fills coming_pos. Returns the longest way of a joint that is not lent; lent_way is
- * that of the others. */
-uint16_t sequence_take_first(player_t *player);
+/* Takes the positions of the first step: fills coming_pos, coming_joints and the longest ways. */
+void sequence_take_first(player_t *player);
 
 /* Finds the step behind the coming one, which decides the link at the last step of a page, and reads it. From now on `now`
  * is the coming step and `coming` the one behind it (page 0: the play ends behind `now`), whose words are in looked_at
@@ -49,9 +48,9 @@ uint16_t sequence_take_first(player_t *player);
  * Call only while player->coming.page is not 0. */
 void sequence_look(player_t *player, link_t *link) NOINLINE;
 
-/* coming_pos to target_pos, looked_at to coming_pos, with coming_joints. Returns as sequence_take_first; 0 where no length depends on it. Without a
- * coming step no joint is used. */
-uint16_t sequence_take(player_t *player);
+/* coming_pos to target_pos, looked_at to coming_pos, with coming_joints and the longest ways (0 where no length depends on
+ * them). Without a coming step no joint is used. */
+void sequence_take(player_t *player);
 
 /* `now` begins: makes it public and returns its events. 0 when none is about to begin. */
 uint8_t sequence_announce(player_t *player);

@@ -133,22 +133,26 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
 /* Behind the last tick of a step: what begins with the next call. */
 static NOINLINE void take(player_t *player)
 {
-    uint16_t lent_way = player->lent_way;
+    bool from_output = player->section == SECTION_HOLD;
     player->joints |= player->coming_joints;
     uint16_t hold_ticks = step_plan_classic_hold(&player->now, &player->carry_q5_11);
     uint16_t way = aim_joints(player, player->look_page != 0 && hold_ticks == 0);
-    way = way > lent_way ? way : lent_way;
+    if (!from_output) {
+        way = player->coming_way; /* from targets: also of joints that are lent */
+    } else if (way < player->lent_way) {
+        way = player->lent_way;
+    }
     player->hold_ticks = hold_ticks;
     player->step_ticks = step_plan_classic_ticks(&player->now, way, &player->carry_q5_11);
     player->ramp_ticks = step_plan_classic_ramp(player->now.accel_time, &player->step_ticks);
-    (void)sequence_take(player);
+    sequence_take(player);
     player->arrived = true;
     plan_joints(player, 0, PLANNED_AHEAD);
 }
 
 void classic_start(player_t *player, link_t *link)
 {
-    (void)sequence_take_first(player);
+    sequence_take_first(player);
     enter(player, SECTION_HOLD, 0);
     player->hold_ticks = 0;
     sequence_look(player, link);

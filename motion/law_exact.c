@@ -123,10 +123,9 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end, b
 }
 
 /* Length of the coming step. */
-static void measure_coming(player_t *player, uint16_t longest_own_way)
+static void measure_coming(player_t *player)
 {
-    uint16_t way = longest_own_way > player->lent_way ? longest_own_way : player->lent_way;
-    player->coming_ticks = step_plan_exact_ticks(&player->coming, way, &player->carry_q5_11);
+    player->coming_ticks = step_plan_exact_ticks(&player->coming, player->coming_way, &player->carry_q5_11);
     player->coming_recip = fix_recip32(player->coming_ticks);
 }
 
@@ -163,9 +162,9 @@ static NOINLINE void take(player_t *player)
     player->step_ticks = player->coming_ticks;
     player->step_recip = player->coming_recip;
     player->hold_ticks = step_plan_exact_hold(&player->now, &player->carry_q5_11);
-    uint16_t way = sequence_take(player);
+    sequence_take(player);
     if (player->coming.page != 0) {
-        measure_coming(player, way);
+        measure_coming(player);
     }
     player->tick = 0;
     player->arrived = true;
@@ -194,7 +193,8 @@ uint8_t exact_step_over(player_t *player, link_t *link)
 
 void exact_start(player_t *player, link_t *link)
 {
-    measure_coming(player, sequence_take_first(player));
+    sequence_take_first(player);
+    measure_coming(player);
     sequence_look(player, link);
     take(player);
 }

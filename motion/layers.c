@@ -79,13 +79,13 @@ static void change_hands(layers_t *layers, player_t *play, uint8_t joint)
 /* Joints go back to the main play, or stay where they are when that does not play or may not drive them. */
 static void hand_back(layers_t *layers, uint32_t joints)
 {
-    player_t *main = layers->main;
-    if (main == NULL) {
+    player_t *main_play = layers->main;
+    if (main_play == NULL) {
         return;
     }
-    main->lent &= ~joints;
+    main_play->lent &= ~joints;
     FOR_JOINTS(i, joints) {
-        change_hands(layers, main, i);
+        change_hands(layers, main_play, i);
     }
 }
 
@@ -118,15 +118,15 @@ static void init_play(layers_t *layers)
     layers->play.self = PLAYER_OWNER_LAYER;
 }
 
-void layers_bind(layers_t *layers, player_t *main)
+void layers_bind(layers_t *layers, player_t *main_play)
 {
-    layers->main = main;
+    layers->main = main_play;
     layers->changing = false;
     layers->paused = false;
     memset(&layers->play, 0, sizeof layers->play);
-    if (main != NULL) {
+    if (main_play != NULL) {
         init_play(layers);
-        main->lent = layers->code_joints;
+        main_play->lent = layers->code_joints;
     }
 }
 
@@ -202,9 +202,9 @@ void layers_end(layers_t *layers)
 /* A slot for the joint, which now belongs to code. */
 static layers_status_t take_for_code(layers_t *layers, uint8_t id, layers_code_t **slot)
 {
-    player_t *main = layers->main;
+    player_t *main_play = layers->main;
     const uint32_t bit = bit_of(id);
-    if (id >= PAGE_JOINTS || (main != NULL && player_is_moving(main) && (main->present & bit) == 0)) {
+    if (id >= PAGE_JOINTS || (main_play != NULL && player_is_moving(main_play) && (main_play->present & bit) == 0)) {
         return LAYERS_ERR_JOINTS;
     }
     *slot = slot_of(layers, id);
@@ -214,10 +214,10 @@ static layers_status_t take_for_code(layers_t *layers, uint8_t id, layers_code_t
     if (*slot == NULL) {
         return LAYERS_ERR_FULL;
     }
-    if (main != NULL) {
+    if (main_play != NULL) {
         player_drop_joints(&layers->play, bit);
-        main->joint[id].owner = PLAYER_OWNER_CODE;
-        main->lent |= bit;
+        main_play->joint[id].owner = PLAYER_OWNER_CODE;
+        main_play->lent |= bit;
     }
     layers->code_joints |= bit;
     memset(*slot, 0, sizeof **slot);

@@ -65,7 +65,7 @@ void layers_set_speed(layers_t *layers, uint16_t deg_s);
 
 /* Tells which main play the layers lie over: call it between player_init and player_start, and with NULL before the main
  * play's memory becomes something else's (an approach). Ends a page layer; code-made motion goes on. */
-void layers_bind(layers_t *layers, player_t *main);
+void layers_bind(layers_t *layers, player_t *main_play);
 
 /* A second page on `joints` (0: those that its first step uses), of which only those of the main play's `present` that code
  * does not move are taken. Plays by the main play's law, as stored; follows its own links, code 0. A page layer that was on

@@ -113,7 +113,7 @@ typedef struct player {
     uint16_t carry_q5_11;           /* the fraction of a tick that is left over */
     uint32_t step_recip, coming_recip; /* exact: 2^32 over the ticks */
     uint16_t coming_ticks;          /* exact: of the coming step */
-    uint16_t lent_way;              /* longest way of a joint lent to another play in the coming step */
+    uint16_t coming_way, lent_way;  /* longest way in the coming step: of any joint; of one that is lent */
     player_step_t now, coming;      /* the step that plays, or begins next; the one behind it */
     uint8_t look_page;              /* classic: the page that the link named, before pages without action are passed over */
     uint8_t count_left;             /* repetitions, 8 bits as in the original */

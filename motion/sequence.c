@@ -215,9 +215,9 @@ void sequence_look(player_t *player, link_t *link)
     }
 }
 
-uint16_t sequence_take(player_t *player)
+void sequence_take(player_t *player)
 {
-    uint16_t own_way = 0, lent_way = 0;
+    uint16_t longest = 0, longest_lent = 0;
     player->looked = false;
     if (looks_elsewhere(player)) { /* the step that will really be played */
         player->coming.page != 0 ? look_at_coming(player) : look_at_nothing(player);
@@ -237,20 +237,22 @@ uint16_t sequence_take(player_t *player)
         *pos = to;
         if (measures) {
             uint16_t way = to > from ? (uint16_t)(to - from) : (uint16_t)(from - to);
-            uint16_t *longest = is_own ? &own_way : &lent_way;
-            *longest = way > *longest ? way : *longest;
+            longest = way > longest ? way : longest;
+            if (!is_own && way > longest_lent) {
+                longest_lent = way;
+            }
         }
     }
     player->coming_joints = player->looked_joints;
-    player->lent_way = lent_way;
-    return own_way;
+    player->coming_way = longest;
+    player->lent_way = longest_lent;
 }
 
-uint16_t sequence_take_first(player_t *player)
+void sequence_take_first(player_t *player)
 {
     player->look_page = player->coming.page;
     look_at_coming(player);
-    return sequence_take(player);
+    sequence_take(player);
 }
 
 uint8_t sequence_announce(player_t *player)
