@@ -8,6 +8,7 @@ import re
 import pytest
 
 from m512.files.image import from_bytes
+from m512.motion.speed import no_load_units_per_tick
 from play_robot import DOWN, JOINTS, LEFT, RIGHT, STOP, UP, ask, robot
 
 MOTIONS = (pathlib.Path(os.environ["M512_BUILD"]) / "motions" / "motions.bin").read_bytes()
@@ -15,8 +16,7 @@ LIBRARY = from_bytes(MOTIONS)
 PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable}
 NUMBER = {page.title: number for number, page in PAGES.items()}
 TICK_CYCLES = 125_000
-SERVO_UNITS_PER_TICK = 114 * 360 / 60 / 128 * 1024 / 300  # 18.24: 114 rpm unloaded
-MOST_UNITS_PER_TICK = 0.75 * SERVO_UNITS_PER_TICK
+MOST_UNITS_PER_TICK = 0.9 * no_load_units_per_tick(11.1) + 1  # goals are whole units
 
 
 @pytest.fixture(scope="module", params=["exact", "classic"])

@@ -25,10 +25,10 @@ from legs import CENTRE, Foot, reach, units
 SWAY = 26.0         # mm to either side; the hips are 38 from the middle
 STRIDE = 16.0       # mm a foot is before and behind the hip; a cycle of six poses covers three of these
 BACK = -12.0
-LIFT = 18.0
+LIFT = 12.0
 TURN = 24.0         # degrees in a cycle of six poses
 SIDE = 16.0         # mm to the side in one page
-HEIGHT = 132.0      # hip above ankle
+HEIGHT = 146.0      # hip above ankle
 TICKS = 20          # from pose to pose
 ARM_SWING = 0.9     # degrees of the arm for each mm of the foot
 KICK_SWAY = 37.0    # on one leg for long: the body right above the foot
@@ -101,7 +101,7 @@ def kick():
     """With the right foot: weight onto the left one, back, forward fast, and down again."""
     def leg(x, lift):
         return pose(Foot(x, height=HEIGHT - lift), sway=KICK_SWAY, arms=(-0.8 * x, 0.8 * x))
-    return [(64, pose(sway=KICK_SWAY)), (40, leg(0, 20)), (32, leg(-30, 24)), (24, leg(45, 24)), (40, leg(0, 20)),
+    return [(64, pose(sway=KICK_SWAY)), (40, leg(0, 20)), (32, leg(-30, 24)), (40, leg(45, 24)), (40, leg(0, 20)),
             (40, pose(sway=KICK_SWAY)), (64, READY)]
 
 
@@ -146,10 +146,10 @@ pose ready | """
 
 POSES = [
     ("left", pose(sway=SWAY), "the body swayed to the left, feet where they are; `mirror @left` is the other side"),
-    ("low", pose(*2 * [Foot(height=116.0)]), "knees bent"),
-    ("low_left", pose(*2 * [Foot(height=116.0)], sway=SWAY), "both"),
-    ("deep", pose(*2 * [Foot(height=92.0)]), "knees bent a lot"),
-    ("seat", pose(*2 * [Foot(height=76.0)]), "down on the heels"),
+    ("low", pose(*2 * [Foot(height=134.5)]), "knees bent"),
+    ("low_left", pose(*2 * [Foot(height=134.5)], sway=SWAY), "both"),
+    ("deep", pose(*2 * [Foot(height=115.0)]), "knees bent a lot"),
+    ("seat", pose(*2 * [Foot(height=101.5)]), "down on the heels"),
 ]
 
 

@@ -8,11 +8,19 @@ Coordinates of the body, in mm: x forward, y to the left, z down; a foot is told
 hip stands above the ground, with its yaw in degrees, to the left. Angles of joints are told as for the right leg: see
 SIGNS. The left leg is the mirror image.
 """
+import pathlib
+import sys
 from dataclasses import dataclass
 from math import acos, atan2, cos, degrees, hypot, radians, sin
 
-THIGH_MM = SHANK_MM = 75.0
-HIP_MM = 38.0               # from the middle of the body to the hip
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "body" / "src"))
+from body.description import load  # noqa: E402  (the path comes first)
+
+ROBOT = load("humanoid")            # the one body that these motions are made for
+_LEG = ROBOT.leg("right")
+BONE_MM = (_LEG.thigh_mm + _LEG.shank_mm) / 2   # from axis to axis; thigh and shank are equal within 0.1 mm
+BENT_DEGREES = degrees(atan2(_LEG.thigh_back, _LEG.thigh_down))  # how far the thigh points back, the shank forward, at 512
+HIP_MM = _LEG.hip_to_side           # from the middle of the body to the hip
 UNITS_PER_DEGREE = 1024 / 300
 CENTRE = 512
 
@@ -28,7 +36,7 @@ class Foot:
     x: float = 0.0
     y: float = 0.0
     yaw: float = 0.0
-    height: float = 132.0
+    height: float = 146.0
 
 
 def units(angle: float) -> int:
@@ -45,9 +53,9 @@ def reach(foot: Foot, side: int):
     roll = atan2(outward, foot.height)
     down = hypot(outward, foot.height)
     length = hypot(forward, down)
-    if length > THIGH_MM + SHANK_MM:
+    if length > 2 * BONE_MM:
         raise ValueError(f"{foot} is out of reach")
-    bend = acos(length / (THIGH_MM + SHANK_MM))  # thigh and shank are equal: half the knee's angle
+    bend = acos(length / (2 * BONE_MM)) + radians(BENT_DEGREES)  # half the knee's angle
     lean = atan2(forward, down)
     hip, ankle = units(degrees(bend + lean)), units(degrees(bend - lean))
     angles = {YAW: -side * units(foot.yaw), ROLL: units(degrees(roll)), HIP: hip, KNEE: -(hip + ankle), ANKLE: ankle,
@@ -59,8 +67,10 @@ def foot_of(position, side: int) -> Foot:
     """The way back: where the positions of one leg put its ankle ({ID: position} of at least that leg)."""
     angle = {joint: radians(side * (position[joint + (side < 0)] - CENTRE) / UNITS_PER_DEGREE)
              for joint in (YAW, ROLL, HIP, KNEE)}
-    forward = THIGH_MM * sin(angle[HIP]) + SHANK_MM * sin(angle[HIP] + angle[KNEE])
-    down = THIGH_MM * cos(angle[HIP]) + SHANK_MM * cos(angle[HIP] + angle[KNEE])
+    thigh = angle[HIP] - radians(BENT_DEGREES)
+    shank = angle[HIP] + angle[KNEE] + radians(BENT_DEGREES)
+    forward = BONE_MM * (sin(thigh) + sin(shank))
+    down = BONE_MM * (cos(thigh) + cos(shank))
     left = -side * down * sin(angle[ROLL])
     turn = -side * angle[YAW]
     return Foot(forward * cos(turn) - left * sin(turn), left * cos(turn) + forward * sin(turn), degrees(turn),
@@ -76,27 +86,12 @@ def between(position):
             left.yaw - right.yaw, left.height - right.height)
 
 
-# Where the weight of the body is, for the check of balance. Masses in g, of a kit robot of 18 servos with its battery in
-# the trunk; heights in mm above the hip, distances along a limb from its upper joint.
-TRUNK_G, TRUNK_MM, SHOULDER_MM = 900.0, 55.0, 115.0
-ARM_G, UPPER_ARM_MM, FOREARM_MM = 150.0, 65.0, 90.0
-THIGH_G, SHANK_G, FOOT_G = 180.0, 70.0, 100.0
-
-
 def weight_ahead(position):
-    """How far the weight lies before the middle between the ankles, in mm, with both feet flat on the ground. The lean of the
-    body is what the right leg's pitch angles sum to."""
-    angle = {joint: radians((1 if joint % 2 else -1) * (position[joint] - CENTRE) / UNITS_PER_DEGREE) for joint in range(1, 19)}
-    lean = angle[HIP] + angle[KNEE] + angle[ANKLE]
-    parts = [(TRUNK_G, TRUNK_MM * sin(lean))]
-    ankles = []
-    for left in (0, 1):
-        swing, lift, elbow = (angle[joint + left] for joint in (1, 3, 5))
-        reached = (UPPER_ARM_MM * cos(lift) + FOREARM_MM * cos(lift + elbow)) / 2 * sin(swing - lean)
-        parts.append((ARM_G, SHOULDER_MM * sin(lean) + reached))
-        thigh = angle[HIP + left] - lean
-        knee = THIGH_MM * sin(thigh)
-        ankle = knee + SHANK_MM * sin(thigh + angle[KNEE + left])
-        parts += [(THIGH_G, knee / 2), (SHANK_G, (knee + ankle) / 2), (FOOT_G, ankle)]
-        ankles.append(ankle)
-    return sum(mass * x for mass, x in parts) / sum(mass for mass, _ in parts) - sum(ankles) / 2
+    """How far the weight lies before the middle between the ankles, in mm, with both feet flat on the ground: the body leans
+    as the right leg's pitch angles sum up to. Needs numpy."""
+    from body.kinematics import centre_of_mass, places
+
+    lean = sum(radians((position[joint] - CENTRE) / UNITS_PER_DEGREE) for joint in (HIP, KNEE, ANKLE))
+    ankles = sum(places(ROBOT, position)[f"{side}_ankle"][0] for side in ("right", "left")) / 2
+    away = centre_of_mass(ROBOT, position) - ankles
+    return float(away[0] * cos(lean) + away[2] * sin(lean))

@@ -9,7 +9,8 @@ import numpy
 import pytest
 
 from body.description import load
-from body.picture import flat, places, scene
+from body.kinematics import centre_of_mass, places
+from body.picture import flat, scene
 
 PICTURE = pathlib.Path(__file__).resolve().parents[1] / "picture"
 
@@ -27,6 +28,19 @@ def test_links_stand_where_mujoco_has_them(name):
         for body, (origin, turned) in places(robot, pose).items():
             away = 1000 * (data.body(body).xpos - data.body("trunk").xpos)
             assert origin == pytest.approx(away, abs=1e-6) and turned == pytest.approx(data.body(body).xmat.reshape(3, 3), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["humanoid", "gp"])
+def test_weight_is_where_mujoco_has_it(name):
+    robot, chance = load(name), numpy.random.default_rng(7)
+    model = mujoco.MjModel.from_xml_string(robot.xml())
+    data = mujoco.MjData(model)
+    for _ in range(10):
+        pose = {servo: 512 + chance.uniform(-150, 150) for servo in robot.servos}
+        for servo, position in pose.items():
+            data.joint(robot.joints[servo].name).qpos[0] = robot.angle(servo, position)
+        mujoco.mj_forward(model, data)
+        assert centre_of_mass(robot, pose) == pytest.approx(1000 * (data.subtree_com[1] - data.body("trunk").xpos), abs=1e-6)
 
 
 def test_shapes_are_as_large_as_their_geoms():

@@ -10,7 +10,8 @@ from math import cos, radians, sin
 
 import numpy
 
-from .description import Description, numbers
+from .description import numbers
+from .kinematics import euler, places, turn
 
 VIEW = (-55.0, 14.0)             # looking from its right front; degrees round, degrees up
 LIGHT = numpy.array((0.35, -0.5, 0.8)) / numpy.linalg.norm((0.35, -0.5, 0.8))
@@ -28,36 +29,6 @@ class Face:
     colour: tuple
 
 
-def turn(axis, angle):
-    """Rotation matrix about an axis, radians."""
-    x, y, z = numpy.asarray(axis, float) / numpy.linalg.norm(axis)
-    c, s = cos(angle), sin(angle)
-    return numpy.array(((c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s),
-                        (y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s),
-                        (z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c))))
-
-
-def _euler(element):
-    turned = numpy.eye(3)
-    for axis, degrees in zip(numpy.eye(3), numbers(element.get("euler", "0 0 0"))):
-        turned = turned @ turn(axis, radians(degrees))
-    return turned
-
-
-def places(robot: Description, positions):
-    """{body: (origin in mm, rotation)} in the frame of the trunk; servos that `positions` does not name stand at angle 0."""
-    angles = {robot.joints[servo].name: robot.angle(servo, position) for servo, position in positions.items() if servo in robot.joints}
-    found = {}
-    for body, element in robot.bodies.items():               # parents come before their children
-        parent = robot.parent[body]
-        at, turned = found[parent] if parent else (numpy.zeros(3), numpy.eye(3))
-        at = at + turned @ (numpy.array(robot.place_mm(body)) if parent else numpy.zeros(3))
-        for joint in element.findall("joint"):
-            turned = turned @ turn(numbers(joint.get("axis")), angles.get(joint.get("name"), 0.0))
-        found[body] = at, turned
-    return found
-
-
 def _round(size, half):
     """A prism with SIDES sides along z."""
     ring = [(size * cos(2 * numpy.pi * k / SIDES), size * sin(2 * numpy.pi * k / SIDES)) for k in range(SIDES)]
@@ -68,7 +39,7 @@ def _round(size, half):
 def _shape(geom):
     """Polygons of a geom in its own frame, mm; its origin and rotation in its body."""
     kind, size = geom.get("type", "sphere"), [1000 * value for value in numbers(geom.get("size"))]
-    at, turned = 1000 * numpy.array(numbers(geom.get("pos", "0 0 0"))), _euler(geom)
+    at, turned = 1000 * numpy.array(numbers(geom.get("pos", "0 0 0"))), euler(geom)
     if geom.get("fromto"):
         ends = 1000 * numpy.array(numbers(geom.get("fromto"))).reshape(2, 3)
         along = ends[1] - ends[0]
