@@ -58,6 +58,62 @@ def test_probe_takes_interrupts_out_of_the_own_time():
     assert board._lib.board_interrupt_max(board._pointer, 12) == 21
 
 
+def swept(mask=0x10, off=False):
+    """A loop that calls 0x200 (four NOPs, RET; with `off` CLI before and SEI behind the second and third) for ever."""
+    board = Board()
+    main = MAIN[:4] + [0xE000 | mask >> 4 << 8 | mask & 15, 0x9300, 0x57, SEI] + CALL_200_FOR_EVER   # r16 = TIMSK
+    body = [NOP, 0x94F8, NOP, SEI, NOP, RET] if off else [NOP] * 4 + [RET]
+    board.flash[0:4] = words(0x940C, 0x0080)
+    board.flash[0x30:0x34] = words(0x940C, 0x0300)
+    board.flash[0x100:0x100 + 2 * len(main)] = words(*main)
+    board.flash[0x200:0x200 + 2 * len(body)] = words(*body)
+    board.flash[0x600:0x602] = words(RETI)
+    board.sweep("0x200", "tick")
+    return board
+
+
+def interrupted_at(board, calls):
+    """Where the first interrupts of a sweep broke in: the address that each returns to."""
+    places = []
+    for _ in range(calls):
+        board.run_to(0x600)
+        sp = board.ram[0x5D] | board.ram[0x5E] << 8
+        places.append((board.ram[sp + 1] << 8 | board.ram[sp + 2]) * 2)
+        board.run(cycles=4)
+    return places
+
+
+def test_sweep_interrupts_before_each_instruction_once():
+    board = swept()
+    assert interrupted_at(board, 5) == [0x200, 0x202, 0x204, 0x206, 0x208]
+    board.run_to(0x600)   # the round is over when a call ends before its place
+    done = board.swept("0x200")
+    assert (done.rounds, done.calls, done.taken, done.place) == (1, 6, 5, 0)
+    assert interrupted_at(board, 1) == [0x200]
+
+
+def test_sweep_waits_while_interrupts_are_off():
+    """Raised behind CLI, it comes one instruction behind SEI."""
+    assert interrupted_at(swept(off=True), 6) == [0x200, 0x202, 0x20A, 0x20A, 0x20A, 0x20A]
+
+
+def test_sweep_needs_an_enabled_interrupt():
+    board = swept(mask=0)
+    board.run(ms=1)
+    done = board.swept("0x200")
+    assert done.rounds > 10 and done.taken == 0
+
+
+def test_sweep_of_nothing_is_refused():
+    board = Board()
+    with pytest.raises(KeyError):
+        board.sweep("no_such_function", "tick")
+    with pytest.raises(KeyError):
+        board.sweep("0x200", 22)   # EEPROM ready: cannot be raised
+    with pytest.raises(ValueError):
+        board.interrupt(34)
+
+
 def test_stack_headroom_is_what_was_never_used():
     board = Board(images=[NEGATIVE / "right-stack.hex"])
     board.expect("right")

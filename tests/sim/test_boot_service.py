@@ -58,6 +58,14 @@ def test_write(board, page):
     assert after[:256 * page] == before[:256 * page] and after[256 * page + 256:] == before[256 * page + 256:]
 
 
+def test_write_waits_for_the_eeprom(board):
+    """SPM during an EEPROM write does nothing on the chip; the board model stops it (spm-eeprom)."""
+    data = noise(256)
+    assert ask(board, b"V" + at(0xE0) + data) == bytes([OK])
+    assert bytes(board.flash[0xE000:0xE100]) == data
+    assert board.eeprom[0x321] == 0x5A
+
+
 @pytest.mark.parametrize("page", [0x1E0, 0x1FF, 0x200, 0xFFFF])
 def test_boot_section_is_refused(board, page):
     before = bytes(board.flash)

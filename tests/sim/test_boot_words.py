@@ -331,6 +331,31 @@ def test_check_tells_every_page_and_repeats_it_as_one_line():
     assert int(match[3], 16) == crc16(board.flash[0xE000:0x1E000])
 
 
+def test_check_keeps_what_is_typed_while_it_tests_the_ram():
+    """The test of the RAM writes patterns over the count of the bytes received, too. A byte that comes at any instruction
+    of that moment has to be there afterwards."""
+    head, at_test = prompt_board().variable("head"), []
+    for place in range(14):
+        board = prompt_board()
+        board.send("check\r")
+        board.expect(" ram", ms=5000)
+        if not at_test:
+            watched = prompt_board()
+            watched.send("check\r")
+            watched.expect(" ram", ms=5000)
+            start, value = watched.now_cycles, watched.ram[head]
+            while watched.ram[head] == value:
+                at_test[:] = [watched.now_cycles - start]
+                watched.step()
+        board.run(cycles=at_test[0] - 4)
+        for _ in range(place):
+            board.step()
+        board.interrupt("console byte", ord("~"))
+        assert board.expect(PROMPT).startswith("=good "), place
+        board.run(ms=2)
+        assert board.take() == b"~", place
+
+
 def test_check_sees_a_damaged_loader():
     board = prompt_board()
     board.flash[0x1FFF4] = 0x7F

@@ -189,6 +189,20 @@ static void test_retry_after_half_an_answer_starts_afresh(void)
     TEST_ASSERT_EQUAL(BUS_OK, poll_after_us(80));
 }
 
+/* The first try is spoilt on the wire, the second one meets silence: each is named by what happened to it. */
+static void test_retry_forgets_what_spoilt_the_try_before(void)
+{
+    ask(3, 2);
+    leave();
+    bus_core_on_byte(&core, 0x00, BUS_BYTE_OVERRUN | BUS_BYTE_FRAMING);
+    TEST_ASSERT_EQUAL(BUS_PENDING, poll_after_us(900));
+    TEST_ASSERT_EQUAL(2, sends);
+    leave();
+    TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, poll_after_us(900));
+    TEST_ASSERT_EQUAL(1, core.counts.overruns);
+    TEST_ASSERT_EQUAL(1, core.counts.timeouts);
+}
+
 static void test_wrong_id_and_wrong_length_are_named(void)
 {
     ask(4, 1);
@@ -347,6 +361,7 @@ int main(void)
     RUN_TEST(test_retries_are_bounded);
     RUN_TEST(test_retry_waits_until_the_line_is_quiet);
     RUN_TEST(test_retry_after_half_an_answer_starts_afresh);
+    RUN_TEST(test_retry_forgets_what_spoilt_the_try_before);
     RUN_TEST(test_wrong_id_and_wrong_length_are_named);
     RUN_TEST(test_glitch_before_the_answer_does_no_harm);
     RUN_TEST(test_broken_bytes_name_framing_or_overrun);

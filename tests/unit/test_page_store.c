@@ -141,6 +141,10 @@ static void test_find_by_code_takes_the_lowest_playable_good_page(void)
     put(10, "Damaged", 1, 4);
     flash_of(10)[70] ^= 1;
     put(11, "No steps", 0, 4);
+    put(9, "Not played", 1, 4);
+    page[PAGE_AT_PLAY_COUNT] = 0;   /* no action (motion512.md) */
+    page_seal(page);
+    memcpy(flash_of(9), page, PAGE_BYTES);
     put(12, "This", 1, 4);
     put(13, "Later", 1, 4);
     page_store_init(&store);

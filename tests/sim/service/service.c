@@ -3,6 +3,7 @@
  * and what journal_recover did; then it obeys binary requests and answers each with one status byte.
  *
  *   W page16 256 bytes   flash_write          P page16 n, n bytes   flash_program
+ *   V page16 256 bytes   the same, right behind the begin of an EEPROM write: 0x5A to 0x321
  *   J page8 512 bytes    journal_save         B page16 256 bytes    boot_call_write, then 2 bytes: stack used, RAM intact
  *   E                    no status: echoes what is in the ring, until it is empty for 50 ms
  *   M page8 512 bytes    page_service_post, then a watchdog reset */
@@ -12,6 +13,7 @@
 #include "hal/boot_call.h"
 #include "hal/ring.h"
 
+#include <avr/eeprom.h>
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/wdt.h>
@@ -108,9 +110,13 @@ static void obey(uint8_t request)
     uint16_t page;
     uint8_t count;
     switch (request) {
+    case 'V':
     case 'W':
         page = take16();
         take_data(256);
+        if (request == 'V') {
+            eeprom_write_byte((uint8_t *)0x321, 0x5A);
+        }
         put((uint8_t)flash_write(page, data, 256));
         break;
     case 'P':

@@ -110,6 +110,7 @@ void board_free(board_t *board)
     vcd_free(board);
     trace_free(board);
     probe_free(board);
+    sweep_free(board);
     console_free(board);
     bus_wire_free(board);
     symbols_free(&board->symbols);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * board_debug.h - looking into the running firmware: symbols, stack, cycles of a function, GDB, VCD. Part of board.h. */
+ * board_debug.h - looking into the running firmware: symbols, stack, cycles of a function, interrupts at every place of
+ * one, GDB, VCD. Part of board.h. */
 #ifndef SIM_BOARD_DEBUG_H
 #define SIM_BOARD_DEBUG_H
 
@@ -38,6 +39,27 @@ void board_probe_clear(board_t *board); /* figures back to 0, probes stay */
 uint64_t board_interrupt_cycles(const board_t *board);
 uint64_t board_interrupt_count(const board_t *board, int vector);
 uint64_t board_interrupt_max(const board_t *board, int vector); /* longest, nested ones included */
+
+/* Raises an interrupt now, as if its cause had just come: a timer's flag (vectors 9..16, 24..29); a received character
+ * (18, 30), which is `byte`; or the character that a UART is sending has left (19, 20, 31, 32; earlier than its time).
+ * What mask and I flag then make of it is the chip's business. false: no other vector can be raised. */
+bool board_interrupt(board_t *board, int vector, uint8_t byte);
+
+/* A sweep: from now on every call of a function is interrupted once. The first call before its first instruction, the
+ * next behind its first one, the next behind its second, and so on; instructions of what it calls count, those of
+ * interrupts do not. A call that is over before its place comes ends the round: the next one begins again.
+ * What must not be torn has to come out right at every place. false: no such function, or vector that cannot be raised,
+ * or 32 sweeps are in use. The same function again: begins anew. Calls inside a swept call are not swept. */
+typedef struct {
+    uint32_t place;  /* of the next call: how many of its instructions come before the interrupt */
+    uint64_t calls;  /* that have returned */
+    uint64_t rounds; /* times that all places were visited */
+    uint64_t taken;  /* calls in which the interrupt was served before they returned */
+    uint64_t last;   /* cycles of the last call from the interrupt's being raised to its return; 0: none was raised */
+} sweep_t;
+bool board_sweep(board_t *board, const char *function, int vector, uint8_t byte);
+const sweep_t *board_sweep_result(const board_t *board, const char *function);
+void board_sweep_end(board_t *board); /* of all */
 
 /* Executes one instruction (or one interrupt response) and returns its cycles. For tests of the model itself. */
 uint32_t board_step(board_t *board);

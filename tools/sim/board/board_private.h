@@ -22,6 +22,7 @@
 #include "parts/power.h"
 #include "parts/reset.h"
 #include "parts/stack.h"
+#include "parts/sweep.h"
 #include "parts/timer.h"
 #include "parts/uart.h"
 #include "symbols.h"
@@ -52,6 +53,8 @@ struct board {
     reset_t reset;
     symbols_t symbols;
     struct probes *probes;
+    struct sweeps *sweeps;
+    sweep_call_t sweep;
     struct trace *trace;
     struct vcd *vcd;
     avr_io_t io; /* how simavr's core asks us about SPM and WDR */

@@ -11,6 +11,7 @@ void cpu_flash_changed(board_t *board, uint32_t address, uint32_t count)
         board->cpu.note[board->stop_at / 2] |= NOTE_STOP;
     }
     probe_mark(board);
+    sweep_mark(board);
 }
 
 /* Cycles of the instructions that can write a register and can be part of a timed sequence: OUT 1, the others 2. */
@@ -66,6 +67,9 @@ static bool before(board_t *board, uint32_t pc, uint8_t note)
     }
     if (note & NOTE_RETURN) {
         probe_leave(board, pc);
+    }
+    if ((note & NOTE_PROBE) && sweep_enter(board, pc)) {
+        return true; /* once more: an interrupt may come first */
     }
     if (note & NOTE_PROBE) {
         probe_enter(board, pc);
@@ -185,7 +189,11 @@ static inline void advance(board_t *board)
     } else if (avr->gdb) {
         step_under_gdb(board);
     } else {
+        bool is_swept = board->sweep.is_open;
         cpu_step(board);
+        if (is_swept) {
+            sweep_passed(board);
+        }
     }
 }
 
@@ -195,6 +203,9 @@ void cpu_run(board_t *board)
     while (!board->stopped) {
         if (board->events.next <= avr->cycle) {
             events_run(board);
+            continue;
+        }
+        if (board->sweep.is_open && sweep_raise(board)) {
             continue;
         }
         run_due_timers(avr);

@@ -7,6 +7,12 @@
                              Response Time) */
 #define WAKE_CYCLES 4u     /* more, out of sleep */
 
+/* Bits of ETIFR by vector. */
+static const uint8_t extended_mask[VECTOR_COUNT] = {
+    [VECTOR_T1_COMPC] = 0x01, [VECTOR_T3_COMPC] = 0x02, [VECTOR_T3_OVF] = 0x04,
+    [VECTOR_T3_COMPB] = 0x08, [VECTOR_T3_COMPA] = 0x10, [VECTOR_T3_CAPT] = 0x20
+};
+
 /* Requests are levels, flag AND mask, as in the chip; simavr forgets an interrupt whose mask is set after its flag. */
 static uint64_t requests(const board_t *board)
 {
@@ -44,10 +50,6 @@ bool interrupt_wanted(const board_t *board)
 /* Flags that the chip clears when it enters the vector. The others follow their cause. */
 static void acknowledge(board_t *board, int vector)
 {
-    static const uint8_t extended[VECTOR_COUNT] = {
-        [VECTOR_T1_COMPC] = 0x01, [VECTOR_T3_COMPC] = 0x02, [VECTOR_T3_OVF] = 0x04,
-        [VECTOR_T3_COMPB] = 0x08, [VECTOR_T3_COMPA] = 0x10, [VECTOR_T3_CAPT] = 0x20
-    };
     uint8_t *data = board->avr->data;
     if (vector >= VECTOR_T2_COMP && vector <= VECTOR_T0_OVF) {
         data[M128_TIFR] &= (uint8_t)~(1u << (VECTOR_T0_OVF - vector));
@@ -59,7 +61,7 @@ static void acknowledge(board_t *board, int vector)
         board->uart[vector == VECTOR_USART1_TX].a &= (uint8_t)~UCSRA_TXC;
         interrupt_line(board, vector, false);
     } else {
-        data[M128_ETIFR] &= (uint8_t)~extended[vector];
+        data[M128_ETIFR] &= (uint8_t)~extended_mask[vector];
     }
     timer_flags_changed(board);
 }
@@ -134,6 +136,34 @@ void interrupt_return(board_t *board)
     if (cpu->depth == 0) {
         cpu->interrupt_cycles += took;
     }
+}
+
+static bool is_of_uart(int vector)
+{
+    return (vector >= VECTOR_USART0_RX && vector <= VECTOR_USART0_TX) ||
+           (vector >= VECTOR_USART1_RX && vector <= VECTOR_USART1_TX);
+}
+
+bool interrupt_can_be_raised(int vector)
+{
+    return is_of_uart(vector) || (vector >= VECTOR_T2_COMP && vector <= VECTOR_T0_OVF) ||
+           (vector >= VECTOR_T1_COMPC && vector <= VECTOR_T3_OVF);
+}
+
+bool board_interrupt(board_t *board, int vector, uint8_t byte)
+{
+    uint8_t *data = board->avr->data;
+    if (!interrupt_can_be_raised(vector)) {
+        return false;
+    }
+    if (is_of_uart(vector)) {
+        uart_raise(&board->uart[vector >= VECTOR_USART1_RX], vector == VECTOR_USART0_RX || vector == VECTOR_USART1_RX, byte);
+    } else if (vector <= VECTOR_T0_OVF) {
+        data[M128_TIFR] |= (uint8_t)(1u << (VECTOR_T0_OVF - vector));
+    } else {
+        data[M128_ETIFR] |= extended_mask[vector];
+    }
+    return true;
 }
 
 uint64_t board_interrupt_cycles(const board_t *board) { return board->cpu.interrupt_cycles; }

@@ -136,6 +136,7 @@ void reset_now(board_t *board, reset_cause_t cause)
     event_at(board, EVENT_WATCHDOG, NEVER);
     stack_reset(board);
     probe_reset(board);
+    sweep_reset(board);
     flash_reset(board);
     eeprom_reset(board);
     timer_reset(&board->timer[0]);

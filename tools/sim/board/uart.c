@@ -156,6 +156,17 @@ static uint8_t read_a(avr_t *avr, avr_io_addr_t address, void *param)
     return (uint8_t)value;
 }
 
+void uart_raise(uart_t *uart, bool received, uint8_t byte)
+{
+    board_t *board = uart->board;
+    uint64_t now = board->avr->cycle, bits = BITS * bit_cycles(uart);
+    if (received) {
+        uart_receive(uart, now > bits ? now - bits : 0, byte, M128_HZ / bit_cycles(uart), false);
+    } else if (uart->shifting) {
+        event_at(board, uart->index ? EVENT_UART1 : EVENT_UART0, now);
+    }
+}
+
 static void refuse_change(uart_t *uart, const char *what)
 {
     if (uart->shifting) {

@@ -13,7 +13,7 @@ enum {
     NOTE_SLEEP = 0x04,
     NOTE_RETI = 0x08,
     NOTE_WRONG = 0x10,   /* erased, illegal or BREAK */
-    NOTE_PROBE = 0x20,   /* first instruction of a probed function */
+    NOTE_PROBE = 0x20,   /* first instruction of a probed or swept function */
     NOTE_RETURN = 0x40,  /* where a probed function may return to */
     NOTE_STOP = 0x80     /* board_stop_at() */
 };
@@ -56,5 +56,6 @@ void interrupt_line(board_t *board, int vector, bool level);
 bool interrupt_wanted(const board_t *board); /* quick: false means surely not */
 bool interrupt_take(board_t *board);         /* true: one was taken */
 void interrupt_return(board_t *board);       /* a RETI was executed */
+bool interrupt_can_be_raised(int vector);    /* by board_interrupt() */
 
 #endif

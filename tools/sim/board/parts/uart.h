@@ -29,6 +29,9 @@ void uart_reset(uart_t *uart);
 void uart_event(uart_t *uart, uint64_t now);
 bool uart_is_sending(const uart_t *uart);
 
+/* For board_interrupt(): `byte` has just come in whole; or the character being sent, if any, has left. */
+void uart_raise(uart_t *uart, bool received, uint8_t byte);
+
 /* A character has passed at rate_bps, started at start; bad: the wire was not clean. */
 void uart_receive(uart_t *uart, uint64_t start, uint8_t byte, uint32_t rate_bps, bool bad);
 

@@ -25,6 +25,8 @@ BOOT_ADDRESS = 0x1E000
 BUTTONS = ("UP", "DOWN", "LEFT", "RIGHT", "START", "MODE")
 LEDS = ("power", "txd", "rxd", "aux", "manage", "program", "play")
 RESET_CAUSES = {1: "power-on", 2: "external", 4: "brown-out", 8: "watchdog"}
+# Interrupts of this firmware by what causes them.
+VECTORS = {"tick": 12, "bus byte": 18, "bus room": 19, "bus sent": 20, "console byte": 30, "console room": 31}
 OPERATIONS = ("erase", "write", "eeprom")
 _TIME, _VIOLATION, _POWER_CUT, _TEXT, _ADDRESS, _REQUEST = range(6)
 
@@ -435,6 +437,27 @@ class Board:
 
     def clear_probes(self):
         self._lib.board_probe_clear(self._pointer)
+
+    def interrupt(self, vector, byte=0):
+        """Raises an interrupt now (a number of board_debug.h's board_interrupt, or a name of VECTORS)."""
+        if not self._lib.board_interrupt(self._pointer, VECTORS.get(vector, vector), byte):
+            raise ValueError(f"interrupt {vector} cannot be raised")
+
+    def sweep(self, function, vector, byte=0):
+        """From now on each call of a function is interrupted once, behind one instruction more each time."""
+        number = VECTORS.get(vector, vector)
+        if not self._lib.board_sweep(self._pointer, function.encode(), number, byte):
+            raise KeyError(f"no function {function} in the loaded images, or interrupt {vector} cannot be raised")
+
+    def swept(self, function):
+        """How far a sweep has come: place, calls, rounds, taken."""
+        pointer = self._lib.board_sweep_result(self._pointer, function.encode())
+        if not pointer:
+            raise KeyError(f"{function} is not swept")
+        return pointer.contents
+
+    def end_sweeps(self):
+        self._lib.board_sweep_end(self._pointer)
 
     def step(self):
         """One instruction or interrupt response; its cycles."""

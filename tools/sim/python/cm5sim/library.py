@@ -40,6 +40,11 @@ class ServoBody(ctypes.Structure):
     _fields_ = [("context", ctypes.c_void_p), ("look", ctypes.c_void_p), ("step", ctypes.c_void_p)]
 
 
+class SweepResult(ctypes.Structure):
+    _fields_ = [("place", ctypes.c_uint32), ("calls", ctypes.c_uint64), ("rounds", ctypes.c_uint64),
+                ("taken", ctypes.c_uint64), ("last", ctypes.c_uint64)]
+
+
 P, I, B, S, D = ctypes.c_void_p, ctypes.c_int, ctypes.c_bool, ctypes.c_char_p, ctypes.c_double
 U8, U32, U64, Z = ctypes.c_uint8, ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
 SIZE = ctypes.POINTER(Z)
@@ -78,7 +83,9 @@ _FUNCTIONS = {
     "board_pc": (U32, P), "board_stack_low": (U32, P), "board_stack_headroom": (U32, P),
     "board_probe": (B, P, S), "board_probe_result": (ctypes.POINTER(ProbeResult), P, S),
     "board_probe_clear": (None, P), "board_interrupt_cycles": (U64, P), "board_interrupt_count": (U64, P, I),
-    "board_interrupt_max": (U64, P, I), "board_step": (U32, P), "board_gdb": (B, P, I, B),
+    "board_interrupt_max": (U64, P, I), "board_interrupt": (B, P, I, U8), "board_sweep": (B, P, S, I, U8),
+    "board_sweep_result": (ctypes.POINTER(SweepResult), P, S), "board_sweep_end": (None, P),
+    "board_step": (U32, P), "board_gdb": (B, P, I, B),
     "board_vcd_start": (B, P, S), "board_vcd_stop": (None, P),
 }
 
