@@ -38,7 +38,7 @@ static void send(bus_core_t *core)
     core->status = NULL;
     core->counts.packets++;
     core->state = BUS_SENDING;
-    bus_port_send(core->packet, core->size);
+    bus_port_send(core);
 }
 
 bus_status_t bus_core_submit(bus_core_t *core, uint8_t size, uint8_t answer_params, uint8_t tries)

@@ -53,9 +53,9 @@ typedef struct {
 } bus_core_t;
 
 /* The port, given by hal/avr/bus.c or by a test. */
-/* Turns the line to sending and starts to send; bus_core_on_last is called when the last byte went to the UART,
- * bus_core_on_sent when its last stop bit has left. `bytes` stays valid and unchanged until then. */
-void bus_port_send(const uint8_t *bytes, uint8_t count);
+/* Turns the line to sending and starts to send packet[0..size - 1], which stay unchanged meanwhile; bus_core_on_last is
+ * called when the last byte went to the UART, bus_core_on_sent when its last stop bit has left. */
+void bus_port_send(bus_core_t *core);
 /* Turns the line to listening. Called from bus_core_on_sent. What the receiver caught before is thrown away. */
 void bus_port_listen(void);
 

@@ -81,7 +81,7 @@ def test_tick_is_exact_over_a_minute_and_none_is_missed():
     assert word(board, "walker_late", 1) == 0
 
 
-def test_frame_of_31_joints_is_one_packet_a_tick_in_under_7000_cycles(capsys):
+def test_frame_of_31_joints_is_one_packet_a_tick_in_under_10000_cycles(capsys):
     board = walker()
     board.run(ms=100)
     board.clear_trace()
@@ -97,7 +97,7 @@ def test_frame_of_31_joints_is_one_packet_a_tick_in_under_7000_cycles(capsys):
     with capsys.disabled():
         print(f"\nhal: frame of 31 joints: build {build}, send 101 x {byte:.1f}, turn {turn:.0f}, in all {total:.0f} cycles;"
               f" a byte heard {heard:.0f}")
-    assert total <= 7000
+    assert total <= 10_000
     assert heard < 160
 
 

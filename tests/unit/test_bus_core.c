@@ -12,12 +12,12 @@ static uint8_t sends, listens;
 static uint8_t sent_count;
 static bus_answer_t answer;
 
-void bus_port_send(const uint8_t *bytes, uint8_t count)
+void bus_port_send(bus_core_t *engine)
 {
-    TEST_ASSERT_EQUAL_PTR(core.packet, bytes);
+    TEST_ASSERT_EQUAL_PTR(&core, engine);
     TEST_ASSERT_EQUAL(BUS_SENDING, core.state);
     sends++;
-    sent_count = count;
+    sent_count = core.size;
 }
 
 void bus_port_listen(void)

@@ -12,9 +12,9 @@ static bus_core_t core;
 static uint16_t now;
 static bool on_wire;   /* a packet is being sent */
 
-void bus_port_send(const uint8_t *bytes, uint8_t count)
+void bus_port_send(bus_core_t *engine)
 {
-    ASSERT(!on_wire && count >= DXL_PACKET_OVERHEAD && bytes == core.packet);
+    ASSERT(!on_wire && engine == &core && core.size >= DXL_PACKET_OVERHEAD);
     on_wire = true;
 }
 
