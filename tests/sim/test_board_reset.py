@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Resets, watchdog, panel and battery of the simulated board. Facts: data sheet, Reset Sources and Watchdog; board.md."""
+import struct
+
 import pytest
 
-from cm5sim import Violation
+from cm5sim import Board, Violation
 from lab_board import Lab
 
 POWER_ON, EXTERNAL, BROWN_OUT, WATCHDOG = 1, 2, 4, 8
@@ -77,8 +79,50 @@ def test_buttons_pull_their_pin_to_ground():
                                   ("START", 0x30, 0)):
         assert lab.do("q", register)[0] >> bit & 1
         lab.press(button)
+        lab.run(ms=5)
         assert not lab.do("q", register)[0] >> bit & 1
         lab.release(button)
+        lab.run(ms=5)
+
+
+# Pull-up on PD0, then for ever: a change of PIND bit 0 counts r19 up, which goes to 0x200.
+COUNT_EDGES = [0xE001, 0xBB02, 0xE021, 0xE030, 0xB310, 0x7011, 0x1712, 0xF3E1, 0x2F21, 0x9533, 0x9330, 0x0200, 0xCFF7]
+
+
+def edges(board, act, ms):
+    """How often START's contact changed within so long behind an act."""
+    before = board.ram[0x200]
+    act("START")
+    board.run(ms=ms)
+    return board.ram[0x200] - before & 0xFF
+
+
+def counting_board():
+    board = Board()
+    board.flash[0:2 * len(COUNT_EDGES)] = struct.pack(f"<{len(COUNT_EDGES)}H", *COUNT_EDGES)
+    board.ram[0x200] = 0
+    board.run(ms=20)
+    board.ram[0x200] = 0
+    return board
+
+
+def test_contacts_bounce_for_5_ms():
+    board, counts = counting_board(), []
+    for act in [board.press, board.release] * 10:
+        counts.append(edges(board, act, 5.1))
+        assert edges(board, lambda _: None, 20) == 0, "steady behind that"
+    assert all(count % 2 and 5 <= count <= 49 for count in counts), counts
+    assert len(set(counts)) > 3, "not always the same"
+
+
+def test_bounce_can_be_switched_off_and_made_short():
+    board = counting_board()
+    board.bounce(0)
+    assert edges(board, board.press, 10) == 1
+    board.bounce(0.3)
+    assert edges(board, board.release, 0.31) in (1, 3)
+    assert edges(board, lambda _: None, 10) == 0
+
 
 
 def test_battery_is_read_through_the_divider():

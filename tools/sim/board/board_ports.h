@@ -65,6 +65,11 @@ void board_uart_counts(const board_t *board, int uart, uart_counts_t *counts);
 typedef enum { BUTTON_UP, BUTTON_DOWN, BUTTON_LEFT, BUTTON_RIGHT, BUTTON_START, BUTTON_MODE, BUTTON_COUNT } button_t;
 typedef enum { LED_POWER, LED_TXD, LED_RXD, LED_AUX, LED_MANAGE, LED_PROGRAM, LED_PLAY, LED_COUNT } led_t;
 void board_press(board_t *board, button_t button, bool down);
+
+/* Contacts bounce: for so long behind each press and release a button reads as one or the other, by chance, in slices of
+ * 0.1 ms (the first one as what it becomes). 5 ms at first; 0: none. MODE does not: whatever its contact does, the chip
+ * starts once, after it (its start-up time is longer). */
+void board_set_bounce(board_t *board, uint64_t cycles);
 uint8_t board_leds(const board_t *board); /* bit n: led_t n is lit */
 
 /* Called when the set of lit LEDs changes. */

@@ -8,6 +8,8 @@
 #define CHARGER_GRACE_CYCLES (5 * BOARD_CYCLES_PER_MS)
 #define BUTTONS_E 0xF0u           /* PE4-PE7: up, down, left, right */
 #define BUTTONS_D 0x01u           /* PD0: start */
+#define BOUNCE_CYCLES (5 * BOARD_CYCLES_PER_MS)
+#define BOUNCE_SLICE_CYCLES (BOARD_CYCLES_PER_MS / 10)
 #define M128_SFIOR 0x40u
 #define SFIOR_PUD 0x04u
 #define DEFAULT_BATTERY_V 9.6
@@ -85,9 +87,25 @@ static uint8_t bits_looked_at(const board_t *board)
     return skip ? (uint8_t)(1u << (at[0] & 7)) : 0xFF;
 }
 
+/* The buttons whose contact is open instead of closed just now, or the other way round. */
+static uint8_t bouncing(const board_t *board)
+{
+    const panel_t *panel = &board->panel;
+    uint8_t inverted = 0;
+    for (unsigned button = 0; button < BUTTON_COUNT; button++) {
+        uint64_t now = board->avr->cycle, until = panel->bounces_until[button];
+        if (now < until && now + panel->bounce >= until + BOUNCE_SLICE_CYCLES) {
+            uint64_t noise = (until ^ (uint64_t)button << 60) + (until - now) / BOUNCE_SLICE_CYCLES * 0x9E3779B97F4A7C15u;
+            noise = (noise ^ noise >> 30) * 0xBF58476D1CE4E5B9u; /* any good mixture does */
+            inverted |= (uint8_t)((noise >> 40 & 1u) << button);
+        }
+    }
+    return inverted;
+}
+
 static uint8_t buttons_down(const board_t *board, avr_io_addr_t pin)
 {
-    uint8_t pressed = board->panel.pressed;
+    uint8_t pressed = board->panel.pressed ^ bouncing(board);
     return pin == M128_PINE ? (uint8_t)((pressed & 0x0F) << 4) : (uint8_t)(pressed >> BUTTON_START & 1);
 }
 
@@ -117,10 +135,15 @@ void board_press(board_t *board, button_t button, bool down)
         board_hold_reset(board, down);
     } else if ((unsigned)button < BUTTON_MODE) {
         uint8_t bit = (uint8_t)(1u << button);
+        if (!(board->panel.pressed & bit) == down) {
+            board->panel.bounces_until[button] = board->avr->cycle + board->panel.bounce;
+        }
         board->panel.pressed = (uint8_t)(down ? board->panel.pressed | bit : board->panel.pressed & ~bit);
         vcd_pins(board);
     }
 }
+
+void board_set_bounce(board_t *board, uint64_t cycles) { board->panel.bounce = cycles; }
 
 uint8_t board_leds(const board_t *board) { return board->panel.leds; }
 
@@ -181,6 +204,7 @@ void panel_reset(board_t *board)
 void panel_init(board_t *board)
 {
     avr_t *avr = board->avr;
+    board->panel.bounce = BOUNCE_CYCLES;
     board->panel.battery_v = DEFAULT_BATTERY_V;
     board->panel.thermistor_v = DEFAULT_THERMISTOR_V;
     for (unsigned i = 0; i < sizeof watched / sizeof watched[0]; i++) {

@@ -10,6 +10,8 @@
 
 typedef struct {
     uint8_t pressed; /* bit n: button_t n */
+    uint64_t bounce;                      /* how long a contact bounces; until when each does */
+    uint64_t bounces_until[BUTTON_COUNT];
     uint8_t leds;
     /* simavr's own handlers of the port registers, called first so that its pin signals stay right */
     struct { avr_io_write_t write; void *param; } inner[M128_PORTB + 1];

@@ -332,6 +332,10 @@ class Board:
     def release(self, button):
         self._lib.board_press(self._pointer, BUTTONS.index(button.upper()), False)
 
+    def bounce(self, ms):
+        """How long contacts bounce behind a press or a release (5 ms at first)."""
+        self._lib.board_set_bounce(self._pointer, int(ms * CYCLES_PER_MS))
+
     @property
     def leds(self):
         """Names of the lit LEDs."""

@@ -66,7 +66,7 @@ _FUNCTIONS = {
     "board_trace": (ctypes.POINTER(TracePacket), P, SIZE),
     "board_body": (None, P, ctypes.POINTER(ServoBody)), "servo_mujoco_body": (ServoBody, P),
     "board_uart_counts": (None, P, I, ctypes.POINTER(UartCounts)), "board_press": (None, P, I, B),
-    "board_leds": (U8, P), "board_pin": (I, P, ctypes.c_char, I), "board_battery": (None, P, D),
+    "board_set_bounce": (None, P, U64), "board_leds": (U8, P), "board_pin": (I, P, ctypes.c_char, I), "board_battery": (None, P, D),
     "board_thermistor": (None, P, D),
     # board_memory.h
     "board_flash_read": (Z, P, U32, P, Z), "board_flash_write": (Z, P, U32, P, Z),
