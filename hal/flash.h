@@ -23,6 +23,9 @@ typedef enum {
     FLASH_ERR_NO_WRITER  /* nobody in the boot section can write for us: nothing was touched */
 } flash_status_t;
 
+/* The byte address of a page. */
+uint32_t flash_addr(uint16_t page);
+
 /* Copies `bytes` from byte address `addr` (0..0x1FFFF) on. */
 void flash_read(uint32_t addr, void *to, uint16_t bytes);
 

@@ -90,7 +90,7 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
         if (body->page >= RAM_PAGES_END && body->page < EEPROM_PAGES) {
             return REFUSED; /* nothing is there: the chip would read what its bus held last */
         }
-        memory_cursor.addr = (uint32_t)body->page << 8;
+        memory_seek(flash_addr(body->page));
         *bytes = FLASH_PAGE_BYTES;
         return OK;
     case WRITE:

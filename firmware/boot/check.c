@@ -107,7 +107,9 @@ void check_all(void)
     PUT(" ram=");
     print_nth(PSTR("bad\0good"), is_ram_good());
     PUT(" ee=");
-    print_hex32(memory_ee32(MEM_EE_PLAY_MODE));
+    for (uint8_t i = 4; i > 0; i--) {
+        print_hex8(memory_ee(MEM_EE_PLAY_MODE - 1 + i));
+    }
     print_hex8(memory_ee(MEM_EE_BOOT_MODE));
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "load.h"
 
+#include "button.h"
 #include "print.h"
 #include "uart.h"
 #include BOOT_PORTS_H
@@ -8,9 +9,10 @@
 #define ESC 27
 #define SILENCE_TICKS UART_TICKS(111)
 #define REST_TICKS UART_TICKS(250)
-#define SLICE_TICKS UART_TICKS(100)
+#define END_TICKS UART_TICKS(100)
 #define BLINK_TICKS 0x0400 /* a bit of the clock: 66 ms on, 66 ms off */
-#define READY_SLICES 600u  /* 60 s to find the file and send it */
+#define LOOK_TICKS UART_TICKS(20)
+#define READY_LOOKS 3000u  /* 60 s to find the file and send it */
 #define PATIENCE_TICKS UART_TICKS(2000)
 
 /* The address line and `ready`, then waits until data are in the ring. false: ESC on its own, START, or a minute of
@@ -20,9 +22,10 @@ static bool begin(uint32_t addr, const char *ready)
     SAY("Write Address : ");
     print_hex32(addr);
     print_say(ready);
-    for (uint16_t slice = 0; slice < READY_SLICES && !PORTS_START_PRESSED(); slice++) {
-        if (uart_wait(SLICE_TICKS)) {
-            while (uart_peek() == ESC && uart_has() < 2 && uart_clock() < SILENCE_TICKS) {
+    for (uint16_t look = 0; look < READY_LOOKS && button_look() != BUTTON_DOWN; look++) {
+        if (uart_wait(LOOK_TICKS)) {
+            uint16_t since = uart_clock();
+            while (uart_peek() == ESC && uart_has() < 2 && uart_since(since) < SILENCE_TICKS) {
             }
             if (uart_peek() != ESC || uart_has() >= 2) {
                 return true;
@@ -41,12 +44,10 @@ static uint16_t region_end(uint16_t page)
            : page < MEM_JOURNAL_END / 256 ? MEM_JOURNAL_END / 256 : MEM_MOTION_END / 256;
 }
 
-static void report(uint32_t size, uint32_t sum, uint8_t last, bool is_good)
+static void report(const load_record_t *record, bool is_good)
 {
-    memory_ee_set(MEM_EE_LOAD_SUM_BYTE, last);
-    memory_ee_set32(MEM_EE_LOAD_SUM, sum);
-    memory_ee_set32(MEM_EE_LOAD_SIZE, size);
-    if (is_good && uart_lost() == 0 && (uint8_t)sum == last) {
+    memory_ee_write(MEM_EE_LOAD_RECORD, record, sizeof *record);
+    if (is_good && (uint8_t)record->sum == record->last) {
         PUT("Success");
     } else {
         PUT("Error");
@@ -55,11 +56,11 @@ static void report(uint32_t size, uint32_t sum, uint8_t last, bool is_good)
     SAY("Rewriting:0X");
     print_hex16(memory_rewrites);
     SAY("Size:0X");
-    print_hex32(size);
+    print_hex32(record->size);
     PUT("  Checksum:");
-    print_hex8((uint8_t)sum);
+    print_hex8((uint8_t)record->sum);
     uart_put('-');
-    print_hex8(last);
+    print_hex8(record->last);
 }
 
 /* A byte is written when the next one has come, because the last one is the sum. The page under way is in
@@ -67,66 +68,64 @@ static void report(uint32_t size, uint32_t sum, uint8_t last, bool is_good)
 void load_flash(uint32_t addr)
 {
     uint16_t page = (uint16_t)(addr >> 8), end = region_end(page);
-    uint8_t at = (uint8_t)addr, last = 0;
-    uint32_t size = 0, sum = 0;
+    uint8_t at = (uint8_t)addr, lost = uart_lost();
+    load_record_t record = {.size = 0};
     bool is_good = true, is_open = false;
     memory_rewrites = 0;
-    uart_lost();
     if (!begin(addr, PSTR("Ready.."))) {
         return;
     }
     while (uart_wait(SILENCE_TICKS)) {
-        if (size++ > 0) {
-            sum += last;
+        if (record.size++ > 0) {
+            record.sum += record.last;
             if (page == end) {
                 is_good = false;
             } else {
                 if (!is_open) {
-                    flash_read((uint32_t)page << 8, memory_work, FLASH_PAGE_BYTES);
+                    memory_read_page(page, memory_work);
                     is_open = true;
                 }
-                memory_work[at++] = last;
+                memory_work[at++] = record.last;
                 if (at == 0) {
-                    is_good &= memory_commit(page++, memory_work) <= MEMORY_EQUAL;
+                    is_good &= memory_write_work(page++);
                     is_open = false;
                 }
             }
         }
-        last = uart_next();
+        record.last = uart_next();
     }
     if (is_open) {
-        is_good &= memory_commit(page, memory_work) <= MEMORY_EQUAL;
+        is_good &= memory_write_work(page);
     }
-    report(size, sum, last, is_good);
+    report(&record, is_good && uart_lost() == lost);
 }
 
 void load_send(uint32_t addr, uint32_t count)
 {
     uint8_t key = 0;
-    bool pressed = false;
-    uart_clock_restart();
+    bool was_pressed = false;
     SAY("Push button when ready...");
     while (!uart_has()) {
         PORTS_LEDS_OFF();
         if (uart_clock() & BLINK_TICKS) {
             PORTS_LEDS_ON();
         }
-        if (PORTS_START_PRESSED()) {
-            pressed = true;
-        } else if (pressed) {
+        button_t start = button_look();
+        if (start == BUTTON_UP && was_pressed) {
             break;
         }
+        was_pressed = was_pressed || start == BUTTON_DOWN;
     }
     PORTS_LEDS_OFF();
     if (uart_has()) {
         key = uart_next();
     }
-    memory_cursor.addr = addr;
+    memory_seek(addr);
     while (count-- > 0 && key != ESC) {
         uart_put(memory_next());
     }
     uart_flush();
-    uart_pause(SLICE_TICKS);
+    uart_pause(END_TICKS);
 }
 
 void load_eeprom(uint16_t addr, uint16_t count)

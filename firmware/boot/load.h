@@ -5,6 +5,13 @@
 
 #include "memory.h"
 
+/* What LOAD leaves in EEPROM from MEM_EE_LOAD_RECORD on, for VERIFY (bootloader-original.md, section 3). */
+typedef struct __attribute__((packed)) {
+    uint8_t last;  /* the last byte, which is the sum that the PC sent */
+    uint32_t sum;  /* of all bytes before it */
+    uint32_t size; /* of all, the last one included */
+} load_record_t;
+
 /* LOAD: raw data to flash from `addr` on, then an 8-bit sum byte, then 111 ms of silence. Writes nothing behind the
  * end of the region that addr is in, never the sum byte; keeps the rest of the first and the last flash page. */
 void load_flash(uint32_t addr);

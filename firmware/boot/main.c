@@ -3,6 +3,7 @@
  *
  *   reset -> journal -> mailbox -> window of 60 ms ---- stay asked for, or no application ----> monitor
  *                                        \---- else ----> application */
+#include "button.h"
 #include "journal.h"
 #include "memory.h"
 #include "monitor.h"
@@ -13,37 +14,12 @@
 
 #include <avr/interrupt.h>
 #include <avr/io.h>
-#include <avr/wdt.h>
 
 #define WINDOW_TICKS UART_TICKS(60)
 #define LEDS_TICKS UART_TICKS(100)
 #define MAIL_POSTED 0xAAu
 #define MAIL_WRITTEN 0x55u
 #define MAIL_REFUSED 0xFFu
-
-void start_jump(uint16_t word)
-{
-    uart_flush();
-    cli();
-    MCUCR = 1 << IVCE;
-    MCUCR = 0;
-    uart_open(UART_UBRR_57143);
-    TCCR1B = 0;
-    TCNT1 = 0;
-    TIFR = 1 << TOV1 | 1 << OCF1A | 1 << OCF1B; /* all that timer 1 can have left */
-    UCSR0A = 1 << U2X0;
-    UCSR0B = 1 << RXEN0 | 1 << TXEN0;
-    PORTS_HAND_OVER();
-    ((void (*)(void))word)();
-    __builtin_unreachable();
-}
-
-void start_reset(void)
-{
-    wdt_enable(WDTO_15MS);
-    for (;;) {
-    }
-}
 
 /* A motion page that the factory application left in EEPROM (section 7a). The state stays AA until both flash pages
  * are right, so a power cut here is made good by the next start. A page above 127 lies in the boot section or beyond:
@@ -56,10 +32,10 @@ static void answer_mailbox(void)
         return;
     }
     PUT(" Writing ");
-    memory_cursor.addr = MEMORY_EEPROM + MEM_EE_MAILBOX;
+    memory_seek(MEMORY_EEPROM + MEM_EE_MAILBOX);
     for (uint8_t half = 0; half < 2; half++) {
         memory_fetch(memory_work, 256);
-        if (memory_commit(page++, memory_work) > MEMORY_EQUAL) {
+        if (!memory_write_work(page++)) {
             state = MAIL_REFUSED;
         }
     }
@@ -69,25 +45,28 @@ static void answer_mailbox(void)
 typedef enum { STAY_NO, STAY_PROMPT, STAY_STK500 } stay_t;
 
 /* Looks at the line and at START for 60 ms, or longer where the application's CRC takes longer. Only the last byte
- * counts, as in the original; the sync of avrdude is two bytes. */
+ * counts, as in the original; the sync of avrdude is two bytes. START counts when it is down from the reset to the end. */
 static stay_t ask_to_stay(void)
 {
     uint8_t last = 0, byte = 0;
-    uart_clock_restart();
-    bool held = PORTS_START_PRESSED();
+    uint16_t since = uart_clock();
+    bool is_held = PORTS_START_PRESSED();
+    button_t start = button_look();
     memory_app_t app = memory_app();
     do {
-        held = held && PORTS_START_PRESSED();
+        start = button_look();
         if (uart_has()) {
             last = byte;
             byte = uart_next();
         }
-    } while (uart_clock() < WINDOW_TICKS);
+    } while (uart_since(since) < WINDOW_TICKS);
     if (last == MONITOR_SYNC_1 && byte == MONITOR_SYNC_2) {
         return STAY_STK500;
     }
     bool is_startable = app == MEMORY_APP_PLAIN || app == MEMORY_APP_GOOD;
-    return byte == '#' || held || !is_startable || memory_ee(MEM_EE_BOOT_MODE) == START_MODE_SYSTEM ? STAY_PROMPT : STAY_NO;
+    is_held = is_held && start == BUTTON_DOWN;
+    return byte == '#' || is_held || !is_startable || memory_ee(MEM_EE_BOOT_MODE) == START_MODE_SYSTEM ? STAY_PROMPT
+                                                                                                       : STAY_NO;
 }
 
 /* Vectors of our own: of the 35 only two are used, and tables fill the gap between them (boot.ld.in). */

@@ -19,6 +19,11 @@ uint16_t memory_rewrites;
 memory_scan_t memory_sums;
 
 
+NOINLINE uint32_t flash_addr(uint16_t page)
+{
+    return (uint32_t)page * FLASH_PAGE_BYTES;
+}
+
 void flash_read(uint32_t addr, void *to, uint16_t bytes)
 {
     uint8_t *p = to;
@@ -41,7 +46,7 @@ bool flash_equals(uint32_t addr, const void *data, uint16_t bytes)
 /* BOOT_OK, BOOT_ERR_RANGE, BOOT_ERR_VERIFY have the numbers of their FLASH_ twins. */
 static flash_status_t write_page(uint16_t page, const uint8_t *data, uint16_t bytes, uint8_t mode)
 {
-    uint16_t result = boot_write_page((uint32_t)page << 8, data, bytes, mode, &uart_rx);
+    uint16_t result = boot_write_page(flash_addr(page), data, bytes, mode, &uart_rx);
     memory_rewrites += result >> 8;
     return (flash_status_t)(uint8_t)result;
 }
@@ -54,6 +59,11 @@ flash_status_t flash_write(uint16_t page, const uint8_t *data, uint16_t bytes)
 flash_status_t flash_program(uint16_t page, const uint8_t *data, uint16_t bytes)
 {
     return write_page(page, data, bytes, BOOT_MODE_PROGRAM);
+}
+
+NOINLINE void memory_seek(uint32_t addr)
+{
+    memory_cursor.addr = addr;
 }
 
 uint8_t memory_next(void)
@@ -70,10 +80,16 @@ uint8_t memory_next(void)
     return pgm_read_byte_far(at.addr);
 }
 
-void memory_fetch(uint8_t *to, uint16_t count)
+void memory_read_page(uint16_t page, uint8_t *to)
 {
+    flash_read(flash_addr(page % FLASH_PAGES), to, FLASH_PAGE_BYTES);
+}
+
+void memory_fetch(void *to, uint16_t count)
+{
+    uint8_t *byte = to;
     while (count--) {
-        *to++ = memory_next();
+        *byte++ = memory_next();
     }
 }
 
@@ -82,8 +98,7 @@ memory_result_t memory_commit(uint16_t page, const uint8_t *data)
     if (page >= MEM_BOOT_START / 256) {
         return MEMORY_REFUSED;
     }
-    memory_scan(page);
-    if (memcmp(memory_scratch, data, FLASH_PAGE_BYTES) == 0) {
+    if (flash_equals(flash_addr(page), data, FLASH_PAGE_BYTES)) {
         return MEMORY_EQUAL;
     }
     if (page >= MEM_MOTION_START / 256 && journal_void() != FLASH_OK) {
@@ -92,17 +107,14 @@ memory_result_t memory_commit(uint16_t page, const uint8_t *data)
     return flash_write(page, data, FLASH_PAGE_BYTES) == FLASH_OK ? MEMORY_WRITTEN : MEMORY_BROKEN;
 }
 
+bool memory_write_work(uint16_t page)
+{
+    return memory_commit(page, memory_work) <= MEMORY_EQUAL;
+}
+
 uint8_t memory_ee(uint16_t addr)
 {
     return eeprom_read_byte((const uint8_t *)(addr & (MEM_EEPROM_BYTES - 1)));
-}
-
-uint32_t memory_ee32(uint16_t addr)
-{
-    uint32_t value;
-    memory_cursor.addr = MEMORY_EEPROM + addr;
-    memory_fetch((uint8_t *)&value, sizeof value);
-    return value;
 }
 
 void memory_ee_set(uint16_t addr, uint8_t value)
@@ -112,16 +124,12 @@ void memory_ee_set(uint16_t addr, uint8_t value)
     eeprom_busy_wait();
 }
 
-void memory_ee_write(uint16_t addr, const uint8_t *from, uint16_t count)
+void memory_ee_write(uint16_t addr, const void *from, uint16_t count)
 {
+    const uint8_t *byte = from;
     while (count--) {
-        memory_ee_set(addr++, *from++);
+        memory_ee_set(addr++, *byte++);
     }
-}
-
-void memory_ee_set32(uint16_t addr, uint32_t value)
-{
-    memory_ee_write(addr, (const uint8_t *)&value, sizeof value);
 }
 
 void memory_scan_start(void)
@@ -134,7 +142,7 @@ void memory_scan(uint16_t page)
 {
     memory_scan_t sums = memory_sums;
     uint8_t at = 0;
-    flash_read((uint32_t)(page % FLASH_PAGES) << 8, memory_scratch, FLASH_PAGE_BYTES);
+    memory_read_page(page, memory_scratch);
     do {
         uint8_t byte = memory_scratch[at];
         sums.crc = crc16_byte(sums.crc, byte);

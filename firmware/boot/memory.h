@@ -27,24 +27,31 @@ typedef union {
 } memory_cursor_t;
 extern memory_cursor_t memory_cursor;
 
+/* Moves the cursor. */
+void memory_seek(uint32_t addr);
+
 /* The byte at the cursor, which moves on. Flash and EEPROM begin again at their ends. */
 uint8_t memory_next(void);
 
 /* The next `count` of them. */
-void memory_fetch(uint8_t *to, uint16_t count);
+void memory_fetch(void *to, uint16_t count);
+
+/* Reads a flash page, an index modulo their number. */
+void memory_read_page(uint16_t page, uint8_t *to);
 
 /* Makes flash page `page` hold the 256 bytes unless it does already; up to ten tries, as the original, each failed one
  * counted in memory_rewrites. Drops a pending journal record before the first change of the motion area. */
 typedef enum { MEMORY_WRITTEN = 0, MEMORY_EQUAL = 1, MEMORY_REFUSED = 2, MEMORY_BROKEN = 3 } memory_result_t;
 memory_result_t memory_commit(uint16_t page, const uint8_t *data);
+
+/* The same, with what stands in memory_work: whether the page holds it now. */
+bool memory_write_work(uint16_t page);
 extern uint16_t memory_rewrites;
 
 /* EEPROM: only a byte that differs is written, 8.5 ms. Addresses modulo its size. */
 uint8_t memory_ee(uint16_t addr);
-uint32_t memory_ee32(uint16_t addr); /* moves the cursor */
 void memory_ee_set(uint16_t addr, uint8_t value);
-void memory_ee_set32(uint16_t addr, uint32_t value);
-void memory_ee_write(uint16_t addr, const uint8_t *from, uint16_t count);
+void memory_ee_write(uint16_t addr, const void *from, uint16_t count);
 
 /* CRC-16 chained over pages, and sum and AND of one page. memory_scan copies the page to memory_scratch first. */
 typedef struct {

@@ -2,12 +2,12 @@
 #include "monitor.h"
 
 #include "block.h"
+#include "button.h"
 #include "parse.h"
 #include "stk500.h"
 #include "print.h"
 #include "uart.h"
 #include "words.h"
-#include BOOT_PORTS_H
 
 #include <avr/wdt.h>
 
@@ -51,12 +51,9 @@ static bool is_protocol(uint8_t byte)
         block_session();
         return true;
     }
-    if (byte == MONITOR_SYNC_1 && length == 0) {
-        if (uart_wait(SYNC_TICKS) && uart_peek() == MONITOR_SYNC_2) {
-            (void)uart_next();
-            stk500_session();
-            return true;
-        }
+    if (byte == MONITOR_SYNC_1 && length == 0 && uart_wait_for(MONITOR_SYNC_2, SYNC_TICKS)) {
+        stk500_session();
+        return true;
     }
     return false;
 }
@@ -81,9 +78,10 @@ static void edit_line(uint8_t byte)
 /* START at the prompt is GO, but not while it is still held from before. */
 static void watch_start(void)
 {
-    if (!PORTS_START_PRESSED()) {
+    button_t start = button_look();
+    if (start == BUTTON_UP) {
         was_released = true;
-    } else if (was_released) {
+    } else if (start == BUTTON_DOWN && was_released) {
         PUT("GO");
         words_go(0);
         prompt();
@@ -108,8 +106,8 @@ void monitor_run(bool stk500)
         if (is_protocol(byte)) {
             prompt();
         } else if (byte == CR || byte == LF) {
-            if (byte == CR && uart_wait(LF_TICKS) && uart_peek() == LF) {
-                (void)uart_next();
+            if (byte == CR) {
+                (void)uart_wait_for(LF, LF_TICKS);
             }
             run_line();
         } else {

@@ -47,7 +47,7 @@ static uint32_t parse_hex(const char *token)
 
 parse_status_t parse_line(char *line, parse_t *parse)
 {
-    *parse = (parse_t){.count = 0};
+    *parse = (parse_t){.arg = {0, 1}};
     while (*line == ' ' || *line == '\t') {
         line++;
     }

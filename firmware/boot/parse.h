@@ -13,7 +13,7 @@
 typedef struct {
     const char *word;            /* in the line, upper case, NUL behind it; empty for an empty line */
     uint8_t count;               /* arguments read */
-    uint32_t arg[PARSE_ARGS];    /* 0 where none was given */
+    uint32_t arg[PARSE_ARGS];    /* an address, 0 unless given, and a length, 1 unless given */
 } parse_t;
 
 /* What is wrong with the arguments; the word is set anyway. */

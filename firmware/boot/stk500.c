@@ -69,7 +69,7 @@ static bool program(void)
     }
     if (is_flash()) {
         return (uint8_t)(stk.address << 1) + count <= FLASH_PAGE_BYTES &&
-               memory_commit(stk.address >> 7, memory_work) <= MEMORY_EQUAL;
+               memory_write_work(stk.address >> 7);
     }
     if (stk.address >= MEM_EEPROM_BYTES / 2) {
         return false;
@@ -80,7 +80,7 @@ static bool program(void)
 
 static void read(void)
 {
-    memory_cursor.addr = ((uint32_t)stk.address << 1) + (is_flash() ? 0 : MEMORY_EEPROM);
+    memory_seek(((uint32_t)stk.address << 1) + (is_flash() ? 0 : MEMORY_EEPROM));
     for (uint16_t count = length(); count > 0; count--) {
         uart_put(memory_next());
     }
@@ -113,7 +113,7 @@ static bool take_command(uint8_t command)
     }
     if (command == PROG_PAGE) {
         uint8_t at = is_flash() ? (uint8_t)(stk.address << 1) : 0;
-        flash_read((uint32_t)(stk.address >> 7) << 8, memory_work, FLASH_PAGE_BYTES);
+        memory_read_page(stk.address >> 7, memory_work);
         for (uint16_t left = length(); left > 0 && !stk.is_broken; left--) {
             memory_work[at++] = take();
         }

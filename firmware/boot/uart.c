@@ -21,7 +21,6 @@ void uart_open(uint8_t ubrr)
     UBRR1L = ubrr;
     UCSR1B = 1 << RXCIE1 | 1 << RXEN1 | 1 << TXEN1;
     TCCR1B = 1 << CS12 | 1 << CS10;
-    uart_clock_restart();
 }
 
 void uart_put(uint8_t byte)
@@ -56,14 +55,23 @@ uint8_t uart_next(void)
 
 bool uart_wait(uint16_t ticks)
 {
-    uart_clock_restart();
+    uint16_t since = uart_clock();
     do {
         wdt_reset();
         if (uart_has()) {
             return true;
         }
-    } while (uart_clock() < ticks);
+    } while (uart_since(since) < ticks);
     return false;
+}
+
+bool uart_wait_for(uint8_t byte, uint16_t ticks)
+{
+    if (!uart_wait(ticks) || uart_peek() != byte) {
+        return false;
+    }
+    (void)uart_next();
+    return true;
 }
 
 void uart_drain(uint16_t ticks)
@@ -73,29 +81,27 @@ void uart_drain(uint16_t ticks)
     }
 }
 
-void uart_clock_restart(void)
-{
-    TCNT1 = 0;
-}
-
 uint16_t uart_clock(void)
 {
     return TCNT1;
 }
 
+uint16_t uart_since(uint16_t then)
+{
+    return TCNT1 - then;
+}
+
 void uart_pause(uint16_t ticks)
 {
-    uart_clock_restart();
-    while (uart_clock() < ticks) {
+    uint16_t since = uart_clock();
+    while (uart_since(since) < ticks) {
         wdt_reset();
     }
 }
 
 uint8_t uart_lost(void)
 {
-    uint8_t count = lost;
-    lost = 0;
-    return count;
+    return lost;
 }
 
 /* One byte into the ring: about 110 cycles with entry and exit; at 117,647 a byte comes every 1,360. */

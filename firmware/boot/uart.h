@@ -14,10 +14,10 @@
 #define UART_UBRR_57143 34
 #define UART_UBRR_117647 16
 
-/* Clock ticks are 64 us, the clock ends at 4.19 s. */
+/* Clock ticks are 64 us, the clock wraps after 4.19 s. */
 #define UART_TICKS(ms) ((uint16_t)((ms) * 15.625 + 0.5))
 
-/* Sets the rate and switches the receiver, its interrupt and the transmitter on. Also starts the clock. */
+/* Sets the rate and switches the receiver, its interrupt and the transmitter on. Also starts the clock; it is not reset. */
 void uart_open(uint8_t ubrr);
 
 /* Sends a byte; waits while the one before is still on its way to the shift register. */
@@ -31,18 +31,21 @@ uint8_t uart_has(void);
 uint8_t uart_peek(void);
 uint8_t uart_next(void);
 
-/* Restarts the clock, then waits until a byte is there: true; or until `ticks` have passed: false. */
+/* Waits until a byte is there: true; or until `ticks` have passed: false. */
 bool uart_wait(uint16_t ticks);
+
+/* The same for one byte alone, which is taken; another one stays. */
+bool uart_wait_for(uint8_t byte, uint16_t ticks);
 
 /* Drops what comes until the line has been silent for `ticks`. */
 void uart_drain(uint16_t ticks);
 
-/* The clock: restart, read, wait. */
-void uart_clock_restart(void);
+/* The clock runs freely: ask how long ago something was, in ticks (below 4.19 s). */
 uint16_t uart_clock(void);
+uint16_t uart_since(uint16_t then);
 void uart_pause(uint16_t ticks);
 
-/* Bytes lost since the last call. */
+/* Counts the bytes lost, modulo 256. */
 uint8_t uart_lost(void);
 
 /* The ring, for boot_write_page. */

@@ -30,6 +30,11 @@ static const uint8_t limits[WORD_CODES] PROGMEM_GAP = {
     [FLASH] = 0x01, [EEPROM] = 0x01, [RAM] = 0x01, [LOAD] = 0x01, [UP] = 0x22, [EEP_UP] = 0x22, [EEP_DN] = 0x22,
     [CLEAR] = 0x02, [GO] = 0x01};
 
+/* The end of what the word's address and length are about, in units of 4 KiB; of what has none, 1. */
+static const uint8_t ends[WORD_CODES] PROGMEM_GAP = {
+    [LOAD] = MEM_BOOT_START / 4096, [UP] = MEM_BOOT_END / 4096, [EEP_UP ... CLEAR] = MEM_EEPROM_BYTES / 4096,
+    [GO] = 0x10000 / 4096, [RESET ... DUMP] = 1};
+
 /* The code of `word`, which is not empty. */
 static uint8_t find(const char *word)
 {
@@ -63,7 +68,7 @@ static void help(void)
 static void dump(uint8_t code, const parse_t *line)
 {
     if (line->count > 0) {
-        memory_cursor.addr = line->arg[0];
+        memory_seek(line->arg[0]);
     }
     uint8_t space = code == EEPROM ? MEMORY_EEPROM >> 16 : code == RAM ? MEMORY_RAM >> 16 : 0;
     for (uint8_t row = 0; row < DUMP_LINES; row++) {
@@ -94,22 +99,25 @@ static void dump(uint8_t code, const parse_t *line)
 /* The second sum is right when it equals the third; meant for a download to 0 (it always begins there). */
 static void verify(void)
 {
-    uint32_t size = memory_ee32(MEM_EE_LOAD_SIZE), sum = 0;
+    load_record_t record;
+    uint32_t sum = 0;
+    memory_seek(MEMORY_EEPROM + MEM_EE_LOAD_RECORD);
+    memory_fetch(&record, sizeof record);
     SAY("Program Length : 0x");
-    print_hex32(size);
+    print_hex32(record.size);
     SAY("Verified Checksum : ");
-    print_hex8(memory_ee(MEM_EE_LOAD_SUM_BYTE));
+    print_hex8(record.last);
     uart_put('-');
-    if (size > MEM_BOOT_END) {
-        size = MEM_BOOT_END;
+    if (record.size > MEM_BOOT_END) {
+        record.size = MEM_BOOT_END;
     }
-    memory_cursor.addr = 0;
-    while (size-- > 1) {
+    memory_seek(0);
+    while (record.size-- > 1) {
         sum += memory_next();
     }
     print_hex32(sum);
     uart_put('-');
-    print_hex32(memory_ee32(MEM_EE_LOAD_SUM));
+    print_hex32(record.sum);
 }
 
 static void clear_eeprom(const parse_t *line)
@@ -158,15 +166,13 @@ static void set_start(uint8_t code)
     PUT(" Mode");
 }
 
-/* Whether the address (and the length from there on) lies in what the word is about. Numbers have 20 bits: the sum does
- * not overflow, and in pages it fits 16. */
+/* Whether address and length lie in what the word is about; the addresses of dumps are taken modulo its size instead.
+ * Numbers have 20 bits: the sum does not overflow, and in pages it fits 16. */
 static bool is_in_range(uint8_t code, const parse_t *line)
 {
-    uint16_t pages = (uint16_t)((line->arg[0] + (line->count > 1 ? line->arg[1] : 1) + 0xFF) >> 8);
-    uint16_t end = code == UP ? MEM_BOOT_END / 256
-                   : code == LOAD ? MEM_BOOT_START / 256
-                   : code == GO ? 0x10000 / 256 : MEM_EEPROM_BYTES / 256;
-    return code < LOAD || (pages <= end && (code != EEP_DN || (uint16_t)line->arg[1] <= MEMORY_WORK_BYTES));
+    uint16_t pages = (uint16_t)((line->arg[0] + line->arg[1] + 0xFF) >> 8);
+    return code < LOAD || (pages <= (uint16_t)(print_byte(&ends[code]) * 16u) &&
+                           (code != EEP_DN || line->arg[1] <= MEMORY_WORK_BYTES));
 }
 
 static void run(uint8_t code, const parse_t *line)

@@ -28,19 +28,14 @@ typedef struct {
 #define RECORD_CRC_BYTES 8u
 STATIC_ASSERT(sizeof(record_t) == 12, "the record is a layout in flash");
 
-static uint16_t slot_page(uint8_t slot)
+NOINLINE static uint16_t slot_page(uint8_t slot)
 {
     return (uint16_t)(FIRST_PAGE + slot * JOURNAL_SLOT_PAGES);
 }
 
-static uint32_t page_addr(uint16_t page)
-{
-    return (uint32_t)page * FLASH_PAGE_BYTES;
-}
-
 static bool read_record(uint8_t slot, record_t *record)
 {
-    flash_read(page_addr((uint16_t)(slot_page(slot) + TARGET_PAGES)), record, sizeof *record);
+    flash_read(flash_addr((uint16_t)(slot_page(slot) + TARGET_PAGES)), record, sizeof *record);
     return record->magic == MAGIC && record->layout == LAYOUT && record->target < TARGET_COUNT &&
            record->record_crc == crc16_bytes(CRC16_START, record, RECORD_CRC_BYTES);
 }
@@ -63,9 +58,18 @@ static uint8_t find_newest(record_t *newest)
     return found;
 }
 
-static flash_status_t write_if_different(uint16_t page, const uint8_t *data)
+/* A motion page's worth of data; flash pages that hold theirs already are left alone. */
+static flash_status_t write_data(uint16_t page, const uint8_t data[JOURNAL_TARGET_BYTES])
 {
-    return flash_equals(page_addr(page), data, FLASH_PAGE_BYTES) ? FLASH_OK : flash_write(page, data, FLASH_PAGE_BYTES);
+    flash_status_t status = FLASH_OK;
+    for (uint8_t i = 0; i < TARGET_PAGES && status == FLASH_OK; i++) {
+        if (!flash_equals(flash_addr(page), data, FLASH_PAGE_BYTES)) {
+            status = flash_write(page, data, FLASH_PAGE_BYTES);
+        }
+        page++;
+        data += FLASH_PAGE_BYTES;
+    }
+    return status;
 }
 
 static flash_status_t mark_done(uint8_t slot, record_t *record)
@@ -74,23 +78,13 @@ static flash_status_t mark_done(uint8_t slot, record_t *record)
     return flash_program((uint16_t)(slot_page(slot) + TARGET_PAGES), (const uint8_t *)record, sizeof *record);
 }
 
-static uint16_t content_crc(uint8_t slot, uint8_t work[FLASH_PAGE_BYTES])
-{
-    uint16_t crc = CRC16_START;
-    for (uint8_t i = 0; i < TARGET_PAGES; i++) {
-        flash_read(page_addr((uint16_t)(slot_page(slot) + i)), work, FLASH_PAGE_BYTES);
-        crc = crc16_bytes(crc, work, FLASH_PAGE_BYTES);
-    }
-    return crc;
-}
-
 flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES])
 {
     if (motion_page >= TARGET_COUNT) {
         return FLASH_ERR_RANGE;
     }
     uint16_t target = (uint16_t)(FIRST_TARGET + motion_page * TARGET_PAGES);
-    if (flash_equals(page_addr(target), data, JOURNAL_TARGET_BYTES)) {
+    if (flash_equals(flash_addr(target), data, JOURNAL_TARGET_BYTES)) {
         return FLASH_OK;
     }
 
@@ -103,37 +97,32 @@ flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARG
     record.content_crc = crc16_bytes(CRC16_START, data, JOURNAL_TARGET_BYTES);
     record.record_crc = crc16_bytes(CRC16_START, &record, RECORD_CRC_BYTES);
 
-    flash_status_t status = FLASH_OK;
-    for (uint8_t i = 0; i < TARGET_PAGES && status == FLASH_OK; i++) {
-        status = flash_write((uint16_t)(slot_page(slot) + i), data + i * FLASH_PAGE_BYTES, FLASH_PAGE_BYTES);
-    }
+    flash_status_t status = write_data(slot_page(slot), data);
     if (status == FLASH_OK) {
         status = flash_write((uint16_t)(slot_page(slot) + TARGET_PAGES), (const uint8_t *)&record, sizeof record);
     }
-    for (uint8_t i = 0; i < TARGET_PAGES && status == FLASH_OK; i++) {
-        status = write_if_different((uint16_t)(target + i), data + i * FLASH_PAGE_BYTES);
+    if (status == FLASH_OK) {
+        status = write_data(target, data);
     }
     return status == FLASH_OK ? mark_done(slot, &record) : status;
 }
 
-journal_result_t journal_recover(uint8_t work[FLASH_PAGE_BYTES])
+journal_result_t journal_recover(uint8_t work[JOURNAL_TARGET_BYTES])
 {
     record_t record;
     uint8_t slot = find_newest(&record);
     if (slot == NO_SLOT || record.state == STATE_DONE) {
         return JOURNAL_CLEAN;
     }
-    journal_result_t result = JOURNAL_RESTORED;
-    if (record.state != STATE_PENDING) {
-        result = JOURNAL_CLEAN; /* only the mark itself was torn */
-    } else if (content_crc(slot, work) != record.content_crc) {
-        result = JOURNAL_LOST;
-    } else {
-        for (uint8_t i = 0; i < TARGET_PAGES; i++) {
-            flash_read(page_addr((uint16_t)(slot_page(slot) + i)), work, FLASH_PAGE_BYTES);
-            if (write_if_different((uint16_t)(FIRST_TARGET + record.target * TARGET_PAGES + i), work) != FLASH_OK) {
-                return JOURNAL_FAILED;
-            }
+    journal_result_t result = JOURNAL_CLEAN; /* only the mark itself was torn */
+    if (record.state == STATE_PENDING) {
+        flash_read(flash_addr(slot_page(slot)), work, JOURNAL_TARGET_BYTES);
+        if (crc16_bytes(CRC16_START, work, JOURNAL_TARGET_BYTES) != record.content_crc) {
+            result = JOURNAL_LOST;
+        } else if (write_data((uint16_t)(FIRST_TARGET + record.target * TARGET_PAGES), work) == FLASH_OK) {
+            result = JOURNAL_RESTORED;
+        } else {
+            return JOURNAL_FAILED;
         }
     }
     return mark_done(slot, &record) == FLASH_OK ? result : JOURNAL_FAILED;

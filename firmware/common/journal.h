@@ -46,8 +46,8 @@ typedef enum {
     JOURNAL_FAILED     /* flash did not take it or nobody can write: still pending */
 } journal_result_t;
 
-/* Finishes what a power cut left. work : one flash page of RAM, contents undefined afterwards. */
-journal_result_t journal_recover(uint8_t work[FLASH_PAGE_BYTES]);
+/* Finishes what a power cut left. work : undefined afterwards. */
+journal_result_t journal_recover(uint8_t work[JOURNAL_TARGET_BYTES]);
 
 /* Whether journal_recover has a page to finish: for those who cannot. */
 bool journal_is_pending(void);

@@ -100,6 +100,11 @@ static bool is_writable(uint16_t page, uint16_t bytes)
     return page < MEM_BOOT_START / FLASH_PAGE_BYTES && bytes >= 2 && bytes <= FLASH_PAGE_BYTES && bytes % 2 == 0;
 }
 
+uint32_t flash_addr(uint16_t page)
+{
+    return (uint32_t)page * FLASH_PAGE_BYTES;
+}
+
 void flash_read(uint32_t addr, void *to, uint16_t bytes)
 {
     ASSERT(addr + bytes <= sizeof flash.bytes);

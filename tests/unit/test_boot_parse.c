@@ -34,12 +34,12 @@ static void test_arguments_are_hexadecimal_with_or_without_0x(void)
     TEST_ASSERT_EQUAL_HEX32(0x1A, parsed.arg[1]);
 }
 
-static void test_missing_arguments_are_0(void)
+static void test_a_missing_address_is_0_and_a_missing_length_1(void)
 {
     TEST_ASSERT_EQUAL(PARSE_OK, parse("up 12 34"));
     TEST_ASSERT_EQUAL(PARSE_OK, parse("load"));
     TEST_ASSERT_EQUAL_HEX32(0, parsed.arg[0]);
-    TEST_ASSERT_EQUAL_HEX32(0, parsed.arg[1]);
+    TEST_ASSERT_EQUAL_HEX32(1, parsed.arg[1]);
 }
 
 static void test_every_character_from_space_to_slash_and_tab_separates(void)
@@ -104,7 +104,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_word_alone_in_upper_case);
     RUN_TEST(test_arguments_are_hexadecimal_with_or_without_0x);
-    RUN_TEST(test_missing_arguments_are_0);
+    RUN_TEST(test_a_missing_address_is_0_and_a_missing_length_1);
     RUN_TEST(test_every_character_from_space_to_slash_and_tab_separates);
     RUN_TEST(test_a_leading_sign_makes_the_line_empty);
     RUN_TEST(test_what_is_not_hexadecimal_is_refused);

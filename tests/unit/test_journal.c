@@ -12,7 +12,7 @@
 #define PAGE 120u
 #define PAGE_ADDR (MEM_MOTION_START + 512u * PAGE)
 
-static uint8_t old_page[512], new_page[512], work[FLASH_PAGE_BYTES];
+static uint8_t old_page[512], new_page[512], work[JOURNAL_TARGET_BYTES];
 static uint8_t before[MEM_BOOT_END];
 
 static void fill(uint8_t *page, uint32_t seed)

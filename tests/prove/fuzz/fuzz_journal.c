@@ -72,14 +72,14 @@ static void must_save(uint8_t page)
     }
     ASSERT(journal_save(page, data) == FLASH_OK);
     ASSERT(memcmp(fake_flash_bytes() + MEM_MOTION_START + 512u * page, data, 512) == 0);
-    uint8_t work[FLASH_PAGE_BYTES];
+    uint8_t work[JOURNAL_TARGET_BYTES];
     ASSERT(journal_recover(work) == JOURNAL_CLEAN);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_t fuzz = {data, data + size};
-    uint8_t work[FLASH_PAGE_BYTES];
+    uint8_t work[JOURNAL_TARGET_BYTES];
     jmp_buf cut;
     fake_flash_reset();
     const uint8_t good = fuzz_byte(&fuzz), mishaps = fuzz_byte(&fuzz);

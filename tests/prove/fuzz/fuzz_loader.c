@@ -112,7 +112,7 @@ void uart_flush(void)
 
 uint8_t uart_has(void)
 {
-    clock_ticks = (uint16_t)(clock_ticks + (clock_ticks < 65535));
+    clock_ticks++;
     if (!fill()) {
         end_of_input();
         return 0;
@@ -140,18 +140,27 @@ uint8_t uart_next(void)
 
 bool uart_wait(uint16_t ticks)
 {
-    clock_ticks = 0;
     if (!fill()) {
         end_of_input();
+        clock_ticks = (uint16_t)(clock_ticks + ticks);
         return false;
     }
     if (silence_ticks >= ticks) {
         silence_ticks -= ticks;
-        clock_ticks = ticks;
+        clock_ticks = (uint16_t)(clock_ticks + ticks);
         return false;
     }
-    clock_ticks = (uint16_t)silence_ticks;
+    clock_ticks = (uint16_t)(clock_ticks + silence_ticks);
     silence_ticks = 0;
+    return true;
+}
+
+bool uart_wait_for(uint8_t byte, uint16_t ticks)
+{
+    if (!uart_wait(ticks) || uart_peek() != byte) {
+        return false;
+    }
+    (void)uart_next();
     return true;
 }
 
@@ -162,19 +171,19 @@ void uart_drain(uint16_t ticks)
     }
 }
 
-void uart_clock_restart(void)
-{
-    clock_ticks = 0;
-}
-
 uint16_t uart_clock(void)
 {
     return ++clock_ticks;
 }
 
+uint16_t uart_since(uint16_t then)
+{
+    return (uint16_t)(uart_clock() - then);
+}
+
 void uart_pause(uint16_t ticks)
 {
-    clock_ticks = ticks;
+    clock_ticks = (uint16_t)(clock_ticks + ticks);
 }
 
 uint8_t uart_lost(void)

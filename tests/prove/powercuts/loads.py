@@ -13,7 +13,7 @@ from .robot import MOTIONS, PAGE_BYTES, PAGES, Memories
 from .saves import MAIL_PAGE, MAIL_STATE, MAILBOX
 
 FLASH_PAGE = 256
-LOAD_RECORD = set(range(MAP["MEM_EE_LOAD_SUM_BYTE"], BOOT_MODE))
+LOAD_RECORD = set(range(MAP["MEM_EE_LOAD_RECORD"], BOOT_MODE))
 
 
 @contextlib.contextmanager
