@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The command cm5sim with a small robot (robot/robot.c): its ways in, scripts, files, exit codes."""
 import csv
+import io
 import os
 import pathlib
+import re
 import shutil
 import signal
 import socket
@@ -102,7 +104,7 @@ def test_waiting_robot_costs_little_cpu():
 
 @pytest.fixture(name="terminal")
 def _terminal():
-    child = pexpect.spawn(str(CM5SIM), [str(ROBOT), "--servos", "1-3"], timeout=60)
+    child = pexpect.spawn(str(CM5SIM), [str(ROBOT), "--servos", "1-3"], timeout=60, env={**os.environ, "TERM": "xterm"})
     child.expect("ready")
     yield child
     child.close(force=True)
@@ -146,6 +148,51 @@ def test_terminal_knobs(terminal):
     terminal.expect("ready")
 
 
+OVERLAY = re.compile(rb"\x1b\[\?1049h(.*?)\x1b\[\?1049l", re.S)
+
+
+def test_terminal_words_for_the_user_leave_the_robots_screen_alone(terminal):
+    """They stand on the terminal's other screen: without them, what came is what the robot said, byte for byte; also what
+    it said meanwhile."""
+    heard = io.BytesIO()
+    terminal.logfile_read = heard
+    for keys in ("p\x14?", "xp\x14v", "x\x14hbattery 9\r", "p\x14h", "\x1b[A\r", "\x14r\x14rp", "\x14?"):
+        terminal.send(keys)
+        terminal.expect(pexpect.TIMEOUT, timeout=0.4)
+    terminal.send("x\x1d")
+    terminal.expect(pexpect.EOF)
+    shown = [part.decode() for part in OVERLAY.findall(heard.getvalue())]
+    assert len(shown) >= 7
+    for words in ("MODE button", "3    512", "push 3 600", "RC-100", "serial line"):
+        assert any(words in part for part in shown), words
+    assert not any("servo 3: 00" in part for part in shown)
+    alone = run(ROBOT, "--servos", "1-3", "-q", stdin=b"pppp").stdout.split(b"ready\r\n", 1)[1]
+    assert OVERLAY.sub(b"", heard.getvalue()) == b"\r\n" * heard.getvalue().startswith(b"\r\n") + alone
+
+
+def test_terminal_hand_pushes_holds_and_lets_go(terminal):
+    terminal.send("m")   # servo 3 goes to 600
+    terminal.expect("moving")
+    terminal.send("\x14hpush 3 400\r")
+    terminal.expect(pexpect.TIMEOUT, timeout=0.5)
+    terminal.send("\x14v")
+    terminal.expect("3 +600 +400  on +0x.. +held")
+    terminal.send("x\x14hlet go\r")
+    terminal.expect(pexpect.TIMEOUT, timeout=1)
+    terminal.send("\x14v")
+    terminal.expect("3 +600 +(599|600|601)  on")
+
+
+@pytest.mark.parametrize("line, says", [
+    ("push 40 600", "there is no servo 40"), ("push 3", "position 0..1023 is missing"), ("let it", "let go"),
+    ("expect \"x\"", "only scripts"), ("at 5s reset", "no `at`"), ("dance", "unknown action")])
+def test_terminal_hand_says_what_is_wrong_and_asks_again(terminal, line, says):
+    terminal.send(f"\x14hx\x7f{line}\r")
+    terminal.expect_exact(says)
+    terminal.send("press START\r")
+    terminal.expect("START")
+
+
 def test_terminal_keys_as_remote(terminal):
     terminal.send("\x14r")
     terminal.expect("RC-100")
@@ -182,6 +229,14 @@ temperature 3 <= 40
 servo 3 push 400
 present 3 < 450
 present 3 >= 598 within 1s
+push 3 400
+wait 100ms
+present 3 == 400
+let go
+present 3 >= 598 within 1s
+push 3 410
+let go 3
+servo 3 clear
 servo 2 load -0.3
 servo 2 load 0
 panel PLAY off
@@ -318,6 +373,16 @@ def test_script_tells_all_mistakes_at_once(tmp_path):
 
 
 # --- violations and wrong usage ---
+
+def test_sweep_is_told_in_the_summary():
+    done = run(ROBOT, "--sweep", "no_such_thing:12", "--time", "100ms", "--fast", "--summary")
+    assert done.returncode == 4 and b"no such function" in done.stderr
+    done = run(ROBOT, "--sweep", "put:30", "--time", "1s", "--fast", "--summary", stdin=b"p" * 20)
+    match = re.search(rb"sweep of put: (\d+) calls, (\d+) rounds of all places, (\d+) interrupts", done.stderr)
+    assert match and int(match[1]) > 100 and int(match[2]) >= 1 and int(match[3]) > 10, done.stderr
+    done = run(ROBOT, "--sweep", "put")
+    assert done.returncode == 2 and b"FUNCTION:VECTOR" in done.stderr
+
 
 def test_violation_stops_with_cycle_pc_function_reason_and_code_3():
     done = run(ROBOT, stdin=b"s")

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -64,13 +65,14 @@ void console_close(console_t *console)
     if (console->listener >= 0) {
         close(console->listener);
     }
+    free(console->waiting);
 }
 
-static void write_stdout(console_t *console)
+static void write_stdout(console_t *console, const uint8_t *bytes, size_t all)
 {
     size_t done = 0;
-    while (done < console->out_count && !console->stdout_ended) {
-        const ssize_t count = write(STDOUT_FILENO, console->out + done, console->out_count - done);
+    while (done < all && !console->stdout_ended) {
+        const ssize_t count = write(STDOUT_FILENO, bytes + done, all - done);
         if (count > 0) {
             done += (size_t)count;
         } else if (errno == EAGAIN) { /* somebody made the terminal non-blocking */
@@ -82,13 +84,40 @@ static void write_stdout(console_t *console)
     }
 }
 
+/* Without memory for it, it is lost, as on a cable that nobody reads. */
+static void keep(console_t *console)
+{
+    const size_t needed = console->waiting_count + console->out_count;
+    if (needed > console->waiting_room) {
+        uint8_t *bytes = realloc(console->waiting, 2 * needed);
+        if (bytes == NULL) {
+            return;
+        }
+        console->waiting = bytes;
+        console->waiting_room = 2 * needed;
+    }
+    memcpy(console->waiting + console->waiting_count, console->out, console->out_count);
+    console->waiting_count = needed;
+}
+
+void console_hold(console_t *console, bool held)
+{
+    console->held = held;
+    if (!held) {
+        write_stdout(console, console->waiting, console->waiting_count);
+        console->waiting_count = 0;
+    }
+}
+
 void console_flush(console_t *console)
 {
     if (console->out_count == 0) {
         return;
     }
-    if (console->use_stdout) {
-        write_stdout(console);
+    if (console->use_stdout && console->held) {
+        keep(console);
+    } else if (console->use_stdout) {
+        write_stdout(console, console->out, console->out_count);
     }
     if (console->has_pty && write(console->pty.master, console->out, console->out_count) < 0) {
         /* nobody reads: lost */
@@ -107,6 +136,7 @@ void console_put(console_t *console, uint8_t byte)
         console_flush(console);
     }
     console->out[console->out_count++] = byte;
+    console->draws = console->draws || byte == 0x1B;
 }
 
 /* One client at a time: a second one is told so. */

@@ -21,6 +21,10 @@ typedef struct {
     int listener, client, tcp_port;
     uint8_t out[4096];
     size_t out_count;
+    bool held; /* standard output waits */
+    uint8_t *waiting;
+    size_t waiting_count, waiting_room;
+    bool draws; /* the robot has used an escape sequence: it has a screen */
     console_input_fn input;
     void *context;
 } console_t;
@@ -32,6 +36,9 @@ void console_close(console_t *console);
 /* One byte from the robot; goes out with the next flush. Where nobody reads, it is lost, as on a cable. */
 void console_put(console_t *console, uint8_t byte);
 void console_flush(console_t *console);
+
+/* Holds back what goes to standard output, and lets it go. */
+void console_hold(console_t *console, bool held);
 
 /* Waits for input, at most so long (0: only looks), and hands it on. Returns early after input. */
 void console_wait(console_t *console, int64_t nanoseconds);

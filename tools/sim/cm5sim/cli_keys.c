@@ -16,13 +16,14 @@ enum { RC_U = 1, RC_D = 2, RC_L = 4, RC_R = 8, RC_1 = 16 };
 
 const char *keys_help(void)
 {
-    return "Ctrl-]           leave\r\n"
-           "Ctrl-T r         keyboard <-> RC-100 (arrows or w s a d; 1..6; space = 6, stop)\r\n"
-           "Ctrl-T arrow, s  panel buttons Up, Down, Left, Right, START\r\n"
-           "Ctrl-T m         MODE button (reset)\r\n"
-           "Ctrl-T p         power off / on\r\n"
-           "Ctrl-T v         servos: goal, present position, torque, alarms\r\n"
-           "Ctrl-T Ctrl-T    sends Ctrl-T\r\n";
+    return "Ctrl-]           leave\n"
+           "Ctrl-T h         a hand at the robot: `push 3 600`, `let go`, `battery 7.0`, ...\n"
+           "Ctrl-T v         servos: goal, present position, torque, alarms\n"
+           "Ctrl-T r         keyboard <-> RC-100 (arrows or w s a d; 1..6; space = 6, stop)\n"
+           "Ctrl-T arrow, s  panel buttons Up, Down, Left, Right, START\n"
+           "Ctrl-T m         MODE button (reset)\n"
+           "Ctrl-T p         power off / on\n"
+           "Ctrl-T Ctrl-T    sends Ctrl-T\n";
 }
 
 /* Index 0..3 of Up Down Left Right, -1: something else, -2: a sequence has begun. */
@@ -65,6 +66,7 @@ static key_press_t take_prefixed(keys_t *keys, uint8_t byte)
     case 'm': return (key_press_t){KEY_BUTTON, BUTTON_MODE};
     case 'p': return (key_press_t){KEY_POWER, 0};
     case 'v': return (key_press_t){KEY_SERVOS, 0};
+    case 'h': return (key_press_t){KEY_LINE, 0};
     default: return (key_press_t){KEY_HELP, 0};
     }
 }

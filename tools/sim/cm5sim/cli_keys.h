@@ -22,7 +22,8 @@ typedef enum {
     KEY_RC,     /* value: one bit of the remote's word */
     KEY_BUTTON, /* value: button_t */
     KEY_POWER,
-    KEY_SERVOS  /* list them */
+    KEY_SERVOS, /* list them */
+    KEY_LINE    /* a line for the robot's knobs comes */
 } key_kind_t;
 
 typedef struct {

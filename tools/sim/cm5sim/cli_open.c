@@ -8,7 +8,18 @@
 
 #include "board_debug.h"
 #include "cli_files.h"
+#include "cli_script.h"
 #include "cli_session.h"
+
+#define LINE_ANSWER_BYTES 1200
+
+static const char hand_help[] =
+    "A hand at the robot. One line, then Enter; Enter alone goes back.\n\n"
+    "  push 3 600      turns the horn of servo 3 to position 600 and holds it there\n"
+    "  let go          lets go of all (let go 3: of one)\n"
+    "  battery 7.0     volts\n"
+    "  servo 5 silent  a fault, until `servo 5 clear`\n"
+    "and every other action that a script may have.\n\n";
 
 static void heard(void *context, uint64_t now_cycles, uint8_t byte, bool bad)
 {
@@ -18,26 +29,62 @@ static void heard(void *context, uint64_t now_cycles, uint8_t byte, bool bad)
     console_put(&session->console, byte);
 }
 
-static void typed(session_t *session, uint8_t byte)
+/* A line of the hand was typed: done, or why not. */
+static void take_line(session_t *session)
+{
+    char text[LINE_ANSWER_BYTES];
+    overlay_t *overlay = &session->overlay;
+    if (overlay->length == 0) {
+        overlay_hide(overlay, &session->console);
+        return;
+    }
+    const char *error = script_do_line(session, overlay->line);
+    if (error == NULL) {
+        overlay_hide(overlay, &session->console);
+        return;
+    }
+    snprintf(text, sizeof text, "%s%s\n\n> ", hand_help, error);
+    overlay_show(overlay, &session->console, OVERLAY_LINE, text);
+}
+
+static void press_key(session_t *session, key_press_t key)
 {
     const uint64_t held = (uint64_t)KEY_HELD_MS * BOARD_CYCLES_PER_MS;
-    const key_press_t key = keys_take(&session->keys, byte);
     const uint8_t value = (uint8_t)key.value;
+    char text[LINE_ANSWER_BYTES];
     switch (key.kind) {
     case KEY_BYTE: session_send(session, &value, 1); break;
     case KEY_EXIT: session_end(session, EXIT_GOOD); break;
-    case KEY_HELP: fputs(keys_help(), stderr); break;
-    case KEY_RC_MODE:
-        session_say(session, value ? "keyboard: RC-100 (Ctrl-T r ends)" : "keyboard: serial line");
-        break;
+    case KEY_HELP: session_page(session, OVERLAY_PAGE, keys_help()); break;
+    case KEY_RC_MODE: session_note(session, value ? "keyboard: RC-100 (Ctrl-T r ends)" : "keyboard: serial line"); break;
     case KEY_RC: session_rc_hold(session, key.value, held); break;
     case KEY_BUTTON: session_press(session, (button_t)key.value, held / 3); break;
     case KEY_POWER:
         session_power(session, !board_is_powered(session->board));
-        session_say(session, "power %s", board_is_powered(session->board) ? "on" : "off");
+        session_note(session, "power %s", board_is_powered(session->board) ? "on" : "off");
         break;
     case KEY_SERVOS: session_list_servos(session); break;
+    case KEY_LINE:
+        snprintf(text, sizeof text, "%s> ", hand_help);
+        session_page(session, OVERLAY_LINE, text);
+        break;
     case KEY_NONE: break;
+    }
+}
+
+static void typed(session_t *session, uint8_t byte)
+{
+    overlay_t *overlay = &session->overlay;
+    const overlay_kind_t kind = overlay->kind;
+    if (kind == OVERLAY_LINE && byte != KEY_LEAVE) {
+        if (overlay_type(overlay, byte)) {
+            take_line(session);
+        }
+        return;
+    }
+    overlay_hide(overlay, &session->console);
+    if (kind != OVERLAY_PAGE || byte == KEY_LEAVE || byte == KEY_PREFIX) {
+        press_key(session, keys_take(&session->keys, byte));
     }
 }
 
@@ -74,7 +121,7 @@ static const char *load_memories(session_t *session)
     return error;
 }
 
-/* Trace, VCD. */
+/* Trace, sweeps, VCD. */
 static const char *open_instruments(session_t *session)
 {
     const options_t *options = session->options;
@@ -90,6 +137,11 @@ static const char *open_instruments(session_t *session)
         session->tracing = trace_open(&session->trace, session->trace_path, session->bus);
         if (!session->tracing) {
             return strerror(errno);
+        }
+    }
+    for (int i = 0; i < options->sweep_count; i++) {
+        if (!board_sweep(session->board, options->sweeps[i].function, options->sweeps[i].vector, 0)) {
+            return "--sweep: no such function in the images, or a vector that cannot be raised";
         }
     }
     if (options->vcd && !board_vcd_start(session->board, options->vcd)) {
@@ -202,6 +254,7 @@ static void close_trace(session_t *session)
 
 void session_close(session_t *session)
 {
+    session_leave_screen(session);
     console_close(&session->console);
     keys_restore();
     if (session->board == NULL) {

@@ -153,6 +153,24 @@ static void parse_servo(rest_t *rest, deed_t *deed)
     }
 }
 
+static void parse_push(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_HOLD;
+    take_number(rest, 0, 253, &deed->number, "a servo ID 0..253 is missing here (push 3 600)");
+    take_real(rest, 0, 1023, &deed->value, "a position 0..1023 is missing here (push 3 600)");
+}
+
+static void parse_let(rest_t *rest, deed_t *deed)
+{
+    deed->kind = DO_LET_GO;
+    deed->number = -1;
+    if (!take_if(rest, "go")) {
+        rest->error = "let go, or let go of one servo: let go 3";
+    } else if (rest->count > 0) {
+        take_number(rest, 0, 253, &deed->number, "let go of which servo? (let go 3)");
+    }
+}
+
 static void parse_quantity(rest_t *rest, deed_t *deed, const quantity_t *quantity)
 {
     static const char what[] = "a comparison is missing here: == != < > <= >=";
@@ -197,8 +215,8 @@ static const struct {
 } verbs[] = {
     {"send", parse_send}, {"expect", parse_expect}, {"wait", parse_wait}, {"press", parse_press},
     {"release", parse_release}, {"rc", parse_rc}, {"power", parse_power}, {"reset", parse_reset},
-    {"battery", parse_battery}, {"servo", parse_servo}, {"panel", parse_panel}, {"note", parse_note},
-    {"quit", parse_quit}};
+    {"battery", parse_battery}, {"servo", parse_servo}, {"push", parse_push}, {"let", parse_let}, {"panel", parse_panel},
+    {"note", parse_note}, {"quit", parse_quit}};
 
 static void parse_verb(rest_t *rest, deed_t *deed)
 {
@@ -217,7 +235,7 @@ static void parse_verb(rest_t *rest, deed_t *deed)
     }
     rest->error = rest->error ? rest->error
                               : "unknown action (known: send expect wait press release rc power reset battery servo "
-                                "panel note quit goal present torque moving speed voltage temperature led alarms "
+                                "push let panel note quit goal present torque moving speed voltage temperature led alarms "
                                 "register)";
 }
 
@@ -271,6 +289,23 @@ static bool load_line(script_t *script, int number, char *line)
         return false;
     }
     return true;
+}
+
+const char *script_do_line(session_t *session, char *line)
+{
+    cli_word_t words[WORDS_MAX];
+    const char *error = NULL;
+    const int count = cli_split(line, words, WORDS_MAX, &error);
+    deed_t deed = {.line = 0};
+    rest_t rest = {words, count, NULL};
+    if (count > 0) {
+        error = parse_line(&rest, &deed);
+    }
+    if (error == NULL && count > 0) {
+        error = deed.at || deed.after ? "this is done at once: no `at`, no `after`" : script_act(session, &deed);
+    }
+    free(deed.text);
+    return error;
 }
 
 bool script_load(script_t *script, const char *path)

@@ -11,7 +11,8 @@
  *   rc U+3 [500ms]                 remote: one packet, or held so long and let go; rc 0 lets go
  *   power off|on    reset    battery 7.2
  *   servo 5 silent [3 times]       a fault (servo_fault.h) until `servo 5 clear`, or for so many answers
- *   servo 5 push 400               a hand turns the horn;  servo 5 load -0.3   outside load, -1..1
+ *   push 5 400                     a hand turns the horn and holds it, until   let go   or   let go 5
+ *   servo 5 push 400               the same, but lets go at once;  servo 5 load -0.3   outside load, -1..1
  *   goal 3 == 512 [within 2s]      also present, torque, moving, speed, voltage (tenths), temperature, alarms, led;
  *                                  == != < > <= >=; also `register 3 28 == 32`
  *   panel PLAY on [within 1s]      an LED of the board
@@ -26,7 +27,7 @@
 
 typedef enum {
     DO_SEND, DO_EXPECT, DO_EXPECT_NO, DO_WAIT, DO_PRESS, DO_RELEASE, DO_RC, DO_POWER, DO_RESET, DO_BATTERY,
-    DO_FAULT, DO_CLEAR, DO_PUSH, DO_LOAD, DO_REGISTER, DO_PANEL, DO_NOTE, DO_QUIT
+    DO_FAULT, DO_CLEAR, DO_PUSH, DO_LOAD, DO_HOLD, DO_LET_GO, DO_REGISTER, DO_PANEL, DO_NOTE, DO_QUIT
 } deed_kind_t;
 
 typedef enum { IS_EQUAL, IS_NOT, IS_LESS, IS_MORE, IS_AT_MOST, IS_AT_LEAST } relation_t;
@@ -67,6 +68,13 @@ void script_free(script_t *script);
 /* Does what is due. Returns the cycle at which to ask again at the latest (it may look more often); the session ends
  * when the script does. */
 uint64_t script_step(script_t *script, session_t *session);
+
+/* Does an action at once. NULL, or why it could not be done (good until the next call); expectations cannot. */
+const char *script_act(session_t *session, const deed_t *deed);
+
+/* Does one line that holds an action (neither `at` nor an expectation), at once; a button pressed is let go by itself.
+ * NULL, or why it was not done. Changes line. */
+const char *script_do_line(session_t *session, char *line);
 
 /* "==" and so on; false: no such relation. */
 bool script_relation(const char *text, relation_t *relation);

@@ -92,23 +92,26 @@ static bool holds(double left, relation_t relation, double right)
     return false;
 }
 
-static servo_t *servo_of(const script_t *script, session_t *session, const deed_t *deed)
+/* The servo that a deed names; NULL: there is none. */
+static servo_t *servo_of(session_t *session, const deed_t *deed)
 {
-    servo_t *servo = servo_bus_find(session->bus, (uint8_t)deed->number);
-    char what[60];
-    if (servo == NULL) {
-        snprintf(what, sizeof what, "there is no servo %ld", deed->number);
-        fail(script, session, deed, what);
-    }
-    return servo;
+    return servo_bus_find(session->bus, (uint8_t)deed->number);
+}
+
+static const char *no_servo(const deed_t *deed)
+{
+    static char text[60];
+    snprintf(text, sizeof text, "there is no servo %ld", deed->number);
+    return text;
 }
 
 static step_t step_register(script_t *script, session_t *session, const deed_t *deed, bool late)
 {
     const uint64_t now = board_now(session->board);
-    servo_t *servo = servo_of(script, session, deed);
+    servo_t *servo = servo_of(session, deed);
     char what[120];
     if (servo == NULL) {
+        fail(script, session, deed, no_servo(deed));
         return STEP_FAILED;
     }
     const double value = deed->bytes == 0
@@ -137,19 +140,33 @@ static step_t step_panel(script_t *script, session_t *session, const deed_t *dee
     return STEP_FAILED;
 }
 
-static void act_on_servo(const script_t *script, session_t *session, const deed_t *deed)
+static const char *act_on_servo(session_t *session, const deed_t *deed)
 {
     const uint64_t now = board_now(session->board);
-    servo_t *servo = servo_of(script, session, deed);
+    servo_t *servo = servo_of(session, deed);
     if (servo == NULL) {
-        return;
+        return no_servo(deed);
     }
     switch (deed->kind) {
     case DO_FAULT: servo_bus_fault(session->bus, now, servo, deed->fault, (uint32_t)deed->value); break;
     case DO_CLEAR: servo_api_clear(session->bus, now, servo); break;
-    case DO_PUSH: servo_push_to(servo, now, deed->value); break;
-    default: servo_api_set_state(servo, now, SERVO_API_LOAD, deed->value); break;
+    case DO_LOAD: servo_api_set_state(servo, now, SERVO_API_LOAD, deed->value); break;
+    case DO_LET_GO: servo_api_set_state(servo, now, SERVO_API_HELD, 0); break;
+    default: /* DO_PUSH, DO_HOLD */
+        servo_api_set_state(servo, now, SERVO_API_HELD, 0);
+        servo_push_to(servo, now, deed->value);
+        servo_api_set_state(servo, now, SERVO_API_HELD, deed->kind == DO_HOLD);
+        break;
     }
+    return NULL;
+}
+
+static const char *let_go_of_all(session_t *session)
+{
+    for (int i = 0; i < session->bus->count; i++) {
+        servo_api_set_state(servo_api_at(session->bus, i), board_now(session->board), SERVO_API_HELD, 0);
+    }
+    return NULL;
 }
 
 static void act_rc(session_t *session, const deed_t *deed)
@@ -162,8 +179,7 @@ static void act_rc(session_t *session, const deed_t *deed)
     }
 }
 
-/* What happens when a deed's time has come. */
-static void begin(const script_t *script, session_t *session, const deed_t *deed)
+const char *script_act(session_t *session, const deed_t *deed)
 {
     switch (deed->kind) {
     case DO_SEND: session_send(session, (const uint8_t *)deed->text, deed->length); break;
@@ -173,11 +189,19 @@ static void begin(const script_t *script, session_t *session, const deed_t *deed
     case DO_POWER: session_power(session, deed->on); break;
     case DO_RESET: session_press(session, BUTTON_MODE, deed->cycles); break;
     case DO_BATTERY: board_battery(session->board, deed->value); break;
-    case DO_FAULT: case DO_CLEAR: case DO_PUSH: case DO_LOAD: act_on_servo(script, session, deed); break;
+    case DO_FAULT: case DO_CLEAR: case DO_PUSH: case DO_LOAD: case DO_HOLD: return act_on_servo(session, deed);
+    case DO_LET_GO: return deed->number < 0 ? let_go_of_all(session) : act_on_servo(session, deed);
     case DO_NOTE: session_say(session, "%.3f s: %s", seconds(board_now(session->board)), deed->text); break;
     case DO_QUIT: session_end(session, EXIT_GOOD); break;
-    case DO_EXPECT: case DO_EXPECT_NO: case DO_WAIT: case DO_REGISTER: case DO_PANEL: break;
+    case DO_EXPECT: case DO_EXPECT_NO: case DO_WAIT: case DO_REGISTER: case DO_PANEL: return "only scripts wait and expect";
     }
+    return NULL;
+}
+
+static bool is_action(const deed_t *deed)
+{
+    return deed->kind != DO_EXPECT && deed->kind != DO_EXPECT_NO && deed->kind != DO_WAIT && deed->kind != DO_REGISTER
+        && deed->kind != DO_PANEL;
 }
 
 /* Is the deed over? A press and a held remote key last until they are let go. */
@@ -214,7 +238,10 @@ uint64_t script_step(script_t *script, session_t *session)
             }
             script->begun = true;
             script->begun_cycles = now;
-            begin(script, session, deed);
+            const char *error = is_action(deed) ? script_act(session, deed) : NULL;
+            if (error) {
+                fail(script, session, deed, error);
+            }
             if (session->done) {
                 break;
             }

@@ -2,12 +2,16 @@
 #include "cli_session.h"
 
 #include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "cli_text.h"
 #include "servo_api.h"
 
 #define LINE_BPS 57600u
 #define MESSAGE_BYTES 600
+#define NOTE_CYCLES (1500u * BOARD_CYCLES_PER_MS)
 
 /* ---- messages ---- */
 
@@ -37,6 +41,47 @@ void session_complain(const session_t *session, const char *format, ...)
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     message(text);
+}
+
+static bool is_on_terminal(const session_t *session)
+{
+    const char *term = getenv("TERM");
+    return keys_are_raw() && session->console.use_stdout && isatty(STDOUT_FILENO) && term && strcmp(term, "dumb") != 0;
+}
+
+void session_leave_screen(session_t *session)
+{
+    overlay_hide(&session->overlay, &session->console);
+    console_flush(&session->console);
+    if (session->console.draws && is_on_terminal(session)) {
+        session->console.draws = false;
+        fputs("\x1b[0m\x1b[999;1H\r\n", stderr); /* plain letters, the last line */
+    }
+}
+
+void session_page(session_t *session, overlay_kind_t kind, const char *text)
+{
+    if (is_on_terminal(session)) {
+        overlay_show(&session->overlay, &session->console, kind, text);
+        overlay_add(kind == OVERLAY_PAGE ? "\n(any key goes back to the robot)" : "");
+    } else {
+        fputs(text, stderr);
+    }
+}
+
+void session_note(session_t *session, const char *format, ...)
+{
+    char text[MESSAGE_BYTES];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (is_on_terminal(session)) {
+        session_page(session, OVERLAY_NOTE, text);
+        session->overlay.until = board_now(session->board) + NOTE_CYCLES;
+    } else if (!session->options->quiet) {
+        message(text);
+    }
 }
 
 void session_end(session_t *session, int exit_code)
@@ -166,14 +211,15 @@ void session_follow_rate(session_t *session)
 
 void session_list_servos(session_t *session)
 {
+    static char text[256 * 64];
     const uint64_t now = board_now(session->board);
-    session_complain(session, "ID  goal  present  torque  error byte");
+    int at = snprintf(text, sizeof text, "ID  goal  present  torque  error byte\n");
     for (int i = 0; i < session->bus->count; i++) {
         servo_t *servo = servo_api_at(session->bus, i);
         const uint16_t present = servo_api_get(servo, now, SERVO_PRESENT, 2);
-        session_complain(session, "%-3u %4u  %7u  %-6s  0x%02X%s", servo_api_id(servo),
-                         servo_get(servo, SERVO_GOAL, 2), present,
-                         servo->table[SERVO_TORQUE_ENABLE] ? "on" : "off", servo->alarms,
-                         servo->powered ? "" : "  no power");
+        at += snprintf(text + at, sizeof text - (size_t)at, "%-3u %4u  %7u  %-6s  0x%02X%s%s\n", servo_api_id(servo),
+                       servo_get(servo, SERVO_GOAL, 2), present, servo->table[SERVO_TORQUE_ENABLE] ? "on" : "off",
+                       servo->alarms, servo->held ? "  held" : "", servo->powered ? "" : "  no power");
     }
+    session_page(session, OVERLAY_PAGE, text);
 }

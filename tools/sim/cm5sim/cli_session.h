@@ -9,6 +9,7 @@
 #include "cli_console.h"
 #include "cli_keys.h"
 #include "cli_options.h"
+#include "cli_overlay.h"
 #include "cli_trace.h"
 
 #define RC_KEYS 10
@@ -21,6 +22,7 @@ typedef struct session {
     servo_bus_t *bus;
     console_t console;
     keys_t keys;
+    overlay_t overlay;
     trace_t trace;
     bool tracing;
     char trace_path[256]; /* of the file that is plotted */
@@ -47,6 +49,15 @@ void session_close(session_t *session);
 /* A message for the user on standard error (unless --quiet), fit for a raw terminal. */
 void session_say(const session_t *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void session_complain(const session_t *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The same, but over the robot's screen where there is one: for a moment. */
+void session_note(session_t *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The robot's screen is over: what comes now stands below it. */
+void session_leave_screen(session_t *session);
+
+/* A page of text over the robot's screen, or on standard error. */
+void session_page(session_t *session, overlay_kind_t kind, const char *text);
 
 /* Ends the run with this exit code; the first code that is not good stays. */
 void session_end(session_t *session, int exit_code);

@@ -95,6 +95,7 @@ static void wait_for_clock(session_t *session, pace_state_t *pace)
 static void report_violation(session_t *session)
 {
     const violation_t *violation = board_violation(session->board);
+    session_leave_screen(session);
     session_complain(session, "violation %s at cycle %" PRIu64 " (%.3f ms), PC 0x%05" PRIX32 " in %s: %s",
                      violation_name(violation->kind), violation->cycle,
                      (double)violation->cycle / BOARD_CYCLES_PER_MS, violation->pc, violation->function,
@@ -142,6 +143,12 @@ static void summarize(const session_t *session, const struct timespec *begun)
                      board_stack_headroom(session->board), board_resets(session->board));
     session_complain(session, "bus: %" PRIu64 " bytes out, %" PRIu64 " in, %" PRIu64 " overruns, %" PRIu64
                      " framing errors", bus.sent, bus.received, bus.overruns, bus.framing);
+    for (int i = 0; i < session->options->sweep_count; i++) {
+        const char *function = session->options->sweeps[i].function;
+        const sweep_t *sweep = board_sweep_result(session->board, function);
+        session_complain(session, "sweep of %s: %" PRIu64 " calls, %" PRIu64 " rounds of all places, %" PRIu64 " interrupts",
+                         function, sweep->calls, sweep->rounds, sweep->taken);
+    }
     session_complain(session, "console: %" PRIu64 " bytes out, %" PRIu64 " in, %" PRIu64 " overruns, %" PRIu64
                      " framing errors", console.sent, console.received, console.overruns, console.framing);
 }
@@ -179,6 +186,9 @@ static void run(session_t *session, script_t *script)
             trace_row(&session->trace, tick, now);
         }
         console_flush(&session->console);
+        if (session->overlay.kind == OVERLAY_NOTE && now >= session->overlay.until) {
+            overlay_hide(&session->overlay, &session->console);
+        }
         wake = script && !session->done ? script_step(script, session) : NEVER_CYCLES;
         pace.real = pace.real && !(options->pace == PACE_AUTO && is_alone(session));
         wait_for_clock(session, &pace);
@@ -231,6 +241,7 @@ int cm5sim_run(int argc, char **argv, const servo_body_t *body)
         running = session.board;
         clock_gettime(CLOCK_MONOTONIC, &begun);
         run(&session, options.script ? &script : NULL);
+        session_leave_screen(&session);
         if (options.summary) {
             summarize(&session, &begun);
         }
