@@ -7,6 +7,8 @@ import time
 import pytest
 from conftest import REPO
 from m512.board import sim
+from m512.board.client import Client
+from m512.board.link import Link
 from m512.errors import MissingError
 from m512.files.text import read_text
 from pty_peer import Peer
@@ -101,7 +103,7 @@ def test_board_backup_and_restore(m512, robot, motions, tmp_path):
     result = m512("restore", folder, "--yes", "-p", robot.url, "--wait", "5", "--what", "motions,app")
     assert result.exit_code == 0, result.stderr
     assert 'page 100 "nod", step 0, ID 1: 460 -> 560 (+100)' in result.stderr
-    assert "1 of 1 flash pages written" in result.stderr
+    assert "1 of 448 flash pages written" in result.stderr
     assert m512("diff", folder, motions).exit_code == 0
 
 
@@ -160,7 +162,7 @@ def test_board_put_through_edit(m512, motions, tmp_path):
             result = m512("put", motions, "walk:30", "stand", "-p", simulator.url, "--json")
             assert result.exit_code == 0, result.stderr
             assert json.loads(result.stdout)["saved"] == [30, 1]
-            assert m512("pages", simulator.url, "rename", "30", "march").exit_code == 0
+            assert m512("pages", simulator.url, "rename", "30", "march", "--yes").exit_code == 0
             assert m512("get", "all", "-o", tmp_path / "got.bin", "-p", simulator.url).exit_code == 0
     except MissingError as error:
         pytest.skip(str(error))
@@ -180,3 +182,29 @@ def test_sim_option_plays_without_a_robot(m512, motions):
     result = m512("play", "nod", "--sim", "--motions", motions, "--json")
     assert result.exit_code == 0, result.stderr
     assert "playing: page 100" in result.stderr and json.loads(result.stdout)["state"] == "idle"
+
+
+def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, tmp_path):
+    old = tmp_path / "old.m512"
+    old.write_text(MOTIONS.replace("nod", "old").replace("1:560", "1:490"))
+    try:
+        simulator = sim.Simulator(["boot-cm5.hex", "edit-cm5.hex"], old)
+    except MissingError as error:
+        pytest.skip(str(error))
+    with simulator:
+        time.sleep(1.0)
+        assert m512("run", "-p", simulator.url).exit_code == 0
+        time.sleep(2.0)
+        looked = m512("flash", motions, "-p", simulator.url, "--dry-run")
+        assert looked.exit_code == 0 and '"old" -> "nod"' in looked.stderr and "edit" in looked.stderr
+        with Link(simulator.url) as link:
+            client = Client(link)
+            client.ask("open 3")
+            assert not client.has_edits()
+            client.ask("open 3")
+            client.ask("data 64 0102")
+            assert client.has_edits()
+        result = m512("flash", motions, "-p", simulator.url, "--wait", "5")
+        assert result.exit_code == 5 and "not saved" in result.stderr and "--yes" in result.stderr
+        result = m512("flash", motions, "-p", simulator.url, "--wait", "5", "--yes")
+        assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr

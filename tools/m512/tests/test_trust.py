@@ -285,3 +285,48 @@ def test_package_says_that_it_is_typed_and_its_licence():
     text = (REPO / "tools" / "m512" / "pyproject.toml").read_text()
     assert 'license = "MIT"' in text and "py.typed" in text and "matplotlib>=3.6" in text
     assert (REPO / "tools" / "m512" / "src" / "m512" / "py.typed").exists()
+
+
+# What a new user meets
+
+def test_dry_run_looks_at_the_board_and_changes_nothing(m512, files, board):
+    before = bytes(board.flash)
+    result = m512("flash", files / "x.bin", "-p", board.path, "--dry-run")
+    assert result.exit_code == 0 and "the board holds this already" in result.stderr
+    with board.lock:
+        board.flash[0xE000 + 600] ^= 1
+        before = bytes(board.flash)
+    result = m512("flash", files / "x.bin", "-p", board.path, "--dry-run")
+    assert "1 of 254 flash pages would be written" in result.stderr and bytes(board.flash) == before
+
+
+def test_port_without_its_path_gets_a_hint(m512):
+    result = m512("play", "1", "-p", "robot")
+    assert result.exit_code == 6 and "-p ./robot" in result.stderr
+
+
+def test_images_beside_the_simulator_are_found(tmp_path, monkeypatch):
+    from m512.board import sim
+    from m512.errors import MissingError
+
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin" / "cm5sim").write_text("")
+    (tmp_path / "bin" / "play-cm5.hex").write_text("")
+    monkeypatch.setenv("M512_CM5SIM", str(tmp_path / "bin" / "cm5sim"))
+    monkeypatch.setenv("M512_BUILD", str(tmp_path / "nothing"))
+    assert sim.find_image("play-cm5.hex") == tmp_path / "bin" / "play-cm5.hex"
+    monkeypatch.setenv("M512_CM5SIM", str(tmp_path / "no"))
+    monkeypatch.setattr(sim, "wheel_folder", lambda: None)
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(MissingError, match="wheel .*M512_CM5SIM"):
+        sim.find_cm5sim()
+
+
+def test_doctor_does_not_repeat_itself(m512, monkeypatch, tmp_path):
+    monkeypatch.setenv("M512_BUILD", str(tmp_path))
+    monkeypatch.setenv("PATH", "")
+    said = m512("doctor", "-p", "robot").stdout
+    lines = [line.strip(" ->") for line in said.splitlines()]
+    for line in lines:
+        assert said.count(line) == 1 or len(line) < 12, line
+    assert said.count("not installed") <= 2

@@ -17,7 +17,7 @@ from m512.files.page import PAGE_BYTES, Page
 ANSWER_SECONDS = 3.0
 TRIES = 3
 DATA_BYTES = 32
-ERR_WORD, ERR_BUSY, ERR_IMAGE = 1, 4, 10
+ERR_WORD, ERR_BUSY, ERR_IMAGE, ERR_EDITS = 1, 4, 10, 12
 ERR_PAGE_FAULTS = (5,)
 
 
@@ -110,6 +110,17 @@ class Client:
     @property
     def can_save(self) -> bool:
         return "save" in self.version.get("can", "").split(",")
+
+    def has_edits(self) -> bool:
+        """Whether Edit's page in RAM has edits that are not saved. (Asked by @open of page 0, which it refuses then; else the
+        page in RAM is page 0 afterwards.)"""
+        if not self.can_save:
+            return False
+        try:
+            self.ask("open 0")
+        except BoardError as error:
+            return error.number == ERR_EDITS
+        return False
 
     def save_page(self, number: int, page: Page) -> None:
         """Into the board's flash, through its page in RAM."""

@@ -55,7 +55,7 @@ def _libraries(add) -> None:
     try:
         add("simulator", OK, str(find_cm5sim()))
     except M512Error as error:
-        add("simulator", WARN, "cm5sim is not here", str(error))
+        add("simulator", WARN, "not installed; only --sim needs it", str(error).partition(": ")[2])
 
 
 def _port(word: str, add) -> Optional[str]:
@@ -71,7 +71,8 @@ def _port(word: str, add) -> Optional[str]:
         Link(url).close()
     except M512Error as error:
         if found or word:
-            add("port", BAD, str(error), "name the port with -p")
+            first, *rest = str(error).splitlines()
+            add("port", BAD, first, "" if "-p" in first or "--port" in first else "name the port with -p")
         return None
     add("port", OK, f"{url} opens")
     return url

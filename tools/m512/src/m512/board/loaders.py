@@ -3,7 +3,7 @@
 
     prompt there? ---- yes --> identify
        | no
-    Play or Edit? ---- yes --> @reset, then '#'
+    Play or Edit? ---- yes --> @reset, then '#' (asks first when edits would be lost)
        | no, or it cannot
     in a session of ours that broke off? --> HELLO
        | no
@@ -18,6 +18,7 @@ from m512.board.factory import KNOCK, PROMPT, FactoryLoader
 from m512.board.link import Link
 from m512.errors import NoAnswerError, RefusedError
 
+May = Callable[[str], None]
 Loader = Union[BlockLoader, FactoryLoader]
 BANNER = b"SYSTEM O.K."
 STAY, START, RESET = range(3)  # leave()
@@ -89,13 +90,19 @@ def call_by_hash(link: Link, seconds: float) -> bool:
     return False
 
 
-def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS) -> Loader:
-    """The board's loader, ready for work. `say` tells the user what is waited for."""
+def refuse(question: str) -> None:
+    """Nobody can be asked."""
+    raise RefusedError(f"{question} Nobody was asked")
+
+
+def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS, may: May = refuse) -> Loader:
+    """The board's loader, ready for work. `say` tells the user what is waited for; `may` asks a question and raises
+    RefusedError when the answer is no."""
     if at_prompt(link):
         loader = identify(link)
         loader.was_at_prompt = True
         return loader
-    if reset_by_application(link, say) and call_by_hash(link, 3.0):
+    if reset_by_application(link, say, may) and call_by_hash(link, 3.0):
         return identify(link)
     try:
         session = BlockLoader(link, tries=1, seconds=0.4)
@@ -116,8 +123,8 @@ def give_back(loader: Loader) -> None:
     loader.leave(STAY if loader.was_at_prompt else RESET)
 
 
-def reset_by_application(link: Link, say: Callable[[str], None]) -> bool:
-    """Asks Play to restart the controller; whether it will. Edit may hold edits that are not saved: its user decides."""
+def reset_by_application(link: Link, say: Callable[[str], None], may: May = refuse) -> bool:
+    """Asks Play or Edit to restart the controller; whether it will. `may` is asked when edits would be lost."""
     from m512.board.client import Client
 
     try:
@@ -126,8 +133,7 @@ def reset_by_application(link: Link, say: Callable[[str], None]) -> bool:
         return False
     if client.where().get("state") != "idle":
         raise RefusedError("something plays on the robot: `m512 stop` first")
-    if client.version.get("image") != "play":
-        say("Edit runs there. What is not saved in it will be lost.")
-        return False
-    link.write(b"@reset\r")
+    if client.has_edits():
+        may("Edit holds a page with edits that are not saved; restarting loses them. Go on?")
+    link.write(b"@reset\r")       # no wait for its answer: the loader's window comes soon
     return True

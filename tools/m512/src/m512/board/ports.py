@@ -41,7 +41,8 @@ def pick(word: str = "") -> str:
         return hits[0][0]
     listed = "".join(f"\n  {device}  {text}" for device, text in ports)
     if word and not hits:
-        raise PortError(f"no serial port is called {word!r}" + (f"; there are:{listed}" if ports else "; there are none"))
+        raise PortError(f"no serial port is called {word!r} (a link or pty is named with its path: -p ./{word})"
+                        + (f"; there are:{listed}" if ports else "; there are none"))
     if not hits:
         raise PortError("no serial port found. Plug in the adapter, or name it (m512 ... --port /dev/ttyUSB0)")
     raise PortError(f"several serial ports; say which with --port:{listed}")

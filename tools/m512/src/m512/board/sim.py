@@ -57,11 +57,19 @@ def wheel_folder() -> Optional[Path]:
 
 
 def find_image(name: str) -> Path:
-    """A firmware image by path, or by name in firmware/ of the build folder or of the simulator's wheel."""
-    for place in [Path(name)] + [folder / "firmware" / name for folder in (build_folder(), wheel_folder()) if folder]:
+    """A firmware image by path, or by name: beside the simulator that is used, in firmware/ of the build folder, or of the
+    simulator's wheel."""
+    places = [Path(name)]
+    try:
+        beside = find_cm5sim().resolve().parent
+        places += [beside / name, beside / "firmware" / name]
+    except MissingError:
+        pass
+    for place in places + [folder / "firmware" / name for folder in (build_folder(), wheel_folder()) if folder]:
         if place.exists():
             return place
-    raise MissingError(f"the firmware image {name} is not here: build it (tools/demo does), or give its path (--image)")
+    raise MissingError(f"the firmware image {name} is neither here nor beside the simulator: build it (tools/demo does), "
+                       "or give its path (--image)")
 
 
 def our_motions() -> Optional[Path]:

@@ -19,13 +19,17 @@ wait_option = click.option("--wait", default=60.0, show_default=True, metavar="S
 json_option = click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 
 
-def connect(port, wait):
-    """(link, loader) of the board on a port."""
+def connect(port, wait, yes=False):
+    """(link, loader) of the board on a port. A running Play or Edit restarts by itself; edits are lost only after a yes."""
     from m512.board import loaders, ports
     from m512.board.link import Link
 
     link = Link(ports.pick(port))
-    loader = loaders.enter(link, ui.say, wait)
+    try:
+        loader = loaders.enter(link, ui.say, wait, lambda question: ui.confirm(question, yes))
+    except BaseException:
+        link.close()
+        raise
     ui.say(f"{link.url}: {loader.name}" + (f" on a {loader.board}" if loader.board else ""))
     return link, loader
 
@@ -41,7 +45,8 @@ def number(context, parameter, value):
 
 def flash_options(function):
     for option in (json_option, wait_option, port_option,
-                   click.option("--dry-run", is_flag=True, help="Say what would be written, touch nothing."),
+                   click.option("--dry-run", is_flag=True, help="Look at the board, say what would be written, change nothing."),
+                   click.option("--yes", is_flag=True, help="Do not ask when Edit has edits that are not saved."),
                    click.option("--damaged", type=click.Choice(["ask", "keep"]), default="ask",
                                 help="Damaged pages in a motion file: refuse (ask) or flash them as they are."),
                    click.option("--with-trim", is_flag=True, help="Overwrite page 0 even if the file has no trim in it."),
@@ -51,7 +56,7 @@ def flash_options(function):
     return function
 
 
-def _flash(image, address, fast, with_trim, damaged, dry_run, port, wait, as_json, start):
+def _flash(image, address, fast, with_trim, damaged, dry_run, yes, port, wait, as_json, start):
     from m512.board import download, memory
     from m512.board.block import BlockLoader
 
@@ -62,8 +67,9 @@ def _flash(image, address, fast, with_trim, damaged, dry_run, port, wait, as_jso
     what = str(plan.record) if plan.record else "an application" if plan.has_app else "motions"
     ui.say(f"{image.name}: {what}, {len(plan.pages)} flash pages in 0x{first:05X}..0x{last:05X}")
     if dry_run:
+        _look(plan, port)
         return
-    link, loader = connect(port, wait)
+    link, loader = connect(port, wait, yes)
     with link:
         if fast and isinstance(loader, BlockLoader) and not loader.go_faster():
             ui.say("note: the fast rate does not work here; going on at 57,600")
@@ -77,6 +83,27 @@ def _flash(image, address, fast, with_trim, damaged, dry_run, port, wait, as_jso
             ui.say("The board waits in its boot loader; `m512 run` starts the application.")
         if as_json:
             ui.show(json.dumps(dict(report.as_dict(), loader=loader.name, board=loader.board, started=start)))
+
+
+def _look(plan, port):
+    """What a plan would change on the board, which goes on with what it does."""
+    from m512.board import loaders, look, ports
+    from m512.board.link import Link
+
+    try:
+        link = Link(ports.pick(port))
+    except PortError as error:
+        if port:
+            raise
+        ui.say(f"note: no board was looked at ({str(error).splitlines()[0]})")
+        return
+    with link:
+        if loaders.at_prompt(link):
+            found = look.through_loader(loaders.identify(link), plan, ui.phase)
+        else:
+            found = look.through_application(link, plan, ui.phase)
+    for line in found:
+        ui.say(line)
 
 
 @click.command(epilog="""\b
@@ -108,7 +135,7 @@ def run(image, **options):
         return
     from m512.board import download
 
-    link, loader = connect(options["port"], options["wait"])
+    link, loader = connect(options["port"], options["wait"], options["yes"])
     with link:
         download.start(loader)
         ui.say("started")
@@ -172,7 +199,7 @@ def restore(folder, what, yes, port, wait, as_json):
     missing = [area for area in areas if area not in saved.data]
     if missing:
         raise RefusedError(f"the backup has no {', '.join(missing)}")
-    link, loader = connect(port, wait)
+    link, loader = connect(port, wait, yes)
     with link:
         pages = backups.flash_pages(saved, areas)
         with as_found(loader):

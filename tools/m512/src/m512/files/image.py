@@ -32,6 +32,7 @@ class Image:
     first: int = 0
     bits: int = 10
     notes: List[str] = field(default_factory=list)
+    joints: Dict[int, str] = field(default_factory=dict)     # names, where the file gives some
 
     @classmethod
     def empty(cls, count: int = 128) -> "Image":
@@ -89,7 +90,7 @@ class Image:
     def resized(self, count: int) -> Tuple["Image", List[str]]:
         """The same as pages 0..count-1, with a list of what is lost. Links to pages that are no longer there become empty."""
         losses = []
-        out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes))
+        out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes), dict(self.joints))
         lost = self.beyond(count)
         if lost:
             losses.append(f"{named_pages_text(lost)}: no room among {count} pages, left out")

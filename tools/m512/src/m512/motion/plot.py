@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Draws joint angles and speeds over time: a page by both laws side by side, or a recorded trace.
+"""Draws joint angles and speeds over time: a page by both laws, told apart where they differ, or a recorded trace.
 
 Needs matplotlib (pip install "m512[plot]"), which is imported only here.
 """
@@ -9,7 +9,7 @@ import csv
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 from m512.errors import FileError, MissingError
 from m512.files import storage
@@ -18,7 +18,9 @@ from m512.files.page import TICKS_PER_SECOND, Page
 from m512.motion.player import CLASSIC, EXACT, end_pose_before, play
 
 DEGREES_PER_UNIT = 300 / 1024
-MAX_JOINTS_IN_LEGEND = 20
+FIT = 6                      # samples on either side through which a parabola is laid to tell a speed
+SAME_UNITS = 1               # two laws that are not further apart are drawn as one
+LABEL_SHARE = 0.025          # of the width: labels of steps that are closer than that are left out
 
 
 @dataclass
@@ -29,6 +31,10 @@ class Curves:
     seconds: List[float] = field(default_factory=list)
     joints: Dict[int, List[Optional[int]]] = field(default_factory=dict)
     marks: List[Tuple[float, str]] = field(default_factory=list)
+    names: Dict[int, str] = field(default_factory=dict)
+
+    def label(self, joint: int) -> str:
+        return f"{joint} {self.names[joint]}" if joint in self.names else f"ID {joint}"
 
     def moving(self) -> List[int]:
         return [j for j, values in self.joints.items() if len({v for v in values if v is not None}) > 1]
@@ -37,7 +43,7 @@ class Curves:
 def of_page(image: Image, number: int, law: str, seconds: float, joints: Optional[Sequence[int]] = None) -> Curves:
     """A play that starts with the page, from the pose in which the page before would have left the joints (or the
     middle), at most `seconds` long."""
-    out = Curves(f"page {number} \"{image[number].title}\", {law} law")
+    out = Curves(f"page {number} \"{image[number].title}\", {law} law", names=dict(image.joints))
     chosen = list(joints) if joints else [joint for joint in range(31) if not _is_filler(image[number], joint)]
     out.joints = {joint: [] for joint in chosen}
     before = None
@@ -87,17 +93,38 @@ def of_trace(path: Path, joints: Optional[Sequence[int]] = None) -> Curves:
     return out
 
 
-def speeds(seconds: Sequence[float], values: Sequence[Optional[int]]) -> List[float]:
-    """Degrees per second between neighbouring samples; 0 where nothing is known."""
-    out = [0.0]
-    for k in range(1, len(values)):
-        a, b, dt = values[k - 1], values[k], seconds[k] - seconds[k - 1]
-        out.append((b - a) * DEGREES_PER_UNIT / dt if a is not None and b is not None and dt > 0 else 0.0)
-    return out
+def speeds(seconds: Sequence[float], values: Sequence[Optional[int]], marks: Sequence[float] = ()) -> List[float]:
+    """Degrees per second at each sample; 0 where nothing is known.
+
+    Positions are whole units, so neighbouring samples say little: a unit a tick is 37 degrees/s. The slope is that of a parabola
+    through the samples around, which a ramp of speed is; it does not reach across `marks`, where a step begins.
+    """
+    import numpy
+
+    count = len(values)
+    known = numpy.array([numpy.nan if value is None else value for value in values], dtype=float)
+    ticks = numpy.round(numpy.array(seconds) * TICKS_PER_SECOND).astype(int)
+    edges = [0, *(int(numpy.searchsorted(ticks, round(mark * TICKS_PER_SECOND))) for mark in marks if mark > seconds[0]), count]
+    out = numpy.zeros(count)
+    weights: Dict[Tuple[int, int], Any] = {}
+    for low, high in zip(edges, edges[1:]):
+        low = max(low - 1, 0)                     # the sample before is where the step begins
+        for k in range(low, high):
+            left, right = min(FIT, k - low), min(FIT, high - 1 - k)
+            if left + right < 2:
+                continue
+            if (left, right) not in weights:
+                at = numpy.arange(-left, right + 1)
+                weights[left, right] = numpy.linalg.pinv(numpy.vander(at, 3))[1]
+            out[k] = weights[left, right] @ known[k - left:k + right + 1]
+    return list(numpy.nan_to_num(out) * DEGREES_PER_UNIT * TICKS_PER_SECOND)
 
 
-def draw(sets: Sequence[Curves], output: Path) -> int:
-    """Angles above, speeds below, one column for each set; returns the number of joints drawn."""
+def draw(sets: Sequence[Curves], output: Path, strip: Optional[Callable[[Any, Curves], None]] = None) -> int:
+    """Angles above, speeds below; a second set is drawn dashed, where it differs. Returns the number of joints drawn.
+
+    `strip(axis, curves)` may fill a row above the angles, with the same time axis (pictures of the robot's poses).
+    """
     try:
         import matplotlib
     except ImportError:
@@ -107,28 +134,25 @@ def draw(sets: Sequence[Curves], output: Path) -> int:
 
     if output.suffix.lower() not in (".png", ".svg", ".pdf"):
         raise FileError(f"{output}: the suffix decides the kind: .png, .svg or .pdf")
+    first, others = sets[0], sets[1:]
     moving = sorted({joint for curves in sets for joint in curves.moving()})
-    figure, axes = pyplot.subplots(2, len(sets), sharex="col", sharey="row", squeeze=False,
-                                   figsize=(7 * len(sets) + 1, 7), layout="constrained")
-    for column, curves in enumerate(sets):
-        above, below = axes[0][column], axes[1][column]
-        above.set_title(curves.title)
-        for joint in moving:
-            values = curves.joints.get(joint)
-            if not values:
-                continue
-            angles = [float("nan") if v is None else (v - 512) * DEGREES_PER_UNIT for v in values]
-            line, = above.plot(curves.seconds, angles, linewidth=1.2, label=f"ID {joint}")
-            below.plot(curves.seconds, speeds(curves.seconds, values), linewidth=0.9, color=line.get_color())
-        for at, text in curves.marks:
-            for axis in (above, below):
-                axis.axvline(at, color="0.85", linewidth=0.6, zorder=0)
-            above.annotate(text, (at, 1), xycoords=("data", "axes fraction"), fontsize=6, color="0.4", va="top")
-        below.set_xlabel("s")
-    axes[0][0].set_ylabel("degrees from the centre")
-    axes[1][0].set_ylabel("degrees/s")
-    if 0 < len(moving) <= MAX_JOINTS_IN_LEGEND:
-        axes[0][-1].legend(fontsize=7, ncols=2, loc="upper right")
+    ratios = ([0.6] if strip else []) + [1.0, 1.0]
+    figure, axes = pyplot.subplots(len(ratios), 1, sharex=True, squeeze=False, figsize=(11, 4 * sum(ratios)), layout="constrained",
+                                   gridspec_kw={"height_ratios": ratios})
+    above, below = axes[-2][0], axes[-1][0]
+    if strip:
+        strip(axes[0][0], first)
+    for joint, (colour, style) in zip(moving, _styles(len(moving))):
+        _joint(above, below, first, joint, colour, style)
+        for curves in others:
+            _joint(above, below, curves, joint, colour, ":", first)
+    _marks((above, below), first)
+    above.set_title(first.title + "".join(f"; dotted where different: {curves.title.rpartition(', ')[2]}" for curves in others))
+    above.set_ylabel("degrees from the centre")
+    below.set_ylabel("degrees/s")
+    below.set_xlabel("s")
+    if moving:
+        figure.legend(*above.get_legend_handles_labels(), fontsize=8, loc="outside right upper", ncols=1 + (len(moving) > 24))
     drawn = BytesIO()
     try:
         figure.savefig(drawn, format=output.suffix[1:].lower(), dpi=120,
@@ -139,5 +163,49 @@ def draw(sets: Sequence[Curves], output: Path) -> int:
     return len(moving)
 
 
+def _styles(count: int) -> List[Tuple[Any, str]]:
+    """(colour, line style) of each joint: ten plain colours, then the same dashed, and so on."""
+    from matplotlib import colormaps
+
+    name, many = ("tab10", 10) if count <= 10 else ("tab20", 20)
+    colours = [colormaps[name](k) for k in range(many)]
+    lines = ("-", "--")
+    return [(colours[k % len(colours)], lines[k // len(colours) % len(lines)]) for k in range(count)]
+
+
+def _joint(above: Any, below: Any, curves: Curves, joint: int, colour: Any, style: str, other: Optional[Curves] = None) -> None:
+    """A joint's two lines; with `other` only where it goes otherwise there."""
+    values = curves.joints.get(joint)
+    if not values:
+        return
+    shown = _different(values, other.joints.get(joint, [])) if other else [value is not None for value in values]
+    angles = [(value - 512) * DEGREES_PER_UNIT if value is not None and here else float("nan") for value, here in zip(values, shown)]
+    found = speeds(curves.seconds, values, [at for at, _ in curves.marks])
+    above.plot(curves.seconds, angles, style, linewidth=1.3, color=colour, label=None if other else curves.label(joint))
+    below.plot(curves.seconds, [speed if here else float("nan") for speed, here in zip(found, shown)], style, linewidth=1.0,
+               color=colour)
+
+
+def _different(values: Sequence[Optional[int]], others: Sequence[Optional[int]]) -> List[bool]:
+    """Whether a joint is elsewhere, tick by tick."""
+    out = []
+    for k, value in enumerate(values):
+        other = others[k] if k < len(others) else None
+        out.append(value is not None and (other is None or abs(value - other) > SAME_UNITS))
+    return out
+
+
+def _marks(axes: Sequence[Any], curves: Curves) -> None:
+    """Where steps begin; labels only as far apart as they can be read."""
+    width, last = (curves.seconds[-1] - curves.seconds[0]) or 1.0, float("-inf")
+    for at, text in curves.marks:
+        for axis in axes:
+            axis.axvline(at, color="0.85", linewidth=0.6, zorder=0)
+        if (at - last) / width > LABEL_SHARE:
+            axes[0].annotate(text, (at, 1), (2, -2), xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=7,
+                             color="0.4", va="top")
+            last = at
+
+
 def of_page_by_both_laws(image: Image, number: int, seconds: float, joints: Optional[Sequence[int]]) -> List[Curves]:
-    return [of_page(image, number, law, seconds, joints) for law in (CLASSIC, EXACT)]
+    return [of_page(image, number, law, seconds, joints) for law in (EXACT, CLASSIC)]

@@ -313,7 +313,8 @@ class Reader(JointWords):
     # The end
 
     def image(self) -> Image:
-        image = Image([Page() for _ in range(self.first, self.end)], self.first, self.bits)
+        image = Image([Page() for _ in range(self.first, self.end)], self.first, self.bits,
+                      joints={joint: name for name, joint in reversed(list(self.joints.items()))})
         built = {id(draft): draft for draft in self.pages.values()}
         for draft in built.values():
             self._check_units(draft)

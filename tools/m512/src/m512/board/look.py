@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT
+"""What a Plan would change on a board, found out without changing anything there."""
+from __future__ import annotations
+
+from typing import List
+
+from m512.board.client import Client
+from m512.board.download import PhaseMaker, check_board
+from m512.board.link import Link
+from m512.board.loaders import Loader
+from m512.board.memory import FLASH_PAGE, MOTIONS, Plan
+from m512.errors import BoardError, NoAnswerError, RefusedError
+from m512.files.page import PAGE_BYTES, Page
+from m512.pages import difference
+
+NO_PAGES = b"\xff" * PAGE_BYTES
+
+
+def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> List[str]:
+    """In words; the loader is at its prompt again."""
+    try:
+        check_board(plan, loader)
+        with phase("Comparing") as progress:
+            todo = loader.different(plan.pages, progress)
+    finally:
+        loader.leave(0)
+    here = f"{loader.name}" + (f" on a {loader.board}" if loader.board else "")
+    return [f"{here}: {len(todo)} of {len(plan.pages)} flash pages would be written" if todo else
+            f"{here}: the board holds this already"]
+
+
+def through_application(link: Link, plan: Plan, phase: PhaseMaker) -> List[str]:
+    """In words, asked of a running Play or Edit, which goes on."""
+    try:
+        client = Client(link, (0.7,))
+    except NoAnswerError:
+        return ["neither Play nor Edit nor a boot loader answers there: what is on the board is not known"]
+    version = client.version
+    out = [f"{version.get('image', '?')} {version.get('version', '')} runs on a {version.get('board', '?')}"]
+    if plan.record and version.get("board") and plan.record.board != version["board"]:
+        raise RefusedError(f"the image is {plan.record}, but this board is a {version['board']}. Nothing was written")
+    if plan.has_motions:
+        out += _motions(client, plan, phase)
+    if plan.has_app:
+        out.append(f"the application would be replaced by {plan.record or 'one that is not ours'}")
+    return out
+
+
+def _motions(client: Client, plan: Plan, phase: PhaseMaker) -> List[str]:
+    first = {(page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES: page for page in plan.pages
+             if page * FLASH_PAGE >= MOTIONS[0] and page % 2 == 0}
+    listed, out = client.list_pages(), []
+    with phase("Comparing") as progress:
+        for done, (number, page) in enumerate(sorted(first.items())):
+            wanted = Page(plan.pages[page] + plan.pages[page + 1])
+            if number in listed or number == 0:
+                try:
+                    found = client.page(number)
+                except BoardError:
+                    out.append(f"page {number} is damaged on the board and would be replaced")
+                    continue
+            elif wanted.is_empty or bytes(wanted) == NO_PAGES:
+                continue
+            else:
+                found = Page()
+            out += [str(change) for change in difference.pages(number, found, wanted)]
+            progress(done + 1, len(first))
+    return out or ["the board holds these motions already"]
