@@ -175,8 +175,9 @@ layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
     }
     layers_end(layers);
     init_play(layers);
-    link_init(&layers->link, LINK_LATCH);
-    if (player_start(&layers->play, &layers->link, page, (player_law_t)layers->main->law, layers->goal_pos, joints) != PLAYER_OK) {
+    link_t link;
+    link_init(&link, LINK_LATCH);
+    if (player_start(&layers->play, &link, page, (player_law_t)layers->main->law, layers->goal_pos, joints) != PLAYER_OK) {
         return LAYERS_ERR_PAGE; /* cannot be: the page has just been checked */
     }
     FOR_JOINTS(i, joints) {
@@ -331,6 +332,14 @@ static void move_by_code(layers_t *layers)
     }
 }
 
+/* The layer hears no codes and no stop, so its links need no memory. */
+static uint8_t tick_layer(layers_t *layers)
+{
+    link_t link;
+    link_init(&link, LINK_LATCH);
+    return player_tick(&layers->play, &link);
+}
+
 /* As layers_tick, while something but the main play moves joints. */
 static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *layer_events)
 {
@@ -339,7 +348,7 @@ static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *l
     if (layers->main != NULL) {
         memcpy(before_pos, layers->goal_pos, sizeof before_pos);
         events = player_tick(layers->main, main_link);
-        *layer_events = player_tick(&layers->play, &layers->link);
+        *layer_events = tick_layer(layers);
         if ((events & PLAYER_EV_STEP) != 0) {
             note_step(layers->main);
         }

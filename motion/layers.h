@@ -46,7 +46,6 @@ typedef struct {
 typedef struct {
     /* Read only for callers. */
     player_t play;               /* the page layer */
-    link_t link;
     uint32_t code_joints;        /* moved by code */
     bool changing;               /* a joint is on its way to a new owner */
     /* Private. */

@@ -77,7 +77,8 @@ enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE };
 
 typedef struct {
     uint16_t target_pos;        /* where the running step ends */
-    uint8_t owner, hand_over;   /* hand_over: layers.c's; 0: nothing is under way */
+    uint8_t owner : 2;          /* PLAYER_OWNER_ */
+    uint8_t hand_over : 2;      /* layers.c's; 0: nothing is under way */
     union {
         player_exact_t exact;
         player_classic_t classic;
@@ -97,7 +98,7 @@ typedef struct player {
     uint32_t present;               /* joints that may be driven, those lent to others included */
     uint32_t lent;                  /* joints that player_start gives to no play: set it between init and start (layers.h) */
     /* The planner's own. */
-    uint8_t self;                   /* PLAYER_OWNER_MAIN or _LAYER */
+    uint8_t self : 2;               /* PLAYER_OWNER_MAIN or _LAYER */
     uint8_t state;
     bool breaking;
     bool looked;                    /* the step behind the coming one has been looked at (law.h) */

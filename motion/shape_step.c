@@ -10,18 +10,7 @@
 
 #define NO_POS PAGE_POS_UNUSED
 #define WHOLE 10000u
-
-static void read_words(const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES])
-{
-    source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), bytes, PAGE_STEP_BYTES - 2u);
-}
-
-/* Position of joint i in a step, NO_POS where there is none. */
-static uint16_t pos_of(const uint8_t bytes[PAGE_STEP_BYTES], uint8_t i)
-{
-    uint16_t word = page_word(&bytes[2 * i]);
-    return page_pos_is_used(word) ? word : NO_POS;
-}
+#define AT_ONCE 8u /* joints: the stack has no room for three whole steps */
 
 static uint8_t header_byte(const page_source_t *source, uint8_t page, uint8_t at)
 {
@@ -42,16 +31,28 @@ static uint8_t partner_of(const shape_t *shape, const page_source_t *source, uin
     return partner;
 }
 
-/* Reads the centre pose. false: there is none. */
-static bool read_centre(const shape_t *shape, const page_source_t *source, uint8_t bytes[PAGE_STEP_BYTES])
+/* The page of the centre pose; 0: there is none. */
+static uint8_t centre_of(const shape_t *shape, const page_source_t *source)
 {
     uint8_t page = shape->centre_page;
-    if (page == 0 || source->check(source->context, page) != PAGE_OK ||
-        header_byte(source, page, PAGE_AT_STEPS) == 0) {
-        return false;
+    if (page != 0 && (source->check(source->context, page) != PAGE_OK || header_byte(source, page, PAGE_AT_STEPS) == 0)) {
+        page = 0;
     }
-    read_words(source, page, 1, bytes);
-    return true;
+    return page;
+}
+
+/* Positions of AT_ONCE joints from `first` on in a step of a page, NO_POS where there is none; page 0 has none. (Behind joint
+ * 30 stand pause and time.) */
+static void read_positions(const page_source_t *source, uint8_t page, uint8_t step, uint8_t first, uint16_t pos[AT_ONCE])
+{
+    if (page != 0) {
+        source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step + 2u * first), pos, 2u * AT_ONCE);
+    }
+    for (uint8_t i = 0; i < AT_ONCE; i++) {
+        if (page == 0 || !page_pos_is_used(pos[i])) {
+            pos[i] = NO_POS;
+        }
+    }
 }
 
 /* size / 10000, halves up; size up to 30,690,000. By the reciprocal of 625, 2^25 / 625 = 53687.09 rounded down: at most one
@@ -78,24 +79,25 @@ static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, in
 
 void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES])
 {
-    uint8_t partner_bytes[PAGE_STEP_BYTES], centre_bytes[PAGE_STEP_BYTES];
     uint8_t partner = partner_of(shape, source, page);
     if (partner == 0 && !shape->scales) {
         return;
     }
-    bool has_centre = read_centre(shape, source, centre_bytes);
+    uint8_t centre = centre_of(shape, source);
     int8_t blend = shape->blend_percent < 0 ? (int8_t)-shape->blend_percent : shape->blend_percent;
-    if (partner != 0) {
-        read_words(source, partner, step, partner_bytes);
-    }
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        uint16_t p = pos_of(bytes, i), q = partner != 0 ? pos_of(partner_bytes, i) : NO_POS;
-        uint16_t c = has_centre ? pos_of(centre_bytes, i) : NO_POS;
-        if (p != NO_POS && (q != NO_POS || c != NO_POS)) {
+    uint16_t partner_pos[AT_ONCE], centre_pos[AT_ONCE];
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++, bytes += 2) {
+        uint8_t at = i % AT_ONCE;
+        if (at == 0) {
+            read_positions(source, partner, step, i, partner_pos);
+            read_positions(source, centre, 1, i, centre_pos);
+        }
+        uint16_t p = page_word(bytes), q = partner_pos[at], c = centre_pos[at];
+        if (page_pos_is_used(p) && (q != NO_POS || c != NO_POS)) {
             uint8_t amplitude = c != NO_POS ? shape->amplitude_percent[i] : SHAPE_NORMAL;
             uint16_t pos = shaped(p, q != NO_POS ? q : p, c != NO_POS ? c : p, amplitude, blend);
-            bytes[2 * i] = (uint8_t)pos;
-            bytes[2 * i + 1] = (uint8_t)(pos >> 8);
+            bytes[0] = (uint8_t)pos;
+            bytes[1] = (uint8_t)(pos >> 8);
         }
     }
 }
