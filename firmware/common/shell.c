@@ -233,13 +233,27 @@ bool shell_word_is(const shell_args_t *args, uint8_t index, const char *word_P)
 
 /* ---- numbers ---- */
 
-uint8_t shell_digit(char character)
+/* Value of a hexadecimal digit, 0..15; 16: it is none. */
+static uint8_t digit_of(char character)
 {
     if (character >= '0' && character <= '9') {
         return (uint8_t)(character - '0');
     }
     const char lower = (char)(character | 0x20);
     return lower >= 'a' && lower <= 'f' ? (uint8_t)(lower - 'a' + 10) : 16;
+}
+
+bool shell_hex(const char *digits, uint8_t count, uint16_t *value)
+{
+    *value = 0;
+    for (; count > 0; count--) {
+        const uint8_t digit = digit_of(*digits++);
+        if (digit > 15) {
+            return false;
+        }
+        *value = (uint16_t)(*value << 4 | digit);
+    }
+    return true;
 }
 
 bool shell_parse(const char *word, bool hex, uint16_t *value)
@@ -255,7 +269,7 @@ bool shell_parse(const char *word, bool hex, uint16_t *value)
     const uint16_t sum_max = hex ? UINT16_MAX / 16 : UINT16_MAX / 10; /* before another digit */
     uint16_t sum = 0;
     for (; *word != '\0'; word++) {
-        const uint8_t digit = shell_digit(*word);
+        const uint8_t digit = digit_of(*word);
         if (digit >= base) {
             return false;
         }
@@ -268,6 +282,12 @@ bool shell_parse(const char *word, bool hex, uint16_t *value)
     *value = sum;
     return true;
 }
+
+/* The range that shell_take looked at last. */
+static struct {
+    uint8_t range;    /* index into shell_ranges_P */
+    bool hex;
+} broken;
 
 /* Not inlined twice. */
 static NOINLINE void print_bound(uint16_t number, bool hex)
@@ -287,6 +307,27 @@ void shell_print_range(const char *what_P, uint16_t min, uint16_t max, bool hex)
     print_bound(min, hex);
     TEXT("..");
     print_bound(max, hex);
+}
+
+bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t *value)
+{
+    shell_range_t bounds;
+    uint16_t number;
+    memcpy_P(&bounds, &shell_ranges_P[range], sizeof bounds);
+    broken.range = range;
+    broken.hex = args->hex;
+    if (!shell_parse(shell_word(args, index), args->hex, &number) || number < bounds.min || number > bounds.max) {
+        return false;
+    }
+    *value = number;
+    return true;
+}
+
+void shell_print_broken(void)
+{
+    shell_range_t bounds;
+    memcpy_P(&bounds, &shell_ranges_P[broken.range], sizeof bounds);
+    shell_print_range(bounds.name_P, bounds.min, bounds.max, broken.hex);
 }
 
 bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min, uint16_t max,
@@ -330,8 +371,22 @@ const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count,
     return NULL;
 }
 
-uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, const shell_args_t *args)
+/* The first two words behind the command as numbers, where `ranges` says that they are some. */
+static bool take_numbers(shell_args_t *args, uint16_t ranges)
 {
+    for (uint8_t i = 0; i < ARRAY_COUNT(args->number); i++, ranges >>= 8) {
+        args->number[i] = 0;
+        if ((uint8_t)ranges != 0 && i + 1 < args->count &&
+            !shell_take(args, (uint8_t)(i + 1u), (uint8_t)ranges, &args->number[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, shell_args_t *args, bool moving)
+{
+    shell_command_t found;
     if (args->count == 0) {
         return SHELL_OK;
     }
@@ -339,12 +394,18 @@ uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, 
     if (found_P == NULL) {
         return SHELL_ERR_UNKNOWN;
     }
-    const uint8_t given = (uint8_t)(args->count - 1);
-    const uint8_t allowed = pgm_read_byte(&found_P->args), most = allowed & 0x0F;
-    if (given < allowed >> 4 || (given > most && most != SHELL_ANY_ARGS)) {
+    memcpy_P(&found, found_P, sizeof found);
+    const uint8_t given = (uint8_t)(args->count - 1), most = found.args & 0x0Fu;
+    if (given < (found.args >> 4 & 7u) || (given > most && most != SHELL_ANY_ARGS)) {
         return SHELL_ERR_COUNT;
     }
-    return ((shell_handler_t)pgm_read_ptr(&found_P->handler))(context, args);
+    if (moving && (found.args & SHELL_STILL) != 0) {
+        return SHELL_ERR_MOVING;
+    }
+    if (!take_numbers(args, found.numbers)) {
+        return SHELL_ERR_RANGE;
+    }
+    return found.handler(context, args);
 }
 
 static void print_field(text_reader_t *reader, uint8_t columns)

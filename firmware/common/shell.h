@@ -44,12 +44,18 @@ shell_event_t shell_byte(shell_t *shell, uint8_t byte);
 /* Drops what is typed, without echo; the history stays. Call it when a complete line has been dealt with. */
 void shell_clear(shell_t *shell);
 
+/* What a number may be: its name in a sentence, and its bounds. In flash. */
+typedef struct {
+    const char *name_P;
+    uint16_t min, max;
+} shell_range_t;
+
 /* The words of a line. */
 typedef struct {
     const char *words; /* word 0, NUL, word 1, NUL, ... */
     uint8_t count;     /* word 0 is the command */
     bool hex;          /* numbers without prefix are hexadecimal */
-    uint16_t number[2]; /* for an image that checks the first two words behind the command in advance */
+    uint16_t number[2]; /* the first two words behind the command, where the table says what they are; 0 when not given */
 } shell_args_t;
 
 /* Puts the complete line into the history, then cuts it up in place. The words live until shell_clear.
@@ -66,8 +72,8 @@ bool shell_word_is(const shell_args_t *args, uint8_t index, const char *word_P);
  * 65535. false: *value is untouched. Says nothing. */
 bool shell_parse(const char *word, bool hex, uint16_t *value);
 
-/* Value of a hexadecimal digit, 0..15; 16: it is none. */
-uint8_t shell_digit(char character);
+/* `count` (1..4) hexadecimal digits as a number. false: there are fewer, or one is none. */
+bool shell_hex(const char *digits, uint8_t count, uint16_t *value);
 
 /* Word `index` as a number from min to max. Otherwise says what is wrong, "Page must be 0..127", with `what_P` ("Page",
  * in flash) in front, and returns false with *value untouched. */
@@ -76,6 +82,11 @@ MUST_CHECK bool shell_number(const shell_args_t *args, uint8_t index, const char
 
 /* "Page must be 0..127"; bounds in hexadecimal when `hex`. */
 void shell_print_range(const char *what_P, uint16_t min, uint16_t max, bool hex);
+
+/* The same, with the name and the bounds of shell_ranges_P[range], but says nothing: false is for handlers to return as
+ * SHELL_ERR_RANGE, and shell_print_broken says then which range it was. */
+MUST_CHECK bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t *value);
+void shell_print_broken(void);
 
 #define SHELL_ANY_ARGS 15u
 
@@ -86,12 +97,21 @@ typedef struct {
     const char *text;         /* in flash: word, abbreviation or nothing, help, each (but the last) with a space behind:
                                * "play p n|name  plays a page", "law  [exact|classic]", "ver  ". Lower case. */
     shell_handler_t handler;
-    uint8_t args;             /* SHELL_ARGS: how many words may follow */
-    uint8_t extra;            /* the image's own */
+    uint8_t args;             /* SHELL_ARGS: how many words may follow; SHELL_STILL */
+    uint16_t numbers;         /* what the first two of them are, SHELL_BOTH; 0: the handler looks itself */
 } shell_command_t;
 
-/* min and max 0..14; max SHELL_ANY_ARGS: no upper limit. */
+/* min 0..7, max 0..14; max SHELL_ANY_ARGS: no upper limit. */
 #define SHELL_ARGS(min, max) ((uint8_t)((min) << 4 | (max)))
+
+/* Not while something moves. This is the one place that says so of a command. */
+#define SHELL_STILL 0x80u
+
+/* Indices into shell_ranges_P; 0: not a number. */
+#define SHELL_BOTH(first, second) ((uint16_t)((first) | (second) << 8))
+
+/* The program's: what the numbers of its commands may be. Entry 0 is not used. */
+extern const shell_range_t shell_ranges_P[];
 
 /* Columns of a line of help. An image for narrow terminals may define them smaller. */
 #ifndef SHELL_WORD_COLUMNS
@@ -103,13 +123,16 @@ typedef struct {
 enum {
     SHELL_OK = 0,
     SHELL_ERR_SAID = 1,     /* for handlers: failed, and the reason has been printed */
-    SHELL_ERR_UNKNOWN = 254, /* no such word; nothing printed */
-    SHELL_ERR_COUNT = 255    /* too few or too many words; nothing printed */
+    SHELL_ERR_MOVING = 252,  /* not while something moves. These four print nothing */
+    SHELL_ERR_RANGE,         /* a number is none, or out of its range: shell_print_broken */
+    SHELL_ERR_UNKNOWN,       /* no such word */
+    SHELL_ERR_COUNT          /* too few or too many words */
 };
 
-/* Looks word 0 up among `count` commands and calls its handler with `context`. An empty line is SHELL_OK. Handlers may
- * return values of their own, 2..253, which come back as they are. */
-uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, const shell_args_t *args);
+/* Looks word 0 up among `count` commands, checks what the table says of it, and calls its handler with `context`. `moving`:
+ * something moves now. An empty line is SHELL_OK. Handlers may return values of their own, 2..251, which come back as they
+ * are. */
+uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, shell_args_t *args, bool moving);
 
 /* The table's entry for word `index` (or its abbreviation), or NULL: for HELP of one command. */
 const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count, const shell_args_t *args,

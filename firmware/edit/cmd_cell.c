@@ -2,113 +2,97 @@
  * cmd_cell.c - the cell under the cursor (editor-original.md section 4), and how the table is shown. */
 #include "commands.h"
 #include "pgm.h"
+#include "ranges.h"
 #include "text.h"
 
 /* ---- SET ---- */
 
-static const char *value_name_P(cell_kind_t kind, uint16_t max)
+/* What SET may put into the cell under the cursor. */
+static uint8_t value_range(uint8_t kind, uint16_t max)
 {
     if (kind == CELL_POSITION) {
-        return TEXT_P("Position");
+        return RANGE_POSITION;
     }
-    return max == PAGE_STEPS ? TEXT_P("Page Step") : max == UINT8_MAX ? TEXT_P("Value") : TEXT_P("Link");
+    return max == PAGE_STEPS ? RANGE_STEPS : max == UINT8_MAX ? RANGE_BYTE : RANGE_LINK;
 }
 
 /* What is under the cursor. */
 typedef struct {
     uint16_t address;
+    uint16_t max;    /* what it may hold */
     uint8_t kind;    /* cell_kind_t */
     bool is_pose;    /* a joint of the work pose */
 } here_t;
 
 static here_t look_here(void)
 {
-    here_t here = { cell_address(the_session.x, the_session.y), (uint8_t)cell_kind(the_session.page, the_session.x, the_session.y), false };
-    here.is_pose = here.kind == CELL_POSITION && the_session.x == CELL_X_POSE;
+    here_t here;
+    cell_kind_t kind = cell_kind(the_session.page, the_session.x, the_session.y);
+    here.address = cell_address(the_session.x, the_session.y);
+    here.max = cell_max(kind, the_session.x, the_session.y);
+    here.kind = (uint8_t)kind;
+    here.is_pose = kind == CELL_POSITION && the_session.x == CELL_X_POSE;
     return here;
 }
 
-/* An edit of one position. Page 0: the trim follows. */
-static void set_position(uint16_t address, uint16_t word)
+/* An edit of the cell. A joint of the work pose moves; on page 0 the trim follows. */
+static void put(const here_t *here, uint16_t value)
 {
-    session_begin();
-    session_set_word(address, word);
-    if (the_session.page == 0 && the_session.x >= CELL_X_STEP0 && the_session.x < CELL_X_OFFSET) {
-        session_update_trim(the_session.y);
+    if (here->is_pose) {
+        robot_move(the_session.y, value);
+        return;
     }
-}
-
-static void set_byte(uint16_t address, uint8_t byte)
-{
     session_begin();
-    session_set_byte(address, byte);
+    session_set_byte(here->address, (uint8_t)value);
+    if (here->kind == CELL_POSITION) {
+        session_set_byte((uint16_t)(here->address + 1u), (uint8_t)(value >> 8));
+        if (the_session.page == 0 && the_session.x < CELL_X_OFFSET) {
+            session_update_trim(the_session.y);
+        }
+    }
+    (void)editor_edited();
 }
 
 COMMAND(cmd_set)
 {
     here_t here = look_here();
-    uint16_t max = cell_max((cell_kind_t)here.kind, the_session.x, the_session.y), value;
+    uint16_t value;
     if (here.kind == CELL_OFFSET) {
         TEXT("Computed");
         return SHELL_ERR_SAID;
     }
-    if (!shell_number(args, 1, value_name_P((cell_kind_t)here.kind, max), 0, max, &value)) {
-        return SHELL_ERR_SAID;
+    if (!shell_take(args, 1, value_range(here.kind, here.max), &value)) {
+        return SHELL_ERR_RANGE;
     }
-    if (here.is_pose) {
-        if (performer_is_idle(&the_performer)) {
-            robot_move(the_session.y, value);
-        }
-        return SHELL_OK;
-    }
-    if (here.kind == CELL_BYTE) {
-        set_byte(here.address, (uint8_t)value);
-    } else {
-        set_position(here.address, value);
-    }
-    return editor_edited();
+    put(&here, value);
+    return SHELL_OK;
 }
 
 /* ---- keys ---- */
 
-/* Page Step stops at its ends, all others go round: their maximum is 127 or 255. */
-static uint8_t changed_byte(uint16_t address, int8_t change)
-{
-    uint8_t max = (uint8_t)cell_max(CELL_BYTE, the_session.x, the_session.y);
-    int16_t value = (int16_t)(the_session.cells[address] + change);
-    if (max == PAGE_STEPS) {
-        return value < 0 ? 0 : value > (int16_t)PAGE_STEPS ? (uint8_t)PAGE_STEPS : (uint8_t)value;
-    }
-    return (uint8_t)value & max;
-}
-
-/* ---- and ???? stay; a step that would leave 0..1023 is not done at all: 0xFFFF. */
-static uint16_t changed_word(uint16_t word, int8_t change)
+/* What the key makes of a cell: Page Step stops at its ends, other bytes go round (their maximum is 127 or 255). ---- and ????
+ * stay, and so does a position that would leave 0..1023: the value as it was. */
+static uint16_t changed(const here_t *here, uint16_t word, int8_t change)
 {
     uint16_t value = (uint16_t)(word + (uint16_t)change);
-    return cell_is_position(word) && cell_is_position(value) ? value : UINT16_MAX;
+    if (here->kind == CELL_BYTE && here->max != PAGE_STEPS) {
+        return value & here->max;
+    }
+    if (here->kind == CELL_BYTE && value > here->max) {
+        return change < 0 ? 0 : here->max;
+    }
+    return word <= here->max && value <= here->max ? value : word;
 }
 
 void cmd_cell_change(int8_t change)
 {
     here_t here = look_here();
-    if (here.kind == CELL_BYTE) {
-        set_byte(here.address, changed_byte(here.address, change));
-        (void)session_end();
-    }
-    if (here.kind != CELL_POSITION) {
+    uint16_t word = here.kind == CELL_BYTE ? the_session.cells[here.address] : cell_word(the_session.cells, here.address);
+    uint16_t value = changed(&here, word, change);
+    if (here.kind == CELL_OFFSET || value == word || (here.is_pose && !robot_has(the_session.y))) {
         return;
     }
-    uint16_t pos = changed_word(cell_word(the_session.cells, here.address), change);
-    if (pos == UINT16_MAX) {
-        return;
-    }
-    if (!here.is_pose) {
-        set_position(here.address, pos);
-        (void)session_end();
-    } else if (robot_has(the_session.y) && performer_is_idle(&the_performer)) {
-        robot_move(the_session.y, pos);
-    }
+    put(&here, value);
 }
 
 static void toggle_pose(void)
@@ -117,8 +101,6 @@ static void toggle_pose(void)
     uint16_t word = session_pose(joint);
     if (!robot_has(joint)) {
         session_set_pose(joint, word ^ PAGE_POS_TORQUE_OFF);
-    } else if (!performer_is_idle(&the_performer)) {
-        return;
     } else if (cell_is_off(word)) {
         robot_on(servo_link_bit(joint));
     } else {
@@ -132,8 +114,7 @@ void cmd_cell_space(void)
     if (here.is_pose) {
         toggle_pose();
     } else if (here.kind == CELL_POSITION) {
-        set_position(here.address, cell_word(the_session.cells, here.address) ^ PAGE_POS_TORQUE_OFF);
-        (void)session_end();
+        put(&here, cell_word(the_session.cells, here.address) ^ PAGE_POS_TORQUE_OFF);
     }
 }
 

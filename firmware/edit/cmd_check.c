@@ -164,9 +164,6 @@ static bool check_item(uint8_t item)
 
 COMMAND(cmd_check)
 {
-    if (!editor_may_move()) {
-        return SHELL_ERR_SAID;
-    }
     the_editor.list_first = args->count > 1 ? (uint8_t)args->number[0] : 1;
     the_editor.list_last = args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)(PAGE_COUNT - 1u);
     return editor_list(check_item, TEXT_P("Checked:"));

@@ -31,6 +31,13 @@ COMMAND(cmd_help)
     return SHELL_OK;
 }
 
+COMMAND(cmd_mon)
+{
+    (void)args;
+    TEXT("MON and TOSS are an image of their own: load monitor.hex");
+    return SHELL_ERR_SAID;
+}
+
 /* ---- LIST, FIND ---- */
 
 static void print_time(uint16_t ticks)

@@ -133,27 +133,32 @@ static uint8_t save_by_mailbox(uint8_t page)
     board_restart(&the_settings_store, &the_settings);
 }
 
-/* Says how it went; what follows from it comes behind, so that OK is on the line within 60 ms. */
-static uint8_t save_now(uint8_t page)
+page_save_status_t cmd_page_save(uint8_t page)
 {
+    servo_link_quiet(&the_servos);   /* interrupts are off for 9 ms at a time: nothing may be on its way */
     page_save_status_t status = page_save(page, the_session.cells);
+    page_store_refresh(&the_pages, page);
+    if (page == the_session.page && (status == PAGE_SAVE_OK || status == PAGE_SAVE_UNCHANGED)) {
+        session_saved();
+    }
+    if (page == 0) {
+        robot_set_trim();
+    }
+    return status;
+}
+
+static void tell_saved(page_save_status_t status)
+{
     text_P(status == PAGE_SAVE_OK           ? TEXT_P("OK")
            : status == PAGE_SAVE_UNCHANGED  ? TEXT_P("OK, no change")
            : status == PAGE_SAVE_ERR_VERIFY ? TEXT_P("Not saved: flash error")
                                             : TEXT_P("No boot loader can write: kept in RAM"));
-    page_store_refresh(&the_pages, page);
-    if (page == the_session.page) {
-        session_saved();
-    } else if (page == 0) {
-        robot_set_trim();
-    }
-    return SHELL_OK;
 }
 
 COMMAND(cmd_save)
 {
     uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : the_session.page;
-    if (!editor_may_move() || !page_is_sound()) {
+    if (!page_is_sound()) {
         return SHELL_ERR_SAID;
     }
     if (!overwriting_is_meant(page)) {
@@ -164,7 +169,8 @@ COMMAND(cmd_save)
     if (page_service_kind() == PAGE_SERVICE_MAILBOX) {
         return save_by_mailbox(page);
     }
-    return save_now(page);
+    tell_saved(cmd_page_save(page));
+    return SHELL_OK;
 }
 
 COMMAND(cmd_exit)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_play.c - PLAY and its keys, what happens to servos meanwhile and at rest, and BALANCE. */
-#include "bus_call.h"
+ * cmd_play.c - PLAY and its keys, and what happens to servos meanwhile and at rest. */
 #include "commands.h"
 #include "dxl.h"
 #include "pgm.h"
@@ -124,7 +123,7 @@ enum { LATE_TICKS = 64 };   /* half a second: who saw the robot move and meant t
 /* The play is over: the work pose is what the servos hold now. */
 static void play_ended(const performer_event_t *event)
 {
-    the_editor.wait_ticks = LATE_TICKS;
+    the_editor.late_ticks = LATE_TICKS;
     robot_read();
     if (the_editor.mode != EDITOR_PLAY) {
         return;
@@ -149,37 +148,4 @@ void cmd_play_events(bool line_is_free)
             editor_message_end();
         }
     }
-}
-
-/* ---- BALANCE ---- */
-
-enum { BALANCE_TICKS = 29, BALANCE_FIRST_ID = 102, BALANCE_SECOND_ID = 101, BALANCE_AT = 34, BALANCE_BYTES = 3 };
-
-COMMAND(cmd_balance)
-{
-    (void)args;
-    the_editor.wait_ticks = 0;
-    return EDITOR_TO_BALANCE;
-}
-
-static void print_device(uint8_t id, char end)
-{
-    uint8_t bytes[BALANCE_BYTES];
-    if (bus_call_read(id, BALANCE_AT, bytes, BALANCE_BYTES, NULL) != BUS_OK) {
-        TEXT("no answer ");
-        return;
-    }
-    for (uint8_t i = 0; i < BALANCE_BYTES; i++) {
-        text_padded(bytes[i], 3, '0');
-        text_put(i + 1 < BALANCE_BYTES ? ' ' : end);
-    }
-}
-
-void cmd_balance_tick(void)
-{
-    the_editor.wait_ticks = BALANCE_TICKS - 1;
-    servo_link_quiet(&the_servos);
-    screen_open_line();
-    print_device(BALANCE_FIRST_ID, ',');
-    print_device(BALANCE_SECOND_ID, ' ');
 }

@@ -2,6 +2,7 @@
  * cmd_servo.c - commands that move servos or let them go: GO, MIRROR, ON, OFF, and MIRROR's setting, PAIRS. */
 #include "commands.h"
 #include "pgm.h"
+#include "ranges.h"
 #include "report.h"
 #include "text.h"
 
@@ -19,9 +20,6 @@ static void send_step(const uint8_t step[PAGE_STEP_BYTES])
 COMMAND(cmd_go)
 {
     uint8_t step = (uint8_t)args->number[0];
-    if (!editor_may_move()) {
-        return SHELL_ERR_SAID;
-    }
     if (step >= the_session.cells[PAGE_AT_STEPS] && !editor_ask(TEXT_P(""))) {
         return EDITOR_TO_ASK;
     }
@@ -60,9 +58,6 @@ static uint16_t mirrored(uint8_t step, uint8_t joint, uint8_t partner)
 COMMAND(cmd_mirror)
 {
     uint8_t step = (uint8_t)args->number[0];
-    if (!editor_may_move()) {
-        return SHELL_ERR_SAID;
-    }
     uint8_t words[PAGE_STEP_BYTES];
     memcpy(words, &the_session.cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
@@ -89,26 +84,18 @@ static void print_pairs(const settings_t *settings)
     }
 }
 
-static bool set_pairs(settings_t *settings, const shell_args_t *args)
-{
-    uint16_t a, b;
-    if (args->count == 2) {
-        settings->neutral = shell_word_is(args, 1, PSTR("page1")) ? SETTINGS_NEUTRAL_PAGE1 : SETTINGS_NEUTRAL_512;
-        return true;
-    }
-    if (!shell_number(args, 1, TEXT_P("ID"), 0, PAGE_JOINTS - 1u, &a) ||
-        !shell_number(args, 2, TEXT_P("ID"), 0, PAGE_JOINTS - 1u, &b)) {
-        return false;
-    }
-    return settings_pair(settings, (uint8_t)a, (uint8_t)b);
-}
-
 COMMAND(cmd_pairs)
 {
-    if (args->count > 1) {
-        if (!set_pairs(&the_settings, args)) {
-            return SHELL_ERR_SAID;
+    if (args->count == 2) {
+        the_settings.neutral = shell_word_is(args, 1, PSTR("page1")) ? SETTINGS_NEUTRAL_PAGE1 : SETTINGS_NEUTRAL_512;
+    } else if (args->count == 3) {
+        uint16_t a, b;
+        if (!shell_take(args, 1, RANGE_ID, &a) || !shell_take(args, 2, RANGE_ID, &b)) {
+            return SHELL_ERR_RANGE;
         }
+        (void)!settings_pair(&the_settings, (uint8_t)a, (uint8_t)b);
+    }
+    if (args->count > 1) {
         settings_save_start(&the_settings_store);
     }
     print_pairs(&the_settings);
@@ -118,16 +105,12 @@ COMMAND(cmd_pairs)
 /* ---- torque ---- */
 
 /* IDs of the line; without any, all that are there. */
-static bool joints_of(const shell_args_t *args, uint32_t *joints)
+static bool take_joints(const shell_args_t *args, uint32_t *joints)
 {
     uint32_t there = the_servos.present;
     *joints = args->count > 1 ? 0 : there;
-    for (uint8_t i = 1; i < args->count; i++) {
-        uint16_t id;
-        if (!shell_number(args, i, TEXT_P("ID"), 0, PAGE_JOINTS - 1u, &id)) {
-            return false;
-        }
-        servo_link_put(joints, (uint8_t)id, true);
+    if (!ranges_take_joints(args, 1, joints)) {
+        return false;
     }
     editor_tell_joints(TEXT_P("Not there"), *joints & ~there);
     return true;
@@ -136,8 +119,8 @@ static bool joints_of(const shell_args_t *args, uint32_t *joints)
 COMMAND(cmd_on)
 {
     uint32_t joints;
-    if (!editor_may_move() || !joints_of(args, &joints)) {
-        return SHELL_ERR_SAID;
+    if (!take_joints(args, &joints)) {
+        return SHELL_ERR_RANGE;
     }
     robot_on(joints);
     return SHELL_OK;
@@ -146,8 +129,8 @@ COMMAND(cmd_on)
 COMMAND(cmd_off)
 {
     uint32_t joints;
-    if (!joints_of(args, &joints)) {
-        return SHELL_ERR_SAID;
+    if (!take_joints(args, &joints)) {
+        return SHELL_ERR_RANGE;
     }
     robot_off(joints);
     return SHELL_OK;

@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "compiler.h"
 #include "pgm.h"
+#include "ranges.h"
 #include "text.h"
 
 #define LAST_STEP (PAGE_STEPS - 1u)
@@ -65,8 +66,8 @@ COMMAND(cmd_int)
 {
     uint8_t a = (uint8_t)args->number[0], b = (uint8_t)args->number[1], steps = the_session.cells[PAGE_AT_STEPS];
     uint16_t percent = PERCENT_DEFAULT;
-    if (args->count > 3 && !shell_number(args, 3, TEXT_P("Percent"), 0, PERCENT_WHOLE, &percent)) {
-        return SHELL_ERR_SAID;
+    if (args->count > 3 && !shell_take(args, 3, RANGE_SHARE, &percent)) {
+        return SHELL_ERR_RANGE;
     }
     if (steps >= PAGE_STEPS || a >= steps || b >= steps) {
         text_P(steps >= PAGE_STEPS ? TEXT_P("All 7 steps are used") : TEXT_P("That step is not used"));

@@ -6,13 +6,10 @@
 
 #include <stdint.h>
 #include "editor.h"
+#include "page_save.h"
 
 extern const shell_command_t commands_table_P[];
 extern const uint8_t commands_count;
-
-/* Checks the numbers behind command word 0 against what the table says of it, and leaves them in args->number. What is
- * wrong has been said when it returns false. An unknown word is fine here. */
-bool commands_numbers(void);
 
 #define COMMAND(name) uint8_t name(void *context __attribute__((unused)), const shell_args_t *args)
 
@@ -23,6 +20,9 @@ COMMAND(cmd_before);
 COMMAND(cmd_copy);
 COMMAND(cmd_new);
 COMMAND(cmd_save);
+/* The one way into flash, for SAVE and @save: the page in RAM as page `page`. Sets its checksum byte, keeps the servo bus quiet,
+ * and puts in force what follows: the store, the unsaved mark, the trim. 60 ms. */
+page_save_status_t cmd_page_save(uint8_t page);
 COMMAND(cmd_exit);
 COMMAND(cmd_name);
 COMMAND(cmd_undo);
@@ -66,21 +66,16 @@ void cmd_cell_space(void);
 
 /* cmd_play.c */
 COMMAND(cmd_play);
-COMMAND(cmd_balance);
 void cmd_play_key(uint8_t key);
 void cmd_play_events(bool line_is_free);
-void cmd_balance_tick(void);
 
 
 /* cmd_list.c, cmd_check.c */
+COMMAND(cmd_mon);
 COMMAND(cmd_help);
 COMMAND(cmd_list);
 COMMAND(cmd_find);
 COMMAND(cmd_check);
 
-/* mon.c */
-COMMAND(cmd_mon);
-void mon_line(const shell_args_t *args);
-void mon_prompt(void);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "editor.h"
 
+#include <string.h>
 #include "commands.h"
 #include "compiler.h"
 #include "console.h"
@@ -18,17 +19,12 @@ enum { ESC_QUIET_TICKS = 7, PAINT_ROOM = CONSOLE_TX_BYTES / 2, BYTES_PER_TURN = 
 
 void editor_init(void)
 {
-    the_editor.mode = EDITOR_TABLE;
-    the_editor.asked = 0;
-    the_editor.answered = 0;
+    const char *notice_P = the_editor.notice_P;
+    memset(&the_editor, 0, sizeof the_editor);
+    the_editor.notice_P = notice_P;
     the_editor.take_page = EDITOR_NO_PAGE;
-    the_editor.cid = 1;
-    the_editor.faults_due = false;
-    the_editor.after_cr = false;
-    the_editor.quiet_since = tick_now16();
     session_init();
     screen_init();
-    keys_init(&the_editor.keys);
     shell_init(&the_editor.shell, the_editor.line, EDITOR_LINE_BYTES, the_editor.history, EDITOR_HISTORY_BYTES);
     the_editor.source.context = NULL;
     the_editor.source.read = editor_source_read;
@@ -36,7 +32,6 @@ void editor_init(void)
     performer_set_source(&the_performer, &the_editor.source);
     robot_init();
     screen_set_present(the_servos.present);
-    machine_init(&the_editor.machine, &the_performer, &the_servos, &the_pages, &editor_image);
     screen_ask_size();
     screen_sync();
 }
@@ -47,6 +42,11 @@ void editor_put(char character)
 {
     if (character == '\n') {
         the_editor.lines++;
+    }
+    while (console_room() == 0 && !performer_is_idle(&the_performer)) {
+        if (tick_take()) {   /* the tick alone: the rest of editor_serve needs more stack than is left below a print */
+            performer_tick(&the_performer);
+        }
     }
     screen_put(character);
 }
@@ -98,21 +98,39 @@ void editor_leave_line(void)
     screen_sync();
 }
 
+static void print_refusal(uint8_t result)
+{
+    switch (result) {
+    case SHELL_ERR_MOVING:
+        TEXT("Something moves");
+        break;
+    case SHELL_ERR_RANGE:
+        shell_print_broken();
+        break;
+    case SHELL_ERR_UNKNOWN:
+        TEXT("Bad Command");
+        break;
+    case SHELL_ERR_COUNT:
+        TEXT("Invalid Parameter");
+        break;
+    default:
+        break;
+    }
+}
+
 static void go_on(uint8_t result)
 {
-    STATIC_ASSERT((int)EDITOR_ASK > (int)SHELL_ERR_SAID && EDITOR_MORE == EDITOR_MONITOR + 1,
+    STATIC_ASSERT((int)EDITOR_ASK > (int)SHELL_ERR_SAID,
                   "what a handler returns is a mode");
-    if (result >= EDITOR_ASK && result <= EDITOR_MONITOR) {
+    if (result >= EDITOR_ASK && result <= EDITOR_PLAY) {
         the_editor.mode = result;
-        if (result == EDITOR_NAME || result == EDITOR_MONITOR) {
+        if (result == EDITOR_NAME) {
             shell_clear(&the_editor.shell);
             the_screen.lead = false;
         }
         return;
     }
-    if (result >= SHELL_ERR_UNKNOWN) {
-        text_P(result == SHELL_ERR_UNKNOWN ? TEXT_P("Bad Command") : TEXT_P("Invalid Parameter"));
-    }
+    print_refusal(result);
     editor_leave_line();
 }
 
@@ -122,8 +140,7 @@ void editor_run(void)
     the_editor.broken_off = false;
     the_screen.lead = true;
     the_session.spare = performer_spare(&the_performer);
-    go_on(commands_numbers() ? shell_run(commands_table_P, commands_count, NULL, &the_editor.args)
-                                           : (uint8_t)SHELL_ERR_SAID);
+    go_on(shell_run(commands_table_P, commands_count, NULL, &the_editor.args, !performer_is_idle(&the_performer)));
     the_session.spare = NULL;
 }
 
@@ -144,13 +161,12 @@ bool editor_ask_unsaved(void)
     return !the_session.is_changed || editor_ask(TEXT_P(""));
 }
 
-bool editor_may_move(void)
+void editor_serve(void)
 {
-    if (performer_is_idle(&the_performer)) {
-        return true;
+    if (tick_take()) {
+        performer_tick(&the_performer);
     }
-    TEXT("Something moves");
-    return false;
+    performer_poll(&the_performer);
 }
 
 uint8_t editor_edited(void)
@@ -222,12 +238,10 @@ static void tick_work(void)
 {
     performer_tick(&the_performer);
     (void)settings_save_poll(&the_settings_store, &the_settings);
-    if (the_editor.wait_ticks != 0) {
-        the_editor.wait_ticks--;
-    } else if (the_editor.mode == EDITOR_BALANCE) {
-        cmd_balance_tick();
+    if (the_editor.late_ticks != 0) {
+        the_editor.late_ticks--;
     }
-    if (performer_is_idle(&the_performer) && the_editor.mode != EDITOR_MONITOR) {
+    if (performer_is_idle(&the_performer)) {
         robot_follow();
     }
 }
@@ -257,6 +271,11 @@ bool editor_turn(void)
     if (the_editor.mode == EDITOR_LIST) {
         list_turn();
         return true;
+    }
+    if (the_screen.hidden && the_editor.mode == EDITOR_TABLE && requests_now_is_due()) {
+        the_screen.sink = SCREEN_PLAIN;
+        requests_print_now();
+        the_screen.sink = SCREEN_QUIET;
     }
     /* A row may wait for the line longer than a tick: not while something moves. */
     if (the_editor.faults_due || room < PAINT_ROOM || !performer_is_idle(&the_performer)) {

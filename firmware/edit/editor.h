@@ -10,15 +10,14 @@
  *     +-------------+--> NAME: a second line
  *                   +--> LIST: item by item, a screen at a time
  *                   +--> PLAY: until the performer is idle
- *                   +--> BALANCE, MONITOR
- *   '@' as first character: PROGRAM, a line of machine.h, answered on a plain terminal */
+ * *   '@' as first character: PROGRAM, a line of requests.h, answered on a plain terminal */
 #ifndef EDITOR_H
 #define EDITOR_H
 
 #include <stdbool.h>
 #include <stdint.h>
 #include "keys.h"
-#include "machine.h"
+#include "requests.h"
 #include "page_store.h"
 #include "performer.h"
 #include "parts.h"
@@ -29,18 +28,17 @@
 #include "settings.h"
 #include "shell.h"
 
-#define EDITOR_LINE_BYTES 112u    /* a line of a program (machine.h); the screen shows 77 */
+#define EDITOR_LINE_BYTES 112u    /* a line of a program (requests.h); the screen shows 77 */
 #define EDITOR_HISTORY_BYTES 30u
 #define EDITOR_NO_PAGE 0xFFu
 
 typedef enum {
-    EDITOR_TABLE = 0, EDITOR_LINE, EDITOR_ASK, EDITOR_NAME, EDITOR_LIST, EDITOR_PLAY, EDITOR_BALANCE, EDITOR_MONITOR,
+    EDITOR_TABLE = 0, EDITOR_LINE, EDITOR_ASK, EDITOR_NAME, EDITOR_LIST, EDITOR_PLAY,
     EDITOR_MORE, EDITOR_PROGRAM
 } editor_mode_t;
 
 /* What a command handler returns besides SHELL_OK and SHELL_ERR_SAID: the mode that goes on from here. */
-enum { EDITOR_TO_ASK = EDITOR_ASK, EDITOR_TO_NAME = EDITOR_NAME, EDITOR_TO_LIST = EDITOR_LIST, EDITOR_TO_PLAY = EDITOR_PLAY,
-       EDITOR_TO_BALANCE = EDITOR_BALANCE, EDITOR_TO_MONITOR = EDITOR_MONITOR };
+enum { EDITOR_TO_ASK = EDITOR_ASK, EDITOR_TO_NAME = EDITOR_NAME, EDITOR_TO_LIST = EDITOR_LIST, EDITOR_TO_PLAY = EDITOR_PLAY };
 
 struct editor;
 /* Prints item `item` as one line, or nothing. false: there is no such item, the list ends. */
@@ -53,8 +51,7 @@ typedef struct editor {
     uint8_t next_item, lines;      /* of the list being shown */
     uint8_t list_first, list_last; /* pages of LIST and CHECK */
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
-    uint8_t cid;                   /* the monitor's current ID */
-    uint8_t wait_ticks;            /* to BALANCE's next line; or a play has just ended: a space was meant to break it */
+    uint8_t late_ticks;            /* a play or a list has just ended: a space was meant for it */
     bool faults_due;               /* something befell a servo: the row says it when the line has room */
     bool broken_off;               /* a servo's fault has ended the last play: the row says so until the next line is run */
     bool after_cr;                 /* the last byte was CR: a LF now belongs to it */
@@ -65,7 +62,6 @@ typedef struct editor {
     /* Parts. */
     keys_t keys;
     shell_t shell;
-    machine_t machine;
     page_source_t source;          /* the open page from RAM, the others from flash */
     char line[EDITOR_LINE_BYTES];
     char history[EDITOR_HISTORY_BYTES];
@@ -93,8 +89,8 @@ void editor_byte(uint8_t byte);
 bool editor_ask(const char *question_P);
 bool editor_ask_unsaved(void);
 
-/* Nothing plays; otherwise says so. */
-bool editor_may_move(void);
+/* What may not wait while something moves: the tick, the bus. */
+void editor_serve(void);
 
 /* Begins a list: `title_P` is its first line. Returns EDITOR_TO_LIST. */
 uint8_t editor_list(editor_item_t item, const char *title_P);

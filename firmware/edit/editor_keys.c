@@ -37,6 +37,7 @@ static void open_program_line(void)
 /* The screen again, whole, before a key that may open a line on it: 0.5 s. */
 static void take_screen_back(void)
 {
+    requests_end_watch();
     screen_show();
     while (screen_paint()) {
         system_kick();
@@ -45,9 +46,11 @@ static void take_screen_back(void)
 
 static void table_key(uint8_t key)
 {
+    if (key != '@' && !performer_is_idle(&the_performer)) {
+        return;   /* only programs may have started what moves; nothing is edited under it */
+    }
     if (the_screen.hidden && key != '@') {
-        /* Drawn anew it would cost half a second of ticks: keys wait until the robot stands. */
-        if (key == KEY_NONE || key == KEY_CR || key == KEY_LF || !performer_is_idle(&the_performer)) {
+        if (key == KEY_NONE || key == KEY_CR || key == KEY_LF) {
             return;
         }
         take_screen_back();
@@ -68,7 +71,7 @@ static void table_key(uint8_t key)
         cmd_cell_change(key == '}' ? 10 : -10);
         break;
     case ' ':
-        if (the_editor.wait_ticks == 0) {
+        if (the_editor.late_ticks == 0) {
             cmd_cell_space();
         }
         break;
@@ -129,28 +132,11 @@ static void program_byte(uint8_t byte)
     the_screen.sink = SCREEN_PLAIN;
     if (event == SHELL_LINE) {
         the_editor.args = shell_split(&the_editor.shell, false);
-        (void)machine_run(&the_editor.machine, &the_editor.args);
+        requests_run(&the_editor.args);
     }
     shell_clear(&the_editor.shell);
     the_editor.mode = EDITOR_TABLE;
     screen_sync();
-}
-
-static void monitor_byte(uint8_t byte)
-{
-    shell_event_t event = shell_byte(&the_editor.shell, byte);
-    if (event == SHELL_TYPING) {
-        return;
-    }
-    text_line_end();
-    if (event == SHELL_LINE) {
-        the_editor.args = shell_split(&the_editor.shell, the_session.hex);
-        mon_line(&the_editor.args);
-    }
-    shell_clear(&the_editor.shell);
-    if (the_editor.mode == EDITOR_MONITOR) {
-        mon_prompt();
-    }
 }
 
 static void ask_key(uint8_t key)
@@ -196,12 +182,6 @@ void editor_key(uint8_t key)
     case EDITOR_PLAY:
         cmd_play_key(key);
         break;
-    case EDITOR_BALANCE:
-        if (key != KEY_NONE && key != KEY_SIZE) {
-            editor_leave_line();
-            table_key(key);
-        }
-        break;
     default:
         table_key(key);
         break;
@@ -228,9 +208,6 @@ void editor_byte(uint8_t byte)
         break;
     case EDITOR_PROGRAM:
         program_byte(byte);
-        break;
-    case EDITOR_MONITOR:
-        monitor_byte(byte);
         break;
     default:
         editor_key(keys_byte(&the_editor.keys, byte));

@@ -3,6 +3,8 @@
 
 #include "compiler.h"
 #include "page_store.h"
+#include "shape.h"
+#include "step_plan.h"
 
 NOINLINE uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint)
 {
@@ -27,25 +29,17 @@ static void longest_way(uint8_t page, uint8_t step, page_facts_t *facts)
     }
 }
 
-/* Time base: time * page speed / 32. Speed base: 40 * way * 32 / (3 * speed * page speed), pause * 32 / page speed. */
 void page_facts_step(uint8_t page, uint8_t step, page_facts_t *facts)
 {
-    uint16_t at = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + PAGE_STEP_AT_PAUSE);
-    uint8_t page_speed = page_store_byte(page, PAGE_AT_SPEED);
-    uint16_t pause = page_store_byte(page, at);
-    uint16_t speed = page_store_byte(page, (uint16_t)(at + 1u));
+    uint8_t header[PAGE_AT_SPEED + 1u], last[2];
+    uint16_t carry_q5_11 = STEP_PLAN_CARRY_START;
+    page_store_read(page, 0, header, sizeof header);
+    page_store_read(page, (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + PAGE_STEP_AT_PAUSE), last, sizeof last);
+    player_step_t plan = { .schedule = header[PAGE_AT_SCHEDULE], .page_speed = header[PAGE_AT_SPEED],
+                           .pause = last[0], .time = last[1], .rate_percent = SHAPE_NORMAL };
     longest_way(page, step, facts);
-    if (page_store_byte(page, PAGE_AT_SCHEDULE) == PAGE_SCHEDULE_TIME) {
-        facts->ticks = (uint16_t)(speed * page_speed) / PAGE_SPEED_NOMINAL;
-        facts->pause_ticks = (uint16_t)(pause * page_speed) / PAGE_SPEED_NOMINAL;
-        return;
-    }
-    if (speed == 0) {
-        speed = 1;
-    }
-    uint32_t ticks = (uint32_t)facts->way_pos * (40u * PAGE_SPEED_NOMINAL) / ((uint32_t)(speed * page_speed) * 3u);
-    facts->ticks = ticks > UINT16_MAX ? (uint16_t)UINT16_MAX : (uint16_t)ticks;
-    facts->pause_ticks = (uint16_t)(pause * PAGE_SPEED_NOMINAL) / page_speed;
+    facts->ticks = step_plan_exact_ticks(&plan, facts->way_pos, &carry_q5_11);
+    facts->pause_ticks = step_plan_exact_hold(&plan, &carry_q5_11);
 }
 
 uint16_t page_facts_ticks(uint8_t page)
@@ -63,5 +57,5 @@ uint16_t page_facts_ticks(uint8_t page)
 /* pos / ticks * 128 ticks/s * 300 degrees / 1023 pos. */
 uint16_t page_facts_deg_s(const page_facts_t *facts)
 {
-    return (uint16_t)((uint32_t)facts->way_pos * (128u * 300u / 1023u) / (facts->ticks == 0 ? 1u : facts->ticks));
+    return (uint16_t)((uint32_t)facts->way_pos * (128u * 300u / 1023u) / facts->ticks);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * page_facts.h - what can be told of a page in flash without playing it: how long it takes, how fast it gets.
- * Reads flash through page_store.h, a word at a time. Main loop only. No RAM. Source: player.md section 2, rule 1. */
+ * Reads flash through page_store.h, a word at a time. Main loop only. No RAM. The law is motion/step_plan.c. */
 #ifndef PAGE_FACTS_H
 #define PAGE_FACTS_H
 
@@ -11,7 +11,7 @@
 #define PAGE_FACTS_FASTEST_DEG_S(supply_dv) ((uint16_t)((supply_dv) * 59u / 20u))
 
 typedef struct {
-    uint16_t ticks;      /* without the pause */
+    uint16_t ticks;      /* without the pause; at least 1 */
     uint16_t pause_ticks;
     uint16_t way_pos;    /* the longest way of a joint, from the step before (step 0: from the last one) */
     uint8_t joint;       /* whose it is */

@@ -129,38 +129,23 @@ uint32_t robot_send(const uint8_t step[PAGE_STEP_BYTES])
             servo_link_put(&missing, joint, true);
         }
     }
-    robot_off(off);
+    if (off != 0) {
+        robot_off(off);
+    }
     return missing;
 }
 
 void robot_on(uint32_t joints)
 {
     uint32_t wanted = joints & the_servos.present & ~the_servos.torque;
-    if (wanted == 0) {
-        return;
-    }
     servo_link_quiet(&the_servos);
-    uint32_t on = performer_on(&the_performer, wanted);
-    the_robot.failed |= on != wanted;
-    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (servo_link_has(&on, joint)) {
-            session_set_pose(joint, the_servos.present_pos[joint] & PAGE_POS_MAX);
-        }
-    }
+    the_robot.failed |= performer_on(&the_performer, wanted) != wanted;
+    robot_read();
 }
 
 void robot_off(uint32_t joints)
 {
-    uint32_t there = joints & the_servos.present;
-    if (there == 0) {
-        return;
-    }
     servo_link_quiet(&the_servos);
-    performer_off(&the_performer, there);
-    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (servo_link_has(&there, joint)) {
-            uint16_t pos = session_pose(joint) & PAGE_POS_MAX;
-            session_set_pose(joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
-        }
-    }
+    performer_off(&the_performer, joints & the_servos.present);
+    robot_read();
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "screen.h"
 
+#include <string.h>
 #include "ansi.h"
 #include "frame.h"
 #include "parts.h"
@@ -121,18 +122,10 @@ void screen_redraw(void)
 
 void screen_init(void)
 {
-    the_screen.present = 0;
+    memset(&the_screen, 0, sizeof the_screen);
     the_screen.rows = SCREEN_ROWS_FULL;
-    the_screen.top = 0;
-    the_screen.sink = SCREEN_QUIET;
     the_screen.line_column = SCREEN_LINE_COLUMN;
-    the_screen.lead = false;
-    the_screen.hidden = false;
-    the_screen.shown_x = 0;
-    the_screen.shown_y = 0;
     the_screen.shown_go = SESSION_NO_STEP;
-    the_screen.shown_fault = 0;
-    the_screen.shown_flags = 0;
     screen_redraw();
 }
 

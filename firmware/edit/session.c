@@ -202,6 +202,13 @@ void session_saved(void)
 {
     the_session.was_damaged = false;
     the_session.undo_reloads = false;
+    the_session.is_changed = false;
+}
+
+void session_replaced(void)
+{
+    undo_clear(&the_session.undo);
+    session_mark_all();
     the_session.is_changed = differs_from_flash();
 }
 

@@ -95,6 +95,9 @@ bool session_is_empty(uint8_t page);
 /* The page was written to flash as it is. */
 void session_saved(void);
 
+/* Bytes of the page were changed from outside: nothing of it can be undone. */
+void session_replaced(void);
+
 /* Marks. */
 void session_mark(uint8_t x, uint8_t y);
 void session_mark_all(void);

@@ -71,7 +71,7 @@ static const shell_command_t table[] PROGMEM = {
     { word_law, commands_do_law, SHELL_ARGS(0, 1), 0 },
     { word_remote, commands_do_remote, SHELL_ARGS(0, 1), 0 },
     { word_settings, commands_do_settings, SHELL_ARGS(0, 2), 0 },
-    { word_baud, commands_do_baud, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
+    { word_baud, commands_do_baud, SHELL_ARGS(0, SHELL_ANY_ARGS) | SHELL_STILL, 0 },
     { word_version, do_version, SHELL_ARGS(0, 0), 0 },
     { word_help, do_help, SHELL_ARGS(0, 1), 0 },
 };
@@ -105,6 +105,24 @@ static uint8_t do_help(void *context, const shell_args_t *args)
     return SHELL_OK;
 }
 
+static uint8_t not_in_this_image(void *context, const shell_args_t *args)
+{
+    (void)context;
+    (void)args;
+    return REQUEST_ERR_IMAGE;
+}
+
+TEXT_NAMED(word_open, "@open  ");
+TEXT_NAMED(word_data, "@data  ");
+TEXT_NAMED(word_crc, "@crc  ");
+TEXT_NAMED(word_save, "@save  ");
+const shell_command_t commands_requests_P[COMMANDS_REQUESTS] PROGMEM = {
+    { word_open, not_in_this_image, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
+    { word_data, not_in_this_image, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
+    { word_crc, not_in_this_image, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
+    { word_save, not_in_this_image, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
+};
+
 static void answer(uint8_t status, const shell_args_t *args)
 {
     switch (status) {
@@ -120,6 +138,9 @@ static void answer(uint8_t status, const shell_args_t *args)
         TEXT("Too few or too many words: try help ");
         text_string(shell_word(args, 0));
         break;
+    case SHELL_ERR_MOVING:
+        (void)commands_refuse(PERFORMER_ERR_BUSY, 0, 0);
+        break;
     default:
         break;
     }
@@ -128,13 +149,14 @@ static void answer(uint8_t status, const shell_args_t *args)
 
 void commands_run(play_t *play)
 {
-    const shell_args_t args = shell_split(&play->shell, false);
-    if (machine_is_for(&args)) {
-        (void)machine_run(&play->machine, &args);
+    shell_args_t args = shell_split(&play->shell, false);
+    if (requests_are(&args)) {
+        requests_run(&args);
     } else if (args.count > 0) {
-        uint8_t status = shell_run(table, ARRAY_COUNT(table), play, &args);
+        const bool moving = !performer_is_still(&play->performer);
+        uint8_t status = shell_run(table, ARRAY_COUNT(table), play, &args, moving);
         if (status == SHELL_ERR_UNKNOWN) {
-            status = shell_run(commands_shape_table, COMMANDS_SHAPE_COUNT, play, &args);
+            status = shell_run(commands_shape_table, COMMANDS_SHAPE_COUNT, play, &args, moving);
         }
         answer(status, &args);
     }

@@ -29,7 +29,7 @@ bool commands_number(const play_t *play, const shell_args_t *args, uint8_t index
         *value = number;
         return true;
     }
-    (void)commands_error(play, MACHINE_ERR_RANGE);
+    (void)commands_error(play, REQUEST_ERR_RANGE);
     shell_print_range(what_P, min, max, false);
     return false;
 }
@@ -44,7 +44,7 @@ bool commands_signed(const play_t *play, const shell_args_t *args, uint8_t index
         *value = negative ? (int16_t)-(int16_t)size : (int16_t)size;
         return true;
     }
-    (void)commands_error(play, MACHINE_ERR_RANGE);
+    (void)commands_error(play, REQUEST_ERR_RANGE);
     text_P(what_P);
     TEXT(" must be -");
     text_number((uint16_t)size_max);
@@ -62,7 +62,7 @@ bool commands_joints(const play_t *play, const shell_args_t *args, uint8_t first
             return false;
         }
         if (!servo_link_has(&play->servos.present, (uint8_t)id)) {
-            (void)commands_error(play, MACHINE_ERR_SERVOS);
+            (void)commands_error(play, REQUEST_ERR_SERVOS);
             TEXT("Servo ");
             text_number(id);
             TEXT(" is not there");
@@ -71,7 +71,7 @@ bool commands_joints(const play_t *play, const shell_args_t *args, uint8_t first
         servo_link_put(joints, (uint8_t)id, true);
     }
     if (*joints == 0) {
-        (void)commands_error(play, MACHINE_ERR_SERVOS);
+        (void)commands_error(play, REQUEST_ERR_SERVOS);
         report_refusal(PERFORMER_ERR_NO_SERVOS, 0, 0);
         return false;
     }

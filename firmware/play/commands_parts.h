@@ -34,7 +34,7 @@ uint8_t commands_do_settings(void *context, const shell_args_t *args);
 #define COMMANDS_SHAPE_COUNT 5u
 extern const shell_command_t commands_shape_table[COMMANDS_SHAPE_COUNT];
 
-/* Begins an error: its number (machine_status_t), when a program asks. Returns it as the handler's status. */
+/* Begins an error: its number (request_status_t), when a program asks. Returns it as the handler's status. */
 uint8_t commands_error(const play_t *play, uint8_t number);
 uint8_t commands_sentence(const play_t *play, uint8_t number, const char *sentence_P);   /* the whole of it */
 

@@ -71,9 +71,6 @@ uint8_t commands_do_servos(void *context, const shell_args_t *args)
 uint8_t commands_do_baud(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    if (!performer_is_still(&play->performer)) {
-        return commands_refuse(PERFORMER_ERR_BUSY, 0, 0);
-    }
     uint32_t joints = args->count == 1 ? play->servos.slow : 0;
     for (uint8_t i = 1; i < args->count; i++) {
         uint16_t id;

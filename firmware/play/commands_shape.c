@@ -15,10 +15,10 @@ static uint8_t do_rate(void *context, const shell_args_t *args)
     play_t *play = context;
     uint16_t percent;
     if (!commands_number(play, args, 1, TEXT_P("Rate"), SHAPE_RATE_MIN, SHAPE_RATE_MAX, &percent)) {
-        return MACHINE_ERR_RANGE;
+        return REQUEST_ERR_RANGE;
     }
     (void)!shape_set_rate(&play->performer.shape, percent);
-    return MACHINE_OK;
+    return REQUEST_OK;
 }
 
 static uint8_t do_amplitude(void *context, const shell_args_t *args)
@@ -27,13 +27,13 @@ static uint8_t do_amplitude(void *context, const shell_args_t *args)
     uint16_t percent;
     uint32_t joints = SERVO_LINK_ALL;
     if (!commands_number(play, args, 1, TEXT_P("Amplitude"), 0, SHAPE_AMPLITUDE_MAX, &percent)) {
-        return MACHINE_ERR_RANGE;
+        return REQUEST_ERR_RANGE;
     }
     if (args->count > 2 && !commands_joints(play, args, 2, &joints)) {
-        return MACHINE_ERR_RANGE;
+        return REQUEST_ERR_RANGE;
     }
     (void)!shape_set_amplitude(&play->performer.shape, percent, joints);
-    return MACHINE_OK;
+    return REQUEST_OK;
 }
 
 static uint8_t do_blend(void *context, const shell_args_t *args)
@@ -41,10 +41,10 @@ static uint8_t do_blend(void *context, const shell_args_t *args)
     play_t *play = context;
     int16_t percent;
     if (!commands_signed(play, args, 1, TEXT_P("Blend"), SHAPE_BLEND_MAX, &percent)) {
-        return MACHINE_ERR_RANGE;
+        return REQUEST_ERR_RANGE;
     }
     (void)!shape_set_blend(&play->performer.shape, percent);
-    return MACHINE_OK;
+    return REQUEST_OK;
 }
 
 /* Blend, rate and amplitude in one line: a joystick sends it 20 times a second. */
@@ -56,10 +56,10 @@ static uint8_t do_drive(void *context, const shell_args_t *args)
     if (!commands_signed(play, args, 1, TEXT_P("Blend"), SHAPE_BLEND_MAX, &blend) ||
         !commands_number(play, args, 2, TEXT_P("Rate"), SHAPE_RATE_MIN, SHAPE_RATE_MAX, &rate) ||
         !commands_number(play, args, 3, TEXT_P("Amplitude"), 0, SHAPE_AMPLITUDE_MAX, &amplitude)) {
-        return MACHINE_ERR_RANGE;
+        return REQUEST_ERR_RANGE;
     }
     (void)!performer_drive(&play->performer, blend, rate, amplitude);
-    return MACHINE_OK;
+    return REQUEST_OK;
 }
 
 /* ---- what is in force ---- */
@@ -73,13 +73,13 @@ static uint8_t do_shape(void *context, const shell_args_t *args)
         } else {
             views_print_shape(&play->performer);
         }
-        return MACHINE_OK;
+        return REQUEST_OK;
     }
     if (!shell_word_is(args, 1, PSTR("reset"))) {
-        return commands_sentence(play, MACHINE_ERR_RANGE, TEXT_P("Say shape, or shape reset"));
+        return commands_sentence(play, REQUEST_ERR_RANGE, TEXT_P("Say shape, or shape reset"));
     }
     shape_reset(&play->performer.shape);
-    return MACHINE_OK;
+    return REQUEST_OK;
 }
 
 TEXT_NAMED(word_rate, "rate  percent  speed of the motion, 10..400");
@@ -101,7 +101,7 @@ uint8_t commands_run_for_program(play_t *play, const shell_args_t *args)
     shell_args_t word = *args;
     word.words++; /* behind the @ */
     play->program_asks = true;
-    const uint8_t status = shell_run(commands_shape_table, COMMANDS_SHAPE_COUNT, play, &word);
+    const uint8_t status = shell_run(commands_shape_table, COMMANDS_SHAPE_COUNT, play, &word, false);
     play->program_asks = false;
     return status;
 }

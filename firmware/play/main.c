@@ -20,33 +20,34 @@
 
 static play_t play;
 
-static const char machine_name[] PROGMEM = "play";
+/* ---- what requests.h wants to know ---- */
 
-static void serve_machine(void *context)
+static void serve(void)
 {
-    play_service(context);
+    play_service(&play);
 }
 
-static void __attribute__((noreturn)) restart(void *context)
+static void restart(void)
 {
-    (void)context;
     board_restart(&play.store, &play.settings);
 }
 
-static uint8_t run_more(void *context, const shell_args_t *args)
+static uint8_t run_more(const shell_args_t *args)
 {
-    return commands_run_for_program(context, args);
+    return commands_run_for_program(&play, args);
 }
 
-static void tell_shape(void *context)
+static void tell_shape(void)
 {
-    const play_t *p = context;
-    views_print_shape_fields(&p->performer);
+    views_print_shape_fields(&play.performer);
 }
 
-static const machine_image_t machine_image = {
-    .name_P = machine_name, .service = serve_machine, .restart = restart, .more = run_more, .where = tell_shape,
-    .context = &play
+static const char name[] PROGMEM = "play";
+TEXT_NAMED(can, ",shape");
+const requests_image_t requests_image = {
+    .name_P = name, .can_P = can, .performer = &play.performer, .servos = &play.servos, .pages = &play.pages,
+    .own_P = commands_requests_P, .own_count = COMMANDS_REQUESTS, .more = run_more, .where = tell_shape,
+    .serve = serve, .restart = restart,
 };
 
 /* Characters since the last line end: what a status line must cover. */
@@ -113,6 +114,19 @@ static void print_news(void)
     }
 }
 
+/* A line of @watch stands by itself, whatever was being typed. */
+static void print_watched(void)
+{
+    if (column > 0) {
+        text_line_end();
+    }
+    requests_print_now();
+    prompt();
+    for (uint8_t i = 0; i < play.shell.length; i++) {
+        text_put(play.shell.line[i]);
+    }
+}
+
 static void take_typed(void)
 {
     uint8_t byte;
@@ -159,7 +173,6 @@ static void start(void)
     performer_init(&play.performer, &play.pages.source, &play.servos, &play.settings);
     inputs_init(&play.inputs, &play.performer, &play.pages, &play.settings);
     shell_init(&play.shell, play.line, sizeof play.line, play.history, sizeof play.history);
-    machine_init(&play.machine, &play.performer, &play.servos, &play.pages, &machine_image);
     console_set_flow(play.settings.flow != 0);
     if (play.settings.fast_line != 0) {
         console_set_rate(CONSOLE_RATE_115200);
@@ -182,6 +195,9 @@ int main(void)
     for (;;) {
         play_service(&play);
         print_news();
+        if (requests_now_is_due()) {
+            print_watched();
+        }
         take_typed();
         if (!has_work()) {
             board_idle();

@@ -5,14 +5,14 @@
 #define PLAY_H
 
 #include "inputs.h"
-#include "machine.h"
 #include "page_store.h"
 #include "performer.h"
+#include "requests.h"
 #include "servo_link.h"
 #include "settings.h"
 #include "shell.h"
 
-#define PLAY_LINE_BYTES 112u /* machine.c: requests have up to 110 characters */
+#define PLAY_LINE_BYTES 112u /* requests have up to 110 characters */
 #define PLAY_HISTORY_BYTES 96u
 
 typedef struct {
@@ -23,7 +23,6 @@ typedef struct {
     settings_store_t store;
     inputs_t inputs;
     shell_t shell;
-    machine_t machine;
     bool program_asks;      /* the line that runs is a program's */
     char line[PLAY_LINE_BYTES];
     char history[PLAY_HISTORY_BYTES];

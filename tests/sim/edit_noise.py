@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Noise at Edit's console: words of its grammar, answers, keys, programs' lines, the monitor and its bridge, broken
+"""Noise at Edit's console: words of its grammar, answers, keys, programs' lines, broken
 pieces of all of them, and bytes without sense.
 
     figures = fuzz(seed, count)     raises AssertionError or Violation when Edit does not stand it
@@ -32,10 +32,8 @@ LINE_BUFFER = 24            # bytes that still come behind an XOFF: a USB adapte
 HOME_TRIES = 10
 
 WORDS = ("page next before copy new name step go write insert delete move mirror set goto on off play time speed re hex dec undo "
-         "redo list find take paste int scale swap pairs help balance mon monitor rows p n b s g w i d m u ?").split()
+         "redo list find take paste int scale swap pairs help mon monitor rows p n b s g w i d m u ?").split()
 SELDOM = ["check", "search", "scan"]      # seconds each
-MON_WORDS = ("help dump d id cid read r write w reg_wr action go g hex dec reset ping swr scan led baud ? "
-             "frobnicate").split()
 NUMBERS = ("0 1 2 3 4 5 6 7 9 10 30 31 32 36 49 50 64 100 127 128 254 255 256 512 1000 1023 1024 65535 65536 0x1f 0X3FF 1f -1 x "
            "yes no base 99999999 0x page1").split()
 MACHINE = ("@ver", "@list", "@list 1 3", "@page 1", "@page 300", "@pose", "@torque on", "@torque off 3", "@torque on 1 2 3", "@play 1",
@@ -50,8 +48,7 @@ class Figures(NamedTuple):
     sent: int
     saves: int
     restarts: int
-    bridges: int
-    monitors: int
+    : int
     seconds: float
     headroom: int
 
@@ -95,30 +92,12 @@ class Grammar:
             return f"@crc\r@save {rng.randrange(130)} 0x{self.crc:04X}\r".encode()
         return rng.choice(MACHINE).encode() + b"\r"
 
-    def bridge(self):
-        """TOSS with packets, pieces of packets and noise, and its end; sometimes the end is left out."""
-        rng = self.rng
-        made = b"toss\r"
-        for _ in range(rng.randrange(4)):
-            body = bytes([rng.randrange(20), 2, 1]) if rng.random() < 0.5 else bytes([1, 4, 2, 36, 2])
-            made += b"\xff\xff" + body + bytes([~sum(body) & 0xFF])
-            made += rng.choice((b"", b"", rng.randbytes(rng.randrange(9)), b"\xff\xff\xff\x01", b"\xff\xff\x01\xff"))
-        return made + rng.choice((b"\x1b\x1b\x1b", b"\x1b\x1b\x1b", b"\x1b\x1b", b"\0" * 200 + b"\x1b\x1b\x1b"))
-
-    def monitor(self):
-        lines = [b"mon\r" + self.rng.choice((b"", b"y"))]
-        for _ in range(self.rng.randrange(6)):
-            lines.append((self.rng.choice(MON_WORDS) + self.arguments()).encode() + b"\r")
-            if self.rng.random() < 0.15:
-                lines.append(self.bridge())
-        return b"".join(lines) + self.rng.choice((b"exit\r", b"exit\r", b"exit\r", b""))
-
     def keys(self):
         return b"".join(self.rng.choice(KEYS) for _ in range(self.rng.randrange(1, 12)))
 
     def broken(self):
         """Something sensible with a byte lost, doubled or changed."""
-        text = bytearray(self.rng.choice((self.command, self.machine, self.monitor, self.edits))())
+        text = bytearray(self.rng.choice((self.command, self.machine, self.edits))())
         for _ in range(self.rng.randrange(1, 4)):
             at = self.rng.randrange(len(text))
             text[at:at + 1] = self.rng.choice((b"", bytes(text[at:at + 1]) * 2, self.rng.randbytes(1)))
@@ -131,7 +110,7 @@ class Grammar:
 
     def phrase(self):
         made = self.rng.choices(
-            (self.command, self.save if self.saves else self.command, self.edits, self.machine, self.keys, self.broken, self.monitor,
+            (self.command, self.save if self.saves else self.command, self.edits, self.machine, self.keys, self.broken,
              self.leave, lambda: self.rng.randbytes(self.rng.randrange(1, 60)), lambda: b"x" * self.rng.randrange(70, 300) + b"\r"),
             (40, 9, 15, 12, 15, 10, 4, 0.3, 6, 2))[0]()
         if not self.saves:
@@ -280,7 +259,7 @@ class Noise:
 
 
 def fuzz(seed, count, report=None, loud=False):
-    sent = saves = restarts = bridges = monitors = number = 0
+    sent = saves = restarts = number = 0
     seconds, headroom = 0.0, 4096
     while sent < count:
         noise = Noise(seed, number, loud)
@@ -290,12 +269,10 @@ def fuzz(seed, count, report=None, loud=False):
             while sent < end:
                 text = noise.piece(min(noise.rng.randrange(2000, 4000) * (4 if loud else 1), end - sent))
                 sent += len(text)
-                bridges += text.count(b"toss")
-                monitors += text.count(b"mon\r")
             seconds += board.now_ms / 1000
             headroom = min(headroom, board.stack_headroom)
         saves += noise.saves
         restarts += noise.restarts
         if report:
             report(f"seed {seed}: {sent} bytes, {saves} saves, {restarts} restarts, headroom {headroom}")
-    return Figures(seed, sent, saves, restarts, bridges, monitors, seconds, headroom)
+    return Figures(seed, sent, saves, restarts, seconds, headroom)

@@ -85,7 +85,7 @@ def test_next_and_before(r):
     assert r.line("n") == "n Page must be 0..127"
 
 
-@pytest.mark.parametrize("command", ["page 2", "next", "before", "copy 2", "exit", "mon"])
+@pytest.mark.parametrize("command", ["page 2", "next", "before", "copy 2", "exit"])
 @pytest.mark.parametrize("answer", ["n", "\r", " ", "\x1b[A"])
 def test_unsaved_edits_are_asked_for_and_kept_with_any_key_but_y(r, command, answer):
     r.line("set 77")

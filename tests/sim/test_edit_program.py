@@ -10,7 +10,7 @@ def ask(r, line, ms=120):
     r.board.take()
     r.board.send(line.encode() + b"\r")
     r.board.run(ms=ms)
-    answers = [text for text in r.board.take().translate(None, b"\x11\x13").decode().split("\r\n") if text.startswith("@")]
+    answers = [text for text in r.board.take().translate(None, b"\x11\x13").decode().split("\r\n") if text.startswith("@") and not text.startswith("@now")]
     assert len(answers) == 1, answers
     return answers[0]
 
@@ -128,3 +128,88 @@ def test_reset_restarts_the_controller():
         r.board.send(b"@reset\r")
         r.board.run(ms=1500)
         assert r.board.resets == resets + 1
+
+
+MOVING_REFUSED = ("@open 0", "@open 2", "@data 64 0002", f"@save 1 0x{crc16(bytes(PAGES[1].data)):04X}", "@play 2", "@move 60 1 200",
+                  "@torque on", "@reset")
+MOVING_ALLOWED = ("@ver", "@list 0 3", "@page 1", "@crcs 0 3", "@pose", "@where", "@crc", "@watch 0", "@torque off 18", "@pause",
+                  "@resume", "@stop", "@break")
+
+
+def test_what_must_not_be_while_something_moves_is_refused_and_the_rest_is_not():
+    """Each request of PROTOCOL.md, in the middle of a play; the trim, the page and the ticks stay as they are."""
+    trimmed = {**PAGES, 0: page("Offset", [(0, {1: 512}), (0, {1: 612}), (0, {1: 100})])}
+    with robot(pages=trimmed) as r:
+        assert ask(r, "@play 1") == "@play OK"
+        r.board.run(ms=1500)
+        missed, resets, operations = fields(ask(r, "@where"))["missed"], r.board.resets, r.board.operations
+        for request in MOVING_REFUSED:
+            assert ask(r, request).split()[1:3] == ["ERR", "4"], request
+        assert fields(ask(r, "@where"))["missed"] == missed and (r.board.resets, r.board.operations) == (resets, operations)
+        assert ask(r, "@crc") == f"@crc {crc16(bytes(PAGES[1].data)):04X} OK"
+        for request in MOVING_ALLOWED:
+            assert ask(r, request, ms=400).endswith(" OK"), request
+
+
+def test_save_of_page_0_puts_the_trim_in_force_typed_or_not():
+    data = page("Offset", [(0, {1: 512}), (0, {1: 562}), (0, {1: 50})]).data
+    with robot(pages=PAGES) as r:
+        ask(r, "@torque on", ms=300)
+        assert ask(r, "@open 0") == "@open OK"
+        for offset in range(0, 512, 32):
+            ask(r, f"@data {offset} {data[offset:offset + 32].hex()}", ms=40)
+        assert ask(r, f"@save 0 0x{crc16(bytes(data)):04X}", ms=250) == "@save OK"
+        assert ask(r, "@open 1") == "@open OK"
+        assert ask(r, "@move 90 1 200") == "@move OK"
+        r.board.run(ms=1500)
+        assert r.board.servos[1].goal == 0x200 + 50
+
+
+def test_crcs_of_all_pages():
+    with robot(pages=PAGES) as r:
+        start = r.board.now_ms
+        r.board.take()
+        r.board.send(b"@crcs\r")
+        heard = b""
+        while not heard.endswith(b"OK\r\n"):
+            r.board.run(ms=5)
+            heard += r.board.take().translate(None, b"\x11\x13")
+        assert r.board.now_ms - start < 1000   # 20 s are allowed
+        sums = heard.split()[-2].decode()
+        assert sums == "".join(f"{crc16(r.flash_page(number)):04X}" for number in range(128))
+        assert ask(r, "@crcs 1 2") == f"@crcs {sums[4:12]} OK"
+        assert ask(r, "@crcs 1 128").startswith("@crcs ERR 3 ")
+
+
+def watched(r, ms):
+    """(ms between, words) of the @now lines of a time."""
+    r.board.take()
+    r.board.run(ms=ms)
+    return [line.split() for line in r.board.take().translate(None, b"\x11\x13").decode().split("\r\n")[1:-1]
+            if line.startswith("@now")]
+
+
+def test_watch_streams_goals_and_positions_and_costs_no_tick():
+    with robot(pages=PAGES) as r:
+        assert ask(r, "@watch 50") == "@watch OK"
+        idle = watched(r, 1000)
+        assert 19 <= len(idle) <= 21
+        assert idle[-1][1:4] == ["0", "0", "0007FFFE"] and idle[-1][4] == "---200" * 18
+        assert ask(r, "@play 1", ms=20) == "@play OK"
+        r.board.run(ms=1500)
+        missed = fields(ask(r, "@where", ms=100))["missed"]
+        lines = watched(r, 2000)
+        assert 36 <= len(lines) <= 42 and {line[1] for line in lines} == {"1"}
+        assert len({line[4][0:3] for line in lines}) > 15   # joint 1 is on its way
+        assert len({line[4][3:6] for line in lines}) > 8    # heard once in 18 ticks
+        assert fields(ask(r, "@where", ms=100))["missed"] == missed
+        assert ask(r, "@watch 0") == "@watch OK"
+        assert watched(r, 300) == []
+
+
+def test_watch_ends_when_a_person_takes_the_screen():
+    with robot(pages=PAGES) as r:
+        assert ask(r, "@watch 50") == "@watch OK"
+        r.board.run(ms=200)
+        r.keys("\x1b[B", ms=900)
+        assert r.text(1, 1, 9) == "Dynamixel" and watched(r, 300) == []

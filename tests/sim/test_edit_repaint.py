@@ -23,7 +23,7 @@ def action(rng):
                        f"write {rng.randrange(7)}", f"insert {rng.randrange(7)}", f"delete {rng.randrange(7)}", "time", "speed",
                        f"move {rng.randrange(8)} {rng.randrange(8)}", f"swap {rng.randrange(7)} {rng.randrange(7)}", "int 0 1",
                        f"scale {rng.randrange(50, 200)}", f"go {rng.randrange(7)}", f"mirror {rng.randrange(7)}", "on", "off", "on 3 4",
-                       "off 5", "name", "name xyz", "save 9", "foo", "list 1 2", "help", "mon", "balance", "find o"))
+                       "off 5", "name", "name xyz", "save 9", "foo", "list 1 2", "help", "mon", "find o"))
     return line, True
 
 
@@ -34,11 +34,7 @@ def act(r, text, is_line):
     r.line(text)
     if text == "name":
         r.line("a name")
-    elif text == "mon":
-        if "[y/N]" in r.command:
-            r.keys("y")
-        r.line("exit", ms=1200)
-    elif text in ("list 1 2", "help", "find o", "balance"):
+    elif text in ("list 1 2", "help", "find o"):
         r.keys("\x1b", ms=150)
         r.keys("\x1b", ms=150)
     elif "[y/N]" in r.command:

@@ -325,31 +325,6 @@ def test_page_0_computes_the_trim():
         assert r.board.servos[3].goal == 612 - 12 and r.cell(0, 3) == "0612"
 
 
-def test_monitor_shows_packets_and_exit_returns_with_nothing_lost():
-    with start() as r:
-        r.line("set 77")
-        r.line("goto 1 1")
-        r.line("set 401")
-        r.line("mon", "y")
-        for line, expected in (("cid 3", ""), ("ping", "<-[Dynamixel]: ID 03 error 00"), ("read 36 2", "00 02"),
-                               ("write 25 1", "->[Dynamixel]: FF FF 03 04 03 19 01"), ("read 99", "Address must be 0..49"),
-                               ("foo", "Bad Command"), ("go 600 50", "58 02 32 00"), ("cid 99", ""), ("ping", "[Err:RxD Timeout]"),
-                               ("cid 4", ""), ("id 5", "That ID is taken"), ("id 40", "04 03 03 28"), ("scan", "018 Dynamixels"),
-                               ("reset", "RESET YES"), ("swr 30 2 1 0 2", "83 1E 02 01 00 02"), ("dump", "040:")):
-            r.terminal.screen.reset()
-            r.line(line, ms=2500 if line == "scan" else 300)
-            assert expected in r.show().replace("\n", ""), (line, r.show()[:400])
-        assert r.board.servos[3].table[25] == 1
-        r.line("exit", ms=900)
-        assert r.text(2, 76, 4) == "0005" and r.cell(1, 1) == "0401" and r.unsaved
-
-
-def test_balance_shows_until_a_key():
-    with start(servos=[1, 2, 101, 102]) as r:
-        r.keys("balance\r", ms=500)
-        assert r.command.startswith("] ") and "," in r.command and len(r.message.split(",")[0].split()) == 3
-        r.keys("p")
-        assert r.command == "] p"
 
 
 def test_exit_restarts_the_controller():
@@ -375,3 +350,9 @@ def test_play_says_that_the_classic_law_is_not_here():
         message = r.line("play 5", ms=300)
         assert "classic" in message.lower() or "law" in message.lower(), message
         assert not any(r.board.servos[joint].torque for joint in range(1, 19))
+
+
+def test_mon_says_where_it_is():
+    with start() as r:
+        assert r.line("mon") == r.line("monitor").replace("monitor MON", "mon MON") and "monitor.hex" in r.message
+        assert not r.unsaved

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Stack: bytes between the highest variable and the lowest stack ever, measured after the deepest things Edit does: every way to
-save, PLAY with everything that happens meanwhile, MON and TOSS, UNDO, lists, programs' lines. Budget 384."""
+save, PLAY with everything that happens meanwhile, UNDO, lists, programs' lines. Budget 384."""
 import pytest
 
 from boot_board import factory_section
@@ -39,7 +39,7 @@ def test_headroom_after_everything_deep(loader):
                      "redo", "undo", "copy 2", "undo", "new", "undo", "off 5", "pairs 1 2"):
             act(r, line)
         note("edits")
-        for line, key in (("check 2", "q"), ("check", "q"), ("list 1 9", "q"), ("find o", "q"), ("help", "q"), ("balance", "\x1b")):
+        for line, key in (("check 2", "q"), ("check", "q"), ("list 1 9", "q"), ("find o", "q"), ("help", "q")):
             r.line(line, ms=900)
             r.keys(key, ms=300)
         note("lists")
@@ -49,13 +49,6 @@ def test_headroom_after_everything_deep(loader):
             r.keys(key, ms=1500)
         r.board.servos[7].clear()
         note("play")
-        act(r, "page 1")
-        for line in ("mon", "dump", "swr 30 2 1 0 2 2 0 2", "search", "scan", "id 1", "toss"):
-            act(r, line, ms=2500 if line in ("search", "scan") else 100)
-        r.board.send(b"\xff\xff\x01\x04\x02\x00\x32\xc6\xff\xff\xff\x1b" + b"\0" * 300 + b"\x1b\x1b\x1b")
-        r.board.run(ms=200)
-        act(r, "exit", ms=1500)
-        note("monitor")
         for line in ("@where", "@list", "@page 1", "@pose", "@torque on", "@move 60 1 200200200", "@play 1", "@where", "@break", "@open 2",
                      "@crc", "@data 64 " + "00" * 32):
             ask(r, line)

@@ -12,7 +12,7 @@ m512_unit_test(test_edit_session
 # 16 bits, where -Wconversion means nothing.
 if(NOT M512_AVR)
     file(GLOB stage CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/firmware/edit/*.c ${CMAKE_SOURCE_DIR}/firmware/common/*.c)
-    list(REMOVE_ITEM stage ${CMAKE_SOURCE_DIR}/firmware/edit/main.c ${CMAKE_SOURCE_DIR}/firmware/edit/mon_toss.c
+    list(REMOVE_ITEM stage ${CMAKE_SOURCE_DIR}/firmware/edit/main.c
         ${CMAKE_SOURCE_DIR}/firmware/common/page_service.c)
     list(TRANSFORM M512_PLAYER_SMALL PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE player)
     list(APPEND stage ${player})

@@ -11,7 +11,6 @@
 #include "fake_time.h"
 #include "frame.h"
 #include "memory_map.h"
-#include "mon.h"
 #include "page_service.h"
 #include "text.h"
 #include "unity.h"
@@ -24,7 +23,7 @@ performer_t the_performer;
 settings_t the_settings;
 settings_store_t the_settings_store;
 
-/* ---- page_service.h: our loader is there; fake_flash writes. TOSS is for the simulated board ---- */
+/* ---- page_service.h: our loader is there; fake_flash writes ---- */
 
 page_service_kind_t page_service_kind(void)
 {
@@ -35,10 +34,6 @@ bool page_service_post(uint8_t motion_page, const uint8_t data[512])
 {
     (void)data;
     return motion_page < PAGE_COUNT;
-}
-
-void mon_toss(void)
-{
 }
 
 /* ---- the terminal ---- */

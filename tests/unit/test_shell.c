@@ -306,18 +306,35 @@ static uint8_t do_fail(void *context, const shell_args_t *args)
     return SHELL_ERR_SAID;
 }
 
+static uint8_t do_go(void *context, const shell_args_t *args)
+{
+    (void)context;
+    (void)args;
+    return 7;
+}
+
+TEXT_NAMED(name_page, "Page");
+TEXT_NAMED(name_rate, "Rate");
+const shell_range_t shell_ranges_P[] PROGMEM = {{NULL, 0, 0}, {name_page, 1, 127}, {name_rate, 10, 400}};
+
+TEXT_NAMED(word_go, "go  page rate  goes");
 TEXT_NAMED(word_play, "play pl n  plays a page");
 TEXT_NAMED(word_fail, "fail  fails");
 static const shell_command_t table[] PROGMEM = {
     {word_play, do_play, SHELL_ARGS(1, 2), 0},
     {word_fail, do_fail, SHELL_ARGS(0, SHELL_ANY_ARGS), 0},
+    {word_go, do_go, SHELL_ARGS(1, 2) | SHELL_STILL, SHELL_BOTH(1, 2)},
 };
+static bool moving;
+static uint16_t taken[2];
 
 static uint8_t run(const char *text)
 {
     static uint8_t context = 40;
-    const shell_args_t args = enter(text);
-    const uint8_t result = shell_run(table, 2, &context, &args);
+    shell_args_t args = enter(text);
+    const uint8_t result = shell_run(table, ARRAY_COUNT(table), &context, &args, moving);
+    taken[0] = args.number[0];
+    taken[1] = args.number[1];
     shell_clear(&shell);
     return result;
 }
@@ -352,6 +369,31 @@ static void test_shell_run_counts_the_arguments(void)
 static void test_shell_run_of_an_empty_line_is_ok(void)
 {
     TEST_ASSERT_EQUAL_UINT8(SHELL_OK, run("  "));
+}
+
+static void test_shell_run_takes_the_numbers_that_the_table_names(void)
+{
+    TEST_ASSERT_EQUAL_UINT8(7, run("go 127 0x10"));
+    TEST_ASSERT_EQUAL_UINT16(127, taken[0]);
+    TEST_ASSERT_EQUAL_UINT16(16, taken[1]);
+    TEST_ASSERT_EQUAL_UINT8(7, run("go 1"));
+    TEST_ASSERT_EQUAL_UINT16(0, taken[1]);
+    static const char *const wrong[] = {"go 0", "go 128", "go x", "go 5 9", "go 5 401", "go 5 1x"};
+    for (uint8_t i = 0; i < ARRAY_COUNT(wrong); i++) {
+        TEST_ASSERT_EQUAL_UINT8_MESSAGE(SHELL_ERR_RANGE, run(wrong[i]), wrong[i]);
+    }
+    clear_out();
+    shell_print_broken();
+    TEST_ASSERT_EQUAL_STRING("Rate must be 10..400", out);
+}
+
+static void test_shell_run_keeps_back_what_must_not_be_while_something_moves(void)
+{
+    moving = true;
+    TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_MOVING, run("go 5"));
+    TEST_ASSERT_EQUAL_UINT8(SHELL_OK, run("play 1"));
+    moving = false;
+    TEST_ASSERT_EQUAL_UINT8(7, run("go 5"));
 }
 
 static void test_shell_help_prints_one_line(void)
@@ -416,6 +458,8 @@ int main(void)
     RUN_TEST(test_shell_run_wants_the_whole_word);
     RUN_TEST(test_shell_run_counts_the_arguments);
     RUN_TEST(test_shell_run_of_an_empty_line_is_ok);
+    RUN_TEST(test_shell_run_takes_the_numbers_that_the_table_names);
+    RUN_TEST(test_shell_run_keeps_back_what_must_not_be_while_something_moves);
     RUN_TEST(test_shell_help_prints_one_line);
     RUN_TEST(test_text_prints_numbers);
     return UNITY_END();

@@ -14,12 +14,6 @@
 #define main image_main
 #include "firmware/edit/main.c"
 #undef main
-#include "mon.h"
-
-/* TOSS hands any bytes to the bus: the simulated board has it (fuzz.py). */
-void mon_toss(void)
-{
-}
 
 /* Out of any mode: Ctrl-C ends plays and lines, ESC lists and questions, Ctrl-U CR a program's line; a monitor says so in
  * its prompt. Then a line of a program. */

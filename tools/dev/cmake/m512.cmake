@@ -10,13 +10,12 @@ if(M512_AVR)
 endif()
 set(M512_SANITIZE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
 
-# m512_image(<target> BOARD cm5|cm2 KIND app|boot|test SOURCES ... [DIR sub] [DEFINES ...] [OPTIONS ...] [ORDER file])
+# m512_image(<target> BOARD cm5|cm2 KIND app|boot|test SOURCES ... [DIR sub] [DEFINES ...] [OPTIONS ...])
 # OPTIONS: compiler options of this image alone, given to the link-time compiler as well.
-# ORDER: which function stands beside which (tools/dev/order_functions).
 # Links one AVR image and writes <target>.elf and <target>.hex below build/firmware[/sub].
 # app, boot: at the addresses of linker/memory_map.h; test: a program of its own from address 0.
 function(m512_image target)
-    cmake_parse_arguments(ARG "" "BOARD;KIND;DIR;ORDER" "SOURCES;DEFINES;OPTIONS" ${ARGN})
+    cmake_parse_arguments(ARG "" "BOARD;KIND;DIR" "SOURCES;DEFINES;OPTIONS" ${ARGN})
     set(out ${M512_FIRMWARE_DIR}/${ARG_DIR})
     add_executable(${target} ${ARG_SOURCES})
     target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}
@@ -31,20 +30,16 @@ function(m512_image target)
     target_link_options(${target} PRIVATE ${ARG_OPTIONS})
     set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${out} SUFFIX .elf)
     if(NOT ARG_KIND STREQUAL "test")
-        set(order "")
-        if(ARG_ORDER)
-            set(order -DFUNCTION_ORDER="${ARG_ORDER}")
-        endif()
         add_custom_command(OUTPUT ${target}.ld
-            COMMAND ${CMAKE_C_COMPILER} -E -P -x c -I${CMAKE_SOURCE_DIR}/linker ${order}
+            COMMAND ${CMAKE_C_COMPILER} -E -P -x c -I${CMAKE_SOURCE_DIR}/linker
                     ${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in -o ${target}.ld
-            DEPENDS ${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in ${CMAKE_SOURCE_DIR}/linker/memory_map.h ${ARG_ORDER}
+            DEPENDS ${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in ${CMAKE_SOURCE_DIR}/linker/memory_map.h
             VERBATIM)
         add_custom_target(${target}_ld DEPENDS ${target}.ld)
         add_dependencies(${target} ${target}_ld)
         target_link_options(${target} PRIVATE -T ${CMAKE_CURRENT_BINARY_DIR}/${target}.ld)
         set_target_properties(${target} PROPERTIES LINK_DEPENDS
-            "${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in;${CMAKE_SOURCE_DIR}/linker/memory_map.h;${ARG_ORDER}")
+            "${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in;${CMAKE_SOURCE_DIR}/linker/memory_map.h")
     endif()
     target_link_options(${target} PRIVATE -Wl,-Map=${out}/${target}.map)
     # The last step of linking: what an image says of itself (tools/dev/app_record).

@@ -1,12 +1,15 @@
-/* SPDX-License-Identifier: MIT */
-#include "mon.h"
+/* SPDX-License-Identifier: MIT
+ * toss.c - the bridge: the PC speaks to the servos itself. Packets from the console go to the bus as they are, everything heard
+ * on the bus goes to the console. Three ESC outside a packet end it. */
+#include "monitor.h"
 
+#include <string.h>
 #include "bus.h"
 #include "console.h"
 #include "ring.h"
 #include "system.h"
 
-enum { ESC = 0x1B, ESCAPES = 3, HEADER_BYTES = 4, HEARD_BYTES = 64, LENGTH_AT = 3, LENGTH_MIN = 2 };
+enum { ESC = 0x1B, ESCAPES = 3, HEADER_BYTES = 4, LENGTH_AT = 3, LENGTH_MIN = 2 };
 
 typedef struct {
     uint8_t count;     /* bytes of the packet from the PC so far */
@@ -54,12 +57,12 @@ static void send(toss_t *toss, ring_t *heard)
     toss->count = 0;
 }
 
-void mon_toss(void)
+void toss_run(uint8_t buffer[TOSS_BUFFER_BYTES])
 {
     toss_t toss = { 0, 0, { 0 } };
     ring_t heard;
     uint8_t byte;
-    ring_init(&heard, (uint8_t *)the_editor.line, HEARD_BYTES);
+    ring_init(&heard, buffer, TOSS_BUFFER_BYTES);
     bus_set_tap(&heard);
     while (toss.escapes < ESCAPES) {
         system_kick();

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""TOSS, the bridge of MON: what the PC sends is a packet on the servo bus, what a servo answers is bytes on the console, and
+"""TOSS, the bridge of Monitor: what the PC sends is a packet on the servo bus, what a servo answers is bytes on the console, and
 three ESC outside a packet end it. Packets are made here from the Dynamixel protocol, not with our code."""
 import pytest
 
-from edit_robot import page, robot
+from monitor_robot import robot
 
 PING, READ, WRITE, REG_WRITE, ACTION, SYNC_WRITE = 1, 2, 3, 4, 5, 0x83
 ALL = 254
@@ -20,50 +20,51 @@ def status(ident, *params, error=0):
 
 @pytest.fixture(scope="module")
 def shared():
-    with robot(pages={1: page("one", [(40, {1: 480})])}) as r:
-        r.line("mon")
-        yield r
+    board = robot()
+    yield board
+    board.close()
 
 
 @pytest.fixture
 def r(shared):
     """In the bridge, with nothing said yet."""
-    shared.board.send(b"toss\r")
-    shared.board.run(ms=60)
-    assert b"Three ESC end it" in shared.board.take()
-    shared.board.clear_trace()
+    shared.take()
+    shared.send(b"toss\r")
+    shared.run(ms=60)
+    assert b"Three ESC end it" in shared.take()
+    shared.clear_trace()
     yield shared
-    shared.board.send(b"\x1b\x1b\x1b")
-    shared.board.run(ms=60)
-    assert shared.board.take().endswith(b" [CID:001(0X01)] ")
+    shared.send(b"\x1b\x1b\x1b")
+    shared.run(ms=60)
+    assert shared.take().endswith(b" [CID:001(0X01)] ")
 
 
 def ask(r, sent, ms=None):
     """What comes back on the console."""
-    r.board.send(sent)
-    r.board.run(ms=len(sent) * 0.18 + 25 if ms is None else ms)
-    return r.board.take()
+    r.send(sent)
+    r.run(ms=len(sent) * 0.18 + 25 if ms is None else ms)
+    return r.take()
 
 
 def packets(r):
-    return [bytes(sent) for _, sent in r.board.packets]
+    return [bytes(sent) for _, sent in r.packets]
 
 
 def test_every_servo_answers_through_the_bridge_and_nothing_is_added(r):
     for ident in range(1, 19):
         assert ask(r, packet(ident, PING)) == status(ident)
-        low, high = r.board.servos[ident].table[36:38]
+        low, high = r.servos[ident].table[36:38]
         assert ask(r, packet(ident, READ, 36, 2)) == status(ident, low, high)
     assert packets(r) == [made for ident in range(1, 19) for made in (packet(ident, PING), packet(ident, READ, 36, 2))]
     assert ask(r, packet(99, PING)) == b""
 
 
 def test_whole_tables_pass_again_and_again(r):
-    r.board.run(ms=200)   # nothing moves
+    r.run(ms=200)   # nothing moves
     for _ in range(20):
         answer = ask(r, packet(7, READ, 0, 50))
         assert len(answer) == 56 and answer == status(7, *answer[5:55])
-        assert answer[5:41] == bytes(r.board.servos[7].table[0:36])
+        assert answer[5:41] == bytes(r.servos[7].table[0:36])
 
 
 def test_every_byte_value_passes_both_ways(r):
@@ -77,10 +78,10 @@ def test_a_slow_pc_and_noise_between_packets(r):
     for noise in (b"\0", b"hello\r", b"\xff", b"\xff\xff\x01\x00", b"\xff\xff\x01\x01", b"\x1b\x1b", bytes(range(0x20, 0x7F))):
         made = packet(4, READ, 30, 2)
         for byte in noise + made:
-            r.board.send(bytes([byte]))
-            r.board.run(ms=3)
-        r.board.run(ms=10)
-        assert r.board.take() == status(4, *r.board.servos[4].table[30:32]), noise
+            r.send(bytes([byte]))
+            r.run(ms=3)
+        r.run(ms=10)
+        assert r.take() == status(4, *r.servos[4].table[30:32]), noise
     assert packets(r) == [packet(4, READ, 30, 2)] * 7
 
 
@@ -94,9 +95,9 @@ def test_broadcasts_have_no_answer(r):
     positions = [word for ident in range(1, 19) for word in (ident, (500 + ident) & 0xFF, (500 + ident) >> 8)]
     assert ask(r, packet(ALL, WRITE, 24, 1)) == b""
     assert ask(r, packet(ALL, SYNC_WRITE, 30, 2, *positions)) == b""
-    assert [r.board.servos[ident].goal for ident in range(1, 19)] == [500 + ident for ident in range(1, 19)]
+    assert [r.servos[ident].goal for ident in range(1, 19)] == [500 + ident for ident in range(1, 19)]
     assert ask(r, packet(3, REG_WRITE, 30, 0, 2)) == status(3)
-    assert ask(r, packet(ALL, ACTION)) == b"" and r.board.servos[3].goal == 512
+    assert ask(r, packet(ALL, ACTION)) == b"" and r.servos[3].goal == 512
 
 
 def test_requests_back_to_back_are_sent_in_order(r):
@@ -104,20 +105,3 @@ def test_requests_back_to_back_are_sent_in_order(r):
     frames = [packet(ALL, SYNC_WRITE, 30, 2, *(byte for ident in range(1, 19) for byte in (ident, n, 2))) for n in range(30)]
     assert ask(r, b"".join(frames), ms=400) == b""
     assert packets(r) == frames
-
-
-def test_end_keeps_the_page_and_its_edits():
-    with robot(pages={1: page("one", [(40, {1: 480})])}) as r:
-        r.line("goto 1 1")
-        r.line("set 77")
-        r.line("mon", "y")
-        r.keys("toss\r")
-        r.board.send(packet(3, PING) + b"\x1b\x1b")
-        r.settle(ms=500)
-        assert "[CID:" not in r.show().split("Three ESC end it")[1]
-        r.keys("\x1b", ms=100)
-        assert "[CID:" in r.show().split("Three ESC end it")[1]
-        r.line("exit", ms=1500)
-        assert r.text(2, 76, 4) == "0001" and r.cell(1, 1) == "0077" and r.unsaved
-        r.line("undo")
-        assert r.cell(1, 1) == "0480" and not r.unsaved

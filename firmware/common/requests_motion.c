@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT
+ * requests_motion.c - requests that move something. */
+#include "requests_parts.h"
+
+#include "ranges.h"
+#include "text.h"
+
+/* Fills to_pos and returns the joints that the digits name, three for each; 0: they are not as they must be. */
+static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_JOINTS])
+{
+    uint32_t joints = 0;
+    for (; *digits != '\0'; digits += 3, id++) {
+        uint16_t pos;
+        if (digits[0] == '-' && digits[1] == '-' && digits[2] == '-') {
+            continue;
+        }
+        if (id >= PAGE_JOINTS || !shell_hex(digits, 3, &pos) || pos > PAGE_POS_MAX) {
+            return 0;
+        }
+        to_pos[id] = pos;
+        servo_link_put(&joints, id, true);
+    }
+    return joints;
+}
+
+uint8_t request_move(void *context, const shell_args_t *args)
+{
+    uint16_t to_pos[PAGE_JOINTS] = {0};
+    (void)context;
+    const uint32_t joints = parse_pose((uint8_t)args->number[1], shell_word(args, 3), to_pos);
+    if (joints == 0) {
+        const uint8_t said = requests_error(REQUEST_ERR_RANGE);
+        TEXT("Positions must be 000..3FF or ---, up to ID 30");
+        return said;
+    }
+    return requests_refusal(performer_move(requests_image.performer, to_pos, joints, args->number[0]));
+}
+
+/* One joint at a time, so that nothing else waits for longer than 3 ms. Returns those that are as they should be. */
+static uint32_t switch_each(uint32_t joints, bool on)
+{
+    uint32_t done = 0;
+    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
+        const uint32_t joint = joints & servo_link_bit(id);
+        if (joint != 0) {
+            if (on) {
+                done |= performer_on(requests_image.performer, joint);
+            } else {
+                performer_off(requests_image.performer, joint);
+                done |= joint;
+            }
+            requests_image.serve();
+        }
+    }
+    return done;
+}
+
+uint8_t request_torque(void *context, const shell_args_t *args)
+{
+    const bool on = shell_word_is(args, 1, PSTR("on"));
+    const uint32_t present = requests_image.servos->present;
+    uint32_t joints = args->count == 2 ? present : 0;
+    (void)context;
+    if (!on && !shell_word_is(args, 1, PSTR("off"))) {
+        const uint8_t said = requests_error(REQUEST_ERR_RANGE);
+        TEXT("Say on or off");
+        return said;
+    }
+    if (!ranges_take_joints(args, 2, &joints)) {
+        return SHELL_ERR_RANGE;
+    }
+    if (on && !performer_is_idle(requests_image.performer)) {   /* off is allowed at any time: the one word with two rules */
+        return REQUEST_ERR_BUSY;
+    }
+    const bool all = (joints & present) == joints && joints != 0 && switch_each(joints, on) == joints;
+    return all ? REQUEST_OK : REQUEST_ERR_SERVOS;
+}
+
+uint8_t request_play(void *context, const shell_args_t *args)
+{
+    (void)context;
+    return requests_refusal(performer_start(requests_image.performer, (uint8_t)args->number[0], (uint8_t)args->number[1]));
+}
+
+/* These four say OK also when there is nothing to do: a program asks @where. */
+uint8_t request_stop(void *context, const shell_args_t *args)
+{
+    (void)context;
+    (void)args;
+    performer_stop(requests_image.performer);
+    return REQUEST_OK;
+}
+
+uint8_t request_break(void *context, const shell_args_t *args)
+{
+    (void)context;
+    (void)args;
+    performer_break(requests_image.performer);
+    return REQUEST_OK;
+}
+
+uint8_t request_pause(void *context, const shell_args_t *args)
+{
+    (void)context;
+    (void)args;
+    (void)performer_pause(requests_image.performer);
+    return REQUEST_OK;
+}
+
+uint8_t request_resume(void *context, const shell_args_t *args)
+{
+    (void)context;
+    (void)args;
+    (void)performer_resume(requests_image.performer);
+    return REQUEST_OK;
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT
+ * requests_page.c - requests of Edit alone, which bring a page in: @open, @data, @crc, @save; and what Edit hands to
+ * requests.h. */
+#include <string.h>
+#include "board.h"
+#include "commands.h"
+#include "crc16.h"
+#include "pgm.h"
+#include "ranges.h"
+#include "requests.h"
+#include "text.h"
+#include "tick.h"
+
+#define DATA_BYTES_MAX 32u
+
+#define REQUEST(name) static uint8_t name(void *context __attribute__((unused)), const shell_args_t *args)
+
+REQUEST(do_open)
+{
+    if (the_session.is_changed) {
+        return REQUEST_ERR_UNSAVED;
+    }
+    editor_open((uint8_t)args->number[0]);
+    return REQUEST_OK;
+}
+
+/* Pairs of hexadecimal digits as bytes; returns how many, 0: the digits are not as they must be. */
+static uint8_t parse_bytes(const char *hex, uint8_t to[DATA_BYTES_MAX])
+{
+    uint8_t count = 0;
+    for (; *hex != '\0'; hex += 2, count++) {
+        uint16_t byte;
+        if (count == DATA_BYTES_MAX || !shell_hex(hex, 2, &byte)) {
+            return 0;
+        }
+        to[count] = (uint8_t)byte;
+    }
+    return count;
+}
+
+REQUEST(do_data)
+{
+    uint8_t bytes[DATA_BYTES_MAX];
+    const uint16_t offset = args->number[0];
+    const uint8_t count = parse_bytes(shell_word(args, 2), bytes);
+    if (count == 0 || offset + count > PAGE_BYTES) {
+        const uint8_t said = requests_error(REQUEST_ERR_RANGE);
+        TEXT("Data must be 1..32 pairs of hexadecimal digits, within the page");
+        return said;
+    }
+    memcpy(&the_session.cells[offset], bytes, count);
+    session_replaced();
+    return REQUEST_OK;
+}
+
+static uint16_t ram_crc(void)
+{
+    return crc16_bytes(CRC16_START, the_session.cells, PAGE_BYTES);
+}
+
+REQUEST(do_crc)
+{
+    (void)args;
+    text_put(' ');
+    text_hex(ram_crc(), 4);
+    return REQUEST_OK;
+}
+
+/* The CRC says what a person answers when asked: this page, as it is, in that place. */
+REQUEST(do_save)
+{
+    uint16_t crc;
+    if (!shell_parse(shell_word(args, 2), true, &crc) || crc != ram_crc()) {
+        return REQUEST_ERR_CRC;
+    }
+    page_save_status_t status = cmd_page_save((uint8_t)args->number[0]);
+    return status == PAGE_SAVE_OK || status == PAGE_SAVE_UNCHANGED ? REQUEST_OK : REQUEST_ERR_SAVE;
+}
+
+TEXT_NAMED(word_open, "@open  ");
+TEXT_NAMED(word_data, "@data  ");
+TEXT_NAMED(word_crc, "@crc  ");
+TEXT_NAMED(word_save, "@save  ");
+static const shell_command_t own[] PROGMEM = {
+    { word_open, do_open, SHELL_ARGS(1, 1) | SHELL_STILL, RANGE_PAGE },
+    { word_data, do_data, SHELL_ARGS(2, 2) | SHELL_STILL, RANGE_OFFSET },
+    { word_crc, do_crc, SHELL_ARGS(0, 0), 0 },
+    { word_save, do_save, SHELL_ARGS(2, 2) | SHELL_STILL, RANGE_PAGE },
+};
+
+static void __attribute__((noreturn)) restart(void)
+{
+    board_restart(&the_settings_store, &the_settings);
+}
+
+static const char name[] PROGMEM = "edit";
+TEXT_NAMED(can, ",open,data,save");
+const requests_image_t requests_image = {
+    .name_P = name, .can_P = can, .performer = &the_performer, .servos = &the_servos, .pages = &the_pages,
+    .own_P = own, .own_count = ARRAY_COUNT(own), .serve = editor_serve, .restart = restart,
+};

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""The Monitor image: words and packets as editor-original.md section 11 has them, and what it refuses."""
+import pytest
+
+from monitor_robot import robot, say
+
+
+@pytest.fixture(scope="module", name="m")
+def _m():
+    board = robot()
+    yield board
+    board.close()
+
+
+def sent(board):
+    return [bytes(made) for _, made in board.packets]
+
+@pytest.mark.parametrize("line, answer", [
+    ("cid", "Invalid Parameter"), ("cid 255", "ID must be 0..254"), ("id", "Invalid Parameter"), ("id 254", "ID must be 0..253"),
+    ("read", "Invalid Parameter"), ("read 50", "Address must be 0..49"), ("read 0 51", "Count must be 1..50"),
+    ("write 24", "Invalid Parameter"), ("write 24 256", "Value must be 0..255"), ("reg_wr 30", "Invalid Parameter"),
+    ("go 1024", "Position must be 0..1023"), ("go 5 1024", "Speed must be 0..1023"), ("led", "Invalid Parameter"),
+    ("led 2", "Value must be 0..1"), ("baud 255", "Value must be 0..254"), ("swr 30 2 1 0", "SWR address count"),
+    ("swr 30 0 1 1", "SWR address count"), ("reset no", "RESET YES"), ("action 1", "Invalid Parameter"), ("ping 255", "ID must be 0..254"),
+    ("scan 254", "ID must be 0..253"), ("page 1", "Bad Command"), ("save", "Bad Command")])
+def test_monitor_checks_arguments_and_sends_nothing_then(m, line, answer):
+    m.clear_trace()
+    assert answer in say(m, line)
+    assert sent(m) == []
+
+
+@pytest.mark.parametrize("line", ["id 5", "read 3", "dump", "reset yes", "baud 1"])
+def test_monitor_does_to_one_servo_only_what_would_be_fatal_for_all(m, line):
+    m.clear_trace()
+    assert "One servo only: CID first" in say(m, "cid 254", line)
+    assert sent(m) == []
+    say(m, "cid 1")
+
+
+def test_monitor_registered_moves_and_lamps(m):
+    assert "->[Dynamixel]: FF FF 02 05 04 1E 00 01 D5" in say(m, "cid 2", "reg_wr 30 0 1")
+    assert m.servos[2].goal == 512
+    assert "->[Dynamixel]: FF FF FE 02 05 FA" in say(m, "cid 254", "action")
+    assert m.servos[2].goal == 256
+    say(m, "led 1")
+    assert all(m.servos[j].table[25] == 1 for j in range(1, 19))
+    say(m, "led 0", "cid 1")
+
+
+def test_monitor_help_hex_and_case(m):
+    heard = say(m, "?")
+    for word in ("dump", "cid", "reg_wr", "exit", "swr", "search"):
+        assert word in heard.lower()
+    assert "FF FF 10 02 01 EC" in say(m, "HEX", "Cid 10", "PING")
+    assert "FF FF 01 02 01 FB" in say(m, "dec", "cid 1", "ping")
+
+
+def test_monitor_search_finds_servos_at_both_rates():
+    board = robot(servos=(1, 2))
+    heard = say(board, "search")
+    board.run(ms=2500)
+    heard += board.take().decode("latin-1")
+    assert "57142 bps" in heard and "000 Dynamixels" in heard and "1000000 bps" in heard and "001 002" in heard.replace("  ", " ")
+    board.close()
+
+
+def test_monitor_shows_packets_word_by_word():
+    board = robot()
+    for line, expected in (("cid 3", ""), ("ping", "<-[Dynamixel]: ID 03 error 00"), ("read 36 2", "00 02"),
+                           ("write 25 1", "->[Dynamixel]: FF FF 03 04 03 19 01"), ("read 99", "Address must be 0..49"),
+                           ("foo", "Bad Command"), ("go 600 50", "58 02 32 00"), ("cid 99", ""), ("ping", "[Err:RxD Timeout]"),
+                           ("cid 4", ""), ("id 5", "That ID is taken"), ("id 40", "04 03 03 28"), ("scan", "018 Dynamixels"),
+                           ("reset", "RESET YES"), ("swr 30 2 1 0 2", "83 1E 02 01 00 02"), ("dump", "040:")):
+        assert expected in say(board, line), line
+    assert board.servos[3].table[25] == 1
+    board.close()
+
+
+def test_exit_restarts():
+    board = robot()
+    resets = board.resets
+    say(board, "exit")
+    board.run(ms=500)
+    assert board.resets == resets + 1
+    board.close()
