@@ -164,6 +164,12 @@ def nominal_figure(image, library):
     return proof.Figure("Motions go as far and turn as much as they promise.", "nominal body, AX-12, 11.1 V", "; ".join(said), kept)
 
 
+def bears_figure(image, library):
+    missing, what = promises.bears(image, promises.number_of(library, "walk"))
+    return proof.Figure("Servos bear ten minutes of walking.", "nominal body, AX-12, 11.1 V; mean torque below a third of stall, heat below "
+                        "the servo's limit", "; ".join([*missing, what]), not missing)
+
+
 def run(options):
     figures = []
     if DATA.exists() and not options.only:
@@ -177,7 +183,7 @@ def run(options):
         if options.only in (None, "walk") and options.on_board:
             figures.append(board_figure(options, image, library))
         if not options.only:
-            figures.append(nominal_figure(image, library))
+            figures += [nominal_figure(image, library), bears_figure(image, library)]
     if options.only or options.bodies or options.seed_of:
         options.keep = False                     # a piece of the work
     return figures

@@ -70,6 +70,9 @@ GOES = [
     Goes("right", 12, ((0, RIGHT),), turn_deg_s=(None, -30), drift_mm_a_turn=50),
     Goes("left", 12, ((0, LEFT),), turn_deg_s=(30, None), drift_mm_a_turn=50),
 ]
+BEARS_S = 600                    # of walking
+BEARS_NM = 1.5 * 11.1 / 12 / 3   # mean torque of a servo: a third of what stalls it at 11.1 V
+BEARS_DEGREES_C = 70             # the limit in an AX-12's address 11
 EASY = ("ready", "bow", "wave", "clap", "cheer", "sit", "stand")     # a sample of these must never fail
 
 
@@ -117,3 +120,13 @@ def goes(image, number, promise):
         if drift > promise.drift_mm_a_turn:
             missing.append(f"drifts {drift:.0f} mm a turn, promised {promise.drift_mm_a_turn}")
     return missing, outcome.said()
+
+
+def bears(image, number):
+    """Ten minutes of walking on the nominal body: (what is missing, what happened)."""
+    outcome = try_motion(image, number, BEARS_S, robot=ROBOT, keys=((0, UP),))
+    hottest = max(load.most_degrees_c for load in outcome.loads.values())
+    missing = [] if outcome.fell_s is None else [f"it falls after {outcome.fell_s:.0f} s"]
+    missing += [f"mean torque {outcome.most_torque_nm:.2f} N m"] if outcome.most_torque_nm >= BEARS_NM else []
+    missing += [f"{hottest:.0f} degrees C"] if hottest >= BEARS_DEGREES_C else []
+    return missing, f"largest mean torque {outcome.most_torque_nm:.2f} N m of {BEARS_NM:.2f}, {hottest:.0f} degrees C of {BEARS_DEGREES_C}"
