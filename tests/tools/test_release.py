@@ -103,6 +103,19 @@ def test_release_brings_the_command_and_the_binding(installed, tmp_path):
     assert done.stdout == "runs\n", done.stderr
 
 
+def test_release_brings_the_bodies(installed, tmp_path):
+    pytest.importorskip("mujoco", reason="tools/dev/setup physics installs it")
+    (tmp_path / "ask.txt").write_text('expect "] " within 2s\n')
+    done = as_a_user(installed / "cm5sim", "play-cm5.hex", "--script", "ask.txt", "--body", "humanoid", cwd=tmp_path)
+    assert done.returncode == 0 and "cm5sim: body: it was never put down" in done.stderr, done.stderr
+
+
+def test_release_draws_its_plots(installed, tmp_path):
+    (tmp_path / "ask.txt").write_text('expect "] " within 2s\n')
+    done = as_a_user(installed / "cm5sim", "play-cm5.hex", "--script", "ask.txt", "--plot", "joints.svg", cwd=tmp_path)
+    assert done.returncode == 0 and (tmp_path / "joints.svg").stat().st_size > 1000, done.stderr
+
+
 def test_release_refuses_what_would_be_half_a_release(tmp_path):
     (tmp_path / "there").mkdir()
     done = release("--from", BUILD, tmp_path / "there")

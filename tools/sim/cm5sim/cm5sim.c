@@ -204,14 +204,17 @@ static void run(session_t *session, script_t *script)
 /* --body: a script of Python loads MuJoCo and calls cm5sim_run() of the same program as a library. */
 static int run_in_body(int argc, char **argv)
 {
+    const char *python = getenv("M512_PYTHON"), *body = getenv("M512_BODY_SCRIPT"); /* set by the wheel's command */
+    python = python ? python : CM5SIM_PYTHON;
+    body = body ? body : CM5SIM_BODY_SCRIPT;
     char **more = calloc((size_t)argc + 2, sizeof *more);
     if (more) {
-        more[0] = (char *)CM5SIM_PYTHON;
-        more[1] = (char *)CM5SIM_BODY_SCRIPT;
+        more[0] = (char *)python;
+        more[1] = (char *)body;
         memcpy(more + 2, argv + 1, (size_t)argc * sizeof *more); /* with the NULL behind the last */
-        execv(CM5SIM_PYTHON, more);
+        execvp(python, more);
     }
-    fprintf(stderr, "cm5sim: --body needs %s with MuJoCo: tools/dev/setup demo test physics\n", CM5SIM_PYTHON);
+    fprintf(stderr, "cm5sim: --body needs %s with MuJoCo: tools/dev/setup demo test physics\n", python);
     free(more);
     return EXIT_FILE;
 }

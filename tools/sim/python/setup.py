@@ -14,9 +14,12 @@ HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[2]
 BUILD = pathlib.Path(os.environ.get("M512_BUILD", TOP / "build"))
 SIM = "host/tools/sim"
-PROGRAMS = (f"{SIM}/cm5sim", f"{SIM}/libcm5sim.so")
+PROGRAMS = (f"{SIM}/cm5sim", f"{SIM}/libcm5sim.so", f"{SIM}/libcm5sim_body.so")
 DATA = [f"firmware/{kind}-{board}.hex" for kind in ("boot", "edit", "play") for board in ("cm5", "cm2")] + ["motions/motions.bin"]
 BUNDLED = ("libsimavr", "libelf")  # what the programs need and not every computer has
+# Of the source tree, at the same places under robot/: what --plot and --body run.
+SCRIPTS = ["tools/sim/cm5sim/plot_trace.py", "tools/sim/cm5sim/with_body.py", "tools/body/humanoid.xml", "tools/body/gp.xml"]
+SCRIPTS += [str(path.relative_to(TOP)) for path in sorted((TOP / "tools/body/src/body").glob("*.py"))]
 LICENCE = pathlib.Path("/usr/share/common-licenses/GPL-3")
 
 
@@ -38,7 +41,8 @@ class BuildWithRobot(build_py):
         for name in PROGRAMS:
             self.take(BUILD / name, robot / name, 0o755)
             subprocess.run(["strip", robot / name], check=True)
-        self.take(TOP / "tools/sim/cm5sim/plot_trace.py", robot / SIM / "plot_trace.py")
+        for name in SCRIPTS:
+            self.take(TOP / name, robot / name)
         self.take(TOP / "LICENSE", robot / "LICENSE.MIT")
         if LICENCE.exists():
             self.take(LICENCE, robot / "LICENSE.GPL-3")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The command `cm5sim` of the wheel: starts the program that the wheel brings, with its images and libraries beside it."""
 import os
-import pathlib
 import sys
 
 from . import library
@@ -17,7 +16,9 @@ def main():
         path = [str(library.ROBOT / "lib")] + [old for old in [environment.get("LD_LIBRARY_PATH")] if old]
         environment["LD_LIBRARY_PATH"] = os.pathsep.join(path)
         environment.setdefault("M512_PYTHON", sys.executable)
-        environment.setdefault("M512_PLOT_SCRIPT", str(pathlib.Path(program).with_name("plot_trace.py")))
+        scripts = library.ROBOT / "tools" / "sim" / "cm5sim"
+        environment.setdefault("M512_PLOT_SCRIPT", str(scripts / "plot_trace.py"))
+        environment.setdefault("M512_BODY_SCRIPT", str(scripts / "with_body.py"))
     os.execve(program, ["cm5sim", *sys.argv[1:]], environment)
 
 
