@@ -4,7 +4,7 @@
 
 import type { Body } from '../model/body.ts';
 import { jointAngle, soleCorners } from '../model/body.ts';
-import { add, cross, heading, inverse, length, multiply, rotate, scale, subtract, turn } from '../model/space.ts';
+import { STILL, add, cross, heading, inverse, length, multiply, rotate, scale, subtract, turn } from '../model/space.ts';
 import type { Place, Quaternion, Vector } from '../model/space.ts';
 import type { Floor, Grip } from './messages.ts';
 import { OBJECT } from './mujoco.ts';
@@ -59,7 +59,7 @@ export class PhysicalBody {
     mujoco.mj_forward(this.model, this.data);
   }
 
-  /** Puts the robot on its feet in the room's middle, with these joint angles. */
+  /** Puts the robot on its feet in the room's middle, with these joint angles; the trunk leans as flat soles make it lean. */
   begin(angleOf: (servo: number) => number, body: Body): void {
     this.mujoco.mj_resetData(this.model, this.data);
     for (const joint of body.joints) {
@@ -68,6 +68,11 @@ export class PhysicalBody {
     }
     this.mujoco.mj_forward(this.model, this.data);
     const qpos = this.data.qpos;
+    const up = this.soles.reduce<Vector>((sum, { link }) => add(sum, rotate(this.linkPlace(link).quat, [0, 0, 1])), [0, 0, 0]);
+    const axis = cross(up, [0, 0, 1]);
+    const lean = length(axis) < 1e-9 ? STILL : turn(scale(axis, 1 / length(axis)), Math.atan2(length(axis), up[2]));
+    lean.forEach((value, i) => (qpos[3 + i] = value));
+    this.mujoco.mj_forward(this.model, this.data);
     qpos[2] = (qpos[2] ?? 0) - this.lowestSole() + HOLD.clearanceM;
     this.mujoco.mj_forward(this.model, this.data);
   }

@@ -30,13 +30,18 @@ export class Simulation {
     this.readings = board.servos();
   }
 
-  /** From now on the robot has a body of mass that can fall. A hand holds it until setHeld(false). */
-  setPhysical(physical: PhysicalBody): void {
+  /** From now on the robot has a body of mass that can fall, standing where its joints put it. held: a hand holds it until
+   *  setHeld(false). */
+  setPhysical(physical: PhysicalBody, held = true): void {
     this.physical = physical;
     physical.begin((servo) => this.angle(servo), this.body);
     physical.setFloor(this.floor);
-    physical.setHeld(true);
+    if (held) physical.setHeld(true);
     this.board.setBody(physical);
+  }
+
+  get hasFallen(): boolean {
+    return this.physical?.hasFallen ?? false;
   }
 
   get hasPhysics(): boolean {
