@@ -1,145 +1,298 @@
 # SPDX-License-Identifier: MIT
-"""The classic law: the original's motion, sample by sample, in integers of its widths. Source: the specification of the
-player, section 1; the names are its letters where it has some.
+"""The classic law of motion as a model: m512 plots with it, tests/oracle compares motion/ with it. Written from the page of the spec by
+someone who had not read motion/; the only Python of this law.
 
-    speed          ________
-                 /        \\          sections of a step: RISE (A ticks), CRUISE (N - 2A), FALL (A), HOLD (the pause)
-       w -------/          \\
-              RISE  CRUISE FALL HOLD
+    for tick in ClassicPlay(image, page, joints, positions).ticks(1000): ...
+
+Numbers are Python integers of unlimited width; they wrap only where the page says int16(). The order of the code is the order of the
+page, and its names are the page's: w, v, g, A, N, P, M, K, acc, main, nx. The page: "The law of motion", section 1; page bytes: "Motion512"; which
+link is followed: "Calling pages". Ours differs from the original on purpose in two things, both are in here: a flagged joint is
+not driven, and a page that cannot be right is refused.
+
+Readings: where the page leaves two readings open, the one taken here is marked with READING and a number, listed in
+tests/oracle/README.md.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import List, Optional
 
-from m512.files.page import SCHEDULE_TIME
-from m512.motion.walk import Step, Walk
+PAGE_BYTES, STEP_BYTES, JOINTS, LAST_PAGE = 512, 64, 31, 127
+FLAGGED = 0x4000 | 0x2000
+TIME_BASE, SPEED_BASE = 0x0A, 0
+STOP = 255  # the code that means stop
+RISE, CRUISE, FALL, HOLD = "RISE", "CRUISE", "FALL", "HOLD"
 
-
-def int16(value: int) -> int:
-    return ((value + 0x8000) & 0xFFFF) - 0x8000
-
-
-def divide(a: int, b: int) -> int:
-    """Truncates toward zero."""
-    quotient = abs(a) // abs(b)
-    return quotient if (a < 0) == (b < 0) else -quotient
+# How a play ended.
+DONE, REFUSED, PASSED_TWICE, EXIT_CIRCLE = "link 0", "page refused", "pages with PLAY_COUNT 0 in a circle", "exit pages in a circle"
 
 
-RISE, CRUISE, FALL, HOLD = range(4)
+def int16(value):
+    """Wraps to 16 bits."""
+    return (value + 0x8000) % 0x10000 - 0x8000
+
+
+def uint16(value):
+    return value % 0x10000
+
+
+def div(a, b):
+    """a / b, truncated toward zero."""
+    return abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1)
+
+
+def limited(value, lowest, highest):
+    return max(lowest, min(highest, value))
+
+
+class Page:
+    """One motion page of an image, read only. Steps count from 1, as in the page of the spec."""
+
+    def __init__(self, image, number):
+        self.raw = image[PAGE_BYTES * number:PAGE_BYTES * (number + 1)]
+        self.number = number
+        self.play_count, self.schedule, self.steps = self.raw[15], self.raw[16], self.raw[20]
+        self.speed, self.accel_time = self.raw[22], self.raw[24]
+        self.next_page, self.exit_page = self.raw[25], self.raw[26]
+        self.linked = ((self.raw[28], self.raw[27]), (self.raw[30], self.raw[29]))  # (code, page)
+
+    def word(self, step, joint):
+        """The position of a joint as it is stored, flags included. READING 1: without a sign."""
+        at = STEP_BYTES * step + 2 * joint
+        return self.raw[at] | self.raw[at + 1] << 8
+
+    def pause(self, step):
+        return self.raw[STEP_BYTES * step + 62]
+
+    def time(self, step):
+        return self.raw[STEP_BYTES * step + 63]
+
+    def refused(self):
+        """READING 2: positions are looked at in the used steps, for all 31 joints."""
+        return (sum(self.raw) % 256 != 0xFF or self.speed == 0 or self.schedule not in (SPEED_BASE, TIME_BASE)
+                or not 1 <= self.steps <= 7
+                or any(1023 < self.word(step, joint) and not self.word(step, joint) & FLAGGED
+                       for step in range(1, self.steps + 1) for joint in range(JOINTS)))
 
 
 @dataclass
-class ClassicJoint:
-    out: int
+class Joint:
+    """A joint that is there. start: output at the last section change; w: speed carried into the section, v: the step's
+    speed, g: the speed reached; M: the step's way, acc: the way of RISE, main: that of CRUISE, then of FALL."""
+    id: int
+    start: int
     target: int
-    start: int = 0
-    move: int = 0        # M
-    before: int = 0      # w: the carried speed
-    speed: int = 0       # v
-    goal_speed: int = 0  # g
-    risen: int = 0       # acc
+    output: int
+    w: int = 0
+    v: int = 0
+    g: int = 0
+    M: int = 0
+    acc: int = 0
     main: int = 0
     through: bool = False
 
+    def rise(self, c, num):
+        d = int16(div((self.v - self.w) * c, num))
+        self.g = self.w + d
+        self.acc = int16(div((self.w + (d >> 1)) * c * 144, 15) >> 9)
+        self.output = limited(self.start + self.acc, 0, 1023)
 
-class Classic:
-    def __init__(self, walk: Walk, pose: List[int]):
-        self.walk, self.ended, self.over = walk, False, False
-        self.joints = [ClassicJoint(p, p) for p in pose]
-        self.section, self.count, self.num = HOLD, 0, 0
-        self.here: Step = None  # type: ignore[assignment]
-        self.length = self.ramp = self.pause = 0   # N, A, P
+    def cruise(self, c, num):
+        self.output = limited(self.start + int16(div(self.main * c, num)), 0, 1023)
+        self.g = self.v
 
-    def tick(self) -> Optional[List[int]]:
-        if self.over:
-            self.ended = True
+    def fall(self, c, num):
+        if self.through:
+            self.cruise(c, num)
+            return
+        d = int16(div(-self.w * c, num))
+        self.g = self.w + d
+        self.output = limited(self.start + int16(div((self.w + (d >> 1)) * c * 144, 15) >> 9), 0, 1023)
+
+
+class ClassicPlay:
+    """One play. image: 65,536 bytes. page: the start page. joints: bit mask of the IDs that are there. positions: {id: 0..1023},
+    where they stand. schedule: {tick: code}, codes that arrive before that tick (0 = the first call); STOP asks for a stop.
+    call: the code that called the page, None when it was called by its number."""
+
+    def __init__(self, image, page, joints, positions, schedule=None, call=None):
+        self.image, self.schedule = image, schedule or {}
+        self.call = self.code = call
+        self.joints = [Joint(i, positions[i], positions[i], positions[i]) for i in range(JOINTS) if joints >> i & 1]
+        self.section, self.num, self.c = "", 0, 0  # no section is running
+        self.A = self.N = self.P = 0
+        self.page: Page = None  # type: ignore[assignment]  # until the first step begins
+        self.step, self.repetitions, self.repeat = 0, 0, False
+        self.next, self.exit_pages = page, set()
+        self.ended = None  # DONE, REFUSED, PASSED_TWICE or EXIT_CIRCLE; stays None when the limit of ticks came first
+        self.reason = DONE  # why there is nothing to follow
+
+    def ticks(self, limit):
+        """Yields for each call the goals that are sent, in the order of the IDs, or None; the last one is the call that finds the end."""
+        for number in range(limit):
+            code = self.schedule.get(number, 0)
+            if code:
+                self.code = code  # the last non-zero code stays in force (latch). READING 3: also over a stop
+            yield self.tick()
+            if self.ended:
+                return
+
+    def tick(self):
+        if self.c >= self.num:  # used up: the next section is set up first, its first tick is made in the same call
+            self.section_change()
+            if self.ended:
+                return self.end_sample()
+        if self.num == 0:  # an empty section uses up a call without output
             return None
-        if self.count == self.num:
-            self._next_section()
-        if self.num == 0:
-            return None
-        self.count += 1
+        self.c += 1
         if self.section == HOLD:
             return None
-        for joint in self.joints:
-            joint.out = min(max(joint.start + self._offset(joint), 0), 1023)
-        return [joint.out for joint in self.joints]
+        return self.output_of({RISE: Joint.rise, CRUISE: Joint.cruise, FALL: Joint.fall}[self.section], self.c, self.num)
 
-    def _offset(self, joint: ClassicJoint) -> int:
-        c, a = self.count, self.ramp
-        if self.section == CRUISE or (self.section == FALL and joint.through):
-            joint.goal_speed = joint.speed
-            return int16(divide(joint.main * c, self.num))
-        change = int16(divide((joint.speed - joint.before if self.section == RISE else -joint.before) * c, a))
-        joint.goal_speed = joint.before + change
-        way = int16(divide((joint.before + (change >> 1)) * c * 144, 15) >> 9)
+    def output_of(self, formula, c, num):
+        for joint in self.joints:
+            formula(joint, c, num)
+        return tuple(joint.output for joint in self.joints)
+
+    def section_change(self):
+        for joint in self.joints:
+            joint.start, joint.w = joint.output, joint.g
         if self.section == RISE:
-            joint.risen = way
-        return way
-
-    def _next_section(self) -> None:
-        for joint in self.joints:
-            joint.start, joint.before = joint.out, joint.goal_speed
-        self.count = 0
-        if self.here is None or self.section == HOLD:
-            for joint in self.joints:
-                joint.before = joint.goal_speed = 0
-            self._begin_step()
-        elif self.section == RISE:
-            self.section, self.num = CRUISE, self.length - 2 * self.ramp
-            for joint in self.joints:
-                joint.main = self._main(joint)
+            self.begin_section(CRUISE, self.N - 2 * self.A)
         elif self.section == CRUISE:
-            self.section, self.num = FALL, self.ramp
-            for joint in self.joints:
-                joint.main = int16(joint.move - joint.main - joint.risen)
-        elif self.pause:
-            self.section, self.num = HOLD, self.pause
+            self.begin_section(FALL, self.A)
+        elif self.section == FALL and self.P > 0:
+            self.begin_section(HOLD, self.P)
         else:
-            self._begin_step()
+            self.begin_step()
 
-    def _main(self, joint: ClassicJoint) -> int:
-        n, a = self.length, self.ramp
-        if joint.through:
-            return int16(divide((joint.move - joint.risen) * (n - 2 * a), n - a)) if n != a else 0
-        return int16(joint.move - joint.risen - int16(divide(joint.speed * a * 12, 5) >> 8))
+    def begin_section(self, section, num):
+        self.section, self.num, self.c = section, num, 0
+        N, A = self.N, self.A
+        for joint in self.joints:
+            if section == CRUISE and joint.through:
+                joint.main = 0 if N == A else int16(div((joint.M - joint.acc) * (N - 2 * A), N - A))
+            elif section == CRUISE:
+                joint.main = int16(joint.M - joint.acc - int16(div(joint.v * A * 12, 5) >> 8))
+            elif section == FALL:
+                joint.main = int16(joint.M - joint.main - joint.acc)
 
-    def _begin_step(self) -> None:
-        following = self.walk.advance()
-        if following is None:
-            # The original finds out too late: the first tick of a RISE still goes out, with the speed of the last step
-            # and the length of its last section, up to 8 units off the target.
-            self.over, self.section, self.ramp = True, RISE, self.num
+    def begin_step(self):
+        if self.section == HOLD:
+            for joint in self.joints:
+                joint.w = joint.g = 0
+        self.step += 1  # rule 1
+        if self.page is None or self.step > self.page.steps:
+            if not self.repeat and not self.enter(self.next):
+                self.ended = self.reason
+                return
+            self.step = 1
+        if self.section == FALL:  # the rounding remainder is dropped
+            for joint in self.joints:
+                joint.start = joint.output = joint.target
+        if self.step == self.page.steps:
+            self.decide_link()
+        self.prepare_step()
+        self.begin_section(RISE, self.A)  # rule 8
+
+    def end_sample(self):
+        """The call that finds the end: RISE with c = 1 and the num of the section used up, from the last value sent."""
+        if self.num == 0:
+            return None
+        return self.output_of(Joint.rise, 1, self.num)
+
+    # Rule 2: pages
+
+    def decide_link(self):
+        """At the beginning of the last step of a page. READING 4: an exit link back to a page that an exit link has led to before
+        counts as link 0, so that this step is the final one."""
+        self.repetitions = (self.repetitions - 1) % 256
+        if self.code == STOP:
+            self.repetitions = 0
+        self.repeat = self.repetitions > 0
+        self.next = self.page.number if self.repeat else self.follow(self.page)
+
+    def follow(self, page):
+        """The link of a page by the code in force. 0: nothing follows, self.reason says why. READING 5: the code of the call follows NEXT_PAGE
+        also where a linked page has the same code."""
+        link = page.next_page
+        if self.code == STOP:
+            link = page.exit_page
+            if link in self.exit_pages:
+                self.reason = EXIT_CIRCLE
+                return 0
+            self.exit_pages.add(link)
+        elif self.code and self.code != self.call:
+            for code, linked in page.linked:
+                if code == self.code:
+                    link, self.call = linked, code
+                    break
+        return 0 if link > LAST_PAGE else link
+
+    def enter(self, number):
+        """Makes the page of that number, or the one it passes over to, the present one. False: the play ends, self.reason says why.
+        READING 6: pages are passed over along the link of the code that is in force at the join."""
+        passed_over = set()
+        while number != 0:
+            if number > LAST_PAGE:
+                return False
+            page = Page(self.image, number)
+            if page.refused():
+                self.reason = REFUSED
+                return False
+            if page.play_count != 0:
+                self.page, self.repetitions = page, page.play_count
+                return True
+            if number in passed_over:
+                self.reason = PASSED_TWICE
+                return False
+            passed_over.add(number)
+            number = self.follow(page)
+        return False
+
+    def is_final(self):
+        return self.step == self.page.steps and self.next == 0
+
+    def following_word(self, joint):
+        """The word of the following step as stored: behind the last step, that of the first step of the page to come."""
+        if self.step < self.page.steps:
+            return self.page.word(self.step + 1, joint.id)
+        return Page(self.image, self.next).word(1, joint.id)
+
+    # Rules 3 to 7
+
+    def prepare_step(self):
+        page, step = self.page, self.step
+        self.P = div(page.pause(step) << 5, page.speed)
+        u = max(1, uint16(page.time(step) * page.speed) >> 5)
+        for joint in self.joints:
+            self.prepare_way(joint)
+        longest = max((abs(joint.M) for joint in self.joints), default=0)
+        self.N = u if page.schedule == TIME_BASE else div(uint16(40 * longest), 3 * u)
+        self.A = page.accel_time
+        if self.N <= 2 * self.A:
+            self.A = 0 if self.N == 0 else (self.N - 1) >> 1
+            if self.A == 0:
+                self.N = 0  # the step is skipped: a fault of the original, kept
+        for joint in self.joints:
+            self.prepare_speed(joint)
+
+    def prepare_way(self, joint):
+        word = self.page.word(self.step, joint.id)
+        joint.acc = 0
+        if word & FLAGGED:  # not driven: the target stays, the output is repeated. READING 7: a remainder behind a pause as well
+            joint.M = joint.w = joint.g = 0
+            joint.through = False
             return
-        self.here, ahead = following
-        for joint in self.joints:
-            joint.start = joint.out = joint.target
-        page, k = self.here.data, self.here.number - 1
-        self.pause = divide(page.pause(k) << 5, page.speed)
-        unit = max((page.time(k) * page.speed & 0xFFFF) >> 5, 1)
-        for i, joint in enumerate(self.joints):
-            self._aim(i, joint, ahead)
-        longest = max(abs(joint.move) for joint in self.joints)
-        self.length = unit if page.schedule == SCHEDULE_TIME else (40 * longest // (3 * unit)) & 0xFFFF
-        self.ramp = page.accel
-        if self.length <= 2 * self.ramp:
-            self.ramp = (self.length - 1) >> 1 if self.length else 0
-            if self.ramp == 0:
-                self.length = 0
-        for joint in self.joints:
-            joint.speed = self._speed(joint)
-        self.section, self.num = RISE, self.ramp
+        prev, cur = joint.start, word
+        nx = cur if self.is_final() else self.following_word(joint)
+        if nx & FLAGGED:
+            nx = cur
+        joint.M, joint.target = cur - prev, cur
+        joint.through = (prev < cur < nx or prev > cur > nx) and self.P == 0 and not self.is_final()
 
-    def _aim(self, i: int, joint: ClassicJoint, ahead: Optional[Step]) -> None:
-        before, now = joint.start, self.here.target(i, joint.target)
-        after = ahead.target(i, now) if ahead else now
-        joint.target, joint.move, joint.risen = now, now - before, 0
-        turns = not (before < now < after or before > now > after)
-        joint.through = not turns and self.pause == 0 and ahead is not None
-
-    def _speed(self, joint: ClassicJoint) -> int:
-        n, a = self.length, self.ramp
-        way = divide(joint.move * 2560, 12) - joint.before * 2 * a
-        by = 4 * n - 2 * a if joint.through else 4 * (n - a)
-        return min(max(int16(divide(way, by or 1)), -1023), 1023)
+    def prepare_speed(self, joint):
+        if self.page.word(self.step, joint.id) & FLAGGED:
+            joint.v = 0
+            return
+        K = div(joint.M * 2560, 12)
+        N, A = self.N, self.A
+        divisor = 4 * N - 2 * A if joint.through else 4 * (N - A)
+        joint.v = limited(int16(div(K - joint.w * 2 * A, divisor or 1)), -1023, 1023)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Plays pages by either law, for plots and play times.
 
-An independent telling of the specification of the player; the firmware's player is in C. A play is a generator of
+Models of the specification of the player; the firmware's player is in C. A play is a generator of
 Ticks, one each 1/128 s. Only next and exit links are followed: there is no remote control here.
 """
 from __future__ import annotations
@@ -11,8 +11,8 @@ from fractions import Fraction
 from typing import Iterator, List, Optional, Sequence
 
 from m512.files.image import Image
-from m512.files.page import JOINTS, Page
-from m512.motion.law_classic import Classic
+from m512.files.page import JOINTS, PAGE_BYTES, Page
+from m512.motion.law_classic import STOP, ClassicPlay
 from m512.motion.law_exact import Exact
 from m512.motion.walk import Step, Walk, pause_ticks, step_ticks
 
@@ -33,15 +33,30 @@ class Tick:
 def play(image: Image, page: int, law: str = EXACT, pose: Optional[Sequence[int]] = None,
          limit: int = 128 * 60, stop_at: Optional[int] = None) -> Iterator[Tick]:
     """The ticks of a play that starts with `page`, at most `limit` of them. `pose`: where the joints stand."""
+    stand = list(pose or [NEUTRAL] * JOINTS)
+    return (_play_classic if law == CLASSIC else _play_exact)(image, page, stand, limit, stop_at)
+
+
+def _play_exact(image: Image, page: int, pose: List[int], limit: int, stop_at: Optional[int]) -> Iterator[Tick]:
     walk = Walk(image, page)
-    machine = (Classic if law == CLASSIC else Exact)(walk, list(pose or [NEUTRAL] * JOINTS))
+    law = Exact(walk, pose)
     for number in range(limit):
         if number == stop_at:
             walk.stopping = True
-        goals = machine.tick()
-        if machine.ended:
+        goals = law.tick()
+        if law.ended:
             return
-        yield Tick(number, machine.here.page, machine.here.number, goals)
+        yield Tick(number, law.here.page, law.here.number, goals)
+
+
+def _play_classic(image: Image, page: int, pose: List[int], limit: int, stop_at: Optional[int]) -> Iterator[Tick]:
+    pages = bytes(image.first * PAGE_BYTES) + image.to_bytes()
+    codes = {} if stop_at is None else {stop_at: STOP}
+    law = ClassicPlay(pages, page, (1 << JOINTS) - 1, dict(enumerate(pose)), codes)
+    for number, goals in enumerate(law.ticks(limit)):
+        if law.ended and goals is None:
+            return
+        yield Tick(number, law.page.number, min(law.step, law.page.steps), list(goals) if goals else None)
 
 
 def page_seconds(page: Page, start: Optional[Sequence[int]] = None) -> float:
