@@ -12,7 +12,7 @@ from m512.files.page import JOINTS, STEPS, Page
 from m512.files.text.words import Token, WordError, name_bytes, number, position, position_text, quote_name
 
 FIELDS = ("repeat", "schedule", "code", "speed", "accel", "next", "exit", "link1_page", "link1_code", "link2_page",
-          "link2_code", "dxl_setup", "byte63")
+          "link2_code", "dxl_setup", "blend_right", "blend_left", "byte63")
 COLUMNS = ["step", "time", "pause"] + [f"id{joint}" for joint in range(JOINTS)]
 
 

@@ -68,6 +68,8 @@ class Page:
 
     repeat = _field(15, "PLAY_COUNT: plays before the link is followed; 0 = no action")
     schedule = _field(16, "SCHEDULE: 0 speed base, 0x0A time base")
+    blend_right = _field(17, "partner page to the right while the motion is shaped; 0 = none")
+    blend_left = _field(18, "partner page to the left")
     steps = _field(20, "PAGE_STEP: steps used, 0..7")
     code = _field(21, "PLAY_CODE: remote code that calls this page, 0 = none")
     speed = _field(22, "PAGE_SPEED: 32 = nominal")
@@ -83,6 +85,7 @@ class Page:
     byte63 = _field(63, "reserved; 0x55 in factory pages")
 
     LINKS = ("next", "exit", "link1_page", "link2_page")
+    PARTNERS = ("blend_right", "blend_left")
 
     def __bytes__(self) -> bytes:
         return bytes(self.data)

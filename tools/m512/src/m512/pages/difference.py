@@ -38,7 +38,8 @@ class Change:
 
 
 FIELDS = {"repeat": "repeat", "speed": "speed", "dxl_setup": "dxl_setup", "accel": "accel", "next": "next", "exit": "exit",
-          "link1_page": "linked page 1", "link2_page": "linked page 2", "byte63": "byte 63"}
+          "link1_page": "linked page 1", "link2_page": "linked page 2", "blend_right": "blend partner to the right",
+          "blend_left": "blend partner to the left", "byte63": "byte 63"}
 CODES = {"code": "code", "link1_code": "code of linked page 1", "link2_code": "code of linked page 2"}
 SCHEDULES = {SCHEDULE_TIME: "time base", SCHEDULE_SPEED: "speed base"}
 
@@ -83,7 +84,7 @@ def pages(number: int, a: Page, b: Page, image: Optional[Image] = None) -> List[
     for field, what in CODES.items():
         add(what, code_text(getattr(a, field)), code_text(getattr(b, field)))
     add("steps", a.steps, b.steps)
-    add("reserved bytes", bytes(a.data[14:15] + a.data[17:20]).hex(" "), bytes(b.data[14:15] + b.data[17:20]).hex(" "))
+    add("reserved bytes", bytes(a.data[14:15] + a.data[19:20]).hex(" "), bytes(b.data[14:15] + b.data[19:20]).hex(" "))
     for joint in range(JOINTS):
         add("softness", _softness(a, joint), _softness(b, joint), joint=joint)
     used = min(max(a.steps, b.steps), STEPS)

@@ -12,7 +12,8 @@ from m512.motion.player import page_seconds
 
 def describe(image: Image, number: int, page: Page) -> dict:
     links = {name: getattr(page, field) for name, field in
-             (("next", "next"), ("exit", "exit"), ("link1", "link1_page"), ("link2", "link2_page")) if getattr(page, field)}
+             (("next", "next"), ("exit", "exit"), ("link1", "link1_page"), ("link2", "link2_page"),
+              ("right", "blend_right"), ("left", "blend_left")) if getattr(page, field)}
     fault = "" if is_erased(page) else page.fault_text(image.kind)
     good = page.fault(image.kind) is Fault.OK
     return {"page": number, "name": page.title if good else "", "steps": page.steps, "repeat": page.repeat,

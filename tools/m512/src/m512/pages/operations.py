@@ -30,8 +30,25 @@ def check(image: Image) -> List[Tuple[int, str]]:
                 out.append((number, f"{link.replace('_', ' ')} leads to page {target}, which has no action"))
         if page.link1_page and not page.link1_code or page.link2_page and not page.link2_code:
             out.append((number, "a linked page has no code and is never followed"))
+        out += [(number, problem) for problem in _partner_problems(image, page)]
         if page.schedule == SCHEDULE_TIME and any(page.time(k) == 0 for k in range(page.steps)):
             out.append((number, "a step has time 0 and is played in one tick"))
+    return out
+
+
+def _partner_problems(image: Image, page: Page) -> List[str]:
+    """Why a blend partner is not blended (the firmware then plays the page as it is)."""
+    out = []
+    for side in Page.PARTNERS:
+        number, where = getattr(page, side), side.replace("_", " ")
+        if not number:
+            continue
+        if not image.first <= number < image.end:
+            out.append(f"{where} leads to page {number}, which is not there")
+        elif image[number].fault(image.kind) or not image[number].steps:
+            out.append(f"{where} leads to page {number}, which is damaged or has no action")
+        elif image[number].steps != page.steps:
+            out.append(f"{where}: page {number} has {image[number].steps} steps and this one {page.steps}; it is not blended")
     return out
 
 
@@ -94,14 +111,14 @@ def delete(image: Image, numbers: Iterable[int]) -> List[str]:
     for number, page in image.items():
         if number not in gone:
             remarks += [f"page {number} \"{page.title}\" still links to page {getattr(page, link)} ({link})"
-                        for link in Page.LINKS if getattr(page, link) in gone]
+                        for link in Page.LINKS + Page.PARTNERS if getattr(page, link) in gone]
     return remarks
 
 
 def relink(page: Page, moved: Dict[int, int]) -> bool:
-    """Follows pages that moved; returns whether a link changed (the page is sealed then)."""
+    """Follows pages that moved, blend partners too; returns whether a link changed (the page is sealed then)."""
     changed = False
-    for link in Page.LINKS:
+    for link in Page.LINKS + Page.PARTNERS:
         target = getattr(page, link)
         if target and target in moved and moved[target] != target:
             setattr(page, link, moved[target])
@@ -137,7 +154,7 @@ def place(image: Image, source: Image, moves: List[Tuple[int, int]], replace: bo
     for there, here in moves:
         page = need_good(source, there).copy()
         relink(page, moved)
-        for link in Page.LINKS:
+        for link in Page.LINKS + Page.PARTNERS:
             old = getattr(source[there], link)
             if old and old not in moved:
                 remarks.append(f"page {here} \"{page.title}\": {link} {old} is not among the pages taken")

@@ -104,8 +104,10 @@ def _page_losses(page: Page, enabled: List[bool], lose: Callable[..., None]) -> 
         target, key = getattr(page, which + "_page"), getattr(page, which + "_code")
         if target or key:
             lose("links by code are left out", f"page {target} on code {key}")
-    if page.dxl_setup or page.data[14] or any(page.data[17:20]):
-        lose("bytes 14, 17..19 or 23 are left out")
+    if page.blend_right or page.blend_left:
+        lose("blend partners are left out", f"right {page.blend_right}, left {page.blend_left}")
+    if page.dxl_setup or page.data[14] or page.data[19]:
+        lose("bytes 14, 19 or 23 are left out")
     if rate_of(page.speed) is None and page.steps:
         lose("the page speed is no rate of one decimal", f"{page.speed} becomes {int(32 // _rate(page))}")
     uneven = [j for j in range(IDS) if page.compliance(j) >> 4 != page.compliance(j) & 15]

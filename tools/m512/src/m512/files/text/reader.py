@@ -233,6 +233,12 @@ class Reader(JointWords):
         self.draft.page.link2_code = code(rest[0])
         self._link("link2_page", rest[1])
 
+    def _do_blend(self, rest: List[Token]) -> None:
+        self._count(rest, 2, 2, "blend right PAGE | blend left PAGE")
+        if rest[0].text not in ("right", "left"):
+            raise WordError(f"blend right or blend left, not {rest[0]}")
+        self._link(f"blend_{rest[0].text}", rest[1])
+
     def _do_softness(self, rest: List[Token]) -> None:
         self._count(rest, 1, None, "softness [LEVEL] joint:LEVEL ... (LEVEL 1..7, or CW/CCW)")
         for place, token in enumerate(rest):

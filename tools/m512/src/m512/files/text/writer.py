@@ -136,13 +136,16 @@ def _header(page: Page, number: int, style: Style) -> List[str]:
         out.append(f"link1 {code_text(page.link1_code)} {link_text(page.link1_page, number, style)}")
     if page.link2_page or page.link2_code:
         out.append(f"link2 {code_text(page.link2_code)} {link_text(page.link2_page, number, style)}")
+    for side in ("right", "left"):
+        if partner := getattr(page, f"blend_{side}"):
+            out.append(f"blend {side} {link_text(partner, number, style)}")
     if page.dxl_setup:
         out.append(f"dxl_setup {page.dxl_setup}")
     if bytes(page.data[32:63]) != style.softness:
         out.append(softness_text(bytes(page.data[32:63])))
     if page.byte63 != style.byte63:
         out.append(f"byte63 {page.byte63}")
-    for offset, count in ((14, 1), (17, 3)):
+    for offset, count in ((14, 1), (19, 1)):
         data = bytes(page.data[offset:offset + count])
         if any(data):
             out.append(f"raw {offset} {data.hex(' ')}")
