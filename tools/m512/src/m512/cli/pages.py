@@ -256,7 +256,8 @@ def merge(source, other, page, replace, **where):
     source.store(operations.place(source.image, image, moves, replace), **where)
 
 
-@pages.command(epilog="Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of wave, legs of walk_loop)")
+@pages.command(epilog="""\b
+Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of wave, legs of walk_loop)""")
 @click.argument("base")
 @click.argument("other")
 @click.argument("joints")
@@ -265,12 +266,16 @@ def merge(source, other, page, replace, **where):
 @replacing
 @changes
 def combine(source, base, other, joints, target, other_file, replace, **where):
-    """Page TARGET becomes BASE with the JOINTS (1..6 or 1,3,5) of page OTHER: upper body here, lower body there."""
-    from m512.pages import operations
+    """From page TARGET on: the motion of BASE, with JOINTS (1..6 or 1,3,5) doing that of OTHER.
+
+    A motion is a page and what it links to. The two may have any lengths: the result has a step wherever one of them has
+    one, on free pages behind TARGET when one page is not enough. What ends first holds its pose, or goes round again.
+    """
+    from m512.pages import overlay
 
     donor = formats.load(other_file, source.bits) if other_file else source.image
-    source.store(operations.combine(source.image, source.image.find(base), donor, donor.find(other),
-                                                   id_list(joints), target, replace), **where)
+    source.store(overlay.combine(source.image, source.image.find(base), donor, donor.find(other), id_list(joints), target, replace),
+                 **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin mirror kick_left 41 --in-place")

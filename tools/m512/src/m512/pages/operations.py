@@ -6,7 +6,7 @@ from typing import Dict, Iterable, List, Optional, Tuple
 
 from m512.errors import FileError, RefusedError
 from m512.files.image import Image, is_erased
-from m512.files.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Page, is_used
+from m512.files.page import JOINTS, SCHEDULE_TIME, STEPS, Page, is_used
 from m512.motion.player import page_seconds
 
 NOMINAL_SPEED = 32
@@ -159,24 +159,6 @@ def place(image: Image, source: Image, moves: List[Tuple[int, int]], replace: bo
             if old and old not in moved:
                 remarks.append(f"page {here} \"{page.title}\": {link} {old} is not among the pages taken")
         image[here] = page
-    return remarks
-
-
-def combine(image: Image, base: int, other_image: Image, other: int, joints: Iterable[int], target: int,
-            replace: bool = False) -> List[str]:
-    """`target` = page `base` with `joints` from page `other` (of another image, or the same)."""
-    _must_be_free(image, target, replace or target == base)
-    page, donor, remarks = need_good(image, base).copy(), need_good(other_image, other), []
-    if donor.steps > page.steps:
-        remarks.append(f"steps {page.steps}..{donor.steps - 1} of page {other} are left out: page {base} has {page.steps}")
-    for joint in joints:
-        page.set_compliance(joint, donor.compliance(joint))
-        for step in range(page.steps):
-            page.set_word(step, joint, donor.word(step, joint) if step < donor.steps else POS_UNUSED)
-    uneven = [step for step in range(min(page.steps, donor.steps)) if page.time(step) != donor.time(step)]
-    if uneven:
-        remarks.append(f"times are those of page {base}; page {other} differs in steps {' '.join(map(str, uneven))}")
-    image[target] = page.seal()
     return remarks
 
 
