@@ -95,7 +95,7 @@ def flat(faces, view=VIEW):
     return [(corners, colour) for _, corners, colour in sorted(seen, key=lambda part: part[0])]
 
 
-def save_strip(path, scenes, view=VIEW, height_inches=2.6, columns=8):
+def save_strip(path, scenes, view=VIEW, height_inches=2.6, columns=8, dpi=120):
     """Draws [(label, faces)] beside each other, a row of `columns` after the other, into a .png or .svg file."""
     import matplotlib
     matplotlib.use("Agg")
@@ -119,5 +119,5 @@ def save_strip(path, scenes, view=VIEW, height_inches=2.6, columns=8):
         axis.set_ylim(low, high)
         axis.set_aspect("equal")
         axis.set_title(label, fontsize=7)
-    figure.savefig(path, dpi=120, metadata={"Date": None} if str(path).endswith(".svg") else None)
+    figure.savefig(path, dpi=dpi, metadata={"Date": None} if str(path).endswith(".svg") else None)
     pyplot.close(figure)
