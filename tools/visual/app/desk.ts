@@ -97,8 +97,8 @@ export class RobotDesk implements Desk {
 
   useSimulated(): void {
     if (this.isSimulated) return;
-    void this.yours.close();
     this.state.set({ source: 'simulated' });
+    void this.yours.close();
     this.simulated.resume();
   }
 

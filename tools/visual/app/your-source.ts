@@ -50,12 +50,14 @@ export class YourSource {
     if (!this.port) return;
     this.standing.begin();
     this.startedMs = performance.now();
-    this.connection = new Connection(new WebSerialPort(this.port), wallClock, {
-      state: (state) => this.events.connection(state),
-      text: (bytes) => this.events.text(bytes),
+    // What an old connection still says when it is closed concerns nobody.
+    const connection: Connection = new Connection(new WebSerialPort(this.port), wallClock, {
+      state: (state) => this.connection === connection && this.events.connection(state),
+      text: (bytes) => this.connection === connection && this.events.text(bytes),
     });
-    this.connection.connect();
-    void this.follow(this.connection);
+    this.connection = connection;
+    connection.connect();
+    void this.follow(connection);
   }
 
   async close(): Promise<void> {

@@ -20,8 +20,9 @@ const ASK_MS = 700;
 const ASK_AGAIN_MS = 400;
 
 export interface ConnectionEvents {
-  state(state: ConnectionState): void;
-  text(bytes: Uint8Array): void;
+  /** What these return is not looked at. */
+  state(state: ConnectionState): unknown;
+  text(bytes: Uint8Array): unknown;
 }
 
 export class Connection {

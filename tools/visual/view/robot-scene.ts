@@ -2,8 +2,8 @@
 // The room: camera, light, floor and the figure in it. Draws when it is told to; holds no state of the robot.
 
 import {
-  AmbientLight, BufferGeometry, CircleGeometry, Color, DirectionalLight, Fog, Group, HemisphereLight, Line, LineBasicMaterial, Mesh,
-  MeshStandardMaterial, PCFShadowMap, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, GridHelper, Plane,
+  AmbientLight, BufferGeometry, CanvasTexture, CircleGeometry, Color, DirectionalLight, Fog, Group, HemisphereLight, Line, LineBasicMaterial, Mesh,
+  MeshStandardMaterial, PCFShadowMap, PerspectiveCamera, Raycaster, RepeatWrapping, SRGBColorSpace, Scene, Vector2, Vector3, WebGLRenderer, Plane,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Body } from '../model/body.ts';
@@ -13,6 +13,7 @@ import type { Quality } from './picture-quality.ts';
 import { RobotFigure } from './robot-figure.ts';
 
 const ROOM_RADIUS = 12;
+const TILE_M = 0.1;
 const FOLLOW = 0.08; // of the way a frame
 const MOST_PIXELS = 2;
 
@@ -35,9 +36,8 @@ export class RobotScene {
   private readonly light = new DirectionalLight(0xffffff, 2.4);
   private readonly floor = new MeshStandardMaterial({ roughness: 1 });
   private readonly string: Line;
-  private readonly followed = new Vector3(0, 0, 0.17);
+  private readonly followed = new Vector3(0, 0, 0.14);
   private readonly raycaster = new Raycaster();
-  private grid: GridHelper | null = null;
 
   /** Throws when the browser has no WebGL. */
   constructor(canvas: HTMLCanvasElement, body: Body) {
@@ -47,7 +47,7 @@ export class RobotScene {
     this.renderer.shadowMap.type = PCFShadowMap;
     this.figure = new RobotFigure(body);
     this.camera.up.set(0, 0, 1);
-    this.camera.position.set(0.8, -0.52, 0.4);
+    this.camera.position.set(0.88, -0.56, 0.42);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.target.copy(this.followed);
     Object.assign(this.controls, { minDistance: 0.3, maxDistance: 4, maxPolarAngle: Math.PI * 0.52, enableDamping: true, dampingFactor: 0.12 });
@@ -61,15 +61,9 @@ export class RobotScene {
   paint(background: string, floor: string, lines: string): void {
     this.scene.background = new Color(background);
     this.scene.fog = new Fog(background, 2.5, 8);
-    this.floor.color.set(floor);
-    this.grid?.removeFromParent();
-    this.grid?.dispose();
-    this.grid = new GridHelper(2 * ROOM_RADIUS, 2 * ROOM_RADIUS * 10, lines, lines);
-    this.grid.rotateX(Math.PI / 2);
-    this.grid.position.z = 0.0005;
-    this.grid.material.transparent = true;
-    this.grid.material.opacity = 0.75;
-    this.room.add(this.grid);
+    this.floor.map?.dispose();
+    this.floor.map = tiles(floor, lines);
+    this.floor.needsUpdate = true;
   }
 
   resize(width: number, height: number, quality: Quality): void {
@@ -130,6 +124,7 @@ export class RobotScene {
   dispose(): void {
     this.controls.dispose();
     this.figure.dispose();
+    this.floor.map?.dispose();
     this.renderer.dispose();
   }
 
@@ -146,12 +141,33 @@ export class RobotScene {
   }
 
   private follow(trunk: Place): void {
-    const wanted = new Vector3(trunk.pos[0], trunk.pos[1], Math.max(0.1, trunk.pos[2] * 0.6));
+    const wanted = new Vector3(trunk.pos[0], trunk.pos[1], Math.max(0.07, trunk.pos[2] * 0.47));
     const step = wanted.sub(this.followed).multiplyScalar(FOLLOW);
     this.followed.add(step);
     this.controls.target.add(step);
     this.camera.position.add(step);
   }
+}
+
+/** Tiles of 10 cm, so that one sees how far it walks. */
+function tiles(floor: string, dark: string): CanvasTexture {
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext('2d');
+  if (context) {
+    context.fillStyle = floor;
+    context.fillRect(0, 0, 64, 64);
+    context.globalAlpha = 0.22;
+    context.fillStyle = dark;
+    context.fillRect(0, 0, 32, 32);
+    context.fillRect(32, 32, 32, 32);
+  }
+  const texture = new CanvasTexture(canvas);
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  texture.repeat.set(ROOM_RADIUS / TILE_M, ROOM_RADIUS / TILE_M);
+  texture.colorSpace = SRGBColorSpace;
+  texture.anisotropy = 8;
+  return texture;
 }
 
 function drawsBySoftware(): boolean {

@@ -8,8 +8,8 @@ import { existsSync } from 'node:fs';
 import { chromium } from 'playwright-core';
 import type { Browser, BrowserContext, Page } from 'playwright-core';
 
-const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
-const FLAGS = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
+export const FLAGS = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(process.getuid?.() === 0 ? ['--no-sandbox'] : [])];
 const VIEWPORT = { width: 1000, height: 640 };
 
@@ -56,8 +56,8 @@ export class Visitor {
     this.page = page;
   }
 
-  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light'): Promise<Visitor> {
-    const context = await browser.newContext({ viewport: VIEWPORT, colorScheme: theme });
+  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1): Promise<Visitor> {
+    const context = await browser.newContext({ viewport: VIEWPORT, colorScheme: theme, deviceScaleFactor: sharpness });
     const visitor = new Visitor(context, await context.newPage());
     visitor.watch(new URL(address).origin);
     await visitor.page.goto(address);

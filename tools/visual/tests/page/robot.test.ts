@@ -92,3 +92,13 @@ test('time: slow, paused, tick by tick', async () => {
   await expect.poll(seconds, { timeout: 20_000 }).toBeGreaterThan(stands + 1);
   await person.leave();
 });
+
+test('the picture of the README: the robot on one leg of its walk', async () => {
+  const visitor = await Visitor.come(browser, server.address, 'light', 2);
+  await visitor.untilStanding();
+  await visitor.button('Walk').click();
+  await visitor.doing.filter({ hasText: /walk_l\), step/ }).waitFor({ timeout: 60_000 });
+  await visitor.page.waitForTimeout(4000);
+  await visitor.page.screenshot({ path: `${SHOTS}page.png`, scale: 'css', timeout: 90_000 });
+  await visitor.leave();
+});
