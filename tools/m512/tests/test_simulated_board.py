@@ -6,7 +6,7 @@ import time
 
 import pytest
 from conftest import REPO
-from m512.board import sim
+from m512.board import driving, sim
 from m512.board.client import Client
 from m512.board.link import Link
 from m512.errors import MissingError
@@ -208,3 +208,33 @@ def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, t
         assert result.exit_code == 5 and "not saved" in result.stderr and "--yes" in result.stderr
         result = m512("flash", motions, "-p", simulator.url, "--wait", "5", "--yes")
         assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr
+
+
+def test_play_is_shaped(m512, robot):
+    with Link(robot.url) as link:
+        if "rate" not in Client(link).version.get("can", "") + " ".join(Client(link).where()):
+            pytest.skip("this Play cannot shape")
+    assert m512("play", "walk", "--rate", "150", "--amplitude", "80", "-p", robot.url).exit_code == 0
+    found = json.loads(m512("shape", "--json", "-p", robot.url).stdout)
+    assert found["rate"] == "150" and found["amplitude"] == "80" and found["blend"] == "0"
+    assert "rate 90" in m512("shape", "--rate", "90", "--blend", "-40", "-p", robot.url).stdout
+    assert json.loads(m512("shape", "--reset", "--json", "-p", robot.url).stdout)["rate"] == "100"
+    assert m512("shape", "--rate", "5", "-p", robot.url).exit_code == 2
+
+
+def test_drive_ends_through_the_exit_page_when_the_line_falls_silent(robot):
+    with Link(robot.url) as link:
+        client = Client(link)
+        if "rate" not in client.where():
+            pytest.skip("this Play cannot shape")
+        client.play(client.find("walk"))
+        client.ask(driving.Stick(rate=120).line())
+        assert client.where()["rate"] == "120"
+        pages = set()
+        for _ in range(200):
+            state = client.where()
+            pages.add(state["page"])
+            if state["state"] == "idle":
+                break
+            time.sleep(0.05)
+        assert state["state"] == "idle" and {"3", "1"} <= pages       # walk, and stand, its exit

@@ -150,5 +150,9 @@ class Client:
     def where(self) -> Dict[str, str]:
         return self._fields(self.ask("where"))
 
+    def shape(self) -> Dict[str, str]:
+        """What shapes the motion: rate, blend, amplitude, layer, by_code."""
+        return self._fields(self.ask("shape"))
+
     def play(self, page: int, code: int = 0) -> None:
         self.ask(f"play {page}" + (f" {code}" if code else ""))

@@ -18,6 +18,8 @@ COMMANDS = {
     "restore": ("board", "Show what a backup would change, ask, and write it."),
     "play": ("robot", "Play a page of the board, or of the simulator."),
     "stop": ("robot", "Stop what is playing, softly or at once."),
+    "shape": ("shape", "Speed, size and turn of the motion that plays."),
+    "drive": ("shape", "Play a page and drive it by keys or a game pad."),
     "pose": ("robot", "Show the pose, or move joints."),
     "torque": ("robot", "Switch torque on or off."),
     "get": ("robot", "Read pages from a running board into a file."),

@@ -66,12 +66,16 @@ def _report(client, as_json):
 Examples:
   m512 play walk_start
   m512 play 12 --code U --wait        until it ends; Ctrl-C stops softly, again: at once
+  m512 play walk --rate 120 --blend -30   a fifth faster, a curve to the left
   m512 play wave --sim --motions library.m512 --wait""")
 @click.argument("page")
+@click.option("--rate", type=click.IntRange(10, 400), help="Speed in percent, for this play and until changed (m512 shape).")
+@click.option("--amplitude", type=click.IntRange(0, 150), help="Size in percent, about the centre page's pose.")
+@click.option("--blend", type=click.IntRange(-100, 100), help="Percent towards the partner page: right 1.., left -1..")
 @click.option("--code", "key", default="", help="Code of the call: a number, or keys such as U or L+B1.")
 @click.option("--wait", is_flag=True, help="Follow the play until it ends.")
 @robot_options
-def play(page, key, wait, **options):
+def play(page, rate, amplitude, blend, key, wait, **options):
     """Play a page of the board, by number or name."""
     from m512.files.text.words import Token, WordError
     from m512.files.text.words import code as parse
@@ -82,6 +86,9 @@ def play(page, key, wait, **options):
         raise click.UsageError(str(error)) from None
     with robot(options) as client:
         number = client.find(page)
+        for word, value in (("rate", rate), ("amplitude", amplitude), ("blend", blend)):
+            if value is not None:
+                client.ask(f"{word} {value}")
         client.play(number, code)
         ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
         if wait or options["sim"]:

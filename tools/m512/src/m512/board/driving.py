@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT
+"""Driving a motion that plays: what a stick or keys mean, and the `@drive` lines that say it 20 times a second.
+
+The board ends the play through its exit page when no `@drive` comes for a second (setting `drive`), so a lost cable or a
+program that hangs does not leave a walking robot.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from m512.board.client import Client
+
+PERIOD = 0.05                     # seconds between two lines
+RATES, AMPLITUDES, BLENDS = (10, 400), (0, 150), (-100, 100)
+
+
+@dataclass
+class Stick:
+    """What is asked for, in percent: blend to the right, rate, amplitude. `done`: stop, softly or at once."""
+
+    blend: float = 0.0
+    rate: float = 100.0
+    amplitude: float = 100.0
+    done: str = ""
+
+    def line(self) -> str:
+        return f"drive {_within(self.blend, BLENDS)} {_within(self.rate, RATES)} {_within(self.amplitude, AMPLITUDES)}"
+
+
+class Source(Protocol):
+    """Keys or a game pad."""
+
+    def update(self, stick: Stick, seconds: float) -> None:
+        """Changes the stick by what has happened in the last `seconds`."""
+
+
+class Keys:
+    """Keys of a terminal, which tells presses and no releases: steering goes back to straight by itself."""
+
+    HELP = "a d steer, w s faster and slower, e q larger and smaller, space stops softly, x at once"
+    STEER, BACK, FASTER, LARGER = 25.0, 60.0, 10.0, 10.0     # percent a key; percent a second; percent a key
+
+    def __init__(self) -> None:
+        self.pressed = ""
+
+    def press(self, key: str) -> None:
+        self.pressed += key.lower()
+
+    def update(self, stick: Stick, seconds: float) -> None:
+        keys, self.pressed = self.pressed, ""
+        if not any(key in "ad" for key in keys):
+            stick.blend -= max(-self.BACK * seconds, min(self.BACK * seconds, stick.blend))
+        for key in keys:
+            stick.blend = _clamp(stick.blend + self.STEER * ((key == "d") - (key == "a")), BLENDS)
+            stick.rate = _clamp(stick.rate + self.FASTER * ((key == "w") - (key == "s")), (50, 150))
+            stick.amplitude = _clamp(stick.amplitude + self.LARGER * ((key == "e") - (key == "q")), (0, 120))
+            if key in " x\x03":
+                stick.done = "stop" if key == " " else "break"
+
+
+class Pad:
+    """A game pad, read by `axis(n)` (-1 .. 1) and `button(n)`: left stick steers and speeds, any of the first four buttons stops."""
+
+    DEAD = 0.12
+
+    def __init__(self, pad) -> None:
+        self.pad = pad
+
+    def update(self, stick: Stick, seconds: float) -> None:
+        across, along = (0.0 if abs(value) < self.DEAD else value for value in (self.pad.axis(0), self.pad.axis(1)))
+        stick.blend = _clamp(100 * across, BLENDS)
+        stick.rate = 100 - 50 * _clamp(along, (-1, 1))          # forward is negative
+        if any(self.pad.button(n) for n in range(4)):
+            stick.done = "stop"
+
+
+def drive(client: Client, source: Source, link, told) -> None:
+    """Sends until the source says done or the play ends; `told(stick)` after each line. A play that is left by an exception
+    is stopped softly."""
+    stick, before = Stick(), link.now()
+    try:
+        while not stick.done:
+            now = link.now()
+            source.update(stick, now - before)
+            before = now
+            client.ask(stick.line())
+            told(stick)
+            link.sleep(max(PERIOD - (link.now() - now), 0))
+    except BaseException:
+        client.ask("stop")
+        raise
+    client.ask(stick.done)
+
+
+def _clamp(value: float, span) -> float:
+    return min(max(value, span[0]), span[1])
+
+
+def _within(value: float, span) -> int:
+    return int(round(_clamp(value, span)))

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+"""`m512 shape`, `drive`: a motion that plays made faster, larger, turned."""
+from __future__ import annotations
+
+import json
+from contextlib import contextmanager
+
+import click
+
+from m512 import ui
+from m512.cli.robot import robot, robot_options
+from m512.errors import MissingError
+
+FIELDS = ("rate", "amplitude", "blend")
+
+
+def shape_options(function):
+    for option in (
+            click.option("--blend", type=click.IntRange(-100, 100), help="Percent towards the partner page: right 1.., left -1.."),
+            click.option("--amplitude", type=click.IntRange(0, 150), help="Size in percent, about the centre page's pose."),
+            click.option("--rate", type=click.IntRange(10, 400), help="Speed in percent.")):
+        function = option(function)
+    return function
+
+
+def apply(client, rate, amplitude, blend):
+    """Sends what was asked for."""
+    for word, value in zip(FIELDS, (rate, amplitude, blend)):
+        if value is not None:
+            client.ask(f"{word} {value}")
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 shape                          what is in force
+  m512 shape --rate 120 --blend -30   a fifth faster, a curve to the left
+  m512 shape --reset                  everything as stored""")
+@shape_options
+@click.option("--reset", is_flag=True, help="Everything as stored on the board.")
+@robot_options
+def shape(rate, amplitude, blend, reset, **options):
+    """Show or change the speed, size and turn of the motion that plays (Play)."""
+    with robot(options) as client:
+        if reset:
+            client.ask("shape reset")
+        apply(client, rate, amplitude, blend)
+        found = client.shape()
+    if options["as_json"]:
+        ui.show(json.dumps(found))
+    else:
+        ui.show("  ".join(f"{word} {value}" for word, value in found.items()))
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 drive walk                keys of the terminal; keep a or d pressed to steer
+  m512 drive walk --pad          the first game pad (pip install "m512[drive]")""")
+@click.argument("page")
+@click.option("--pad", is_flag=True, help="A game pad instead of keys.")
+@robot_options
+def drive(page, pad, **options):
+    """Play PAGE and drive it: a joystick at 20 lines a second.
+
+    When the cable is lost or m512 ends, the board stops the play through its exit page.
+    """
+    from m512.board import driving
+
+    with robot(options) as client:
+        number = client.find(page)
+        with (_pad() if pad else _keys()) as source:
+            client.play(number)
+            ui.say(f"page {number} plays. " + ("Any of the first four buttons stops it" if pad else driving.Keys.HELP))
+            driving.drive(client, source, client.link, _tell)
+    ui.say("stopping")
+
+
+def _tell(stick):
+    click.echo(f"\r{stick.line()}   ", err=True, nl=False)
+
+
+@contextmanager
+def _keys():
+    """Keys as they are pressed, without Enter."""
+    import sys
+    import threading
+
+    from serial.tools.miniterm import Console
+
+    from m512.board.driving import Keys
+    from m512.errors import RefusedError
+
+    if not sys.stdin.isatty():
+        raise RefusedError("driving by keys needs a terminal; --pad takes a game pad")
+    console, keys = Console(), Keys()
+    console.setup()
+
+    def read():
+        while True:
+            key = console.getkey()
+            keys.press(key)
+            if key in ("", "\x03"):
+                return
+
+    thread = threading.Thread(target=read, daemon=True)
+    thread.start()
+    try:
+        yield keys
+    finally:
+        console.cleanup()
+
+
+@contextmanager
+def _pad():
+    """The first game pad, through pygame."""
+    import os
+
+    from m512.board.driving import Pad
+
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    try:
+        import pygame
+    except ImportError:
+        raise MissingError("a game pad needs pygame: pip install \"m512[drive]\"") from None
+    pygame.init()
+    try:
+        if not pygame.joystick.get_count():
+            raise MissingError("no game pad is plugged in")
+        device = pygame.joystick.Joystick(0)
+
+        class Reader:
+            def axis(self, n):
+                pygame.event.pump()
+                return device.get_axis(n) if n < device.get_numaxes() else 0.0
+
+            def button(self, n):
+                return n < device.get_numbuttons() and device.get_button(n)
+
+        yield Pad(Reader())
+    finally:
+        pygame.quit()

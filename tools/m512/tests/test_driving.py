@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""Keys and a stick become `@drive` lines; the shape of a play from the command line."""
+import pytest
+from m512.board import driving
+from m512.errors import NoAnswerError
+
+
+class Line:
+    def __init__(self):
+        self.time = 0.0
+
+    def now(self):
+        return self.time
+
+    def sleep(self, seconds):
+        self.time += seconds
+
+
+class Board:
+    def __init__(self, link, fails_at=None):
+        self.asked, self.link, self.fails_at = [], link, fails_at
+
+    def ask(self, request, *_, **__):
+        self.asked.append((round(self.link.now(), 3), request))
+        if self.fails_at is not None and len(self.asked) == self.fails_at:
+            raise NoAnswerError("no answer")
+        return ""
+
+
+class Script(driving.Keys):
+    """Keys at their times."""
+
+    def __init__(self, keys):
+        super().__init__()
+        self.keys, self.time = list(keys), 0.0
+
+    def update(self, stick, seconds):
+        self.time += seconds
+        while self.keys and self.keys[0][0] <= self.time + 1e-9:
+            self.press(self.keys.pop(0)[1])
+        super().update(stick, seconds)
+
+
+def play(keys, **options):
+    link = Line()
+    board = Board(link, **options)
+    driving.drive(board, Script(keys), link, lambda stick: None)
+    return board.asked
+
+
+def test_drive_sends_twenty_lines_a_second_and_stops_softly():
+    asked = play([(1.0, " ")])
+    lines = [at for at, request in asked if request.startswith("drive")]
+    assert all(abs(b - a - 0.05) < 1e-6 for a, b in zip(lines, lines[1:])) and len(lines) == 21
+    assert asked[0][1] == "drive 0 100 100" and asked[-1][1] == "stop"
+
+
+def test_drive_steers_while_a_key_repeats_and_goes_straight_when_it_ends():
+    asked = dict(play([(0.0, "d"), (0.05, "d"), (0.1, "d"), (0.15, "d"), (0.2, "d"), (0.3, "w"), (3.0, "x")]))
+    assert asked[0.2] == "drive 100 100 100"          # 5 x 25, at most 100
+    assert asked[0.4] == "drive 88 110 100"           # back by 60 percent a second, from 0.2 s on
+    assert asked[2.9] == "drive 0 110 100"
+    assert play([(0.1, "x")])[-1][1] == "break"
+
+
+def test_drive_that_fails_stops_the_robot():
+    link = Line()
+    board = Board(link, fails_at=3)
+    with pytest.raises(NoAnswerError):
+        driving.drive(board, Script([]), link, lambda stick: None)
+    assert board.asked[-1][1] == "stop"
+
+
+def test_pad_steers_and_speeds_by_its_left_stick():
+    class Device:
+        axes, pressed = [0.5, -1.0], set()
+
+        def axis(self, n):
+            return self.axes[n]
+
+        def button(self, n):
+            return n in self.pressed
+
+    stick, device = driving.Stick(), Device()
+    driving.Pad(device).update(stick, 0.05)
+    assert stick.line() == "drive 50 150 100"
+    device.axes = [0.05, 0.0]
+    driving.Pad(device).update(stick, 0.05)
+    assert stick.line() == "drive 0 100 100"
+    device.pressed = {2}
+    driving.Pad(device).update(stick, 0.05)
+    assert stick.done == "stop"
+
+
+def test_drive_without_a_terminal_says_so(m512, monkeypatch):
+    from contextlib import contextmanager
+
+    from m512.cli import shape
+
+    @contextmanager
+    def robot(_):
+        class Client:
+            find = staticmethod(lambda page: 1)
+
+        yield Client()
+
+    monkeypatch.setattr(shape, "robot", robot)
+    result = m512("drive", "walk", "-p", "x")
+    assert result.exit_code == 5 and "needs a terminal" in result.stderr
