@@ -210,7 +210,13 @@ def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, t
         assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr
 
 
+def start(m512, robot):
+    assert m512("run", "-p", robot.url).exit_code == 0
+    time.sleep(2.0)
+
+
 def test_play_is_shaped(m512, robot):
+    start(m512, robot)
     with Link(robot.url) as link:
         if "rate" not in Client(link).version.get("can", "") + " ".join(Client(link).where()):
             pytest.skip("this Play cannot shape")
@@ -222,7 +228,8 @@ def test_play_is_shaped(m512, robot):
     assert m512("shape", "--rate", "5", "-p", robot.url).exit_code == 2
 
 
-def test_drive_ends_through_the_exit_page_when_the_line_falls_silent(robot):
+def test_drive_ends_through_the_exit_page_when_the_line_falls_silent(m512, robot):
+    start(m512, robot)
     with Link(robot.url) as link:
         client = Client(link)
         if "rate" not in client.where():
