@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """tools/release: the same sources give the same bytes, the sums are right, and what it makes works where there is nothing else.
-The programs come from the build folder here; that a build elsewhere gives the same bytes too is shown by tools/release itself, run in two clones."""
+The programs come from the build folder here; that a second build, in another folder, gives the same bytes too is shown by tools/release --twice."""
 import filecmp
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import sysconfig
@@ -62,6 +63,14 @@ def test_release_holds_no_path_of_this_computer_but_in_debug_information(made):
     folder = made[0] / "robot"
     made_here = [name for name in files(folder) if name.suffix not in (".elf", ".gz")]
     assert [str(name) for name in made_here if str(TOP).encode() in (folder / name).read_bytes()] == []
+
+
+def test_release_holds_no_name_that_chance_made(made):
+    """The linker's temporary files stand in the symbol tables."""
+    elves = sorted((made[0] / "robot" / "firmware").glob("*.elf"))
+    assert len(elves) == 6
+    for elf in elves:
+        assert set(re.findall(rb"/tmp/cc(\w{6})\.", elf.read_bytes())) <= {b"XXXXXX"}
 
 
 @pytest.fixture(scope="module")
