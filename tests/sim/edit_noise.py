@@ -48,7 +48,6 @@ class Figures(NamedTuple):
     sent: int
     saves: int
     restarts: int
-    : int
     seconds: float
     headroom: int
 
