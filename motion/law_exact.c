@@ -110,7 +110,7 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end, b
         uint32_t entry = from_stand ? 0 : exact->exit_q16_16, exit = 0;
         uint32_t mean = even(fix_mean(way_between(from_pos, to_pos), player->step_recip));
         exact->down = to_pos < from_pos;
-        if (player->runs_on && (exact->down ? *coming < to_pos : *coming > to_pos)) {
+        if (mean != 0 && player->runs_on && (exact->down ? *coming < to_pos : *coming > to_pos)) {
             exit = even(fix_mean(way_between(to_pos, *coming), player->coming_recip));
             exit = mean < exit ? mean : exit;
         }
@@ -152,13 +152,15 @@ static NOINLINE void begin_fall(player_t *player)
 
 /* --- from step to step -------------------------------------------------------------------------------------------- */
 
-/* Joints that are planned in the tick before their step begins. */
+/* Joints that are planned in the tick before their step begins; fewer where that tick has a whole step of its own. */
 #define PLANNED_AHEAD 12u
+#define PLANNED_AHEAD_OF_ONE 4u
 
 /* The joints are on target_pos: the next step begins with the next tick. */
 static NOINLINE void take(player_t *player)
 {
     player->joints |= player->coming_joints;
+    uint8_t planned_ahead = player->step_ticks == 1 ? PLANNED_AHEAD_OF_ONE : PLANNED_AHEAD;
     player->step_ticks = player->coming_ticks;
     player->step_recip = player->coming_recip;
     player->hold_ticks = step_plan_exact_hold(&player->now, &player->carry_q5_11);
@@ -170,7 +172,7 @@ static NOINLINE void take(player_t *player)
     player->arrived = true;
     player->runs_on = player->coming.page != 0 && player->now.pause == 0;
     set_ramp(player);
-    plan_joints(player, 0, PLANNED_AHEAD, false);
+    plan_joints(player, 0, planned_ahead, false);
 }
 
 uint8_t exact_step_over(player_t *player, link_t *link)

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: MIT
+ * test_shape.c - what is set while a motion plays: ranges, neutral, and what it makes of steps. Values by hand from
+ * shaping.md; tests/compare/shaped.py compares any with a model. */
+#include <string.h>
+#include "player.h"
+#include "shape.h"
+#include "shape_step.h"
+#include "unity.h"
+
+#define CENTRE 1u
+#define PAGE 2u
+#define RIGHT 3u
+#define OTHER_LENGTH 4u
+
+static shape_t shape;
+static uint16_t pages[5][4];  /* step 1: joints 0..3 */
+static uint8_t damaged;
+
+/* Pages of one step of 40 ticks (OTHER_LENGTH has two) in time base, ramps of 8 ticks; no links. */
+static uint8_t byte_of(uint8_t page, uint16_t at)
+{
+    uint8_t steps = page == OTHER_LENGTH ? 2 : 1;
+    switch (at) {
+    case PAGE_AT_PLAY_COUNT:
+        return 1;
+    case PAGE_AT_SCHEDULE:
+        return PAGE_SCHEDULE_TIME;
+    case PAGE_AT_BLEND_RIGHT:
+        return page == PAGE ? RIGHT : 0;
+    case PAGE_AT_BLEND_LEFT:
+        return page == PAGE ? OTHER_LENGTH : 0;
+    case PAGE_AT_STEPS:
+        return steps;
+    case PAGE_AT_SPEED:
+        return PAGE_SPEED_NOMINAL;
+    case PAGE_AT_ACCEL_TIME:
+        return 8;
+    case PAGE_AT_STEP0 + PAGE_STEP_AT_SPEED:
+        return 40;
+    default:
+        break;
+    }
+    if (at < PAGE_AT_STEP0) {
+        return 0;
+    }
+    uint16_t joint = (uint16_t)(at - PAGE_AT_STEP0) / 2;
+    uint16_t word = joint < 4 ? pages[page][joint] : PAGE_POS_UNUSED;
+    return (uint8_t)(at % 2 != 0 ? word >> 8 : word);
+}
+
+static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
+{
+    (void)context;
+    for (uint8_t *bytes = to; count != 0; count--) {
+        *bytes++ = byte_of(page, offset++);
+    }
+}
+
+static uint8_t check_page(void *context, uint8_t page)
+{
+    (void)context;
+    return page == damaged ? PAGE_ERR_CHECKSUM : PAGE_OK;
+}
+
+static const page_source_t source = {0, read_page, check_page};
+
+void setUp(void)
+{
+    static const uint16_t positions[5][4] = {{0}, {512, 512, 100, PAGE_POS_UNUSED}, {612, 413, 50, 700},
+                                             {712, PAGE_POS_UNUSED, 150, 801}, {0, 0, 0, 0}};
+    memcpy(pages, positions, sizeof pages);
+    damaged = 0;
+    shape_init(&shape);
+}
+
+void tearDown(void)
+{
+}
+
+/* Joint 0..3 of the shaped step. */
+static uint16_t shaped(uint8_t joint)
+{
+    uint8_t bytes[PAGE_STEP_BYTES];
+    read_page(NULL, PAGE, PAGE_AT_STEP0, bytes, sizeof bytes);
+    shape_step(&shape, &source, PAGE, 1, bytes);
+    return page_word(&bytes[2 * joint]);
+}
+
+static void expect(uint16_t a, uint16_t b, uint16_t c, uint16_t d)
+{
+    const uint16_t expected[4] = {a, b, c, d};
+    for (uint8_t i = 0; i < 4; i++) {
+        TEST_ASSERT_EQUAL_UINT16(expected[i], shaped(i));
+    }
+}
+
+static void test_shape_neutral_changes_nothing(void)
+{
+    TEST_ASSERT_TRUE(shape_is_neutral(&shape));
+    expect(612, 413, 50, 700);
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, 50));
+    TEST_ASSERT_FALSE(shape_is_neutral(&shape));
+    expect(612, 413, 50, 700);
+}
+
+/* About 512, 512, 100; joint 3 is not in the centre pose. 50 % of -99 is -49.5: away from the centre. */
+static void test_shape_amplitude_scales_about_the_centre_pose(void)
+{
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 50, 0x7FFFFFFF));
+    expect(562, 462, 75, 700);
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 150, 0x1));
+    expect(662, 462, 75, 700);
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 0, 0x7FFFFFFF));
+    expect(512, 512, 100, 700);
+}
+
+/* 25 % of the way to 712, -, 150, 801: 637, 413 (the partner does not use joint 1), 75, 725.25. */
+static void test_shape_blend_goes_to_the_partner(void)
+{
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, 25));
+    expect(637, 413, 75, 725);
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, 100));
+    expect(712, 413, 150, 801);
+}
+
+static void test_shape_partner_of_another_length_or_damaged_is_not_blended(void)
+{
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, -100));
+    expect(612, 413, 50, 700);
+    damaged = RIGHT;
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, 100));
+    expect(612, 413, 50, 700);
+}
+
+static void test_shape_without_a_centre_nothing_is_scaled(void)
+{
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 50, 0x7FFFFFFF));
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_centre(&shape, 0));
+    expect(612, 413, 50, 700);
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_centre(&shape, CENTRE));
+    damaged = CENTRE;
+    expect(612, 413, 50, 700);
+}
+
+static void test_shape_clamps_to_the_servos_range(void)
+{
+    pages[PAGE][0] = 1000;
+    pages[PAGE][1] = 20;
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 150, 0x7FFFFFFF));
+    TEST_ASSERT_EQUAL_UINT16(1023, shaped(0));
+    TEST_ASSERT_EQUAL_UINT16(0, shaped(1));
+}
+
+static void test_shape_mirrored_motions_stay_mirrored(void)
+{
+    for (uint16_t way = 0; way <= 340; way = (uint16_t)(way + 7)) {
+        for (uint16_t percent = 0; percent <= 150; percent = (uint16_t)(percent + 13)) {
+            pages[PAGE][0] = (uint16_t)(512 + way);
+            pages[PAGE][1] = (uint16_t)(512 - way);
+            TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, percent, 0x7FFFFFFF));
+            TEST_ASSERT_EQUAL_UINT16(1024, shaped(0) + shaped(1));
+        }
+    }
+}
+
+static void test_shape_refuses_what_is_out_of_range_and_changes_nothing(void)
+{
+    shape_t before = shape;
+    TEST_ASSERT_EQUAL(SHAPE_ERR_RANGE, shape_set_rate(&shape, 9));
+    TEST_ASSERT_EQUAL(SHAPE_ERR_RANGE, shape_set_rate(&shape, 401));
+    TEST_ASSERT_EQUAL(SHAPE_ERR_RANGE, shape_set_amplitude(&shape, 151, 1));
+    TEST_ASSERT_EQUAL(SHAPE_ERR_RANGE, shape_set_amplitude(&shape, 50, 0));
+    TEST_ASSERT_EQUAL(SHAPE_ERR_RANGE, shape_set_blend(&shape, 101));
+    TEST_ASSERT_EQUAL(SHAPE_ERR_RANGE, shape_set_blend(&shape, -101));
+    TEST_ASSERT_EQUAL(SHAPE_ERR_RANGE, shape_set_centre(&shape, 128));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &shape, sizeof shape);
+}
+
+static void test_shape_reset_keeps_centre_and_voltage(void)
+{
+    shape_set_voltage(&shape, 111);
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_centre(&shape, 7));
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, 200));
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 10, 4));
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, 40));
+    shape_reset(&shape);
+    TEST_ASSERT_TRUE(shape_is_neutral(&shape));
+    TEST_ASSERT_EQUAL_UINT8(7, shape.centre_page);
+    TEST_ASSERT_EQUAL_UINT8(125, shape.top_speed_q4_4); /* 0.9 * 8.7 = 7.83 units a tick */
+}
+
+/* --- while a page plays: 40 ticks a step --------------------------------------------------------------------------- */
+
+static player_t player;
+static player_joint_t joints[PAGE_JOINTS];
+static uint16_t goal_pos[PAGE_JOINTS];
+static link_t l;
+
+static void start(player_law_t law)
+{
+    uint16_t pose[PAGE_JOINTS];
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        pose[i] = 512;
+    }
+    player_init(&player, &source, joints, goal_pos);
+    player_set_shape(&player, &shape);
+    link_init(&l, LINK_LATCH);
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, PAGE, law, pose, 0xF));
+}
+
+static uint16_t ticks_of_a_play(player_law_t law)
+{
+    uint16_t ticks = 0;
+    start(law);
+    while (player_is_moving(&player)) {
+        (void)player_tick(&player, &l);
+        TEST_ASSERT_LESS_THAN(1000, ++ticks);
+    }
+    return ticks;
+}
+
+/* classic needs one call more to find out that nothing follows */
+static void test_shape_rate_is_that_of_both_laws(void)
+{
+    static const uint16_t rates[] = {100, 50, 200, 400, 10, 75};
+    static const uint16_t ticks[] = {40, 80, 20, 10, 400, 53};
+    pages[PAGE][2] = pages[PAGE][3] = 520; /* no joint has to be fast */
+    pages[PAGE][0] = 560;
+    pages[PAGE][1] = 470;
+    for (uint8_t i = 0; i < sizeof rates / sizeof rates[0]; i++) {
+        TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, rates[i]));
+        TEST_ASSERT_UINT16_WITHIN(1, ticks[i], ticks_of_a_play(PLAYER_LAW_EXACT));
+        TEST_ASSERT_UINT16_WITHIN(1, ticks[i] + 1, ticks_of_a_play(PLAYER_LAW_CLASSIC));
+    }
+}
+
+/* Joint 2 goes from 512 to 50 in 40 ticks: 11.55 a tick. At 11.1 V 7.83 are allowed: 59 ticks (7.8125 in sixteenths: 59.1). */
+static void test_shape_limit_stretches_a_step_that_is_too_fast(void)
+{
+    shape_set_voltage(&shape, 111);
+    TEST_ASSERT_EQUAL_UINT16(40, ticks_of_a_play(PLAYER_LAW_EXACT)); /* not while nothing is set */
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, 101));
+    TEST_ASSERT_UINT16_WITHIN(1, 59, ticks_of_a_play(PLAYER_LAW_EXACT));
+    TEST_ASSERT_UINT16_WITHIN(1, 60, ticks_of_a_play(PLAYER_LAW_CLASSIC));
+}
+
+/* A step of classic that would be played is not made so short that the law skips it. */
+static void test_shape_rate_never_makes_classic_skip_a_step(void)
+{
+    pages[PAGE][2] = 520;
+    pages[PAGE][3] = 520;
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, 400));
+    start(PLAYER_LAW_CLASSIC);
+    bool moved = false;
+    while (player_is_moving(&player)) {
+        moved |= (player_tick(&player, &l) & PLAYER_EV_OUTPUT) != 0;
+    }
+    TEST_ASSERT_TRUE(moved);
+    TEST_ASSERT_UINT16_WITHIN(8, 612, goal_pos[0]);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_shape_neutral_changes_nothing);
+    RUN_TEST(test_shape_amplitude_scales_about_the_centre_pose);
+    RUN_TEST(test_shape_blend_goes_to_the_partner);
+    RUN_TEST(test_shape_partner_of_another_length_or_damaged_is_not_blended);
+    RUN_TEST(test_shape_without_a_centre_nothing_is_scaled);
+    RUN_TEST(test_shape_clamps_to_the_servos_range);
+    RUN_TEST(test_shape_mirrored_motions_stay_mirrored);
+    RUN_TEST(test_shape_refuses_what_is_out_of_range_and_changes_nothing);
+    RUN_TEST(test_shape_reset_keeps_centre_and_voltage);
+    RUN_TEST(test_shape_rate_is_that_of_both_laws);
+    RUN_TEST(test_shape_limit_stretches_a_step_that_is_too_fast);
+    RUN_TEST(test_shape_rate_never_makes_classic_skip_a_step);
+    return UNITY_END();
+}
