@@ -82,7 +82,7 @@ ALWAYS_INLINE int16_t share_of(int16_t x, part_t part)
 /* --- the speed of a step ---------------------------------------------------------------------------------------------- */
 
 /* K = M * 2560 / 12 = M * 640 / 3 of a way 0..1023: 213 M + M / 3. */
-static inline uint32_t way_in_speed_units(uint16_t size)
+ALWAYS_INLINE uint32_t way_in_speed_units(uint16_t size)
 {
     return mul_u16_u16(size, 213) + mul_u16_high(size, 21846);
 }
@@ -95,15 +95,21 @@ static inline int16_t divide_speed(uint32_t size, uint16_t divisor)
     if (rest >= divisor) {
         return upper >> 7 >= divisor ? -CLASSIC_SPEED_MAX : CLASSIC_SPEED_MAX;
     }
+    if ((divisor & 0x8000u) != 0) { /* steps of more than 8191 ticks: the quotient is below 32 */
+        int16_t few = 0;
+        for (; size >= divisor; size -= divisor) {
+            few++;
+        }
+        return few;
+    }
     uint16_t bits = (uint16_t)size; /* the dividend's last ten go out at bit 10, the quotient's come in at bit 0 */
     for (uint8_t left = 10; left != 0; left--) {
-        bool carry = (rest & 0x8000u) != 0;
         bits = (uint16_t)(bits << 1);
         rest = (uint16_t)(rest << 1);
         if ((bits & 0x400u) != 0) {
             rest |= 1u;
         }
-        if (carry || rest >= divisor) {
+        if (rest >= divisor) {
             rest = (uint16_t)(rest - divisor);
             bits |= 1u;
         }

@@ -128,7 +128,7 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
 }
 
 /* Joints that are planned in the tick before their step begins. */
-#define PLANNED_AHEAD 8u
+#define PLANNED_AHEAD 6u
 
 /* Behind the last tick of a step: what begins with the next call. */
 static NOINLINE void take(player_t *player)

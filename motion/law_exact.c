@@ -95,9 +95,20 @@ static void set_ramp(player_t *player)
     }
 }
 
+/* Speed at target_pos of a joint that comes with this mean speed: the smaller of both steps' means, or 0 where it turns round
+ * or stays. */
+static inline uint32_t exit_speed(const player_t *player, const player_joint_t *joint, uint16_t next_pos, uint32_t mean)
+{
+    uint16_t at_pos = joint->target_pos;
+    if (mean == 0 || !player->runs_on || (joint->exact.down ? next_pos >= at_pos : next_pos <= at_pos)) {
+        return 0;
+    }
+    uint32_t next_mean = even(fix_mean(way_between(at_pos, next_pos), player->coming_recip));
+    return mean < next_mean ? mean : next_mean;
+}
+
 /* Plans `now`, from where the joints are to target_pos in step_ticks, for joints first to end - 1. from_stand: without the
- * speed that the step before leaves. The speed at the way-point is the smaller of both steps' means, or 0 where a joint
- * turns round. */
+ * speed that the step before leaves. */
 static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end, bool from_stand)
 {
     const uint16_t *coming = &player->coming_pos[first];
@@ -107,14 +118,10 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end, b
         }
         player_exact_t *exact = &joint->exact;
         uint16_t from_pos = fix_pos(exact->pos_q16_16), to_pos = joint->target_pos;
-        uint32_t entry = from_stand ? 0 : exact->exit_q16_16, exit = 0;
+        uint32_t entry = from_stand ? 0 : exact->exit_q16_16;
         uint32_t mean = even(fix_mean(way_between(from_pos, to_pos), player->step_recip));
         exact->down = to_pos < from_pos;
-        if (mean != 0 && player->runs_on && (exact->down ? *coming < to_pos : *coming > to_pos)) {
-            exit = even(fix_mean(way_between(to_pos, *coming), player->coming_recip));
-            exit = mean < exit ? mean : exit;
-        }
-        exact->exit_q16_16 = exit;
+        exact->exit_q16_16 = exit_speed(player, joint, *coming, mean);
         if (player->step_ticks != 1) { /* such a step goes straight to its target */
             plan_joint(player, exact, from_pos, mean, entry);
         }
@@ -153,8 +160,8 @@ static NOINLINE void begin_fall(player_t *player)
 /* --- from step to step -------------------------------------------------------------------------------------------- */
 
 /* Joints that are planned in the tick before their step begins; fewer where that tick has a whole step of its own. */
-#define PLANNED_AHEAD 12u
-#define PLANNED_AHEAD_OF_ONE 4u
+#define PLANNED_AHEAD 13u
+#define PLANNED_AHEAD_OF_ONE 7u
 
 /* The joints are on target_pos: the next step begins with the next tick. */
 static NOINLINE void take(player_t *player)

@@ -58,7 +58,7 @@ ALWAYS_INLINE uint32_t mul_u16_u16(uint16_t a, uint16_t b)
 }
 
 /* (a * b) >> 16 of a 48-bit product. */
-static inline uint32_t mul_u32_u16_shift16(uint32_t a, uint16_t b)
+ALWAYS_INLINE uint32_t mul_u32_u16_shift16(uint32_t a, uint16_t b)
 {
     uint32_t high;
     uint8_t carry, zero;
