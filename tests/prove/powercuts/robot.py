@@ -24,6 +24,12 @@ class SimLink(Link):
     def __init__(self, board):
         self.url, self.trace, self.board, self.held = "simulated board", None, board, b""
 
+    def now(self):
+        return self.board.now_ms / 1000
+
+    def sleep(self, seconds):
+        self.board.run(ms=1000 * seconds)
+
     def close(self):
         pass
 
