@@ -65,7 +65,7 @@ class Mutation:
     @property
     def needs_board(self):
         """Whether the tests that should notice need images and the simulated board."""
-        return not re.match(r"unit\.|m512\.(?!flash|simulated|term)|" + BUILD_CHECK + r"$", self.by)
+        return not re.match(r"unit\.|body$|m512\.(?!flash|simulated|term)|" + BUILD_CHECK + r"$", self.by)
 
 
 def read_table(path=TABLE):
@@ -172,6 +172,7 @@ class Tree:
         self.configure("host")
         units = [f"test_{name}" for name in re.findall(r"unit\.(\w+)", mutation.by)]
         if not mutation.needs_board:
+            units += ["m512quick"] if mutation.by == "body" else []
             return self.build("host", units) if units else ""
         # An image that was built with the mistake before is built anew, even if this mistake does not concern it.
         is_image = mutation.file.startswith(IMAGE_FOLDERS)

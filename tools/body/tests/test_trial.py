@@ -125,6 +125,15 @@ def test_servo_zeros_tilt_the_body_that_they_belong_to():
     assert right == pytest.approx(HUMANOID.angle(13, 400)) and abs(wrong - right) == pytest.approx(30 * 300 / 1024 * 3.14159 / 180, rel=1e-3)
 
 
+def test_a_servo_with_a_wrong_zero_does_not_know_it():
+    """It reads the position that it was put to, as seen from its own zero."""
+    physics = Physics(HUMANOID, Variation(zero_units={13: 30}))
+    physics.pose({13: 400, 14: 624})
+    quick = Quick(IMAGE, physics)
+    quick.torque_on()
+    assert (quick.goal(13), quick.goal(14)) == (400, 624)
+
+
 def test_lying_robots_lie():
     for side, sign in (("face", 1), ("back", -1)):
         physics = Physics(HUMANOID)
