@@ -4,7 +4,7 @@
  * 0..1023) on the wire. Knows no pages. Works over bus.h. Main loop only. RAM: one servo_link_t, 260 bytes.
  * Code: servo_link.c (while running), servo_link_setup.c (what blocks).
  *
- * Nothing is ever written to a servo's EEPROM area but by servo_link_fast_baud and servo_link_fast_answers, on request.
+ * Nothing is ever written to a servo's EEPROM area but by servo_link_fast_baud, on request.
  *
  * A tick on the bus at 1 Mbps, 31 joints (us after servo_link_goals):
  *
@@ -87,8 +87,9 @@ uint32_t servo_link_drivable(const servo_link_t *link);
 void servo_link_tick(servo_link_t *link);
 
 /* One tick's goals (page coordinates 0..1023) of `joints`; those that are not drivable are left out. goal_pos is read again
- * during the same tick for deaf servos: keep it. Sends at once. Deaf servos take about 0.7 ms each (0.2 ms after
- * servo_link_fast_answers): those that do not fit into the tick go on in the next one, and `late` counts. */
+ * during the same tick for deaf servos: keep it. Sends at once. Deaf servos take about 0.7 ms each (0.2 ms
+ * with a return delay of 0, which nobody here sets): those that do not fit into the tick go on in the next one, and `late`
+ * counts. */
 void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOINTS], uint32_t joints)
     NOINLINE;   /* a name of its own in the image: the bench counts its cycles */
 
@@ -143,9 +144,6 @@ void servo_link_scan(servo_link_t *link);
 
 /* Moves slow servos of `ids` to 1 Mbps (their address 4 = 1), then scans. Returns those that were moved. */
 uint32_t servo_link_fast_baud(servo_link_t *link, uint32_t ids);
-
-/* Sets the return delay (address 5) of `ids` to 0: worth it for robots with many deaf servos. Returns those done. */
-uint32_t servo_link_fast_answers(servo_link_t *link, uint32_t ids);
 
 /* Reads the present positions of `ids` into present_pos; returns those that answered. 0.3..0.9 ms a servo. */
 uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids);

@@ -142,21 +142,6 @@ uint32_t servo_link_fast_baud(servo_link_t *link, uint32_t ids)
     return ids & link->present;
 }
 
-static bool set_fast_answers(servo_link_t *link, uint8_t id)
-{
-    uint8_t delay = 1;
-    write_one(link, id, DXL_AT_RETURN_DELAY, 0, 1);
-    return read_byte(id, DXL_AT_RETURN_DELAY, &delay) && delay == 0;
-}
-
-uint32_t servo_link_fast_answers(servo_link_t *link, uint32_t ids)
-{
-    servo_link_quiet(link);
-    ids = for_each(link, ids & link->present, set_fast_answers);
-    tick_forgive();
-    return ids;
-}
-
 /* ---- pose and torque ---- */
 
 /* Reads torque, goal, limit and pose of one servo; false: no answer. */

@@ -134,7 +134,7 @@ ISR(USART0_UDRE_vect)
     }
 }
 
-/* Once a packet: 126 cycles measured, 8 us; a servo answers after 20 us at the earliest. */
+/* Once a packet: 126 cycles measured. The line is released 17 us after the last stop bit at the latest (hal/README.md). */
 ISR(USART0_TX_vect)
 {
     bus_core_on_sent(&core, clock_now_noirq());

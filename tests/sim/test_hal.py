@@ -182,6 +182,33 @@ def test_turn_round_loses_no_answer(kind, return_delay):
     assert counts["timeouts"] == before["timeouts"]
 
 
+TURN_US = 20   # dynamixel.md: with a return delay of 0 an answer begins within about 20 us
+
+
+def test_turn_round_is_bounded_whatever_else_interrupts(capsys):
+    """The tick, bytes of the PC in both directions and the program's own locks may all stand in its way. Ten seconds of all
+    of them at the full rate, and then the same on purpose: a byte comes from the PC at every place of the interrupt that
+    ends a packet, and the tick with it."""
+    board = walker()
+    board.bus_turn_us(forget=True)
+    board.send(pattern(int(10 * LINE_BYTES_PER_S)), wait=True)
+    flooded = board.bus_turn_us(forget=True)
+    longest = 0
+    for place in range(0, 400, 3):
+        board.run_to("__vector_19", ms=20)           # a packet is being sent
+        while board._lib.board_pin(board._pointer, b"E", 2) == 1 and not board.ram[0x2A] & 0x40:
+            board.step()                             # up to its last byte: TXCIE
+        board.run(cycles=400 - place)
+        board.interrupt("console byte", 0x55)
+        board.run(cycles=20)                         # its interrupt has begun: the tick's comes before that of the bus
+        board.interrupt("tick")
+        board.run(ms=3)
+        longest = max(longest, board.bus_turn_us(forget=True))
+    with capsys.disabled():
+        print(f"\nhal: turning the bus round: at most {flooded:.1f} us in a flood, {longest:.1f} us on purpose")
+    assert 5 < flooded <= TURN_US and 5 < longest <= TURN_US
+
+
 def test_silent_servo_is_named_within_a_second_and_the_others_walk_on():
     board = walker()
     board.run(ms=300)

@@ -65,14 +65,6 @@ static void test_slow_servos_move_on_request_only(void)
     TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(6), servos.slow);
 }
 
-static void test_fast_answers_writes_the_return_delay_of_those_named(void)
-{
-    robot(3);
-    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servo_link_fast_answers(&servos, SERVO_LINK_BIT(2) | SERVO_LINK_BIT(9)));
-    TEST_ASSERT_EQUAL(0, fake_bus_servo(2)->table[DXL_AT_RETURN_DELAY]);
-    TEST_ASSERT_EQUAL(250, fake_bus_servo(1)->table[DXL_AT_RETURN_DELAY]);
-}
-
 /* ---- torque ---- */
 
 static void test_torque_on_makes_the_present_pose_the_goal_first(void)
@@ -131,7 +123,6 @@ int main(void)
     RUN_TEST(test_scan_changes_nothing_in_a_servo);
     RUN_TEST(test_scan_finds_the_deaf_and_the_taciturn);
     RUN_TEST(test_slow_servos_move_on_request_only);
-    RUN_TEST(test_fast_answers_writes_the_return_delay_of_those_named);
     RUN_TEST(test_torque_on_makes_the_present_pose_the_goal_first);
     RUN_TEST(test_torque_on_leaves_those_alone_that_hold_already);
     RUN_TEST(test_servo_that_does_not_tell_its_pose_stays_off);

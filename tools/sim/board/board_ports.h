@@ -43,6 +43,10 @@ void board_body(board_t *board, const struct servo_body *body);
 typedef void (*board_bus_fn)(void *context, uint64_t now_cycles, uint8_t byte, bool from_board, bool bad);
 void board_on_bus(board_t *board, board_bus_fn heard, void *context);
 
+/* The longest time, in cycles, between the last stop bit of a packet of the board's and its listening again: a servo that
+ * answers sooner is not heard. forget: measure anew. */
+uint64_t board_bus_turn(board_t *board, bool forget);
+
 /* Keeps every instruction packet with a good checksum that the board sends to the servos, from now on (what was kept
  * before is dropped). It uses the bus's on_packet. The pointer is good until the next run. */
 typedef struct {

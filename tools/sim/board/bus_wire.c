@@ -31,6 +31,9 @@ void bus_wire_pins(board_t *board, uint8_t before, uint8_t after)
         wire->listening_since = NEVER;
     } else if (wire->listening_since == NEVER) {
         wire->listening_since = board->avr->cycle;
+        uint64_t turn = wire->sent_at == NEVER ? 0 : board->avr->cycle - wire->sent_at;
+        wire->longest_turn = turn > wire->longest_turn ? turn : wire->longest_turn;
+        wire->sent_at = NEVER;
     }
 }
 
@@ -46,6 +49,7 @@ static void sent(uart_t *uart, uint64_t now, uint8_t byte, uint32_t rate_bps)
 {
     board_t *board = uart->board;
     bus_wire_t *wire = &board->wire;
+    wire->sent_at = now;
     if (driven_high(board) & PIN_DRIVE) {
         servo_bus_host_byte(wire->bus, now, byte, rate_bps);
         bus_wire_follow(board);
@@ -96,6 +100,13 @@ void board_body(board_t *board, const struct servo_body *body)
 
 struct servo_bus *board_servo_bus(board_t *board) { return board->wire.bus; }
 
+uint64_t board_bus_turn(board_t *board, bool forget)
+{
+    uint64_t longest = board->wire.longest_turn;
+    board->wire.longest_turn = forget ? 0 : longest;
+    return longest;
+}
+
 void board_on_bus(board_t *board, board_bus_fn heard, void *context)
 {
     board->wire.heard = heard;
@@ -111,7 +122,7 @@ bool bus_wire_init(board_t *board)
     }
     wire->bus->on_byte = from_servo;
     wire->bus->on_byte_context = board;
-    wire->listening_since = NEVER;
+    wire->listening_since = wire->sent_at = NEVER;
     board->uart[0].begin = begin;
     board->uart[0].sent = sent;
     servo_bus_power(wire->bus, 0, false);

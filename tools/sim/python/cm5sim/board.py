@@ -303,6 +303,10 @@ class Board:
 
     # Servo bus
 
+    def bus_turn_us(self, forget=False):
+        """The longest time from a last stop bit of ours to listening again, since the start or a call with forget."""
+        return self._lib.board_bus_turn(self._pointer, forget) / 16
+
     @property
     def packets(self):
         """[(cycle, bytes)] of every good instruction packet since the start or clear_trace()."""

@@ -65,7 +65,7 @@ _FUNCTIONS = {
     "board_console_output": (P, P, SIZE), "board_servo_bus": (P, P), "board_trace_start": (B, P),
     "board_trace": (ctypes.POINTER(TracePacket), P, SIZE),
     "board_body": (None, P, ctypes.POINTER(ServoBody)), "servo_mujoco_body": (ServoBody, P),
-    "board_uart_counts": (None, P, I, ctypes.POINTER(UartCounts)), "board_press": (None, P, I, B),
+    "board_bus_turn": (U64, P, B), "board_uart_counts": (None, P, I, ctypes.POINTER(UartCounts)), "board_press": (None, P, I, B),
     "board_set_bounce": (None, P, U64), "board_leds": (U8, P), "board_pin": (I, P, ctypes.c_char, I), "board_battery": (None, P, D),
     "board_thermistor": (None, P, D),
     # board_memory.h
