@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "bus_core.h"
+#include "bus_port.h"
 #include "trap.h"
 
 #include <stddef.h>
@@ -38,7 +39,7 @@ static void send(bus_core_t *core)
     core->status = NULL;
     core->counts.packets++;
     core->state = BUS_SENDING;
-    bus_port_send(core);
+    bus_port_send(core->size);
 }
 
 bus_status_t bus_core_submit(bus_core_t *core, uint8_t size, uint8_t answer_params, uint8_t tries)

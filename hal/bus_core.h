@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * bus_core.h - the half-duplex engine behind bus.h, without registers: bytes and times in, states out.
+ * bus_core.h - the half-duplex engine behind bus.h, without registers: bytes and times in, states out. Below it: bus_port.h.
  * Three callers: the main loop (submit, poll, cancel), the transmit ISRs (on_last, on_sent) and the receive ISR (on_byte).
  * The ISR side only moves bytes; packets are taken apart in bus_core_poll. RAM: one bus_core_t, 290 bytes.
  *
@@ -51,13 +51,6 @@ typedef struct {
     uint8_t heard[BUS_HEARD_BYTES];
     uint8_t packet[BUS_PACKET_BYTES];
 } bus_core_t;
-
-/* The port, given by hal/avr/bus.c or by a test. */
-/* Turns the line to sending and starts to send packet[0..size - 1], which stay unchanged meanwhile; bus_core_on_last is
- * called when the last byte went to the UART, bus_core_on_sent when its last stop bit has left. */
-void bus_port_send(bus_core_t *core);
-/* Turns the line to listening. Called from bus_core_on_sent. What the receiver caught before is thrown away. */
-void bus_port_listen(void);
 
 /* Idle, 1 Mbps, the longest return delay, counts 0. */
 void bus_core_init(bus_core_t *core);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "bus.h"
 #include "bus_core.h"
+#include "bus_port.h"
 #include "clock.h"
 #include "irq.h"
 
@@ -21,9 +22,9 @@ static volatile uint8_t tx_at; /* bytes given to the UART so far; main loop unti
 static uint8_t tx_count;       /* of how many; main loop, before */
 static uint8_t rate;
 
-void bus_port_send(bus_core_t *engine)
+void bus_port_send(uint8_t count)
 {
-    tx_count = engine->size;
+    tx_count = count;
     tx_at = 0;
     UCSR0B = 1u << TXEN0;
     pins_bus_drive();
