@@ -15,7 +15,7 @@ from badlinks.line import CANCELLED, KILLED, Killed, Line  # noqa: E402
 from badlinks.wire import BYTE_SECONDS, Weather, Wire, wires  # noqa: E402
 from m512.board import download, loaders, typed  # noqa: E402
 from m512.board.factory import FactoryLoader  # noqa: E402
-from m512.board.factory_flash import LAST_START  # noqa: E402
+from m512.board.factory_flash import BLIND_MOST, LAST_START  # noqa: E402
 from m512.board.memory import Plan  # noqa: E402
 from m512.errors import CancelledError, M512Error  # noqa: E402
 
@@ -169,6 +169,26 @@ def test_page_below_the_reserve_takes_255_bytes_too_many():
     (b"\0l\0\r", [3]), (b"DOWN,5\rx", [6]), (b"lx\rld\r", [5]), (b"lo\x08\r", [3])])
 def test_typed_text_is_cut_before_the_line_end_that_would_do_harm(text, expected):
     assert typed.cuts(text) == expected
+
+
+def test_what_is_sent_blindly_cannot_reach_the_loader():
+    """Nobody answers for a minute. Each byte doubled, behind a page of a download that somebody left open."""
+    bench = Bench()
+    bench.loader.eeprom[0xFFF] = 0x11
+    bench.say(b"reset\r")
+    assert bench.loader.where == "application"
+    before = bench.line.sent
+    with pytest.raises(M512Error, match="no boot loader answered"):
+        loaders.enter(bench.line, lambda text: None, 60.0)
+    sent = bench.line.sent - before
+    assert 1000 < sent <= BLIND_MOST and LAST_START + 2 * (256 + sent) <= 0x1E000
+
+
+def test_open_download_below_the_reserve_survives_a_minute_of_knocking():
+    bench = Bench()
+    bench.say(b"load %x\r" % (LAST_START - 256), 0.2)
+    loaders.enter(bench.line, lambda text: None, 60.0)
+    assert set(bench.changed()) <= {(LAST_START - 256) // 256}
 
 
 @pytest.mark.parametrize("seed", range(8))
