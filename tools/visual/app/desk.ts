@@ -16,6 +16,8 @@ import { Store } from '../view/store.ts';
 import { doingText, errorText } from '../view/texts.ts';
 import { Listeners } from './listeners.ts';
 import { LastSaid } from './said.ts';
+import { StickDrive } from './stick.ts';
+import type { Stick } from './stick.ts';
 import { SimulatedSource } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
 
@@ -38,6 +40,7 @@ export class RobotDesk implements Desk {
   private held: ReadonlySet<RemoteButton> = new Set();
   private whereTimer: ReturnType<typeof setTimeout> | undefined;
   private typing = '';
+  private readonly stick = new StickDrive(() => this.connection, () => this.walkPage(), (error) => this.fail(error));
 
   constructor(body: Body) {
     this.body = body;
@@ -88,6 +91,10 @@ export class RobotDesk implements Desk {
     this.held = held;
     if (held.size > 0 && this.isSimulated) void this.simulated.prepare();
     this.sendRemote();
+  }
+
+  drive(stick: Stick | null): void {
+    this.stick.set(stick);
   }
 
   type(bytes: Uint8Array): void {
@@ -163,6 +170,12 @@ export class RobotDesk implements Desk {
 
   forget(): Promise<void> {
     return this.simulated.forget(this.state.get().image);
+  }
+
+  /** Only Play can be driven. */
+  private walkPage(): number | null {
+    const { version, pages } = this.state.get();
+    return version?.image === 'play' ? (pages.find((page) => page.name === 'walk')?.page ?? null) : null;
   }
 
   private get isSimulated(): boolean {

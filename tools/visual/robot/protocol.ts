@@ -134,6 +134,12 @@ export async function play(requests: Requests, page: number, code = 0): Promise<
   await requests.ask(code ? `@play ${page} ${code}` : `@play ${page}`);
 }
 
+/** Shapes the play from the next step on: blend -100..100 (left..right), rate 10..400 %, amplitude 0..150 %. Say it again within
+ *  a second, or the robot ends its play by itself. */
+export async function drive(requests: Requests, blend: number, rate: number, amplitude: number): Promise<void> {
+  await requests.ask(`@drive ${blend} ${rate} ${amplitude}`);
+}
+
 export type Command = 'stop' | 'break' | 'pause' | 'resume' | 'reset';
 
 export async function command(requests: Requests, what: Command): Promise<void> {

@@ -3,7 +3,7 @@
 import { afterEach, expect, test } from 'vitest';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { askList, askPage, askPose, askVersion, askWhere, command, play } from '../robot/protocol.ts';
+import { askList, askPage, askPose, askVersion, askWhere, command, drive, play } from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import { RobotBench, robotImages, settle } from './robot-bench.ts';
@@ -157,4 +157,14 @@ test('closing while something waits rejects it', async () => {
   await settle();
   await expect(asked).rejects.toBeInstanceOf(RobotError);
   expect(() => connection.requests).toThrow(RobotError);
+});
+
+test('driven by a stick: @drive is in force, and ends with the play when the stick falls silent', async () => {
+  const { bench, connection } = await ready('play', 23);
+  await bench.until(play(connection.requests, 20));
+  await bench.run(4000);
+  await bench.until(drive(connection.requests, -30, 100, 80));
+  expect((await bench.until(askWhere(connection.requests))).fields.get('blend')).toBe('-30');
+  await bench.run(6000); // nobody says @drive again: the watchdog of the firmware stops the walk
+  expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
 });

@@ -68,6 +68,8 @@ export interface Desk {
   command(command: Command): Promise<void>;
   setTorque(on: boolean): Promise<void>;
   remote(held: ReadonlySet<RemoteButton>): void;
+  /** A stick: x to the right, y ahead, -1..1; null: let go. It walks, the farther the stick the larger the steps. */
+  drive(stick: { readonly x: number; readonly y: number } | null): void;
   type(bytes: Uint8Array): void;
 
   useSimulated(): void;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The RC-100 remote control: on the screen, by keyboard (arrows or W A S D, 1 to 6) and by game pad. Buttons count as long
-// as they are held, several at once too.
+// as they are held, several at once too. The stick of a game pad drives (`@drive`).
 
 import type { RemoteButton } from '../robot/remote.ts';
 import type { Desk } from './desk.ts';
@@ -16,7 +16,7 @@ const KEYS: Readonly<Record<string, RemoteButton>> = {
 const PAD: readonly (readonly [number, RemoteButton])[] = [
   [12, 'up'], [13, 'down'], [14, 'left'], [15, 'right'], [0, 'b6'], [1, 'b2'], [2, 'b3'], [3, 'b4'], [4, 'b1'], [9, 'b5'],
 ];
-const STICK = 0.5;
+const STICK_REST = 0.25;
 const BUTTONS: readonly (readonly [RemoteButton, string, string])[] = [
   ['up', '▲', 'U: ahead'], ['left', '◀', 'L: left'], ['right', '▶', 'R: right'], ['down', '▼', 'D: back'],
   ['b1', '1', 'button 1'], ['b2', '2', 'button 2'], ['b3', '3', 'button 3'], ['b4', '4', 'button 4'], ['b5', '5', '5: pause'], ['b6', '6', '6: stop'],
@@ -83,10 +83,7 @@ export class RemotePad extends HTMLElement {
     if (!pad) return;
     const [x = 0, y = 0] = pad.axes;
     const now = new Set(PAD.filter(([index]) => pad.buttons[index]?.pressed).map(([, name]) => name));
-    if (y < -STICK) now.add('up');
-    if (y > STICK) now.add('down');
-    if (x < -STICK) now.add('left');
-    if (x > STICK) now.add('right');
+    this.desk.drive(Math.hypot(x, y) < STICK_REST ? null : { x, y: -y });
     this.held.pad.clear();
     for (const name of now) this.held.pad.add(name);
     this.tell();
