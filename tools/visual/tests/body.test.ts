@@ -25,6 +25,7 @@ test('18 joints, all links carried by one trunk, parents first', () => {
 test('angles: 300 degrees are 1024 positions, 512 is straight, and back again', () => {
   expect(jointAngle(joint(13), 512)).toBeCloseTo(0, 12);
   expect((jointAngle(joint(11), 778) * 180) / Math.PI).toBeCloseTo(78, 0); // a bow: 78 degrees in the hips (demo.d/edit.txt)
+  expect((jointAngle(joint(1), 512 + 256) * 180) / Math.PI).toBeCloseTo(75, 9); // a quarter of 300 degrees (tools/body/README.md)
   for (const one of body.joints) expect(servoPosition(one, jointAngle(one, 300))).toBeCloseTo(300, 9);
 });
 

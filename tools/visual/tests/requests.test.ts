@@ -93,6 +93,9 @@ test('a board that says nothing: time-out, and the late answer does not answer t
   await expect(hurried).rejects.toMatchObject({ code: 'no-answer' });
   const list = await bench.until(askList(connection.requests));
   expect(list.length).toBeGreaterThan(30);
+  await expect(bench.until(connection.requests.ask('@page 2', { timeoutMs: 5 }))).rejects.toMatchObject({ code: 'no-answer' });
+  const { motions } = await robotImages('play');
+  expect(await bench.until(askPage(connection.requests, 3))).toEqual(motions.slice(3 * 512, 4 * 512));
   bench.board.setPower(false);
   await expect(bench.until(askWhere(connection.requests))).rejects.toMatchObject({ code: 'no-answer' });
 });
