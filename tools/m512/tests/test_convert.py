@@ -100,6 +100,16 @@ def test_a_12_bit_image_says_so_once(m512, tmp_path, suffix):
     assert m512("pages", tmp_path / "t.bin", "check").exit_code == 0
 
 
+@pytest.mark.parametrize("bits, says", [(12, "12-bit positions mean nothing to this board"), (10, "pages 128..150: no room among")])
+def test_the_simulated_board_refuses_what_the_real_one_cannot_play(monkeypatch, tmp_path, bits, says):
+    from m512.board.sim import Simulator
+
+    monkeypatch.setenv("M512_CM5SIM", "/bin/true")
+    formats.save(tmp_path / "x.bin", image_of(bits, 150))
+    with pytest.raises(RefusedError, match=says):
+        Simulator(["/bin/true"], tmp_path / "x.bin")
+
+
 def test_a_12_bit_image_is_known_by_the_joints_that_move(tmp_path):
     """Joints that the robot has not hold 0 or anything; whole images of the net are so."""
     image = image_of(12, 30)

@@ -17,7 +17,10 @@ import time
 from pathlib import Path
 from typing import List, Optional
 
-from m512.errors import MissingError
+from m512.errors import MissingError, RefusedError
+from m512.files.image import Image
+from m512.files.scale12 import HINT
+from m512.files.wording import named_pages_text
 
 START_SECONDS = 10.0
 
@@ -89,12 +92,23 @@ class Simulator:
             from m512.files import formats
 
             image = formats.load(motions)
+            self._must_fit(image, motions)
             (self.folder / "motions.bin").write_bytes(image.resized(128)[0].to_bytes())
             command += ["--motions", str(self.folder / "motions.bin")]
         command += ["--servos", servos, "--pty", "--no-stdio", "--realtime"] + (extra or [])
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
         self.said = b""
         self.url = self._wait_for_port()
+
+    @staticmethod
+    def _must_fit(image: Image, motions: Path) -> None:
+        """What a board of 10 bits and 128 pages cannot play is refused, as on the way to a real one."""
+        if image.bits != 10:
+            raise RefusedError(f"{motions}: 12-bit positions mean nothing to this board: {HINT}")
+        lost = image.beyond(128)
+        if lost:
+            raise RefusedError(f"{motions}: {named_pages_text(lost)}: no room among this board's 128 pages "
+                               "(m512 convert --pages 128 leaves them out)")
 
     def _wait_for_port(self) -> str:
         assert self.process.stdout is not None
