@@ -99,16 +99,23 @@ class Schedule:
         ends = []
         for _ in range(chance.choice((1, 2, 2, 3))):
             if ends and chance.random() < 0.2:        # not the same command again
-                self.plan = plan(chance, self.before)
+                self.plan = self.new_plan()
             ends.append(self.process())
             self.board.advance_by(chance.choice((0.0, 0.05, 0.3, 2.0)))
             if chance.random() < 0.3:
                 self.wires[0].weather = self.wires[1].weather = Weather()
-        self.board.advance_by(60)
+        self.board.advance_by(self.settle_seconds)
         self.judge(ends[-1])
-        how = [how for _, _, how in self.loader.written]
-        return Outcome(self.number, self.weather.kind, ends, self.faults, self.errors, self.board.now, how.count("load"),
-                       how.count("mailbox"))
+        return Outcome(self.number, self.weather.kind, ends, self.faults, self.errors, self.board.now, self.loads, self.mails)
+
+    settle_seconds, wait_seconds = 60, WAIT
+
+    def new_plan(self) -> Plan:
+        return plan(self.chance, self.before)
+
+    def names(self) -> set:
+        """The pages that a call names: of motions always both halves."""
+        return {half for page in self.plan.pages for half in ((page, page ^ 1) if page * PAGE >= MOTION_START else (page,))}
 
     def process(self) -> str:
         """One call of m512 flash; how it ended."""
@@ -117,9 +124,9 @@ class Schedule:
         line = Line(self.board, *self.wires, ends, seed=chance.randrange(1 << 30))
         self.wires[0].broken = self.wires[1].broken = False
         self.wires[1].waiting.clear()                 # opening a port empties what has come before
-        self.named |= {half for page in self.plan.pages for half in ((page, page ^ 1) if page * PAGE >= MOTION_START else (page,))}
+        self.named |= self.names()
         try:
-            loader = loaders.enter(line, self.told, WAIT)
+            loader = loaders.enter(line, self.told, self.wait_seconds)
             download.download(loader, self.plan, phase)
             loader.leave(chance.choice((0, 1)))
             return DONE
@@ -149,6 +156,8 @@ class Schedule:
         self.faults += [f"crashed: {why}" for _, why in self.loader.crashes]
         if last == DONE and any(flash[page * PAGE:(page + 1) * PAGE] != data for page, data in self.plan.pages.items()):
             self.faults.append("m512 says that all is there, and it is not")
+        how = [how for _, _, how in self.loader.written]
+        self.loads, self.mails = how.count("load"), how.count("mailbox")
 
 
 def play(number: int) -> Outcome:
