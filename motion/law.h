@@ -26,12 +26,14 @@ enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
 
 /* Every joint that this play owns; the same with its goal. */
 #define FOR_OWN_JOINTS(player, joint_)                                                                               \
+    const uint8_t self_ = (player)->self;                                                                            \
     for (player_joint_t *joint_ = (player)->joint, *end_ = joint_ + PAGE_JOINTS; joint_ < end_; joint_++)            \
-        if (joint_->owner == (player)->self)
+        if (joint_->owner == self_)
 #define FOR_OWN_GOALS(player, joint_, goal_)                                                                         \
+    const uint8_t self_ = (player)->self;                                                                            \
     uint16_t *goal_ = (player)->goal_pos;                                                                            \
     for (player_joint_t *joint_ = (player)->joint, *end_ = joint_ + PAGE_JOINTS; joint_ < end_; joint_++, goal_++)   \
-        if (joint_->owner == (player)->self)
+        if (joint_->owner == self_)
 
 /* --- sequence.c --------------------------------------------------------------------------------------------------- */
 

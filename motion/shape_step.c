@@ -55,22 +55,32 @@ static void read_positions(const page_source_t *source, uint8_t page, uint8_t st
     }
 }
 
-/* size / 10000, halves up; size up to 30,690,000. By the reciprocal of 625, 2^25 / 625 = 53687.09 rounded down: at most one
- * too small. A division of 32 bits takes 650 cycles, and there are 31 of these in a tick. */
+/* size / 10000, halves up; size up to 30,690,000. By the reciprocal, 2^24 / 10000 = 1677.7 rounded down: at most two too small.
+ * A division of 32 bits takes 650 cycles, and there are 31 of these in a tick. */
 static uint16_t round_to_whole(uint32_t size)
 {
-    uint32_t sixteenth = (size + WHOLE / 2) >> 4;
-    uint16_t quotient = (uint16_t)(mul_u32_u16_shift16(sixteenth, 53687u) >> 9);
-    if (sixteenth - mul_u16_u16(quotient, 625u) >= 625u) {
+    size += WHOLE / 2;
+    uint16_t quotient = (uint16_t)(mul_u32_u16_shift16(size, 1677u) >> 8);
+    uint32_t rest = size - mul_u16_u16(quotient, WHOLE);
+    for (; rest >= WHOLE; rest -= WHOLE) {
         quotient++;
     }
     return quotient;
 }
 
-static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, int8_t blend)
+/* way * percent; |way| <= 1023, percent up to 15,000. */
+static int32_t part_of_way(int16_t way, uint16_t percent)
 {
-    int32_t way = (int32_t)((int16_t)p - (int16_t)c) * 100 + (int32_t)((int16_t)q - (int16_t)p) * blend;
-    way *= amplitude;
+    int32_t size = (int32_t)mul_u16_u16((uint16_t)(way < 0 ? -way : way), percent);
+    return way < 0 ? -size : size;
+}
+
+static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, uint8_t blend)
+{
+    int32_t way = part_of_way((int16_t)(p - c), (uint16_t)(amplitude * 100u));
+    if (q != p) {
+        way += part_of_way((int16_t)(q - p), (uint16_t)(amplitude * blend));
+    }
     bool down = way < 0;
     int16_t whole = (int16_t)round_to_whole((uint32_t)(down ? -way : way));
     int16_t pos = (int16_t)((int16_t)c + (down ? -whole : whole));
@@ -84,7 +94,7 @@ void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page,
         return;
     }
     uint8_t centre = centre_of(shape, source);
-    int8_t blend = shape->blend_percent < 0 ? (int8_t)-shape->blend_percent : shape->blend_percent;
+    uint8_t blend = (uint8_t)(shape->blend_percent < 0 ? -shape->blend_percent : shape->blend_percent);
     uint16_t partner_pos[AT_ONCE], centre_pos[AT_ONCE];
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, bytes += 2) {
         uint8_t at = i % AT_ONCE;
