@@ -38,7 +38,7 @@ bool performer_is_idle(const performer_t *performer)
 
 bool performer_is_still(const performer_t *performer)
 {
-    return performer_is_idle(performer) && performer_layers_joints(performer) == 0;
+    return performer_is_idle(performer) && !performer_layers_are_moving(performer);
 }
 
 bool performer_is_paused(const performer_t *performer)
@@ -256,14 +256,13 @@ static void send_goals(performer_t *performer, uint32_t joints)
     servo_link_goals(PERFORMER_SERVOS(performer), performer->goal_pos, joints | performer_layers_joints(performer));
 }
 
-/* The compliance bytes of the page that has just begun, to the servos. Not inlined: the tick would keep 62 bytes of stack
+/* The compliance bytes of the page that has just begun, to the servos. Not inlined: the tick would keep 31 bytes of stack
  * for what happens once a page. */
 static NOINLINE void send_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
     performer->source->read(performer->source->context, performer->engine.player.page, PAGE_AT_COMPLIANCE, compliance,
                             sizeof compliance);
-    performer_layers_slopes(performer, compliance);
     servo_link_slopes(PERFORMER_SERVOS(performer), compliance);
 }
 

@@ -127,7 +127,7 @@ uint32_t performer_on(performer_t *performer, uint32_t joints);
 void performer_off(performer_t *performer, uint32_t joints);
 
 bool performer_is_idle(const performer_t *performer);    /* no play and no move is on */
-bool performer_is_still(const performer_t *performer);   /* nor does code move a joint (performer_shape.h) */
+bool performer_is_still(const performer_t *performer);   /* nor does a layer (performer_shape.h) */
 bool performer_is_paused(const performer_t *performer);
 
 /* Joints that answer the bus and were not switched off by hand. */

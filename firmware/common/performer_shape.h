@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * performer_shape.h - what shapes a play from outside while it plays: a second page on joints of its own, joints moved by
- * code, and driving by a program (shaping.md). Rate, amplitude and blend are set directly in performer.shape (shape.h).
+ * performer_shape.h - what shapes a play from outside while it plays: a second page on joints of its own, and driving
+ * by a program (shaping.md). Rate, amplitude and blend are set directly in performer.shape (shape.h).
  * Main loop only. RAM: layers_t, handed over by the image.
  *
  * An image without layers links performer_layers_none.c, one that nobody drives performer_drive_none.c. */
@@ -13,19 +13,12 @@
 /* After performer_init. The layers stay the caller's and are used from now on. */
 void performer_set_layers(performer_t *performer, layers_t *layers);
 
-/* Plays `page` on `joints` (0: those that its first step uses) over the main play. LAYERS_ERR_IDLE: no main play is on, or
- * it is paused or ending. performer.fault_page and .fault tell of LAYERS_ERR_PAGE and _EMPTY. */
+/* Plays `page` on `joints` (0: those that its first step uses) over the main play, with the slopes of the main page.
+ * LAYERS_ERR_IDLE: no main play is on, or it is paused or ending. performer.fault_page and .fault tell of
+ * LAYERS_ERR_PAGE and _EMPTY. */
 MUST_CHECK layers_status_t performer_layer(performer_t *performer, uint8_t page, uint32_t joints);
 void performer_layer_off(performer_t *performer);
 uint8_t performer_layer_page(const performer_t *performer);     /* 0: none */
-
-/* A joint moved by code, also while nothing plays: torque is switched on where it is off (5 ms). Ranges as in layers.h.
- * LAYERS_ERR_JOINTS: the servo is not there, does not answer, or was switched off by hand. */
-MUST_CHECK layers_status_t performer_aim(performer_t *performer, uint8_t id, uint16_t pos, uint16_t deg_s);
-MUST_CHECK layers_status_t performer_swing(performer_t *performer, uint8_t id, uint16_t centre, uint16_t amplitude,
-                                           uint16_t period_ticks, uint16_t phase_deg);
-void performer_free(performer_t *performer, uint32_t joints);
-uint32_t performer_code_joints(const performer_t *performer);   /* moved by code */
 
 /* One line of a joystick: blend, rate and amplitude (of all joints), percent; all or, when one is out of range, none: false.
  * From then on another one has to come within the setting `drive`, or the play ends through its exit page. What was set
@@ -34,17 +27,17 @@ MUST_CHECK bool performer_drive(performer_t *performer, int16_t blend, uint16_t 
 
 /* ---- for performer*.c ---- */
 
-/* Joints that layers and code move: they belong to nobody else. */
+/* Joints that the layer moves: they belong to nobody else. */
 uint32_t performer_layers_joints(const performer_t *performer);
 
-/* One tick. main: of the player as well. Returns the player's PLAYER_EV_ bits; PLAYER_EV_OUTPUT also for the layers'. */
-uint8_t performer_layers_tick(performer_t *performer, bool main);
+/* Whether they may still move something by themselves. */
+bool performer_layers_are_moving(const performer_t *performer);
 
-/* The main play's memory is the player's from now on, or something else's (false). */
-void performer_layers_bind(performer_t *performer, bool main);
+/* One tick. with_play: of the player as well. Returns the player's PLAYER_EV_ bits; PLAYER_EV_OUTPUT for the layers too. */
+uint8_t performer_layers_tick(performer_t *performer, bool with_play);
 
-/* The slopes of the layer's page for its joints, over those of the main page. */
-void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS]);
+/* The memory of the main play is the player's from now on, or something else's (false). */
+void performer_layers_bind(performer_t *performer, bool with_play);
 
 void performer_layers_drop(performer_t *performer, uint32_t joints);
 void performer_layers_break(performer_t *performer);

@@ -72,6 +72,10 @@ void requests_end_watch(void);
 
 /* ---- for handlers ---- */
 
+/* Switches the torque of joints one at a time, so that nothing else waits for longer than 3 ms. Returns those that are as
+ * they should be. */
+uint32_t requests_switch_torque(uint32_t joints, bool on);
+
 enum { REQUEST_SAID = 100 };   /* failed, and the error has been printed */
 
 /* " ERR n ": the sentence has to follow. Returns REQUEST_SAID. */

@@ -36,8 +36,7 @@ uint8_t request_move(void *context, const shell_args_t *args)
     return requests_refusal(performer_move(requests_image.performer, to_pos, joints, args->number[0]));
 }
 
-/* One joint at a time, so that nothing else waits for longer than 3 ms. Returns those that are as they should be. */
-static uint32_t switch_each(uint32_t joints, bool on)
+uint32_t requests_switch_torque(uint32_t joints, bool on)
 {
     uint32_t done = 0;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
@@ -72,7 +71,7 @@ uint8_t request_torque(void *context, const shell_args_t *args)
     if (on && !performer_is_idle(requests_image.performer)) {   /* off is allowed at any time: the one word with two rules */
         return REQUEST_ERR_BUSY;
     }
-    const bool all = (joints & present) == joints && joints != 0 && switch_each(joints, on) == joints;
+    const bool all = (joints & present) == joints && joints != 0 && requests_switch_torque(joints, on) == joints;
     return all ? REQUEST_OK : REQUEST_ERR_SERVOS;
 }
 

@@ -100,6 +100,14 @@ void text_number(uint16_t number)
     text_padded(number, 1, '0');
 }
 
+void text_signed(int16_t number)
+{
+    if (number < 0) {
+        text_put('-');
+    }
+    text_number((uint16_t)(number < 0 ? -number : number));
+}
+
 void text_padded(uint16_t number, uint8_t width, char pad)
 {
     char digits[5];

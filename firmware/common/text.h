@@ -43,6 +43,7 @@ char text_next(text_reader_t *reader);           /* '\0' at the end; not to be c
 char *text_copy_P(char *to, const char *string_P);   /* into RAM, with its end; returns where that stands */
 
 void text_number(uint16_t number);                              /* decimal, as short as it is */
+void text_signed(int16_t number);                               /* the same, with a minus where it needs one */
 void text_number32(uint32_t number);
 void text_padded(uint16_t number, uint8_t width, char pad);     /* right aligned; wider numbers are not cut */
 void text_string_padded(const char *string, uint8_t width);     /* left aligned, filled with spaces */

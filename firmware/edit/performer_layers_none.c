@@ -8,21 +8,21 @@ uint32_t performer_layers_joints(const performer_t *performer)
     return 0;
 }
 
-uint8_t performer_layers_tick(performer_t *performer, bool main)
-{
-    return main ? player_tick(&performer->engine.player, &performer->link) : 0;
-}
-
-void performer_layers_bind(performer_t *performer, bool main)
+bool performer_layers_are_moving(const performer_t *performer)
 {
     (void)performer;
-    (void)main;
+    return false;
 }
 
-void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS])
+uint8_t performer_layers_tick(performer_t *performer, bool with_play)
+{
+    return with_play ? player_tick(&performer->engine.player, &performer->link) : 0;
+}
+
+void performer_layers_bind(performer_t *performer, bool with_play)
 {
     (void)performer;
-    (void)compliance;
+    (void)with_play;
 }
 
 void performer_layers_drop(performer_t *performer, uint32_t joints)
@@ -43,12 +43,6 @@ void performer_layers_pause(performer_t *performer, bool pause)
 }
 
 uint8_t performer_layer_page(const performer_t *performer)
-{
-    (void)performer;
-    return 0;
-}
-
-uint32_t performer_code_joints(const performer_t *performer)
 {
     (void)performer;
     return 0;

@@ -49,7 +49,7 @@ TEXT_NAMED(word_status, "status  what is playing");
 TEXT_NAMED(word_servos, "servos  [find]  the servos; or searches again");
 TEXT_NAMED(word_faults, "faults  servos, bus, serial line and ticks: what went wrong");
 TEXT_NAMED(word_law, "law  [exact|classic]  the law of motion");
-TEXT_NAMED(word_remote, "remote  [latch|hold|drive]  letting go: goes on, or stops; drive: L and R steer");
+TEXT_NAMED(word_remote, "remote  [latch|hold|drive]  letting go: goes on, or stops; L and R steer");
 TEXT_NAMED(word_settings, "settings  [name value|defaults]");
 TEXT_NAMED(word_baud, "baud  [id ...]  moves slow servos to 1 Mbps");
 TEXT_NAMED(word_version, "version  of this program");

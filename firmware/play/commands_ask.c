@@ -2,6 +2,7 @@
  * commands_ask.c - what handlers ask of a line: numbers and joints, and how they refuse it. */
 #include "commands_parts.h"
 
+#include "pgm.h"
 #include "text.h"
 
 uint8_t commands_error(const play_t *play, uint8_t number)
@@ -21,59 +22,74 @@ uint8_t commands_sentence(const play_t *play, uint8_t number, const char *senten
     return number;
 }
 
-bool commands_number(const play_t *play, const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min,
-                     uint16_t max, uint16_t *value)
+/* A whole word as a number, with or without a minus. false: none, or too large to have a sign. */
+static bool parse_signed(const char *word, int16_t *number)
 {
-    uint16_t number;
-    if (shell_parse(shell_word(args, index), false, &number) && number >= min && number <= max) {
-        *value = number;
-        return true;
-    }
-    (void)commands_error(play, REQUEST_ERR_RANGE);
-    shell_print_range(what_P, min, max, false);
-    return false;
-}
-
-bool commands_signed(const play_t *play, const shell_args_t *args, uint8_t index, const char *what_P, int16_t size_max,
-                     int16_t *value)
-{
-    const char *word = shell_word(args, index);
     const bool negative = word[0] == '-';
     uint16_t size;
-    if (shell_parse(word + (negative ? 1 : 0), false, &size) && size <= (uint16_t)size_max) {
-        *value = negative ? (int16_t)-(int16_t)size : (int16_t)size;
-        return true;
+    if (!shell_parse(word + (negative ? 1 : 0), false, &size) || size > INT16_MAX) {
+        return false;
     }
-    (void)commands_error(play, REQUEST_ERR_RANGE);
-    text_P(what_P);
-    TEXT(" must be -");
-    text_number((uint16_t)size_max);
-    TEXT("..");
-    text_number((uint16_t)size_max);
-    return false;
+    *number = negative ? (int16_t)-(int16_t)size : (int16_t)size;
+    return true;
 }
 
-bool commands_joints(const play_t *play, const shell_args_t *args, uint8_t first, uint32_t *joints)
+bool commands_numbers(const play_t *play, const shell_args_t *args, uint8_t first, const commands_range_t *ranges_P,
+                      uint8_t count, int16_t values[])
 {
-    *joints = args->count <= first ? play->servos.present : 0;
-    for (uint8_t i = first; i < args->count; i++) {
-        uint16_t id;
-        if (!commands_number(play, args, i, TEXT_P("ID"), 0, SERVO_LINK_JOINTS - 1u, &id)) {
-            return false;
+    for (uint8_t i = 0; i < count && first + i < args->count; i++) {
+        commands_range_t range;
+        memcpy_P(&range, &ranges_P[i], sizeof range);
+        if (parse_signed(shell_word(args, (uint8_t)(first + i)), &values[i]) && values[i] >= range.min &&
+            values[i] <= range.max) {
+            continue;
         }
-        if (!servo_link_has(&play->servos.present, (uint8_t)id)) {
-            (void)commands_error(play, REQUEST_ERR_SERVOS);
-            TEXT("Servo ");
-            text_number(id);
-            TEXT(" is not there");
+        (void)commands_error(play, REQUEST_ERR_RANGE);
+        text_P(range.what_P);
+        TEXT(" must be ");
+        text_signed(range.min);
+        TEXT("..");
+        text_signed(range.max);
+        return false;
+    }
+    return true;
+}
+
+TEXT_NAMED(id_text, "ID");
+static const commands_range_t id_range[] PROGMEM = { { id_text, 0, SERVO_LINK_JOINTS - 1 } };
+
+bool commands_ids(const play_t *play, const shell_args_t *args, uint8_t first, uint32_t *joints)
+{
+    *joints = 0;
+    for (uint8_t i = first; i < args->count; i++) {
+        int16_t id;
+        if (!commands_numbers(play, args, i, id_range, 1, &id)) {
             return false;
         }
         servo_link_put(joints, (uint8_t)id, true);
     }
-    if (*joints == 0) {
-        (void)commands_error(play, REQUEST_ERR_SERVOS);
-        report_refusal(PERFORMER_ERR_NO_SERVOS, 0, 0);
+    return true;
+}
+
+bool commands_joints(const play_t *play, const shell_args_t *args, uint8_t first, uint32_t *joints)
+{
+    if (!commands_ids(play, args, first, joints)) {
         return false;
     }
-    return true;
+    const uint32_t absent = *joints & ~play->servos.present;
+    if (args->count <= first) {
+        *joints = play->servos.present;
+    }
+    if (absent == 0 && *joints != 0) {
+        return true;
+    }
+    (void)commands_error(play, REQUEST_ERR_SERVOS);
+    if (absent != 0) {
+        TEXT("Servo ");
+        report_joints(absent);
+        TEXT(" is not there");
+    } else {
+        report_refusal(PERFORMER_ERR_NO_SERVOS, 0, 0);
+    }
+    return false;
 }

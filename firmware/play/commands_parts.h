@@ -5,7 +5,8 @@
  *     commands_play.c       play, stop, break, pause, resume, code
  *     commands_robot.c      on, off, servos, baud
  *     commands_settings.c   law, remote, settings
- *     commands_shape.c      rate, amplitude, blend, drive, shape: for programs too
+ *     commands_shape.c      rate, amplitude, blend, drive, shape: for programs too; their table
+ *       commands_layers.c   layer: likewise
  *       commands_ask.c      numbers and joints of a line, errors */
 #ifndef COMMANDS_PARTS_H
 #define COMMANDS_PARTS_H
@@ -30,19 +31,29 @@ uint8_t commands_do_law(void *context, const shell_args_t *args);
 uint8_t commands_do_remote(void *context, const shell_args_t *args);
 uint8_t commands_do_settings(void *context, const shell_args_t *args);
 
+uint8_t commands_do_layer(void *context, const shell_args_t *args);
+
 /* Words for persons and programs. */
-#define COMMANDS_SHAPE_COUNT 5u
+#define COMMANDS_SHAPE_COUNT 6u
 extern const shell_command_t commands_shape_table[COMMANDS_SHAPE_COUNT];
 
 /* Begins an error: its number (request_status_t), when a program asks. Returns it as the handler's status. */
 uint8_t commands_error(const play_t *play, uint8_t number);
 uint8_t commands_sentence(const play_t *play, uint8_t number, const char *sentence_P);   /* the whole of it */
 
-/* Word `index` as a number from min to max, or from -size_max to size_max. false: it has been said what is wrong. */
-bool commands_number(const play_t *play, const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min,
-                     uint16_t max, uint16_t *value);
-bool commands_signed(const play_t *play, const shell_args_t *args, uint8_t index, const char *what_P, int16_t size_max,
-                     int16_t *value);
+/* What a number is called, in flash, and its bounds. */
+typedef struct {
+    const char *what_P;
+    int16_t min, max;
+} commands_range_t;
+
+/* The words from `first` on as numbers, each within its range (in flash); a word that is not there leaves its value as it
+ * is. false: it has been said what is wrong. */
+bool commands_numbers(const play_t *play, const shell_args_t *args, uint8_t first, const commands_range_t *ranges_P,
+                      uint8_t count, int16_t values[]);
+
+/* IDs from word `first` on. false: it has been said what is wrong. */
+bool commands_ids(const play_t *play, const shell_args_t *args, uint8_t first, uint32_t *joints);
 
 /* The joints named from word `first` on; all that are present when there is no word. false: it has been said why. */
 bool commands_joints(const play_t *play, const shell_args_t *args, uint8_t first, uint32_t *joints);

@@ -6,8 +6,6 @@
 #include "text.h"
 #include "views.h"
 
-#define ID_MAX (SERVO_LINK_JOINTS - 1u)
-
 uint8_t commands_do_on(void *context, const shell_args_t *args)
 {
     play_t *play = context;
@@ -18,13 +16,7 @@ uint8_t commands_do_on(void *context, const shell_args_t *args)
     if (!performer_is_idle(&play->performer)) {
         return commands_refuse(PERFORMER_ERR_BUSY, 0, 0);
     }
-    uint32_t failed = 0;
-    for (uint8_t id = 0; id <= ID_MAX; id++) {
-        if ((joints & servo_link_bit(id)) != 0 && performer_is_idle(&play->performer)) {
-            failed |= servo_link_bit(id) & ~performer_on(&play->performer, servo_link_bit(id));
-            play_service(play);
-        }
-    }
+    const uint32_t failed = joints & ~requests_switch_torque(joints, true);
     if (failed != 0) {
         TEXT("No answer from servos ");
         report_joints(failed);
@@ -40,12 +32,7 @@ uint8_t commands_do_off(void *context, const shell_args_t *args)
     if (!commands_joints(play, args, 1, &joints)) {
         return SHELL_ERR_SAID;
     }
-    for (uint8_t id = 0; id <= ID_MAX; id++) { /* one at a time: 18 take longer than a tick, and the others may be playing */
-        if ((joints & servo_link_bit(id)) != 0) {
-            performer_off(&play->performer, servo_link_bit(id));
-            play_service(play);
-        }
-    }
+    (void)requests_switch_torque(joints, false);
     return SHELL_OK;
 }
 
@@ -71,13 +58,12 @@ uint8_t commands_do_servos(void *context, const shell_args_t *args)
 uint8_t commands_do_baud(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    uint32_t joints = args->count == 1 ? play->servos.slow : 0;
-    for (uint8_t i = 1; i < args->count; i++) {
-        uint16_t id;
-        if (!commands_number(play, args, i, TEXT_P("ID"), 0, ID_MAX, &id)) {
-            return SHELL_ERR_SAID;
-        }
-        joints |= servo_link_bit(id);
+    uint32_t joints;
+    if (!commands_ids(play, args, 1, &joints)) {
+        return SHELL_ERR_SAID;
+    }
+    if (args->count == 1) {
+        joints = play->servos.slow;
     }
     if ((joints & play->servos.slow) != joints || joints == 0) {
         TEXT("Servos at 57142 bps: ");

@@ -5,34 +5,42 @@
 #include "commands_parts.h"
 
 #include "performer_shape.h"
+#include "pgm.h"
 #include "text.h"
 #include "views.h"
 
-/* ---- rate, amplitude, blend ---- */
+TEXT_NAMED(blend_text, "Blend");
+TEXT_NAMED(rate_text, "Rate");
+TEXT_NAMED(amplitude_text, "Amplitude");
+/* In the order of drive's words. */
+static const commands_range_t ranges[] PROGMEM = {
+    { blend_text, -SHAPE_BLEND_MAX, SHAPE_BLEND_MAX },
+    { rate_text, SHAPE_RATE_MIN, SHAPE_RATE_MAX },
+    { amplitude_text, 0, SHAPE_AMPLITUDE_MAX },
+};
+enum { BLEND, RATE, AMPLITUDE };
 
 static uint8_t do_rate(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    uint16_t percent;
-    if (!commands_number(play, args, 1, TEXT_P("Rate"), SHAPE_RATE_MIN, SHAPE_RATE_MAX, &percent)) {
+    int16_t percent;
+    if (!commands_numbers(play, args, 1, &ranges[RATE], 1, &percent)) {
         return REQUEST_ERR_RANGE;
     }
-    (void)!shape_set_rate(&play->performer.shape, percent);
+    (void)!shape_set_rate(&play->performer.shape, (uint16_t)percent);
     return REQUEST_OK;
 }
 
 static uint8_t do_amplitude(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    uint16_t percent;
+    int16_t percent;
     uint32_t joints = SERVO_LINK_ALL;
-    if (!commands_number(play, args, 1, TEXT_P("Amplitude"), 0, SHAPE_AMPLITUDE_MAX, &percent)) {
+    if (!commands_numbers(play, args, 1, &ranges[AMPLITUDE], 1, &percent) ||
+        (args->count > 2 && !commands_joints(play, args, 2, &joints))) {
         return REQUEST_ERR_RANGE;
     }
-    if (args->count > 2 && !commands_joints(play, args, 2, &joints)) {
-        return REQUEST_ERR_RANGE;
-    }
-    (void)!shape_set_amplitude(&play->performer.shape, percent, joints);
+    (void)!shape_set_amplitude(&play->performer.shape, (uint16_t)percent, joints);
     return REQUEST_OK;
 }
 
@@ -40,7 +48,7 @@ static uint8_t do_blend(void *context, const shell_args_t *args)
 {
     play_t *play = context;
     int16_t percent;
-    if (!commands_signed(play, args, 1, TEXT_P("Blend"), SHAPE_BLEND_MAX, &percent)) {
+    if (!commands_numbers(play, args, 1, &ranges[BLEND], 1, &percent)) {
         return REQUEST_ERR_RANGE;
     }
     (void)!shape_set_blend(&play->performer.shape, percent);
@@ -51,14 +59,11 @@ static uint8_t do_blend(void *context, const shell_args_t *args)
 static uint8_t do_drive(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    int16_t blend;
-    uint16_t rate, amplitude;
-    if (!commands_signed(play, args, 1, TEXT_P("Blend"), SHAPE_BLEND_MAX, &blend) ||
-        !commands_number(play, args, 2, TEXT_P("Rate"), SHAPE_RATE_MIN, SHAPE_RATE_MAX, &rate) ||
-        !commands_number(play, args, 3, TEXT_P("Amplitude"), 0, SHAPE_AMPLITUDE_MAX, &amplitude)) {
+    int16_t percent[ARRAY_COUNT(ranges)];
+    if (!commands_numbers(play, args, 1, ranges, ARRAY_COUNT(ranges), percent)) {
         return REQUEST_ERR_RANGE;
     }
-    (void)!performer_drive(&play->performer, blend, rate, amplitude);
+    (void)!performer_drive(&play->performer, percent[BLEND], (uint16_t)percent[RATE], (uint16_t)percent[AMPLITUDE]);
     return REQUEST_OK;
 }
 
@@ -68,11 +73,7 @@ static uint8_t do_shape(void *context, const shell_args_t *args)
 {
     play_t *play = context;
     if (args->count == 1) {
-        if (play->program_asks) {
-            views_print_shape_fields(&play->performer);
-        } else {
-            views_print_shape(&play->performer);
-        }
+        views_print_shape(&play->performer);
         return REQUEST_OK;
     }
     if (!shell_word_is(args, 1, PSTR("reset"))) {
@@ -84,8 +85,9 @@ static uint8_t do_shape(void *context, const shell_args_t *args)
 
 TEXT_NAMED(word_rate, "rate  percent  speed of the motion, 10..400");
 TEXT_NAMED(word_amplitude, "amplitude  percent [id ...]  size of the motion, 0..150");
-TEXT_NAMED(word_blend, "blend  percent  towards the partner page: right 1..100, left -1..-100");
-TEXT_NAMED(word_drive, "drive  blend rate amplitude  all three; again and again, or the play is stopped");
+TEXT_NAMED(word_blend, "blend  percent  towards the partner page: left -100..100 right");
+TEXT_NAMED(word_drive, "drive  blend rate amplitude  all three, again and again");
+TEXT_NAMED(word_layer, "layer  n [id ...]|off  a second page, on joints of its own");
 TEXT_NAMED(word_shape, "shape  [reset]  what of this is in force");
 
 const shell_command_t commands_shape_table[COMMANDS_SHAPE_COUNT] PROGMEM = {
@@ -93,6 +95,7 @@ const shell_command_t commands_shape_table[COMMANDS_SHAPE_COUNT] PROGMEM = {
     { word_amplitude, do_amplitude, SHELL_ARGS(1, SHELL_ANY_ARGS), 0 },
     { word_blend, do_blend, SHELL_ARGS(1, 1), 0 },
     { word_drive, do_drive, SHELL_ARGS(3, 3), 0 },
+    { word_layer, commands_do_layer, SHELL_ARGS(1, SHELL_ANY_ARGS), 0 },
     { word_shape, do_shape, SHELL_ARGS(0, 1), 0 },
 };
 

@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "console.h"
 #include "journal.h"
+#include "performer_shape.h"
 #include "play.h"
 #include "report.h"
 #include "text.h"
@@ -39,7 +40,7 @@ static uint8_t run_more(const shell_args_t *args)
 
 static void tell_shape(void)
 {
-    views_print_shape_fields(&play.performer);
+    views_print_shape(&play.performer);
 }
 
 static const char name[] PROGMEM = "play";
@@ -171,6 +172,7 @@ static void start(void)
     page_store_init(&play.pages);
     servo_link_init(&play.servos);
     performer_init(&play.performer, &play.pages.source, &play.servos, &play.settings);
+    performer_set_layers(&play.performer, &play.layers);
     inputs_init(&play.inputs, &play.performer, &play.pages, &play.settings);
     shell_init(&play.shell, play.line, sizeof play.line, play.history, sizeof play.history);
     console_set_flow(play.settings.flow != 0);

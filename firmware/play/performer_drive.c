@@ -7,10 +7,12 @@
 bool performer_drive(performer_t *performer, int16_t blend, uint16_t rate, uint16_t amplitude)
 {
     shape_t *shape = &performer->shape;
-    const shape_t before = *shape;
+    const int8_t blend_before = shape->blend_percent;
+    const uint16_t rate_before = shape->rate_percent;
     if (shape_set_blend(shape, blend) != SHAPE_OK || shape_set_rate(shape, rate) != SHAPE_OK ||
         shape_set_amplitude(shape, amplitude, SERVO_LINK_ALL) != SHAPE_OK) {
-        *shape = before;
+        shape->blend_percent = blend_before;
+        shape->rate_percent = rate_before;
         return false;
     }
     /* Tenths of a second. */

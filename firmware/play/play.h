@@ -5,6 +5,7 @@
 #define PLAY_H
 
 #include "inputs.h"
+#include "layers.h"
 #include "page_store.h"
 #include "performer.h"
 #include "requests.h"
@@ -23,6 +24,7 @@ typedef struct {
     settings_store_t store;
     inputs_t inputs;
     shell_t shell;
+    layers_t layers;
     bool program_asks;      /* the line that runs is a program's */
     char line[PLAY_LINE_BYTES];
     char history[PLAY_HISTORY_BYTES];

@@ -110,6 +110,7 @@ void views_print_status(const play_t *play)
     print_state(&play->performer);
     if (!shape_is_neutral(&play->performer.shape) || performer_layers_joints(&play->performer) != 0) {
         views_print_shape(&play->performer);
+        text_line_end();
     }
     TEXT("Law ");
     text_P(play->settings.law == PLAYER_LAW_CLASSIC ? TEXT_P("classic") : TEXT_P("exact"));
@@ -141,14 +142,6 @@ void views_print_status(const play_t *play)
 
 /* ---- shape ---- */
 
-static void print_signed(int16_t number)
-{
-    if (number < 0) {
-        text_put('-');
-    }
-    text_number((uint16_t)(number < 0 ? -number : number));
-}
-
 /* The joints whose amplitude is `percent`. */
 static uint32_t joints_with(const shape_t *shape, uint8_t percent)
 {
@@ -159,75 +152,28 @@ static uint32_t joints_with(const shape_t *shape, uint8_t percent)
     return joints;
 }
 
-/* "Amplitude 100 %", or a line for each amplitude that some joint has. */
-static void print_amplitudes(const shape_t *shape)
-{
-    uint32_t told = 0;
-    for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
-        if (servo_link_has(&told, id)) {
-            continue;
-        }
-        const uint32_t joints = joints_with(shape, shape->amplitude_percent[id]);
-        told |= joints;
-        TEXT("Amplitude ");
-        text_number(shape->amplitude_percent[id]);
-        TEXT(" %");
-        if (joints != SERVO_LINK_ALL) {
-            TEXT(" of ");
-            report_joints(joints);
-        }
-        text_line_end();
-    }
-}
-
-void views_print_shape(const performer_t *performer)
-{
-    const shape_t *shape = &performer->shape;
-    const uint8_t page = performer_layer_page(performer);
-    TEXT("Rate ");
-    text_number(shape->rate_percent);
-    TEXT(" %, blend ");
-    print_signed(shape->blend_percent);
-    TEXT(" %");
-    text_line_end();
-    print_amplitudes(shape);
-    if (page != 0) {
-        TEXT("Layer: ");
-        report_page(page);
-        TEXT(" on ");
-        report_joints(performer_layers_joints(performer));
-        text_line_end();
-    }
-    if (performer_code_joints(performer) != 0) {
-        TEXT("Moved by code: ");
-        report_joints(performer_code_joints(performer));
-        text_line_end();
-    }
-}
-
 static void print_field(const char *name_P, uint16_t value)
 {
     text_P(name_P);
     text_number(value);
 }
 
-void views_print_shape_fields(const performer_t *performer)
+void views_print_shape(const performer_t *performer)
 {
     const shape_t *shape = &performer->shape;
-    const uint32_t code = performer_code_joints(performer);
     const uint8_t amplitude = shape->amplitude_percent[0];
     print_field(TEXT_P(" rate="), shape->rate_percent);
     TEXT(" blend=");
-    print_signed(shape->blend_percent);
+    text_signed(shape->blend_percent);
+    TEXT(" amplitude=");
     if (joints_with(shape, amplitude) == SERVO_LINK_ALL) {
-        print_field(TEXT_P(" amplitude="), amplitude);
+        text_number(amplitude);
     } else {
-        TEXT(" amplitude=mixed");
+        for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
+            text_hex(shape->amplitude_percent[id], 2);
+        }
     }
     print_field(TEXT_P(" layer="), performer_layer_page(performer));
-    TEXT(" by_code=");
-    text_hex((uint16_t)(code >> 16), 4);
-    text_hex((uint16_t)code, 4);
 }
 
 /* ---- servos ---- */
@@ -246,6 +192,21 @@ void views_print_servos_found(const play_t *play)
         TEXT("At 57142 bps, not used until baud: ");
         report_joints(play->servos.slow);
         text_line_end();
+    }
+}
+
+static bool is_in_trouble(const servo_link_t *servos, uint8_t id)
+{
+    return servo_link_has(&servos->silent, id) || servos->errors[id] != 0;
+}
+
+static void print_trouble(const servo_link_t *servos, uint8_t id)
+{
+    if (servo_link_has(&servos->silent, id)) {
+        TEXT(" does not answer");
+    } else {
+        TEXT(" reports ");
+        report_servo_errors(servos->errors[id]);
     }
 }
 
@@ -268,11 +229,8 @@ void views_print_servos(const play_t *play)
         if ((play->performer.released & joint) != 0) {
             TEXT("  switched off");
         }
-        if ((servos->silent & joint) != 0) {
-            TEXT("  does not answer");
-        } else if (servos->errors[id] != 0) {
-            TEXT("  ");
-            report_servo_errors(servos->errors[id]);
+        if (is_in_trouble(servos, id)) {
+            print_trouble(servos, id);
         }
         text_line_end();
     }
@@ -293,21 +251,13 @@ static void print_servo_faults(const servo_link_t *servos)
 {
     bool any = false;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        const uint32_t joint = servo_link_bit(id);
-        const bool silent = (servos->silent & joint) != 0;
-        if ((servos->present & joint) == 0 || (!silent && servos->errors[id] == 0)) {
-            continue;
+        if (servo_link_has(&servos->present, id) && is_in_trouble(servos, id)) {
+            any = true;
+            TEXT("Servo ");
+            text_number(id);
+            print_trouble(servos, id);
+            text_line_end();
         }
-        any = true;
-        TEXT("Servo ");
-        text_number(id);
-        if (silent) {
-            TEXT(" does not answer");
-        } else {
-            TEXT(" reports ");
-            report_servo_errors(servos->errors[id]);
-        }
-        text_line_end();
     }
     if (!any) {
         TEXT("No servo has a fault");

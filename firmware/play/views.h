@@ -12,9 +12,9 @@ void views_print_faults(const play_t *play);
 void views_print_settings(const play_t *play);
 void views_print_version(void);
 
-/* Rate, amplitude, blend, layer, joints moved by code: for a person, in lines; for a program, as ` field=value`. */
+/* Rate, blend, amplitude (two hexadecimal digits a joint when they differ), layer, as ` field=value`;
+ * without a line end. */
 void views_print_shape(const performer_t *performer);
-void views_print_shape_fields(const performer_t *performer);
 
 /* "18 servos: 1-18", and who is there but cannot be used. */
 void views_print_servos_found(const play_t *play);

@@ -70,14 +70,15 @@ def test_words_and_requests_do_the_same():
     for word in ("rate 150", "blend -40", "amplitude 60", "amplitude 120 3 4"):
         assert ask(board, word) == " OK"
     typed = ask(board, "shape"), where(board)
-    assert "Rate 150 %, blend -40 %" in typed[0] and "Amplitude 120 % of 3-4" in typed[0]
-    assert (typed[1]["rate"], typed[1]["blend"], typed[1]["amplitude"]) == ("150", "-40", "mixed")
+    amplitudes = "3C" * 3 + "78" * 2 + "3C" * 26   # joints 3 and 4: 120
+    assert typed[0] == f" rate=150 blend=-40 amplitude={amplitudes} layer=0 OK"
+    assert (typed[1]["rate"], typed[1]["blend"], typed[1]["amplitude"]) == ("150", "-40", amplitudes)
     assert ask(board, "shape reset") == " OK"
     assert where(board)["rate"] == "100"
     for word in ("@rate 150", "@blend -40", "@amplitude 60", "@amplitude 120 3 4"):
         assert ask(board, word) == word.split()[0] + " OK"
     assert (ask(board, "shape"), where(board)) == typed
-    assert "Rate 150 %" in ask(board, "status")
+    assert "rate=150" in ask(board, "status")
 
 
 # --- rate, amplitude, blend ---

@@ -10,6 +10,7 @@ uint8_t pages[PAGES][PAGE_BYTES];
 servo_link_t servos;
 settings_t settings;
 performer_t performer;
+layers_t layers;
 
 static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
@@ -50,6 +51,7 @@ void setUp(void)
     settings.hot_degrees = 70;
     fake_servo_link_reset(&servos, ALL_THREE);
     performer_init(&performer, &source, &servos, &settings);
+    performer_set_layers(&performer, &layers);
 }
 
 void tearDown(void) {}

@@ -17,6 +17,7 @@ extern uint8_t pages[PAGES][PAGE_BYTES];
 extern servo_link_t servos;
 extern settings_t settings;
 extern performer_t performer;
+extern layers_t layers;
 
 /* A page with one step of 64 ticks in which joint 1 goes to `pos`; links to `next`, on stop to `exit`. */
 void make_page(uint8_t page, uint16_t pos, uint8_t next, uint8_t exit);

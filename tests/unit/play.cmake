@@ -7,7 +7,7 @@ m512_unit_test(test_inputs INCLUDES firmware/common firmware/play
             tests/fake/fake_time.c)
 set(performer_sources performer.c performer_event.c performer_ready.c performer_stop.c performer_watch.c)
 list(TRANSFORM performer_sources PREPEND firmware/common/)
-list(APPEND performer_sources firmware/play/performer_drive.c firmware/edit/performer_layers_none.c tests/unit/fake_servo_link.c tests/unit/performer_stage.c
+list(APPEND performer_sources firmware/play/performer_drive.c firmware/play/performer_layers.c tests/unit/fake_servo_link.c tests/unit/performer_stage.c
     motion/approach.c ${M512_PLAYER_FULL})
 foreach(test test_performer test_performer_drive test_performer_stop test_performer_fault)
     m512_unit_test(${test} INCLUDES firmware/common SOURCES ${performer_sources})

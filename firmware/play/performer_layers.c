@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT
+ * performer_layers.c - a second page over the play. */
+#include "performer_shape.h"
+
+#include "bound.h"
+
+void performer_set_layers(performer_t *performer, layers_t *layers)
+{
+    performer->layers = layers;
+    layers_init(layers, performer->goal_pos);
+}
+
+/* ---- a second page ---- */
+
+layers_status_t performer_layer(performer_t *performer, uint8_t page, uint32_t joints)
+{
+    if (performer->state != PERFORMER_PLAY || performer->leaving || performer_is_paused(performer)) {
+        return LAYERS_ERR_IDLE;
+    }
+    layers_set_speed(performer->layers, PERFORMER_SETTINGS(performer)->approach_deg_s);
+    const layers_status_t status = layers_start(performer->layers, page, joints);
+    performer->fault_page = performer->layers->play.fault_page;
+    performer->fault = performer->layers->play.fault;
+    return status;
+}
+
+void performer_layer_off(performer_t *performer)
+{
+    layers_end(performer->layers);
+}
+
+uint8_t performer_layer_page(const performer_t *performer)
+{
+    const player_t *play = &performer->layers->play;
+    return player_is_moving(play) ? play->page : 0;
+}
+
+/* ---- for performer*.c ---- */
+
+uint32_t performer_layers_joints(const performer_t *performer)
+{
+    return layers_joints(performer->layers);
+}
+
+bool performer_layers_are_moving(const performer_t *performer)
+{
+    return layers_are_moving(performer->layers);
+}
+
+uint8_t performer_layers_tick(performer_t *performer, bool with_play)
+{
+    uint8_t of_layer = 0;
+    if (!with_play && !layers_are_moving(performer->layers)) {
+        return 0;
+    }
+    const uint8_t events = layers_tick(performer->layers, &performer->link, &of_layer);
+    if ((of_layer & PLAYER_EV_ENDED) != 0) {
+        performer_event_put(&performer->events, PERFORMER_EV_LAYER_ENDED, performer->layers->play.page, 0, 0);
+    }
+    return (uint8_t)(events | (of_layer & PLAYER_EV_OUTPUT));
+}
+
+void performer_layers_bind(performer_t *performer, bool with_play)
+{
+    layers_bind(performer->layers, with_play ? &performer->engine.player : NULL);
+}
+
+void performer_layers_drop(performer_t *performer, uint32_t joints)
+{
+    if (performer->state == PERFORMER_PLAY) { /* without a main play the layer has no joints to look at */
+        layers_drop_joints(performer->layers, joints);
+    }
+}
+
+void performer_layers_break(performer_t *performer)
+{
+    layers_break(performer->layers);
+}
+
+void performer_layers_pause(performer_t *performer, bool pause)
+{
+    if (pause) {
+        layers_pause(performer->layers);
+    } else {
+        layers_resume(performer->layers);
+    }
+}

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: MIT
+"""A second page over a play (shaping.md), in the shipped Play image."""
+import random
+
+from play_robot import JOINTS, ask, motions, page, robot, tick_of, walk_steps
+from m512.files.image import from_bytes
+
+LOOP, EXIT, WAVE = 30, 33, 34
+
+
+def pages():
+    """The pages of the other tests, a walk (30), its exit, and a wave for joints 3 and 5."""
+    image = from_bytes(motions())
+    image[LOOP] = page("loop", walk_steps(), next=LOOP, exit=EXIT)
+    image[EXIT] = page("stand", [(40, {})])
+    image[WAVE] = page("wave", [(32, {3: 700, 5: 600}), (32, {3: 650, 5: 640})], joints=(3, 5), next=WAVE, exit=0)
+    return image.to_bytes()
+
+
+def looping():
+    """A robot that walks page 30 and says nothing of it."""
+    board = robot(pages=pages())
+    ask(board, "settings talk 0")
+    assert ask(board, f"play {LOOP}").endswith("OK")
+    board.run(ms=3000)
+    board.clear_trace()
+    return board
+
+
+def where(board):
+    """The fields of @where."""
+    return dict(field.split("=") for field in ask(board, "@where").split() if "=" in field)
+
+
+def run_of_a_walk(words, ms=6000):
+    """{tick: goals} of a walk in which words are typed at given times: [(ms, word)]."""
+    board = looping()
+    tick = tick_of(board)
+    board.clear_trace()
+    begin = board.now_ms
+    for at, word in words:
+        board.run(ms=max(0, at - (board.now_ms - begin)))
+        assert ask(board, word).endswith("OK")
+    board.run(ms=ms - (board.now_ms - begin))
+    return {tick(frame.cycle): frame.goals for frame in board.trace if len(frame.goals) > 1}
+
+
+def test_layer_in_a_walk_leaves_the_other_joints_goals_as_they_are():
+    seed = random.randrange(1 << 16)
+    print(f"seed {seed}")
+    chance = random.Random(seed)
+    plain = run_of_a_walk([(0, "version"), (4000, "version")])
+    lent = run_of_a_walk([(chance.randrange(1000), "layer 34"), (3000 + chance.randrange(1000), "layer off")])
+    others = [joint for joint in JOINTS if joint not in (3, 5)]
+    assert len(plain) > 700 and plain.keys() == lent.keys()
+    for at, goals in plain.items():
+        assert [lent[at][joint] for joint in others] == [goals[joint] for joint in others], at
+    for joint, high in ((3, 700), (5, 640)):
+        row = [goals[joint] for _, goals in sorted(lent.items())]
+        assert row[0] == row[-1] == 512 and max(row) == high
+        speeds = [b - a for a, b in zip(row, row[1:])]
+        assert max(abs(b - a) for a, b in zip(speeds, speeds[1:])) <= 2   # no leap, neither away nor back
+
+
+def test_layer_on_named_joints_moves_only_these():
+    board = looping()
+    assert ask(board, "layer 34 3") == " OK"
+    board.run(ms=2000)
+    assert board.servos[3].goal > 600 and board.servos[5].goal == 512
+    assert where(board)["layer"] == "34"
+
+
+def test_layer_that_ends_by_itself_is_told_and_its_joints_come_back():
+    board = robot(pages=pages())
+    ask(board, f"play {LOOP}")
+    board.run(ms=3000)
+    assert ask(board, "layer 1 3") == " OK"   # a page of one step, without a link
+    board.expect("The layer ended after page 1 (ready)", ms=3000)
+    assert where(board)["layer"] == "0" and where(board)["state"] == "playing"
+
+
+def test_refused_layers_say_one_sentence_and_change_nothing():
+    board = looping()
+    for line, said in (("layer 0", "Page must be 1..127"), ("layer 128", "Page must be 1..127"),
+                       ("layer 34 25", "Servo 25 is not there"), ("layer 34 31", "ID must be 0..30"),
+                       ("layer 11", "Page 11 is damaged: checksum is wrong"), ("layer 10", "Page 10 is empty")):
+        assert ask(board, line) == said
+        assert where(board)["layer"] == "0"
+        answer = ask(board, "@" + line)
+        assert answer.startswith("@layer ERR ") and answer.endswith(said)
+    ask(board, "break")
+    board.run(ms=500)
+    assert ask(board, "layer 34") == "Nothing is playing"
+
+
+def test_break_pause_and_a_silent_servo_hold_both_plays():
+    for how in ("break", "pause", "fault"):
+        board = looping()
+        assert ask(board, "layer 34") == " OK"
+        board.run(ms=1500)
+        if how == "fault":
+            board.servos[3].fault("silent")   # a joint of the layer
+        else:
+            ask(board, how)
+        board.run(ms=1500)
+        before = {joint: board.servos[joint].goal for joint in JOINTS}
+        board.run(ms=1000)
+        assert {joint: board.servos[joint].goal for joint in JOINTS} == before, how
+        assert where(board)["state"] == ("paused" if how == "pause" else "idle")
+        assert all(board.servos[joint].torque for joint in JOINTS if joint != 3)
+        if how == "pause":
+            ask(board, "resume")
+            board.clear_trace()
+            board.run(ms=1000)
+            assert where(board)["layer"] == "34"
+            assert len({frame.goals[3] for frame in board.trace if 3 in frame.goals}) > 10
+
+
+def test_no_tick_is_missed_with_all_of_it_in_force():
+    board = looping()
+    for word in ("rate 120", "amplitude 80", "layer 34"):
+        assert ask(board, word) == " OK"
+    tick = tick_of(board)
+    board.clear_trace()
+    for _ in range(100):
+        board.send("@drive 30 120 80\r")
+        board.run(ms=50)
+    ticks = [tick(frame.cycle) for frame in board.trace if len(frame.goals) > 1]
+    assert ticks == list(range(ticks[0], ticks[0] + len(ticks)))
+    assert where(board)["missed"] == "0"
