@@ -4,46 +4,74 @@
 
     tools/motions/gait.py [FILE]     writes walk.m512 (or FILE); the test compares what is committed with what this makes
 
-A walk is six poses 60 degrees of the cycle apart. The body sways like a sine, a foot is in the air while the sway is
-greatest to the other side, and each foot on the ground goes back at one speed, so that the two never drag each other:
+A walk is eight poses of a cycle. The right foot is in the air around the middle of the first four, the left foot of the last
+four; the body sways like a sine, away from the foot in the air. A foot on the ground goes back at one speed:
 
-    phase      30     90     150    210    270    330
-    sway      +1/2    +1    +1/2   -1/2    -1    -1/2    of SWAY, to the left
-    right      -1   in air   +1    +1/2     0    -1/2    of the stride, to the front
-    left      +1/2     0    -1/2    -1   in air   +1
-               \\______ walk_r ______/ \\______ walk_l _____/
+             |      walk_r       |      walk_l       |
+    right     back _/^^ air ^^\\_ front ............. back
+    left      front ............. back _/^^ air ^^\\_ front
+    body      left of the middle  | right of the middle
 
-Turning uses the same poses. The foot that is to go out turns while it is in the air, the other closes up in its turn, so that
-toes never meet and no foot turns on the ground; every page begins and ends with the feet parallel.
+Walking on the spot, backwards, to the side, and curves are the same cycle with other ways of the feet. The numbers are in
+gait.json, found by search.py in physics: what they are is told at `Gait`.
 """
+import json
 import pathlib
 import sys
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from math import cos, pi, radians, sin
 
-from legs import CENTRE, Foot, reach, units
+from legs import CENTRE, HIP_MM, Foot, reach, units
 
-SWAY = 26.0         # mm to either side; the hips are 38 from the middle
-STRIDE = 16.0       # mm a foot is before and behind the hip; a cycle of six poses covers three of these
-BACK = -12.0
-LIFT = 12.0
-TURN = 24.0         # degrees in a cycle of six poses
-SIDE = 16.0         # mm to the side in one page
-HEIGHT = 146.0      # hip above ankle
-TICKS = 20          # from pose to pose
-ARM_SWING = 0.9     # degrees of the arm for each mm of the foot
-KICK_SWAY = 37.0    # on one leg for long: the body right above the foot
+POSES = 8
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+@dataclass(frozen=True)
+class Gait:
+    """One way of going. mm and degrees; ticks of 1/128 s."""
+
+    ticks: int = 10           # from pose to pose
+    accel: int = 3            # ACCEL_TIME of its pages
+    slope: int = 5            # compliance of the legs
+    stride: float = 0.0       # a foot is this far before and behind its middle
+    side: float = 0.0         # the same to the right
+    turn: float = 0.0         # the same as an angle: the body turns to the right
+    sway: float = 20.0        # of the body, to either side
+    sway_lead: float = 0.0    # cycles that the sway is ahead of the feet
+    step_lead: float = 0.0    # cycles that the feet's way is ahead of the middle of the four poses
+    swing: float = 0.4        # part of the cycle that a foot is in the air
+    lift: float = 15.0
+    square: float = 0.7       # shape of the lift: 0 a plateau, 1 a sine's square
+    height: float = 138.0     # hip above ankle
+    lean: float = 0.0         # of the body, to the front
+    ahead: float = 0.0        # of the feet before the hips
+    apart: float = 0.0        # of the feet, beyond the hips' distance
+    spread: float = 5.0       # of the standing leg's hip while it stands alone
+    toes: float = 0.0         # up, in the air
+    arms: float = 0.4         # degrees of an arm for each mm of the other side's foot
+
 
 READY_ARM = {1: 12.0, 3: 12.0, 5: -20.0}  # shoulder swing, lift, elbow
+KICK_SWAY = 37.0                          # on one leg for long: the body right above the foot
 
 
-def pose(right=Foot(), left=Foot(), sway=0.0, arms=(0.0, 0.0)):
-    """Positions of all joints. sway: body to the left; arms: swing to the front added to the right and the left arm."""
-    feet = [(replace(foot, y=foot.y - sway), side) for foot, side in ((right, 1), (left, -1))]
+def numbers():
+    """{name: Gait} of gait.json."""
+    return {name: Gait(**values) for name, values in json.loads((HERE / "gait.json").read_text()).items()}
+
+
+def arm(side, swing=0.0):
+    angles = READY_ARM | {1: READY_ARM[1] + swing}
+    return {joint + (side < 0): CENTRE + side * units(angle) for joint, angle in angles.items()}
+
+
+def stand(gait, sway=0.0, right=None, left=None, arms=(0.0, 0.0)):
+    """Positions of all joints: feet side by side, the body `sway` mm to the left; right, left: what differs of a foot."""
     row = {}
-    for (foot, side), extra in zip(feet, arms):
-        row |= reach(foot, side)
-        arm = READY_ARM | {1: READY_ARM[1] + extra}
-        row |= {joint + (side < 0): CENTRE + side * units(angle) for joint, angle in arm.items()}
+    for side, change, swing in ((1, right, arms[0]), (-1, left, arms[1])):
+        foot = Foot(gait.ahead, -side * gait.apart / 2 - sway, height=gait.height)
+        row |= reach(replace(foot, **(change or {})), side, gait.lean) | arm(side, swing)
     return row
 
 
@@ -51,86 +79,150 @@ def mirrored(row):
     return {joint: 2 * CENTRE - row[joint + 1 if joint % 2 else joint - 1] for joint in row}
 
 
-READY = pose()
+def way(gait, phase):
+    """Where a foot is in its cycle, which begins in the middle of its time in the air: (-1 behind .. 1 ahead, 0 down .. 1 up)."""
+    phase = (phase + 0.5) % 1 - 0.5
+    if abs(phase) < gait.swing / 2:
+        part = phase / gait.swing + 0.5
+        return -cos(pi * part), sin(pi * part) ** (2 * gait.square)
+    return 1 - 2 * ((phase - gait.swing / 2) % 1) / (1 - gait.swing), 0.0
 
 
-def cycle(stride, turn=0.0):
-    """The six poses of a walk to the front (or back: stride below 0) that turns to the right by `turn` degrees."""
-    def at(right, left, sway, yaw, lift_right=0.0, lift_left=0.0):
-        return pose(Foot(right * stride, 0, -yaw * turn, HEIGHT - lift_right),
-                    Foot(left * stride, 0, yaw * turn, HEIGHT - lift_left),
-                    sway * SWAY, (ARM_SWING * left * stride, ARM_SWING * right * stride))
-    return [at(-1, 1 / 2, 1 / 2, 0), at(0, 0, 1, 1 / 4, lift_right=LIFT), at(1, -1 / 2, 1 / 2, 1 / 2),
-            at(1 / 2, -1, -1 / 2, 1 / 2), at(0, 0, -1, 1 / 4, lift_left=LIFT), at(-1 / 2, 1, -1 / 2, 0)]
+def foot(gait, side, phase, sway):
+    """One foot at a phase of its own cycle."""
+    ahead, up = way(gait, phase + gait.step_lead)
+    other_up = way(gait, phase + gait.step_lead + 0.5)[1]
+    yaw = -gait.turn * ahead                               # to the left, of the foot below the turning body
+    curve = side * HIP_MM * sin(radians(yaw))              # the outer foot goes further
+    return Foot(gait.ahead + gait.stride * ahead + curve, -side * gait.apart / 2 - gait.side * ahead - sway, yaw,
+                gait.height - gait.lift * up, gait.toes * up, gait.spread * other_up)
 
 
-def start(stride):
-    """From ready: onto the right foot, the left one goes ahead; ends at phase 330."""
-    return [(32, READY), (24, pose(sway=-0.9 * SWAY)),
-            (TICKS, pose(Foot(-stride / 4), Foot(stride / 4, height=HEIGHT - LIFT), -SWAY)),
-            (TICKS, cycle(stride)[5])]
+def cycle(gait):
+    """The eight poses."""
+    rows = []
+    for number in range(POSES):
+        phase = (number + 0.5) / POSES - 0.25
+        sway = gait.sway * sin(2 * pi * (phase + 0.25 + gait.sway_lead))
+        feet = [foot(gait, side, phase + offset, sway) for side, offset in ((1, 0.0), (-1, 0.5))]
+        swings = [gait.arms * (other.x - gait.ahead) for other in reversed(feet)]
+        rows.append({})
+        for side, at, swing in zip((1, -1), feet, swings):
+            rows[-1] |= reach(at, side, gait.lean) | arm(side, swing)
+    return rows
 
 
-def end(stride):
-    """From phase 330: the right foot closes up."""
-    return [(TICKS, cycle(stride)[0]),
-            (TICKS, pose(Foot(-stride / 4, height=HEIGHT - LIFT), Foot(stride / 4), SWAY)),
-            (TICKS, pose(sway=0.5 * SWAY)),
-            (24, READY)]
+def half(gait):
+    """The same gait with half its ways."""
+    return replace(gait, stride=gait.stride / 2, side=gait.side / 2, turn=gait.turn / 2)
 
 
-def spin():
-    """To the right on the spot, from ready to ready."""
-    return [(TICKS, row) for row in cycle(0.0, TURN)] + [(TICKS, READY)]
+def start(gait, ready, first=-1):
+    """From ready, half a way: onto one foot, the other (`first`: +1 right, -1 left) goes; ends where that half of the cycle ends."""
+    whole, part = cycle(gait), cycle(half(gait))
+    at = 0 if first > 0 else 4
+    return [(32, ready), (round(1.6 * gait.ticks), stand(gait, first * 0.7 * gait.sway)),
+            (gait.ticks, part[at + 1]), (gait.ticks, part[at + 2]), (round(1.5 * gait.ticks), whole[at + 3])]
 
 
-def sidestep():
-    """To the right, from ready to ready: the right foot out, the left one after it."""
-    half = SIDE / 2
-    apart = dict(right=Foot(y=-half), left=Foot(y=half))
-    return [(24, pose(sway=0.7 * SWAY)),
-            (TICKS, pose(Foot(y=-half, height=HEIGHT - LIFT), sway=SWAY)),
-            (TICKS, pose(**apart, sway=0.5 * SWAY)),
-            (TICKS, pose(**apart, sway=-0.7 * SWAY)),
-            (TICKS, pose(left=Foot(y=half / 2, height=HEIGHT - LIFT), sway=-SWAY)),
-            (TICKS, pose(sway=-0.5 * SWAY)),
-            (24, READY)]
+def end(gait, ready):
+    """From where the left foot's half ends: the right foot closes up."""
+    whole, part = cycle(gait), cycle(half(gait))
+    return [(gait.ticks, whole[0]), (round(1.25 * gait.ticks), part[1]), (gait.ticks, part[2]), (gait.ticks, stand(gait, 0.35 * gait.sway)),
+            (24, ready)]
 
 
-def kick():
+def kick(ready_gait):
     """With the right foot: weight onto the left one, back, forward fast, and down again."""
     def leg(x, lift):
-        return pose(Foot(x, height=HEIGHT - lift), sway=KICK_SWAY, arms=(-0.8 * x, 0.8 * x))
-    return [(64, pose(sway=KICK_SWAY)), (40, leg(0, 20)), (32, leg(-30, 24)), (40, leg(45, 24)), (40, leg(0, 20)),
-            (40, pose(sway=KICK_SWAY)), (64, READY)]
+        return stand(ready_gait, KICK_SWAY, right={"x": ready_gait.ahead + x, "height": ready_gait.height - lift},
+                     arms=(-0.5 * x, 0.5 * x))
+    over = stand(ready_gait, KICK_SWAY)
+    return [(64, over), (40, leg(0, 12)), (32, leg(-30, 16)), (40, leg(40, 16)), (40, leg(0, 12)), (40, over),
+            (64, stand(ready_gait))]
 
 
-PAGES = [
-    # page, name, statements, steps (None: the mirror image of the page before), what it does
-    (20, "walk", "code U; next walk_r; exit end_r; link1 R turn_r", start(STRIDE),
-     "From ready onto the right foot; the left one goes ahead."),
-    (21, "walk_r", "next walk_l; exit end_l; link1 L turn_l; link2 D end_l", [(TICKS, row) for row in cycle(STRIDE)[:3]],
-     "The loop: right foot ..."),
-    (22, "walk_l", "next walk_r; exit end_r; link1 R turn_r; link2 D end_r", None, "... and left foot."),
-    (23, "turn_r", "next self; exit end_r; link1 U walk_r; link2 L walk_r", [(TICKS, row) for row in cycle(STRIDE, TURN)],
-     "Walking on, to the right: right foot out, left foot after it."),
-    (24, "turn_l", "next self; exit end_l; link1 U walk_l; link2 R walk_l", None,
-     "The same to the left, begun by the left foot."),
-    (25, "end_r", "", end(STRIDE), "The right foot closes up."),
-    (26, "end_l", "", None, "The left foot closes up."),
-    (27, "back", "code D; next back_r; exit back_end_r; link1 U back_end_r", start(BACK), "As walk, backwards."),
-    (28, "back_r", "next back_l; exit back_end_l; link1 U back_end_l", [(TICKS, row) for row in cycle(BACK)[:3]],
-     "The loop: right foot ..."),
-    (29, "back_l", "next back_r; exit back_end_r; link1 U back_end_r", None, "... and left foot."),
-    (30, "back_end_r", "", end(BACK), "The right foot closes up."),
-    (31, "back_end_l", "", None, "The left foot closes up."),
-    (32, "right", "code R; next self; link1 L left; link2 U walk", spin(), "Turns right on the spot, from ready to ready."),
-    (33, "left", "code L; next self; link1 R right; link2 U walk", None, "Turns left on the spot."),
-    (34, "side_r", "code R+B1; next self; link1 L+B1 side_l; link2 U walk", sidestep(), "A step to the side."),
-    (35, "side_l", "code L+B1; next self; link1 R+B1 side_r; link2 U walk", None, "A step to the other side."),
-    (36, "kick_r", "code R+B4; accel 6", kick(), "Kicks with the right foot, standing on the left."),
-    (37, "kick_l", "code L+B4; accel 6", None, "Kicks with the left foot."),
-]
+@dataclass(frozen=True)
+class Sheet:
+    """One page of walk.m512: number, name, statements ("; " between them), what it is, steps (ticks, positions)."""
+
+    number: int
+    name: str
+    words: str
+    remark: str
+    steps: tuple
+    gait: Gait
+
+    def other(self, number, name, words, remark):
+        """The page whose steps are the mirror image of this one's."""
+        return replace(self, number=number, name=name, words=words, remark=remark,
+                       steps=tuple((ticks, mirrored(row)) for ticks, row in self.steps))
+
+
+def beats(gait, rows):
+    return tuple((gait.ticks, row) for row in rows)
+
+
+def walking(gait, turn, ready):
+    """The walk, and its curves: partners of its two pages, and pages of their own."""
+    loop, curve = cycle(gait), cycle(replace(gait, turn=turn, stride=0.94 * gait.stride))  # the outer foot's way is longer
+    right = Sheet(21, "walk_r", "next walk_l; exit end_l; link1 L turn_l; link2 D end_l; blend right turn_r; blend left turn_l2",
+                  "The loop: right foot ...", beats(gait, loop[:4]), gait)
+    out = Sheet(23, "turn_r", "next turn_r2; exit end_l; link1 U walk_l; link2 L walk_l",
+                "Walking on in a curve to the right: right foot out ...", beats(gait, curve[:4]), gait)
+    after = Sheet(38, "turn_r2", "next turn_r; exit end_r; link1 U walk_r; link2 L walk_r", "... left foot after it.",
+                  beats(gait, curve[4:]), gait)
+    close = Sheet(25, "end_r", "", "The right foot closes up.", tuple(end(gait, ready)), gait)
+    return [Sheet(20, "walk", "code U; next walk_r; exit end_r; link1 R turn_r",
+                  "From ready onto the right foot; the left one goes ahead.", tuple(start(gait, ready)), gait),
+            right, right.other(22, "walk_l", "next walk_r; exit end_r; link1 R turn_r; link2 D end_r; blend right turn_r2; blend left turn_l",
+                               "... and left foot."),
+            out, out.other(24, "turn_l", "next turn_l2; exit end_r; link1 U walk_r; link2 R walk_r",
+                           "The same to the left, begun by the left foot."),
+            close, close.other(26, "end_l", "", "The left foot closes up."),
+            after, after.other(39, "turn_l2", "next turn_l; exit end_l; link1 U walk_l; link2 R walk_l", "... right foot after it.")]
+
+
+def backing(gait, ready):
+    loop = cycle(gait)
+    right = Sheet(28, "back_r", "next back_l; exit back_end_l; link1 U back_end_l", "The loop: right foot ...", beats(gait, loop[:4]), gait)
+    close = Sheet(30, "back_end_r", "", "The right foot closes up.", tuple(end(gait, ready)), gait)
+    return [Sheet(27, "back", "code D; next back_r; exit back_end_r; link1 U back_end_r", "As walk, backwards.",
+                  tuple(start(gait, ready)), gait),
+            right, right.other(29, "back_l", "next back_r; exit back_end_r; link1 U back_end_r", "... and left foot."),
+            close, close.other(31, "back_end_l", "", "The left foot closes up.")]
+
+
+def aside(gait, ready, numbers_of, names, keys, remark):
+    """A way that has a right and a left: start, loop of two pages, end, and the same mirrored. Begun by the foot on its side.
+    numbers_of, names, keys: (right, left); the pages are name, name_a, name_b, name_end."""
+    loop = cycle(gait)
+    steps = [start(gait, ready, 1), beats(gait, loop[4:]), beats(gait, loop[:4]),
+             [(ticks, mirrored(row)) for ticks, row in end(replace(gait, side=-gait.side, turn=-gait.turn), ready)]]
+    pages = []
+    for numbers_here, name, other, key, other_key in zip(numbers_of, names, names[::-1], keys, keys[::-1]):
+        end_name, away = f"{name}_end", f"link1 {other_key} {name}_end; link2 U {name}_end"
+        words = [f"code {key}; next {name}_a; exit {end_name}", f"next {name}_b; exit {name}_b",
+                 f"next {name}_a; exit {end_name}; {away}", f"link1 {other_key} {other}; link2 U walk"]
+        remarks = [remark if name == names[0] else "The same to the other side.", "The loop: one foot ...", "... and the other.",
+                   "The feet close up."]
+        pages += [Sheet(number, name + part, word, text, tuple(rows), gait) for number, part, word, text, rows in
+                  zip(numbers_here, ("", "_a", "_b", "_end"), words, remarks, steps)]
+        steps = [[(ticks, mirrored(row)) for ticks, row in rows] for rows in steps]
+    return pages
+
+
+def sheets(gaits):
+    """All pages, by number."""
+    ready = stand(gaits["ready"])
+    kick_r = Sheet(36, "kick_r", "code R+B4", "Kicks with the right foot, standing on the left.", tuple(kick(gaits["ready"])),
+                   replace(gaits["ready"], accel=6))
+    return sorted([
+        *walking(gaits["walk"], gaits["turn"].turn, ready), *backing(gaits["back"], ready),
+        *aside(gaits["spin"], ready, ((32, 40, 41, 42), (33, 43, 44, 45)), ("right", "left"), ("R", "L"), "Turns right on the spot."),
+        *aside(gaits["side"], ready, ((34, 46, 47, 48), (35, 49, 50, 51)), ("side_r", "side_l"), ("R+B1", "L+B1"), "Steps to the right."),
+        kick_r, kick_r.other(37, "kick_l", "code L+B4", "Kicks with the left foot.")], key=lambda sheet: sheet.number)
+
 
 HEADER = """\
 # SPDX-License-Identifier: MIT
@@ -144,29 +236,32 @@ softness 5
 pose ready | """
 
 
-POSES = [
-    ("left", pose(sway=SWAY), "the body swayed to the left, feet where they are; `mirror @left` is the other side"),
-    ("low", pose(*2 * [Foot(height=134.5)]), "knees bent"),
-    ("low_left", pose(*2 * [Foot(height=134.5)], sway=SWAY), "both"),
-    ("deep", pose(*2 * [Foot(height=115.0)]), "knees bent a lot"),
-    ("seat", pose(*2 * [Foot(height=101.5)]), "down on the heels"),
-]
+def poses(gait):
+    """Poses of the legs that the hand-written motions use."""
+    low, deep, seat = (Gait(height=height) for height in (120.0, 115.0, 101.5))   # upright, feet below the hips
+    return [
+        ("left", stand(gait, 26.0), "the body swayed to the left, feet where they are; `mirror @left` is the other side"),
+        ("leaned", stand(replace(gait, lean=40.0, ahead=gait.ahead + 24.0)), "the body leans, the hips go back"),
+        ("low", stand(low), "knees bent"), ("low_left", stand(low, 26.0), "both"),
+        ("deep", stand(deep), "knees bent a lot"), ("seat", stand(seat), "down on the heels")]
 
 
 def line(row):
     return "  ".join(f"{row[joint]:3} {row[joint + 1]:3}" for joint in range(1, 19, 2))
 
 
-def text():
-    out, steps = [HEADER + line(READY)], []
-    out += [f"pose {name} | {line(row)}  # {remark}" for name, row, remark in POSES]
-    for number, name, statements, made, remark in PAGES:
-        steps = made if made is not None else [(ticks, mirrored(row)) for ticks, row in steps]
-        out += ["", f"# {remark}", f"page {number} {name}"] + [f"  {part}" for part in statements.split("; ") if part]
-        out += [f"  step {ticks:2} | {'@ready' if row == READY else line(row)}" for ticks, row in steps]
+def text(gaits):
+    ready = stand(gaits["ready"])
+    out = [HEADER + line(ready)]
+    out += [f"pose {name} | {line(row)}  # {remark}" for name, row, remark in poses(gaits["ready"])]
+    for sheet in sheets(gaits):
+        out += ["", f"# {sheet.remark}", f"page {sheet.number} {sheet.name}"] + [f"  {part}" for part in sheet.words.split("; ") if part]
+        out += [f"  accel {sheet.gait.accel}"] if sheet.gait.accel != 8 else []
+        out += [f"  softness 7..18:{sheet.gait.slope}"] if sheet.gait.slope != 5 else []
+        out += [f"  step {ticks:2} | {'@ready' if row == ready else line(row)}" for ticks, row in sheet.steps]
     return "\n".join(out) + "\n"
 
 
 if __name__ == "__main__":
-    target = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).with_name("walk.m512")
-    target.write_text(text())
+    target = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "walk.m512"
+    target.write_text(text(numbers()), encoding="utf-8")

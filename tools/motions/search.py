@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Finds the numbers of gait.json in physics, by CMA-ES (the library `cma`): walk, back, spin or side.
+
+    tools/motions/search.py walk --generations 40        takes gait.json as the start, and writes it when it has found better
+    tools/motions/search.py spin --target 36 --jobs 4
+
+Each set of numbers walks on one nominal body and on bodies by chance (tools/body), pushed once, stopped at the end. It is judged
+by its fall, its speed towards the target, how straight it goes, how much the body tilts, and what its servos have to do. Every
+few generations the bodies change, and bodies on which the best set fell so far stay. Needs `tools/dev/setup physics search`
+and a build. An hour of one core finds a walk.
+"""
+import argparse
+import json
+import math
+import pathlib
+import random
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, replace
+
+HERE = pathlib.Path(__file__).resolve().parent
+VENV = HERE.parents[1] / "build" / "venv"
+if (VENV / "bin" / "python").exists() and pathlib.Path(sys.prefix).resolve() != VENV.resolve():
+    import os
+    os.execv(VENV / "bin" / "python", [str(VENV / "bin" / "python"), *sys.argv])
+sys.path[:0] = [str(HERE), str(HERE.parent / "body" / "src"), str(HERE.parent / "m512" / "src")]
+
+import gait  # noqa: E402  (the paths come first)
+from body.chance import NOMINAL, random_body  # noqa: E402
+from body.description import load  # noqa: E402
+from body.trial import STOP, try_motion  # noqa: E402
+from m512.files.image import Image  # noqa: E402
+from m512.files.page import Page, SCHEDULE_TIME  # noqa: E402
+
+# What may vary, and between what.
+RANGES = {
+    "ticks": (8, 16), "accel": (2, 7), "stride": (-50, 50), "side": (-5, 40), "turn": (-2, 20), "sway": (5, 40),
+    "sway_lead": (-0.12, 0.15), "step_lead": (-0.1, 0.1), "swing": (0.28, 0.5), "lift": (8, 35), "square": (0.2, 1.2),
+    "height": (118, 146), "lean": (-6, 18), "ahead": (-18, 15), "apart": (-8, 20), "spread": (-4, 16), "toes": (-8, 8), "arms": (0, 1.2)}
+WHOLE = {"ticks", "accel", "slope"}
+FIXED = {"walk": ("side", "turn"), "back": ("side", "turn"), "spin": ("side",), "side": ("turn",)}
+FIRST_PAGE = {"walk": 20, "back": 27, "spin": 32, "side": 34}
+TARGETS = {"walk": 165.0, "back": 80.0, "spin": 36.0, "side": 60.0}   # mm/s, degrees/s
+SECONDS, STOP_S = 5.0, 3.75
+MOST_UNITS_PER_TICK = 7.8           # of the goals: 90 % of what an AX-12 does at 11.1 V
+FALL = 200.0                        # what a fall costs, in mm/s
+
+
+def image_of(gaits):
+    """The pages of these gaits as 65,536 bytes."""
+    image = Image.empty()
+    numbers = {sheet.name: sheet.number for sheet in gait.sheets(gaits)}
+    for sheet in gait.sheets(gaits):
+        page = Page()
+        page.name, page.schedule, page.steps, page.accel = sheet.name.encode(), SCHEDULE_TIME, len(sheet.steps), sheet.gait.accel
+        for joint in range(7, 19):
+            page.set_compliance(joint, sheet.gait.slope * 0x11)
+        for word in sheet.words.split("; "):
+            if word.startswith(("next", "exit")):
+                setattr(page, word[:4], numbers[word[5:]])
+        for step, (ticks, row) in enumerate(sheet.steps):
+            page.set_time(step, ticks)
+            for joint, position in row.items():
+                page.set_word(step, joint, position)
+        image[sheet.number] = page.seal()
+    return image.to_bytes()
+
+
+def judge(kind, outcome, target, nominal):
+    """How bad a trial was, in mm/s or degrees/s short of the target and what weighs as much."""
+    if outcome.fell_s is not None:
+        return FALL * (1.4 - 0.4 * outcome.fell_s / SECONDS)
+    ways = {"walk": outcome.forward_mm_s, "back": -outcome.forward_mm_s, "spin": -outcome.turn_deg_s, "side": -outcome.sideways_mm_s}
+    astray = {"walk": abs(outcome.turn_deg_s), "back": abs(outcome.turn_deg_s), "side": abs(outcome.turn_deg_s) + abs(outcome.forward_mm_s),
+              "spin": math.hypot(outcome.forward_mm_s, outcome.sideways_mm_s) / 4}
+    tilt = max(math.degrees(math.acos(min(1.0, look.upright))) for look in outcome.track)
+    cost = max(0.0, target - ways[kind]) / 2 + astray[kind] * (0.8 if nominal else 0.2) + tilt / 2 + outcome.most_torque_nm * 10
+    if nominal:
+        cost += max(0.0, outcome.most_units_per_tick - MOST_UNITS_PER_TICK) * 8
+    return cost
+
+
+def trial(work):
+    """(cost, the bodies that fell) of one set of numbers: (kind, gaits, target, seeds)."""
+    kind, gaits, target, seeds = work
+    robot = load("humanoid")
+    try:
+        image = image_of(gaits)
+    except ValueError:                       # a foot is out of reach
+        return 4 * FALL, ()
+    total, fell = 0.0, []
+    for index, seed in enumerate([None, *seeds]):
+        body = NOMINAL if seed is None else random_body(robot, seed, seconds=STOP_S, pushes=1)
+        outcome = try_motion(image, FIRST_PAGE[kind], SECONDS, robot, body, keys=((STOP_S, STOP),))
+        total += judge(kind, outcome, target, seed is None) * (len(seeds) / 2 if seed is None else 1)
+        if outcome.fell_s is not None:
+            fell.append(seed)
+            if seed is None:                 # not worth the others
+                return 2 * FALL * (1.5 - outcome.fell_s / SECONDS), ()
+    return total / (1.5 * len(seeds)), tuple(fell)
+
+
+class Numbers:
+    """Between a set of numbers and the vector that the optimiser moves: each number a logistic of its place in its range."""
+
+    def __init__(self, kind, start):
+        self.start = start
+        self.names = [name for name in RANGES if name not in FIXED[kind]]
+
+    def of(self, vector):
+        values = {name: RANGES[name][0] + (RANGES[name][1] - RANGES[name][0]) / (1 + math.exp(-x))
+                  for name, x in zip(self.names, vector)}
+        return replace(self.start, **{name: round(value) if name in WHOLE else round(value, 3) for name, value in values.items()})
+
+    def vector(self):
+        parts = [(getattr(self.start, name) - RANGES[name][0]) / (RANGES[name][1] - RANGES[name][0]) for name in self.names]
+        return [math.log(part / (1 - part)) for part in (min(0.97, max(0.03, part)) for part in parts)]
+
+
+def search(options):
+    import cma
+
+    gaits = gait.numbers()
+    space = Numbers(options.kind, gaits[options.kind])
+    chance = random.Random(options.seed)
+    strategy = cma.CMAEvolutionStrategy(space.vector(), options.sigma, {"seed": options.seed, "popsize": options.population, "verbose": -9})
+    hard, best = [], None
+    with ProcessPoolExecutor(options.jobs) as pool:
+        for generation in range(options.generations):
+            if generation % options.keep == 0:
+                fresh = [chance.randrange(1 << 30) for _ in range(options.bodies)]
+                seeds, best = (hard + fresh)[:options.bodies], None
+            vectors = strategy.ask()
+            sets = [gaits | {options.kind: space.of(vector)} for vector in vectors]
+            found = list(pool.map(trial, [(options.kind, one, options.target, seeds) for one in sets]))
+            strategy.tell(vectors, [cost for cost, _ in found])
+            cost, fell = min(found)
+            if best is None or cost < best[0]:
+                best = (cost, sets[[cost for cost, _ in found].index(cost)][options.kind])
+                hard = [seed for seed in fell if seed is not None][:options.bodies // 2]
+                gaits_now = gaits | {options.kind: best[1]}
+                (HERE / "gait.json").write_text(json.dumps({name: asdict(one) for name, one in gaits_now.items()}, indent=1) + "\n")
+            print(f"generation {generation + 1}: best {cost:.1f}, {len(fell)} of {len(seeds)} bodies fall", flush=True)
+    return best
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("kind", choices=list(TARGETS))
+    parser.add_argument("--target", type=float, help="mm/s, or degrees/s for spin")
+    parser.add_argument("--generations", type=int, default=40)
+    parser.add_argument("--population", type=int, default=12)
+    parser.add_argument("--bodies", type=int, default=8, help="by chance, besides the nominal one")
+    parser.add_argument("--keep", type=int, default=8, help="generations that the same bodies stay")
+    parser.add_argument("--sigma", type=float, default=0.3, help="how far it looks at first")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=2)
+    options = parser.parse_args()
+    options.target = TARGETS[options.kind] if options.target is None else options.target
+    search(options)
+
+
+if __name__ == "__main__":
+    main()
