@@ -88,7 +88,8 @@ ALWAYS_INLINE uint32_t way_in_speed_units(uint16_t size)
 }
 
 /* size / divisor, limited to CLASSIC_SPEED_MAX, by long division: ten bits are all that the limit leaves. size below 2^20,
- * divisor not 0. A quotient from 32768 on, which becomes negative in 16 bits before it is limited, gives -CLASSIC_SPEED_MAX. */
+ * divisor not 0. A quotient from 32768 on, which becomes negative in 16 bits before it is limited, gives
+ * -CLASSIC_SPEED_MAX. */
 static inline int16_t divide_speed(uint32_t size, uint16_t divisor)
 {
     uint16_t upper = (uint16_t)(size >> 8), rest = upper >> 2;

@@ -61,7 +61,8 @@ static void land(player_t *player)
 /* --- planning ----------------------------------------------------------------------------------------------------- */
 
 /* RISE, and the speed of CRUISE, of a joint that stands on from_pos; exit and down are set already. mean, entry: sizes. */
-static inline void plan_joint(const player_t *player, player_exact_t *exact, uint16_t from_pos, uint32_t mean, uint32_t entry)
+static inline void plan_joint(const player_t *player, player_exact_t *exact, uint16_t from_pos, uint32_t mean,
+                              uint32_t entry)
 {
     uint32_t cruise = mean, speed = mean, accel = 0;
     uint8_t ramp_ticks = player->ramp_ticks;
@@ -95,7 +96,8 @@ static void set_ramp(player_t *player)
     }
 }
 
-/* Speed at target_pos of a joint that comes with this mean speed: the smaller of both steps' means, or 0 where it turns round
+/* Speed at target_pos of a joint that comes with this mean speed: the smaller of both steps' means, or 0 where it turns
+ * round
  * or stays. */
 static inline uint32_t exit_speed(const player_t *player, const player_joint_t *joint, uint16_t next_pos, uint32_t mean)
 {
@@ -247,7 +249,8 @@ uint8_t exact_tick(player_t *player, link_t *link)
     return (uint8_t)(events | exact_step_over(player, link));
 }
 
-/* --- slowing down, and the rest of an interrupted step ------------------------------------------------------------------------------ */
+/* --- slowing down, and the rest of an interrupted step
+ * ------------------------------------------------------------------------------ */
 
 static bool is_on_target(const player_t *player)
 {

@@ -16,7 +16,9 @@ static NOINLINE uint32_t bit_of(uint8_t joint)
 }
 
 /* Every joint of a mask, which is used up. */
-#define FOR_JOINTS(i_, joints_) for (uint8_t i_ = 0; (joints_) != 0; i_++, (joints_) >>= 1) if (((uint8_t)(joints_) & 1u) != 0)
+#define FOR_JOINTS(i_, joints_)                                        \
+    for (uint8_t i_ = 0; (joints_) != 0; i_++, (joints_) >>= 1)       \
+        if (((uint8_t)(joints_) & 1u) != 0)
 
 /* hand_over of a joint: its owner has not begun a step with it; plays its first step; has completed that, and the joint has
  * to catch up only. */
@@ -283,7 +285,8 @@ void layers_free(layers_t *layers, uint32_t joints)
 static void note_step(const player_t *play)
 {
     for (player_joint_t *joint = play->joint; joint < &play->joint[PAGE_JOINTS]; joint++) {
-        if (joint->owner == play->self && (joint->hand_over == HAND_OVER_FRESH || joint->hand_over == HAND_OVER_FIRST_STEP)) {
+        bool waits = joint->hand_over == HAND_OVER_FRESH || joint->hand_over == HAND_OVER_FIRST_STEP;
+        if (joint->owner == play->self && waits) {
             joint->hand_over++;
         }
     }

@@ -127,7 +127,8 @@ typedef struct player {
     uint16_t looked_at[PAGE_JOINTS];  /* position words of the step that was looked at; PAGE_POS_UNUSED: stays */
 } player_t;
 
-/* Binds the source of pages, the joints and their goals (both arrays of PAGE_JOINTS; the goals may outlive the play) and sets
+/* Binds the source of pages, the joints and their goals (both arrays of PAGE_JOINTS; the goals may outlive the play) and
+ * sets
  * everything idle. The play is the main one. */
 void player_init(player_t *player, const page_source_t *source, player_joint_t joint[PAGE_JOINTS],
                  uint16_t goal_pos[PAGE_JOINTS]);
@@ -143,7 +144,8 @@ void player_set_shape(player_t *player, const shape_t *shape);
 MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
                                         const uint16_t pose_pos[PAGE_JOINTS], uint32_t present);
 
-/* Where step 1 of `page`, shaped, wants its joints: fills those places of pose_pos and returns their bits. For the approach. */
+/* Where step 1 of `page`, shaped, wants its joints: fills those places of pose_pos and returns their bits. For the
+ * approach. */
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
 
 /* One tick. Returns PLAYER_EV_ bits; 0 when idle. */

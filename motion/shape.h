@@ -55,7 +55,8 @@ MUST_CHECK shape_status_t shape_set_blend(shape_t *shape, int16_t percent);
 /* 0..127. */
 MUST_CHECK shape_status_t shape_set_centre(shape_t *shape, uint8_t page);
 
-/* The battery's present voltage, 0.1 V (a servo's register 42). Sets the limit to 90 % of the top speed of an AX-12, 8.7 units
+/* The battery's present voltage, 0.1 V (a servo's register 42). Sets the limit to 90 % of the top speed of an AX-12, 8.7
+ * units
  * a tick at 11.1 V, in proportion to the voltage (body.md). 0: not known, no limit. */
 void shape_set_voltage(shape_t *shape, uint8_t decivolts);
 

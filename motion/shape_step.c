@@ -41,7 +41,8 @@ static uint8_t centre_of(const shape_t *shape, const page_source_t *source)
     return page;
 }
 
-/* Positions of AT_ONCE joints from `first` on in a step of a page, NO_POS where there is none; page 0 has none. (Behind joint
+/* Positions of AT_ONCE joints from `first` on in a step of a page, NO_POS where there is none; page 0 has none. (Behind
+ * joint
  * 30 stand pause and time.) */
 static void read_positions(const page_source_t *source, uint8_t page, uint8_t step, uint8_t first, uint16_t pos[AT_ONCE])
 {
@@ -55,7 +56,8 @@ static void read_positions(const page_source_t *source, uint8_t page, uint8_t st
     }
 }
 
-/* size / 10000, halves up; size up to 30,690,000. By the reciprocal, 2^24 / 10000 = 1677.7 rounded down: at most two too small.
+/* size / 10000, halves up; size up to 30,690,000. By the reciprocal, 2^24 / 10000 = 1677.7 rounded down: at most two too
+ * small.
  * A division of 32 bits takes 650 cycles, and there are 31 of these in a tick. */
 static uint16_t round_to_whole(uint32_t size)
 {
@@ -87,7 +89,8 @@ static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, ui
     return pos < 0 ? 0 : pos > (int16_t)PAGE_POS_MAX ? PAGE_POS_MAX : (uint16_t)pos;
 }
 
-void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES])
+void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step,
+                uint8_t bytes[PAGE_STEP_BYTES])
 {
     uint8_t partner = partner_of(shape, source, page);
     if (partner == 0 && !shape->scales) {

@@ -8,6 +8,7 @@
 #include "shape.h"
 
 /* Blends, scales and clamps the position words of step 1..7 of `page`, whose stored 64 bytes `bytes` holds. */
-void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step, uint8_t bytes[PAGE_STEP_BYTES]);
+void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step,
+                uint8_t bytes[PAGE_STEP_BYTES]);
 
 #endif

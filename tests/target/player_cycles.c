@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * player_cycles.c - what a tick of the player costs on the ATmega128 with 31 joints all moving, by its own timer: for
  * each law and kind of page the longest tick with and without a step's beginning. Prints a table on UART1 and fails when
- * a budget is broken: any tick 15,000 (17,000 in steps of one tick); in a section 200 a joint classic, 90 exact. With a layer, code-made motion and shaping
+ * a budget is broken: any tick 15,000 (17,000 in steps of one tick); in a section 200 a joint classic, 90 exact. With a
+ * layer, code-made motion and shaping
  * besides, a tick may have 30,000. */
 #include <avr/io.h>
 #include <stdio.h>

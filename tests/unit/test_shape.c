@@ -234,7 +234,8 @@ static void test_shape_rate_is_that_of_both_laws(void)
     }
 }
 
-/* Joint 2 goes from 512 to 50 in 40 ticks: 11.55 a tick. At 11.1 V 7.83 are allowed: 59 ticks (7.8125 in sixteenths: 59.1). */
+/* Joint 2 goes from 512 to 50 in 40 ticks: 11.55 a tick. At 11.1 V 7.83 are allowed: 59 ticks (7.8125 in sixteenths:
+ * 59.1). */
 static void test_shape_limit_stretches_a_step_that_is_too_fast(void)
 {
     shape_set_voltage(&shape, 111);
