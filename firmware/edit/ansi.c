@@ -26,6 +26,7 @@ static void put_number(uint8_t number)
 /* Not inlined: it stands at the end of every text. */
 NOINLINE void ansi_put(char character)
 {
+    ansi_wait();
     console_write(&character, 1);
 }
 

@@ -8,23 +8,55 @@
 
 /* ---- HELP ---- */
 
+/* The first lines of HELP, a semicolon behind each. */
+TEXT_NAMED(first_wave,
+           "A first wave:;"
+           "page 20  opens an empty page;"
+           "off      lets go: pose the robot by hand;"
+           "on       it holds the pose;"
+           "write    the pose becomes step 0. Again for the next: off, on, write;"
+           "name hi;"
+           "play     CR stops it, space breaks it off;"
+           "save;"
+           "Keys: arrows, Home End PgUp PgDn, [ ] -1 +1, { } -10 +10, space ????;"
+           "Commands:;");
+enum { FIRST_LINES = 10 };
+
+static void print_line_of(const char *lines_P, uint8_t line)
+{
+    text_reader_t reader;
+    text_open_P(&reader, lines_P);
+    for (char character; line > 0 || (character = text_next(&reader)) != ';';) {
+        if (line == 0) {
+            text_put(character);
+        } else if (text_next(&reader) == ';') {
+            line--;
+        }
+    }
+    text_line_end();
+}
+
 static bool help_item(uint8_t item)
 {
-    if (item >= commands_count) {
+    if (item >= FIRST_LINES + commands_count) {
         return false;
     }
-    shell_print_help(&commands_table_P[item]);
+    if (item < FIRST_LINES) {
+        print_line_of(first_wave, item);
+    } else {
+        shell_print_help(&commands_table_P[item - FIRST_LINES]);
+    }
     return true;
 }
 
 COMMAND(cmd_help)
 {
     if (args->count == 1) {
-        return editor_list(help_item, TEXT_P("Keys: arrows, [ ] -1 +1, { } -10 +10, space"));
+        return editor_list(help_item, TEXT_P("Motion512"));
     }
     const shell_command_t *command = shell_find(commands_table_P, commands_count, args, 1);
     if (command == NULL) {
-        TEXT("Bad Command");
+        TEXT("No such command: HELP");
         return SHELL_ERR_SAID;
     }
     shell_print_help(command);

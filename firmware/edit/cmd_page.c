@@ -10,6 +10,8 @@
 #include "pgm.h"
 #include "text.h"
 
+#include <string.h>
+
 #define PAGE_MAX (PAGE_COUNT - 1u)
 #define NAME_CHARS (PAGE_NAME_BYTES - 1u)
 
@@ -53,15 +55,16 @@ COMMAND(cmd_copy)
     if (!editor_ask_unsaved()) {
         return EDITOR_TO_ASK;
     }
+    uint8_t from = (uint8_t)args->number[0];
     session_begin();
-    session_load((uint8_t)args->number[0]);
+    session_load(from);
     return editor_edited();
 }
 
 COMMAND(cmd_new)
 {
     (void)args;
-    if (!editor_ask(TEXT_P(""))) {
+    if (!editor_ask(TEXT_P("The page would be emptied. "))) {
         return EDITOR_TO_ASK;
     }
     session_begin();
@@ -184,14 +187,18 @@ COMMAND(cmd_exit)
 
 /* ---- name ---- */
 
+/* An empty name keeps the old one: NAME was called by mistake. One blank empties it. */
 void cmd_name_done(const char *name)
 {
-    bool ended = false;
+    uint8_t length = (uint8_t)strlen(name);
+    if (length == 0 || length > NAME_CHARS) {
+        the_screen.lead = true;
+        text_P(length == 0 ? TEXT_P("Name kept") : TEXT_P("At most 13 characters: name kept"));
+        return;
+    }
     session_begin();
     for (uint8_t i = 0; i < PAGE_NAME_BYTES; i++) {
-        char character = ended || i >= NAME_CHARS ? '\0' : name[i];
-        ended = character == '\0';
-        session_set_byte((uint16_t)(PAGE_AT_NAME + i), (uint8_t)character);
+        session_set_byte((uint16_t)(PAGE_AT_NAME + i), i < length && !(length == 1 && name[0] == ' ') ? (uint8_t)name[i] : 0);
     }
     (void)editor_edited();
 }

@@ -118,19 +118,36 @@ static void tell_end(const performer_event_t *event)
     }
 }
 
-enum { LATE_TICKS = 64 };   /* half a second: who saw the robot move and meant to stop it */
-
 /* The play is over: the work pose is what the servos hold now. */
 static void play_ended(const performer_event_t *event)
 {
     the_editor.late_ticks = LATE_TICKS;
+    the_editor.step_due = false;
     robot_read();
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        the_session.marks[joint] |= MARK_LABEL;   /* no live position any more */
+    }
     if (the_editor.mode != EDITOR_PLAY) {
         return;
     }
     the_screen.lead = true;
     tell_end(event);
     editor_leave_line();
+}
+
+/* Where the play is: Edit counts steps from 0, as the columns do. */
+static void tell_step(void)
+{
+    const player_t *player = &the_performer.engine.player;
+    the_editor.step_due = false;
+    screen_open_line();
+    TEXT("Page ");
+    text_number(player->page);
+    TEXT(" step ");
+    text_number((uint16_t)(player->step - 1u));
+    TEXT(" repetition ");
+    text_number(player->repetition);
+    text_put(' ');
 }
 
 void cmd_play_events(bool line_is_free)
@@ -141,7 +158,11 @@ void cmd_play_events(bool line_is_free)
             play_ended(&event);
         } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
             the_editor.faults_due = !the_screen.hidden;
+        } else if (event.kind == PERFORMER_EV_STEP) {
+            the_editor.step_due = the_editor.mode == EDITOR_PLAY;
         }
+    } else if (the_editor.step_due && line_is_free) {
+        tell_step();
     } else if (the_editor.faults_due && line_is_free) {
         tell_faults();
         if (the_editor.mode != EDITOR_PLAY) {

@@ -20,7 +20,7 @@ static void send_step(const uint8_t step[PAGE_STEP_BYTES])
 COMMAND(cmd_go)
 {
     uint8_t step = (uint8_t)args->number[0];
-    if (step >= the_session.cells[PAGE_AT_STEPS] && !editor_ask(TEXT_P(""))) {
+    if (step >= the_session.cells[PAGE_AT_STEPS] && !editor_ask(TEXT_P("That step is not used. "))) {
         return EDITOR_TO_ASK;
     }
     uint8_t words[PAGE_STEP_BYTES];

@@ -99,10 +99,12 @@ COMMAND(cmd_insert)
 static uint8_t delete_step(uint8_t step)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
-    session_begin_turn(UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
-    if (step < steps) {
-        set_count((uint8_t)(steps - 1u));
+    if (step >= steps) {
+        TEXT("That step is not used");
+        return SHELL_ERR_SAID;
     }
+    session_begin_turn(UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
+    set_count((uint8_t)(steps - 1u));
     if (step < LAST_STEP) {
         copy_step(LAST_STEP - 1u, LAST_STEP);
     }

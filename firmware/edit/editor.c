@@ -2,6 +2,7 @@
 #include "editor.h"
 
 #include <string.h>
+#include "ansi.h"
 #include "commands.h"
 #include "compiler.h"
 #include "console.h"
@@ -13,7 +14,7 @@
 
 editor_t the_editor;
 
-enum { ESC_QUIET_TICKS = 7, PAINT_ROOM = CONSOLE_TX_BYTES / 2, BYTES_PER_TURN = 32, MORE_ROWS = 2 };
+enum { ESC_QUIET_TICKS = 7, PAINT_ROOM = CONSOLE_TX_BYTES / 2, BYTES_PER_TURN = 32, MORE_ROWS = 2, MESSAGE_COLUMN_MAX = 40 };
 
 /* ---- start ---- */
 
@@ -42,11 +43,6 @@ void editor_put(char character)
 {
     if (character == '\n') {
         the_editor.lines++;
-    }
-    while (console_room() == 0 && !performer_is_idle(&the_performer)) {
-        if (tick_take()) {   /* the tick alone: the rest of editor_serve needs more stack than is left below a print */
-            performer_tick(&the_performer);
-        }
     }
     screen_put(character);
 }
@@ -139,6 +135,7 @@ void editor_run(void)
     the_editor.asked = 0;
     the_editor.broken_off = false;
     the_screen.lead = true;
+    the_screen.cramped = the_screen.line_column > MESSAGE_COLUMN_MAX;
     the_session.spare = performer_spare(&the_performer);
     go_on(shell_run(commands_table_P, commands_count, NULL, &the_editor.args, !performer_is_idle(&the_performer)));
     the_session.spare = NULL;
@@ -153,12 +150,24 @@ bool editor_ask(const char *question_P)
     the_screen.lead = true;
     text_P(question_P);
     TEXT("Are you sure?[y/N]");
+    console_drop_input();   /* what was typed ahead knows nothing of the question */
+    the_editor.quiet_since = tick_now16();
     return false;
 }
 
 bool editor_ask_unsaved(void)
 {
-    return !the_session.is_changed || editor_ask(TEXT_P(""));
+    return !the_session.is_changed || editor_ask(TEXT_P("The edits would be lost. "));
+}
+
+void ansi_wait(void)
+{
+    /* Half a millisecond at most, three bytes' time. The tick alone: the rest of editor_serve needs more stack than is left here. */
+    for (uint8_t turn = 0; turn < UINT8_MAX && console_room() == 0; turn++) {
+        if (!performer_is_idle(&the_performer) && tick_take()) {
+            performer_tick(&the_performer);
+        }
+    }
 }
 
 void editor_serve(void)
@@ -243,6 +252,8 @@ static void tick_work(void)
     }
     if (performer_is_idle(&the_performer)) {
         robot_follow();
+    } else if (the_editor.mode == EDITOR_PLAY) {
+        robot_show_play();
     }
 }
 
@@ -277,8 +288,7 @@ bool editor_turn(void)
         requests_print_now();
         the_screen.sink = SCREEN_QUIET;
     }
-    /* A row may wait for the line longer than a tick: not while something moves. */
-    if (the_editor.faults_due || room < PAINT_ROOM || !performer_is_idle(&the_performer)) {
+    if (the_editor.faults_due || room < PAINT_ROOM) {
         return false;
     }
     if (screen_paint()) {

@@ -31,6 +31,7 @@
 #define EDITOR_LINE_BYTES 112u    /* a line of a program (requests.h); the screen shows 77 */
 #define EDITOR_HISTORY_BYTES 30u
 #define EDITOR_NO_PAGE 0xFFu
+enum { LATE_TICKS = 64 };         /* half a second: a space that comes so late was meant for what has just ended */
 
 typedef enum {
     EDITOR_TABLE = 0, EDITOR_LINE, EDITOR_ASK, EDITOR_NAME, EDITOR_LIST, EDITOR_PLAY,
@@ -52,8 +53,10 @@ typedef struct editor {
     uint8_t list_first, list_last; /* pages of LIST and CHECK */
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
     uint8_t late_ticks;            /* a play or a list has just ended: a space was meant for it */
+    bool step_due;                 /* a step has begun: the row says which when the line has room */
     bool faults_due;               /* something befell a servo: the row says it when the line has room */
     bool broken_off;               /* a servo's fault has ended the last play: the row says so until the next line is run */
+    bool swallow;                  /* the rest of a line whose first letter answered a question */
     bool after_cr;                 /* the last byte was CR: a LF now belongs to it */
     uint16_t quiet_since;          /* tick of the last byte */
     shell_args_t args;             /* of the line being run */

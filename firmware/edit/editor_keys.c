@@ -7,6 +7,8 @@
 #include "text.h"
 #include "tick.h"
 
+enum { PAGE_ROWS = 8 };
+enum { SWALLOW_TICKS = 60, STREAM_TICKS = 4 };   /* a person's next letter; a stream's next byte */
 enum { BACKSLASH = '\\', FIRST_WORD_KEY = '0', LAST_WORD_KEY = 'Z', FIRST_LOWER_KEY = '^', LAST_LOWER_KEY = 'z' };
 
 static void open_line(uint8_t key)
@@ -44,6 +46,13 @@ static void take_screen_back(void)
     }
 }
 
+static void jump(session_way_t way, uint8_t cells)
+{
+    while (cells-- > 0) {
+        screen_move(way);
+    }
+}
+
 static void table_key(uint8_t key)
 {
     if (key != '@' && !performer_is_idle(&the_performer)) {
@@ -61,6 +70,18 @@ static void table_key(uint8_t key)
     case KEY_RIGHT:
     case KEY_LEFT:
         screen_move((session_way_t)(SESSION_UP + (key - KEY_UP)));
+        break;
+    case KEY_HOME:
+        jump(SESSION_LEFT, CELLS_COLUMNS);
+        break;
+    case KEY_END:
+        jump(SESSION_RIGHT, CELLS_COLUMNS);
+        break;
+    case KEY_PAGE_UP:
+        jump(SESSION_UP, PAGE_ROWS);
+        break;
+    case KEY_PAGE_DOWN:
+        jump(SESSION_DOWN, PAGE_ROWS);
         break;
     case ']':
     case '[':
@@ -103,7 +124,7 @@ static void line_byte(uint8_t byte)
         editor_leave_line();
         return;
     }
-    switch (shell_byte(&the_editor.shell, byte)) {
+    switch (shell_byte(&the_editor.shell, byte < 0x80 ? byte : (uint8_t)'?')) {   /* an umlaut is seen to be none */
     case SHELL_TYPING:
         return;
     case SHELL_TOO_LONG:
@@ -148,6 +169,7 @@ static void ask_key(uint8_t key)
         the_editor.answered++;
         editor_run();
     } else {
+        the_editor.swallow = key > ' ' && key < KEY_NONE && key != 'n' && key != 'N';
         editor_leave_line();
     }
 }
@@ -165,6 +187,7 @@ static void more_key(uint8_t key)
     }
     take_screen_back();
     editor_leave_line();
+    the_editor.late_ticks = LATE_TICKS;
     if (key != ' ' && key != KEY_CR && key != KEY_LF && key != 'q' && key != KEY_ESCAPE && key != KEY_CTRL_C) {
         table_key(key);
     }
@@ -188,12 +211,25 @@ void editor_key(uint8_t key)
     }
 }
 
+/* A question was answered with the first letter of a line: the rest of that line is no command, up to its end or a pause. And
+ * what still streams in behind a question is no answer. */
+static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
+{
+    if (the_editor.swallow && quiet_ticks < SWALLOW_TICKS) {
+        the_editor.swallow = byte != KEY_CR && byte != KEY_LF;
+        return true;
+    }
+    the_editor.swallow = false;
+    return the_editor.mode == EDITOR_ASK && quiet_ticks < STREAM_TICKS;
+}
+
 void editor_byte(uint8_t byte)
 {
+    uint16_t now = tick_now16(), quiet_ticks = (uint16_t)(now - the_editor.quiet_since);
     bool end_of_cr = byte == KEY_LF && the_editor.after_cr;
     the_editor.after_cr = byte == KEY_CR;
-    the_editor.quiet_since = tick_now16();
-    if (end_of_cr) {
+    the_editor.quiet_since = now;
+    if (end_of_cr || is_left_over(byte, quiet_ticks)) {
         return;
     }
     if (the_editor.mode != EDITOR_PLAY && !performer_is_idle(&the_performer) && (byte == ' ' || byte == KEY_CTRL_C) &&

@@ -2,11 +2,12 @@
 #include "frame.h"
 
 #include "page_store.h"
+#include "parts.h"
 #include "pgm.h"
 #include "text.h"
 
 enum { FIRST_MARKER_COLUMN = 25, STEP_WIDTH = 5, FIRST_STEP_COLUMN = 26, SOFTNESS_COLUMN = 61,
-       HEADER_COLUMN = 77, HEADER_LABEL_END = 76, NAME_COLUMN = 64, TITLE_COLUMN = 65, HEX_LOWER_FROM = 0x1A };
+       HEADER_COLUMN = 77, HEADER_LABEL_END = 76, NAME_COLUMN = 65, TITLE_COLUMN = 65, HEX_LOWER_FROM = 0x1A };
 
 /* Labels of header rows 1..19, a semicolon behind each; from row 3 on in the order of bytes 14..30. */
 TEXT_NAMED(header_texts,
@@ -80,8 +81,9 @@ void frame_label_text(uint8_t y, char text[FRAME_LABEL_BYTES])
     } else {
         joint_label(y, text);
         uint16_t word = session_pose(y);
-        uint16_t live = word & PAGE_POS_MAX;
-        if (cell_is_off(word) && live != 0) {
+        bool follows = cell_is_off(word) || !performer_is_idle(&the_performer);
+        uint16_t live = cell_is_off(word) ? word & PAGE_POS_MAX : the_servos.present_pos[y];
+        if (follows && live != 0 && live <= PAGE_POS_MAX) {
             cell_digits(live, 4, the_session.hex, &text[FRAME_LIVE_COLUMN]);
         }
     }

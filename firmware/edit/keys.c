@@ -25,6 +25,18 @@ static uint8_t final_byte(keys_t *keys, uint8_t byte)
     case 'B': return KEY_DOWN;
     case 'C': return KEY_RIGHT;
     case 'D': return KEY_LEFT;
+    case 'H': return KEY_HOME;
+    case 'F': return KEY_END;
+    case '~':   /* ESC [ number ~ */
+        switch (keys->number) {
+        case 1:
+        case 7: return KEY_HOME;
+        case 4:
+        case 8: return KEY_END;
+        case 5: return KEY_PAGE_UP;
+        case 6: return KEY_PAGE_DOWN;
+        default: return KEY_NONE;
+        }
     case 'R':
         keys->rows = keys->first;
         return KEY_SIZE;

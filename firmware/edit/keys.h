@@ -10,7 +10,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { KEY_NONE = 0x80, KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT, KEY_ESCAPE, KEY_SIZE };
+enum { KEY_NONE = 0x80, KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT, KEY_ESCAPE, KEY_SIZE,
+       KEY_HOME, KEY_END, KEY_PAGE_UP, KEY_PAGE_DOWN };
 enum { KEY_CTRL_C = 3, KEY_CR = '\r', KEY_LF = '\n' };
 
 typedef struct {

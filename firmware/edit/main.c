@@ -41,7 +41,7 @@ static NOINLINE void start(void)
     the_editor.notice_P = journal_recover(the_session.cells) == JOURNAL_RESTORED ? TEXT_P("Saved what was cut off")
                       : service == PAGE_SERVICE_MAILBOX ? mail_text_P()
                       : service == PAGE_SERVICE_NONE  ? TEXT_P("No boot loader can write: no SAVE")
-                                                      : NULL;
+                                                      : TEXT_P("Arrows move, HELP explains, EXIT leaves");
     page_store_init(&the_pages);
     (void)settings_load(&the_settings_store, &the_settings);
     console_set_flow(the_settings.flow != 0);

@@ -68,6 +68,16 @@ void robot_follow(void)
     }
 }
 
+void robot_show_play(void)
+{
+    uint8_t joint = (uint8_t)(the_robot.shown + 1u) % PAGE_JOINTS;
+    the_robot.shown = joint;
+    if (servo_link_has(&the_performer.joints, joint)) {
+        session_set_pose(joint, the_performer.goal_pos[joint]);
+        the_session.marks[joint] |= MARK_LABEL;
+    }
+}
+
 void robot_set_trim(void)
 {
     int16_t trim_pos[PAGE_JOINTS];

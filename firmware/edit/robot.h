@@ -16,6 +16,7 @@
 
 typedef struct {
     bool raw;             /* page 0 is open: no trim */
+    uint8_t shown;        /* joint that robot_show_play took last */
     bool failed;          /* a joint did not answer: it is among the_servos.silent now, and the row is to say so */
 } robot_t;
 
@@ -32,6 +33,9 @@ void robot_read(void);
 
 /* The same for joints whose torque is off, from what the background polls have heard: costs no bus traffic. */
 void robot_follow(void);
+
+/* While something plays, once a tick: one joint's goal into the work pose, and its live position to be shown. */
+void robot_show_play(void);
 
 /* The page that is open has changed or trim was saved: page 0 is edited without trim. */
 void robot_set_trim(void);

@@ -233,6 +233,7 @@ void screen_open_line(void)
 {
     the_screen.sink = SCREEN_LINE;
     the_screen.lead = false;
+    the_screen.cramped = false;
     screen_go(screen_command_row(), SCREEN_LINE_COLUMN);
     ansi_erase_line();
     the_screen.line_column = SCREEN_LINE_COLUMN;
@@ -265,6 +266,9 @@ void screen_put(char character)
     } else if (the_screen.sink == SCREEN_LINE) {
         if (the_screen.lead) {
             the_screen.lead = false;
+            if (the_screen.cramped) {
+                screen_open_line();
+            }
             put_in_line(' ');
         }
         put_in_line(character);

@@ -38,6 +38,7 @@ typedef struct {
     uint8_t line_column;     /* where the next character of the command row goes */
     uint8_t sink;            /* screen_sink_t */
     bool lead;               /* a space goes before the next character of the command row */
+    bool cramped;            /* the line is long: a message behind it would be cut and gets the row for itself */
     bool hidden;             /* something else has the screen: nothing is painted */
     uint8_t shown_x, shown_y, shown_go, shown_fault, shown_flags;
 } screen_t;

@@ -192,7 +192,7 @@ void session_init(void)
     memset(&the_session, 0, sizeof the_session);
     undo_clear(&the_session.undo);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        session_set_pose(joint, PAGE_POS_TORQUE_OFF);
+        session_set_pose(joint, PAGE_POS_UNUSED);
     }
     the_session.cells[CELLS_POSE_AT + PAGE_STEP_AT_SPEED] = NEW_STEP_SPEED;
     session_open(1);

@@ -44,8 +44,8 @@ typedef struct {
 
 extern session_t the_session;   /* the only one: all functions here are about it */
 
-/* Opens page 1, as after power-on; the work pose is all torque off at 0, its speed that of a
- * new page: a first WRITE must not store speed 0. */
+/* Opens page 1, as after power-on; the work pose is ---- in all joints, until the robot says more;
+ * its speed that of a new page: a first WRITE must not store speed 0. */
 void session_init(void);
 
 /* Opens `page` (0..127) from flash; what was changed is dropped, the undo history too. Cursor and work pose stay. Only

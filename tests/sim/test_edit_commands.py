@@ -58,7 +58,7 @@ def step(data, k):
     ("on 25", "Not there: ID 25"), ("play 0", "Page must be 1..127"), ("play 200", "Page must be 1..127"),
     ("save 128", "Page must be 0..127"), ("undo", "Nothing to undo"), ("redo", "Nothing to redo"),
     ("scale 5", "Percent must be 10..1000"), ("int 0 6", "That step is not used"), ("paste", "Nothing noted: TAKE first"),
-    ("help foo", "Bad Command"), ("take 3 1", "The first step comes first"), ("rows 10", "Rows must be 24..255"),
+    ("help foo", "No such command: HELP"), ("take 3 1", "The first step comes first"), ("rows 10", "Rows must be 24..255"),
 ])
 def test_errors_say_what_is_wrong(r, line, message):
     assert r.line(line) == f"{line} {message}"
@@ -68,7 +68,7 @@ def test_errors_say_what_is_wrong(r, line, message):
 @pytest.mark.parametrize("line", ["PAGE 2", "page 2", "P 2", "p,2", "p:2", "p;2", "p.2", "p  2", "page 0x2"])
 def test_case_separators_and_abbreviation(r, line):
     assert r.line(line) == line
-    assert r.text(2, 76, 4) == "0002" and r.text(1, 64, 5) == "other"
+    assert r.text(2, 76, 4) == "0002" and r.text(1, 65, 5) == "other"
 
 
 # ---- pages ----
@@ -91,7 +91,7 @@ def test_unsaved_edits_are_asked_for_and_kept_with_any_key_but_y(r, command, ans
     r.line("set 77")
     assert r.unsaved
     r.line(command, answer)
-    assert r.command == f"] {command} Are you sure?[y/N]"
+    assert r.command == f"] {command} The edits would be lost. Are you sure?[y/N]"
     assert r.text(2, 76, 4) == "0001" and r.cell(1, 0) == "0077" and r.unsaved
 
 
@@ -105,7 +105,7 @@ def test_page_change_with_y_drops_edits(r):
 
 def test_copy_takes_a_flash_page_into_this_one(r):
     r.line("copy 2")
-    assert r.text(2, 76, 4) == "0001" and r.text(1, 64, 5) == "other" and r.unsaved
+    assert r.text(2, 76, 4) == "0001" and r.text(1, 65, 5) == "other" and r.unsaved
     assert bytes_of(r) == bytes(OTHER.data)
     r.line("undo")
     assert bytes_of(r) == bytes(BASE.data) and not r.unsaved
@@ -124,14 +124,18 @@ def test_name_is_asked_for_and_padded_with_zeros(r):
     r.line("name")
     assert r.message == "name name:"
     r.line("walk 2")
-    assert r.text(1, 64, 14) == "walk 2".ljust(14)
+    assert r.text(1, 65, 14) == "walk 2".ljust(14)
     assert bytes_of(r)[:14] == b"walk 2".ljust(14, b"\0")
     r.line("name")
-    r.line("12345678901234567")
+    r.line("1234567890123")
     assert bytes_of(r)[:14] == b"1234567890123\0"
+    for kept in ("12345678901234", ""):
+        r.line("name")
+        r.line(kept)
+        assert "ame kept" in r.message and bytes_of(r)[:14] == b"1234567890123\0"
     r.line("name")
-    r.line("")
-    assert bytes_of(r)[:14] == bytes(14) and r.text(1, 64, 14).strip() == ""
+    r.line(" ")
+    assert bytes_of(r)[:14] == bytes(14) and r.text(1, 65, 14).strip() == ""
 
 
 def test_time_and_speed_count_as_edits_and_change_the_label(r):
@@ -471,7 +475,7 @@ def test_help_list_find_show_and_give_the_screen_back(r):
     for text in ("base", "other", "full", "1.19 s", "0.25 s", "0.71 s"):
         assert text in shown, shown
     r.keys(" ")
-    assert r.text(1, 64, 4) == "base"
+    assert r.text(1, 65, 4) == "base"
     r.line("find OTH")
     assert "other" in r.show() and "base" not in r.show()
     r.keys("p")

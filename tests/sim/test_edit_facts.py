@@ -334,7 +334,7 @@ def test_list_pages_by_the_screen_and_q_ends_it():
         r.keys(" ", ms=800)
         assert "page 50" in r.show()
         r.keys("q", ms=300)
-        assert r.text(1, 64, 6) == "page 1"
+        assert r.text(1, 65, 6) == "page 1"
 
 
 def test_help_of_one_command_by_its_short_form(r):

@@ -107,7 +107,7 @@ def save_cut(fresh, operation, phase, tear):
         assert bytes(r.board.flash[MOTION_START + 1024:]) == others
         state = r.flash_page(1)
         assert state in (bytes(OLD.data), new_bytes()), (operation, phase, tear)
-        assert r.fault == "" and r.text(1, 64, 3) == "old" and r.board.eeprom[STATE] == 0xFF
+        assert r.fault == "" and r.text(1, 65, 3) == "old" and r.board.eeprom[STATE] == 0xFF
         if state == bytes(OLD.data):   # and the next one works
             edit(r)
             r.line("save")

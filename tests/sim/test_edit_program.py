@@ -29,7 +29,7 @@ def test_a_page_goes_in_and_comes_out():
         assert answer[:2] == ["@page", "9"] and answer[2].lower() == bytes(data).hex() and answer[-1] == "OK"
         r.board.take()
         r.keys("\x1b[B", ms=800)
-        assert r.text(1, 64, 4) == "made" and r.text(2, 76, 4) == "0009"
+        assert r.text(1, 65, 4) == "made" and r.text(2, 76, 4) == "0009"
 
 
 def test_data_stays_within_the_page():

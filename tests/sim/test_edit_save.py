@@ -117,7 +117,7 @@ def save_cut(options, operation, phase, tear):
         r.settle(ms=1500)
         assert bytes(r.board.flash[MOTION_START + 1024:]) == others
         state = r.flash_page(1)
-        assert r.fault == "" and r.text(1, 64, 3) == "old"
+        assert r.fault == "" and r.text(1, 65, 3) == "old"
         edit(r)
         r.line("save")
         assert r.message.endswith("OK") or r.message.endswith("no change")

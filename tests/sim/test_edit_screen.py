@@ -24,12 +24,12 @@ def frame(data, number, pose, cursor=(0, 0), pose_tail=(0, 64), live=None):
     rows = []
     steps = data[20]
     name = bytes(data[:14]).split(b"\0")[0].decode()
-    side = ["%-16s" % name, " PageNumber:%04d" % number, " Addr:%08X" % (0xE000 + 512 * number)]
+    side = [" %-15s" % name, " PageNumber:%04d" % number, " Addr:%08X" % (0xE000 + 512 * number)]
     side += ["%13s%03d" % (label, data[14 + i]) for i, label in enumerate(HEADER)]
     for joint in range(31):
         code = "%02X" % joint if joint < 0x1A else "%02x" % joint
         inner = "0x" + code if joint not in live else "%04d" % live[joint]
-        row = "Dynamixel %2d(%s)[%s]" % (joint, inner, pose.get(joint, "????"))
+        row = "Dynamixel %2d(%s)[%s]" % (joint, inner, pose.get(joint, "????" if joint in live else "----"))
         for k in range(7):
             row += ("|" if k == steps else " ") + word_text(data[64 + 64 * k + 2 * joint] | data[65 + 64 * k + 2 * joint] << 8)
         row += ("|" if steps == 7 else " ") + "%03d" % data[32 + joint]
@@ -67,7 +67,7 @@ def test_frame_after_start_is_that_of_the_original(number, made):
     with robot(pages={number: made}) as r:
         live = {joint: 512 for joint in JOINTS}
         assert_frame(r, frame(made.data, number, {}, live=live))
-        assert r.terminal.row(35).rstrip() == "] _"
+        assert r.terminal.row(35).rstrip() == "] Arrows move, HELP explains, EXIT leaves"
         assert r.cursor == (1, 20)
 
 
@@ -160,7 +160,7 @@ def test_damaged_pages_are_shown_as_what_they_are():
         for number, (made, text) in cases.items():
             r.line(f"page {number}")
             assert r.fault == text
-            assert r.text(1, 64, 4).strip() == made.name.decode()
+            assert r.text(1, 65, 4).strip() == made.name.decode()
         r.line("page 1")
         assert r.fault == ""
 
@@ -184,7 +184,7 @@ def test_small_terminal_scrolls_with_the_cursor():
         assert r.text(20, 1, 12) == "Dynamixel 19"
         r.line("goto 1 30")
         assert r.text(20, 1, 12) == "Dynamixel 30" and r.text(1, 1, 12) == "Dynamixel 11"
-        assert r.text(1, 64, 3) == "all" and r.cursor == (20, 26)
+        assert r.text(1, 65, 3) == "all" and r.cursor == (20, 26)
         assert r.text(20, 36, 1) == "|" or r.text(20, 35, 1) == "|"
         r.line("goto 1 0")
         assert r.text(1, 1, 12) == "Dynamixel  0" and r.cursor == (1, 26)

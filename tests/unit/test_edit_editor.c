@@ -39,6 +39,59 @@ static void test_question_comes_before_edits_are_dropped(void)
     }
 }
 
+static void test_rest_of_a_line_that_answered_a_question_is_no_command(void)
+{
+    change_a_cell();
+    type("page 2\r");
+    fake_console_type("on 99\r");
+    run_ms(500);
+    TEST_ASSERT_EQUAL_UINT8(1, the_session.page);
+    TEST_ASSERT_NULL(strstr(message(), "Bad Command"));
+    TEST_ASSERT_EQUAL_UINT8(EDITOR_TABLE, the_editor.mode);
+}
+
+static void test_what_was_typed_ahead_answers_no_question(void)
+{
+    change_a_cell();
+    fake_console_type("page 2\ryes\rsave 3\r");
+    run_ms(500);
+    TEST_ASSERT_EQUAL_UINT8(EDITOR_ASK, the_editor.mode);
+    TEST_ASSERT_EQUAL_UINT8(1, the_session.page);
+    TEST_ASSERT_EQUAL_UINT8(0xFF, flash_page(3)[0]);
+    type("n");
+    TEST_ASSERT_TRUE(the_session.is_changed);
+}
+
+static void test_empty_or_long_names_keep_the_old_one(void)
+{
+    type("name\r");
+    type("\r");
+    TEST_ASSERT_EQUAL_STRING("one", (const char *)the_session.cells);
+    type("name\r");
+    type("fourteen chars\r");
+    TEST_ASSERT_EQUAL_STRING("one", (const char *)the_session.cells);
+    TEST_ASSERT_NOT_NULL(strstr(message(), "At most 13 characters"));
+    type("name\r");
+    type(" \r");
+    TEST_ASSERT_EQUAL_STRING("", (const char *)the_session.cells);
+}
+
+static void test_space_behind_the_end_of_a_list_switches_nothing(void)
+{
+    type("goto 0 1\r");
+    type("list 1 2\r");
+    fake_console_type("  ");
+    run_ms(300);
+    TEST_ASSERT_EQUAL_UINT8(0, fake_bus_servo(1)->table[24]);
+}
+
+static void test_delete_of_a_step_that_is_not_used_says_so(void)
+{
+    type("delete 6\r");
+    TEST_ASSERT_NOT_NULL(strstr(message(), "That step is not used"));
+    TEST_ASSERT_FALSE(the_session.is_changed);
+}
+
 static void test_any_key_but_y_says_no(void)
 {
     static const char *const keys[] = {"n", "\r", " ", "x", "2", "\x03"};
@@ -221,7 +274,7 @@ static void test_space_and_ctrl_c_break_a_play_at_once(void)
         start_play();
         type(keys[i]);
         TEST_ASSERT_TRUE(performer_is_idle(&the_performer));
-        TEST_ASSERT_EQUAL_STRING("play 5[BREAK] OK", message());
+        TEST_ASSERT_EQUAL_STRING("Page 5 step 1 repetition 1 [BREAK] OK", message());
         const uint16_t stood = goal();
         run_ms(1000);
         TEST_ASSERT_EQUAL_UINT16(stood, goal());
@@ -231,7 +284,7 @@ static void test_space_and_ctrl_c_break_a_play_at_once(void)
 
 static void test_cr_and_esc_let_the_page_come_to_its_end(void)
 {
-    static const char *const keys[] = {"\r", "\033"}, *const shown_keys[] = {"play 5[STOP]", "play 5[Exit]"};
+    static const char *const keys[] = {"\r", "\033"}, *const shown_keys[] = {"Page 5 step 1 repetition 1 [STOP]", "Page 5 step 1 repetition 1 [Exit]"};
     for (uint8_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
         start_play();
         type(keys[i]);
@@ -252,7 +305,7 @@ static void test_other_keys_do_nothing_to_a_play(void)
     start_play();
     type("x]2y");
     TEST_ASSERT_FALSE(performer_is_idle(&the_performer));
-    TEST_ASSERT_EQUAL_STRING("play 5", message());
+    TEST_ASSERT_EQUAL_STRING("Page 5 step 1 repetition 1", message());
     TEST_ASSERT_FALSE(the_session.is_changed);
 }
 
@@ -286,6 +339,11 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_question_comes_before_edits_are_dropped);
     RUN_TEST(test_any_key_but_y_says_no);
+    RUN_TEST(test_rest_of_a_line_that_answered_a_question_is_no_command);
+    RUN_TEST(test_what_was_typed_ahead_answers_no_question);
+    RUN_TEST(test_empty_or_long_names_keep_the_old_one);
+    RUN_TEST(test_space_behind_the_end_of_a_list_switches_nothing);
+    RUN_TEST(test_delete_of_a_step_that_is_not_used_says_so);
     RUN_TEST(test_nobody_is_asked_when_nothing_is_lost);
     RUN_TEST(test_exit_restarts_only_after_the_question);
     RUN_TEST(test_save_writes_the_page_and_takes_the_mark_away);

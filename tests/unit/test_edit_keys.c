@@ -52,9 +52,22 @@ static void test_keys_size_report(void)
 static void test_keys_unknown_sequences_vanish_whole(void)
 {
     TEST_ASSERT_EQUAL_UINT8(KEY_NONE, type("\033[15~"));
-    TEST_ASSERT_EQUAL_UINT8(KEY_NONE, type("\033[1;5H"));
+    TEST_ASSERT_EQUAL_UINT8(KEY_NONE, type("\033[1;5G"));
     TEST_ASSERT_EQUAL_UINT8(KEY_NONE, type("\033x"));
     TEST_ASSERT_EQUAL_UINT8('p', type("p"));
+}
+
+static void test_keys_home_end_and_pages_as_terminals_send_them(void)
+{
+    static const struct {
+        const char *sequence;
+        uint8_t key;
+    } sent[] = {{"\033[H", KEY_HOME}, {"\033OH", KEY_HOME}, {"\033[1~", KEY_HOME}, {"\033[7~", KEY_HOME},
+                {"\033[F", KEY_END}, {"\033OF", KEY_END}, {"\033[4~", KEY_END}, {"\033[8~", KEY_END},
+                {"\033[5~", KEY_PAGE_UP}, {"\033[6~", KEY_PAGE_DOWN}, {"\033[3~", KEY_NONE}};
+    for (uint8_t i = 0; i < sizeof sent / sizeof sent[0]; i++) {
+        TEST_ASSERT_EQUAL_UINT8_MESSAGE(sent[i].key, type(sent[i].sequence), sent[i].sequence + 1);
+    }
 }
 
 static void test_keys_lone_escape_shows_when_quiet(void)
@@ -75,6 +88,7 @@ int main(void)
     RUN_TEST(test_keys_arrows_in_both_forms);
     RUN_TEST(test_keys_size_report);
     RUN_TEST(test_keys_unknown_sequences_vanish_whole);
+    RUN_TEST(test_keys_home_end_and_pages_as_terminals_send_them);
     RUN_TEST(test_keys_lone_escape_shows_when_quiet);
     return UNITY_END();
 }

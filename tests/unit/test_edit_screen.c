@@ -31,7 +31,7 @@ static void test_frame_stands_cell_by_cell_where_the_original_has_it(void)
     TEST_ASSERT_EQUAL_STRING("Dynamixel  0(0x00)[", shown(1, 1, 19));
     TEST_ASSERT_EQUAL_STRING("Dynamixel 15(0x0F)[", shown(16, 1, 19));
     TEST_ASSERT_EQUAL_STRING("Dynamixel 30(0x1e)[", shown(31, 1, 19));
-    TEST_ASSERT_EQUAL_STRING("one", shown(1, 64, 3));
+    TEST_ASSERT_EQUAL_STRING("one", shown(1, 65, 3));
     TEST_ASSERT_EQUAL_STRING("PageNumber:0001", shown(2, 65, 15));
     TEST_ASSERT_EQUAL_STRING("Addr:0000E200", shown(3, 65, 13));
     TEST_ASSERT_EQUAL_STRING("   PauseTime       [000]", shown(32, 1, 24));
@@ -91,7 +91,7 @@ static void test_page_change_sends_the_cells_that_differ_and_no_other(void)
 {
     type("page 2\r");
     TEST_ASSERT_EQUAL_STRING("0503", cell(1, 3));
-    TEST_ASSERT_EQUAL_STRING("two", shown(1, 64, 3));
+    TEST_ASSERT_EQUAL_STRING("two", shown(1, 65, 3));
     TEST_ASSERT_EQUAL_STRING("0002", shown(2, 76, 4));
     TEST_ASSERT_EQUAL_STRING("0000E400", shown(3, 70, 8));
     TEST_ASSERT_EQUAL_STRING("040", shown(12, 77, 3));
