@@ -118,7 +118,7 @@ def test_name_on_the_line_and_same_name_is_no_edit(r):
 
 def test_work_pose_of_absent_joints_and_its_pause_and_speed(r):
     r.line("goto 0 25")
-    assert r.cell(0, 25) == "????"
+    assert r.cell(0, 25) == "----"
     r.line("set 300")
     assert r.cell(0, 25) == "0300"
     r.keys("]")
