@@ -3,11 +3,11 @@
 """Finds the numbers of gait.json in physics, by CMA-ES (the library `cma`): walk, back, spin or side.
 
     tools/motions/search.py walk --generations 40        takes gait.json as the start, and writes it when it has found better
-    tools/motions/search.py spin --target 36 --jobs 4
+    tools/motions/search.py spin --target 36 --scheduler tcp://HOST:8786
 
 Each set of numbers walks on one nominal body and on bodies by chance (tools/body), pushed once, stopped at the end. It is judged
 by its fall, its speed towards the target, how straight it goes, how much the body tilts, and what its servos have to do. Every
-few generations the bodies change, and bodies on which the best set fell so far stay. Needs `tools/dev/setup physics search`
+few generations the bodies change; those on which the best set fell stay. Needs `tools/dev/setup physics search`
 and a build. An hour of one core finds a walk.
 """
 import argparse
@@ -16,7 +16,6 @@ import math
 import pathlib
 import random
 import sys
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, replace
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -24,12 +23,13 @@ VENV = HERE.parents[1] / "build" / "venv"
 if (VENV / "bin" / "python").exists() and pathlib.Path(sys.prefix).resolve() != VENV.resolve():
     import os
     os.execv(VENV / "bin" / "python", [str(VENV / "bin" / "python"), *sys.argv])
-sys.path[:0] = [str(HERE), str(HERE.parent / "body" / "src"), str(HERE.parent / "m512" / "src")]
+sys.path[:0] = [str(HERE), *(str(HERE.parent / part) for part in ("body/src", "campaign", "m512/src"))]
 
 import gait  # noqa: E402  (the paths come first)
 from body.chance import NOMINAL, random_body  # noqa: E402
 from body.description import load  # noqa: E402
 from body.trial import STOP, try_motion  # noqa: E402
+from campaign import each  # noqa: E402
 from m512.files.image import Image  # noqa: E402
 from m512.files.page import Page, SCHEDULE_TIME  # noqa: E402
 
@@ -118,6 +118,10 @@ class Numbers:
         return [math.log(part / (1 - part)) for part in (min(0.97, max(0.03, part)) for part in parts)]
 
 
+def write(gaits):
+    (HERE / "gait.json").write_text(json.dumps({name: asdict(one) for name, one in gaits.items()}, indent=1) + "\n", encoding="utf-8")
+
+
 def search(options):
     import cma
 
@@ -126,22 +130,22 @@ def search(options):
     chance = random.Random(options.seed)
     strategy = cma.CMAEvolutionStrategy(space.vector(), options.sigma, {"seed": options.seed, "popsize": options.population, "verbose": -9})
     hard, best = [], None
-    with ProcessPoolExecutor(options.jobs) as pool:
-        for generation in range(options.generations):
-            if generation % options.keep == 0:
-                fresh = [chance.randrange(1 << 30) for _ in range(options.bodies)]
-                seeds, best = (hard + fresh)[:options.bodies], None
-            vectors = strategy.ask()
-            sets = [gaits | {options.kind: space.of(vector)} for vector in vectors]
-            found = list(pool.map(trial, [(options.kind, one, options.target, seeds) for one in sets]))
-            strategy.tell(vectors, [cost for cost, _ in found])
-            cost, fell = min(found)
-            if best is None or cost < best[0]:
-                best = (cost, sets[[cost for cost, _ in found].index(cost)][options.kind])
-                hard = [seed for seed in fell if seed is not None][:options.bodies // 2]
-                gaits_now = gaits | {options.kind: best[1]}
-                (HERE / "gait.json").write_text(json.dumps({name: asdict(one) for name, one in gaits_now.items()}, indent=1) + "\n")
-            print(f"generation {generation + 1}: best {cost:.1f}, {len(fell)} of {len(seeds)} bodies fall", flush=True)
+    for generation in range(options.generations):
+        if generation % options.keep == 0:
+            fresh = [chance.randrange(1 << 30) for _ in range(options.bodies)]
+            seeds, best = (hard + fresh)[:options.bodies], None
+        vectors = strategy.ask()
+        sets = [gaits | {options.kind: space.of(vector)} for vector in vectors]
+        found = each(trial, [(options.kind, one, options.target, seeds) for one in sets], f"generation {generation + 1}", options.jobs,
+                     options.scheduler)
+        costs = [cost for cost, _ in found]
+        strategy.tell(vectors, costs)
+        cost, fell = min(found)
+        if best is None or cost < best[0]:
+            best = (cost, sets[costs.index(cost)][options.kind])
+            hard = [seed for seed in fell if seed is not None][:options.bodies // 2]
+            write(gaits | {options.kind: best[1]})
+        print(f"generation {generation + 1}: best {cost:.1f}, {len(fell)} of {len(seeds)} bodies fall", flush=True)
     return best
 
 
@@ -155,7 +159,8 @@ def main():
     parser.add_argument("--keep", type=int, default=8, help="generations that the same bodies stay")
     parser.add_argument("--sigma", type=float, default=0.3, help="how far it looks at first")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--jobs", type=int, help="processes at once (default: one a core)")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask scheduler whose workers do it")
     options = parser.parse_args()
     options.target = TARGETS[options.kind] if options.target is None else options.target
     search(options)
