@@ -39,8 +39,7 @@ class Goes:
     turn_deg_s: tuple = (None, None)
     degrees_per_metre: float = None      # heading, at most
     drift_mm_a_turn: float = None
-    side_mm: tuple = (None, None)        # the way to the right in all
-    forward_mm: tuple = (None, None)     # the way to the front in all
+    sideways_mm_s: tuple = (None, None)  # to the left
 
 
 def round_trip(code, turn_code, seconds):
@@ -69,6 +68,11 @@ GOES = [
     Goes("back", 12, ((0, DOWN),), forward_mm_s=(None, -60)),
     Goes("right", 12, ((0, RIGHT),), turn_deg_s=(None, -30), drift_mm_a_turn=50),
     Goes("left", 12, ((0, LEFT),), turn_deg_s=(30, None), drift_mm_a_turn=50),
+    # A cycle takes 72 ticks: 30 mm a step to the side and less than 10 forward; 20 degrees a cycle in a curve.
+    Goes("side_r", 12, ((0, RIGHT + 16),), sideways_mm_s=(None, -53), forward_mm_s=(-17, 17)),
+    Goes("side_l", 12, ((0, LEFT + 16),), sideways_mm_s=(53, None), forward_mm_s=(-17, 17)),
+    Goes("turn_r", 12, turn_deg_s=(None, -35.6)),
+    Goes("turn_l", 12, turn_deg_s=(35.6, None)),
 ]
 BEARS_S = 600                    # of walking
 BEARS_NM = 1.5 * 11.1 / 12 / 3   # mean torque of a servo: a third of what stalls it at 11.1 V
@@ -106,9 +110,9 @@ def goes(image, number, promise):
     """The nominal body: (what is missing, what happened)."""
     outcome = try_motion(image, number, promise.seconds, robot=ROBOT, keys=promise.keys)
     missing = [] if outcome.fell_s is None else ["it falls"]
-    for name in ("forward_mm_s", "turn_deg_s", "forward_mm"):
+    for name in ("forward_mm_s", "turn_deg_s", "sideways_mm_s"):
         low, high = getattr(promise, name)
-        value = outcome.x_mm if name == "forward_mm" else getattr(outcome, name)
+        value = getattr(outcome, name)
         if low is not None and value < low or high is not None and value > high:
             missing.append(f"{name} {value:.0f}, promised {low if low is not None else high}")
     if promise.degrees_per_metre is not None and abs(outcome.x_mm) > 1:
