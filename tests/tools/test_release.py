@@ -68,7 +68,7 @@ def test_release_holds_no_path_of_this_computer_but_in_debug_information(made):
 def test_release_holds_no_name_that_chance_made(made):
     """The linker's temporary files stand in the symbol tables."""
     elves = sorted((made[0] / "robot" / "firmware").glob("*.elf"))
-    assert len(elves) == 6
+    assert len(elves) == 8
     for elf in elves:
         assert set(re.findall(rb"/tmp/cc(\w{6})\.", elf.read_bytes())) <= {b"XXXXXX"}
 
