@@ -90,3 +90,24 @@ def test_noise_answers_of_a_block_with_every_byte_changed():
             if changed != answer:
                 survives(lambda data=changed: BlockLoader(NoisyLink(data), "", 1, 0.002))
     assert BlockLoader(NoisyLink(answer), "", 1, 0.002).detail == 2
+
+
+class PausingLink(NoisyLink):
+    """Each of these pieces, and silence behind it for as long as anybody waits."""
+
+    def __init__(self, *pieces):
+        super().__init__(pieces[0])
+        self.pieces = list(pieces[1:])
+
+    def _receive(self, limit, seconds):
+        if not self.data:
+            self.data = self.pieces.pop(0) if self.pieces else b""
+            return b""
+        return super()._receive(limit, seconds)
+
+
+def test_noise_answer_of_a_block_that_falls_silent_and_goes_on():
+    answer = b"\x5a" + frame(1, 160, b"\0\2")[1:]
+    for at in range(len(answer) + 1):
+        for rest in (b"", b"\x5a", b"\0\0", b"\x5a\0", answer[at:], answer):
+            survives(lambda pieces=(answer[:at], rest): BlockLoader(PausingLink(*pieces), "", 2, 0.002))

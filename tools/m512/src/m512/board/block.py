@@ -84,8 +84,9 @@ class BlockLoader:
             if some[0] != ANSWER:
                 continue
             head = self._piece(3)
-            body = self._piece(2 * head[2]) if len(head) == 3 else b""
-            end = self._piece(2)
+            if len(head) < 3:  # the line fell silent in the middle
+                continue
+            body, end = self._piece(2 * head[2]), self._piece(2)
             if len(end) == 2 and len(body) == 2 * head[2] >= 2 and crc16(head + body) == int.from_bytes(end, "big"):
                 self.detail = body[1]
                 return head[0], head[1], body[0], body[2:]
