@@ -139,6 +139,9 @@ class Schedule:
             if "press MODE before anything else" in str(error):
                 self.board.reset()
             return CANCELLED if line.ended == CANCELLED else BROKEN if line.ended == BROKEN else GAVE_UP
+        except Exception as error:                    # whatever comes over the line, m512 says in words what is wrong
+            self.faults.append(f"m512 crashed: {error!r}")
+            return GAVE_UP
 
     def told(self, text: str):
         if re.search("MODE", text):
