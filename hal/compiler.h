@@ -9,8 +9,8 @@
 /* Holds at compile time or the build fails. */
 #define STATIC_ASSERT(condition, text) _Static_assert(condition, text)
 
-/* Where -Os decides wrongly: a function of a few bytes that is called hundreds of times in a tick; one that is copied to each
- * of its callers and should not be. */
+/* Where -Os decides wrongly: a function of a few bytes that is called hundreds of times in a tick; one that is copied to
+ * each of its callers and should not be. */
 #define ALWAYS_INLINE static inline __attribute__((always_inline))
 #define NOINLINE __attribute__((noinline))
 

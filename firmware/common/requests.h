@@ -49,7 +49,8 @@ typedef struct {
     page_store_t *pages;
     const shell_command_t *own_P;      /* requests of this image alone; their handlers return a request_status_t, */
     uint8_t own_count;                 /* REQUEST_SAID behind requests_error, or REQUEST_OK */
-    /* More requests, as words of a person behind the '@': says its error itself. SHELL_ERR_UNKNOWN: none. NULL: there are none. */
+    /* More requests, as words of a person behind the '@': says its error itself. SHELL_ERR_UNKNOWN: none. NULL: there are
+     * none. */
     uint8_t (*more)(const shell_args_t *args);
     void (*where)(void);               /* further fields of @where, each with a blank in front; or NULL */
     void (*serve)(void);               /* what may not wait, between the parts of a request that takes long */

@@ -70,8 +70,8 @@ COMMAND(cmd_set)
 
 /* ---- keys ---- */
 
-/* What the key makes of a cell: Page Step stops at its ends, other bytes go round (their maximum is 127 or 255). ---- and ????
- * stay, and so does a position that would leave 0..1023: the value as it was. */
+/* What the key makes of a cell: Page Step stops at its ends, other bytes go round (their maximum is 127 or 255). ---- and
+ * ???? stay, and so does a position that would leave 0..1023: the value as it was. */
 static uint16_t changed(const here_t *here, uint16_t word, int8_t change)
 {
     uint16_t value = (uint16_t)(word + (uint16_t)change);

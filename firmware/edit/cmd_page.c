@@ -198,7 +198,8 @@ void cmd_name_done(const char *name)
     }
     session_begin();
     for (uint8_t i = 0; i < PAGE_NAME_BYTES; i++) {
-        session_set_byte((uint16_t)(PAGE_AT_NAME + i), i < length && !(length == 1 && name[0] == ' ') ? (uint8_t)name[i] : 0);
+        bool is_kept = i < length && !(length == 1 && name[0] == ' ');
+        session_set_byte((uint16_t)(PAGE_AT_NAME + i), is_kept ? (uint8_t)name[i] : 0);
     }
     (void)editor_edited();
 }

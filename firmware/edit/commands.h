@@ -20,8 +20,8 @@ COMMAND(cmd_before);
 COMMAND(cmd_copy);
 COMMAND(cmd_new);
 COMMAND(cmd_save);
-/* The one way into flash, for SAVE and @save: the page in RAM as page `page`. Sets its checksum byte, keeps the servo bus quiet,
- * and puts in force what follows: the store, the unsaved mark, the trim. 60 ms. */
+/* The one way into flash, for SAVE and @save: the page in RAM as page `page`. Sets its checksum byte, keeps the servo bus
+ * quiet, and puts in force what follows: the store, the unsaved mark, the trim. 60 ms. */
 page_save_status_t cmd_page_save(uint8_t page);
 COMMAND(cmd_exit);
 COMMAND(cmd_name);

@@ -162,7 +162,8 @@ bool editor_ask_unsaved(void)
 
 void ansi_wait(void)
 {
-    /* Half a millisecond at most, three bytes' time. The tick alone: the rest of editor_serve needs more stack than is left here. */
+    /* Half a millisecond at most, three bytes' time. The tick alone: the rest of editor_serve needs more stack than
+     * is left here. */
     for (uint8_t turn = 0; turn < UINT8_MAX && console_room() == 0; turn++) {
         if (!performer_is_idle(&the_performer) && tick_take()) {
             performer_tick(&the_performer);

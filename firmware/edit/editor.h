@@ -39,7 +39,8 @@ typedef enum {
 } editor_mode_t;
 
 /* What a command handler returns besides SHELL_OK and SHELL_ERR_SAID: the mode that goes on from here. */
-enum { EDITOR_TO_ASK = EDITOR_ASK, EDITOR_TO_NAME = EDITOR_NAME, EDITOR_TO_LIST = EDITOR_LIST, EDITOR_TO_PLAY = EDITOR_PLAY };
+enum { EDITOR_TO_ASK = EDITOR_ASK, EDITOR_TO_NAME = EDITOR_NAME, EDITOR_TO_LIST = EDITOR_LIST,
+       EDITOR_TO_PLAY = EDITOR_PLAY };
 
 struct editor;
 /* Prints item `item` as one line, or nothing. false: there is no such item, the list ends. */

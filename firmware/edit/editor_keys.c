@@ -211,8 +211,8 @@ void editor_key(uint8_t key)
     }
 }
 
-/* A question was answered with the first letter of a line: the rest of that line is no command, up to its end or a pause. And
- * what still streams in behind a question is no answer. */
+/* A question was answered with the first letter of a line: the rest of that line is no command, up to its end or a pause.
+ * And what still streams in behind a question is no answer. */
 static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
 {
     if (the_editor.swallow && quiet_ticks < SWALLOW_TICKS) {

@@ -7,7 +7,8 @@
 #include <stdint.h>
 #include "page.h"
 
-/* What an unloaded AX-12 can do at this supply: 59 rpm = 354 degrees/s at 12 V (its maker's sheet), 283 at a CM-5's 9.6 V. */
+/* What an unloaded AX-12 can do at this supply: 59 rpm = 354 degrees/s at 12 V (its maker's sheet), 283 at a CM-5's
+ * 9.6 V. */
 #define PAGE_FACTS_FASTEST_DEG_S(supply_dv) ((uint16_t)((supply_dv) * 59u / 20u))
 
 typedef struct {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * monitor.c - the words of the servo bus's line monitor (editor-original.md section 11). Each sends one packet to the current
- * servo (CID) and shows it and its answer, byte by byte. */
+ * monitor.c - the words of the servo bus's line monitor (editor-original.md section 11). Each sends one packet to the
+ * current servo (CID) and shows it and its answer, byte by byte. */
 #include "monitor.h"
 
 #include <stddef.h>

@@ -8,8 +8,8 @@
 
 #define TOSS_BUFFER_BYTES 64u   /* a power of two */
 
-/* toss.c: the PC speaks to the servos itself. Packets from the console go to the bus as they are, everything heard on the bus
- * goes to the console. Three ESC outside a packet end it. Blocks until then; the watchdog is kicked. */
+/* toss.c: the PC speaks to the servos itself. Packets from the console go to the bus as they are, everything heard on the
+ * bus goes to the console. Three ESC outside a packet end it. Blocks until then; the watchdog is kicked. */
 void toss_run(uint8_t buffer[TOSS_BUFFER_BYTES]);
 
 /* monitor.c: prints the prompt, runs a line. `args->hex` follows HEX and DEC. */

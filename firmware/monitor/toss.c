@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * toss.c - the bridge: the PC speaks to the servos itself. Packets from the console go to the bus as they are, everything heard
- * on the bus goes to the console. Three ESC outside a packet end it. */
+ * toss.c - the bridge: the PC speaks to the servos itself. Packets from the console go to the bus as they are, everything
+ * heard on the bus goes to the console. Three ESC outside a packet end it. */
 #include "monitor.h"
 
 #include <string.h>

@@ -164,7 +164,8 @@ static void test_help_of_one_command_is_its_line(void)
 /* What changes nothing that a play uses, by the page of the spec: looking, the cursor, and letting go. */
 static bool is_harmless(const char *word)
 {
-    static const char *const words[] = {"off", "take", "pairs", "monitor", "goto", "list", "find", "help", "re", "rows", "hex", "dec"};
+    static const char *const words[] = {"off", "take", "pairs", "monitor", "goto", "list",
+                                        "find", "help", "re", "rows", "hex", "dec"};
     for (uint8_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         if (strcmp(words[i], word) == 0) {
             return true;
@@ -193,7 +194,8 @@ static void test_while_something_moves_every_other_word_is_refused(void)
             the_editor.shell.length = (uint8_t)strlen(the_editor.line);
             shell_args_t args = shell_split(&the_editor.shell, false);
             const bool moving = !performer_is_idle(&the_performer);
-            TEST_ASSERT_EQUAL_UINT8_MESSAGE(SHELL_ERR_MOVING, shell_run(commands_table_P, commands_count, NULL, &args, moving), word);
+            TEST_ASSERT_EQUAL_UINT8_MESSAGE(
+                SHELL_ERR_MOVING, shell_run(commands_table_P, commands_count, NULL, &args, moving), word);
         }
     }
     TEST_ASSERT_EQUAL_MEMORY(before.cells, the_session.cells, sizeof before.cells);

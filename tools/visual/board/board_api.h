@@ -27,8 +27,8 @@ uint8_t *board_api_buffer(void);
  * power-on. false: there is one already, or no memory. */
 bool board_api_new(int kind, uint32_t seed);
 
-/* Plugs in a servo. model: servo_model_t (0 AX-12), bps: its rate (1,000,000 for an AX-12). false: ID above 253, a 32nd servo,
- * or no memory. */
+/* Plugs in a servo. model: servo_model_t (0 AX-12), bps: its rate (1,000,000 for an AX-12). false: ID above 253, a 32nd
+ * servo, or no memory. */
 bool board_api_add_servo(int id, int model, uint32_t bps);
 
 /* Power of board and servos. */
@@ -119,8 +119,8 @@ void board_api_servo_push(int index, double position);
 void board_api_servo_load(int index, double load);
 
 /* Hangs the servos' shafts on a body outside (servo_body.h), in lock step with the board; false: each turns its own rotor.
- * The module then calls its two imports, look and step of the module "body", with a pointer to the shafts (four doubles each:
- * ID, torque, angle, speed) and their number. Pushes and loads of single servos have no effect in a body. */
+ * The module then calls its two imports, look and step of the module "body", with a pointer to the shafts (four doubles
+ * each: ID, torque, angle, speed) and their number. Pushes and loads of single servos have no effect in a body. */
 void board_api_body(bool attached);
 
 /* Faults by number (servo_fault_t) and their names. answers: how many answers it spoils, 0 off, -1 until cleared. */
