@@ -147,7 +147,6 @@ static void tell_step(void)
     text_number((uint16_t)(player->step - 1u));
     TEXT(" repetition ");
     text_number(player->repetition);
-    text_put(' ');
 }
 
 void cmd_play_events(bool line_is_free)
@@ -159,7 +158,8 @@ void cmd_play_events(bool line_is_free)
         } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
             the_editor.faults_due = !the_screen.hidden;
         } else if (event.kind == PERFORMER_EV_STEP) {
-            the_editor.step_due = the_editor.mode == EDITOR_PLAY;
+            /* behind a key the row keeps what the key did */
+            the_editor.step_due = the_editor.mode == EDITOR_PLAY && !link_is_stopping(&the_performer.link);
         }
     } else if (the_editor.step_due && line_is_free) {
         tell_step();

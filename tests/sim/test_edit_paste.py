@@ -29,7 +29,7 @@ def script():
     lines, pages = [], {}
     for number in range(10, 20):
         data = new_page()
-        lines += [f"page {number}", "new", "yname", f"paste {number}"]
+        lines += [f"page {number}", "name", f"paste {number}", "dec"]
         data[0:14] = f"paste {number}".encode().ljust(14, b"\0")
         for k in range(6):
             joint, value = 1 + k, 100 * k + number
@@ -48,7 +48,7 @@ def test_200_lines_with_saves_at_line_rate_lose_nothing():
         for number in pages:
             r.board.flash[MOTION_START + 512 * number:MOTION_START + 512 * (number + 1)] = b"\xff" * 512
         start = r.board.now_ms
-        text = "\r".join(lines) + "\r"   # "new", then y as the answer and name as the next line
+        text = "\r".join(lines) + "\r"   # no question among them: what was typed ahead answers none
         paste(r, text)
         print(f"paste: {len(lines)} lines, {len(text)} bytes in {r.board.now_ms - start:.0f} ms, 10 saves")
         for number, data in pages.items():

@@ -31,7 +31,7 @@ def test_save_takes_less_than_60_ms_and_keeps_everything():
     with robot(pages={1: OLD, 2: OTHER}) as r:
         edit(r)
         before = bytes(r.board.flash[MOTION_START:])
-        r.board.probe("page_save")
+        r.board.probe("cmd_page_save")
         r.keys("save")
         start = r.board.now_ms
         seen = len(r.board.console)
@@ -39,7 +39,7 @@ def test_save_takes_less_than_60_ms_and_keeps_everything():
         while b"OK" not in r.board.console[seen:] and r.board.now_ms < start + 200:
             r.board.run(ms=0.1)   # expect() looks every 20 ms only
         took = r.board.now_ms - start
-        save_ms = r.board.cycles("page_save").total_max / 16000
+        save_ms = r.board.cycles("cmd_page_save").total_max / 16000
         print(f"save: {save_ms:.1f} ms, both halves changed; {took:.1f} ms from Enter to OK on the terminal (original: 2100)")
         assert save_ms < took <= 60
         r.settle()

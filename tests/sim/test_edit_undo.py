@@ -75,7 +75,7 @@ def test_what_a_play_has_overwritten_is_not_brought_back_as_rubbish(r):
     edit(r, "goto 3 17", "set 999", "new")
     empty = ram_page(r)
     r.line("play 3", ms=3000)
-    assert r.message == "play 3 OK"
+    assert r.message == "Page 3 step 1 repetition 1 OK"
     assert r.line("undo").endswith("Nothing to undo") and ram_page(r) == empty
 
 

@@ -274,7 +274,7 @@ static void test_space_and_ctrl_c_break_a_play_at_once(void)
         start_play();
         type(keys[i]);
         TEST_ASSERT_TRUE(performer_is_idle(&the_performer));
-        TEST_ASSERT_EQUAL_STRING("Page 5 step 1 repetition 1 [BREAK] OK", message());
+        TEST_ASSERT_EQUAL_STRING("Page 5 step 1 repetition 1[BREAK] OK", message());
         const uint16_t stood = goal();
         run_ms(1000);
         TEST_ASSERT_EQUAL_UINT16(stood, goal());
@@ -285,7 +285,7 @@ static void test_space_and_ctrl_c_break_a_play_at_once(void)
 static void test_cr_and_esc_let_the_page_come_to_its_end(void)
 {
     static const char *const keys[] = {"\r", "\033"};
-    static const char *const shown_keys[] = {"Page 5 step 1 repetition 1 [STOP]", "Page 5 step 1 repetition 1 [Exit]"};
+    static const char *const shown_keys[] = {"Page 5 step 1 repetition 1[STOP]", "Page 5 step 1 repetition 1[Exit]"};
     for (uint8_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
         start_play();
         type(keys[i]);
