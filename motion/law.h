@@ -24,7 +24,8 @@
  */
 enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
 
-/* Every joint that this play owns; the same with its goal. */
+/* Every joint that this play owns; the same with its goal.
+ * NOLINTBEGIN(bugprone-macro-parentheses): what a declaration names takes no parentheses */
 #define FOR_OWN_JOINTS(player, joint_)                                                                               \
     const uint8_t self_ = (player)->self;                                                                            \
     for (player_joint_t *joint_ = (player)->joint, *end_ = joint_ + PAGE_JOINTS; joint_ < end_; joint_++)            \
@@ -34,6 +35,7 @@ enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
     uint16_t *goal_ = (player)->goal_pos;                                                                            \
     for (player_joint_t *joint_ = (player)->joint, *end_ = joint_ + PAGE_JOINTS; joint_ < end_; joint_++, goal_++)   \
         if (joint_->owner == self_)
+/* NOLINTEND(bugprone-macro-parentheses) */
 
 /* --- sequence.c --------------------------------------------------------------------------------------------------- */
 

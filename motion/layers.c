@@ -17,7 +17,7 @@ static NOINLINE uint32_t bit_of(uint8_t joint)
 
 /* Every joint of a mask, which is used up. */
 #define FOR_JOINTS(i_, joints_)                                        \
-    for (uint8_t i_ = 0; (joints_) != 0; i_++, (joints_) >>= 1)       \
+    for (uint8_t i_ = 0; (joints_) != 0; (i_)++, (joints_) >>= 1)     \
         if (((uint8_t)(joints_) & 1u) != 0)
 
 /* hand_over of a joint: its owner has not begun a step with it; plays its first step; has completed that, and the joint has

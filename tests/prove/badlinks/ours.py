@@ -11,8 +11,7 @@ import random
 from cm5sim import Board, Violation
 
 from .factory_model import BOOT, PAGE
-from .line import Line
-from .runs import APP_END, DONE, MOTION_START, MOTIONS, NASTY, Outcome, Schedule, contents
+from .runs import APP_END, DONE, MOTION_START, MOTIONS, Outcome, Schedule, contents
 from .wire import weather, wires
 from m512.board.memory import Plan
 

@@ -142,7 +142,7 @@ static const char *parse_sweep(options_t *options, char *text)
     if (options->sweep_count == CLI_SWEEPS_MAX || strlen(text) >= sizeof sweep->function) {
         return "too many sweeps, or too long a name";
     }
-    strcpy(sweep->function, text);
+    memcpy(sweep->function, text, strlen(text) + 1);
     sweep->vector = (int)number;
     options->sweep_count++;
     return NULL;
