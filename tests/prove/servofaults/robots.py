@@ -190,8 +190,9 @@ class EditRobot(Watched):
             self.line("off")
             self.board.servos[3].push_to(300)
         elif state == "walk":
-            self.robot.keys(f"play {WALK}\r", ms=2000)
-            self.board.run(ms=200)
+            self.board.send(f"play {WALK}\r")      # the screen does not come to rest while it plays
+            self.board.run(ms=2200)
+            self.robot.pump()
         self.resets = self.board.resets
         self.phase = bus_watch.phase_of(self.board)
         self.watch()
@@ -240,7 +241,9 @@ class EditRobot(Watched):
         return "No answer" not in self.line("on " + " ".join(map(str, sorted(joints))))
 
     def play(self, number):
-        self.robot.keys(f"play {number}\r")
+        self.board.send(f"play {number}\r")
+        self.board.run(ms=100)
+        self.robot.pump()
         return True
 
     def stand(self):
