@@ -70,11 +70,10 @@ static uint16_t approach_by(uint16_t from, uint16_t to, uint8_t most)
     return from - to > most ? (uint16_t)(from - most) : to;
 }
 
-/* The joint belongs to `play` and begins to follow it from where it is. */
-static void change_hands(layers_t *layers, player_t *play, uint8_t joint)
+/* The joint begins to follow its new owner from where it is. */
+static void follow_from_here(layers_t *layers, uint8_t joint)
 {
-    player_give_joint(play, joint, layers->goal_pos[joint]);
-    play->joint[joint].hand_over = HAND_OVER_FRESH;
+    layers->main->joint[joint].hand_over = HAND_OVER_FRESH;
     layers->changing = true;
 }
 
@@ -87,7 +86,8 @@ static void hand_back(layers_t *layers, uint32_t joints)
     }
     main_play->lent &= ~joints;
     FOR_JOINTS(i, joints) {
-        change_hands(layers, main_play, i);
+        player_give_joint(main_play, i, layers->goal_pos[i]);
+        follow_from_here(layers, i);
     }
 }
 
@@ -182,8 +182,8 @@ layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
     if (player_start(&layers->play, &link, page, (player_law_t)layers->main->law, layers->goal_pos, joints) != PLAYER_OK) {
         return LAYERS_ERR_PAGE; /* cannot be: the page has just been checked */
     }
-    FOR_JOINTS(i, joints) {
-        change_hands(layers, &layers->play, i);
+    FOR_JOINTS(i, joints) { /* they belong to the layer already, and its first step is planned from where they are */
+        follow_from_here(layers, i);
     }
     if (player_is_paused(layers->main)) {
         player_pause(&layers->play);
@@ -292,6 +292,10 @@ static void note_step(const player_t *play)
     }
 }
 
+/* A joint this near to what its owner asks for has caught up: one that is slower than the owner's page might never meet it
+ * exactly. */
+#define CAUGHT_UP_POS 1u
+
 /* Where a joint that changes hands goes in this tick, on its way to what its owner asks for. */
 static uint16_t follow(layers_t *layers, uint8_t i, uint16_t from, uint8_t most)
 {
@@ -299,7 +303,8 @@ static uint16_t follow(layers_t *layers, uint8_t i, uint16_t from, uint8_t most)
     const player_t *owner = joint->owner == PLAYER_OWNER_LAYER ? &layers->play : layers->main;
     uint16_t asked = player_is_moving(owner) ? player_asks(owner, i) : from; /* nobody asks for more: it stays */
     uint16_t goal = approach_by(from, asked, most);
-    if (!player_is_moving(owner) || (goal == asked && joint->hand_over == HAND_OVER_CATCHES_UP)) {
+    bool near = (uint16_t)(goal - asked + CAUGHT_UP_POS) <= 2u * CAUGHT_UP_POS;
+    if (!player_is_moving(owner) || (near && joint->hand_over == HAND_OVER_CATCHES_UP)) {
         joint->hand_over = HAND_OVER_DONE;
     }
     return goal;
@@ -307,7 +312,7 @@ static uint16_t follow(layers_t *layers, uint8_t i, uint16_t from, uint8_t most)
 
 static void follow_plays(layers_t *layers, const uint16_t before_pos[PAGE_JOINTS])
 {
-    uint8_t most = allow(&layers->allowance_q8_8, layers->speed_q8_8);
+    uint8_t most = layers->paused ? 0 : allow(&layers->allowance_q8_8, layers->speed_q8_8);
     const player_joint_t *joint = layers->main->joint;
     layers->changing = false;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, joint++) {
@@ -398,7 +403,9 @@ uint32_t layers_joints(const layers_t *layers)
 
 void layers_drop_joints(layers_t *layers, uint32_t joints)
 {
-    player_drop_joints(&layers->play, joints);
+    if (layers->main != NULL) {
+        player_drop_joints(&layers->play, joints);
+    }
     layers_free(layers, joints);
 }
 

@@ -182,6 +182,30 @@ static void test_layers_page_ends_by_itself_and_gives_its_joints_back(void)
     TEST_ASSERT_FALSE(layers_are_moving(&layers));
 }
 
+/* A joint that changes hands is never faster than the approach speed (shaping.md). The wave asks for 288 units in its first 30
+ * ticks, 9.6 a tick; 1.6 are allowed, and the joints set out at once. */
+static void given_joint_keeps_the_approach_speed(player_law_t law)
+{
+    layers_init(&layers, goal_pos);
+    start(law);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
+    for (uint16_t t = 0; t < 100; t++) {
+        uint16_t before[2] = {goal_pos[2], goal_pos[3]};
+        (void)layers_tick(&layers, &l, &layer_events);
+        TEST_ASSERT_LESS_OR_EQUAL(HAND_OVER_MOST, size((int)goal_pos[2] - (int)before[0]));
+        TEST_ASSERT_LESS_OR_EQUAL(HAND_OVER_MOST, size((int)goal_pos[3] - (int)before[1]));
+        if (t == 29) {
+            TEST_ASSERT_GREATER_THAN(512 + 30, goal_pos[2]);
+        }
+    }
+}
+
+static void test_layers_joint_given_to_a_layer_keeps_the_approach_speed(void)
+{
+    given_joint_keeps_the_approach_speed(PLAYER_LAW_EXACT);
+    given_joint_keeps_the_approach_speed(PLAYER_LAW_CLASSIC);
+}
+
 static void test_layers_default_joints_are_those_of_the_first_step(void)
 {
     sparse_pages[SHORT].step[0].pos[0] = PAGE_POS_UNUSED;
@@ -323,6 +347,16 @@ static void test_layers_dropped_joint_stands(void)
     }
 }
 
+/* Without a main play there are no joints to look at; what code moves ends all the same. */
+static void test_layers_dropped_without_a_main_play(void)
+{
+    goal_pos[7] = 512;
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 7, 700, 0));
+    layers_drop_joints(&layers, 0xFF);
+    TEST_ASSERT_EQUAL_HEX32(0, layers_joints(&layers));
+    TEST_ASSERT_FALSE(layers_are_moving(&layers));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -330,6 +364,7 @@ int main(void)
     RUN_TEST(test_layers_classic_at_every_tick_of_a_walk);
     RUN_TEST(test_layers_in_speed_base_keep_the_timing);
     RUN_TEST(test_layers_page_ends_by_itself_and_gives_its_joints_back);
+    RUN_TEST(test_layers_joint_given_to_a_layer_keeps_the_approach_speed);
     RUN_TEST(test_layers_default_joints_are_those_of_the_first_step);
     RUN_TEST(test_layers_refuse_and_change_nothing);
     RUN_TEST(test_layers_aim_works_while_nothing_plays);
@@ -337,5 +372,6 @@ int main(void)
     RUN_TEST(test_layers_swing_over_a_walk_and_free);
     RUN_TEST(test_layers_break_and_pause_hold_for_both);
     RUN_TEST(test_layers_dropped_joint_stands);
+    RUN_TEST(test_layers_dropped_without_a_main_play);
     return UNITY_END();
 }
