@@ -43,7 +43,7 @@ static inline uint32_t fix_recip32(uint16_t ticks)
 }
 
 /* Mean speed q16.16 of a way 0..65535 over the ticks of fix_recip32. Floor; at most 2^-16 * way + 1 units of 2^-16 small. */
-static inline uint32_t fix_mean(uint16_t way, uint32_t recip32)
+ALWAYS_INLINE uint32_t fix_mean(uint16_t way, uint32_t recip32)
 {
     if (recip32 == UINT32_MAX) { /* one tick: spares a step that needs all in it the multiplication */
         return way == 0 ? 0 : ((uint32_t)way << 16) - 1u;

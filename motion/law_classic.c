@@ -61,8 +61,9 @@ static uint16_t aim_joints(player_t *player, bool may_run_on)
     uint16_t longest = 0;
     uint32_t used = player->coming_joints;
     const uint16_t *coming = player->coming_pos, *next = player->looked_at;
+    const uint8_t self = player->self;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, coming++, next++, used >>= 1) {
-        if (joint->owner != player->self) {
+        if (joint->owner != self) {
             continue;
         }
         player_classic_t *classic = &joint->classic;
@@ -118,8 +119,10 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
     uint16_t ticks = player->step_ticks;
     uint8_t ramp = player->ramp_ticks;
     divisors_t by = {(uint16_t)(4 * (ticks - ramp)), (uint16_t)(4 * ticks - 2 * ramp), (uint16_t)(2 * ramp)};
-    for (player_joint_t *joint = &player->joint[first]; joint < &player->joint[end]; joint++) {
-        if (joint->owner == player->self) {
+    const player_joint_t *const behind = &player->joint[end];
+    const uint8_t self = player->self;
+    for (player_joint_t *joint = &player->joint[first]; joint < behind; joint++) {
+        if (joint->owner == self) {
             player_classic_t *classic = &joint->classic;
             classic->speed = ticks != 0 ? plan_speed(classic, &by) : skipped_speed(classic);
         }
@@ -128,7 +131,7 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
 }
 
 /* Joints that are planned in the tick before their step begins. */
-#define PLANNED_AHEAD 6u
+#define PLANNED_AHEAD 5u
 
 /* Behind the last tick of a step: what begins with the next call. */
 static NOINLINE void take(player_t *player)

@@ -284,9 +284,10 @@ void layers_free(layers_t *layers, uint32_t joints)
 /* A step of one of the plays has begun. */
 static void note_step(const player_t *play)
 {
-    for (player_joint_t *joint = play->joint; joint < &play->joint[PAGE_JOINTS]; joint++) {
-        bool waits = joint->hand_over == HAND_OVER_FRESH || joint->hand_over == HAND_OVER_FIRST_STEP;
-        if (joint->owner == play->self && waits) {
+    const uint8_t self = play->self;
+    for (player_joint_t *joint = play->joint, *behind = joint + PAGE_JOINTS; joint < behind; joint++) {
+        uint8_t hand_over = joint->hand_over;
+        if ((hand_over == HAND_OVER_FRESH || hand_over == HAND_OVER_FIRST_STEP) && joint->owner == self) {
             joint->hand_over++;
         }
     }

@@ -146,17 +146,19 @@ static bool looks_elsewhere(const player_t *player)
 /* Words of a step to looked_at. */
 static void note_words(player_t *player, const uint8_t step[PAGE_STEP_BYTES])
 {
-    uint32_t may = player->present, used = 0, bit = 1;
-    for (uint16_t *to = player->looked_at; to < &player->looked_at[PAGE_JOINTS]; to++, step += 2, may >>= 1, bit <<= 1) {
+    uint32_t left = player->present, used = 0; /* each joint's bit passes the lowest place of `left`, the highest of `used` */
+    const uint16_t *const behind = &player->looked_at[PAGE_JOINTS];
+    for (uint16_t *to = player->looked_at; to < behind; to++, step += 2, left >>= 1) {
         uint16_t word = page_word(step);
-        if (((uint8_t)may & 1u) == 0 || !page_pos_is_used(word)) {
+        used >>= 1;
+        if (((uint8_t)left & 1u) == 0 || !page_pos_is_used(word)) {
             word = PAGE_POS_UNUSED;
         } else {
-            used |= bit;
+            used |= 0x80000000u;
         }
         *to = word;
     }
-    player->looked_joints = used;
+    player->looked_joints = used >> 1; /* 31 joints */
 }
 
 /* Reads the coming step. */
@@ -224,10 +226,11 @@ void sequence_take(player_t *player)
     }
     bool measures = player->coming.schedule == PAGE_SCHEDULE_SPEED || player->coming.top_speed_q4_4 != 0;
     const uint16_t *looked_at = player->looked_at;
+    const uint8_t self = player->self;
     player_joint_t *joint = player->joint;
     for (uint16_t *pos = player->coming_pos; pos < &player->coming_pos[PAGE_JOINTS]; pos++, joint++) {
         uint16_t from = *pos, to = *looked_at++;
-        bool is_own = joint->owner == player->self;
+        bool is_own = joint->owner == self;
         if (is_own) {
             joint->target_pos = from;
         }

@@ -308,6 +308,9 @@ static void play_tick(performer_t *performer)
     if ((events & PLAYER_EV_OUTPUT) != 0) {
         send_goals(performer, performer->engine.player.joints);
     }
+    if ((events & PLAYER_EV_STEP) != 0) {
+        servo_link_hold_slopes(PERFORMER_SERVOS(performer));
+    }
     tell(performer, events);
 }
 

@@ -232,6 +232,7 @@ void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_J
         }
     }
     link->slopes_wait = 2;
+    link->slopes_held = 0;
 }
 
 uint8_t servo_link_write_answer(const servo_link_t *link, uint8_t id)

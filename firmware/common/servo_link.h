@@ -62,6 +62,7 @@ typedef struct {
     /* Private. */
     uint8_t phase;
     uint8_t slopes_wait;                     /* ticks until slopes may have packets of their own: theirs follow the goals' */
+    uint8_t slopes_held;                     /* times that servo_link_hold_slopes has acted since servo_link_slopes */
     uint8_t poll_id, poll_misses;
     uint8_t round_voltage_dv, round_degrees, round_degrees_id;
     const uint16_t *goals_pos;
@@ -97,6 +98,17 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
  * last goes out with the next goals in the same packet, up to 27 joints. Above, it follows in packets of its own for 8
  * joints each, behind the goals of the ticks after that have room for it: the tick of a page change has enough to do. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
+
+/* In a tick that has enough to do (a step begins): packets of slopes alone wait for the next one; SERVO_LINK_SLOPES_HELD times
+ * since servo_link_slopes, so that they come through steps of one tick too. */
+#define SERVO_LINK_SLOPES_HELD 16u
+static inline void servo_link_hold_slopes(servo_link_t *link)
+{
+    if (link->slopes_held < SERVO_LINK_SLOPES_HELD) {
+        link->slopes_held++;
+        link->slopes_wait |= 1u;
+    }
+}
 
 /* Every turn of the main loop: goes on with this tick's traffic. One health poll (READ 24..43) a tick, round robin over
  * `present`: 31 servos take 0.24 s. A servo that misses is asked again in the following ticks and counts as silent after

@@ -59,7 +59,10 @@ def test_layer_in_a_walk_leaves_the_other_joints_goals_as_they_are():
         row = [goals[joint] for _, goals in sorted(lent.items())]
         assert row[0] == row[-1] == 512 and max(row) == high
         speeds = [b - a for a, b in zip(row, row[1:])]
-        assert max(abs(b - a) for a, b in zip(speeds, speeds[1:])) <= 2   # no leap, neither away nor back
+        # The page's own speed is 2 units a tick, that of the hand-over 1 or 2. No leap, neither away nor back: the largest change
+        # is that of a joint that meets what comes the other way.
+        assert max(map(abs, speeds)) <= 3
+        assert max(abs(b - a) for a, b in zip(speeds, speeds[1:])) <= 4
 
 
 def test_layer_on_named_joints_moves_only_these():

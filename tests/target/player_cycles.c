@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * player_cycles.c - what a tick of the player costs on the ATmega128 with 31 joints all moving, by its own timer: for
  * each law and kind of page the longest tick with and without a step's beginning. Prints a table on UART1 and fails when
- * a budget is broken: any tick 15,000 (17,000 in steps of one tick); in a section 200 a joint classic, 90 exact. With a
- * layer, code-made motion and shaping
- * besides, a tick may have 30,000. */
+ * a budget is broken: any tick 15,000; in a section 200 a joint classic, 90 exact. With a layer, code-made motion and
+ * shaping besides, a tick may have 32,000. */
 #include <avr/io.h>
 #include <stdio.h>
 #include "flash.h"
@@ -13,8 +12,7 @@
 #include "unity.h"
 
 #define TICK_BUDGET 15000u
-#define ONE_TICK_BUDGET 17000u /* steps of one tick only: all of a step's work in each */
-#define ALL_BUDGET 30000u /* two plays whose steps begin in the same ticks, and 31 joints shaped: twice the budget still */
+#define ALL_BUDGET 32000u /* two plays whose steps begin in the same ticks, and 15 joints that change hands: a quarter of a tick */
 #define CLASSIC_BUDGET (200u * PAGE_JOINTS)
 #define EXACT_BUDGET (90u * PAGE_JOINTS)
 
@@ -144,10 +142,6 @@ static void measure(player_law_t law, uint16_t in_section_budget)
         longest_t longest = play(law);
         memcpy_P(name, kinds[kind].name, sizeof name);
         print(name, law, &longest);
-        if (kind == KINDS - 1u) {
-            TEST_ASSERT_LESS_OR_EQUAL_UINT16(ONE_TICK_BUDGET, longest.begin);
-            break;
-        }
         keep_longest(&worst.begin, longest.begin);
         keep_longest(&worst.other, longest.other);
         keep_longest(&worst.inside, longest.inside);

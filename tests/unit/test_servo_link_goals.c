@@ -135,6 +135,32 @@ static void test_slopes_of_more_than_27_joints_follow_in_packets_of_their_own(vo
     TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
 }
 
+static void busy_tick(void)
+{
+    servo_link_tick(&servos);
+    servo_link_goals(&servos, goals, SERVO_LINK_ALL);
+    servo_link_hold_slopes(&servos);
+    for (uint8_t i = 0; i < 6; i++) {
+        servo_link_poll(&servos);
+    }
+}
+
+/* A tick that has enough to do keeps packets of slopes back, but 16 of them in a row no longer. */
+static void test_slopes_of_more_than_27_joints_are_held_in_16_busy_ticks_at_most(void)
+{
+    uint8_t compliance[SERVO_LINK_JOINTS];
+    memset(compliance, 0x33, sizeof compliance);
+    robot(28);
+    servo_link_slopes(&servos, compliance);
+    tick_with_goals(SERVO_LINK_ALL);
+    for (uint8_t tick = 0; tick < 16; tick++) {
+        busy_tick();
+        TEST_ASSERT_EQUAL(32, fake_bus_servo(7)->table[DXL_AT_CCW_SLOPE]);
+    }
+    busy_tick();
+    TEST_ASSERT_EQUAL(8, fake_bus_servo(7)->table[DXL_AT_CCW_SLOPE]);
+}
+
 static void test_27_joints_with_slopes_are_within_the_servos_143_bytes(void)
 {
     robot(27);
@@ -189,6 +215,7 @@ int main(void)
     RUN_TEST(test_trim_is_added_and_limited);
     RUN_TEST(test_slopes_go_with_the_goals_once);
     RUN_TEST(test_slopes_of_more_than_27_joints_follow_in_packets_of_their_own);
+    RUN_TEST(test_slopes_of_more_than_27_joints_are_held_in_16_busy_ticks_at_most);
     RUN_TEST(test_27_joints_with_slopes_are_within_the_servos_143_bytes);
     RUN_TEST(test_deaf_servos_get_reg_write_and_one_action);
     RUN_TEST(test_deaf_servos_that_do_not_fit_into_a_tick_go_on_in_the_next);
