@@ -146,7 +146,7 @@ static bool looks_elsewhere(const player_t *player)
 /* Words of a step to looked_at. */
 static void note_words(player_t *player, const uint8_t step[PAGE_STEP_BYTES])
 {
-    uint32_t left = player->present, used = 0; /* each joint's bit passes the lowest place of `left`, the highest of `used` */
+    uint32_t left = player->present, used = 0; /* a joint's bit is the lowest of `left`, the highest of `used` */
     const uint16_t *const behind = &player->looked_at[PAGE_JOINTS];
     for (uint16_t *to = player->looked_at; to < behind; to++, step += 2, left >>= 1) {
         uint16_t word = page_word(step);

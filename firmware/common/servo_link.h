@@ -99,8 +99,8 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
  * joints each, behind the goals of the ticks after that have room for it: the tick of a page change has enough to do. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
 
-/* In a tick that has enough to do (a step begins): packets of slopes alone wait for the next one; SERVO_LINK_SLOPES_HELD times
- * since servo_link_slopes, so that they come through steps of one tick too. */
+/* In a tick that has enough to do (a step begins): packets of slopes alone wait for the next one;
+ * SERVO_LINK_SLOPES_HELD times since servo_link_slopes, so that they come through steps of one tick too. */
 #define SERVO_LINK_SLOPES_HELD 16u
 static inline void servo_link_hold_slopes(servo_link_t *link)
 {

@@ -12,7 +12,7 @@
 #include "unity.h"
 
 #define TICK_BUDGET 15000u
-#define ALL_BUDGET 32000u /* two plays whose steps begin in the same ticks, and 15 joints that change hands: a quarter of a tick */
+#define ALL_BUDGET 32000u /* two plays whose steps begin at once, 15 joints change hands: a quarter of a tick */
 #define CLASSIC_BUDGET (200u * PAGE_JOINTS)
 #define EXACT_BUDGET (90u * PAGE_JOINTS)
 

@@ -182,8 +182,8 @@ static void test_layers_page_ends_by_itself_and_gives_its_joints_back(void)
     TEST_ASSERT_FALSE(layers_are_moving(&layers));
 }
 
-/* A joint that changes hands is never faster than the approach speed (shaping.md). The wave asks for 288 units in its first 30
- * ticks, 9.6 a tick; 1.6 are allowed, and the joints set out at once. */
+/* A joint that changes hands is never faster than the approach speed (shaping.md). The wave asks for 288 units in its first
+ * 30 ticks, 9.6 a tick; 1.6 are allowed, and the joints set out at once. */
 static void given_joint_keeps_the_approach_speed(player_law_t law)
 {
     layers_init(&layers, goal_pos);
