@@ -105,7 +105,7 @@ class Editor:
         self.line("re")
 
     def play(self):
-        self.line(f"play {self.open}")
+        self.board.send(f"play {self.open}\r")     # while it plays the screen does not come to rest
         self.board.run(ms=self.chance.randrange(200, 2500))
         if self.chance.random() < 0.5:
             self.board.send("\x03")     # a blank would change a cell, should the play have ended just now
