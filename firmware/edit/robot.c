@@ -62,7 +62,7 @@ void robot_follow(void)
 {
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         uint16_t pos = the_servos.present_pos[joint];
-        if (robot_has(joint) && !is_held(joint) && pos != SERVO_LINK_NO_POSE) {
+        if (pos != SERVO_LINK_NO_POSE && robot_has(joint) && !servo_link_has(&the_servos.torque, joint)) {
             session_set_pose(joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
         }
     }

@@ -181,7 +181,8 @@ static bool marker_is_old(uint8_t y)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     uint8_t wanted = steps > PAGE_STEPS ? (uint8_t)MARK_STEP_NONE : steps;
-    return y < PAGE_JOINTS && screen_row_of(y) != 0 && the_session.marks[y] >> MARK_STEP_SHIFT != wanted;
+    /* screen_row_of last: it is slow, and 31 of it every idle turn make the answer to a key 1 ms later */
+    return y < PAGE_JOINTS && the_session.marks[y] >> MARK_STEP_SHIFT != wanted && screen_row_of(y) != 0;
 }
 
 static bool paint_row(uint8_t y)
