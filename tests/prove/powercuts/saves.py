@@ -54,6 +54,7 @@ class Save:
         self.board.send(line + "\r")
         if sure:
             self.board.expect("[y/N]", ms=1000)
+            self.board.run(ms=300)      # what is typed ahead answers no question
             self.board.send("y")
         self.board.expect("OK", ms=1000)
         self.memories.saved(number)
@@ -290,6 +291,7 @@ class Mailbox(Save):
         self.memories.saving(OPENED, new)
         self.board.send("save\r")
         self.board.expect("[y/N]", ms=1000)
+        self.board.run(ms=300)
         self.board.send("y")
         self.board.expect(b"\xff", ms=8000)
         robot.application_answers(self.board, "edit")

@@ -12,13 +12,14 @@ AREA = range(MAP["MEM_EE_SETTINGS"], MAP["MEM_EE_SETTINGS_END"])
 COPY_BYTES = 64
 FIELDS = ("law", "remote", "approach", "fault", "low", "hot", "neutral", "flow", "fast", "talk")
 JOINTS = 31
-BODY_BYTES = len(FIELDS) + JOINTS
+LAST = ("centre", "drive")                # behind the partners of the joints
+BODY_BYTES = len(FIELDS) + JOINTS + len(LAST)
 
 
 def defaults():
     """settings.h, in brackets."""
     partners = [joint + 1 if joint % 2 else joint - 1 for joint in range(1, 19)]
-    return bytes([0, 0, 60, 0, 90, 70, 0, 1, 0, 1, 0xFF, *partners, *[0xFF] * 12])
+    return bytes([0, 0, 60, 0, 90, 70, 0, 1, 0, 1, 0xFF, *partners, *[0xFF] * 12, 1, 10])
 
 
 def record(body, sequence):
@@ -41,14 +42,14 @@ def kept(eeprom):
 
 def paired(body, one, other):
     """The settings with two joints made partners (one with itself: none); their former partners lose theirs."""
-    pair = bytearray(body[len(FIELDS):])
+    pair = bytearray(body[len(FIELDS):-len(LAST)])
     for joint in (one, other):
         if pair[joint] < JOINTS:
             pair[pair[joint]] = 0xFF
         pair[joint] = 0xFF
     if one != other:
         pair[one], pair[other] = other, one
-    return body[:len(FIELDS)] + bytes(pair)
+    return body[:len(FIELDS)] + bytes(pair) + body[-len(LAST):]
 
 
 class Settings:
