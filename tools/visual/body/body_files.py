@@ -4,7 +4,7 @@
 
 FOLDER/body.xml   the MJCF of tools/body without what is optional, for MuJoCo
 FOLDER/body.json  the same as numbers, for the picture and for kinematics: links with their places, joints with their servos,
-                  shapes with their colours. Metres, radians, quaternions as w x y z. There is no number here that is not in
+                  shapes with their colours and masses. Metres, kilograms, radians, quaternions as w x y z. There is no number here that is not in
                   the body file.
 """
 import json
@@ -51,7 +51,7 @@ def shape(geom, body):
         place, half, turn = from_to(numbers(geom.get("fromto")))
         size.append(half)
     return {"name": geom.get("name"), "body": body, "type": kind, "size": size, "pos": place, "quat": turn,
-            "material": geom.get("material", "bracket")}
+            "material": geom.get("material", "bracket"), "mass": float(geom.get("mass", "0"))}
 
 
 def described(body):

@@ -36,6 +36,8 @@ export interface Shape {
   readonly pos: Vector;
   readonly quat: Quaternion;
   readonly material: string;
+  /** Kilograms; 0: only to be seen. */
+  readonly mass: number;
 }
 
 export interface Body {
@@ -45,6 +47,8 @@ export interface Body {
   readonly shapes: readonly Shape[];
   readonly materials: Readonly<Record<string, readonly [number, number, number, number]>>;
 }
+
+export const POSITION_MAX = 1023;
 
 /** 1024 positions are 300 degrees. */
 const RADIANS_PER_UNIT = (300 / 1024) * (Math.PI / 180);
@@ -60,6 +64,29 @@ export function servoPosition(joint: Joint, angleRad: number): number {
 /** "right_hip_pitch" as people read it. */
 export function jointTitle(joint: Joint): string {
   return joint.name.replaceAll('_', ' ');
+}
+
+export type Side = 'right' | 'left';
+
+/** Radians by servo. */
+export type Angles = ReadonlyMap<number, number>;
+
+export function angleIn(angles: Angles): (joint: Joint) => number {
+  return (joint) => angles.get(joint.servo) ?? 0;
+}
+
+/** Angles of a step or a pose: servo positions by ID; where there is none, `others`. */
+export function anglesOf(body: Body, positions: readonly (number | null)[], others: Angles): Angles {
+  return new Map(body.joints.map((joint) => {
+    const position = positions[joint.servo] ?? null;
+    return [joint.servo, position === null ? (others.get(joint.servo) ?? 0) : jointAngle(joint, position)] as const;
+  }));
+}
+
+/** The whole servo position nearest to an angle that joint and servo can have. */
+export function nearestPosition(joint: Joint, angleRad: number): number {
+  const angle = Math.min(Math.max(angleRad, joint.low), joint.high);
+  return Math.min(Math.max(Math.round(servoPosition(joint, angle)), 0), POSITION_MAX);
 }
 
 /** Places of all links. angleOf: radians of the joint that turns this link, 0 for a link without one. */
