@@ -2,17 +2,17 @@
 #include "approach.h"
 
 #include <string.h>
+#include "mul.h"
 
 /*  speed        ________________
- *              /                \         A ramp_ticks, a power of two; N total_ticks >= 2A
- *             /                  \        way = v * (N - A), so v = way / (N - A)
- *            RISE A   cruise   FALL A     RISE: speed v c / A in tick c; FALL: v (A - c) / A
+ *              /                \         A ramp_ticks, N total_ticks >= 2A
+ *             /                  \        RISE: speed v c / A in tick c; FALL: v (A - c) / A
+ *            RISE A   cruise   FALL A     way = v (N - A)
  *
- * The longest way takes the limit; all others take as long. v, truncated to 2^-16 units a tick, is less than 0.6 unit short
- * over the longest approach possible (1023 units at 1 degree/s, 38,363 ticks), which the last tick, exactly on target,
- * swallows. v c stays below 1024 units: A <= N - A. */
+ * All joints share one plan: how much of its way each has made, 0..1 as q0.32. step_q0_32 is v / A; truncated, it leaves
+ * the longest approach possible (1023 units at 1 degree/s, 38,363 ticks) 0.3 units short, which the last tick, exactly on
+ * target, swallows. */
 #define RAMP_TICKS_MAX 32u
-#define ONE_Q16_16 ((int32_t)65536)
 /* Servo units per tick at 1 degree/s: 1024 / 300 / 128 = 2 / 75. */
 #define LIMIT_NUMERATOR 2u
 #define LIMIT_DENOMINATOR 75u
@@ -26,56 +26,35 @@ uint16_t approach_start(approach_t *approach, const uint16_t from_pos[PAGE_JOINT
                         uint32_t joints, uint16_t limit_deg_s)
 {
     uint16_t longest = 0;
-    uint32_t bit = 1;
-    memset(approach, 0, sizeof *approach);
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++, bit <<= 1) {
+    uint32_t left = joints;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++, left >>= 1) {
         const uint16_t way = distance(from_pos[i], to_pos[i]);
-        if ((joints & bit) != 0 && way > longest) {
+        if (((uint8_t)left & 1u) != 0 && way > longest) {
             longest = way;
         }
     }
+    memmove(approach->target_pos, to_pos, sizeof approach->target_pos);
+    memcpy(approach->from_pos, from_pos, sizeof approach->from_pos);
+    approach->joints = joints;
+    approach->made_q0_32 = 0;
+    approach->tick = approach->total_ticks = 0;
+    approach->broken = false;
     if (longest <= APPROACH_NEAR_POS) {
         return 0;
     }
     /* Ticks that the longest way would take at the limit, rounded up: N - A. */
     const uint16_t limit = (uint16_t)(LIMIT_NUMERATOR * limit_deg_s);
     const uint16_t steady = (uint16_t)(((uint32_t)longest * LIMIT_DENOMINATOR + limit - 1) / limit);
-    approach->ramp_ticks = RAMP_TICKS_MAX;
-    while (approach->ramp_ticks > steady) {
-        approach->ramp_ticks >>= 1;
-    }
+    approach->ramp_ticks = (uint8_t)(steady < RAMP_TICKS_MAX ? steady : RAMP_TICKS_MAX);
     approach->total_ticks = (uint16_t)(steady + approach->ramp_ticks);
-    approach->joints = joints;
-    bit = 1;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++, bit <<= 1) {
-        approach->target_pos[i] = to_pos[i];
-        approach->pos_q16_16[i] = from_pos[i] * ONE_Q16_16;
-        if ((joints & bit) != 0) {
-            approach->cruise_q16_16[i] = ((int32_t)to_pos[i] - (int32_t)from_pos[i]) * ONE_Q16_16 / (int32_t)steady;
-        }
-    }
+    approach->step_q0_32 = UINT32_MAX / steady / approach->ramp_ticks;
     return approach->total_ticks;
-}
-
-static uint16_t rounded(int32_t pos_q16_16)
-{
-    return (uint16_t)((pos_q16_16 + ONE_Q16_16 / 2) >> 16);
-}
-
-/* log2 of the ramp. */
-static uint8_t ramp_shift(const approach_t *approach)
-{
-    uint8_t shift = 0;
-    while ((1u << shift) < approach->ramp_ticks) {
-        shift++;
-    }
-    return shift;
 }
 
 /* c of this tick: how many A-ths of v the speed is. */
 static uint8_t ramp_at(const approach_t *approach)
 {
-    uint16_t left = (uint16_t)(approach->total_ticks - approach->tick), at = approach->ramp_ticks;
+    uint16_t at = approach->ramp_ticks, left = (uint16_t)(approach->total_ticks - approach->tick);
     at = approach->tick < at ? approach->tick : at;
     return (uint8_t)(left < at ? left : at);
 }
@@ -87,12 +66,16 @@ bool approach_tick(approach_t *approach, uint16_t goal_pos[PAGE_JOINTS])
     }
     approach->tick++;
     const bool last = approach->tick == approach->total_ticks;
-    const uint8_t at = ramp_at(approach), shift = ramp_shift(approach);
-    uint32_t bit = 1;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++, bit <<= 1) {
-        if ((approach->joints & bit) != 0) {
-            approach->pos_q16_16[i] += approach->cruise_q16_16[i] * at >> shift;
-            goal_pos[i] = last ? approach->target_pos[i] : rounded(approach->pos_q16_16[i]);
+    approach->made_q0_32 = last && !approach->broken ? UINT32_MAX
+                                                     : approach->made_q0_32 + approach->step_q0_32 * ramp_at(approach);
+    const uint16_t made_q0_16 = (uint16_t)(approach->made_q0_32 >> 16);
+    uint32_t left = approach->joints;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++, left >>= 1) {
+        if (((uint8_t)left & 1u) != 0) {
+            /* Rounded to the nearest; the whole way of 0..1023 comes out exactly with 65535 / 65536, too. */
+            const uint16_t from = approach->from_pos[i], to = approach->target_pos[i];
+            const uint16_t way = (uint16_t)((mul_u16_u16(distance(from, to), made_q0_16) + 0x8000u) >> 16);
+            goal_pos[i] = (uint16_t)(to > from ? from + way : from - way);
         }
     }
     return !last;
@@ -100,17 +83,13 @@ bool approach_tick(approach_t *approach, uint16_t goal_pos[PAGE_JOINTS])
 
 void approach_break(approach_t *approach)
 {
-    const uint16_t ramp = approach->ramp_ticks;
+    const uint8_t ramp = approach->ramp_ticks;
     if (approach->tick + ramp >= approach->total_ticks) {
         return; /* slowing down already, or over */
     }
-    const uint8_t at = ramp_at(approach), shift = ramp_shift(approach);
-    approach->tick = ramp; /* at the beginning of FALL */
+    /* FALL from the present speed. */
+    approach->step_q0_32 = approach->step_q0_32 * ramp_at(approach) / ramp;
+    approach->tick = ramp;
     approach->total_ticks = (uint16_t)(2u * ramp);
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        /* FALL from the present speed s: s (A - c) / A, c = 1..A, sums up to s (A - 1) / 2. */
-        approach->cruise_q16_16[i] = approach->cruise_q16_16[i] * at >> shift;
-        approach->target_pos[i] =
-            rounded(approach->pos_q16_16[i] + approach->cruise_q16_16[i] * (int32_t)(ramp - 1) / 2);
-    }
+    approach->broken = true;
 }

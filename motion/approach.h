@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * approach.h - from the present pose to a page's first pose, within a speed limit, ramped (player.md section 2, rule 6).
- * All joints take the same time, set by the longest way. Pure; caller-owned state; main loop only. */
+ * All joints take the same time, set by the longest way. Pure; caller-owned state; main loop only.
+ * RAM: sizeof(approach_t), 142 bytes on the AVR. */
 #ifndef APPROACH_H
 #define APPROACH_H
 
@@ -13,14 +14,15 @@
 
 typedef struct {
     uint32_t joints;
-    uint16_t tick, ramp_ticks, total_ticks;
-    int32_t pos_q16_16[PAGE_JOINTS];
-    int32_t cruise_q16_16[PAGE_JOINTS];   /* speed between the ramps */
-    uint16_t target_pos[PAGE_JOINTS];
+    uint16_t tick, total_ticks;
+    uint8_t ramp_ticks;
+    bool broken;                        /* slows down to a stand short of the target */
+    uint32_t made_q0_32, step_q0_32;    /* what every joint has made of its way; more of it each tick of RISE */
+    uint16_t from_pos[PAGE_JOINTS], target_pos[PAGE_JOINTS];
 } approach_t;
 
 /* Plans the way of `joints` (bit per joint) from from_pos to to_pos with at most `limit_deg_s` degrees/s (1..360).
- * Returns the number of ticks; 0 when every joint is within APPROACH_NEAR_POS already. */
+ * to_pos may be approach->target_pos. Returns the number of ticks; 0 when every joint is within APPROACH_NEAR_POS already. */
 uint16_t approach_start(approach_t *approach, const uint16_t from_pos[PAGE_JOINTS],
                         const uint16_t to_pos[PAGE_JOINTS], uint32_t joints, uint16_t limit_deg_s);
 

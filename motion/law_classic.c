@@ -309,15 +309,12 @@ static NOINLINE uint8_t end_play(player_t *player)
     if (player->section_ticks == 0) {
         return events;
     }
-    part_t part = part_of(1, player->section_ticks);
-    ramp_share_t first = ramp_share(1);
-    FOR_OWN_GOALS(player, joint, goal) {
-        player_classic_t *classic = &joint->classic;
-        int16_t carried = speed_left(player, classic);
-        int16_t change = share_of((int16_t)(classic->speed - carried), part);
-        classic->start_pos = classic->out_pos;
-        put(classic, goal, ramp_way((int16_t)(carried + (change >> 1)), first));
+    FOR_OWN_JOINTS(player, joint) {
+        joint->classic.carried = speed_left(player, &joint->classic);
+        joint->classic.start_pos = joint->classic.out_pos;
     }
+    player->tick = 1;
+    make_rise(player);
     return (uint8_t)(events | PLAYER_EV_OUTPUT);
 }
 
@@ -384,15 +381,16 @@ static int32_t speed_now(const player_t *player, const player_classic_t *classic
     if (player->section == SECTION_HOLD || num == 0 || player->tick == 0) {
         return 0;
     }
-    part_t part = part_of(player->tick, num);
-    if (player->section == SECTION_RISE) {
-        int16_t change = share_of((int16_t)(classic->speed - classic->carried), part);
-        return (int32_t)(classic->carried + change) * SPEED_UNIT_Q16_16;
+    if (player->section == SECTION_CRUISE || (player->section == SECTION_FALL && classic->through)) {
+        int16_t way = player->section == SECTION_CRUISE ? classic->main : classic->to_go;
+        return (int32_t)way * FIX_POS_ONE / (int32_t)num;
     }
-    if (player->section == SECTION_FALL && !classic->through) {
-        return (int32_t)(classic->speed - share_of(classic->speed, part)) * SPEED_UNIT_Q16_16;
+    int16_t from = classic->carried, to = classic->speed;
+    if (player->section == SECTION_FALL) {
+        from = to;
+        to = 0;
     }
-    return (int32_t)(player->section == SECTION_CRUISE ? classic->main : classic->to_go) * FIX_POS_ONE / (int32_t)num;
+    return (int32_t)(from + share_of((int16_t)(to - from), part_of(player->tick, num))) * SPEED_UNIT_Q16_16;
 }
 
 void classic_freeze(player_t *player)

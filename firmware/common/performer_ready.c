@@ -58,15 +58,17 @@ static performer_ready_t ask_one_joint(performer_t *performer)
     return PERFORMER_SETTINGS(performer)->fault_rule == SETTINGS_FAULT_LIMP ? READY_ASKING : READY_SILENT;
 }
 
-/* Where the approach leads: the first step's positions, or the pose of a move. Returns the joints it concerns. */
-static uint32_t first_pose(const performer_t *performer, uint16_t to_pos[PAGE_JOINTS])
+/* Where the approach leads: the first step's positions, or the pose of a move, which stands there already. Returns the
+ * joints it concerns. */
+static uint32_t take_first_pose(performer_t *performer)
 {
-    if (performer->move_deg_s != 0) {
-        memcpy(to_pos, performer->engine.approach.target_pos, sizeof performer->engine.approach.target_pos);
-        return performer->move_joints & performer->joints;
+    uint16_t *to_pos = performer->engine.approach.target_pos;
+    uint32_t joints = performer->move_joints;
+    if (performer->move_deg_s == 0) {
+        memcpy(to_pos, performer->goal_pos, sizeof performer->goal_pos);
+        joints = player_first_pose(performer->source, &performer->shape, performer->first_page, to_pos);
     }
-    memcpy(to_pos, performer->goal_pos, sizeof performer->goal_pos);
-    return player_first_pose(performer->source, &performer->shape, performer->first_page, to_pos) & performer->joints;
+    return joints & performer->joints & ~performer_layers_joints(performer);
 }
 
 static performer_ready_t plan_approach(performer_t *performer)
@@ -76,10 +78,9 @@ static performer_ready_t plan_approach(performer_t *performer)
     if (limit_deg_s == 0) {
         return READY_THERE;
     }
-    uint16_t to_pos[PAGE_JOINTS];
-    const uint32_t joints = first_pose(performer, to_pos) & ~performer_layers_joints(performer);
-    const uint16_t ticks =
-        approach_start(&performer->engine.approach, performer->goal_pos, to_pos, joints, limit_deg_s);
+    approach_t *approach = &performer->engine.approach;
+    const uint32_t joints = take_first_pose(performer);
+    const uint16_t ticks = approach_start(approach, performer->goal_pos, approach->target_pos, joints, limit_deg_s);
     if (ticks == 0) {
         return READY_THERE;
     }
