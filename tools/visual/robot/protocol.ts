@@ -150,3 +150,36 @@ export async function command(requests: Requests, what: Command): Promise<void> 
 export async function setTorque(requests: Requests, on: boolean, ids: readonly number[] = []): Promise<void> {
   await requests.ask(['@torque', on ? 'on' : 'off', ...ids].join(' '), { timeoutMs: PAGE_MS });
 }
+
+/** Goes slowly to a pose, ramped, at most `degreesPerSecond` (1..360). positions: servo units by ID, null: this joint stays
+ *  as it is. Refused with ERR 4 while something moves. */
+export async function movePose(requests: Requests, degreesPerSecond: number, positions: readonly (number | null)[]): Promise<void> {
+  const first = positions.findIndex((position) => position !== null);
+  if (first < 0) return;
+  const last = positions.findLastIndex((position) => position !== null);
+  const digits = positions.slice(first, last + 1).map((position) => (position === null ? '---' : position.toString(16).padStart(3, '0').toUpperCase()));
+  await requests.ask(`@move ${degreesPerSecond} ${first} ${digits.join('')}`);
+}
+
+/** ERR numbers of PROTOCOL.md that a program acts on. */
+export const REFUSED = { busy: 4, torqueOff: 8, notHere: 10 } as const;
+
+/** Shapes what plays, in Play: speed in percent (10..400). */
+export async function setRate(requests: Requests, percent: number): Promise<void> {
+  await requests.ask(`@rate ${percent}`);
+}
+
+/** Size about the centre pose, in percent (0..150), of these joints or all. */
+export async function setAmplitude(requests: Requests, percent: number, ids: readonly number[] = []): Promise<void> {
+  await requests.ask(['@amplitude', percent, ...ids].join(' '));
+}
+
+/** Towards the partner page: right 1..100, left -1..-100. */
+export async function setBlend(requests: Requests, percent: number): Promise<void> {
+  await requests.ask(`@blend ${percent}`);
+}
+
+/** Everything as stored. */
+export async function resetShape(requests: Requests): Promise<void> {
+  await requests.ask('@shape reset');
+}

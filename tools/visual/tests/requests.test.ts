@@ -3,7 +3,7 @@
 import { afterEach, expect, test } from 'vitest';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { askList, askPage, askPose, askVersion, askWhere, command, drive, play } from '../robot/protocol.ts';
+import { askList, askPage, askPose, askVersion, askWhere, command, drive, movePose, play, resetShape, setAmplitude, setBlend, setRate, setTorque } from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import { RobotBench, robotImages, settle } from './robot-bench.ts';
@@ -170,4 +170,40 @@ test('driven by a stick: @drive is in force, and ends with the play when the sti
   expect((await bench.until(askWhere(connection.requests))).fields.get('blend')).toBe('-30');
   await bench.run(6000); // nobody says @drive again: the watchdog of the firmware stops the walk
   expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+});
+
+test.each([['play', 24], ['edit', 25]] as const)('%s: a pose by @move, some joints let go and held again', async (image, seed) => {
+  const { bench, connection } = await ready(image, seed);
+  const { requests } = connection;
+  await bench.until(setTorque(requests, true));
+  const positions = new Array<number | null>(31).fill(null);
+  [positions[1], positions[3], positions[18]] = [600, 420, 500];
+  await bench.until(movePose(requests, 90, positions));
+  await expect(bench.until(movePose(requests, 90, positions))).rejects.toMatchObject({ code: 'refused', number: 4 });
+  await bench.run(3000);
+  const pose = await bench.until(askPose(requests));
+  for (const [id, wanted] of [[1, 600], [2, 512], [3, 420], [18, 500]] as const) {
+    expect(Math.abs((pose.find((joint) => joint.id === id)?.position ?? 0) - wanted), `servo ${id}`).toBeLessThan(4);
+  }
+  await bench.until(setTorque(requests, false, [1, 3, 5]));
+  const limp = async (): Promise<number[]> => (await bench.until(askPose(requests))).filter((joint) => !joint.torque).map((joint) => joint.id);
+  expect(await limp()).toEqual([1, 3, 5]);
+  await bench.until(setTorque(requests, true, [1, 3, 5]));
+  expect(await limp()).toEqual([]);
+  await bench.until(movePose(requests, 90, new Array<null>(31).fill(null))); // no joint: nothing is asked
+});
+
+test('a play is shaped, and shaped back', async () => {
+  const { bench, connection } = await ready('play', 26);
+  const { requests } = connection;
+  await bench.until(setRate(requests, 150));
+  await bench.until(setBlend(requests, -20));
+  await bench.until(setAmplitude(requests, 80));
+  const shape = async (): Promise<(string | undefined)[]> => {
+    const { fields } = await bench.until(askWhere(requests));
+    return ['rate', 'blend', 'amplitude'].map((name) => fields.get(name));
+  };
+  expect(await shape()).toEqual(['150', '-20', '80']);
+  await bench.until(resetShape(requests));
+  expect(await shape()).toEqual(['100', '0', '100']);
 });
