@@ -29,7 +29,7 @@ export function wrongImports(folder: string, file: string, source: string): stri
 }
 
 test.each(Object.keys(MAY))('%s imports only what lies below it', (folder) => {
-  const files = readdirSync(resolve(ROOT, folder)).filter((name) => name.endsWith('.ts'));
+  const files = readdirSync(resolve(ROOT, folder), { recursive: true, encoding: 'utf8' }).filter((name) => name.endsWith('.ts'));
   expect(files.length).toBeGreaterThan(0);
   const wrong = files.flatMap((name) => {
     const file = resolve(ROOT, folder, name);
@@ -49,7 +49,7 @@ test('an import upwards is found', () => {
 test('no listing of ours uses document, window or storage below the view', () => {
   const browser = /\b(document|window|localStorage|indexedDB)\b\./;
   for (const folder of ['model', 'robot', 'sim']) {
-    for (const name of readdirSync(resolve(ROOT, folder)).filter((n) => n.endsWith('.ts'))) {
+    for (const name of readdirSync(resolve(ROOT, folder), { recursive: true, encoding: 'utf8' }).filter((n) => n.endsWith('.ts'))) {
       expect(browser.test(readFileSync(resolve(ROOT, folder, name), 'utf8')), `${folder}/${name}`).toBe(false);
     }
   }
