@@ -2,18 +2,27 @@
 // Starts the page.
 
 import './view/theme.css';
-import { robotBody } from './app/assets.ts';
+import { motionInstance, motionLibrary, robotBody } from './app/assets.ts';
 import { RobotDesk } from './app/desk.ts';
+import type { EditorParts } from './app/editor.ts';
+import { documentFrom } from './model/document.ts';
+import { PageFormat } from './model/page-format.ts';
 import { AppShell } from './view/app-shell.ts';
 import { make } from './view/element.ts';
 
 async function start(): Promise<void> {
-  const desk = new RobotDesk(await robotBody());
+  const [body, parts] = await Promise.all([robotBody(), editorParts()]);
+  const desk = new RobotDesk(body, parts);
   const shell = new AppShell();
   shell.desk = desk;
   document.body.append(shell);
   await desk.start();
   keepOffline(desk);
+}
+
+async function editorParts(): Promise<EditorParts> {
+  const [scratch, player, library] = await Promise.all([motionInstance(), motionInstance(), motionLibrary()]);
+  return { format: new PageFormat(scratch), player, document: documentFrom(library, 'My motions') };
 }
 
 /** Keeps the whole page in the browser, once everything it needs now has been loaded. Only the built page has a service

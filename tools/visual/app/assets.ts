@@ -4,6 +4,7 @@
 
 import boardUrl from '../../../build/wasm/board.wasm?url';
 import bodyXmlUrl from '../../../build/wasm/body.xml?url';
+import motionUrl from '../../../build/wasm/motion.wasm?url';
 import mujocoUrl from '../../../build/wasm/mujoco.wasm.gz?url';
 import bootUrl from '../../../build/firmware/boot-cm5.hex?url';
 import editUrl from '../../../build/firmware/edit-cm5.hex?url';
@@ -11,6 +12,8 @@ import playUrl from '../../../build/firmware/play-cm5.hex?url';
 import motionsUrl from '../../../build/motions/motions.bin?url';
 import bodyUrl from '../../../build/wasm/body.json?url';
 import type { Body } from '../model/body.ts';
+import { Motion } from '../model/motion.ts';
+import type { MotionExports } from '../model/motion.ts';
 import type { Images } from '../sim/machine.ts';
 
 async function get(url: string): Promise<Response> {
@@ -26,6 +29,17 @@ export async function robotBody(): Promise<Body> {
 
 export async function boardModule(): Promise<WebAssembly.Module> {
   return WebAssembly.compile(await (await get(boardUrl)).arrayBuffer());
+}
+
+/** An instance of motion.wasm for one owner. */
+export async function motionInstance(): Promise<Motion> {
+  const { instance } = await WebAssembly.instantiate(await (await get(motionUrl)).arrayBuffer());
+  return new Motion(instance.exports as unknown as MotionExports); // made by board/motion_api.c; tests/editor-model.test.ts uses all of it
+}
+
+/** The motion library: what a robot fresh from the factory has, 65,536 bytes. */
+export async function motionLibrary(): Promise<Uint8Array> {
+  return new Uint8Array(await (await get(motionsUrl)).arrayBuffer());
 }
 
 export async function robotImages(image: 'play' | 'edit'): Promise<Images> {

@@ -12,7 +12,10 @@ import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Desk, DeskState, Floor, Hand, ImageName, PanelButton, Tab } from '../view/desk.ts';
+import { refusalText } from '../view/editor/texts.ts';
 import { Store } from '../view/store.ts';
+import { DocumentEditor } from './editor.ts';
+import type { EditorParts } from './editor.ts';
 import { doingText, errorText } from '../view/texts.ts';
 import { Listeners } from './listeners.ts';
 import { LastSaid } from './said.ts';
@@ -32,6 +35,7 @@ const START: DeskState = {
 export class RobotDesk implements Desk {
   readonly body: Body;
   readonly state = new Store<DeskState>(START);
+  readonly editor: DocumentEditor;
   private readonly frames = new Listeners<RobotState>();
   private readonly texts = new Listeners<Uint8Array>();
   private readonly simulated: SimulatedSource;
@@ -42,8 +46,12 @@ export class RobotDesk implements Desk {
   private typing = '';
   private readonly stick = new StickDrive(() => this.connection, () => this.walkPage(), (error) => this.fail(error));
 
-  constructor(body: Body) {
+  constructor(body: Body, parts: EditorParts) {
     this.body = body;
+    this.editor = new DocumentEditor(body, parts, {
+      changed: () => undefined,
+      refused: (refusal) => this.state.set({ said: { text: refusalText(refusal), tone: 'bad' } }),
+    });
     const events = {
       frame: (state: RobotState) => this.frames.tell(state),
       text: (bytes: Uint8Array) => this.hear(bytes),

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "player.h"
+#include "step_plan.h"
 
 enum { MARK_BYTES = 3 };
 
@@ -33,6 +34,19 @@ static uint8_t check_page(void *context, uint8_t page)
 }
 
 static const page_source_t source = { .read = read_page, .check = check_page };
+
+static const uint16_t layout[] = {
+    PAGE_BYTES, PAGE_COUNT, PAGE_JOINTS, PAGE_STEPS, PAGE_STEP_BYTES, PAGE_NAME_BYTES,
+    PAGE_AT_NAME, PAGE_AT_PLAY_COUNT, PAGE_AT_SCHEDULE, PAGE_AT_BLEND_RIGHT, PAGE_AT_BLEND_LEFT, PAGE_AT_STEPS,
+    PAGE_AT_PLAY_CODE, PAGE_AT_SPEED, PAGE_AT_ACCEL_TIME, PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE,
+    PAGE_AT_LINKED1_CODE, PAGE_AT_LINKED2_PAGE, PAGE_AT_LINKED2_CODE, PAGE_AT_CHECKSUM, PAGE_AT_COMPLIANCE, PAGE_AT_STEP0,
+    PAGE_STEP_AT_PAUSE, PAGE_STEP_AT_SPEED, PAGE_SCHEDULE_SPEED, PAGE_SCHEDULE_TIME, PAGE_SPEED_NOMINAL,
+    PAGE_POS_MAX, PAGE_POS_UNUSED, PAGE_POS_TORQUE_OFF,
+};
+
+const uint16_t *motion_api_layout(void) { return layout; }
+
+int motion_api_layout_count(void) { return (int)(sizeof layout / sizeof layout[0]); }
 
 uint8_t *motion_api_pages(void) { return api.pages[0]; }
 
@@ -67,6 +81,66 @@ uint16_t *motion_api_pose(void) { return api.pose; }
 uint32_t motion_api_first_pose(int page)
 {
     return is_page(page) ? player_first_pose(&source, NULL, (uint8_t)page, api.pose) : 0;
+}
+
+static bool is_step(int page, int step) { return is_page(page) && step >= 0 && step < (int)PAGE_STEPS; }
+
+/* Takes the joints that a step uses to its positions; returns the longest way. */
+static uint16_t go_to_step(uint16_t pose[PAGE_JOINTS], const uint8_t *page, uint8_t step)
+{
+    uint16_t longest = 0;
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+        uint16_t word = page_pos(page, step, joint);
+        if (page_pos_is_used(word)) {
+            uint16_t way = (uint16_t)(word > pose[joint] ? word - pose[joint] : pose[joint] - word);
+            longest = way > longest ? way : longest;
+            pose[joint] = word;
+        }
+    }
+    return longest;
+}
+
+static player_step_t step_at(const uint8_t *page, int step)
+{
+    const uint8_t *block = page + PAGE_AT_STEP0 + (unsigned)step * PAGE_STEP_BYTES;
+    return (player_step_t){
+        .page = 1, .step = (uint8_t)(step + 1), .steps = page[PAGE_AT_STEPS],
+        .schedule = page[PAGE_AT_SCHEDULE], .page_speed = page[PAGE_AT_SPEED], .accel_time = page[PAGE_AT_ACCEL_TIME],
+        .pause = block[PAGE_STEP_AT_PAUSE], .time = block[PAGE_STEP_AT_SPEED], .rate_percent = SHAPE_NORMAL,
+    };
+}
+
+int motion_api_step_ticks(int page, int step, int law)
+{
+    if (!is_step(page, step)) {
+        return -1;
+    }
+    const uint8_t *bytes = api.pages[page];
+    uint16_t pose[PAGE_JOINTS], way = 0, carry = STEP_PLAN_CARRY_START;
+    memcpy(pose, api.pose, sizeof pose);
+    for (int i = 0; i <= step; i++) {
+        way = go_to_step(pose, bytes, (uint8_t)i);
+    }
+    player_step_t asked = step_at(bytes, step);
+    if (law == 0) {
+        return step_plan_exact_ticks(&asked, way, &carry);
+    }
+    uint16_t ticks = step_plan_classic_ticks(&asked, way, &carry);
+    (void)step_plan_classic_ramp(asked.accel_time, &ticks);
+    return ticks;
+}
+
+int motion_api_pause_ticks(int page, int step, int law)
+{
+    uint16_t carry = STEP_PLAN_CARRY_START;
+    if (!is_step(page, step)) {
+        return -1;
+    }
+    player_step_t asked = step_at(api.pages[page], step);
+    if (asked.page_speed == 0) {
+        return -1;
+    }
+    return law ? step_plan_classic_hold(&asked, &carry) : step_plan_exact_hold(&asked, &carry);
 }
 
 int motion_api_start(int page, int law, int mode, int code, uint32_t present)

@@ -11,6 +11,11 @@
 
 #pragma GCC visibility push(default)
 
+/* Where things stand in a page, and its limits: page.h as numbers, in the order of layout[] in motion_api.c, which is the
+ * order of PAGE_LAYOUT in ../model/page-format.ts. motion_api_layout_count(): how many. */
+const uint16_t *motion_api_layout(void);
+int motion_api_layout_count(void);
+
 /* The motion area: 128 pages of 512 bytes. The page writes it; play and checks read it. */
 uint8_t *motion_api_pages(void);
 
@@ -30,6 +35,11 @@ uint16_t *motion_api_pose(void);
 
 /* Where step 1 of a page wants its joints: fills those places of the pose; returns their bits. */
 uint32_t motion_api_first_pose(int page);
+
+/* Ticks that a step (0..6) of a good page takes under a law (0 exact, 1 classic), and its pause; fractions of a tick are not
+ * carried. Before step 0 the joints stand as in the pose; it matters only for pages in speed base. -1: no such step. */
+int motion_api_step_ticks(int page, int step, int law);
+int motion_api_pause_ticks(int page, int step, int law);
 
 /* Begins a page. law: player_law_t (0 exact, 1 classic); mode: link_mode_t (0 latch, 1 hold); code: the call's code, 0
  * for a call by number; present: bit per joint that may be driven. Returns player_status_t, 0 = started. A play that is

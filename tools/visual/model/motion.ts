@@ -29,6 +29,8 @@ export interface Curve {
 export interface MotionExports {
   readonly memory: { readonly buffer: ArrayBuffer };
   _initialize(): void;
+  motion_api_layout(): number;
+  motion_api_layout_count(): number;
   motion_api_pages(): number;
   motion_api_check(page: number): number;
   motion_api_seal(page: number): void;
@@ -36,6 +38,8 @@ export interface MotionExports {
   motion_api_is_playable(page: number): number;
   motion_api_pose(): number;
   motion_api_first_pose(page: number): number;
+  motion_api_step_ticks(page: number, step: number, law: number): number;
+  motion_api_pause_ticks(page: number, step: number, law: number): number;
   motion_api_start(page: number, law: number, mode: number, code: number, present: number): number;
   motion_api_code(code: number): void;
   motion_api_curve(ticks: number): number;
@@ -51,6 +55,11 @@ export class Motion {
   constructor(api: MotionExports) {
     this.api = api;
     api._initialize();
+  }
+
+  /** Where things stand in a page: the numbers that page-format.ts gives their names. */
+  get layout(): readonly number[] {
+    return [...new Uint16Array(this.api.memory.buffer, this.api.motion_api_layout(), this.api.motion_api_layout_count())];
   }
 
   /** The 65,536 bytes of all pages, as they lie in flash; a view, good until the next call. */
@@ -90,6 +99,17 @@ export class Motion {
     this.pose.set(from);
     this.api.motion_api_first_pose(this.number(page));
     return this.pose.slice();
+  }
+
+  /** Ticks of a step (0..6) of a good page and of the pause behind it; the joints stand as in `from` before the page. */
+  stepTicks(page: number, step: number, from: ArrayLike<number>, law: Law = 'exact'): { move: number; pause: number } {
+    this.pose.set(from);
+    const number = this.number(page);
+    const lawNumber = law === 'classic' ? 1 : 0;
+    const move = this.api.motion_api_step_ticks(number, step, lawNumber);
+    const pause = this.api.motion_api_pause_ticks(number, step, lawNumber);
+    if (move < 0 || pause < 0) throw new RangeError(`no step ${step} in page ${page}`);
+    return { move, pause };
   }
 
   /** Begins a play from a pose (31 servo units). false: the page is damaged or has no action. */

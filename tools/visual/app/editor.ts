@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The editor: joins the document's store with motion.wasm and what is said to the person. The only writer of the store.
+
+import type { Body } from '../model/body.ts';
+import type { MotionDocument } from '../model/document.ts';
+import { pageOf } from '../model/document.ts';
+import { makeEdits } from '../model/edit.ts';
+import type { Edits } from '../model/edit.ts';
+import * as states from '../model/editor-state.ts';
+import type { EditorState, Selection } from '../model/editor-state.ts';
+import { JOINTS, Motion } from '../model/motion.ts';
+import type { Curve } from '../model/motion.ts';
+import { PageFormat } from '../model/page-format.ts';
+import { readPage } from '../model/page.ts';
+import type { PageView } from '../model/page.ts';
+import type { Refusal, Result } from '../model/result.ts';
+import type { JointPair } from '../model/step-edits.ts';
+import type { EditName, Transaction } from '../model/transaction.ts';
+import type { CurveOptions, Editor, Gesture } from '../view/editor-desk.ts';
+import { Store } from '../view/store.ts';
+
+const CURVE_TICKS = 4096;
+const MIDDLE = 512;
+
+/** What an editor begins with. */
+export interface EditorParts {
+  readonly format: PageFormat;
+  /** For this editor alone. */
+  readonly player: Motion;
+  readonly document: MotionDocument;
+}
+
+export interface EditorEvents {
+  /** A finished edit, undo or redo has made another document. */
+  changed(document: MotionDocument): void;
+  refused(refusal: Refusal): void;
+}
+
+/** Joints whose names differ only in their side. */
+export function jointPairs(body: Body): JointPair[] {
+  const servos = new Map(body.joints.map((joint) => [joint.name, joint.servo]));
+  return body.joints.flatMap((joint): JointPair[] => {
+    const left = joint.name.startsWith('right_') ? servos.get(joint.name.replace('right_', 'left_')) : undefined;
+    return left === undefined ? [] : [[joint.servo, left]];
+  });
+}
+
+export class DocumentEditor implements Editor {
+  readonly format: PageFormat;
+  readonly edits: Edits;
+  readonly pairs: readonly JointPair[];
+  readonly state: Store<EditorState>;
+  private readonly player: Motion;
+  private readonly events: EditorEvents;
+  private readonly views = new WeakMap<Uint8Array, PageView>();
+  /** Whose gesture is open, if one is. */
+  private holder: symbol | null = null;
+  private readonly loaded: (Uint8Array | null)[] = [];
+
+  constructor(body: Body, { format, player, document }: EditorParts, events: EditorEvents) {
+    this.format = format;
+    this.edits = makeEdits(format);
+    this.pairs = jointPairs(body);
+    this.player = player;
+    this.events = events;
+    this.state = new Store(states.startState(document));
+  }
+
+  page(page: number): PageView {
+    const bytes = pageOf(this.state.get().document, page);
+    const view = this.views.get(bytes) ?? readPage(this.format, bytes);
+    this.views.set(bytes, view);
+    return view;
+  }
+
+  dispatch(edit: Result<Transaction>): boolean {
+    if (!edit.ok) return this.refuse(edit.refusal);
+    this.become(states.dispatch(this.state.get(), edit.value));
+    return true;
+  }
+
+  gesture(label: EditName): Gesture {
+    this.become(states.beginGesture(this.state.get(), label));
+    const open = this.state.get().gesture;
+    if (!open) throw new Error('a gesture did not begin');
+    const mine = Symbol(label);
+    this.holder = mine;
+    const isOpen = (): boolean => this.holder === mine && this.state.get().gesture !== null;
+    return {
+      start: open.start,
+      change: (edit) => {
+        if (!edit.ok) return this.refuse(edit.refusal);
+        if (isOpen()) this.show(states.changeGesture(this.state.get(), edit.value));
+        return isOpen();
+      },
+      finish: () => isOpen() && this.become(states.finishGesture(this.state.get())),
+      cancel: () => isOpen() && this.show(states.cancelGesture(this.state.get())),
+    };
+  }
+
+  undo(): void {
+    this.become(states.undoOne(this.state.get()));
+  }
+
+  redo(): void {
+    this.become(states.redoOne(this.state.get()));
+  }
+
+  select(change: Partial<Selection>): void {
+    const state = { ...this.state.get(), ...change };
+    this.show(change.page === undefined || change.step !== undefined ? state : { ...state, step: 0, steps: new Set([0]) });
+  }
+
+  /** Another document takes the place of this one; its history begins anew. */
+  open(document: MotionDocument): void {
+    const { robot, law } = this.state.get();
+    this.show({ ...states.startState(document), robot, law });
+  }
+
+  /** What is known of the robot's pages. */
+  setRobot(robot: readonly (Uint8Array | null)[]): void {
+    this.state.set({ robot });
+  }
+
+  curve(page: number, options: CurveOptions = {}): Curve | null {
+    this.load();
+    const law = options.law ?? this.state.get().law;
+    const from = options.from ?? this.firstPose(page);
+    return this.player.start(page, from, { law, code: options.code ?? 0 }) ? this.player.curve(options.ticks ?? CURVE_TICKS) : null;
+  }
+
+  firstPose(page: number): Uint16Array {
+    this.load();
+    return this.player.firstPose(page, new Uint16Array(JOINTS).fill(MIDDLE));
+  }
+
+  /** The player has the document's pages; only those that changed are copied. */
+  private load(): void {
+    for (const [page, bytes] of this.state.get().document.pages.entries()) {
+      if (this.loaded[page] === bytes) continue;
+      this.player.setPage(page, bytes);
+      this.loaded[page] = bytes;
+    }
+  }
+
+  private refuse(refusal: Refusal): false {
+    this.events.refused(refusal);
+    return false;
+  }
+
+  private become(next: EditorState): void {
+    const before = this.state.get();
+    this.show(next);
+    if (next.history !== before.history) this.events.changed(next.document);
+  }
+
+  /** The cursor stays on a step that is there. */
+  private show(next: EditorState): void {
+    const count = readPage(this.format, pageOf(next.document, next.page)).steps.length;
+    const step = Math.max(0, Math.min(next.step, count - 1));
+    const steps = [...next.steps].every((index) => index < count) ? next.steps : new Set([step]);
+    this.state.set({ ...next, step, steps });
+  }
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Edits of whole pages and their headers, as values.
+
+import { isSamePage, pageOf } from './document.ts';
+import type { MotionDocument } from './document.ts';
+import type { PageFormat } from './page-format.ts';
+import { LINK_FIELDS, PARTNER_FIELDS, readPage, writePage } from './page.ts';
+import type { LinkField, PageView } from './page.ts';
+import { ok, refuse } from './result.ts';
+import type { Result } from './result.ts';
+import { changePage, editable } from './step-edits.ts';
+import { transaction } from './transaction.ts';
+import type { Change, EditName, Transaction } from './transaction.ts';
+
+/** What the header holds besides the name. */
+export type HeaderChange = Partial<Omit<PageView, 'name' | 'steps'>>;
+
+export interface PageTransfer {
+  /** Links of other pages to the page that moves lead to its new place. A page's links to itself always do. */
+  readonly linksFollow?: boolean;
+  /** The target may hold a page; it is lost (undo brings it back). */
+  readonly replace?: boolean;
+}
+
+const ALL_LINKS: readonly LinkField[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
+
+export function rename(format: PageFormat, document: MotionDocument, page: number, name: string): Result<Transaction> {
+  return changePage(format, 'rename', document, page, () => ok({ name }));
+}
+
+export function setHeader(format: PageFormat, document: MotionDocument, page: number, change: HeaderChange): Result<Transaction> {
+  return changePage(format, 'set-header', document, page, () => ok(change));
+}
+
+/** target 0: no link. */
+export function setLink(format: PageFormat, document: MotionDocument, page: number, link: LinkField, target: number): Result<Transaction> {
+  return changePage(format, 'set-link', document, page, () => ok({ [link]: target }));
+}
+
+/** The page with its links to `moved`'s keys leading to their values; the same object when there is none. */
+function relinked(format: PageFormat, bytes: Uint8Array, moved: ReadonlyMap<number, number>): Uint8Array {
+  if (format.isErased(bytes) || format.fault(bytes) !== null) return bytes;
+  const view = readPage(format, bytes);
+  const change = Object.fromEntries(ALL_LINKS.flatMap((link) => {
+    const target = moved.get(view[link]);
+    return view[link] !== 0 && target !== undefined ? [[link, target]] : [];
+  }));
+  if (Object.keys(change).length === 0) return bytes;
+  const after = writePage(format, bytes, change);
+  return after.ok ? after.value : bytes;
+}
+
+/** Both are pages of motions, and the source has contents. */
+function sourceOf(format: PageFormat, document: MotionDocument, from: number, to: number): Result<Uint8Array> {
+  if (to === 0) return refuse('trim-page');
+  if (!document.pages[to]) return refuse('no-such-page', String(to));
+  const source = editable(format, document, from);
+  if (!source.ok) return source;
+  return format.isEmpty(source.value) ? refuse('page-empty', String(from)) : source;
+}
+
+export function copyPage(format: PageFormat, document: MotionDocument, from: number, to: number, options: PageTransfer = {}): Result<Transaction> {
+  const source = sourceOf(format, document, from, to);
+  if (!source.ok) return source;
+  const before = pageOf(document, to);
+  if (from !== to && !format.isEmpty(before) && !options.replace) return refuse('page-in-use', String(to));
+  return ok(transaction('copy-page', [{ page: to, before, after: relinked(format, source.value, new Map([[from, to]])) }]));
+}
+
+export function movePage(format: PageFormat, document: MotionDocument, from: number, to: number, options: PageTransfer = {}): Result<Transaction> {
+  const source = sourceOf(format, document, from, to);
+  if (!source.ok) return source;
+  if (from === to) return ok(transaction('move-page', []));
+  if (!format.isEmpty(pageOf(document, to)) && !options.replace) return refuse('page-in-use', String(to));
+  const moved = new Map([[from, to]]);
+  const pages = new Map([[from, format.empty], [to, relinked(format, source.value, moved)]]);
+  return ok(transaction('move-page', rearranged(format, document, pages, options.linksFollow ? moved : null)));
+}
+
+/** The two exchange their places. */
+export function swapPages(format: PageFormat, document: MotionDocument, a: number, b: number, options: PageTransfer = {}): Result<Transaction> {
+  const first = editable(format, document, a);
+  const second = editable(format, document, b);
+  if (!first.ok) return first;
+  if (!second.ok) return second;
+  const moved = new Map([[a, b], [b, a]]);
+  const own = (bytes: Uint8Array, from: number, to: number): Uint8Array => relinked(format, bytes, options.linksFollow ? moved : new Map([[from, to]]));
+  const pages = new Map([[a, own(second.value, b, a)], [b, own(first.value, a, b)]]);
+  return ok(transaction('swap-pages', a === b ? [] : rearranged(format, document, pages, options.linksFollow ? moved : null)));
+}
+
+/** Changes that put these pages in; the links of all others follow `moved`. */
+function rearranged(format: PageFormat, document: MotionDocument, pages: ReadonlyMap<number, Uint8Array>, moved: ReadonlyMap<number, number> | null): Change[] {
+  return document.pages.map((before, page) => {
+    const after = pages.get(page) ?? (moved && page !== 0 ? relinked(format, before, moved) : before);
+    return { page, before, after };
+  });
+}
+
+/** Also a way out for a damaged page. */
+export function clearPages(format: PageFormat, document: MotionDocument, pages: Iterable<number>): Result<Transaction> {
+  return replacePages(format, document, new Map(Array.from(pages, (page) => [page, format.empty])), 'clear-page');
+}
+
+/** Puts whole pages in, whatever stood there: from a file, a robot, a backup. Page 0 too, unless it would be cleared: the trim of a robot. */
+export function replacePages(
+  format: PageFormat, document: MotionDocument, pages: ReadonlyMap<number, Uint8Array>, label: EditName = 'replace-pages',
+): Result<Transaction> {
+  const changes: Change[] = [];
+  for (const [page, after] of pages) {
+    const before = document.pages[page];
+    if (!before) return refuse('no-such-page', String(page));
+    if (page === 0 && label === 'clear-page') return refuse('trim-page');
+    if (after.length !== format.layout.pageBytes) return refuse('bad-number', `${after.length} bytes`);
+    changes.push({ page, before, after: isSamePage(before, after) ? before : after.slice() });
+  }
+  return ok(transaction(label, changes));
+}
+
+/** The first page 1..127 with nothing in it, from `from` on and around; 0: all are in use. */
+export function freePage(format: PageFormat, document: MotionDocument, from = 1): number {
+  const numbers = document.pages.map((_, i) => i).filter((page) => page > 0);
+  const ordered = [...numbers.filter((page) => page >= from), ...numbers.filter((page) => page < from)];
+  return ordered.find((page) => format.isEmpty(pageOf(document, page))) ?? 0;
+}
