@@ -2,6 +2,7 @@
 // Builds the page into build/visual. Relative addresses everywhere: the folder works from any sub-path of any host.
 import { defineConfig } from 'vite';
 import { mujocoWithoutEval } from './mujoco-plugin.ts';
+import { pythonHandedOver } from './python-plugin.ts';
 import { offline } from './offline-plugin.ts';
 
 export default defineConfig({
@@ -9,5 +10,5 @@ export default defineConfig({
   publicDir: false,
   plugins: [mujocoWithoutEval(), offline()],
   build: { outDir: '../../build/visual', emptyOutDir: true, target: 'es2022', assetsInlineLimit: 0, modulePreload: { polyfill: false }, chunkSizeWarningLimit: 1200 },
-  worker: { format: 'es', plugins: () => [mujocoWithoutEval()] },
+  worker: { format: 'es', plugins: () => [mujocoWithoutEval(), pythonHandedOver()] },
 });

@@ -9,8 +9,12 @@ import mujocoUrl from '../../../build/wasm/mujoco.wasm.gz?url';
 import bootUrl from '../../../build/firmware/boot-cm5.hex?url';
 import editUrl from '../../../build/firmware/edit-cm5.hex?url';
 import playUrl from '../../../build/firmware/play-cm5.hex?url';
+import pythonWasmUrl from '../../../build/wasm/pyodide.wasm.gz?url';
+import pythonLibraryUrl from '../../../build/wasm/python.zip?url';
 import motionsUrl from '../../../build/motions/motions.bin?url';
 import bodyUrl from '../../../build/wasm/body.json?url';
+import { FormatsClient } from '../files/formats-client.ts';
+import type { FileFormats } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
 import { Motion } from '../model/motion.ts';
 import type { MotionExports } from '../model/motion.ts';
@@ -54,4 +58,10 @@ export async function physics(): Promise<{ bodyXml: string; wasm: ArrayBuffer }>
   const [bodyXml, packed] = await Promise.all([get(bodyXmlUrl).then((r) => r.text()), get(mujocoUrl)]);
   const stream = packed.body?.pipeThrough(new DecompressionStream('gzip'));
   return { bodyXml, wasm: await new Response(stream).arrayBuffer() };
+}
+
+/** Motion files; Python (5 MB) is loaded at the first one. */
+export function fileFormats(): FileFormats {
+  const parts = { wasmUrl: new URL(pythonWasmUrl, document.baseURI).href, libraryUrl: new URL(pythonLibraryUrl, document.baseURI).href };
+  return new FormatsClient(parts, () => new Worker(new URL('../files/worker.ts', import.meta.url), { type: 'module', name: 'files' }));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Imports point down only: model < robot < sim; the view uses model and robot; app and main.ts join them all.
+// Imports point down only: model < robot < sim; model < files; the view uses model and robot; app and main.ts join them all.
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, relative, resolve } from 'node:path';
 import { expect, test } from 'vitest';
@@ -9,11 +9,12 @@ const MAY: Readonly<Record<string, readonly string[]>> = {
   model: ['model'],
   robot: ['robot', 'model'],
   sim: ['sim', 'robot', 'model'],
+  files: ['files', 'model'],
   view: ['view', 'robot', 'model'],
-  app: ['app', 'view', 'sim', 'robot', 'model'],
+  app: ['app', 'view', 'files', 'sim', 'robot', 'model'],
 };
 /** Packages that a layer may use; everything else is one of ours. */
-const PACKAGES: Readonly<Record<string, RegExp>> = { model: /^$/, robot: /^$/, sim: /^@mujoco\/mujoco$/, view: /^(three|@xterm)/, app: /^$/ };
+const PACKAGES: Readonly<Record<string, RegExp>> = { model: /^$/, robot: /^$/, sim: /^@mujoco\/mujoco$/, files: /^pyodide/, view: /^(three|@xterm)/, app: /^$/ };
 
 /** Names within the folder, those in folders of its own too. */
 function sourcesIn(folder: string): string[] {
@@ -21,7 +22,7 @@ function sourcesIn(folder: string): string[] {
 }
 
 export function importsOf(source: string): string[] {
-  return Array.from(source.matchAll(/(?:from|import)\s*\(?\s*'([^']+)'/g), (match) => match[1] ?? '');
+  return Array.from(source.matchAll(/\b(?:from|import)\s*\(?\s*'([^']+)'/g), (match) => match[1] ?? '');
 }
 
 export function wrongImports(folder: string, file: string, source: string): string[] {
@@ -53,7 +54,7 @@ test('an import upwards is found', () => {
 
 test('no listing of ours uses document, window or storage below the view', () => {
   const browser = /\b(document\.(body|create|get|query|add|documentElement)|(window|localStorage|indexedDB)\b\.)/; // a motion document is another
-  for (const folder of ['model', 'robot', 'sim']) {
+  for (const folder of ['model', 'robot', 'sim', 'files']) {
     for (const name of sourcesIn(folder)) {
       expect(browser.test(readFileSync(resolve(ROOT, folder, name), 'utf8')), `${folder}/${name}`).toBe(false);
     }

@@ -9,9 +9,7 @@ import click
 
 from m512 import ui
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError
-from m512.files import formats, storage
-from m512.files.page import Page
-from m512.files.wording import Findings, named_pages_text
+from m512.files import conversion, formats, storage
 
 
 def id_list(text):
@@ -22,10 +20,6 @@ def id_list(text):
         return joints_of(text.replace(" ", ","), {})
     except WordError as error:
         raise click.UsageError(str(error)) from None
-
-
-def damaged_pages(image):
-    return [(number, page.fault_text(image.kind)) for number, page in image.items() if page.fault(image.kind)]
 
 
 @click.command(epilog="""\b
@@ -72,8 +66,8 @@ def convert(source, target, bits, scale, joints, count, number, onto, damaged, m
 
         image, report = scale12.scaled(image, int(scale))
         losses += report
-    bad = _treat_damaged(image, damaged, notes)
-    image, lost = _fitted(image, count, source, target)
+    bad = conversion.treat_damaged(image, damaged, notes)
+    image, lost = conversion.fitted(image, count and int(count), source, target)
     losses += lost
     losses += formats.save(target, image, image.find(number) if number else None, mtn_version)
     if as_json:
@@ -84,40 +78,6 @@ def convert(source, target, bits, scale, joints, count, number, onto, damaged, m
         ui.say(f"note: {note}")
     for loss in losses:
         ui.say(f"loss: {loss}")
-
-
-def _treat_damaged(image, how, notes):
-    """Keeps or drops damaged pages, or refuses to go on; returns their numbers."""
-    bad = damaged_pages(image)
-    if bad and how == "ask":
-        raise RefusedError("damaged pages (--damaged keep or drop):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
-    found, few = Findings(), len(bad) <= 3
-    for page, why in bad:
-        done = "replaced by an empty page" if how == "drop" else "kept byte for byte"
-        found.add(page, "", f"damaged, {done}" + ("" if few else " (m512 pages FILE check says what is wrong)"), why if few else "")
-        if how == "drop":
-            image[page] = Page()
-    notes += found.lines()
-    return [page for page, _ in bad]
-
-
-def _fitted(image, count, source, target):
-    """The image with as many pages as the result has, and what that loses. Pages of the user's are lost only when asked."""
-    wanted = int(count) if count else _fitting(image, source, target)
-    if wanted == image.end:
-        return image, []
-    lost = image.beyond(wanted)
-    if lost and not count:
-        raise RefusedError(f"{named_pages_text(lost)}: no room among the {wanted} pages of this kind of board, nothing was written. "
-                           f"--pages 256 keeps all (for a board of 256 pages), --pages {wanted} leaves {'it' if len(lost) == 1 else 'them'} out")
-    return image.resized(wanted)
-
-
-def _fitting(image, source: Path, target: Path) -> int:
-    """Pages of the result when nothing was said: as the source has. A .mtn always has 255, whatever the robot has: one
-    is made from what there is, and read for a board of 128."""
-    from_mtn, to_mtn = (formats.BY_SUFFIX.get(path.suffix.lower()) == formats.MTN for path in (source, target))
-    return 128 if from_mtn and not to_mtn else image.end
 
 
 def _motions_of(word, bits):

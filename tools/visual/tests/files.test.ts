@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Files through the page's Python and through m512 on this machine: the same bytes, losses and sentences.
+import { execFile } from 'node:child_process';
+import { mkdtemp, readFile, readdir, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { promisify } from 'node:util';
+import { loadPyodide } from 'pyodide';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { LOCK } from '../files/lock.ts';
+import { PythonFormats } from '../files/python-formats.ts';
+import { SUFFIXES } from '../model/file-formats.ts';
+
+const ROOT = new URL('../../../', import.meta.url).pathname;
+const run = promisify(execFile);
+let formats: PythonFormats;
+let folder: string;
+
+beforeAll(async () => {
+  folder = await mkdtemp(join(tmpdir(), 'm512-files-'));
+  formats = new PythonFormats(await loadPyodide({ stdLibURL: join(ROOT, 'build/wasm/python.zip'), lockFileContents: LOCK }));
+});
+afterAll(() => rm(folder, { recursive: true }));
+
+interface Told {
+  readonly notes: string[];
+  readonly losses: string[];
+}
+
+/** m512 as it is installed here. */
+async function m512(...words: string[]): Promise<string> {
+  const env = { ...process.env, PYTHONPATH: join(ROOT, 'tools/m512/src') };
+  return (await run(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', ...words], { env, cwd: folder })).stdout;
+}
+
+async function library(): Promise<Uint8Array> {
+  return new Uint8Array(await readFile(join(ROOT, 'build/motions/motions.bin')));
+}
+
+test.each(Object.keys(SUFFIXES))('our library as %s: written and read as m512 does', async (suffix) => {
+  const image = await library();
+  await writeFile(join(folder, 'library.bin'), image);
+  const told = JSON.parse(await m512('convert', 'library.bin', `one${suffix}`, '--json')) as Told;
+  const saved = await formats.save(`one${suffix}`, image);
+  if (saved.kind !== 'saved') throw new Error(saved.text);
+  expect(Buffer.from(saved.file).equals(await readFile(join(folder, `one${suffix}`)))).toBe(true);
+  expect(saved.losses).toEqual(told.losses);
+
+  const back = JSON.parse(await m512('convert', `one${suffix}`, `back${suffix}.bin`, '--json')) as Told;
+  const opened = await formats.open(`one${suffix}`, saved.file);
+  if (opened.kind !== 'opened') throw new Error(opened.kind);
+  expect(Buffer.from(opened.image).equals(await readFile(join(folder, `back${suffix}.bin`)))).toBe(true);
+  expect([opened.notes, opened.losses]).toEqual([back.notes, back.losses]);
+});
+
+test('files of others, where they are there', async (context) => {
+  const data = join(process.env['M512_SHARED'] ?? join(ROOT, '../shared'), 'data');
+  const names = (await readdir(data).catch(() => [])).filter((name) => /\.(mtn|bin|hex)$/.test(name));
+  if (names.length === 0) context.skip('the shared data folder is absent (M512_SHARED says where it is)');
+  for (const name of names) {
+    const file = new Uint8Array(await readFile(join(data, name)));
+    const opened = await formats.open(name, file);
+    const wanted = await m512('convert', join(data, name), 'wanted.bin', '--force', '--json').then((text) => JSON.parse(text) as Told, (error: Error) => error);
+    if (opened.kind === 'refused') {
+      expect(wanted, name).toBeInstanceOf(Error);
+    } else if (opened.kind === 'opened' && !(wanted instanceof Error) && !opened.notes.some((note) => note.includes('scaled'))) {
+      const bytes = await readFile(join(folder, 'wanted.bin'));
+      expect(Buffer.from(opened.image).equals(bytes.subarray(0, 65536)) || bytes.length !== 65536, name).toBe(true);
+    }
+  }
+}, 120_000);
+
+test('a damaged file is refused with m512\'s sentence', async () => {
+  const hex = new TextEncoder().encode(':10E00000');
+  expect(await formats.open('x.hex', hex)).toEqual({ kind: 'refused', text: expect.stringContaining('end record is missing') });
+  expect(await formats.open('x.txt', new Uint8Array(3))).toEqual({ kind: 'refused', text: expect.stringContaining('x.txt') });
+  expect(await formats.save('x.doc', await library())).toEqual({ kind: 'refused', text: expect.stringContaining('suffix') });
+});
+
+test('pages of a larger board are asked about, never lost in silence', async () => {
+  const image = await library();
+  const large = new Uint8Array(131072);
+  large.set(image);
+  for (let page = 128; page < 256; page++) large.set(image.subarray(5 * 512, 6 * 512), page * 512);
+  expect(await formats.open('large.bin', large)).toEqual({ kind: 'no-room', pages: 'pages 128..255' });
+  const opened = await formats.open('large.bin', large, true);
+  expect(opened.kind === 'opened' && opened.losses.join()).toContain('128..255');
+});
+
+test('checks and differences in the words of m512', async () => {
+  const image = await library();
+  const other = image.slice();
+  other[7 * 512 + 100] = (other[7 * 512 + 100] ?? 0) ^ 1;
+  await writeFile(join(folder, 'a.bin'), image);
+  await writeFile(join(folder, 'b.bin'), other);
+  const said = await m512('diff', 'a.bin', 'b.bin').catch((error: { stdout: string }) => error.stdout);
+  expect((await formats.differences(image, other)).map(({ text }) => text).join('\n')).toBe(said.trim());
+  const found = await m512('pages', 'b.bin', 'check', '--json').catch((error: { stdout: string }) => error.stdout);
+  const wanted = (JSON.parse(found) as { page: number; problem?: string; note?: string }[]).map(({ page, problem, note }) => ({ page, text: problem ?? note, isFault: problem !== undefined }));
+  expect(await formats.check(other)).toEqual(wanted);
+});
