@@ -35,6 +35,7 @@ class Peer:
 
     def _open(self):
         self.master, self.slave = os.openpty()
+        os.set_blocking(self.master, False)
         tty.setraw(self.slave)
         self.path = os.ttyname(self.slave)
 
@@ -69,29 +70,28 @@ class Peer:
         with self.lock:
             if self.master is not None and self.cut_after is None and self.garble is None:
                 self.moved += len(data)
-                os.write(self.master, data)
+                self._write(data)
                 return
             for byte in data:
                 if self.master is None:
                     return
                 byte = self._count("<-", byte)
                 if byte is not None and self.master is not None:
-                    os.write(self.master, bytes([byte]))
+                    self._write(bytes([byte]))
+
+    def _write(self, data):
+        """Waits while the PC's end is full, as long as it takes a busy PC to read it."""
+        while data and self.running:
+            try:
+                data = data[os.write(self.master, data):]
+            except BlockingIOError:
+                time.sleep(QUANTUM)
 
     def _loop(self):
         while self.running:
-            master = self.master
-            data = b""
-            if master is not None:
-                try:
-                    if select.select([master], [], [], QUANTUM)[0]:
-                        data = os.read(master, 4096)
-                except (OSError, ValueError):
-                    pass
-            else:
-                time.sleep(QUANTUM)
+            self._wait()
             with self.lock:
-                for byte in data:
+                for byte in self._read():
                     byte = self._count("->", byte)
                     if self.master is None:
                         break
@@ -99,6 +99,20 @@ class Peer:
                         self.heard_at = time.monotonic()
                         self.on_byte(byte)
                 self.on_silence(time.monotonic() - self.heard_at)
+
+    def _wait(self):
+        """Until something may have come. Without the lock, so that the file number may belong to another file by now."""
+        try:
+            select.select([self.master], [], [], QUANTUM)
+        except (OSError, TypeError, ValueError):     # the cable is off
+            time.sleep(QUANTUM)
+
+    def _read(self):
+        """What has come; under the lock, so that it comes from this cable and not from a file that has its number now."""
+        try:
+            return os.read(self.master, 4096)
+        except (OSError, TypeError):                 # nothing, or the cable is off
+            return b""
 
     def on_byte(self, byte):
         raise NotImplementedError
