@@ -95,12 +95,19 @@ def flat(faces, view=VIEW):
     return [(corners, colour) for _, corners, colour in sorted(seen, key=lambda part: part[0])]
 
 
+def polygons(parts, **how):
+    """What flat() gives as a matplotlib collection; `how`: its further properties."""
+    from matplotlib.collections import PolyCollection
+
+    return PolyCollection([corners for corners, _ in parts], facecolors=[colour for _, colour in parts], edgecolors=(0, 0, 0, 0.35),
+                          linewidths=0.4, **how)
+
+
 def save_strip(path, scenes, view=VIEW, height_inches=2.6, columns=8, dpi=120):
     """Draws [(label, faces)] beside each other, a row of `columns` after the other, into a .png or .svg file."""
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
-    from matplotlib.collections import PolyCollection
 
     drawn = [(label, flat(faces, view)) for label, faces in scenes]
     points = numpy.concatenate([corners for _, parts in drawn for corners, _ in parts])
@@ -112,8 +119,7 @@ def save_strip(path, scenes, view=VIEW, height_inches=2.6, columns=8, dpi=120):
     for axis in axes.flat:
         axis.set_axis_off()
     for axis, (label, parts) in zip(axes.flat, drawn):
-        axis.add_collection(PolyCollection([corners for corners, _ in parts], facecolors=[colour for _, colour in parts],
-                                           edgecolors=(0, 0, 0, 0.35), linewidths=0.4))
+        axis.add_collection(polygons(parts))
         axis.plot((left, right), (0, 0), color="0.6", linewidth=0.8, zorder=0)
         axis.set_xlim(left, right)
         axis.set_ylim(low, high)

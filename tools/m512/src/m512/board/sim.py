@@ -21,19 +21,9 @@ from m512.errors import MissingError, RefusedError
 from m512.files.image import Image
 from m512.files.scale12 import HINT
 from m512.files.wording import named_pages_text
+from m512.places import build_folder, wheel_folder
 
 START_SECONDS = 10.0
-
-
-def build_folder() -> Optional[Path]:
-    """build/ of the source tree, if this package lies in one."""
-    given = os.environ.get("M512_BUILD")
-    if given:
-        return Path(given)
-    for folder in Path(__file__).resolve().parents:
-        if (folder / "linker" / "memory_map.h").exists():
-            return folder / "build"
-    return None
 
 
 def find_cm5sim() -> Path:
@@ -48,15 +38,6 @@ def find_cm5sim() -> Path:
             return place
     raise MissingError("the simulator cm5sim is not here: install its wheel beside m512 (pip install cm5sim-....whl of a release, or "
                        "tools/sim/python of a built source tree), or name the program in M512_CM5SIM")
-
-
-def wheel_folder() -> Optional[Path]:
-    """What the wheel cm5sim brings: firmware/, motions/; None if it is not installed."""
-    from importlib.util import find_spec
-
-    spec = find_spec("cm5sim")
-    folder = Path(spec.origin).parent / "robot" if spec and spec.origin else None
-    return folder if folder and folder.exists() else None
 
 
 def find_image(name: str) -> Path:

@@ -77,14 +77,15 @@ def page_seconds(page: Page, start: Optional[Sequence[int]] = None) -> float:
     return float(total / 128)
 
 
-def end_pose_before(image: Image, number: int) -> List[int]:
+def pose_before(image: Image, number: int) -> List[int]:
     """Where the joints stand when page `number` begins: as the page that leads to it leaves them; for a page that
-    repeats or follows itself as it leaves them itself; else in the middle."""
+    repeats or follows itself as it leaves them itself; else in its first step, where the board's approach brings them."""
     page, pose = image[number], [NEUTRAL] * JOINTS
     leads = [p for n, p in image.items() if n and n != number and p.next == number and p.is_playable and not p.fault(image.kind)]
-    source = leads[0] if leads else page if page.repeat > 1 or page.next == number else None
-    if source is None or source.fault(image.kind):
+    itself = page.repeat > 1 or page.next == number
+    source, steps = (leads[0], leads[0].steps) if leads else (page, page.steps if itself else 1)
+    if source.fault(image.kind):
         return pose
-    for step in range(source.steps):
+    for step in range(min(steps, source.steps)):
         pose = [Step(0, step + 1, source).target(j, pose[j]) for j in range(JOINTS)]
     return [min(p, 1023) for p in pose]

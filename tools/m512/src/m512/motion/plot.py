@@ -15,12 +15,12 @@ from m512.errors import FileError, MissingError
 from m512.files import storage
 from m512.files.image import Image
 from m512.files.page import TICKS_PER_SECOND, Page
-from m512.motion.player import CLASSIC, EXACT, end_pose_before, play
+from m512.motion.player import CLASSIC, EXACT, play, pose_before
 
 DEGREES_PER_UNIT = 300 / 1024
 FIT = 6                      # samples on either side through which a parabola is laid to tell a speed
 SAME_UNITS = 1               # two laws that are not further apart are drawn as one
-LABEL_SHARE = 0.025          # of the width: labels of steps that are closer than that are left out
+LABEL_SHARE = 0.0075         # of the width: a letter of a step's label; labels that would touch are left out
 
 
 @dataclass
@@ -29,7 +29,8 @@ class Curves:
 
     title: str
     seconds: List[float] = field(default_factory=list)
-    joints: Dict[int, List[Optional[int]]] = field(default_factory=dict)
+    joints: Dict[int, List[Optional[int]]] = field(default_factory=dict)     # those to be drawn
+    robot: Dict[int, List[Optional[int]]] = field(default_factory=dict)      # all of them
     marks: List[Tuple[float, str]] = field(default_factory=list)
     names: Dict[int, str] = field(default_factory=dict)
 
@@ -41,19 +42,19 @@ class Curves:
 
 
 def of_page(image: Image, number: int, law: str, seconds: float, joints: Optional[Sequence[int]] = None) -> Curves:
-    """A play that starts with the page, from the pose in which the page before would have left the joints (or the
-    middle), at most `seconds` long."""
+    """A play that starts with the page, from the pose in which the page before or the approach leaves the joints, at
+    most `seconds` long."""
     out = Curves(f"page {number} \"{image[number].title}\", {law} law", names=dict(image.joints))
     chosen = list(joints) if joints else [joint for joint in range(31) if not _is_filler(image[number], joint)]
-    out.joints = {joint: [] for joint in chosen}
+    out.robot = {joint: [] for joint in range(31)}
+    out.joints = {joint: out.robot[joint] for joint in chosen}
     before = None
-    for tick in play(image, number, law, end_pose_before(image, number), int(seconds * TICKS_PER_SECOND)):
+    for tick in play(image, number, law, pose_before(image, number), int(seconds * TICKS_PER_SECOND)):
         out.seconds.append(tick.number / TICKS_PER_SECOND)
         if (tick.page, tick.step) != before:
             before = (tick.page, tick.step)
             out.marks.append((out.seconds[-1], f"{tick.page}.{tick.step}"))
-        for joint in chosen:
-            values = out.joints[joint]
+        for joint, values in out.robot.items():
             values.append(tick.goals[joint] if tick.goals else values[-1] if values else None)
     if not out.seconds:
         raise FileError(f"page {number} plays nothing: {image[number].fault_text(image.kind) or 'it has no action'}")
@@ -81,13 +82,14 @@ def of_trace(path: Path, joints: Optional[Sequence[int]] = None) -> Curves:
                 columns[int(name[len(prefix):])] = name
     if "tick" not in names or not columns:
         raise FileError(f"{path}: a trace has a column tick and columns goal1, goal2 ... (or id1, id2 ...)")
-    chosen = [joint for joint in columns if not joints or joint in joints]
+    out.robot = {joint: [] for joint in columns}
+    out.joints = {joint: values for joint, values in out.robot.items() if not joints or joint in joints}
     try:
         for row in rows:
             out.seconds.append(int(row["tick"]) / TICKS_PER_SECOND)
-            for joint in chosen:
+            for joint, values in out.robot.items():
                 text = row[columns[joint]]
-                out.joints.setdefault(joint, []).append(int(float(text)) if text else None)
+                values.append(int(float(text)) if text else None)
     except (ValueError, TypeError):
         raise FileError(f"{path}: line {len(out.seconds) + 1} holds something else than numbers") from None
     return out
@@ -123,7 +125,7 @@ def speeds(seconds: Sequence[float], values: Sequence[Optional[int]], marks: Seq
 def draw(sets: Sequence[Curves], output: Path, strip: Optional[Callable[[Any, Curves], None]] = None) -> int:
     """Angles above, speeds below; a second set is drawn dashed, where it differs. Returns the number of joints drawn.
 
-    `strip(axis, curves)` may fill a row above the angles, with the same time axis (pictures of the robot's poses).
+    `strip(axis, curves)` fills a row above the angles, with the same time axis (strip.py: pictures of the robot's poses).
     """
     try:
         import matplotlib
@@ -136,23 +138,24 @@ def draw(sets: Sequence[Curves], output: Path, strip: Optional[Callable[[Any, Cu
         raise FileError(f"{output}: the suffix decides the kind: .png, .svg or .pdf")
     first, others = sets[0], sets[1:]
     moving = sorted({joint for curves in sets for joint in curves.moving()})
-    ratios = ([0.6] if strip else []) + [1.0, 1.0]
+    ratios = ([0.45] if strip else []) + [1.0, 1.0]
     figure, axes = pyplot.subplots(len(ratios), 1, sharex=True, squeeze=False, figsize=(11, 4 * sum(ratios)), layout="constrained",
                                    gridspec_kw={"height_ratios": ratios})
     above, below = axes[-2][0], axes[-1][0]
-    if strip:
-        strip(axes[0][0], first)
     for joint, (colour, style) in zip(moving, _styles(len(moving))):
         _joint(above, below, first, joint, colour, style)
         for curves in others:
             _joint(above, below, curves, joint, colour, ":", first)
     _marks((above, below), first)
-    above.set_title(first.title + "".join(f"; dotted where different: {curves.title.rpartition(', ')[2]}" for curves in others))
+    axes[0][0].set_title(first.title + "".join(f"; dotted where different: {curves.title.rpartition(', ')[2]}" for curves in others))
     above.set_ylabel("degrees from the centre")
     below.set_ylabel("degrees/s")
     below.set_xlabel("s")
     if moving:
         figure.legend(*above.get_legend_handles_labels(), fontsize=8, loc="outside right upper", ncols=1 + (len(moving) > 24))
+    if strip:
+        figure.draw_without_rendering()      # settles where the axes are
+        strip(axes[0][0], first)
     drawn = BytesIO()
     try:
         figure.savefig(drawn, format=output.suffix[1:].lower(), dpi=120,
@@ -201,7 +204,7 @@ def _marks(axes: Sequence[Any], curves: Curves) -> None:
     for at, text in curves.marks:
         for axis in axes:
             axis.axvline(at, color="0.85", linewidth=0.6, zorder=0)
-        if (at - last) / width > LABEL_SHARE:
+        if (at - last) / width > LABEL_SHARE * (len(text) + 1):
             axes[0].annotate(text, (at, 1), (2, -2), xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=7,
                              color="0.4", va="top")
             last = at
