@@ -7,10 +7,12 @@ import { ORIGIN, centreOfMass, hull, lowerFoot, marginInside, supportPolygon, tr
 import { angleIn, jointAngle, nearestPosition, placeLinks } from '../model/body.ts';
 import type { Angles, Body, Side } from '../model/body.ts';
 import { footLimb, handLimb, reach } from '../model/ik.ts';
-import { mirrorMap, mirroredPosition } from '../model/mirror.ts';
 import { STILL, add, length, rotate, subtract } from '../model/space.ts';
 import type { Vector } from '../model/space.ts';
 import { OBJECT, makeMujoco } from '../sim/mujoco.ts';
+import { jointPairs } from '../app/editor.ts';
+import { mirrored as inMirror } from '../model/step-edits.ts';
+import { makeFormat } from './motion-bench.ts';
 import { randomNumbers } from './robot-bench.ts';
 
 const BUILD = new URL('../../../build/wasm/', import.meta.url);
@@ -80,19 +82,14 @@ test('a straight leg that shall be 20 mm shorter bends its knee as the law of co
   expect(-(angles.get(14) ?? 0)).toBeCloseTo(Math.PI - inner(150) + (Math.PI - inner(130)), 3);
 });
 
-test('the mirror: odd and even servos, about 512; mirrored angles give mirrored places', () => {
-  const map = mirrorMap(body);
+test('the mirror of the edits is the mirror of this body: mirrored positions give mirrored places', async () => {
+  const { format } = await makeFormat();
   const random = randomNumbers(SEED + 2);
-  for (let servo = 1; servo <= 18; servo++) {
-    const partner = map.get(servo)!; // 18 joints
-    expect(partner.servo).toBe(servo % 2 ? servo + 1 : servo - 1);
-    expect(mirroredPosition(partner, 600)).toBe(1024 - 600); // tools/motions/README.md: mirrored about 512
-    expect(mirroredPosition(partner, 0)).toBe(1023);
-  }
-  const joint = new Map(body.joints.map((one) => [one.servo, one]));
   const positions = new Map(body.joints.map((one) => [one.servo, 300 + Math.floor(random() * 420)]));
-  const mirrored = new Map([...map].map(([servo, partner]) => [partner.servo, mirroredPosition(partner, positions.get(servo)!)]));
-  const places = (all: ReadonlyMap<number, number>) => placeLinks(body, ORIGIN, (one) => jointAngle(joint.get(one.servo)!, all.get(one.servo)!));
+  const mirrored = new Map(jointPairs(body).flatMap(([right, left]) =>
+    ([[right, left], [left, right]] as const).map(([to, from]) => [to, inMirror(format, positions.get(from)!)!] as const)));
+  expect(mirrored.size).toBe(18);
+  const places = (all: ReadonlyMap<number, number>) => placeLinks(body, ORIGIN, (one) => jointAngle(one, all.get(one.servo)!));
   const [here, there] = [places(positions), places(mirrored)];
   for (const part of ['forearm', 'foot', 'shank']) {
     const right = here.get(`right_${part}`)!.pos;
