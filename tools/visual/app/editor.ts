@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The editor: joins the document's store with motion.wasm and what is said to the person. The only writer of the store.
 
+import { jointPairs } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { pageOf } from '../model/document.ts';
@@ -34,15 +35,6 @@ export interface EditorEvents {
   /** A finished edit, undo or redo has made another document. */
   changed(document: MotionDocument): void;
   refused(refusal: Refusal): void;
-}
-
-/** Joints whose names differ only in their side. */
-export function jointPairs(body: Body): JointPair[] {
-  const servos = new Map(body.joints.map((joint) => [joint.name, joint.servo]));
-  return body.joints.flatMap((joint): JointPair[] => {
-    const left = joint.name.startsWith('right_') ? servos.get(joint.name.replace('right_', 'left_')) : undefined;
-    return left === undefined ? [] : [[joint.servo, left]];
-  });
 }
 
 export class DocumentEditor implements Editor {

@@ -61,6 +61,15 @@ export function servoPosition(joint: Joint, angleRad: number): number {
   return joint.zero + (joint.direction * angleRad) / RADIANS_PER_UNIT;
 }
 
+/** Servo IDs of the joints that mirror each other, right and left: their names differ only in their side. */
+export function jointPairs(body: Body): (readonly [right: number, left: number])[] {
+  const servos = new Map(body.joints.map((joint) => [joint.name, joint.servo]));
+  return body.joints.flatMap((joint) => {
+    const left = joint.name.startsWith('right_') ? servos.get(joint.name.replace('right_', 'left_')) : undefined;
+    return left === undefined ? [] : [[joint.servo, left] as const];
+  });
+}
+
 /** "right_hip_pitch" as people read it. */
 export function jointTitle(joint: Joint): string {
   return joint.name.replaceAll('_', ' ');

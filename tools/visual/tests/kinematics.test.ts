@@ -4,13 +4,12 @@
 import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { ORIGIN, centreOfMass, hull, lowerFoot, marginInside, supportPolygon, trunkOn } from '../model/balance.ts';
-import { angleIn, jointAngle, nearestPosition, placeLinks } from '../model/body.ts';
+import { angleIn, jointAngle, jointPairs, nearestPosition, placeLinks } from '../model/body.ts';
 import type { Angles, Body, Side } from '../model/body.ts';
 import { footLimb, handLimb, reach } from '../model/ik.ts';
 import { STILL, add, length, rotate, subtract } from '../model/space.ts';
 import type { Vector } from '../model/space.ts';
 import { OBJECT, makeMujoco } from '../sim/mujoco.ts';
-import { jointPairs } from '../app/editor.ts';
 import { mirrored as inMirror } from '../model/step-edits.ts';
 import { makeFormat } from './motion-bench.ts';
 import { randomNumbers } from './robot-bench.ts';
