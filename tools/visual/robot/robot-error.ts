@@ -10,6 +10,9 @@ export type RobotErrorCode =
   | 'foreign' // something else answers there
   | 'in-loader' // the boot loader waits at its prompt
   | 'cancelled' // somebody stopped it
+  | 'page-changed' // a page of the robot is no longer what it was when it was read: its number is in `words`
+  | 'page-unsaved' // the page in Edit's memory has edits of somebody else
+  | 'page-not-saved' // after a save the robot still has another page: its number is in `words`
   | 'typing'; // somebody is typing a line in the terminal
 
 /** Every rejection of this folder. `words`: what the board said, if it said anything. */

@@ -15,6 +15,9 @@ const ERRORS: Record<RobotErrorCode, string> = {
   foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
   'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
   cancelled: 'Stopped.',
+  'page-changed': 'This page has changed in the robot since it was read; nothing was written over it. Compare once more: page',
+  'page-unsaved': 'The page in Edit\'s memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.',
+  'page-not-saved': 'The robot took this page but does not have it now. Its flash may be worn out; your page is safe here. Try again: page',
   typing: 'A line is being typed in the terminal. Finish it with Enter first.',
 };
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Reads all pages of a robot: CRCs first, then only those that nobody here has already.
+
+import { askPageCrcs } from './page-requests.ts';
+import { askPage, crc16 } from './protocol.ts';
+import { RobotError } from './robot-error.ts';
+import type { Requests } from './requests.ts';
+
+export interface ReadOptions {
+  /** Versions of a page that may be the robot's: what its CRC fits needs not be read. */
+  readonly known?: (page: number) => readonly Uint8Array[];
+  readonly progress?: (done: number, total: number) => void;
+  readonly signal?: AbortSignal;
+}
+
+/** The 128 pages as they stand in flash. Rejects with RobotError; cancelled between two pages. */
+export async function readPages(requests: Requests, options: ReadOptions = {}): Promise<Uint8Array[]> {
+  const crcs = await askPageCrcs(requests);
+  const pages = crcs.map((crc, page) => options.known?.(page).find((bytes) => crc16(bytes) === crc));
+  const missing = pages.flatMap((bytes, page) => (bytes ? [] : [page]));
+  for (const [done, page] of missing.entries()) {
+    if (options.signal?.aborted) throw new RobotError('cancelled');
+    options.progress?.(done, missing.length);
+    pages[page] = await askPage(requests, page);
+  }
+  options.progress?.(missing.length, missing.length);
+  return pages as Uint8Array[]; // what was missing has been read
+}

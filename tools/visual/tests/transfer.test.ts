@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// Pages read from and written into the real Edit on the simulated board, in simulated time, bytes split at random. What the
+// robot has is read from its flash memory directly. CUTS=all tries every request of the write (a few minutes).
+import { afterEach, expect, test } from 'vitest';
+import { pageOf } from '../model/document.ts';
+import { writePage, readPage } from '../model/page.ts';
+import { Connection } from '../robot/connection.ts';
+import { readPages } from '../robot/page-read.ts';
+import { PageWrite } from '../robot/page-write.ts';
+import type { PageToWrite } from '../robot/page-write.ts';
+import { MOTIONS_ADDRESS } from '../sim/board.ts';
+import { libraryDocument, makeFormat, must } from './motion-bench.ts';
+import { RobotBench } from './robot-bench.ts';
+
+const { format } = await makeFormat();
+const library = await libraryDocument();
+const open: Connection[] = [];
+afterEach(async () => {
+  for (const connection of open.splice(0)) await connection.close();
+});
+
+async function ready(image: 'play' | 'edit', seed: number, prepare: (bench: RobotBench) => void = () => undefined) {
+  const bench = await RobotBench.make(image, seed);
+  prepare(bench);
+  const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text: () => undefined });
+  open.push(connection);
+  connection.connect();
+  await untilReady(bench, connection);
+  return { bench, connection };
+}
+
+async function untilReady(bench: RobotBench, connection: Connection): Promise<void> {
+  for (let i = 0; i < 400 && connection.state !== 'ready'; i++) await bench.run(25);
+  expect(connection.state).toBe('ready');
+}
+
+function flashPage(bench: RobotBench, page: number): Uint8Array {
+  return bench.board.readFlash().slice(MOTIONS_ADDRESS + 512 * page, MOTIONS_ADDRESS + 512 * page + 512);
+}
+
+/** A page with other contents that is good. */
+function another(bytes: Uint8Array, random: () => number): Uint8Array {
+  const page = readPage(format, bytes);
+  const steps = page.steps.length > 0 ? page.steps : [{ positions: new Array<number | null>(31).fill(null), time: 20, pause: 0 }];
+  const positions = (steps[0]?.positions ?? []).map((position, id) => (id % 5 === 2 ? Math.floor(random() * 1024) : position));
+  const change = { name: `n${Math.floor(random() * 1e6)}`, steps: steps.map((step, i) => (i === 0 ? { ...step, positions } : step)) };
+  return must(writePage(format, bytes, change));
+}
+
+test.each([['edit', 41], ['play', 42]] as const)('%s: all pages are read, only those that nobody has; within 20 s', async (image, seed) => {
+  const { bench, connection } = await ready(image, seed);
+  const started = bench.clock.now();
+  const all = await bench.until(readPages(connection.requests, { known: () => [format.empty, new Uint8Array(512).fill(0xff)] }), 60_000);
+  const first = bench.clock.now() - started;
+  expect(all).toEqual(library.pages);
+  const again: number[] = [];
+  const from = bench.clock.now();
+  const known = (page: number) => (page === 20 ? [] : [pageOf(library, page)]);
+  expect(await bench.until(readPages(connection.requests, { known, progress: (_, total) => again.push(total) }))).toEqual(library.pages);
+  expect(again.at(-1)).toBe(1);
+  const second = bench.clock.now() - from;
+  console.log(`${image}: the library's pages in ${(first / 1000).toFixed(1)} s, with one page changed in ${(second / 1000).toFixed(1)} s`);
+  expect(first).toBeLessThan(20_000);
+  expect(second).toBeLessThan(1000);
+}, 120_000);
+
+/** Twenty pages: of the library, empty, erased and damaged ones. */
+function twenty(bench: RobotBench): PageToWrite[] {
+  return Array.from({ length: 20 }, (_, i) => i * 6 + 1).map((page) => {
+    const before = flashPage(bench, page);
+    return { page, before, after: another(format.fault(before) === null ? before : format.empty, bench.random) };
+  });
+}
+
+function spoil(bench: RobotBench): void {
+  const at = (page: number): number => MOTIONS_ADDRESS + 512 * page;
+  bench.board.writeFlash(at(7), new Uint8Array(512).fill(0xff)); // erased
+  const damaged = flashPage(bench, 19);
+  damaged[100] = (damaged[100] ?? 0) ^ 4;
+  bench.board.writeFlash(at(19), damaged);
+}
+
+/** Pulls the cable in the request of that number: within its bytes, or up to 80 ms after them. */
+function pullAt(bench: RobotBench, request: number): { restore(): void; count(): number } {
+  const send = bench.board.send.bind(bench.board);
+  let count = 0;
+  let left = Number.POSITIVE_INFINITY;
+  bench.board.send = (who, bytes) => {
+    for (const byte of bytes) {
+      if (byte === 0x40 && ++count === request) left = Math.floor(bench.random() * 120);
+      if (left-- > 0) send(who, Uint8Array.of(byte));
+    }
+    if (count < request) return;
+    const late = left > 0 ? Math.floor(bench.random() * 80) : 0;
+    left = 0;
+    if (late === 0) bench.port.unplug();
+    else bench.clock.after(late, () => bench.port.unplug());
+  };
+  return {
+    restore: () => { bench.board.send = send; },
+    count: () => count,
+  };
+}
+
+test('twenty pages: what is written is in flash, nothing else is touched, and the account says so', async () => {
+  const { bench, connection } = await ready('edit', 43, spoil);
+  const pages = twenty(bench);
+  const others = Array.from({ length: 128 }, (_, page) => flashPage(bench, page));
+  const write = new PageWrite(pages, format.empty);
+  const started = bench.clock.now();
+  await bench.until(write.run(connection.requests), 60_000);
+  console.log(`twenty pages written and verified in ${((bench.clock.now() - started) / 1000).toFixed(1)} s`);
+  expect(write.isDone).toBe(true);
+  for (const { page, after } of pages) others[page] = after;
+  for (const [page, bytes] of others.entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
+}, 120_000);
+
+test('a page that changed in the robot meanwhile is not written over, nor are edits of somebody at the terminal', async () => {
+  const { bench, connection } = await ready('edit', 44);
+  const page = { page: 30, before: pageOf(library, 31), after: another(format.empty, bench.random) };
+  const other = new PageWrite([page], format.empty);
+  await expect(bench.until(other.run(connection.requests))).rejects.toMatchObject({ code: 'page-changed', words: '30' });
+  expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
+  await connection.write(new TextEncoder().encode('page 100\rname secret\r'));
+  await bench.run(3000);
+  const mine = new PageWrite([{ ...page, before: pageOf(library, 30) }], format.empty);
+  await expect(bench.until(mine.run(connection.requests))).rejects.toMatchObject({ code: 'page-unsaved' });
+  expect(mine.account.get(30)).toBe('sending');
+  expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
+}, 60_000);
+
+test('stopped between two pages: those before are new, those after old, and the next run goes on', async () => {
+  const { bench, connection } = await ready('edit', 45);
+  const pages = twenty(bench);
+  const write = new PageWrite(pages, format.empty);
+  const stop = new AbortController();
+  const changed = (): void => void ([...write.account.values()].filter((state) => state === 'written').length === 5 && stop.abort());
+  await expect(bench.until(write.run(connection.requests, { signal: stop.signal, changed }), 30_000)).rejects.toMatchObject({ code: 'cancelled' });
+  for (const [i, { page, before, after }] of pages.entries()) expect(flashPage(bench, page)).toEqual(i < 5 ? after : before);
+  await bench.until(write.run(connection.requests), 60_000);
+  expect(write.isDone).toBe(true);
+}, 120_000);
+
+/** Looks whether the account says what is in flash. */
+function checkAccount(bench: RobotBench, write: PageWrite, pages: readonly PageToWrite[], where: string): void {
+  for (const { page, before, after } of pages) {
+    const now = flashPage(bench, page);
+    const is = Buffer.from(now).equals(Buffer.from(after)) ? 'new' : Buffer.from(now).equals(Buffer.from(before)) ? 'old' : 'torn';
+    const state = write.account.get(page) ?? '';
+    const may: Record<string, readonly string[]> = { waiting: ['old'], sending: ['old'], saving: ['old', 'new'], written: ['new'], verified: ['new'] };
+    expect(may[state], `${where}, page ${page}: ${state}`).toContain(is);
+  }
+}
+
+test('the cable pulled at requests of a write of twenty pages: old or new, the account right, "try again" finishes', async () => {
+  const { bench, connection } = await ready('edit', 46, spoil);
+  let pages = twenty(bench);
+  const counter = pullAt(bench, Number.POSITIVE_INFINITY);
+  await bench.until(new PageWrite(pages, format.empty).run(connection.requests), 60_000);
+  const most = counter.count();
+  counter.restore();
+  const every = Array.from({ length: most }, (_, i) => i + 1);
+  const cuts = process.env['CUTS'] === 'all' ? every : every.filter(() => bench.random() < 10 / most);
+  for (const cut of cuts) {
+    pages = twenty(bench);
+    const write = new PageWrite(pages, format.empty);
+    const pull = pullAt(bench, cut);
+    const outcome = await bench.until(write.run(connection.requests).then(() => 'done', (error: { code: string }) => error.code), 60_000);
+    pull.restore();
+    checkAccount(bench, write, pages, `request ${cut}, ${outcome}`);
+    await bench.run(200);
+    await untilReady(bench, connection);
+    if (outcome !== 'done') await bench.until(write.run(connection.requests), 60_000);
+    expect(write.isDone, `request ${cut}`).toBe(true);
+    for (const { page, after } of pages) expect(flashPage(bench, page), `request ${cut}, page ${page}`).toEqual(after);
+  }
+  console.log(`${cuts.length} of ${most} requests cut`);
+}, 3_600_000);
