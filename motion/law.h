@@ -24,17 +24,23 @@
  */
 enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
 
+/* Whether `joint` is moved by the play `self`. */
+static inline bool law_owns(uint8_t self, const player_joint_t *joint)
+{
+    return !PLAYER_LAYERS || joint->owner == self;
+}
+
 /* Every joint that this play owns; the same with its goal.
  * NOLINTBEGIN(bugprone-macro-parentheses): what a declaration names takes no parentheses */
 #define FOR_OWN_JOINTS(player, joint_)                                                                               \
     const uint8_t self_ = (player)->self;                                                                            \
     for (player_joint_t *joint_ = (player)->joint, *end_ = joint_ + PAGE_JOINTS; joint_ < end_; joint_++)            \
-        if (joint_->owner == self_)
+        if (law_owns(self_, joint_))
 #define FOR_OWN_GOALS(player, joint_, goal_)                                                                         \
     const uint8_t self_ = (player)->self;                                                                            \
     uint16_t *goal_ = (player)->goal_pos;                                                                            \
     for (player_joint_t *joint_ = (player)->joint, *end_ = joint_ + PAGE_JOINTS; joint_ < end_; joint_++, goal_++)   \
-        if (joint_->owner == self_)
+        if (law_owns(self_, joint_))
 /* NOLINTEND(bugprone-macro-parentheses) */
 
 /* --- sequence.c --------------------------------------------------------------------------------------------------- */
@@ -75,7 +81,8 @@ uint8_t exact_tick(player_t *player, link_t *link);
 uint8_t exact_step_over(player_t *player, link_t *link);
 void exact_freeze(player_t *player);
 
-bool classic_is_here(void);
+/* Whether the play follows the classic law. Where that law is left out nothing behind this question is compiled. */
+#define LAW_IS_CLASSIC(player) (PLAYER_CLASSIC && (player)->law == PLAYER_LAW_CLASSIC)
 void classic_start(player_t *player, link_t *link);
 uint8_t classic_tick(player_t *player, link_t *link);
 void classic_step_over(player_t *player, link_t *link);

@@ -63,7 +63,7 @@ static uint16_t aim_joints(player_t *player, bool may_run_on)
     const uint16_t *coming = player->coming_pos, *next = player->looked_at;
     const uint8_t self = player->self;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, coming++, next++, used >>= 1) {
-        if (joint->owner != self) {
+        if (!law_owns(self, joint)) {
             continue;
         }
         player_classic_t *classic = &joint->classic;
@@ -122,7 +122,7 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
     const player_joint_t *const behind = &player->joint[end];
     const uint8_t self = player->self;
     for (player_joint_t *joint = &player->joint[first]; joint < behind; joint++) {
-        if (joint->owner == self) {
+        if (law_owns(self, joint)) {
             player_classic_t *classic = &joint->classic;
             classic->speed = ticks != 0 ? plan_speed(classic, &by) : skipped_speed(classic);
         }
@@ -330,11 +330,6 @@ static bool next_section(player_t *player)
     } else {
         return false;
     }
-    return true;
-}
-
-bool classic_is_here(void)
-{
     return true;
 }
 

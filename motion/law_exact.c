@@ -117,7 +117,7 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end, b
     const player_joint_t *const behind = &player->joint[end];
     const uint8_t self = player->self;
     for (player_joint_t *joint = &player->joint[first]; joint < behind; joint++, coming++) {
-        if (joint->owner != self) {
+        if (!law_owns(self, joint)) {
             continue;
         }
         player_exact_t *exact = &joint->exact;

@@ -38,7 +38,7 @@ uint8_t player_end(player_t *player)
 /* Whether the joints' words are those of the classic law at this moment. */
 static bool is_classic(const player_t *player)
 {
-    return player->law == PLAYER_LAW_CLASSIC && player->state == STATE_PLAYING;
+    return LAW_IS_CLASSIC(player) && player->state == STATE_PLAYING;
 }
 
 static void stand(const player_t *player, player_joint_t *joint, uint16_t pos)
@@ -75,7 +75,7 @@ void player_drop_joints(player_t *player, uint32_t joints)
         }
         player->looked_at[i] = PAGE_POS_UNUSED;
         player->coming_pos[i] = player->goal_pos[i];
-        if (player->joint[i].owner == player->self) {
+        if (law_owns(player->self, &player->joint[i])) {
             stand(player, &player->joint[i], player->goal_pos[i]);
         }
     }
@@ -86,14 +86,14 @@ void player_drop_joints(player_t *player, uint32_t joints)
 /* A layer takes its own joints only; the main play all that are not lent. */
 static void stand_at(player_t *player, const uint16_t pose_pos[PAGE_JOINTS], uint32_t present)
 {
-    bool is_main = player->self == PLAYER_OWNER_MAIN;
+    bool is_main = !PLAYER_LAYERS || player->self == PLAYER_OWNER_MAIN;
     player->present = present & ALL_JOINTS;
     player->joints = player->coming_joints = 0;
     uint32_t bit = 1;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, bit <<= 1) {
         uint16_t pos = pose_pos[i] > PAGE_POS_MAX ? PAGE_POS_MAX : pose_pos[i];
         player->coming_pos[i] = pos;
-        if (is_main && (player->lent & bit) != 0) {
+        if (PLAYER_LAYERS && is_main && (player->lent & bit) != 0) {
             player->joint[i].owner = PLAYER_OWNER_CODE;
         } else if (is_main || (present & bit) != 0) {
             player->goal_pos[i] = pos;
@@ -111,7 +111,7 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
     if (page == 0 || page >= PAGE_COUNT) {
         return PLAYER_ERR_RANGE;
     }
-    if (law == PLAYER_LAW_CLASSIC && !classic_is_here()) {
+    if (law == PLAYER_LAW_CLASSIC && !PLAYER_CLASSIC) {
         return PLAYER_ERR_LAW;
     }
     if (!sequence_start(player, link, page)) {
@@ -125,7 +125,7 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
     player->carry_q5_11 = STEP_PLAN_CARRY_START;
     player->state = STATE_PLAYING;
     stand_at(player, pose_pos, present);
-    law == PLAYER_LAW_CLASSIC ? classic_start(player, link) : exact_start(player, link);
+    LAW_IS_CLASSIC(player) ? classic_start(player, link) : exact_start(player, link);
     return PLAYER_OK;
 }
 
@@ -150,7 +150,7 @@ static uint8_t tick_resting(player_t *player, link_t *link)
         return events;
     }
     player->state = STATE_PLAYING;
-    if (player->law == PLAYER_LAW_CLASSIC) {
+    if (LAW_IS_CLASSIC(player)) {
         classic_thaw(player);
         classic_step_over(player, link);
         return events;
@@ -162,7 +162,7 @@ uint8_t player_tick(player_t *player, link_t *link)
 {
     switch (player->state) {
     case STATE_PLAYING:
-        return player->law == PLAYER_LAW_CLASSIC ? classic_tick(player, link) : exact_tick(player, link);
+        return LAW_IS_CLASSIC(player) ? classic_tick(player, link) : exact_tick(player, link);
     case STATE_BRAKING:
         return tick_braking(player);
     case STATE_RESTING:
@@ -178,7 +178,7 @@ uint8_t player_tick(player_t *player, link_t *link)
 
 static void slow_down(player_t *player)
 {
-    is_classic(player) ? classic_freeze(player) : exact_freeze(player);
+    LAW_IS_CLASSIC(player) && player->state == STATE_PLAYING ? classic_freeze(player) : exact_freeze(player);
     brake_start(player);
     player->state = STATE_BRAKING;
 }
@@ -208,7 +208,7 @@ void player_resume(player_t *player)
         return;
     }
     player->state = STATE_PLAYING;
-    if (player->law == PLAYER_LAW_CLASSIC) {
+    if (LAW_IS_CLASSIC(player)) {
         classic_thaw(player);
     }
 }

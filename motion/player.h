@@ -27,7 +27,7 @@ typedef enum {
     PLAYER_ERR_PAGE,         /* the page is damaged: page_status_t in player.fault, the page in .fault_page */
     PLAYER_ERR_EMPTY,        /* the page has no steps, or PLAY_COUNT 0 and nothing playable along its link */
     PLAYER_ERR_BUSY,         /* a play is on */
-    PLAYER_ERR_LAW           /* this image has no classic law (it links law_classic_none.c) */
+    PLAYER_ERR_LAW           /* this program has no classic law (PLAYER_CLASSIC 0) */
 } player_status_t;
 
 /* What a tick did; bits. */
@@ -74,6 +74,15 @@ typedef struct {
 
 /* Who moves a joint. */
 enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE };
+
+/* What a program may leave out: 0 for the classic law (law_classic.c is not linked) and for layers (every joint is the main
+ * play's). */
+#ifndef PLAYER_CLASSIC
+#define PLAYER_CLASSIC 1
+#endif
+#ifndef PLAYER_LAYERS
+#define PLAYER_LAYERS 1
+#endif
 
 typedef struct {
     uint16_t target_pos;        /* where the running step ends */

@@ -140,7 +140,7 @@ static uint8_t decide(player_t *player, link_t *link)
 /* The original looks ahead to the page that the link names, even when that one is then passed over or ends the play. */
 static bool looks_elsewhere(const player_t *player)
 {
-    return player->law == PLAYER_LAW_CLASSIC && player->look_page != player->coming.page;
+    return LAW_IS_CLASSIC(player) && player->look_page != player->coming.page;
 }
 
 /* Words of a step to looked_at. */
@@ -230,7 +230,7 @@ void sequence_take(player_t *player)
     player_joint_t *joint = player->joint;
     for (uint16_t *pos = player->coming_pos; pos < &player->coming_pos[PAGE_JOINTS]; pos++, joint++) {
         uint16_t from = *pos, to = *looked_at++;
-        bool is_own = joint->owner == self;
+        bool is_own = law_owns(self, joint);
         if (is_own) {
             joint->target_pos = from;
         }

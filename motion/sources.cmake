@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # What plays pages, relative to the top: every image, test and harness that plays links these. Beside them go
-# law_classic.c or law_classic_none.c, and shape_step.c or shape_step_none.c.
+# shape_step.c or shape_step_none.c. SMALL, for Edit, leaves out the classic law and layers: it needs SMALL_DEFINES too.
 set(M512_PLAYER_CORE motion/brake.c motion/law_exact.c motion/link.c motion/page.c motion/player.c motion/sequence.c motion/shape.c
     motion/step_plan.c)
 set(M512_PLAYER_FULL ${M512_PLAYER_CORE} motion/law_classic.c motion/shape_step.c motion/layers.c)
-set(M512_PLAYER_SMALL ${M512_PLAYER_CORE} motion/law_classic_none.c motion/shape_step_none.c)
+set(M512_PLAYER_SMALL ${M512_PLAYER_CORE} motion/shape_step_none.c)
+set(M512_PLAYER_SMALL_DEFINES PLAYER_CLASSIC=0 PLAYER_LAYERS=0)

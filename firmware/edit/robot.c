@@ -60,10 +60,11 @@ void robot_read(void)
 
 void robot_follow(void)
 {
-    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
+    uint32_t off = the_servos.present & ~the_servos.torque;   /* the next joint's bit is the lowest */
+    for (uint8_t joint = 0; off != 0; joint++, off >>= 1) {
         uint16_t pos = the_servos.present_pos[joint];
-        if (pos != SERVO_LINK_NO_POSE && robot_has(joint) && !servo_link_has(&the_servos.torque, joint)) {
-            session_set_pose(joint, (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+        if (((uint8_t)off & 1u) != 0 && pos != SERVO_LINK_NO_POSE) {
+            session_set_pose(joint, pos | PAGE_POS_TORQUE_OFF);
         }
     }
 }

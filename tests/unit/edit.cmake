@@ -24,7 +24,7 @@ if(NOT M512_AVR)
     target_include_directories(editor_stage PUBLIC ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/tests/unit
         ${CMAKE_SOURCE_DIR}/tests/fake ${CMAKE_SOURCE_DIR}/hal ${CMAKE_SOURCE_DIR}/motion ${CMAKE_SOURCE_DIR}/linker
         ${CMAKE_SOURCE_DIR}/firmware/common ${CMAKE_SOURCE_DIR}/firmware/edit ${UNITY_DIR})
-    target_compile_definitions(editor_stage PUBLIC CONSOLE_TX_BYTES=64 BUS_PACKET_BYTES=102 DXL_ANSWER_PARAMS=20
+    target_compile_definitions(editor_stage PUBLIC ${M512_PLAYER_SMALL_DEFINES} CONSOLE_TX_BYTES=64 BUS_PACKET_BYTES=102 DXL_ANSWER_PARAMS=20
         PERFORMER_EVENTS=7u SHELL_WORD_COLUMNS=8u SHELL_SHORT_COLUMNS=4u)
     target_compile_options(editor_stage PRIVATE ${M512_WARNINGS} -Wno-conversion -Wno-sign-conversion ${M512_SANITIZE})
     set_target_properties(editor_stage PROPERTIES EXPORT_COMPILE_COMMANDS OFF) # tools/dev/lint knows these from their own image
