@@ -2,7 +2,7 @@
 // Starts the page.
 
 import './view/theme.css';
-import { motionInstance, motionLibrary, robotBody } from './app/assets.ts';
+import { fileFormats, motionInstance, motionLibrary, robotBody } from './app/assets.ts';
 import { RobotDesk } from './app/desk.ts';
 import type { EditorParts } from './app/editor.ts';
 import { documentFrom } from './model/document.ts';
@@ -12,10 +12,11 @@ import { make } from './view/element.ts';
 
 async function start(): Promise<void> {
   const [body, parts] = await Promise.all([robotBody(), editorParts()]);
-  const desk = new RobotDesk(body, parts);
+  const desk = new RobotDesk(body, parts, fileFormats());
   const shell = new AppShell();
   shell.desk = desk;
   document.body.append(shell);
+  void desk.files.readAddress(window.location.hash);
   await desk.start();
   keepOffline(desk);
 }

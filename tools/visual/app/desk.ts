@@ -2,6 +2,7 @@
 // The robot on the desk: joins the simulated robot or a port with the protocol and the views. The only place that knows
 // them all.
 
+import type { FileFormats } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
 import type { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
@@ -17,6 +18,7 @@ import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
 import type { EditorParts } from './editor.ts';
 import { doingText, errorText } from '../view/texts.ts';
+import { DocumentFiles } from './files.ts';
 import { Listeners } from './listeners.ts';
 import { LastSaid } from './said.ts';
 import { StickDrive } from './stick.ts';
@@ -36,6 +38,7 @@ export class RobotDesk implements Desk {
   readonly body: Body;
   readonly state = new Store<DeskState>(START);
   readonly editor: DocumentEditor;
+  readonly files: DocumentFiles;
   private readonly frames = new Listeners<RobotState>();
   private readonly texts = new Listeners<Uint8Array>();
   private readonly simulated: SimulatedSource;
@@ -46,12 +49,13 @@ export class RobotDesk implements Desk {
   private typing = '';
   private readonly stick = new StickDrive(() => this.connection, () => this.walkPage(), (error) => this.fail(error));
 
-  constructor(body: Body, parts: EditorParts) {
+  constructor(body: Body, parts: EditorParts, formats: FileFormats) {
     this.body = body;
     this.editor = new DocumentEditor(body, parts, {
       changed: () => undefined,
       refused: (refusal) => this.state.set({ said: { text: refusalText(refusal), tone: 'bad' } }),
     });
+    this.files = new DocumentFiles(this.editor, formats);
     const events = {
       frame: (state: RobotState) => this.frames.tell(state),
       text: (bytes: Uint8Array) => this.hear(bytes),

@@ -32,6 +32,7 @@ export interface Edits {
   readonly swapPages: Bound<typeof pages.swapPages>;
   readonly clearPages: Bound<typeof pages.clearPages>;
   readonly replacePages: Bound<typeof pages.replacePages>;
+  readonly adoptPages: Bound<typeof pages.adoptPages>;
 }
 
 export function makeEdits(format: PageFormat): Edits {
@@ -42,5 +43,6 @@ export function makeEdits(format: PageFormat): Edits {
     interpolate: bind(format, steps.interpolate), rename: bind(format, pages.rename), setHeader: bind(format, pages.setHeader),
     setLink: bind(format, pages.setLink), copyPage: bind(format, pages.copyPage), movePage: bind(format, pages.movePage),
     swapPages: bind(format, pages.swapPages), clearPages: bind(format, pages.clearPages), replacePages: bind(format, pages.replacePages),
+    adoptPages: bind(format, pages.adoptPages),
   };
 }

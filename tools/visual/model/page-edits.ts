@@ -117,6 +117,25 @@ export function replacePages(
   return ok(transaction(label, changes));
 }
 
+/** Where pages that come from elsewhere find room: each at its own number where that is free, else at the next free one; their links to
+ *  each other follow, those to pages that did not come are cut. `placed`: number there -> number here. Refuses when there is no room. */
+export function adoptPages(
+  format: PageFormat, document: MotionDocument, pages: ReadonlyMap<number, Uint8Array>,
+): Result<{ readonly edit: Transaction; readonly placed: ReadonlyMap<number, number> }> {
+  const placed = new Map<number, number>();
+  let filled = document;
+  for (const [from, bytes] of pages) {
+    const to = freePage(format, filled, from);
+    if (to === 0) return refuse('no-room');
+    placed.set(from, to);
+    filled = { ...filled, pages: filled.pages.with(to, bytes) };
+  }
+  const moved = new Map(Array.from(document.pages, (_, page) => [page, placed.get(page) ?? 0]));
+  const here = new Map(Array.from(pages, ([from, bytes]) => [placed.get(from) ?? from, relinked(format, bytes, moved)]));
+  const edit = replacePages(format, document, here);
+  return edit.ok ? ok({ edit: edit.value, placed }) : edit;
+}
+
 /** The first page 1..127 with nothing in it, from `from` on and around; 0: all are in use. */
 export function freePage(format: PageFormat, document: MotionDocument, from = 1): number {
   const numbers = document.pages.map((_, i) => i).filter((page) => page > 0);

@@ -7,6 +7,7 @@ export type RefusalCode =
   | 'page-damaged' // its checksum or a field is wrong: repair it by putting another page there, or clear it
   | 'page-in-use' // the target holds a page already
   | 'page-empty' // there is nothing to take
+  | 'no-room' // not enough free pages
   | 'no-such-step'
   | 'steps-full' // seven steps are the most
   | 'bad-name' // 13 ASCII characters at most

@@ -8,6 +8,7 @@ import { promisify } from 'node:util';
 import { loadPyodide } from 'pyodide';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { LOCK } from '../files/lock.ts';
+import { decodeMotion, encodeMotion } from '../files/motion-link.ts';
 import { PythonFormats } from '../files/python-formats.ts';
 import { SUFFIXES } from '../model/file-formats.ts';
 
@@ -98,4 +99,21 @@ test('checks and differences in the words of m512', async () => {
   const found = await m512('pages', 'b.bin', 'check', '--json').catch((error: { stdout: string }) => error.stdout);
   const wanted = (JSON.parse(found) as { page: number; problem?: string; note?: string }[]).map(({ page, problem, note }) => ({ page, text: problem ?? note, isFault: problem !== undefined }));
   expect(await formats.check(other)).toEqual(wanted);
+});
+
+test('motions in an address: there and back, and nothing of one that was cut or changed on its way', async () => {
+  const image = await library();
+  const pages = new Map([20, 21, 127].map((page) => [page, image.slice(page * 512, (page + 1) * 512)]));
+  const text = await encodeMotion(pages);
+  expect(text).toMatch(/^[\w-]+$/);
+  expect(await decodeMotion(text)).toEqual(pages);
+  for (let length = 0; length < text.length; length += 7) expect(await decodeMotion(text.slice(0, length)), `cut at ${length}`).toBeNull();
+  for (const strange of ['', '!', 'AAAA', btoa('no motion')]) expect(await decodeMotion(strange), strange).toBeNull();
+});
+
+test('a link cannot fill the memory', async () => {
+  const bomb = new Blob([new Uint8Array(50_000_000)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+  const packed = Buffer.from(await new Response(bomb).arrayBuffer()).toString('base64url');
+  expect(packed.length).toBeLessThan(100_000);
+  expect(await decodeMotion(packed)).toBeNull();
 });

@@ -3,6 +3,7 @@
 
 import { ActionBar } from './action-bar.ts';
 import type { Desk, DeskState, Tab } from './desk.ts';
+import { FilesMenu } from './editor/files-menu.ts';
 import { define, make } from './element.ts';
 import { LabPane } from './lab-pane.ts';
 import { RemotePad } from './remote-pad.ts';
@@ -53,7 +54,7 @@ export class AppShell extends HTMLElement {
   private head(): HTMLElement {
     const theme = make('button', { 'aria-label': 'Light or dark', title: 'Light or dark', onclick: () => this.changeTheme() }, '◐');
     return make('header', {}, make('h1', {}, 'Motion512'),
-      make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours), make('a', { href: './licences.html' }, 'Licences'), theme);
+      make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours), this.give(new FilesMenu()), make('a', { href: './licences.html' }, 'Licences'), theme);
   }
 
   private changeTheme(): void {

@@ -9,6 +9,7 @@ import type { Command, PageEntry, Version, Where } from '../robot/protocol.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Editor } from './editor-desk.ts';
+import type { Files } from './files-desk.ts';
 import type { Store } from './store.ts';
 
 export type Source = 'simulated' | 'yours';
@@ -60,6 +61,7 @@ export interface Desk {
   readonly body: Body;
   readonly state: Store<DeskState>;
   readonly editor: Editor;
+  readonly files: Files;
   /** Up to 60 times a second. */
   onFrame(listener: (state: RobotState) => void): () => void;
   /** What the board says to a terminal. */

@@ -26,6 +26,7 @@ const REFUSALS: Record<RefusalCode, string> = {
   'page-empty': 'There is nothing in that page: page',
   'no-such-step': 'The page has no such step:',
   'steps-full': 'A page holds seven steps. Put the others into another page and link it as "next".',
+  'no-room': 'There are not enough free pages. Clear some first; nothing was changed.',
   'bad-name': 'A page name has at most 13 letters, digits and signs of ASCII:',
   'bad-number': 'A number is out of its range:',
   'no-such-joint': 'There is no such joint; servo IDs are 0 to 30:',

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Files and links: joins m512's formats with the editor's document.
+
+import { MOST_CHARACTERS, decodeMotion, encodeMotion } from '../files/motion-link.ts';
+import { imageOf, pageOf } from '../model/document.ts';
+import type { FileFormats, NoRoom, Opened, Refused, Suffix } from '../model/file-formats.ts';
+import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
+import { LINK_FIELDS, PARTNER_FIELDS, readPage } from '../model/page.ts';
+import { FILE_TEXTS } from '../view/editor/file-texts.ts';
+import type { Files, FilesState, SavedFile } from '../view/files-desk.ts';
+import { Store } from '../view/store.ts';
+import type { DocumentEditor } from './editor.ts';
+
+const NOTHING: FilesState = { busy: null, opened: null, tooLarge: null, sent: null, trouble: null };
+const HASH = '#motion=';
+
+export class DocumentFiles implements Files {
+  readonly state = new Store<FilesState>(NOTHING);
+  private readonly editor: DocumentEditor;
+  private readonly formats: FileFormats;
+  private last: { readonly name: string; readonly bytes: Uint8Array } | null = null;
+
+  constructor(editor: DocumentEditor, formats: FileFormats) {
+    this.editor = editor;
+    this.formats = formats;
+  }
+
+  open(name: string, bytes: Uint8Array): Promise<void> {
+    this.last = { name, bytes };
+    return this.read(name, bytes, false);
+  }
+
+  async openWithoutRest(): Promise<void> {
+    if (this.last) await this.read(this.last.name, this.last.bytes, true);
+  }
+
+  takeOver(withTrim: boolean): void {
+    const { opened } = this.state.get();
+    if (!opened) return;
+    const { document } = this.editor.state.get();
+    const pages = new Map(Array.from({ length: PAGE_COUNT }, (_, page) => [page, this.pageIn(opened.image, page)]));
+    if (!withTrim) pages.delete(0);
+    if (this.editor.dispatch(this.editor.edits.replacePages(document, pages))) this.dismiss();
+  }
+
+  dismiss(): void {
+    this.state.set(NOTHING);
+  }
+
+  async save(suffix: Suffix): Promise<SavedFile | null> {
+    const { document } = this.editor.state.get();
+    const name = `${document.name.replaceAll(/[^\p{L}\p{N} _-]/gu, '_')}${suffix}`;
+    const saved = await this.busy(FILE_TEXTS.writing(name), () => this.formats.save(name, imageOf(document)));
+    if (saved?.kind === 'refused') this.state.set({ trouble: saved.text });
+    return saved?.kind === 'saved' ? { name, bytes: saved.file, losses: saved.losses } : null;
+  }
+
+  async link(): Promise<string | null> {
+    const pages = this.reached(this.editor.state.get().page);
+    if (pages.size === 0) {
+      this.state.set({ trouble: FILE_TEXTS.nothingToSend });
+      return null;
+    }
+    const text = HASH + (await encodeMotion(pages));
+    const isTooLong = text.length > MOST_CHARACTERS;
+    this.state.set({ trouble: isTooLong ? FILE_TEXTS.linkTooLong : null });
+    return isTooLong ? null : text;
+  }
+
+  /** What stands in the address of the page; nothing when it holds no motion. */
+  async readAddress(hash: string): Promise<void> {
+    if (!hash.startsWith(HASH)) return;
+    const pages = await decodeMotion(hash.slice(HASH.length));
+    const { format } = this.editor;
+    const first = pages && [...pages.values()][0];
+    if (!pages || !first || [...pages.values()].some((bytes) => format.fault(bytes) !== null)) {
+      this.state.set({ trouble: FILE_TEXTS.badLink });
+      return;
+    }
+    this.state.set({ sent: { name: readPage(format, first).name || FILE_TEXTS.nameless, pages } });
+  }
+
+  addSent(): number {
+    const { sent } = this.state.get();
+    if (!sent) return 0;
+    const adopted = this.editor.edits.adoptPages(this.editor.state.get().document, sent.pages);
+    if (!this.editor.dispatch(adopted.ok ? { ok: true, value: adopted.value.edit } : adopted) || !adopted.ok) return 0;
+    const page = [...adopted.value.placed.values()][0] ?? 0;
+    this.editor.select({ page });
+    this.dismiss();
+    return page;
+  }
+
+  private async read(name: string, bytes: Uint8Array, leaveOut: boolean): Promise<void> {
+    const answer = await this.busy(FILE_TEXTS.reading(name), () => this.formats.open(name, bytes, leaveOut));
+    if (answer) this.state.set(this.judged(name, answer));
+  }
+
+  private judged(name: string, answer: Opened | NoRoom | Refused): Partial<FilesState> {
+    switch (answer.kind) {
+      case 'refused': return { trouble: answer.text };
+      case 'no-room': return { tooLarge: { name, pages: answer.pages } };
+      case 'opened': {
+        const { format } = this.editor;
+        const { image, notes, losses } = answer;
+        const count = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => this.pageIn(image, i + 1)).filter((bytes) => this.holdsSteps(bytes)).length;
+        return { tooLarge: null, opened: { name, image, notes, losses, count, hasTrim: !format.isEmpty(this.pageIn(image, 0)) } };
+      }
+      default: return answer satisfies never;
+    }
+  }
+
+  /** Steps, or something damaged that may have been some. */
+  private holdsSteps(bytes: Uint8Array): boolean {
+    const { format } = this.editor;
+    return !format.isErased(bytes) && (format.fault(bytes) !== null || readPage(format, bytes).steps.length > 0);
+  }
+
+  /** One thing at a time; trouble in words, never thrown. Null: it went wrong. */
+  private async busy<T>(words: string, deed: () => Promise<T>): Promise<T | null> {
+    this.state.set({ ...NOTHING, busy: words });
+    try {
+      return await deed();
+    } catch (error) {
+      this.state.set({ trouble: FILE_TEXTS.noPython(error instanceof Error ? error.message : String(error)) });
+      return null;
+    } finally {
+      this.state.set({ busy: null });
+    }
+  }
+
+  private pageIn(image: Uint8Array, page: number): Uint8Array {
+    return image.subarray(page * PAGE_BYTES, (page + 1) * PAGE_BYTES);
+  }
+
+  /** The page and all that it leads to, the page itself first. */
+  private reached(start: number): Map<number, Uint8Array> {
+    const { document } = this.editor.state.get();
+    const { format } = this.editor;
+    const found = new Map<number, Uint8Array>();
+    const ahead = [start];
+    for (let page = ahead.shift(); page !== undefined; page = ahead.shift()) {
+      const bytes = pageOf(document, page);
+      if (page === 0 || found.has(page) || format.isEmpty(bytes) || format.fault(bytes) !== null) continue;
+      found.set(page, bytes);
+      const view = readPage(format, bytes);
+      ahead.push(...[...LINK_FIELDS, ...PARTNER_FIELDS].map((field) => view[field]));
+    }
+    return found;
+  }
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Every sentence about files and links.
+
+export const FILE_TEXTS = {
+  reading: (name: string): string => `Reading ${name} …`,
+  writing: (name: string): string => `Making ${name} …`,
+  nothingToSend: 'This page is empty or damaged: there is nothing to send. Choose another page.',
+  linkTooLong: 'This page leads to more pages than fit into an address. Save a file and send that.',
+  badLink: 'The link holds no whole motion; it was cut on its way. Ask for it again.',
+  nameless: 'a motion without a name',
+  noPython: (why: string): string => `The part of this page that reads files could not be loaded (${why}). Try again; nothing was changed.`,
+  opened: (count: number): string => `${count === 1 ? '1 motion page' : `${count} motion pages`}. They will take the places of all pages that are here now; Undo brings those back.`,
+  trim: 'Take page 0 too: the trim of the robot that the file was made on. Leave it out unless that robot is yours.',
+  tooLarge: (pages: string): string => `It was made for a robot with 256 pages: ${pages} have no room here.`,
+  sent: (name: string, count: number): string => `Somebody sent you “${name}” (${count === 1 ? '1 page' : `${count} pages`}). It goes into free pages; nothing of yours is touched.`,
+  linkCopied: 'The link is in the clipboard. The motion itself is in it; nothing was sent anywhere.',
+  linkShown: 'Copy this link. The motion itself is in it; nothing was sent anywhere.',
+  losses: (name: string): string => `${name} cannot hold everything:`,
+} as const;

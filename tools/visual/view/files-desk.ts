@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Files and links as the views see them. app/files.ts is behind it.
+
+import type { Suffix } from '../model/file-formats.ts';
+import type { Store } from './store.ts';
+
+/** A motion file that was read, before anything of it is taken over. */
+export interface OpenedFile {
+  readonly name: string;
+  /** 65,536 bytes. */
+  readonly image: Uint8Array;
+  readonly notes: readonly string[];
+  readonly losses: readonly string[];
+  /** Pages of motions in it. */
+  readonly count: number;
+  /** It brings a page 0: the trim of the robot that it was made on. */
+  readonly hasTrim: boolean;
+}
+
+/** Motions that came in the address of the page. */
+export interface SentMotion {
+  readonly name: string;
+  readonly pages: ReadonlyMap<number, Uint8Array>;
+}
+
+export interface FilesState {
+  /** What is being done, in words; null: nothing. */
+  readonly busy: string | null;
+  readonly opened: OpenedFile | null;
+  /** A file with pages that have no room among 128, and which. */
+  readonly tooLarge: { readonly name: string; readonly pages: string } | null;
+  readonly sent: SentMotion | null;
+  /** One sentence for what went wrong. */
+  readonly trouble: string | null;
+}
+
+export interface SavedFile {
+  readonly name: string;
+  readonly bytes: Uint8Array;
+  readonly losses: readonly string[];
+}
+
+export interface Files {
+  readonly state: Store<FilesState>;
+  open(name: string, bytes: Uint8Array): Promise<void>;
+  /** The same file, without the pages that have no room. */
+  openWithoutRest(): Promise<void>;
+  /** All its pages take the places of the document's: one undo step. */
+  takeOver(withTrim: boolean): void;
+  /** Puts what was opened or sent away; nothing of it was taken. */
+  dismiss(): void;
+  /** Null: refused, `trouble` says why. */
+  save(suffix: Suffix): Promise<SavedFile | null>;
+  /** The address that holds the selected page and those that it leads to; null: it has none, or too many; `trouble` says which. */
+  link(): Promise<string | null>;
+  /** Puts what was sent into free pages; returns the number of the first, 0: there was no room. */
+  addSent(): number;
+}
