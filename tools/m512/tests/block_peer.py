@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Our loader's line shell and block protocol, made from its description, with a line that can be disturbed."""
 import binascii
-import time
 
-from pty_peer import Peer
+from pty_peer import PtyPeer
+from virtual_peer import VirtualPeer
 
 PROMPT = b"\r\n - "
 APP, RESET, PROMPTED, SESSION = range(4)
@@ -13,7 +13,7 @@ def crc16(data):
     return binascii.crc_hqx(data, 0xFFFF)
 
 
-class BlockPeer(Peer):
+class BlockBoard:
     def __init__(self, flash=None, board=1, state=PROMPTED, presses_mode=True):
         self.flash = bytearray(flash or b"\xff" * 0x20000)
         self.eeprom = bytearray(b"\xff" * 4096)
@@ -25,13 +25,12 @@ class BlockPeer(Peer):
         super().__init__()
 
     def press_mode(self):
-        with self.lock:
-            self.state, self.since, self.last, self.frame = RESET, time.monotonic(), 0, None
-            self.line.clear()
-            self.send(b"\xff")
+        self.state, self.since, self.last, self.frame = RESET, self.now(), 0, None
+        self.line.clear()
+        self.send(b"\xff")
 
     def on_silence(self, seconds):
-        if self.state == RESET and time.monotonic() - self.since > 0.06:
+        if self.state == RESET and self.now() - self.since > 0.06:
             self.state = PROMPTED if self.last == 0x23 else APP
             if self.state == PROMPTED:
                 self.send(b"\r\n\n SYSTEM O.K. (Motion512 Boot loader V1.00)" + PROMPT)
@@ -120,3 +119,11 @@ class BlockPeer(Peer):
                 self.send(PROMPT)
             return
         self._answer(command, number, status, data)
+
+
+class BlockPeer(BlockBoard, VirtualPeer):
+    pass
+
+
+class BlockPtyPeer(BlockBoard, PtyPeer):
+    pass

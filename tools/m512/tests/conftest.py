@@ -42,8 +42,13 @@ def data():
 
 @pytest.fixture
 def m512(monkeypatch):
-    """m512("convert", "a", "b") -> click result: runs a command in this process."""
+    """m512("convert", "a", "b") -> click result: runs a command in this process; peer://... is a board of virtual_peer.py."""
+    from m512.board import link, motions
     from m512.cli import main
+    from virtual_peer import open_port
+
+    monkeypatch.setattr(link, "Link", open_port)
+    monkeypatch.setattr(motions, "Link", open_port)
 
     def run(*args, input=None):
         result = separate_runner().invoke(main, [str(arg) for arg in args], input=input)

@@ -4,9 +4,8 @@
 What a careless PC tool would break is broken here too, and noted in `hurt`: its own section overwritten, a line of 80
 characters ended by CR, the type-ahead ring overrun.
 """
-import time
-
-from pty_peer import Peer
+from pty_peer import PtyPeer
+from virtual_peer import VirtualPeer
 
 WINDOW, LED_TIME, SILENCE = 0.060, 0.100, 0.111
 BANNER = b"\r\n\n SYSTEM O.K. (CM5 Boot loader V1.31)"
@@ -15,14 +14,14 @@ SEPARATORS = bytes(range(0x20, 0x30)) + b"\t"
 APP, RESET, LEDS, PROMPTED, READY, LOADING, EEPROM_DATA = range(7)
 
 
-class FactoryPeer(Peer):
+class FactoryBoard:
     def __init__(self, flash=None, state=PROMPTED, presses_mode=True):
         self.flash = bytearray(flash or b"\xff" * 0x20000)
         self.eeprom = bytearray(b"\xff" * 4096)
         self.eeprom[0xFFF] = 0x11
         self.before = bytes(self.flash)
         self.hurt, self.downloads, self.words, self.mails = [], [], [], []
-        self.state, self.since, self.presses_mode = state, time.monotonic(), presses_mode
+        self.state, self.since, self.presses_mode = state, 0.0, presses_mode
         self.line, self.last, self.dump_at, self.page = bytearray(), 0, 0, bytearray(256)
         self.app_heard = bytearray()
         self.dead_pages = set()        # flash that does not take the data
@@ -31,18 +30,17 @@ class FactoryPeer(Peer):
     # Start
 
     def press_mode(self):
-        with self.lock:
-            self.state, self.since, self.last = RESET, time.monotonic(), 0
-            self.line.clear()
-            self.send(b"\xff")
-            if self.eeprom[0xFF4] == 0xAA:       # the mailbox
-                at = 0xE000 + 512 * self.eeprom[0xFF5]
-                self.flash[at:at + 512] = self.eeprom[0x800:0xA00]
-                self.mails.append(self.eeprom[0xFF5])
-                self.eeprom[0xFF4] = 0x55
+        self.state, self.since, self.last = RESET, self.now(), 0
+        self.line.clear()
+        self.send(b"\xff")
+        if self.eeprom[0xFF4] == 0xAA:       # the mailbox
+            at = 0xE000 + 512 * self.eeprom[0xFF5]
+            self.flash[at:at + 512] = self.eeprom[0x800:0xA00]
+            self.mails.append(self.eeprom[0xFF5])
+            self.eeprom[0xFF4] = 0x55
 
     def on_silence(self, seconds):
-        now = time.monotonic()
+        now = self.now()
         if self.state == RESET and now - self.since > WINDOW:
             stays = self.last == 0x23 or self.eeprom[0xFFF] == 0xFF
             self.state, self.since = (LEDS if stays else APP), now
@@ -208,3 +206,11 @@ class FactoryPeer(Peer):
                 self.eeprom[(self.address + k) % 4096] = value
             self.state = PROMPTED
             self.send(b"\r\n O.K." + PROMPT)
+
+
+class FactoryPeer(FactoryBoard, VirtualPeer):
+    pass
+
+
+class FactoryPtyPeer(FactoryBoard, PtyPeer):
+    pass

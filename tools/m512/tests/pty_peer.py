@@ -1,25 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""A board on a pty, played by a thread: bytes in, bytes out, silence, and a cable that can be pulled.
-
-A peer subclasses Peer and has on_byte() and on_silence(); its state (flash, EEPROM) outlives the cable.
-"""
+"""A board on a pty, played by a thread in real time: for what is about the port itself. Limits here are minutes."""
 import os
 import select
 import threading
 import time
 import tty
 
+from peer import Peer
+
 QUANTUM = 0.01
 
 
-class Peer:
+class PtyPeer(Peer):
+    """Holds `lock` while the board acts."""
+
     def __init__(self):
+        super().__init__()
         self.lock = threading.RLock()
-        self.cut_after = None          # bytes, both ways together, until the cable is pulled
-        self.garble = None             # function(direction, index, byte) -> byte or None (lost)
-        self.moved = 0
         self.running = True
-        self.path = ""
         self.heard_at = time.monotonic()
         self._open()
         self.thread = threading.Thread(target=self._loop, daemon=True)
@@ -30,7 +28,7 @@ class Peer:
 
     def __exit__(self, *_):
         self.running = False
-        self.thread.join(5)
+        self.thread.join(60)
         self._close()
 
     def _open(self):
@@ -46,6 +44,14 @@ class Peer:
             if fd is not None:
                 os.close(fd)
 
+    @staticmethod
+    def now():
+        return time.monotonic()
+
+    @property
+    def plugged(self):
+        return self.master is not None
+
     def pull(self):
         """The cable comes off: the PC's end sees the device go, the board hears silence."""
         with self.lock:
@@ -58,28 +64,11 @@ class Peer:
             self.cut_after, self.moved = None, 0
             self._open()
 
-    def _count(self, direction, byte):
-        """A byte passes the cable: what comes out at the other end, or None."""
-        index, self.moved = self.moved, self.moved + 1
-        if self.cut_after is not None and index >= self.cut_after:
-            self.pull()
-            return None
-        return self.garble(direction, index, byte) if self.garble else byte
-
     def send(self, data):
         with self.lock:
-            if self.master is not None and self.cut_after is None and self.garble is None:
-                self.moved += len(data)
-                self._write(data)
-                return
-            for byte in data:
-                if self.master is None:
-                    return
-                byte = self._count("<-", byte)
-                if byte is not None and self.master is not None:
-                    self._write(bytes([byte]))
+            super().send(data)
 
-    def _write(self, data):
+    def _to_pc(self, data):
         """Waits while the PC's end is full, as long as it takes a busy PC to read it."""
         while data and self.running:
             try:
@@ -113,9 +102,3 @@ class Peer:
             return os.read(self.master, 4096)
         except (OSError, TypeError):                 # nothing, or the cable is off
             return b""
-
-    def on_byte(self, byte):
-        raise NotImplementedError
-
-    def on_silence(self, seconds):
-        pass

@@ -1,26 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""`m512 flash`, `run`, `backup`, `restore` against peers that speak the two loaders' protocols, on a pty.
+"""`m512 flash`, `run`, `backup`, `restore` against peers that speak the two loaders' protocols, in virtual time.
 
 The cable is pulled at many points; afterwards nothing outside the transfer has changed and a repetition ends it.
 """
 import json
 import random
 import re
-import time
 
 import pytest
-from block_peer import BlockPeer
+from block_peer import BlockPeer, BlockPtyPeer
 from conftest import REPO
-from factory_peer import FactoryPeer
+from factory_peer import FactoryPeer, FactoryPtyPeer
 from m512.board import backup, memory
 from m512.board.block import frame
 from m512.board.factory import FactoryLoader
-from m512.board.link import Link
 from m512.board.memory import APP, RECORD_AT, Record
 from m512.crc16 import crc16
 from m512.files.image import Image
 from m512.files.page import EMPTY
 from m512.files.text import read_text
+from virtual_peer import VirtualLink
 
 MOTIONS = """motion512 1
 page 1 stand
@@ -107,21 +106,28 @@ def test_flash_application_and_start(m512, peer, app_hex):
     assert "Motion512 play 1.2.3 for cm5" in result.stderr and "started" in result.stderr
     assert peer.flash[:5000] == make_app() and peer.flash[5000:5120] == b"\xff" * 120
     assert not changed_outside(peer, peer.before, 0, 5120)
-    with peer.lock:
-        assert peer.state == 0 and peer.eeprom[0xFFF] == 0x11
+    assert peer.state == 0 and peer.eeprom[0xFFF] == 0x11
     assert not getattr(peer, "hurt", [])
 
 
+@pytest.mark.parametrize("kind", [BlockPtyPeer, FactoryPtyPeer])
+def test_flash_through_a_real_port(m512, motions, kind):
+    flash = bytearray(old_flash())
+    flash[0xE000:0x1E000] = b"".join(EMPTY for _ in range(128))
+    with kind(flash) as peer:
+        result = m512("flash", motions, "-p", peer.path)
+        assert result.exit_code == 0, result.stderr
+        assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
+
+
 def test_flash_calls_a_running_board_and_asks_for_the_button(m512, motions, peer):
-    with peer.lock:
-        peer.state = 0
+    peer.state = 0
     result = m512("flash", motions, "-p", peer.path, "--wait", "5")
     assert result.exit_code == 0 and "Press the MODE button" in result.stderr
 
 
 def test_flash_says_what_it_waits_for_and_gives_up(m512, motions, peer):
-    with peer.lock:
-        peer.state, peer.presses_mode = 0, False
+    peer.state, peer.presses_mode = 0, False
     result = m512("flash", motions, "-p", peer.path, "--wait", "0.5")
     assert result.exit_code == 7 and "no boot loader answered within" in result.stderr
 
@@ -134,10 +140,9 @@ def test_backup_restore_brings_back_every_byte(m512, peer, motions, tmp_path):
     assert result.exit_code == 0, result.stderr
     manifest = json.loads((tmp_path / "b" / "manifest.json").read_text())
     assert manifest["files"]["motions"]["crc16"] == f"{crc16(before[0xE000:0x1E000]):04X}" and manifest["date"]
-    with peer.lock:
-        peer.flash[0xE000 + 512 * 3 + 70] ^= 1
-        peer.flash[0xE000 + 512 * 50:0xE000 + 512 * 51] = bytes(512)
-        peer.eeprom[11] = 0
+    peer.flash[0xE000 + 512 * 3 + 70] ^= 1
+    peer.flash[0xE000 + 512 * 50:0xE000 + 512 * 51] = bytes(512)
+    peer.eeprom[11] = 0
     result = m512("restore", tmp_path / "b", "-p", peer.path, "--yes", "--wait", "5")
     assert result.exit_code == 0, result.stderr
     assert 'page 3 "walk", step 0, ID 3: 401 -> 400 (-1)' in result.stderr
@@ -146,8 +151,7 @@ def test_backup_restore_brings_back_every_byte(m512, peer, motions, tmp_path):
 
 def test_restore_asks_first(m512, peer, motions, tmp_path):
     m512("backup", tmp_path / "b", "-p", peer.path, "--what", "motions")
-    with peer.lock:
-        peer.flash[0xE000 + 600] ^= 1
+    peer.flash[0xE000 + 600] ^= 1
     before = bytes(peer.flash)
     result = m512("restore", tmp_path / "b", "-p", peer.path, "--wait", "5")
     assert result.exit_code == 5 and "--yes" in result.stderr and bytes(peer.flash) == before
@@ -172,12 +176,10 @@ def pull_cable(peer, when):
 def test_cable_pulled_during_flash(m512, peer, motions, when):
     pull_cable(peer, when)
     result = m512("flash", motions, "-p", peer.path)
-    with peer.lock:
-        assert peer.master is None, ("the cable was not pulled", result.exit_code, result.stderr)
+    assert not peer.plugged, ("the cable was not pulled", result.exit_code, result.stderr)
     assert result.exit_code in (6, 7) and result.stderr.strip()
     assert not changed_outside(peer, peer.before, 0xE200, 0x1E000)
-    while getattr(peer, "state", 0) == 5:      # the factory loader notices the silence
-        time.sleep(0.05)
+    peer.pass_time(0.5)                        # the factory loader notices the silence
     peer.garble = None
     peer.plug()
     result = m512("flash", motions, "-p", peer.path, "--wait", "5")
@@ -262,7 +264,7 @@ def test_factory_dumps_begin_anywhere_and_are_asked_for_again_when_damaged(lost)
                 answered.append(byte)
             return None if direction == "<-" and len(answered) == lost else byte
 
-        with Link(peer.path) as link:
+        with VirtualLink(peer.path) as link:
             loader = FactoryLoader(link)
             peer.garble = lose
             assert loader.read(0x11234, 0x11333) == bytes(peer.flash[0x11234:0x11333])
@@ -288,11 +290,10 @@ def test_factory_prompt_with_a_full_line_is_not_crashed(m512, motions):
 
 def test_factory_full_line_does_not_hurt_when_work_begins():
     from m512.board.factory import FactoryLoader
-    from m512.board.link import Link
 
     with FactoryPeer() as peer:
         peer.line = bytearray(b"x" * 80)
-        with Link(peer.path) as link:
+        with VirtualLink(peer.path) as link:
             FactoryLoader(link)
         assert not peer.hurt
 

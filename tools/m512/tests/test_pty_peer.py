@@ -3,10 +3,10 @@
 import os
 import time
 
-from pty_peer import Peer
+from pty_peer import PtyPeer
 
 
-class Replugged(Peer):
+class Replugged(PtyPeer):
     """Plugs once between the moment at which something is there to read and the reading."""
 
     spare, heard = None, b""

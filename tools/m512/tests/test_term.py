@@ -4,13 +4,13 @@ import sys
 
 import pytest
 from conftest import REPO
-from factory_peer import APP, FactoryPeer
-from pty_peer import Peer
+from factory_peer import APP, FactoryPtyPeer
+from pty_peer import PtyPeer
 
 pexpect = pytest.importorskip("pexpect")
 
 
-class Echo(Peer):
+class Echo(PtyPeer):
     """Answers a line with "<line>" and, like a board, ends lines by CR LF."""
 
     def __init__(self):
@@ -31,7 +31,7 @@ def term():
     running = []
 
     def start(*args):
-        child = pexpect.spawn(sys.executable, ["-m", "m512", "term", *map(str, args)], timeout=10, encoding="utf-8",
+        child = pexpect.spawn(sys.executable, ["-m", "m512", "term", *map(str, args)], timeout=300, encoding="utf-8",
                               env={"PYTHONPATH": str(REPO / "tools" / "m512" / "src"), "PATH": "/usr/bin:/bin", "TERM": "xterm"})
         running.append(child)
         return child
@@ -79,7 +79,7 @@ def test_term_sends_a_file_line_by_line(term, tmp_path):
 
 
 def test_term_calls_the_boot_loader(term):
-    with FactoryPeer(state=APP) as board:
+    with FactoryPtyPeer(state=APP) as board:
         child = term("-p", board.path)
         child.expect("to quit")
         child.send("\x1dl")

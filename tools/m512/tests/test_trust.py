@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from block_peer import PROMPTED, BlockPeer
+from block_peer import PROMPTED, BlockPeer, BlockPtyPeer
 from conftest import REPO
 from m512 import __version__
 from m512.board.link import Link
@@ -39,7 +39,7 @@ def files(tmp_path):
 
 def run(*args, **options):
     env = {**os.environ, "PYTHONPATH": str(REPO / "tools" / "m512" / "src")}
-    return subprocess.run([sys.executable, "-m", "m512", *map(str, args)], capture_output=True, env=env, timeout=60, **options)
+    return subprocess.run([sys.executable, "-m", "m512", *map(str, args)], capture_output=True, env=env, timeout=300, **options)
 
 
 # Motions in Intel HEX: the rules of every motion file
@@ -128,11 +128,22 @@ def test_files_are_replaced_whole_or_not_at_all(files, monkeypatch):
 
 # Boards
 
-@pytest.fixture
-def board():
+def full_flash():
     flash = bytearray(b"\xff" * 0x20000)
     flash[0xE000:0x1E000] = read_text(TEXT).to_bytes()
-    with BlockPeer(flash) as peer:
+    return flash
+
+
+@pytest.fixture
+def board():
+    with BlockPeer(full_flash()) as peer:
+        yield peer
+
+
+@pytest.fixture
+def real_board():
+    """At a real port."""
+    with BlockPtyPeer(full_flash()) as peer:
         yield peer
 
 
@@ -147,20 +158,19 @@ def test_changing_a_board_shows_the_change_and_asks(m512, board):
 @pytest.mark.parametrize("at_prompt, left", [(True, 0), (False, 2)])
 def test_restore_answered_no_leaves_the_board_as_it_was_found(m512, board, tmp_path, at_prompt, left):
     assert m512("backup", tmp_path / "b", "-p", board.path, "--what", "motions").exit_code == 0
-    with board.lock:
-        board.flash[0xE000 + 600] ^= 1
-        board.state = PROMPTED if at_prompt else 0
-        board.left.clear()
+    board.flash[0xE000 + 600] ^= 1
+    board.state = PROMPTED if at_prompt else 0
+    board.left.clear()
     before = bytes(board.flash)
     result = m512("restore", tmp_path / "b", "-p", board.path, "--wait", "5")
     assert result.exit_code == 5 and bytes(board.flash) == before
     assert board.left[-1] == left
 
 
-def test_port_is_opened_by_one_program_alone(board):
-    with Link(board.path), pytest.raises(PortError, match="in use by another program"):
-        Link(board.path)
-    Link(board.path).close()
+def test_port_is_opened_by_one_program_alone(real_board):
+    with Link(real_board.path), pytest.raises(PortError, match="in use by another program"):
+        Link(real_board.path)
+    Link(real_board.path).close()
 
 
 def test_what_a_board_or_a_file_says_does_not_steer_the_terminal(m512, files):
@@ -260,8 +270,8 @@ def test_manifest_with_a_number_for_a_file_name(m512, tmp_path):
     assert result.exit_code == 4 and "damaged" in result.stderr
 
 
-def test_terminal_takes_lines_from_a_pipe(board):
-    result = run("term", "-p", board.path, input=b"id\n")
+def test_terminal_takes_lines_from_a_pipe(real_board):
+    result = run("term", "-p", real_board.path, input=b"id\n")
     assert result.returncode == 0 and b"ID Motion512 boot" in result.stdout and b"Traceback" not in result.stderr
 
 
@@ -293,9 +303,8 @@ def test_dry_run_looks_at_the_board_and_changes_nothing(m512, files, board):
     before = bytes(board.flash)
     result = m512("flash", files / "x.bin", "-p", board.path, "--dry-run")
     assert result.exit_code == 0 and "the board holds this already" in result.stderr
-    with board.lock:
-        board.flash[0xE000 + 600] ^= 1
-        before = bytes(board.flash)
+    board.flash[0xE000 + 600] ^= 1
+    before = bytes(board.flash)
     result = m512("flash", files / "x.bin", "-p", board.path, "--dry-run")
     assert "1 of 254 flash pages would be written" in result.stderr and bytes(board.flash) == before
 

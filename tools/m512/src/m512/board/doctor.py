@@ -6,7 +6,6 @@ It writes nothing to the board and moves nothing.
 from __future__ import annotations
 
 import sys
-import time
 from dataclasses import asdict, dataclass
 from typing import Callable, List, Optional
 
@@ -147,7 +146,7 @@ def _servos(client, add) -> None:
         pose = client.pose()
         if pose and all(at is not None for at, _ in pose.values()):
             break
-        time.sleep(0.4)
+        client.link.sleep(0.4)
     if not pose:
         add("servos", BAD, "no servo answers", "is the battery connected (USB does not feed servos) and the bus cable plugged in? "
             "New DX servos talk slowly: `servos` and `baud` in `m512 term`")

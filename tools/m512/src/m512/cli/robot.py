@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from m512.cli.board import json_option, port_option
 from m512.errors import NoAnswerError, RefusedError
 
 ID_MAX = 30
+SIM_PATIENCE = (0.6, 1.5, 4.0, 15.0)     # a simulator on a busy PC starts late
 
 
 def robot_options(function):
@@ -41,8 +41,8 @@ def robot(options):
 
         with Simulator([options["image"]], options["motions"], options["servos"]) as simulator, \
                 Link(simulator.url) as link:
-            time.sleep(0.5)
-            yield Client(link)
+            link.sleep(0.5)
+            yield Client(link, SIM_PATIENCE)
         return
     with Link(ports.pick(options["port"])) as link:
         try:
@@ -108,7 +108,7 @@ def _follow(client):
                 before = here
             if state["state"] == "idle":
                 return
-            time.sleep(0.1)
+            client.link.sleep(0.1)
         except KeyboardInterrupt:
             asked += 1
             if asked > 2:

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""A board at the end of a cable: bytes in, bytes out, silence, and a cable that can be pulled.
+
+A board is a class with on_byte() and on_silence() in front of one of the two ends: VirtualPeer (virtual_peer.py, in virtual
+time, for nearly every test) or PtyPeer (pty_peer.py, a real port). Its state (flash, EEPROM) outlives the cable.
+"""
+
+
+class Peer:
+    """`path` names the port. The ends have pull(), plug(), `plugged`, now() in seconds, and _to_pc(data)."""
+
+    def __init__(self):
+        self.cut_after = None          # bytes, both ways together, until the cable is pulled
+        self.garble = None             # function(direction, index, byte) -> byte or None (lost)
+        self.moved = 0
+
+    def _count(self, direction, byte):
+        """A byte passes the cable: what comes out at the other end, or None."""
+        index, self.moved = self.moved, self.moved + 1
+        if self.cut_after is not None and index >= self.cut_after:
+            self.pull()
+            return None
+        return self.garble(direction, index, byte) if self.garble else byte
+
+    def send(self, data):
+        """To the PC."""
+        if self.cut_after is None and self.garble is None:
+            self.moved += len(data)
+            if self.plugged:
+                self._to_pc(data)
+            return
+        for byte in data:
+            byte = self._count("<-", byte) if self.plugged else None
+            if byte is not None and self.plugged:
+                self._to_pc(bytes([byte]))
+
+    def on_byte(self, byte):
+        raise NotImplementedError
+
+    def on_silence(self, seconds):
+        """So long nothing has come; called often."""
