@@ -109,6 +109,11 @@ export class DocumentEditor implements Editor {
     this.show({ ...states.startState(document), robot, law });
   }
 
+  rename(name: string): void {
+    const { document } = this.state.get();
+    this.state.set({ document: { ...document, name } });
+  }
+
   /** What is known of the robot's pages. */
   setRobot(robot: readonly (Uint8Array | null)[]): void {
     this.state.set({ robot });

@@ -171,3 +171,17 @@ export function stepSeconds(format: PageFormat, bytes: Uint8Array, step: number,
   const { move, pause } = format.stepTicks(bytes, step, from, law);
   return { move: move / TICKS_PER_SECOND, pause: pause / TICKS_PER_SECOND };
 }
+
+/** Seconds of a page with all its repetitions, without what follows it, as the firmware plays it: from its first pose, joints that
+ *  no step has used yet in the middle. 0: it has no action or is damaged. */
+export function pageSeconds(format: PageFormat, bytes: Uint8Array, law: Law = 'exact'): number {
+  if (!format.isPlayable(bytes)) return 0;
+  const { posMax, joints } = format.layout;
+  const page = readPage(format, bytes);
+  const from = Array.from({ length: joints }, (_, id) => page.steps[0]?.positions[id] ?? (posMax + 1) / 2);
+  const once = page.steps.reduce((sum, _, step) => {
+    const { move, pause } = stepSeconds(format, bytes, step, from, law);
+    return sum + move + pause;
+  }, 0);
+  return once * page.repetitions;
+}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pages read from and written into the real Edit on the simulated board, in simulated time, bytes split at random. What the
-// robot has is read from its flash memory directly. CUTS=all tries every request of the write (a few minutes).
+// robot has is read from its flash memory directly. CUTS=all tries every request of the write (5 minutes).
 import { afterEach, expect, test } from 'vitest';
 import { pageOf } from '../model/document.ts';
 import { writePage, readPage } from '../model/page.ts';
@@ -80,26 +80,22 @@ function spoil(bench: RobotBench): void {
   bench.board.writeFlash(at(19), damaged);
 }
 
-/** Pulls the cable in the request of that number: within its bytes, or up to 80 ms after them. */
-function pullAt(bench: RobotBench, request: number): { restore(): void; count(): number } {
+const KINDS = ['@crcs', '@open', '@data', '@crc', '@save'] as const;
+
+/** Pulls the cable in the n-th request of a kind (1..): within its bytes, or up to 80 ms after them. Counts them all. */
+function pullAt(bench: RobotBench, kind: string, nth: number): { restore(): void; counts: Map<string, number> } {
   const send = bench.board.send.bind(bench.board);
-  let count = 0;
-  let left = Number.POSITIVE_INFINITY;
+  const counts = new Map<string, number>();
+  const late = bench.random() < 0.5;
   bench.board.send = (who, bytes) => {
-    for (const byte of bytes) {
-      if (byte === 0x40 && ++count === request) left = Math.floor(bench.random() * 120);
-      if (left-- > 0) send(who, Uint8Array.of(byte));
-    }
-    if (count < request) return;
-    const late = left > 0 ? Math.floor(bench.random() * 80) : 0;
-    left = 0;
-    if (late === 0) bench.port.unplug();
-    else bench.clock.after(late, () => bench.port.unplug());
+    const [word = ''] = new TextDecoder().decode(bytes).split(' ').map((one) => one.trim());
+    counts.set(word, (counts.get(word) ?? 0) + 1);
+    if (word !== kind || counts.get(word) !== nth) return send(who, bytes);
+    send(who, late ? bytes : bytes.slice(0, Math.floor(bench.random() * (bytes.length + 1))));
+    if (late) bench.clock.after(Math.floor(bench.random() * 80), () => bench.port.unplug());
+    else bench.port.unplug();
   };
-  return {
-    restore: () => { bench.board.send = send; },
-    count: () => count,
-  };
+  return { restore: () => { bench.board.send = send; }, counts };
 }
 
 test('twenty pages: what is written is in flash, nothing else is touched, and the account says so', async () => {
@@ -155,24 +151,28 @@ function checkAccount(bench: RobotBench, write: PageWrite, pages: readonly PageT
 test('the cable pulled at requests of a write of twenty pages: old or new, the account right, "try again" finishes', async () => {
   const { bench, connection } = await ready('edit', 46, spoil);
   let pages = twenty(bench);
-  const counter = pullAt(bench, Number.POSITIVE_INFINITY);
+  const counter = pullAt(bench, '', 0);
   await bench.until(new PageWrite(pages, format.empty).run(connection.requests), 60_000);
-  const most = counter.count();
   counter.restore();
-  const every = Array.from({ length: most }, (_, i) => i + 1);
-  const cuts = process.env['CUTS'] === 'all' ? every : every.filter(() => bench.random() < 10 / most);
-  for (const cut of cuts) {
+  const every = KINDS.flatMap((kind) => Array.from({ length: counter.counts.get(kind) ?? 0 }, (_, i) => [kind, i + 1] as const));
+  const some = ['@crcs', '@open', '@data', '@data', '@crc', '@save', '@save', '@save'].map((kind) => {
+    const ofKind = every.filter(([one]) => one === kind);
+    return ofKind[Math.floor(bench.random() * ofKind.length)] ?? ['@open', 1] as const;
+  });
+  const cuts = process.env['CUTS'] === 'all' ? every : some;
+  for (const [kind, nth] of cuts) {
     pages = twenty(bench);
+    const where = `${kind} ${nth}`;
     const write = new PageWrite(pages, format.empty);
-    const pull = pullAt(bench, cut);
+    const pull = pullAt(bench, kind, nth);
     const outcome = await bench.until(write.run(connection.requests).then(() => 'done', (error: { code: string }) => error.code), 60_000);
     pull.restore();
-    checkAccount(bench, write, pages, `request ${cut}, ${outcome}`);
+    checkAccount(bench, write, pages, `${where}, ${outcome}`);
     await bench.run(200);
     await untilReady(bench, connection);
     if (outcome !== 'done') await bench.until(write.run(connection.requests), 60_000);
-    expect(write.isDone, `request ${cut}`).toBe(true);
-    for (const { page, after } of pages) expect(flashPage(bench, page), `request ${cut}, page ${page}`).toEqual(after);
+    expect(write.isDone, where).toBe(true);
+    for (const { page, after } of pages) expect(flashPage(bench, page), `${where}, page ${page}`).toEqual(after);
   }
-  console.log(`${cuts.length} of ${most} requests cut`);
+  console.log(`${cuts.length} of ${every.length} requests cut`);
 }, 3_600_000);
