@@ -2,17 +2,21 @@
 // Starts the page.
 
 import './view/theme.css';
-import { fileFormats, motionInstance, motionLibrary, robotBody } from './app/assets.ts';
+import { fileFormats, motionInstance, robotBody } from './app/assets.ts';
 import { RobotDesk } from './app/desk.ts';
+import type { DeskStorage } from './app/desk.ts';
 import type { EditorParts } from './app/editor.ts';
+import { simulatedMotions } from './app/simulated-source.ts';
 import { documentFrom } from './model/document.ts';
 import { PageFormat } from './model/page-format.ts';
 import { AppShell } from './view/app-shell.ts';
+import { BrowserStorage, PassingStorage } from './view/document-storage.ts';
 import { make } from './view/element.ts';
 
 async function start(): Promise<void> {
-  const [body, parts] = await Promise.all([robotBody(), editorParts()]);
-  const desk = new RobotDesk(body, parts, fileFormats());
+  const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
+  const desk = new RobotDesk(body, parts, fileFormats(), storage);
+  await desk.documents.start(parts.document);
   const shell = new AppShell();
   shell.desk = desk;
   document.body.append(shell);
@@ -21,9 +25,18 @@ async function start(): Promise<void> {
   keepOffline(desk);
 }
 
+/** The first document holds what the robot in the page has. */
 async function editorParts(): Promise<EditorParts> {
-  const [scratch, player, library] = await Promise.all([motionInstance(), motionInstance(), motionLibrary()]);
-  return { format: new PageFormat(scratch), player, document: documentFrom(library, 'My motions') };
+  const [scratch, player, motions] = await Promise.all([motionInstance(), motionInstance(), simulatedMotions()]);
+  return { format: new PageFormat(scratch), player, document: documentFrom(motions, 'My motions') };
+}
+
+async function documentStorage(): Promise<DeskStorage> {
+  try {
+    return { storage: await BrowserStorage.open(), isKept: true };
+  } catch {
+    return { storage: new PassingStorage(), isKept: false };
+  }
 }
 
 /** Keeps the whole page in the browser, once everything it needs now has been loaded. Only the built page has a service

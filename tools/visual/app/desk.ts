@@ -4,6 +4,8 @@
 
 import type { FileFormats } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
+import { documentFrom, emptyDocument } from '../model/document.ts';
+import type { MotionDocument } from '../model/document.ts';
 import type { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import { askList, askWhere, command, play, setTorque } from '../robot/protocol.ts';
@@ -17,8 +19,11 @@ import { refusalText } from '../view/editor/texts.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
 import type { EditorParts } from './editor.ts';
-import { doingText, errorText } from '../view/texts.ts';
+import type { DocumentStorage } from '../view/document-storage.ts';
+import { TEXTS, doingText, errorText } from '../view/texts.ts';
+import { KeptDocuments } from './documents.ts';
 import { DocumentFiles } from './files.ts';
+import { holdDocument } from './hold-document.ts';
 import { Listeners } from './listeners.ts';
 import { LastSaid } from './said.ts';
 import { StickDrive } from './stick.ts';
@@ -34,11 +39,18 @@ const START: DeskState = {
   stopped: null, doing: { text: 'Starting …', tone: 'calm' }, said: null, faultNames: [], tab: 'remote',
 };
 
+/** Where documents are kept; isKept false: only as long as the page is open. */
+export interface DeskStorage {
+  readonly storage: DocumentStorage;
+  readonly isKept: boolean;
+}
+
 export class RobotDesk implements Desk {
   readonly body: Body;
   readonly state = new Store<DeskState>(START);
   readonly editor: DocumentEditor;
   readonly files: DocumentFiles;
+  readonly documents: KeptDocuments;
   private readonly frames = new Listeners<RobotState>();
   private readonly texts = new Listeners<Uint8Array>();
   private readonly simulated: SimulatedSource;
@@ -49,18 +61,20 @@ export class RobotDesk implements Desk {
   private typing = '';
   private readonly stick = new StickDrive(() => this.connection, () => this.walkPage(), (error) => this.fail(error));
 
-  constructor(body: Body, parts: EditorParts, formats: FileFormats) {
+  constructor(body: Body, parts: EditorParts, formats: FileFormats, storage: DeskStorage) {
     this.body = body;
     this.editor = new DocumentEditor(body, parts, {
-      changed: () => undefined,
+      changed: (document) => this.documents.keep(document),
       refused: (refusal) => this.state.set({ said: { text: refusalText(refusal), tone: 'bad' } }),
     });
     this.files = new DocumentFiles(this.editor, formats);
+    this.documents = this.makeDocuments(storage);
     const events = {
       frame: (state: RobotState) => this.frames.tell(state),
       text: (bytes: Uint8Array) => this.hear(bytes),
       connection: (state: ConnectionState) => this.connectionChanged(state),
       change: (change: Partial<DeskState>) => this.state.set(change),
+      motions: (image: Uint8Array) => this.simulatedMotions(image),
     };
     this.simulated = new SimulatedSource(body, events);
     this.yours = new YourSource(body, events, () => this.mayAsk());
@@ -70,6 +84,21 @@ export class RobotDesk implements Desk {
   /** Starts the robot in the page. */
   start(): Promise<void> {
     return this.simulated.start(this.state.get().image);
+  }
+
+  private makeDocuments({ storage, isKept }: DeskStorage): KeptDocuments {
+    const { editor } = this;
+    const shown = {
+      open: (document: MotionDocument) => editor.open(document), rename: (name: string) => editor.rename(name), document: () => editor.state.get().document,
+    };
+    return new KeptDocuments(shown, {
+      storage, isKept, hold: holdDocument, empty: emptyDocument(editor.format, ''), nowMs: () => Date.now(), newId: () => crypto.randomUUID(),
+      failed: () => this.state.set({ said: { text: TEXTS.workNotKept, tone: 'bad' } }),
+    });
+  }
+
+  private simulatedMotions(image: Uint8Array): void {
+    if (this.isSimulated) this.editor.setRobot(documentFrom(image, '').pages);
   }
 
   onFrame(listener: (state: RobotState) => void): () => void {

@@ -8,13 +8,15 @@ import type { ConnectionState } from '../robot/connection-table.ts';
 import { wallClock } from '../robot/clock.ts';
 import { askWhere, play } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
+import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import type { FromSim, ToSim } from '../sim/messages.ts';
 import { SimulatedRobot } from '../sim/robot-client.ts';
 import type { DeskState, ImageName } from '../view/desk.ts';
 import { forgetRobot, loadRobot, saveRobot } from '../view/robot-store.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
 import { TEXTS, violationText } from '../view/texts.ts';
-import { boardModule, physics, robotImages } from './assets.ts';
+import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
+import { boardModule, motionLibrary, physics, robotImages } from './assets.ts';
 
 const KEY = 'cm5';
 /** Page of the motion library in which the robot stands by itself. */
@@ -26,6 +28,18 @@ export interface SourceEvents {
   text(bytes: Uint8Array): void;
   connection(state: ConnectionState): void;
   change(change: Partial<DeskState>): void;
+  /** What the robot in the page has in its flash: the 65,536 bytes of its motion pages. */
+  motions(image: Uint8Array): void;
+}
+
+function motionsIn({ flash }: KeptRobot): Uint8Array {
+  return flash.slice(MOTIONS_ADDRESS, MOTIONS_ADDRESS + PAGE_BYTES * PAGE_COUNT);
+}
+
+/** What the robot in the page has when the page starts: what it kept, or what the factory gives it. */
+export async function simulatedMotions(): Promise<Uint8Array> {
+  const kept = await loadRobot(KEY).catch(() => null);
+  return kept ? motionsIn(kept) : motionLibrary();
 }
 
 export class SimulatedSource {
@@ -47,6 +61,7 @@ export class SimulatedSource {
     const worker = new Worker(new URL('../sim/worker.ts', import.meta.url), { type: 'module' });
     const robot = new SimulatedRobot(worker, { message: (message) => this.take(message) });
     this.robot = robot;
+    this.events.motions(kept ? motionsIn(kept) : images.motions);
     this.standing = null;
     robot.post({ kind: 'start', module, body: this.body, images, kept });
     this.connection = new Connection(robot.port, wallClock, {
@@ -157,6 +172,7 @@ export class SimulatedSource {
   }
 
   private async keep(memories: KeptRobot): Promise<void> {
+    this.events.motions(motionsIn(memories));
     try {
       await saveRobot(KEY, memories);
     } catch {

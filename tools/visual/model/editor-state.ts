@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The one value of the editor: document, history, selection, and what is known of the robot's pages. Pure.
 
-import { isSamePage, withChanges } from './document.ts';
+import { withChanges } from './document.ts';
 import type { MotionDocument } from './document.ts';
 import { NO_HISTORY, apply, redo, undo } from './history.ts';
 import type { Edited, History } from './history.ts';
 import type { Law } from './motion.ts';
+import type { PageFormat } from './page-format.ts';
 import { transaction } from './transaction.ts';
 import type { Change, EditName, Transaction } from './transaction.ts';
 
@@ -40,11 +41,11 @@ export function startState(document: MotionDocument): EditorState {
   return { document, history: NO_HISTORY, gesture: null, robot: [], page: FIRST_PAGE, step: 0, steps: new Set([0]), joints: new Set(), law: 'exact' };
 }
 
-/** Pages that the robot has otherwise; those of which nothing is known do not count. */
-export function dirtyPages(state: Pick<EditorState, 'document' | 'robot'>): ReadonlySet<number> {
+/** Pages that the robot has otherwise; those of which nothing is known do not count, nor does page 0: the trim belongs to the robot. */
+export function dirtyPages(state: Pick<EditorState, 'document' | 'robot'>, format: PageFormat): ReadonlySet<number> {
   const dirty = state.robot.flatMap((bytes, page) => {
     const ours = state.document.pages[page];
-    return bytes && ours && !isSamePage(bytes, ours) ? [page] : [];
+    return page > 0 && bytes && ours && !format.isSame(bytes, ours) ? [page] : [];
   });
   return new Set(dirty);
 }

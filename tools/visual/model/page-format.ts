@@ -60,6 +60,11 @@ export class PageFormat {
     return this.isErased(bytes) || bytes.every((byte, i) => byte === this.empty[i]);
   }
 
+  /** The same bytes, or both nothing: erased flash and the empty page are the same to a robot. */
+  isSame(a: Uint8Array, b: Uint8Array): boolean {
+    return a === b || a.every((byte, i) => byte === b[i]) || (this.isEmpty(a) && this.isEmpty(b));
+  }
+
   /** It has an action: steps, and a play count that is not 0. */
   isPlayable(bytes: Uint8Array): boolean {
     if (this.fault(bytes) !== null || this.isErased(bytes)) return false;

@@ -14,3 +14,8 @@ export function remotePacket(held: Iterable<RemoteButton>): Uint8Array {
   const high = word >> 8;
   return Uint8Array.of(0xff, 0x55, low, low ^ 0xff, high, high ^ 0xff);
 }
+
+/** The buttons of a code, up first; an empty list for 0. */
+export function buttonsOf(code: number): RemoteButton[] {
+  return (Object.keys(REMOTE_BUTTONS) as RemoteButton[]).filter((button) => code & REMOTE_BUTTONS[button]);
+}

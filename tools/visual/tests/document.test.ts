@@ -162,5 +162,7 @@ test('pages that differ from the robot are known; those that were not read are n
   const robot = library.pages.map((bytes, page) => (page === 7 ? null : bytes));
   const edited = states.dispatch({ ...states.startState(library), robot }, must(edits.rename(library, 2, 'curtsy')));
   const both = states.dispatch(edited, must(edits.rename(edited.document, 7, 'unknown')));
-  expect([...states.dirtyPages(both)]).toEqual([2]);
+  expect([...states.dirtyPages(both, format)]).toEqual([2]);
+  const erased = { ...both, robot: robot.map((bytes) => (bytes && format.isEmpty(bytes) ? new Uint8Array(512).fill(0xff) : bytes)) };
+  expect([...states.dirtyPages(erased, format)]).toEqual([2]);
 });

@@ -5,6 +5,8 @@ import { ActionBar } from './action-bar.ts';
 import type { Desk, DeskState, Tab } from './desk.ts';
 import { FilesMenu } from './editor/files-menu.ts';
 import { define, make } from './element.ts';
+import { EditBar } from './editor/edit-bar.ts';
+import { PagesPane } from './editor/pages-pane.ts';
 import { LabPane } from './lab-pane.ts';
 import { RemotePad } from './remote-pad.ts';
 import { RobotView } from './robot-view.ts';
@@ -12,7 +14,9 @@ import { StatusStrip } from './status-strip.ts';
 import { TerminalPane } from './terminal-pane.ts';
 import './app-shell.css';
 
-const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['terminal', 'Terminal'], ['lab', 'Lab']];
+const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['pages', 'Pages'], ['terminal', 'Terminal'], ['lab', 'Lab']];
+/** Areas that show the document. */
+const EDITING: readonly Tab[] = ['steps', 'curves', 'pages', 'links', 'checks'];
 
 export class AppShell extends HTMLElement {
   desk!: Desk; // set before it is connected
@@ -20,6 +24,7 @@ export class AppShell extends HTMLElement {
   private readonly panels = new Map<Tab, HTMLElement>();
   private readonly simulated = make('button', { onclick: () => this.desk.useSimulated() }, 'Robot in this page');
   private readonly yours = make('button', { onclick: () => void this.desk.connectYours() }, 'Your robot …');
+  private readonly editBar = new EditBar();
   private unwatch: () => void = () => undefined;
 
   connectedCallback(): void {
@@ -27,12 +32,13 @@ export class AppShell extends HTMLElement {
     const lab = this.give(new LabPane());
     lab.onTilt = (front, left) => robot.tilt(front, left);
     this.addPanel('remote', this.give(new RemotePad()));
+    this.addPanel('pages', this.give(new PagesPane()));
     this.addPanel('terminal', this.give(new TerminalPane()));
     this.addPanel('lab', lab);
     this.replaceChildren(
       this.head(),
       make('main', {}, make('div', { class: 'stage' }, robot, this.give(new ActionBar())),
-        make('div', { class: 'areas' }, this.tabList(), ...this.panels.values())),
+        make('div', { class: 'areas' }, this.tabList(), this.give(this.editBar), ...this.panels.values())),
       this.give(new StatusStrip()),
     );
     this.unwatch = this.desk.state.watch((state) => this.render(state));
@@ -85,6 +91,7 @@ export class AppShell extends HTMLElement {
   }
 
   private render(state: DeskState): void {
+    this.editBar.hidden = !EDITING.includes(state.tab);
     for (const [name, tab] of this.tabs) {
       tab.setAttribute('aria-selected', String(name === state.tab));
       tab.tabIndex = name === state.tab ? 0 : -1;

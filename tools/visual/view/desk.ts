@@ -8,6 +8,7 @@ import type { ConnectionState } from '../robot/connection-table.ts';
 import type { Command, PageEntry, Version, Where } from '../robot/protocol.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { RobotState } from '../robot/robot-state.ts';
+import type { Documents } from './documents-desk.ts';
 import type { Editor } from './editor-desk.ts';
 import type { Files } from './files-desk.ts';
 import type { Store } from './store.ts';
@@ -15,7 +16,7 @@ import type { Store } from './store.ts';
 export type Source = 'simulated' | 'yours';
 export type ImageName = 'play' | 'edit';
 export type PanelButton = 'up' | 'down' | 'left' | 'right' | 'start' | 'mode';
-export type Tab = 'remote' | 'terminal' | 'lab';
+export type Tab = 'remote' | 'steps' | 'curves' | 'pages' | 'links' | 'checks' | 'terminal' | 'lab';
 
 /** What is said in the strip. `board`: in the words that the board used. */
 export interface Notice {
@@ -62,6 +63,7 @@ export interface Desk {
   readonly state: Store<DeskState>;
   readonly editor: Editor;
   readonly files: Files;
+  readonly documents: Documents;
   /** Up to 60 times a second. */
   onFrame(listener: (state: RobotState) => void): () => void;
   /** What the board says to a terminal. */

@@ -3,6 +3,7 @@
 
 import type { Refusal, RefusalCode } from '../../model/result.ts';
 import type { EditName, Transaction } from '../../model/transaction.ts';
+import { buttonsOf } from '../../robot/remote.ts';
 
 const EDITS: Record<EditName, string> = {
   'set-joints': 'pose', 'insert-step': 'new step', 'delete-steps': 'steps deleted', 'duplicate-steps': 'steps duplicated', 'move-steps': 'steps moved',
@@ -36,4 +37,37 @@ const REFUSALS: Record<RefusalCode, string> = {
 export function refusalText({ code, words }: Refusal): string {
   const sentence = REFUSALS[code];
   return sentence.endsWith('.') || words === '' ? sentence : `${sentence} ${words}.`;
+}
+
+/** What the autosave says. */
+export function keptText(saving: 'saved' | 'saving' | 'off'): string {
+  switch (saving) {
+    case 'saved': return '✓ kept in this browser';
+    case 'saving': return 'keeping …';
+    case 'off': return '⚠ This browser does not keep your work (private window, or the disk is full). Save it as a file.';
+    default: return saving satisfies never;
+  }
+}
+
+export const EDITOR_TEXTS = {
+  pages: 'Pages: the 128 motions of this document. Drag one to copy or move it; double-click to edit its steps.',
+  unreadable: 'cannot be read; it is kept as it is',
+  removal: (name: string) => `"${name}" is removed from this browser. This cannot be undone. Robots and files keep what they have.`,
+  nothingFound: 'No page is called so. Empty the search to see all of them.',
+  nameHint: 'At most 13 letters, digits and signs.',
+  clear: (names: string) => `${names} will be empty. Links of other pages still lead there. Undo brings it back.`,
+  transfer: (from: string, to: string) => `What shall become of ${from}, which you put on ${to}?`,
+  replaced: (to: string) => `${to} is not empty: it would be replaced. Undo brings it back.`,
+} as const;
+
+const ARROWS: Readonly<Record<string, string>> = { up: '▲', down: '▼', left: '◀', right: '▶' };
+
+/** A remote's code as its keys: "▲ + B1"; '' for none. */
+export function codeText(code: number): string {
+  return buttonsOf(code).map((button) => ARROWS[button] ?? button.toUpperCase()).join(' + ');
+}
+
+/** "page 12 (walk)". */
+export function pageText(page: number, name: string): string {
+  return name === '' ? `page ${page}` : `page ${page} (${name})`;
 }

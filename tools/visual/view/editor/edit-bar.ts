@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Above the editor's areas: which document is open, whether it is kept, undo and redo with their names, and the way to the robot.
+
+import { dirtyPages } from '../../model/editor-state.ts';
+import type { EditorState } from '../../model/editor-state.ts';
+import type { Desk } from '../desk.ts';
+import type { DocumentsState } from '../documents-desk.ts';
+import { define, make } from '../element.ts';
+import { ask, askText } from './ask-dialog.ts';
+import { EDITOR_TEXTS, editText, keptText } from './texts.ts';
+import './edit-bar.css';
+
+const NEW = 'new';
+const COPY = 'copy';
+const RENAME = 'rename';
+const REMOVE = 'remove';
+
+export class EditBar extends HTMLElement {
+  desk!: Desk; // set before it is connected
+  /** Opens the way to the robot. */
+  onTransfer: () => void = () => undefined;
+  private readonly documents = make('select', { 'aria-label': 'Document', onchange: () => void this.chooseDocument() });
+  private readonly kept = make('span', { class: 'kept', role: 'status', 'aria-label': 'Autosave' });
+  private readonly undo = make('button', { onclick: () => this.desk.editor.undo() }, 'Undo');
+  private readonly redo = make('button', { onclick: () => this.desk.editor.redo() }, 'Redo');
+  private readonly transfer = make('button', { class: 'primary', onclick: () => this.onTransfer() }, 'To the robot …');
+  private readonly disposals: (() => void)[] = [];
+
+  connectedCallback(): void {
+    this.setAttribute('role', 'toolbar');
+    this.setAttribute('aria-label', 'Document');
+    this.replaceChildren(this.documents, this.kept, this.undo, this.redo, this.transfer);
+    const keys = (event: KeyboardEvent): void => this.key(event);
+    document.addEventListener('keydown', keys);
+    this.disposals.push(
+      this.desk.documents.state.watch((state) => this.renderDocuments(state)), this.desk.editor.state.watch((state) => this.renderEdits(state)),
+      () => document.removeEventListener('keydown', keys),
+    );
+  }
+
+  disconnectedCallback(): void {
+    for (const dispose of this.disposals.splice(0)) dispose();
+  }
+
+  private renderDocuments({ documents, openId, saving, unreadable }: DocumentsState): void {
+    const options = documents.map(({ id, name }) => make('option', { value: id, selected: id === openId }, name));
+    const damaged = unreadable.map((name) => make('option', { disabled: true }, `${name} (${EDITOR_TEXTS.unreadable})`));
+    const deeds = [[NEW, 'New document …'], [COPY, 'Copy of this one …'], [RENAME, 'Rename …'], [REMOVE, 'Delete …']]
+      .map(([value = '', title = '']) => make('option', { value }, title));
+    this.documents.replaceChildren(...options, ...damaged, make('hr'), ...deeds);
+    this.documents.value = openId;
+    this.kept.textContent = keptText(saving);
+    this.kept.dataset['state'] = saving;
+  }
+
+  private renderEdits(state: EditorState): void {
+    const { done, undone } = state.history;
+    const show = (button: HTMLButtonElement, word: string, edit: (typeof done)[number] | undefined): void => {
+      button.disabled = edit === undefined;
+      button.title = edit ? `${word}: ${editText(edit)}` : word;
+      button.setAttribute('aria-label', button.title);
+    };
+    show(this.undo, 'Undo', done.at(-1));
+    show(this.redo, 'Redo', undone.at(-1));
+    const count = dirtyPages(state, this.desk.editor.format).size;
+    this.transfer.textContent = count > 0 ? `To the robot (${count}) …` : 'To the robot …';
+  }
+
+  private async chooseDocument(): Promise<void> {
+    const { documents, editor } = this.desk;
+    const { value } = this.documents;
+    const { name } = editor.state.get().document;
+    this.documents.value = documents.state.get().openId;
+    switch (value) {
+      case NEW: return this.create('New document', 'My motions');
+      case COPY: return this.create('Copy of this document', `${name} (copy)`, true);
+      case RENAME: {
+        const given = await askText('Rename this document', 'Name', name);
+        return given ? documents.rename(given) : undefined;
+      }
+      case REMOVE: return (await ask('Delete this document?', EDITOR_TEXTS.removal(name), [['Delete', 'delete']])) ? documents.remove() : undefined;
+      default: return documents.open(value);
+    }
+  }
+
+  private async create(title: string, proposal: string, isCopy = false): Promise<void> {
+    const name = await askText(title, 'Name', proposal);
+    if (name) await this.desk.documents.create(name, isCopy ? this.desk.editor.state.get().document : undefined);
+  }
+
+  /** Ctrl+Z and Ctrl+Y, but for what is being typed. */
+  private key(event: KeyboardEvent): void {
+    const isTyping = event.target instanceof Element && event.target.closest('input:not([type="range"]), textarea, terminal-pane, dialog') !== null;
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping || this.closest('[hidden]')) return;
+    const key = event.key.toLowerCase();
+    if (key !== 'z' && key !== 'y') return;
+    event.preventDefault();
+    if (key === 'y' || event.shiftKey) this.desk.editor.redo();
+    else this.desk.editor.undo();
+  }
+}
+
+define('edit-bar', EditBar);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// One of the 128 pages: its first pose, number, name, duration and what calls it. The picture is drawn when it is first seen.
+
+import { anglesOf } from '../../model/body.ts';
+import type { Body } from '../../model/body.ts';
+import { pageSeconds, readPage } from '../../model/page.ts';
+import type { PageFormat } from '../../model/page-format.ts';
+import { define, make } from '../element.ts';
+import { showPose } from './pose-picture.ts';
+import { codeText } from './texts.ts';
+
+const PICTURE = { width: 64, height: 74 };
+
+export interface CardState {
+  readonly isSelected: boolean;
+  /** The robot has another one. */
+  readonly isDirty: boolean;
+  readonly isPlaying: boolean;
+}
+
+export class PageCard extends HTMLElement {
+  body!: Body; // set before it is connected, like format and page
+  format!: PageFormat;
+  page = 0;
+  private bytes: Uint8Array | null = null;
+  private isSeen = false;
+  private picture: HTMLCanvasElement | null = null;
+  private readonly title1 = make('b');
+  private readonly name1 = make('span', { class: 'name' });
+  private readonly facts = make('span', { class: 'facts' });
+  private readonly frame = make('span', { class: 'picture' });
+
+  connectedCallback(): void {
+    if (this.hasChildNodes()) return;
+    this.setAttribute('role', 'option');
+    this.dataset['page'] = String(this.page);
+    this.title1.textContent = String(this.page);
+    this.append(this.frame, make('span', { class: 'line' }, this.title1, this.name1), this.facts);
+  }
+
+  /** A name by which it is found, in small letters. */
+  get words(): string {
+    return `${this.page} ${this.name1.textContent ?? ''}`.toLowerCase();
+  }
+
+  show(bytes: Uint8Array, state: CardState): void {
+    if (bytes !== this.bytes) this.take(bytes);
+    this.setAttribute('aria-selected', String(state.isSelected));
+    this.tabIndex = state.isSelected ? 0 : -1;
+    this.classList.toggle('dirty', state.isDirty);
+    this.classList.toggle('playing', state.isPlaying);
+    this.title = state.isDirty ? 'The robot has another version of this page.' : '';
+  }
+
+  /** It is in sight: its picture is drawn. */
+  see(): void {
+    this.isSeen = true;
+    this.draw();
+  }
+
+  private take(bytes: Uint8Array): void {
+    this.bytes = bytes;
+    const { format } = this;
+    const isEmpty = format.isEmpty(bytes);
+    const isDamaged = format.fault(bytes) !== null;
+    const page = readPage(format, bytes);
+    this.classList.toggle('empty', isEmpty);
+    this.classList.toggle('damaged', isDamaged);
+    this.draggable = !isEmpty && !isDamaged && this.page > 0;
+    this.name1.textContent = this.page === 0 ? 'trim' : page.name;
+    const seconds = pageSeconds(format, bytes);
+    const parts = [seconds > 0 ? `${seconds.toFixed(1)} s` : '', page.steps.length > 0 ? `${page.steps.length} st` : '', codeText(page.code)];
+    this.facts.textContent = isDamaged ? '⚠ damaged' : isEmpty ? '' : parts.filter(Boolean).join(' · ');
+    this.setAttribute('aria-label', this.label(isEmpty, isDamaged, page.steps.length, seconds));
+    this.picture = null;
+    this.draw();
+  }
+
+  private label(isEmpty: boolean, isDamaged: boolean, steps: number, seconds: number): string {
+    const name = this.name1.textContent ?? '';
+    if (isDamaged) return `page ${this.page}, damaged`;
+    if (isEmpty) return `page ${this.page}, empty`;
+    return `page ${this.page} ${name}, ${steps} steps, ${seconds.toFixed(1)} seconds`;
+  }
+
+  private draw(): void {
+    const { bytes, format } = this;
+    if (!this.isSeen || this.picture || !bytes) return;
+    const step = format.isEmpty(bytes) || this.page === 0 ? undefined : readPage(format, bytes).steps[0];
+    if (!step) return this.frame.replaceChildren();
+    this.picture = make('canvas', { 'aria-hidden': 'true' });
+    showPose(this.picture, this.body, anglesOf(this.body, step.positions, new Map()), PICTURE.width, PICTURE.height);
+    this.frame.replaceChildren(this.picture);
+  }
+}
+
+define('page-card', PageCard);
