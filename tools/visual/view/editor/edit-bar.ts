@@ -21,8 +21,8 @@ export class EditBar extends HTMLElement {
   onTransfer: () => void = () => undefined;
   private readonly documents = make('select', { 'aria-label': 'Document', onchange: () => void this.chooseDocument() });
   private readonly kept = make('span', { class: 'kept', role: 'status', 'aria-label': 'Autosave' });
-  private readonly undo = make('button', { onclick: () => this.desk.editor.undo() }, 'Undo');
-  private readonly redo = make('button', { onclick: () => this.desk.editor.redo() }, 'Redo');
+  private readonly undo = make('button', { onclick: () => this.desk.editor.undo() }, '↶');
+  private readonly redo = make('button', { onclick: () => this.desk.editor.redo() }, '↷');
   private readonly transfer = make('button', { class: 'primary', onclick: () => this.onTransfer() }, 'To the robot …');
   private readonly disposals: (() => void)[] = [];
 

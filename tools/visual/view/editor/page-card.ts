@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: MIT
-// One of the 128 pages: its first pose, number, name, duration and what calls it. The picture is drawn when it is first seen.
+// One of the 128 pages: its most telling pose, number, name, duration and what calls it. The picture is drawn when it is first seen.
 
 import { anglesOf } from '../../model/body.ts';
 import type { Body } from '../../model/body.ts';
 import { pageSeconds, readPage } from '../../model/page.ts';
+import type { PageView, Step } from '../../model/page.ts';
 import type { PageFormat } from '../../model/page-format.ts';
 import { define, make } from '../element.ts';
 import { showPose } from './pose-picture.ts';
 import { codeText } from './texts.ts';
 
 const PICTURE = { width: 64, height: 74 };
+
+/** The step that is farthest from the first one: most motions begin and end standing, and look alike there. */
+export function tellingStep(page: PageView): Step | undefined {
+  const [first] = page.steps;
+  const way = (step: Step): number => step.positions.reduce<number>((sum, position, id) => {
+    const from = first?.positions[id] ?? null;
+    return position === null || from === null ? sum : sum + Math.abs(position - from);
+  }, 0);
+  return page.steps.reduce<Step | undefined>((best, step) => (best && way(best) >= way(step) ? best : step), first);
+}
 
 export interface CardState {
   readonly isSelected: boolean;
@@ -86,7 +97,7 @@ export class PageCard extends HTMLElement {
   private draw(): void {
     const { bytes, format } = this;
     if (!this.isSeen || this.picture || !bytes) return;
-    const step = format.isEmpty(bytes) || this.page === 0 ? undefined : readPage(format, bytes).steps[0];
+    const step = format.isEmpty(bytes) || this.page === 0 ? undefined : tellingStep(readPage(format, bytes));
     if (!step) return this.frame.replaceChildren();
     this.picture = make('canvas', { 'aria-hidden': 'true' });
     showPose(this.picture, this.body, anglesOf(this.body, step.positions, new Map()), PICTURE.width, PICTURE.height);

@@ -42,7 +42,7 @@ export function refusalText({ code, words }: Refusal): string {
 /** What the autosave says. */
 export function keptText(saving: 'saved' | 'saving' | 'off'): string {
   switch (saving) {
-    case 'saved': return '✓ kept in this browser';
+    case 'saved': return '✓ kept';
     case 'saving': return 'keeping …';
     case 'off': return '⚠ This browser does not keep your work (private window, or the disk is full). Save it as a file.';
     default: return saving satisfies never;
