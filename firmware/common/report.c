@@ -4,34 +4,21 @@
 #include "page_store.h"
 #include "text.h"
 
-void report_page_fault(uint8_t page_status)
+const char *report_page_fault_P(uint8_t page_status)
 {
-    switch (page_status) {
-    case PAGE_OK:
-        TEXT("nothing");
-        break;
-    case PAGE_ERR_CHECKSUM:
-        TEXT("checksum is wrong");
-        break;
-    case PAGE_ERR_STEPS:
-        TEXT("more than 7 steps");
-        break;
-    case PAGE_ERR_SCHEDULE:
-        TEXT("unknown schedule");
-        break;
-    case PAGE_ERR_SPEED:
-        TEXT("page speed is 0");
-        break;
-    case PAGE_ERR_LINK:
-        TEXT("a link is above 127");
-        break;
-    case PAGE_ERR_POSITION:
-        TEXT("a position is above 1023");
-        break;
-    default:
-        TEXT("no action");
-        break;
-    }
+    TEXT_NAMED(nothing, "nothing");
+    TEXT_NAMED(checksum, "checksum is wrong");
+    TEXT_NAMED(steps, "more than 7 steps");
+    TEXT_NAMED(schedule, "unknown schedule");
+    TEXT_NAMED(speed, "page speed is 0");
+    TEXT_NAMED(link, "a link is above 127");
+    TEXT_NAMED(position, "position above 1023");
+    TEXT_NAMED(action, "no action");
+    static const char *const faults[] PROGMEM = {
+        [PAGE_OK] = nothing, [PAGE_ERR_CHECKSUM] = checksum, [PAGE_ERR_STEPS] = steps, [PAGE_ERR_SCHEDULE] = schedule,
+        [PAGE_ERR_SPEED] = speed, [PAGE_ERR_LINK] = link, [PAGE_ERR_POSITION] = position, [PAGE_EMPTY] = action,
+    };
+    return pgm_read_ptr(&faults[page_status]);
 }
 
 void report_bad_page(uint8_t page, uint8_t fault)
@@ -43,7 +30,7 @@ void report_bad_page(uint8_t page, uint8_t fault)
         return;
     }
     TEXT(" is damaged: ");
-    report_page_fault(fault);
+    text_P(report_page_fault_P(fault));
 }
 
 void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)

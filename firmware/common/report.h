@@ -8,8 +8,9 @@
 #include "page.h"
 #include "performer.h"
 
-/* "checksum is wrong", "more than 7 steps", ...: what is wrong with a page. */
-void report_page_fault(uint8_t page_status);
+/* "checksum is wrong", "more than 7 steps", ...: what is wrong with a page (page_status_t), in flash, at most 19
+ * characters. */
+const char *report_page_fault_P(uint8_t page_status);
 
 /* "Page 9 is damaged: checksum is wrong", "Page 9 is empty". */
 void report_bad_page(uint8_t page, uint8_t fault);

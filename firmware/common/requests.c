@@ -104,7 +104,7 @@ static void print_list_entry(uint8_t page)
     text_put(':');
     if (!good) {
         TEXT("!:\"");
-        report_page_fault((uint8_t)page_store_check(requests_image.pages, page));
+        text_P(report_page_fault_P((uint8_t)page_store_check(requests_image.pages, page)));
         text_put('"');
         return;
     }

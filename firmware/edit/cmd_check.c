@@ -4,9 +4,9 @@
 #include "bus_call.h"
 #include "commands.h"
 #include "dxl.h"
-#include "frame.h"
 #include "page_facts.h"
 #include "pgm.h"
+#include "report.h"
 #include "system.h"
 #include "text.h"
 
@@ -129,10 +129,8 @@ static void check_page(uint8_t page)
 {
     page_status_t status = page_store_check(&the_pages, page);
     if (status != PAGE_OK) {
-        char text[FRAME_FAULT_BYTES];
-        frame_fault_text(status == PAGE_ERR_STEPS ? page_store_byte(page, PAGE_AT_STEPS) : (uint8_t)status, text);
         begin_line(page);
-        text_string(text);
+        text_P(report_page_fault_P((uint8_t)status));
         text_line_end();
         return;
     }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * cmd_list.c - HELP, LIST, FIND: what there is. Lists have the whole terminal, one item a line, a screen at a time. */
 #include "commands.h"
-#include "frame.h"
 #include "page_facts.h"
 #include "pgm.h"
+#include "report.h"
 #include "text.h"
 
 /* ---- HELP ---- */
@@ -91,9 +91,7 @@ static void print_page(uint8_t page)
     text_string_padded(name, PAGE_NAME_BYTES);
     page_status_t status = page_store_check(&the_pages, page);
     if (status != PAGE_OK) {
-        char text[FRAME_FAULT_BYTES];
-        frame_fault_text(status == PAGE_ERR_STEPS ? header[PAGE_AT_STEPS] : (uint8_t)status, text);
-        text_string(text);
+        text_P(report_page_fault_P((uint8_t)status));
     } else {
         static const uint8_t fields[] PROGMEM = { PAGE_AT_STEPS, PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE,
             PAGE_AT_LINKED1_PAGE, PAGE_AT_LINKED1_CODE, PAGE_AT_LINKED2_PAGE, PAGE_AT_LINKED2_CODE, PAGE_AT_PLAY_CODE };

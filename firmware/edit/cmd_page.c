@@ -4,10 +4,10 @@
 #include "commands.h"
 #include "compiler.h"
 #include "console.h"
-#include "frame.h"
 #include "page_save.h"
 #include "page_service.h"
 #include "pgm.h"
+#include "report.h"
 #include "text.h"
 
 #include <string.h>
@@ -99,21 +99,15 @@ static void clear_off_marks(void)
     }
 }
 
-/* Faults that a save does not cure. Not inlined: the text would lie on the stack while the page is saved. */
-static NOINLINE bool page_is_sound(void)
+/* Faults that a save does not cure. */
+static bool page_is_sound(void)
 {
-    bool was_damaged = the_session.was_damaged;
-    the_session.was_damaged = false;
-    uint8_t fault = frame_fault();
-    the_session.was_damaged = was_damaged;
-    if (fault == 0) {
-        return true;
+    page_status_t fault = session_check_fields();
+    if (fault != PAGE_OK) {
+        TEXT("Not saved: ");
+        text_P(report_page_fault_P((uint8_t)fault));
     }
-    char text[FRAME_FAULT_BYTES];
-    frame_fault_text(fault, text);
-    TEXT("Not saved. ");
-    text_string(text);
-    return false;
+    return fault == PAGE_OK;
 }
 
 static bool overwriting_is_meant(uint8_t page)

@@ -24,7 +24,7 @@ COMMAND(cmd_go)
         return EDITOR_TO_ASK;
     }
     uint8_t words[PAGE_STEP_BYTES];
-    memcpy(words, &the_session.cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
+    memcpy(words, &the_session.cells[session_step_at(step)], sizeof words);
     the_session.go_step = step;
     send_step(words);
     return SHELL_OK;
@@ -59,7 +59,7 @@ COMMAND(cmd_mirror)
 {
     uint8_t step = (uint8_t)args->number[0];
     uint8_t words[PAGE_STEP_BYTES];
-    memcpy(words, &the_session.cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step], sizeof words);
+    memcpy(words, &the_session.cells[session_step_at(step)], sizeof words);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         uint8_t partner = the_settings.pair[joint];
         if (partner < PAGE_JOINTS) {

@@ -9,11 +9,6 @@
 #define LAST_STEP (PAGE_STEPS - 1u)
 enum { PERCENT_DEFAULT = 50, PERCENT_WHOLE = 100 };
 
-static uint16_t step_at(uint8_t step)
-{
-    return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step);
-}
-
 /* value * mul / div, rounded to the nearer, halves up. */
 static NOINLINE uint16_t part_of(uint16_t value, uint16_t mul, uint16_t div)
 {
@@ -33,7 +28,7 @@ static void set_between(uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
         uint16_t first = session_word(a, joint);
         uint16_t second = session_word(b, joint);
         bool both = cell_is_position(first) && cell_is_position(second);
-        session_set_word((uint16_t)(step_at(to) + 2u * joint),
+        session_set_word((uint16_t)(session_step_at(to) + 2u * joint),
                          both ? between(first, second, percent) : (uint16_t)PAGE_POS_UNUSED);
     }
 }
@@ -51,7 +46,7 @@ static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
  * and with speeds, what the step it leads to has. */
 static void share_time(uint8_t to, uint8_t b, uint8_t percent)
 {
-    uint16_t at = (uint16_t)(step_at(b) + PAGE_STEP_AT_SPEED);
+    uint16_t at = (uint16_t)(session_step_at(b) + PAGE_STEP_AT_SPEED);
     uint8_t time = the_session.cells[at];
     if (b == to + 1u && the_session.cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME) {
         bool cut = false;
@@ -59,7 +54,7 @@ static void share_time(uint8_t to, uint8_t b, uint8_t percent)
         session_set_byte(at, time > part ? (uint8_t)(time - part) : 1u);
         time = part;
     }
-    session_set_byte((uint16_t)(step_at(to) + PAGE_STEP_AT_SPEED), time);
+    session_set_byte((uint16_t)(session_step_at(to) + PAGE_STEP_AT_SPEED), time);
 }
 
 COMMAND(cmd_int)
@@ -77,7 +72,7 @@ COMMAND(cmd_int)
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, to, LAST_STEP));
     b = b >= to ? (uint8_t)(b + 1u) : b;
     set_between(a, b, to, (uint8_t)percent);
-    session_set_byte((uint16_t)(step_at(to) + PAGE_STEP_AT_PAUSE), 0);
+    session_set_byte((uint16_t)(session_step_at(to) + PAGE_STEP_AT_PAUSE), 0);
     share_time(to, b, (uint8_t)percent);
     session_set_byte(PAGE_AT_STEPS, (uint8_t)(steps + 1u));
     return editor_edited();
@@ -90,7 +85,7 @@ COMMAND(cmd_scale)
     bool is_time = the_session.cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME;
     session_begin();
     for (uint8_t step = 0; step < session_steps(); step++) {
-        uint16_t at = (uint16_t)(step_at(step) + PAGE_STEP_AT_PAUSE);
+        uint16_t at = (uint16_t)(session_step_at(step) + PAGE_STEP_AT_PAUSE);
         session_set_byte(at, scaled(the_session.cells[at], percent, PERCENT_WHOLE, &cut));
         at++;
         session_set_byte(at, is_time ? scaled(the_session.cells[at], percent, PERCENT_WHOLE, &cut)
@@ -126,13 +121,11 @@ static void paste_step(uint8_t from, uint8_t to)
 {
     uint8_t chunk[PAGE_STEP_BYTES];
     if (the_editor.take_page == the_session.page) {
-        memcpy(chunk, &the_session.cells[step_at(from)], PAGE_STEP_BYTES);
+        memcpy(chunk, &the_session.cells[session_step_at(from)], PAGE_STEP_BYTES);
     } else {
-        page_store_read(the_editor.take_page, step_at(from), chunk, PAGE_STEP_BYTES);
+        page_store_read(the_editor.take_page, session_step_at(from), chunk, PAGE_STEP_BYTES);
     }
-    for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++) {
-        session_set_byte((uint16_t)(step_at(to) + i), chunk[i]);
-    }
+    session_set_bytes(session_step_at(to), chunk, PAGE_STEP_BYTES);
 }
 
 COMMAND(cmd_paste)

@@ -8,11 +8,6 @@
 #define LAST_STEP (PAGE_STEPS - 1u)
 #define POSE_STEP PAGE_STEPS       /* 7 in MOVE: the work pose */
 
-static uint16_t step_at(uint8_t step)
-{
-    return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step);   /* step 7 is the work pose */
-}
-
 static void set_count(uint8_t steps)
 {
     session_set_byte(PAGE_AT_STEPS, steps);
@@ -20,9 +15,7 @@ static void set_count(uint8_t steps)
 
 static void copy_step(uint8_t from, uint8_t to)
 {
-    for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++) {
-        session_set_byte((uint16_t)(step_at(to) + i), the_session.cells[step_at(from) + i]);
-    }
+    session_set_bytes(session_step_at(to), &the_session.cells[session_step_at(from)], PAGE_STEP_BYTES);
 }
 
 /* Page 0: the trim follows from master pose and this robot's pose. */

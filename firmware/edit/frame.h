@@ -15,7 +15,6 @@
 #define FRAME_FAULT_COLUMN 61u
 #define FRAME_GO_COLUMN 72u
 #define FRAME_LABEL_BYTES 21u
-#define FRAME_FAULT_BYTES 21u
 
 uint8_t frame_marker_column(uint8_t steps);
 bool frame_is_marker_column(uint8_t column);
@@ -34,10 +33,5 @@ uint8_t frame_header_label(uint8_t y, char label[FRAME_LABEL_BYTES]);
 
 /* Name, page number, flash address (y 0..2); returns the column. */
 uint8_t frame_title_text(uint8_t y, char text[FRAME_LABEL_BYTES]);
-
-/* What is wrong with the page as one byte (0 nothing, else page_status_t, Page Step included when that is it) and as
- * 20 characters. */
-uint8_t frame_fault(void);
-void frame_fault_text(uint8_t fault, char text[FRAME_FAULT_BYTES]);
 
 #endif

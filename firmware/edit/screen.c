@@ -84,7 +84,7 @@ void screen_sync(void)
 {
     uint8_t flags = flags_of();
     uint8_t turned = flags ^ the_screen.shown_flags;
-    uint8_t fault = frame_fault();
+    uint8_t fault = (uint8_t)session_check();
     screen_follow();
     if (the_session.x != the_screen.shown_x || the_session.y != the_screen.shown_y || (turned & SHOWN_HEX) != 0) {
         the_screen.items |= ITEM_XYA;

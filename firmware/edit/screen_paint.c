@@ -4,6 +4,7 @@
 #include "frame.h"
 #include "parts.h"
 #include "pgm.h"
+#include "report.h"
 #include "screen_parts.h"
 #include "text.h"
 
@@ -240,15 +241,20 @@ static void paint_go(void)
 static void paint_unsaved(void)
 {
     screen_go((uint8_t)(screen_command_row() - 1u), 1);
-    send_text_P(the_session.is_changed ? TEXT_P("* unsaved") : TEXT_P("         "));
+    if (the_session.is_changed) {
+        send_text_P(TEXT_P("* unsaved"));
+    } else {
+        send_spaces(9);
+    }
 }
 
 static void paint_fault(void)
 {
-    char text[FRAME_FAULT_BYTES];
     screen_go(screen_row_of(CELL_Y_PAUSE), FRAME_FAULT_COLUMN);
-    frame_fault_text(the_screen.shown_fault, text);
-    send_text(text);
+    if (the_screen.shown_fault != PAGE_OK) {
+        send_text_P(report_page_fault_P(the_screen.shown_fault));
+    }
+    ansi_erase_line();
 }
 
 static void paint_item(uint16_t item)

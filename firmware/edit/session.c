@@ -82,6 +82,13 @@ void session_set_byte(uint16_t address, uint8_t byte)
     }
 }
 
+void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count)
+{
+    while (count-- > 0) {
+        session_set_byte(address++, *bytes++);
+    }
+}
+
 void session_set_word(uint16_t address, uint16_t word)
 {
     session_set_byte(address, (uint8_t)word);
@@ -110,9 +117,14 @@ uint16_t session_pose(uint8_t joint)
     return cell_word(the_session.cells, (uint16_t)(CELLS_POSE_AT + 2u * joint));
 }
 
+NOINLINE uint16_t session_step_at(uint8_t step)
+{
+    return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step);
+}
+
 uint16_t session_word(uint8_t step, uint8_t joint)
 {
-    return page_pos(the_session.cells, step, joint);
+    return cell_word(the_session.cells, (uint16_t)(session_step_at(step) + 2u * joint));
 }
 
 uint8_t session_steps(void)
@@ -177,7 +189,6 @@ void session_open(uint8_t page)
         }
     }
     the_session.page = page;
-    undo_clear(&the_session.undo);
     session_load(page);
     undo_clear(&the_session.undo);
     the_session.undo_reloads = false;
@@ -275,8 +286,7 @@ bool session_end(void)
 
 static void swap_steps(uint8_t a, uint8_t b)
 {
-    uint16_t at_a = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * a);
-    uint16_t at_b = (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * b);
+    uint16_t at_a = session_step_at(a), at_b = session_step_at(b);
     for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++, at_a++, at_b++) {
         uint8_t bits = the_session.cells[at_a] ^ the_session.cells[at_b];
         if (bits != 0) {
@@ -349,12 +359,14 @@ bool session_redo(void)
 
 page_status_t session_check(void)
 {
-    if (the_session.was_damaged) {
-        return PAGE_ERR_CHECKSUM;
-    }
+    return the_session.was_damaged ? PAGE_ERR_CHECKSUM : session_check_fields();
+}
+
+page_status_t session_check_fields(void)
+{
     page_status_t status = page_check_header(the_session.cells);
     for (uint8_t step = 0; status == PAGE_OK && step < session_steps(); step++) {
-        status = page_check_step(&the_session.cells[PAGE_AT_STEP0 + PAGE_STEP_BYTES * step]);
+        status = page_check_step(&the_session.cells[session_step_at(step)]);
     }
     return status;
 }

@@ -56,6 +56,7 @@ void session_open(uint8_t page);
 void session_begin(void);
 void session_set_byte(uint16_t address, uint8_t byte);
 void session_set_word(uint16_t address, uint16_t word);
+void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count);
 /* Recomputes is_changed. false: the change is done but cannot be undone. */
 bool session_end(void);
 
@@ -80,6 +81,9 @@ void session_update_trim(uint8_t joint);
 /* Number of steps, 0..7 whatever the page says. */
 uint8_t session_steps(void);
 
+/* Where step 0..6 begins in cells; step 7 is the work pose. */
+uint16_t session_step_at(uint8_t step);
+
 /* Word of joint in step 0..6. */
 uint16_t session_word(uint8_t step, uint8_t joint);
 
@@ -88,6 +92,9 @@ uint8_t session_new_byte(uint16_t offset);
 
 /* What is wrong with the page as it stands here: its checksum as it was opened, the rest as it is now. */
 page_status_t session_check(void);
+
+/* The same without the checksum, which a save makes anew. */
+page_status_t session_check_fields(void);
 
 /* true when flash page `page` holds nothing: erased, or a good page without name and step. */
 bool session_is_empty(uint8_t page);

@@ -61,7 +61,7 @@ void views_print_list(play_t *play)
             damaged++;
             text_padded(page, 3, ' ');
             TEXT(" damaged: ");
-            report_page_fault((uint8_t)page_store_check(&play->pages, page));
+            text_P(report_page_fault_P((uint8_t)page_store_check(&play->pages, page)));
             text_line_end();
         }
     }

@@ -506,7 +506,7 @@ def test_check_names_what_is_wrong():
         r.line("check", ms=3000)
         shown = r.show()
         assert "Page   1: leads to page 2, which is not valid" in shown
-        assert "Page   2: Invalid: checksum" in shown
+        assert "Page   2: checksum is wrong" in shown
         assert "Page   3: no code and no other page calls it" in shown
         assert "Page   3: step 1 ID 5 too fast" in shown
         assert "Page   4: leads to page 9, which has no steps" in shown or "Page   4: leads to page 9, which is not valid" in shown

@@ -151,11 +151,11 @@ def test_damaged_pages_are_shown_as_what_they_are():
     nine = page("nine", [(30, {})])
     nine.steps = 9
     nine.seal()
-    cases = {2: (torn, "Invalid: checksum"), 3: (nine, "Invalid: 9 steps"),
-             4: (page("s", [(30, {})], schedule=5), "Invalid: schedule"),
-             5: (page("p", [(30, {})], speed=0), "Invalid: page speed"),
-             6: (page("l", [(30, {})], next=200), "Invalid: link"),
-             7: (page("w", [(30, {3: 1500})]), "Invalid: position")}
+    cases = {2: (torn, "checksum is wrong"), 3: (nine, "more than 7 steps"),
+             4: (page("s", [(30, {})], schedule=5), "unknown schedule"),
+             5: (page("p", [(30, {})], speed=0), "page speed is 0"),
+             6: (page("l", [(30, {})], next=200), "a link is above 127"),
+             7: (page("w", [(30, {3: 1500})]), "position above 1023")}
     with robot(pages={1: READY, **{n: made for n, (made, _) in cases.items()}}) as r:
         for number, (made, text) in cases.items():
             r.line(f"page {number}")

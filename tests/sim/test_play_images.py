@@ -15,7 +15,7 @@ ALL = bool(os.environ.get("M512_ALL_PAGES"))
 EVERY = 1 if ALL else 5
 REASONS = {Fault.CHECKSUM: "checksum is wrong", Fault.STEPS: "more than 7 steps", Fault.SCHEDULE: "unknown schedule",
            Fault.SPEED: "page speed is 0", Fault.LINK: "a link is above 127",
-           Fault.POSITION: "a position is above 1023"}
+           Fault.POSITION: "position above 1023"}
 FILES = sorted(DATA.glob("*.bin")) if DATA.is_dir() else []
 PLAY_MS, END_MS = 3000, 60_000
 
