@@ -91,8 +91,10 @@ class Judge:
     """Follows a play tick by tick and says what is wrong with it."""
 
     def __init__(self, image, pose):
-        self.image, self.target, self.begun = image, list(pose), None
-        self.shapes = []      # what was in force at the ticks, the last ones
+        self.image, self.target = image, list(pose)
+        self.steps = []       # (page and step, tick in which it begins, goals before it)
+        self.ticks = []       # goals of all ticks; None: a tick without output
+        self.shapes = []      # what was in force at each tick
         self.before = list(pose)
         self.trace = []       # goals of the running step, tick by tick; None: a tick without output
 
@@ -121,7 +123,6 @@ class Judge:
             found.append(wrong[0])
         return f"page {place[0]} step {place[1]}: {found}"
 
-
     def on_the_way(self, pose, ideal):
         """No joint passes the way-points on either side of the step; no tick of it is idle."""
         wrong = [f"joint {j} passes its way-point: {row[j]}" for row in self.trace if row for j, to in pose.items()
@@ -129,6 +130,32 @@ class Judge:
         if sum(row is not None for row in self.trace) < int(ideal) - 1:
             wrong.append(f"idle ticks: {sum(row is None for row in self.trace)}")
         return wrong
+
+    def follow(self, play, shape, changes, limit=LIMIT):
+        """Plays on, tick by tick: None, or what is wrong. changes(events) -> what is set behind this tick, as Played.shape takes it."""
+        for tick in range(limit):
+            self.shapes.append(shape)
+            events = play.tick()
+            goals = play.goals()
+            if events & STEP or events & ENDED:
+                if self.steps and not (events & ENDED and not events & STEP and events & OUTPUT):
+                    place, begun = self.steps[-1][:2]
+                    since = self.steps[-2][1] - 3 if len(self.steps) > 1 else 0
+                    wrong = self.step_ends(place, tick - begun, self.before, self.candidates(tick, since))
+                    if wrong:
+                        return f"tick {tick}: {wrong}"
+                    self.target, self.trace = list(self.before), []
+                if events & STEP:
+                    self.steps.append((play.place(), tick, list(self.before)))
+            self.before = list(goals)
+            self.trace.append(self.before if events & OUTPUT else None)
+            self.ticks.append(self.trace[-1])
+            if events & ENDED:
+                break
+            for change in changes(events):
+                play.shape(*change)
+                shape = apply(shape, *change)
+        return None
 
 
 def first_difference(seed):
@@ -146,29 +173,7 @@ def first_difference(seed):
     play = Played(image, pages[0], EXACT, ALL, dict(enumerate(pose)), shape=[("reset",), *changes])
     if not play.started:
         return None
-    judge, places, begins = Judge(image, pose), [], []
-    for tick in range(LIMIT):
-        judge.shapes.append(shape)
-        events = play.tick()
-        goals = play.goals()
-        if events & STEP or events & ENDED:
-            if places and not (events & ENDED and not events & STEP and events & OUTPUT):
-                wrong = judge.step_ends(places[-1], tick - begins[-1], judge.before, judge.candidates(tick, begins[-2] - 3 if len(begins) > 1 else 0))
-                if wrong:
-                    return f"tick {tick}: {wrong}"
-                judge.target, judge.trace = list(judge.before), []
-            if events & STEP:
-                places.append(play.place())
-                begins.append(tick)
-        judge.before = list(goals)
-        judge.trace.append(judge.before if events & OUTPUT else None)
-        if events & ENDED:
-            break
-        if chance.random() < 0.03:
-            change = change_by_chance(chance, pages)
-            play.shape(*change)
-            shape = apply(shape, *change)
-    return None
+    return Judge(image, pose).follow(play, shape, lambda events: [change_by_chance(chance, pages)] if chance.random() < 0.03 else [])
 
 
 def compare(first, count):

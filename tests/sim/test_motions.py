@@ -13,7 +13,8 @@ from play_robot import DOWN, JOINTS, LEFT, RIGHT, STOP, UP, ask, robot
 
 MOTIONS = (pathlib.Path(os.environ["M512_BUILD"]) / "motions" / "motions.bin").read_bytes()
 LIBRARY = from_bytes(MOTIONS)
-PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable}
+WALK_JOINT = 11
+PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable and page.word(0, WALK_JOINT) < 1024}  # not the layers
 NUMBER = {page.title: number for number, page in PAGES.items()}
 TICK_CYCLES = 125_000
 MOST_UNITS_PER_TICK = 0.9 * no_load_units_per_tick(11.1) + 1  # goals are whole units

@@ -21,7 +21,10 @@ import gait  # noqa: E402
 JOINTS = range(1, 19)
 READY = gait.stand(gait.numbers()["ready"])
 LIBRARY = load(HERE / "motions.m512")
-PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable}
+ALL_PAGES = {number: page for number, page in LIBRARY.items() if number and page.is_playable}
+# Pages that are laid over others use joints of their own.
+LAYERS = {"wave_over": (1, 3, 5), "look": (19, 20), "look_ahead": (19, 20)}
+PAGES = {number: page for number, page in ALL_PAGES.items() if page.title not in LAYERS}
 NUMBER = {page.title: number for number, page in PAGES.items()}
 SECONDS = 128
 
@@ -29,7 +32,8 @@ SERVO_UNITS_PER_TICK = 59 * 11.1 / 12 * 360 / 60 / SECONDS * 1024 / 300  # an AX
 MOST_UNITS_PER_TICK = 0.9 * SERVO_UNITS_PER_TICK
 BODY = {  # degrees of the right side, see README.md; the left side is its mirror image
     1: (-45, 145), 3: (-20, 130), 5: (-90, 50), 7: (-30, 30), 9: (-25, 25), 11: (-30, 120), 13: (-125, 0), 15: (-30, 65),
-    17: (-25, 25)}
+    17: (-25, 25), 19: (-90, 90)}
+HEAD_TILT = -40, 40
 KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "1": 16, "2": 32, "3": 64, "4": 128}
 ON_THE_FLOOR = {"pushups", "pushups_do", "pushups_up", "get_up"}
 LEANING = {"bow", "dance_end", "sit"} | ON_THE_FLOOR
@@ -108,6 +112,21 @@ def test_every_joint_is_said_in_every_step_and_no_other():
             assert used == list(JOINTS), (number, step)
 
 
+@pytest.mark.parametrize("name", LAYERS)
+def test_a_layer_uses_its_own_joints_alone_and_keeps_to_what_they_can(name):
+    page, before = LIBRARY[LIBRARY.find(name)], None
+    for step in range(page.steps):
+        used = {joint: page.word(step, joint) for joint in range(31) if page.word(step, joint) < 1024}
+        assert tuple(used) == LAYERS[name], step
+        for joint, position in used.items():
+            low, high = HEAD_TILT if joint == 20 else BODY[joint]
+            assert low <= (position - 512) * 300 / 1024 <= high, (step, joint)
+        if before:
+            assert max(abs(used[joint] - before[joint]) for joint in used) / page.time(step) <= MOST_UNITS_PER_TICK
+        before = used
+    assert page.code == 0 and {page.next, page.exit} <= {0, *(LIBRARY.find(other) for other in LAYERS)}
+
+
 def test_no_page_is_without_a_way_to_it_and_every_stop_ends():
     """Each page has a code, or a page leads to it; from any page the exit links come to an end."""
     led_to = set().union(*(links(page) for page in PAGES.values()))
@@ -133,6 +152,8 @@ def test_walk_is_what_the_generator_makes():
 def test_table_of_the_readme_is_true():
     """Number, name, keys and links of every page, as the table says them."""
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in (HERE / "README.md").read_text().splitlines()]
+    layers = {row[1].strip("`"): (int(row[0]), [int(joint) for joint in row[2].split(",")]) for row in rows if len(row) == 4 and row[0].isdigit()}
+    assert layers == {name: (LIBRARY.find(name), list(joints)) for name, joints in LAYERS.items()}
     listed = {int(row[0]): (row[1].strip("`"), row[2], row[4]) for row in rows if len(row) == 5 and row[0].isdigit()}
     assert set(listed) == set(PAGES)
     for number, (name, keys, ways) in listed.items():

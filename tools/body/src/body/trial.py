@@ -123,7 +123,7 @@ def watch(player, physics, seconds, keys=(), falls=True):
             player.keys(keys.pop(0)[1])
         pushed = _push(physics, pushes, pushed, now)
         playing = player.run(CHUNK)
-        outcome.track.append(_look(physics, frame, zero_s))
+        outcome.track.append(look(physics, frame, zero_s))
         outcome.touched |= {pair for pair in physics.touching() if "floor" not in pair}
         if falls and physics.upright < FALLEN:
             outcome.fell_s = physics.time_s - zero_s
@@ -158,7 +158,8 @@ def stands(physics):
     return physics.upright > ON_FEET and on_floor <= {"right_sole", "left_sole"}
 
 
-def _look(physics, frame, zero_s):
+def look(physics, frame, zero_s):
+    """Where it is now; frame: (x, y, heading in radians) at zero_s."""
     x0, y0, turned = frame
     x, y = physics.x_mm - x0, physics.y_mm - y0
     return Look(physics.time_s - zero_s, x * math.cos(turned) + y * math.sin(turned), y * math.cos(turned) - x * math.sin(turned),
@@ -170,18 +171,22 @@ def _measure(outcome):
         return
     last = outcome.track[-1]
     outcome.x_mm, outcome.y_mm, outcome.heading = last.x_mm, last.y_mm, last.heading
-    warm = [look for look in outcome.track if look.time_s >= min(WARM_S, last.time_s / 2)]
-    span = warm[-1].time_s - warm[0].time_s
+    outcome.forward_mm_s, outcome.sideways_mm_s, outcome.turn_deg_s = pace(
+        [seen for seen in outcome.track if seen.time_s >= min(WARM_S, last.time_s / 2)])
+
+
+def pace(looks):
+    """(mm/s forward, mm/s to the left, degrees/s) over these looks, in the robot's own frame, a second at a time: sway cancels out,
+    a turn does not shorten the way. Zeros where they span no time."""
+    span = looks[-1].time_s - looks[0].time_s if looks else 0
     if span <= 0:
-        return
-    outcome.turn_deg_s = (warm[-1].heading - warm[0].heading) / span
-    # In the robot's own frame, a second at a time: sway cancels out, a turn does not shorten the way.
+        return 0.0, 0.0, 0.0
     forward = sideways = 0.0
-    stride = max(1, round(1.0 * TICKS_PER_S / CHUNK))
-    marks = warm[::stride] + ([warm[-1]] if (len(warm) - 1) % stride else [])
+    stride = max(1, round((len(looks) - 1) / span))
+    marks = looks[::stride] + ([looks[-1]] if (len(looks) - 1) % stride else [])
     for before, after in zip(marks, marks[1:]):
         ahead = math.radians((before.heading + after.heading) / 2)
         dx, dy = after.x_mm - before.x_mm, after.y_mm - before.y_mm
         forward += dx * math.cos(ahead) + dy * math.sin(ahead)
         sideways += dy * math.cos(ahead) - dx * math.sin(ahead)
-    outcome.forward_mm_s, outcome.sideways_mm_s = forward / span, sideways / span
+    return forward / span, sideways / span, (looks[-1].heading - looks[0].heading) / span
