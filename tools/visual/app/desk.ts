@@ -14,7 +14,8 @@ import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Desk, DeskState, Floor, Hand, ImageName, PanelButton, Tab } from '../view/desk.ts';
+import type { Desk, DeskState, Floor, Hand, ImageName, Notice, PanelButton, Tab } from '../view/desk.ts';
+import { PLAY_TEXTS } from '../view/editor/step-texts.ts';
 import { refusalText } from '../view/editor/texts.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
@@ -24,6 +25,8 @@ import { TEXTS, doingText, errorText } from '../view/texts.ts';
 import { KeptDocuments } from './documents.ts';
 import { DocumentFiles } from './files.ts';
 import { holdDocument } from './hold-document.ts';
+import { differing, pagesOfPlay, writePages } from './edited-play.ts';
+import { Follow } from './follow.ts';
 import { Listeners } from './listeners.ts';
 import { LastSaid } from './said.ts';
 import { StickDrive } from './stick.ts';
@@ -33,6 +36,7 @@ import { YourSource } from './your-source.ts';
 
 const WHERE_MS = 300;
 const REMOTE_REPEAT_MS = 100;
+const READY_MS = 60_000;
 
 const START: DeskState = {
   source: 'simulated', connection: 'closed', portName: '', version: null, where: null, pages: [], image: 'play', physics: 'loading', speed: 1,
@@ -59,6 +63,7 @@ export class RobotDesk implements Desk {
   private held: ReadonlySet<RemoteButton> = new Set();
   private whereTimer: ReturnType<typeof setTimeout> | undefined;
   private typing = '';
+  private readonly follower = new Follow(() => this.connection, (error) => this.fail(error));
   private readonly stick = new StickDrive(() => this.connection, () => this.walkPage(), (error) => this.fail(error));
 
   constructor(body: Body, parts: EditorParts, formats: FileFormats, storage: DeskStorage) {
@@ -124,13 +129,34 @@ export class RobotDesk implements Desk {
     return this.deed(() => command(this.connection.requests, what));
   }
 
-  setTorque(on: boolean): Promise<void> {
-    return this.deed(() => setTorque(this.connection.requests, on));
+  setTorque(on: boolean, servos: readonly number[] = []): Promise<void> {
+    return this.deed(() => setTorque(this.connection.requests, on, servos));
+  }
+
+  playEdited(page: number): Promise<void> {
+    return this.deed(async () => {
+      if (this.isSimulated) await this.becomeEdit();
+      const { format, state } = this.editor;
+      const { document, robot } = state.get();
+      const there = await differing(this.connection.requests, document, pagesOfPlay(format, document, page), robot);
+      this.editor.setRobot(there.robot);
+      if (there.pages.length > 0 && !this.isSimulated) return this.say({ text: PLAY_TEXTS.writeFirst, tone: 'bad' });
+      this.editor.setRobot(await writePages(this.connection.requests, format, there));
+      await play(this.connection.requests, page);
+    });
+  }
+
+  follow(positions: readonly (number | null)[] | null): void {
+    this.follower.set(positions);
+  }
+
+  say(said: Notice): void {
+    this.state.set({ said });
   }
 
   remote(held: ReadonlySet<RemoteButton>): void {
     this.held = held;
-    if (held.size > 0 && this.isSimulated) void this.simulated.prepare();
+    if (held.size > 0 && this.isSimulated) this.becomeDriven();
     this.sendRemote();
   }
 
@@ -205,8 +231,12 @@ export class RobotDesk implements Desk {
   }
 
   runImage(image: ImageName): void {
-    this.state.set({ image });
-    void this.simulated.restart(image);
+    void this.restart(image);
+  }
+
+  private async restart(image: ImageName): Promise<void> {
+    this.state.set({ image, connection: 'opening' });
+    await this.simulated.restart(image);
   }
 
   forget(): Promise<void> {
@@ -253,14 +283,45 @@ export class RobotDesk implements Desk {
   private connectionChanged(state: ConnectionState): void {
     const { version, name } = this.connection;
     this.state.set({ connection: state, version, portName: name, where: null });
-    this.say();
+    this.tell();
     if (state !== 'ready') return;
     void askList(this.connection.requests).then((pages) => this.state.set({ pages }), (error: unknown) => this.fail(error));
-    if (this.isSimulated) void this.simulated.prepare().catch((error: unknown) => this.fail(error));
+    if (this.isSimulated && version?.image === 'play') void this.simulated.prepare().catch((error: unknown) => this.fail(error));
     void this.askWhere();
   }
 
-  private say(): void {
+  /** Only Edit saves pages. The simulated robot starts anew with it, stands up, and stays so until somebody drives it. */
+  private async becomeEdit(): Promise<void> {
+    if (this.state.get().image !== 'edit') {
+      this.say({ text: PLAY_TEXTS.startsEdit, tone: 'calm' });
+      await this.restart('edit');
+    }
+    await this.untilReady();
+    await this.simulated.prepare();
+  }
+
+  /** Only Play hears a remote control. */
+  private becomeDriven(): void {
+    if (this.state.get().image === 'play') return void this.simulated.prepare();
+    this.say({ text: PLAY_TEXTS.startsPlay, tone: 'calm' });
+    this.runImage('play');
+  }
+
+  private untilReady(): Promise<void> {
+    return new Promise((resolve, reject) => {
+      let unwatch = (): void => undefined;
+      const timer = setTimeout(() => end(() => reject(new RobotError('no-answer'))), READY_MS);
+      const end = (deed: () => void): void => {
+        clearTimeout(timer);
+        queueMicrotask(() => unwatch());
+        deed();
+      };
+      unwatch = this.state.watch(({ connection, version, image, physics }) =>
+        connection === 'ready' && version?.image === image && physics !== 'loading' && end(resolve));
+    });
+  }
+
+  private tell(): void {
     const state = this.state.get();
     const tone = state.stopped !== null || state.connection === 'foreign' || state.connection === 'waiting' ? 'bad' : 'calm';
     this.state.set({ doing: { text: doingText(state, state.where), tone } });
@@ -276,11 +337,11 @@ export class RobotDesk implements Desk {
   private async askWhere(): Promise<void> {
     clearTimeout(this.whereTimer);
     this.whereTimer = setTimeout(() => void this.askWhere(), WHERE_MS);
-    if (!this.mayAsk() || this.state.get().version?.image !== 'play' || this.state.get().speed === 0) return;
+    if (!this.mayAsk() || this.state.get().speed === 0) return;
     try {
       const where = await askWhere(this.connection.requests, { timeoutMs: 3000 });
       this.state.set({ where });
-      this.say();
+      this.tell();
     } catch (error) {
       if (error instanceof RobotError && error.code === 'no-answer') this.connection.askAgain();
     }

@@ -48,7 +48,7 @@ export class SimulatedSource {
   private robot: SimulatedRobot | null = null;
   private isShown = true;
   private standing: Promise<void> | null = null;
-  private last: RobotState | null = null;
+  private readonly waiting: ((state: RobotState) => void)[] = [];
   connection: Connection | null = null;
 
   constructor(body: Body, events: SourceEvents) {
@@ -116,7 +116,8 @@ export class SimulatedSource {
 
   private async stand(): Promise<void> {
     const connection = this.connection;
-    if (!connection || connection.version?.image !== 'play' || !this.last?.isHeld) return;
+    const now = await this.nextFrame();
+    if (!connection?.version || !now.isHeld) return;
     await play(connection.requests, READY_PAGE);
     const endMs = performance.now() + STAND_LIMIT_MS;
     while (performance.now() < endMs) {
@@ -124,6 +125,10 @@ export class SimulatedSource {
       if (where.state === 'idle') break;
     }
     this.post({ kind: 'hold', held: false });
+  }
+
+  private nextFrame(): Promise<RobotState> {
+    return new Promise((resolve) => this.waiting.push(resolve));
   }
 
   private async addPhysics(robot: SimulatedRobot): Promise<void> {
@@ -138,7 +143,7 @@ export class SimulatedSource {
   private take(message: FromSim): void {
     switch (message.kind) {
       case 'state':
-        this.last = message.state;
+        for (const tell of this.waiting.splice(0)) tell(message.state);
         return this.isShown ? this.events.frame(message.state) : undefined;
       case 'started': return this.events.change({ faultNames: message.faults, stopped: null });
       case 'physics':

@@ -4,6 +4,10 @@
 import { ActionBar } from './action-bar.ts';
 import type { Desk, DeskState, Tab } from './desk.ts';
 import { FilesMenu } from './editor/files-menu.ts';
+import { EDITING_START } from './editor/editing.ts';
+import type { Editing } from './editor/editing.ts';
+import { PoseBar } from './editor/pose-bar.ts';
+import { StepsPane } from './editor/steps-pane.ts';
 import { define, make } from './element.ts';
 import { EditBar } from './editor/edit-bar.ts';
 import { PagesPane } from './editor/pages-pane.ts';
@@ -11,15 +15,17 @@ import { LabPane } from './lab-pane.ts';
 import { RemotePad } from './remote-pad.ts';
 import { RobotView } from './robot-view.ts';
 import { StatusStrip } from './status-strip.ts';
+import { Store } from './store.ts';
 import { TerminalPane } from './terminal-pane.ts';
 import './app-shell.css';
 
-const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['pages', 'Pages'], ['terminal', 'Terminal'], ['lab', 'Lab']];
+const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['steps', 'Steps'], ['pages', 'Pages'], ['terminal', 'Terminal'], ['lab', 'Lab']];
 /** Areas that show the document. */
 const EDITING: readonly Tab[] = ['steps', 'curves', 'pages', 'links', 'checks'];
 
 export class AppShell extends HTMLElement {
   desk!: Desk; // set before it is connected
+  private readonly editing = new Store<Editing>(EDITING_START);
   private readonly tabs = new Map<Tab, HTMLButtonElement>();
   private readonly panels = new Map<Tab, HTMLElement>();
   private readonly simulated = make('button', { onclick: () => this.desk.useSimulated() }, 'Robot in this page');
@@ -28,16 +34,18 @@ export class AppShell extends HTMLElement {
   private unwatch: () => void = () => undefined;
 
   connectedCallback(): void {
-    const robot = this.give(new RobotView());
+    const robot = Object.assign(this.give(new RobotView()), { editing: this.editing });
+    const poses = Object.assign(this.give(new PoseBar()), { editing: this.editing, margin: () => robot.margin });
     const lab = this.give(new LabPane());
     lab.onTilt = (front, left) => robot.tilt(front, left);
     this.addPanel('remote', this.give(new RemotePad()));
+    this.addPanel('steps', Object.assign(this.give(new StepsPane()), { editing: this.editing }));
     this.addPanel('pages', this.give(new PagesPane()));
     this.addPanel('terminal', this.give(new TerminalPane()));
     this.addPanel('lab', lab);
     this.replaceChildren(
       this.head(),
-      make('main', {}, make('div', { class: 'stage' }, robot, this.give(new ActionBar())),
+      make('main', {}, make('div', { class: 'stage' }, robot, poses, this.give(new ActionBar())),
         make('div', { class: 'areas' }, this.tabList(), this.give(this.editBar), ...this.panels.values())),
       this.give(new StatusStrip()),
     );

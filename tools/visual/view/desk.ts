@@ -72,7 +72,14 @@ export interface Desk {
   show(tab: Tab): void;
   play(page: number): Promise<void>;
   command(command: Command): Promise<void>;
-  setTorque(on: boolean): Promise<void>;
+  /** Without servos: of all. */
+  setTorque(on: boolean, servos?: readonly number[]): Promise<void>;
+  /** Plays a page of the document: writes it and what it leads to first, as far as the robot has it otherwise. */
+  playEdited(page: number): Promise<void>;
+  /** From now on the robot goes slowly to this pose (servo units by ID; null: this joint stays); null: no more. */
+  follow(positions: readonly (number | null)[] | null): void;
+  /** Says something in the strip. */
+  say(notice: Notice): void;
   remote(held: ReadonlySet<RemoteButton>): void;
   /** A stick: x to the right, y ahead, -1..1; null: let go. It walks, the farther the stick the larger the steps. */
   drive(stick: { readonly x: number; readonly y: number } | null): void;

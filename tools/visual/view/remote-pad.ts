@@ -73,6 +73,7 @@ export class RemotePad extends HTMLElement {
     const target = event.target instanceof HTMLElement ? event.target : null;
     const isElsewhere = target?.closest('input, select, textarea, terminal-pane, [role="tablist"]') !== null && target !== null;
     if (!name || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (event.type === 'keydown' && this.desk.state.get().tab !== 'remote') return; // elsewhere the arrows edit
     if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button')))) return;
     event.preventDefault();
     this.change('keys', name, event.type === 'keydown');

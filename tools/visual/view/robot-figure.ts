@@ -3,14 +3,13 @@
 
 import { BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, Group, Mesh, MeshStandardMaterial, Object3D, SphereGeometry, Vector3 } from 'three';
 import { RoundedBoxGeometry } from 'three/examples/jsm/geometries/RoundedBoxGeometry.js';
-import { jointAngle } from '../model/body.ts';
-import type { Body, Joint, Shape } from '../model/body.ts';
+import type { Angles, Body, Joint, Shape } from '../model/body.ts';
 import type { Place } from '../model/space.ts';
-import type { ServoState } from '../robot/robot-state.ts';
 
 const ROUND = 0.0035;
 const HIGHLIGHT = new Color(0x2f9bff);
 const ALARM = new Color(0xe5484d);
+const NO_ALARMS: ReadonlySet<number> = new Set();
 
 function geometryOf(shape: Shape): BufferGeometry {
   const [a = 0.01, b = 0.01, c = 0.01] = shape.size;
@@ -28,6 +27,12 @@ function put(object: Object3D, place: Place): void {
   object.quaternion.set(place.quat[1], place.quat[2], place.quat[3], place.quat[0]);
 }
 
+/** A ghost is seen through, casts no shadow and cannot be picked. */
+export interface GhostLook {
+  readonly colour: number;
+  readonly opacity: number;
+}
+
 interface JointGroup {
   readonly joint: Joint;
   readonly group: Group;
@@ -36,33 +41,44 @@ interface JointGroup {
 
 export class RobotFigure {
   readonly root = new Group();
-  /** What can be picked; `userData.link` names the link. */
+  /** What can be picked; `userData.link` names the link, `userData.shape` the shape. */
   readonly meshes: Mesh[] = [];
   private readonly joints = new Map<number, JointGroup>();
   private readonly links = new Map<string, Group>();
   private readonly materials = new Map<string, MeshStandardMaterial[]>();
+  private readonly ghost: GhostLook | null;
   private marked: string | null = null;
+  private chosen: ReadonlySet<string> = new Set();
 
-  constructor(body: Body) {
+  constructor(body: Body, ghost: GhostLook | null = null) {
+    this.ghost = ghost;
     const jointOf = new Map(body.joints.map((joint) => [joint.body, joint]));
     for (const link of body.links) this.addLink(link, jointOf.get(link.name));
     for (const shape of body.shapes) this.addShape(shape, body);
   }
 
-  /** Where the trunk is and how the joints stand. */
-  show(trunk: Place, servos: readonly ServoState[]): void {
+  /** Where the trunk is and how the joints stand. alarms: servos that report a fault. */
+  show(trunk: Place, angles: Angles, alarms: ReadonlySet<number> = NO_ALARMS): void {
     put(this.root, trunk);
-    for (const servo of servos) {
-      const found = this.joints.get(servo.id);
-      if (!found) continue;
-      found.group.quaternion.setFromAxisAngle(found.axis, jointAngle(found.joint, servo.position));
-      this.tint(found.joint.body, servo.alarms !== 0);
-    }
+    for (const { joint, group, axis } of this.joints.values()) group.quaternion.setFromAxisAngle(axis, angles.get(joint.servo) ?? 0);
+    if (this.ghost) return;
+    const alarmed = new Set([...alarms].map((servo) => this.joints.get(servo)?.joint.body));
+    for (const [link, materials] of this.materials) this.tint(materials, alarmed.has(link), link === this.marked, this.chosen.has(link));
   }
 
   /** Lights up one link; null: none. */
   mark(link: string | null): void {
     this.marked = link;
+  }
+
+  /** Lights up the links that are being edited. */
+  choose(links: ReadonlySet<string>): void {
+    this.chosen = links;
+  }
+
+  /** Leaves out the parts of these links: a ghost has no need of them where the figure stands the same. */
+  hide(links: ReadonlySet<string>): void {
+    for (const mesh of this.meshes) mesh.visible = !links.has(String(mesh.userData['link']));
   }
 
   link(name: string): Object3D | undefined {
@@ -91,20 +107,23 @@ export class RobotFigure {
   private addShape(shape: Shape, body: Body): void {
     const [r = 1, g = 1, b = 1] = body.materials[shape.material] ?? [];
     const isMetal = shape.material === 'bracket';
-    const material = new MeshStandardMaterial({ color: new Color().setRGB(r, g, b, 'srgb'), roughness: isMetal ? 0.42 : 0.55, metalness: isMetal ? 0.35 : 0.05 });
+    const material = this.ghost
+      ? new MeshStandardMaterial({ color: this.ghost.colour, transparent: true, opacity: this.ghost.opacity, depthWrite: false, roughness: 0.8 })
+      : new MeshStandardMaterial({ color: new Color().setRGB(r, g, b, 'srgb'), roughness: isMetal ? 0.42 : 0.55, metalness: isMetal ? 0.35 : 0.05 });
     const mesh = new Mesh(geometryOf(shape), material);
     put(mesh, shape);
-    mesh.castShadow = mesh.receiveShadow = true;
+    mesh.castShadow = mesh.receiveShadow = this.ghost === null;
     mesh.userData['link'] = shape.body;
+    mesh.userData['shape'] = shape.name;
     this.links.get(shape.body)?.add(mesh);
     this.meshes.push(mesh);
     this.materials.set(shape.body, [...(this.materials.get(shape.body) ?? []), material]);
   }
 
-  private tint(link: string, hasAlarm: boolean): void {
-    for (const material of this.materials.get(link) ?? []) {
+  private tint(materials: readonly MeshStandardMaterial[], hasAlarm: boolean, isMarked: boolean, isChosen: boolean): void {
+    for (const material of materials) {
       material.emissive = hasAlarm ? ALARM : HIGHLIGHT;
-      material.emissiveIntensity = hasAlarm ? 0.55 : link === this.marked ? 0.35 : 0;
+      material.emissiveIntensity = hasAlarm ? 0.55 : isChosen ? 0.6 : isMarked ? 0.35 : 0;
     }
   }
 }

@@ -3,12 +3,11 @@
 
 import {
   AmbientLight, BufferGeometry, CanvasTexture, CircleGeometry, Color, DirectionalLight, Fog, Group, HemisphereLight, Line, LineBasicMaterial, Mesh,
-  MeshStandardMaterial, PCFShadowMap, PerspectiveCamera, Raycaster, RepeatWrapping, SRGBColorSpace, Scene, Vector2, Vector3, WebGLRenderer, Plane,
+  MeshStandardMaterial, Object3D, PCFShadowMap, PerspectiveCamera, Raycaster, RepeatWrapping, SRGBColorSpace, Scene, Vector2, Vector3, WebGLRenderer, Plane,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Body } from '../model/body.ts';
 import type { Place, Vector } from '../model/space.ts';
-import type { RobotState } from '../robot/robot-state.ts';
 import type { Quality } from './picture-quality.ts';
 import { RobotFigure } from './robot-figure.ts';
 
@@ -16,9 +15,12 @@ const ROOM_RADIUS = 12;
 const TILE_M = 0.1;
 const FOLLOW = 0.08; // of the way a frame
 const MOST_PIXELS = 2;
+const EDGE_ON = 0.2; // sine of the angle between sight and plane
 
 export interface Picked {
   readonly link: string;
+  /** Name of the shape that was hit, if it has one. */
+  readonly shape: string | null;
   /** In the frame of the link. */
   readonly point: Vector;
   readonly world: Vector;
@@ -78,9 +80,14 @@ export class RobotScene {
     this.room.rotation.set(-left, front, 0);
   }
 
-  show(state: RobotState, follow: boolean): void {
-    this.figure.show(state.trunk, state.servos);
-    if (follow) this.follow(state.trunk);
+  /** Something of the room that comes and goes: ghosts, marks on the floor. */
+  add(...objects: Object3D[]): void {
+    this.room.add(...objects);
+  }
+
+  /** The camera goes with the trunk, if it shall. */
+  look(trunk: Place, follow: boolean): void {
+    if (follow) this.follow(trunk);
     this.light.position.set(this.followed.x + 0.5, this.followed.y - 0.7, 1.9);
     this.light.target.position.copy(this.followed);
   }
@@ -98,7 +105,18 @@ export class RobotScene {
     if (!hit || typeof link !== 'string') return null;
     const frame = this.figure.link(link);
     const local = frame ? frame.worldToLocal(hit.point.clone()) : hit.point;
-    return { link, point: local.toArray(), world: this.room.worldToLocal(hit.point.clone()).toArray() };
+    const shape: unknown = hit.object.userData['shape'];
+    return { link, shape: typeof shape === 'string' ? shape : null, point: local.toArray(), world: this.room.worldToLocal(hit.point.clone()).toArray() };
+  }
+
+  /** The place under a point of the picture in the plane through `world` with this normal; seen edge-on: as drag(). */
+  dragInPlane(x: number, y: number, world: Vector, normal: Vector): Vector {
+    this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
+    const towards = new Vector3(...normal).transformDirection(this.room.matrixWorld);
+    if (Math.abs(towards.dot(this.raycaster.ray.direction)) < EDGE_ON) return this.drag(x, y, world);
+    const plane = new Plane().setFromNormalAndCoplanarPoint(towards, this.room.localToWorld(new Vector3(...world)));
+    const hit = this.raycaster.ray.intersectPlane(plane, new Vector3());
+    return hit ? this.room.worldToLocal(hit).toArray() : this.drag(x, y, world);
   }
 
   /** The place under a point of the picture, in the plane through `world` that faces the camera. */

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The picture of the robot. The mouse turns the camera; on the robot it takes hold of a limb and pulls. By keyboard: the
-// arrows turn the camera, and the Lab pulls by numbers.
+// The picture of the robot. The mouse turns the camera; on the robot it takes hold of a limb and pulls, or, while a step is
+// edited, it changes the step (editor/pose-tool.ts). By keyboard: the arrows turn the camera, and the Lab pulls by numbers.
 
 import { jointTitle } from '../model/body.ts';
+import type { Joint } from '../model/body.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Desk } from './desk.ts';
+import { EDITING_START } from './editor/editing.ts';
+import type { Editing } from './editor/editing.ts';
+import { PoseTool } from './editor/pose-tool.ts';
 import { define, make } from './element.ts';
 import { PictureQuality } from './picture-quality.ts';
 import { RobotScene } from './robot-scene.ts';
 import type { Picked } from './robot-scene.ts';
+import { Store } from './store.ts';
 import { TEXTS } from './texts.ts';
 import './robot-view.css';
 
@@ -16,6 +21,8 @@ const TURN_RAD = 0.12;
 
 export class RobotView extends HTMLElement {
   desk!: Desk; // set before it is connected
+  editing = new Store<Editing>(EDITING_START);
+  private pose: PoseTool | null = null;
   private scene: RobotScene | null = null;
   private quality = new PictureQuality(false);
   private state: RobotState | null = null;
@@ -33,6 +40,7 @@ export class RobotView extends HTMLElement {
       return;
     }
     this.quality = new PictureQuality(this.scene.isSoftware);
+    this.pose = new PoseTool(this.scene, this.desk, this.editing);
     this.watchSize(this.scene);
     this.watchTheme(this.scene);
     this.listen();
@@ -42,8 +50,14 @@ export class RobotView extends HTMLElement {
 
   disconnectedCallback(): void {
     for (const dispose of this.disposals.splice(0)) dispose();
+    this.pose?.dispose();
     this.scene?.dispose();
     this.scene = null;
+  }
+
+  /** How far the centre of mass of the edited step is inside the ground of its soles (metres); null: not looked at. */
+  get margin(): number | null {
+    return this.pose?.margin ?? null;
   }
 
   tilt(front: number, left: number): void {
@@ -58,12 +72,18 @@ export class RobotView extends HTMLElement {
       if (nowMs - beforeMs < this.quality.leastMs) return;
       if (this.quality.take(nowMs - beforeMs)) this.resize(scene);
       beforeMs = nowMs;
-      if (this.state) scene.show(this.state, this.grabbed === null);
+      this.place(scene);
       if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
       scene.draw();
     };
     request = requestAnimationFrame(draw);
     this.disposals.push(() => cancelAnimationFrame(request));
+  }
+
+  private place(scene: RobotScene): void {
+    if (!this.state) return;
+    this.pose?.show(this.state);
+    scene.look(this.state.trunk, this.grabbed === null && !this.pose?.isDragging);
   }
 
   private watchSize(scene: RobotScene): void {
@@ -94,9 +114,11 @@ export class RobotView extends HTMLElement {
     const canvas = this.canvas;
     canvas.addEventListener('pointerdown', (event) => this.grab(event), { capture: true });
     canvas.addEventListener('pointermove', (event) => this.move(event));
-    canvas.addEventListener('pointerup', () => this.release());
-    canvas.addEventListener('pointercancel', () => this.release());
-    canvas.addEventListener('keydown', (event) => this.turnByKey(event));
+    canvas.addEventListener('pointerup', () => this.release(true));
+    canvas.addEventListener('pointercancel', () => this.release(false));
+    canvas.addEventListener('keydown', (event) => this.key(event));
+    canvas.addEventListener('keyup', () => this.pose?.keyUp());
+    canvas.addEventListener('blur', () => this.pose?.keyUp());
   }
 
   private at(event: PointerEvent): readonly [number, number] {
@@ -106,25 +128,33 @@ export class RobotView extends HTMLElement {
 
   private grab(event: PointerEvent): void {
     const picked = event.button === 0 ? this.scene?.pick(...this.at(event)) : null;
-    if (!picked || !this.scene || this.desk.state.get().source !== 'simulated') return;
+    const isPosing = this.pose?.isPosing === true;
+    if (!picked || !this.scene || (!isPosing && this.desk.state.get().source !== 'simulated')) return;
     event.stopImmediatePropagation(); // the camera stays where it is
+    event.preventDefault();
+    this.canvas.focus({ preventScroll: true });
     this.scene.controls.enabled = false;
     this.canvas.setPointerCapture(event.pointerId);
-    this.grabbed = { ...picked, target: picked.world };
+    if (isPosing) this.pose?.down(picked, event.shiftKey || event.ctrlKey);
+    else this.grabbed = { ...picked, target: picked.world };
   }
 
   private move(event: PointerEvent): void {
     if (!this.scene) return;
+    if (this.pose?.isDragging) return this.pose.move(...this.at(event));
     if (!this.grabbed) return this.hover(event);
     const target = this.scene.drag(...this.at(event), this.grabbed.world);
     this.grabbed = { ...this.grabbed, target };
     this.desk.pull({ link: this.grabbed.link, point: this.grabbed.point, target });
   }
 
-  private release(): void {
-    if (!this.grabbed || !this.scene) return;
-    this.grabbed = null;
+  /** keep: false takes back what a drag has changed. */
+  private release(keep: boolean): void {
+    if (!this.scene) return;
     this.scene.controls.enabled = true;
+    this.pose?.up(keep);
+    if (!this.grabbed) return;
+    this.grabbed = null;
     this.scene.pull(null);
     this.desk.pull(null);
   }
@@ -134,9 +164,20 @@ export class RobotView extends HTMLElement {
     this.scene?.figure.mark(link);
     this.canvas.classList.toggle('over-robot', link !== null);
     const joint = this.desk.body.joints.find((one) => one.body === link);
-    const servo = this.state?.servos.find((one) => one.id === joint?.servo);
     this.label.hidden = !joint;
-    if (joint) this.label.textContent = `${joint.servo} ${jointTitle(joint)}: ${Math.round(servo?.position ?? joint.zero)}${servo?.torque ? '' : ', limp'}`;
+    if (joint) this.label.textContent = `${joint.servo} ${jointTitle(joint)}: ${this.standOf(joint)}`;
+  }
+
+  private standOf(joint: Joint): string {
+    if (this.pose?.isPosing) return String(Math.round(this.pose.shownPose()[joint.servo] ?? joint.zero));
+    const servo = this.state?.servos.find((one) => one.id === joint.servo);
+    return `${Math.round(servo?.position ?? joint.zero)}${servo?.torque ? '' : ', limp'}`;
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (this.pose?.isPosing && this.pose.key(event)) event.preventDefault();
+    else if (event.key === 'Escape') this.release(false);
+    else this.turnByKey(event);
   }
 
   private turnByKey(event: KeyboardEvent): void {

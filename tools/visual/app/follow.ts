@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Live follow: brings the robot, slowly, to the pose that is wanted last. One request is under way at a time; while the robot
+// still moves, the next pose waits (`@move` is refused then).
+
+import type { Connection } from '../robot/connection.ts';
+import { REFUSED, movePose } from '../robot/protocol.ts';
+import { RobotError } from '../robot/robot-error.ts';
+
+export const FOLLOW_DEGREES_PER_SECOND = 60;
+const AGAIN_MS = 60;
+
+export class Follow {
+  private readonly connection: () => Connection;
+  private readonly fail: (error: unknown) => void;
+  private wanted: readonly (number | null)[] | null = null;
+  private isRunning = false;
+
+  constructor(connection: () => Connection, fail: (error: unknown) => void) {
+    this.connection = connection;
+    this.fail = fail;
+  }
+
+  /** Servo units by ID; null: no more. The way that is on is finished. */
+  set(positions: readonly (number | null)[] | null): void {
+    this.wanted = positions;
+    if (positions && !this.isRunning) void this.run();
+  }
+
+  private async run(): Promise<void> {
+    this.isRunning = true;
+    let sent = '';
+    try {
+      while (this.wanted) {
+        const pose = this.wanted;
+        if (pose.join() !== sent && (await this.move(pose))) sent = pose.join();
+        else await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
+      }
+    } catch (error) {
+      this.wanted = null;
+      this.fail(error);
+    } finally {
+      this.isRunning = false;
+    }
+  }
+
+  /** false: it moves still. */
+  private async move(pose: readonly (number | null)[]): Promise<boolean> {
+    try {
+      await movePose(this.connection().requests, FOLLOW_DEGREES_PER_SECOND, pose);
+      return true;
+    } catch (error) {
+      if (error instanceof RobotError && error.number === REFUSED.busy) return false;
+      throw error;
+    }
+  }
+}

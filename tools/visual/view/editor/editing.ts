@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What the editor's areas share beside the document: how the picture is used, and what the robot and the chosen step have for
+// a pose. Not in the history.
+
+import { lowerFoot } from '../../model/balance.ts';
+import { anglesOf, jointAngle, nearestPosition } from '../../model/body.ts';
+import type { Angles, Body, Side } from '../../model/body.ts';
+import { JOINTS } from '../../model/motion.ts';
+import type { Step } from '../../model/page.ts';
+import type { Stance } from '../../model/pose-drag.ts';
+import type { RobotState } from '../../robot/robot-state.ts';
+import type { Tab } from '../desk.ts';
+import type { Editor } from '../editor-desk.ts';
+
+/** pose: a drag in the picture changes the chosen step; hand: it pulls the robot. */
+export type PictureMode = 'pose' | 'hand';
+
+export interface Editing {
+  readonly mode: PictureMode;
+  readonly keep: Side | 'lower';
+  /** A foot that is dragged keeps its sole parallel to the floor. */
+  readonly soleFlat: boolean;
+  readonly onionSkin: boolean;
+  readonly balance: boolean;
+  /** The robot goes where the chosen step is. */
+  readonly follow: boolean;
+}
+
+export const EDITING_START: Editing = { mode: 'pose', keep: 'lower', soleFlat: true, onionSkin: false, balance: true, follow: false };
+
+/** Areas in which a step is edited: there the picture shows it. */
+const EDITING_TABS: ReadonlySet<Tab> = new Set<Tab>(['steps', 'curves']);
+
+export function isEditing(tab: Tab): boolean {
+  return EDITING_TABS.has(tab);
+}
+
+/** Servo units by ID in which a step leaves the joints: those that it does not use stay as the steps before left them. */
+export function poseAfter(editor: Editor, page: number, step: number): number[] {
+  const pose = Array.from(editor.firstPose(page));
+  for (const { positions } of editor.page(page).steps.slice(0, step + 1)) {
+    for (const [id, position] of positions.entries()) if (position !== null) pose[id] = position;
+  }
+  return pose;
+}
+
+export function stepAngles(editor: Editor, body: Body, page: number, step: number): Angles {
+  return anglesOf(body, poseAfter(editor, page, step), new Map());
+}
+
+export function robotAngles(body: Body, robot: RobotState): Angles {
+  const positions = new Map(robot.servos.map((servo) => [servo.id, servo.position]));
+  return new Map(body.joints.map((joint) => [joint.servo, jointAngle(joint, positions.get(joint.servo) ?? joint.zero)]));
+}
+
+/** Servo units by ID of the robot as it stands; null: no such servo. A joint that holds has its goal: what it was told, not how
+ *  far the weight bends it. */
+export function robotPositions(robot: RobotState): (number | null)[] {
+  const positions = new Array<number | null>(JOINTS).fill(null);
+  for (const servo of robot.servos) positions[servo.id] = Math.round((servo.torque ? servo.goalPos : null) ?? servo.position);
+  return positions;
+}
+
+/** Positions of the joints whose angles differ. */
+export function changedPositions(body: Body, before: Angles, after: Angles): Map<number, number> {
+  return new Map(body.joints.flatMap((joint) => {
+    const [was, is] = [nearestPosition(joint, before.get(joint.servo) ?? 0), nearestPosition(joint, after.get(joint.servo) ?? 0)];
+    return was === is ? [] : [[joint.servo, is] as const];
+  }));
+}
+
+/** The foot on which the edited figure stands, where the robot has that foot. */
+export function stanceOf(body: Body, editing: Editing, angles: Angles, feet: Readonly<Record<Side, Stance['at']>>): Stance {
+  const keep = editing.keep === 'lower' ? lowerFoot(body, angles) : editing.keep;
+  return { keep, at: feet[keep] };
+}
+
+const SAFE_UNITS_PER_TICK = 2.5;
+const LEAST_TIME = 48;
+
+/** Time of a step (ticks at nominal speed) in which no joint has to hurry on its way from the pose before. */
+export function easyTime(from: readonly (number | null)[], to: readonly (number | null)[]): number {
+  const ways = to.map((position, id) => Math.abs((position ?? 0) - (from[id] ?? position ?? 0)));
+  return Math.min(255, Math.max(LEAST_TIME, Math.ceil(Math.max(...ways) / SAFE_UNITS_PER_TICK)));
+}
+
+/** A step of these positions that the robot reaches without haste. */
+export function easyStep(positions: readonly (number | null)[], before: readonly (number | null)[]): Step {
+  return { positions, time: easyTime(before, positions), pause: 0 };
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Every sentence of Steps, Curves and the picture while a step is edited.
+
+export const POSE_TEXTS = {
+  poseMode: 'Drag a joint, a hand, a foot or the body: the chosen step changes. The robot itself stays as it is.',
+  handMode: 'Your hand pulls the robot: limp limbs follow, stiff ones resist.',
+  tips: 'Standing like this, the robot would tip over.',
+} as const;
+
+export const STEP_TEXTS = {
+  purpose: 'A page is up to seven poses, its steps; the robot goes from one to the next. Choose a step and drag the robot in the picture.',
+  copied: 'The chosen steps are in the clipboard, as text.',
+  noClipboard: 'The browser keeps the clipboard to itself here. Click a step and press Ctrl+C or Ctrl+V.',
+  noSteps: 'There are no steps in the clipboard. Copy some from a page, or lines that begin with "step" from a .m512 file.',
+  allUsed: 'All pages are used. Clear one in Pages first.',
+} as const;
+
+export const TEACH_TEXTS = {
+  stiff: 'All joints hold. Let a limb go, move it, hold it, add a step.',
+  limpSimulated: 'Drag the limp limb in the picture, then hold it or add a step.',
+  limpYours: 'Move the limp limb by hand; the picture follows. Then hold it or add a step. Support the robot: limp legs do not carry it.',
+} as const;
+
+export const FOLLOW_TEXTS = {
+  offer: 'The robot follows the chosen step, slowly (60° a second)',
+} as const;
+
+export const PLAY_TEXTS = {
+  startsEdit: 'The robot in the page starts anew with Edit, the firmware that saves pages.',
+  startsPlay: 'The robot in the page starts anew with Play, the firmware that hears the remote control.',
+  writeFirst: 'Your robot has this page otherwise. Write it first: "To the robot …". Then play it.',
+} as const;

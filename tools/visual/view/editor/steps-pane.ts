@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Steps: the page as pictures, its times, and what can be done with them.
+
+import type { Desk } from '../desk.ts';
+import { define, make } from '../element.ts';
+import type { Store } from '../store.ts';
+import type { Editing } from './editing.ts';
+import { FollowBar } from './follow-bar.ts';
+import { PageHead } from './page-head.ts';
+import { StepActions } from './step-actions.ts';
+import { StepRow } from './step-row.ts';
+import { TeachBar } from './teach-bar.ts';
+import { STEP_TEXTS } from './step-texts.ts';
+import { TimeLine } from './time-line.ts';
+import './steps-pane.css';
+
+export class StepsPane extends HTMLElement {
+  desk!: Desk; // these are set before it is connected
+  editing!: Store<Editing>;
+
+  connectedCallback(): void {
+    const give = <T extends HTMLElement & { desk: Desk }>(element: T): T => Object.assign(element, { desk: this.desk });
+    const actions = give(new StepActions());
+    const row = give(new StepRow());
+    const teach = Object.assign(give(new TeachBar()), { editing: this.editing, add: () => actions.addFromRobot() });
+    const follow = Object.assign(give(new FollowBar()), { editing: this.editing });
+    this.replaceChildren(make('p', { class: 'purpose' }, STEP_TEXTS.purpose), give(new PageHead()), row, give(new TimeLine()), actions, teach, follow);
+    row.addEventListener('keydown', (event) => {
+      if (event.target instanceof HTMLInputElement || !actions.key(event)) return;
+      event.preventDefault();
+      row.focusCursor();
+    });
+    for (const [name, deed] of [['copy', actions.onCopy], ['cut', actions.onCut], ['paste', actions.onPaste]] as const) {
+      row.addEventListener(name, (event) => {
+        if (!(event.target instanceof HTMLInputElement)) deed.call(actions, event);
+      });
+    }
+  }
+}
+
+define('steps-pane', StepsPane);
