@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Line commands for programs in Edit (firmware/edit/PROTOCOL.md), and the full screen around them."""
+import pytest
 from edit_robot import page, robot
 from m512.crc16 import crc16
 
@@ -151,14 +152,19 @@ def test_what_must_not_be_while_something_moves_is_refused_and_the_rest_is_not()
             assert ask(r, request, ms=400).endswith(" OK"), request
 
 
-def test_save_of_page_0_puts_the_trim_in_force_typed_or_not():
+@pytest.mark.parametrize("typed", [True, False])
+def test_save_of_page_0_puts_the_trim_in_force_typed_or_not(typed):
     data = page("Offset", [(0, {1: 512}), (0, {1: 562}), (0, {1: 50})]).data
     with robot(pages=PAGES) as r:
         ask(r, "@torque on", ms=300)
         assert ask(r, "@open 0") == "@open OK"
         for offset in range(0, 512, 32):
             ask(r, f"@data {offset} {data[offset:offset + 32].hex()}", ms=40)
-        assert ask(r, f"@save 0 0x{crc16(bytes(data)):04X}", ms=250) == "@save OK"
+        if typed:
+            r.line("save", ms=1000)
+            assert r.message.endswith("OK")
+        else:
+            assert ask(r, f"@save 0 0x{crc16(bytes(data)):04X}", ms=250) == "@save OK"
         assert ask(r, "@open 1") == "@open OK"
         assert ask(r, "@move 90 1 200") == "@move OK"
         r.board.run(ms=1500)

@@ -5,6 +5,7 @@
 #include "unity.h"
 
 #include <string.h>
+#include "bus.h"
 
 #define UP "\033[A"
 #define DOWN "\033[B"
@@ -136,6 +137,32 @@ static void test_save_writes_the_page_and_takes_the_mark_away(void)
     TEST_ASSERT_EQUAL_STRING("save OK", message());
     TEST_ASSERT_EQUAL_MEMORY(the_session.cells, flash_page(1), PAGE_BYTES);
     TEST_ASSERT_FALSE(the_session.is_changed);
+}
+
+static uint16_t operations, operations_on_a_busy_bus;
+
+static void note_operation(void)
+{
+    operations++;
+    operations_on_a_busy_bus += bus_has_news();
+}
+
+/* Answers take longer than the tick, so that at most moments one is on its way. */
+static void test_save_waits_until_the_bus_is_quiet(void)
+{
+    fake_bus_set_latency(30);
+    for (uint8_t ms = 0; ms < 16; ms++) {
+        type("goto 1 3\r");
+        type(ms % 2 == 0 ? "set 700\r" : "set 701\r");
+        fake_console_type("save");
+        run_ms(500u + ms);
+        TEST_ASSERT_TRUE(bus_has_news());
+        operations = operations_on_a_busy_bus = 0;
+        fake_flash_on_operation(note_operation);
+        type("\r");
+        TEST_ASSERT_GREATER_THAN(0, operations);
+        TEST_ASSERT_EQUAL(0, operations_on_a_busy_bus);
+    }
 }
 
 /* ---- keys on the table ---- */
@@ -348,6 +375,7 @@ int main(void)
     RUN_TEST(test_nobody_is_asked_when_nothing_is_lost);
     RUN_TEST(test_exit_restarts_only_after_the_question);
     RUN_TEST(test_save_writes_the_page_and_takes_the_mark_away);
+    RUN_TEST(test_save_waits_until_the_bus_is_quiet);
     RUN_TEST(test_arrows_move_the_cursor_and_stop_at_the_edge);
     RUN_TEST(test_brackets_change_a_position_within_its_range);
     RUN_TEST(test_brackets_wrap_a_byte_and_stop_at_seven_steps);
