@@ -191,6 +191,29 @@ def test_play_is_shaped(m512, robot):
     assert m512("shape", "--rate", "5", "-p", robot.path).exit_code == 2
 
 
+def test_a_page_is_laid_over_the_walk_on_joints_of_its_own(m512, robot):
+    start(m512, robot)
+    refused = m512("layer", "old", "-p", robot.path)
+    assert refused.exit_code == 8 and "Nothing is playing" in refused.stderr
+    assert m512("play", "walk", "-p", robot.path).exit_code == 0
+    robot.pass_time(3)
+    laid = m512("layer", "old", "--joints", "1,3", "-p", robot.path)
+    assert laid.exit_code == 0 and "layer 100" in laid.stdout, laid.stderr
+    assert m512("layer", "off", "-p", robot.path, "--json").exit_code == 0
+    assert json.loads(m512("shape", "--json", "-p", robot.path).stdout)["layer"] == "0"
+    assert m512("layer", "fly", "-p", robot.path).exit_code == 8
+    assert "belongs to a page" in m512("layer", "off", "--joints", "1", "-p", robot.path).stderr
+
+
+def test_amplitudes_of_single_joints_are_told_with_their_joints(m512, robot):
+    start(m512, robot)
+    with VirtualLink(robot.path) as link:
+        client = Client(link)
+        client.ask("amplitude 60")
+        client.ask("amplitude 120 3 4")
+        assert client.shape()["amplitude"] == "60 3,4:120"
+
+
 def test_drive_ends_through_the_exit_page_when_the_line_falls_silent(m512, robot):
     start(m512, robot)
     with VirtualLink(robot.path) as link:

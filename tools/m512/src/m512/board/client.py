@@ -12,7 +12,7 @@ from typing import Dict, List, Optional, Sequence, Tuple
 from m512.board.link import Link
 from m512.crc16 import crc16
 from m512.errors import BoardError, NoAnswerError
-from m512.files.page import PAGE_BYTES, Page
+from m512.files.page import JOINTS, PAGE_BYTES, Page
 
 ANSWER_SECONDS = 3.0
 TRIES = 3
@@ -151,8 +151,22 @@ class Client:
         return self._fields(self.ask("where"))
 
     def shape(self) -> Dict[str, str]:
-        """What shapes the motion: rate, blend, amplitude, layer, by_code."""
-        return self._fields(self.ask("shape"))
+        """What shapes the motion: rate, blend, amplitude ("60", or "60 3,4:120" where joints differ), layer (the second page, 0: none),
+        aim (joints that code moves)."""
+        found = self._fields(self.ask("shape"))
+        if len(found.get("amplitude", "")) == 2 * JOINTS:
+            found["amplitude"] = _by_joints(bytes.fromhex(found["amplitude"]))
+        if "aim" in found:
+            joints = int(found["aim"], 16)
+            found["aim"] = ",".join(str(joint) for joint in range(JOINTS) if joints >> joint & 1) or "none"
+        return found
 
     def play(self, page: int, code: int = 0) -> None:
         self.ask(f"play {page}" + (f" {code}" if code else ""))
+
+
+def _by_joints(values: bytes) -> str:
+    """The value that most joints have, then the others with their joints."""
+    most = max(set(values), key=values.count)
+    others = [f"{','.join(str(joint) for joint, at in enumerate(values) if at == value)}:{value}" for value in sorted(set(values) - {most})]
+    return " ".join([str(most), *others])

@@ -141,7 +141,7 @@ Examples:
 @robot_options
 def pose(positions, speed, as_text, **options):
     """Show the pose of the robot, or move joints to positions (0..1023, or 30deg from the centre)."""
-    wanted = _positions(positions)
+    wanted = positions_of(positions)
     with robot(options) as client:
         if wanted:
             client.move(wanted, speed)
@@ -158,7 +158,8 @@ def pose(positions, speed, as_text, **options):
             ui.show(f"ID {joint:2}  {'silent' if at is None else at:>6}  {degrees}  {'holds' if on else 'limp'}")
 
 
-def _positions(words):
+def positions_of(words):
+    """{ID: position} of words such as 1:512, 3..5:30deg."""
     from m512.files.text.words import WordError, joints_of, position
 
     out = {}

@@ -2,12 +2,12 @@
 """`m512 shape`, `drive`: a motion that plays made faster, larger, turned."""
 from __future__ import annotations
 
-import json
 from contextlib import contextmanager
 
 import click
 
 from m512 import ui
+from m512.cli.layers import show_shape
 from m512.cli.robot import robot, robot_options
 from m512.errors import MissingError
 
@@ -44,11 +44,7 @@ def shape(rate, amplitude, blend, reset, **options):
         if reset:
             client.ask("shape reset")
         apply(client, rate, amplitude, blend)
-        found = client.shape()
-    if options["as_json"]:
-        ui.show(json.dumps(found))
-    else:
-        ui.show("  ".join(f"{word} {value}" for word, value in found.items()))
+        show_shape(client, options["as_json"])
 
 
 @click.command(epilog="""\b

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: MIT
+"""`m512 layer`, `aim`, `swing`, `free`: what moves joints of its own over the motion that plays (Play)."""
+from __future__ import annotations
+
+import json
+
+import click
+
+from m512 import ui
+from m512.cli.files import id_list
+from m512.cli.robot import ID_MAX, positions_of, robot, robot_options
+
+SECOND_MS = 1000
+AMPLITUDES = (0, 511)
+
+
+def show_shape(client, as_json):
+    """What is in force now."""
+    found = client.shape()
+    if as_json:
+        ui.show(json.dumps(found))
+    else:
+        ui.show("  ".join(f"{word} {value}" for word, value in found.items()))
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 layer wave_over                waves while the robot walks
+  m512 layer wave --joints 1,3,5      of another page these joints alone
+  m512 layer off                      its joints go back to the motion below""")
+@click.argument("page", metavar="PAGE|off")
+@click.option("--joints", help="IDs (1..6 or 1,3,5). Default: those that the page's first step uses.")
+@robot_options
+def layer(page, joints, **options):
+    """Play a second PAGE over the one that plays, on joints of its own; all others go on as without it."""
+    chosen = id_list(joints) if joints else []
+    if page == "off" and chosen:
+        raise click.UsageError("--joints belongs to a page; `layer off` ends the whole layer")
+    with robot(options) as client:
+        number = "off" if page == "off" else client.find(page)
+        client.ask(" ".join(map(str, ["layer", number, *chosen])))
+        show_shape(client, options["as_json"])
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 aim 19:30deg                   the head looks to the left, also while the robot walks
+  m512 aim 19:512 20:600 --speed 120""")
+@click.argument("positions", nargs=-1, required=True, metavar="ID:POSITION...")
+@click.option("--speed", metavar="DEG/S", type=click.IntRange(1, 360), help="Largest speed. Default: that of the approach.")
+@robot_options
+def aim(positions, speed, **options):
+    """Bring joints to positions (0..1023, or 30deg from the centre) and hold them there, up to four, until `free`."""
+    wanted = positions_of(positions)
+    with robot(options) as client:
+        for joint, at in wanted.items():
+            client.ask(f"aim {joint} {at}" + (f" {speed}" if speed else ""))
+        show_shape(client, options["as_json"])
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 swing 19 512 30deg 4s          the head turns 30 degrees to either side, in four seconds
+  m512 swing 20 512 60 2s --phase 90  begins where it is highest""")
+@click.argument("joint", type=click.IntRange(0, ID_MAX), metavar="ID")
+@click.argument("centre", metavar="CENTRE")
+@click.argument("amplitude", metavar="AMPLITUDE")
+@click.argument("period", metavar="PERIOD")
+@click.option("--phase", type=click.IntRange(0, 359), default=0, metavar="DEG", help="Where in the sine it begins.")
+@robot_options
+def swing(joint, centre, amplitude, period, phase, **options):
+    """Swing a joint about CENTRE by AMPLITUDE (units, or 30deg), once in PERIOD (2s, 1500ms), until `free`."""
+    (at,) = positions_of([f"{joint}:{centre}"]).values()
+    line = f"swing {joint} {at} {_amplitude(amplitude)} {_milliseconds(period)}" + (f" {phase}" if phase else "")
+    with robot(options) as client:
+        client.ask(line)
+        show_shape(client, options["as_json"])
+
+
+@click.command(epilog="""\b
+Examples:
+  m512 free              all joints that aim and swing move
+  m512 free 19 20""")
+@click.argument("ids", nargs=-1, type=click.IntRange(0, ID_MAX))
+@robot_options
+def free(ids, **options):
+    """End `aim` and `swing`: joints go back to the motion that plays, or stay where they are."""
+    with robot(options) as client:
+        client.ask(" ".join(map(str, ["free", *ids])))
+        show_shape(client, options["as_json"])
+
+
+def _amplitude(text):
+    """Servo units of 30deg or 100."""
+    try:
+        units = round(float(text[:-3]) * 1024 / 300) if text.endswith("deg") else int(text)
+    except ValueError:
+        units = -1
+    if not AMPLITUDES[0] <= units <= AMPLITUDES[1]:
+        raise click.UsageError(f"{text}: an amplitude is {AMPLITUDES[0]}..{AMPLITUDES[1]} servo units, or degrees as 30deg")
+    return units
+
+
+def _milliseconds(text):
+    """Milliseconds of 2s or 1500ms."""
+    for suffix, factor in (("ms", 1), ("s", SECOND_MS)):
+        if text.endswith(suffix):
+            try:
+                return round(float(text[:-len(suffix)]) * factor)
+            except ValueError:
+                break
+    raise click.UsageError(f"{text}: a period is seconds or milliseconds, such as 2s or 1500ms")
