@@ -31,12 +31,15 @@ import { Listeners } from './listeners.ts';
 import { LastSaid } from './said.ts';
 import { StickDrive } from './stick.ts';
 import type { Stick } from './stick.ts';
+import { RobotTransfer } from './transfer.ts';
 import { SimulatedSource } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
 
 const WHERE_MS = 300;
 const REMOTE_REPEAT_MS = 100;
 const READY_MS = 60_000;
+
+const ROBOT_IN_PAGE = 'robot in the page';
 
 const START: DeskState = {
   source: 'simulated', connection: 'closed', portName: '', version: null, where: null, pages: [], image: 'play', physics: 'loading', speed: 1,
@@ -55,6 +58,7 @@ export class RobotDesk implements Desk {
   readonly editor: DocumentEditor;
   readonly files: DocumentFiles;
   readonly documents: KeptDocuments;
+  readonly transfer: RobotTransfer;
   private readonly frames = new Listeners<RobotState>();
   private readonly texts = new Listeners<Uint8Array>();
   private readonly simulated: SimulatedSource;
@@ -64,6 +68,8 @@ export class RobotDesk implements Desk {
   private whereTimer: ReturnType<typeof setTimeout> | undefined;
   private typing = '';
   private readonly follower = new Follow(() => this.connection, (error) => this.fail(error));
+  /** What the robot in the page has in its flash. */
+  private inPage: readonly Uint8Array[] = [];
   private readonly stick = new StickDrive(() => this.connection, () => this.walkPage(), (error) => this.fail(error));
 
   constructor(body: Body, parts: EditorParts, formats: FileFormats, storage: DeskStorage) {
@@ -74,6 +80,7 @@ export class RobotDesk implements Desk {
     });
     this.files = new DocumentFiles(this.editor, formats);
     this.documents = this.makeDocuments(storage);
+    this.transfer = this.makeTransfer();
     const events = {
       frame: (state: RobotState) => this.frames.tell(state),
       text: (bytes: Uint8Array) => this.hear(bytes),
@@ -102,8 +109,25 @@ export class RobotDesk implements Desk {
     });
   }
 
+  private makeTransfer(): RobotTransfer {
+    const { editor } = this;
+    return new RobotTransfer({
+      format: editor.format, document: () => editor.state.get().document, robot: () => editor.state.get().robot,
+      setRobot: (pages) => editor.setRobot(pages), requests: () => this.connection.requests,
+      becomeEdit: () => (this.isSimulated ? this.becomeEdit() : this.needEdit()),
+      backUp: (pages) => this.documents.backUp(this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName, pages).catch((cause: unknown) => {
+        throw new RobotError('no-backup', '', { cause });
+      }),
+    });
+  }
+
+  private async needEdit(): Promise<void> {
+    if (!this.state.get().version?.can.has('save')) throw new RobotError('needs-edit');
+  }
+
   private simulatedMotions(image: Uint8Array): void {
-    if (this.isSimulated) this.editor.setRobot(documentFrom(image, '').pages);
+    this.inPage = documentFrom(image, '').pages;
+    if (this.isSimulated) this.editor.setRobot(this.inPage);
   }
 
   onFrame(listener: (state: RobotState) => void): () => void {
@@ -174,6 +198,7 @@ export class RobotDesk implements Desk {
     this.state.set({ source: 'simulated' });
     void this.yours.close();
     this.simulated.resume();
+    this.editor.setRobot(this.inPage);
   }
 
   async connectYours(): Promise<void> {
@@ -184,6 +209,7 @@ export class RobotDesk implements Desk {
     }
     this.simulated.pause();
     this.state.set({ source: 'yours', version: null, where: null, pages: [] });
+    this.editor.setRobot([]);
     this.yours.connect();
   }
 
@@ -331,7 +357,7 @@ export class RobotDesk implements Desk {
   private mayAsk(): boolean {
     const { connection, version, tab } = this.state.get();
     const isEditOnScreen = version?.image === 'edit' && tab === 'terminal';
-    return connection === 'ready' && this.typing === '' && !isEditOnScreen;
+    return connection === 'ready' && this.typing === '' && !isEditOnScreen && !this.transfer.isBusy;
   }
 
   private async askWhere(): Promise<void> {

@@ -17,7 +17,7 @@ const HASH = '#motion=';
 export class DocumentFiles implements Files {
   readonly state = new Store<FilesState>(NOTHING);
   private readonly editor: DocumentEditor;
-  private readonly formats: FileFormats;
+  readonly formats: FileFormats;
   private last: { readonly name: string; readonly bytes: Uint8Array } | null = null;
 
   constructor(editor: DocumentEditor, formats: FileFormats) {

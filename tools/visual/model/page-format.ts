@@ -24,6 +24,8 @@ export class PageFormat {
   readonly layout: PageLayout;
   /** The empty page, sealed. Not to be written. */
   readonly empty: Uint8Array;
+  /** Flash that was never written. Not to be written. */
+  readonly erased: Uint8Array;
   private readonly motion: Motion;
 
   /** Takes an instance of motion.wasm for itself. Throws when it is of another version than this file. */
@@ -34,6 +36,7 @@ export class PageFormat {
     this.motion = motion;
     motion.clear(SCRATCH);
     this.empty = motion.page(SCRATCH);
+    this.erased = new Uint8Array(this.layout.pageBytes).fill(ERASED);
   }
 
   /** A copy whose checksum is right. */

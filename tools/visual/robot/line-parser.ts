@@ -9,7 +9,8 @@
 //
 // With no request under way everything is text. Otherwise:
 //
-//            '@' where a line or a word after "] " begins
+//            '@' where a line or a word after "] " begins; behind other text (Edit draws its screen without line ends)
+//            only as long as it may become an answer
 //   TEXT  ------------------------------------------------>  HELD
 //     ^                                                       |
 //     |   CR or LF: echo of the request, its answer, or text  |
@@ -58,6 +59,11 @@ export function isAnswer(request: string, line: string): boolean {
   const word = request.split(' ', 1)[0] ?? '';
   if (line !== word && !line.startsWith(`${word} `)) return false;
   return line.endsWith(' OK') || / ERR \d+ /.test(line);
+}
+
+function mayBecomeAnswer(request: string, held: string): boolean {
+  const word = `${request.split(' ', 1)[0] ?? ''} `;
+  return word.startsWith(held) || held.startsWith(word);
 }
 
 /** Takes bytes as they came; returns the new state and what they were. */
@@ -112,7 +118,7 @@ class Run {
 
   private pass(byte: number): void {
     const { before, pending } = this.state;
-    if (byte === AT && pending.length > 0 && (before === '' || before === PROMPT)) {
+    if (byte === AT && pending.length > 0) {
       this.set({ held: '@' });
       return;
     }
@@ -127,7 +133,9 @@ class Run {
       return;
     }
     const held = this.state.held + String.fromCharCode(byte);
-    if (held.length > LINE_MAX) this.release(held);
+    const isBehindText = this.state.before !== '' && this.state.before !== PROMPT;
+    const mayAnswer = !isBehindText || this.state.pending.some((request) => mayBecomeAnswer(request, held));
+    if (held.length > LINE_MAX || !mayAnswer) this.release(held);
     else this.set({ held });
   }
 

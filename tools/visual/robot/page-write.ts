@@ -49,9 +49,15 @@ export class PageWrite {
     return [...this.account.values()].every((state) => state === 'verified');
   }
 
+  /** What the robot has for certain. */
+  get written(): PageToWrite[] {
+    return this.pages.filter(({ page }) => ['written', 'verified'].includes(this.account.get(page) ?? ''));
+  }
+
   /** Writes what is not written yet, then looks whether the robot has it all. Rejects with RobotError: page-changed and page-unsaved
    *  before anything of that page was touched; cancelled between two pages; else what the line says. Call it again to go on. */
   async run(line: Ask, options: WriteOptions = {}): Promise<void> {
+    if (this.pages.length === 0) return;
     const requests = patient(line);
     const set = (page: number, state: PageAccount): void => {
       this.account.set(page, state);

@@ -13,6 +13,8 @@ export type RobotErrorCode =
   | 'page-changed' // a page of the robot is no longer what it was when it was read: its number is in `words`
   | 'page-unsaved' // the page in Edit's memory has edits of somebody else
   | 'page-not-saved' // after a save the robot still has another page: its number is in `words`
+  | 'no-backup' // the robot's pages could not be kept here, so nothing was written
+  | 'needs-edit' // Play runs there, and only Edit saves pages
   | 'typing'; // somebody is typing a line in the terminal
 
 /** Every rejection of this folder. `words`: what the board said, if it said anything. */

@@ -44,6 +44,9 @@ const cases: [string, LineState, string, { text: string; answers?: string[]; flo
   ['a line of a person that looks like one', asking('@where'), 'a@where x\r\n@where state=idle OK\r\n', { text: 'a@where x\r\n', answers: ['@where state=idle OK'] }],
   ['text between echo and answer', asking('@where'), '] @where\r\nPage 3 step 2\r\n@where state=playing OK\r\n] x',
     { text: '] Page 3 step 2\r\nx', answers: ['@where state=playing OK'] }],
+  ['an answer behind a screen that Edit is drawing, which has no line ends', asking('@crcs 1 2'), 'HELP explains, EXIT leaves@crcs F1FCEE6C OK\r\n',
+    { text: 'HELP explains, EXIT leaves', answers: ['@crcs F1FCEE6C OK'] }],
+  ['an address in a text is no answer', asking('@where'), 'mail a@whole.world now', { text: 'mail a@whole.world now' }],
   ['not ours: an unknown @ line stays text', asking('@where'), '@what is this\r\n@where OK\r\n', { text: '@what is this\r\n', answers: ['@where OK'] }],
   ['a status line right behind the answer', asking('@stop'), '] @stop\r\n@stop OK\r\nStopped after page 2\r\n] ', { text: '] Stopped after page 2\r\n] ', answers: ['@stop OK'] }],
 ];

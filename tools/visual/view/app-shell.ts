@@ -9,6 +9,7 @@ import type { Editing } from './editor/editing.ts';
 import { PoseBar } from './editor/pose-bar.ts';
 import { StepsPane } from './editor/steps-pane.ts';
 import { define, make } from './element.ts';
+import { CompareDialog } from './editor/compare-dialog.ts';
 import { EditBar } from './editor/edit-bar.ts';
 import { PagesPane } from './editor/pages-pane.ts';
 import { LabPane } from './lab-pane.ts';
@@ -40,14 +41,18 @@ export class AppShell extends HTMLElement {
     lab.onTilt = (front, left) => robot.tilt(front, left);
     this.addPanel('remote', this.give(new RemotePad()));
     this.addPanel('steps', Object.assign(this.give(new StepsPane()), { editing: this.editing }));
-    this.addPanel('pages', this.give(new PagesPane()));
+    const pages = this.give(new PagesPane());
+    const compare = this.give(new CompareDialog());
+    pages.onCompare = this.editBar.onTransfer = () => void compare.open();
+    pages.addEventListener('open-steps', () => this.desk.show('steps'));
+    this.addPanel('pages', pages);
     this.addPanel('terminal', this.give(new TerminalPane()));
     this.addPanel('lab', lab);
     this.replaceChildren(
       this.head(),
       make('main', {}, make('div', { class: 'stage' }, robot, poses, this.give(new ActionBar())),
         make('div', { class: 'areas' }, this.tabList(), this.give(this.editBar), ...this.panels.values())),
-      this.give(new StatusStrip()),
+      this.give(new StatusStrip()), compare,
     );
     this.unwatch = this.desk.state.watch((state) => this.render(state));
   }

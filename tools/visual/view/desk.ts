@@ -12,6 +12,7 @@ import type { Documents } from './documents-desk.ts';
 import type { Editor } from './editor-desk.ts';
 import type { Files } from './files-desk.ts';
 import type { Store } from './store.ts';
+import type { Transfer } from './transfer-desk.ts';
 
 export type Source = 'simulated' | 'yours';
 export type ImageName = 'play' | 'edit';
@@ -64,6 +65,7 @@ export interface Desk {
   readonly editor: Editor;
   readonly files: Files;
   readonly documents: Documents;
+  readonly transfer: Transfer;
   /** Up to 60 times a second. */
   onFrame(listener: (state: RobotState) => void): () => void;
   /** What the board says to a terminal. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files and links as the views see them. app/files.ts is behind it.
 
-import type { Suffix } from '../model/file-formats.ts';
+import type { FileFormats, Suffix } from '../model/file-formats.ts';
 import type { Store } from './store.ts';
 
 /** A motion file that was read, before anything of it is taken over. */
@@ -41,6 +41,8 @@ export interface SavedFile {
 }
 
 export interface Files {
+  /** m512 itself, for those who only want to know: what a file holds, how two images differ, what is wrong with one. */
+  readonly formats: FileFormats;
   readonly state: Store<FilesState>;
   open(name: string, bytes: Uint8Array): Promise<void>;
   /** The same file, without the pages that have no room. */

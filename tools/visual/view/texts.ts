@@ -18,6 +18,8 @@ const ERRORS: Record<RobotErrorCode, string> = {
   'page-changed': 'This page has changed in the robot since it was read; nothing was written over it. Compare once more: page',
   'page-unsaved': 'The page in Edit\'s memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.',
   'page-not-saved': 'The robot took this page but does not have it now. Its flash may be worn out; your page is safe here. Try again: page',
+  'no-backup': 'The robot\'s pages could not be kept in this browser (private window, or the disk is full), so nothing was written. Make room, then try again.',
+  'needs-edit': 'The robot runs Play, and only Edit saves pages. Flash it with: m512 flash edit-cm5.hex, then try again. Motions stay.',
   typing: 'A line is being typed in the terminal. Finish it with Enter first.',
 };
 

@@ -3,7 +3,9 @@
 
 import type { Refusal, RefusalCode } from '../../model/result.ts';
 import type { EditName, Transaction } from '../../model/transaction.ts';
+import type { PageAccount } from '../../robot/page-write.ts';
 import { buttonsOf } from '../../robot/remote.ts';
+import type { TransferState } from '../transfer-desk.ts';
 
 const EDITS: Record<EditName, string> = {
   'set-joints': 'pose', 'insert-step': 'new step', 'delete-steps': 'steps deleted', 'duplicate-steps': 'steps duplicated', 'move-steps': 'steps moved',
@@ -57,6 +59,15 @@ export const EDITOR_TEXTS = {
   nameHint: 'At most 13 letters, digits and signs.',
   clear: (names: string) => `${names} will be empty. Links of other pages still lead there. Undo brings it back.`,
   transfer: (from: string, to: string) => `What shall become of ${from}, which you put on ${to}?`,
+  compare: 'What differs, page by page: strong is what would come, pale what is there now. A backup of the robot is kept before anything is written.',
+  same: 'Nothing differs.',
+  trimStays: 'Page 0 is the trim of the robot it was read from. It is never written into another one.',
+  damagedStays: 'This page is damaged and is not passed on.',
+  wordsComing: 'In words: a moment …',
+  noWords: 'The words could not be loaded; the pictures are right.',
+  backupOf: (robot: string, when: string) => `Backup of ${when}, ${robot}`,
+  readingFile: (name: string) => `Reading ${name} …`,
+  noRoom: (pages: string) => `The file has pages that have no room among 128: ${pages}.`,
   replaced: (to: string) => `${to} is not empty: it would be replaced. Undo brings it back.`,
 } as const;
 
@@ -71,3 +82,19 @@ export function codeText(code: number): string {
 export function pageText(page: number, name: string): string {
   return name === '' ? `page ${page}` : `page ${page} (${name})`;
 }
+
+/** What the transfer does, in one sentence. */
+export function transferText({ phase, done, total, trouble }: TransferState): string {
+  switch (phase) {
+    case 'idle': return '';
+    case 'reading': return total === 0 ? 'Asking the robot which pages it has …' : `Reading page ${Math.min(done + 1, total)} of ${total} …`;
+    case 'writing': return total === 0 ? 'Preparing: the robot is read and kept as a backup …' : `Written: ${done} of ${total} pages …`;
+    case 'written': return `Written and verified: ${total} ${total === 1 ? 'page' : 'pages'}.`;
+    case 'stopped': return [trouble ?? '', total > 0 ? `${done} of ${total} pages are done; the others are as they were.` : ''].filter(Boolean).join(' ');
+    default: return phase satisfies never;
+  }
+}
+
+export const ACCOUNT_TEXTS: Readonly<Record<PageAccount, string>> = {
+  waiting: 'as it was', sending: 'as it was', saving: 'being saved …', written: '✓ written', verified: '✓ verified',
+};

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Pages between the document and a robot, as the views see it. app/transfer.ts is behind it.
+
+import type { PageAccount } from '../robot/page-write.ts';
+import type { Store } from './store.ts';
+
+export interface TransferState {
+  /** stopped: something went wrong in mid-way; `trouble` says what, and tryAgain() goes on. */
+  readonly phase: 'idle' | 'reading' | 'writing' | 'stopped' | 'written';
+  /** Pages done, of how many. */
+  readonly done: number;
+  readonly total: number;
+  /** Of the write under way or of the last one, by page. */
+  readonly account: ReadonlyMap<number, PageAccount>;
+  readonly trouble: string | null;
+}
+
+export interface Transfer {
+  readonly state: Store<TransferState>;
+  /** Reads what the robot has; what is known of it needs no time. false: `trouble` says why not. */
+  read(): Promise<boolean>;
+  /** Writes these pages of the document, after a backup of the robot. false: stopped, `trouble` says why. */
+  write(pages: readonly number[]): Promise<boolean>;
+  /** Goes on with what was stopped. */
+  tryAgain(): Promise<boolean>;
+  /** Stops between two pages. */
+  cancel(): void;
+}
