@@ -63,6 +63,13 @@ def random_body(robot, seed, seconds=0.0, zero_sigma_degrees=1.0, joint_units=2.
                      for _ in range(pushes)))
 
 
+def body_of_the_bench(robot, seed):
+    """A milder body by chance: a robot on a good floor with its servos' zeros set: friction 0.5..1.1, 9.6..12 V, masses +-15 %, the floor
+    tilted by up to 2 degrees, joints off by +-1.5 units, servo friction and rotor as above."""
+    body = random_body(robot, seed, zero_sigma_degrees=0.0, joint_units=1.5, volts=(9.6, 12.0))
+    return dataclasses.replace(body, floor_friction=0.5 + 0.75 * (body.floor_friction - 0.4))
+
+
 def _even_in_log(chance, low, high):
     return math.exp(chance.uniform(math.log(low), math.log(high)))
 
