@@ -8,6 +8,7 @@
 #include "page.h"
 #include "pgm.h"
 #include "servo_link.h"
+#include "shape.h"
 #include "text.h"
 
 TEXT_NAMED(name_page, "Page");
@@ -35,6 +36,7 @@ const shell_range_t shell_ranges_P[] PROGMEM = {
     [RANGE_STEP] = {name_step, 0, PAGE_STEPS - 1},
     [RANGE_STEP7] = {name_step, 0, PAGE_STEPS},
     [RANGE_PERCENT] = {name_percent, 10, 1000},
+    [RANGE_RATE] = {name_percent, SHAPE_RATE_MIN, SHAPE_RATE_MAX},
     [RANGE_ROWS] = {name_rows, 24, 255},
     [RANGE_X] = {name_x, 0, 9},
     [RANGE_Y] = {name_y, 0, 32},

@@ -15,6 +15,7 @@ enum {
     RANGE_STEP,       /* 0..6 */
     RANGE_STEP7,      /* 0..7 */
     RANGE_PERCENT,    /* 10..1000 */
+    RANGE_RATE,       /* 10..400 % */
     RANGE_ROWS,       /* of a terminal */
     RANGE_X, RANGE_Y, /* a cell of the editor's table */
     RANGE_DEG_S,      /* 1..360 */

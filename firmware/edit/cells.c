@@ -61,7 +61,7 @@ bool cell_at(uint16_t address, uint8_t *x, uint8_t *y)
 
 static bool is_link(uint16_t address)
 {
-    return address == PAGE_AT_NEXT_PAGE || address == PAGE_AT_EXIT_PAGE || address == PAGE_AT_LINKED1_PAGE ||
+    return address == PAGE_AT_BLEND_RIGHT || address == PAGE_AT_BLEND_LEFT || address == PAGE_AT_NEXT_PAGE || address == PAGE_AT_EXIT_PAGE || address == PAGE_AT_LINKED1_PAGE ||
            address == PAGE_AT_LINKED2_PAGE;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * cmd_check.c - CHECK: what is wrong, or likely to be, in the stored pages: damage, links that lead nowhere, pages that
- * nothing leads to, positions outside a servo's limits, steps faster than a servo. */
+ * cmd_check.c - CHECK: what is wrong, or likely to be, in the stored pages: damage, links that lead nowhere, partners that
+ * cannot be blended, pages that nothing leads to, positions outside a servo's limits, steps faster than a servo. */
 #include "bus_call.h"
 #include "commands.h"
 #include "dxl.h"
@@ -10,9 +10,10 @@
 #include "system.h"
 #include "text.h"
 
+/* The links, and behind them the partners for blending. */
 static const uint8_t link_fields[] PROGMEM = { PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE,
-                                               PAGE_AT_LINKED2_PAGE };
-#define LINKS sizeof link_fields
+                                               PAGE_AT_LINKED2_PAGE, PAGE_AT_BLEND_RIGHT, PAGE_AT_BLEND_LEFT };
+enum { LINKS = 4, FIELDS = sizeof link_fields };
 #define BATTERY_DV 96
 
 /* One page may fill 200 lines, of 9 ms each, and ask 31 servos that answer late or not at all. */
@@ -36,22 +37,28 @@ static void begin_step(uint8_t page, uint8_t step, uint8_t joint)
 
 static void check_links(uint8_t page)
 {
-    for (uint8_t i = 0; i < LINKS; i++) {
+    uint8_t own_steps = page_store_byte(page, PAGE_AT_STEPS);
+    for (uint8_t i = 0; i < FIELDS; i++) {
+        bool is_link = i < LINKS;
         uint8_t to = page_store_byte(page, pgm_read_byte(&link_fields[i]));
-        bool used = to != 0 && to < PAGE_COUNT;
-        if (used && (!page_store_is_good(&the_pages, to) || page_store_byte(to, PAGE_AT_STEPS) == 0)) {
-            begin_line(page);
-            TEXT("leads to page ");
-            text_number(to);
-            text_P(page_store_is_good(&the_pages, to) ? TEXT_P(", which has no steps") : TEXT_P(", which is not valid"));
-            text_line_end();
+        bool good = page_store_is_good(&the_pages, to);
+        uint8_t steps = good ? page_store_byte(to, PAGE_AT_STEPS) : 0;
+        if (to == 0 || steps == own_steps || (is_link && steps != 0)) {
+            continue;
         }
+        begin_line(page);
+        text_P(is_link ? TEXT_P("leads to page ") : TEXT_P("blends with page "));
+        text_number(to);
+        text_P(!good        ? TEXT_P(", which is not valid")
+               : steps == 0 ? TEXT_P(", which has no steps")
+                            : TEXT_P(", which has another number of steps"));
+        text_line_end();
     }
 }
 
 static bool leads_to(uint8_t from, uint8_t page)
 {
-    for (uint8_t i = 0; i < LINKS; i++) {
+    for (uint8_t i = 0; i < FIELDS; i++) {
         if (page_store_byte(from, pgm_read_byte(&link_fields[i])) == page) {
             return true;
         }

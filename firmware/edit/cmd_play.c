@@ -4,6 +4,7 @@
 #include "dxl.h"
 #include "pgm.h"
 #include "report.h"
+#include "shape.h"
 #include "text.h"
 
 /* ---- PLAY ---- */
@@ -16,6 +17,9 @@ COMMAND(cmd_play)
         report_refusal(status, page, the_performer.fault);
         return SHELL_ERR_SAID;
     }
+    /* No step has been looked at yet. The voltage bounds what a high rate may ask of the servos. */
+    shape_set_voltage(&the_performer.shape, the_servos.voltage_dv);
+    (void)!shape_set_rate(&the_performer.shape, args->count > 2 ? args->number[1] : SHAPE_NORMAL);
     return EDITOR_TO_PLAY;
 }
 
@@ -123,6 +127,7 @@ static void play_ended(const performer_event_t *event)
 {
     the_editor.late_ticks = LATE_TICKS;
     the_editor.step_due = false;
+    shape_reset(&the_performer.shape);   /* a program's @play goes at the stored rate */
     robot_read();
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         the_session.marks[joint] |= MARK_LABEL;   /* no live position any more */

@@ -32,7 +32,7 @@ TEXT_NAMED(word_set, "set  v  the cell");
 TEXT_NAMED(word_goto, "goto  x y");
 TEXT_NAMED(word_on, "on  [ids]  holds the pose");
 TEXT_NAMED(word_off, "off  [ids]  lets go: pose by hand, ON, WRITE");
-TEXT_NAMED(word_play, "play  [n]  CR stop, ESC end here, space break");
+TEXT_NAMED(word_play, "play  [n [rate]]  at rate %; CR stop, ESC end here, space break");
 TEXT_NAMED(word_time, "time  time base");
 TEXT_NAMED(word_speed, "speed  speed base");
 TEXT_NAMED(word_undo, "undo u the last edit");
@@ -74,7 +74,7 @@ const shell_command_t commands_table_P[] PROGMEM = {
     { word_goto, cmd_goto, SHELL_ARGS(2, 2), SHELL_BOTH(RANGE_X, RANGE_Y) },
     { word_on, cmd_on, SHELL_ARGS(0, SHELL_ANY_ARGS) | SHELL_STILL, 0 },
     { word_off, cmd_off, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
-    { word_play, cmd_play, SHELL_ARGS(0, 1) | SHELL_STILL, RANGE_PLAYED },
+    { word_play, cmd_play, SHELL_ARGS(0, 2) | SHELL_STILL, SHELL_BOTH(RANGE_PLAYED, RANGE_RATE) },
     { word_time, cmd_time, SHELL_ARGS(0, SHELL_ANY_ARGS) | SHELL_STILL, 0 },
     { word_speed, cmd_speed, SHELL_ARGS(0, SHELL_ANY_ARGS) | SHELL_STILL, 0 },
     { word_undo, cmd_undo, SHELL_ARGS(0, 0) | SHELL_STILL, 0 },

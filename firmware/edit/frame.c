@@ -12,7 +12,7 @@ enum { FIRST_MARKER_COLUMN = 25, STEP_WIDTH = 5, FIRST_STEP_COLUMN = 26, SOFTNES
 /* Labels of header rows 1..19, a semicolon behind each; from row 3 on in the order of bytes 14..30. */
 TEXT_NAMED(header_texts,
            "PageNumber:;Addr:;"
-           "(Reserved) :;PlayCount:;(Reserved) :;(Reserved) :;(Reserved) :;(Reserved) :;Page Step:;"
+           "(Reserved) :;PlayCount:;(Reserved) :;Blend Right:;Blend Left:;(Reserved) :;Page Step:;"
            "ControlCode:;Page Speed:;DXL Setup:;Accel Time:;Link to Next:;Link to Exit:;Linked Page1:;"
            "Page1Remocon:;Linked Page2:;Page2Remocon:;");
 

@@ -512,6 +512,21 @@ def test_check_names_what_is_wrong():
         assert "Page   4: leads to page 9, which has no steps" in shown or "Page   4: leads to page 9, which is not valid" in shown
 
 
+def test_check_names_partners_that_cannot_be_blended():
+    """Bytes 17 and 18. A partner needs no code and no link to be in use."""
+    two = [(30, {}), (30, {})]
+    torn = page("torn", two)
+    torn.data[100] ^= 1
+    pages = {1: page("walk", two, code=1, blend_right=2, blend_left=3), 2: page("right", two), 3: page("left", two + two),
+             4: page("x", two, code=2, blend_right=5, blend_left=9), 5: torn, 6: page("y", two, code=3, blend_left=200)}
+    with robot(pages=pages) as r:
+        r.line("check", ms=4000)
+        lines = [line.strip() for line in r.show().splitlines() if line.startswith("Page ")]
+        assert lines == ["Page   1: blends with page 3, which has another number of steps",
+                         "Page   4: blends with page 5, which is not valid", "Page   4: blends with page 9, which has no steps",
+                         "Page   5: checksum is wrong", "Page   6: blends with page 200, which is not valid"]
+
+
 def test_check_of_a_page_that_fills_many_lines_is_no_hang():
     """126 lines take longer than the watchdog waits."""
     with robot(pages={5: page("far", [(30, {})] * 7, code=1)}) as r:

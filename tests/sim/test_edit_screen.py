@@ -5,7 +5,7 @@ from cm5sim import library
 
 from edit_robot import JOINTS, new_page, page, robot, seal
 
-HEADER = ["(Reserved) :", "PlayCount:", "(Reserved) :", "(Reserved) :", "(Reserved) :", "(Reserved) :", "Page Step:",
+HEADER = ["(Reserved) :", "PlayCount:", "(Reserved) :", "Blend Right:", "Blend Left:", "(Reserved) :", "Page Step:",
           "ControlCode:", "Page Speed:", "DXL Setup:", "Accel Time:", "Link to Next:", "Link to Exit:", "Linked Page1:",
           "Page1Remocon:", "Linked Page2:", "Page2Remocon:"]
 

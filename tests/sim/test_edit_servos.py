@@ -156,6 +156,42 @@ def test_play_takes_unsaved_edits_from_ram():
         assert r.board.servos[3].goal == 700 and r.unsaved
 
 
+def move_ticks(r, line, joint):
+    """Ticks from 300, where the approach has led the joint, to 700 after `line`."""
+    r.line("go 0", ms=1500)
+    mark = len(r.board.trace)
+    r.line(line, ms=6500)
+    way = [(frame.tick, frame.goals[joint]) for frame in r.board.trace[mark:] if joint in frame.goals]
+    return min(tick for tick, goal in way if goal == 700) - max(tick for tick, goal in way if goal == 300)
+
+
+def test_play_n_rate_shortens_and_stretches_steps_and_lasts_for_one_play():
+    """128 ticks as stored, shaping.md: ticks / rate."""
+    made = page("timed", [(10, {1: 300}), (128, {1: 700})], schedule=10, accel=0)
+    with start(pages={20: made}) as r:
+        r.line("page 20")
+        stored = move_ticks(r, "play", 1)
+        assert stored == 128
+        for rate in (50, 100, 200):
+            assert abs(move_ticks(r, f"play 20 {rate}", 1) - stored * 100 / rate) <= 1, rate
+        assert abs(move_ticks(r, "play 20", 1) - stored) <= 1
+        move_ticks(r, "play 20 200", 1)
+        assert abs(move_ticks(r, "@play 20", 1) - stored) <= 1
+        assert r.line("play 20 9") == "play 20 9 Percent must be 10..400"
+        assert r.line("play 20 401") == "play 20 401 Percent must be 10..400"
+        assert r.line("play 20 x") == "play 20 x Percent must be 10..400"
+
+
+def test_play_at_a_high_rate_asks_no_servo_for_more_than_its_battery_gives():
+    """400 units in 32 ticks at rate 400 are 12.5 a tick. body.md: 8.7 units a tick at 11.1 V, 90 % of it: 6.8 at 9.6 V."""
+    made = page("timed", [(10, {1: 300}), (128, {1: 700})], schedule=10, accel=0)
+    with start(pages={20: made}) as r:
+        r.board.battery(9.6)
+        r.line("page 20", ms=600)
+        ticks = move_ticks(r, "play 20 400", 1)
+        assert 400 / 6.8 <= ticks <= 400 / 6.8 + 3
+
+
 def test_play_begins_with_the_approach():
     with start() as r:
         r.board.servos[1].push_to(900)

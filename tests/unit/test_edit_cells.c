@@ -94,6 +94,9 @@ static void test_cells_limits(void)
     TEST_ASSERT_EQUAL_UINT16(1023, cell_max(CELL_POSITION, 1, 0));
     TEST_ASSERT_EQUAL_UINT16(7, cell_max(CELL_BYTE, 9, 9));
     TEST_ASSERT_EQUAL_UINT16(127, cell_max(CELL_BYTE, 9, 14));
+    TEST_ASSERT_EQUAL_UINT16(127, cell_max(CELL_BYTE, 9, 6));   /* partners, bytes 17 and 18 */
+    TEST_ASSERT_EQUAL_UINT16(127, cell_max(CELL_BYTE, 9, 7));
+    TEST_ASSERT_EQUAL_UINT16(255, cell_max(CELL_BYTE, 9, 5));
     TEST_ASSERT_EQUAL_UINT16(255, cell_max(CELL_BYTE, 9, 4));
     TEST_ASSERT_EQUAL_UINT16(255, cell_max(CELL_BYTE, 8, 14));
 }
