@@ -109,27 +109,13 @@ void page_store_name(uint8_t page, char name[PAGE_NAME_BYTES])
     memset(name + length, 0, PAGE_NAME_BYTES - length);
 }
 
-static char lower(char letter)
-{
-    return letter >= 'A' && letter <= 'Z' ? (char)(letter + ('a' - 'A')) : letter;
-}
-
-static bool is_same_name(const char *a, const char *b)
-{
-    while (*a != '\0' && lower(*a) == lower(*b)) {
-        a++;
-        b++;
-    }
-    return lower(*a) == lower(*b);
-}
-
 uint8_t page_store_find(const page_store_t *store, const char *name, uint8_t after)
 {
     char found[PAGE_NAME_BYTES];
     for (uint8_t page = (uint8_t)(after + 1u); page < PAGE_COUNT; page++) {
         if (page_store_is_good(store, page)) {
             page_store_name(page, found);
-            if (is_same_name(name, found)) {
+            if (strcasecmp(name, found) == 0) {
                 return page;
             }
         }

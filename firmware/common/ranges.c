@@ -62,7 +62,7 @@ const shell_range_t shell_ranges_P[] PROGMEM = {
 bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints)
 {
     for (uint8_t i = first; i < args->count; i++) {
-        char *dash = strchr(shell_word(args, i), '-');   /* the words stand in the caller's line, cut up already */
+        char *dash = strchr(shell_word(args, i), '-');   /* in the caller's line */
         uint16_t from, to;
         if (dash != NULL) {
             *dash = '\0';
@@ -76,6 +76,7 @@ bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joint
             if (!shell_take(&last, 0, RANGE_ID, &to)) {
                 return false;
             }
+            *dash = '-';   /* a word fewer: those behind it are counted by their ends */
         }
         for (; from <= to; from++) {
             servo_link_put(joints, (uint8_t)from, true);

@@ -50,6 +50,24 @@ COMMAND(cmd_before)
     return open_beside(the_session.page > 0, -1);
 }
 
+/* Play's `play wave` needs a name that only one page has: says which other page has the name of stored page `named`.
+ * Not inlined: the names would lie on the stack while the page is saved. */
+static NOINLINE void tell_namesake(uint8_t named, uint8_t own)
+{
+    char name[PAGE_NAME_BYTES];
+    page_store_name(named, name);
+    uint8_t other = name[0] == '\0' ? 0 : page_store_find(&the_pages, name, 0);
+    if (other == own) {
+        other = page_store_find(&the_pages, name, own);
+    }
+    if (other != 0) {
+        the_screen.lead = true;
+        TEXT("Page ");
+        text_number(other);
+        TEXT(" has this name too");
+    }
+}
+
 COMMAND(cmd_copy)
 {
     if (!editor_ask_unsaved()) {
@@ -58,6 +76,7 @@ COMMAND(cmd_copy)
     uint8_t from = (uint8_t)args->number[0];
     session_begin();
     session_load(from);
+    tell_namesake(from, the_session.page);
     return editor_edited();
 }
 
@@ -166,7 +185,11 @@ COMMAND(cmd_save)
     if (page_service_kind() == PAGE_SERVICE_MAILBOX) {
         return save_by_mailbox(page);
     }
-    tell_saved(cmd_page_save(page));
+    page_save_status_t status = cmd_page_save(page);
+    tell_saved(status);
+    if (status == PAGE_SAVE_OK) {
+        tell_namesake(page, page);
+    }
     return SHELL_OK;
 }
 

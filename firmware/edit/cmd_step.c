@@ -30,13 +30,20 @@ static void update_trim(uint8_t step)
     TEXT("Offset Updated");
 }
 
-/* A pose with joints let go is written with ???? cells: said, because it is seldom meant. */
-static void tell_off(void)
+/* The work pose becomes a step. Joints let go are written as ????: said, because it is seldom meant. Joints that are not
+ * there are not used, whatever the work pose shows for them. */
+static void write_pose(uint8_t step)
 {
     uint32_t off = 0;
+    copy_step(POSE_STEP, step);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        if (robot_has(joint) && cell_is_off(session_pose(joint))) {
+        if (!cell_is_off(session_pose(joint))) {
+            continue;
+        }
+        if (robot_has(joint)) {
             servo_link_put(&off, joint, true);
+        } else {
+            session_set_word((uint16_t)(session_step_at(step) + 2u * joint), PAGE_POS_UNUSED);
         }
     }
     if (off != 0) {
@@ -66,9 +73,8 @@ COMMAND(cmd_write)
     if (args->count == 1) {
         set_count((uint8_t)(step + 1u));
     }
-    copy_step(POSE_STEP, step);
+    write_pose(step);
     update_trim(step);
-    tell_off();
     return editor_edited();
 }
 
@@ -80,11 +86,11 @@ COMMAND(cmd_insert)
     if (step < steps && steps < PAGE_STEPS) {
         set_count((uint8_t)(steps + 1u));
     }
-    copy_step(POSE_STEP, step);
+    write_pose(step);
     if (steps >= PAGE_STEPS) {
+        the_screen.lead = true;
         TEXT("Step 6 fell out: UNDO");
     }
-    tell_off();
     return editor_edited();
 }
 

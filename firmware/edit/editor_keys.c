@@ -170,6 +170,7 @@ static void ask_key(uint8_t key)
         editor_run();
     } else {
         the_editor.swallow = key > ' ' && key < KEY_NONE && key != 'n' && key != 'N';
+        TEXT(" no");
         editor_leave_line();
     }
 }

@@ -268,8 +268,9 @@ void screen_put(char character)
             the_screen.lead = false;
             if (the_screen.cramped) {
                 screen_open_line();
+            } else {
+                put_in_line(' ');
             }
-            put_in_line(' ');
         }
         put_in_line(character);
     }

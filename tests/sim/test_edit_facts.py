@@ -85,6 +85,31 @@ def test_nul_and_escape_sequences_do_not_reach_a_line(r):
     assert r.text(2, 76, 4) == "0002"
 
 
+def test_message_behind_a_long_line_has_the_row_for_itself(r):
+    r.keys("x" * 60 + "\r")
+    assert r.command == "] Bad Command"
+    r.keys("set 1" + "0" * 70 + "\r")
+    assert r.command == "] Position must be 0..1023"
+    r.keys("page" + " " * 40 + "200\r")
+    assert r.command == "] Page must be 0..127"
+
+
+def test_letter_that_is_not_ascii_is_seen_to_be_none(r):
+    r.line("name gr\u00fcn")   # two bytes in UTF-8
+    assert r.message == "name gr??n" and r.text(1, 65, 6) == "gr??n "
+    r.line("undo")
+
+
+def test_name_that_is_too_long_is_refused(r):
+    name = r.text(1, 65, 14)
+    assert r.line("name fourteen-chars") == "name fourteen-chars At most 13 characters: name kept"
+    r.line("name")
+    assert r.line("12345678901234").endswith("At most 13 characters: name kept") and r.text(1, 65, 14) == name
+    r.line("name 1234567890123")
+    assert r.text(1, 65, 14) == "1234567890123 "
+    r.line("undo")
+
+
 def test_longest_line(r):
     r.keys("page 2" + " " * 105)   # 111 characters
     r.keys("\r")
@@ -277,9 +302,10 @@ def test_ids_outside_the_table_are_left_alone():
 # ---- section 10: PLAY ----
 
 def test_play_ignores_other_keys_and_the_last_of_stop_and_exit_counts():
-    pages = {1: page("one", [(60, {1: 560}), (60, {1: 464})], repeat=20, exit=2), 2: page("two", [(40, {1: 700})])}
+    """A repetition takes 3.1 s: all keys come before its end."""
+    pages = {1: page("one", [(200, {1: 560}), (200, {1: 464})], schedule=10, repeat=20, exit=2), 2: page("two", [(40, {1: 700})])}
     with robot(pages=pages) as r:
-        r.keys("play\r", ms=2000)
+        r.keys("play\r", ms=1500)
         r.keys("abc]{5\t", ms=200)
         assert re.fullmatch(r"Page 1 step [01] repetition \d", r.message), r.message
         assert r.board.servos[1].goal != 700 and not r.unsaved
@@ -287,9 +313,9 @@ def test_play_ignores_other_keys_and_the_last_of_stop_and_exit_counts():
         assert r.message.endswith("[STOP][Exit]"), r.message
         r.settle(ms=4000)
         assert r.message.endswith("[STOP][Exit] OK") and r.board.servos[1].goal != 700
-        r.keys("play\r", ms=2500)
+        r.keys("play\r", ms=1500)
         r.keys("\x1b", ms=200)
-        r.keys("\r", ms=5000)
+        r.keys("\r", ms=8000)
         r.settle(ms=1000)
         assert r.message.endswith("[Exit][STOP] OK") and r.board.servos[1].goal == 700
 

@@ -46,7 +46,7 @@ def test_start_and_save_say_that_the_controller_restarts():
         assert "SAVE will restart" in r.command
         edit(r)
         operations = r.board.operations
-        assert r.line("save", "n") == "save SAVE restarts (5 s). Are you sure?[y/N]"
+        assert r.line("save", "n") == "save SAVE restarts (5 s). Are you sure?[y/N] no"
         assert r.board.operations == operations and r.unsaved and r.cell(1, 3) == "0700" and r.board.resets == 1
 
 

@@ -61,7 +61,7 @@ def test_save_of_an_unchanged_page_writes_nothing():
 
 def test_save_n_asks_when_the_page_is_not_empty():
     with robot(pages={1: OLD, 2: OTHER}) as r:
-        assert r.line("save 9") == "save 9 OK"
+        assert r.line("save 9") == "save 9 OK Page 1 has this name too"
         assert r.flash_page(9) == bytes(OLD.data)
         r.line("save 2", "n")
         assert "That page is not empty. Are you sure?[y/N]" in r.command and r.flash_page(2) == bytes(OTHER.data)

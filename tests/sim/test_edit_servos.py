@@ -42,6 +42,18 @@ def test_on_holds_the_pose_made_by_hand_and_off_lets_go():
         assert not any(r.board.servos[joint].torque for joint in range(1, 19))
 
 
+def test_off_and_on_take_ranges_of_servos():
+    with start() as r:
+        r.line("on")
+        assert r.line("off 1-3 7") == "off 1-3 7"
+        assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1, 2, 3, 7]
+        r.line("on 2-7")
+        assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1]
+        for wrong in ("off 3-", "off -3", "off 1-31", "off 1-x"):
+            assert r.line(wrong) == f"{wrong} ID must be 0..30"
+        assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1]
+
+
 def test_servos_that_answer_read_only_are_driven_and_not_called_dead():
     with start() as r:
         for joint in range(1, 19):
