@@ -213,3 +213,12 @@ def test_diff_images_of_different_size():
     a, b = Image.empty(128), Image.empty(256)
     b[200] = read_text(TEXT)[3]
     assert [str(change) for change in images(a, b)] == ['page 200 "walk": only in the second']
+
+
+def test_check_says_once_what_holds_for_many_pages(m512, tmp_path):
+    pages = "".join(f"page {n} p{n}\n  speed {21 if n < 40 else 64}\n  step 1s | 1:512\n" for n in range(10, 42))
+    (tmp_path / "a.m512").write_text("motion512 1\n" + pages)
+    done = m512("pages", tmp_path / "a.m512", "check")
+    notes = [line for line in done.stderr.splitlines() if line.startswith("note:")]
+    assert done.exit_code == 0 and len(notes) == 2
+    assert notes[0].startswith("note: pages 10..39: speed 21: steps and pauses last 0.6562 times") and '40 "p40"' in notes[1]

@@ -149,6 +149,7 @@ def show(source, page):
 @click.pass_obj
 def check(source, as_json):
     """Say what is wrong: damaged pages, links to nothing, steps without time. Exit code 3 when something is."""
+    from m512.files.wording import Findings
     from m512.pages import operations
 
     found, remarks = operations.check(source.image), operations.remarks(source.image)
@@ -159,8 +160,11 @@ def check(source, as_json):
         for number, text in found:
             title = source.image[number].title
             ui.show(f"page {number}" + (f" \"{title}\"" if title else "") + f": {text}")
+        notes = Findings()
         for number, text in remarks:
-            ui.say(f"note: page {number} \"{source.image[number].title}\": {text}")
+            notes.add(number, source.image[number].title, text)
+        for line in notes.lines():
+            ui.say(f"note: {line}")
         if not found:
             ui.show(f"{sum(not page.is_empty for _, page in source.image.items())} pages in use, all good")
     raise SystemExit(EXIT_DIFFERENT if found else 0)

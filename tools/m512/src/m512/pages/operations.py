@@ -58,7 +58,7 @@ def remarks(image: Image) -> List[Tuple[int, str]]:
     for number, page in image.items():
         if number and not page.fault(image.kind) and page.is_playable and page.schedule == SCHEDULE_TIME and page.speed != NOMINAL_SPEED:
             factor = page.speed / NOMINAL_SPEED
-            out.append((number, f"speed {page.speed}: its steps and pauses last {factor:.4g} times what they say "
+            out.append((number, f"speed {page.speed}: steps and pauses last {factor:.4g} times what they say "
                                 f"(0.5 s becomes {0.5 * factor:.4g} s); {NOMINAL_SPEED} plays them as written"))
     return out
 
