@@ -3,7 +3,9 @@
 
 #include "compiler.h"
 #include "console.h"
+#include "parts.h"
 #include "pgm.h"
+#include "tick.h"
 
 static void put_P(const char *text)
 {
@@ -23,10 +25,21 @@ static void put_number(uint8_t number)
     ansi_put((char)('0' + number % 10));
 }
 
+/* Half a millisecond at most, three bytes' time. The tick alone: the rest of robot_serve needs more stack than is left
+ * here. */
+static void wait_for_room(void)
+{
+    for (uint8_t turn = 0; turn < UINT8_MAX && console_room() == 0; turn++) {
+        if (!performer_is_idle(&the_performer) && tick_take()) {
+            performer_tick(&the_performer);
+        }
+    }
+}
+
 /* Not inlined: it stands at the end of every text. */
 NOINLINE void ansi_put(char character)
 {
-    ansi_wait();
+    wait_for_room();
     console_write(&character, 1);
 }
 

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * ansi.h - the few terminal sequences the editor sends (ANSI X3.64, as a VT100 knows them), straight to the console.
- * While the console's ring is full it waits, through ansi_wait. Main loop only. No RAM. */
+ * While the console's ring is full it waits; a play goes on meanwhile. Main loop only. No RAM. */
 #ifndef ANSI_H
 #define ANSI_H
 
 #include <stdint.h>
 
 void ansi_put(char character);
-void ansi_wait(void);                         /* the editor's: does what may not wait while the line is full */
 void ansi_goto(uint8_t row, uint8_t column);  /* from 1 */
 void ansi_right(uint8_t columns);             /* at least 1 */
 void ansi_clear(void);                        /* and home */

@@ -50,7 +50,7 @@ static void put(const here_t *here, uint16_t value)
             session_update_trim(the_session.y);
         }
     }
-    (void)editor_edited();
+    (void)dialog_edited();
 }
 
 COMMAND(cmd_set)
@@ -140,7 +140,7 @@ static uint8_t set_schedule(uint8_t schedule)
 {
     session_begin();
     session_set_byte(PAGE_AT_SCHEDULE, schedule);
-    return editor_edited();
+    return dialog_edited();
 }
 
 COMMAND(cmd_time)

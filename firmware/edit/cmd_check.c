@@ -156,8 +156,8 @@ static void check_page(uint8_t page)
 
 static bool check_item(uint8_t item)
 {
-    uint8_t page = (uint8_t)(item + the_editor.list_first);
-    if (page > the_editor.list_last) {
+    uint8_t page = (uint8_t)(item + the_dialog.list_first);
+    if (page > the_dialog.list_last) {
         return false;
     }
     servo_link_quiet(&the_servos);
@@ -169,7 +169,7 @@ static bool check_item(uint8_t item)
 
 COMMAND(cmd_check)
 {
-    the_editor.list_first = args->count > 1 ? (uint8_t)args->number[0] : 1;
-    the_editor.list_last = args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)(PAGE_COUNT - 1u);
-    return editor_list(check_item, TEXT_P("Checked:"));
+    the_dialog.list_first = args->count > 1 ? (uint8_t)args->number[0] : 1;
+    the_dialog.list_last = args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)(PAGE_COUNT - 1u);
+    return dialog_list(check_item, TEXT_P("Checked:"));
 }

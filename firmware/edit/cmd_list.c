@@ -52,7 +52,7 @@ static bool help_item(uint8_t item)
 COMMAND(cmd_help)
 {
     if (args->count == 1) {
-        return editor_list(help_item, TEXT_P("Motion512"));
+        return dialog_list(help_item, TEXT_P("Motion512"));
     }
     const shell_command_t *command = shell_find(commands_table_P, commands_count, args, 1);
     if (command == NULL) {
@@ -108,8 +108,8 @@ TEXT_NAMED(list_title, "Page name         steps next exit  lnk1 code lnk2 code c
 
 static bool list_page_item(uint8_t item)
 {
-    uint8_t page = (uint8_t)(item + the_editor.list_first);
-    if (page > the_editor.list_last) {
+    uint8_t page = (uint8_t)(item + the_dialog.list_first);
+    if (page > the_dialog.list_last) {
         return false;
     }
     if (!session_is_empty(page)) {
@@ -120,11 +120,11 @@ static bool list_page_item(uint8_t item)
 
 COMMAND(cmd_list)
 {
-    the_editor.list_first = args->count > 1 ? (uint8_t)args->number[0] : 0;
-    the_editor.list_last = args->count > 2    ? (uint8_t)args->number[1]
+    the_dialog.list_first = args->count > 1 ? (uint8_t)args->number[0] : 0;
+    the_dialog.list_last = args->count > 2    ? (uint8_t)args->number[1]
                         : args->count == 2 ? (uint8_t)args->number[0]
                                            : (uint8_t)(PAGE_COUNT - 1u);
-    return editor_list(list_page_item, list_title);
+    return dialog_list(list_page_item, list_title);
 }
 
 static char lower(char character)
@@ -153,7 +153,7 @@ static bool find_item(uint8_t item)
         return false;
     }
     page_store_name(item, name);
-    if (!page_store_is_erased(item) && contains(name, shell_word(&the_editor.args, 1))) {
+    if (!page_store_is_erased(item) && contains(name, shell_word(&the_dialog.args, 1))) {
         print_page(item);
     }
     return true;
@@ -162,5 +162,5 @@ static bool find_item(uint8_t item)
 COMMAND(cmd_find)
 {
     (void)args;
-    return editor_list(find_item, list_title);
+    return dialog_list(find_item, list_title);
 }

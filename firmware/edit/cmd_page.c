@@ -17,10 +17,10 @@
 
 static uint8_t open_asking(uint8_t page)
 {
-    if (!editor_ask_unsaved()) {
-        return EDITOR_TO_ASK;
+    if (!dialog_ask_unsaved()) {
+        return DIALOG_TO_ASK;
     }
-    editor_open(page);
+    robot_open_page(page);
     return SHELL_OK;
 }
 
@@ -70,25 +70,25 @@ static NOINLINE void tell_namesake(uint8_t named, uint8_t own)
 
 COMMAND(cmd_copy)
 {
-    if (!editor_ask_unsaved()) {
-        return EDITOR_TO_ASK;
+    if (!dialog_ask_unsaved()) {
+        return DIALOG_TO_ASK;
     }
     uint8_t from = (uint8_t)args->number[0];
     session_begin();
     session_load(from);
     tell_namesake(from, the_session.page);
-    return editor_edited();
+    return dialog_edited();
 }
 
 COMMAND(cmd_new)
 {
     (void)args;
-    if (!editor_ask(TEXT_P("The page would be emptied. "))) {
-        return EDITOR_TO_ASK;
+    if (!dialog_ask(TEXT_P("The page would be emptied. "))) {
+        return DIALOG_TO_ASK;
     }
     session_begin();
     session_clear();
-    return editor_edited();
+    return dialog_edited();
 }
 
 /* ---- save ---- */
@@ -132,18 +132,18 @@ static bool page_is_sound(void)
 static bool overwriting_is_meant(uint8_t page)
 {
     if (page != the_session.page) {
-        return session_is_empty(page) || editor_ask(TEXT_P("That page is not empty. "));
+        return session_is_empty(page) || dialog_ask(TEXT_P("That page is not empty. "));
     }
     if (page_store_is_erased(page) || page_store_check(&the_pages, page) == PAGE_OK) {
         return true;
     }
-    return editor_ask(TEXT_P("The stored page is damaged. "));
+    return dialog_ask(TEXT_P("The stored page is damaged. "));
 }
 
 static uint8_t save_by_mailbox(uint8_t page)
 {
-    if (!editor_ask(TEXT_P("SAVE restarts (5 s). "))) {
-        return EDITOR_TO_ASK;
+    if (!dialog_ask(TEXT_P("SAVE restarts (5 s). "))) {
+        return DIALOG_TO_ASK;
     }
     page_save_by_mailbox(page, the_session.cells);
     board_restart(&the_settings_store, &the_settings);
@@ -178,7 +178,7 @@ COMMAND(cmd_save)
         return SHELL_ERR_SAID;
     }
     if (!overwriting_is_meant(page)) {
-        return EDITOR_TO_ASK;
+        return DIALOG_TO_ASK;
     }
     the_screen.lead = true;
     clear_off_marks();
@@ -196,8 +196,8 @@ COMMAND(cmd_save)
 COMMAND(cmd_exit)
 {
     (void)args;
-    if (!editor_ask_unsaved()) {
-        return EDITOR_TO_ASK;
+    if (!dialog_ask_unsaved()) {
+        return DIALOG_TO_ASK;
     }
     board_restart(&the_settings_store, &the_settings);
 }
@@ -218,7 +218,7 @@ void cmd_name_done(const char *name)
         bool is_kept = i < length && !(length == 1 && name[0] == ' ');
         session_set_byte((uint16_t)(PAGE_AT_NAME + i), is_kept ? (uint8_t)name[i] : 0);
     }
-    (void)editor_edited();
+    (void)dialog_edited();
 }
 
 COMMAND(cmd_name)
@@ -228,7 +228,7 @@ COMMAND(cmd_name)
         return SHELL_OK;
     }
     TEXT("name:");
-    return EDITOR_TO_NAME;
+    return DIALOG_TO_NAME;
 }
 
 /* ---- undo ---- */

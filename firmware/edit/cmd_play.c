@@ -2,6 +2,7 @@
  * cmd_play.c - PLAY and its keys, and what happens to servos meanwhile and at rest. */
 #include "commands.h"
 #include "dxl.h"
+#include "keys.h"
 #include "pgm.h"
 #include "report.h"
 #include "shape.h"
@@ -20,7 +21,7 @@ COMMAND(cmd_play)
     /* No step has been looked at yet. The voltage bounds what a high rate may ask of the servos. */
     shape_set_voltage(&the_performer.shape, the_servos.voltage_dv);
     (void)!shape_set_rate(&the_performer.shape, args->count > 2 ? args->number[1] : SHAPE_NORMAL);
-    return EDITOR_TO_PLAY;
+    return DIALOG_TO_PLAY;
 }
 
 void cmd_play_key(uint8_t key)
@@ -80,10 +81,10 @@ static NOINLINE void tell_faults(void)
     TEXT_NAMED(limp, "Lost torque");
     TEXT_NAMED(overload, "Overload");
     static const char *const names[] PROGMEM = { voltage, angle, heat, silent, limp, overload };   /* by bit */
-    the_editor.faults_due = false;
+    the_dialog.faults_due = false;
     the_robot.failed = false;   /* they count as silent */
     screen_open_line();
-    if (the_editor.broken_off) {
+    if (the_dialog.broken_off) {
         TEXT("Ended: a servo failed.");
     }
     const uint8_t column = the_screen.line_column;
@@ -92,7 +93,7 @@ static NOINLINE void tell_faults(void)
         for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
             servo_link_put(&joints, joint, (state_of(joint) >> bit & 1u) != 0);
         }
-        editor_tell_joints((const char *)pgm_read_ptr(&names[bit]), joints);
+        dialog_tell_joints((const char *)pgm_read_ptr(&names[bit]), joints);
     }
     the_screen.lead = true;
     if (the_performer.battery_told) {
@@ -113,7 +114,7 @@ static void tell_end(const performer_event_t *event)
         text_number(event->a);
         break;
     case PERFORMER_END_SERVO:
-        the_editor.broken_off = true;
+        the_dialog.broken_off = true;
         tell_faults();
         break;
     default:
@@ -125,26 +126,26 @@ static void tell_end(const performer_event_t *event)
 /* The play is over: the work pose is what the servos hold now. */
 static void play_ended(const performer_event_t *event)
 {
-    the_editor.late_ticks = LATE_TICKS;
-    the_editor.step_due = false;
+    the_dialog.late_ticks = LATE_TICKS;
+    the_dialog.step_due = false;
     shape_reset(&the_performer.shape);   /* a program's @play goes at the stored rate */
     robot_read();
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         the_session.marks[joint] |= MARK_LABEL;   /* no live position any more */
     }
-    if (the_editor.mode != EDITOR_PLAY) {
+    if (the_dialog.mode != DIALOG_PLAY) {
         return;
     }
     the_screen.lead = true;
     tell_end(event);
-    editor_leave_line();
+    dialog_end_line();
 }
 
 /* Where the play is: Edit counts steps from 0, as the columns do. */
 static void tell_step(void)
 {
     const player_t *player = &the_performer.engine.player;
-    the_editor.step_due = false;
+    the_dialog.step_due = false;
     screen_open_line();
     TEXT("Page ");
     text_number(player->page);
@@ -161,17 +162,17 @@ void cmd_play_events(bool line_is_free)
         if (event.kind == PERFORMER_EV_ENDED) {
             play_ended(&event);
         } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
-            the_editor.faults_due = !the_screen.hidden;
+            the_dialog.faults_due = !the_screen.hidden;
         } else if (event.kind == PERFORMER_EV_STEP) {
             /* behind a key the row keeps what the key did */
-            the_editor.step_due = the_editor.mode == EDITOR_PLAY && !link_is_stopping(&the_performer.link);
+            the_dialog.step_due = the_dialog.mode == DIALOG_PLAY && !link_is_stopping(&the_performer.link);
         }
-    } else if (the_editor.step_due && line_is_free) {
+    } else if (the_dialog.step_due && line_is_free) {
         tell_step();
-    } else if (the_editor.faults_due && line_is_free) {
+    } else if (the_dialog.faults_due && line_is_free) {
         tell_faults();
-        if (the_editor.mode != EDITOR_PLAY) {
-            editor_message_end();
+        if (the_dialog.mode != DIALOG_PLAY) {
+            dialog_message_end();
         }
     }
 }

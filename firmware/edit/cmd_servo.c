@@ -14,14 +14,14 @@ static void send_step(const uint8_t step[PAGE_STEP_BYTES])
     uint32_t missing = robot_send(step);
     session_set_byte(CELLS_POSE_AT + PAGE_STEP_AT_PAUSE, step[PAGE_STEP_AT_PAUSE]);
     session_set_byte(CELLS_POSE_AT + PAGE_STEP_AT_SPEED, step[PAGE_STEP_AT_SPEED]);
-    editor_tell_joints(TEXT_P("No value, not moved"), missing);
+    dialog_tell_joints(TEXT_P("No value, not moved"), missing);
 }
 
 COMMAND(cmd_go)
 {
     uint8_t step = (uint8_t)args->number[0];
-    if (step >= the_session.cells[PAGE_AT_STEPS] && !editor_ask(TEXT_P("That step is not used. "))) {
-        return EDITOR_TO_ASK;
+    if (step >= the_session.cells[PAGE_AT_STEPS] && !dialog_ask(TEXT_P("That step is not used. "))) {
+        return DIALOG_TO_ASK;
     }
     uint8_t words[PAGE_STEP_BYTES];
     memcpy(words, &the_session.cells[session_step_at(step)], sizeof words);
@@ -112,7 +112,7 @@ static bool take_joints(const shell_args_t *args, uint32_t *joints)
     if (!ranges_take_joints(args, 1, joints)) {
         return false;
     }
-    editor_tell_joints(TEXT_P("Not there"), *joints & ~there);
+    dialog_tell_joints(TEXT_P("Not there"), *joints & ~there);
     return true;
 }
 

@@ -75,7 +75,7 @@ COMMAND(cmd_int)
     session_set_byte((uint16_t)(session_step_at(to) + PAGE_STEP_AT_PAUSE), 0);
     share_time(to, b, (uint8_t)percent);
     session_set_byte(PAGE_AT_STEPS, (uint8_t)(steps + 1u));
-    return editor_edited();
+    return dialog_edited();
 }
 
 COMMAND(cmd_scale)
@@ -94,7 +94,7 @@ COMMAND(cmd_scale)
     if (cut) {
         TEXT("Cut at 1 or 255");
     }
-    return editor_edited();
+    return dialog_edited();
 }
 
 /* ---- steps from page to page ---- */
@@ -107,9 +107,9 @@ COMMAND(cmd_take)
         TEXT("The first step comes first");
         return SHELL_ERR_SAID;
     }
-    the_editor.take_page = the_session.page;
-    the_editor.take_first = first;
-    the_editor.take_last = last;
+    the_dialog.take_page = the_session.page;
+    the_dialog.take_first = first;
+    the_dialog.take_last = last;
     TEXT("Noted for PASTE");
     if (the_session.is_changed) {
         TEXT(" (save it first)");
@@ -120,10 +120,10 @@ COMMAND(cmd_take)
 static void paste_step(uint8_t from, uint8_t to)
 {
     uint8_t chunk[PAGE_STEP_BYTES];
-    if (the_editor.take_page == the_session.page) {
+    if (the_dialog.take_page == the_session.page) {
         memcpy(chunk, &the_session.cells[session_step_at(from)], PAGE_STEP_BYTES);
     } else {
-        page_store_read(the_editor.take_page, session_step_at(from), chunk, PAGE_STEP_BYTES);
+        page_store_read(the_dialog.take_page, session_step_at(from), chunk, PAGE_STEP_BYTES);
     }
     session_set_bytes(session_step_at(to), chunk, PAGE_STEP_BYTES);
 }
@@ -131,14 +131,14 @@ static void paste_step(uint8_t from, uint8_t to)
 COMMAND(cmd_paste)
 {
     uint8_t to = session_steps();
-    if (the_editor.take_page == EDITOR_NO_PAGE) {
+    if (the_dialog.take_page == DIALOG_NO_PAGE) {
         TEXT("Nothing noted: TAKE first");
         return SHELL_ERR_SAID;
     }
     if (args->count > 1) {
         to = (uint8_t)args->number[0];
     }
-    uint8_t count = (uint8_t)(the_editor.take_last - the_editor.take_first + 1u);
+    uint8_t count = (uint8_t)(the_dialog.take_last - the_dialog.take_first + 1u);
     if (to + count > PAGE_STEPS) {
         TEXT("No room");
         return SHELL_ERR_SAID;
@@ -149,8 +149,8 @@ COMMAND(cmd_paste)
     }
     /* Upwards or downwards, so that overlapping steps of the same page are read before they are written. */
     for (uint8_t i = 0; i < count; i++) {
-        uint8_t k = to > the_editor.take_first ? (uint8_t)(count - 1u - i) : i;
-        paste_step((uint8_t)(the_editor.take_first + k), (uint8_t)(to + k));
+        uint8_t k = to > the_dialog.take_first ? (uint8_t)(count - 1u - i) : i;
+        paste_step((uint8_t)(the_dialog.take_first + k), (uint8_t)(to + k));
     }
-    return editor_edited();
+    return dialog_edited();
 }

@@ -57,7 +57,7 @@ COMMAND(cmd_step)
 {
     session_begin();
     set_count((uint8_t)args->number[0]);
-    return editor_edited();
+    return dialog_edited();
 }
 
 COMMAND(cmd_write)
@@ -75,7 +75,7 @@ COMMAND(cmd_write)
     }
     write_pose(step);
     update_trim(step);
-    return editor_edited();
+    return dialog_edited();
 }
 
 COMMAND(cmd_insert)
@@ -91,7 +91,7 @@ COMMAND(cmd_insert)
         the_screen.lead = true;
         TEXT("Step 6 fell out: UNDO");
     }
-    return editor_edited();
+    return dialog_edited();
 }
 
 /* The steps behind move down; the last one stays as a copy (editor-original.md section 6). */
@@ -107,7 +107,7 @@ static uint8_t delete_step(uint8_t step)
     if (step < LAST_STEP) {
         copy_step(LAST_STEP - 1u, LAST_STEP);
     }
-    return editor_edited();
+    return dialog_edited();
 }
 
 COMMAND(cmd_delete)
@@ -122,7 +122,7 @@ COMMAND(cmd_delete)
     }
     session_begin();
     set_count((uint8_t)(steps - 1u));
-    return editor_edited();
+    return dialog_edited();
 }
 
 static void print_pair(uint8_t from, uint8_t to)
@@ -149,11 +149,11 @@ COMMAND(cmd_move)
         the_screen.lead = true;
         update_trim(to);
     }
-    return editor_edited();
+    return dialog_edited();
 }
 
 COMMAND(cmd_swap)
 {
     session_begin_turn(UNDO_TURN(UNDO_TURN_SWAP, args->number[0], args->number[1]));
-    return editor_edited();
+    return dialog_edited();
 }

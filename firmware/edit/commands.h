@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT
  * commands.h - the words of the editor and who carries them out. The table itself (commands.c) stands in flash; each
- * handler gets the editor as its context and returns SHELL_OK, SHELL_ERR_SAID or one of EDITOR_TO_... */
+ * handler returns SHELL_OK, SHELL_ERR_SAID or one of DIALOG_TO_... */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 
 #include <stdint.h>
-#include "editor.h"
+#include "dialog.h"
 #include "page_save.h"
+#include "parts.h"
+#include "robot.h"
+#include "screen.h"
+#include "session.h"
 
 extern const shell_command_t commands_table_P[];
 extern const uint8_t commands_count;

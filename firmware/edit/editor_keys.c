@@ -1,25 +1,41 @@
 /* SPDX-License-Identifier: MIT
- * editor_keys.c - which key means what, mode by mode (the diagram is in editor.h). */
+ * editor_keys.c - which key means what, mode by mode (the diagram is in dialog.h). */
 #include "commands.h"
+#include "dialog.h"
 #include "editor_parts.h"
-#include "pgm.h"
+#include "keys.h"
+#include "parts.h"
+#include "requests.h"
+#include "robot.h"
+#include "screen.h"
+#include "shell.h"
 #include "system.h"
 #include "text.h"
 #include "tick.h"
 
-enum { PAGE_ROWS = 8 };
+enum { PAGE_ROWS = 8, ESC_QUIET_TICKS = 7 };
 enum { SWALLOW_TICKS = 60, STREAM_TICKS = 4 };   /* a person's next letter; a stream's next byte */
 enum { BACKSLASH = '\\', FIRST_WORD_KEY = '0', LAST_WORD_KEY = 'Z', FIRST_LOWER_KEY = '^', LAST_LOWER_KEY = 'z' };
+
+static keys_t keys;
+static bool swallow;    /* the rest of a line whose first letter answered a question */
+static bool after_cr;   /* the last byte was CR: a LF now belongs to it */
+
+void editor_keys_init(void)
+{
+    keys_init(&keys);
+    swallow = after_cr = false;
+}
 
 static void open_line(uint8_t key)
 {
     bool starts = (key >= FIRST_WORD_KEY && key <= LAST_WORD_KEY) || key == BACKSLASH ||
                   (key >= FIRST_LOWER_KEY && key <= LAST_LOWER_KEY);
-    shell_clear(&the_editor.shell);
-    the_editor.mode = EDITOR_LINE;
+    shell_clear(&the_dialog.shell);
+    the_dialog.mode = DIALOG_LINE;
     screen_open_line();
     if (starts) {
-        (void)shell_byte(&the_editor.shell, key);
+        (void)shell_byte(&the_dialog.shell, key);
     }
 }
 
@@ -31,9 +47,9 @@ static void open_program_line(void)
         text_line_end();
     }
     the_screen.sink = SCREEN_QUIET;
-    the_editor.mode = EDITOR_PROGRAM;
-    shell_clear(&the_editor.shell);
-    (void)shell_byte(&the_editor.shell, '@');
+    the_dialog.mode = DIALOG_PROGRAM;
+    shell_clear(&the_dialog.shell);
+    (void)shell_byte(&the_dialog.shell, '@');
 }
 
 /* The screen again, whole, before a key that may open a line on it: 0.5 s. */
@@ -46,117 +62,112 @@ static void take_screen_back(void)
     }
 }
 
-static void jump(session_way_t way, uint8_t cells)
+/* Arrows by one cell, Home and End to the ends of the row, PgUp and PgDn by eight rows; four ways in keys.h's order. */
+static void move_key(uint8_t key)
 {
+    uint8_t number = (uint8_t)(key - KEY_UP);
+    uint8_t cells = number < 4 ? 1 : number < 6 ? (uint8_t)PAGE_ROWS : (uint8_t)CELLS_COLUMNS;
     while (cells-- > 0) {
-        screen_move(way);
+        screen_move((session_way_t)(SESSION_UP + (number & 3u)));
     }
 }
 
-static void table_key(uint8_t key)
+/* true: the key was one for the cell under the cursor. */
+static bool cell_key(uint8_t key)
 {
-    if (key != '@' && !performer_is_idle(&the_performer)) {
-        return;   /* only programs may have started what moves; nothing is edited under it */
-    }
-    if (the_screen.hidden && key != '@') {
-        if (key == KEY_NONE || key == KEY_CR || key == KEY_LF) {
-            return;
-        }
-        take_screen_back();
-    }
     switch (key) {
-    case KEY_UP:
-    case KEY_DOWN:
-    case KEY_RIGHT:
-    case KEY_LEFT:
-        screen_move((session_way_t)(SESSION_UP + (key - KEY_UP)));
-        break;
-    case KEY_HOME:
-        jump(SESSION_LEFT, CELLS_COLUMNS);
-        break;
-    case KEY_END:
-        jump(SESSION_RIGHT, CELLS_COLUMNS);
-        break;
-    case KEY_PAGE_UP:
-        jump(SESSION_UP, PAGE_ROWS);
-        break;
-    case KEY_PAGE_DOWN:
-        jump(SESSION_DOWN, PAGE_ROWS);
-        break;
     case ']':
     case '[':
         cmd_cell_change(key == ']' ? 1 : -1);
-        break;
+        return true;
     case '}':
     case '{':
         cmd_cell_change(key == '}' ? 10 : -10);
-        break;
+        return true;
     case ' ':
-        if (the_editor.late_ticks == 0) {
+        if (the_dialog.late_ticks == 0) {
             cmd_cell_space();
         }
-        break;
-    case '@':
-        open_program_line();
-        return;
-    case KEY_SIZE:
-        screen_set_rows(the_editor.keys.rows);
-        break;
-    case KEY_NONE:
-    case KEY_ESCAPE:
-    case KEY_CTRL_C:
-        return;
+        return true;
     default:
+        return false;
+    }
+}
+
+/* A key on the table that changes something there. */
+static void table_key(uint8_t key)
+{
+    if (key == KEY_SIZE) {
+        screen_set_rows(keys.rows);
+    } else if (key >= KEY_UP && key <= KEY_HOME) {
+        move_key(key);
+    } else if (!cell_key(key)) {
         open_line(key);
         return;
     }
     if (the_robot.failed) {
-        editor_message_begin();
-        editor_tell_failed();
-        editor_message_end();
+        dialog_message_begin();
+        dialog_tell_failed();
+        dialog_message_end();
     }
     screen_sync();
+}
+
+/* What may follow a program's line. */
+static bool is_no_key(uint8_t key)
+{
+    return key == KEY_NONE || key == KEY_CR || key == KEY_LF;
+}
+
+/* Programs may have put the screen away or started what moves: nothing is edited under that. */
+static void first_key(uint8_t key)
+{
+    if (key == '@') {
+        open_program_line();
+        return;
+    }
+    if (!performer_is_idle(&the_performer) || (the_screen.hidden && is_no_key(key))) {
+        return;
+    }
+    if (the_screen.hidden) {
+        take_screen_back();
+    }
+    if (key != KEY_NONE && key != KEY_ESCAPE && key != KEY_CTRL_C) {
+        table_key(key);
+    }
 }
 
 static void line_byte(uint8_t byte)
 {
     if (byte == KEY_CTRL_C) {
-        editor_leave_line();
+        dialog_end_line();
         return;
     }
-    switch (shell_byte(&the_editor.shell, byte < 0x80 ? byte : (uint8_t)'?')) {   /* an umlaut is seen to be none */
+    switch (shell_byte(&the_dialog.shell, byte < 0x80 ? byte : (uint8_t)'?')) {   /* an umlaut is seen to be none */
     case SHELL_TYPING:
-        return;
+        break;
     case SHELL_TOO_LONG:
-        editor_message_begin();   /* there is no room behind it */
+        dialog_message_begin();   /* there is no room behind it */
         TEXT("Line too long");
-        editor_leave_line();
-        return;
+        dialog_end_line();
+        break;
     case SHELL_LINE:
+        editor_line();
         break;
     }
-    if (the_editor.mode == EDITOR_NAME) {
-        cmd_name_done(the_editor.line);
-        editor_leave_line();
-        return;
-    }
-    the_editor.args = shell_split(&the_editor.shell, the_session.hex);
-    editor_run();
 }
 
 static void program_byte(uint8_t byte)
 {
-    shell_event_t event = shell_byte(&the_editor.shell, byte);
+    shell_event_t event = shell_byte(&the_dialog.shell, byte);
     if (event == SHELL_TYPING) {
         return;
     }
-    the_screen.sink = SCREEN_PLAIN;
     if (event == SHELL_LINE) {
-        the_editor.args = shell_split(&the_editor.shell, false);
-        requests_run(&the_editor.args);
+        editor_program_line();
     }
-    shell_clear(&the_editor.shell);
-    the_editor.mode = EDITOR_TABLE;
+    shell_clear(&the_dialog.shell);
+    the_dialog.mode = DIALOG_TABLE;
     screen_sync();
 }
 
@@ -166,12 +177,12 @@ static void ask_key(uint8_t key)
         return;
     }
     if (key == 'y' || key == 'Y') {
-        the_editor.answered++;
+        the_dialog.answered++;
         editor_run();
     } else {
-        the_editor.swallow = key > ' ' && key < KEY_NONE && key != 'n' && key != 'N';
+        swallow = key > ' ' && key < KEY_NONE && key != 'n' && key != 'N';
         TEXT(" no");
-        editor_leave_line();
+        dialog_end_line();
     }
 }
 
@@ -180,35 +191,43 @@ static void more_key(uint8_t key)
     if (key == KEY_NONE || key == KEY_SIZE) {
         return;
     }
-    if (the_editor.item != NULL && (key == ' ' || key == KEY_CR)) {
-        the_editor.lines = 0;
+    if (the_dialog.item != NULL && (key == ' ' || key == KEY_CR)) {
+        the_dialog.lines = 0;
         text_line_end();
-        the_editor.mode = EDITOR_LIST;
+        the_dialog.mode = DIALOG_LIST;
         return;
     }
     take_screen_back();
-    editor_leave_line();
-    the_editor.late_ticks = LATE_TICKS;
+    dialog_end_line();
+    the_dialog.late_ticks = LATE_TICKS;
     if (key != ' ' && key != KEY_CR && key != KEY_LF && key != 'q' && key != KEY_ESCAPE && key != KEY_CTRL_C) {
-        table_key(key);
+        first_key(key);
     }
 }
 
-void editor_key(uint8_t key)
+static void take_key(uint8_t key)
 {
-    switch (the_editor.mode) {
-    case EDITOR_ASK:
+    switch (the_dialog.mode) {
+    case DIALOG_ASK:
         ask_key(key);
         break;
-    case EDITOR_MORE:
+    case DIALOG_MORE:
         more_key(key);
         break;
-    case EDITOR_PLAY:
+    case DIALOG_PLAY:
         cmd_play_key(key);
         break;
     default:
-        table_key(key);
+        first_key(key);
         break;
+    }
+}
+
+void editor_quiet(void)
+{
+    bool quiet = (uint16_t)(tick_now16() - the_dialog.quiet_since) > ESC_QUIET_TICKS;
+    if (quiet && keys_is_open(&keys)) {
+        take_key(keys_quiet(&keys));
     }
 }
 
@@ -216,38 +235,38 @@ void editor_key(uint8_t key)
  * And what still streams in behind a question is no answer. */
 static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
 {
-    if (the_editor.swallow && quiet_ticks < SWALLOW_TICKS) {
-        the_editor.swallow = byte != KEY_CR && byte != KEY_LF;
+    if (swallow && quiet_ticks < SWALLOW_TICKS) {
+        swallow = byte != KEY_CR && byte != KEY_LF;
         return true;
     }
-    the_editor.swallow = false;
-    return the_editor.mode == EDITOR_ASK && quiet_ticks < STREAM_TICKS;
+    swallow = false;
+    return the_dialog.mode == DIALOG_ASK && quiet_ticks < STREAM_TICKS;
 }
 
 void editor_byte(uint8_t byte)
 {
-    uint16_t now = tick_now16(), quiet_ticks = (uint16_t)(now - the_editor.quiet_since);
-    bool end_of_cr = byte == KEY_LF && the_editor.after_cr;
-    the_editor.after_cr = byte == KEY_CR;
-    the_editor.quiet_since = now;
+    uint16_t now = tick_now16(), quiet_ticks = (uint16_t)(now - the_dialog.quiet_since);
+    bool end_of_cr = byte == KEY_LF && after_cr;
+    after_cr = byte == KEY_CR;
+    the_dialog.quiet_since = now;
     if (end_of_cr || is_left_over(byte, quiet_ticks)) {
         return;
     }
-    if (the_editor.mode != EDITOR_PLAY && !performer_is_idle(&the_performer) && (byte == ' ' || byte == KEY_CTRL_C) &&
-        the_editor.mode != EDITOR_PROGRAM) {
+    if (the_dialog.mode != DIALOG_PLAY && !performer_is_idle(&the_performer) && (byte == ' ' || byte == KEY_CTRL_C) &&
+        the_dialog.mode != DIALOG_PROGRAM) {
         performer_break(&the_performer);
         return;
     }
-    switch (the_editor.mode) {
-    case EDITOR_LINE:
-    case EDITOR_NAME:
+    switch (the_dialog.mode) {
+    case DIALOG_LINE:
+    case DIALOG_NAME:
         line_byte(byte);
         break;
-    case EDITOR_PROGRAM:
+    case DIALOG_PROGRAM:
         program_byte(byte);
         break;
     default:
-        editor_key(keys_byte(&the_editor.keys, byte));
+        take_key(keys_byte(&keys, byte));
         break;
     }
 }

@@ -1,18 +1,23 @@
 /* SPDX-License-Identifier: MIT
- * editor_parts.h - what editor.c (start, lines, main loop), editor_keys.c and editor_source.c share. */
+ * editor_parts.h - how the files of the editor see each other; the order is in editor.h. */
 #ifndef EDITOR_PARTS_H
 #define EDITOR_PARTS_H
 
-#include "editor.h"
+#include <stdbool.h>
+#include <stdint.h>
+#include "page_source.h"
 
-/* editor.c: runs the line in the_editor.args, anew after each answered question. */
+/* editor_keys.c: one byte from the console; nothing has come for a while. */
+void editor_byte(uint8_t byte);
+void editor_quiet(void);
+void editor_keys_init(void);
+
+/* editor_line.c: a complete line. run: that of the_dialog.args, anew after each answered question. */
+void editor_line(void);
 void editor_run(void);
+void editor_program_line(void);
 
-/* editor_keys.c: one key, by mode. */
-void editor_key(uint8_t key);
-
-/* editor_source.c: the open page from RAM for the performer. */
-void editor_source_read(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count);
-uint8_t editor_source_check(void *context, uint8_t page);
+/* editor_source.c: the open page from RAM, the others from flash, for the performer. */
+extern const page_source_t editor_source;
 
 #endif

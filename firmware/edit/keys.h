@@ -10,8 +10,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { KEY_NONE = 0x80, KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT, KEY_ESCAPE, KEY_SIZE,
-       KEY_HOME, KEY_END, KEY_PAGE_UP, KEY_PAGE_DOWN };
+/* Twice in the order of session_way_t: up, down, right, left. */
+enum { KEY_NONE = 0x80, KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT, KEY_PAGE_UP, KEY_PAGE_DOWN, KEY_END, KEY_HOME,
+       KEY_ESCAPE, KEY_SIZE };
 enum { KEY_CTRL_C = 3, KEY_CR = '\r', KEY_LF = '\n' };
 
 typedef struct {

@@ -38,7 +38,7 @@ static NOINLINE void start(void)
     ring_t *ring = console_rx_ring();
     receiver = (boot_rx_t){ ring->bytes, &ring->head, &ring->tail, console_rx_lost(), ring->mask };
     page_service_kind_t service = page_service_init(&receiver);
-    the_editor.notice_P = journal_recover(the_session.cells) == JOURNAL_RESTORED ? TEXT_P("Saved what was cut off")
+    const char *notice_P = journal_recover(the_session.cells) == JOURNAL_RESTORED ? TEXT_P("Saved what was cut off")
                       : service == PAGE_SERVICE_MAILBOX ? mail_text_P()
                       : service == PAGE_SERVICE_NONE  ? TEXT_P("No boot loader can write: no SAVE")
                                                       : TEXT_P("Arrows move, HELP explains, EXIT leaves");
@@ -49,7 +49,7 @@ static NOINLINE void start(void)
     servo_link_init(&the_servos);
     servo_link_scan(&the_servos);
     performer_init(&the_performer, &the_pages.source, &the_servos, &the_settings);
-    editor_init();
+    editor_init(notice_P);
 }
 
 int main(void)

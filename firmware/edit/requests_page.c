@@ -20,7 +20,7 @@ REQUEST(do_open)
     if (the_session.is_changed) {
         return REQUEST_ERR_UNSAVED;
     }
-    editor_open((uint8_t)args->number[0]);
+    robot_open_page((uint8_t)args->number[0]);
     return REQUEST_OK;
 }
 
@@ -97,5 +97,5 @@ static const char name[] PROGMEM = "edit";
 TEXT_NAMED(can, ",open,data,save");
 const requests_image_t requests_image = {
     .name_P = name, .can_P = can, .performer = &the_performer, .servos = &the_servos, .pages = &the_pages,
-    .own_P = own, .own_count = ARRAY_COUNT(own), .serve = editor_serve, .restart = restart,
+    .own_P = own, .own_count = ARRAY_COUNT(own), .serve = robot_serve, .restart = restart,
 };

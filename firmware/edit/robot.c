@@ -5,6 +5,7 @@
 #include "bus_call.h"
 #include "dxl.h"
 #include "parts.h"
+#include "tick.h"
 
 robot_t the_robot;
 
@@ -87,6 +88,22 @@ void robot_set_trim(void)
     servo_link_set_trim(&the_servos, trimmed ? trim_pos : NULL);
     servo_link_read_pose(&the_servos, the_servos.present);
     robot_read();
+}
+
+void robot_open_page(uint8_t page)
+{
+    session_open(page);
+    if ((page == 0) != the_robot.raw) {
+        robot_set_trim();
+    }
+}
+
+void robot_serve(void)
+{
+    if (tick_take()) {
+        performer_tick(&the_performer);
+    }
+    performer_poll(&the_performer);
 }
 
 void robot_init(void)

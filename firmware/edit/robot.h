@@ -22,6 +22,9 @@ typedef struct {
 
 extern robot_t the_robot;       /* the only one: all functions here are about it */
 
+/* What may not wait while something takes long: the tick, the bus. */
+void robot_serve(void);
+
 /* Reads trim and all joints that answered the last search. */
 void robot_init(void);
 
@@ -36,6 +39,9 @@ void robot_follow(void);
 
 /* While something plays, once a tick: one joint's goal into the work pose, and its live position to be shown. */
 void robot_show_play(void);
+
+/* Opens a page, without trim when it is page 0. */
+void robot_open_page(uint8_t page);
 
 /* The page that is open has changed or trim was saved: page 0 is edited without trim. */
 void robot_set_trim(void);

@@ -246,7 +246,6 @@ void setUp(void)
     memset(screen, ' ', sizeof screen);
     cursor_row = cursor_column = 1;
     sequence[0] = '\0';
-    memset(&the_editor, 0, sizeof the_editor);
     store_pages();
     for (uint8_t id = 1; id <= 3; id++) {
         (void)fake_bus_add(id, BUS_RATE_1M);
@@ -257,7 +256,7 @@ void setUp(void)
     servo_link_init(&the_servos);
     servo_link_scan(&the_servos);
     performer_init(&the_performer, &the_pages.source, &the_servos, &the_settings);
-    editor_init();
+    editor_init(NULL);
     run_ms(2000);
     clear_sent();
 }

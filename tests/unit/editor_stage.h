@@ -8,6 +8,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include "commands.h"
 #include "editor.h"
 #include "fake_bus.h"
 #include "fake_console.h"

@@ -145,9 +145,9 @@ static void test_count_is_looked_at_before_the_range(void)
 static void test_empty_line_does_nothing(void)
 {
     type("\r");   /* opens it */
-    TEST_ASSERT_EQUAL_UINT8(EDITOR_LINE, the_editor.mode);
+    TEST_ASSERT_EQUAL_UINT8(DIALOG_LINE, the_dialog.mode);
     type("  \r");
-    TEST_ASSERT_EQUAL_UINT8(EDITOR_TABLE, the_editor.mode);
+    TEST_ASSERT_EQUAL_UINT8(DIALOG_TABLE, the_dialog.mode);
     TEST_ASSERT_EQUAL_STRING("", message());
 }
 
@@ -189,10 +189,10 @@ static void test_while_something_moves_every_other_word_is_refused(void)
         word[length] = '\0';
         if (!is_harmless(word)) {
             static const char *const numbers[] = {"", "1", "1 1"};
-            shell_clear(&the_editor.shell);
-            (void)snprintf(the_editor.line, EDITOR_LINE_BYTES, "%s %s", word, numbers[commands_table_P[i].args >> 4 & 7]);
-            the_editor.shell.length = (uint8_t)strlen(the_editor.line);
-            shell_args_t args = shell_split(&the_editor.shell, false);
+            shell_clear(&the_dialog.shell);
+            (void)snprintf(the_dialog.line, DIALOG_LINE_BYTES, "%s %s", word, numbers[commands_table_P[i].args >> 4 & 7]);
+            the_dialog.shell.length = (uint8_t)strlen(the_dialog.line);
+            shell_args_t args = shell_split(&the_dialog.shell, false);
             const bool moving = !performer_is_idle(&the_performer);
             TEST_ASSERT_EQUAL_UINT8_MESSAGE(
                 SHELL_ERR_MOVING, shell_run(commands_table_P, commands_count, NULL, &args, moving), word);

@@ -36,7 +36,7 @@ static void test_question_comes_before_edits_are_dropped(void)
         type("n");
         TEST_ASSERT_EQUAL_UINT16_MESSAGE(700, word_at(70), lines[i]);
         TEST_ASSERT_EQUAL_UINT8_MESSAGE(1, the_session.page, lines[i]);
-        TEST_ASSERT_EQUAL_UINT8_MESSAGE(EDITOR_TABLE, the_editor.mode, lines[i]);
+        TEST_ASSERT_EQUAL_UINT8_MESSAGE(DIALOG_TABLE, the_dialog.mode, lines[i]);
     }
 }
 
@@ -48,7 +48,7 @@ static void test_rest_of_a_line_that_answered_a_question_is_no_command(void)
     run_ms(500);
     TEST_ASSERT_EQUAL_UINT8(1, the_session.page);
     TEST_ASSERT_NULL(strstr(message(), "Bad Command"));
-    TEST_ASSERT_EQUAL_UINT8(EDITOR_TABLE, the_editor.mode);
+    TEST_ASSERT_EQUAL_UINT8(DIALOG_TABLE, the_dialog.mode);
 }
 
 static void test_what_was_typed_ahead_answers_no_question(void)
@@ -56,7 +56,7 @@ static void test_what_was_typed_ahead_answers_no_question(void)
     change_a_cell();
     fake_console_type("page 2\ryes\rsave 3\r");
     run_ms(500);
-    TEST_ASSERT_EQUAL_UINT8(EDITOR_ASK, the_editor.mode);
+    TEST_ASSERT_EQUAL_UINT8(DIALOG_ASK, the_dialog.mode);
     TEST_ASSERT_EQUAL_UINT8(1, the_session.page);
     TEST_ASSERT_EQUAL_UINT8(0xFF, flash_page(3)[0]);
     type("n");
@@ -242,7 +242,7 @@ static void test_cr_lf_and_both_end_a_line_once(void)
     for (uint8_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         type(ends[i]);
         TEST_ASSERT_EQUAL_UINT8(i == 1 ? 1 : 2, the_session.page);
-        TEST_ASSERT_EQUAL_UINT8(EDITOR_TABLE, the_editor.mode);
+        TEST_ASSERT_EQUAL_UINT8(DIALOG_TABLE, the_dialog.mode);
     }
 }
 
@@ -255,7 +255,7 @@ static void test_backspace_and_delete_take_back(void)
 static void test_ctrl_c_leaves_the_line_and_runs_nothing(void)
 {
     type("page 2\x03");
-    TEST_ASSERT_EQUAL_UINT8(EDITOR_TABLE, the_editor.mode);
+    TEST_ASSERT_EQUAL_UINT8(DIALOG_TABLE, the_dialog.mode);
     type("\r");
     TEST_ASSERT_EQUAL_UINT8(1, the_session.page);
 }
@@ -291,7 +291,7 @@ static void start_play(void)
     type("play 5\r");
     run_ms(11500);
     TEST_ASSERT_FALSE(performer_is_idle(&the_performer));
-    TEST_ASSERT_EQUAL_UINT8(EDITOR_PLAY, the_editor.mode);
+    TEST_ASSERT_EQUAL_UINT8(DIALOG_PLAY, the_dialog.mode);
 }
 
 static void test_space_and_ctrl_c_break_a_play_at_once(void)
@@ -323,7 +323,7 @@ static void test_cr_and_esc_let_the_page_come_to_its_end(void)
         }
         run_ms(100);
         TEST_ASSERT_EQUAL_UINT16(600, goal());
-        TEST_ASSERT_EQUAL_UINT8(EDITOR_TABLE, the_editor.mode);
+        TEST_ASSERT_EQUAL_UINT8(DIALOG_TABLE, the_dialog.mode);
         TEST_ASSERT_NOT_NULL(strstr(message(), "OK"));
     }
 }
