@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The last whole line that the board said by itself, for the strip. Prompts, echoes, bare OKs and the escape sequences of a
-// full screen are no messages.
+// The last whole line that the board said by itself, for the strip. Prompts, echoes, bare OKs, answers that came too late and the
+// escape sequences of a full screen are no messages.
 
 const LINE_MAX = 200;
 const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|fault|lost|cannot|bad|not /i;
@@ -30,7 +30,7 @@ export class LastSaid {
 
   private end(): Said | null {
     const text = this.line.trim();
-    const isMessage = !this.isScreen && text.length > 3 && !text.startsWith('] ') && /^[\x20-\x7e]+$/.test(text);
+    const isMessage = !this.isScreen && text.length > 3 && !text.startsWith('] ') && !text.startsWith('@') && /^[\x20-\x7e]+$/.test(text);
     this.line = '';
     this.isScreen = false;
     return isMessage ? { text, isTrouble: TELLS_TROUBLE.test(text) } : null;

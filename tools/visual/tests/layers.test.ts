@@ -14,7 +14,7 @@ const MAY: Readonly<Record<string, readonly string[]>> = {
   app: ['app', 'view', 'files', 'sim', 'robot', 'model'],
 };
 /** Packages that a layer may use; everything else is one of ours. */
-const PACKAGES: Readonly<Record<string, RegExp>> = { model: /^$/, robot: /^$/, sim: /^@mujoco\/mujoco$/, files: /^pyodide/, view: /^(three|@xterm)/, app: /^$/ };
+const PACKAGES: Readonly<Record<string, RegExp>> = { model: /^$/, robot: /^$/, sim: /^@mujoco\/mujoco$/, files: /^pyodide/, view: /^(three|@xterm|@dagrejs\/dagre$)/, app: /^$/ };
 
 /** Names within the folder, those in folders of its own too. */
 function sourcesIn(folder: string): string[] {

@@ -9,8 +9,10 @@ import type { Editing } from './editor/editing.ts';
 import { PoseBar } from './editor/pose-bar.ts';
 import { StepsPane } from './editor/steps-pane.ts';
 import { define, make } from './element.ts';
+import { ChecksPane } from './editor/checks-pane.ts';
 import { CompareDialog } from './editor/compare-dialog.ts';
 import { EditBar } from './editor/edit-bar.ts';
+import { LinksPane } from './editor/links-pane.ts';
 import { PagesPane } from './editor/pages-pane.ts';
 import { LabPane } from './lab-pane.ts';
 import { RemotePad } from './remote-pad.ts';
@@ -20,7 +22,7 @@ import { Store } from './store.ts';
 import { TerminalPane } from './terminal-pane.ts';
 import './app-shell.css';
 
-const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['steps', 'Steps'], ['pages', 'Pages'], ['terminal', 'Terminal'], ['lab', 'Lab']];
+const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['steps', 'Steps'], ['pages', 'Pages'], ['links', 'Links'], ['checks', 'Checks'], ['terminal', 'Terminal'], ['lab', 'Lab']];
 /** Areas that show the document. */
 const EDITING: readonly Tab[] = ['steps', 'curves', 'pages', 'links', 'checks'];
 
@@ -44,8 +46,10 @@ export class AppShell extends HTMLElement {
     const pages = this.give(new PagesPane());
     const compare = this.give(new CompareDialog());
     pages.onCompare = this.editBar.onTransfer = () => void compare.open();
-    pages.addEventListener('open-steps', () => this.desk.show('steps'));
+    this.addEventListener('open-steps', () => this.desk.show('steps'));
     this.addPanel('pages', pages);
+    this.addPanel('links', this.give(new LinksPane()));
+    this.addPanel('checks', this.give(new ChecksPane()));
     this.addPanel('terminal', this.give(new TerminalPane()));
     this.addPanel('lab', lab);
     this.replaceChildren(

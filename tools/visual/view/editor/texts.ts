@@ -2,6 +2,9 @@
 // Every sentence of the editor that is more than a label: names of edits, refusals.
 
 import type { Refusal, RefusalCode } from '../../model/result.ts';
+import type { CheckKind, PageFinding } from '../../model/checks.ts';
+import type { PageFault } from '../../model/motion.ts';
+import type { LinkField } from '../../model/page.ts';
 import type { EditName, Transaction } from '../../model/transaction.ts';
 import type { PageAccount } from '../../robot/page-write.ts';
 import { buttonsOf } from '../../robot/remote.ts';
@@ -59,6 +62,12 @@ export const EDITOR_TEXTS = {
   nameHint: 'At most 13 letters, digits and signs.',
   clear: (names: string) => `${names} will be empty. Links of other pages still lead there. Undo brings it back.`,
   transfer: (from: string, to: string) => `What shall become of ${from}, which you put on ${to}?`,
+  checks: 'Checks: what would not play, what servos or balance would not bear, and what only may surprise.',
+  links: 'Links: which page follows which. Click a page to choose it, drag from one to another to link them, or use the list.',
+  noLinks: 'No page has steps yet, so there is nothing to link.',
+  checking: 'm512 checks too: its program is being loaded (5 MB, once) …',
+  noM512: 'm512\'s checks could not be loaded. What stands here is what the firmware itself and the body say.',
+  allGood: (count: number) => `${count} pages in use, nothing to complain of.`,
   compare: 'What differs, page by page: strong is what would come, pale what is there now. A backup of the robot is kept before anything is written.',
   same: 'Nothing differs.',
   trimStays: 'Page 0 is the trim of the robot it was read from. It is never written into another one.',
@@ -98,3 +107,35 @@ export function transferText({ phase, done, total, trouble }: TransferState): st
 export const ACCOUNT_TEXTS: Readonly<Record<PageAccount, string>> = {
   waiting: 'as it was', sending: 'as it was', saving: 'being saved …', written: '✓ written', verified: '✓ verified',
 };
+
+const FAULTS: Record<PageFault, string> = {
+  checksum: 'its checksum is wrong', steps: 'it counts more than seven steps', schedule: 'its schedule is unknown', speed: 'its speed is 0', link: 'a link leads beyond page 127',
+  position: 'a position is above 1023',
+};
+
+/** Faults keep a page from doing what it says; the others may surprise. */
+export const FAULTY: Readonly<Record<CheckKind, boolean>> = {
+  damaged: true, 'too-fast': true, 'out-of-reach': true, 'tips-over': false, unreachable: false, 'exit-circle': true,
+};
+
+/** One finding as a sentence; jointTitle: of its joint. */
+export function findingText({ kind, step, amount, fault }: PageFinding, jointTitle: string): string {
+  const where = step === null ? '' : `Step ${step + 1}: `;
+  switch (kind) {
+    case 'damaged': return `Damaged: ${fault ? FAULTS[fault] : ''}. It is not played. Clear it, or take it from a backup or a file.`;
+    case 'too-fast': return `${where}the ${jointTitle} is asked for ${amount.toFixed(2)} times what the servo does without load. Give the step more time.`;
+    case 'out-of-reach': return `${where}the ${jointTitle} is turned farther than the body lets it.`;
+    case 'tips-over': return `${where}held like this it tips over: its centre of mass is ${Math.round(amount * 1000)} mm outside the soles. In a fast motion, or lying, that may be meant.`;
+    case 'unreachable': return 'No key of the remote calls it, and no page that is called leads to it. It can be played by its number only.';
+    case 'exit-circle': return 'Its exit links go round in a circle, so a stop comes to no page that ends. The robot breaks the circle off where it began.';
+    default: return kind satisfies never;
+  }
+}
+
+export const LINK_TEXTS: Readonly<Record<LinkField, string>> = {
+  next: 'next', exit: 'exit (on stop)', linked1: 'linked 1', linked2: 'linked 2', blendRight: 'blend right', blendLeft: 'blend left',
+};
+
+export const LEGEND_TEXTS = {
+  next: 'next', exit: 'exit, on stop', linked: 'linked, by a key', blend: 'blend partner', dead: '⚠ nothing to play there',
+} as const;

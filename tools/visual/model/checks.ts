@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// What the page finds odd in a document besides what m512 says of it: too fast for the servos, farther than a joint turns,
+// falls as it stands, never reached, a stop that goes round. Each finding has a place to go to. Pure.
+
+import { centreOfMass, lowerFoot, marginInside, supportPolygon, trunkOn, ORIGIN } from './balance.ts';
+import { angleIn, anglesOf, jointAngle, placeLinks } from './body.ts';
+import type { Body } from './body.ts';
+import { pageOf } from './document.ts';
+import type { MotionDocument } from './document.ts';
+import { linkGraph } from './links.ts';
+import type { Curve, PageFault } from './motion.ts';
+import type { PageFormat } from './page-format.ts';
+import { readPage } from './page.ts';
+import type { Step } from './page.ts';
+import { rotate } from './space.ts';
+import { fastSteps } from './speed.ts';
+
+export type CheckKind = 'damaged' | 'too-fast' | 'out-of-reach' | 'tips-over' | 'unreachable' | 'exit-circle';
+
+export interface PageFinding {
+  readonly kind: CheckKind;
+  readonly page: number;
+  /** 0..6; null: the page as a whole. */
+  readonly step: number | null;
+  /** Servo ID; null: none in particular. */
+  readonly joint: number | null;
+  /** too-fast: times the top speed; tips-over: metres outside the soles; else 0. */
+  readonly amount: number;
+  readonly fault: PageFault | null;
+}
+
+/** Joints may be set so far beyond what the body allows before it is told: rounding. Radians. */
+const REACH_SLACK = 0.01;
+/** So far outside the soles is told. Metres. */
+const TIPS_M = 0.005;
+/** A robot whose trunk leans more than 60 degrees does not mean to stand. Cosine. */
+const UPRIGHT = 0.5;
+
+export interface CheckOptions {
+  readonly format: PageFormat;
+  readonly body: Body;
+  /** Servo units a tick. */
+  readonly topSpeed: number;
+  /** What the player makes of one page; null: nothing. */
+  readonly curve: (page: number) => Curve | null;
+}
+
+function finding(kind: CheckKind, page: number, more: Partial<PageFinding> = {}): PageFinding {
+  return { kind, page, step: null, joint: null, amount: 0, fault: null, ...more };
+}
+
+/** All findings of one page that do not depend on other pages. */
+export function checkPage(document: MotionDocument, page: number, { format, body, topSpeed, curve }: CheckOptions): PageFinding[] {
+  const bytes = pageOf(document, page);
+  const fault = format.fault(bytes);
+  if (fault !== null) return [finding('damaged', page, { fault })];
+  if (page === 0 || !format.isPlayable(bytes)) return [];
+  const played = curve(page);
+  const fast = played ? fastSteps(played, topSpeed).filter((one) => one.page === page) : [];
+  const { steps } = readPage(format, bytes);
+  return [
+    ...fast.map(({ step, joint, times }) => finding('too-fast', page, { step, joint, amount: times })),
+    ...steps.flatMap((step, index) => checkReach(body, page, index, step)), ...checkBalance(body, page, steps),
+  ];
+}
+
+function checkReach(body: Body, page: number, index: number, step: Step): PageFinding[] {
+  return body.joints.flatMap((joint) => {
+    const position = step.positions[joint.servo] ?? null;
+    const angle = position === null ? 0 : jointAngle(joint, position);
+    return angle < joint.low - REACH_SLACK || angle > joint.high + REACH_SLACK ? [finding('out-of-reach', page, { step: index, joint: joint.servo })] : [];
+  });
+}
+
+/** The worst of the page's poses: one is enough to look there. */
+function checkBalance(body: Body, page: number, steps: readonly Step[]): PageFinding[] {
+  const out = steps.map((step) => tipsOver(body, step));
+  const worst = Math.max(0, ...out);
+  return worst > TIPS_M ? [finding('tips-over', page, { step: out.indexOf(worst), amount: worst })] : [];
+}
+
+/** Metres by which the centre of mass lies outside the soles while the pose is held; 0: it stands, lies or leans on its hands, or
+ *  does not use the legs. */
+function tipsOver(body: Body, step: Step): number {
+  if (body.joints.some((joint) => joint.name.includes('hip') && (step.positions[joint.servo] ?? null) === null)) return 0;
+  const angles = anglesOf(body, step.positions, new Map());
+  const trunk = trunkOn(body, lowerFoot(body, angles), angles, ORIGIN);
+  if (rotate(trunk.quat, [0, 0, 1])[2] < UPRIGHT) return 0;
+  const places = placeLinks(body, trunk, angleIn(angles));
+  const [x, y] = centreOfMass(body, places);
+  const margin = marginInside(supportPolygon(body, places), [x, y]);
+  return margin < 0 && Number.isFinite(margin) ? -margin : 0;
+}
+
+/** What is odd about the links of all pages; m512 tells of those that lead nowhere. */
+export function checkLinks(format: PageFormat, document: MotionDocument): PageFinding[] {
+  return linkGraph(format, document).nodes.flatMap(({ page, isUnreachable, exitsRound }) => [
+    ...(isUnreachable ? [finding('unreachable', page)] : []), ...(exitsRound ? [finding('exit-circle', page)] : []),
+  ]);
+}

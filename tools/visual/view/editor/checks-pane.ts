@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// The area Checks: what the firmware, the body and m512 say of the document, each with a button that goes there. It looks
+// while it is shown, and only anew at pages that changed.
+
+import { jointTitle } from '../../model/body.ts';
+import { checkLinks, checkPage } from '../../model/checks.ts';
+import type { PageFinding } from '../../model/checks.ts';
+import { imageOf, pageOf } from '../../model/document.ts';
+import type { MotionDocument } from '../../model/document.ts';
+import type { Finding } from '../../model/file-formats.ts';
+import { BATTERY_VOLTS, topSpeed } from '../../model/speed.ts';
+import type { Desk, Tab } from '../desk.ts';
+import { define, make } from '../element.ts';
+import { EDITOR_TEXTS, FAULTY, findingText, pageText } from './texts.ts';
+import './checks-pane.css';
+
+const WAIT_MS = 400;
+/** A page and what follows it within four seconds of it: enough for its own steps. */
+const CURVE_TICKS = 6000;
+
+interface Shown {
+  readonly page: number;
+  readonly step: number | null;
+  readonly joint: number | null;
+  readonly text: string;
+  readonly isFault: boolean;
+  readonly tab: Tab;
+}
+
+export class ChecksPane extends HTMLElement {
+  desk!: Desk; // set before it is connected
+  private readonly summary = make('p', { class: 'summary', role: 'status', 'aria-label': 'Result of the checks' });
+  private readonly list = make('ul', { 'aria-label': 'Findings' });
+  private readonly byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
+  private shown: MotionDocument | null = null;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private readonly disposals: (() => void)[] = [];
+
+  connectedCallback(): void {
+    this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.checks), this.summary, this.list);
+    this.disposals.push(this.desk.editor.state.watch(() => this.later()), this.desk.state.watch(() => this.later()), () => clearTimeout(this.timer));
+  }
+
+  disconnectedCallback(): void {
+    for (const dispose of this.disposals.splice(0)) dispose();
+  }
+
+  private later(): void {
+    const { document, gesture } = this.desk.editor.state.get();
+    if (this.desk.state.get().tab !== 'checks' || gesture || document === this.shown) return;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => void this.look(document), this.shown === null ? 0 : WAIT_MS);
+  }
+
+  private async look(document: MotionDocument): Promise<void> {
+    this.shown = document;
+    const own = this.ownFindings(document).map((one) => this.shownOf(one));
+    this.render(document, own, EDITOR_TEXTS.checking);
+    const said = await this.desk.files.formats.check(imageOf(document)).catch(() => null);
+    if (this.shown !== document) return;
+    const theirs = said?.map((one) => this.shownOfM512(one)) ?? [];
+    // What m512 says of damage it says in better words.
+    const rest = said ? own.filter((one) => !theirs.some((other) => other.page === one.page && other.text.startsWith('damaged') && one.tab === 'pages')) : own;
+    this.render(document, [...theirs, ...rest], said ? '' : EDITOR_TEXTS.noM512);
+  }
+
+  private ownFindings(document: MotionDocument): PageFinding[] {
+    const { editor, body } = this.desk;
+    const options = { format: editor.format, body, topSpeed: topSpeed(body.servo, BATTERY_VOLTS), curve: (page: number) => editor.curve(page, { ticks: CURVE_TICKS }) };
+    const ofPages = document.pages.flatMap((_, page) => {
+      const bytes = pageOf(document, page);
+      const found = this.byPage.get(bytes) ?? checkPage(document, page, options);
+      this.byPage.set(bytes, found);
+      return found.map((one) => ({ ...one, page })); // the same bytes may stand in two places
+    });
+    return [...ofPages, ...checkLinks(editor.format, document)];
+  }
+
+  private shownOf(one: PageFinding): Shown {
+    const joint = this.desk.body.joints.find((other) => other.servo === one.joint);
+    const isOfLinks = one.kind === 'unreachable' || one.kind === 'exit-circle';
+    const tab: Tab = isOfLinks ? 'links' : one.step === null ? 'pages' : 'steps';
+    return { page: one.page, step: one.step, joint: one.joint, text: findingText(one, joint ? jointTitle(joint) : `joint ${one.joint}`), isFault: FAULTY[one.kind], tab };
+  }
+
+  private shownOfM512({ page, text, isFault }: Finding): Shown {
+    const isOfLinks = /leads to page|linked page/.test(text);
+    return { page, step: null, joint: null, text, isFault, tab: isOfLinks ? 'links' : 'pages' };
+  }
+
+  private render(document: MotionDocument, all: readonly Shown[], note: string): void {
+    const { format } = this.desk.editor;
+    const used = document.pages.filter((bytes, page) => page > 0 && !format.isEmpty(bytes)).length;
+    const faults = all.filter((one) => one.isFault).length;
+    const counted = all.length === 0 ? EDITOR_TEXTS.allGood(used) : `${faults} ${faults === 1 ? 'fault' : 'faults'}, ${all.length - faults} to know.`;
+    this.summary.textContent = [counted, note].filter(Boolean).join(' ');
+    const sorted = [...all].sort((a, b) => Number(b.isFault) - Number(a.isFault) || a.page - b.page || (a.step ?? -1) - (b.step ?? -1));
+    this.list.replaceChildren(...sorted.map((one) => this.row(one)));
+  }
+
+  private row(one: Shown): HTMLElement {
+    const title = pageText(one.page, this.desk.editor.page(one.page).name);
+    return make('li', { class: one.isFault ? 'fault' : 'note' },
+      make('span', { class: 'sign' }, one.isFault ? '⚠ fault' : 'to know'), make('b', {}, title), make('span', { class: 'words' }, one.text),
+      make('button', { 'aria-label': `Go to ${title}${one.step === null ? '' : `, step ${one.step + 1}`}`, onclick: () => this.goTo(one) }, 'Go there'));
+  }
+
+  private goTo({ page, step, joint, tab }: Shown): void {
+    this.desk.editor.select({ page, step: step ?? 0, steps: new Set([step ?? 0]), joints: new Set(joint === null ? [] : [joint]) });
+    this.desk.show(tab);
+  }
+}
+
+define('checks-pane', ChecksPane);
