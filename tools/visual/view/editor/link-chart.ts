@@ -93,7 +93,7 @@ function placeRows(laid: Laid, pages: readonly number[], width: number): void {
 
 function markers(): SVGElement {
   return draw('defs', {}, ...['next', 'exit', 'linked', 'blend', 'dead'].map((kind) =>
-    draw('marker', { id: `arrow-${kind}`, viewBox: '0 0 8 8', refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, orient: 'auto-start-reverse' },
+    draw('marker', { id: `arrow-${kind}`, viewBox: '0 0 8 8', refX: 7, refY: 4, markerWidth: 9, markerHeight: 9, markerUnits: 'userSpaceOnUse', orient: 'auto-start-reverse' },
       draw('path', { d: 'M 0 0 L 8 4 L 0 8 z', class: `head ${kind}` }))));
 }
 

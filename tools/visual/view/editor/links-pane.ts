@@ -52,7 +52,7 @@ export class LinksPane extends HTMLElement {
     if (key === this.listed) return;
     this.listed = key;
     this.list.replaceChildren(...(page === 0 ? [make('p', {}, EDITOR_TEXTS.trimStays)] : linkList(editor, this.graph, page)));
-    this.chart.querySelector('.node.selected')?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+    this.chart.querySelector('.node.selected')?.scrollIntoView({ block: 'center', inline: 'center' });
   }
 
   private draw(document: MotionDocument): void {
