@@ -22,7 +22,8 @@ typedef struct {
 } approach_t;
 
 /* Plans the way of `joints` (bit per joint) from from_pos to to_pos with at most `limit_deg_s` degrees/s (1..360).
- * to_pos may be approach->target_pos. Returns the number of ticks; 0 when every joint is within APPROACH_NEAR_POS already. */
+ * to_pos may be approach->target_pos. Returns the number of ticks; 0 when every joint is within APPROACH_NEAR_POS
+ * already. */
 uint16_t approach_start(approach_t *approach, const uint16_t from_pos[PAGE_JOINTS],
                         const uint16_t to_pos[PAGE_JOINTS], uint32_t joints, uint16_t limit_deg_s);
 

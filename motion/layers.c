@@ -202,6 +202,17 @@ void layers_end(layers_t *layers)
 
 /* --- aim, swing, free --------------------------------------------------------------------------------------------- */
 
+static layers_code_t *free_slot(layers_t *layers, uint8_t id)
+{
+    layers_code_t *slot = slot_of(layers, id);
+    return slot != NULL ? slot : slot_of(layers, LAYERS_NO_JOINT);
+}
+
+bool layers_have_room(layers_t *layers, uint8_t id)
+{
+    return free_slot(layers, id) != NULL;
+}
+
 /* A slot for the joint, which now belongs to code. */
 static layers_status_t take_for_code(layers_t *layers, uint8_t id, layers_code_t **slot)
 {
@@ -210,10 +221,7 @@ static layers_status_t take_for_code(layers_t *layers, uint8_t id, layers_code_t
     if (id >= PAGE_JOINTS || (main_play != NULL && player_is_moving(main_play) && (main_play->present & bit) == 0)) {
         return LAYERS_ERR_JOINTS;
     }
-    *slot = slot_of(layers, id);
-    if (*slot == NULL) {
-        *slot = slot_of(layers, LAYERS_NO_JOINT);
-    }
+    *slot = free_slot(layers, id);
     if (*slot == NULL) {
         return LAYERS_ERR_FULL;
     }
@@ -245,15 +253,20 @@ layers_status_t layers_aim(layers_t *layers, uint8_t id, uint16_t pos, uint16_t 
     return status;
 }
 
+bool layers_can_swing(uint16_t centre, uint16_t amplitude, uint16_t period_ticks)
+{
+    if (centre > PAGE_POS_MAX || amplitude > centre || amplitude > PAGE_POS_MAX - centre ||
+        period_ticks < LAYERS_PERIOD_MIN_TICKS) {
+        return false;
+    }
+    return (uint32_t)amplitude * 44u <= (uint32_t)period_ticks * (7u * LAYERS_SWING_SPEED_MAX); /* 2 pi A / T */
+}
+
 layers_status_t layers_swing(layers_t *layers, uint8_t id, uint16_t centre, uint16_t amplitude, uint16_t period_ticks,
                              uint16_t phase_deg)
 {
     layers_code_t *slot;
-    if (centre > PAGE_POS_MAX || amplitude > centre || amplitude > PAGE_POS_MAX - centre || phase_deg > 359u ||
-        period_ticks < LAYERS_PERIOD_MIN_TICKS) {
-        return LAYERS_ERR_RANGE;
-    }
-    if ((uint32_t)amplitude * 44u > (uint32_t)period_ticks * (7u * LAYERS_SWING_SPEED_MAX)) { /* 2 pi A / T */
+    if (phase_deg > 359u || !layers_can_swing(centre, amplitude, period_ticks)) {
         return LAYERS_ERR_RANGE;
     }
     layers_status_t status = take_for_code(layers, id, &slot);

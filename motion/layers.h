@@ -30,7 +30,8 @@ typedef enum {
     LAYERS_ERR_EMPTY,    /* the page has no action */
     LAYERS_ERR_JOINTS,   /* none of these joints is there */
     LAYERS_ERR_FULL,     /* LAYERS_CODE_JOINTS joints are moved by code already */
-    LAYERS_ERR_IDLE      /* a page layer needs a main play */
+    LAYERS_ERR_IDLE,     /* a page layer needs a main play */
+    LAYERS_ERR_BUSY      /* not now; for those above */
 } layers_status_t;
 
 /* A joint moved by code: centre + amplitude * sin(phase). An aim is a swing without amplitude. */
@@ -79,9 +80,14 @@ void layers_end(layers_t *layers);
  * main play, but goal_pos[id] has to be where the joint is. */
 MUST_CHECK layers_status_t layers_aim(layers_t *layers, uint8_t id, uint16_t pos, uint16_t deg_s);
 
-/* Joint `id` swings: centre + amplitude * sin, which has to stay within 0..1023 and LAYERS_SWING_SPEED_MAX (else
- * LAYERS_ERR_RANGE); period_ticks LAYERS_PERIOD_MIN_TICKS..65535 (1/128 s), phase_deg 0..359 at the beginning. The sine is
- * right to 1/800 of the amplitude. */
+/* For callers who have to make the joint ready first: whether code may move joint `id` besides those that it moves, and
+ * whether a swing stays within 0..1023, LAYERS_PERIOD_MIN_TICKS and LAYERS_SWING_SPEED_MAX. */
+bool layers_have_room(layers_t *layers, uint8_t id);
+bool layers_can_swing(uint16_t centre, uint16_t amplitude, uint16_t period_ticks);
+
+/* Joint `id` swings: centre + amplitude * sin, which has to be possible (layers_can_swing; else LAYERS_ERR_RANGE);
+ * period_ticks LAYERS_PERIOD_MIN_TICKS..65535 (1/128 s), phase_deg 0..359 at the beginning. The sine is right to 1/800 of
+ * the amplitude. */
 MUST_CHECK layers_status_t layers_swing(layers_t *layers, uint8_t id, uint16_t centre, uint16_t amplitude,
                                         uint16_t period_ticks, uint16_t phase_deg);
 

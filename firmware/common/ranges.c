@@ -3,61 +3,34 @@
 
 #include <stddef.h>
 #include <string.h>
-#include "dxl.h"
 #include "link.h"
 #include "page.h"
 #include "pgm.h"
 #include "servo_link.h"
-#include "shape.h"
 #include "text.h"
 
 TEXT_NAMED(name_page, "Page");
-TEXT_NAMED(name_step, "Step");
-TEXT_NAMED(name_percent, "Percent");
-TEXT_NAMED(name_rows, "Rows");
-TEXT_NAMED(name_x, "X");
-TEXT_NAMED(name_y, "Y");
 TEXT_NAMED(name_deg_s, "Degrees/s");
 TEXT_NAMED(name_id, "ID");
 TEXT_NAMED(name_code, "Code");
-TEXT_NAMED(name_offset, "Offset");
 TEXT_NAMED(name_period, "Milliseconds");
 TEXT_NAMED(name_position, "Position");
-TEXT_NAMED(name_value, "Value");
-TEXT_NAMED(name_steps, "Page Step");
-TEXT_NAMED(name_link, "Link");
-TEXT_NAMED(name_address, "Address");
-TEXT_NAMED(name_count, "Count");
-TEXT_NAMED(name_speed, "Speed");
 
-const shell_range_t shell_ranges_P[] PROGMEM = {
-    [RANGE_PAGE] = {name_page, 0, PAGE_COUNT - 1},
-    [RANGE_PLAYED] = {name_page, 1, PAGE_COUNT - 1},
-    [RANGE_STEP] = {name_step, 0, PAGE_STEPS - 1},
-    [RANGE_STEP7] = {name_step, 0, PAGE_STEPS},
-    [RANGE_PERCENT] = {name_percent, 10, 1000},
-    [RANGE_RATE] = {name_percent, SHAPE_RATE_MIN, SHAPE_RATE_MAX},
-    [RANGE_ROWS] = {name_rows, 24, 255},
-    [RANGE_X] = {name_x, 0, 9},
-    [RANGE_Y] = {name_y, 0, 32},
-    [RANGE_DEG_S] = {name_deg_s, 1, 360},
-    [RANGE_ID] = {name_id, 0, PAGE_JOINTS - 1},
-    [RANGE_CODE] = {name_code, 0, LINK_CODE_STOP - 1},
-    [RANGE_OFFSET] = {name_offset, 0, PAGE_BYTES - 1},
-    [RANGE_PERIOD_MS] = {name_period, 0, 10000},
-    [RANGE_POSITION] = {name_position, 0, PAGE_POS_MAX},
-    [RANGE_BYTE] = {name_value, 0, UINT8_MAX},
-    [RANGE_STEPS] = {name_steps, 0, PAGE_STEPS},
-    [RANGE_LINK] = {name_link, 0, PAGE_COUNT - 1},
-    [RANGE_SHARE] = {name_percent, 0, 100},
-    [RANGE_BUS_ID] = {name_id, 0, DXL_BROADCAST},
-    [RANGE_ONE_ID] = {name_id, 0, DXL_BROADCAST - 1},
-    [RANGE_ADDRESS] = {name_address, 0, 49},
-    [RANGE_COUNT] = {name_count, 1, 50},
-    [RANGE_SWITCH] = {name_value, 0, 1},
-    [RANGE_BAUD] = {name_value, 0, 254},
-    [RANGE_MOVING_SPEED] = {name_speed, 0, 1023},
+static const shell_range_t common_P[] PROGMEM = {
+    [RANGE_PAGE - 1] = {name_page, 0, PAGE_COUNT - 1},
+    [RANGE_PLAYED - 1] = {name_page, 1, PAGE_COUNT - 1},
+    [RANGE_DEG_S - 1] = {name_deg_s, 1, 360},
+    [RANGE_ID - 1] = {name_id, 0, PAGE_JOINTS - 1},
+    [RANGE_CODE - 1] = {name_code, 0, LINK_CODE_STOP - 1},
+    [RANGE_PERIOD_MS - 1] = {name_period, 0, 10000},
+    [RANGE_POSITION - 1] = {name_position, 0, PAGE_POS_MAX},
 };
+
+const shell_range_t *shell_range_P(uint8_t range)
+{
+    STATIC_ASSERT(ARRAY_COUNT(common_P) == RANGE_OWN - 1, "every range has its place");
+    return range < RANGE_OWN ? &common_P[range - 1] : &ranges_own_P[range - RANGE_OWN];
+}
 
 bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints)
 {

@@ -5,6 +5,7 @@
 #include <string.h>
 #include "board.h"
 #include "crc16.h"
+#include "performer_shape.h"
 #include "ranges.h"
 #include "report.h"
 #include "text.h"
@@ -19,6 +20,8 @@ static struct {
     uint16_t last_tick;
 } watch;
 
+static bool for_program;
+
 bool requests_are(const shell_args_t *args)
 {
     return shell_word(args, 0)[0] == '@';
@@ -26,12 +29,40 @@ bool requests_are(const shell_args_t *args)
 
 /* ---- answers ---- */
 
+bool requests_of_program(void)
+{
+    return for_program;
+}
+
 uint8_t requests_error(uint8_t status)
 {
-    TEXT(" ERR ");
-    text_number(status);
-    text_put(' ');
+    if (for_program) {
+        TEXT(" ERR ");
+        text_number(status);
+        text_put(' ');
+    }
     return REQUEST_SAID;
+}
+
+uint8_t requests_no_answer(uint32_t joints)
+{
+    if (joints == 0) {
+        return REQUEST_OK;
+    }
+    (void)requests_error(REQUEST_ERR_SERVOS);
+    TEXT("No answer from servos ");
+    report_joints(joints);
+    return REQUEST_SAID;
+}
+
+uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints)
+{
+    const uint32_t present = requests_image.servos->present;
+    *joints = args->count > first ? 0 : present;
+    if (!ranges_take_joints(args, first, joints)) {
+        return SHELL_ERR_RANGE;
+    }
+    return *joints == 0 ? requests_refusal(PERFORMER_ERR_NO_SERVOS) : requests_no_answer(*joints & ~present);
 }
 
 uint8_t requests_refusal(performer_status_t status)
@@ -124,7 +155,7 @@ static bool take_pages(const shell_args_t *args, uint8_t *last)
     *last = args->count > 1 ? (uint8_t)args->number[1] : (uint8_t)(PAGE_COUNT - 1u);
     if (args->count == 2 || *last < args->number[0]) {
         (void)requests_error(REQUEST_ERR_RANGE);
-        shell_print_range(TEXT_P("Page"), args->number[0], PAGE_COUNT - 1, false);
+        shell_print_range(TEXT_P("Page"), (int16_t)args->number[0], PAGE_COUNT - 1, false);
         return false;
     }
     return true;
@@ -228,12 +259,6 @@ static void print_state_name(const performer_t *performer)
     text_P(performer_is_paused(performer) ? paused : (const char *)pgm_read_ptr(&names[performer->state]));
 }
 
-static void print_mask(uint32_t joints)
-{
-    text_hex((uint16_t)(joints >> 16), 4);
-    text_hex((uint16_t)joints, 4);
-}
-
 static uint8_t do_where(void *context, const shell_args_t *args)
 {
     const performer_t *performer = requests_image.performer;
@@ -249,7 +274,7 @@ static uint8_t do_where(void *context, const shell_args_t *args)
     field(TEXT_P("dv"), requests_image.servos->voltage_dv);
     field(TEXT_P("missed"), tick_missed());
     TEXT(" faulty=");
-    print_mask(performer->faulty);
+    text_mask(performer->faulty);
     if (requests_image.where != NULL) {
         requests_image.where();
     }
@@ -289,7 +314,8 @@ bool requests_now_is_due(void)
 /* Somebody tells this joint where to be. */
 static bool is_told(const performer_t *performer, uint8_t id)
 {
-    return performer->state > PERFORMER_READY ? servo_link_has(&performer->joints, id) : !performer_is_still(performer);
+    const uint32_t of_play = performer->state > PERFORMER_READY ? performer->joints : 0;
+    return ((of_play | performer_layers_joints(performer)) & servo_link_bit(id)) != 0;
 }
 
 static void print_pos(bool known, uint16_t pos)
@@ -311,7 +337,7 @@ void requests_print_now(void)
     text_put(' ');
     text_number(performer->state == PERFORMER_PLAY ? performer->engine.player.step : 0);
     text_put(' ');
-    print_mask(servos->present);
+    text_mask(servos->present);
     text_put(' ');
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if (servo_link_has(&servos->present, id)) {
@@ -325,21 +351,16 @@ void requests_print_now(void)
 
 /* ---- dispatch ---- */
 
-TEXT_NAMED(word_ver, "@ver  ");
-TEXT_NAMED(word_list, "@list  ");
-TEXT_NAMED(word_page, "@page  ");
-TEXT_NAMED(word_crcs, "@crcs  ");
-TEXT_NAMED(word_pose, "@pose  ");
-TEXT_NAMED(word_watch, "@watch  ");
-TEXT_NAMED(word_move, "@move  ");
-TEXT_NAMED(word_torque, "@torque  ");
-TEXT_NAMED(word_play, "@play  ");
-TEXT_NAMED(word_stop, "@stop  ");
-TEXT_NAMED(word_break, "@break  ");
-TEXT_NAMED(word_pause, "@pause  ");
-TEXT_NAMED(word_resume, "@resume  ");
-TEXT_NAMED(word_where, "@where  ");
-TEXT_NAMED(word_reset, "@reset  ");
+TEXT_NAMED(word_ver, "ver  ");
+TEXT_NAMED(word_list, "list  ");
+TEXT_NAMED(word_page, "page  ");
+TEXT_NAMED(word_crcs, "crcs  ");
+TEXT_NAMED(word_pose, "pose  ");
+TEXT_NAMED(word_watch, "watch  ");
+TEXT_NAMED(word_move, "move  ");
+TEXT_NAMED(word_torque, "torque  ");
+TEXT_NAMED(word_where, "where  ");
+TEXT_NAMED(word_reset, "reset  ");
 
 static const shell_command_t table[] PROGMEM = {
     {word_ver, do_ver, SHELL_ARGS(0, 0), 0},
@@ -350,11 +371,6 @@ static const shell_command_t table[] PROGMEM = {
     {word_watch, do_watch, SHELL_ARGS(1, 1), RANGE_PERIOD_MS},
     {word_move, request_move, SHELL_ARGS(3, 3), SHELL_BOTH(RANGE_DEG_S, RANGE_ID)},
     {word_torque, request_torque, SHELL_ARGS(1, SHELL_ANY_ARGS), 0},
-    {word_play, request_play, SHELL_ARGS(1, 2), SHELL_BOTH(RANGE_PLAYED, RANGE_CODE)},
-    {word_stop, request_stop, SHELL_ARGS(0, 0), 0},
-    {word_break, request_break, SHELL_ARGS(0, 0), 0},
-    {word_pause, request_pause, SHELL_ARGS(0, 0), 0},
-    {word_resume, request_resume, SHELL_ARGS(0, 0), 0},
     {word_where, do_where, SHELL_ARGS(0, 0), 0},
     {word_reset, do_reset, SHELL_ARGS(0, 0) | SHELL_STILL, 0},
 };
@@ -365,51 +381,75 @@ static void print_sentence(uint8_t status)
     TEXT_NAMED(no_word, "Unknown word");
     TEXT_NAMED(count, "Too few or too many words");
     TEXT_NAMED(busy, "Busy: stop what is playing first");
-    TEXT_NAMED(servos, "Not all of these servos answer");
     TEXT_NAMED(crc, "The CRC does not fit the page in RAM");
     TEXT_NAMED(image, "Not in this image");
     TEXT_NAMED(save, "The page could not be saved");
     TEXT_NAMED(unsaved, "The open page has edits that are not saved");
     static const char *const sentences[] PROGMEM = {
         [REQUEST_ERR_WORD] = no_word, [REQUEST_ERR_COUNT] = count, [REQUEST_ERR_BUSY] = busy,
-        [REQUEST_ERR_SERVOS] = servos, [REQUEST_ERR_CRC] = crc, [REQUEST_ERR_IMAGE] = image,
+        [REQUEST_ERR_CRC] = crc, [REQUEST_ERR_IMAGE] = image,
         [REQUEST_ERR_SAVE] = save, [REQUEST_ERR_UNSAVED] = unsaved,
     };
     (void)requests_error(status);
     text_P((const char *)pgm_read_ptr(&sentences[status]));
 }
 
-static uint8_t dispatch(shell_args_t *args)
+static uint8_t look_up(const shell_command_t *table_P, uint8_t count, shell_args_t *args)
 {
-    const bool moving = !performer_is_still(requests_image.performer);
-    uint8_t result = shell_run(table, ARRAY_COUNT(table), NULL, args, moving);
-    if (result == SHELL_ERR_UNKNOWN) {
-        result = shell_run(requests_image.own_P, requests_image.own_count, NULL, args, moving);
-    }
-    if (result == SHELL_ERR_UNKNOWN && requests_image.more != NULL) {
-        result = requests_image.more(args);
-        result = result > REQUEST_OK && result < SHELL_ERR_MOVING ? (uint8_t)REQUEST_SAID : result;
-    }
+    return shell_run(table_P, count, requests_image.context, args, !performer_is_still(requests_image.performer));
+}
+
+/* The end of an answer, by what shell_run has returned. */
+static void finish(uint8_t result)
+{
     switch (result) {
-    case SHELL_ERR_UNKNOWN: return REQUEST_ERR_WORD;
-    case SHELL_ERR_COUNT: return REQUEST_ERR_COUNT;
-    case SHELL_ERR_MOVING: return REQUEST_ERR_BUSY;
+    case REQUEST_OK:
+        TEXT(" OK");
+        break;
+    case REQUEST_SAID:
+        break;
     case SHELL_ERR_RANGE:
         (void)requests_error(REQUEST_ERR_RANGE);
         shell_print_broken();
-        return REQUEST_SAID;
-    default: return result;
+        break;
+    case SHELL_ERR_UNKNOWN:
+        print_sentence(REQUEST_ERR_WORD);
+        break;
+    case SHELL_ERR_COUNT:
+        print_sentence(REQUEST_ERR_COUNT);
+        break;
+    case SHELL_ERR_MOVING:
+        print_sentence(REQUEST_ERR_BUSY);
+        break;
+    default:
+        print_sentence(result);
+        break;
     }
 }
 
 void requests_run(shell_args_t *args)
 {
+    for_program = true;
     text_string(shell_word(args, 0));
-    const uint8_t status = dispatch(args);
-    if (status == REQUEST_OK) {
-        TEXT(" OK");
-    } else if (status != REQUEST_SAID) {
-        print_sentence(status);
+    args->words++; /* behind the '@' */
+    uint8_t result = look_up(table, ARRAY_COUNT(table), args);
+    if (result == SHELL_ERR_UNKNOWN) {
+        result = look_up(requests_image.own_P, requests_image.own_count, args);
+    }
+    finish(result);
+    text_line_end();
+}
+
+void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count)
+{
+    for_program = false;
+    uint8_t result = look_up(requests_image.own_P, requests_image.own_count, args);
+    if (result == SHELL_ERR_UNKNOWN) {
+        result = look_up(typed_P, typed_count, args);
+    }
+    finish(result);
+    if (result == SHELL_ERR_UNKNOWN || result == SHELL_ERR_COUNT) {
+        TEXT(": try help");
     }
     text_line_end();
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * requests.h - the line protocol for programs: one request line, one answer line, the same in Play and in Edit.
- * Knows no screen and no prompt: words in, text out (text.h). Main loop only. RAM: 4 bytes.
+ * requests.h - the line protocol for programs: one request line, one answer line, the same in Play and in Edit. The words
+ * that a person types in Play go the same way.
+ * Knows no screen and no prompt: words in, text out (text.h). Main loop only. RAM: 5 bytes.
  *
  * Every word of a program begins with '@', so that it can be no word of a person, and so does every answer line:
  *
@@ -8,6 +9,8 @@
  *     @where state=idle page=0 ... OK              what it gets: the word, fields, OK
  *     @play 300
  *     @play ERR 3 Page must be 1..127              or the word, ERR, a number, a sentence
+ *
+ * A person types the word without '@' and gets ` OK` or the sentence alone.
  *
  * A program reads lines and ignores those that do not begin with '@' (echo, prompt, status lines). After @watch, lines
  * that begin with @now come by themselves. firmware/edit/PROTOCOL.md is the manual, with every request. */
@@ -47,22 +50,25 @@ typedef struct {
     performer_t *performer;
     servo_link_t *servos;
     page_store_t *pages;
-    const shell_command_t *own_P;      /* requests of this image alone; their handlers return a request_status_t, */
-    uint8_t own_count;                 /* REQUEST_SAID behind requests_error, or REQUEST_OK */
-    /* More requests, as words of a person behind the '@': says its error itself. SHELL_ERR_UNKNOWN: none. NULL: there are
-     * none. */
-    uint8_t (*more)(const shell_args_t *args);
+    /* Words of this image alone, without '@'. Their handlers get `context` and return a request_status_t, REQUEST_SAID
+     * behind requests_error, or SHELL_ERR_RANGE. */
+    void *context;
+    const shell_command_t *own_P;
+    uint8_t own_count;
     void (*where)(void);               /* further fields of @where, each with a blank in front; or NULL */
     void (*serve)(void);               /* what may not wait, between the parts of a request that takes long */
     void (*restart)(void);             /* board_restart with the image's settings: does not return */
 } requests_image_t;
 extern const requests_image_t requests_image;
 
-/* true when the line is for requests_run: its first word begins with '@'. */
+/* true when the line is a program's: its first word begins with '@'. */
 bool requests_are(const shell_args_t *args);
 
-/* Runs the line and prints the answer line with its CR LF. */
+/* Runs such a line and prints the answer line with its CR LF. */
 void requests_run(shell_args_t *args);
+
+/* The same for a line that a person has typed: a word of the image's own table or of this one, which is for persons only. */
+void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count);
 
 /* ---- @watch: the robot, as it is, every so many milliseconds ---- */
 
@@ -73,13 +79,35 @@ void requests_end_watch(void);
 
 /* ---- for handlers ---- */
 
+/* A program sent the line that runs. */
+bool requests_of_program(void);
+
+/* The joints that the words from `first` on name, or all that are present when there are none. They have to be there: else
+ * the status to return. */
+MUST_CHECK uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints);
+
+/* Says which servos did not answer; REQUEST_OK when there are none. */
+uint8_t requests_no_answer(uint32_t joints);
+
+/* A performer's refusal as an error, with its sentence; REQUEST_OK for PERFORMER_OK. */
+uint8_t requests_refusal(performer_status_t status);
+
+/* Handlers of words that both images have (requests_motion.c), for their tables. */
+uint8_t request_play(void *context, const shell_args_t *args);      /* SHELL_BOTH(RANGE_PLAYED, RANGE_CODE) */
+uint8_t request_stop(void *context, const shell_args_t *args);
+uint8_t request_break(void *context, const shell_args_t *args);
+uint8_t request_pause(void *context, const shell_args_t *args);
+uint8_t request_resume(void *context, const shell_args_t *args);
+uint8_t request_on(void *context, const shell_args_t *args);
+uint8_t request_off(void *context, const shell_args_t *args);
+
 /* Switches the torque of joints one at a time, so that nothing else waits for longer than 3 ms. Returns those that are as
  * they should be. */
 uint32_t requests_switch_torque(uint32_t joints, bool on);
 
 enum { REQUEST_SAID = 100 };   /* failed, and the error has been printed */
 
-/* " ERR n ": the sentence has to follow. Returns REQUEST_SAID. */
+/* Begins an error; the sentence has to follow. A program gets " ERR n " in front of it. Returns REQUEST_SAID. */
 uint8_t requests_error(uint8_t status);
 
 #endif

@@ -54,25 +54,41 @@ uint32_t requests_switch_torque(uint32_t joints, bool on)
     return done;
 }
 
+static uint8_t switch_named(const shell_args_t *args, uint8_t first, bool on)
+{
+    uint32_t joints;
+    const uint8_t status = requests_take_joints(args, first, &joints);
+    if (status != REQUEST_OK) {
+        return status;
+    }
+    if (on && !performer_is_idle(requests_image.performer)) {   /* off is allowed at any time: the one word with two rules */
+        return REQUEST_ERR_BUSY;
+    }
+    return requests_no_answer(joints & ~requests_switch_torque(joints, on));
+}
+
 uint8_t request_torque(void *context, const shell_args_t *args)
 {
     const bool on = shell_word_is(args, 1, PSTR("on"));
-    const uint32_t present = requests_image.servos->present;
-    uint32_t joints = args->count == 2 ? present : 0;
     (void)context;
     if (!on && !shell_word_is(args, 1, PSTR("off"))) {
         const uint8_t said = requests_error(REQUEST_ERR_RANGE);
         TEXT("Say on or off");
         return said;
     }
-    if (!ranges_take_joints(args, 2, &joints)) {
-        return SHELL_ERR_RANGE;
-    }
-    if (on && !performer_is_idle(requests_image.performer)) {   /* off is allowed at any time: the one word with two rules */
-        return REQUEST_ERR_BUSY;
-    }
-    const bool all = (joints & present) == joints && joints != 0 && requests_switch_torque(joints, on) == joints;
-    return all ? REQUEST_OK : REQUEST_ERR_SERVOS;
+    return switch_named(args, 2, on);
+}
+
+uint8_t request_on(void *context, const shell_args_t *args)
+{
+    (void)context;
+    return switch_named(args, 1, true);
+}
+
+uint8_t request_off(void *context, const shell_args_t *args)
+{
+    (void)context;
+    return switch_named(args, 1, false);
 }
 
 uint8_t request_play(void *context, const shell_args_t *args)

@@ -4,7 +4,7 @@
  * 0..1023) on the wire. Knows no pages. Works over bus.h. Main loop only. RAM: one servo_link_t, 260 bytes.
  * Code: servo_link.c (while running), servo_link_setup.c (what blocks).
  *
- * Nothing is ever written to a servo's EEPROM area but by servo_link_fast_baud, on request.
+ * Nothing is ever written to a servo's EEPROM area.
  *
  * A tick on the bus at 1 Mbps, 31 joints (us after servo_link_goals):
  *
@@ -53,7 +53,7 @@ typedef struct {
     uint32_t silent;          /* present, but silent now */
     uint32_t no_sync;         /* present, but deaf to SYNC WRITE: served by REG WRITE and ACTION */
     uint32_t no_reply;        /* present, but answers READ only (status return level 1) */
-    uint32_t slow;            /* answered at 57,142 bps: named, not used, until servo_link_fast_baud */
+    uint32_t slow;            /* answered at 57,142 bps: named, not used: the monitor image makes them fast */
     uint32_t mute;            /* answers PING but no READ (status return level 0): named, not used */
     uint8_t voltage_dv;       /* lowest voltage heard in the last full round, 0.1 V; 0: none yet */
     uint8_t hottest_degrees;  /* highest temperature heard in the last full round, and whose it was */
@@ -153,9 +153,6 @@ static inline void servo_link_lost(servo_link_t *link, uint8_t id)
 /* Looks for IDs 0..30 at 57,142 bps, then at 1 Mbps (where the bus stays): 0.25 s with nobody there, two tries each. Finds
  * out who is deaf to SYNC WRITE (by the LED, which is off afterwards), reads poses and torque. */
 void servo_link_scan(servo_link_t *link);
-
-/* Moves slow servos of `ids` to 1 Mbps (their address 4 = 1), then scans. Returns those that were moved. */
-uint32_t servo_link_fast_baud(servo_link_t *link, uint32_t ids);
 
 /* Reads the present positions of `ids` into present_pos; returns those that answered. 0.3..0.9 ms a servo. */
 uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids);

@@ -122,26 +122,6 @@ void servo_link_scan(servo_link_t *link)
     tick_forgive();
 }
 
-/* ---- changes of a servo's EEPROM area, on request ---- */
-
-/* It may answer at either rate, or not at all: the search afterwards tells. */
-static bool set_fast_baud(servo_link_t *link, uint8_t id)
-{
-    const uint8_t params[2] = { DXL_AT_BAUD, BUS_RATE_1M };
-    (void)link;
-    (void)bus_call(id, DXL_WRITE, params, 2, 0, 1, NULL);
-    return true;
-}
-
-uint32_t servo_link_fast_baud(servo_link_t *link, uint32_t ids)
-{
-    servo_link_quiet(link);
-    bus_set_rate(BUS_RATE_57142);
-    ids = for_each(link, ids & link->slow, set_fast_baud);
-    servo_link_scan(link);
-    return ids & link->present;
-}
-
 /* ---- pose and torque ---- */
 
 /* Reads torque, goal, limit and pose of one servo; false: no answer. */

@@ -285,22 +285,22 @@ bool shell_parse(const char *word, bool hex, uint16_t *value)
 
 /* The range that shell_take looked at last. */
 static struct {
-    uint8_t range;    /* index into shell_ranges_P */
+    const shell_range_t *range_P;
     bool hex;
 } broken;
 
 /* Not inlined twice. */
-static NOINLINE void print_bound(uint16_t number, bool hex)
+static NOINLINE void print_bound(int16_t number, bool hex)
 {
     if (!hex) {
-        text_number(number);
+        text_signed(number);
         return;
     }
     TEXT("0x");
-    text_hex(number, number > 0xFF ? 4 : 2);
+    text_hex((uint16_t)number, number > 0xFF ? 4 : 2);
 }
 
-void shell_print_range(const char *what_P, uint16_t min, uint16_t max, bool hex)
+void shell_print_range(const char *what_P, int16_t min, int16_t max, bool hex)
 {
     text_P(what_P);
     TEXT(" must be ");
@@ -311,35 +311,28 @@ void shell_print_range(const char *what_P, uint16_t min, uint16_t max, bool hex)
 
 bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t *value)
 {
-    shell_range_t bounds;
-    uint16_t number;
-    memcpy_P(&bounds, &shell_ranges_P[range], sizeof bounds);
-    broken.range = range;
+    uint16_t size;
+    const shell_range_t *range_P = shell_range_P(range);
+    const char *word = shell_word(args, index);
+    const bool negative = *word == '-';
+    broken.range_P = range_P;
     broken.hex = args->hex;
-    if (!shell_parse(shell_word(args, index), args->hex, &number) || number < bounds.min || number > bounds.max) {
+    if (!shell_parse(word + negative, args->hex, &size) || size > INT16_MAX) {
         return false;
     }
-    *value = number;
+    const int16_t number = negative ? (int16_t)-(int16_t)size : (int16_t)size;
+    if (number < (int16_t)pgm_read_word(&range_P->min) || number > (int16_t)pgm_read_word(&range_P->max)) {
+        return false;
+    }
+    *value = (uint16_t)number;
     return true;
 }
 
 void shell_print_broken(void)
 {
-    shell_range_t bounds;
-    memcpy_P(&bounds, &shell_ranges_P[broken.range], sizeof bounds);
-    shell_print_range(bounds.name_P, bounds.min, bounds.max, broken.hex);
-}
-
-bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min, uint16_t max,
-                  uint16_t *value)
-{
-    uint16_t number;
-    if (shell_parse(shell_word(args, index), args->hex, &number) && number >= min && number <= max) {
-        *value = number;
-        return true;
-    }
-    shell_print_range(what_P, min, max, args->hex);
-    return false;
+    const shell_range_t *range_P = broken.range_P;
+    shell_print_range(pgm_read_ptr(&range_P->name_P), (int16_t)pgm_read_word(&range_P->min),
+                      (int16_t)pgm_read_word(&range_P->max), broken.hex);
 }
 
 /* ---- commands ---- */

@@ -47,15 +47,19 @@ void shell_clear(shell_t *shell);
 /* What a number may be: its name in a sentence, and its bounds. In flash. */
 typedef struct {
     const char *name_P;
-    uint16_t min, max;
+    int16_t min, max;
 } shell_range_t;
+
+/* The program's: what the numbers of its commands may be, 1 and above (ranges.h). */
+const shell_range_t *shell_range_P(uint8_t range);
 
 /* The words of a line. */
 typedef struct {
     const char *words; /* word 0, NUL, word 1, NUL, ... */
     uint8_t count;     /* word 0 is the command */
     bool hex;          /* numbers without prefix are hexadecimal */
-    uint16_t number[2]; /* the first two words behind the command, where the table says what they are; 0 when not given */
+    uint16_t number[2]; /* the first two words behind the command, where the table says what they are (int16_t where that may
+                         * be negative); 0 when not given */
 } shell_args_t;
 
 /* Puts the complete line into the history, then cuts it up in place. The words live until shell_clear.
@@ -75,16 +79,12 @@ bool shell_parse(const char *word, bool hex, uint16_t *value);
 /* `count` (1..4) hexadecimal digits as a number. false: there are fewer, or one is none. */
 bool shell_hex(const char *digits, uint8_t count, uint16_t *value);
 
-/* Word `index` as a number from min to max. Otherwise says what is wrong, "Page must be 0..127", with `what_P` ("Page",
- * in flash) in front, and returns false with *value untouched. */
-MUST_CHECK bool shell_number(const shell_args_t *args, uint8_t index, const char *what_P, uint16_t min, uint16_t max,
-                             uint16_t *value);
-
 /* "Page must be 0..127"; bounds in hexadecimal when `hex`. */
-void shell_print_range(const char *what_P, uint16_t min, uint16_t max, bool hex);
+void shell_print_range(const char *what_P, int16_t min, int16_t max, bool hex);
 
-/* The same, with the name and the bounds of shell_ranges_P[range], but says nothing: false is for handlers to return as
- * SHELL_ERR_RANGE, and shell_print_broken says then which range it was. */
+/* Word `index` as a number within the bounds of shell_range_P(range); a minus may stand in front where they allow it. Says
+ * nothing: false, with *value untouched, is for handlers to return as SHELL_ERR_RANGE, and shell_print_broken says then
+ * which range it was. */
 MUST_CHECK bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t *value);
 void shell_print_broken(void);
 
@@ -107,11 +107,8 @@ typedef struct {
 /* Not while something moves. This is the one place that says so of a command. */
 #define SHELL_STILL 0x80u
 
-/* Indices into shell_ranges_P; 0: not a number. */
+/* For shell_range_P; 0: not a number. */
 #define SHELL_BOTH(first, second) ((uint16_t)((first) | (second) << 8))
-
-/* The program's: what the numbers of its commands may be. Entry 0 is not used. */
-extern const shell_range_t shell_ranges_P[];
 
 /* Columns of a line of help. An image for narrow terminals may define them smaller. */
 #ifndef SHELL_WORD_COLUMNS

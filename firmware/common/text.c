@@ -144,6 +144,12 @@ void text_hex(uint16_t number, uint8_t digits)
     }
 }
 
+void text_mask(uint32_t joints)
+{
+    text_hex((uint16_t)(joints >> 16), 4);
+    text_hex((uint16_t)joints, 4);
+}
+
 void text_line_end(void)
 {
     text_put('\r');

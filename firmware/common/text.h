@@ -48,6 +48,7 @@ void text_number32(uint32_t number);
 void text_padded(uint16_t number, uint8_t width, char pad);     /* right aligned; wider numbers are not cut */
 void text_string_padded(const char *string, uint8_t width);     /* left aligned, filled with spaces */
 void text_hex(uint16_t number, uint8_t digits);                 /* the lowest `digits` (1..4) digits, upper case, no 0x */
+void text_mask(uint32_t joints);                                /* 8 hexadecimal digits */
 void text_line_end(void);                                       /* CR LF */
 
 #endif

@@ -2,7 +2,7 @@
  * cmd_cell.c - the cell under the cursor (editor-original.md section 4), and how the table is shown. */
 #include "commands.h"
 #include "pgm.h"
-#include "ranges.h"
+#include "ranges_own.h"
 #include "text.h"
 
 /* ---- SET ---- */

@@ -2,7 +2,7 @@
  * cmd_servo.c - commands that move servos or let them go: GO, MIRROR, ON, OFF, and MIRROR's setting, PAIRS. */
 #include "commands.h"
 #include "pgm.h"
-#include "ranges.h"
+#include "ranges_own.h"
 #include "report.h"
 #include "text.h"
 

@@ -3,7 +3,7 @@
 #include "commands.h"
 #include "compiler.h"
 #include "pgm.h"
-#include "ranges.h"
+#include "ranges_own.h"
 #include "text.h"
 
 #define LAST_STEP (PAGE_STEPS - 1u)

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include "compiler.h"
 #include "pgm.h"
-#include "ranges.h"
+#include "ranges_own.h"
 #include "text.h"
 
 TEXT_NAMED(word_page, "page p n  opens page n");

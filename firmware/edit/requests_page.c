@@ -6,7 +6,7 @@
 #include "commands.h"
 #include "crc16.h"
 #include "pgm.h"
-#include "ranges.h"
+#include "ranges_own.h"
 #include "requests.h"
 #include "text.h"
 #include "tick.h"
@@ -77,15 +77,25 @@ REQUEST(do_save)
     return status == PAGE_SAVE_OK || status == PAGE_SAVE_UNCHANGED ? REQUEST_OK : REQUEST_ERR_SAVE;
 }
 
-TEXT_NAMED(word_open, "@open  ");
-TEXT_NAMED(word_data, "@data  ");
-TEXT_NAMED(word_crc, "@crc  ");
-TEXT_NAMED(word_save, "@save  ");
+TEXT_NAMED(word_open, "open  ");
+TEXT_NAMED(word_data, "data  ");
+TEXT_NAMED(word_crc, "crc  ");
+TEXT_NAMED(word_save, "save  ");
+TEXT_NAMED(word_play, "play  ");
+TEXT_NAMED(word_stop, "stop  ");
+TEXT_NAMED(word_break, "break  ");
+TEXT_NAMED(word_pause, "pause  ");
+TEXT_NAMED(word_resume, "resume  ");
 static const shell_command_t own[] PROGMEM = {
     { word_open, do_open, SHELL_ARGS(1, 1) | SHELL_STILL, RANGE_PAGE },
     { word_data, do_data, SHELL_ARGS(2, 2) | SHELL_STILL, RANGE_OFFSET },
     { word_crc, do_crc, SHELL_ARGS(0, 0), 0 },
     { word_save, do_save, SHELL_ARGS(2, 2) | SHELL_STILL, RANGE_PAGE },
+    { word_play, request_play, SHELL_ARGS(1, 2), SHELL_BOTH(RANGE_PLAYED, RANGE_CODE) },
+    { word_stop, request_stop, SHELL_ARGS(0, 0), 0 },
+    { word_break, request_break, SHELL_ARGS(0, 0), 0 },
+    { word_pause, request_pause, SHELL_ARGS(0, 0), 0 },
+    { word_resume, request_resume, SHELL_ARGS(0, 0), 0 },
 };
 
 static void __attribute__((noreturn)) restart(void)

@@ -1,43 +1,94 @@
 /* SPDX-License-Identifier: MIT
- * commands_layers.c - a second page over the play: for persons and programs. */
+ * commands_layers.c - a second page, and joints moved by code, over the play (performer_shape.h). */
 #include "commands_parts.h"
 
 #include "performer_shape.h"
 #include "pgm.h"
 #include "text.h"
 
-TEXT_NAMED(page_text, "Page");
-static const commands_range_t page_range[] PROGMEM = { { page_text, 1, PAGE_COUNT - 1 } };
-
 static uint8_t answer_of(const play_t *play, layers_status_t status)
 {
+    const performer_t *performer = &play->performer;
     switch (status) {
     case LAYERS_OK:
         return REQUEST_OK;
     case LAYERS_ERR_PAGE:
     case LAYERS_ERR_EMPTY:
-        (void)commands_error(play, status == LAYERS_ERR_PAGE ? REQUEST_ERR_PAGE : REQUEST_ERR_EMPTY);
-        report_bad_page(play->performer.fault_page, play->performer.fault);
-        return REQUEST_ERR_PAGE;
+        (void)requests_error(status == LAYERS_ERR_PAGE ? REQUEST_ERR_PAGE : REQUEST_ERR_EMPTY);
+        report_bad_page(performer->fault_page, performer->fault);
+        return REQUEST_SAID;
     case LAYERS_ERR_JOINTS:
-        return commands_sentence(play, REQUEST_ERR_SERVOS, TEXT_P("None of these servos can be moved"));
+        return commands_refuse(REQUEST_ERR_SERVOS, TEXT_P("None of these servos can be moved"));
+    case LAYERS_ERR_FULL:
+        return commands_refuse(REQUEST_ERR_FULL, TEXT_P("Four joints are moved already: free one"));
+    case LAYERS_ERR_BUSY:
+        return REQUEST_ERR_BUSY;
+    case LAYERS_ERR_RANGE:
+        return commands_refuse(REQUEST_ERR_RANGE, TEXT_P("Too far or too fast"));
     default:
-        return commands_sentence(play, REQUEST_ERR_IDLE, TEXT_P("Nothing is playing"));
+        return commands_refuse(REQUEST_ERR_IDLE, TEXT_P("Nothing is playing"));
     }
 }
 
 uint8_t commands_do_layer(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    int16_t page;
+    uint16_t page;
     uint32_t joints = 0;
     if (args->count == 2 && shell_word_is(args, 1, PSTR("off"))) {
         performer_layer_off(&play->performer);
         return REQUEST_OK;
     }
-    if (!commands_numbers(play, args, 1, page_range, 1, &page) ||
-        (args->count > 2 && !commands_joints(play, args, 2, &joints))) {
-        return REQUEST_ERR_RANGE;
+    if (!shell_take(args, 1, RANGE_PLAYED, &page)) {
+        return SHELL_ERR_RANGE;
+    }
+    if (args->count > 2) {
+        const uint8_t status = requests_take_joints(args, 2, &joints);
+        if (status != REQUEST_OK) {
+            return status;
+        }
     }
     return answer_of(play, performer_layer(&play->performer, (uint8_t)page, joints));
+}
+
+uint8_t commands_do_aim(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    const uint8_t id = (uint8_t)args->number[0];
+    uint16_t deg_s = 0;
+    if (args->count > 3 && !shell_take(args, 3, RANGE_DEG_S, &deg_s)) {
+        return SHELL_ERR_RANGE;
+    }
+    const layers_status_t status = performer_take_for_code(&play->performer, id);
+    return answer_of(play, status != LAYERS_OK ? status : layers_aim(&play->layers, id, args->number[1], deg_s));
+}
+
+/* id centre amplitude ms [phase] */
+uint8_t commands_do_swing(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    const uint8_t id = (uint8_t)args->number[0];
+    uint16_t amplitude, ms, phase_deg = 0;
+    if (!shell_take(args, 3, RANGE_POSITION, &amplitude) || !shell_take(args, 4, RANGE_SWING_MS, &ms) ||
+        (args->count > 5 && !shell_take(args, 5, RANGE_PHASE, &phase_deg))) {
+        return SHELL_ERR_RANGE;
+    }
+    const uint16_t ticks = (uint16_t)((uint32_t)ms * PLAYER_TICKS_PER_SECOND / 1000u);
+    layers_status_t status = LAYERS_ERR_RANGE;
+    if (layers_can_swing(args->number[1], amplitude, ticks)) {
+        status = performer_take_for_code(&play->performer, id);
+    }
+    return answer_of(play, status != LAYERS_OK ? status
+                               : layers_swing(&play->layers, id, args->number[1], amplitude, ticks, phase_deg));
+}
+
+uint8_t commands_do_free(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    uint32_t joints;
+    const uint8_t status = requests_take_joints(args, 1, &joints);
+    if (status == REQUEST_OK) {
+        layers_free(&play->layers, joints);
+    }
+    return status;
 }

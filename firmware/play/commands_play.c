@@ -5,19 +5,14 @@
 #include "text.h"
 #include "views.h"
 
-/* The page that a word names, by number or by name; 0: there is none, and it has been said. */
-static uint8_t page_of_word(const play_t *play, const shell_args_t *args)
+/* The page that a name means; 0: there is none, and it has been said. */
+static uint8_t page_of_name(const play_t *play, const shell_args_t *args)
 {
-    uint16_t number;
-    const char *word = shell_word(args, 1);
-    if (word[0] >= '0' && word[0] <= '9') {
-        return shell_number(args, 1, TEXT_P("Page"), 1, PAGE_COUNT - 1, &number) ? (uint8_t)number : 0;
-    }
     /* A name may hold separators: the words are put together again with a space between. */
     char name[PAGE_NAME_BYTES];
     uint8_t length = 0;
     for (uint8_t i = 1; i < args->count; i++) {
-        for (word = shell_word(args, i); *word != '\0' && length < sizeof name - 1; word++) {
+        for (const char *word = shell_word(args, i); *word != '\0' && length < sizeof name - 1; word++) {
             name[length++] = *word;
         }
         if (i + 1u < args->count && length < sizeof name - 1) {
@@ -27,89 +22,76 @@ static uint8_t page_of_word(const play_t *play, const shell_args_t *args)
     name[length] = '\0';
     const uint8_t page = page_store_find(&play->pages, name, 0);
     if (page == 0) {
+        (void)requests_error(REQUEST_ERR_RANGE);
         TEXT("No page is named ");
         text_string(name);
     }
     return page;
 }
 
+/* A page by its number, with a code behind it as if from the remote, or by its name. */
 uint8_t commands_do_play(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    const uint8_t page = page_of_word(play, args);
-    if (page == 0) {
-        return SHELL_ERR_SAID;
+    uint16_t page, code = LINK_CODE_NONE;
+    const char first = shell_word(args, 1)[0];
+    if (first >= '0' && first <= '9') {
+        if (!shell_take(args, 1, RANGE_PLAYED, &page) || (args->count > 2 && !shell_take(args, 2, RANGE_CODE, &code))) {
+            return SHELL_ERR_RANGE;
+        }
+    } else if ((page = page_of_name(play, args)) == 0) {
+        return REQUEST_SAID;
     }
-    const performer_status_t status = performer_start(&play->performer, page, LINK_CODE_NONE);
-    return commands_refuse(status, play->performer.fault_page, play->performer.fault);
+    return requests_refusal(performer_start(&play->performer, (uint8_t)page, (uint8_t)code));
 }
 
-static uint8_t nothing_is_playing(void)
+/* Of a person a word that can do nothing is refused. A program hears OK: it asks @where. */
+static uint8_t done(bool something, const char *nothing_P)
 {
-    TEXT("Nothing is playing");
-    return SHELL_ERR_SAID;
+    return something || requests_of_program() ? (uint8_t)REQUEST_OK : commands_refuse(REQUEST_ERR_IDLE, nothing_P);
 }
 
 uint8_t commands_do_stop(void *context, const shell_args_t *args)
 {
     play_t *play = context;
+    const bool moves = !performer_is_still(&play->performer);
     (void)args;
-    if (performer_is_still(&play->performer)) {
-        return nothing_is_playing();
-    }
     performer_stop(&play->performer);
-    return SHELL_OK;
+    return done(moves, TEXT_P("Nothing is playing"));
 }
 
 uint8_t commands_do_break(void *context, const shell_args_t *args)
 {
     play_t *play = context;
+    const bool moves = !performer_is_still(&play->performer);
     (void)args;
-    if (performer_is_still(&play->performer)) {
-        return nothing_is_playing();
-    }
     performer_break(&play->performer);
-    return SHELL_OK;
+    return done(moves, TEXT_P("Nothing is playing"));
 }
 
 uint8_t commands_do_pause(void *context, const shell_args_t *args)
 {
     play_t *play = context;
     (void)args;
-    if (performer_is_idle(&play->performer)) {
-        return nothing_is_playing();
-    }
-    if (!performer_pause(&play->performer)) {
-        TEXT("Cannot pause now");
-        return SHELL_ERR_SAID;
-    }
-    return SHELL_OK;
+    return done(performer_pause(&play->performer), TEXT_P("Nothing to pause"));
 }
 
 uint8_t commands_do_resume(void *context, const shell_args_t *args)
 {
     play_t *play = context;
     (void)args;
-    if (!performer_resume(&play->performer)) {
-        TEXT("Nothing is paused");
-        return SHELL_ERR_SAID;
-    }
-    return SHELL_OK;
+    return done(performer_resume(&play->performer), TEXT_P("Nothing is paused"));
 }
 
 /* The same as the remote: for boards without a panel. */
 uint8_t commands_do_code(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    uint16_t code;
     inputs_refusal_t refusal;
-    if (!shell_number(args, 1, TEXT_P("Code"), 0, 255, &code)) {
-        return SHELL_ERR_SAID;
-    }
-    inputs_code(&play->inputs, (uint8_t)code);
+    inputs_code(&play->inputs, (uint8_t)args->number[0]);
     if (!inputs_next_refusal(&play->inputs, &refusal)) {
-        return SHELL_OK;
+        return REQUEST_OK;
     }
     views_print_refusal(&refusal);
-    return SHELL_ERR_SAID;
+    return REQUEST_SAID;
 }

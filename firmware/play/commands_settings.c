@@ -21,12 +21,12 @@ static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, 
         if (args->count == 1 && *setting == value) {
             text_P(word_P);
             text_line_end();
-            return SHELL_OK;
+            return REQUEST_OK;
         }
         if (args->count > 1 && shell_word_is(args, 1, word_P)) {
             *setting = value;
             save(play);
-            return SHELL_OK;
+            return REQUEST_OK;
         }
     }
     TEXT("Say ");
@@ -36,7 +36,7 @@ static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, 
         }
         text_P(word_P);
     }
-    return SHELL_ERR_SAID;
+    return REQUEST_SAID;
 }
 
 uint8_t commands_do_law(void *context, const shell_args_t *args)
@@ -58,17 +58,17 @@ static uint8_t set_one(play_t *play, const shell_args_t *args)
         settings_item(i, &item);
         if (shell_word_is(args, 1, item.name)) {
             uint16_t value;
-            if (!shell_number(args, 2, item.name, item.low, item.high, &value) ||
-                !settings_set(&play->settings, &item, value)) {
-                return SHELL_ERR_SAID;
+            if (!shell_parse(shell_word(args, 2), false, &value) || !settings_set(&play->settings, &item, value)) {
+                shell_print_range(item.name, item.low, item.high, false);
+                return REQUEST_SAID;
             }
             save(play);
-            return SHELL_OK;
+            return REQUEST_OK;
         }
     }
     TEXT("No setting is named ");
     text_string(shell_word(args, 1));
-    return SHELL_ERR_SAID;
+    return REQUEST_SAID;
 }
 
 uint8_t commands_do_settings(void *context, const shell_args_t *args)
@@ -80,12 +80,12 @@ uint8_t commands_do_settings(void *context, const shell_args_t *args)
     if (args->count == 2) {
         if (!shell_word_is(args, 1, PSTR("defaults"))) {
             TEXT("Say settings, settings name value, or settings defaults");
-            return SHELL_ERR_SAID;
+            return REQUEST_SAID;
         }
         settings_defaults(&play->settings);
         save(play);
-        return SHELL_OK;
+        return REQUEST_OK;
     }
     views_print_settings(play);
-    return SHELL_OK;
+    return REQUEST_OK;
 }

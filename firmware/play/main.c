@@ -33,21 +33,17 @@ static void restart(void)
     board_restart(&play.store, &play.settings);
 }
 
-static uint8_t run_more(const shell_args_t *args)
-{
-    return commands_run_for_program(&play, args);
-}
-
 static void tell_shape(void)
 {
     views_print_shape(&play.performer);
 }
 
 static const char name[] PROGMEM = "play";
-TEXT_NAMED(can, ",shape");
+TEXT_NAMED(can, ",shape,aim");
 const requests_image_t requests_image = {
     .name_P = name, .can_P = can, .performer = &play.performer, .servos = &play.servos, .pages = &play.pages,
-    .own_P = commands_requests_P, .own_count = COMMANDS_REQUESTS, .more = run_more, .where = tell_shape,
+    .context = &play, .own_P = commands_shared_P, .own_count = COMMANDS_SHARED,
+    .where = tell_shape,
     .serve = serve, .restart = restart,
 };
 

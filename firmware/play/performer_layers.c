@@ -35,6 +35,30 @@ uint8_t performer_layer_page(const performer_t *performer)
     return player_is_moving(play) ? play->page : 0;
 }
 
+/* ---- code ---- */
+
+layers_status_t performer_take_for_code(performer_t *performer, uint8_t id)
+{
+    servo_link_t *servos = PERFORMER_SERVOS(performer);
+    const uint32_t joint = servo_link_bit(id);
+    layers_set_speed(performer->layers, PERFORMER_SETTINGS(performer)->approach_deg_s);
+    if (!layers_have_room(performer->layers, id)) {
+        return LAYERS_ERR_FULL;
+    }
+    if ((layers_joints(performer->layers) & joint) != 0 || performer->state == PERFORMER_PLAY) {
+        return LAYERS_OK; /* its goal is where it is */
+    }
+    if (!performer_is_idle(performer)) {
+        return LAYERS_ERR_BUSY;
+    }
+    if ((performer_usable(performer) & joint) == 0 || servo_link_torque_on(servos, joint) == 0) {
+        return LAYERS_ERR_JOINTS;
+    }
+    servo_link_full_speed(servos, joint);
+    performer->goal_pos[id] = servos->present_pos[id];
+    return LAYERS_OK;
+}
+
 /* ---- for performer*.c ---- */
 
 uint32_t performer_layers_joints(const performer_t *performer)
@@ -67,9 +91,7 @@ void performer_layers_bind(performer_t *performer, bool with_play)
 
 void performer_layers_drop(performer_t *performer, uint32_t joints)
 {
-    if (performer->state == PERFORMER_PLAY) { /* without a main play the layer has no joints to look at */
-        layers_drop_joints(performer->layers, joints);
-    }
+    layers_drop_joints(performer->layers, joints);
 }
 
 void performer_layers_break(performer_t *performer)

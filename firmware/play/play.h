@@ -25,7 +25,6 @@ typedef struct {
     inputs_t inputs;
     shell_t shell;
     layers_t layers;
-    bool program_asks;      /* the line that runs is a program's */
     char line[PLAY_LINE_BYTES];
     char history[PLAY_HISTORY_BYTES];
 } play_t;

@@ -174,6 +174,8 @@ void views_print_shape(const performer_t *performer)
         }
     }
     print_field(TEXT_P(" layer="), performer_layer_page(performer));
+    TEXT(" aim=");
+    text_mask(performer->layers->code_joints);
 }
 
 /* ---- servos ---- */
@@ -189,7 +191,7 @@ void views_print_servos_found(const play_t *play)
     report_joints(play->servos.present);
     text_line_end();
     if (play->servos.slow != 0) {
-        TEXT("At 57142 bps, not used until baud: ");
+        TEXT("Not used, at 57142 bps (fast of the monitor image): ");
         report_joints(play->servos.slow);
         text_line_end();
     }

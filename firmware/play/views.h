@@ -12,7 +12,7 @@ void views_print_faults(const play_t *play);
 void views_print_settings(const play_t *play);
 void views_print_version(void);
 
-/* Rate, blend, amplitude (two hexadecimal digits a joint when they differ), layer, as ` field=value`;
+/* Rate, blend, amplitude (two hexadecimal digits a joint when they differ), layer, joints moved by code, as ` field=value`;
  * without a line end. */
 void views_print_shape(const performer_t *performer);
 

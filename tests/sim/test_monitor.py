@@ -64,6 +64,17 @@ def test_monitor_search_finds_servos_at_both_rates():
     board.close()
 
 
+def test_monitor_makes_slow_servos_fast():
+    board = robot(servos=(1, 2))
+    slow = board.servos.add(20, "dx117")
+    heard = say(board, "fast")
+    board.run(ms=2500)
+    heard += board.take().decode("latin-1")
+    assert "Moved to 1 Mbps: 020" in heard and "001 002 020" in heard.replace("  ", " ") and "003 Dynamixels" in heard
+    assert slow.table[4] == 1
+    board.close()
+
+
 def test_monitor_shows_packets_word_by_word():
     board = robot()
     for line, expected in (("cid 3", ""), ("ping", "<-[Dynamixel]: ID 03 error 00"), ("read 36 2", "00 02"),

@@ -41,7 +41,7 @@ def where(board):
 
 WRONG = [("rate 9", "Rate must be 10..400"), ("rate 401", "Rate must be 10..400"), ("rate fast", "Rate must be 10..400"),
          ("amplitude 151", "Amplitude must be 0..150"), ("amplitude 60 31", "ID must be 0..30"),
-         ("amplitude 60 25", "Servo 25 is not there"), ("blend 101", "Blend must be -100..100"),
+         ("amplitude 60 25", "No answer from servos 25"), ("blend 101", "Blend must be -100..100"),
          ("blend -101", "Blend must be -100..100"), ("blend --5", "Blend must be -100..100"),
          ("drive 0 100 151", "Amplitude must be 0..150"), ("drive 0 9 100", "Rate must be 10..400"),
          ("drive -101 100 100", "Blend must be -100..100"), ("shape off", "Say shape, or shape reset")]
@@ -71,7 +71,7 @@ def test_words_and_requests_do_the_same():
         assert ask(board, word) == " OK"
     typed = ask(board, "shape"), where(board)
     amplitudes = "3C" * 3 + "78" * 2 + "3C" * 26   # joints 3 and 4: 120
-    assert typed[0] == f" rate=150 blend=-40 amplitude={amplitudes} layer=0 OK"
+    assert typed[0] == f" rate=150 blend=-40 amplitude={amplitudes} layer=0 aim=00000000 OK"
     assert (typed[1]["rate"], typed[1]["blend"], typed[1]["amplitude"]) == ("150", "-40", amplitudes)
     assert ask(board, "shape reset") == " OK"
     assert where(board)["rate"] == "100"

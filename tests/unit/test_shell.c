@@ -249,46 +249,6 @@ static void test_shell_parse_takes_whole_words_only(void)
     }
 }
 
-static void test_shell_number_in_range_says_nothing(void)
-{
-    const shell_args_t args = enter("page 127");
-    clear_out();
-    uint16_t page = 0;
-    TEST_ASSERT_TRUE(shell_number(&args, 1, PSTR("Page"), 0, 127, &page));
-    TEST_ASSERT_EQUAL_UINT16(127, page);
-    TEST_ASSERT_EQUAL_STRING("", out);
-}
-
-static void test_shell_number_out_of_range_names_the_range(void)
-{
-    const shell_args_t args = enter("page 128");
-    clear_out();
-    uint16_t page = 5;
-    TEST_ASSERT_FALSE(shell_number(&args, 1, PSTR("Page"), 0, 127, &page));
-    TEST_ASSERT_EQUAL_UINT16(5, page);
-    TEST_ASSERT_EQUAL_STRING("Page must be 0..127", out);
-}
-
-static void test_shell_number_below_the_range_is_refused(void)
-{
-    const shell_args_t args = enter("speed 0");
-    clear_out();
-    uint16_t speed = 5;
-    TEST_ASSERT_FALSE(shell_number(&args, 1, PSTR("Speed"), 1, 7, &speed));
-    TEST_ASSERT_EQUAL_UINT16(5, speed);
-    TEST_ASSERT_EQUAL_STRING("Speed must be 1..7", out);
-}
-
-static void test_shell_number_names_the_range_in_hex_mode(void)
-{
-    keys("page 80\r");
-    const shell_args_t args = shell_split(&shell, true);
-    clear_out();
-    uint16_t page = 5;
-    TEST_ASSERT_FALSE(shell_number(&args, 1, PSTR("Page"), 0, 127, &page));
-    TEST_ASSERT_EQUAL_STRING("Page must be 0x00..0x7F", out);
-}
-
 /* ---- dispatch ---- */
 
 static uint8_t seen;
@@ -315,7 +275,13 @@ static uint8_t do_go(void *context, const shell_args_t *args)
 
 TEXT_NAMED(name_page, "Page");
 TEXT_NAMED(name_rate, "Rate");
-const shell_range_t shell_ranges_P[] PROGMEM = {{NULL, 0, 0}, {name_page, 1, 127}, {name_rate, 10, 400}};
+TEXT_NAMED(name_blend, "Blend");
+static const shell_range_t ranges_P[] PROGMEM = {{name_page, 1, 127}, {name_rate, 10, 400}, {name_blend, -100, 100}};
+
+const shell_range_t *shell_range_P(uint8_t range)
+{
+    return &ranges_P[range - 1];
+}
 
 TEXT_NAMED(word_go, "go  page rate  goes");
 TEXT_NAMED(word_play, "play pl n  plays a page");
@@ -387,6 +353,60 @@ static void test_shell_run_takes_the_numbers_that_the_table_names(void)
     TEST_ASSERT_EQUAL_STRING("Rate must be 10..400", out);
 }
 
+static void test_shell_take_of_a_word_out_of_range_leaves_the_value_and_names_the_range(void)
+{
+    static const struct {
+        const char *line;
+        bool good;
+        int16_t value;
+        const char *said;
+    } rows[] = {
+        {"x 127", true, 127, ""},   {"x 0", false, 5, "Page must be 1..127"},  {"x 128", false, 5, "Page must be 1..127"},
+        {"x -1", false, 5, "Page must be 1..127"}, {"x", false, 5, "Page must be 1..127"},
+        {"x 32768", false, 5, "Page must be 1..127"}, {"x -", false, 5, "Page must be 1..127"},
+    };
+    for (uint8_t i = 0; i < ARRAY_COUNT(rows); i++) {
+        const shell_args_t args = enter(rows[i].line);
+        uint16_t value = 5;
+        TEST_ASSERT_EQUAL_MESSAGE(rows[i].good, shell_take(&args, 1, 1, &value), rows[i].line);
+        TEST_ASSERT_EQUAL_INT16_MESSAGE(rows[i].value, (int16_t)value, rows[i].line);
+        clear_out();
+        if (!rows[i].good) {
+            shell_print_broken();
+        }
+        TEST_ASSERT_EQUAL_STRING(rows[i].said, out);
+        shell_clear(&shell);
+    }
+}
+
+static void test_shell_take_of_a_range_below_zero(void)
+{
+    static const char *const wrong[] = {"x -101", "x 101", "x --5", "x -0x", "x 5-", "x -65535", "x 65436"};
+    uint16_t value = 0;
+    shell_args_t args = enter("x -100");
+    TEST_ASSERT_TRUE(shell_take(&args, 1, 3, &value));
+    TEST_ASSERT_EQUAL_INT16(-100, (int16_t)value);
+    for (uint8_t i = 0; i < ARRAY_COUNT(wrong); i++) {
+        shell_clear(&shell);
+        args = enter(wrong[i]);
+        TEST_ASSERT_FALSE_MESSAGE(shell_take(&args, 1, 3, &value), wrong[i]);
+    }
+    clear_out();
+    shell_print_broken();
+    TEST_ASSERT_EQUAL_STRING("Blend must be -100..100", out);
+}
+
+static void test_shell_take_in_hex_mode_names_the_range_so(void)
+{
+    keys("page 80\r");
+    const shell_args_t args = shell_split(&shell, true);
+    uint16_t page = 5;
+    TEST_ASSERT_FALSE(shell_take(&args, 1, 1, &page));
+    clear_out();
+    shell_print_broken();
+    TEST_ASSERT_EQUAL_STRING("Page must be 0x01..0x7F", out);
+}
+
 static void test_shell_run_keeps_back_what_must_not_be_while_something_moves(void)
 {
     moving = true;
@@ -450,15 +470,14 @@ int main(void)
     RUN_TEST(test_shell_line_of_separators_has_no_word);
     RUN_TEST(test_shell_word_is_ignores_case);
     RUN_TEST(test_shell_parse_takes_whole_words_only);
-    RUN_TEST(test_shell_number_in_range_says_nothing);
-    RUN_TEST(test_shell_number_out_of_range_names_the_range);
-    RUN_TEST(test_shell_number_below_the_range_is_refused);
-    RUN_TEST(test_shell_number_names_the_range_in_hex_mode);
     RUN_TEST(test_shell_run_finds_word_and_abbreviation_in_any_case);
     RUN_TEST(test_shell_run_wants_the_whole_word);
     RUN_TEST(test_shell_run_counts_the_arguments);
     RUN_TEST(test_shell_run_of_an_empty_line_is_ok);
     RUN_TEST(test_shell_run_takes_the_numbers_that_the_table_names);
+    RUN_TEST(test_shell_take_of_a_word_out_of_range_leaves_the_value_and_names_the_range);
+    RUN_TEST(test_shell_take_of_a_range_below_zero);
+    RUN_TEST(test_shell_take_in_hex_mode_names_the_range_so);
     RUN_TEST(test_shell_run_keeps_back_what_must_not_be_while_something_moves);
     RUN_TEST(test_shell_help_prints_one_line);
     RUN_TEST(test_text_prints_numbers);

@@ -149,7 +149,7 @@ def _servos(client, add) -> None:
         client.link.sleep(0.4)
     if not pose:
         add("servos", BAD, "no servo answers", "is the battery connected (USB does not feed servos) and the bus cable plugged in? "
-            "New DX servos talk slowly: `servos` and `baud` in `m512 term`")
+            "New DX servos talk slowly: Play's `servos` names them, `fast` of the monitor image moves them to 1 Mbps")
         return
     silent = [joint for joint, (at, _) in pose.items() if at is None]
     limp = [joint for joint, (_, on) in pose.items() if not on]

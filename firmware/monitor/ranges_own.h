@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT
+ * ranges_own.h - what the numbers of the monitor may be, beyond those of ranges.h. */
+#ifndef RANGES_OWN_H
+#define RANGES_OWN_H
+
+#include "ranges.h"
+
+enum {
+    RANGE_BYTE = RANGE_OWN,                      /* 0..255 */
+    RANGE_BUS_ID, RANGE_ONE_ID, RANGE_ADDRESS,   /* of a servo: with 254 for all, without, in its table */
+    RANGE_COUNT, RANGE_SWITCH, RANGE_BAUD, RANGE_MOVING_SPEED
+};
+
+#endif

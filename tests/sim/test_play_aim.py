@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: MIT
+"""Joints moved by code, `aim`, `swing`, `free` (shaping.md), in the shipped Play image, with and without a play."""
+import math
+import random
+
+import pytest
+
+from play_robot import JOINTS, ask, robot
+from test_play_layers import EXIT, LOOP, looping, pages, run_of_a_walk, where
+
+HEAD = (19, 20)
+WITH_HEAD = (*JOINTS, *HEAD)
+HAND_OVER = 2   # 60 degrees/s are 1.6 units a tick
+
+
+def row_of(board, joint):
+    """Every goal that a joint was sent, in order."""
+    return [frame.goals[joint] for frame in board.trace if joint in frame.goals]
+
+
+def speeds(row):
+    return [b - a for a, b in zip(row, row[1:])]
+
+
+def test_aim_while_nothing_plays_moves_this_joint_only_and_slowly():
+    board = robot(servos=WITH_HEAD, pages=pages())
+    board.clear_trace()
+    assert ask(board, "aim 19 700") == " OK"
+    board.run(ms=1500)
+    row = row_of(board, 19)
+    assert row[0] <= 512 + HAND_OVER and row[-1] == 700 and set(speeds(row)) <= {0, 1, 2}
+    assert [joint for joint in WITH_HEAD if row_of(board, joint)] == [19]
+    assert [joint for joint in WITH_HEAD if board.servos[joint].torque] == [19]
+    assert where(board)["aim"] == f"{1 << 19:08X}" and where(board)["state"] == "idle"
+    board.clear_trace()
+    assert ask(board, "@aim 19 500 240") == "@aim OK"
+    board.run(ms=500)
+    assert row_of(board, 19)[-1] == 500 and max(map(abs, speeds(row_of(board, 19)))) == 7   # 6.4 units a tick
+    assert ask(board, "free") == " OK"
+    assert where(board)["aim"] == "00000000" and board.servos[19].torque
+
+
+def test_swing_is_a_sine_of_its_period():
+    board = robot(servos=WITH_HEAD, pages=pages())
+    assert ask(board, "swing 20 512 100 2000 90") == " OK"   # 256 ticks, from its upper end
+    board.run(ms=1500)
+    board.clear_trace()
+    board.run(ms=4000)
+    row = row_of(board, 20)
+    assert len(row) >= 500 and max(row) == 612 and min(row) == 412
+    first = next(at for at in range(1, 256) if row[at - 1] < row[at] == 612)
+    last = next(at for at in range(first, 300) if row[at + 1] < 612)
+    for at in range(first, first + 200):
+        wanted = 512 + 100 * math.cos(2 * math.pi * (at - (first + last) / 2) / 256)
+        assert abs(row[at] - wanted) <= 1.3, at   # whole units; the top is known to half a tick
+    assert row[:200] == row[256:456]
+
+
+def test_a_joint_that_swings_in_a_walk_leaves_the_others_as_they_are_and_comes_back():
+    seed = random.randrange(1 << 16)
+    print(f"seed {seed}")
+    chance = random.Random(seed)
+    plain = run_of_a_walk([(0, "version"), (4000, "version")])
+    moved = run_of_a_walk([(chance.randrange(1000), "swing 11 512 60 1000"), (3000 + chance.randrange(1000), "free 11")])
+    assert len(plain) > 700 and plain.keys() == moved.keys()
+    for at, goals in plain.items():
+        assert [moved[at][joint] for joint in JOINTS if joint != 11] == [goals[joint] for joint in JOINTS if joint != 11], at
+    ticks = sorted(plain)
+    assert any(moved[at][11] != plain[at][11] for at in ticks)
+    assert [moved[at][11] for at in ticks[-50:]] == [plain[at][11] for at in ticks[-50:]]
+    fastest = max(map(abs, speeds([plain[at][11] for at in ticks])))
+    assert max(map(abs, speeds([moved[at][11] for at in ticks]))) <= max(fastest, 4)   # its swing: 2 pi 60 / 128 = 2.9
+
+
+def test_refused_words_say_one_sentence_and_change_nothing():
+    board = robot(servos=WITH_HEAD, pages=pages())
+    board.clear_trace()
+    for line, said in (("aim 25 512", "None of these servos can be moved"), ("aim 31 512", "ID must be 0..30"),
+                       ("aim 19 1024", "Position must be 0..1023"), ("aim 19 512 0", "Degrees/s must be 1..360"),
+                       ("aim 19 512 361", "Degrees/s must be 1..360"), ("swing 19 512 100 124", "Milliseconds must be 125..30000"),
+                       ("swing 19 512 100 1000 360", "Phase must be 0..359"), ("free 31", "ID must be 0..30"),
+                       ("swing 19 50 100 1000", "Too far or too fast"), ("swing 19 512 200 500", "Too far or too fast"),
+                       ("aim 19", "Too few or too many words")):
+        assert ask(board, line).removesuffix(": try help") == said
+        answer = ask(board, "@" + line)
+        assert answer.startswith(f"@{line.split()[0]} ERR ") and answer.endswith(said), answer
+    assert where(board)["aim"] == "00000000" and not board.trace and not any(board.servos[joint].torque for joint in WITH_HEAD)
+    for joint in (1, 2, 19, 20):
+        assert ask(board, f"aim {joint} 520") == " OK"
+    assert ask(board, "aim 3 520") == "Four joints are moved already: free one"
+    assert ask(board, "aim 20 530") == " OK"   # one of them again
+    ask(board, "off 5")
+    ask(board, "free 1")
+    assert ask(board, "aim 5 520") == "None of these servos can be moved"   # switched off by hand
+    assert ask(board, f"play {LOOP}") == " OK"
+    assert ask(board, "aim 4 520") == "Busy: stop what is playing first"    # on its way to the first pose
+    assert not board.servos[5].torque
+
+
+def test_a_play_begins_and_ends_while_a_joint_swings():
+    board = robot(servos=WITH_HEAD, pages=pages())
+    assert ask(board, "swing 19 512 80 2000") == " OK"
+    board.run(ms=1000)
+    board.clear_trace()
+    assert ask(board, f"play {LOOP}") == " OK"
+    board.run(ms=4000)
+    assert ask(board, "stop") == " OK"
+    board.expect(f"Stopped after page {EXIT}", ms=5000)
+    board.run(ms=300)
+    row = row_of(board, 19)
+    assert max(map(abs, speeds(row))) <= 3 and max(row) > 585 and min(row) < 440
+    assert where(board)["missed"] == "0"
+
+
+@pytest.mark.parametrize("how", ["break", "off 19", "off", "stop"])
+def test_what_ends_it(how):
+    board = robot(servos=WITH_HEAD, pages=pages())
+    ask(board, "swing 19 512 80 2000")
+    board.run(ms=800)
+    assert ask(board, how) == " OK"
+    board.run(ms=100)
+    at = board.servos[19].goal
+    board.clear_trace()
+    board.run(ms=1000)
+    assert board.servos[19].goal == at and not row_of(board, 19)
+    assert board.servos[19].torque == (not how.startswith("off"))
+    assert where(board)["aim"] == "00000000"
+
+
+def test_a_silent_servo_ends_a_swing_and_is_told():
+    board = robot(servos=WITH_HEAD, pages=pages())
+    ask(board, "swing 19 512 80 2000")
+    board.run(ms=500)
+    board.servos[19].fault("silent")
+    board.expect("Servo 19 does not answer", ms=2000)
+    assert where(board)["aim"] == "00000000"
+
+
+def test_an_aim_holds_in_a_pause_and_after_it():
+    board = looping()
+    assert ask(board, "aim 3 600") == " OK"
+    board.run(ms=200)
+    ask(board, "pause")
+    board.run(ms=500)
+    at = board.servos[3].goal
+    board.run(ms=500)
+    assert board.servos[3].goal == at
+    assert ask(board, "resume") == " OK"
+    board.run(ms=1500)
+    assert board.servos[3].goal == 600
