@@ -21,8 +21,8 @@ void performer_layer_off(performer_t *performer);
 uint8_t performer_layer_page(const performer_t *performer);     /* 0: none */
 
 /* Before layers_aim and layers_swing of joint `id`: makes it ready. While nothing plays its torque goes on and its pose is
- * read, which blocks 6 ms at most. LAYERS_ERR_FULL; LAYERS_ERR_BUSY: a play is about to begin. LAYERS_ERR_JOINTS: it does not answer, was
- * switched off by hand or has been dropped from the play. */
+ * read, which blocks 6 ms at most. LAYERS_ERR_FULL. LAYERS_ERR_BUSY: a play is about to begin. LAYERS_ERR_JOINTS: it does
+ * not answer, was switched off by hand or has been dropped from the play. */
 MUST_CHECK layers_status_t performer_take_for_code(performer_t *performer, uint8_t id);
 
 /* One line of a joystick: blend, rate and amplitude (of all joints), percent; all or, when one is out of range, none: false.
