@@ -141,7 +141,8 @@ def stand_figures(options, image, library):
         work = functools.partial(body_stands, image, promises.number_of(library, promise.page))
         results = proof.each(work, [(promise, seed) for seed in seeds], promise.page, options.jobs)
         begin = f", from its {promise.lie}, arms anyhow" if promise.lie else ""
-        figures.append(share_figure(f"`{promise.page}`{begin}: it ends on its feet.", f"{promise.seconds:.0f} s, bodies by chance", promise,
+        how = f" {promise.how}" if promise.how else ""
+        figures.append(share_figure(f"`{promise.page}`{how}{begin}: it ends on its feet.", f"{promise.seconds:.0f} s, bodies by chance", promise,
                                     seeds, results))
     return figures
 

@@ -34,6 +34,7 @@ class Gait:
     ticks: int = 10           # from pose to pose
     accel: int = 3            # ACCEL_TIME of its pages
     slope: int = 5            # compliance of the legs
+    hip_slope: int = 5        # of the hips' pitch, on which the trunk stands
     stride: float = 0.0       # a foot is this far before and behind its middle
     side: float = 0.0         # the same to the right
     turn: float = 0.0         # the same as an angle: the body turns to the right
@@ -50,6 +51,11 @@ class Gait:
     spread: float = 5.0       # of the standing leg's hip while it stands alone
     toes: float = 0.0         # up, in the air
     arms: float = 0.4         # degrees of an arm for each mm of the other side's foot
+
+    @property
+    def slopes(self):
+        """{joints, as the text format names them: compliance}."""
+        return {"7..10": self.slope, "11..12": self.hip_slope, "13..18": self.slope}
 
 
 READY_ARM = {1: 12.0, 3: 12.0, 5: -20.0}  # shoulder swing, lift, elbow
@@ -257,7 +263,8 @@ def text(gaits):
     for sheet in sheets(gaits):
         out += ["", f"# {sheet.remark}", f"page {sheet.number} {sheet.name}"] + [f"  {part}" for part in sheet.words.split("; ") if part]
         out += [f"  accel {sheet.gait.accel}"] if sheet.gait.accel != 8 else []
-        out += [f"  softness 7..18:{sheet.gait.slope}"] if sheet.gait.slope != 5 else []
+        softness = [f"{joints}:{slope}" for joints, slope in sheet.gait.slopes.items() if slope != 5]
+        out += ["  softness " + " ".join(softness)] if softness else []
         out += [f"  step {ticks:2} | {'@ready' if row == ready else line(row)}" for ticks, row in sheet.steps]
     return "\n".join(out) + "\n"
 

@@ -4,6 +4,7 @@
 `tools/prove physics` asks them all; a search for better motions asks those that it works on (`bodies()`, `nominal()`).
 The bodies of `walk` are pushed, tilted, slippery, off their zeros (../body/src/body/chance.py); so are all others.
 """
+import itertools
 from dataclasses import dataclass
 
 from body.chance import random_body
@@ -22,6 +23,7 @@ class Stands:
     page: str
     seconds: float
     keys: tuple = ()             # of the remote: (second, code)
+    how: str = ""                # what tells it from another promise of the same page
     lie: str = None              # begins on its "face" or "back", arms by chance
     floor: bool = False          # goes to the floor on the way
     share: float = 0.99
@@ -42,22 +44,28 @@ class Goes:
     sideways_mm_s: tuple = (None, None)  # to the left
 
 
-def round_trip(code, turn_code, seconds):
-    """A remote that walks, turns now and then, and stops in time."""
-    keys, at = [], 0.0
+def round_trip(code, turn_codes, seconds):
+    """A remote that walks, turns now to one side and now to the other, and stops in time."""
+    keys, at, turns = [], 0.0, itertools.cycle(turn_codes)
     while at < seconds - 8:
-        keys += [(at, code), (at + 5, turn_code), (at + 7, code)]
+        keys += [(at, code), (at + 5, next(turns)), (at + 7, code)]
         at += 8
     return (*keys, (seconds - 4, STOP))
 
 
+def a_minute(page, code, bodies):
+    """One way of going for a minute, and a stop."""
+    return Stands(page, 60, ((0, code), (56, STOP)), bodies=bodies)
+
+
 STANDS = [
-    Stands("walk", 60, round_trip(UP, UP, 60), bodies=1000),
-    Stands("right", 14, ((0, RIGHT), (10, STOP))),
-    Stands("left", 14, ((0, LEFT), (10, STOP))),
-    Stands("side_r", 14, ((0, RIGHT + 16), (10, STOP))),
-    Stands("side_l", 14, ((0, LEFT + 16), (10, STOP))),
-    Stands("back", 24, ((0, DOWN), (20, STOP))),
+    Stands("walk", 60, round_trip(UP, (RIGHT, LEFT), 60), bodies=1000),
+    a_minute("back", DOWN, 200),
+    a_minute("right", RIGHT, 100), a_minute("left", LEFT, 100),
+    a_minute("side_r", RIGHT + 16, 100), a_minute("side_l", LEFT + 16, 100),
+    a_minute("turn_r", RIGHT, 100), a_minute("turn_l", LEFT, 100),
+    Stands("right", 40, ((0, RIGHT), (8, LEFT), (16, UP), (22, RIGHT), (26, LEFT), (30, UP), (36, STOP)), "from way to way"),
+    Stands("side_r", 40, ((0, RIGHT + 16), (8, LEFT + 16), (16, UP), (22, LEFT), (28, UP), (34, DOWN), (36, STOP)), "from way to way"),
     Stands("ready", 3), Stands("bow", 6), Stands("wave", 6), Stands("clap", 6), Stands("cheer", 6), Stands("sit", 6),
     Stands("stand", 6), Stands("dance", 24, ((14, STOP),)), Stands("kick_r", 8), Stands("kick_l", 8),
     Stands("pushups", 40, ((6, STOP),), floor=True),

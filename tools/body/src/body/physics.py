@@ -57,6 +57,7 @@ class Physics:
         self._vary()
         self.data = mujoco.MjData(self.model)
         self.root = self.model.body(1).id
+        self._names = [self.model.geom(geom).name for geom in range(self.model.ngeom)]
         self._places = {servo: (self.model.joint(joint.name).qposadr[0], self.model.joint(joint.name).dofadr[0])
                         for servo, joint in robot.joints.items()}
         self.seam = self._make_seam()
@@ -240,5 +241,4 @@ class Physics:
 
     def touching(self):
         """Pairs of names of geoms that touch now."""
-        return {tuple(sorted((self.model.geom(int(c.geom1)).name, self.model.geom(int(c.geom2)).name)))
-                for c in self.data.contact[:self.data.ncon]}
+        return {tuple(sorted((self._names[one], self._names[other]))) for one, other in self.data.contact.geom.tolist()}
