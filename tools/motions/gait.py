@@ -34,7 +34,8 @@ class Gait:
     ticks: int = 10           # from pose to pose
     accel: int = 3            # ACCEL_TIME of its pages
     slope: int = 5            # compliance of the legs
-    hip_slope: int = 5        # of the hips' pitch, on which the trunk stands
+    hip_slope: int = 5        # of the hips' pitch, on which the trunk stands: stiff
+    ankle_slope: int = 5      # of the ankles' pitch: soft, soles find the floor where zeros are wrong
     stride: float = 0.0       # a foot is this far before and behind its middle
     side: float = 0.0         # the same to the right
     turn: float = 0.0         # the same as an angle: the body turns to the right
@@ -55,10 +56,11 @@ class Gait:
     @property
     def slopes(self):
         """{joints, as the text format names them: compliance}."""
-        return {"7..10": self.slope, "11..12": self.hip_slope, "13..18": self.slope}
+        return {"7..10": self.slope, "11..12": self.hip_slope, "13..14": self.slope, "15..16": self.ankle_slope, "17..18": self.slope}
 
 
 READY_ARM = {1: 12.0, 3: 12.0, 5: -20.0}  # shoulder swing, lift, elbow
+BRACE = 0.5                               # of the stride, at a stop
 KICK_SWAY = 37.0                          # on one leg for long: the body right above the foot
 
 
@@ -132,10 +134,12 @@ def start(gait, ready, first=-1):
 
 
 def end(gait, ready):
-    """From where the left foot's half ends: the right foot closes up."""
-    whole, part = cycle(gait), cycle(half(gait))
-    return [(gait.ticks, whole[0]), (round(1.25 * gait.ticks), part[1]), (gait.ticks, part[2]), (gait.ticks, stand(gait, 0.35 * gait.sway)),
-            (24, ready)]
+    """From where the left foot's half ends: the right foot closes up. Both end up further on than under a body that stands, and
+    so hold up what is still on its way; then it comes up to ready."""
+    whole, braced = cycle(gait), replace(gait, ahead=gait.ahead + BRACE * gait.stride)
+    part = cycle(half(braced))
+    return [(gait.ticks, whole[0]), (round(1.5 * gait.ticks), part[1]), (gait.ticks, part[2]), (gait.ticks, stand(braced, 0.35 * gait.sway)),
+            (40, ready)]
 
 
 def kick(ready_gait):
