@@ -22,7 +22,9 @@ BOOT_MODE = 0xFFF
 
 
 def new_board(*images, kind="cm5", **options):
-    return Board(kind=kind, images=[f"boot-{kind}.hex", *images], **options)
+    board = Board(kind=kind, images=[f"boot-{kind}.hex", *images], **options)
+    board.skip_waits()
+    return board
 
 
 def prompt_board(*images, **options):

@@ -27,6 +27,7 @@ class ShippedBoard:
 
     def __init__(self, flash: bytes, eeprom: bytes, to_board, to_pc):
         self.sim = Board(images=["boot-cm5.hex"])
+        self.sim.skip_waits()
         self.sim.flash[0:BOOT] = flash[:BOOT]
         self.sim.eeprom[0:EEPROM_BYTES] = eeprom
         self.sim.allow("uart-overrun")         # of an application that does not listen

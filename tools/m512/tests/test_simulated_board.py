@@ -41,6 +41,7 @@ def started():
 
     def start(image, text=OLD):
         board = Board(images=["boot-cm5.hex", image], motions=read_text(text).to_bytes() if text else None, servos=range(1, 19))
+        board.skip_waits()
         boards.append(SimulatedBoard(board))
         boards[-1].pass_time(1.0)
         return boards[-1]

@@ -25,6 +25,7 @@
 #include "parts/sweep.h"
 #include "parts/timer.h"
 #include "parts/uart.h"
+#include "parts/waits.h"
 #include "symbols.h"
 
 struct board {
@@ -55,6 +56,7 @@ struct board {
     struct probes *probes;
     struct sweeps *sweeps;
     sweep_call_t sweep;
+    waits_t waits;
     struct trace *trace;
     struct vcd *vcd;
     avr_io_t io; /* how simavr's core asks us about SPM and WDR */

@@ -12,6 +12,7 @@ void cpu_flash_changed(board_t *board, uint32_t address, uint32_t count)
     }
     probe_mark(board);
     sweep_mark(board);
+    waits_flash_changed(board, address, count);
 }
 
 /* Cycles of the instructions that can write a register and can be part of a timed sequence: OUT 1, the others 2. */
@@ -166,11 +167,13 @@ static void step_under_gdb(board_t *board)
     }
 }
 
-static void run_due_timers(avr_t *avr)
+static void run_due_timers(board_t *board)
 {
+    avr_t *avr = board->avr;
     avr_cycle_timer_slot_p timer = avr->cycle_timers.timer;
     if (timer && timer->when <= avr->cycle) {
         run_timers(avr);
+        waits_disturbed(board);
     }
 }
 
@@ -180,6 +183,7 @@ static inline void advance(board_t *board)
     avr_t *avr = board->avr;
     const cpu_t *cpu = &board->cpu;
     if (avr->sreg[S_I] && cpu->enabled_before && interrupt_wanted(board) && interrupt_take(board)) {
+        waits_disturbed(board);
         return;
     }
     if (cpu->sleeping || !board->power.on || board->reset.held) {
@@ -190,7 +194,11 @@ static inline void advance(board_t *board)
         step_under_gdb(board);
     } else {
         bool is_swept = board->sweep.is_open;
+        uint32_t pc = avr->pc;
         cpu_step(board);
+        if (board->waits.on) {
+            waits_passed(board, pc);
+        }
         if (is_swept) {
             sweep_passed(board);
         }
@@ -200,15 +208,17 @@ static inline void advance(board_t *board)
 void cpu_run(board_t *board)
 {
     avr_t *avr = board->avr;
+    waits_disturbed(board);
     while (!board->stopped) {
         if (board->events.next <= avr->cycle) {
             events_run(board);
+            waits_disturbed(board);
             continue;
         }
         if (board->sweep.is_open && sweep_raise(board)) {
             continue;
         }
-        run_due_timers(avr);
+        run_due_timers(board);
         advance(board);
     }
 }
@@ -218,7 +228,7 @@ uint32_t board_step(board_t *board)
     uint64_t from = board->avr->cycle;
     board->stopped = false;
     events_run(board);
-    run_due_timers(board->avr);
+    run_due_timers(board);
     advance(board);
     return (uint32_t)(board->avr->cycle - from);
 }

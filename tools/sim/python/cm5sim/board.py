@@ -467,6 +467,10 @@ class Board:
     def end_sweeps(self):
         self._lib.board_sweep_end(self._pointer)
 
+    def skip_waits(self, on=True):
+        """Rounds of loops that only wait are counted instead of executed: the same run, faster. Probes do not see them."""
+        self._lib.board_skip_waits(self._pointer, on)
+
     def step(self):
         """One instruction or interrupt response; its cycles."""
         return self._lib.board_step(self._pointer)

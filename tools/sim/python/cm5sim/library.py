@@ -85,7 +85,7 @@ _FUNCTIONS = {
     "board_probe_clear": (None, P), "board_interrupt_cycles": (U64, P), "board_interrupt_count": (U64, P, I),
     "board_interrupt_max": (U64, P, I), "board_interrupt": (B, P, I, U8), "board_sweep": (B, P, S, I, U8),
     "board_sweep_result": (ctypes.POINTER(SweepResult), P, S), "board_sweep_end": (None, P),
-    "board_step": (U32, P), "board_gdb": (B, P, I, B),
+    "board_skip_waits": (None, P, B), "board_step": (U32, P), "board_gdb": (B, P, I, B),
     "board_vcd_start": (B, P, S), "board_vcd_stop": (None, P),
 }
 
