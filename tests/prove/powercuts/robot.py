@@ -90,6 +90,7 @@ def made(number, version):
 def new_board(*images, seed=1, kind="cm5", **options):
     """A board with its motions and the loader told to start the application."""
     board = Board(kind=kind, images=images, motions=motions(), seed=seed, **options)
+    board.skip_waits()
     board.eeprom[BOOT_MODE] = APPLICATION
     return board
 
