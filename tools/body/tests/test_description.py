@@ -135,6 +135,30 @@ def test_a_bent_leg_is_as_long_as_brackets_make_it():
     assert numpy.linalg.norm(at(HUMANOID, "right_ankle", pose, "right_thigh")[0]) == pytest.approx(134, abs=0.5)
 
 
+def apart(model, positions, first, second):
+    """Distance of two geoms in mm, below 0: they are inside each other. positions: {servo: degrees}"""
+    data = mujoco.MjData(model)
+    for servo, degrees in positions.items():
+        data.joint(HUMANOID.joints[servo].name).qpos[0] = math.radians(degrees)
+    mujoco.mj_forward(model, data)
+    return 1000 * mujoco.mj_geomDistance(model, data, model.geom(first).id, model.geom(second).id, 1.0, numpy.zeros(6))
+
+
+def test_a_knee_at_its_stop_still_leaves_room_between_the_two_blocks_of_servos():
+    model, stop = mujoco.MjModel.from_xml_string(HUMANOID.xml()), math.degrees(HUMANOID.joints[13].low)
+    assert apart(model, {13: stop}, "right_hip", "right_ankle") > 5
+    assert apart(model, {13: -155}, "right_hip", "right_ankle") < 0
+
+
+def test_an_arm_can_turn_through_its_whole_range_beside_the_body():
+    model, shoulder = mujoco.MjModel.from_xml_string(HUMANOID.xml()), HUMANOID.joints[1]
+    for degrees in numpy.linspace(math.degrees(shoulder.low), math.degrees(shoulder.high), 30):
+        for arm in ("right_upper_arm", "right_forearm", "right_hand"):
+            for other in ("chest", "controller", "face", "right_hip", "right_thigh"):
+                assert apart(model, {1: degrees}, arm, other) > 0, (degrees, arm, other)
+    assert apart(model, {1: 0, 3: -15}, "right_hand", "right_hip") < 0
+
+
 def test_servo_units():
     assert HUMANOID.angle(13, 512) == 0 and HUMANOID.angle(13, 0) == pytest.approx(math.radians(-150))
     assert HUMANOID.angle(14, 0) == pytest.approx(math.radians(150))
