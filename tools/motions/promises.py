@@ -5,15 +5,25 @@
 The bodies of `walk` are pushed, tilted, slippery, off their zeros (../body/src/body/chance.py); so are all others.
 """
 import itertools
+import math
+import pathlib
+import random
 from dataclasses import dataclass
 
 from body.chance import random_body
 from body.description import load
-from body.trial import STOP, try_motion
+from body.physics import Physics
+from body.quick import IMAGE_BYTES, Quick
+from body.trial import STOP, first_pose, try_motion
+from m512.files.formats import load as load_motions
 
 ROBOT = load("humanoid")
 UP, DOWN, LEFT, RIGHT = 1, 2, 4, 8
 PUSHES_PER_S = 1 / 12
+ARMS = range(1, 7)
+LYING_DEGREES = 45
+READY = first_pose(load_motions(pathlib.Path(__file__).with_name("motions.m512")).to_bytes(), 1, ROBOT)
+NOTHING = bytes(IMAGE_BYTES)     # an image without motions
 
 
 @dataclass(frozen=True)
@@ -69,7 +79,7 @@ STANDS = [
     Stands("ready", 3), Stands("bow", 6), Stands("wave", 6), Stands("clap", 6), Stands("cheer", 6), Stands("sit", 6),
     Stands("stand", 6), Stands("dance", 24, ((14, STOP),)), Stands("kick_r", 8), Stands("kick_l", 8),
     Stands("pushups", 40, ((6, STOP),), floor=True),
-    Stands("get_up", 20, lie="face", floor=True),
+    Stands("get_up", 20, lie="face", floor=True), Stands("get_up_back", 20, lie="back", floor=True),
 ]
 GOES = [
     Goes("walk", 12, ((0, UP),), forward_mm_s=(150, None), degrees_per_metre=5),
@@ -101,16 +111,52 @@ def body_of(promise, seed):
     return random_body(ROBOT, seed, promise.seconds - 1, pushes=pushes)
 
 
-def arms_by_chance(seed):
-    import random
-    chance = random.Random(f"arms {seed}")
-    return {servo: 512 + chance.uniform(-140, 140) for servo in (1, 2, 3, 4, 5, 6)}
+def lying_by_chance(promise, seed):
+    """{servo: position} in which this body lies on its face or back: each arm anywhere between its stops, each on its own; the legs
+    anywhere between straight and `ready`, each joint off by up to 9 degrees. Not taken: poses in which limbs go through each
+    other, and those that do not lie: after a second with torque on the trunk is tilted by more than LYING_DEGREES."""
+    chance, body = random.Random(f"lying {promise.lie} {seed}"), body_of(promise, seed)
+    for _ in range(1000):
+        pose = _arms_and_legs(chance)
+        physics = Physics(ROBOT, body)
+        physics.lie(pose, face_down=promise.lie == "face")
+        if _through_itself(physics):
+            continue
+        quick = Quick(NOTHING, physics)
+        quick.torque_on()
+        quick.run(128)
+        if _lies(physics, promise.lie):
+            return pose
+    raise ValueError(f"no pose found in which body {seed} lies on its {promise.lie}")
+
+
+def _arms_and_legs(chance):
+    bent, pose = chance.random(), {}
+    for servo, joint in ROBOT.joints.items():
+        if servo in ARMS:
+            pose[servo] = round(joint.position(chance.uniform(joint.low, joint.high)))
+        else:
+            pose[servo] = round(512 + bent * (READY[servo] - 512) + chance.uniform(-30, 30))
+    return pose
+
+
+def _through_itself(physics):
+    """Whether links of the robot are more than 2 mm inside each other; the floor does not count."""
+    floor = physics.model.geom("floor").id
+    return any(contact.dist < -0.002 and floor not in (contact.geom1, contact.geom2)
+               for contact in physics.data.contact[:physics.data.ncon])
+
+
+def _lies(physics, side):
+    """The trunk's front, or back, points down."""
+    front = physics.data.xmat[physics.root].reshape(3, 3)[2, 0]
+    return (-front if side == "face" else front) > math.cos(math.radians(LYING_DEGREES))
 
 
 def stands(image, number, promise, seed):
     """One body: (kept, what happened)."""
     outcome = try_motion(image, number, promise.seconds, robot=ROBOT, variation=body_of(promise, seed), keys=promise.keys,
-                         lie=promise.lie, pose=arms_by_chance(seed) if promise.lie else None, falls=not promise.floor)
+                         lie=promise.lie, pose=lying_by_chance(promise, seed) if promise.lie else None, falls=not promise.floor)
     return outcome.fell_s is None and outcome.on_feet, outcome.said()
 
 

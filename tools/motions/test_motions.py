@@ -31,11 +31,12 @@ SECONDS = 128
 SERVO_UNITS_PER_TICK = 59 * 11.1 / 12 * 360 / 60 / SECONDS * 1024 / 300  # an AX-12 at 11.1 V, unloaded: 8.73
 MOST_UNITS_PER_TICK = 0.9 * SERVO_UNITS_PER_TICK
 BODY = {  # degrees of the right side, see README.md; the left side is its mirror image
-    1: (-45, 145), 3: (-20, 130), 5: (-90, 50), 7: (-30, 30), 9: (-25, 25), 11: (-30, 120), 13: (-125, 0), 15: (-30, 65),
+    1: (-145, 145), 3: (-20, 130), 5: (-90, 50), 7: (-30, 30), 9: (-25, 25), 11: (-30, 120), 13: (-140, 0), 15: (-30, 65),
     17: (-25, 25), 19: (-90, 90)}
 HEAD_TILT = -40, 40
 KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "1": 16, "2": 32, "3": 64, "4": 128}
-ON_THE_FLOOR = {"pushups", "pushups_do", "pushups_up", "get_up"}
+GETTING_UP = {"get_up", "get_up_back"}
+ON_THE_FLOOR = {"pushups", "pushups_do", "pushups_up", "up_to_seat", "up_from_seat"} | GETTING_UP
 LEANING = {"bow", "dance_end", "sit"} | ON_THE_FLOOR
 CHAINS = ["walk walk_r walk_l walk_r walk_l end_r", "walk walk_r turn_l turn_l2 turn_l walk_r walk_l turn_r turn_r2 end_r",
           "back back_r back_l back_r back_end_l", "right right_a right_b right_a right_b right_end", "left left_a left_b left_end",
@@ -49,7 +50,8 @@ def left_of(name):
 
 
 def pose(page, step):
-    return {joint: page.word(step, joint) for joint in JOINTS}
+    """The joints that the step uses."""
+    return {joint: page.word(step, joint) for joint in JOINTS if page.word(step, joint) < 1024}
 
 
 def first(page):
@@ -105,11 +107,13 @@ def test_names_and_codes_are_unique_and_names_need_no_quotes():
 
 
 def test_every_joint_is_said_in_every_step_and_no_other():
+    """But in the first step of getting up: the arms lie anyhow, and there only their shoulders turn."""
     for number, page in PAGES.items():
         assert page.schedule == SCHEDULE_TIME
         for step in range(page.steps):
             used = [joint for joint in range(31) if page.word(step, joint) < 1024]
-            assert used == list(JOINTS), (number, step)
+            left_alone = {3, 4, 5, 6} if page.title in GETTING_UP and step == 0 else set()
+            assert used == [joint for joint in JOINTS if joint not in left_alone], (number, step)
 
 
 @pytest.mark.parametrize("name", LAYERS)
@@ -176,8 +180,7 @@ def test_poses_keep_within_servo_and_body(name):
 
 def test_poses_of_both_sides_are_mirror_images():
     """ready and what does the same with both sides is its own mirror image; what has a side has a page or step for each."""
-    for name in ("ready", "bow", "clap", "cheer", "sit", "stand", "pushups", "pushups_do", "pushups_up", "get_up", "dance",
-                 "dance_arms", "dance_end"):
+    for name in ("ready", "bow", "clap", "cheer", "sit", "stand", *sorted(ON_THE_FLOOR), "dance", "dance_arms", "dance_end"):
         page = PAGES[NUMBER[name]]
         assert all(mirrored(pose(page, step)) == pose(page, step) for step in range(page.steps)), name
     for name in ("dance_sway", "dance_hands", "dance_pump"):
@@ -200,8 +203,8 @@ def test_pages_of_the_other_side_are_mirror_images(name):
 def test_loops_close():
     for name, after in (("walk_l", "walk"), ("back_l", "back"), ("right_b", "right"), ("side_l_b", "side_l")):
         assert last(PAGES[NUMBER[name]]) == last(PAGES[NUMBER[after]])
-    for name in ("right_end", "left_end", "side_r_end", "side_l_end", "kick_r", "kick_l", "bow", "wave", "clap", "cheer", "stand", "pushups_up",
-                 "dance_end", "end_r", "end_l", "back_end_r", "back_end_l"):
+    for name in ("right_end", "left_end", "side_r_end", "side_l_end", "kick_r", "kick_l", "bow", "wave", "clap", "cheer", "stand",
+                 "pushups_up", "up_from_seat", "dance_end", "end_r", "end_l", "back_end_r", "back_end_l"):
         assert last(PAGES[NUMBER[name]]) == READY, name
 
 
@@ -216,7 +219,7 @@ def test_mean_speed_leaves_the_servo_a_margin_in_steps_and_over_links(name):
 
 
 def mean_speed(before, after, ticks):
-    return max(abs(after[joint] - before[joint]) for joint in JOINTS) / ticks
+    return max(abs(after[joint] - before[joint]) for joint in before.keys() & after.keys()) / ticks
 
 
 @pytest.mark.parametrize("names", CHAINS + [name for name in NUMBER if PAGES[NUMBER[name]].code])

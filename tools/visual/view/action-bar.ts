@@ -10,7 +10,7 @@ import './action-bar.css';
 /** Names of the motion library that get a button, and what stands on it. */
 const BUTTONS: readonly (readonly [string, string])[] = [
   ['walk', 'Walk'], ['back', 'Back'], ['left', 'Turn left'], ['right', 'Turn right'], ['wave', 'Wave'], ['bow', 'Bow'], ['dance', 'Dance'],
-  ['get_up', 'Get up'],
+  ['get_up', 'Get up (face)'], ['get_up_back', 'Get up (back)'],
 ];
 
 export class ActionBar extends HTMLElement {
