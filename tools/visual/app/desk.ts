@@ -37,7 +37,7 @@ import { YourSource } from './your-source.ts';
 
 const WHERE_MS = 300;
 const REMOTE_REPEAT_MS = 100;
-const READY_MS = 60_000;
+const READY_MS = 180_000;
 
 const ROBOT_IN_PAGE = 'robot in the page';
 

@@ -5,7 +5,6 @@
 import type { Body } from '../model/body.ts';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { wallClock } from '../robot/clock.ts';
 import { askWhere, play } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
@@ -48,6 +47,7 @@ export class SimulatedSource {
   private robot: SimulatedRobot | null = null;
   private isShown = true;
   private standing: Promise<void> | null = null;
+  private clock = new TickClock();
   private readonly waiting: ((state: RobotState) => void)[] = [];
   connection: Connection | null = null;
 
@@ -64,7 +64,8 @@ export class SimulatedSource {
     this.events.motions(kept ? motionsIn(kept) : images.motions);
     this.standing = null;
     robot.post({ kind: 'start', module, body: this.body, images, kept });
-    this.connection = new Connection(robot.port, wallClock, {
+    this.clock = new TickClock();
+    this.connection = new Connection(robot.port, this.clock, {
       state: (state) => this.isShown && this.events.connection(state),
       text: (bytes) => this.isShown && this.events.text(bytes),
     });
@@ -119,8 +120,9 @@ export class SimulatedSource {
     const now = await this.nextFrame();
     if (!connection?.version || !now.isHeld) return;
     await play(connection.requests, READY_PAGE);
-    const endMs = performance.now() + STAND_LIMIT_MS;
-    while (performance.now() < endMs) {
+    const { clock } = this;
+    const endMs = clock.now() + STAND_LIMIT_MS;
+    while (clock.now() < endMs) {
       const where = await askWhere(connection.requests, { timeoutMs: 3000 });
       if (where.state === 'idle') break;
     }
@@ -143,6 +145,7 @@ export class SimulatedSource {
   private take(message: FromSim): void {
     switch (message.kind) {
       case 'state':
+        this.clock.reach(message.state.ticks);
         for (const tell of this.waiting.splice(0)) tell(message.state);
         return this.isShown ? this.events.frame(message.state) : undefined;
       case 'started': return this.events.change({ faultNames: message.faults, stopped: null });

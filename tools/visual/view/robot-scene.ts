@@ -119,6 +119,14 @@ export class RobotScene {
     return hit ? this.room.worldToLocal(hit).toArray() : this.drag(x, y, world);
   }
 
+  /** Where a shape of the figure is in the picture (-1..1, y up); null: there is none of that name. */
+  placeOf(shape: string): readonly [number, number] | null {
+    const mesh = this.figure.meshes.find((one) => one.userData['shape'] === shape);
+    if (!mesh) return null;
+    const { x, y } = mesh.getWorldPosition(new Vector3()).project(this.camera);
+    return [x, y];
+  }
+
   /** The place under a point of the picture, in the plane through `world` that faces the camera. */
   drag(x: number, y: number, world: Vector): Vector {
     this.raycaster.setFromCamera(new Vector2(x, y), this.camera);

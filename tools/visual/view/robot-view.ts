@@ -4,6 +4,7 @@
 
 import { jointTitle } from '../model/body.ts';
 import type { Joint } from '../model/body.ts';
+import { limbTo } from '../model/ik.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Desk } from './desk.ts';
 import { EDITING_START } from './editor/editing.ts';
@@ -27,6 +28,7 @@ export class RobotView extends HTMLElement {
   private quality = new PictureQuality(false);
   private state: RobotState | null = null;
   private grabbed: (Picked & { target: Picked['world'] }) | null = null;
+  private taught: readonly number[] = [];
   private readonly label = make('div', { class: 'joint-label', 'aria-hidden': 'true' });
   private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'The robot' });
   private readonly disposals: (() => void)[] = [];
@@ -58,6 +60,14 @@ export class RobotView extends HTMLElement {
   /** How far the centre of mass of the edited step is inside the ground of its soles (metres); null: not looked at. */
   get margin(): number | null {
     return this.pose?.margin ?? null;
+  }
+
+  /** Where a shape of the robot (a name of the body file) is on the screen, in CSS pixels; null: it is not seen. */
+  placeOf(shape: string): { readonly x: number; readonly y: number } | null {
+    const at = this.scene?.placeOf(shape);
+    if (!at) return null;
+    const box = this.canvas.getBoundingClientRect();
+    return { x: box.left + ((at[0] + 1) / 2) * box.width, y: box.top + ((1 - at[1]) / 2) * box.height };
   }
 
   tilt(front: number, left: number): void {
@@ -136,7 +146,15 @@ export class RobotView extends HTMLElement {
     this.scene.controls.enabled = false;
     this.canvas.setPointerCapture(event.pointerId);
     if (isPosing) this.pose?.down(picked, event.shiftKey || event.ctrlKey);
-    else this.grabbed = { ...picked, target: picked.world };
+    else this.take(picked);
+  }
+
+  /** Your hand. A limb that is being taught becomes limp under it. */
+  private take(picked: Picked): void {
+    this.grabbed = { ...picked, target: picked.world };
+    const limb = limbTo(this.desk.body, picked.link, picked.point).links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
+    this.taught = limb.filter((servo) => this.editing.get().taught.has(servo));
+    if (this.taught.length > 0) void this.desk.setTorque(false, this.taught);
   }
 
   private move(event: PointerEvent): void {
@@ -156,7 +174,14 @@ export class RobotView extends HTMLElement {
     if (!this.grabbed) return;
     this.grabbed = null;
     this.scene.pull(null);
-    this.desk.pull(null);
+    void this.letGo();
+  }
+
+  /** What was taught holds first, so that it does not drop. */
+  private async letGo(): Promise<void> {
+    const isTaught = this.taught.some((servo) => this.editing.get().taught.has(servo));
+    if (isTaught) await this.desk.setTorque(true, this.taught);
+    if (!this.grabbed) this.desk.pull(null);
   }
 
   private hover(event: PointerEvent): void {

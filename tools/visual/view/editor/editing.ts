@@ -24,9 +24,13 @@ export interface Editing {
   readonly balance: boolean;
   /** The robot goes where the chosen step is. */
   readonly follow: boolean;
+  /** Servos that are being taught: limp, but for the simulated robot, whose limbs hold when the mouse lets go of them. */
+  readonly taught: ReadonlySet<number>;
 }
 
-export const EDITING_START: Editing = { mode: 'pose', keep: 'lower', soleFlat: true, onionSkin: false, balance: true, follow: false };
+export const EDITING_START: Editing = {
+  mode: 'pose', keep: 'lower', soleFlat: true, onionSkin: false, balance: true, follow: false, taught: new Set(),
+};
 
 /** Areas in which a step is edited: there the picture shows it. */
 const EDITING_TABS: ReadonlySet<Tab> = new Set<Tab>(['steps', 'curves']);

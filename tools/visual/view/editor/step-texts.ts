@@ -17,7 +17,7 @@ export const STEP_TEXTS = {
 
 export const TEACH_TEXTS = {
   stiff: 'All joints hold. Let a limb go, move it, hold it, add a step.',
-  limpSimulated: 'Drag the limp limb in the picture, then hold it or add a step.',
+  limpSimulated: 'Drag the limb in the picture; it holds when you let go of it. Then add a step.',
   limpYours: 'Move the limp limb by hand; the picture follows. Then hold it or add a step. Support the robot: limp legs do not carry it.',
 } as const;
 

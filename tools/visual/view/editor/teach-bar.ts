@@ -4,7 +4,6 @@
 
 import { handLimb, footLimb } from '../../model/ik.ts';
 import type { Body } from '../../model/body.ts';
-import type { RobotState } from '../../robot/robot-state.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
@@ -14,13 +13,15 @@ import { TEACH_TEXTS } from './step-texts.ts';
 export interface LimbGroup {
   readonly title: string;
   readonly servos: readonly number[];
+  /** The robot stands on it. */
+  readonly carries: boolean;
 }
 
 export function limbGroups(body: Body): LimbGroup[] {
   const servos = (limb: ReturnType<typeof handLimb>): number[] => limb.links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
   return [
-    { title: 'Right arm', servos: servos(handLimb(body, 'right')) }, { title: 'Left arm', servos: servos(handLimb(body, 'left')) },
-    { title: 'Right leg', servos: servos(footLimb(body, 'right')) }, { title: 'Left leg', servos: servos(footLimb(body, 'left')) },
+    { title: 'Right arm', servos: servos(handLimb(body, 'right')), carries: false }, { title: 'Left arm', servos: servos(handLimb(body, 'left')), carries: false },
+    { title: 'Right leg', servos: servos(footLimb(body, 'right')), carries: true }, { title: 'Left leg', servos: servos(footLimb(body, 'left')), carries: true },
   ];
 }
 
@@ -31,50 +32,59 @@ export class TeachBar extends HTMLElement {
   add: () => void = () => undefined;
   private readonly limbs = new Map<LimbGroup, HTMLButtonElement>();
   private readonly hold = make('button', { onclick: () => void this.holdAll() }, 'Hold');
-  private readonly hint = make('p', { class: 'hint' });
-  private limp = '';
+  private readonly hint = make('p', { class: 'hint', role: 'status', 'aria-label': 'Teaching' });
+  private limp: readonly number[] = [];
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
     const row = make('div', { class: 'row' });
     for (const group of limbGroups(this.desk.body)) {
-      const button = make('button', { 'aria-pressed': 'false', onclick: () => void this.toggle(group) }, group.title);
+      const button = make('button', { onclick: () => void this.toggle(group) }, group.title);
       this.limbs.set(group, button);
       row.append(button);
     }
     this.replaceChildren(make('h2', {}, 'Teach by hand: let go of'), row,
       make('div', { class: 'row' }, this.hold, make('button', { class: 'primary', onclick: () => this.add() }, 'Add step from the robot')), this.hint);
-    this.disposals.push(this.desk.onFrame((robot) => this.render(robot)));
-    this.say(new Set());
+    this.disposals.push(this.editing.watch(() => this.render()), this.desk.state.watch(() => this.render()), this.desk.onFrame(({ servos }) => {
+      const limp = servos.filter((servo) => !servo.torque).map((servo) => servo.id);
+      if (limp.join() === this.limp.join()) return;
+      this.limp = limp;
+      this.render();
+    }));
   }
 
   disconnectedCallback(): void {
     for (const dispose of this.disposals.splice(0)) dispose();
   }
 
-  private render(robot: RobotState): void {
-    const limp = robot.servos.filter((servo) => !servo.torque).map((servo) => servo.id);
-    if (limp.join() === this.limp) return;
-    this.limp = limp.join();
-    this.say(new Set(limp));
-  }
-
-  private say(limp: ReadonlySet<number>): void {
-    for (const [group, button] of this.limbs) button.setAttribute('aria-pressed', String(group.servos.every((servo) => limp.has(servo))));
-    this.hold.disabled = limp.size === 0;
+  private render(): void {
+    const { taught } = this.editing.get();
+    for (const [group, button] of this.limbs) button.setAttribute('aria-pressed', String(group.servos.every((servo) => taught.has(servo))));
+    this.hold.disabled = taught.size === 0 && this.limp.length === 0;
     const isSimulated = this.desk.state.get().source === 'simulated';
-    this.hint.textContent = limp.size === 0 ? TEACH_TEXTS.stiff : isSimulated ? TEACH_TEXTS.limpSimulated : TEACH_TEXTS.limpYours;
+    this.hint.textContent = this.hold.disabled ? TEACH_TEXTS.stiff : isSimulated ? TEACH_TEXTS.limpSimulated : TEACH_TEXTS.limpYours;
   }
 
-  /** Lets a limb go, or holds it where it is. */
+  /** Lets a limb go, or holds it where it is. In the simulation a hand holds the body as long as a leg does not carry it. */
   private async toggle(group: LimbGroup): Promise<void> {
-    const isLimp = this.limbs.get(group)?.getAttribute('aria-pressed') === 'true';
-    if (!isLimp) this.editing.set({ mode: 'hand', follow: false });
-    await this.desk.setTorque(isLimp, group.servos);
+    const { taught } = this.editing.get();
+    const isTaught = group.servos.every((servo) => taught.has(servo));
+    const next = new Set(isTaught ? [...taught].filter((servo) => !group.servos.includes(servo)) : [...taught, ...group.servos]);
+    this.editing.set({ taught: next, mode: 'hand', follow: false });
+    if (!isTaught && group.carries) this.desk.hold(true);
+    await this.desk.setTorque(isTaught, group.servos);
+    if (isTaught) this.letStand(next);
   }
 
   private async holdAll(): Promise<void> {
-    await this.desk.setTorque(true, this.limp === '' ? [] : this.limp.split(',').map(Number));
+    this.editing.set({ taught: new Set() });
+    await this.desk.setTorque(true, this.limp);
+    this.letStand(new Set());
+  }
+
+  private letStand(taught: ReadonlySet<number>): void {
+    const isCarried = [...this.limbs.keys()].some(({ carries, servos }) => carries && servos.some((servo) => taught.has(servo)));
+    if (!isCarried) this.desk.hold(false);
   }
 }
 
