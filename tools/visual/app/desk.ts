@@ -6,6 +6,8 @@ import type { FileFormats } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
 import { documentFrom, emptyDocument } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
+import { dirtyPages } from '../model/editor-state.ts';
+import { pagesOfPlay } from '../model/page-reach.ts';
 import type { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import { askList, askWhere, command, play, setTorque } from '../robot/protocol.ts';
@@ -25,7 +27,6 @@ import { TEXTS, doingText, errorText } from '../view/texts.ts';
 import { KeptDocuments } from './documents.ts';
 import { DocumentFiles } from './files.ts';
 import { holdDocument } from './hold-document.ts';
-import { differing, pagesOfPlay, writePages } from './edited-play.ts';
 import { Follow } from './follow.ts';
 import { Listeners } from './listeners.ts';
 import { LastSaid } from './said.ts';
@@ -37,6 +38,7 @@ import { YourSource } from './your-source.ts';
 
 const WHERE_MS = 300;
 const REMOTE_REPEAT_MS = 100;
+const ESCAPE_SEQUENCE = /\x1b\[[0-9;?]*[A-Za-z~]/g;
 const READY_MS = 180_000;
 
 const ROBOT_IN_PAGE = 'robot in the page';
@@ -159,15 +161,24 @@ export class RobotDesk implements Desk {
 
   playEdited(page: number): Promise<void> {
     return this.deed(async () => {
-      if (this.isSimulated) await this.becomeEdit();
       const { format, state } = this.editor;
-      const { document, robot } = state.get();
-      const there = await differing(this.connection.requests, document, pagesOfPlay(format, document, page), robot);
-      this.editor.setRobot(there.robot);
-      if (there.pages.length > 0 && !this.isSimulated) return this.say({ text: PLAY_TEXTS.writeFirst, tone: 'bad' });
-      this.editor.setRobot(await writePages(this.connection.requests, format, there));
+      const why = await this.bringPages(pagesOfPlay(format, state.get().document, page));
+      if (why !== null) return why;
+      if (this.isSimulated) await this.simulated.prepare();
       await play(this.connection.requests, page);
+      return null;
     });
+  }
+
+  /** Makes sure that the robot has these pages as the document has them. The robot in the page gets them; what will change in
+   *  yours is to be seen before. Why it has them not; null: it has. */
+  private async bringPages(pages: readonly number[]): Promise<string | null> {
+    const { editor, transfer } = this;
+    if (editor.state.get().robot.length === 0 && !(await transfer.read())) return transfer.state.get().trouble;
+    const dirty = dirtyPages(editor.state.get(), editor.format);
+    if (!pages.some((page) => dirty.has(page))) return null;
+    if (!this.isSimulated) return PLAY_TEXTS.writeFirst;
+    return (await transfer.write(pages)) ? null : transfer.state.get().trouble;
   }
 
   follow(positions: readonly (number | null)[] | null): void {
@@ -189,7 +200,9 @@ export class RobotDesk implements Desk {
   }
 
   type(bytes: Uint8Array): void {
-    for (const byte of bytes) this.typing = byte === 0x0d || byte === 0x03 ? '' : this.typing + String.fromCharCode(byte);
+    // What a terminal answers by itself, and the keys of Edit's screen, are no line that somebody types.
+    const typed = String.fromCharCode(...bytes).replaceAll(ESCAPE_SEQUENCE, '');
+    for (const letter of typed) this.typing = letter === '\r' || letter === '\x03' ? '' : this.typing + letter;
     void this.connection.write(bytes).catch((error: unknown) => this.fail(error));
   }
 
@@ -285,10 +298,11 @@ export class RobotDesk implements Desk {
     return connection;
   }
 
-  private async deed(deed: () => Promise<void>): Promise<void> {
+  /** deed: what it resolves to, if anything, says why it was not done. */
+  private async deed(deed: () => Promise<string | null | void>): Promise<void> {
     try {
-      await deed();
-      this.state.set({ said: null });
+      const why = (await deed()) ?? null;
+      this.state.set({ said: why === null ? null : { text: why, tone: 'bad' } });
       void this.askWhere();
     } catch (error) {
       this.fail(error);

@@ -16,6 +16,7 @@ import type { KeptRobot } from '../view/robot-store.ts';
 import { TEXTS, violationText } from '../view/texts.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { boardModule, motionLibrary, physics, robotImages } from './assets.ts';
+import { TickClock } from './tick-clock.ts';
 
 const KEY = 'cm5';
 /** Page of the motion library in which the robot stands by itself. */
