@@ -7,10 +7,11 @@ import type { Body } from '../model/body.ts';
 import { documentFrom, emptyDocument } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { dirtyPages } from '../model/editor-state.ts';
+import type { Shape } from '../model/motion.ts';
 import { pagesOfPlay } from '../model/page-reach.ts';
 import type { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { askList, askWhere, command, play, setTorque } from '../robot/protocol.ts';
+import { askList, askWhere, command, play, setAmplitude, setBlend, setRate, setTorque } from '../robot/protocol.ts';
 import type { Command } from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
@@ -178,7 +179,18 @@ export class RobotDesk implements Desk {
     const dirty = dirtyPages(editor.state.get(), editor.format);
     if (!pages.some((page) => dirty.has(page))) return null;
     if (!this.isSimulated) return PLAY_TEXTS.writeFirst;
-    return (await transfer.write(pages)) ? null : transfer.state.get().trouble;
+    if (!(await transfer.write(pages))) return transfer.state.get().trouble;
+    this.state.set({ pages: await askList(this.connection.requests) });
+    return null;
+  }
+
+  shape({ rate, amplitude, blend }: Shape): Promise<void> {
+    return this.deed(async () => {
+      const { requests } = this.connection;
+      await setRate(requests, rate);
+      await setAmplitude(requests, amplitude);
+      await setBlend(requests, blend);
+    });
   }
 
   follow(positions: readonly (number | null)[] | null): void {

@@ -9,7 +9,7 @@ import { makeEdits } from '../model/edit.ts';
 import type { Edits } from '../model/edit.ts';
 import * as states from '../model/editor-state.ts';
 import type { EditorState, Selection } from '../model/editor-state.ts';
-import { JOINTS, Motion } from '../model/motion.ts';
+import { AS_STORED, JOINTS, Motion } from '../model/motion.ts';
 import type { Curve } from '../model/motion.ts';
 import { PageFormat } from '../model/page-format.ts';
 import { readPage } from '../model/page.ts';
@@ -122,8 +122,13 @@ export class DocumentEditor implements Editor {
   curve(page: number, options: CurveOptions = {}): Curve | null {
     this.load();
     const law = options.law ?? this.state.get().law;
+    this.player.setShape(options.shape ?? AS_STORED);
     const from = options.from ?? this.firstPose(page);
     return this.player.start(page, from, { law, code: options.code ?? 0 }) ? this.player.curve(options.ticks ?? CURVE_TICKS) : null;
+  }
+
+  topSpeed(volts: number): number {
+    return this.player.topSpeed(volts);
   }
 
   firstPose(page: number): Uint16Array {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "player.h"
+#include "shape.h"
 #include "step_plan.h"
 
 enum { MARK_BYTES = 3 };
@@ -13,6 +14,8 @@ static struct {
     uint16_t pose[PAGE_JOINTS];
     link_t link;
     player_t player;
+    shape_t shape;
+    bool is_shaped;
     player_joint_t joint[PAGE_JOINTS];
     uint16_t goal_pos[PAGE_JOINTS];
     uint16_t goals[MOTION_API_CURVE_TICKS][PAGE_JOINTS];
@@ -78,9 +81,33 @@ bool motion_api_is_playable(int page) { return is_page(page) && page_is_playable
 
 uint16_t *motion_api_pose(void) { return api.pose; }
 
+static const shape_t *shape_now(void) { return api.is_shaped ? &api.shape : NULL; }
+
 uint32_t motion_api_first_pose(int page)
 {
-    return is_page(page) ? player_first_pose(&source, NULL, (uint8_t)page, api.pose) : 0;
+    return is_page(page) ? player_first_pose(&source, shape_now(), (uint8_t)page, api.pose) : 0;
+}
+
+bool motion_api_shape(int rate_percent, int amplitude_percent, int blend_percent)
+{
+    shape_t shape;
+    shape_init(&shape);
+    if (rate_percent < 0 || amplitude_percent < 0 || shape_set_rate(&shape, (uint16_t)rate_percent) != SHAPE_OK ||
+        shape_set_amplitude(&shape, (uint16_t)amplitude_percent, UINT32_MAX) != SHAPE_OK ||
+        shape_set_blend(&shape, (int16_t)blend_percent) != SHAPE_OK) {
+        return false;
+    }
+    api.shape = shape;
+    api.is_shaped = !shape_is_neutral(&shape);
+    return true;
+}
+
+int motion_api_top_speed_q4_4(int decivolts)
+{
+    shape_t shape;
+    shape_init(&shape);
+    shape_set_voltage(&shape, (uint8_t)(decivolts < 0 ? 0 : decivolts > UINT8_MAX ? UINT8_MAX : decivolts));
+    return shape.top_speed_q4_4;
 }
 
 static bool is_step(int page, int step) { return is_page(page) && step >= 0 && step < (int)PAGE_STEPS; }
@@ -149,6 +176,7 @@ int motion_api_start(int page, int law, int mode, int code, uint32_t present)
         return PLAYER_ERR_RANGE;
     }
     player_init(&api.player, &source, api.joint, api.goal_pos);
+    player_set_shape(&api.player, shape_now());
     link_init(&api.link, mode ? LINK_HOLD : LINK_LATCH);
     link_call(&api.link, (uint8_t)code);
     return (int)player_start(&api.player, &api.link, (uint8_t)page, law ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT,

@@ -41,6 +41,14 @@ uint32_t motion_api_first_pose(int page);
 int motion_api_step_ticks(int page, int step, int law);
 int motion_api_pause_ticks(int page, int step, int law);
 
+/* How the plays that begin from now on are shaped (shape.h): rate 10..400 %, amplitude 0..150 % of all joints about the
+ * pose of page 1, blend -100..100 % to the left or right partner. false: a number is out of its range, nothing changed. */
+bool motion_api_shape(int rate_percent, int amplitude_percent, int blend_percent);
+
+/* What the firmware takes for the fastest that an AX-12 may be asked to go at this voltage (0.1 V): 1/16 servo unit a tick.
+ * 0: not known. */
+int motion_api_top_speed_q4_4(int decivolts);
+
 /* Begins a page. law: player_law_t (0 exact, 1 classic); mode: link_mode_t (0 latch, 1 hold); code: the call's code, 0
  * for a call by number; present: bit per joint that may be driven. Returns player_status_t, 0 = started. A play that is
  * on ends first. motion_api_fault_page(): the page that was refused. */

@@ -14,6 +14,15 @@ export type Law = 'exact' | 'classic';
 export const PAGE_FAULTS = ['checksum', 'steps', 'schedule', 'speed', 'link', 'position'] as const;
 export type PageFault = (typeof PAGE_FAULTS)[number];
 
+/** How a play is shaped, in percent: rate 10..400, amplitude 0..150, blend -100 (left) .. 100 (right). */
+export interface Shape {
+  readonly rate: number;
+  readonly amplitude: number;
+  readonly blend: number;
+}
+
+export const AS_STORED: Shape = { rate: 100, amplitude: 100, blend: 0 };
+
 /** What happened in a tick: bits of player.h. */
 export const PLAYER_EVENT = { output: 1, step: 2, page: 4, link: 8, busy: 16, ended: 32, standing: 64 } as const;
 
@@ -40,6 +49,8 @@ export interface MotionExports {
   motion_api_first_pose(page: number): number;
   motion_api_step_ticks(page: number, step: number, law: number): number;
   motion_api_pause_ticks(page: number, step: number, law: number): number;
+  motion_api_shape(rate: number, amplitude: number, blend: number): number;
+  motion_api_top_speed_q4_4(decivolts: number): number;
   motion_api_start(page: number, law: number, mode: number, code: number, present: number): number;
   motion_api_code(code: number): void;
   motion_api_curve(ticks: number): number;
@@ -110,6 +121,17 @@ export class Motion {
     const pause = this.api.motion_api_pause_ticks(number, step, lawNumber);
     if (move < 0 || pause < 0) throw new RangeError(`no step ${step} in page ${page}`);
     return { move, pause };
+  }
+
+  /** How the plays that begin from now on are shaped. Throws RangeError when a number is out of its range. */
+  setShape({ rate, amplitude, blend }: Shape): void {
+    if (!this.api.motion_api_shape(rate, amplitude, blend)) throw new RangeError(`no shape: ${rate} ${amplitude} ${blend}`);
+  }
+
+  /** The fastest that the firmware asks of an AX-12 when it shapes a motion: 90 % of what it can do at this voltage. Servo
+   *  units a tick. */
+  topSpeed(volts: number): number {
+    return this.api.motion_api_top_speed_q4_4(Math.round(volts * 10)) / 16;
   }
 
   /** Begins a play from a pose (31 servo units). false: the page is damaged or has no action. */

@@ -4,6 +4,7 @@
 import { ActionBar } from './action-bar.ts';
 import type { Desk, DeskState, Tab } from './desk.ts';
 import { FilesMenu } from './editor/files-menu.ts';
+import { CurvesPane } from './editor/curves-pane.ts';
 import { EDITING_START } from './editor/editing.ts';
 import type { Editing } from './editor/editing.ts';
 import { PoseBar } from './editor/pose-bar.ts';
@@ -22,7 +23,7 @@ import { Store } from './store.ts';
 import { TerminalPane } from './terminal-pane.ts';
 import './app-shell.css';
 
-const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['steps', 'Steps'], ['pages', 'Pages'], ['links', 'Links'], ['checks', 'Checks'], ['terminal', 'Terminal'], ['lab', 'Lab']];
+const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['steps', 'Steps'], ['curves', 'Curves'], ['pages', 'Pages'], ['links', 'Links'], ['checks', 'Checks'], ['terminal', 'Terminal'], ['lab', 'Lab']];
 /** Areas that show the document. */
 const EDITING: readonly Tab[] = ['steps', 'curves', 'pages', 'links', 'checks'];
 
@@ -47,6 +48,7 @@ export class AppShell extends HTMLElement {
     const compare = this.give(new CompareDialog());
     pages.onCompare = this.editBar.onTransfer = () => void compare.open();
     this.addEventListener('open-steps', () => this.desk.show('steps'));
+    this.addPanel('curves', this.give(new CurvesPane()));
     this.addPanel('pages', pages);
     this.addPanel('links', this.give(new LinksPane()));
     this.addPanel('checks', this.give(new ChecksPane()));

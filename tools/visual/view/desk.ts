@@ -3,6 +3,7 @@
 // robot or a port behind it; no view ever touches a stream or a worker.
 
 import type { Body } from '../model/body.ts';
+import type { Shape } from '../model/motion.ts';
 import type { Vector } from '../model/space.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import type { Command, PageEntry, Version, Where } from '../robot/protocol.ts';
@@ -78,6 +79,8 @@ export interface Desk {
   setTorque(on: boolean, servos?: readonly number[]): Promise<void>;
   /** Plays a page of the document: writes it and what it leads to first, as far as the robot has it otherwise. */
   playEdited(page: number): Promise<void>;
+  /** How what plays is shaped, from its next step on. Only Play can. */
+  shape(shape: Shape): Promise<void>;
   /** From now on the robot goes slowly to this pose (servo units by ID; null: this joint stays); null: no more. */
   follow(positions: readonly (number | null)[] | null): void;
   /** Says something in the strip. */

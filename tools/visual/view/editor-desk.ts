@@ -5,7 +5,7 @@ import type { JointPair } from '../model/step-edits.ts';
 import type { MotionDocument } from '../model/document.ts';
 import type { Edits } from '../model/edit.ts';
 import type { EditorState, Selection } from '../model/editor-state.ts';
-import type { Curve, Law } from '../model/motion.ts';
+import type { Curve, Law, Shape } from '../model/motion.ts';
 import type { PageFormat } from '../model/page-format.ts';
 import type { PageView } from '../model/page.ts';
 import type { Result } from '../model/result.ts';
@@ -31,6 +31,8 @@ export interface CurveOptions {
   readonly ticks?: number;
   /** Where the joints stand before (31 servo units); the page's first pose unless given. */
   readonly from?: ArrayLike<number>;
+  /** As stored, unless it is given. */
+  readonly shape?: Shape;
 }
 
 export interface Editor {
@@ -53,4 +55,6 @@ export interface Editor {
   curve(page: number, options?: CurveOptions): Curve | null;
   /** Pose in which a play of the page begins (31 servo units); joints that its first step does not use stand at 512. */
   firstPose(page: number): Uint16Array;
+  /** The fastest that servos may be asked to go at this voltage (servo units a tick). */
+  topSpeed(volts: number): number;
 }

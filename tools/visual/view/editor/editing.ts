@@ -92,3 +92,9 @@ export function easyTime(from: readonly (number | null)[], to: readonly (number 
 export function easyStep(positions: readonly (number | null)[], before: readonly (number | null)[]): Step {
   return { positions, time: easyTime(before, positions), pause: 0 };
 }
+
+/** The chosen joints turned by so many servo units from `pose` (by ID), each as far as it can. */
+export function changedBy(body: Body, joints: ReadonlySet<number>, pose: readonly number[], by: number): Map<number, number> {
+  return new Map(body.joints.filter((joint) => joints.has(joint.servo)).map((joint) =>
+    [joint.servo, nearestPosition(joint, jointAngle(joint, (pose[joint.servo] ?? joint.zero) + by))] as const));
+}

@@ -2,7 +2,6 @@
 // Edits of the chosen step's joints, as the picture and the number fields ask for them.
 
 import { limbTo } from '../../model/ik.ts';
-import { jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Body } from '../../model/body.ts';
 import { pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
@@ -39,10 +38,4 @@ export function changeStep(editor: Editor, start: MotionDocument, positions: Rea
 
 function isWithoutSteps(editor: Editor, start: MotionDocument, page: number): boolean {
   return readPage(editor.format, pageOf(start, page)).steps.length === 0;
-}
-
-/** The chosen joints turned by so many servo units from `pose` (by ID), each as far as it can. */
-export function turnedJoints(body: Body, joints: ReadonlySet<number>, pose: readonly number[], by: number): Map<number, number> {
-  return new Map(body.joints.filter((joint) => joints.has(joint.servo)).map((joint) =>
-    [joint.servo, nearestPosition(joint, jointAngle(joint, (pose[joint.servo] ?? joint.zero) + by))] as const));
 }

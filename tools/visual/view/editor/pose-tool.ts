@@ -13,9 +13,9 @@ import type { Desk } from '../desk.ts';
 import type { Gesture } from '../editor-desk.ts';
 import type { Picked, RobotScene } from '../robot-scene.ts';
 import type { Store } from '../store.ts';
-import { changedPositions, isEditing, poseAfter, robotAngles, robotPositions, stanceOf, stepAngles } from './editing.ts';
+import { changedBy, changedPositions, isEditing, poseAfter, robotAngles, robotPositions, stanceOf, stepAngles } from './editing.ts';
 import type { Editing } from './editing.ts';
-import { changeStep, jointsOfPart, turnedJoints } from './joint-edits.ts';
+import { changeStep, jointsOfPart } from './joint-edits.ts';
 import { PoseLayer } from './pose-layer.ts';
 import type { Balance, Posed } from './pose-layer.ts';
 
@@ -148,7 +148,7 @@ export class PoseTool {
     if (editor.state.get().joints.size === 0) this.chooseNext(1);
     this.keys ??= { gesture: editor.gesture('set-joints'), pose: this.shownPose(), by: 0 };
     this.keys.by += by;
-    const positions = turnedJoints(this.body, editor.state.get().joints, this.keys.pose, this.keys.by);
+    const positions = changedBy(this.body, editor.state.get().joints, this.keys.pose, this.keys.by);
     this.keys.gesture.change(changeStep(editor, this.keys.gesture.start, positions, this.robot));
   }
 

@@ -29,13 +29,15 @@ export class StepRow extends HTMLElement {
   private readonly cards: Card[] = [];
   private readonly empty = make('p', { class: 'empty' }, 'No step yet. Add the robot as it stands, or drag it in the picture.');
   private playing = -1;
+  private isBehind = false;
   private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
     const titles = make('p', { class: 'titles', 'aria-hidden': true }, make('span', {}, 'time'), make('span', {}, 'pause'));
     this.replaceChildren(titles, this.list, this.empty);
-    this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(({ where }) => {
+    this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(({ where, tab }) => {
+      if (tab === 'steps' && this.isBehind) this.render();
       const { page } = this.desk.editor.state.get();
       const playing = where?.state === 'playing' && where.page === page ? where.step - 1 : -1;
       if (playing === this.playing) return;
@@ -54,6 +56,8 @@ export class StepRow extends HTMLElement {
   }
 
   private render(): void {
+    this.isBehind = this.desk.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
+    if (this.isBehind) return;
     const { editor } = this.desk;
     const state = editor.state.get();
     const { steps, schedule } = editor.page(state.page);

@@ -30,3 +30,11 @@ export const PLAY_TEXTS = {
   startsPlay: 'The robot in the page starts anew with Play, the firmware that hears the remote control.',
   writeFirst: 'Your robot has this page otherwise. Write it first: "To the robot …". Then play it.',
 } as const;
+
+export const CURVE_TEXTS = {
+  purpose: 'What the robot\'s own player will send, tick by tick. Choose a joint and drag its points: up and down the position, to the sides the time.',
+  notFast: 'Every joint can follow.',
+  fast: (joints: readonly number[]) => `Too fast for the servo at this battery (red, dashed): joint ${joints.join(', ')}. Give the step more time.`,
+  shapes: 'The robot takes it with its next step.',
+  shapeNeedsPlay: 'Drawn only: Edit runs, and only Play shapes a motion. Play a motion below the picture by the remote to go back to Play.',
+} as const;

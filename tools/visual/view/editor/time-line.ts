@@ -25,6 +25,7 @@ export class TimeLine extends HTMLElement {
   private readonly total = make('p', { class: 'total' });
   private drag: Drag | null = null;
   private scale = 1;
+  private isBehind = false;
   private unwatch: () => void = () => undefined;
   private readonly escape = (event: KeyboardEvent): void => {
     if (event.key === 'Escape' && this.drag) this.end(false);
@@ -36,7 +37,12 @@ export class TimeLine extends HTMLElement {
     this.bar.addEventListener('pointerup', () => this.end(true));
     this.bar.addEventListener('pointercancel', () => this.end(false));
     window.addEventListener('keydown', this.escape);
-    this.unwatch = this.desk.editor.state.watch(() => this.render());
+    const unwatchDesk = this.desk.state.watch(({ tab }) => tab === 'steps' && this.isBehind && this.render());
+    const unwatchEditor = this.desk.editor.state.watch(() => this.render());
+    this.unwatch = () => {
+      unwatchDesk();
+      unwatchEditor();
+    };
   }
 
   disconnectedCallback(): void {
@@ -45,6 +51,8 @@ export class TimeLine extends HTMLElement {
   }
 
   private render(): void {
+    this.isBehind = this.desk.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
+    if (this.isBehind) return;
     const { editor } = this.desk;
     const { page, steps: chosen } = editor.state.get();
     const times = stepTimes(editor, page);

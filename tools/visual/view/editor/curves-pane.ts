@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Curves: what the firmware's player makes of the page, under either law, and as it is shaped.
+
+import { jointTitle } from '../../model/body.ts';
+import type { TickSpan } from '../../model/curve-speed.ts';
+import type { Law } from '../../model/motion.ts';
+import type { Desk } from '../desk.ts';
+import { define, make } from '../element.ts';
+import { CurveCanvas } from './curve-canvas.ts';
+import { PageHead } from './page-head.ts';
+import { ShapeBar } from './shape-bar.ts';
+import { CURVE_TEXTS } from './step-texts.ts';
+import { limbGroups } from './teach-bar.ts';
+import './curves-pane.css';
+
+const LAWS: readonly (readonly [Law, string, string])[] = [
+  ['exact', 'Exact', 'Every way-point is met, in time'], ['classic', 'Classic', 'As the firmware of 2005 moved'],
+];
+
+export class CurvesPane extends HTMLElement {
+  desk!: Desk; // set before it is connected
+  private readonly laws = new Map<Law, HTMLButtonElement>();
+  private readonly chips = new Map<number, HTMLButtonElement>();
+  private readonly fast = make('p', { class: 'fast', role: 'status', 'aria-label': 'Too fast' });
+  private readonly disposals: (() => void)[] = [];
+
+  connectedCallback(): void {
+    const give = <T extends HTMLElement & { desk: Desk }>(element: T): T => Object.assign(element, { desk: this.desk });
+    const canvas = give(new CurveCanvas());
+    canvas.onFast = (fast) => this.sayFast(fast);
+    const shape = Object.assign(give(new ShapeBar()), { onShape: canvas.setShape.bind(canvas) });
+    this.replaceChildren(make('p', { class: 'purpose' }, CURVE_TEXTS.purpose), give(new PageHead()), this.lawRow(), canvas, this.fast, this.jointRow(), shape);
+    this.disposals.push(this.desk.editor.state.watch(({ joints, law }) => {
+      for (const [servo, chip] of this.chips) chip.setAttribute('aria-pressed', String(joints.has(servo)));
+      for (const [name, button] of this.laws) button.setAttribute('aria-pressed', String(name === law));
+    }));
+  }
+
+  disconnectedCallback(): void {
+    for (const dispose of this.disposals.splice(0)) dispose();
+  }
+
+  private lawRow(): HTMLElement {
+    const row = make('div', { class: 'row', role: 'group', 'aria-label': 'Law of motion' }, make('span', {}, 'Law:'));
+    for (const [law, title, hint] of LAWS) {
+      const button = make('button', { title: hint, onclick: () => this.desk.editor.select({ law }) }, title);
+      this.laws.set(law, button);
+      row.append(button);
+    }
+    return row;
+  }
+
+  private jointRow(): HTMLElement {
+    const row = make('div', { class: 'joint-chips', role: 'group', 'aria-label': 'Joints to edit' });
+    for (const { title, servos } of limbGroups(this.desk.body)) {
+      row.append(make('button', { class: 'limb', onclick: () => this.desk.editor.select({ joints: new Set(servos) }) }, title));
+    }
+    for (const joint of [...this.desk.body.joints].sort((a, b) => a.servo - b.servo)) {
+      const chip = make('button', { title: jointTitle(joint), 'aria-label': `${joint.servo} ${jointTitle(joint)}`, onclick: () => this.toggle(joint.servo) }, String(joint.servo));
+      this.chips.set(joint.servo, chip);
+      row.append(chip);
+    }
+    return row;
+  }
+
+  private toggle(servo: number): void {
+    const joints = new Set(this.desk.editor.state.get().joints);
+    if (!joints.delete(servo)) joints.add(servo);
+    this.desk.editor.select({ joints });
+  }
+
+  private sayFast(fast: ReadonlyMap<number, readonly TickSpan[]>): void {
+    const text = fast.size === 0 ? CURVE_TEXTS.notFast : CURVE_TEXTS.fast([...fast.keys()]);
+    if (this.fast.textContent !== text) this.fast.textContent = text;
+    this.fast.dataset['tone'] = fast.size === 0 ? 'calm' : 'bad';
+  }
+}
+
+define('curves-pane', CurvesPane);
