@@ -28,7 +28,7 @@ class Running:
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.messages = b""
 
-    def message(self, pattern, seconds=60):
+    def message(self, pattern, seconds=300):
         """Waits for a message; returns its first group."""
         end = time.monotonic() + seconds
         while not (match := re.search(pattern, self.messages.decode())):
@@ -40,7 +40,7 @@ class Running:
             self.messages += chunk
         return match[1]
 
-    def stop(self, number=signal.SIGINT, seconds=60):
+    def stop(self, number=signal.SIGINT, seconds=300):
         """Sends a signal and returns the exit code."""
         self.process.send_signal(number)
         return self.process.wait(seconds)

@@ -104,7 +104,7 @@ def test_waiting_robot_costs_little_cpu():
 
 @pytest.fixture(name="terminal")
 def _terminal():
-    child = pexpect.spawn(str(CM5SIM), [str(ROBOT), "--servos", "1-3"], timeout=60, env={**os.environ, "TERM": "xterm"})
+    child = pexpect.spawn(str(CM5SIM), [str(ROBOT), "--servos", "1-3"], timeout=300, env={**os.environ, "TERM": "xterm"})
     child.expect("ready")
     yield child
     child.close(force=True)
@@ -122,7 +122,7 @@ def test_terminal_leaves_by_ctrl_bracket_and_restores_the_terminal(terminal):
 
 
 def test_terminal_is_as_before_after_a_signal(tmp_path):
-    shell = pexpect.spawn("/bin/sh", timeout=60, cwd=tmp_path, env={**os.environ, "PS1": "$ "})
+    shell = pexpect.spawn("/bin/sh", timeout=300, cwd=tmp_path, env={**os.environ, "PS1": "$ "})
     shell.sendline(f"stty -a > before; {CM5SIM} {ROBOT} -q; echo code $?; stty -a | diff - before && echo sa''me")
     shell.expect("ready")
     shell.expect(pexpect.TIMEOUT, timeout=0.3)
@@ -521,7 +521,7 @@ def test_gdb_finds_the_chip_at_its_first_instruction_and_stops_at_a_function():
         gdb = subprocess.run(
             ["avr-gdb", "-batch", "-ex", f"target remote :{port}", "-ex", "info registers pc", "-ex", "break say",
              "-ex", "continue", "-ex", "backtrace", "-ex", "delete", "-ex", "detach", ROBOT.with_suffix(".elf")],
-            capture_output=True, text=True, timeout=60, check=False)
+            capture_output=True, text=True, timeout=300, check=False)
         assert "pc             0x0 " in gdb.stdout
         assert "Breakpoint 1, say (" in gdb.stdout and "in main ()" in gdb.stdout
-        assert robot.process.wait(20) == 0
+        assert robot.process.wait(300) == 0

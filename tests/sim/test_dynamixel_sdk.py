@@ -13,11 +13,11 @@ AX12, DX117 = 12, 117
 
 
 class PatientPort(PortHandler):
-    """Waits a second longer than the SDK does: on a busy PC the wall clock must not decide a verdict."""
+    """Waits three seconds longer than the SDK does: on a busy PC the wall clock must not decide a verdict."""
 
     def setPacketTimeout(self, packet_length):  # noqa: N802 (the SDK's name)
         super().setPacketTimeout(packet_length)
-        self.packet_timeout += 1000
+        self.packet_timeout += 3000
 
 
 class Bus:

@@ -2,6 +2,7 @@
 """Every command line of the simulator's README, executed; and every option of cm5sim must occur there."""
 import os
 import re
+import select
 import signal
 import socket
 import subprocess
@@ -14,7 +15,8 @@ from sim_command import BUILD, CM5SIM, TOP, run
 README = (TOP / "tools" / "sim" / "README.md").read_text(encoding="utf-8")
 COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", README, re.S)
             for line in block.splitlines() if "cm5sim" in line]
-SHOWN_S = 1.5  # so long a command without an end of its own is left running
+SHOWN_S = 0.5  # so long a command without an end of its own is left running once it has said something
+BEGUN_S = 120
 
 # One page; joint 3 ends at 600. No other joint is used.
 WALK = """\
@@ -54,11 +56,13 @@ def execute(command, folder):
                                stderr=subprocess.PIPE, start_new_session=True,
                                env={**os.environ, "PATH": f"{CM5SIM.parent}:{os.environ['PATH']}"})
     try:
-        process.wait(300 if ends else SHOWN_S)
+        if not ends:
+            select.select([process.stdout, process.stderr], [], [], BEGUN_S)
+        process.wait(600 if ends else SHOWN_S)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGINT)
     try:
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=300)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         raise

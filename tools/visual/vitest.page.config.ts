@@ -3,5 +3,5 @@
 import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
-  test: { include: ['tests/page/*.test.ts'], testTimeout: 180_000, hookTimeout: 60_000, fileParallelism: false, maxWorkers: 1 },
+  test: { include: ['tests/page/*.test.ts'], testTimeout: 400_000, hookTimeout: 120_000, fileParallelism: false, maxWorkers: 1 },
 });

@@ -12,6 +12,7 @@ export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/
 export const FLAGS = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(process.getuid?.() === 0 ? ['--no-sandbox'] : [])];
 const VIEWPORT = { width: 1000, height: 640 };
+const LIMIT_MS = 120_000; // of every wait that names none: a busy machine decides no verdict
 
 export class PageServer {
   readonly address: string;
@@ -58,6 +59,7 @@ export class Visitor {
 
   static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1): Promise<Visitor> {
     const context = await browser.newContext({ viewport: VIEWPORT, colorScheme: theme, deviceScaleFactor: sharpness });
+    context.setDefaultTimeout(LIMIT_MS);
     const visitor = new Visitor(context, await context.newPage());
     visitor.watch(new URL(address).origin);
     await visitor.page.goto(address);
@@ -88,7 +90,7 @@ export class Visitor {
 
   /** Waits until the firmware answers; with physics, until the robot stands by itself. */
   async untilStanding(): Promise<void> {
-    await this.page.getByText('The robot stands and waits.', { exact: true }).waitFor({ timeout: 90_000 });
+    await this.page.getByText('The robot stands and waits.', { exact: true }).waitFor({ timeout: LIMIT_MS });
   }
 
   /** The terminal's screen as text. */
@@ -102,7 +104,7 @@ export class Visitor {
     for (const part of text.split(/(\r)/)) part === '\r' ? await this.page.keyboard.press('Enter') : await this.page.keyboard.type(part);
   }
 
-  async untilScreenSays(text: string | RegExp, limitMs = 60_000): Promise<void> {
+  async untilScreenSays(text: string | RegExp, limitMs = LIMIT_MS): Promise<void> {
     const end = Date.now() + limitMs;
     for (let screen = await this.screen(); !screen.match(text); screen = await this.screen()) {
       if (Date.now() > end) throw new Error(`the terminal never said ${text}; it shows:\n${screen}`);
