@@ -58,7 +58,7 @@ COMMAND(cmd_set)
     here_t here = look_here();
     uint16_t value;
     if (here.kind == CELL_OFFSET) {
-        TEXT("Computed");
+        TEXT("This cell is computed");
         return SHELL_ERR_SAID;
     }
     if (!shell_take(args, 1, value_range(here.kind, here.max), &value)) {

@@ -110,8 +110,8 @@ static void tell_end(const performer_event_t *event)
         TEXT("OK, the exit links loop");
         break;
     case PERFORMER_END_PAGE:
-        TEXT("Ended: invalid page ");
-        text_number(event->a);
+        TEXT("Ended. ");
+        report_bad_page(event->a, event->b);
         break;
     case PERFORMER_END_SERVO:
         the_dialog.broken_off = true;

@@ -92,7 +92,7 @@ COMMAND(cmd_scale)
                                               : scaled(the_session.cells[at], PERCENT_WHOLE, percent, &cut));
     }
     if (cut) {
-        TEXT("Cut at 1 or 255");
+        TEXT("Some were cut to 1 or 255");
     }
     return dialog_edited();
 }
@@ -140,7 +140,7 @@ COMMAND(cmd_paste)
     }
     uint8_t count = (uint8_t)(the_dialog.take_last - the_dialog.take_first + 1u);
     if (to + count > PAGE_STEPS) {
-        TEXT("No room");
+        TEXT("No room: 7 steps at most");
         return SHELL_ERR_SAID;
     }
     session_begin();

@@ -330,7 +330,7 @@ def test_take_and_paste_between_pages(r):
     r.line("paste 0")
     data = stored(data, {0: step(FULL.data, 1), 1: step(FULL.data, 2)})
     assert bytes_of(r) == seal(data)
-    assert r.line("paste 6") == "paste 6 No room"
+    assert r.line("paste 6") == "paste 6 No room: 7 steps at most"
 
 
 def test_paste_within_a_page_reads_before_it_writes(r):
@@ -505,7 +505,7 @@ def test_goto_set_keeps_the_cursor_over_a_page_change(r):
 # ---- lists ----
 
 def test_help_list_find_show_and_give_the_screen_back(r):
-    assert r.line("help go") == "help go go      g   n  robot to step n"
+    assert r.line("help go") == "help go go      g   n  moves the robot to step n"
     r.line("list 1 3")
     shown = r.show()
     for text in ("base", "other", "full", "1.19 s", "0.25 s", "0.71 s"):
