@@ -73,7 +73,7 @@ void bus_core_on_sent(bus_core_t *core, uint16_t now_half_us)
     }
 }
 
-/* This try has failed. What the UART complained of is the better name for whatever came of it. */
+/* This try has failed. An error of the UART is the cause; what it led to is not told. */
 static void fail(bus_core_t *core, bus_status_t why, uint16_t *count)
 {
     uint8_t flags = core->heard_flags;

@@ -44,7 +44,7 @@ static void resynchronize(remote_t *remote, const uint8_t *window, uint8_t count
     /* Behind a shared FF, "U" and two characters may have been typed; four bytes with a good complement were not. */
     const bool may_be_typed = remote->shared && count <= 1 + REMOTE_TEXT_BYTES;
     if (remote->shared) {
-        window++; /* has done its duty in the packet before */
+        window++; /* it ended the packet before */
         count--;
         remote->shared = false;
     } else {

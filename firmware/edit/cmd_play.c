@@ -70,8 +70,8 @@ static uint8_t state_of(uint8_t joint)
     return state == 0 && servo_link_has(&the_performer.faulty, joint) ? 1u << BIT_LIMP : state;
 }
 
-/* All that is wrong with the servos, at once: faults come in swarms, and the row is one. Shorter than report_event, which
- * Edit has no flash for; lost torque also shows as ???? in the table. */
+/* All that is wrong with the servos in one sentence: several faults may come at once, and there is one row. Lost torque also
+ * shows as ???? in the table. */
 static NOINLINE void tell_faults(void)
 {
     TEXT_NAMED(voltage, "Low voltage");

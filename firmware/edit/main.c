@@ -31,7 +31,7 @@ static const char *mail_text_P(void)
                                                : TEXT_P("Not saved");
 }
 
-/* Not inlined: what it needs of the stack would stay for ever. */
+/* Not inlined: main never returns, so its stack would stay in use. */
 static NOINLINE void start(void)
 {
     board_start();

@@ -17,7 +17,7 @@
 typedef struct {
     bool raw;             /* page 0 is open: no trim */
     uint8_t shown;        /* joint that robot_show_play took last */
-    bool failed;          /* a joint did not answer: it is among the_servos.silent now, and the row is to say so */
+    bool failed;          /* a joint did not answer (it is in the_servos.silent): the row has to say so */
 } robot_t;
 
 extern robot_t the_robot;       /* the only one: all functions here are about it */

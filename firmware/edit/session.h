@@ -30,7 +30,7 @@ typedef struct {
     uint8_t x, y;                     /* cursor: always on a cell */
     uint8_t go_step;                  /* step last sent by GO, or SESSION_NO_STEP */
     bool hex;                         /* numbers are hexadecimal */
-    bool was_damaged;                 /* the checksum was wrong when the page was opened, and nothing cured it yet */
+    bool was_damaged;                 /* the checksum was wrong when the page was opened; a save repairs it */
     bool is_changed;                  /* differs from what flash holds: the unsaved mark */
     bool was_changed;                 /* the same, before the command under way */
     bool undo_reloads;                /* the last command was too large to note, but what was there is in flash */

@@ -22,7 +22,7 @@ uint8_t boot_call_write(uint32_t addr, const uint8_t *data, uint16_t bytes, uint
 #define FACTORY_STACK_BYTES 8
 #define FACTORY_BUFFER ((uint8_t *)MEM_FACTORY_BUFFER)
 
-/* The call itself. The routine keeps r4-r15 and r24-r29; r2 and r3 are saved because nobody promised them. */
+/* The call itself. The routine keeps r4-r15 and r24-r29; whether it keeps r2 and r3 is not known: they are saved. */
 static uint8_t call_factory(uint32_t addr)
 {
     uint8_t data_stack[FACTORY_STACK_BYTES];

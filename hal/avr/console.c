@@ -198,7 +198,7 @@ static inline void watch_room(void)
 /* Budget 160 cycles of the 2,800 between two characters at 57,600; 139 measured. */
 ISR(USART1_RX_vect)
 {
-    uint8_t status = UCSR1A;   /* before UDR1: it speaks of the byte there */
+    uint8_t status = UCSR1A;   /* before UDR1: the flags are those of the byte there */
     uint8_t byte = UDR1;
     if (status & (1u << DOR1)) {
         bump(&line.counts.overruns);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * mul.h - the multiplications that the motion core lives on, AVR version (host version: tests/fake/mul.h). May be
+ * mul.h - the multiplications of the motion core, AVR version (host version: tests/fake/mul.h). May be
  * included anywhere. In assembler because gcc 5.4 calls its library for them: 45 and 110 cycles instead of 19 and 42, and
  * the registers that the call needs besides. In C a tick of the classic law takes 15 % more than its budget (make_fall: 360
  * cycles a joint instead of 190), planning a step under the exact law twice its own. */
