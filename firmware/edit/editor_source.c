@@ -5,7 +5,7 @@
 #include "parts.h"
 #include "session.h"
 
-static void read(void *context __attribute__((unused)), uint8_t page, uint16_t offset, void *to, uint8_t count)
+static void source_read(void *context __attribute__((unused)), uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
     if (page == the_session.page) {
         memcpy(to, &the_session.cells[offset], count);
@@ -14,9 +14,9 @@ static void read(void *context __attribute__((unused)), uint8_t page, uint16_t o
     }
 }
 
-static uint8_t check(void *context __attribute__((unused)), uint8_t page)
+static uint8_t source_check(void *context __attribute__((unused)), uint8_t page)
 {
     return page == the_session.page ? (uint8_t)session_check() : (uint8_t)page_store_check(&the_pages, page);
 }
 
-const page_source_t editor_source = { NULL, read, check };
+const page_source_t editor_source = { NULL, source_read, source_check };
