@@ -41,6 +41,17 @@ def test_deepest_path_goes_through_the_table(tmp_path):
     assert "pointed(302) > leaf(42)" in done.stdout
 
 
+def test_files_are_told_with_their_code(tmp_path):
+    """other() is LDI, OUT, RET."""
+    one, two, elf = tmp_path / "one.c", tmp_path / "two.c", tmp_path / "play-x.elf"
+    one.write_text("#include <avr/io.h>\nvoid __attribute__((noinline)) other(void) { PORTC = 1; }\n")
+    two.write_text("#include <avr/io.h>\nvoid other(void);\nint main(void) { for (;;) { other(); PORTB = 2; other(); } }\n")
+    subprocess.run(["avr-gcc", "-mmcu=atmega128", "-Os", "-g", "-flto", "-ffunction-sections", one, two, "-o", elf], check=True)
+    done = subprocess.run([TOOL, "--files", elf], capture_output=True, text=True)
+    counts = {line.split()[1].rsplit("/", 1)[-1]: int(line.split()[0]) for line in done.stdout.splitlines() if line.endswith(".c")}
+    assert counts["one.c"] == 6 and counts["two.c"] > 6
+
+
 def test_ram_over_budget_fails_and_says_so(tmp_path):
     done = report(tmp_path, 3800)
     assert done.returncode == 1
