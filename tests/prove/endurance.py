@@ -29,6 +29,7 @@ FLASH_PAGE = MAP["MEM_FLASH_PAGE_BYTES"]
 JOURNAL = MAP["MEM_JOURNAL_START"], MAP["MEM_JOURNAL_START"] + SLOTS * SLOT_BYTES   # two flash pages behind it are no slot
 ALL_JOINTS = range(31)
 BOW = 2
+WAVE_OVER, CROWDED_LAYER = 60, 9      # pages that are laid over a driven walk
 
 
 def add_arguments(group):
@@ -54,11 +55,14 @@ def crowded(seed):
         image[number] = page(f"code {code}", steps(4, 64), joints=ALL_JOINTS, code=code, next=number, exit=8,
                              link1_code=LEFT, link1_page=6, link2_code=UP, link2_page=4)
     image[8] = page("stop", steps(1, 96), joints=ALL_JOINTS)
+    image[CROWDED_LAYER] = page("layer", [(48, {joint: 600 for joint in range(15)}), (48, {})], joints=range(15), next=CROWDED_LAYER)
+    image[4].data[17], image[4].data[18] = 7, 6   # partners for blending, of as many steps
+    image[4].seal()
     return image.to_bytes()
 
 
-def walk(seed, joints, motions, minutes):
-    walker = Walker(seed, joints, motions, reference=BOW)
+def walk(seed, joints, motions, minutes, layer):
+    walker = Walker(seed, joints, motions, reference=BOW, layer=layer)
     board = walker.board
     first, same = walker.measure(), 0
     measured_ms, end_ms = board.now_ms, board.now_ms + minutes * 60_000
@@ -106,7 +110,9 @@ def work(item):
     try:
         if what == "edit":
             return edit(seed, amount)
-        return walk(seed, range(1, 19) if what == "walk" else ALL_JOINTS, library() if what == "walk" else crowded(seed), amount)
+        if what == "walk":
+            return walk(seed, range(1, 19), library(), amount, layer=WAVE_OVER)
+        return walk(seed, ALL_JOINTS, crowded(seed), amount, layer=CROWDED_LAYER)
     except (Violation, AssertionError) as error:
         return {"died": f"{what}, seed {seed}: {error}\n{traceback.format_exc()}"}
 
@@ -116,7 +122,8 @@ def walked(result, joints):
     bus, counts, done = result["bus"], result["counts"], result["done"]
     how = (f"Play with {joints} servos, {result['minutes']:.1f} simulated minutes in one run: {done['packets']} packets of the remote, "
            f"{done['plays']} pages called, {done['stops']} stops, {done['breaks']} breaks, {done['pauses']} pauses, "
-           f"{done['commands']} commands, {done['faults']} faults of servos")
+           f"{done['commands']} commands, {done['faults']} faults of servos, "
+           f"{done['driven']} lines of @drive with pages laid over the walk")
     for complaint in result["complaints"]:
         print(f"   {complaint}")
     return [

@@ -30,10 +30,10 @@ OUT_MS = 50             # between the sentence and the last goal that may still 
 SAMPLE = 60             # states, when only a sample is asked for
 PASSING = {"blink", "late", "late-2"}   # a servo with one of these may answer again by itself
 SITUATIONS = {f"{image}.{state}": (robot, words) for image, robot, states in (
-    ("play", PlayRobot, ("rest", "walk.hold", "walk.exit", "walk.limp", "off", "pause.hold", "pause.limp")),
+    ("play", PlayRobot, ("rest", "walk.hold", "walk.exit", "walk.limp", "off", "pause.hold", "pause.limp", "layer.hold", "layer.exit")),
     ("edit", EditRobot, ("rest", "teach", "walk.hold", "walk.exit", "walk.limp")))
     for state in states for words in [state.split(".")]}
-IN_PAIRS = [name for name in SITUATIONS if name not in ("play.off", "play.pause.hold", "play.pause.limp")]
+IN_PAIRS = [name for name in SITUATIONS if name not in ("play.off", "play.pause.hold", "play.pause.limp", "play.layer.hold", "play.layer.exit")]
 ALONE_ON = (1, 5, 15, MARKED_OFF, RELEASED, UNUSED[-1])
 
 

@@ -17,14 +17,24 @@ from boot_noise import fuzz as boot_fuzz
 from cm5sim import Board
 from cm5sim.board import CYCLES_PER_TICK, sync_goals
 from edit_noise import fuzz as edit_fuzz
+from m512.files.image import from_bytes
 from play_robot import motions
 
 XON, XOFF = 0x11, 0x13
 SETTINGS_END = 0x100
 HEADROOM_MIN = 64
 ANSWER_TRIES = 40     # of 3 s each
+WALK, TURN_LEFT, TURN_RIGHT = 4, 6, 7     # of play_robot.motions()
 SYNC_WRITE, REG_WRITE, WRITE, READ = 0x83, 4, 3, 2
 EEPROM_REGISTERS = 24
+
+
+def pages():
+    """The pages of Play's tests, and the turns as the walk's partners for blending."""
+    image = from_bytes(motions())
+    image[WALK].data[17], image[WALK].data[18] = TURN_RIGHT, TURN_LEFT
+    image[WALK].seal()
+    return image.to_bytes()
 
 
 class Session:
@@ -92,7 +102,7 @@ class Session:
     # playing
 
     def start(self):
-        self.board = Board(images=[self.image], motions=motions(), servos=self.servos, seed=self.seed % 65536 + 1)
+        self.board = Board(images=[self.image], motions=pages(), servos=self.servos, seed=self.seed % 65536 + 1)
         self.board.forbid("unexpected-reset")
         self.board.expect("] ", ms=2500)
         self.board.run(ms=300)
@@ -155,10 +165,11 @@ class Session:
 # ---- the shell ----
 
 WORDS = ("play stop break pause resume code on off list status servos faults law remote settings baud version help p s b ? "
+         "rate amplitude blend drive layer aim swing free shape @rate @amplitude @blend @drive @layer @aim @swing @free @shape @watch "
          "@ver @list @page @pose @move @torque @play @stop @break @pause @resume @where @open @data @crc @save @ @nothing").split()
 ARGUMENTS = ("0 1 2 3 4 8 9 11 13 14 15 16 17 18 19 20 21 22 30 31 32 64 126 127 128 200 240 255 256 1023 1024 65535 65536 99999999999 "
-             "0x0 0x1F 0x200 0xFFFF 0x10000 0xfg -1 1.5 x ready bow walk thrice slow loop find defaults exact classic latch hold on off "
-             "approach fault low hot neutral flow fast talk law remote 200 200200 --- 1ff---200 3ff400 0g0 \xff").split()
+             "0x0 0x1F 0x200 0xFFFF 0x10000 0xfg -1 1.5 x ready bow walk thrice 4 5 6 slow loop find defaults exact classic latch hold on off "
+             "-100 -40 50 100 150 151 400 401 512 700 reset drive centre approach fault low hot neutral flow fast talk law remote 200 200200 --- 1ff---200 3ff400 0g0 \xff").split()
 KEYS = (b"\x08", b"\x7f" * 5, b"\x01", b"\x15", b"\x1b[A", b"\x1b[B", b"\x1b[", b"\x1b", b"\x1b[12;3R", b"\0", b"\x11", b"\x13", b"\t", b";")
 
 
@@ -373,7 +384,7 @@ class EditBus(Bus):
             self.board.run(ms=1500)
 
     def start(self):
-        self.board = Board(images=["boot-cm5.hex", self.image], motions=motions(), servos=self.servos, seed=self.seed % 65536 + 1)
+        self.board = Board(images=["boot-cm5.hex", self.image], motions=pages(), servos=self.servos, seed=self.seed % 65536 + 1)
         self.board.forbid("unexpected-reset")
         self.board.eeprom[0xFFF] = 0x11
         self.board.run(ms=2500)

@@ -12,7 +12,7 @@ import proof
 import promises
 from body.chance import NOMINAL, body_of_the_bench, random_body
 from body.description import load
-from body.driven import Eight, drive, rounds
+from body.driven import Eight, Stick, drive, rounds
 from body.trial import pace
 from m512.files.formats import load as load_motions
 
@@ -21,7 +21,7 @@ PROMISE = "A walk stays a walk while its speed, size and direction change, while
 
 HEAD = load("humanoid", head=True)
 CYCLE_S = 72 / 128               # of the walk at rate 100
-SEGMENT_S, SETTLES_S = 12, 3     # a value is held so long; its figures are those behind the first seconds
+SEGMENT_S, SETTLES_S = 12, 5     # a value is held so long; its figures are those behind the first seconds
 VALUES = {"rate": (50, 75, 100, 125, 150), "amplitude": (0, 30, 60, 90, 120), "blend": (-100, -50, 0, 50, 100)}
 STRAIGHT = {"blend": 0, "rate": 100, "amplitude": 100}
 BODIES = 20
@@ -64,10 +64,11 @@ def order_by_chance(kind, seed):
 def swept(walk, kind, seed):
     """(said if it fell or stands no more, {value: (mm/s, mm a cycle, degrees a cycle)})"""
     order = order_by_chance(kind, seed)
+    stick = Stick(**STRAIGHT | {kind: order[0]})
 
     def hand(seen):
-        percent = STRAIGHT | {kind: order[min(int(seen.time_s / SEGMENT_S), len(order) - 1)]}
-        return percent["blend"], percent["rate"], percent["amplitude"]
+        wish = STRAIGHT | {kind: order[min(int(seen.time_s / SEGMENT_S), len(order) - 1)]}
+        return stick.towards(wish["blend"], wish["rate"], wish["amplitude"])
 
     outcome = walk.driven(seed, SEGMENT_S * len(order), hand)
     figures = {}
@@ -91,7 +92,7 @@ def sweep_figures(walk, kind, seeds, options):
     steady = [all(sign * low[which] < sign * high[which] for low, high in zip(row, row[1:]))
               for row in ([figures[value] for value in VALUES[kind]] for _, figures in results)]
     lowest, highest = VALUES[kind][0], VALUES[kind][-1]
-    how = f"60 s on the nominal body and {len(seeds) - 1} by chance, a value for {SEGMENT_S} s, in any order"
+    how = f"60 s on the nominal body and {len(seeds) - 1} by chance, a value for {SEGMENT_S} s, in any order; the stick goes 50 % a second"
     values = ", ".join(f"{value}: {mean:.0f}" for value, mean in zip(VALUES[kind], means))
     return [proof.Figure(f"{kind} {lowest}..{highest} %: no fall.", how, f"{len(fallen)} of {len(seeds)} fall" + told(fallen), not fallen,
                          headline=True),
@@ -109,7 +110,7 @@ def told(bad):
 
 def joyridden(walk, seed):
     """All three change at any moment; then the cable is pulled."""
-    chance, wish, until = random.Random(f"joyride {seed}"), [0, 100, 100], [0.0]
+    chance, stick, wish, until = random.Random(f"joyride {seed}"), Stick(), [0, 100, 100], [0.0]
     pulled_s = chance.uniform(6, 14)
 
     def hand(seen):
@@ -118,7 +119,7 @@ def joyridden(walk, seed):
         if seen.time_s >= until[0]:
             until[0] = seen.time_s + chance.uniform(0.1, 2)
             wish[:] = chance.randint(-100, 100), chance.randint(50, 150), chance.randint(0, 120)
-        return tuple(wish)
+        return stick.towards(*wish)
 
     outcome = walk.driven(seed, pulled_s + TOO_LONG_S, hand)
     return outcome.ended and outcome.on_feet and outcome.fell_s is None, outcome.said() + ("" if outcome.ended else ", still walking")

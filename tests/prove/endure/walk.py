@@ -62,9 +62,9 @@ def ticks_of(page):
 class Walker:
     """The robot and what is done to it."""
 
-    def __init__(self, seed, joints, motions, reference):
+    def __init__(self, seed, joints, motions, reference, layer):
         self.chance = random.Random(seed)
-        self.joints, self.reference = list(joints), reference
+        self.joints, self.reference, self.layer = list(joints), reference, layer
         self.pages = {number: page for number, page in from_bytes(motions).items() if number and page.is_playable}
         self.reference_ticks = ticks_of(self.pages[reference])
         self.board = play_robot.robot(servos=self.joints, pages=motions, seed=seed)
@@ -76,7 +76,7 @@ class Walker:
         self.held = self.flooding = 0
         self.may_send, self.rest, self.lines = True, b"", 0
         self.text = ""
-        self.done = dict.fromkeys(("plays", "codes", "breaks", "pauses", "stops", "faults", "commands", "packets"), 0)
+        self.done = dict.fromkeys(("plays", "codes", "breaks", "pauses", "stops", "faults", "commands", "packets", "driven"), 0)
         self.complaints = []
 
     # ---- time ----
@@ -214,6 +214,24 @@ class Walker:
             self.hold(self.chance.choice((UP, UP | LEFT, RIGHT, 0, UP)))
         self.stop_typing()
 
+    def driven(self):
+        """A program drives the walk twenty times a second, a second page comes over it and goes; then the cable is pulled, and the
+        play ends by itself."""
+        self.hold(UP)
+        self.run(1500)
+        self.hold(0)
+        wish, before = (0, 100, 100), self.text
+        for line in range(self.chance.randrange(40, 160)):
+            if line % 10 == 0:
+                wish = self.chance.randint(-100, 100), self.chance.randint(50, 200), self.chance.randint(0, 120)
+            self.board.send("@drive {} {} {}\r".format(*wish))
+            if line % 30 == 15:
+                self.board.send(self.chance.choice((f"layer {self.layer}\r", "layer off\r")))
+            self.run(50)
+            self.done["driven"] += 1
+        if not self.until("Stopped|Broken|Ended", 9000):
+            self.complaints.append(f"nobody drives, and the play goes on, at {self.board.now_ms:.0f} ms: {before[-40:]} ... {self.text[-80:]}")
+
     def passing_faults(self):
         """Spoiled answers, one or two in a row: the walk goes on."""
         self.hold(UP)
@@ -247,7 +265,7 @@ class Walker:
 
     def episode(self):
         chosen = self.chance.choices((self.walk, self.call, self.flood, self.passing_faults, self.lasting_fault,
-                                      self.set_something), (30, 30, 6, 8, 4, 2))[0]
+                                      self.set_something, self.driven), (30, 30, 6, 8, 4, 2, 8))[0]
         chosen()
         self.stand()
 

@@ -20,7 +20,8 @@ SWINGING = range(1, 16)        # joints with positions in the pages
 MARKED_OFF, RELEASED = 16, 17  # by the page, by hand
 UNUSED = (18, 19, 20)
 TORQUE_OFF_MARK, UNUSED_MARK = 0x2000, 0x4000
-WALK, EXIT, POSE = 4, 5, 6
+WALK, EXIT, POSE, LAYER = 4, 5, 6, 7
+LAID_OVER = (1, 2, 3)          # joints of the layer
 LOW, HIGH, MIDDLE = 412, 612, 512
 RULES = ("hold", "exit", "limp")   # settings fault 0, 1, 2
 SLICE_MS = 10
@@ -34,7 +35,7 @@ EDIT_SAYS = {"No answer": SILENT, "Low voltage": VOLTAGE, "Angle limit": ANGLE, 
 
 
 def motions():
-    """A page that swings all joints to and fro until it is stopped, the page it leaves by, and a pose."""
+    """A page that swings all joints to and fro until it is stopped, the page it leaves by, a pose, and a page that is laid over the first."""
     placed = (*SWINGING, RELEASED)
 
     def swing(number):
@@ -43,6 +44,7 @@ def motions():
     image[WALK] = page("walk", [(64, swing(0)), (64, swing(1))], joints=placed, next=WALK, exit=EXIT)
     image[EXIT] = page("exit", [(40, {})], joints=placed)
     image[POSE] = page("pose", [(40, {joint: 540 for joint in placed})], joints=placed)
+    image[LAYER] = page("layer", [(48, {joint: 560 for joint in LAID_OVER}), (48, {})], joints=LAID_OVER, next=LAYER)
     for number in (WALK, EXIT, POSE):
         for step in range(7):
             for joint in range(31):
@@ -93,7 +95,7 @@ class Watched:
     @property
     def cut(self):
         """Joints that the rule switches off."""
-        return frozenset(THERE) - {RELEASED} if self.state in ("walk", "pause") and self.rule == "limp" else frozenset()
+        return frozenset(THERE) - {RELEASED} if self.state in ("walk", "layer", "pause") and self.rule == "limp" else frozenset()
 
     @property
     def holding(self):
@@ -111,15 +113,18 @@ class PlayRobot(Watched):
     def __init__(self, state, rule="hold", seed=1):
         self.name = f"play.{state}" + (f".{rule}" if state not in ("rest", "off") else "")
         self.board = play_robot.robot(servos=THERE, pages=motions(), seed=seed)
-        self.rule, self.state, self.playing = rule, state, state == "walk"
+        self.rule, self.state, self.playing = rule, state, state in ("walk", "layer")
         self.text = ""
         for line in (f"settings fault {RULES.index(rule)}", "on", f"off {RELEASED}"):
             self.line(line)
         if state == "off":
             self.line("off")
-        elif state in ("walk", "pause"):
+        elif state in ("walk", "layer", "pause"):
             self.line(f"play {WALK}")
             self.board.expect("Page 4 step 2", ms=4000)
+        if state == "layer":
+            for line in ("rate 120", "amplitude 90", f"layer {LAYER}"):
+                self.line(line)
         if state == "pause":
             self.line("pause")
             self.board.run(ms=500)

@@ -2,7 +2,7 @@
 """Keys and a stick become `@drive` lines; the shape of a play from the command line."""
 import pytest
 from m512.board import driving
-from m512.errors import NoAnswerError
+from m512.errors import BoardError, NoAnswerError
 
 
 class Line:
@@ -17,14 +17,19 @@ class Line:
 
 
 class Board:
-    def __init__(self, link, fails_at=None):
-        self.asked, self.link, self.fails_at = [], link, fails_at
+    def __init__(self, link, fails_at=None, refuses="", ends_at=None):
+        self.asked, self.link, self.fails_at, self.refuses, self.ends_at = [], link, fails_at, refuses, ends_at
 
     def ask(self, request, *_, **__):
         self.asked.append((round(self.link.now(), 3), request))
         if self.fails_at is not None and len(self.asked) == self.fails_at:
             raise NoAnswerError("no answer")
+        if self.refuses and request.startswith(self.refuses):
+            raise BoardError("Nothing is playing", 14)
         return ""
+
+    def where(self):
+        return {"state": "idle" if self.ends_at is not None and self.link.now() >= self.ends_at else "playing"}
 
 
 class Script(driving.Keys):
@@ -41,10 +46,10 @@ class Script(driving.Keys):
         super().update(stick, seconds)
 
 
-def play(keys, **options):
+def play(keys, layer=0, **options):
     link = Line()
     board = Board(link, **options)
-    driving.drive(board, Script(keys), link, lambda stick: None)
+    driving.drive(board, Script(keys), link, lambda stick: None, layer)
     return board.asked
 
 
@@ -61,6 +66,25 @@ def test_drive_steers_while_a_key_repeats_and_goes_straight_when_it_ends():
     assert asked[0.4] == "drive 88 110 100"           # back by 60 percent a second, from 0.2 s on
     assert asked[2.9] == "drive 0 110 100"
     assert play([(0.1, "x")])[-1][1] == "break"
+
+
+def test_drive_lays_a_second_page_over_the_walk_and_takes_it_off():
+    asked = [request for _, request in play([(0.2, "f"), (0.6, "f"), (1.0, "F"), (1.5, " ")], layer=60) if not request.startswith("drive")]
+    assert asked == ["layer 60", "layer off", "layer 60", "stop"]
+    assert not any("layer" in request for _, request in play([(0.2, "f"), (1.0, " ")]))
+
+
+def test_a_layer_that_is_refused_is_told_and_the_walk_goes_on():
+    link, told = Line(), []
+    board = Board(link, refuses="layer")
+    driving.drive(board, Script([(0.2, "f"), (1.0, " ")]), link, lambda stick: told.append(stick.said), 60)
+    assert "Nothing is playing" in told and board.asked[-1][1] == "stop"
+    assert len([1 for _, request in board.asked if request.startswith("drive")]) == 21
+
+
+def test_drive_ends_when_the_play_has_ended():
+    asked = play([], ends_at=2.0)
+    assert 2.0 <= asked[-1][0] <= 3.1 and asked[-1][1].startswith("drive")
 
 
 def test_drive_that_fails_stops_the_robot():

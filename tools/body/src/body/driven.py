@@ -68,6 +68,20 @@ def drive(image, page, ready, seconds, hand, robot="humanoid", variation=NOMINAL
     return outcome
 
 
+class Stick:
+    """A stick that a hand moves: it goes 50 % in a second, from where it is towards what is wished."""
+
+    A_LINE = 2.5                 # percent
+
+    def __init__(self, blend=0.0, rate=100.0, amplitude=100.0):
+        self.at = (blend, rate, amplitude)
+
+    def towards(self, *wish):
+        """Where it is one line later: (blend, rate, amplitude)."""
+        self.at = tuple(at + max(-self.A_LINE, min(self.A_LINE, to - at)) for at, to in zip(self.at, wish))
+        return self.at
+
+
 class Eight:
     """A hand that steers a figure of eight by what it sees: a circle to the left, one to the right, `length_mm` across both.
 

@@ -10,19 +10,24 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from m512.board.client import Client
+from m512.errors import BoardError
 
 PERIOD = 0.05                     # seconds between two lines
+ASK_EVERY = 20                    # lines: whether it still plays
 RATES, AMPLITUDES, BLENDS = (10, 400), (0, 150), (-100, 100)
 
 
 @dataclass
 class Stick:
-    """What is asked for, in percent: blend to the right, rate, amplitude. `done`: stop, softly or at once."""
+    """What is asked for, in percent: blend to the right, rate, amplitude; whether the second page is laid over the first. `done`: stop,
+    softly or at once. `said`: news for who drives."""
 
     blend: float = 0.0
     rate: float = 100.0
     amplitude: float = 100.0
+    layer: bool = False
     done: str = ""
+    said: str = ""
 
     def line(self) -> str:
         return f"drive {_within(self.blend, BLENDS)} {_within(self.rate, RATES)} {_within(self.amplitude, AMPLITUDES)}"
@@ -38,7 +43,7 @@ class Source(Protocol):
 class Keys:
     """Keys of a terminal, which tells presses and no releases: steering goes back to straight by itself."""
 
-    HELP = "a d steer, w s faster and slower, e q larger and smaller, space stops softly, x at once"
+    HELP = "a d steer, w s speed, e q size, space stops, x at once"
     STEER, BACK, FASTER, LARGER = 25.0, 60.0, 10.0, 10.0     # percent a key; percent a second; percent a key
 
     def __init__(self) -> None:
@@ -55,14 +60,16 @@ class Keys:
             stick.blend = _clamp(stick.blend + self.STEER * ((key == "d") - (key == "a")), BLENDS)
             stick.rate = _clamp(stick.rate + self.FASTER * ((key == "w") - (key == "s")), (50, 150))
             stick.amplitude = _clamp(stick.amplitude + self.LARGER * ((key == "e") - (key == "q")), (0, 120))
+            stick.layer ^= key == "f"
             if key in " x\x03":
                 stick.done = "stop" if key == " " else "break"
 
 
 class Pad:
-    """A game pad, read by `axis(n)` (-1 .. 1) and `button(n)`: left stick steers and speeds, any of the first four buttons stops."""
+    """A game pad, read by `axis(n)` (-1 .. 1) and `button(n)`: left stick steers and speeds, any of the first four buttons stops, the
+    fifth (a shoulder) lays the second page over while it is held."""
 
-    DEAD = 0.12
+    DEAD, LAYER = 0.12, 4
 
     def __init__(self, pad) -> None:
         self.pad = pad
@@ -71,26 +78,43 @@ class Pad:
         across, along = (0.0 if abs(value) < self.DEAD else value for value in (self.pad.axis(0), self.pad.axis(1)))
         stick.blend = _clamp(100 * across, BLENDS)
         stick.rate = 100 - 50 * _clamp(along, (-1, 1))          # forward is negative
+        stick.layer = bool(self.pad.button(self.LAYER))
         if any(self.pad.button(n) for n in range(4)):
             stick.done = "stop"
 
 
-def drive(client: Client, source: Source, link, told) -> None:
-    """Sends until the source says done or the play ends; `told(stick)` after each line. A play that is left by an exception
-    is stopped softly."""
-    stick, before = Stick(), link.now()
+def drive(client: Client, source: Source, link, told, layer: int = 0) -> Stick:
+    """Sends until the source says done or the play ends; `told(stick)` after each line. layer: the second page, 0: there is none. A play
+    that is left by an exception is stopped softly."""
+    stick, before, laid, lines = Stick(), link.now(), False, 0
     try:
         while not stick.done:
-            now = link.now()
+            now, lines = link.now(), lines + 1
             source.update(stick, now - before)
             before = now
             client.ask(stick.line())
+            if layer and stick.layer != laid:
+                laid, stick.said = stick.layer, _laid(client, layer if stick.layer else "off")
+            if lines % ASK_EVERY == 0 and client.where()["state"] == "idle":
+                stick.said = "the play has ended"
+                told(stick)
+                return stick
             told(stick)
             link.sleep(max(PERIOD - (link.now() - now), 0))
     except BaseException:
         client.ask("stop")
         raise
     client.ask(stick.done)
+    return stick
+
+
+def _laid(client: Client, page) -> str:
+    """Lays the page over the walk, or takes it off; what the board has against it is no reason to stop."""
+    try:
+        client.ask(f"layer {page}")
+    except BoardError as error:
+        return str(error)
+    return ""
 
 
 def _clamp(value: float, span) -> float:

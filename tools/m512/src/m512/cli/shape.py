@@ -50,11 +50,13 @@ def shape(rate, amplitude, blend, reset, **options):
 @click.command(epilog="""\b
 Examples:
   m512 drive walk                keys of the terminal; keep a or d pressed to steer
+  m512 drive walk --layer wave_over       f lays a second page over it: it waves while it walks
   m512 drive walk --pad          the first game pad (pip install "m512[drive]")""")
 @click.argument("page")
 @click.option("--pad", is_flag=True, help="A game pad instead of keys.")
+@click.option("--layer", "laid", metavar="PAGE", help="Key f (the pad's fifth button) lays this page over the walk.")
 @robot_options
-def drive(page, pad, **options):
+def drive(page, pad, laid, **options):
     """Play PAGE and drive it: a joystick at 20 lines a second.
 
     When the cable is lost or m512 ends, the board stops the play through its exit page.
@@ -62,16 +64,18 @@ def drive(page, pad, **options):
     from m512.board import driving
 
     with robot(options) as client:
-        number = client.find(page)
+        number, second = client.find(page), client.find(laid) if laid else 0
         with (_pad() if pad else _keys()) as source:
             client.play(number)
             ui.say(f"page {number} plays. " + ("Any of the first four buttons stops it" if pad else driving.Keys.HELP))
-            driving.drive(client, source, client.link, _tell)
-    ui.say("stopping")
+            if second:
+                ui.say(f"{'The fifth button' if pad else 'f'} lays page {second} over it")
+            stick = driving.drive(client, source, client.link, _tell, second)
+    ui.say("\nstopping" if stick.done else "")
 
 
 def _tell(stick):
-    click.echo(f"\r{stick.line()}   ", err=True, nl=False)
+    click.echo(f"\r{stick.line()}  {stick.said}   ", err=True, nl=False)
 
 
 @contextmanager
