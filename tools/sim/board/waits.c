@@ -91,13 +91,13 @@ static uint64_t next_change(const board_t *board, uint64_t from)
     return next;
 }
 
-/* All rounds but the last: a watchdog that the loop feeds is fed once more before its time. */
+/* A watchdog that the loop feeds has to be fed once more before its time. */
 static void skip(board_t *board)
 {
     uint64_t from = board->waits.at, now = board->avr->cycle, next = next_change(board, from);
-    uint64_t rounds = next == NEVER || next <= now ? 0 : (next - now) / (now - from);
-    if (rounds > 1) {
-        board->avr->cycle = now + (rounds - 1) * (now - from);
+    uint64_t end = board->events.when[EVENT_WATCHDOG] == next ? next - (now - from) : next;
+    if (next != NEVER && end > now) {
+        board->avr->cycle = now + (end - now) / (now - from) * (now - from);
     }
 }
 
@@ -108,6 +108,19 @@ static void note_state(const avr_t *avr, uint8_t state[WAITS_STATE_BYTES])
     memcpy(state + 36, avr->sreg, 8);
     state[44] = avr->data[M128_SPL];
     state[45] = avr->data[M128_SPH];
+}
+
+/* Whether the SRAM is as it was at the last jump back; then takes it as it is now. */
+static bool ram_is_same(board_t *board)
+{
+    waits_t *waits = &board->waits;
+    const uint8_t *ram = board->avr->data + M128_RAM_START;
+    bool same = waits->knows_ram && memcmp(ram, waits->ram, sizeof waits->ram) == 0;
+    if (!same) {
+        memcpy(waits->ram, ram, sizeof waits->ram);
+    }
+    waits->knows_ram = true;
+    return same;
 }
 
 void waits_passed(board_t *board, uint32_t pc)
@@ -121,14 +134,11 @@ void waits_passed(board_t *board, uint32_t pc)
     }
     uint8_t state[WAITS_STATE_BYTES];
     note_state(avr, state);
-    const uint8_t *ram = avr->data + M128_RAM_START;
-    bool same = !waits->touched && memcmp(state, waits->state, sizeof state) == 0;
-    if (same && waits->knows_ram && memcmp(ram, waits->ram, M128_RAM_END - M128_RAM_START) == 0) {
+    if (waits->touched) {
+        waits->knows_ram = false;
+    } else if (ram_is_same(board) && memcmp(state, waits->state, sizeof state) == 0) {
         skip(board);
-    } else if (same) {
-        memcpy(waits->ram, ram, M128_RAM_END - M128_RAM_START);
     }
-    waits->knows_ram = same;
     memcpy(waits->state, state, sizeof state);
     waits->at = avr->cycle;
     waits->touched = false;

@@ -11,10 +11,10 @@
 typedef struct {
     bool on;
     bool touched;                           /* since the last jump back: something beside registers and stack */
-    bool knows_ram;
+    bool knows_ram;                         /* `ram` is as it was at the last jump back */
     uint64_t at;                            /* the last jump back, */
     uint8_t state[WAITS_STATE_BYTES];       /* and the chip behind it */
-    uint8_t ram[M128_RAM_END];
+    uint8_t ram[M128_RAM_END - M128_RAM_START];
     uint8_t kind[M128_FLASH_BYTES / 2];     /* of each instruction, while `on` */
 } waits_t;
 
