@@ -26,7 +26,7 @@ enum { HAND_OVER_DONE, HAND_OVER_FRESH, HAND_OVER_FIRST_STEP, HAND_OVER_CATCHES_
 
 /* --- code-made motion: the slots --------------------------------------------------------------------------------- */
 
-static layers_code_t *slot_of(layers_t *layers, uint8_t joint)
+static NOINLINE layers_code_t *slot_of(layers_t *layers, uint8_t joint)
 {
     for (uint8_t i = 0; i < LAYERS_CODE_JOINTS; i++) {
         if (layers->code[i].joint == joint) {
@@ -54,7 +54,7 @@ static uint16_t asked_by_code(const layers_code_t *code)
 /* --- hand-over ---------------------------------------------------------------------------------------------------- */
 
 /* Servo units that a joint may go in this tick; what is left over is kept. */
-static uint8_t allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
+static NOINLINE uint8_t allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
 {
     uint16_t sum = (uint16_t)(*allowance_q8_8 + speed_q8_8);
     *allowance_q8_8 = sum & 0xFFu;
@@ -62,7 +62,7 @@ static uint8_t allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
 }
 
 /* One tick from `from` toward `to`. */
-static uint16_t approach_by(uint16_t from, uint16_t to, uint8_t most)
+static NOINLINE uint16_t approach_by(uint16_t from, uint16_t to, uint8_t most)
 {
     if (to > from) {
         return to - from > most ? (uint16_t)(from + most) : to;

@@ -8,7 +8,7 @@
 #define TICK_BITS 11 /* lengths are in 1/2048 tick */
 
 /* length in 1/2048 tick; what is left after the whole ticks is carried on */
-static uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_11)
+static NOINLINE uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_11)
 {
     length_q21_11 += *carry_q5_11;
     uint32_t ticks = length_q21_11 >> TICK_BITS;
@@ -22,7 +22,7 @@ static uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_11)
 
 /* length / rate, floor; of a length above LENGTH_MAX that of LENGTH_MAX. */
 #define LENGTH_MAX ((uint32_t)UINT16_MAX << TICK_BITS)
-static uint32_t at_rate(uint32_t length, uint16_t rate_percent)
+static NOINLINE uint32_t at_rate(uint32_t length, uint16_t rate_percent)
 {
     if (rate_percent == SHAPE_NORMAL) {
         return length;

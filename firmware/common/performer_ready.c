@@ -36,24 +36,22 @@ static performer_ready_t ask_one_joint(performer_t *performer)
     servo_link_t *servos = PERFORMER_SERVOS(performer);
     const uint8_t id = lowest_joint(performer->ready_left);
     const uint32_t joint = servo_link_bit(id);
-    if ((performer_layers_joints(performer) & joint) != 0) { /* under way already: its goal is where it is */
-        performer->ready_left &= ~joint;
-        performer->joints |= joint;
-        return READY_ASKING;
-    }
-    if ((servos->torque & joint) == 0) {
+    bool is_there = (performer_layers_joints(performer) & joint) != 0; /* under way already: its goal is where it is */
+    if (!is_there && !servo_link_has(&servos->torque, id)) {
         if (servo_link_torque_on(servos, joint) != 0) {
             return READY_ASKING;
         }
-    } else if (servo_link_read_pose(servos, joint) != 0) {
+    } else if (!is_there && servo_link_read_pose(servos, joint) != 0) {
         servo_link_full_speed(servos, joint);
-        performer->ready_left &= ~joint;
-        performer->joints |= joint;
         performer->goal_pos[id] = servos->present_pos[id];
+        is_there = true;
+    }
+    servo_link_put(&performer->ready_left, id, false);
+    if (is_there) {
+        servo_link_put(&performer->joints, id, true);
         return READY_ASKING;
     }
-    performer->ready_left &= ~joint;
-    performer->faulty |= joint;
+    servo_link_put(&performer->faulty, id, true);
     performer_event_put(&performer->events, PERFORMER_EV_SILENT, id, 0, 0);
     return PERFORMER_SETTINGS(performer)->fault_rule == SETTINGS_FAULT_LIMP ? READY_ASKING : READY_SILENT;
 }

@@ -9,7 +9,7 @@
 /* What the fault rule acts on. A voltage error is told but ends nothing: the battery is low long before it is empty. */
 #define ERRORS_GRAVE (DXL_ERR_ANGLE | DXL_ERR_HEAT | DXL_ERR_OVERLOAD)
 
-static void tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b)
+static NOINLINE void tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b)
 {
     performer_event_put(&performer->events, kind, a, b, 0);
 }

@@ -60,6 +60,16 @@ void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)
     }
 }
 
+void report_version(const app_record_t *record)
+{
+    for (uint8_t i = 0; i < sizeof record->version; i++) {
+        if (i > 0) {
+            text_put('.');
+        }
+        text_number(record->version[i]);
+    }
+}
+
 void report_joints(uint32_t joints)
 {
     uint8_t run = 0; /* joints in a row so far: 0, 1, 2 for more */

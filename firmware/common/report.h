@@ -5,6 +5,7 @@
 #define REPORT_H
 
 #include <stdint.h>
+#include "app_record.h"
 #include "page.h"
 #include "performer.h"
 
@@ -17,6 +18,9 @@ void report_bad_page(uint8_t page, uint8_t fault);
 
 /* Why a play did not start: report_bad_page, "Busy: stop what is playing first", ... Nothing for PERFORMER_OK. */
 void report_refusal(performer_status_t status, uint8_t page, uint8_t fault);
+
+/* "1.0.0": the version in an image's record. */
+void report_version(const app_record_t *record);
 
 /* "1-18 20": the joints of a mask; "none". */
 void report_joints(uint32_t joints);

@@ -53,149 +53,111 @@ void report_voltage(uint8_t dv)
     TEXT(" V");
 }
 
-static void report_link(uint8_t to_page, uint8_t taken)
+/* What stands for a part of the event in a sentence. */
+static void report_part(char part, const performer_event_t *event)
 {
-    switch (taken) {
-    case LINK_EXIT:
-        TEXT("Exit link");
-        break;
-    case LINK_LINKED1:
-        TEXT("Link 1");
-        break;
-    case LINK_LINKED2:
-        TEXT("Link 2");
-        break;
-    case LINK_ENDED:
-        TEXT("No link");
-        break;
-    case LINK_END_OF_EXIT_LOOP:
-        TEXT("The exit pages lead back to themselves");
-        return;
-    default:
-        TEXT("Next link");
-        break;
-    }
-    TEXT(" to ");
-    if (to_page == 0) {
-        TEXT("the end");
-    } else {
-        report_page(to_page);
-    }
-}
-
-static void report_end(const performer_event_t *event)
-{
-    switch (event->c) {
-    case PERFORMER_END_THERE:
-        TEXT("The pose is reached");
-        return;
-    case PERFORMER_END_PAGE:
-        TEXT("Ended. ");
-        report_bad_page(event->a, event->b);
-        return;
-    case PERFORMER_END_STOPPED:
-        TEXT("Stopped after ");
-        break;
-    case PERFORMER_END_BROKEN:
-        TEXT("Broken off in ");
-        break;
-    case PERFORMER_END_LOOP:
-        TEXT("Stopped after ");
-        break;
-    case PERFORMER_END_SERVO:
-        TEXT("Ended for the fault of a servo in ");
-        break;
-    default:
-        TEXT("Ended after ");
-        break;
-    }
-    if (event->a == 0) {
-        TEXT("a move");
-    } else {
-        report_page(event->a);
-    }
-}
-
-static void report_step(const performer_event_t *event)
-{
-    if (event->b == 1) {
-        TEXT("Playing ");
-        report_page(event->a);
-    } else {
-        TEXT("Page ");
+    switch (part) {
+    case '#':
         text_number(event->a);
+        break;
+    case '%':
+        text_number(event->b);
+        break;
+    case '^':
+        text_number(event->c);
+        break;
+    case '@': /* the page that played */
+        if (event->a == 0) {
+            TEXT("a move");
+        } else {
+            report_page(event->a);
+        }
+        break;
+    case '$': /* the page that follows */
+        if (event->a == 0) {
+            TEXT("the end");
+        } else {
+            report_page(event->a);
+        }
+        break;
+    case '!':
+        report_bad_page(event->a, event->b);
+        break;
+    case '~':
+        report_voltage(event->a);
+        break;
+    case '*':
+        report_servo_errors(event->b);
+        break;
+    default:
+        text_put(part);
+        break;
     }
-    TEXT(" step ");
-    text_number(event->b);
-    TEXT(" repetition ");
-    text_number(event->c);
 }
 
-static void report_servo(uint8_t id)
+TEXT_NAMED(approach, "Going to the first pose, % s");
+TEXT_NAMED(step, "Page # step % repetition ^");
+TEXT_NAMED(paused, "Paused");
+TEXT_NAMED(silent, "Servo # does not answer");
+TEXT_NAMED(back, "Servo # answers again");
+TEXT_NAMED(reports, "Servo # reports *");
+TEXT_NAMED(limp, "Servo # has lost its torque");
+TEXT_NAMED(battery, "Battery is low: ~");
+TEXT_NAMED(hot, "Servo # is hot: % C");
+TEXT_NAMED(layer, "The layer ended after @");
+TEXT_NAMED(driver, "Nobody drives any more: stopping");
+TEXT_NAMED(lost, "# messages were dropped");
+TEXT_NAMED(next_link, "Next link to $");
+TEXT_NAMED(exit_link, "Exit link to $");
+TEXT_NAMED(linked1, "Link 1 to $");
+TEXT_NAMED(linked2, "Link 2 to $");
+TEXT_NAMED(loop, "The exit pages lead back to themselves");
+TEXT_NAMED(no_link, "No link to $");
+TEXT_NAMED(done, "Ended after @");
+TEXT_NAMED(stopped, "Stopped after @");
+TEXT_NAMED(broken, "Broken off in @");
+TEXT_NAMED(bad_page, "Ended. !");
+TEXT_NAMED(for_servo, "Ended for the fault of a servo in @");
+TEXT_NAMED(there, "The pose is reached");
+TEXT_NAMED(moving, "Moving, % s");
+TEXT_NAMED(playing, "Playing @ step % repetition ^");
+
+static const char *const of_kind[] PROGMEM = {
+    [PERFORMER_EV_APPROACH] = approach, [PERFORMER_EV_STEP] = step, [PERFORMER_EV_PAUSED] = paused,
+    [PERFORMER_EV_SILENT] = silent, [PERFORMER_EV_BACK] = back, [PERFORMER_EV_ERRORS] = reports,
+    [PERFORMER_EV_TORQUE] = limp, [PERFORMER_EV_BATTERY] = battery, [PERFORMER_EV_HOT] = hot,
+    [PERFORMER_EV_LAYER_ENDED] = layer, [PERFORMER_EV_DRIVE_LOST] = driver, [PERFORMER_EV_LOST] = lost,
+};
+static const char *const of_link[] PROGMEM = {
+    [LINK_NEXT] = next_link, [LINK_EXIT] = exit_link, [LINK_LINKED1] = linked1, [LINK_LINKED2] = linked2,
+    [LINK_END_OF_EXIT_LOOP] = loop, [LINK_ENDED] = no_link,
+};
+static const char *const of_end[] PROGMEM = {
+    [PERFORMER_END_DONE] = done, [PERFORMER_END_STOPPED] = stopped, [PERFORMER_END_BROKEN] = broken,
+    [PERFORMER_END_LOOP] = stopped, [PERFORMER_END_PAGE] = bad_page, [PERFORMER_END_SERVO] = for_servo,
+    [PERFORMER_END_THERE] = there,
+};
+
+static const char *sentence_P(const performer_event_t *event)
 {
-    TEXT("Servo ");
-    text_number(id);
+    const char *const *row = &of_kind[event->kind];
+    if (event->kind == PERFORMER_EV_LINK) {
+        row = &of_link[event->b];
+    } else if (event->kind == PERFORMER_EV_ENDED) {
+        row = &of_end[event->c];
+    } else if (event->kind == PERFORMER_EV_APPROACH && event->a == 0) {
+        return moving;
+    } else if (event->kind == PERFORMER_EV_STEP && event->b == 1) {
+        return playing;
+    }
+    return pgm_read_ptr(row);
 }
 
 void report_event(const performer_event_t *event)
 {
-    switch (event->kind) {
-    case PERFORMER_EV_APPROACH:
-        text_P(event->a == 0 ? TEXT_P("Moving, ") : TEXT_P("Going to the first pose, "));
-        text_number(event->b);
-        TEXT(" s");
-        break;
-    case PERFORMER_EV_STEP:
-        report_step(event);
-        break;
-    case PERFORMER_EV_LINK:
-        report_link(event->a, event->b);
-        break;
-    case PERFORMER_EV_PAUSED:
-        TEXT("Paused");
-        break;
-    case PERFORMER_EV_ENDED:
-        report_end(event);
-        break;
-    case PERFORMER_EV_SILENT:
-        report_servo(event->a);
-        TEXT(" does not answer");
-        break;
-    case PERFORMER_EV_BACK:
-        report_servo(event->a);
-        TEXT(" answers again");
-        break;
-    case PERFORMER_EV_ERRORS:
-        report_servo(event->a);
-        TEXT(" reports ");
-        report_servo_errors(event->b);
-        break;
-    case PERFORMER_EV_TORQUE:
-        report_servo(event->a);
-        TEXT(" has lost its torque");
-        break;
-    case PERFORMER_EV_BATTERY:
-        TEXT("Battery is low: ");
-        report_voltage(event->a);
-        break;
-    case PERFORMER_EV_HOT:
-        report_servo(event->a);
-        TEXT(" is hot: ");
-        text_number(event->b);
-        TEXT(" C");
-        break;
-    case PERFORMER_EV_LAYER_ENDED:
-        TEXT("The layer ended after ");
-        report_page(event->a);
-        break;
-    case PERFORMER_EV_DRIVE_LOST:
-        TEXT("Nobody drives any more: stopping");
-        break;
-    case PERFORMER_EV_LOST:
-        text_number(event->a);
-        TEXT(" messages were dropped");
-        break;
-    default:
-        break;
+    text_reader_t reader;
+    text_open_P(&reader, sentence_P(event));
+    for (char character; (character = text_next(&reader)) != '\0';) {
+        report_part(character, event);
     }
 }

@@ -105,11 +105,7 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
     text_P(requests_image.name_P);
     if (board_record(&record)) {
         TEXT(" version=");
-        text_number(record.version[0]);
-        text_put('.');
-        text_number(record.version[1]);
-        text_put('.');
-        text_number(record.version[2]);
+        report_version(&record);
         text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" board=cm2") : TEXT_P(" board=cm5"));
     }
     TEXT(" protocol=1 pages=128 joints=31 line=110");
@@ -394,7 +390,8 @@ static void print_sentence(uint8_t status)
     text_P((const char *)pgm_read_ptr(&sentences[status]));
 }
 
-static uint8_t look_up(const shell_command_t *table_P, uint8_t count, shell_args_t *args)
+/* Not inlined four times. */
+static NOINLINE uint8_t look_up(const shell_command_t *table_P, uint8_t count, shell_args_t *args)
 {
     return shell_run(table_P, count, requests_image.context, args, !performer_is_still(requests_image.performer));
 }

@@ -67,31 +67,19 @@ char *text_copy_P(char *to, const char *string_P)
 /* Digits by subtraction: a 32-bit division costs ten times as much and a page of code. */
 void text_number32(uint32_t number)
 {
-    static const uint32_t powers[] PROGMEM = {1000000000UL, 100000000UL, 10000000UL, 1000000UL, 100000UL};
+    static const uint32_t powers[] PROGMEM = {1000000000UL, 100000000UL, 10000000UL, 1000000UL, 100000UL, 10000UL,
+                                              1000UL,       100UL,       10UL,       1UL};
     bool begun = false;
-    for (uint8_t i = 0; i < sizeof powers / sizeof powers[0]; i++) {
+    for (uint8_t i = 0; i < ARRAY_COUNT(powers); i++) {
         const uint32_t power = pgm_read_dword(&powers[i]);
         char digit = '0';
-        while (number >= power) {
+        for (; number >= power; digit++) {
             number -= power;
-            digit++;
         }
-        begun = begun || digit != '0';
+        begun = begun || digit != '0' || i == ARRAY_COUNT(powers) - 1;
         if (begun) {
             text_put(digit);
         }
-    }
-    /* What is left has five digits, and may be more than 65535. */
-    uint8_t first = 0;
-    while (number >= 10000) {
-        number -= 10000;
-        first++;
-    }
-    if (begun || first > 0) {
-        text_put((char)('0' + first));
-        text_padded((uint16_t)number, 4, '0');
-    } else {
-        text_number((uint16_t)number);
     }
 }
 

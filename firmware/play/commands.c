@@ -55,7 +55,7 @@ static uint8_t do_servos(void *context, const shell_args_t *args)
 static uint8_t do_help(void *context, const shell_args_t *args);
 
 TEXT_NAMED(word_play, "play p n|name  plays a page");
-TEXT_NAMED(word_stop, "stop s ends softly, through the exit page; twice within a second: break");
+TEXT_NAMED(word_stop, "stop s through the exit page; twice within a second: break");
 TEXT_NAMED(word_break, "break b ends now: slows down and holds");
 TEXT_NAMED(word_pause, "pause  slows down and holds until resume");
 TEXT_NAMED(word_resume, "resume  goes on after pause");
@@ -64,7 +64,7 @@ TEXT_NAMED(word_amplitude, "amplitude  percent [id ...]  size of the motion, 0..
 TEXT_NAMED(word_blend, "blend  percent  towards the partner page: left -100..100 right");
 TEXT_NAMED(word_drive, "drive  blend rate amplitude  all three, again and again");
 TEXT_NAMED(word_layer, "layer  n [id ...]|off  a second page, on joints of its own");
-TEXT_NAMED(word_aim, "aim  id position [degrees/s]  a joint of its own, up to four");
+TEXT_NAMED(word_aim, "aim  id position [degrees/s]  moves a joint by itself; up to four");
 TEXT_NAMED(word_swing, "swing  id centre amplitude ms [phase]  likewise, to and fro");
 TEXT_NAMED(word_free, "free  [id ...]  ends aim and swing");
 TEXT_NAMED(word_shape, "shape  [reset]  what of this is in force");
@@ -92,7 +92,7 @@ TEXT_NAMED(word_off, "off  [id ...]  torque off");
 TEXT_NAMED(word_list, "list  the pages that are not empty");
 TEXT_NAMED(word_status, "status  what is playing");
 TEXT_NAMED(word_servos, "servos  [find]  the servos; or searches again");
-TEXT_NAMED(word_faults, "faults  servos, bus, serial line and ticks: what went wrong");
+TEXT_NAMED(word_faults, "faults  of servos, bus, serial line and ticks");
 TEXT_NAMED(word_law, "law  [exact|classic]  the law of motion");
 TEXT_NAMED(word_remote, "remote  [latch|hold|drive]  letting go: goes on, or stops; L and R steer");
 TEXT_NAMED(word_settings, "settings  [name value|defaults]");

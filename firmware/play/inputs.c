@@ -102,7 +102,7 @@ static void take_packet(inputs_t *inputs)
 static void keep_typed(inputs_t *inputs)
 {
     for (uint8_t i = 0; i < inputs->remote.text_count; i++) {
-        if (!ring_put(&inputs->typed, inputs->remote.text[i]) && inputs->lost < UINT16_MAX) {
+        if (!ring_put(&inputs->typed, inputs->remote.text[i]) && inputs->lost < INPUTS_LOST_MAX) {
             inputs->lost++;
         }
     }

@@ -17,6 +17,7 @@
 
 #define INPUTS_TYPED_BYTES 128u
 #define INPUTS_SILENCE_TICKS 64u  /* hold mode: 500 ms without a packet is a stop */
+#define INPUTS_LOST_MAX (UINT16_MAX - UINT8_MAX)   /* with what the console counts it stays within 16 bits */
 #define INPUTS_QUIET_TICKS 4u     /* an unfinished packet is given up after 24..31 ms */
 
 /* Why a code started nothing. */
@@ -28,7 +29,7 @@ typedef struct {
 } inputs_refusal_t;
 
 typedef struct {
-    uint16_t lost;          /* typed bytes dropped because the shell was far behind; stays at 65535 */
+    uint16_t lost;          /* typed bytes dropped because the shell was far behind; stays at INPUTS_LOST_MAX */
     /* Private. */
     performer_t *performer;
     const page_store_t *pages;

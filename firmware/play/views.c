@@ -142,14 +142,14 @@ void views_print_status(const play_t *play)
 
 /* ---- shape ---- */
 
-/* The joints whose amplitude is `percent`. */
-static uint32_t joints_with(const shape_t *shape, uint8_t percent)
+static bool has_one_amplitude(const shape_t *shape)
 {
-    uint32_t joints = 0;
-    for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
-        servo_link_put(&joints, id, shape->amplitude_percent[id] == percent);
+    for (uint8_t id = 1; id < PAGE_JOINTS; id++) {
+        if (shape->amplitude_percent[id] != shape->amplitude_percent[0]) {
+            return false;
+        }
     }
-    return joints;
+    return true;
 }
 
 static void print_field(const char *name_P, uint16_t value)
@@ -161,13 +161,12 @@ static void print_field(const char *name_P, uint16_t value)
 void views_print_shape(const performer_t *performer)
 {
     const shape_t *shape = &performer->shape;
-    const uint8_t amplitude = shape->amplitude_percent[0];
     print_field(TEXT_P(" rate="), shape->rate_percent);
     TEXT(" blend=");
     text_signed(shape->blend_percent);
     TEXT(" amplitude=");
-    if (joints_with(shape, amplitude) == SERVO_LINK_ALL) {
-        text_number(amplitude);
+    if (has_one_amplitude(shape)) {
+        text_number(shape->amplitude_percent[0]);
     } else {
         for (uint8_t id = 0; id < PAGE_JOINTS; id++) {
             text_hex(shape->amplitude_percent[id], 2);
@@ -241,12 +240,12 @@ void views_print_servos(const play_t *play)
 
 /* ---- faults ---- */
 
-static void print_count(const char *what_P, uint32_t count)
+static void print_count(const char *what_P, uint16_t count)
 {
     text_put(' ');
     text_P(what_P);
     text_put(' ');
-    text_number32(count);
+    text_number(count);
 }
 
 static void print_servo_faults(const servo_link_t *servos)
@@ -272,10 +271,10 @@ void views_print_faults(const play_t *play)
     print_servo_faults(&play->servos);
     bus_counts_t bus;
     bus_counts(&bus);
-    TEXT("Bus: packets");
-    text_put(' ');
+    TEXT("Bus: packets ");
     text_number32(bus.packets);
-    print_count(TEXT_P("answers"), bus.answers);
+    TEXT(" answers ");
+    text_number32(bus.answers);
     print_count(TEXT_P("retries"), bus.retries);
     print_count(TEXT_P("time-outs"), bus.timeouts);
     print_count(TEXT_P("checksum"), bus.checksums);
@@ -284,17 +283,15 @@ void views_print_faults(const play_t *play)
     text_line_end();
     console_counts_t console;
     console_counts(&console);
-    TEXT("Serial: overruns");
-    text_put(' ');
-    text_number(console.overruns);
+    TEXT("Serial:");
+    print_count(TEXT_P("overruns"), console.overruns);
     print_count(TEXT_P("framing"), console.framing);
-    print_count(TEXT_P("lost"), (uint32_t)console.ring_full + play->inputs.lost);
+    print_count(TEXT_P("lost"), (uint16_t)(console.ring_full + play->inputs.lost));
     print_count(TEXT_P("remote packets"), play->inputs.remote.packets);
     print_count(TEXT_P("remote noise"), play->inputs.remote.dropped);
     text_line_end();
-    TEXT("Ticks: missed");
-    text_put(' ');
-    text_number(tick_missed());
+    TEXT("Ticks:");
+    print_count(TEXT_P("missed"), tick_missed());
     print_count(TEXT_P("goals late"), play->servos.late);
     text_line_end();
 }
@@ -342,12 +339,7 @@ void views_print_version(void)
     app_record_t record;
     TEXT("Motion512 Play ");
     if (board_record(&record)) {
-        for (uint8_t i = 0; i < sizeof record.version; i++) {
-            if (i > 0) {
-                text_put('.');
-            }
-            text_number(record.version[i]);
-        }
+        report_version(&record);
         text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" for CM-2") : TEXT_P(" for CM-5"));
     }
     TEXT(", last reset: ");
