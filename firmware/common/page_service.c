@@ -99,7 +99,7 @@ flash_status_t flash_program(uint16_t page, const uint8_t *data, uint16_t bytes)
     return write_page(page, data, bytes, BOOT_MODE_PROGRAM);
 }
 
-static void set_byte(uint16_t addr, uint8_t value)
+static NOINLINE void set_byte(uint16_t addr, uint8_t value)
 {
     eeprom_update(addr, &value, 1);
 }

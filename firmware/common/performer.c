@@ -80,7 +80,7 @@ static performer_status_t somebody_can_move(const performer_t *performer)
 }
 
 /* Starts a fresh player at `page` from where the goals are. */
-static player_status_t start_player(performer_t *performer, uint8_t page, uint32_t joints)
+static NOINLINE player_status_t start_player(performer_t *performer, uint8_t page, uint32_t joints)
 {
     const player_law_t law =
         PERFORMER_SETTINGS(performer)->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;

@@ -157,7 +157,7 @@ bool performer_resume(performer_t *performer)
 
 /* ---- torque ---- */
 
-void performer_drop(performer_t *performer, uint32_t joints)
+NOINLINE void performer_drop(performer_t *performer, uint32_t joints)
 {
     performer->joints &= ~joints;
     performer->ready_left &= ~joints;

@@ -4,7 +4,7 @@
 #include "page_store.h"
 #include "text.h"
 
-const char *report_page_fault_P(uint8_t page_status)
+NOINLINE const char *report_page_fault_P(uint8_t page_status)
 {
     TEXT_NAMED(nothing, "nothing");
     TEXT_NAMED(checksum, "checksum is wrong");

@@ -38,7 +38,7 @@ uint8_t session_new_byte(uint16_t offset)
 
 /* ---- marks ---- */
 
-void session_mark(uint8_t x, uint8_t y)
+NOINLINE void session_mark(uint8_t x, uint8_t y)
 {
     the_session.marks[y] |= (uint16_t)(1u << x);
 }
@@ -82,7 +82,7 @@ void session_set_byte(uint16_t address, uint8_t byte)
     }
 }
 
-void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count)
+NOINLINE void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count)
 {
     while (count-- > 0) {
         session_set_byte(address++, *bytes++);

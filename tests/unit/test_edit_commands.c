@@ -155,7 +155,7 @@ static void test_empty_line_does_nothing(void)
 
 static void test_help_of_one_command_is_its_line(void)
 {
-    TEST_ASSERT_EQUAL_STRING("goto        x y", answer("help goto"));
+    TEST_ASSERT_EQUAL_STRING("goto        x y  moves the cursor", answer("help goto"));
     TEST_ASSERT_EQUAL_STRING("No such command: HELP", answer("help got"));
 }
 
