@@ -17,6 +17,7 @@ from m512.files import formats, storage
 from m512.files.image import Image, to_hex
 from m512.files.page import EMPTY
 from m512.files.text import read_text, write_text
+from test_flash import make_app
 
 TEXT = """motion512 1
 page 1 stand
@@ -165,6 +166,18 @@ def test_restore_answered_no_leaves_the_board_as_it_was_found(m512, board, tmp_p
     result = m512("restore", tmp_path / "b", "-p", board.path, "--wait", "5")
     assert result.exit_code == 5 and bytes(board.flash) == before
     assert board.left[-1] == left
+
+
+def test_restore_that_is_refused_leaves_the_board_as_it_was_found(m512, tmp_path):
+    """An application of a CM-2 for a CM-5, of which Play was running."""
+    flash = bytearray(make_app(board=2)).ljust(0x20000, b"\xff")
+    with BlockPeer(flash, board=2) as other:
+        assert m512("backup", tmp_path / "b", "-p", other.path, "--what", "app").exit_code == 0
+    with BlockPeer(full_flash(), board=1, state=0) as board:
+        before = bytes(board.flash)
+        result = m512("restore", tmp_path / "b", "-p", board.path, "--yes", "--wait", "5")
+        assert result.exit_code == 5 and "from a cm2" in result.stderr, result.stderr
+        assert bytes(board.flash) == before and board.left[-1] == 2
 
 
 def test_port_is_opened_by_one_program_alone(real_board):
