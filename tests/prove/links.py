@@ -15,7 +15,7 @@ from badlinks import ours, runs
 
 TITLE = "Bad lines to a boot loader"
 PROMISE = "No byte outside the pages that m512 names ever changes, whatever the line does."
-SCHEDULES = 10000
+SCHEDULES = 4000
 SAMPLE = 150
 OUR_SCHEDULES, OUR_SAMPLE = 2000, 20     # our own loader runs instruction by instruction: 0.4 s each
 CHUNK = 25
