@@ -59,10 +59,20 @@ bool cell_at(uint16_t address, uint8_t *x, uint8_t *y)
     return true;
 }
 
+/* A byte that names a page: links, and partners for blending. */
 static bool is_link(uint16_t address)
 {
-    return address == PAGE_AT_BLEND_RIGHT || address == PAGE_AT_BLEND_LEFT || address == PAGE_AT_NEXT_PAGE || address == PAGE_AT_EXIT_PAGE || address == PAGE_AT_LINKED1_PAGE ||
-           address == PAGE_AT_LINKED2_PAGE;
+    switch (address) {
+    case PAGE_AT_BLEND_RIGHT:
+    case PAGE_AT_BLEND_LEFT:
+    case PAGE_AT_NEXT_PAGE:
+    case PAGE_AT_EXIT_PAGE:
+    case PAGE_AT_LINKED1_PAGE:
+    case PAGE_AT_LINKED2_PAGE:
+        return true;
+    default:
+        return false;
+    }
 }
 
 uint16_t cell_max(cell_kind_t kind, uint8_t x, uint8_t y)

@@ -94,6 +94,30 @@ def test_message_behind_a_long_line_has_the_row_for_itself(r):
     assert r.command == "] Page must be 0..127"
 
 
+def test_signs_may_stand_within_a_line(r):
+    r.line("name a|b~!")
+    assert r.text(1, 65, 6) == "a|b~! "
+    r.line("undo")
+
+
+def test_first_wave_of_help_can_be_typed_as_it_stands():
+    with robot(pages={1: page("one", [(40, {})])}) as r:
+        r.line("help")
+        rows = [r.terminal.row(number).rstrip() for number in range(1, 36)]
+        first = rows.index("A first wave:")
+        assert first <= 1 and rows[first + 8].startswith("Keys: ") and rows[first + 9] == "Commands:"
+        lines = [row.split("  ")[0] for row in rows[first + 1:first + 8]]
+        assert lines == ["page 20", "off", "on", "write", "name hi", "play", "save"]
+        r.keys("q")
+        for line in lines[:4]:
+            r.line(line)
+        r.board.servos[3].push_to(300)
+        for line in lines[1:5]:
+            r.line(line)
+        r.line("play", ms=5000)
+        assert r.line("save").endswith(" OK") and r.flash_page(20)[:3] == b"hi\0" and r.flash_page(20)[20] == 2
+
+
 def test_letter_that_is_not_ascii_is_seen_to_be_none(r):
     r.line("name gr\u00fcn")   # two bytes in UTF-8
     assert r.message == "name gr??n" and r.text(1, 65, 6) == "gr??n "

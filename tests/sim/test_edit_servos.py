@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What Edit does to servos: GO, MIRROR, ON, OFF, SET on the work pose, PLAY with its keys, MON; editor-original.md
 sections 7, 8, 10 and 11, and "nothing moves by surprise"."""
+import re
+
 import pytest
 from cm5sim import Board
 
@@ -166,6 +168,26 @@ def test_play_takes_unsaved_edits_from_ram():
         r.line("play", ms=5000)
         r.settle(1000)
         assert r.board.servos[3].goal == 700 and r.unsaved
+
+
+def test_while_it_plays_the_screen_shows_goals_and_where_the_servos_are():
+    """Joint 1 moves 100 units a second: what stands there is at most a round of 31 ticks old."""
+    made = page("slow", [(5, {1: 300}), (255, {1: 700})], schedule=10, speed=64)
+    with start(pages={20: made}) as r:
+        r.line("go 0", ms=2500)   # near step 0 of page 20: joint 1 stands at 400
+        r.board.send("play 20\r")
+        r.board.run(ms=1500)
+        seen = []
+        for _ in range(6):
+            r.board.run(ms=300)
+            r.pump()
+            assert re.fullmatch(r"Page 20 step 1 repetition 1", r.message), r.message
+            goal, live = int(r.cell(0, 1)), int(r.text(2, 14, 4))
+            assert abs(goal - r.board.servos[1].goal) <= 30 and abs(live - r.board.servos[1].present) <= 60
+            seen.append(goal)
+        assert len(set(seen)) == 6
+        r.keys(" ", ms=1500)
+        assert r.text(2, 14, 4) == "0x01" and not r.unsaved
 
 
 def move_ticks(r, line, joint):

@@ -181,6 +181,26 @@ static void test_arrows_move_the_cursor_and_stop_at_the_edge(void)
     TEST_ASSERT_EQUAL_UINT8(32, the_session.y);
 }
 
+static void test_home_end_and_pages_of_rows_move_the_cursor_far(void)
+{
+    type("goto 3 10\r\033[F");
+    TEST_ASSERT_EQUAL_UINT8(9, the_session.x);
+    type("\033[H");
+    TEST_ASSERT_EQUAL_UINT8(0, the_session.x);
+    TEST_ASSERT_EQUAL_UINT8(10, the_session.y);
+    type("\033[6~");
+    TEST_ASSERT_EQUAL_UINT8(18, the_session.y);
+    type("\033[6~\033[6~");
+    TEST_ASSERT_EQUAL_UINT8(32, the_session.y);
+    type("\033[4~");
+    TEST_ASSERT_EQUAL_UINT8(7, the_session.x);   /* no softness in the row of speeds */
+    type("\033[5~");
+    TEST_ASSERT_EQUAL_UINT8(24, the_session.y);
+    type("\033[5~\033[5~\033[5~\033[1~");
+    TEST_ASSERT_EQUAL_UINT8(0, the_session.y);
+    TEST_ASSERT_EQUAL_UINT8(0, the_session.x);
+}
+
 static void test_brackets_change_a_position_within_its_range(void)
 {
     type("goto 1 3\r");
@@ -377,6 +397,7 @@ int main(void)
     RUN_TEST(test_save_writes_the_page_and_takes_the_mark_away);
     RUN_TEST(test_save_waits_until_the_bus_is_quiet);
     RUN_TEST(test_arrows_move_the_cursor_and_stop_at_the_edge);
+    RUN_TEST(test_home_end_and_pages_of_rows_move_the_cursor_far);
     RUN_TEST(test_brackets_change_a_position_within_its_range);
     RUN_TEST(test_brackets_wrap_a_byte_and_stop_at_seven_steps);
     RUN_TEST(test_space_takes_a_position_away_and_gives_it_back);
