@@ -61,8 +61,8 @@ bool board_sweep(board_t *board, const char *function, int vector, uint8_t byte)
 const sweep_t *board_sweep_result(const board_t *board, const char *function);
 void board_sweep_end(board_t *board); /* of all */
 
-/* Rounds of loops that only wait are counted instead of executed, from now on: the same run to the cycle, seven times as fast
- * in a boot loader that waits for the PC. Probes and sweeps do not see those rounds. Off at first. */
+/* Rounds of loops that only wait are counted instead of executed, from now on: the same run to the cycle, seven times as
+ * fast in a boot loader that waits for the PC. Probes and sweeps do not see those rounds. Off at first. */
 void board_skip_waits(board_t *board, bool on);
 
 /* Executes one instruction (or one interrupt response) and returns its cycles. For tests of the model itself. */
