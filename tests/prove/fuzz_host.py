@@ -52,7 +52,7 @@ def search(task):
     work = proof.RESULTS / "fuzz" / name
     shutil.rmtree(work, ignore_errors=True)
     (work / "found").mkdir(parents=True)
-    command = [FUZZERS / f"fuzz_{name}", f"-max_total_time={seconds}", f"-seed={seed}", f"-max_len={LONGEST[name]}", "-timeout=20",
+    command = [FUZZERS / f"fuzz_{name}", f"-max_total_time={seconds}", f"-seed={seed}", f"-max_len={LONGEST[name]}", "-timeout=60",
                "-len_control=0", "-print_final_stats=1", "-verbosity=1", f"-artifact_prefix={work}/"]
     words = HERE / f"{name}.dict"
     command += [f"-dict={words}"] if words.exists() else []

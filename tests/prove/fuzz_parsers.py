@@ -22,7 +22,7 @@ ANSWERS = 6_000
 COMMANDS = 600
 SAMPLE = 40             # the sample is so many times smaller
 TASK = 250
-LIMIT_S = 10.0          # one file
+LIMIT_S = 10.0          # of CPU, one file
 KINDS = (".m512", ".mtn", ".hex", ".csv", ".bin")
 NUMBERS = (b"0", b"-1", b"1", b"7", b"30", b"31", b"127", b"128", b"255", b"256", b"1023", b"1024", b"65535", b"65536", b"0x1F", b"1e9",
            b"99999999999999999999", b"nan", b"inf", b".5", b"1/0", b"0.0078", b"\xd9\xa3")
@@ -120,14 +120,14 @@ def judge(data, suffix, folder):
     """Whether the file was read. What must not be, comes as an exception."""
     from m512.files import formats
     from m512.errors import M512Error
-    began = time.monotonic()
+    began = time.process_time()
     try:
         image = formats.decode(data, folder / f"x{suffix}")
     except M512Error as error:
         assert str(error).strip(), "an error that says nothing"
         return False
     finally:
-        assert time.monotonic() - began < LIMIT_S, f"{time.monotonic() - began:.0f} s for one file"
+        assert time.process_time() - began < LIMIT_S, f"{time.process_time() - began:.0f} s of CPU for one file"
     whole = image.to_bytes()
     if len(image.pages) == 128 and image.first == 0:
         again = formats.decode(formats.encode(folder / "y.hex", image)[0], folder / "y.hex", image.bits)

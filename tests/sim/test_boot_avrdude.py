@@ -18,7 +18,7 @@ AVRDUDE = shutil.which("avrdude")
 needs_avrdude = pytest.mark.skipif(not AVRDUDE, reason="avrdude is not installed (tools/dev/packages.txt)")
 
 
-def run_avrdude(board, *arguments, part="m128", limit=240):
+def run_avrdude(board, *arguments, part="m128", limit=800):
     """Exit code and output of avrdude with the board at the other end of the line."""
     master, slave = pty.openpty()
     try:

@@ -89,7 +89,7 @@ def installed(made, tmp_path_factory):
 
 def as_a_user(program, *arguments, cwd):
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("M512", "PYTHON", "LD_"))}
-    return subprocess.run([program, *arguments], check=False, capture_output=True, text=True, cwd=cwd, timeout=120,
+    return subprocess.run([program, *arguments], check=False, capture_output=True, text=True, cwd=cwd, timeout=800,
                           env={**environment, "PATH": "/usr/bin:/bin"}, stdin=subprocess.DEVNULL)
 
 

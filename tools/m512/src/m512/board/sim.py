@@ -23,7 +23,7 @@ from m512.files.scale12 import HINT
 from m512.files.wording import named_pages_text
 from m512.places import build_folder, wheel_folder
 
-START_SECONDS = 10.0
+START_SECONDS = 60.0
 
 
 def find_cm5sim() -> Path:
