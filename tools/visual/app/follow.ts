@@ -4,20 +4,24 @@
 
 import type { Connection } from '../robot/connection.ts';
 import { REFUSED, movePose } from '../robot/protocol.ts';
+import { wallClock } from '../robot/clock.ts';
+import type { Clock } from '../robot/clock.ts';
 import { RobotError } from '../robot/robot-error.ts';
 
 export const FOLLOW_DEGREES_PER_SECOND = 60;
 const AGAIN_MS = 60;
 
 export class Follow {
-  private readonly connection: () => Connection;
+  private readonly connection: () => Pick<Connection, 'requests'>;
+  private readonly clock: Clock;
   private readonly fail: (error: unknown) => void;
   private wanted: readonly (number | null)[] | null = null;
   private isRunning = false;
 
-  constructor(connection: () => Connection, fail: (error: unknown) => void) {
+  constructor(connection: () => Pick<Connection, 'requests'>, fail: (error: unknown) => void, clock: Clock = wallClock) {
     this.connection = connection;
     this.fail = fail;
+    this.clock = clock;
   }
 
   /** Servo units by ID; null: no more. The way that is on is finished. */
@@ -33,7 +37,7 @@ export class Follow {
       while (this.wanted) {
         const pose = this.wanted;
         if (pose.join() !== sent && (await this.move(pose))) sent = pose.join();
-        else await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
+        else await new Promise<void>((resolve) => this.clock.after(AGAIN_MS, resolve));
       }
     } catch (error) {
       this.wanted = null;

@@ -15,6 +15,8 @@ import { CompareDialog } from './editor/compare-dialog.ts';
 import { EditBar } from './editor/edit-bar.ts';
 import { LinksPane } from './editor/links-pane.ts';
 import { PagesPane } from './editor/pages-pane.ts';
+import { TourCard } from './editor/tour.ts';
+import { KeysDialog } from './keys-dialog.ts';
 import { LabPane } from './lab-pane.ts';
 import { RemotePad } from './remote-pad.ts';
 import { RobotView } from './robot-view.ts';
@@ -35,6 +37,8 @@ export class AppShell extends HTMLElement {
   private readonly simulated = make('button', { onclick: () => this.desk.useSimulated() }, 'Robot in this page');
   private readonly yours = make('button', { onclick: () => void this.desk.connectYours() }, 'Your robot …');
   private readonly editBar = new EditBar();
+  private readonly keys = new KeysDialog();
+  private startTour: () => void = () => undefined;
   private unwatch: () => void = () => undefined;
 
   connectedCallback(): void {
@@ -54,13 +58,20 @@ export class AppShell extends HTMLElement {
     this.addPanel('checks', this.give(new ChecksPane()));
     this.addPanel('terminal', this.give(new TerminalPane()));
     this.addPanel('lab', lab);
+    const tour = Object.assign(this.give(new TourCard()), { editing: this.editing, placeOf: (shape: string) => robot.placeOf(shape) });
+    this.startTour = () => tour.start();
     this.replaceChildren(
       this.head(),
-      make('main', {}, make('div', { class: 'stage' }, robot, poses, this.give(new ActionBar())),
+      make('main', {}, make('div', { class: 'stage' }, robot, poses, this.give(new ActionBar()), tour),
         make('div', { class: 'areas' }, this.tabList(), this.give(this.editBar), ...this.panels.values())),
-      this.give(new StatusStrip()), compare,
+      this.give(new StatusStrip()), compare, this.keys.element,
     );
-    this.unwatch = this.desk.state.watch((state) => this.render(state));
+    const unlisten = this.keys.listen();
+    const unwatch = this.desk.state.watch((state) => this.render(state));
+    this.unwatch = () => {
+      unlisten();
+      unwatch();
+    };
   }
 
   disconnectedCallback(): void {
@@ -78,8 +89,10 @@ export class AppShell extends HTMLElement {
 
   private head(): HTMLElement {
     const theme = make('button', { 'aria-label': 'Light or dark', title: 'Light or dark', onclick: () => this.changeTheme() }, '◐');
+    const tour = make('button', { class: 'tour-start', title: 'Two minutes to the first motion', onclick: () => this.startTour() }, 'Tour');
+    const keys = make('button', { 'aria-label': 'Keys', title: 'Keys (?)', onclick: () => this.keys.open() }, '?');
     return make('header', {}, make('h1', {}, 'Motion512'),
-      make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours), this.give(new FilesMenu()), make('a', { href: './licences.html' }, 'Licences'), theme);
+      make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours), this.give(new FilesMenu()), make('a', { href: './licences.html' }, 'Licences'), tour, keys, theme);
   }
 
   private changeTheme(): void {

@@ -57,8 +57,8 @@ export class Visitor {
     this.page = page;
   }
 
-  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1): Promise<Visitor> {
-    const context = await browser.newContext({ viewport: VIEWPORT, colorScheme: theme, deviceScaleFactor: sharpness });
+  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1, viewport = VIEWPORT): Promise<Visitor> {
+    const context = await browser.newContext({ viewport, colorScheme: theme, deviceScaleFactor: sharpness });
     context.setDefaultTimeout(LIMIT_MS);
     const visitor = new Visitor(context, await context.newPage());
     visitor.watch(new URL(address).origin);
@@ -84,8 +84,8 @@ export class Visitor {
     return this.page.getByRole('button', { name, exact: true });
   }
 
-  async open(tab: 'Remote' | 'Terminal' | 'Lab'): Promise<void> {
-    await this.page.getByRole('tab', { name: tab }).click();
+  async open(tab: 'Remote' | 'Steps' | 'Curves' | 'Pages' | 'Links' | 'Checks' | 'Terminal' | 'Lab'): Promise<void> {
+    await this.page.getByRole('tab', { name: tab, exact: true }).click();
   }
 
   /** Waits until the firmware answers; with physics, until the robot stands by itself. */
