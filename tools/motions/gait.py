@@ -61,7 +61,8 @@ class Gait:
 
 READY_ARM = {1: 12.0, 3: 12.0, 5: -20.0}  # shoulder swing, lift, elbow
 BRACE = 0.5                               # of the stride, at a stop
-KICK_SWAY = 37.0                          # on one leg for long: the body right above the foot
+KICK_SWAY = 40.0                          # on one leg for long: the body right above the foot
+KICK_SPREAD = 3.0                         # what the hip of that leg gives way under the load
 
 
 def numbers():
@@ -143,13 +144,12 @@ def end(gait, ready):
 
 
 def kick(ready_gait):
-    """With the right foot: weight onto the left one, back, forward fast, and down again."""
+    """With the right foot: weight onto the left one, back, forward fast, and down again. As short on one foot as the servos allow."""
     def leg(x, lift):
         return stand(ready_gait, KICK_SWAY, right={"x": ready_gait.ahead + x, "height": ready_gait.height - lift},
-                     arms=(-0.5 * x, 0.5 * x))
+                     left={"spread": KICK_SPREAD}, arms=(-0.5 * x, 0.5 * x))
     over = stand(ready_gait, KICK_SWAY)
-    return [(64, over), (40, leg(0, 12)), (32, leg(-30, 16)), (40, leg(40, 16)), (40, leg(0, 12)), (40, over),
-            (64, stand(ready_gait))]
+    return [(72, over), (40, leg(-30, 18)), (28, leg(40, 18)), (32, leg(0, 14)), (32, over), (64, stand(ready_gait))]
 
 
 @dataclass(frozen=True)
