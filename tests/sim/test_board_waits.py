@@ -32,11 +32,11 @@ class Pair:
         assert bytes(one.eeprom[0:0x1000]) == bytes(other.eeprom[0:0x1000])
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(6))
 def test_loader_with_bytes_buttons_and_frames_by_chance(seed):
     chance, pair = random.Random(seed), Pair("boot-cm5.hex")
-    words = [b"id\r", b"flash 0\r", b"#", b"\x08\r", b"load e000\r", bytes(300), b"\xa5\x01\x01\x00\xc8\x9d", b"l 1dfff\r", b"reset\r"]
-    for _ in range(120):
+    words = [b"id\r", b"flash 0\r", b"#", b"app\r", b"sys\r", b"load 2000\r" + bytes(range(200)), b"eep_dn 10 3\rabc", b"\x08\r", b"load e000\r", bytes(300), b"\xa5\x01\x01\x00\xc8\x9d", b"l 1dfff\r", b"reset\r"]
+    for _ in range(100):
         what = chance.randrange(8)
         if what < 5:
             data = chance.choice(words) if what < 4 else chance.randbytes(chance.randrange(1, 20))

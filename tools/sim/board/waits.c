@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: MIT
  * A firmware that waits goes round in a loop, and one round is like the other until something happens. When a jump back
  * finds registers, flags, stack and SRAM as the one before it did, and the round in between has looked at nothing else but
- * the count of timer 1 and the buttons, the rounds up to just before the next event or count would be the same: their cycles
+ * the count of timer 1, the buttons and flags of UARTs, flash and EEPROM, the rounds up to just before the next event or count would be the same: their cycles
  * are added, and the last one is executed again. The run stays the same to the cycle (tests/sim/test_board_waits.py). */
 #include <string.h>
 
 #include "board_private.h"
 
 enum { KIND_PLAIN, KIND_TOUCHES, KIND_JUMPS_BACK };
-enum { IO_PINE = 0x01, IO_PIND = 0x10, IO_TCNT1L = 0x2C, IO_TCNT1H = 0x2D, IO_SPL = 0x3D, IO_SREG = 0x3F };
+enum { IO_PINE = 0x01, IO_UCSR0A = 0x0B, IO_PIND = 0x10, IO_EECR = 0x1C, IO_TCNT1L = 0x2C, IO_TCNT1H = 0x2D, IO_SPL = 0x3D,
+       IO_SREG = 0x3F, UCSR1A = 0x9B };
 
+/* Reading has no effect, and the value changes with an event, or at a time that next_change() knows. */
 static bool is_harmless_io(unsigned io)
 {
-    return io == IO_PINE || io == IO_PIND || io == IO_TCNT1L || io == IO_TCNT1H || (io >= IO_SPL && io <= IO_SREG);
+    return io == IO_PINE || io == IO_UCSR0A || io == IO_PIND || io == IO_EECR || io == IO_TCNT1L || io == IO_TCNT1H ||
+           (io >= IO_SPL && io <= IO_SREG);
 }
 
 /* Whether an instruction reads or writes what changes by itself or has effects: registers of devices, memory by pointer. */
@@ -21,14 +24,20 @@ static bool touches(uint16_t opcode, uint16_t operand)
     if ((opcode & 0xF800u) == 0xB000u) { /* IN */
         return !is_harmless_io((opcode >> 5 & 0x30u) | (opcode & 0xFu));
     }
+    if ((opcode & 0xFE0Fu) == 0x9000u && (operand == UCSR1A || operand == M128_SPMCSR)) { /* LDS */
+        return false;
+    }
     if ((opcode & 0xFC0Fu) == 0x9000u) { /* LDS, STS */
         return operand < M128_RAM_START;
+    }
+    if ((opcode & 0xFD00u) == 0x9900u) { /* SBIC, SBIS */
+        return !is_harmless_io(opcode >> 3 & 0x1Fu);
     }
     if ((opcode & 0xFC00u) == 0x9000u) { /* loads and stores, but for PUSH and POP */
         return (opcode & 0xFu) != 0xFu;
     }
     return (opcode & 0xF800u) == 0xB800u                      /* OUT */
-           || (opcode & 0xFC00u) == 0x9800u                   /* CBI, SBIC, SBI, SBIS */
+           || (opcode & 0xFD00u) == 0x9800u                   /* CBI, SBI */
            || (opcode & 0xD000u) == 0x8000u                   /* LDD, STD */
            || opcode == 0x9518u || opcode == 0x9588u          /* RETI, SLEEP */
            || (opcode & 0xFFCFu) == 0x95C8u;                  /* LPM, ELPM, SPM */
@@ -88,7 +97,8 @@ static uint64_t next_change(const board_t *board, uint64_t from)
     for (unsigned i = 0; i < BUTTON_COUNT; i++) {
         next = board->panel.bounces_until[i] > from ? from : next;
     }
-    return next;
+    bool in_sequence = board->eeprom.master_until >= from || board->flash.armed_until >= from;
+    return in_sequence ? from : next;
 }
 
 /* A watchdog that the loop feeds has to be fed once more before its time. */
