@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * A firmware that waits goes round in a loop, and one round is like the other until something happens. When a jump back
  * finds registers, flags, stack and SRAM as the one before it did, and the round in between has looked at nothing else but
- * the count of timer 1, the buttons and flags of UARTs, flash and EEPROM, the rounds up to just before the next event or count would be the same: their cycles
- * are added, and the last one is executed again. The run stays the same to the cycle (tests/sim/test_board_waits.py). */
+ * the count of timer 1, the buttons, and the state of UARTs, flash and EEPROM, the rounds up to the next event or count
+ * would be the same: their cycles are added. The run stays the same to the cycle (tests/sim/test_board_waits.py). */
 #include <string.h>
 
 #include "board_private.h"
