@@ -6,7 +6,7 @@
     outcome.fell_s, outcome.forward_mm_s, outcome.turn_deg_s, outcome.on_feet
 
 The player is the firmware's, compiled for this machine; servos and body are those of the simulated board, without its chip
-(quick.py): about 15 times as fast as the robot. A trial is a value: the same arguments give the same outcome, to the last bit on
+(quick.py): about 30 times as fast as the robot. A trial is a value: the same arguments give the same outcome, to the last bit on
 one machine and one version of MuJoCo.
 """
 import functools
