@@ -4,7 +4,7 @@
 import './view/theme.css';
 import { fileFormats, motionInstance, robotBody } from './app/assets.ts';
 import { RobotDesk } from './app/desk.ts';
-import type { DeskStorage } from './app/desk.ts';
+import type { DeskStorage } from './app/document-parts.ts';
 import type { EditorParts } from './app/editor.ts';
 import { simulatedMotions } from './app/simulated-source.ts';
 import { documentFrom } from './model/document.ts';

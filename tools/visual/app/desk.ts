@@ -4,8 +4,7 @@
 
 import type { FileFormats } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
-import { documentFrom, emptyDocument } from '../model/document.ts';
-import type { MotionDocument } from '../model/document.ts';
+import { documentFrom } from '../model/document.ts';
 import { dirtyPages } from '../model/editor-state.ts';
 import type { Shape } from '../model/motion.ts';
 import { pagesOfPlay } from '../model/page-reach.ts';
@@ -23,17 +22,17 @@ import { refusalText } from '../view/editor/texts.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
 import type { EditorParts } from './editor.ts';
-import type { DocumentStorage } from '../view/document-storage.ts';
 import { TEXTS, doingText, errorText } from '../view/texts.ts';
-import { KeptDocuments } from './documents.ts';
+import { makeDocuments, makeTransfer } from './document-parts.ts';
+import type { DeskStorage } from './document-parts.ts';
+import type { KeptDocuments } from './documents.ts';
 import { DocumentFiles } from './files.ts';
-import { holdDocument } from './hold-document.ts';
 import { Follow } from './follow.ts';
 import { Listeners } from './listeners.ts';
 import { LastSaid } from './said.ts';
 import { StickDrive } from './stick.ts';
 import type { Stick } from './stick.ts';
-import { RobotTransfer } from './transfer.ts';
+import type { RobotTransfer } from './transfer.ts';
 import { SimulatedSource } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
 
@@ -48,12 +47,6 @@ const START: DeskState = {
   source: 'simulated', connection: 'closed', portName: '', version: null, where: null, pages: [], image: 'play', physics: 'loading', speed: 1,
   stopped: null, doing: { text: 'Starting …', tone: 'calm' }, said: null, faultNames: [], tab: 'remote',
 };
-
-/** Where documents are kept; isKept false: only as long as the page is open. */
-export interface DeskStorage {
-  readonly storage: DocumentStorage;
-  readonly isKept: boolean;
-}
 
 export class RobotDesk implements Desk {
   readonly body: Body;
@@ -82,8 +75,11 @@ export class RobotDesk implements Desk {
       refused: (refusal) => this.state.set({ said: { text: refusalText(refusal), tone: 'bad' } }),
     });
     this.files = new DocumentFiles(this.editor, formats);
-    this.documents = this.makeDocuments(storage);
-    this.transfer = this.makeTransfer();
+    this.documents = makeDocuments(this.editor, storage, () => this.say({ text: TEXTS.workNotKept, tone: 'bad' }));
+    this.transfer = makeTransfer(this.editor, this.documents, {
+      name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName), requests: () => this.connection.requests,
+      becomeEdit: () => (this.isSimulated ? this.becomeEdit() : this.needEdit()),
+    });
     const events = {
       frame: (state: RobotState) => this.frames.tell(state),
       text: (bytes: Uint8Array) => this.hear(bytes),
@@ -99,29 +95,6 @@ export class RobotDesk implements Desk {
   /** Starts the robot in the page. */
   start(): Promise<void> {
     return this.simulated.start(this.state.get().image);
-  }
-
-  private makeDocuments({ storage, isKept }: DeskStorage): KeptDocuments {
-    const { editor } = this;
-    const shown = {
-      open: (document: MotionDocument) => editor.open(document), rename: (name: string) => editor.rename(name), document: () => editor.state.get().document,
-    };
-    return new KeptDocuments(shown, {
-      storage, isKept, hold: holdDocument, empty: emptyDocument(editor.format, ''), nowMs: () => Date.now(), newId: () => crypto.randomUUID(),
-      failed: () => this.state.set({ said: { text: TEXTS.workNotKept, tone: 'bad' } }),
-    });
-  }
-
-  private makeTransfer(): RobotTransfer {
-    const { editor } = this;
-    return new RobotTransfer({
-      format: editor.format, document: () => editor.state.get().document, robot: () => editor.state.get().robot,
-      setRobot: (pages) => editor.setRobot(pages), requests: () => this.connection.requests,
-      becomeEdit: () => (this.isSimulated ? this.becomeEdit() : this.needEdit()),
-      backUp: (pages) => this.documents.backUp(this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName, pages).catch((cause: unknown) => {
-        throw new RobotError('no-backup', '', { cause });
-      }),
-    });
   }
 
   private async needEdit(): Promise<void> {
@@ -340,6 +313,15 @@ export class RobotDesk implements Desk {
     void askList(this.connection.requests).then((pages) => this.state.set({ pages }), (error: unknown) => this.fail(error));
     if (this.isSimulated && version?.image === 'play') void this.simulated.prepare().catch((error: unknown) => this.fail(error));
     void this.askWhere();
+    if (!this.isSimulated && this.editor.state.get().robot.length === 0) void this.learnYours();
+  }
+
+  /** Reads what your robot has and keeps it, as soon as it is known; no question is asked for it. */
+  private async learnYours(): Promise<void> {
+    if (!(await this.transfer.read())) return;
+    const pages = this.editor.state.get().robot.filter((bytes) => bytes !== null);
+    await this.transfer.keep(pages).catch((error: unknown) => this.fail(error));
+    this.say({ text: TEXTS.robotKept, tone: 'calm' });
   }
 
   /** Only Edit saves pages. The simulated robot starts anew with it, stands up, and stays so until somebody drives it. */
@@ -383,7 +365,7 @@ export class RobotDesk implements Desk {
   private mayAsk(): boolean {
     const { connection, version, tab } = this.state.get();
     const isEditOnScreen = version?.image === 'edit' && tab === 'terminal';
-    return connection === 'ready' && this.typing === '' && !isEditOnScreen && !this.transfer.isBusy;
+    return connection === 'ready' && this.typing === '' && !isEditOnScreen && !this.transfer.isWriting;
   }
 
   private async askWhere(): Promise<void> {

@@ -44,7 +44,16 @@ export class RobotTransfer implements Transfer {
     this.parts = parts;
   }
 
-  get isBusy(): boolean {
+  get isWriting(): boolean {
+    return this.state.get().phase === 'writing';
+  }
+
+  /** Keeps pages as a backup of the robot on the desk. Rejects with RobotError. */
+  keep(pages: readonly Uint8Array[]): Promise<void> {
+    return this.parts.backUp(pages);
+  }
+
+  private get isBusy(): boolean {
     const { phase } = this.state.get();
     return phase === 'reading' || phase === 'writing';
   }

@@ -4,18 +4,16 @@
 
 FOLDER/body.xml   the MJCF of tools/body without what is optional, for MuJoCo
 FOLDER/body.json  the same as numbers, for the picture and for kinematics: links with their places, joints with their servos,
-                  shapes with their colours and masses. Metres, kilograms, radians, quaternions as w x y z. Every number is in the body
-                  file, but for the speed of the servos, which is m512's.
+                  shapes with their colours and masses. Metres, kilograms, radians, quaternions as w x y z. There is no number here that is not in
+                  the body file.
 """
 import json
 import pathlib
 import sys
 from math import cos, radians, sin, sqrt
 
-TOOLS = pathlib.Path(__file__).resolve().parents[2]
-sys.path += [str(TOOLS / "body" / "src"), str(TOOLS / "m512" / "src")]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "body" / "src"))
 from body.description import load, numbers  # noqa: E402
-from m512.motion.speed import NO_LOAD_RPM, SHEET_V  # noqa: E402
 
 
 def multiplied(a, b):
@@ -67,8 +65,7 @@ def described(body):
     joints = [{"servo": j.servo, "name": j.name, "body": j.body, "direction": j.direction, "zero": j.zero, "low": j.low,
                "high": j.high, "axis": axes[j.name]} for j in body.joints.values()]
     materials = {m.get("name"): list(numbers(m.get("rgba"))) for m in root.iter("material")}
-    servo = {"noLoadRpm": NO_LOAD_RPM, "sheetVolts": SHEET_V}
-    return {"name": body.name, "servo": servo, "links": links, "joints": joints, "shapes": shapes, "materials": materials}
+    return {"name": body.name, "links": links, "joints": joints, "shapes": shapes, "materials": materials}
 
 
 def main(name, folder):

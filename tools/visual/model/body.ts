@@ -40,15 +40,8 @@ export interface Shape {
   readonly mass: number;
 }
 
-/** A servo without load at the supply of its maker's sheet. */
-export interface ServoSheet {
-  readonly noLoadRpm: number;
-  readonly sheetVolts: number;
-}
-
 export interface Body {
   readonly name: string;
-  readonly servo: ServoSheet;
   readonly links: readonly Link[];
   readonly joints: readonly Joint[];
   readonly shapes: readonly Shape[];

@@ -2,6 +2,7 @@
 // What the page finds odd in a document besides what m512 says of it: too fast for the servos, farther than a joint turns,
 // falls as it stands, never reached, a stop that goes round. Each finding has a place to go to. Pure.
 
+import { fastSteps } from './curve-speed.ts';
 import { centreOfMass, lowerFoot, marginInside, supportPolygon, trunkOn, ORIGIN } from './balance.ts';
 import { angleIn, anglesOf, jointAngle, placeLinks } from './body.ts';
 import type { Body } from './body.ts';
@@ -13,7 +14,6 @@ import type { PageFormat } from './page-format.ts';
 import { readPage } from './page.ts';
 import type { Step } from './page.ts';
 import { rotate } from './space.ts';
-import { fastSteps } from './speed.ts';
 
 export type CheckKind = 'damaged' | 'too-fast' | 'out-of-reach' | 'tips-over' | 'unreachable' | 'exit-circle';
 
@@ -39,7 +39,7 @@ const UPRIGHT = 0.5;
 export interface CheckOptions {
   readonly format: PageFormat;
   readonly body: Body;
-  /** Servo units a tick. */
+  /** Servo units a tick that a servo should be asked for at most (Motion.topSpeed). */
   readonly topSpeed: number;
   /** What the player makes of one page; null: nothing. */
   readonly curve: (page: number) => Curve | null;

@@ -22,3 +22,30 @@ export function tooFast(curve: Curve, joint: number, unitsPerTick: number): Tick
 }
 
 const OVER_TICKS = 4;
+
+export interface FastStep {
+  readonly page: number;
+  /** 0..6 */
+  readonly step: number;
+  /** The joint that is asked for most, by ID. */
+  readonly joint: number;
+  /** How many times `unitsPerTick`. */
+  readonly times: number;
+}
+
+/** Steps in which a joint is asked to go faster than `unitsPerTick`: the worst joint of each. */
+export function fastSteps(curve: Curve, unitsPerTick: number): FastStep[] {
+  const worst = new Map<number, FastStep>();
+  for (let joint = 0; joint < JOINTS; joint++) {
+    for (const [from, to] of tooFast(curve, joint, unitsPerTick)) {
+      for (let tick = from + OVER_TICKS; tick < to; tick++) {
+        const [page = 0, step = 0] = curve.marks.subarray(3 * tick);
+        const way = Math.abs((curve.goals[tick * JOINTS + joint] ?? 0) - (curve.goals[(tick - OVER_TICKS) * JOINTS + joint] ?? 0));
+        const times = way / OVER_TICKS / unitsPerTick;
+        const key = (page << 3) | step;
+        if (times > Math.max(1, worst.get(key)?.times ?? 0)) worst.set(key, { page, step: step - 1, joint, times });
+      }
+    }
+  }
+  return [...worst.values()];
+}

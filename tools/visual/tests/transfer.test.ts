@@ -4,7 +4,9 @@
 import { afterEach, expect, test } from 'vitest';
 import { pageOf } from '../model/document.ts';
 import { writePage, readPage } from '../model/page.ts';
+import { RobotTransfer } from '../app/transfer.ts';
 import { Connection } from '../robot/connection.ts';
+import { RobotError } from '../robot/robot-error.ts';
 import { readPages } from '../robot/page-read.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import type { PageToWrite } from '../robot/page-write.ts';
@@ -155,7 +157,7 @@ test('the cable pulled at requests of a write of twenty pages: old or new, the a
   await bench.until(new PageWrite(pages, format.empty).run(connection.requests), 60_000);
   counter.restore();
   const every = KINDS.flatMap((kind) => Array.from({ length: counter.counts.get(kind) ?? 0 }, (_, i) => [kind, i + 1] as const));
-  const some = ['@crcs', '@open', '@data', '@data', '@crc', '@save', '@save', '@save'].map((kind) => {
+  const some = ['@crcs', '@open', '@data', '@crc', '@save', '@save'].map((kind) => {
     const ofKind = every.filter(([one]) => one === kind);
     return ofKind[Math.floor(bench.random() * ofKind.length)] ?? ['@open', 1] as const;
   });
@@ -176,3 +178,46 @@ test('the cable pulled at requests of a write of twenty pages: old or new, the a
   }
   console.log(`${cuts.length} of ${every.length} requests cut`);
 }, 3_600_000);
+
+/** What the page puts behind a RobotTransfer, on the bench. */
+function transferOn(bench: RobotBench, connection: Connection, pages: readonly PageToWrite[]) {
+  const document = { name: 'mine', pages: library.pages.map((bytes, page) => pages.find((one) => one.page === page)?.after ?? bytes) };
+  const kept: Uint8Array[][] = [];
+  let robot: readonly (Uint8Array | null)[] = [];
+  const transfer = new RobotTransfer({
+    format, document: () => document, robot: () => robot, setRobot: (now) => { robot = now; }, requests: () => connection.requests,
+    becomeEdit: () => (connection.version?.can.has('save') ? Promise.resolve() : Promise.reject(new RobotError('needs-edit'))),
+    backUp: (now) => Promise.resolve(void kept.push([...now])),
+  });
+  return { transfer, kept, robot: () => robot, before: Array.from({ length: 128 }, (_, page) => flashPage(bench, page)) };
+}
+
+test('the page: a backup before the first write, a cable pulled in mid-write, "try again" finishes, and what is known of the robot is right', async () => {
+  const { bench, connection } = await ready('edit', 47);
+  const pages = twenty(bench);
+  const { transfer, kept, robot, before } = transferOn(bench, connection, pages);
+  const pull = pullAt(bench, '@save', 7);
+  expect(await bench.until(transfer.write(pages.map(({ page }) => page)), 60_000)).toBe(false);
+  pull.restore();
+  expect(kept).toEqual([before]);
+  expect(transfer.state.get()).toMatchObject({ phase: 'stopped', total: 20 });
+  expect(transfer.state.get().trouble).toContain('cable');
+  const done = transfer.state.get().done;
+  expect([6, 7]).toContain(done);
+  expect(robot().filter((bytes, page) => !Buffer.from(bytes ?? []).equals(Buffer.from(before[page] ?? [])))).toHaveLength(done);
+  expect(await transfer.tryAgain()).toBe(false); // the cable is still out
+  await untilReady(bench, connection);
+  expect(await bench.until(transfer.tryAgain(), 60_000)).toBe(true);
+  expect(transfer.state.get()).toMatchObject({ phase: 'written', done: 20, total: 20, trouble: null });
+  for (const [page, bytes] of robot().entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
+  expect(kept).toHaveLength(1);
+}, 120_000);
+
+test('the page: Play cannot save, and a robot that cannot be kept is not written', async () => {
+  const { bench, connection } = await ready('play', 48);
+  const { transfer, kept } = transferOn(bench, connection, twenty(bench));
+  expect(await transfer.write([1])).toBe(false);
+  expect(transfer.state.get().trouble).toContain('m512 flash edit-cm5.hex');
+  expect(kept).toEqual([]);
+  expect(flashPage(bench, 1)).toEqual(pageOf(library, 1));
+}, 60_000);

@@ -77,6 +77,7 @@ export const TEXTS = {
   crashed: 'The simulated robot has crashed. Start it anew in the Lab; what it had saved is kept.',
   kept: 'Saved in this browser.',
   notKept: 'This browser does not keep the robot\'s memory (private window, or the disk is full). What you save is gone with the page.',
+  robotKept: 'All pages of your robot are read, and kept in this browser as a backup.',
   workNotKept: 'This browser could not keep your work (private window, or the disk is full). Save it as a file before you close the page.',
   labForYours: 'The Lab belongs to the simulated robot. Choose it at the top.',
 } as const;

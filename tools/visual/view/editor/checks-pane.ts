@@ -8,13 +8,14 @@ import type { PageFinding } from '../../model/checks.ts';
 import { imageOf, pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { Finding } from '../../model/file-formats.ts';
-import { BATTERY_VOLTS, topSpeed } from '../../model/speed.ts';
 import type { Desk, Tab } from '../desk.ts';
 import { define, make } from '../element.ts';
-import { EDITOR_TEXTS, FAULTY, findingText, pageText } from './texts.ts';
+import { EDITOR_TEXTS, findingText, isFaulty, pageText } from './texts.ts';
 import './checks-pane.css';
 
 const WAIT_MS = 400;
+/** Of a CM-5's battery. */
+const NOMINAL_VOLTS = 9.6;
 /** A page and what follows it within four seconds of it: enough for its own steps. */
 const CURVE_TICKS = 6000;
 
@@ -66,7 +67,7 @@ export class ChecksPane extends HTMLElement {
 
   private ownFindings(document: MotionDocument): PageFinding[] {
     const { editor, body } = this.desk;
-    const options = { format: editor.format, body, topSpeed: topSpeed(body.servo, BATTERY_VOLTS), curve: (page: number) => editor.curve(page, { ticks: CURVE_TICKS }) };
+    const options = { format: editor.format, body, topSpeed: editor.topSpeed(NOMINAL_VOLTS), curve: (page: number) => editor.curve(page, { ticks: CURVE_TICKS }) };
     const ofPages = document.pages.flatMap((_, page) => {
       const bytes = pageOf(document, page);
       const found = this.byPage.get(bytes) ?? checkPage(document, page, options);
@@ -80,7 +81,7 @@ export class ChecksPane extends HTMLElement {
     const joint = this.desk.body.joints.find((other) => other.servo === one.joint);
     const isOfLinks = one.kind === 'unreachable' || one.kind === 'exit-circle';
     const tab: Tab = isOfLinks ? 'links' : one.step === null ? 'pages' : 'steps';
-    return { page: one.page, step: one.step, joint: one.joint, text: findingText(one, joint ? jointTitle(joint) : `joint ${one.joint}`), isFault: FAULTY[one.kind], tab };
+    return { page: one.page, step: one.step, joint: one.joint, text: findingText(one, joint ? jointTitle(joint) : `joint ${one.joint}`), isFault: isFaulty(one), tab };
   }
 
   private shownOfM512({ page, text, isFault }: Finding): Shown {

@@ -157,6 +157,7 @@ export class CompareDialog extends HTMLElement {
   private async deed(): Promise<void> {
     if (this.key !== 'robot') return this.takeOver(this.chosen);
     await this.desk.transfer.write(this.chosen);
+    this.fillWhich(this.key); // there is a backup more
     if (this.desk.transfer.state.get().phase === 'written') await this.look();
   }
 

@@ -2,6 +2,7 @@
 // Above the editor's areas: which document is open, whether it is kept, undo and redo with their names, and the way to the robot.
 
 import { dirtyPages } from '../../model/editor-state.ts';
+import type { MotionDocument } from '../../model/document.ts';
 import type { EditorState } from '../../model/editor-state.ts';
 import type { Desk } from '../desk.ts';
 import type { DocumentsState } from '../documents-desk.ts';
@@ -12,6 +13,7 @@ import './edit-bar.css';
 
 const NEW = 'new';
 const COPY = 'copy';
+const FROM_ROBOT = 'robot';
 const RENAME = 'rename';
 const REMOVE = 'remove';
 
@@ -45,7 +47,7 @@ export class EditBar extends HTMLElement {
   private renderDocuments({ documents, openId, saving, unreadable }: DocumentsState): void {
     const options = documents.map(({ id, name }) => make('option', { value: id, selected: id === openId }, name));
     const damaged = unreadable.map((name) => make('option', { disabled: true }, `${name} (${EDITOR_TEXTS.unreadable})`));
-    const deeds = [[NEW, 'New document …'], [COPY, 'Copy of this one …'], [RENAME, 'Rename …'], [REMOVE, 'Delete …']]
+    const deeds = [[NEW, 'New document …'], [COPY, 'Copy of this one …'], [FROM_ROBOT, 'What the robot has …'], [RENAME, 'Rename …'], [REMOVE, 'Delete …']]
       .map(([value = '', title = '']) => make('option', { value }, title));
     this.documents.replaceChildren(...options, ...damaged, make('hr'), ...deeds);
     this.documents.value = openId;
@@ -73,7 +75,8 @@ export class EditBar extends HTMLElement {
     this.documents.value = documents.state.get().openId;
     switch (value) {
       case NEW: return this.create('New document', 'My motions');
-      case COPY: return this.create('Copy of this document', `${name} (copy)`, true);
+      case COPY: return this.create('Copy of this document', `${name} (copy)`, editor.state.get().document);
+      case FROM_ROBOT: return this.createFromRobot();
       case RENAME: {
         const given = await askText('Rename this document', 'Name', name);
         return given ? documents.rename(given) : undefined;
@@ -83,9 +86,16 @@ export class EditBar extends HTMLElement {
     }
   }
 
-  private async create(title: string, proposal: string, isCopy = false): Promise<void> {
+  private async create(title: string, proposal: string, from?: MotionDocument): Promise<void> {
     const name = await askText(title, 'Name', proposal);
-    if (name) await this.desk.documents.create(name, isCopy ? this.desk.editor.state.get().document : undefined);
+    if (name) await this.desk.documents.create(name, from);
+  }
+
+  private async createFromRobot(): Promise<void> {
+    const { transfer, editor } = this.desk;
+    if (!(await transfer.read())) return this.onTransfer(); // which says why, and offers to try again
+    const pages = editor.state.get().robot.map((bytes) => bytes ?? editor.format.empty);
+    await this.create('What the robot has, as a document', 'My robot', { name: '', pages });
   }
 
   /** Ctrl+Z and Ctrl+Y, but for what is being typed. */

@@ -52,7 +52,14 @@ export class LinksPane extends HTMLElement {
     if (key === this.listed) return;
     this.listed = key;
     this.list.replaceChildren(...(page === 0 ? [make('p', {}, EDITOR_TEXTS.trimStays)] : linkList(editor, this.graph, page)));
-    this.chart.querySelector('.node.selected')?.scrollIntoView({ block: 'center', inline: 'center' });
+    this.centre(this.chart.querySelector('.node.selected'));
+  }
+
+  /** Scrolls the chart and nothing around it. */
+  private centre(node: Element | null): void {
+    if (!node) return;
+    const [at, room] = [node.getBoundingClientRect(), this.chart.getBoundingClientRect()];
+    this.chart.scrollBy({ left: at.x + at.width / 2 - room.x - room.width / 2, top: at.y + at.height / 2 - room.y - room.height / 2 });
   }
 
   private draw(document: MotionDocument): void {

@@ -99,6 +99,10 @@ export class PagesPane extends HTMLElement {
   private listen(): void {
     const cardOf = (event: Event): PageCard | null => (event.target instanceof Element ? event.target.closest<PageCard>('page-card') : null);
     this.list.addEventListener('click', (event) => this.choose(cardOf(event)));
+    this.list.addEventListener('focusin', (event) => { // however a page got the focus, keys mean that page
+      const page = cardOf(event)?.page ?? this.current;
+      if (page !== this.current) this.desk.editor.select({ page });
+    });
     this.list.addEventListener('dblclick', (event) => cardOf(event) && this.openSteps());
     this.list.addEventListener('keydown', (event) => this.key(event));
     this.list.addEventListener('dragstart', (event) => {

@@ -2,7 +2,7 @@
 // Every sentence of the editor that is more than a label: names of edits, refusals.
 
 import type { Refusal, RefusalCode } from '../../model/result.ts';
-import type { CheckKind, PageFinding } from '../../model/checks.ts';
+import type { PageFinding } from '../../model/checks.ts';
 import type { PageFault } from '../../model/motion.ts';
 import type { LinkField } from '../../model/page.ts';
 import type { EditName, Transaction } from '../../model/transaction.ts';
@@ -113,17 +113,20 @@ const FAULTS: Record<PageFault, string> = {
   position: 'a position is above 1023',
 };
 
+/** From here on a servo cannot follow at all: the limit is 90 % of what it turns without load. */
+const HOPELESS = 1.11;
+
 /** Faults keep a page from doing what it says; the others may surprise. */
-export const FAULTY: Readonly<Record<CheckKind, boolean>> = {
-  damaged: true, 'too-fast': true, 'out-of-reach': true, 'tips-over': false, unreachable: false, 'exit-circle': true,
-};
+export function isFaulty({ kind, amount }: PageFinding): boolean {
+  return kind === 'damaged' || kind === 'out-of-reach' || kind === 'exit-circle' || (kind === 'too-fast' && amount > HOPELESS);
+}
 
 /** One finding as a sentence; jointTitle: of its joint. */
 export function findingText({ kind, step, amount, fault }: PageFinding, jointTitle: string): string {
   const where = step === null ? '' : `Step ${step + 1}: `;
   switch (kind) {
     case 'damaged': return `Damaged: ${fault ? FAULTS[fault] : ''}. It is not played. Clear it, or take it from a backup or a file.`;
-    case 'too-fast': return `${where}the ${jointTitle} is asked for ${amount.toFixed(2)} times what the servo does without load. Give the step more time.`;
+    case 'too-fast': return `${where}the ${jointTitle} is asked for ${amount.toFixed(2)} times the speed that suits the servo at 9.6 V, and lags behind. Give the step more time.`;
     case 'out-of-reach': return `${where}the ${jointTitle} is turned farther than the body lets it.`;
     case 'tips-over': return `${where}held like this it tips over: its centre of mass is ${Math.round(amount * 1000)} mm outside the soles. In a fast motion, or lying, that may be meant.`;
     case 'unreachable': return 'No key of the remote calls it, and no page that is called leads to it. It can be played by its number only.';

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What the desk joins to the editor: the documents of this browser, and the way to the robot.
+
+import { emptyDocument } from '../model/document.ts';
+import type { MotionDocument } from '../model/document.ts';
+import type { Requests } from '../robot/requests.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import type { DocumentStorage } from '../view/document-storage.ts';
+import { KeptDocuments } from './documents.ts';
+import type { DocumentEditor } from './editor.ts';
+import { holdDocument } from './hold-document.ts';
+import { RobotTransfer } from './transfer.ts';
+
+/** Where documents are kept; isKept false: only as long as the page is open. */
+export interface DeskStorage {
+  readonly storage: DocumentStorage;
+  readonly isKept: boolean;
+}
+
+/** The robot on the desk, as far as pages go there. */
+export interface RobotForPages {
+  /** By which its backups are told apart. */
+  name(): string;
+  /** Throws RobotError when no line is open. */
+  requests(): Requests;
+  /** Rejects with RobotError when Edit cannot be had. */
+  becomeEdit(): Promise<void>;
+}
+
+export function makeDocuments(editor: DocumentEditor, { storage, isKept }: DeskStorage, failed: () => void): KeptDocuments {
+  const shown = {
+    open: (document: MotionDocument) => editor.open(document), rename: (name: string) => editor.rename(name), document: () => editor.state.get().document,
+  };
+  return new KeptDocuments(shown, {
+    storage, isKept, failed, hold: holdDocument, empty: emptyDocument(editor.format, ''), nowMs: () => Date.now(), newId: () => crypto.randomUUID(),
+  });
+}
+
+export function makeTransfer(editor: DocumentEditor, documents: KeptDocuments, robot: RobotForPages): RobotTransfer {
+  return new RobotTransfer({
+    format: editor.format, document: () => editor.state.get().document, robot: () => editor.state.get().robot, setRobot: (pages) => editor.setRobot(pages),
+    requests: () => robot.requests(), becomeEdit: () => robot.becomeEdit(),
+    backUp: (pages) => documents.backUp(robot.name(), pages).catch((cause: unknown) => {
+      throw new RobotError('no-backup', '', { cause });
+    }),
+  });
+}

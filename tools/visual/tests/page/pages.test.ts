@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The hobbyist's row of the specification and what belongs to it, on the robot in the page: pages edited by mouse and by keyboard,
+// what will change, backup, write, compare; links and checks; a tab that is closed.
+import { mkdir } from 'node:fs/promises';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+
+const SHOTS = new URL('../../../../build/visual-shots/', import.meta.url).pathname;
+let browser: Browser;
+let server: PageServer;
+
+beforeAll(async () => {
+  await mkdir(SHOTS, { recursive: true });
+  [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
+});
+afterAll(async () => {
+  await browser.close();
+  await server.stop();
+});
+
+const card = (page: Page, name: RegExp) => page.getByRole('option', { name });
+const button = (page: Page, name: string | RegExp) => page.getByRole('button', { name });
+
+test('a hobbyist: renames and copies pages, sees what will change, writes with a backup, takes a page back; a closed tab loses nothing', async () => {
+  const person = await Visitor.come(browser, server.address);
+  const { page } = person;
+  await person.untilStanding();
+  await person.open('Pages');
+  await card(page, /^page 2 bow/).click();
+  await button(page, 'Rename …').click();
+  await page.getByRole('textbox', { name: 'Name' }).fill('curtsy');
+  await page.keyboard.press('Enter');
+  await card(page, /^page 2 curtsy/).waitFor();
+  await button(page, /^Undo: name \(page 2\)/).click();
+  await card(page, /^page 2 bow/).waitFor();
+  await button(page, /^Redo: name \(page 2\)/).click();
+  await card(page, /^page 3 wave/).dragTo(card(page, /^page 2 curtsy/));
+  await button(page, 'Cancel').click(); // it was the wrong place
+  await page.getByRole('searchbox', { name: 'Search pages' }).fill('7'); // page 7 beside many that are empty
+  await card(page, /^page 7 stand/).dragTo(card(page, /^page 70, empty/));
+  await page.getByRole('dialog').getByRole('button', { name: 'Copy' }).click();
+  await card(page, /^page 70 stand/).waitFor();
+  await page.getByRole('searchbox', { name: 'Search pages' }).fill('');
+  await page.screenshot({ path: `${SHOTS}pages.png` });
+
+  await button(page, 'To the robot (2) …').click();
+  const rows = page.getByRole('list', { name: 'Pages that differ' });
+  await rows.getByText('name "bow" -> "curtsy"').waitFor(); // m512's words: Python is loaded for them
+  await rows.getByText('page 70 (stand)').waitFor();
+  await page.screenshot({ path: `${SHOTS}to-the-robot.png` });
+  await button(page, 'Write 2 pages into the robot').click();
+  await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 pages.' }).waitFor();
+  await rows.getByText('Nothing differs.').waitFor();
+  const compared = page.getByRole('combobox', { name: 'Compare with' });
+  await compared.selectOption({ index: 1 }); // the backup that was kept before
+  await button(page, 'Take over page 2 (bow)').click();
+  await button(page, 'Close').click();
+  await card(page, /^page 2 bow/).waitFor();
+
+  const context = page.context();
+  let tab = page;
+  for (const name of ['one', 'two']) {
+    await card(tab, /^page 2 /).press('F2');
+    await tab.getByRole('textbox', { name: 'Name' }).fill(name);
+    await tab.keyboard.press('Enter');
+    await card(tab, new RegExp(`^page 2 ${name}`)).waitFor(); // the edit is finished; at this moment the tab goes
+    await tab.close();
+    tab = await context.newPage();
+    await tab.goto(server.address);
+    await tab.getByRole('tab', { name: 'Pages' }).click();
+    await card(tab, new RegExp(`^page 2 ${name}`)).waitFor();
+  }
+  await button(tab, /^To the robot \(1\)/).waitFor(); // and the robot kept what was written
+  await person.leave();
+}, 600_000);
+
+test('by keyboard alone: pages, links and checks', async () => {
+  const person = await Visitor.come(browser, server.address, 'dark');
+  const { page } = person;
+  const { keyboard } = page;
+  await person.untilStanding();
+  await page.getByRole('tab', { name: 'Remote' }).focus();
+  while ((await page.getByRole('tab', { name: 'Pages' }).getAttribute('aria-selected')) !== 'true') await keyboard.press('ArrowRight');
+  await card(page, /^page 1 ready/).focus();
+  await keyboard.press('ArrowRight'); // page 2, the bow
+  await keyboard.press('Control+c');
+  await keyboard.press('End'); // the trim, which stands last
+  await keyboard.press('ArrowLeft');
+  await keyboard.press('Control+v');
+  await page.getByRole('dialog').getByRole('button', { name: 'Copy' }).press('Enter');
+  await card(page, /^page 127 bow/).waitFor();
+  await card(page, /^page 127 bow/).press('Delete');
+  await page.getByRole('dialog').getByRole('button', { name: 'Clear' }).press('Enter');
+  await card(page, /^page 127, empty/).waitFor();
+  await card(page, /^page 127, empty/).press('Control+z');
+  await card(page, /^page 127 bow/).waitFor();
+
+  await page.getByRole('tab', { name: 'Pages' }).press('ArrowRight');
+  await page.getByLabel('next', { exact: true }).focus();
+  await page.getByLabel('next', { exact: true }).selectOption({ label: '100 (empty)' });
+  await page.getByRole('button', { name: /^page 100, nothing to play here/ }).waitFor();
+  await page.screenshot({ path: `${SHOTS}links-dark.png` });
+  await page.getByRole('tab', { name: 'Links' }).press('ArrowRight');
+  const dead = page.getByRole('list', { name: 'Findings' }).getByRole('listitem').filter({ hasText: 'next leads to page 100, which has no action' });
+  await dead.waitFor(); // in m512's words
+  await page.screenshot({ path: `${SHOTS}checks-dark.png` });
+  await person.open('Pages');
+  await card(page, /^page 1 ready/).click();
+  await person.open('Checks');
+  await dead.getByRole('button', { name: 'Go to page 127 (bow)' }).press('Enter');
+  await page.getByRole('heading', { name: 'Links of page 127 (bow)' }).waitFor();
+  expect(await page.getByRole('tab', { name: 'Links' }).getAttribute('aria-selected')).toBe('true');
+  await person.leave();
+}, 600_000);
