@@ -165,6 +165,21 @@ def nominal_figure(image, library):
     return proof.Figure("Motions go as far and turn as much as they promise.", "nominal body, AX-12, 11.1 V", "; ".join(said), kept)
 
 
+def ease_of(image, item):
+    number, promise = item
+    return promises.eases(image, number, promise)
+
+
+def eases_figure(options, image, library):
+    asked = [promise for promise in promises.STANDS if not options.sample or promise.page in promises.EASY]
+    items = [(promises.number_of(library, promise.page), promise) for promise in asked]
+    results = proof.each(functools.partial(ease_of, image), items, "torques", options.jobs)
+    bad = [f"{promise.page}: {', '.join(missing)}" for promise, (missing, _) in zip(asked, results) if missing]
+    said = ", ".join(f"{promise.page} {what}" for promise, (_, what) in zip(asked, results))
+    return proof.Figure("No motion asks a servo for more than 90 % of its speed, or for more than a third of its torque on average.",
+                        "nominal body, AX-12, 11.1 V, every motion once", "; ".join(bad) or said, not bad)
+
+
 def bears_figure(image, library):
     missing, what = promises.bears(image, promises.number_of(library, "walk"))
     return proof.Figure("Servos bear ten minutes of walking.", "nominal body, AX-12, 11.1 V; mean torque below a third of stall, heat below "
@@ -180,6 +195,8 @@ def run(options):
     library = library_image()
     image = library.to_bytes()
     figures += stand_figures(options, image, library)
+    if not options.only and options.seed_of is None:
+        figures.append(eases_figure(options, image, library))
     if not options.sample and options.seed_of is None:
         if options.only in (None, "walk") and options.on_board:
             figures.append(board_figure(options, image, library))

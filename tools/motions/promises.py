@@ -94,6 +94,7 @@ GOES = [
 ]
 BEARS_S = 600                    # of walking
 BEARS_NM = 1.5 * 11.1 / 12 / 3   # mean torque of a servo: a third of what stalls it at 11.1 V
+EASES_UNITS_PER_TICK = 0.9 * 59 * 11.1 / 12 * 6 / 128 * 1024 / 300 + 1   # 90 % of an AX-12's speed; goals are whole units
 BEARS_DEGREES_C = 70             # the limit in an AX-12's address 11
 EASY = ("ready", "bow", "wave", "clap", "cheer", "sit", "stand")     # a sample of these must never fail
 
@@ -178,6 +179,15 @@ def goes(image, number, promise):
         if drift > promise.drift_mm_a_turn:
             missing.append(f"drifts {drift:.0f} mm a turn, promised {promise.drift_mm_a_turn}")
     return missing, outcome.said()
+
+
+def eases(image, number, promise):
+    """The nominal body: (what its servos do that they should not, what happened). Slow enough, and not too heavy on average."""
+    outcome = try_motion(image, number, promise.seconds, robot=ROBOT, keys=promise.keys, lie=promise.lie, falls=not promise.floor)
+    missing = [f"mean torque {outcome.most_torque_nm:.2f} N m"] if outcome.most_torque_nm >= BEARS_NM else []
+    if outcome.most_units_per_tick > EASES_UNITS_PER_TICK:
+        missing.append(f"{outcome.most_units_per_tick:.0f} units a tick")
+    return missing, f"{outcome.most_torque_nm:.2f} N m, {outcome.most_units_per_tick:.0f} units a tick"
 
 
 def bears(image, number):
