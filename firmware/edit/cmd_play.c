@@ -96,9 +96,10 @@ static NOINLINE void tell_faults(void)
         dialog_tell_joints((const char *)pgm_read_ptr(&names[bit]), joints);
     }
     the_screen.lead = true;
+    the_dialog.faults_stand = the_performer.battery_told || the_screen.line_column != column;
     if (the_performer.battery_told) {
         TEXT("Battery low");
-    } else if (the_screen.line_column == column) {
+    } else if (!the_dialog.faults_stand) {
         TEXT("All servos are well");
     }
 }
@@ -164,8 +165,9 @@ void cmd_play_events(bool line_is_free)
         } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
             the_dialog.faults_due = !the_screen.hidden;
         } else if (event.kind == PERFORMER_EV_STEP) {
-            /* behind a key the row keeps what the key did */
-            the_dialog.step_due = the_dialog.mode == DIALOG_PLAY && !link_is_stopping(&the_performer.link);
+            /* behind a key the row keeps what the key did, and a fault stays where it is read */
+            the_dialog.step_due = the_dialog.mode == DIALOG_PLAY && !the_dialog.faults_stand &&
+                                  !link_is_stopping(&the_performer.link);
         }
     } else if (the_dialog.step_due && line_is_free) {
         tell_step();

@@ -45,6 +45,7 @@ typedef struct {
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
     uint8_t late_ticks;            /* a play or a list has just ended: a space was meant for it */
     bool step_due;                 /* a step has begun: the row says which when the line has room */
+    bool faults_stand;             /* the row has told faults, and not yet that all are well */
     bool faults_due;               /* a servo has a new fault: the row says it when the line has room */
     bool broken_off;               /* a servo's fault has ended the last play: the row says so until the next line is run */
     uint16_t quiet_since;          /* tick of the last byte that came, or of the question */

@@ -49,7 +49,7 @@ static void go_on(uint8_t result)
 void editor_run(void)
 {
     the_dialog.asked = 0;
-    the_dialog.broken_off = false;
+    the_dialog.broken_off = the_dialog.faults_stand = false;
     the_screen.lead = true;
     the_screen.cramped = the_screen.line_column > MESSAGE_COLUMN_MAX;
     the_session.spare = performer_spare(&the_performer);

@@ -206,6 +206,32 @@ def test_a_page_is_laid_over_the_walk_on_joints_of_its_own(m512, robot):
     assert "belongs to a page" in m512("layer", "off", "--joints", "1", "-p", robot.path).stderr
 
 
+def test_joints_are_moved_by_code_and_given_back(m512, robot):
+    start(m512, robot)
+
+    def run(*args, code=0):
+        result = m512(*args, "-p", robot.path)
+        assert result.exit_code == code, result.stderr
+        return result
+
+    run("torque", "on")
+    assert "aim 1,2" in run("aim", "1:30deg", "2:400", "--speed", "120").stdout
+    robot.pass_time(2)
+    assert [robot.board.servos[joint].goal for joint in (1, 2)] == [614, 400]
+    assert json.loads(run("swing", "3", "512", "20deg", "2s", "--phase", "90", "--json").stdout)["aim"] == "1,2,3"
+    robot.pass_time(1)
+    seen = set()
+    for _ in range(40):
+        robot.pass_time(0.05)
+        seen.add(robot.board.servos[3].goal)
+    assert min(seen) in range(440, 450) and max(seen) in range(575, 585)       # 20 degrees are 68 units
+    assert "aim 1,3" in run("free", "2").stdout and "aim none" in run("free").stdout
+    assert "None of these servos" in run("aim", "25:512", code=8).stderr
+    assert "amplitude is 0..511" in run("swing", "3", "512", "600", "2s", code=2).stderr
+    assert "such as 2s" in run("swing", "3", "512", "60", "2", code=2).stderr
+    assert "0..1023" in run("aim", "3:2000", code=2).stderr
+
+
 def test_amplitudes_of_single_joints_are_told_with_their_joints(m512, robot):
     start(m512, robot)
     with VirtualLink(robot.path) as link:
