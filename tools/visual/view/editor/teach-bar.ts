@@ -34,6 +34,8 @@ export class TeachBar extends HTMLElement {
   private readonly hold = make('button', { onclick: () => void this.holdAll() }, 'Hold');
   private readonly hint = make('p', { class: 'hint', role: 'status', 'aria-label': 'Teaching' });
   private limp: readonly number[] = [];
+  /** The hand that holds the body was asked for here. */
+  private isCarrying = false;
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
@@ -71,7 +73,7 @@ export class TeachBar extends HTMLElement {
     const isTaught = group.servos.every((servo) => taught.has(servo));
     const next = new Set(isTaught ? [...taught].filter((servo) => !group.servos.includes(servo)) : [...taught, ...group.servos]);
     this.editing.set({ taught: next, mode: 'hand', follow: false });
-    if (!isTaught && group.carries) this.desk.hold(true);
+    if (!isTaught && group.carries) this.desk.hold((this.isCarrying = true));
     await this.desk.setTorque(isTaught, group.servos);
     if (isTaught) this.letStand(next);
   }
@@ -84,7 +86,9 @@ export class TeachBar extends HTMLElement {
 
   private letStand(taught: ReadonlySet<number>): void {
     const isCarried = [...this.limbs.keys()].some(({ carries, servos }) => carries && servos.some((servo) => taught.has(servo)));
-    if (!isCarried) this.desk.hold(false);
+    if (isCarried || !this.isCarrying) return;
+    this.isCarrying = false;
+    this.desk.hold(false);
   }
 }
 
