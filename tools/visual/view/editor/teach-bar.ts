@@ -13,15 +13,13 @@ import { TEACH_TEXTS } from './step-texts.ts';
 export interface LimbGroup {
   readonly title: string;
   readonly servos: readonly number[];
-  /** The robot stands on it. */
-  readonly carries: boolean;
 }
 
 export function limbGroups(body: Body): LimbGroup[] {
   const servos = (limb: ReturnType<typeof handLimb>): number[] => limb.links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
   return [
-    { title: 'Right arm', servos: servos(handLimb(body, 'right')), carries: false }, { title: 'Left arm', servos: servos(handLimb(body, 'left')), carries: false },
-    { title: 'Right leg', servos: servos(footLimb(body, 'right')), carries: true }, { title: 'Left leg', servos: servos(footLimb(body, 'left')), carries: true },
+    { title: 'Right arm', servos: servos(handLimb(body, 'right')) }, { title: 'Left arm', servos: servos(handLimb(body, 'left')) },
+    { title: 'Right leg', servos: servos(footLimb(body, 'right')) }, { title: 'Left leg', servos: servos(footLimb(body, 'left')) },
   ];
 }
 
@@ -67,13 +65,14 @@ export class TeachBar extends HTMLElement {
     this.hint.textContent = this.hold.disabled ? TEACH_TEXTS.stiff : isSimulated ? TEACH_TEXTS.limpSimulated : TEACH_TEXTS.limpYours;
   }
 
-  /** Lets a limb go, or holds it where it is. In the simulation a hand holds the body as long as a leg does not carry it. */
+  /** Lets a limb go, or holds it where it is. In the simulation a hand holds the body meanwhile: whoever pulls at an arm would
+   *  pull the robot over, and limp legs do not carry it. */
   private async toggle(group: LimbGroup): Promise<void> {
     const { taught } = this.editing.get();
     const isTaught = group.servos.every((servo) => taught.has(servo));
     const next = new Set(isTaught ? [...taught].filter((servo) => !group.servos.includes(servo)) : [...taught, ...group.servos]);
     this.editing.set({ taught: next, mode: 'hand', follow: false });
-    if (!isTaught && group.carries) this.desk.hold((this.isCarrying = true));
+    if (!isTaught && this.desk.state.get().source === 'simulated') this.desk.hold((this.isCarrying = true));
     await this.desk.setTorque(isTaught, group.servos);
     if (isTaught) this.letStand(next);
   }
@@ -85,8 +84,7 @@ export class TeachBar extends HTMLElement {
   }
 
   private letStand(taught: ReadonlySet<number>): void {
-    const isCarried = [...this.limbs.keys()].some(({ carries, servos }) => carries && servos.some((servo) => taught.has(servo)));
-    if (isCarried || !this.isCarrying) return;
+    if (taught.size > 0 || !this.isCarrying) return;
     this.isCarrying = false;
     this.desk.hold(false);
   }
