@@ -5,7 +5,8 @@ import { MOST_CHARACTERS, decodeMotion, encodeMotion } from '../files/motion-lin
 import { imageOf, pageOf } from '../model/document.ts';
 import type { FileFormats, NoRoom, Opened, Refused, Suffix } from '../model/file-formats.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
-import { LINK_FIELDS, PARTNER_FIELDS, readPage } from '../model/page.ts';
+import { readPage } from '../model/page.ts';
+import { pagesOfPlay } from '../model/page-reach.ts';
 import { FILE_TEXTS } from '../view/editor/file-texts.ts';
 import type { Files, FilesState, SavedFile } from '../view/files-desk.ts';
 import { Store } from '../view/store.ts';
@@ -133,19 +134,12 @@ export class DocumentFiles implements Files {
     return image.subarray(page * PAGE_BYTES, (page + 1) * PAGE_BYTES);
   }
 
-  /** The page and all that it leads to, the page itself first. */
+  /** The page itself first, then all that it leads to, as far as they hold something whole. */
   private reached(start: number): Map<number, Uint8Array> {
     const { document } = this.editor.state.get();
     const { format } = this.editor;
-    const found = new Map<number, Uint8Array>();
-    const ahead = [start];
-    for (let page = ahead.shift(); page !== undefined; page = ahead.shift()) {
-      const bytes = pageOf(document, page);
-      if (page === 0 || found.has(page) || format.isEmpty(bytes) || format.fault(bytes) !== null) continue;
-      found.set(page, bytes);
-      const view = readPage(format, bytes);
-      ahead.push(...[...LINK_FIELDS, ...PARTNER_FIELDS].map((field) => view[field]));
-    }
-    return found;
+    const others = pagesOfPlay(format, document, start).filter((page) => page !== start);
+    const pages = [start, ...others].map((page): [number, Uint8Array] => [page, pageOf(document, page)]);
+    return new Map(pages.filter(([page, bytes]) => page > 0 && !format.isEmpty(bytes) && format.fault(bytes) === null));
   }
 }

@@ -67,6 +67,8 @@ test('a RoboPlus file is opened, looked at, taken over, and saved in every form 
 
 test('a teacher sends a motion as a link; a pupil adds it', async () => {
   const teacher = await Visitor.come(browser, server.address);
+  await teacher.open('Pages');
+  await teacher.page.getByRole('option', { name: /^page 2 bow/ }).click();
   await teacher.button('Send as link').click();
   const link = await teacher.page.getByRole('textbox', { name: 'Link' }).inputValue();
   expect(link.length).toBeLessThan(2000);
@@ -74,8 +76,9 @@ test('a teacher sends a motion as a link; a pupil adds it', async () => {
 
   const pupil = await Visitor.come(browser, link);
   await pupil.page.getByRole('dialog', { name: 'A motion for you' }).waitFor();
-  await pupil.button('Add it to my motions').click();
-  await pupil.page.getByRole('dialog').waitFor({ state: 'hidden' });
+  await pupil.untilStanding();
+  await pupil.button('Add it and play').click();
+  await pupil.doing.filter({ hasText: /Playing page \d+ \(bow\)/ }).waitFor(SLOW);
   expect(new URL(pupil.page.url()).hash).toBe('');
   await pupil.leave();
 });

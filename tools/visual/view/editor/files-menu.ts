@@ -96,7 +96,7 @@ export class FilesMenu extends HTMLElement {
     else if (tooLarge) this.show(tooLarge.name, [make('p', {}, FILE_TEXTS.tooLarge(tooLarge.pages))],
       [make('button', { onclick: () => void this.desk.files.openWithoutRest() }, 'Open without them'), this.closing('Cancel')]);
     else if (sent) this.show('A motion for you', [make('p', {}, FILE_TEXTS.sent(sent.name, sent.pages.size))],
-      [make('button', { class: 'primary', onclick: () => this.addSent() }, 'Add it to my motions'), this.closing('No')]);
+      [make('button', { class: 'primary', onclick: () => this.addSent(true) }, 'Add it and play'), make('button', { onclick: () => this.addSent(false) }, 'Add it'), this.closing('No')]);
     else this.dialog.close();
   }
 
@@ -108,8 +108,12 @@ export class FilesMenu extends HTMLElement {
     ], [take, this.closing('Cancel')]);
   }
 
-  private addSent(): void {
-    if (this.desk.files.addSent() > 0) window.history.replaceState(null, '', window.location.pathname + window.location.search);
+  private addSent(plays: boolean): void {
+    const page = this.desk.files.addSent();
+    if (page === 0) return;
+    window.history.replaceState(null, '', window.location.pathname + window.location.search);
+    this.desk.show('steps');
+    if (plays) void this.desk.playEdited(page);
   }
 
   private closing(title: string): HTMLButtonElement {
