@@ -391,7 +391,7 @@ def test_page_0_computes_the_trim():
         assert r.cell(3, 3) == "-012"
         r.line("step 3")
         r.line("save")
-        assert r.message.endswith("OK")
+        assert r.message.startswith("save OK")
         r.line("page 5")
         r.line("on")
         r.line("go 1")
