@@ -256,13 +256,14 @@ static void send_goals(performer_t *performer, uint32_t joints)
     servo_link_goals(PERFORMER_SERVOS(performer), performer->goal_pos, joints | performer_layers_joints(performer));
 }
 
-/* The compliance bytes of the page that has just begun, to the servos. Not inlined: the tick would keep 31 bytes of stack
+/* The compliance bytes of the pages that play, to the servos. Not inlined: the tick would keep 31 bytes of stack
  * for what happens once a page. */
 static NOINLINE void send_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
     performer->source->read(performer->source->context, performer->engine.player.page, PAGE_AT_COMPLIANCE, compliance,
                             sizeof compliance);
+    performer_layers_slopes(performer, compliance);
     servo_link_slopes(PERFORMER_SERVOS(performer), compliance);
 }
 

@@ -13,7 +13,7 @@
 /* After performer_init. The layers stay the caller's and are used from now on. */
 void performer_set_layers(performer_t *performer, layers_t *layers);
 
-/* Plays `page` on `joints` (0: those that its first step uses) over the main play, with the slopes of the main page.
+/* Plays `page` on `joints` (0: those that its first step uses) over the main play, with slopes of its own.
  * LAYERS_ERR_IDLE: no main play is on, or it is paused or ending. performer.fault_page and .fault tell of
  * LAYERS_ERR_PAGE and _EMPTY. */
 MUST_CHECK layers_status_t performer_layer(performer_t *performer, uint8_t page, uint32_t joints);
@@ -40,6 +40,9 @@ bool performer_layers_are_moving(const performer_t *performer);
 
 /* One tick. with_play: of the player as well. Returns the player's PLAYER_EV_ bits; PLAYER_EV_OUTPUT for the layers too. */
 uint8_t performer_layers_tick(performer_t *performer, bool with_play);
+
+/* Puts the layer's compliance bytes in the place of the main page's, for the joints that it moves. */
+void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS]);
 
 /* The memory of the main play is the player's from now on, or something else's (false). */
 void performer_layers_bind(performer_t *performer, bool with_play);

@@ -19,6 +19,12 @@ uint8_t performer_layers_tick(performer_t *performer, bool with_play)
     return with_play ? player_tick(&performer->engine.player, &performer->link) : 0;
 }
 
+void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS])
+{
+    (void)performer;
+    (void)compliance;
+}
+
 void performer_layers_bind(performer_t *performer, bool with_play)
 {
     (void)performer;

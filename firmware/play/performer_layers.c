@@ -27,6 +27,7 @@ layers_status_t performer_layer(performer_t *performer, uint8_t page, uint32_t j
 void performer_layer_off(performer_t *performer)
 {
     layers_end(performer->layers);
+    performer->slopes_due = true;
 }
 
 uint8_t performer_layer_page(const performer_t *performer)
@@ -78,10 +79,25 @@ uint8_t performer_layers_tick(performer_t *performer, bool with_play)
         return 0;
     }
     const uint8_t events = layers_tick(performer->layers, &performer->link, &of_layer);
+    if ((of_layer & (PLAYER_EV_PAGE | PLAYER_EV_ENDED)) != 0) {
+        performer->slopes_due = true;
+    }
     if ((of_layer & PLAYER_EV_ENDED) != 0) {
         performer_event_put(&performer->events, PERFORMER_EV_LAYER_ENDED, performer->layers->play.page, 0, 0);
     }
     return (uint8_t)(events | (of_layer & PLAYER_EV_OUTPUT));
+}
+
+void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS])
+{
+    const player_t *play = &performer->layers->play;
+    uint32_t joints = player_is_moving(play) ? play->present : 0;
+    for (uint8_t i = 0; joints != 0; i++, joints >>= 1) {
+        if (((uint8_t)joints & 1u) != 0) {
+            performer->source->read(performer->source->context, play->page, (uint16_t)(PAGE_AT_COMPLIANCE + i),
+                                    &compliance[i], 1);
+        }
+    }
 }
 
 void performer_layers_bind(performer_t *performer, bool with_play)

@@ -131,3 +131,27 @@ def test_no_tick_is_missed_with_all_of_it_in_force():
     ticks = [tick(frame.cycle) for frame in board.trace if len(frame.goals) > 1]
     assert ticks == list(range(ticks[0], ticks[0] + len(ticks)))
     assert where(board)["missed"] == "0"
+
+
+def slopes(board, joint):
+    """CW and CCW compliance slope, as the servo has them."""
+    return tuple(board.servos[joint].table[28:30])
+
+
+def test_a_layer_brings_the_slopes_of_its_own_page_and_takes_them_away_again():
+    image = from_bytes(pages())
+    for at, nibble in ((LOOP, 0x66), (WAVE, 0x33)):
+        image[at].data[32:63] = bytes([nibble]) * 31
+        image[at].seal()
+    board = robot(pages=image.to_bytes())
+    assert ask(board, f"play {LOOP}") == " OK"
+    board.run(ms=3000)
+    assert slopes(board, 3) == slopes(board, 5) == slopes(board, 1) == (64, 64)
+    assert ask(board, f"layer {WAVE}") == " OK"
+    board.run(ms=300)
+    assert slopes(board, 3) == slopes(board, 5) == (8, 8) and slopes(board, 1) == (64, 64)
+    board.run(ms=3000)   # the main page has begun anew
+    assert slopes(board, 3) == (8, 8) and slopes(board, 1) == (64, 64)
+    assert ask(board, "layer off") == " OK"
+    board.run(ms=300)
+    assert slopes(board, 3) == slopes(board, 5) == (64, 64)
