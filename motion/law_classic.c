@@ -56,7 +56,7 @@ static bool runs_on(int16_t from, int16_t to, uint16_t next_word)
 
 /* Joints begin on their target; behind a pause (or at the start) where they are. A joint that the step does not use stays
  * there, and its target too. Returns the longest way. */
-static uint16_t aim_joints(player_t *player, bool may_run_on)
+static NOINLINE uint16_t aim_joints(player_t *player, bool may_run_on)
 {
     uint16_t longest = 0;
     uint32_t used = player->coming_joints;

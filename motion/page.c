@@ -9,11 +9,6 @@ uint8_t page_sum(uint8_t sum, const uint8_t *bytes, uint16_t count)
     return sum;
 }
 
-static bool link_is_good(uint8_t page)
-{
-    return page < PAGE_COUNT;
-}
-
 page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES])
 {
     if (header[PAGE_AT_STEPS] > PAGE_STEPS) {
@@ -22,14 +17,7 @@ page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES])
     if (header[PAGE_AT_SCHEDULE] != PAGE_SCHEDULE_SPEED && header[PAGE_AT_SCHEDULE] != PAGE_SCHEDULE_TIME) {
         return PAGE_ERR_SCHEDULE;
     }
-    if (header[PAGE_AT_SPEED] == 0) {
-        return PAGE_ERR_SPEED;
-    }
-    if (!link_is_good(header[PAGE_AT_NEXT_PAGE]) || !link_is_good(header[PAGE_AT_EXIT_PAGE]) ||
-        !link_is_good(header[PAGE_AT_LINKED1_PAGE]) || !link_is_good(header[PAGE_AT_LINKED2_PAGE])) {
-        return PAGE_ERR_LINK;
-    }
-    return PAGE_OK;
+    return header[PAGE_AT_SPEED] == 0 ? PAGE_ERR_SPEED : PAGE_OK;
 }
 
 page_status_t page_check_step(const uint8_t step[PAGE_STEP_BYTES])

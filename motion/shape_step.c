@@ -77,14 +77,26 @@ static int32_t part_of_way(int16_t way, uint16_t percent)
     return way < 0 ? -size : size;
 }
 
+/* way * percent / 100, halves up: round_to_whole(way * percent * 100), at half its cycles. (n / 4) / 25 is n / 100, and 41944
+ * is 2^20 / 25 rounded up, exact up to 38,375. */
+static uint16_t scaled(uint16_t way, uint8_t percent)
+{
+    uint32_t hundredths = mul_u16_u16(way, percent) + 50u;
+    return mul_u16_high((uint16_t)(hundredths >> 2), 41944u) >> 4;
+}
+
 static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, uint8_t blend)
 {
-    int32_t way = part_of_way((int16_t)(p - c), (uint16_t)(amplitude * 100u));
-    if (q != p) {
-        way += part_of_way((int16_t)(q - p), (uint16_t)(amplitude * blend));
+    bool down = p < c;
+    int16_t whole;
+    if (q == p) {
+        whole = (int16_t)scaled((uint16_t)(down ? c - p : p - c), amplitude);
+    } else {
+        int32_t way = part_of_way((int16_t)(p - c), (uint16_t)(amplitude * 100u)) +
+                      part_of_way((int16_t)(q - p), (uint16_t)(amplitude * blend));
+        down = way < 0;
+        whole = (int16_t)round_to_whole((uint32_t)(down ? -way : way));
     }
-    bool down = way < 0;
-    int16_t whole = (int16_t)round_to_whole((uint32_t)(down ? -way : way));
     int16_t pos = (int16_t)((int16_t)c + (down ? -whole : whole));
     return pos < 0 ? 0 : pos > (int16_t)PAGE_POS_MAX ? PAGE_POS_MAX : (uint16_t)pos;
 }

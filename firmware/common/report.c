@@ -11,12 +11,11 @@ NOINLINE const char *report_page_fault_P(uint8_t page_status)
     TEXT_NAMED(steps, "more than 7 steps");
     TEXT_NAMED(schedule, "unknown schedule");
     TEXT_NAMED(speed, "page speed is 0");
-    TEXT_NAMED(link, "a link is above 127");
     TEXT_NAMED(position, "position above 1023");
     TEXT_NAMED(action, "no action");
     static const char *const faults[] PROGMEM = {
         [PAGE_OK] = nothing, [PAGE_ERR_CHECKSUM] = checksum, [PAGE_ERR_STEPS] = steps, [PAGE_ERR_SCHEDULE] = schedule,
-        [PAGE_ERR_SPEED] = speed, [PAGE_ERR_LINK] = link, [PAGE_ERR_POSITION] = position, [PAGE_EMPTY] = action,
+        [PAGE_ERR_SPEED] = speed, [PAGE_ERR_POSITION] = position, [PAGE_EMPTY] = action,
     };
     return pgm_read_ptr(&faults[page_status]);
 }

@@ -28,28 +28,12 @@ static uint8_t check_page(void *context, uint8_t page)
 
 static const page_source_t source = {.read = read_page, .check = check_page};
 
-/* A link above 127 makes no page bad here: the law counts it as none (player.md), and so the player must. */
-static uint8_t judge(const uint8_t page[PAGE_BYTES])
-{
-    static const uint8_t links_at[] = {PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE, PAGE_AT_LINKED2_PAGE};
-    uint8_t copy[PAGE_BYTES];
-    if (page_sum(0, page, PAGE_BYTES) != PAGE_CHECKSUM_SUM) {
-        return PAGE_ERR_CHECKSUM;
-    }
-    memcpy(copy, page, PAGE_BYTES);
-    for (unsigned i = 0; i < sizeof links_at; i++) {
-        copy[links_at[i]] = 0;
-    }
-    page_seal(copy);
-    return (uint8_t)page_check(copy);
-}
-
 /* image: PAGE_COUNT pages. Nothing plays, nothing is shaped. */
 void played_load(const uint8_t *image)
 {
     memcpy(pages, image, sizeof pages);
     for (unsigned page = 0; page < PAGE_COUNT; page++) {
-        status[page] = judge(pages[page]);
+        status[page] = (uint8_t)page_check(pages[page]);
     }
     shape_init(&shape);
 }

@@ -14,14 +14,14 @@ DATA = SHARED / "data"
 ALL = bool(os.environ.get("M512_ALL_PAGES"))
 EVERY = 1 if ALL else 5
 REASONS = {Fault.CHECKSUM: "checksum is wrong", Fault.STEPS: "more than 7 steps", Fault.SCHEDULE: "unknown schedule",
-           Fault.SPEED: "page speed is 0", Fault.LINK: "a link is above 127",
+           Fault.SPEED: "page speed is 0",
            Fault.POSITION: "position above 1023"}
 FILES = sorted(DATA.glob("*.bin")) if DATA.is_dir() else []
 PLAY_MS, END_MS = 3000, 60_000
 
 
 def read(path):
-    """The first 128 pages of a file, judged as this board judges them: 10 bits, links to pages 0..127."""
+    """The first 128 pages of a file, judged as this board judges them: 10 bits."""
     return Image(from_bytes(path.read_bytes()[:128 * 512]).pages)
 
 
@@ -56,7 +56,7 @@ def test_pages_of_a_real_set(path, law):
     played = refused = 0
     for number, page in list(image.items())[1::EVERY]:
         text = play_to_the_end(board, number)
-        fault = page.fault()
+        fault = next((fault for fault in page.faults() if fault is not Fault.LINK), Fault.OK)   # such a link counts as 0
         if is_erased(page) or (fault is Fault.OK and page.steps == 0):
             assert f"Page {number} is empty" in text
         elif fault is not Fault.OK:

@@ -182,7 +182,7 @@ class Page:
             yield Fault.POSITION
 
     def fault(self, kind: Kind = Kind()) -> Fault:
-        """The first fault, as the firmware's page_check reports it."""
+        """The first fault, as the firmware's page_check reports it; but to the firmware a link above 127 (LINK) is none."""
         return next(self.faults(kind), Fault.OK)
 
     def fault_text(self, kind: Kind = Kind()) -> str:
