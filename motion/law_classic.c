@@ -55,10 +55,9 @@ static bool runs_on(int16_t from, int16_t to, uint16_t next_word)
 }
 
 /* Joints begin on their target; behind a pause (or at the start) where they are. A joint that the step does not use stays
- * there, and its target too. Returns the longest way. */
-static NOINLINE uint16_t aim_joints(player_t *player, bool may_run_on)
+ * there, and its target too. */
+static NOINLINE void aim_joints(player_t *player, bool may_run_on)
 {
-    uint16_t longest = 0;
     uint32_t used = player->coming_joints;
     const uint16_t *coming = player->coming_pos, *next = player->looked_at;
     const uint8_t self = player->self;
@@ -72,13 +71,21 @@ static NOINLINE uint16_t aim_joints(player_t *player, bool may_run_on)
         if (((uint8_t)used & 1u) != 0) {
             to = (int16_t)*coming;
             carried = speed_left(player, classic);
-            uint16_t way = fix_size((int16_t)(to - from));
-            longest = way > longest ? way : longest;
         }
         classic->carried = carried;
         classic->through = may_run_on && runs_on(from, to, *next);
         classic->start_pos = from;
         classic->to_go = (int16_t)(to - from);
+    }
+}
+
+/* Of the joints that aim_joints has aimed. */
+static NOINLINE uint16_t longest_way(const player_t *player)
+{
+    uint16_t longest = 0;
+    FOR_OWN_JOINTS(player, joint) {
+        uint16_t way = fix_size(joint->classic.to_go);
+        longest = way > longest ? way : longest;
     }
     return longest;
 }
@@ -139,11 +146,11 @@ static NOINLINE void take(player_t *player)
     bool from_output = player->section == SECTION_HOLD;
     player->joints |= player->coming_joints;
     uint16_t hold_ticks = step_plan_classic_hold(&player->now, &player->carry_q5_11);
-    uint16_t way = aim_joints(player, player->look_page != 0 && hold_ticks == 0);
-    if (!from_output) {
-        way = player->coming_way; /* from targets: also of joints that are lent */
-    } else if (way < player->lent_way) {
-        way = player->lent_way;
+    aim_joints(player, player->look_page != 0 && hold_ticks == 0);
+    uint16_t way = player->coming_way; /* from targets: also of joints that are lent */
+    if (from_output) {
+        way = longest_way(player);
+        way = way < player->lent_way ? player->lent_way : way;
     }
     player->hold_ticks = hold_ticks;
     player->step_ticks = step_plan_classic_ticks(&player->now, way, &player->carry_q5_11);

@@ -77,8 +77,8 @@ static int32_t part_of_way(int16_t way, uint16_t percent)
     return way < 0 ? -size : size;
 }
 
-/* way * percent / 100, halves up: round_to_whole(way * percent * 100), at half its cycles. (n / 4) / 25 is n / 100, and 41944
- * is 2^20 / 25 rounded up, exact up to 38,375. */
+/* way * percent / 100, halves up: round_to_whole(way * percent * 100), at half its cycles. (n / 4) / 25 is n / 100, and
+ * 41944 is 2^20 / 25 rounded up, exact up to 38,375. */
 static uint16_t scaled(uint16_t way, uint8_t percent)
 {
     uint32_t hundredths = mul_u16_u16(way, percent) + 50u;
