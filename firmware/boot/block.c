@@ -11,7 +11,7 @@
 
 #define GAP_TICKS UART_TICKS(100)  /* inside a frame */
 #define IDLE_TICKS UART_TICKS(4000) /* between frames */
-#define NOISE_MAX 1000u             /* bytes outside of frames: someone is typing */
+#define NOISE_MAX 1000u             /* bytes without a frame, good or bad: someone is typing */
 #define SUMS_MAX 64u               /* pages in one answer */
 #define EEPROM_WRITE_MAX 32u       /* 0.27 s: the ring holds what comes meanwhile */
 #define RAM_PAGES_END ((MEMORY_RAM + MEM_RAM_END) / 256u)
@@ -175,6 +175,7 @@ void block_session(void)
             if (!is_proven) {
                 break;
             }
+            noise = 0; /* a program talks: at the prompt, the rest of what it sends would be typed text */
             answer_begin(memory_work, BAD_FRAME, 0, 0); /* of which frame, is as uncertain as the rest of it */
             answer_end();
         }

@@ -264,3 +264,19 @@ def test_speed():
     assert same < fresh * 0.10
     assert fast < fresh * 0.6
     assert board.uart(1).overruns == 0
+
+
+def test_text_in_damaged_frames_is_never_typed():
+    """A line that spoils frame after frame: what is in them stays data, however many there are."""
+    board = prompt_board()
+    blocks = Blocks(board)
+    blocks.ask(HELLO)
+    eeprom = bytes(board.eeprom[0:0x1000])
+    text = (b"\rclear_eeprom\ry\rload 0\r" * 12)[:256]
+    for _ in range(12):
+        spoilt = bytearray(frame(WRITE, 9, page_body(0x100, text)))
+        spoilt[100] ^= 1
+        board.send(bytes(spoilt), wait=True)
+    board.run(ms=300)
+    assert b"Command" not in board.take() and bytes(board.eeprom[0:0x1000]) == eeprom
+    assert Blocks(board).ask(HELLO)[0] == OK

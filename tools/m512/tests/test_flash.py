@@ -206,6 +206,24 @@ def test_block_line_with_noise_repeats_and_arrives(m512, motions):
         assert peer.flash[0xE200:0x1E000] == motion_area()[512:] and "repetitions" in result.stderr
 
 
+@pytest.mark.parametrize("lost", [0x69, 0x64])
+def test_block_loader_is_not_taken_for_the_factorys_when_a_letter_is_lost(m512, motions, lost):
+    """Of the question `id`: the loader answers that it does not know the word, as the factory's does."""
+    with BlockPeer(old_flash()) as peer:
+        gone = []
+
+        def lose(direction, _, byte):
+            if direction == "->" and byte == lost and not gone:
+                gone.append(byte)
+                return None
+            return byte
+
+        peer.garble = lose
+        result = m512("flash", motions, "-p", peer.path)
+        assert gone and result.exit_code == 0 and "Motion512 boot loader" in result.stderr
+        assert peer.eeprom == b"\xff" * 4096
+
+
 def test_block_flash_that_does_not_take_the_data(m512, motions):
     with BlockPeer(old_flash()) as peer:
         peer.broken_pages.add(0xE600 // 256)

@@ -25,6 +25,7 @@ STAY, START, RESET = range(3)  # leave()
 HASH_SECONDS = 0.025           # the window behind a start is 60 ms
 HASHES_MOST = 2300             # with the rest of what is sent blindly: less than factory_flash.BLIND_MOST
 KNOCK_SECONDS = 1.5
+IDENTIFY_TRIES = 6
 WAIT_SECONDS = 60.0
 
 
@@ -48,14 +49,16 @@ def at_prompt(link: Link) -> bool:
 
 def identify(link: Link) -> Loader:
     """Which loader is at its prompt. Its own words are asked first: a frame would be typed text to the factory's."""
-    text = b""
-    for _ in range(3):
+    text, not_known = b"", 0
+    for _ in range(IDENTIFY_TRIES):
         link.drain(0.05)
         link.write(b"id\r")
         text, ended = link.look_for(PROMPT, KNOCK_SECONDS)
         if b"ID Motion512" in text:
             return BlockLoader(link, text.decode("ascii", "replace"))
-        if b"Bad Command" in text:
+        # Twice, and to the right word by its echo: our loader says this, too, of a word that the line has damaged.
+        not_known += text.lstrip().startswith(b"id\r\n Bad Command")
+        if not_known == 2:
             return FactoryLoader(link)
         if not ended:
             break
