@@ -69,7 +69,7 @@ test('a broken servo: the firmware says so, the page shows it', async () => {
   await person.open('Lab');
   await person.page.getByLabel('Fault of servo 5', { exact: true }).selectOption('does not answer');
   await person.button('Bow').click();
-  await person.page.getByRole('log', { name: 'Last message' }).filter({ hasText: /servo 5\b/i }).waitFor();
+  await person.page.getByRole('log', { name: 'Last message' }).filter({ hasText: /servos? 5\b/i }).waitFor();
   await person.page.screenshot({ path: `${SHOTS}lab-dark.png` });
   await person.leave();
 });
