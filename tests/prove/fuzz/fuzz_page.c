@@ -30,7 +30,6 @@ static page_status_t check_in_pieces(const uint8_t *page)
 static void must_be_sound(const uint8_t *page)
 {
     ASSERT(page[20] <= 7 && (page[16] == 0 || page[16] == 10) && page[22] != 0);
-    ASSERT(page[25] < 128 && page[26] < 128 && page[27] < 128 && page[29] < 128);
     for (unsigned step = 0; step < page[20]; step++) {
         for (unsigned joint = 0; joint < 31; joint++) {
             const unsigned word = page[64 + 64 * step + 2 * joint] | page[65 + 64 * step + 2 * joint] << 8;
