@@ -101,6 +101,7 @@ static NOINLINE void tell_faults(void)
         TEXT("Battery low");
     } else if (!the_dialog.faults_stand) {
         TEXT("All servos are well");
+        the_dialog.well_ticks = WELL_TICKS;
     }
 }
 
@@ -165,8 +166,8 @@ void cmd_play_events(bool line_is_free)
         } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
             the_dialog.faults_due = !the_screen.hidden;
         } else if (event.kind == PERFORMER_EV_STEP) {
-            /* behind a key the row keeps what the key did, and a fault stays where it is read */
-            the_dialog.step_due = the_dialog.mode == DIALOG_PLAY && !the_dialog.faults_stand &&
+            /* behind a key the row keeps what the key did, and what was said of servos stays where it is read */
+            the_dialog.step_due = the_dialog.mode == DIALOG_PLAY && !the_dialog.faults_stand && the_dialog.well_ticks == 0 &&
                                   !link_is_stopping(&the_performer.link);
         }
     } else if (the_dialog.step_due && line_is_free) {

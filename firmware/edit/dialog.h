@@ -23,6 +23,7 @@
 #define DIALOG_HISTORY_BYTES 30u
 #define DIALOG_NO_PAGE 0xFFu
 enum { LATE_TICKS = 64 };         /* half a second: a space that comes so late was meant for what has just ended */
+enum { WELL_TICKS = 128 };        /* a second: long enough to be read */
 
 typedef enum {
     DIALOG_TABLE = 0, DIALOG_LINE, DIALOG_ASK, DIALOG_NAME, DIALOG_LIST, DIALOG_PLAY,
@@ -44,6 +45,7 @@ typedef struct {
     uint8_t list_first, list_last; /* pages of LIST and CHECK */
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
     uint8_t late_ticks;            /* a play or a list has just ended: a space was meant for it */
+    uint8_t well_ticks;            /* the row says that all servos are well: steps wait until it was read */
     bool step_due;                 /* a step has begun: the row says which when the line has room */
     bool faults_stand;             /* the row has told faults, and not yet that all are well */
     bool faults_due;               /* a servo has a new fault: the row says it when the line has room */

@@ -63,6 +63,9 @@ static void tick_work(void)
     if (the_dialog.late_ticks != 0) {
         the_dialog.late_ticks--;
     }
+    if (the_dialog.well_ticks != 0) {
+        the_dialog.well_ticks--;
+    }
     if (performer_is_idle(&the_performer)) {
         robot_follow();
     } else if (the_dialog.mode == DIALOG_PLAY) {

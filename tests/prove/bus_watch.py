@@ -18,9 +18,11 @@ def frames_of(packets):
 
 
 def missing_ticks(frames, phase):
-    """How many ticks between the first and the last frame have not exactly one frame of their own."""
+    """How many ticks between the first and the last frame got none. A frame may come late by less than a tick, when the board
+    waits for a servo that has fallen silent: then the next one comes in the same tick, on time, and none is lost."""
     ticks = [(cycle - phase) // CYCLES_PER_TICK for cycle, _ in frames]
-    return sum(b - a != 1 for a, b in zip(ticks, ticks[1:]))
+    lost = ticks[-1] - ticks[0] + 1 - len(ticks) if ticks else 0
+    return abs(lost) + sum(b - a > 2 for a, b in zip(ticks, ticks[1:]))
 
 
 def largest_steps(frames):
