@@ -113,7 +113,7 @@ TEXT_NAMED(linked1, "Link 1 to $");
 TEXT_NAMED(linked2, "Link 2 to $");
 TEXT_NAMED(loop, "The exit pages lead back to themselves");
 TEXT_NAMED(no_link, "No link to $");
-TEXT_NAMED(done, "Ended after @");
+TEXT_NAMED(ended_after, "Ended after @");
 TEXT_NAMED(stopped, "Stopped after @");
 TEXT_NAMED(broken, "Broken off in @");
 TEXT_NAMED(bad_page, "Ended. !");
@@ -133,7 +133,7 @@ static const char *const of_link[] PROGMEM = {
     [LINK_END_OF_EXIT_LOOP] = loop, [LINK_ENDED] = no_link,
 };
 static const char *const of_end[] PROGMEM = {
-    [PERFORMER_END_DONE] = done, [PERFORMER_END_STOPPED] = stopped, [PERFORMER_END_BROKEN] = broken,
+    [PERFORMER_END_DONE] = ended_after, [PERFORMER_END_STOPPED] = stopped, [PERFORMER_END_BROKEN] = broken,
     [PERFORMER_END_LOOP] = stopped, [PERFORMER_END_PAGE] = bad_page, [PERFORMER_END_SERVO] = for_servo,
     [PERFORMER_END_THERE] = there,
 };

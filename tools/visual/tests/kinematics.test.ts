@@ -159,5 +159,5 @@ test('an angle becomes the nearest whole position, never one beyond a limit', ()
   const knee = body.joints.find((joint) => joint.name === 'right_knee')!;
   expect(nearestPosition(knee, -0.5)).toBe(512 - Math.round((0.5 * 180) / Math.PI / (300 / 1024)));
   expect(nearestPosition(knee, 1)).toBe(512);
-  expect(nearestPosition(knee, -9)).toBe(512 - Math.round(125 / (300 / 1024)));
+  expect(nearestPosition(knee, -9)).toBe(512 - Math.round(140 / (300 / 1024)));
 });
