@@ -5,6 +5,9 @@
 const LINE_MAX = 200;
 const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|fault|lost|cannot|bad|not /i;
 
+/** What Play says behind a servo's fault; on its own it would not say which servo. */
+const ENDED_BY_SERVO = /^Ended for the fault of a servo/;
+
 export interface Said {
   readonly text: string;
   readonly isTrouble: boolean;
@@ -13,6 +16,7 @@ export interface Said {
 export class LastSaid {
   private line = '';
   private isScreen = false;
+  private trouble = '';
 
   /** The newest message among these bytes, or null. */
   take(bytes: Uint8Array): Said | null {
@@ -33,6 +37,13 @@ export class LastSaid {
     const isMessage = !this.isScreen && text.length > 3 && !text.startsWith('] ') && !text.startsWith('@') && /^[\x20-\x7e]+$/.test(text);
     this.line = '';
     this.isScreen = false;
-    return isMessage ? { text, isTrouble: TELLS_TROUBLE.test(text) } : null;
+    return isMessage ? this.told(text) : null;
+  }
+
+  private told(text: string): Said {
+    const isTrouble = TELLS_TROUBLE.test(text);
+    const said = ENDED_BY_SERVO.test(text) && this.trouble !== '' ? `${this.trouble}. ${text}` : text;
+    this.trouble = isTrouble && !ENDED_BY_SERVO.test(text) ? text : '';
+    return { text: said, isTrouble };
   }
 }

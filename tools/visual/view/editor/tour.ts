@@ -12,7 +12,7 @@ import type { TourStop } from './tour-texts.ts';
 import './tour.css';
 
 /** Servo units that the arm is off where it was: it has been dragged. */
-const MOVED_UNITS = 60;
+const MOVED_UNITS = 25;
 const RING_PX = 46;
 
 export class TourCard extends HTMLElement {
