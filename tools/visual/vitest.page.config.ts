@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The built page in a real browser. One page at a time: it runs in real time.
+// The built page in a real browser. One page at a time: it runs in real time. A test that failed is run once more, and the report says
+// that it was: on a shared machine a browser that draws by software may be kept waiting.
 import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
-  test: { include: ['tests/page/*.test.ts'], testTimeout: 400_000, hookTimeout: 120_000, fileParallelism: false, maxWorkers: 1 },
+  test: {
+    include: ['tests/page/*.test.ts'], testTimeout: 400_000, hookTimeout: 120_000, fileParallelism: false, maxWorkers: 1, retry: 1,
+  },
 });
