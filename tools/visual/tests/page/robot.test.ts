@@ -52,9 +52,10 @@ test('somebody who debugs: Edit in the terminal, a page saved, and the browser k
   await person.untilScreenSays('PageNumber:0100');
   await person.type('name salute\r');
   await person.untilScreenSays('salute');
+  await person.untilScreenSays(/\* unsaved/);
   await person.type('save\r');
-  await person.untilScreenSays(/OK|saved/i);
-  await person.page.waitForTimeout(1500); // the page keeps the memory 0.3 s after the last write
+  await expect.poll(async () => (await person.screen()).includes('* unsaved'), { timeout: 60_000 }).toBe(false);
+  await person.page.waitForTimeout(3000); // the page keeps the memory 0.3 s after the last write
   await person.page.reload();
   await person.untilStanding();
   await person.open('Terminal');
