@@ -2,23 +2,14 @@
 // axe-core finds nothing serious in any area, light and dark; and a motion is made by keyboard alone.
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+import { expect, test } from 'vitest';
+import { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
 
 const WIDE = { width: 1280, height: 800 };
 const PATIENT = { timeout: 240_000 };
 const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Lab'] as const;
-let browser: Browser;
-let server: PageServer;
-beforeAll(async () => {
-  [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
-});
-afterAll(async () => {
-  await browser.close();
-  await server.stop();
-});
-
+const suite = pageSuite();
 /** Serious and critical findings: "rule: element". contrast: of contrast alone. */
 async function findings(visitor: Visitor, contrast: boolean): Promise<string[]> {
   return visitor.page.evaluate(async (onlyContrast) => {
@@ -34,7 +25,7 @@ async function findings(visitor: Visitor, contrast: boolean): Promise<string[]> 
 
 test('no serious finding in any area; in the dark the contrast holds too', async () => {
   const source = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-  const person = await Visitor.come(browser, server.address, 'light', 1, WIDE);
+  const person = await Visitor.come(suite.browser, suite.address, 'light', 1, WIDE);
   await person.untilStanding();
   await person.page.evaluate(source);
   const found: string[] = [];
@@ -53,7 +44,7 @@ test('no serious finding in any area; in the dark the contrast holds too', async
 }, 600_000);
 
 test('by keyboard alone: a page of two steps, a joint turned, one moved, mirrored, undone', async () => {
-  const person = await Visitor.come(browser, server.address, 'light', 1, WIDE);
+  const person = await Visitor.come(suite.browser, suite.address, 'light', 1, WIDE);
   const { keyboard } = person.page;
   const focused = (): Promise<string> => person.page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? document.activeElement?.textContent ?? '');
   const tabTo = async (name: string): Promise<void> => {

@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The editor as a pupil uses it: a motion taught by hand, the tour, the curves. Time-outs are long: a busy machine is slow.
-import { mkdir } from 'node:fs/promises';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+import { expect, test } from 'vitest';
+import { Visitor } from './page-bench.ts';
+import { SHOTS, pageSuite } from './page-suite.ts';
 
-const SHOTS = new URL('../../../../build/visual-shots/', import.meta.url).pathname;
 const PATIENT = { timeout: 240_000 };
-let browser: Browser;
-let server: PageServer;
-
-beforeAll(async () => {
-  await mkdir(SHOTS, { recursive: true });
-  [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
-});
-afterAll(async () => {
-  await browser.close();
-  await server.stop();
-});
+const suite = pageSuite();
 
 /** Where a person sees a part of the robot. */
 function placeOf(visitor: Visitor, shape: string): Promise<{ x: number; y: number }> {
@@ -74,7 +62,7 @@ const robotSeconds = async (visitor: Visitor): Promise<number> => Number.parseFl
 const WAVES = [[-60, -190], [-70, 80], [60, -90]] as const;
 
 test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays it; undo takes each thing back', async () => {
-  const pupil = await Visitor.come(browser, server.address, 'light', 1, { width: 1280, height: 800 });
+  const pupil = await Visitor.come(suite.browser, suite.address, 'light', 1, { width: 1280, height: 800 });
   await pupil.untilStanding();
   await pupil.button('Tour').click();
   await said(pupil, 'You will teach the robot to wave.');

@@ -1,29 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Files and links, as a person uses them.
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
-import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+import { Visitor } from './page-bench.ts';
+import { SHOTS, pageSuite } from './page-suite.ts';
 
 const ROOT = new URL('../../../../', import.meta.url).pathname;
 const SLOW = { timeout: 90_000 }; // Python is loaded, on a machine that does other things too
-let browser: Browser;
-let server: PageServer;
+const suite = pageSuite();
 let folder: string;
 
-beforeAll(async () => {
-  mkdirSync(join(ROOT, 'build/visual-shots'), { recursive: true });
+beforeAll(() => {
   folder = mkdtempSync(join(tmpdir(), 'm512-page-'));
-  [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
 });
-afterAll(async () => {
-  await browser.close();
-  await server.stop();
-  rmSync(folder, { recursive: true });
-});
+afterAll(() => rmSync(folder, { recursive: true }));
 
 function convert(from: string, to: string): Buffer {
   const env = { ...process.env, PYTHONPATH: join(ROOT, 'tools/m512/src') };
@@ -32,7 +25,7 @@ function convert(from: string, to: string): Buffer {
 }
 
 test('a RoboPlus file is opened, looked at, taken over, and saved in every form as m512 does; a damaged one is refused', async () => {
-  const person = await Visitor.come(browser, server.address);
+  const person = await Visitor.come(suite.browser, suite.address);
   convert(join(ROOT, 'build/motions/motions.bin'), 'found.mtn');
   const chooser = person.page.getByLabel('Motion file');
   writeFileSync(join(folder, 'torn.mtn'), readFileSync(join(folder, 'found.mtn')).subarray(0, 5000));
@@ -43,7 +36,7 @@ test('a RoboPlus file is opened, looked at, taken over, and saved in every form 
   await chooser.setInputFiles(join(folder, 'found.mtn'));
   const dialog = person.page.getByRole('dialog', { name: 'found.mtn' });
   await dialog.getByText(/^[1-9]\d motion pages/).waitFor(SLOW);
-  await person.page.screenshot({ path: join(ROOT, 'build/visual-shots/opened.png') });
+  await person.page.screenshot({ path: `${SHOTS}opened.png` });
   await dialog.getByRole('button', { name: 'Take them over' }).click();
   await dialog.waitFor({ state: 'hidden' });
 
@@ -66,7 +59,7 @@ test('a RoboPlus file is opened, looked at, taken over, and saved in every form 
 });
 
 test('a teacher sends a motion as a link; a pupil adds it', async () => {
-  const teacher = await Visitor.come(browser, server.address);
+  const teacher = await Visitor.come(suite.browser, suite.address);
   await teacher.open('Pages');
   await teacher.page.getByRole('option', { name: /^page 2 bow/ }).click();
   await teacher.button('Send as link').click();
@@ -74,7 +67,7 @@ test('a teacher sends a motion as a link; a pupil adds it', async () => {
   expect(link.length).toBeLessThan(2000);
   await teacher.leave();
 
-  const pupil = await Visitor.come(browser, link);
+  const pupil = await Visitor.come(suite.browser, link);
   await pupil.page.getByRole('dialog', { name: 'A motion for you' }).waitFor();
   await pupil.untilStanding();
   await pupil.button('Add it and play').click();

@@ -1,29 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The hobbyist's row of the specification and what belongs to it, on the robot in the page: pages edited by mouse and by keyboard,
 // what will change, backup, write, compare; links and checks; a tab that is closed.
-import { mkdir } from 'node:fs/promises';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+import type { Page } from 'playwright-core';
+import { expect, test } from 'vitest';
+import { Visitor } from './page-bench.ts';
+import { SHOTS, pageSuite } from './page-suite.ts';
 
-const SHOTS = new URL('../../../../build/visual-shots/', import.meta.url).pathname;
-let browser: Browser;
-let server: PageServer;
-
-beforeAll(async () => {
-  await mkdir(SHOTS, { recursive: true });
-  [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
-});
-afterAll(async () => {
-  await browser.close();
-  await server.stop();
-});
+const suite = pageSuite();
 
 const card = (page: Page, name: RegExp) => page.getByRole('option', { name });
 const button = (page: Page, name: string | RegExp) => page.getByRole('button', { name });
 
 test('a hobbyist: renames and copies pages, sees what will change, writes with a backup, takes a page back; a closed tab loses nothing', async () => {
-  const person = await Visitor.come(browser, server.address);
+  const person = await Visitor.come(suite.browser, suite.address);
   const { page } = person;
   await person.untilStanding();
   await person.open('Pages');
@@ -67,7 +56,7 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
     await card(tab, new RegExp(`^page 2 ${name}`)).waitFor(); // the edit is finished; at this moment the tab goes
     await tab.close();
     tab = await context.newPage();
-    await tab.goto(server.address);
+    await tab.goto(suite.address);
     await tab.getByRole('tab', { name: 'Pages' }).click();
     await card(tab, new RegExp(`^page 2 ${name}`)).waitFor();
   }
@@ -76,7 +65,7 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
 }, 600_000);
 
 test('by keyboard alone: pages, links and checks', async () => {
-  const person = await Visitor.come(browser, server.address, 'dark');
+  const person = await Visitor.come(suite.browser, suite.address, 'dark');
   const { page } = person;
   const { keyboard } = page;
   await person.untilStanding();

@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What people do with the robot in the page, as they do it: mouse and keyboard, found by what stands on things.
-import { mkdir } from 'node:fs/promises';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+import { expect, test } from 'vitest';
+import { Visitor } from './page-bench.ts';
+import { SHOTS, pageSuite } from './page-suite.ts';
 
-const SHOTS = new URL('../../../../build/visual-shots/', import.meta.url).pathname;
-let browser: Browser;
-let server: PageServer;
-
-beforeAll(async () => {
-  await mkdir(SHOTS, { recursive: true });
-  [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
-});
-afterAll(async () => {
-  await browser.close();
-  await server.stop();
-});
+const suite = pageSuite();
 
 test('a pupil: it stands, walks while a key is held, is pushed over, is put on its feet and stands again', async () => {
-  const pupil = await Visitor.come(browser, server.address, 'light', 2);
+  const pupil = await Visitor.come(suite.browser, suite.address, 'light', 2);
   await pupil.untilStanding();
   await pupil.page.keyboard.down('ArrowUp');
   await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
@@ -42,7 +30,7 @@ test('a pupil: it stands, walks while a key is held, is pushed over, is put on i
 });
 
 test('somebody who debugs: Edit in the terminal, a page saved, and the browser keeps it over a reload', async () => {
-  const person = await Visitor.come(browser, server.address);
+  const person = await Visitor.come(suite.browser, suite.address);
   await person.untilStanding();
   await person.open('Lab');
   await person.button('Run Edit').click();
@@ -65,7 +53,7 @@ test('somebody who debugs: Edit in the terminal, a page saved, and the browser k
 });
 
 test('a broken servo: the firmware says so, the page shows it', async () => {
-  const person = await Visitor.come(browser, server.address, 'dark');
+  const person = await Visitor.come(suite.browser, suite.address, 'dark');
   await person.untilStanding();
   await person.open('Lab');
   await person.page.getByLabel('Fault of servo 5', { exact: true }).selectOption('does not answer');
@@ -76,7 +64,7 @@ test('a broken servo: the firmware says so, the page shows it', async () => {
 });
 
 test('time: slow, paused, tick by tick', async () => {
-  const person = await Visitor.come(browser, server.address);
+  const person = await Visitor.come(suite.browser, suite.address);
   await person.untilStanding();
   await person.open('Lab');
   const clock = person.page.locator('lab-pane .clock');
@@ -109,7 +97,7 @@ async function find(visitor: Visitor, title: RegExp): Promise<{ x: number; y: nu
 }
 
 test('a hand: the mouse takes an arm and pulls it out of its place', async () => {
-  const person = await Visitor.come(browser, server.address);
+  const person = await Visitor.come(suite.browser, suite.address);
   await person.untilStanding();
   const elbow = (): Promise<number> => person.page.evaluate(() => new Promise<number>((resolve) => {
     type Frame = { servos: { id: number; position: number }[] };
