@@ -20,9 +20,9 @@ static NOINLINE uint32_t bit_of(uint8_t joint)
     for (uint8_t i_ = 0; (joints_) != 0; (i_)++, (joints_) >>= 1)     \
         if (((uint8_t)(joints_) & 1u) != 0)
 
-/* hand_over of a joint: its owner has not begun a step with it; plays its first step; has completed that, and the joint has
- * to catch up only. */
-enum { HAND_OVER_DONE, HAND_OVER_FRESH, HAND_OVER_FIRST_STEP, HAND_OVER_CATCHES_UP };
+/* hand_over of a joint: its owner is about to begin a step that was planned without it; has not begun a step with it; plays
+ * its first step; has completed that, and the joint has to catch up only. */
+enum { HAND_OVER_DONE, HAND_OVER_WAITS, HAND_OVER_FRESH, HAND_OVER_FIRST_STEP, HAND_OVER_CATCHES_UP };
 
 /* --- code-made motion: the slots --------------------------------------------------------------------------------- */
 
@@ -70,10 +70,10 @@ static NOINLINE uint16_t approach_by(uint16_t from, uint16_t to, uint8_t most)
     return from - to > most ? (uint16_t)(from - most) : to;
 }
 
-/* The joint begins to follow its new owner from where it is. */
-static void follow_from_here(layers_t *layers, uint8_t joint)
+/* The joint begins to follow its new owner from where it is. too_late: for the step that begins with the next tick. */
+static void follow_from_here(layers_t *layers, uint8_t joint, bool too_late)
 {
-    layers->main->joint[joint].hand_over = HAND_OVER_FRESH;
+    layers->main->joint[joint].hand_over = too_late ? HAND_OVER_WAITS : HAND_OVER_FRESH;
     layers->changing = true;
 }
 
@@ -87,7 +87,7 @@ static void hand_back(layers_t *layers, uint32_t joints)
     main_play->lent &= ~joints;
     FOR_JOINTS(i, joints) {
         player_give_joint(main_play, i, layers->goal_pos[i]);
-        follow_from_here(layers, i);
+        follow_from_here(layers, i, main_play->arrived);
     }
 }
 
@@ -183,7 +183,7 @@ layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
         return LAYERS_ERR_PAGE; /* cannot be: the page has just been checked */
     }
     FOR_JOINTS(i, joints) { /* they belong to the layer already, and its first step is planned from where they are */
-        follow_from_here(layers, i);
+        follow_from_here(layers, i, false);
     }
     if (player_is_paused(layers->main)) {
         player_pause(&layers->play);
@@ -300,7 +300,7 @@ static void note_step(const player_t *play)
     const uint8_t self = play->self;
     for (player_joint_t *joint = play->joint, *behind = joint + PAGE_JOINTS; joint < behind; joint++) {
         uint8_t hand_over = joint->hand_over;
-        if ((hand_over == HAND_OVER_FRESH || hand_over == HAND_OVER_FIRST_STEP) && joint->owner == self) {
+        if (hand_over != HAND_OVER_DONE && hand_over != HAND_OVER_CATCHES_UP && joint->owner == self) {
             joint->hand_over++;
         }
     }

@@ -87,7 +87,7 @@ enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE };
 typedef struct {
     uint16_t target_pos;        /* where the running step ends */
     uint8_t owner : 2;          /* PLAYER_OWNER_ */
-    uint8_t hand_over : 2;      /* layers.c's; 0: nothing is under way */
+    uint8_t hand_over : 3;      /* layers.c's; 0: nothing is under way */
     union {
         player_exact_t exact;
         player_classic_t classic;
@@ -111,7 +111,7 @@ typedef struct player {
     uint8_t state;
     bool breaking;
     bool looked;                    /* the step behind the coming one has been looked at (law.h) */
-    bool arrived;                   /* the joints are at the end of a step; `now` begins with the next tick */
+    bool arrived;                   /* the joints are at the end of a step; `now` is planned and begins with the next tick */
     uint8_t announced_events;       /* PLAYER_EV_ bits of that beginning */
     uint8_t section;                /* classic */
     uint16_t tick, section_ticks;   /* tick: of the section (classic), of the step with its pause (exact) */
