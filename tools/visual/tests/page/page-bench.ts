@@ -58,7 +58,8 @@ export class Visitor {
   }
 
   static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1, viewport = VIEWPORT): Promise<Visitor> {
-    const context = await browser.newContext({ viewport, colorScheme: theme, deviceScaleFactor: sharpness });
+    // Reduced motion: no colour is looked at while it changes.
+    const context = await browser.newContext({ viewport, colorScheme: theme, deviceScaleFactor: sharpness, reducedMotion: 'reduce' });
     context.setDefaultTimeout(LIMIT_MS);
     const visitor = new Visitor(context, await context.newPage());
     visitor.watch(new URL(address).origin);
