@@ -7,70 +7,8 @@
 #include "parts.h"
 #include "screen_parts.h"
 
-screen_t the_screen;
-
 enum { SHOWN_UNSAVED = 1, SHOWN_HEX = 2, SHOWN_PAGE0 = 4 };
-enum { FIXED_ROWS = 4, SCROLL_STEP = 4 };
-
-/* ---- layout ---- */
-
-static bool is_full(void)
-{
-    return the_screen.rows >= SCREEN_ROWS_FULL;
-}
-
-static uint8_t table_rows(void)
-{
-    return (uint8_t)(the_screen.rows - FIXED_ROWS);
-}
-
-uint8_t screen_command_row(void)
-{
-    return the_screen.rows;
-}
-
-bool screen_has_row(uint8_t joint)
-{
-    return is_full() || the_screen.present == 0 || joint >= PAGE_JOINTS || (the_screen.present >> joint & 1u) != 0;
-}
-
-/* How many joints below `joint` have a row. */
-static uint8_t rows_before(uint8_t joint)
-{
-    uint8_t count = 0;
-    for (uint8_t i = 0; i < joint; i++) {
-        count = (uint8_t)(count + screen_has_row(i));
-    }
-    return count;
-}
-
-uint8_t screen_row_of(uint8_t y)
-{
-    if (y >= PAGE_JOINTS) {
-        return (uint8_t)(table_rows() + 1u + (y - PAGE_JOINTS));
-    }
-    if (!screen_has_row(y)) {
-        return 0;
-    }
-    uint8_t before = rows_before(y);
-    if (before < the_screen.top || before >= the_screen.top + table_rows()) {
-        return 0;
-    }
-    return (uint8_t)(before - the_screen.top + 1u);
-}
-
-/* The joint in screen row `row`, or the last one above it. */
-static uint8_t joint_in_row(uint8_t row)
-{
-    uint8_t joint = 0;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        uint8_t at = screen_row_of(i);
-        if (at != 0 && at <= row) {
-            joint = i;
-        }
-    }
-    return joint;
-}
+enum { SCROLL_STEP = 4 };
 
 /* ---- what follows from the session ---- */
 
@@ -145,7 +83,7 @@ void screen_set_rows(uint8_t rows)
 
 void screen_set_present(uint32_t present)
 {
-    bool layout = present != the_screen.present && !is_full();
+    bool layout = present != the_screen.present && !screen_is_full();
     the_screen.present = present;
     if (layout) {
         the_screen.top = 0;
@@ -172,20 +110,20 @@ void screen_show(void)
 
 void screen_follow(void)
 {
-    if (is_full() || the_session.x == CELL_X_HEADER || the_session.y >= PAGE_JOINTS) {
+    if (screen_is_full() || the_session.x == CELL_X_HEADER || the_session.y >= PAGE_JOINTS) {
         return;
     }
     while (!screen_has_row(the_session.y)) {
         the_session.y++;   /* ends at the pause, which always has one */
     }
-    uint8_t before = rows_before(the_session.y);
+    uint8_t before = screen_rows_before(the_session.y);
     uint8_t top = the_screen.top;
     if (before < top) {
         top = before > SCROLL_STEP ? (uint8_t)(before - SCROLL_STEP) : 0;
-    } else if (before >= top + table_rows()) {
-        uint8_t last = (uint8_t)(rows_before(PAGE_JOINTS) - 1u);
+    } else if (before >= top + screen_table_rows()) {
+        uint8_t last = (uint8_t)(screen_rows_before(PAGE_JOINTS) - 1u);
         uint8_t bottom = before + SCROLL_STEP > last ? last : (uint8_t)(before + SCROLL_STEP);
-        top = (uint8_t)(bottom + 1u - table_rows());
+        top = (uint8_t)(bottom + 1u - screen_table_rows());
     }
     if (top != the_screen.top) {
         the_screen.top = top;
@@ -204,7 +142,7 @@ static void move_to_header(void)
 
 void screen_move(session_way_t way)
 {
-    if (is_full()) {
+    if (screen_is_full()) {
         session_move(way);
         return;
     }
@@ -215,7 +153,7 @@ void screen_move(session_way_t way)
     uint8_t x = the_session.x, y = the_session.y;
     session_move(way);
     if (x == CELL_X_HEADER && the_session.x != CELL_X_HEADER) {
-        the_session.y = joint_in_row((uint8_t)(the_session.y + 1u));
+        the_session.y = screen_joint_in_row((uint8_t)(the_session.y + 1u));
     }
     while (!screen_has_row(the_session.y)) {
         uint8_t before = the_session.y;

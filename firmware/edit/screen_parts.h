@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * screen_parts.h - what screen.c (layout, what follows from the session) and screen_paint.c (sending) share. */
+ * screen_parts.h - how the files of the screen see each other. For screen*.c only.
+ *
+ *   screen.c             what has to be sent: follows the session, scrolls, the command row
+ *     screen_paint.c     sends it, the shortest way
+ *       screen_layout.c  which row of the table stands in which row of the screen
+ *
+ * Each uses only files below it. */
 #ifndef SCREEN_PARTS_H
 #define SCREEN_PARTS_H
 
@@ -18,9 +24,16 @@ enum {
     ITEM_ALL = (1 << 8) - 1
 };
 
-/* Screen row of table row y; 0: it is not in sight. */
-uint8_t screen_row_of(uint8_t y);
+/* ---- screen_layout.c; rows of the screen count from 1 ---- */
+
+bool screen_is_full(void);                          /* every joint has a row, nothing scrolls */
+uint8_t screen_table_rows(void);                    /* rows for joints */
 uint8_t screen_command_row(void);
+uint8_t screen_row_of(uint8_t y);                   /* of table row y; 0: it is not in sight */
+uint8_t screen_rows_before(uint8_t joint);          /* how many joints below `joint` have a row, in sight or not */
+uint8_t screen_joint_in_row(uint8_t row);           /* or the last one above it */
+
+/* ---- screen_paint.c ---- */
 
 /* Places the terminal's cursor; sends one character there. */
 void screen_go(uint8_t row, uint8_t column);

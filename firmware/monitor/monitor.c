@@ -9,13 +9,14 @@
 #include "bus_call.h"
 #include "console.h"
 #include "dxl.h"
-#include "dxl_packet.h"
+#include "packets.h"
 #include "pgm.h"
 #include "ranges_own.h"
+#include "search.h"
 #include "system.h"
 #include "text.h"
 
-enum { TABLE_BYTES = 50, DUMP_ROW = 10, PARAMS_MAX = 32, TRIES = 2, ID_MAX = 253, SCAN_LAST = 127 };
+enum { TABLE_BYTES = 50, DUMP_ROW = 10, PARAMS_MAX = 32, SCAN_LAST = 127 };
 
 /* The only one. */
 static struct {
@@ -23,65 +24,11 @@ static struct {
     bool hex;       /* numbers are hexadecimal */
 } monitor;
 
-static uint8_t say(const char *text_in_flash)
-{
-    text_P(text_in_flash);
-    text_line_end();
-    return SHELL_ERR_SAID;
-}
-
 /* ---- packets ---- */
-
-static void print_bytes(const char *before_P, const uint8_t *bytes, uint8_t count)
-{
-    text_P(before_P);
-    while (count-- > 0) {
-        text_put(' ');
-        text_hex(*bytes++, 2);
-    }
-}
-
-static uint8_t say_status(bus_status_t status)
-{
-    return say(status == BUS_ERR_TIMEOUT    ? TEXT_P("[Err:RxD Timeout]")
-               : status == BUS_ERR_CHECKSUM ? TEXT_P("[Err:Wrong CheckSum]")
-               : status == BUS_ERR_FRAMING  ? TEXT_P("[Err:Wrong Header]")
-               : status == BUS_ERR_WRONG_ID ? TEXT_P("[Err:TxID != RxID]")
-                                            : TEXT_P("[Err:Wrong Length]"));
-}
-
-/* Parameters are put where bus_call will want them: into the packet. */
-static uint8_t *params(void)
-{
-    return bus_packet() + DXL_PARAMS_AT;
-}
-
-/* Sends `count` parameters, shows both packets, and returns whether it was answered. */
-static bool transact(uint8_t id, uint8_t instruction, uint8_t count)
-{
-    bus_answer_t answer = { 0, 0, 0, NULL };
-    bool silent = id == DXL_BROADCAST && instruction != DXL_PING;
-    uint8_t expected = silent ? BUS_NO_ANSWER : instruction == DXL_READ ? params()[1] : 0;
-    bus_status_t status = bus_call(id, instruction, params(), count, expected, silent ? 1 : TRIES, &answer);
-    print_bytes(TEXT_P("->[Dynamixel]:"), bus_packet(), (uint8_t)(bus_packet()[3] + 4u));
-    text_line_end();
-    if (silent) {
-        return false;
-    }
-    if (status == BUS_OK) {
-        print_bytes(TEXT_P("<-[Dynamixel]: ID"), &answer.id, 1);
-        print_bytes(TEXT_P(" error"), &answer.error, 1);
-        print_bytes(TEXT_P(" :"), answer.params, answer.count);
-        text_line_end();
-    } else {
-        (void)say_status(status);
-    }
-    return status == BUS_OK;
-}
 
 static uint8_t send(uint8_t instruction, uint8_t count)
 {
-    (void)transact(monitor.cid, instruction, count);
+    (void)packets_exchange(monitor.cid, instruction, count);
     return SHELL_OK;
 }
 
@@ -97,7 +44,7 @@ static uint8_t take_bytes(const shell_args_t *args)
         if (!shell_take(args, (uint8_t)(i + 1u), RANGE_BYTE, &byte)) {
             return 0;
         }
-        params()[i] = (uint8_t)byte;
+        packets_params()[i] = (uint8_t)byte;
     }
     return count;
 }
@@ -111,16 +58,16 @@ static uint8_t send_bytes(const shell_args_t *args, uint8_t instruction)
 /* A WRITE of the line's number to one address. */
 static bool write_number(const shell_args_t *args, uint8_t address)
 {
-    params()[0] = address;
-    params()[1] = (uint8_t)args->number[0];
-    return transact(monitor.cid, DXL_WRITE, 2);
+    packets_params()[0] = address;
+    packets_params()[1] = (uint8_t)args->number[0];
+    return packets_exchange(monitor.cid, DXL_WRITE, 2);
 }
 
 /* What would be fatal for all is done to one servo only. */
 static bool is_one_servo(void)
 {
     if (monitor.cid == DXL_BROADCAST) {
-        (void)say(TEXT_P("One servo only: CID first"));
+        (void)packets_say(TEXT_P("One servo only: CID first"));
     }
     return monitor.cid != DXL_BROADCAST;
 }
@@ -138,14 +85,14 @@ WORD(mon_cid)
 
 WORD(mon_ping)
 {
-    (void)transact(args->count > 1 ? (uint8_t)args->number[0] : monitor.cid, DXL_PING, 0);
+    (void)packets_exchange(args->count > 1 ? (uint8_t)args->number[0] : monitor.cid, DXL_PING, 0);
     return SHELL_OK;
 }
 
 WORD(mon_read)
 {
-    params()[0] = (uint8_t)args->number[0];
-    params()[1] = args->count > 2 ? (uint8_t)args->number[1] : 1u;
+    packets_params()[0] = (uint8_t)args->number[0];
+    packets_params()[1] = args->count > 2 ? (uint8_t)args->number[1] : 1u;
     return is_one_servo() ? send(DXL_READ, 2) : (uint8_t)SHELL_ERR_SAID;
 }
 
@@ -166,8 +113,8 @@ WORD(mon_action)
 
 WORD(mon_go)
 {
-    params()[0] = DXL_AT_GOAL;
-    memcpy(params() + 1, args->number, sizeof args->number);
+    packets_params()[0] = DXL_AT_GOAL;
+    memcpy(packets_params() + 1, args->number, sizeof args->number);
     return send(DXL_WRITE, args->count > 2 ? 5 : 3);
 }
 
@@ -192,8 +139,8 @@ WORD(mon_id)
     if (!is_one_servo()) {
         return SHELL_ERR_SAID;
     }
-    if (bus_call_ping(id, TRIES, NULL) == BUS_OK) {
-        return say(TEXT_P("That ID is taken"));
+    if (bus_call_ping(id, PACKETS_TRIES, NULL) == BUS_OK) {
+        return packets_say(TEXT_P("That ID is taken"));
     }
     if (write_number(args, DXL_AT_ID)) {
         monitor.cid = id;
@@ -206,74 +153,37 @@ WORD(mon_reset)
     if (!is_one_servo()) {
         return SHELL_ERR_SAID;
     }
-    return shell_word_is(args, 1, PSTR("yes")) ? send(DXL_RESET, 0) : say(TEXT_P("RESET YES: factory values, ID 1"));
+    return shell_word_is(args, 1, PSTR("yes")) ? send(DXL_RESET, 0) : packets_say(TEXT_P("RESET YES: factory values, ID 1"));
 }
 
 /* swr address count, then for each servo its ID and `count` bytes. */
 WORD(mon_sync_write)
 {
-    uint8_t count = take_bytes(args), each = params()[1];
+    uint8_t count = take_bytes(args), each = packets_params()[1];
     if (count < 4 || each == 0 || (uint16_t)(count - 2) % (uint16_t)(each + 1) != 0) {
-        return say(TEXT_P("SWR address count id byte .. id byte .."));
+        return packets_say(TEXT_P("SWR address count id byte .. id byte .."));
     }
-    (void)transact(DXL_BROADCAST, DXL_SYNC_WRITE, count);
+    (void)packets_exchange(DXL_BROADCAST, DXL_SYNC_WRITE, count);
     return SHELL_OK;
 }
 
-/* ---- who is there ---- */
-
-static void scan(uint8_t last)
-{
-    uint8_t found = 0;
-    TEXT(" ID:");
-    for (uint8_t id = 0; id <= last; id++) {
-        system_kick();
-        if (bus_call_ping(id, 1, NULL) == BUS_OK) {
-            text_put(' ');
-            text_padded(id, 3, '0');
-            found++;
-        }
-    }
-    text_put(' ');
-    text_padded(found, 3, '0');
-    (void)say(TEXT_P(" Dynamixels Found."));
-}
+/* ---- the bus ---- */
 
 WORD(mon_scan)
 {
-    scan(args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)SCAN_LAST);
+    search_ids(args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)SCAN_LAST);
     return SHELL_OK;
 }
 
 WORD(mon_search)
 {
-    bus_set_rate(BUS_RATE_57142);
-    TEXT("57142 bps");
-    scan(ID_MAX);
-    bus_set_rate(BUS_RATE_1M);
-    TEXT("1000000 bps");
-    scan(ID_MAX);
+    search_rates();
     return SHELL_OK;
 }
 
-/* Servos at 57,142 bps, one after the other, to 1 Mbps. One may answer the change at either rate, or not at all: the search
- * behind it tells. */
 WORD(mon_fast)
 {
-    const uint8_t change[] = { DXL_AT_BAUD, BUS_RATE_1M };
-    bus_set_rate(BUS_RATE_57142);
-    TEXT(" Moved to 1 Mbps:");
-    for (uint8_t id = 0; id <= ID_MAX; id++) {
-        system_kick();
-        if (bus_call_ping(id, 1, NULL) == BUS_OK) {
-            (void)bus_call(id, DXL_WRITE, change, sizeof change, 0, 1, NULL);
-            text_put(' ');
-            text_padded(id, 3, '0');
-        }
-    }
-    bus_set_rate(BUS_RATE_1M);
-    text_line_end();
-    scan(ID_MAX);
+    search_make_fast();
     return SHELL_OK;
 }
 
@@ -283,10 +193,10 @@ WORD(mon_dump)
     for (uint8_t at = 0; at < TABLE_BYTES && is_one_servo(); at = (uint8_t)(at + DUMP_ROW)) {
         bus_status_t status = bus_call_read(monitor.cid, at, row, DUMP_ROW, NULL);
         if (status != BUS_OK) {
-            return say_status(status);
+            return packets_say_status(status);
         }
         text_padded(at, 3, '0');
-        print_bytes(TEXT_P(":"), row, DUMP_ROW);
+        packets_print_bytes(TEXT_P(":"), row, DUMP_ROW);
         text_line_end();
     }
     return SHELL_OK;
@@ -314,7 +224,7 @@ WORD(mon_exit)
 WORD(mon_toss)
 {
     static uint8_t heard[TOSS_BUFFER_BYTES];
-    (void)say(TEXT_P("Three ESC end it"));
+    (void)packets_say(TEXT_P("Three ESC end it"));
     toss_run(heard);
     text_line_end();
     return SHELL_OK;
@@ -399,10 +309,10 @@ void monitor_line(shell_t *shell)
     shell_args_t args = shell_split(shell, monitor.hex);
     switch (shell_run(table_P, ARRAY_COUNT(table_P), NULL, &args, false)) {
     case SHELL_ERR_UNKNOWN:
-        (void)say(TEXT_P(" Bad Command: HELP lists all"));
+        (void)packets_say(TEXT_P(" Bad Command: HELP lists all"));
         break;
     case SHELL_ERR_COUNT:
-        (void)say(TEXT_P(" Invalid Parameter"));
+        (void)packets_say(TEXT_P(" Invalid Parameter"));
         break;
     case SHELL_ERR_RANGE:
         text_put(' ');

@@ -2,13 +2,10 @@
 #include "views.h"
 
 #include "board.h"
-#include "bus.h"
-#include "console.h"
 #include "performer_shape.h"
 #include "report.h"
 #include "system.h"
 #include "text.h"
-#include "tick.h"
 
 /* ---- pages ---- */
 
@@ -175,125 +172,6 @@ void views_print_shape(const performer_t *performer)
     print_field(TEXT_P(" layer="), performer_layer_page(performer));
     TEXT(" aim=");
     text_mask(performer->layers->code_joints);
-}
-
-/* ---- servos ---- */
-
-void views_print_servos_found(const play_t *play)
-{
-    uint8_t count = 0;
-    for (uint32_t joints = play->servos.present; joints != 0; joints &= joints - 1) {
-        count++;
-    }
-    text_number(count);
-    TEXT(" servos: ");
-    report_joints(play->servos.present);
-    text_line_end();
-    if (play->servos.slow != 0) {
-        TEXT("Not used, at 57142 bps (fast of the monitor image): ");
-        report_joints(play->servos.slow);
-        text_line_end();
-    }
-}
-
-static bool is_in_trouble(const servo_link_t *servos, uint8_t id)
-{
-    return servo_link_has(&servos->silent, id) || servos->errors[id] != 0;
-}
-
-static void print_trouble(const servo_link_t *servos, uint8_t id)
-{
-    if (servo_link_has(&servos->silent, id)) {
-        TEXT(" does not answer");
-    } else {
-        TEXT(" reports ");
-        report_servo_errors(servos->errors[id]);
-    }
-}
-
-void views_print_servos(const play_t *play)
-{
-    const servo_link_t *servos = &play->servos;
-    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        const uint32_t joint = servo_link_bit(id);
-        if ((servos->present & joint) == 0) {
-            continue;
-        }
-        text_padded(id, 3, ' ');
-        TEXT("  position ");
-        if (servos->present_pos[id] == SERVO_LINK_NO_POSE) {
-            TEXT("   ?");
-        } else {
-            text_padded(servos->present_pos[id], 4, ' ');
-        }
-        text_P((servos->torque & joint) != 0 ? TEXT_P("  torque on ") : TEXT_P("  torque off"));
-        if ((play->performer.released & joint) != 0) {
-            TEXT("  switched off");
-        }
-        if (is_in_trouble(servos, id)) {
-            print_trouble(servos, id);
-        }
-        text_line_end();
-    }
-    views_print_servos_found(play);
-}
-
-/* ---- faults ---- */
-
-static void print_count(const char *what_P, uint16_t count)
-{
-    text_put(' ');
-    text_P(what_P);
-    text_put(' ');
-    text_number(count);
-}
-
-static void print_servo_faults(const servo_link_t *servos)
-{
-    bool any = false;
-    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        if (servo_link_has(&servos->present, id) && is_in_trouble(servos, id)) {
-            any = true;
-            TEXT("Servo ");
-            text_number(id);
-            print_trouble(servos, id);
-            text_line_end();
-        }
-    }
-    if (!any) {
-        TEXT("No servo has a fault");
-        text_line_end();
-    }
-}
-
-void views_print_faults(const play_t *play)
-{
-    print_servo_faults(&play->servos);
-    bus_counts_t bus;
-    bus_counts(&bus);
-    TEXT("Bus: packets ");
-    text_number32(bus.packets);
-    TEXT(" answers ");
-    text_number32(bus.answers);
-    print_count(TEXT_P("retries"), bus.retries);
-    print_count(TEXT_P("time-outs"), bus.timeouts);
-    print_count(TEXT_P("checksum"), bus.checksums);
-    print_count(TEXT_P("framing"), bus.framing);
-    print_count(TEXT_P("wrong ID"), bus.wrong_ids);
-    text_line_end();
-    console_counts_t console;
-    console_counts(&console);
-    TEXT("Serial:");
-    print_count(TEXT_P("overruns"), console.overruns);
-    print_count(TEXT_P("framing"), console.framing);
-    print_count(TEXT_P("lost"), (uint16_t)(console.ring_full + play->inputs.lost));
-    print_count(TEXT_P("remote packets"), play->inputs.remote.packets);
-    print_count(TEXT_P("remote noise"), play->inputs.remote.dropped);
-    text_line_end();
-    TEXT("Ticks:");
-    print_count(TEXT_P("missed"), tick_missed());
-    print_count(TEXT_P("goals late"), play->servos.late);
-    text_line_end();
 }
 
 /* ---- settings, version, refusals ---- */

@@ -72,6 +72,14 @@ def layer_figure():
                         "tools/dev/check_layers: every include of motion, hal, firmware and the fakes", last_lines(text), kept)
 
 
+def circle_figure():
+    """No two files of an image use each other."""
+    kept, text = command(TOOLS / "check_circles")
+    return proof.Figure("No two files of an image use each other, directly or through others",
+                        "tools/dev/check_circles: functions and variables of all files that are linked together",
+                        last_lines(text), kept)
+
+
 def spm_figure():
     """Only the loader can write flash."""
     tests = [path for path in sorted((proof.BUILD / "firmware" / "tests").glob("*.elf"))
@@ -152,5 +160,5 @@ def run(options):
         raise SystemExit("static: no images: build first (tools/dev/build)")
     figures = [compiler_figure(), *stack_figures()]
     if not options.sample:
-        figures += [lint_figure(), layer_figure(), spm_figure(), symbol_figure(), array_figure()]
+        figures += [lint_figure(), layer_figure(), circle_figure(), spm_figure(), symbol_figure(), array_figure()]
     return figures

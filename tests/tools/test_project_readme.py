@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""The first screen of the README is true: its session is part of a tour that a test runs, its links and commands exist."""
+"""The READMEs are true: the session of the first screen is part of a tour that a test runs, links and commands exist, and
+tools/README.md has a line for everything in tools/."""
 import pathlib
 import re
+
+import pytest
 
 TOP = pathlib.Path(__file__).parents[2]
 README = (TOP / "README.md").read_text(encoding="utf-8")
@@ -23,3 +26,23 @@ def test_commands_named_exist():
     names = set(re.findall(r"\btools/[a-z_]+\b", README))
     assert {"tools/demo", "tools/test"} <= names
     assert [name for name in names if not (TOP / name).exists()] == []
+
+
+def entries(folder):
+    """Names in a folder, without what speaks for itself and what tools leave behind."""
+    return {path.name for path in (TOP / folder).iterdir() if not path.name.startswith((".", "__"))} - {
+        "CMakeLists.txt", "README.md"}
+
+
+@pytest.mark.parametrize("folder,heading", [("tools/", "people run"), ("tools/dev/", "`dev/`")])
+def test_tools_readme_has_one_row_for_everything(folder, heading):
+    text = (TOP / "tools/README.md").read_text(encoding="utf-8")
+    table = text[text.index(f"| {heading} |"):].split("\n\n")[0]
+    rows = re.findall(r"^\| \[?`([\w.]+)/?`", table, re.M)
+    assert len(rows) == len(set(rows))
+    assert set(rows) - {"dev"} == entries(folder) - {"dev"}
+
+
+def test_every_folder_of_the_top_is_in_the_readme():
+    top = {path.name for path in TOP.iterdir() if path.is_dir() and not path.name.startswith(".")} - {"build"}
+    assert [name for name in top if f"{name}/" not in README] == []

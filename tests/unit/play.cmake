@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # What Play and Edit share above the hardware: the line shell, the remote control, the play engine; and Play's inputs.
-m512_unit_test(test_shell TARGET_TOO SOURCES firmware/common/shell.c firmware/common/text.c INCLUDES firmware/common)
+m512_unit_test(test_shell TARGET_TOO SOURCES firmware/common/shell.c firmware/common/shell_line.c
+    firmware/common/shell_words.c firmware/common/text.c INCLUDES firmware/common)
 m512_unit_test(test_remote TARGET_TOO SOURCES hal/remote.c)
 m512_unit_test(test_inputs INCLUDES firmware/common firmware/play
     SOURCES firmware/play/inputs.c firmware/play/steer.c motion/shape.c hal/remote.c hal/debounce.c tests/fake/fake_console.c tests/fake/fake_panel.c

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ * ranges_joints.c - the joints that words name. Apart from ranges.c, which shell_words.c uses: this file uses the shell. */
+#include "ranges.h"
+
+#include <stddef.h>
+#include <string.h>
+#include "servo_link.h"
+
+bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints)
+{
+    for (uint8_t i = first; i < args->count; i++) {
+        char *dash = strchr(shell_word(args, i), '-');   /* in the caller's line */
+        uint16_t from, to;
+        if (dash != NULL) {
+            *dash = '\0';
+        }
+        if (!shell_take(args, i, RANGE_ID, &from)) {
+            return false;
+        }
+        to = from;
+        if (dash != NULL) {
+            const shell_args_t last = {.words = dash + 1, .count = 1, .hex = args->hex};
+            if (!shell_take(&last, 0, RANGE_ID, &to)) {
+                return false;
+            }
+            *dash = '-';   /* a word fewer: those behind it are counted by their ends */
+        }
+        for (; from <= to; from++) {
+            servo_link_put(joints, (uint8_t)from, true);
+        }
+    }
+    return true;
+}

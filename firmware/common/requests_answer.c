@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT
+ * requests_answer.c - what handlers answer with: errors and the joints that a line names. */
+#include "requests_parts.h"
+
+#include "ranges.h"
+#include "report.h"
+#include "text.h"
+
+static bool for_program;
+
+void requests_set_program(bool program)
+{
+    for_program = program;
+}
+
+bool requests_of_program(void)
+{
+    return for_program;
+}
+
+uint8_t requests_error(uint8_t status)
+{
+    if (for_program) {
+        TEXT(" ERR ");
+        text_number(status);
+        text_put(' ');
+    }
+    return REQUEST_SAID;
+}
+
+uint8_t requests_no_answer(uint32_t joints)
+{
+    if (joints == 0) {
+        return REQUEST_OK;
+    }
+    (void)requests_error(REQUEST_ERR_SERVOS);
+    TEXT("No answer from servos ");
+    report_joints(joints);
+    return REQUEST_SAID;
+}
+
+uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints)
+{
+    const uint32_t present = requests_image.servos->present;
+    *joints = args->count > first ? 0 : present;
+    if (!ranges_take_joints(args, first, joints)) {
+        return SHELL_ERR_RANGE;
+    }
+    return *joints == 0 ? requests_refusal(PERFORMER_ERR_NO_SERVOS) : requests_no_answer(*joints & ~present);
+}
+
+uint8_t requests_refusal(performer_status_t status)
+{
+    static const uint8_t numbers[] PROGMEM = {
+        [PERFORMER_OK] = REQUEST_OK,
+        [PERFORMER_ERR_RANGE] = REQUEST_ERR_RANGE,
+        [PERFORMER_ERR_PAGE] = REQUEST_ERR_PAGE,
+        [PERFORMER_ERR_EMPTY] = REQUEST_ERR_EMPTY,
+        [PERFORMER_ERR_BUSY] = REQUEST_ERR_BUSY,
+        [PERFORMER_ERR_NO_SERVOS] = REQUEST_ERR_SERVOS,
+        [PERFORMER_ERR_RELEASED] = REQUEST_ERR_RELEASED,
+        [PERFORMER_ERR_LAW] = REQUEST_ERR_IMAGE,
+    };
+    const performer_t *performer = requests_image.performer;
+    if (status == PERFORMER_OK) {
+        return REQUEST_OK;
+    }
+    (void)requests_error(pgm_read_byte(&numbers[status]));
+    report_refusal(status, performer->fault_page, performer->fault);
+    return REQUEST_SAID;
+}

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT
+ * requests_list.c - requests that read the pages in flash: list, page, crcs. */
+#include "requests_parts.h"
+
+#include "crc16.h"
+#include "report.h"
+#include "text.h"
+
+#define CHUNK_BYTES 32u   /* a page is read in pieces of this size, on the stack */
+
+/* number:steps:"name", or number:!:"what is wrong". */
+static void print_list_entry(uint8_t page)
+{
+    uint8_t header[PAGE_AT_STEPS + 1];
+    const bool good = page_store_is_good(requests_image.pages, page);
+    page_store_read(page, 0, header, sizeof header);
+    if (good ? header[PAGE_AT_NAME] == '\0' && header[PAGE_AT_STEPS] == 0 : page_store_is_erased(page)) {
+        return;
+    }
+    text_put(' ');
+    text_number(page);
+    text_put(':');
+    if (!good) {
+        TEXT("!:\"");
+        text_P(report_page_fault_P((uint8_t)page_store_check(requests_image.pages, page)));
+        text_put('"');
+        return;
+    }
+    text_number(header[PAGE_AT_STEPS]);
+    char name[PAGE_NAME_BYTES];
+    page_store_name(page, name);
+    TEXT(":\"");
+    for (const char *c = name; *c != '\0'; c++) {
+        text_put(*c == '"' ? '\'' : *c);
+    }
+    text_put('"');
+}
+
+/* The pages of a request: all of them when none is given, else the first and the last. false: they are not so, said. */
+static bool take_pages(const shell_args_t *args, uint8_t *last)
+{
+    *last = args->count > 1 ? (uint8_t)args->number[1] : (uint8_t)(PAGE_COUNT - 1u);
+    if (args->count == 2 || *last < args->number[0]) {
+        (void)requests_error(REQUEST_ERR_RANGE);
+        shell_print_range(TEXT_P("Page"), (int16_t)args->number[0], PAGE_COUNT - 1, false);
+        return false;
+    }
+    return true;
+}
+
+uint8_t request_list(void *context, const shell_args_t *args)
+{
+    uint8_t last;
+    (void)context;
+    if (!take_pages(args, &last)) {
+        return REQUEST_SAID;
+    }
+    for (uint8_t page = (uint8_t)args->number[0]; page <= last; page++) {
+        print_list_entry(page);
+        requests_image.serve(); /* pages without an entry take up to 2 ms each */
+    }
+    return REQUEST_OK;
+}
+
+/* The bytes of a page in flash, as they are, into their CRC; printed too when asked for. */
+static uint16_t page_crc(uint8_t page, bool print)
+{
+    uint16_t crc = CRC16_START;
+    for (uint16_t offset = 0; offset < PAGE_BYTES; offset = (uint16_t)(offset + CHUNK_BYTES)) {
+        uint8_t bytes[CHUNK_BYTES];
+        page_store_read(page, offset, bytes, sizeof bytes);
+        crc = crc16_bytes(crc, bytes, sizeof bytes);
+        for (uint8_t i = 0; print && i < sizeof bytes; i++) {
+            text_hex(bytes[i], 2);
+        }
+    }
+    return crc;
+}
+
+uint8_t request_page(void *context, const shell_args_t *args)
+{
+    const uint8_t page = (uint8_t)args->number[0];
+    (void)context;
+    text_put(' ');
+    text_number(page);
+    text_put(' ');
+    const uint16_t crc = page_crc(page, true);
+    text_put(' ');
+    text_hex(crc, 4);
+    return REQUEST_OK;
+}
+
+/* Four digits a page, without a blank between them: 128 pages are 512 characters. */
+uint8_t request_crcs(void *context, const shell_args_t *args)
+{
+    uint8_t last;
+    (void)context;
+    if (!take_pages(args, &last)) {
+        return REQUEST_SAID;
+    }
+    text_put(' ');
+    for (uint8_t page = (uint8_t)args->number[0]; page <= last; page++) {
+        text_hex(page_crc(page, false), 4);
+        requests_image.serve();
+    }
+    return REQUEST_OK;
+}
