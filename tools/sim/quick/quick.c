@@ -17,6 +17,7 @@ struct quick {
     player_joint_t joint[PAGE_JOINTS];
     uint16_t player_goal_pos[PAGE_JOINTS];
     link_t link;
+    shape_t shape;
     servo_bus_t *bus;
     uint64_t now_cycles;
     uint16_t goal_pos[PAGE_JOINTS];
@@ -136,6 +137,12 @@ int quick_start(quick_t *quick, uint8_t page, int law)
     memset(sums, 0, (size_t)(quick->bus->count + 1) * sizeof *sums);
     link_call(&quick->link, 0);
     return (int)player_start(&quick->player, &quick->link, page, (player_law_t)law, quick->goal_pos, present);
+}
+
+void quick_shape(quick_t *quick, const shape_t *shape)
+{
+    quick->shape = *shape;
+    player_set_shape(&quick->player, &quick->shape);
 }
 
 void quick_keys(quick_t *quick, uint8_t code)

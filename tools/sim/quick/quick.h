@@ -35,6 +35,9 @@ void quick_torque_on(quick_t *quick);
 /* Begins to play from where the joints' goals are. Returns player_status_t. The loads are counted from here on. */
 int quick_start(quick_t *quick, uint8_t page, int law);
 
+/* Plays by a copy of `shape` from the next step that is looked at (shape.h). */
+void quick_shape(quick_t *quick, const shape_t *shape);
+
 /* A remote's keys from now on: 0 let go, 255 stop. */
 void quick_keys(quick_t *quick, uint8_t code);
 

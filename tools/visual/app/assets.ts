@@ -11,6 +11,7 @@ import editUrl from '../../../build/firmware/edit-cm5.hex?url';
 import playUrl from '../../../build/firmware/play-cm5.hex?url';
 import pythonWasmUrl from '../../../build/wasm/pyodide.wasm.gz?url';
 import pythonLibraryUrl from '../../../build/wasm/python.zip?url';
+import trialUrl from '../../../build/wasm/trial.wasm?url';
 import motionsUrl from '../../../build/motions/motions.bin?url';
 import bodyUrl from '../../../build/wasm/body.json?url';
 import { FormatsClient } from '../files/formats-client.ts';
@@ -19,6 +20,7 @@ import type { Body } from '../model/body.ts';
 import { Motion } from '../model/motion.ts';
 import type { MotionExports } from '../model/motion.ts';
 import type { Images } from '../sim/machine.ts';
+import { TrialClient } from '../sim/trial-client.ts';
 
 async function get(url: string): Promise<Response> {
   const response = await fetch(url);
@@ -58,6 +60,13 @@ export async function physics(): Promise<{ bodyXml: string; wasm: ArrayBuffer }>
   const [bodyXml, packed] = await Promise.all([get(bodyXmlUrl).then((r) => r.text()), get(mujocoUrl)]);
   const stream = packed.body?.pipeThrough(new DecompressionStream('gzip'));
   return { bodyXml, wasm: await new Response(stream).arrayBuffer() };
+}
+
+/** A worker for trials, with a MuJoCo of its own. */
+export async function trialClient(body: Body): Promise<TrialClient> {
+  const [{ bodyXml, wasm }, module] = await Promise.all([physics(), get(trialUrl).then((r) => r.arrayBuffer()).then((bytes) => WebAssembly.compile(bytes))]);
+  const worker = new Worker(new URL('../sim/trial-worker.ts', import.meta.url), { type: 'module', name: 'trials' });
+  return new TrialClient(worker, { module, wasm, bodyXml, body });
 }
 
 /** Motion files; Python (5 MB) is loaded at the first one. */

@@ -33,6 +33,8 @@ import { LastSaid } from './said.ts';
 import { StickDrive } from './stick.ts';
 import type { Stick } from './stick.ts';
 import type { RobotTransfer } from './transfer.ts';
+import { trialClient } from './assets.ts';
+import { MotionTrials } from './trials.ts';
 import { SimulatedSource } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
 
@@ -55,6 +57,7 @@ export class RobotDesk implements Desk {
   readonly files: DocumentFiles;
   readonly documents: KeptDocuments;
   readonly transfer: RobotTransfer;
+  readonly trials: MotionTrials;
   private readonly frames = new Listeners<RobotState>();
   private readonly texts = new Listeners<Uint8Array>();
   private readonly simulated: SimulatedSource;
@@ -75,6 +78,7 @@ export class RobotDesk implements Desk {
       refused: (refusal) => this.state.set({ said: { text: refusalText(refusal), tone: 'bad' } }),
     });
     this.files = new DocumentFiles(this.editor, formats);
+    this.trials = new MotionTrials(this.editor, () => trialClient(body));
     this.documents = makeDocuments(this.editor, storage, () => this.say({ text: TEXTS.workNotKept, tone: 'bad' }));
     this.transfer = makeTransfer(this.editor, this.documents, {
       name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName), requests: () => this.connection.requests,

@@ -10,7 +10,7 @@ import type { Edits } from '../model/edit.ts';
 import * as states from '../model/editor-state.ts';
 import type { EditorState, Selection } from '../model/editor-state.ts';
 import { AS_STORED, JOINTS, Motion } from '../model/motion.ts';
-import type { Curve } from '../model/motion.ts';
+import type { Curve, Shape } from '../model/motion.ts';
 import { PageFormat } from '../model/page-format.ts';
 import { readPage } from '../model/page.ts';
 import type { PageView } from '../model/page.ts';
@@ -123,7 +123,7 @@ export class DocumentEditor implements Editor {
     this.load();
     const law = options.law ?? this.state.get().law;
     this.player.setShape(options.shape ?? AS_STORED);
-    const from = options.from ?? this.firstPose(page);
+    const from = options.from ?? this.firstPose(page, options.shape);
     return this.player.start(page, from, { law, code: options.code ?? 0 }) ? this.player.curve(options.ticks ?? CURVE_TICKS) : null;
   }
 
@@ -131,8 +131,9 @@ export class DocumentEditor implements Editor {
     return this.player.topSpeed(volts);
   }
 
-  firstPose(page: number): Uint16Array {
+  firstPose(page: number, shape: Shape = AS_STORED): Uint16Array {
     this.load();
+    this.player.setShape(shape);
     return this.player.firstPose(page, new Uint16Array(JOINTS).fill(MIDDLE));
   }
 

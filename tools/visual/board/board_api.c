@@ -7,6 +7,7 @@
 #include "board.h"
 #include "board_memory.h"
 #include "board_ports.h"
+#include "imported_body.h"
 #include "intel_hex.h"
 #include "servo_api.h"
 
@@ -20,10 +21,6 @@ static struct {
     double servos[SERVOS_MAX * BOARD_API_SERVO_FIELDS];
     uint8_t buffer[BOARD_API_BUFFER_BYTES];
 } api;
-
-/* The page's end of the seam. */
-__attribute__((import_module("body"), import_name("look"))) void body_look(servo_shaft_t *shafts, int count);
-__attribute__((import_module("body"), import_name("step"))) void body_step(servo_shaft_t *shafts, int count);
 
 static uint32_t clip(uint32_t count) { return count < sizeof api.buffer ? count : (uint32_t)sizeof api.buffer; }
 
@@ -280,23 +277,10 @@ void board_api_servo_load(int index, double load)
     }
 }
 
-static void look(void *context, servo_shaft_t *shafts, int count)
-{
-    (void)context;
-    body_look(shafts, count);
-}
-
-static void step(void *context, servo_shaft_t *shafts, int count)
-{
-    (void)context;
-    body_step(shafts, count);
-}
-
 void board_api_body(bool attached)
 {
-    static const servo_body_t body = { .context = NULL, .look = look, .step = step };
     if (api.board) {
-        board_body(api.board, attached ? &body : NULL);
+        board_body(api.board, attached ? imported_body() : NULL);
     }
 }
 

@@ -13,8 +13,23 @@ export interface Model {
   readonly nuser_jnt: number;
   readonly actuator_trnid: Int32Array;
   readonly geom_friction: Float64Array;
+  /** The body that a geom belongs to. */
+  readonly geom_bodyid: Int32Array;
   readonly body_mass: Float64Array;
   readonly opt: { gravity: Float64Array };
+  delete(): void;
+}
+
+interface Contact {
+  readonly geom1: number;
+  readonly geom2: number;
+  /** Metres between them; negative: one is in the other. */
+  readonly dist: number;
+  delete(): void;
+}
+
+interface Contacts {
+  get(index: number): Contact | undefined;
   delete(): void;
 }
 
@@ -27,6 +42,9 @@ export interface Data {
   readonly xpos: Float64Array;
   readonly xquat: Float64Array;
   readonly xipos: Float64Array;
+  readonly ncon: number;
+  /** A copy, made at each reading: delete it, and what comes out of it. */
+  readonly contact: Contacts;
   delete(): void;
 }
 
@@ -35,6 +53,8 @@ export interface Mujoco {
   readonly MjData: new (model: Model) => Data;
   mj_step(model: Model, data: Data): void;
   mj_forward(model: Model, data: Data): void;
+  mj_kinematics(model: Model, data: Data): void;
+  mj_collision(model: Model, data: Data): void;
   mj_resetData(model: Model, data: Data): void;
   mj_name2id(model: Model, type: number, name: string): number;
 }

@@ -6,6 +6,7 @@ import type { Body } from '../model/body.ts';
 import { jointAngle, soleCorners } from '../model/body.ts';
 import { STILL, add, cross, heading, inverse, length, multiply, rotate, scale, subtract, turn } from '../model/space.ts';
 import type { Place, Quaternion, Vector } from '../model/space.ts';
+import type { Touch } from '../model/trial.ts';
 import type { Floor, Grip } from './messages.ts';
 import { OBJECT } from './mujoco.ts';
 import type { Data, Model, Mujoco } from './mujoco.ts';
@@ -20,6 +21,7 @@ const GRIP = { newtonPerMetre: 150, newtonSecondPerMetre: 6, limitNewton: 14 };
 const HOLD = { move: 400, moveDamp: 50, turn: 20, turnDamp: 1.6, farthestM: 0.1, clearanceM: 0.001, liftedM: 0.36, releaseSteps: 400 };
 const UPRIGHT = 0.9; // cosine of the tilt below which the soles are not the lowest part
 const FALLEN = 0.55;
+const LIFTED_M = 2;
 
 interface Shaft {
   readonly angleAt: number;
@@ -37,6 +39,9 @@ export class PhysicalBody {
   private readonly soles: { readonly link: number; readonly corners: readonly Vector[] }[];
   private readonly trunkLink: number;
   private readonly floorGeom: number;
+  private readonly soleGeoms: ReadonlySet<number>;
+  /** By the number of the body that is the link. */
+  private readonly linkNames: ReadonlyMap<number, string>;
   private readonly massKg: number;
   private grip: { link: number; point: Vector; target: Vector; before: Vector | null } | null = null;
   private holdHeading = 0;
@@ -55,6 +60,8 @@ export class PhysicalBody {
     }));
     this.trunkLink = this.id(OBJECT.body, body.links[0]?.name ?? 'trunk');
     this.floorGeom = this.id(OBJECT.geom, 'floor');
+    this.soleGeoms = new Set(['right_sole', 'left_sole'].map((name) => this.id(OBJECT.geom, name)));
+    this.linkNames = new Map(body.links.map(({ name }) => [this.id(OBJECT.body, name), name]));
     this.massKg = this.model.body_mass.reduce((sum, mass) => sum + mass, 0);
     mujoco.mj_forward(this.model, this.data);
   }
@@ -133,8 +140,40 @@ export class PhysicalBody {
     return { pos: [q[0] ?? 0, q[1] ?? 0, q[2] ?? 0], quat: [q[3] ?? 1, q[4] ?? 0, q[5] ?? 0, q[6] ?? 0] };
   }
 
+  /** Cosine of the trunk's tilt: 1 upright, 0 lying, -1 on its head. */
+  get upright(): number {
+    return rotate(this.trunk.quat, [0, 0, 1])[2];
+  }
+
   get hasFallen(): boolean {
-    return rotate(this.trunk.quat, [0, 0, 1])[2] < FALLEN;
+    return this.upright < FALLEN;
+  }
+
+  /** Upright, and nothing but its soles on the floor. */
+  get isOnItsFeet(): boolean {
+    const { floorGeom, soleGeoms } = this;
+    return this.upright > UPRIGHT && this.contacts().every(({ geoms }) => !geoms.includes(floorGeom) || geoms.some((geom) => soleGeoms.has(geom)));
+  }
+
+  /** Links of the robot that touch each other now: each pair once, as deep as it is. */
+  touching(): Touch[] {
+    const pairs = new Map<string, Touch>();
+    for (const { geoms, depthM } of this.contacts()) {
+      const [a, b] = geoms.map((geom) => this.linkNames.get(this.model.geom_bodyid[geom] ?? -1)).sort();
+      if (a === undefined || b === undefined) continue;
+      if (depthM >= (pairs.get(`${a} ${b}`)?.depthM ?? 0)) pairs.set(`${a} ${b}`, { links: [a, b], depthM });
+    }
+    return [...pairs.values()];
+  }
+
+  /** Links that would be in each other with these joint angles. The robot is lifted off the floor for it, and stays there. */
+  touchingIn(angleOf: (servo: number) => number): Touch[] {
+    const { qpos } = this.data;
+    qpos[2] = LIFTED_M;
+    for (const [servo, { angleAt }] of this.shafts) qpos[angleAt] = angleOf(servo);
+    this.mujoco.mj_kinematics(this.model, this.data);
+    this.mujoco.mj_collision(this.model, this.data);
+    return this.touching();
   }
 
   dispose(): void {
@@ -153,6 +192,18 @@ export class PhysicalBody {
       direction: joint.direction,
       offsetRad: jointAngle(joint, 512), // shaft angle 0 is servo position 512
     });
+  }
+
+  private contacts(): { readonly geoms: readonly number[]; readonly depthM: number }[] {
+    const { ncon, contact } = this.data;
+    const all = Array.from({ length: ncon }, (_, i) => {
+      const one = contact.get(i);
+      const copied = { geoms: [one?.geom1 ?? -1, one?.geom2 ?? -1], depthM: -(one?.dist ?? 1) };
+      one?.delete();
+      return copied;
+    });
+    contact.delete();
+    return all.filter(({ depthM }) => depthM >= 0);
   }
 
   private id(kind: number, name: string): number {

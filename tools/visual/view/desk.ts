@@ -14,6 +14,7 @@ import type { Editor } from './editor-desk.ts';
 import type { Files } from './files-desk.ts';
 import type { Store } from './store.ts';
 import type { Transfer } from './transfer-desk.ts';
+import type { Trials } from './trial-desk.ts';
 
 export type Source = 'simulated' | 'yours';
 export type ImageName = 'play' | 'edit';
@@ -67,6 +68,7 @@ export interface Desk {
   readonly files: Files;
   readonly documents: Documents;
   readonly transfer: Transfer;
+  readonly trials: Trials;
   /** Up to 60 times a second. */
   onFrame(listener: (state: RobotState) => void): () => void;
   /** What the board says to a terminal. */

@@ -53,8 +53,9 @@ export interface Editor {
   select(change: Partial<Selection>): void;
   /** What the firmware's player makes of a page of the document; null: it is damaged or has no action. */
   curve(page: number, options?: CurveOptions): Curve | null;
-  /** Pose in which a play of the page begins (31 servo units); joints that its first step does not use stand at 512. */
-  firstPose(page: number): Uint16Array;
+  /** Pose in which a play of the page begins (31 servo units); joints that its first step does not use stand at 512. As stored,
+   *  unless a shape is given. */
+  firstPose(page: number, shape?: Shape): Uint16Array;
   /** The fastest that servos may be asked to go at this voltage (servo units a tick). */
   topSpeed(volts: number): number;
 }

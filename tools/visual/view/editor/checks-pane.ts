@@ -10,7 +10,10 @@ import type { MotionDocument } from '../../model/document.ts';
 import type { Finding } from '../../model/file-formats.ts';
 import type { Desk, Tab } from '../desk.ts';
 import { define, make } from '../element.ts';
+import type { PageTrial } from '../trial-desk.ts';
+import { PhysicsBar } from './physics-bar.ts';
 import { EDITOR_TEXTS, findingText, isFaulty, pageText } from './texts.ts';
+import { TRIAL_TEXTS, touchText, verdictText } from './trial-texts.ts';
 import './checks-pane.css';
 
 const WAIT_MS = 400;
@@ -26,6 +29,8 @@ interface Shown {
   readonly text: string;
   readonly isFault: boolean;
   readonly tab: Tab;
+  /** Told from the poses alone: a trial in physics knows better. */
+  readonly isGuess?: boolean;
 }
 
 export class ChecksPane extends HTMLElement {
@@ -34,12 +39,16 @@ export class ChecksPane extends HTMLElement {
   private readonly list = make('ul', { 'aria-label': 'Findings' });
   private readonly byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
   private shown: MotionDocument | null = null;
+  /** What is known without physics, as it was looked at last. */
+  private known: { readonly document: MotionDocument; readonly all: readonly Shown[]; readonly note: string } | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
-    this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.checks), this.summary, this.list);
-    this.disposals.push(this.desk.editor.state.watch(() => this.later()), this.desk.state.watch(() => this.later()), () => clearTimeout(this.timer));
+    const physics = Object.assign(new PhysicsBar(), { desk: this.desk });
+    this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.checks), physics, this.summary, this.list);
+    const { editor, state, trials } = this.desk;
+    this.disposals.push(editor.state.watch(() => this.later()), state.watch(() => this.later()), trials.state.watch(() => this.render()), () => clearTimeout(this.timer));
   }
 
   disconnectedCallback(): void {
@@ -56,13 +65,13 @@ export class ChecksPane extends HTMLElement {
   private async look(document: MotionDocument): Promise<void> {
     this.shown = document;
     const own = this.ownFindings(document).map((one) => this.shownOf(one));
-    this.render(document, own, EDITOR_TEXTS.checking);
+    this.show(document, own, EDITOR_TEXTS.checking);
     const said = await this.desk.files.formats.check(imageOf(document)).catch(() => null);
     if (this.shown !== document) return;
     const theirs = said?.map((one) => this.shownOfM512(one)) ?? [];
     // What m512 says of damage it says in better words.
     const rest = said ? own.filter((one) => !theirs.some((other) => other.page === one.page && other.text.startsWith('damaged') && one.tab === 'pages')) : own;
-    this.render(document, [...theirs, ...rest], said ? '' : EDITOR_TEXTS.noM512);
+    this.show(document, [...theirs, ...rest], said ? '' : EDITOR_TEXTS.noM512);
   }
 
   private ownFindings(document: MotionDocument): PageFinding[] {
@@ -81,7 +90,7 @@ export class ChecksPane extends HTMLElement {
     const joint = this.desk.body.joints.find((other) => other.servo === one.joint);
     const isOfLinks = one.kind === 'unreachable' || one.kind === 'exit-circle';
     const tab: Tab = isOfLinks ? 'links' : one.step === null ? 'pages' : 'steps';
-    return { page: one.page, step: one.step, joint: one.joint, text: findingText(one, joint ? jointTitle(joint) : `joint ${one.joint}`), isFault: isFaulty(one), tab };
+    return { page: one.page, step: one.step, joint: one.joint, text: findingText(one, joint ? jointTitle(joint) : `joint ${one.joint}`), isFault: isFaulty(one), tab, isGuess: one.kind === 'tips-over' };
   }
 
   private shownOfM512({ page, text, isFault }: Finding): Shown {
@@ -89,7 +98,39 @@ export class ChecksPane extends HTMLElement {
     return { page, step: null, joint: null, text, isFault, tab: isOfLinks ? 'links' : 'pages' };
   }
 
-  private render(document: MotionDocument, all: readonly Shown[], note: string): void {
+  private show(document: MotionDocument, all: readonly Shown[], note: string): void {
+    this.known = { document, all, note };
+    this.render();
+  }
+
+  /** What physics says of the pages that it has tried. Of those that stand nothing is to be told. */
+  private physicsFindings(): Shown[] {
+    const { trials } = this.desk.trials.state.get();
+    return [...trials].flatMap(([page, trial]) => {
+      const stale = this.desk.trials.isFresh(page) ? '' : TRIAL_TEXTS.stale;
+      const { verdict } = trial;
+      const said = verdict.kind === 'stands' ? [] : [this.verdictShown(page, trial, trials)];
+      const touches = trial.touches.slice(0, 1).map((touch) => ({ page, step: touch.step, joint: null, text: touchText(touch), isFault: false, tab: 'steps' as const }));
+      return [...said, ...touches].map((one) => ({ ...one, text: stale + one.text }));
+    });
+  }
+
+  private verdictShown(page: number, { verdict }: PageTrial, trials: ReadonlyMap<number, PageTrial>): Shown {
+    const [behind] = [...trials].filter(([one, trial]) => one !== page && trial.pages.includes(page));
+    const text = verdictText(verdict, page, (one) => this.titleOf(one), behind ? [behind[0], behind[1].verdict.kind] : null);
+    return { page: verdict.at?.page ?? page, step: verdict.at?.step ?? 0, joint: null, text, isFault: verdict.kind === 'falls', tab: 'steps' };
+  }
+
+  private titleOf(page: number): string {
+    return pageText(page, this.desk.editor.page(page).name);
+  }
+
+  private render(): void {
+    if (!this.known) return;
+    const { document, note } = this.known;
+    const tried = this.desk.trials;
+    const guessed = this.known.all.filter(({ page, isGuess }) => !isGuess || !tried.isFresh(page));
+    const all = [...guessed, ...this.physicsFindings()];
     const { format } = this.desk.editor;
     const used = document.pages.filter((bytes, page) => page > 0 && !format.isEmpty(bytes)).length;
     const faults = all.filter((one) => one.isFault).length;
@@ -100,7 +141,7 @@ export class ChecksPane extends HTMLElement {
   }
 
   private row(one: Shown): HTMLElement {
-    const title = pageText(one.page, this.desk.editor.page(one.page).name);
+    const title = this.titleOf(one.page);
     return make('li', { class: one.isFault ? 'fault' : 'note' },
       make('span', { class: 'sign' }, one.isFault ? '⚠ fault' : 'to know'), make('b', {}, title), make('span', { class: 'words' }, one.text),
       make('button', { 'aria-label': `Go to ${title}${one.step === null ? '' : `, step ${one.step + 1}`}`, onclick: () => this.goTo(one) }, 'Go there'));

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Motions of the document in physics: joins the editor with the worker for trials, which is made when it is first wanted.
+
+import { imageOf, pageOf } from '../model/document.ts';
+import { AS_STORED } from '../model/motion.ts';
+import type { Law, Shape } from '../model/motion.ts';
+import { pagesOfPlay } from '../model/page-reach.ts';
+import { deepestTouches, posesOf, verdictOf } from '../model/trial.ts';
+import type { StepTouch, Touch, TrialRecord, TrialRequest } from '../model/trial.ts';
+import type { TrialClient } from '../sim/trial-client.ts';
+import { Store } from '../view/store.ts';
+import type { PageTrial, Trials, TrialsState } from '../view/trial-desk.ts';
+import type { DocumentEditor } from './editor.ts';
+
+/** A motion that goes round is told to stop then: 6 s. */
+const TICKS = 6 * 128;
+/** Of a CM-5's battery. */
+const NOMINAL_VOLTS = 9.6;
+const CURVE_TICKS = 6000;
+
+/** What a trial held for. */
+interface Tried {
+  readonly law: Law;
+  readonly pages: ReadonlyMap<number, Uint8Array>;
+}
+
+const NOTHING: TrialsState = { phase: 'idle', page: null, done: 0, total: 0, trials: new Map(), trouble: null };
+
+export class MotionTrials implements Trials {
+  readonly state = new Store<TrialsState>(NOTHING);
+  private readonly editor: DocumentEditor;
+  private readonly makeClient: () => Promise<TrialClient>;
+  private client: Promise<TrialClient> | null = null;
+  private readonly tried = new Map<number, Tried>();
+  private stop = new AbortController();
+  /** One motion at a time is in the worker. */
+  private last: Promise<unknown> = Promise.resolve();
+
+  constructor(editor: DocumentEditor, makeClient: () => Promise<TrialClient>) {
+    this.editor = editor;
+    this.makeClient = makeClient;
+  }
+
+  async run(pages: readonly number[]): Promise<void> {
+    const { phase } = this.state.get();
+    const due = pages.filter((page) => this.isPlayable(page) && !this.isFresh(page));
+    if (phase === 'loading' || phase === 'trying' || due.length === 0) return;
+    this.stop = new AbortController();
+    const { signal } = this.stop;
+    this.state.set({ phase: 'loading', done: 0, total: due.length, trouble: null });
+    try {
+      const client = await this.ready();
+      for (const [done, page] of due.entries()) {
+        signal.throwIfAborted();
+        this.state.set({ phase: 'trying', page, done });
+        if (this.isPlayable(page)) await this.tryPage(client, page, signal);
+      }
+      this.state.set({ phase: 'idle', page: null, done: due.length });
+    } catch (error) {
+      const isStopped = signal.aborted;
+      this.state.set({ phase: isStopped ? 'idle' : 'failed', page: null, trouble: isStopped ? null : wordsOf(error) });
+    }
+  }
+
+  cancel(): void {
+    this.stop.abort();
+  }
+
+  isFresh(page: number): boolean {
+    const { document, law } = this.editor.state.get();
+    const tried = this.tried.get(page);
+    return tried !== undefined && tried.law === law && [...tried.pages].every(([one, bytes]) => pageOf(document, one) === bytes);
+  }
+
+  async follow(page: number, ticks: number, shape: Shape, signal: AbortSignal): Promise<Float32Array | null> {
+    if (!this.isPlayable(page)) return null;
+    const request = this.request(page, shape, ticks);
+    const client = await this.ready().catch(() => null);
+    const record = client && (await this.play(client, request, signal));
+    return record?.stood ? record.positions : null;
+  }
+
+  async touching(pose: ArrayLike<number>): Promise<readonly Touch[]> {
+    const client = await this.ready().catch(() => null);
+    const [touches] = (await client?.touching(Uint16Array.from(pose))) ?? [];
+    return touches ?? [];
+  }
+
+  private async tryPage(client: TrialClient, page: number, signal: AbortSignal): Promise<void> {
+    const { document, law } = this.editor.state.get();
+    const reached = new Map(pagesOfPlay(this.editor.format, document, page).map((one) => [one, pageOf(document, one)]));
+    const request = this.request(page, AS_STORED, TICKS);
+    const touches = await this.touchesOf(client, page);
+    const record = await this.play(client, request, signal);
+    this.tried.set(page, { law, pages: reached });
+    this.note(page, { verdict: verdictOf(record), pages: record.pages, touches });
+  }
+
+  private async touchesOf(client: TrialClient, page: number): Promise<StepTouch[]> {
+    const curve = this.editor.curve(page, { ticks: CURVE_TICKS });
+    if (!curve) return [];
+    const { poses, steps } = posesOf(curve, page);
+    return deepestTouches(steps, await client.touching(poses));
+  }
+
+  private note(page: number, trial: PageTrial): void {
+    this.state.set({ trials: new Map([...this.state.get().trials, [page, trial]]) });
+  }
+
+  private play(client: TrialClient, request: TrialRequest, signal: AbortSignal): Promise<TrialRecord> {
+    const mine = this.last.then(() => client.play(request, signal));
+    this.last = mine.catch(() => undefined);
+    return mine;
+  }
+
+  private request(page: number, shape: Shape, ticks: number): TrialRequest {
+    const { document, law } = this.editor.state.get();
+    return { image: imageOf(document), page, law, shape, pose: this.editor.firstPose(page, shape), ticks, volts: NOMINAL_VOLTS };
+  }
+
+  private isPlayable(page: number): boolean {
+    return page > 0 && this.editor.format.isPlayable(pageOf(this.editor.state.get().document, page));
+  }
+
+  /** Made once; after a failure, anew. */
+  private ready(): Promise<TrialClient> {
+    this.client ??= this.makeClient().catch((error: unknown) => {
+      this.client = null;
+      throw error;
+    });
+    return this.client;
+  }
+}
+
+function wordsOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT
+ * imported_body.h - a body that the page brings: the module's two imports, look and step of the module "body", behind the
+ * seam of servo_body.h. Both get a pointer to the shafts (four doubles each: ID, torque, angle, speed) and their number. */
+#ifndef IMPORTED_BODY_H
+#define IMPORTED_BODY_H
+
+#include "servo_body.h"
+
+/* Never NULL; there is one a module. */
+const servo_body_t *imported_body(void);
+
+#endif

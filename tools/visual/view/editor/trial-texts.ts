@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Every sentence of what physics says of motions.
+
+import type { StepTouch, Verdict, VerdictKind } from '../../model/trial.ts';
+import type { TrialsState } from '../trial-desk.ts';
+
+export const TRIAL_TEXTS = {
+  purpose: 'Physics: plays motions on a body of their own, as fast as it can; the robot in the picture stays as it is.',
+  loading: 'Physics is being loaded …',
+  failed: (words: string) => `Physics could not be loaded, so falls cannot be told (${words}). Try again.`,
+  trying: ({ done, total }: TrialsState, title: string) => `Trying ${title}: ${done + 1} of ${total} …`,
+  stale: 'Before the last change: ',
+  notTried: 'No motion has been tried yet.',
+  untried: (count: number) => `${count} not tried yet`,
+  changed: (count: number) => `${count} changed since ${count === 1 ? 'it was' : 'they were'} tried`,
+  follow: 'Servos lag behind: thin lines, as physics has it at 9.6 V.',
+  noFollow: 'Physics cannot tell how the servos follow: the robot does not stand in the first pose.',
+} as const;
+
+const COUNTED: Record<VerdictKind, (count: number) => string> = {
+  stands: (count) => (count === 1 ? '1 motion stands' : `${count} motions stand`),
+  rises: (count) => (count === 1 ? '1 goes to the floor and rises' : `${count} go to the floor and rise`),
+  falls: (count) => (count === 1 ? '1 falls' : `${count} fall`),
+  low: (count) => (count === 1 ? '1 ends low' : `${count} end low`),
+  'no-start': (count) => `${count} cannot be judged alone`,
+};
+
+/** "40 motions stand, 2 fall." */
+export function countedText(kinds: readonly VerdictKind[], untried: number, changed: number): string {
+  if (kinds.length === 0) return TRIAL_TEXTS.notTried;
+  const parts = (Object.keys(COUNTED) as VerdictKind[]).flatMap((kind) => {
+    const count = kinds.filter((one) => one === kind).length;
+    return count === 0 ? [] : [COUNTED[kind](count)];
+  });
+  return `${[...parts, ...(untried > 0 ? [TRIAL_TEXTS.untried(untried)] : []), ...(changed > 0 ? [TRIAL_TEXTS.changed(changed)] : [])].join(', ')}.`;
+}
+
+/** The verdict on a page in one sentence. titleOf: of a page; behind: a page that was tried and led through this one. */
+export function verdictText({ kind, at, seconds }: Verdict, page: number, titleOf: (page: number) => string, behind: readonly [number, VerdictKind] | null): string {
+  const where = at ? `in step ${at.step + 1}${at.page === page ? '' : ` of ${titleOf(at.page)}`} after ${(at.tick / 128).toFixed(1)} s` : '';
+  switch (kind) {
+    case 'stands': return `Stands: played for ${seconds.toFixed(1)} s.`;
+    case 'rises': return `Goes to the floor ${where}, and is on its feet in the end.`;
+    case 'falls': return `Falls ${where}, and stays on the floor. Give the step more time, or keep the weight over the foot that carries.`;
+    case 'low': return 'Stays upright, but does not end on its soles alone: it sits, kneels or leans.';
+    case 'no-start': return behind ? `Does not stand in its first pose. Played behind ${titleOf(behind[0])} it ${BEHIND[behind[1]]}.`
+      : 'Cannot be judged: it does not stand in its first pose. It begins lying, or in the middle of a movement.';
+    default: return kind satisfies never;
+  }
+}
+
+const BEHIND: Record<VerdictKind, string> = {
+  stands: 'stands', rises: 'gets to its feet', falls: 'stays on the floor', low: 'ends low', 'no-start': 'is not reached',
+};
+
+/** "right_forearm" as people read it. */
+export function linkTitle(link: string): string {
+  return link.replaceAll('_', ' ');
+}
+
+export function touchText({ links: [a, b], depthM, step }: StepTouch): string {
+  return `Step ${step + 1}, or the way to it: ${linkTitle(a)} and ${linkTitle(b)} meet (${Math.round(depthM * 1000)} mm), and servos push against each other.`;
+}
