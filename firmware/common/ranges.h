@@ -24,7 +24,7 @@ enum {
 /* The image's. */
 extern const shell_range_t ranges_own_P[];
 
-/* The joints that the words from `first` on name: "3", "1-6". Their bits are added to *joints. false: SHELL_ERR_RANGE. */
+/* The joints that the words from `first` on name: "3", "1-6", and "6-1" as well. Their bits are added to *joints. false: SHELL_ERR_RANGE. */
 MUST_CHECK bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints);
 
 #endif

@@ -25,7 +25,8 @@ bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joint
             }
             *dash = '-';   /* a word fewer: those behind it are counted by their ends */
         }
-        for (; from <= to; from++) {
+        servo_link_put(joints, (uint8_t)to, true);
+        for (; from != to; from = from < to ? from + 1u : from - 1u) {
             servo_link_put(joints, (uint8_t)from, true);
         }
     }

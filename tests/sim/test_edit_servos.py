@@ -51,6 +51,9 @@ def test_off_and_on_take_ranges_of_servos():
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1, 2, 3, 7]
         r.line("on 2-7")
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1]
+        r.line("off 6-4")   # the other way round
+        assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1, 4, 5, 6]
+        r.line("on 4-6")
         for wrong in ("off 3-", "off -3", "off 1-31", "off 1-x"):
             assert r.line(wrong) == f"{wrong} ID must be 0..30"
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1]
