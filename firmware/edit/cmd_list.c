@@ -11,7 +11,7 @@
 /* The first lines of HELP, a semicolon behind each. */
 TEXT_NAMED(first_wave,
            "A first wave:;"
-           "page 20  opens an empty page;"
+           "page 99  opens an empty page;"
            "off      lets go: pose the robot by hand;"
            "on       it holds the pose;"
            "write    the pose becomes step 0. Again for the next: off, on, write;"

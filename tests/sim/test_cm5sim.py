@@ -148,6 +148,7 @@ def test_terminal_knobs(terminal):
     terminal.expect("ready")
 
 
+TITLE = re.compile(rb"\x1b\[2[23];2t|\x1b\]2;[^\a]*\a")
 OVERLAY = re.compile(rb"\x1b\[\?1049h(.*?)\x1b\[\?1049l", re.S)
 
 
@@ -167,7 +168,7 @@ def test_terminal_words_for_the_user_leave_the_robots_screen_alone(terminal):
         assert any(words in part for part in shown), words
     assert not any("servo 3: 00" in part for part in shown)
     alone = run(ROBOT, "--servos", "1-3", "-q", stdin=b"pppp").stdout.split(b"ready\r\n", 1)[1]
-    assert OVERLAY.sub(b"", heard.getvalue()) == b"\r\n" * heard.getvalue().startswith(b"\r\n") + alone
+    assert TITLE.sub(b"", OVERLAY.sub(b"", heard.getvalue())) == b"\r\n" * heard.getvalue().startswith(b"\r\n") + alone
 
 
 def test_terminal_hand_pushes_holds_and_lets_go(terminal):

@@ -12,6 +12,7 @@
 
 #define LINE_BPS 57600
 #define ENTRIES 4
+#define CLEAR_SCREEN 0x1B5B324Au /* ESC [ 2 J */
 
 static const char *listen_tcp(console_t *console, int port)
 {
@@ -137,6 +138,8 @@ void console_put(console_t *console, uint8_t byte)
     }
     console->out[console->out_count++] = byte;
     console->draws = console->draws || byte == 0x1B;
+    console->last_bytes = console->last_bytes << 8 | byte;
+    console->cleared = console->cleared || console->last_bytes == CLEAR_SCREEN;
 }
 
 /* One client at a time: a second one is told so. */

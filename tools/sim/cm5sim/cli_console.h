@@ -25,6 +25,8 @@ typedef struct {
     uint8_t *waiting;
     size_t waiting_count, waiting_room;
     bool draws; /* the robot has used an escape sequence: it has a screen */
+    bool cleared; /* it has emptied it, and draws it anew */
+    uint32_t last_bytes; /* of the robot, the newest lowest */
     console_input_fn input;
     void *context;
 } console_t;

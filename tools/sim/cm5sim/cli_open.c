@@ -8,10 +8,12 @@
 
 #include "board_debug.h"
 #include "cli_files.h"
+#include "cli_leave.h"
 #include "cli_script.h"
 #include "cli_session.h"
 
 #define LINE_ANSWER_BYTES 1200
+#define CTRL_C 3
 
 static const char hand_help[] =
     "A hand at the robot. One line, then Enter; Enter alone goes back.\n\n"
@@ -85,6 +87,9 @@ static void typed(session_t *session, uint8_t byte)
     overlay_hide(overlay, &session->console);
     if (kind != OVERLAY_PAGE || byte == KEY_LEAVE || byte == KEY_PREFIX) {
         press_key(session, keys_take(&session->keys, byte));
+    }
+    if (byte == CTRL_C && kind == OVERLAY_NONE) {
+        leave_explain(session);
     }
 }
 
@@ -174,6 +179,7 @@ static void announce(session_t *session)
         session_say(session, "%s with %d servos. Ctrl-] leaves, Ctrl-T ? shows the keys%s.",
                     options->kind == BOARD_CM2 ? "CM-2" : "CM-5", session->bus->count,
                     options->rc ? "; keyboard: RC-100" : "");
+        leave_open(session);
     }
     session->keys.rc_mode = options->rc;
 }
@@ -255,6 +261,7 @@ static void close_trace(session_t *session)
 void session_close(session_t *session)
 {
     session_leave_screen(session);
+    leave_close(session);
     console_close(&session->console);
     keys_restore();
     if (session->board == NULL) {

@@ -43,7 +43,7 @@ void session_complain(const session_t *session, const char *format, ...)
     message(text);
 }
 
-static bool is_on_terminal(const session_t *session)
+bool session_is_on_terminal(const session_t *session)
 {
     const char *term = getenv("TERM");
     return keys_are_raw() && session->console.use_stdout && isatty(STDOUT_FILENO) && term && strcmp(term, "dumb") != 0;
@@ -53,7 +53,7 @@ void session_leave_screen(session_t *session)
 {
     overlay_hide(&session->overlay, &session->console);
     console_flush(&session->console);
-    if (session->console.draws && is_on_terminal(session)) {
+    if (session->console.draws && session_is_on_terminal(session)) {
         session->console.draws = false;
         fputs("\x1b[0m\x1b[999;1H\r\n", stderr); /* plain letters, the last line */
     }
@@ -61,7 +61,7 @@ void session_leave_screen(session_t *session)
 
 void session_page(session_t *session, overlay_kind_t kind, const char *text)
 {
-    if (is_on_terminal(session)) {
+    if (session_is_on_terminal(session)) {
         overlay_show(&session->overlay, &session->console, kind, text);
         overlay_add(kind == OVERLAY_PAGE ? "\n(any key goes back to the robot)" : "");
     } else {
@@ -76,7 +76,7 @@ void session_note(session_t *session, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    if (is_on_terminal(session)) {
+    if (session_is_on_terminal(session)) {
         session_page(session, OVERLAY_NOTE, text);
         session->overlay.until = board_now(session->board) + NOTE_CYCLES;
     } else if (!session->options->quiet) {

@@ -36,6 +36,7 @@ typedef struct session {
 
     uint32_t pty_bps; /* as the client of the pty has set it */
     uint64_t last_traffic; /* cycle of the newest byte either way */
+    struct { bool titled, explained; uint32_t shown_at_start; /* the n-th of the robot, from 1 */ } leave; /* cli_leave.h */
     bool opened; /* only then files are written back */
     bool done;
     int exit_code;
@@ -52,6 +53,9 @@ void session_complain(const session_t *session, const char *format, ...) __attri
 
 /* The same, but over the robot's screen where there is one: for a moment. */
 void session_note(session_t *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* A person looks: keys and words go by a terminal that knows escape sequences. */
+bool session_is_on_terminal(const session_t *session);
 
 /* The robot's screen is over: what comes now stands below it. */
 void session_leave_screen(session_t *session);

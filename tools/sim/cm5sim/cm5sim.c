@@ -11,6 +11,7 @@
 
 #include "board_debug.h"
 #include "cli_bus.h"
+#include "cli_leave.h"
 #include "cli_script.h"
 #include "cli_session.h"
 #include "cm5sim.h"
@@ -189,6 +190,7 @@ static void run(session_t *session, script_t *script)
         if (session->overlay.kind == OVERLAY_NOTE && now >= session->overlay.until) {
             overlay_hide(&session->overlay, &session->console);
         }
+        leave_show(session);
         wake = script && !session->done ? script_step(script, session) : NEVER_CYCLES;
         pace.real = pace.real && !(options->pace == PACE_AUTO && is_alone(session));
         wait_for_clock(session, &pace);

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""What a person sees of the way out when the robot fills the terminal: cm5sim with Edit before a terminal emulator (pyte)."""
+import os
+import re
+import time
+
+import pexpect
+import pyte
+import pytest
+
+from m512.files.image import from_bytes
+from sim_command import BUILD, CM5SIM
+
+MOTIONS = BUILD / "motions" / "motions.bin"
+PATIENCE_S = 240
+HINT = "Ctrl-] ends the simulator"
+
+
+class Seen:
+    """cm5sim on a terminal of so many rows and columns, and what stands on it."""
+
+    def __init__(self, rows, columns, tmp_path, term="xterm"):
+        self.screen = pyte.Screen(columns, rows)
+        self.stream, self.raw = pyte.ByteStream(self.screen), b""
+        self.screen.write_process_input = lambda answer: self.child.send(answer)
+        eeprom = tmp_path / "robot.eep"
+        eeprom.write_bytes(b"\xff" * 4095 + b"\x11")   # the loader starts the application
+        self.child = pexpect.spawn(str(CM5SIM), ["boot-cm5.hex", "edit-cm5.hex", "--motions", str(MOTIONS), "--eeprom", str(eeprom)],
+                                   dimensions=(rows, columns), timeout=PATIENCE_S, env={**os.environ, "TERM": term})
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.child.close(force=True)
+
+    def until(self, holds):
+        """Looks until that holds."""
+        end = time.monotonic() + PATIENCE_S
+        while not holds():
+            assert time.monotonic() < end, "\n".join(self.screen.display)
+            try:
+                heard = self.child.read_nonblocking(4096, 0.1)
+            except pexpect.TIMEOUT:
+                continue
+            self.raw += heard
+            self.stream.feed(heard)
+
+    def shows(self, text, row=None):
+        rows = self.screen.display if row is None else [self.screen.display[row - 1]]
+        return any(text in line for line in rows)
+
+    def leave(self):
+        self.child.send("\x1d")
+        self.raw += self.child.read()
+
+
+@pytest.mark.parametrize("rows, columns", [(24, 80), (40, 100)])
+def test_way_out_stands_on_the_screen_of_edit_and_in_the_title(tmp_path, rows, columns):
+    with Seen(rows, columns, tmp_path) as seen:
+        seen.until(lambda: seen.shows(HINT, rows))
+        assert seen.shows("Arrows move, HELP explains, EXIT leaves", min(rows, 35))
+        assert "Ctrl-] ends it" in seen.screen.title
+        cursor = seen.screen.cursor.x, seen.screen.cursor.y
+        assert cursor == (19, 0)                         # where Edit has put it
+        seen.child.send("page 3\r")
+        seen.until(lambda: seen.shows("wave"))
+        if rows > 35:
+            assert seen.shows(HINT, rows)                # below Edit's screen it stays
+        else:
+            assert not seen.shows(HINT)                  # Edit has written there
+            seen.child.send("exit\r")                    # who tries to leave that way sees it again
+            seen.until(lambda: seen.shows(HINT, rows))
+        seen.leave()
+        assert seen.raw.count(b"\x1b[22;2t") == 1 and seen.raw.count(b"\x1b[23;2t") == 1   # the title before is back
+
+
+def test_way_out_is_told_to_who_presses_ctrl_c_once(tmp_path):
+    with Seen(24, 80, tmp_path) as seen:
+        seen.until(lambda: seen.shows("HELP explains"))
+        seen.child.send("\x03")
+        seen.until(lambda: seen.shows("Ctrl-C goes to the robot. Ctrl-] ends the simulator"))
+        seen.until(lambda: b"\x1b[?1049l" in seen.raw)    # it goes by itself, and the robot's screen is back
+        seen.child.send("\x03page 3\r")
+        seen.until(lambda: seen.shows("wave"))
+        assert seen.raw.count(b"Ctrl-C goes to the robot") == 1
+
+
+def test_console_of_linux_gets_no_title_that_it_would_print(tmp_path):
+    with Seen(24, 80, tmp_path, term="linux") as seen:
+        seen.until(lambda: seen.shows(HINT, 24))
+        seen.leave()
+        assert b"\x1b]" not in seen.raw and b"\x1b[22;2t" not in seen.raw
+
+
+def test_first_wave_of_help_opens_a_page_that_is_empty_in_our_library(tmp_path):
+    with Seen(24, 80, tmp_path) as seen:
+        seen.until(lambda: seen.shows("HELP explains"))
+        seen.child.send("help\r")
+        seen.until(lambda: seen.shows("-- more"))
+        number = re.search(r"page (\d+) +opens an empty page", "\n".join(seen.screen.display))[1]
+    assert from_bytes(MOTIONS.read_bytes())[int(number)].is_empty
