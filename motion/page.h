@@ -59,7 +59,7 @@ typedef enum {
     PAGE_ERR_STEPS,      /* PAGE_STEP > 7 */
     PAGE_ERR_SCHEDULE,   /* neither 0 nor 0x0A */
     PAGE_ERR_SPEED,      /* PAGE_SPEED is 0 */
-    PAGE_ERR_LINK,       /* a link is above 127: never from page_check, to a play it is 0 (player.md); for tools */
+    PAGE_ERR_LINK,       /* a place only: a link above 127 is 0 to a play (player.md), and no fault */
     PAGE_ERR_POSITION,   /* a position of a used step is above 1023 and has neither flag (0x4000, 0x2000) */
     PAGE_EMPTY           /* valid, but without action. Never from page_check (see page_is_playable): why a play ends */
 } page_status_t;

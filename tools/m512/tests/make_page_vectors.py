@@ -109,7 +109,7 @@ def build():
     vector("page speed 1", pose(1, b22=1), "OK", True, speed=1)
     for offset, name in ((25, "next_page"), (26, "exit_page"), (27, "linked1_page"), (29, "linked2_page")):
         vector(f"{name} 127", pose(1, **{f"b{offset}": 127}), "OK", True, **{name: 127})
-        vector(f"{name} 128", pose(1, **{f"b{offset}": 128}), "LINK", True, **{name: 128})
+        vector(f"{name} 128 counts as none", pose(1, **{f"b{offset}": 128}), "OK", True, **{name: 128})
     vector("linked codes may be anything", pose(1, b28=255, b30=200), "OK", True, linked1_code=255, linked2_code=200)
     vector("reserved bytes are kept", pose(1, b14=9, b17=1, b18=2, b19=3, b63=0x55), "OK", True)
 
@@ -131,7 +131,7 @@ def build():
     vector("speed before link", pose(1, b22=0, b25=200), "SPEED", True)
     page = with_word(4095)
     page[25] = 200
-    vector("link before position", page, "LINK", True)
+    vector("a link that counts as none, and a bad position", page, "POSITION", True)
 
     # The sum does not see exchanged bytes: the fields have to be checked as well.
     page = pose()

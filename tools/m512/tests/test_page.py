@@ -59,5 +59,15 @@ def test_page_fault_text_names_field_and_value():
     page = Page()
     page.steps, page.next = 1, 200
     page.set_word(0, 7, 1500)
-    assert page.seal().fault_text() == "link beyond page 127: next 200; position beyond 1023: step 0 ID 7 is 0x05DC"
-    assert page.fault_text(Kind(256, 4095)) == ""
+    page.speed = 0
+    assert page.seal().fault_text() == "page speed is 0; position beyond 1023: step 0 ID 7 is 0x05DC"
+    assert page.fault_text(Kind(256, 4095)) == "page speed is 0"
+
+
+def test_page_link_beyond_the_last_page_is_no_fault_but_named():
+    """player.md: a link above 127 counts as 0."""
+    page = Page()
+    page.steps, page.next, page.link2_page = 1, 200, 128
+    assert page.seal().fault_text() == ""
+    assert page.links_beyond() == ["next 200", "link2 page 128"]
+    assert page.links_beyond(Kind(256)) == []

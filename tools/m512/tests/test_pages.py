@@ -222,3 +222,17 @@ def test_check_says_once_what_holds_for_many_pages(m512, tmp_path):
     notes = [line for line in done.stderr.splitlines() if line.startswith("note:")]
     assert done.exit_code == 0 and len(notes) == 2
     assert notes[0].startswith("note: pages 10..39: speed 21: steps and pauses last 0.6562 times") and '40 "p40"' in notes[1]
+
+
+def test_a_link_above_127_is_a_note_and_no_damage(m512, tmp_path):
+    """player.md: it counts as 0. So Edit and the player take such a page, and so do we: it is listed, kept, converted and flashed."""
+    (tmp_path / "a.m512").write_text("motion512 1\npage 10 hop\n  next 0xC8\n  step 1s | 1:512\n")
+    assert m512("convert", tmp_path / "a.m512", tmp_path / "a.bin").exit_code == 0
+    checked = m512("pages", tmp_path / "a.bin", "check")
+    assert checked.exit_code == 0 and "all good" in checked.stdout
+    assert 'note: page 10 "hop": next 200: there is no such page, so the robot follows no link there' in checked.stderr
+    listed = m512("pages", tmp_path / "a.bin", "list").stdout
+    assert "DAMAGED" not in listed and "next 200" in listed
+    assert m512("convert", tmp_path / "a.bin", tmp_path / "b.m512").exit_code == 0
+    assert "next 0xC8" in (tmp_path / "b.m512").read_text() and "damaged" not in (tmp_path / "b.m512").read_text()
+    assert "ends" in m512("pages", tmp_path / "a.bin", "time", "hop").stdout

@@ -25,7 +25,7 @@ CODE_STOP = 255
 
 
 class Fault(IntEnum):
-    """page_status_t of motion/page.h."""
+    """page_status_t of motion/page.h. LINK is no fault of a page: a link beyond the last page counts as none (links_beyond)."""
 
     OK = 0
     CHECKSUM = 1
@@ -175,14 +175,12 @@ class Page:
             yield Fault.SCHEDULE
         if self.speed == 0:
             yield Fault.SPEED
-        if any(getattr(self, link) >= kind.pages for link in self.LINKS):
-            yield Fault.LINK
         if any(is_used(word) and word > kind.pos_max
                for step in range(min(self.steps, STEPS)) for word in self.words(step)):
             yield Fault.POSITION
 
     def fault(self, kind: Kind = Kind()) -> Fault:
-        """The first fault, as the firmware's page_check reports it; but to the firmware a link above 127 (LINK) is none."""
+        """The first fault, as the firmware's page_check reports it."""
         return next(self.faults(kind), Fault.OK)
 
     def fault_text(self, kind: Kind = Kind()) -> str:
@@ -199,14 +197,15 @@ class Page:
             return f"schedule is 0x{self.schedule:02X}, neither speed base (0x00) nor time base (0x0A)"
         if fault is Fault.SPEED:
             return "page speed is 0"
-        if fault is Fault.LINK:
-            bad = [f"{link} {getattr(self, link)}" for link in self.LINKS if getattr(self, link) >= kind.pages]
-            return f"link beyond page {kind.pages - 1}: " + ", ".join(bad)
         bad = [f"step {step} ID {joint} is 0x{self.word(step, joint):04X}"
                for step in range(min(self.steps, STEPS)) for joint in range(JOINTS)
                if is_used(self.word(step, joint)) and self.word(step, joint) > kind.pos_max]
         more = f" and {len(bad) - 3} more" if len(bad) > 3 else ""
         return f"position beyond {kind.pos_max}: " + ", ".join(bad[:3]) + more
+
+    def links_beyond(self, kind: Kind = Kind()) -> List[str]:
+        """Links beyond the last page, which a player takes for none: "next 200"."""
+        return [f"{link.replace('_', ' ')} {getattr(self, link)}" for link in self.LINKS if getattr(self, link) >= kind.pages]
 
     @property
     def is_playable(self) -> bool:

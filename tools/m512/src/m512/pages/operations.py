@@ -26,7 +26,7 @@ def check(image: Image) -> List[Tuple[int, str]]:
             continue
         for link in Page.LINKS:
             target = getattr(page, link)
-            if target and (not image.first <= target < image.end or not _goes_on(image, target)):
+            if target and image.first <= target < image.end and not _goes_on(image, target):
                 out.append((number, f"{link.replace('_', ' ')} leads to page {target}, which has no action"))
         if page.link1_page and not page.link1_code or page.link2_page and not page.link2_code:
             out.append((number, "a linked page has no code and is never followed"))
@@ -60,6 +60,9 @@ def remarks(image: Image) -> List[Tuple[int, str]]:
             factor = page.speed / NOMINAL_SPEED
             out.append((number, f"speed {page.speed}: steps and pauses last {factor:.4g} times what they say "
                                 f"(0.5 s becomes {0.5 * factor:.4g} s); {NOMINAL_SPEED} plays them as written"))
+        beyond = page.links_beyond(image.kind) if number and not page.fault(image.kind) and page.is_playable else []
+        if beyond:
+            out.append((number, f"{' and '.join(beyond)}: there is no such page, so the robot follows no link there"))
     return out
 
 
@@ -213,8 +216,8 @@ def chain(image: Image, number: int) -> Tuple[List[Tuple[int, int, float]], str]
     while True:
         if number in seen:
             return out, f"goes on with page {number} for ever"
-        if not image.first <= number < image.end or image[number].fault(image.kind):
-            return out, f"ends at page {number}, which is damaged or not there"
+        if image[number].fault(image.kind):
+            return out, f"ends at page {number}, which is damaged"
         page = image[number]
         seen[number] = None
         if page.is_playable:
@@ -222,7 +225,7 @@ def chain(image: Image, number: int) -> Tuple[List[Tuple[int, int, float]], str]
             pose = end_pose(page, pose)
             again = page_seconds(page, pose)
             out.append((number, page.repeat, once + (page.repeat - 1) * again))
-        if not page.next:
+        if not image.first <= page.next < image.end:
             return out, "ends"
         number = page.next
 
