@@ -19,7 +19,7 @@ BYTES = 10_000_000
 SAMPLE_BYTES = {"loader": 24_000}
 SAMPLE_BYTES_ELSE = 12_000
 SECONDS = 30          # of libFuzzer a harness
-SAMPLE_SECONDS = 1
+SAMPLE_RUNS = 200       # of each harness; by their number, so that CI runs the same inputs every time
 SHRINK_TRIALS = 12
 SHRINKS = 3           # findings of one input that are made smaller
 
@@ -163,10 +163,11 @@ def image_figure(name, done, options):
 def modules(options, names):
     """The harnesses."""
     if fuzz_host.build():
-        seconds = SAMPLE_SECONDS if options.sample else options.seconds
-        tasks = [(name, seconds, options.seed, options.keep_corpus) for name in names]
+        length, limit = (f"{SAMPLE_RUNS} runs", f"-runs={SAMPLE_RUNS}") if options.sample else (
+            f"{options.seconds} s", f"-max_total_time={options.seconds}")
+        tasks = [(name, limit, options.seed, options.keep_corpus) for name in names]
         runs = proof.each(fuzz_host.search, tasks, "harnesses", options.jobs)
-        how = f"libFuzzer with ASan and UBSan, {seconds} s a harness, from the corpora of tests/prove/fuzz on"
+        how = f"libFuzzer with ASan and UBSan, {length} a harness, from the corpora of tests/prove/fuzz on"
         edges = ", ".join(f"{run.name} {run.executions:,} ({run.edges} edges, corpus {run.corpus})" for run in runs)
     else:
         runs = proof.each(fuzz_host.replay, names, "corpora", options.jobs)

@@ -47,12 +47,12 @@ def replay(name):
 
 
 def search(task):
-    """(name, seconds, seed, keep): libFuzzer for so long, from the corpus on. keep: what it found goes to the corpus."""
-    name, seconds, seed, keep = task
+    """(name, limit, seed, keep): libFuzzer from the corpus on, up to limit, an option of its. keep: what it found goes to the corpus."""
+    name, limit, seed, keep = task
     work = proof.RESULTS / "fuzz" / name
     shutil.rmtree(work, ignore_errors=True)
     (work / "found").mkdir(parents=True)
-    command = [FUZZERS / f"fuzz_{name}", f"-max_total_time={seconds}", f"-seed={seed}", f"-max_len={LONGEST[name]}", "-timeout=60",
+    command = [FUZZERS / f"fuzz_{name}", limit, f"-seed={seed}", f"-max_len={LONGEST[name]}", "-timeout=60",
                "-len_control=0", "-print_final_stats=1", "-verbosity=1", f"-artifact_prefix={work}/"]
     words = HERE / f"{name}.dict"
     command += [f"-dict={words}"] if words.exists() else []
