@@ -246,8 +246,8 @@ export class RobotDesk implements Desk {
     this.simulated.post({ kind: 'turn-servo', servo, position });
   }
 
-  pull(hand: Hand | null): void {
-    this.simulated.post({ kind: 'grip', grip: hand });
+  pull(hand: Hand | null, ticks = Infinity): void {
+    this.simulated.post({ kind: 'grip', grip: hand, ticks });
   }
 
   hold(held: boolean): void {

@@ -6,7 +6,7 @@ import { jointAngle } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
 import { Connection } from '../robot/connection.ts';
 import { wallClock } from '../robot/clock.ts';
-import { askPose } from '../robot/protocol.ts';
+import { PoseFollower } from '../robot/pose-follower.ts';
 import type { JointPose } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { ServoState } from '../robot/robot-state.ts';
@@ -15,15 +15,13 @@ import { Standing } from '../sim/standing.ts';
 import { TEXTS } from '../view/texts.ts';
 import type { SourceEvents } from './simulated-source.ts';
 
-const PAUSE_MS = 20;
-const RESTING_MS = 300;
-
 export class YourSource {
   private readonly events: SourceEvents;
   private readonly mayAsk: () => boolean;
   private readonly standing: Standing;
   private port: SerialPort | null = null;
   private startedMs = 0;
+  private follower: PoseFollower | null = null;
   connection: Connection | null = null;
 
   constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
@@ -48,6 +46,7 @@ export class YourSource {
 
   connect(): void {
     if (!this.port) return;
+    this.follower?.stop();
     this.standing.begin();
     this.startedMs = performance.now();
     // What an old connection still says when it is closed concerns nobody.
@@ -57,28 +56,15 @@ export class YourSource {
     });
     this.connection = connection;
     connection.connect();
-    void this.follow(connection);
+    this.follower = new PoseFollower(connection, wallClock, this.mayAsk, (pose) => this.show(pose));
+    this.follower.start();
   }
 
   async close(): Promise<void> {
     const connection = this.connection;
     this.connection = null;
+    this.follower?.stop();
     await connection?.close();
-  }
-
-  private async follow(connection: Connection): Promise<void> {
-    while (this.connection === connection) {
-      let pauseMs = RESTING_MS;
-      if (this.mayAsk()) {
-        try {
-          this.show(await askPose(connection.requests));
-          pauseMs = PAUSE_MS;
-        } catch (error) {
-          if (error instanceof RobotError && error.code === 'no-answer') connection.askAgain();
-        }
-      }
-      await new Promise((resolve) => setTimeout(resolve, pauseMs));
-    }
   }
 
   private show(pose: readonly JointPose[]): void {

@@ -72,3 +72,8 @@ export function carrying(wanted: Place, inner: Place): Place {
   const quat = multiply(wanted.quat, inverse(inner.quat));
   return { pos: subtract(wanted.pos, rotate(quat, inner.pos)), quat };
 }
+
+/** A robot that lies: on its face, or on its back? trunk: x is ahead, as in the body file. */
+export function liesOnFace(trunk: Place): boolean {
+  return rotate(trunk.quat, [1, 0, 0])[2] < 0;
+}

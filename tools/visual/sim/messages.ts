@@ -35,7 +35,8 @@ export type ToSim =
   | { readonly kind: 'battery'; readonly volts: number }
   | { readonly kind: 'fault'; readonly servo: number; readonly fault: number; readonly answers: number }
   | { readonly kind: 'turn-servo'; readonly servo: number; readonly position: number }
-  | { readonly kind: 'grip'; readonly grip: Grip | null }
+  /** ticks: lets go by itself after so many; without it, at the next grip. */
+  | { readonly kind: 'grip'; readonly grip: Grip | null; readonly ticks?: number }
   | { readonly kind: 'hold'; readonly held: boolean }
   | { readonly kind: 'floor'; readonly floor: Floor }
   | { readonly kind: 'memories'; readonly id: number };

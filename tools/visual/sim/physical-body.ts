@@ -48,6 +48,8 @@ export class PhysicalBody {
   private holdAt: Vector = [0, 0, 0];
   private holding = 0; // 1: held, between: being let go, 0: free
   private isHeld = false;
+  /** A hand has left forces behind. */
+  private wasTouched = false;
 
   /** xml: body.xml. Throws MuJoCo's words when it is no model. */
   constructor(mujoco: Mujoco, xml: string, body: Body) {
@@ -228,12 +230,13 @@ export class PhysicalBody {
   }
 
   private pull(): void {
-    if (!this.grip && this.holding === 0) return;
+    const isTouched = this.grip !== null || this.holding > 0;
+    if (!isTouched && !this.wasTouched) return; // MuJoCo keeps applying a force until it is taken away
+    this.wasTouched = isTouched;
     const forces = this.data.xfrc_applied;
     forces.fill(0);
     if (this.grip) this.pullGrip(forces, this.grip);
     if (this.holding > 0) this.pullTrunk(forces);
-    if (!this.grip && this.holding === 0) forces.fill(0);
   }
 
   private pullGrip(forces: Float64Array, grip: NonNullable<PhysicalBody['grip']>): void {

@@ -20,6 +20,7 @@ export class Simulation {
   private physical: PhysicalBody | null = null;
   private readings: ServoReading[];
   private trace: number[] = [];
+  private gripTicks = Infinity;
   private floor: Floor = { tiltFront: 0, tiltLeft: 0, friction: 0.8 };
 
   constructor(board: Board, body: Body) {
@@ -62,7 +63,9 @@ export class Simulation {
     return this.runTo(this.board.nowCycles + CYCLES_PER_TICK);
   }
 
-  setGrip(grip: Grip | null): void {
+  /** ticks: how long the hand pulls; without it, until the next grip. */
+  setGrip(grip: Grip | null, ticks = Infinity): void {
+    this.gripTicks = ticks;
     this.physical?.setGrip(grip);
   }
 
@@ -112,6 +115,7 @@ export class Simulation {
   }
 
   private note(): void {
+    if (--this.gripTicks === 0) this.physical?.setGrip(null);
     this.readings = this.board.servos();
     for (const { goalPos, position } of this.readings) this.trace.push(goalPos, position);
     const limit = TRACE_LIMIT * 2 * this.readings.length;

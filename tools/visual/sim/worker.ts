@@ -115,7 +115,7 @@ function handle(message: ToSim): void {
     case 'battery': return board.setBattery(message.volts);
     case 'fault': return simulation.setFault(message.servo, message.fault, message.answers);
     case 'turn-servo': return simulation.turnServo(message.servo, message.position);
-    case 'grip': return simulation.setGrip(message.grip);
+    case 'grip': return simulation.setGrip(message.grip, message.ticks);
     case 'hold': return simulation.setHeld(message.held);
     case 'floor': return simulation.setFloor(message.floor);
     case 'memories': return tell({ kind: 'memories', memories: readMemories(board), id: message.id });

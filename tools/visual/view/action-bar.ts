@@ -2,7 +2,9 @@
 // What a person wants first: walk, wave, get up, stop. The buttons are pages of the robot, found by their names; all the
 // others are in a list.
 
+import { liesOnFace } from '../model/space.ts';
 import type { PageEntry } from '../robot/protocol.ts';
+import type { RobotState } from '../robot/robot-state.ts';
 import type { Desk, DeskState } from './desk.ts';
 import { define, make } from './element.ts';
 import './action-bar.css';
@@ -10,38 +12,60 @@ import './action-bar.css';
 /** Names of the motion library that get a button, and what stands on it. */
 const BUTTONS: readonly (readonly [string, string])[] = [
   ['walk', 'Walk'], ['back', 'Back'], ['left', 'Turn left'], ['right', 'Turn right'], ['wave', 'Wave'], ['bow', 'Bow'], ['dance', 'Dance'],
-  ['get_up', 'Get up (face)'], ['get_up_back', 'Get up (back)'],
 ];
+/** The page for a robot on its face, and the one for a robot on its back. */
+const GET_UP = { face: 'get_up', back: 'get_up_back' };
 
 export class ActionBar extends HTMLElement {
   desk!: Desk; // set before it is connected
-  private shown: readonly PageEntry[] | null = null;
-  private isReady: boolean | null = null;
-  private unwatch: () => void = () => undefined;
+  private shown = '';
+  private readonly getUp = make('button', { class: 'get-up', title: 'From its face or its back, as it lies', onclick: () => this.standUp() }, 'Get up');
+  private frame: RobotState | null = null;
+  private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
     this.setAttribute('role', 'toolbar');
     this.setAttribute('aria-label', 'Motions');
-    this.unwatch = this.desk.state.watch((state) => this.render(state));
+    this.disposals.push(this.desk.state.watch((state) => this.render(state)), this.desk.onFrame((frame) => this.look(frame)));
   }
 
   disconnectedCallback(): void {
-    this.unwatch();
+    for (const dispose of this.disposals.splice(0)) dispose();
   }
 
   private render(state: DeskState): void {
     const isReady = state.connection === 'ready';
-    if (state.pages === this.shown && isReady === this.isReady) return;
-    this.shown = state.pages;
-    this.isReady = isReady;
+    const key = `${isReady} ${state.source} ${state.pages.map(({ page, name, steps }) => `${page}:${name}:${steps}`).join()}`;
+    if (key === this.shown) return;
+    this.shown = key;
     const byName = new Map(state.pages.map((page) => [page.name, page]));
-    const buttons = BUTTONS.flatMap(([name, title]) => {
+    const plays = (name: string, title: string): HTMLButtonElement[] => {
       const page = byName.get(name);
       return page ? [this.button(title, isReady, () => this.desk.play(page.page))] : [];
-    });
-    this.replaceChildren(
-      this.button('Stop', isReady, () => this.desk.command('stop'), 'stop'), ...buttons, this.list(state.pages, isReady),
-    );
+    };
+    this.replaceChildren(this.button('Stop', isReady, () => this.desk.command('stop'), 'stop'), ...BUTTONS.flatMap(([name, title]) => plays(name, title)),
+      ...(state.source === 'simulated' ? this.oneGetUp(byName) : [...plays(GET_UP.face, 'Get up (face)'), ...plays(GET_UP.back, 'Get up (back)')]),
+      this.list(state.pages, isReady));
+    this.look(this.frame);
+  }
+
+  /** The robot in the page tells how it lies; yours has no sensor for it, so that a person must say it. */
+  private oneGetUp(pages: ReadonlyMap<string, PageEntry>): HTMLButtonElement[] {
+    return pages.has(GET_UP.face) && pages.has(GET_UP.back) ? [this.getUp] : [];
+  }
+
+  private look(frame: RobotState | null): void {
+    this.frame = frame;
+    const lies = frame?.hasFallen === true;
+    this.getUp.disabled = !lies || this.desk.state.get().connection !== 'ready';
+    this.getUp.classList.toggle('primary', lies);
+  }
+
+  private standUp(): void {
+    if (!this.frame) return;
+    const wanted = liesOnFace(this.frame.trunk) ? GET_UP.face : GET_UP.back;
+    const page = this.desk.state.get().pages.find(({ name }) => name === wanted);
+    if (page) void this.desk.play(page.page);
   }
 
   private button(title: string, isReady: boolean, deed: () => Promise<void>, kind = ''): HTMLButtonElement {

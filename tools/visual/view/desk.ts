@@ -104,7 +104,8 @@ export interface Desk {
   setBattery(volts: number): void;
   setFault(servo: number, fault: number, on: boolean): void;
   turnServo(servo: number, position: number): void;
-  pull(hand: Hand | null): void;
+  /** ticks: lets go by itself after so many of the robot's time; without it, at the next pull. */
+  pull(hand: Hand | null, ticks?: number): void;
   hold(held: boolean): void;
   setFloor(floor: Floor): void;
   /** Starts the robot anew with that image; motions and settings stay. */

@@ -10,6 +10,7 @@ import './lab-pane.css';
 const SPEEDS: readonly (readonly [number, string])[] = [[0.1, '0.1×'], [0.25, '¼×'], [0.5, '½×'], [1, 'real time'], [2, '2×'], [4, '4×']];
 const PANEL: readonly (readonly [PanelButton, string])[] = [['up', '▲'], ['down', '▼'], ['left', '◀'], ['right', '▶'], ['start', 'START'], ['mode', 'MODE']];
 const LEDS = ['Power', 'TxD', 'RxD', 'Aux', 'Manage', 'Program', 'Play'];
+const PUSH_TICKS = 38; // 0.3 s
 const RADIANS = Math.PI / 180;
 
 export class LabPane extends HTMLElement {
@@ -98,14 +99,13 @@ export class LabPane extends HTMLElement {
       this.slider('Grip of the floor', 0, 1.5, 0.05, 0.8, '', (friction) => set({ friction })));
   }
 
-  /** What a drag of the mouse at the head does, by keyboard: a pull for 0.3 s. */
+  /** What a drag of the mouse at the head does, by keyboard. */
   private push(direction: 1 | -1): void {
     const trunk = this.desk.body.links[0]?.name ?? 'trunk';
     const stop = this.desk.onFrame((state) => {
       stop();
       const [x, y, z] = state.trunk.pos;
-      this.desk.pull({ link: trunk, point: [0, 0, 0.03], target: [x + direction * 0.2, y, z + 0.03] });
-      setTimeout(() => this.desk.pull(null), 300);
+      this.desk.pull({ link: trunk, point: [0, 0, 0.03], target: [x + direction * 0.2, y, z + 0.03] }, PUSH_TICKS);
     });
   }
 

@@ -2,9 +2,11 @@
 // The RC-100 remote control: on the screen, by keyboard (arrows or W A S D, 1 to 6) and by game pad. Buttons count as long
 // as they are held, several at once too. The stick of a game pad drives (`@drive`).
 
+import { codeOf } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { Desk } from './desk.ts';
 import { define, make } from './element.ts';
+import { WayList } from './way-list.ts';
 import './remote-pad.css';
 
 const KEYS: Readonly<Record<string, RemoteButton>> = {
@@ -26,14 +28,16 @@ export class RemotePad extends HTMLElement {
   desk!: Desk; // set before it is connected
   private readonly held = { screen: new Set<RemoteButton>(), keys: new Set<RemoteButton>(), pad: new Set<RemoteButton>() };
   private readonly buttons = new Map<RemoteButton, HTMLButtonElement>();
+  private readonly ways = new WayList();
   private told = '';
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
     const pad = make('div', { class: 'pad', role: 'group', 'aria-label': 'Remote control' });
     for (const [name, sign, title] of BUTTONS) pad.append(this.button(name, sign, title));
+    this.ways.desk = this.desk;
     this.replaceChildren(make('h2', {}, 'Remote control'), pad, make('p', { class: 'hint' },
-      'Hold the arrow keys or W A S D to walk and turn, 1 to 4 for other motions, 5 to pause, 6 or the space bar to stop. A game pad works too.'));
+      'Arrow keys or W A S D start walking and turning, 1 to 4 other motions; 6 or the space bar stops, 5 pauses. A game pad works too.'), this.ways);
     this.listen();
   }
 
@@ -108,6 +112,7 @@ export class RemotePad extends HTMLElement {
     if (names === this.told) return;
     this.told = names;
     for (const [name, button] of this.buttons) button.setAttribute('aria-pressed', String(all.has(name)));
+    this.ways.light(codeOf(all));
     this.desk.remote(all);
   }
 }

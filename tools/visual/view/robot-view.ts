@@ -18,6 +18,8 @@ import { Store } from './store.ts';
 import { TEXTS } from './texts.ts';
 import './robot-view.css';
 
+/** A mark in the browser's performance timeline: the robot is in the picture for the first time. */
+export const ROBOT_DRAWN = 'robot-drawn';
 const TURN_RAD = 0.12;
 
 export class RobotView extends HTMLElement {
@@ -77,6 +79,7 @@ export class RobotView extends HTMLElement {
   private drawFrames(scene: RobotScene): void {
     let request = 0;
     let beforeMs = 0;
+    let isDrawn = false;
     const draw = (nowMs: number): void => {
       request = requestAnimationFrame(draw);
       if (nowMs - beforeMs < this.quality.leastMs) return;
@@ -85,6 +88,7 @@ export class RobotView extends HTMLElement {
       this.place(scene);
       if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
       scene.draw();
+      if (this.state && !isDrawn) isDrawn = performance.mark(ROBOT_DRAWN) !== null;
     };
     request = requestAnimationFrame(draw);
     this.disposals.push(() => cancelAnimationFrame(request));

@@ -29,7 +29,8 @@ export class StatusStrip extends HTMLElement {
   }
 
   private render(state: DeskState): void {
-    this.write(this.doing, { ...state.doing, text: [state.doing.text, this.fallen].filter(Boolean).join(' ') });
+    const liesIdle = this.fallen === TEXTS.fallen && state.doing.text === TEXTS.waits;
+    this.write(this.doing, { ...state.doing, text: liesIdle ? TEXTS.getUp : [state.doing.text, this.fallen].filter(Boolean).join(' ') });
     this.write(this.said, state.said);
     const where = state.where;
     const version = state.version;

@@ -54,8 +54,7 @@ export function doingText(state: DeskState, where: Where | null): string {
   if (state.connection !== 'ready') return CONNECTIONS[state.connection];
   if (!where) return state.version?.image === 'edit' ? 'Edit runs: its screen is in the terminal.' : 'Ready.';
   switch (where.state) {
-    case 'idle': return 'The robot stands and waits.';
-    case 'ready': return 'The robot stands and waits.';
+    case 'idle': case 'ready': return TEXTS.waits;
     case 'approach': return `Going slowly to the first pose of ${pageTitle(state, where.page)}.`;
     case 'paused': return `Paused in ${pageTitle(state, where.page)}, step ${where.step}.`;
     case 'playing': return `Playing ${pageTitle(state, where.page)}, step ${where.step}.`;
@@ -72,7 +71,9 @@ export const TEXTS = {
   noSerial: 'This browser cannot reach a serial port. Use Chrome or Edge on a computer or Android; the robot in the page works here.',
   noWebGl: 'This browser draws no 3D picture (WebGL is off). Everything else works.',
   noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
+  waits: 'The robot stands and waits.',
   fallen: 'The robot lies on the floor.',
+  getUp: 'The robot lies on the floor. Press Get up.',
   held: 'A hand holds the robot.',
   crashed: 'The simulated robot has crashed. Start it anew in the Lab; what it had saved is kept.',
   kept: 'Saved in this browser.',
@@ -87,3 +88,10 @@ export const FAULT_TITLES: Readonly<Record<string, string>> = {
   late: 'answers late', short: 'answers cut off', 'two-talkers': 'answers for others', overload: 'overloaded', overheating: 'too hot',
   'low-voltage': 'low voltage', 'angle-limit': 'angle limit', blocked: 'blocked',
 };
+
+/** The remote's list of keys. */
+export const WAY_TEXTS = {
+  keys: 'What the keys start',
+  then: 'then',
+  plays: (page: number, name: string) => `${name === '' ? `Page ${page}` : name} plays; at its end the keys lead on to`,
+} as const;

@@ -4,29 +4,43 @@ import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
+const LIES = 'The robot lies on the floor.';
 const suite = pageSuite();
 
-test('a pupil: it stands, walks while a key is held, is pushed over, is put on its feet and stands again', async () => {
+test('a pupil: it stands, walks while the keys light up, is pushed over, gets up and stands again', async () => {
   const pupil = await Visitor.come(suite.browser, suite.address, 'light', 2);
   await pupil.untilStanding();
+  await expect(pupil.button('Get up').isDisabled()).resolves.toBe(true); // it stands
+  const walk = pupil.page.locator('way-list li').filter({ hasText: /^▲\s*walk$/ });
   await pupil.page.keyboard.down('ArrowUp');
+  await walk.and(pupil.page.locator('.lit')).or(pupil.page.locator('way-list.playing')).first().waitFor();
   await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
   await pupil.page.keyboard.up('ArrowUp');
+  await pupil.page.getByText(/walk_[rl] plays/).waitFor();
   await pupil.page.screenshot({ path: `${SHOTS}page.png`, scale: 'css' }); // stands in the README
   await pupil.button('Stop').click();
   await pupil.untilStanding();
   await pupil.open('Lab');
-  for (let push = 0; push < 12 && !(await pupil.doing.innerText()).includes('lies on the floor'); push++) {
-    await pupil.button('Push ahead').click();
-    await pupil.page.waitForTimeout(600);
-  }
-  await pupil.doing.filter({ hasText: 'The robot lies on the floor.' }).waitFor();
-  await pupil.button('Put on its feet').click();
-  await pupil.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
-  await pupil.doing.filter({ hasNotText: 'lies' }).waitFor();
-  await pupil.button('Let go').click();
+  await pupil.button('Push ahead').click();
+  await pupil.doing.filter({ hasText: /^The robot lies on the floor. Press Get up.$/ }).waitFor();
+  await pupil.button('Get up').click();
+  await pupil.doing.filter({ hasText: /\((pushups_up|up_to_seat|up_from_seat)\)/ }).waitFor();
   await pupil.untilStanding();
   await pupil.leave();
+});
+
+test('what fell is put on its feet by a hand, too', async () => {
+  const person = await Visitor.come(suite.browser, suite.address);
+  await person.untilStanding();
+  await person.open('Lab');
+  await person.button('Push back').click();
+  await person.doing.filter({ hasText: LIES }).waitFor();
+  await person.button('Put on its feet').click();
+  await person.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
+  await person.doing.filter({ hasNotText: 'lies' }).waitFor();
+  await person.button('Let go').click();
+  await person.untilStanding();
+  await person.leave();
 });
 
 test('somebody who debugs: Edit in the terminal, a page saved, and the browser keeps it over a reload', async () => {
@@ -96,7 +110,7 @@ async function find(visitor: Visitor, title: RegExp): Promise<{ x: number; y: nu
   throw new Error(`nothing in the picture is called ${title}`);
 }
 
-test('a hand: the mouse takes an arm and pulls it out of its place', async () => {
+test('a hand: the mouse takes an arm and pulls it out of its place; let go, it goes back', async () => {
   const person = await Visitor.come(suite.browser, suite.address);
   await person.untilStanding();
   const elbow = (): Promise<number> => person.page.evaluate(() => new Promise<number>((resolve) => {
@@ -114,5 +128,6 @@ test('a hand: the mouse takes an arm and pulls it out of its place', async () =>
   await person.page.mouse.move(arm.x - 90, arm.y - 60, { steps: 8 });
   await expect.poll(async () => Math.abs((await elbow()) - rest), { timeout: 120_000 }).toBeGreaterThan(4);
   await person.page.mouse.up();
+  await expect.poll(async () => Math.abs((await elbow()) - rest), { timeout: 120_000 }).toBeLessThan(4); // a stiff limb goes back
   await person.leave();
 });
