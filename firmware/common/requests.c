@@ -26,7 +26,7 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
     }
     TEXT(" protocol=1 pages=128 joints=31 line=110");
     STATIC_ASSERT(PAGE_COUNT == 128 && PAGE_JOINTS == 31, "said in the line above");
-    TEXT(" can=list,page,pose,move,torque,play,pause,where,crcs,watch");
+    TEXT(" can=list,page,pose,move,torque,play,pause,where,crcs,watch,dense");
     if (requests_image.can_P != NULL) {
         text_P(requests_image.can_P);
     }
@@ -47,6 +47,7 @@ static uint8_t do_reset(void *context, const shell_args_t *args)
 TEXT_NAMED(word_ver, "ver  ");
 TEXT_NAMED(word_list, "list  ");
 TEXT_NAMED(word_page, "page  ");
+TEXT_NAMED(word_dense, "dense  ");
 TEXT_NAMED(word_crcs, "crcs  ");
 TEXT_NAMED(word_pose, "pose  ");
 TEXT_NAMED(word_watch, "watch  ");
@@ -59,6 +60,7 @@ static const shell_command_t table[] PROGMEM = {
     {word_ver, do_ver, SHELL_ARGS(0, 0), 0},
     {word_list, request_list, SHELL_ARGS(0, 2), SHELL_BOTH(RANGE_PAGE, RANGE_PAGE)},
     {word_page, request_page, SHELL_ARGS(1, 1), RANGE_PAGE},
+    {word_dense, request_dense, SHELL_ARGS(1, 1), RANGE_PAGE},
     {word_crcs, request_crcs, SHELL_ARGS(0, 2), SHELL_BOTH(RANGE_PAGE, RANGE_PAGE)},
     {word_pose, request_pose, SHELL_ARGS(0, 0), 0},
     {word_watch, request_watch, SHELL_ARGS(1, 1), RANGE_PERIOD_MS},

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * requests_list.c - requests that read the pages in flash: list, page, crcs. */
+ * requests_list.c - requests that read the pages in flash: list, page, dense, crcs. */
 #include "requests_parts.h"
 
+#include <stddef.h>
 #include "crc16.h"
 #include "report.h"
 #include "text.h"
@@ -62,32 +63,70 @@ uint8_t request_list(void *context, const shell_args_t *args)
     return REQUEST_OK;
 }
 
-/* The bytes of a page in flash, as they are, into their CRC; printed too when asked for. */
-static uint16_t page_crc(uint8_t page, bool print)
+/* Prints one byte of a page. */
+typedef void (*print_byte_t)(uint8_t byte);
+
+static void print_hex(uint8_t byte)
+{
+    text_hex(byte, 2);
+}
+
+/* Six bits a character: the low six of each byte, and behind two, then always three bytes one with their high bits. */
+static struct {
+    uint8_t high_bits;           /* those of the newest byte in bits 7 and 6, of older ones below */
+    uint8_t bytes;               /* whose high bits wait */
+} dense;
+
+static void print_dense(uint8_t byte)
+{
+    text_put((char)('0' + (byte & 0x3Fu)));
+    dense.high_bits = (uint8_t)(dense.high_bits >> 2 | (byte & 0xC0u));
+    if (++dense.bytes == 3) {
+        dense.bytes = 0;
+        text_put((char)('0' + (dense.high_bits >> 2)));
+    }
+}
+
+/* The bytes of a page in flash, as they are, into their CRC; printed unless `print` is NULL. */
+static uint16_t page_crc(uint8_t page, print_byte_t print)
 {
     uint16_t crc = CRC16_START;
     for (uint16_t offset = 0; offset < PAGE_BYTES; offset = (uint16_t)(offset + CHUNK_BYTES)) {
         uint8_t bytes[CHUNK_BYTES];
         page_store_read(page, offset, bytes, sizeof bytes);
         crc = crc16_bytes(crc, bytes, sizeof bytes);
-        for (uint8_t i = 0; print && i < sizeof bytes; i++) {
-            text_hex(bytes[i], 2);
+        for (uint8_t i = 0; print != NULL && i < sizeof bytes; i++) {
+            print(bytes[i]);
         }
     }
     return crc;
 }
 
-uint8_t request_page(void *context, const shell_args_t *args)
+static uint8_t answer_page(const shell_args_t *args, print_byte_t print)
 {
     const uint8_t page = (uint8_t)args->number[0];
-    (void)context;
     text_put(' ');
     text_number(page);
     text_put(' ');
-    const uint16_t crc = page_crc(page, true);
+    const uint16_t crc = page_crc(page, print);
     text_put(' ');
     text_hex(crc, 4);
     return REQUEST_OK;
+}
+
+uint8_t request_page(void *context, const shell_args_t *args)
+{
+    (void)context;
+    return answer_page(args, print_hex);
+}
+
+/* The same in two thirds of the time. */
+uint8_t request_dense(void *context, const shell_args_t *args)
+{
+    (void)context;
+    dense.high_bits = 0;
+    dense.bytes = 1; /* two first: 512 bytes come out even */
+    return answer_page(args, print_dense);
 }
 
 /* Four digits a page, without a blank between them: 128 pages are 512 characters. */
@@ -100,7 +139,7 @@ uint8_t request_crcs(void *context, const shell_args_t *args)
     }
     text_put(' ');
     for (uint8_t page = (uint8_t)args->number[0]; page <= last; page++) {
-        text_hex(page_crc(page, false), 4);
+        text_hex(page_crc(page, NULL), 4);
         requests_image.serve();
     }
     return REQUEST_OK;

@@ -17,6 +17,7 @@
 /* requests_list.c */
 uint8_t request_list(void *context, const shell_args_t *args);
 uint8_t request_page(void *context, const shell_args_t *args);
+uint8_t request_dense(void *context, const shell_args_t *args);
 uint8_t request_crcs(void *context, const shell_args_t *args);
 
 /* requests_state.c */

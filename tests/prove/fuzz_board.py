@@ -166,7 +166,7 @@ class Session:
 
 WORDS = ("play stop break pause resume code on off list status servos faults law remote settings baud version help p s b ? "
          "rate amplitude blend drive layer aim swing free shape @rate @amplitude @blend @drive @layer @aim @swing @free @shape @watch "
-         "@ver @list @page @pose @move @torque @play @stop @break @pause @resume @where @open @data @crc @save @ @nothing").split()
+         "@ver @list @page @dense @pose @move @torque @play @stop @break @pause @resume @where @open @data @crc @save @ @nothing").split()
 ARGUMENTS = ("0 1 2 3 4 8 9 11 13 14 15 16 17 18 19 20 21 22 30 31 32 64 126 127 128 200 240 255 256 1023 1024 65535 65536 99999999999 "
              "0x0 0x1F 0x200 0xFFFF 0x10000 0xfg -1 1.5 x ready bow walk thrice 4 5 6 slow loop find defaults exact classic latch hold on off "
              "-100 -40 50 100 150 151 400 401 512 700 reset drive centre approach fault low hot neutral flow fast talk law remote 200 200200 --- 1ff---200 3ff400 0g0 \xff").split()

@@ -37,7 +37,7 @@ WORDS = ("page next before copy new name step go write insert delete move mirror
 SELDOM = ["check", "search", "scan"]      # seconds each
 NUMBERS = ("0 1 2 3 4 5 6 7 9 10 30 31 32 36 49 50 64 100 127 128 254 255 256 512 1000 1023 1024 65535 65536 0x1f 0X3FF 1f -1 x "
            "yes no base 99999999 0x page1").split()
-MACHINE = ("@ver", "@list", "@list 1 3", "@page 1", "@page 300", "@pose", "@torque on", "@torque off 3", "@torque on 1 2 3", "@play 1",
+MACHINE = ("@ver", "@list", "@list 1 3", "@page 1", "@dense 1", "@page 300", "@pose", "@torque on", "@torque off 3", "@torque on 1 2 3", "@play 1",
            "@play 2 30", "@stop", "@break", "@pause", "@resume", "@where", "@crc", "@open 2", "@open 5", "@move 90 1 200200---", "@", "@ @",
            "@data", "@data 511 00", "@data 512 00", "@data 0 zz", "@frobnicate 1 2 3", "@move 1 1 fff", "@open 999", "@save 1")
 KEYS = (b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D", b"\x1bOA", b"\x1b[", b"\x1b", b"\x1b[24;80R", b"\x1b[40;80R", b"\x1b[999;9R", b"\x1b[5~",

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Line commands for programs in Edit (firmware/edit/PROTOCOL.md), and the full screen around them."""
+import random
+
 import pytest
 from edit_robot import page, robot
 from m512.crc16 import crc16
@@ -31,6 +33,34 @@ def test_a_page_goes_in_and_comes_out():
         r.board.take()
         r.keys("\x1b[B", ms=800)
         assert r.text(1, 65, 4) == "made" and r.text(2, 76, 4) == "0009"
+
+
+def dense_page(text):
+    """Bytes of an answer of `@dense`, by the words of PROTOCOL.md."""
+    sixes = [ord(letter) - 0x30 for letter in text]
+    assert all(0 <= six <= 63 for six in sixes)
+    made = []
+    assert sixes[2] & 3 == 0
+    for group in [sixes[:3]] + [sixes[at:at + 4] for at in range(3, len(sixes), 4)]:
+        *low, high = group
+        newest_first = [(high << shift) & 0xC0 for shift in (2, 4, 6)][:len(low)]
+        made += [six | top for six, top in zip(low, reversed(newest_first), strict=True)]
+    return bytes(made)
+
+
+def test_a_dense_page_is_the_page(rng=random.Random(512)):
+    chosen = {n: bytes(rng.randrange(256) for _ in range(512)) for n in (3, 127)}
+    with robot(pages=PAGES) as r:
+        for n, data in chosen.items():
+            r.board.flash[0xE000 + 512 * n:0xE200 + 512 * n] = data
+        for n in (1, 3, 2, 127, 40):
+            answer = ask(r, f"@dense {n}", ms=300).split()
+            assert (answer[0], answer[1], len(answer[2]), answer[-1]) == ("@dense", str(n), 683, "OK")
+            assert dense_page(answer[2]) == r.flash_page(n) == chosen.get(n, r.flash_page(n))
+            assert answer[3] == f"{crc16(r.flash_page(n)):04X}" == ask(r, f"@page {n}", ms=400).split()[3]
+        assert ask(r, "@dense 128").startswith("@dense ERR 3 ")
+        assert ask(r, "@dense").startswith("@dense ERR 2 ")
+        assert "dense" in next(word for word in ask(r, "@ver").split() if word.startswith("can=")).removeprefix("can=").split(",")
 
 
 def test_data_stays_within_the_page():
@@ -133,7 +163,7 @@ def test_reset_restarts_the_controller():
 
 MOVING_REFUSED = ("@open 0", "@open 2", "@data 64 0002", f"@save 1 0x{crc16(bytes(PAGES[1].data)):04X}", "@play 2", "@move 60 1 200",
                   "@torque on", "@reset")
-MOVING_ALLOWED = ("@ver", "@list 0 3", "@page 1", "@crcs 0 3", "@pose", "@where", "@crc", "@watch 0", "@torque off 18", "@pause",
+MOVING_ALLOWED = ("@ver", "@list 0 3", "@page 1", "@dense 1", "@crcs 0 3", "@pose", "@where", "@crc", "@watch 0", "@torque off 18", "@pause",
                   "@resume", "@stop", "@break")
 
 

@@ -2,7 +2,7 @@
 // Reads all pages of a robot: CRCs first, then only those that nobody here has already.
 
 import { askPageCrcs } from './page-requests.ts';
-import { askPage, crc16 } from './protocol.ts';
+import { REFUSED, askDensePage, askPage, crc16 } from './protocol.ts';
 import { RobotError } from './robot-error.ts';
 import type { Requests } from './requests.ts';
 
@@ -18,10 +18,15 @@ export async function readPages(requests: Requests, options: ReadOptions = {}): 
   const crcs = await askPageCrcs(requests);
   const pages = crcs.map((crc, page) => options.known?.(page).find((bytes) => crc16(bytes) === crc));
   const missing = pages.flatMap((bytes, page) => (bytes ? [] : [page]));
+  let ask = askDensePage;
   for (const [done, page] of missing.entries()) {
     if (options.signal?.aborted) throw new RobotError('cancelled');
     options.progress?.(done, missing.length);
-    pages[page] = await askPage(requests, page);
+    pages[page] = await ask(requests, page).catch((error: unknown) => {
+      if (!(error instanceof RobotError) || error.number !== REFUSED.noCommand) throw error;
+      ask = askPage; // an older image
+      return askPage(requests, page);
+    });
   }
   options.progress?.(missing.length, missing.length);
   return pages as Uint8Array[]; // what was missing has been read

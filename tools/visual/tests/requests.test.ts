@@ -3,7 +3,7 @@
 import { afterEach, expect, test } from 'vitest';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { askList, askPage, askPose, askVersion, askWhere, command, drive, movePose, play, resetShape, setAmplitude, setBlend, setRate, setTorque } from '../robot/protocol.ts';
+import { askDensePage, askList, askPage, askPose, askVersion, askWhere, command, drive, movePose, play, resetShape, setAmplitude, setBlend, setRate, setTorque } from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import { RobotBench, robotImages, settle } from './robot-bench.ts';
@@ -47,6 +47,7 @@ test.each([['play', 11], ['edit', 12]] as const)('%s: the questions of the proto
   const { motions } = await robotImages('play');
   for (const page of [2, 100]) {
     expect(await bench.until(askPage(requests, page))).toEqual(motions.slice(page * 512, page * 512 + 512));
+    expect(await bench.until(askDensePage(requests, page))).toEqual(motions.slice(page * 512, page * 512 + 512));
   }
 });
 

@@ -66,6 +66,30 @@ test.each([['edit', 41], ['play', 42]] as const)('%s: all pages are read, only t
   expect(second).toBeLessThan(1000);
 }, 120_000);
 
+test('128 pages of which nobody has any, every byte by chance, within 20 s', async () => {
+  const { bench, connection } = await ready('edit', 51);
+  const pages = Array.from({ length: 128 }, () => Uint8Array.from({ length: 512 }, () => Math.floor(bench.random() * 256)));
+  for (const [page, bytes] of pages.entries()) bench.board.writeFlash(MOTIONS_ADDRESS + 512 * page, bytes);
+  const started = bench.clock.now();
+  expect(await bench.until(readPages(connection.requests), 60_000)).toEqual(pages);
+  const took = bench.clock.now() - started;
+  console.log(`128 pages, every byte by chance, in ${(took / 1000).toFixed(1)} s`);
+  expect(took).toBeLessThan(20_000);
+}, 120_000);
+
+test('an image that does not know the dense form is read all the same', async () => {
+  const { bench, connection } = await ready('edit', 53);
+  const asked: string[] = [];
+  const older = { ask: (text: string, options?: object) => {
+    asked.push(text);
+    return text.startsWith('@dense') ? Promise.reject(new RobotError('refused', 'Unknown word', { number: 1 })) : connection.requests.ask(text, options);
+  } } as typeof connection.requests;
+  const known = (page: number) => (page < 4 ? [] : [pageOf(library, page)]);
+  expect(await bench.until(readPages(older, { known }))).toEqual(library.pages);
+  expect(asked.filter((text) => text.startsWith('@dense'))).toHaveLength(1);
+  expect(asked.filter((text) => text.startsWith('@page'))).toHaveLength(4);
+}, 60_000);
+
 /** Twenty pages: of the library, empty, erased and damaged ones. */
 function twenty(bench: RobotBench): PageToWrite[] {
   return Array.from({ length: 20 }, (_, i) => i * 6 + 1).map((page) => {
