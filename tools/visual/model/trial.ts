@@ -23,8 +23,10 @@ export interface TrialRequest {
   readonly shape: Shape;
   /** Where the joints stand first: servo units by ID. */
   readonly pose: ArrayLike<number>;
-  /** Ticks of 1/128 s after which it is told to stop, as by a remote. */
+  /** Of 1/128 s, that are recorded. */
   readonly ticks: number;
+  /** What still plays then is told to stop, as by a remote, and looked at until it has; else it is broken off. */
+  readonly toTheEnd: boolean;
   readonly volts: number;
 }
 
@@ -38,7 +40,7 @@ export interface TrialMoment {
 export interface TrialRecord {
   /** It stood in its first pose for a quarter of a second; if not, it was not played. */
   readonly stood: boolean;
-  /** That were played before it was told to stop. */
+  /** That were recorded. */
   readonly ticks: number;
   /** Of each of these ticks, servo units by ID: JOINTS numbers. NaN: no such servo. */
   readonly positions: Float32Array;

@@ -83,13 +83,13 @@ export class TrialStand {
     const play = this.begin(request);
     const stood = this.settle(request);
     if (stood) this.start(play, request);
-    const limit = request.ticks + STOP_TICKS;
+    const limit = request.ticks + (request.toTheEnd ? STOP_TICKS : 0);
     for (let done = 1; play.isOn && done <= limit; done++) {
       if (done > request.ticks) api.trial_api_keys(STOP);
       this.tick(play, done <= request.ticks);
       if (done % TURN_TICKS === 0) yield Math.min(done, request.ticks);
     }
-    for (let i = 0; stood && i < AFTER_TICKS; i++) this.tick(play, false);
+    for (let i = 0; stood && request.toTheEnd && i < AFTER_TICKS; i++) this.tick(play, false);
     const { ticks, positions, pages, fell } = play;
     return {
       stood, ticks, positions: positions.slice(0, ticks * JOINTS), pages: [...pages], fell, ended: !play.isOn, onFeet: stood && this.physical.isOnItsFeet,

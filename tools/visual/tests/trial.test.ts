@@ -33,7 +33,7 @@ function request(document: MotionDocument, change: Partial<TrialRequest> = {}): 
   const image = imageOf(document);
   document.pages.forEach((bytes, page) => motion.setPage(page, bytes));
   const pose = motion.firstPose(5, new Uint16Array(JOINTS).fill(512));
-  return { image, page: 5, law: 'exact', shape: AS_STORED, pose, ticks: 600, volts: 9.6, ...change };
+  return { image, page: 5, law: 'exact', shape: AS_STORED, pose, ticks: 600, toTheEnd: true, volts: 9.6, ...change };
 }
 
 test('who stands still stands; who leans far over the toes falls there, and stays on the floor', () => {

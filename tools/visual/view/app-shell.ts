@@ -43,7 +43,7 @@ export class AppShell extends HTMLElement {
 
   connectedCallback(): void {
     const robot = Object.assign(this.give(new RobotView()), { editing: this.editing });
-    const poses = Object.assign(this.give(new PoseBar()), { editing: this.editing, margin: () => robot.margin });
+    const poses = Object.assign(this.give(new PoseBar()), { editing: this.editing, margin: () => robot.margin, touches: () => robot.touches });
     const lab = this.give(new LabPane());
     lab.onTilt = (front, left) => robot.tilt(front, left);
     this.addPanel('remote', this.give(new RemotePad()));

@@ -9,6 +9,7 @@ import type { Place } from '../model/space.ts';
 const ROUND = 0.0035;
 const HIGHLIGHT = new Color(0x2f9bff);
 const ALARM = new Color(0xe5484d);
+const TOUCH = new Color(0xe09c00);
 const NO_ALARMS: ReadonlySet<number> = new Set();
 
 function geometryOf(shape: Shape): BufferGeometry {
@@ -49,6 +50,7 @@ export class RobotFigure {
   private readonly ghost: GhostLook | null;
   private marked: string | null = null;
   private chosen: ReadonlySet<string> = new Set();
+  private touching: ReadonlySet<string> = new Set();
 
   constructor(body: Body, ghost: GhostLook | null = null) {
     this.ghost = ghost;
@@ -63,7 +65,7 @@ export class RobotFigure {
     for (const { joint, group, axis } of this.joints.values()) group.quaternion.setFromAxisAngle(axis, angles.get(joint.servo) ?? 0);
     if (this.ghost) return;
     const alarmed = new Set([...alarms].map((servo) => this.joints.get(servo)?.joint.body));
-    for (const [link, materials] of this.materials) this.tint(materials, alarmed.has(link), link === this.marked, this.chosen.has(link));
+    for (const [link, materials] of this.materials) this.tint(materials, alarmed.has(link), link);
   }
 
   /** Lights up one link; null: none. */
@@ -74,6 +76,11 @@ export class RobotFigure {
   /** Lights up the links that are being edited. */
   choose(links: ReadonlySet<string>): void {
     this.chosen = links;
+  }
+
+  /** Lights up the links that are in each other. */
+  touch(links: ReadonlySet<string>): void {
+    this.touching = links;
   }
 
   /** Leaves out the parts of these links: a ghost has no need of them where the figure stands the same. */
@@ -120,10 +127,11 @@ export class RobotFigure {
     this.materials.set(shape.body, [...(this.materials.get(shape.body) ?? []), material]);
   }
 
-  private tint(materials: readonly MeshStandardMaterial[], hasAlarm: boolean, isMarked: boolean, isChosen: boolean): void {
+  private tint(materials: readonly MeshStandardMaterial[], hasAlarm: boolean, link: string): void {
+    const touches = this.touching.has(link);
     for (const material of materials) {
-      material.emissive = hasAlarm ? ALARM : HIGHLIGHT;
-      material.emissiveIntensity = hasAlarm ? 0.55 : isChosen ? 0.6 : isMarked ? 0.35 : 0;
+      material.emissive = hasAlarm ? ALARM : touches ? TOUCH : HIGHLIGHT;
+      material.emissiveIntensity = hasAlarm || touches ? 0.55 : this.chosen.has(link) ? 0.6 : link === this.marked ? 0.35 : 0;
     }
   }
 }

@@ -5,6 +5,7 @@
 import { jointTitle } from '../model/body.ts';
 import type { Joint } from '../model/body.ts';
 import { limbTo } from '../model/ik.ts';
+import type { Touch } from '../model/trial.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Desk } from './desk.ts';
 import { EDITING_START } from './editor/editing.ts';
@@ -62,6 +63,11 @@ export class RobotView extends HTMLElement {
   /** How far the centre of mass of the edited step is inside the ground of its soles (metres); null: not looked at. */
   get margin(): number | null {
     return this.pose?.margin ?? null;
+  }
+
+  /** Limbs of the shown figure that are in each other; looked at while a step is edited. */
+  get touches(): readonly Touch[] {
+    return this.pose?.touches ?? [];
   }
 
   /** Where a shape of the robot (a name of the body file) is on the screen, in CSS pixels; null: it is not seen. */

@@ -20,7 +20,7 @@ const results = (JSON.parse(await readFile(trials, 'utf8')) as Asked[]).map(({ i
   const bytes = Uint8Array.from(Buffer.from(image, 'base64'));
   motion.pages.set(bytes);
   const pose = motion.firstPose(page, new Uint16Array(JOINTS).fill(512));
-  const { fell, onFeet } = played(stand, { image: bytes, page, law: 'exact', shape: AS_STORED, pose, ticks, volts });
+  const { fell, onFeet } = played(stand, { image: bytes, page, law: 'exact', shape: AS_STORED, pose, ticks, toTheEnd: true, volts });
   return { fellSeconds: fell ? fell.tick / 128 : null, onFeet };
 });
 console.log(JSON.stringify(results));

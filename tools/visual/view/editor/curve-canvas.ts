@@ -3,23 +3,33 @@
 // the position, to the sides the time. By keyboard: left and right choose the step, up and down turn the chosen joints, with
 // Alt left and right change the time.
 
-import { tooFast } from '../../model/curve-speed.ts';
 import type { TickSpan } from '../../model/curve-speed.ts';
 import { POSITION_MAX } from '../../model/body.ts';
 import { AS_STORED, JOINTS, TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
-import { pageOf } from '../../model/document.ts';
 import type { Desk } from '../desk.ts';
 import type { Gesture } from '../editor-desk.ts';
 import { define, make } from '../element.ts';
 import { CurveFrame, drawCurves } from './curve-picture.ts';
 import type { CurveColours, CurveScene, WayPoint } from './curve-picture.ts';
+import { curveScene } from './curve-scene.ts';
 import { changedBy, poseAfter } from './editing.ts';
-import { nearestSetting, stepTimes } from './step-times.ts';
+import { ServoFollow } from './servo-follow.ts';
+import { nearestSetting } from './step-times.ts';
 
 const NEAR_PX = 12;
-const SPAN = { margin: 24, least: 120 };
 const CHOSEN_COLOURS = ['--curve-1', '--curve-2', '--curve-3', '--curve-4', '--curve-5', '--curve-6'];
+
+/** What a drawing shows, in numbers. */
+export interface Drawn {
+  /** Joints and places that are too fast. */
+  readonly fast: ReadonlyMap<number, readonly TickSpan[]>;
+  readonly isShaped: boolean;
+  /** How far the chosen joints are behind at most, in physics (servo units); empty: not known. */
+  readonly lags: ReadonlyMap<number, number>;
+  /** Physics was asked and cannot tell. */
+  readonly isUnknown: boolean;
+}
 
 interface Drag {
   readonly point: WayPoint;
@@ -34,8 +44,8 @@ interface Drag {
 
 export class CurveCanvas extends HTMLElement {
   desk!: Desk; // set before it is connected
-  /** Joints and places that are too fast, after each drawing. */
-  onFast: (fast: ReadonlyMap<number, readonly TickSpan[]>) => void = () => undefined;
+  /** After each drawing. */
+  onDrawn: (drawn: Drawn) => void = () => undefined;
   private shape = AS_STORED;
   private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'Curves of the joints' });
   private readonly label = make('p', { class: 'point', 'aria-hidden': true });
@@ -43,11 +53,13 @@ export class CurveCanvas extends HTMLElement {
   private frame: CurveFrame | null = null;
   private drag: Drag | null = null;
   private keys: { readonly gesture: Gesture; readonly pose: readonly number[]; by: number } | null = null;
+  private follow!: ServoFollow; // made when it is connected: it wants the desk
   private request = 0;
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
     this.replaceChildren(this.canvas, this.label);
+    this.follow = new ServoFollow(this.desk, () => this.later());
     const { canvas } = this;
     canvas.addEventListener('pointerdown', (event) => this.down(event));
     canvas.addEventListener('pointermove', (event) => this.move(event));
@@ -60,7 +72,7 @@ export class CurveCanvas extends HTMLElement {
     sizes.observe(this);
     const themes = new MutationObserver(() => this.later());
     themes.observe(document.documentElement, { attributeFilter: ['data-theme'] });
-    this.disposals.push(() => sizes.disconnect(), () => themes.disconnect(), () => cancelAnimationFrame(this.request),
+    this.disposals.push(() => this.follow.dispose(), () => sizes.disconnect(), () => themes.disconnect(), () => cancelAnimationFrame(this.request),
       this.desk.editor.state.watch(() => this.later()));
   }
 
@@ -72,6 +84,11 @@ export class CurveCanvas extends HTMLElement {
   setShape(shape: Shape): void {
     this.shape = shape;
     this.later();
+  }
+
+  /** Shows where the servos are, as physics has it. */
+  setFollow(on: boolean): void {
+    this.follow.setOn(on);
   }
 
   /** One drawing a frame, however much has changed; none while the area is not shown. */
@@ -96,53 +113,22 @@ export class CurveCanvas extends HTMLElement {
     this.scene = scene;
     this.frame = scene && new CurveFrame(this.drag ? this.drag.scene : scene, width, height);
     if (scene && this.frame) drawCurves(context, this.frame, scene, this.colours());
-    this.onFast(scene?.fast ?? new Map());
+    this.onDrawn({ fast: scene?.fast ?? new Map(), isShaped: !!scene?.stored, lags: this.lags(scene), isUnknown: this.follow.isUnknown });
+  }
+
+  private lags(scene: CurveScene | null): Map<number, number> {
+    return new Map([...(scene?.chosen ?? [])].flatMap((joint) => {
+      const lag = scene && this.follow.lag(scene.curve, joint);
+      return lag === null ? [] : [[joint, lag] as const];
+    }));
   }
 
   private makeScene(): CurveScene | null {
-    const { editor } = this.desk;
-    const { page, step, joints: chosen, document } = editor.state.get();
-    const { steps } = editor.page(page);
-    if (!editor.format.isPlayable(pageOf(document, page))) return null;
-    const ticks = (TICKS_PER_SECOND * 100) / this.shape.rate; // of a second as it is stored
-    const ends = stepTimes(editor, page).map(({ move, pause }) => ({ move: move * ticks, pause: pause * ticks }));
-    const all = ends.reduce((sum, { move, pause }) => sum + move + pause, 0);
-    const curve = editor.curve(page, { ticks: Math.max(1, Math.ceil(all)), shape: this.shape });
-    if (!curve) return null;
-    const joints = Array.from({ length: JOINTS }, (_, id) => id).filter((id) => steps.some(({ positions }) => positions[id] !== null));
-    const limit = editor.topSpeed(this.desk.state.get().where?.batteryVolts || NOMINAL_VOLTS);
-    const fast = new Map(joints.map((joint) => [joint, tooFast(curve, joint, limit)] as const).filter(([, spans]) => spans.length > 0));
-    const shown = chosen.size > 0 ? joints.filter((joint) => chosen.has(joint)) : [];
-    const wayPoints = shown.flatMap((joint) => this.wayPoints(joint, ends));
-    return { curve, ticks: Math.max(curve.ticks, all), joints, chosen: new Set(shown), fast, wayPoints, ends, cursor: step, ...this.span(curve, shown.length > 0 ? shown : joints) };
-  }
-
-  private wayPoints(joint: number, ends: CurveScene['ends']): WayPoint[] {
-    const { editor } = this.desk;
-    const { page } = editor.state.get();
-    let tick = 0;
-    return editor.page(page).steps.flatMap(({ positions }, step) => {
-      const { move = 0, pause = 0 } = ends[step] ?? {};
-      tick += move;
-      const point = { joint, step, tick, position: positions[joint] ?? 0 };
-      tick += pause;
-      return positions[joint] === null ? [] : [point];
-    });
-  }
-
-  private span(curve: CurveScene['curve'], joints: readonly number[]): { low: number; high: number } {
-    if (this.drag) return { low: this.drag.scene.low, high: this.drag.scene.high };
-    let [low, high] = [POSITION_MAX, 0];
-    for (let tick = 0; tick < curve.ticks; tick++) {
-      for (const joint of joints) {
-        const goal = curve.goals[tick * JOINTS + joint] ?? 0;
-        if (goal < low) low = goal;
-        if (goal > high) high = goal;
-      }
-    }
-    const half = Math.max(SPAN.least, high - low + 2 * SPAN.margin) / 2;
-    const middle = (low + high) / 2;
-    return { low: middle - half, high: middle + half };
+    const { shape, drag, desk: { editor, state } } = this;
+    const scene = curveScene(editor, { shape, volts: state.get().where?.batteryVolts || NOMINAL_VOLTS, edges: drag?.scene ?? null });
+    if (!scene) return null;
+    this.follow.look(scene.curve.ticks, shape);
+    return { ...scene, followed: this.follow.positions };
   }
 
   private colours(): CurveColours {
@@ -201,7 +187,7 @@ export class CurveCanvas extends HTMLElement {
       gesture.change(editor.edits.setJoints(gesture.start, page, [point.step], new Map([[point.joint, position]])));
     } else if (drag.axis === 'time' && editor.page(page).schedule === 'time') {
       const begin = drag.scene.ends[point.step]?.move ?? 0;
-      const seconds = (Math.max(0, begin + frame.tick(dx) - frame.tick(0)) / TICKS_PER_SECOND) * (this.shape.rate / 100);
+      const seconds = Math.max(0, begin + frame.tick(dx) - frame.tick(0)) / TICKS_PER_SECOND;
       gesture.change(editor.edits.setTime(gesture.start, page, [point.step], nearestSetting(editor, page, point.step, 'time', seconds)));
     }
   }

@@ -15,7 +15,12 @@ export interface WayPoint {
 }
 
 export interface CurveScene {
+  /** What will be sent: as it is shaped. */
   readonly curve: Curve;
+  /** As it is stored, where a shape makes it another one. */
+  readonly stored: Curve | null;
+  /** Where the servos are in physics, tick by tick: JOINTS servo units; null: not looked at. */
+  readonly followed: Float32Array | null;
   readonly ticks: number;
   readonly joints: readonly number[];
   readonly chosen: ReadonlySet<number>;
@@ -39,6 +44,7 @@ export interface CurveColours {
   readonly chosen: readonly string[];
 }
 
+const POINT = 6; // pixels
 const EDGE = { left: 34, right: 10, top: 8, bottom: 18 };
 
 /** Places in the picture, both ways (CSS pixels). */
@@ -75,10 +81,24 @@ export class CurveFrame {
 export function drawCurves(context: CanvasRenderingContext2D, frame: CurveFrame, scene: CurveScene, colours: CurveColours): void {
   context.clearRect(0, 0, frame.width, frame.height);
   drawGrid(context, frame, scene, colours);
-  for (const joint of scene.joints) if (!scene.chosen.has(joint)) drawJoint(context, frame, scene, joint, colours.faint, 1);
-  [...scene.chosen].forEach((joint, i) => drawJoint(context, frame, scene, joint, chosenColour(colours, i), 2));
+  context.save();
+  context.beginPath();
+  context.rect(EDGE.left - POINT, EDGE.top, frame.width - EDGE.left - EDGE.right + 2 * POINT, frame.height - EDGE.top - EDGE.bottom);
+  context.clip();
+  for (const joint of scene.joints) if (!scene.chosen.has(joint)) drawJoint(context, frame, scene.curve, joint, colours.faint, 1);
+  [...scene.chosen].forEach((joint, i) => drawChosen(context, frame, scene, joint, chosenColour(colours, i)));
   for (const joint of scene.joints) drawFast(context, frame, scene, joint, colours);
+  context.restore();
   drawWayPoints(context, frame, scene, colours);
+}
+
+/** As stored dotted, as sent strong, where the servo is thin. */
+function drawChosen(context: CanvasRenderingContext2D, frame: CurveFrame, { curve, stored, followed }: CurveScene, joint: number, colour: string): void {
+  context.setLineDash([2, 4]);
+  if (stored) drawJoint(context, frame, stored, joint, colour, 1.5);
+  context.setLineDash([]);
+  drawJoint(context, frame, curve, joint, colour, 2);
+  if (followed) drawJoint(context, frame, { ticks: Math.floor(followed.length / JOINTS), goals: followed }, joint, colour, 1);
 }
 
 function chosenColour(colours: CurveColours, index: number): string {
@@ -107,7 +127,14 @@ function drawGrid(context: CanvasRenderingContext2D, frame: CurveFrame, { ticks,
     context.fillText(String(position), 4, frame.y(position) + 4);
   }
   const seconds = ticks / TICKS_PER_SECOND;
-  for (let second = 0; second <= seconds; second += seconds > 6 ? 1 : 0.5) context.fillText(`${second} s`, frame.x(second * TICKS_PER_SECOND) - 6, frame.height - 4);
+  for (let second = 0; second <= seconds; second += seconds > 6 ? 1 : 0.5) secondText(context, frame, second);
+}
+
+/** Under the axis, and never cut by the edge. */
+function secondText(context: CanvasRenderingContext2D, frame: CurveFrame, second: number): void {
+  const text = `${second} s`;
+  const x = frame.x(second * TICKS_PER_SECOND) - 6;
+  context.fillText(text, Math.min(x, frame.width - context.measureText(text).width - 2), frame.height - 4);
 }
 
 function vertical(context: CanvasRenderingContext2D, frame: CurveFrame, tick: number): void {
@@ -120,26 +147,32 @@ function line(context: CanvasRenderingContext2D, points: readonly (readonly [num
   context.stroke();
 }
 
+/** Servo units of all joints, tick by tick. */
+interface Way {
+  readonly ticks: number;
+  readonly goals: ArrayLike<number>;
+}
+
 /** No finer than the screen: one point a pixel. */
-function trace(context: CanvasRenderingContext2D, frame: CurveFrame, { curve }: CurveScene, joint: number, from: number, to: number): void {
-  const stride = Math.max(1, Math.floor(curve.ticks / frame.width));
+function trace(context: CanvasRenderingContext2D, frame: CurveFrame, { ticks, goals }: Way, joint: number, from: number, to: number): void {
+  const stride = Math.max(1, Math.floor(ticks / frame.width));
   context.beginPath();
-  for (let tick = from; tick < to; tick += stride) context.lineTo(frame.x(tick + 1), frame.y(curve.goals[tick * JOINTS + joint] ?? 0));
-  context.lineTo(frame.x(to), frame.y(curve.goals[(to - 1) * JOINTS + joint] ?? 0));
+  for (let tick = from; tick < to; tick += stride) context.lineTo(frame.x(tick + 1), frame.y(goals[tick * JOINTS + joint] ?? 0));
+  context.lineTo(frame.x(to), frame.y(goals[(to - 1) * JOINTS + joint] ?? 0));
   context.stroke();
 }
 
-function drawJoint(context: CanvasRenderingContext2D, frame: CurveFrame, scene: CurveScene, joint: number, colour: string, width: number): void {
+function drawJoint(context: CanvasRenderingContext2D, frame: CurveFrame, way: Way, joint: number, colour: string, width: number): void {
   context.strokeStyle = colour;
   context.lineWidth = width;
-  trace(context, frame, scene, joint, 0, scene.curve.ticks);
+  trace(context, frame, way, joint, 0, way.ticks);
 }
 
 function drawFast(context: CanvasRenderingContext2D, frame: CurveFrame, scene: CurveScene, joint: number, colours: CurveColours): void {
   context.strokeStyle = colours.fast;
   context.lineWidth = 3;
   context.setLineDash([5, 3]);
-  for (const [from, to] of scene.fast.get(joint) ?? []) trace(context, frame, scene, joint, from, to);
+  for (const [from, to] of scene.fast.get(joint) ?? []) trace(context, frame, scene.curve, joint, from, to);
   context.setLineDash([]);
 }
 
@@ -147,7 +180,7 @@ function drawWayPoints(context: CanvasRenderingContext2D, frame: CurveFrame, sce
   const order = [...scene.chosen];
   for (const point of scene.wayPoints) {
     context.beginPath();
-    context.arc(frame.x(point.tick), frame.y(point.position), point.step === scene.cursor ? 6 : 4.5, 0, 2 * Math.PI);
+    context.arc(frame.x(point.tick), frame.y(point.position), point.step === scene.cursor ? POINT : 4.5, 0, 2 * Math.PI);
     context.fillStyle = chosenColour(colours, order.indexOf(point.joint));
     context.fill();
     context.strokeStyle = colours.ground;

@@ -7,6 +7,7 @@ import type { Law } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import { CurveCanvas } from './curve-canvas.ts';
+import type { Drawn } from './curve-canvas.ts';
 import { PageHead } from './page-head.ts';
 import { ShapeBar } from './shape-bar.ts';
 import { CURVE_TEXTS } from './step-texts.ts';
@@ -22,14 +23,20 @@ export class CurvesPane extends HTMLElement {
   private readonly laws = new Map<Law, HTMLButtonElement>();
   private readonly chips = new Map<number, HTMLButtonElement>();
   private readonly fast = make('p', { class: 'fast', role: 'status', 'aria-label': 'Too fast' });
+  private readonly follow = make('input', { type: 'checkbox' });
+  private readonly lines = make('p', { class: 'lines', role: 'status', 'aria-label': 'Other lines' });
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
     const give = <T extends HTMLElement & { desk: Desk }>(element: T): T => Object.assign(element, { desk: this.desk });
     const canvas = give(new CurveCanvas());
-    canvas.onFast = (fast) => this.sayFast(fast);
+    canvas.onDrawn = (drawn) => {
+      this.sayFast(drawn.fast);
+      this.sayLines(drawn);
+    };
+    this.follow.addEventListener('change', () => canvas.setFollow(this.follow.checked));
     const shape = Object.assign(give(new ShapeBar()), { onShape: canvas.setShape.bind(canvas) });
-    this.replaceChildren(make('p', { class: 'purpose' }, CURVE_TEXTS.purpose), give(new PageHead()), this.lawRow(), canvas, this.fast, this.jointRow(), shape);
+    this.replaceChildren(make('p', { class: 'purpose' }, CURVE_TEXTS.purpose), give(new PageHead()), this.lawRow(), canvas, this.fast, this.lines, this.jointRow(), shape);
     this.disposals.push(this.desk.editor.state.watch(({ joints, law }) => {
       for (const [servo, chip] of this.chips) chip.setAttribute('aria-pressed', String(joints.has(servo)));
       for (const [name, button] of this.laws) button.setAttribute('aria-pressed', String(name === law));
@@ -47,7 +54,21 @@ export class CurvesPane extends HTMLElement {
       this.laws.set(law, button);
       row.append(button);
     }
+    row.append(make('label', { class: 'follow', title: CURVE_TEXTS.followHint }, this.follow, CURVE_TEXTS.follow));
     return row;
+  }
+
+  /** What the other lines are. */
+  private sayLines(drawn: Drawn): void {
+    const { joints } = this.desk.editor.state.get();
+    const text = [drawn.isShaped && joints.size > 0 ? CURVE_TEXTS.stored : '', this.follow.checked ? this.lagText(drawn, joints.size > 0) : ''].filter(Boolean).join(' ');
+    if (this.lines.textContent !== text) this.lines.textContent = text;
+  }
+
+  private lagText({ lags, isUnknown }: Drawn, hasJoint: boolean): string {
+    if (isUnknown) return CURVE_TEXTS.noLags;
+    if (!hasJoint) return CURVE_TEXTS.lagsNeedJoint;
+    return lags.size === 0 ? CURVE_TEXTS.lagsComing : CURVE_TEXTS.lags([...lags]);
   }
 
   private jointRow(): HTMLElement {

@@ -3,6 +3,7 @@
 
 import { jointAngle, jointTitle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
+import type { Touch } from '../../model/trial.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
@@ -11,6 +12,7 @@ import { isEditing, poseAfter } from './editing.ts';
 import type { Editing, PictureMode } from './editing.ts';
 import { changeStep } from './joint-edits.ts';
 import { POSE_TEXTS } from './step-texts.ts';
+import { touchesText } from './trial-texts.ts';
 import './pose-bar.css';
 
 const MODES: readonly (readonly [PictureMode, string, string])[] = [['pose', 'Pose', POSE_TEXTS.poseMode], ['hand', 'Hand', POSE_TEXTS.handMode]];
@@ -24,10 +26,13 @@ export class PoseBar extends HTMLElement {
   editing!: Store<Editing>;
   /** Metres inside the ground of the soles; null: not looked at. */
   margin: () => number | null = () => null;
+  /** Limbs of the shown figure that are in each other. */
+  touches: () => readonly Touch[] = () => [];
   private readonly modes = new Map<PictureMode, HTMLButtonElement>();
   private readonly joints = make('div', { class: 'joints', role: 'group', 'aria-label': 'Chosen joints' });
   private readonly fields = new Map<number, { input: HTMLInputElement; degrees: HTMLElement }>();
   private readonly balance = make('p', { class: 'balance', role: 'status', 'aria-label': 'Balance' });
+  private readonly touch = make('p', { class: 'touch', role: 'status', 'aria-label': 'Limbs that meet' });
   private readonly hint = make('p', { class: 'hint' });
   private robot: RobotState | null = null;
   private readonly disposals: (() => void)[] = [];
@@ -39,11 +44,12 @@ export class PoseBar extends HTMLElement {
       this.modes.set(mode, button);
       group.append(button);
     }
-    this.replaceChildren(make('div', { class: 'row' }, group, this.options()), this.hint, this.joints, this.balance);
+    this.replaceChildren(make('div', { class: 'row' }, group, this.options()), this.hint, this.joints, this.balance, this.touch);
     this.disposals.push(this.editing.watch(() => this.render()), this.desk.state.watch(() => this.render()),
       this.desk.editor.state.watch(() => this.render()), this.desk.onFrame((robot) => {
         this.robot = robot;
         this.showBalance();
+        this.showTouches();
       }));
   }
 
@@ -111,6 +117,11 @@ export class PoseBar extends HTMLElement {
     const text = margin === null ? '' : margin < 0 ? POSE_TEXTS.tips : `Balance: ${Math.round(margin * 1000)} mm inside the soles`;
     if (this.balance.textContent !== text) this.balance.textContent = text;
     this.balance.dataset['tone'] = margin !== null && margin < 0 ? 'bad' : 'calm';
+  }
+
+  private showTouches(): void {
+    const text = this.hidden ? '' : touchesText(this.touches());
+    if (this.touch.textContent !== text) this.touch.textContent = text;
   }
 }
 

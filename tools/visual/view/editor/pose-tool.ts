@@ -5,9 +5,11 @@
 import { centreOfMass, lowerFoot, marginInside, supportPolygon, trunkOn } from '../../model/balance.ts';
 import { angleIn, placeLinks } from '../../model/body.ts';
 import type { Angles, Body, Side } from '../../model/body.ts';
+import { JOINTS } from '../../model/motion.ts';
 import { dragged, grab, jointAxis } from '../../model/pose-drag.ts';
 import type { Grab, Stance } from '../../model/pose-drag.ts';
 import type { Place } from '../../model/space.ts';
+import type { Touch } from '../../model/trial.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Desk } from '../desk.ts';
 import type { Gesture } from '../editor-desk.ts';
@@ -17,11 +19,13 @@ import { changedBy, changedPositions, isEditing, poseAfter, robotAngles, robotPo
 import type { Editing } from './editing.ts';
 import { changeStep, jointsOfPart } from './joint-edits.ts';
 import { PoseLayer } from './pose-layer.ts';
+import { TouchWatch } from './touch-watch.ts';
 import type { Balance, Posed } from './pose-layer.ts';
 
 const HERE: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
 /** Poses that differ less than this need no ghost (radians). */
 const SAME_RAD = 0.02;
+const MIDDLE = 512;
 const KEY_UNITS = { fine: 1, coarse: 10 };
 
 interface Drag {
@@ -41,6 +45,7 @@ export class PoseTool {
   private robot: RobotState | null = null;
   /** Of what is shown as the edited step; null: nothing is. */
   private balance: Balance | null = null;
+  private readonly touchWatch: TouchWatch;
 
   constructor(scene: RobotScene, desk: Desk, editing: Store<Editing>) {
     this.scene = scene;
@@ -48,6 +53,7 @@ export class PoseTool {
     this.editing = editing;
     this.body = desk.body;
     this.layer = new PoseLayer(desk.body);
+    this.touchWatch = new TouchWatch(desk.trials);
     scene.add(this.layer.root);
   }
 
@@ -65,6 +71,11 @@ export class PoseTool {
     return this.balance?.margin ?? null;
   }
 
+  /** Limbs of the shown figure that are in each other. */
+  get touches(): readonly Touch[] {
+    return this.touchWatch.touches;
+  }
+
   /** Puts figure and ghosts where they belong; true when the figure is the edited step. */
   show(robot: RobotState): boolean {
     this.robot = robot;
@@ -80,6 +91,8 @@ export class PoseTool {
     this.showOnion(edited, figure);
     this.balance = edited && this.editing.get().balance ? this.balanceOf(edited) : null;
     this.layer.showBalance(this.balance);
+    this.touchWatch.look(edited ? (isPosing ? this.shownPose() : robotPose(robot)) : null);
+    this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
     return isPosing;
   }
 
@@ -219,6 +232,13 @@ export class PoseTool {
     const polygon = supportPolygon(this.body, places);
     return { polygon, centre, margin: marginInside(polygon, [centre[0], centre[1]]) };
   }
+}
+
+/** Servo units by ID, as the robot stands. */
+function robotPose(robot: RobotState): number[] {
+  const pose = new Array<number>(JOINTS).fill(MIDDLE);
+  for (const { id, position } of robot.servos) pose[id] = Math.round(position);
+  return pose;
 }
 
 function isSame(a: Angles, b: Angles): boolean {

@@ -35,6 +35,13 @@ export const CURVE_TEXTS = {
   purpose: 'What the robot\'s own player will send, tick by tick. Choose a joint and drag its points: up and down the position, to the sides the time.',
   notFast: 'Every joint can follow.',
   fast: (joints: readonly number[]) => `Too fast for the servo at this battery (red, dashed): joint ${joints.join(', ')}. Give the step more time.`,
+  follow: 'Servos in physics',
+  followHint: 'Thin lines: where the servos are, on a body in physics at 9.6 V',
+  stored: 'Dotted: as stored.',
+  lagsNeedJoint: 'Choose a joint to see its servo.',
+  lagsComing: 'Asking physics …',
+  lags: (lags: readonly (readonly [number, number])[]) => `Thin: the servos; behind by up to ${lags.map(([joint, units]) => `${Math.round((units * 300) / 1024)}° (joint ${joint})`).join(', ')}.`,
+  noLags: 'Physics cannot tell: the robot does not stand in the first pose, or physics is not there.',
   shapes: 'The robot takes it with its next step.',
   shapeNeedsPlay: 'Drawn only: Edit runs, and only Play shapes a motion. Play a motion below the picture by the remote to go back to Play.',
 } as const;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every sentence of what physics says of motions.
 
-import type { StepTouch, Verdict, VerdictKind } from '../../model/trial.ts';
+import { BRUSH_M } from '../../model/trial.ts';
+import type { StepTouch, Touch, Verdict, VerdictKind } from '../../model/trial.ts';
 import type { TrialsState } from '../trial-desk.ts';
 
 export const TRIAL_TEXTS = {
@@ -13,8 +14,6 @@ export const TRIAL_TEXTS = {
   notTried: 'No motion has been tried yet.',
   untried: (count: number) => `${count} not tried yet`,
   changed: (count: number) => `${count} changed since ${count === 1 ? 'it was' : 'they were'} tried`,
-  follow: 'Servos lag behind: thin lines, as physics has it at 9.6 V.',
-  noFollow: 'Physics cannot tell how the servos follow: the robot does not stand in the first pose.',
 } as const;
 
 const COUNTED: Record<VerdictKind, (count: number) => string> = {
@@ -56,6 +55,15 @@ const BEHIND: Record<VerdictKind, string> = {
 /** "right_forearm" as people read it. */
 export function linkTitle(link: string): string {
   return link.replaceAll('_', ' ');
+}
+
+/** What the picture marks; the two deepest in words. */
+export function touchesText(touches: readonly Touch[]): string {
+  const deepest = [...touches].sort((a, b) => b.depthM - a.depthM).slice(0, 2);
+  if (deepest.length === 0) return '';
+  const pairs = deepest.map(({ links: [a, b], depthM }) => `${linkTitle(a)} and ${linkTitle(b)}${depthM > BRUSH_M ? ` (${Math.round(depthM * 1000)} mm)` : ''}`);
+  const more = touches.length - deepest.length;
+  return `Touching: ${pairs.join('; ')}${more > 0 ? `; ${more} more` : ''}`;
 }
 
 export function touchText({ links: [a, b], depthM, step }: StepTouch): string {
