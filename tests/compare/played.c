@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * played.c - the player as a shared library for played.py: one main play over a motion area in memory. Every function works
- * on that one play. */
+ * played.c - the player as a shared library for played.py: one main play over a motion area in memory, and a layer over it.
+ * Every function works on these. */
 #include <string.h>
+#include "layers.h"
 #include "link.h"
 #include "player.h"
 #include "shape.h"
@@ -13,6 +14,8 @@ static player_joint_t joint[PAGE_JOINTS];
 static uint16_t goal_pos[PAGE_JOINTS];
 static link_t links;
 static shape_t shape;
+static layers_t layers;
+static uint8_t layer_events;
 
 static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
@@ -50,6 +53,8 @@ int played_start(int law, int page, uint32_t present, const uint16_t *pose_pos)
 {
     player_init(&player, &source, joint, goal_pos);
     player_set_shape(&player, &shape);
+    layers_init(&layers, goal_pos);
+    layers_bind(&layers, &player);
     return (int)player_start(&player, &links, (uint8_t)page, (player_law_t)law, pose_pos, present);
 }
 
@@ -62,7 +67,33 @@ void played_code(int code)
 
 int played_tick(void)
 {
-    return player_tick(&player, &links);
+    return layers_tick(&layers, &links, &layer_events);
+}
+
+/* A layer comes and goes; degrees/s of the hand-over. Returns layers_status_t. */
+int played_layer(int page, uint32_t joints, int deg_s)
+{
+    layers_set_speed(&layers, (uint16_t)deg_s);
+    return (int)layers_start(&layers, (uint8_t)page, joints);
+}
+
+void played_layer_off(void)
+{
+    layers_end(&layers);
+}
+
+/* `count` ticks from `first` on, written down: the goals of each joint side by side, joint after joint, `all` ticks apart;
+ * the events of both plays; page and step of both. */
+void played_run(int first, int count, int all, uint16_t *goals, uint8_t *events, uint8_t *places)
+{
+    for (int tick = first; tick < first + count; tick++) {
+        events[2 * tick] = (uint8_t)played_tick();
+        events[2 * tick + 1] = layer_events;
+        memcpy(&places[4 * tick], (uint8_t[4]){player.page, player.step, layers.play.page, layers.play.step}, 4);
+        for (int i = 0; i < (int)PAGE_JOINTS; i++) {
+            goals[i * all + tick] = goal_pos[i];
+        }
+    }
 }
 
 const uint16_t *played_goals(void)

@@ -16,6 +16,7 @@ GOALS = ctypes.c_uint16 * JOINTS
 library = ctypes.CDLL(str(BUILD / "host" / "tests" / "compare" / "libplayed.so"))
 library.played_goals.restype = ctypes.POINTER(ctypes.c_uint16)
 library.played_start.argtypes = (ctypes.c_int, ctypes.c_int, ctypes.c_uint32, GOALS)
+library.played_layer.argtypes = (ctypes.c_int, ctypes.c_uint32, ctypes.c_int)
 library.played_amplitude.argtypes = (ctypes.c_int, ctypes.c_uint32)
 
 
