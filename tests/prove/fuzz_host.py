@@ -15,6 +15,8 @@ REPLAYS = proof.BUILD / "host" / "tests" / "prove" / "fuzz"
 NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem != "fuzz_image")
 LONGEST = {"page": 513, "bus": 400, "remote": 200, "settings": 160, "journal": 140, "player": 500, "loader": 1200, "play": 1000,
            "edit": 1000}
+# libFuzzer goes by the clock of the wall: on a busy machine 10 s for one input, its limit for a slow one, mean nothing.
+PATIENCE = ["-timeout=1200", "-report_slow_units=1200"]
 ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0:handle_abort=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
 
 
@@ -52,7 +54,7 @@ def search(task):
     work = proof.RESULTS / "fuzz" / name
     shutil.rmtree(work, ignore_errors=True)
     (work / "found").mkdir(parents=True)
-    command = [FUZZERS / f"fuzz_{name}", limit, f"-seed={seed}", f"-max_len={LONGEST[name]}", "-timeout=60",
+    command = [FUZZERS / f"fuzz_{name}", limit, f"-seed={seed}", f"-max_len={LONGEST[name]}", *PATIENCE,
                "-len_control=0", "-print_final_stats=1", "-verbosity=1", f"-artifact_prefix={work}/"]
     words = HERE / f"{name}.dict"
     command += [f"-dict={words}"] if words.exists() else []
