@@ -83,7 +83,7 @@ def sessions(tmp_path_factory):
     node = BUILD / "venv" / "bin" / "node"
     with subprocess.Popen([node, HERE / "session" / "node-session.ts", BUILD, path], stdout=subprocess.PIPE, text=True) as running:
         natively = [run_natively(session) for session in made]  # meanwhile, on the other core
-        output, _ = running.communicate(timeout=300)
+        output, _ = running.communicate(timeout=800)
     assert running.returncode == 0
     return made, natively, json.loads(output)
 

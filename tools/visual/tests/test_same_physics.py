@@ -65,7 +65,7 @@ def in_node(tmp_path_factory):
     path = tmp_path_factory.mktemp("physics") / "scenarios.json"
     path.write_text(json.dumps(list(SCENARIOS.values())))
     node = BUILD / "venv" / "bin" / "node"
-    done = subprocess.run([node, HERE / "session" / "node-physics.ts", BUILD, path], capture_output=True, text=True, timeout=300)
+    done = subprocess.run([node, HERE / "session" / "node-physics.ts", BUILD, path], capture_output=True, text=True, timeout=800)
     assert done.returncode == 0, done.stderr
     return dict(zip(SCENARIOS, json.loads(done.stdout)))
 
@@ -115,7 +115,7 @@ def trials(tmp_path_factory):
     path.write_text(json.dumps([{"image": base64.b64encode(image).decode(), "page": page, "ticks": STOPPED_S * 128, "volts": volts}
                                 for image, page, volts in asked.values()]))
     node = BUILD / "venv" / "bin" / "node"
-    done = subprocess.run([node, HERE / "session" / "node-trials.ts", path], capture_output=True, text=True, timeout=300)
+    done = subprocess.run([node, HERE / "session" / "node-trials.ts", path], capture_output=True, text=True, timeout=800)
     assert done.returncode == 0, done.stderr
     return {name: (*one, result) for (name, one), result in zip(asked.items(), json.loads(done.stdout))}
 
