@@ -2,7 +2,7 @@
  * bus.h - the servo bus as packets: one instruction out, at most one status packet back, half duplex, by interrupt.
  * One packet at a time: build it in bus_packet(), bus_submit() it, look with bus_poll() until it is not BUS_PENDING.
  * Knows nothing of servos beyond the packet format. Main loop only. RAM: 144 bytes out, 80 in, 65 of state and counts.
- * The engine is bus_core.[ch]; hal/avr/bus.c gives it a UART and direction pins, a test something else. */
+ * The engine is bus_core.[ch]. hal/avr/bus.c connects it to UART 0 and the direction pins. */
 #ifndef BUS_H
 #define BUS_H
 
@@ -29,10 +29,10 @@ typedef enum {
     BUS_PENDING,        /* under way */
     BUS_ERR_TIMEOUT,    /* no answer, or not all of it */
     BUS_ERR_CHECKSUM,   /* an answer with a wrong checksum */
-    BUS_ERR_FRAMING,    /* no good answer, and bytes without stop bit or lost ones: noise, two talkers, a wrong rate */
-    BUS_ERR_WRONG_ID,   /* somebody else answered */
+    BUS_ERR_FRAMING,    /* no good answer, and bytes were lost or had no stop bit: noise, two talkers, a wrong rate */
+    BUS_ERR_WRONG_ID,   /* another servo answered */
     BUS_ERR_LENGTH,     /* an answer with another number of parameters than asked for */
-    BUS_ERR_BUSY        /* bus_submit: one is under way already; nothing was changed */
+    BUS_ERR_BUSY        /* bus_submit: a packet is under way already; nothing was changed */
 } bus_status_t;
 
 /* The last answer; valid from BUS_OK until the next submit. */
@@ -43,10 +43,10 @@ typedef struct {
     const uint8_t *params;  /* `count` bytes, owned by the bus */
 } bus_answer_t;
 
-/* Since start; each stays at its highest value. They never fall. */
+/* Counted since start. A count never falls; a 16-bit one stops at 65535. */
 typedef struct {
     uint32_t packets;       /* sent, retries included */
-    uint32_t answers;       /* good ones */
+    uint32_t answers;       /* good answers */
     uint16_t timeouts;
     uint16_t checksums;
     uint16_t framing;
@@ -55,13 +55,13 @@ typedef struct {
     uint16_t lengths;
     uint16_t retries;
     uint16_t cancelled;     /* by bus_cancel */
-    uint16_t strays;        /* bytes heard when nobody had been asked */
+    uint16_t strays;        /* bytes heard when no answer was expected */
 } bus_counts_t;
 
 /* Sets every register of UART 0 and the direction pins; 1 Mbps, listening. Before interrupts are enabled. */
 void bus_init(void);
 
-/* Waits for the end of what is under way, then changes the rate. */
+/* Waits until the packet under way is done, then changes the rate. */
 void bus_set_rate(uint8_t divisor);
 uint8_t bus_rate(void);
 
@@ -71,7 +71,7 @@ void bus_set_return_delay_us(uint16_t us);
 /* The outgoing packet's buffer, BUS_PACKET_BYTES. May be written only while the bus is not busy. Build with dxl_packet.h. */
 uint8_t *bus_packet(void);
 
-/* Whether a packet is under way; keeps the time-outs as bus_poll does. */
+/* Whether a packet is under way. Checks the time-outs as bus_poll does. */
 bool bus_is_busy(void);
 
 /* Sends the first `size` bytes of bus_packet() (built by dxl_packet.h: the ID asked is at [2]).
@@ -80,9 +80,9 @@ bool bus_is_busy(void);
  * Returns at once: BUS_PENDING, or BUS_ERR_BUSY. */
 bus_status_t bus_submit(uint8_t size, uint8_t answer_params, uint8_t tries);
 
-/* How it stands; also keeps the time-outs, so call it often (every few ms) while busy. The result of the last packet
- * stays until the next submit. `answer` may be NULL. Without an answer expected, BUS_OK comes when the last stop bit
- * has left. */
+/* The state of the packet. Also checks the time-outs, so call it every few ms while the bus is busy. The result of the
+ * last packet stays until the next submit. `answer` may be NULL. If no answer is expected, BUS_OK comes when the last stop
+ * bit has left. */
 bus_status_t bus_poll(bus_answer_t *answer);
 
 /* Whether an interrupt brought something that bus_poll has not seen yet. With interrupts off, before sleeping: the last
@@ -92,11 +92,12 @@ bool bus_has_news(void);
 /* Blocks until the result: at most tries * (packet + return delay + answer + 0.3 ms); 1 Mbps, 8 bytes read: 0.9 ms. */
 bus_status_t bus_wait(bus_answer_t *answer);
 
-/* Gives up waiting for an answer (a tick's goals must go out); while still sending, waits for the end of that. */
+/* Stops waiting for an answer, because a tick's goals must go out. If the packet is still being sent, waits until it has
+ * left. */
 void bus_cancel(void);
 
-/* Everything heard is put into `ring` (dropped when full); NULL: no tap. For a bridge: with a tap only packets without an
- * answer (BUS_NO_ANSWER) may be submitted, what is heard goes nowhere else. */
+/* Puts every byte heard into `ring` and nowhere else; drops it when the ring is full. NULL: no tap. For a bridge: while a
+ * tap is set, submit only packets without an answer (BUS_NO_ANSWER). */
 void bus_set_tap(ring_t *ring);
 
 void bus_counts(bus_counts_t *counts);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * bus_call.h - the usual instructions over bus.h, blocking: for set-up, searches and line monitors.
- * Portable: works on the real bus and on the fake one. Main loop only. Each call blocks at most
- * tries * (time of both packets + return delay + 0.3 ms); waits first for a packet under way. No RAM of its own. */
+ * Portable: works on the real bus and on the fake one. Main loop only. No RAM of its own. Each call first waits for the
+ * packet under way, then blocks at most tries * (time of both packets + return delay + 0.3 ms). */
 #ifndef BUS_CALL_H
 #define BUS_CALL_H
 
@@ -15,8 +15,8 @@ MUST_CHECK bus_status_t bus_call_ping(uint8_t id, uint8_t tries, uint8_t *error)
 /* Reads `count` (1..DXL_ANSWER_PARAMS) bytes from address `at` on. `to` is written on BUS_OK only. */
 MUST_CHECK bus_status_t bus_call_read(uint8_t id, uint8_t at, void *to, uint8_t count, uint8_t *error);
 
-/* Writes and waits for the answer. A servo whose status return level is below 2 does not answer a WRITE: BUS_ERR_TIMEOUT
- * then says nothing of the outcome; read back. Broadcast: BUS_OK when it has been sent. */
+/* Writes and waits for the answer. A servo whose status return level is below 2 does not answer a WRITE: then
+ * BUS_ERR_TIMEOUT does not tell whether the write succeeded; read back. Broadcast: BUS_OK when it has been sent. */
 MUST_CHECK bus_status_t bus_call_write(uint8_t id, uint8_t at, const void *from, uint8_t count, uint8_t *error);
 
 /* Any instruction with any parameters (line monitor). answer_params as in bus_submit; *answer may be NULL. */

@@ -73,7 +73,7 @@ void bus_core_on_sent(bus_core_t *core, uint16_t now_half_us)
     }
 }
 
-/* This try has failed. An error of the UART is the cause; what it led to is not told. */
+/* Notes why this try failed. An error of the UART counts as the cause, whatever it led to. */
 static void fail(bus_core_t *core, bus_status_t why, uint16_t *count)
 {
     uint8_t flags = core->heard_flags;
@@ -88,7 +88,7 @@ static void fail(bus_core_t *core, bus_status_t why, uint16_t *count)
     bump(count);
 }
 
-/* A status packet with a good checksum has come. */
+/* Judges a status packet with a good checksum. */
 static void take_packet(bus_core_t *core)
 {
     const uint8_t *status = core->status;
@@ -103,7 +103,7 @@ static void take_packet(bus_core_t *core)
     }
 }
 
-/* Looks at what came since the last time. Returns whether anything did. */
+/* Looks at the bytes that came since the last call. Returns whether there were any. */
 static bool take_heard(bus_core_t *core)
 {
     uint8_t count = core->heard_count;
@@ -130,7 +130,7 @@ static bool take_heard(bus_core_t *core)
     return true;
 }
 
-/* LISTENING, this try has failed: another one once the line is quiet, or the end. */
+/* LISTENING, and this try has failed: tries again once the line is quiet, or ends the packet. */
 static void after_failure(bus_core_t *core, uint16_t silence)
 {
     if (silence <= BUS_QUIET_HALF_US + core->byte_half_us) {

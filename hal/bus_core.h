@@ -35,7 +35,7 @@ enum { BUS_BYTE_FRAMING = 1 << 0, BUS_BYTE_OVERRUN = 1 << 1 };
 typedef struct {
     volatile uint8_t state;       /* bus_state_t; written by whoever makes the transition, see the figure */
     volatile uint8_t result;      /* bus_status_t of the packet */
-    uint8_t failure;              /* LISTENING: why this try has failed; BUS_OK: it has not */
+    uint8_t failure;              /* LISTENING: why this try has failed; BUS_OK: not failed */
     uint8_t size, asked_id, answer_params, tries_left;
     uint8_t parsed;               /* bytes of heard[] taken apart so far */
     volatile bool sent;           /* ISR: transmit complete came; cleared by poll */
@@ -43,7 +43,7 @@ typedef struct {
     volatile uint8_t heard_flags; /* ISR: BUS_BYTE_ flags of this try */
     uint16_t byte_half_us;        /* time of one character */
     uint16_t return_delay_half_us;
-    volatile uint16_t since;      /* the last sign of life: transmit complete (ISR), then bytes seen by poll */
+    volatile uint16_t since;      /* when the line was last active: transmit complete (ISR), then bytes seen by poll */
     ring_t *volatile tap;
     bus_counts_t counts;          /* all but strays: main loop */
     volatile uint16_t strays;     /* ISR */
@@ -58,7 +58,7 @@ void bus_core_set_rate(bus_core_t *core, uint8_t divisor);
 bus_status_t bus_core_submit(bus_core_t *core, uint8_t size, uint8_t answer_params, uint8_t tries);
 bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t *answer);
 bool bus_core_has_news(const bus_core_t *core);
-/* Gives up an answer; false while the packet is still being sent: ask again. */
+/* Stops waiting for an answer. false: the packet is still being sent; call again. */
 bool bus_core_cancel(bus_core_t *core);
 void bus_core_counts(const bus_core_t *core, bus_counts_t *counts);
 
@@ -71,7 +71,7 @@ static inline void bus_core_on_last(bus_core_t *core)
 
 void bus_core_on_sent(bus_core_t *core, uint16_t now_half_us);
 
-/* A byte without a stop bit is left out: when it was a glitch before the answer, the answer is still good. */
+/* Leaves out a byte without a stop bit: if it was a glitch before the answer, the answer is still good. */
 static inline void bus_core_on_byte(bus_core_t *core, uint8_t byte, uint8_t flags)
 {
     uint8_t count = core->heard_count;

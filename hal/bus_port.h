@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT
- * bus_port.h - what the engine (bus_core.c) asks of the UART and the direction pins below it. hal/avr/bus.c gives it, or a
- * test. No RAM of its own. */
+ * bus_port.h - what the engine (bus_core.c) needs of the UART and the direction pins below it. Implemented by hal/avr/bus.c
+ * and by tests. No RAM of its own. */
 #ifndef BUS_PORT_H
 #define BUS_PORT_H
 
 #include <stdint.h>
 
-/* Turns the line to sending and starts to send the first `count` bytes of bus_packet(). Main loop. They stay unchanged until
- * bus_core_on_sent; bus_core_on_last is called when the last one went to the UART, bus_core_on_sent when its last stop bit
- * has left. */
+/* Turns the line to sending and starts to send the first `count` bytes of bus_packet(). Main loop. The bytes must not change
+ * until bus_core_on_sent. The port calls bus_core_on_last when the last byte went to the UART, and bus_core_on_sent when its
+ * stop bit has left. */
 void bus_port_send(uint8_t count);
 
-/* Turns the line to listening. Called from bus_core_on_sent, in the ISR. What the receiver caught before is thrown away. */
+/* Turns the line to listening and drops what the receiver caught before. Called from bus_core_on_sent, in the ISR. */
 void bus_port_listen(void);
 
 #endif

@@ -16,7 +16,7 @@ void clock_init(void);
 /* Half microseconds, modulo 65536. */
 uint16_t clock_now(void);
 
-/* The same for ISRs and for stretches that have interrupts off already. */
+/* The same, for ISRs and for code that runs with interrupts off. */
 uint16_t clock_now_noirq(void);
 
 /* true when more than `span` half microseconds (below 32768) have gone by since `since`; meaningless when asked less
@@ -26,7 +26,7 @@ static inline bool clock_is_past(uint16_t now, uint16_t since, uint16_t span)
     return (uint16_t)(now - since) > span;
 }
 
-/* Busy wait, interrupts go on. */
+/* Busy wait; interrupts stay on. */
 void clock_wait_us(uint16_t us);
 
 #endif

@@ -2,7 +2,7 @@
  * console.h - the serial line to terminal, PC and remote control (UART 1, 57,600 baud 8N1), by interrupt.
  * Bytes only: knows no lines and no packets. Main loop only. RAM: 256 + 128 bytes of rings, 24 of state.
  * No byte is lost at full line rate as long as the main loop takes bytes every 44 ms (255 bytes), or with flow control
- * on. A pause of interrupts of up to 350 us (two characters) loses nothing either: the UART holds them. */
+ * on. Interrupts may be off for 350 us (two characters): the UART keeps that many. */
 #ifndef CONSOLE_H
 #define CONSOLE_H
 
@@ -27,7 +27,7 @@
 typedef struct {
     uint8_t overruns;   /* the UART lost bytes: interrupts were off too long */
     uint8_t framing;    /* a character without a stop bit: noise or a wrong rate (the byte is dropped) */
-    uint8_t ring_full;  /* bytes dropped because nobody took them */
+    uint8_t ring_full;  /* bytes dropped because the main loop did not take them in time */
 } console_counts_t;
 
 /* Sets every register of UART 1 (the loader hands it over running) and empties both rings. Bytes that the loader left
@@ -53,23 +53,22 @@ void console_write(const void *bytes, uint16_t count);
 /* Blocks until the last stop bit is on the wire (at most 23 ms). */
 void console_flush(void);
 
-/* Software flow control towards the PC, off after init. On: XOFF goes out, ahead of the output ring, when the input ring
- * has less than CONSOLE_XOFF_ROOM bytes left, and again for every 32 bytes that still come; XON when it is nearly empty.
- * Switching on sends XON: the PC may still obey an XOFF from before a restart. Switching off does when an XOFF is out.
- * (XON and XOFF from the PC are data: they occur in remote packets.) */
+/* Software flow control towards the PC; off after init. When on, XOFF goes out ahead of the output ring as soon as the input
+ * ring has less than CONSOLE_XOFF_ROOM bytes left, and again for every 32 bytes that still come. XON goes out when the ring
+ * is nearly empty. Switching on sends XON, because the PC may still obey an XOFF from before a restart. Switching off sends
+ * XON if an XOFF is in force. (XON and XOFF from the PC are data: they occur in remote packets.) */
 #define CONSOLE_XOFF_ROOM 128u
 #define CONSOLE_XON_COUNT 32u
 void console_set_flow(bool on);
 
-/* With flow control on: sends XOFF now, blocks until it has left, and keeps the PC silent until console_resume. Before
- * times without interrupts (a page write). Holds are counted (at most 255): the PC goes on when every hold has had its
- * resume, so that a search of servos may hold it while a full shell does. Both do nothing with flow control off. */
-void console_hold(void);
-void console_resume(void);
+/* console_xoff sends XOFF now, blocks until it has left, and keeps the PC silent until console_xon. Call it before
+ * interrupts go off (a page write). Calls are counted (at most 255), so that two parts of an image may stop the PC at once:
+ * it goes on after as many calls of console_xon. Both do nothing while flow control is off. */
+void console_xoff(void);
+void console_xon(void);
 
-/* The input ring itself (256 bytes, free-running indices: index mask 0xFF), for the page-write service of the boot
- * loader, which puts bytes into it while interrupts are off; and the count it adds to for bytes that it had to drop
- * (they show up in ring_full). */
+/* For the page-write service of the boot loader, which receives while interrupts are off: the input ring (256 bytes,
+ * free-running indices, index mask 0xFF), and the count of bytes that it had to drop (part of ring_full). */
 ring_t *console_rx_ring(void);
 volatile uint8_t *console_rx_lost(void);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * debounce.h - up to eight contacts at once: a change counts when it was seen a number of samples in a row.
+ * debounce.h - up to eight contacts at once. A change counts when it was seen in several samples in a row.
  * Pure; caller-owned; main loop only. RAM: 3 bytes. */
 #ifndef DEBOUNCE_H
 #define DEBOUNCE_H
@@ -7,9 +7,9 @@
 #include <stdint.h>
 
 typedef struct {
-    uint8_t steady;   /* what counts */
+    uint8_t steady;   /* the debounced state */
     uint8_t last;     /* the last sample */
-    uint8_t seen;     /* how often in a row */
+    uint8_t seen;     /* how many samples in a row were equal to it */
 } debounce_t;
 
 /* Starts with `now` as the steady state. */

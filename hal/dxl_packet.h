@@ -11,14 +11,14 @@
 
 #define DXL_PACKET_OVERHEAD 6u   /* FF FF ID LEN INST ... SUM */
 #define DXL_PARAMS_AT 5u         /* the first parameter in a packet */
-/* The longest status packet that is understood: a whole control table. An image may define it smaller (bus.h). */
+/* Parameters of the longest status packet that is accepted: a whole control table. An image may define fewer (bus.h). */
 #ifndef DXL_ANSWER_PARAMS
 #define DXL_ANSWER_PARAMS 64u
 #endif
 
 /* ---- building, in place ---- */
 
-/* A packet under construction. The buffer has room for what is put: the caller counts. */
+/* A packet under construction. The caller makes sure that the buffer has room. */
 typedef struct {
     uint8_t *packet;
     uint8_t *at;   /* where the next byte goes */
@@ -56,7 +56,7 @@ uint8_t dxl_build(uint8_t *packet, uint8_t id, uint8_t instruction, const uint8_
 
 /* ---- taking apart ---- */
 
-/* What the bytes heard so far amount to. */
+/* What was found in the bytes heard so far. */
 typedef enum {
     DXL_MORE = 0,       /* no complete status packet yet */
     DXL_GOOD,           /* *packet points to it: FF FF ID LEN ERROR params... SUM */
@@ -64,8 +64,9 @@ typedef enum {
     DXL_BAD_LENGTH      /* a length that no status packet can have (below 2, above DXL_ANSWER_PARAMS + 2) */
 } dxl_result_t;
 
-/* Looks for the first status packet in what was heard since the question. Anything before FF FF ID is noise, a third FF too:
- * no servo has ID 255. *packet is written on DXL_GOOD only. About 40 cycles, and 8 a byte when the packet is complete. */
+/* Looks for the first status packet in the bytes heard since the instruction was sent. What comes before FF FF ID is noise,
+ * a third FF too, because no servo has ID 255. *packet is written on DXL_GOOD only. About 40 cycles, and 8 a byte when the
+ * packet is complete. */
 dxl_result_t dxl_find_status(const uint8_t *heard, uint8_t count, const uint8_t **packet);
 
 #endif

@@ -16,14 +16,15 @@ uint8_t eeprom_byte(uint16_t address);
 /* Whether a write is under way. */
 bool eeprom_is_busy(void);
 
-/* Begins to write one byte unless it is there already. Returns at once: false when a write is under way (nothing done),
- * true when the byte is equal or being written. For work in small steps beside a running motion. */
+/* Begins to write one byte unless the cell holds it already. Returns at once. true: the byte is there or is being written.
+ * false: another write is under way; nothing was done. For work in small steps while a motion runs. */
 bool eeprom_start(uint16_t address, uint8_t byte);
 
 /* Blocks until no write is under way. */
 void eeprom_wait(void);
 
-/* Writes what differs and waits for the end: 8.5 ms a changed byte, kicks the watchdog. Not while something moves. */
+/* Writes the bytes that differ and waits until the last one is written: 8.5 ms each. Kicks the watchdog. Not while
+ * something moves. */
 void eeprom_update(uint16_t address, const void *from, uint16_t count);
 
 #endif

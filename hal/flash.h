@@ -2,7 +2,7 @@
  * flash.h - the program memory: read from anywhere, write by flash pages of 256 bytes.
  * Knows nothing of motions, journals or CRCs. Main loop only, never from an ISR. No RAM of its own.
  * Reading : hal/avr/flash.c (applications), firmware/boot/spm.c (loader), tests/fake/fake_flash.c (PC).
- * Writing : firmware/common/page_service.c asks whoever sits in the boot section; the loader does it itself.
+ * Writing : firmware/common/page_service.c asks the program in the boot section; the loader does it itself.
  * A page takes about 9 ms (erase 4.5 + write 4.5) with interrupts off; programming alone half of that.
  * After a power cut a page may be old, erased or torn: check what you load. */
 #ifndef FLASH_H
@@ -20,7 +20,7 @@ typedef enum {
     FLASH_OK = 0,
     FLASH_ERR_RANGE,     /* page in the boot section or beyond the end, or a bad byte count: nothing was touched */
     FLASH_ERR_VERIFY,    /* read back and found different: the page's contents are undefined */
-    FLASH_ERR_NO_WRITER  /* nobody in the boot section can write for us: nothing was touched */
+    FLASH_ERR_NO_WRITER  /* no program in the boot section can write for us: nothing was touched */
 } flash_status_t;
 
 /* The byte address of a page. */

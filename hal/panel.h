@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * panel.h - lamps and buttons of the CM-5; on a CM-2 nothing is known, so there it does nothing and reports nothing.
+ * panel.h - lamps and buttons of the CM-5. The CM-2's are not known, so there it does nothing and reports nothing.
  * Also holds the pins that only need a safe level: charger off, ZigBee out of reset, both receive gates open.
  * Main loop only. RAM: 4 bytes. Source: board.md, "CM-5 pins". */
 #ifndef PANEL_H

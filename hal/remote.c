@@ -28,7 +28,7 @@ static bool looks_good(const uint8_t *bytes, uint8_t count)
     return count < REMOTE_PACKET_BYTES || (bytes[4] ^ bytes[5]) == 0xFF;
 }
 
-/* A byte in front of a packet: typed, if it may be, else noise. */
+/* A byte that belongs to no packet: text if it may have been typed, else noise. */
 static void give_up(remote_t *remote, uint8_t byte, bool may_be_typed)
 {
     if (may_be_typed && byte < 0x80) {
@@ -38,13 +38,13 @@ static void give_up(remote_t *remote, uint8_t byte, bool may_be_typed)
     }
 }
 
-/* Gives up bytes from the front of `window` until the rest could be a packet's beginning; keeps the rest. */
+/* Gives up bytes at the front of `window` until the rest may be the beginning of a packet; keeps the rest. */
 static void resynchronize(remote_t *remote, const uint8_t *window, uint8_t count)
 {
-    /* Behind a shared FF, "U" and two characters may have been typed; four bytes with a good complement were not. */
+    /* Behind a shared FF, "U" and two more characters may have been typed. Four bytes with a good complement were not. */
     const bool may_be_typed = remote->shared && count <= 1 + REMOTE_TEXT_BYTES;
     if (remote->shared) {
-        window++; /* it ended the packet before */
+        window++; /* the FF belongs to the packet before */
         count--;
         remote->shared = false;
     } else {

@@ -7,8 +7,8 @@
  * began like a packet and turned out not to be one are searched again for the next FF 55, so that a good packet inside
  * or right behind a bad one is not lost; the bytes before it are noise: counted and dropped, never typed.
  *
- * One case needs care: a packet that has lost its last byte is made whole by the FF of the next one. So the FF that ends
- * a good packet may begin another: a 0x55 ('U') right behind it is held back until it shows whether it was typed. */
+ * One case needs care: a packet that has lost its last byte is completed by the FF of the next one. So the FF that ends
+ * a good packet may begin another. A 0x55 ('U') right behind it is kept back until it is clear whether it was typed. */
 #ifndef REMOTE_H
 #define REMOTE_H
 
@@ -56,8 +56,8 @@ void remote_init(remote_t *remote);
 /* Takes one byte. */
 remote_event_t remote_byte(remote_t *remote, uint8_t byte);
 
-/* No byte has come for a while (20 ms or more): an unfinished packet is given up, so that it cannot swallow what is typed
- * next. REMOTE_TEXT (a held-back 'U') or REMOTE_NOTHING. */
+/* Call when no byte has come for 20 ms or more. Drops an unfinished packet, so that it cannot swallow what is typed next.
+ * Returns REMOTE_TEXT (a 'U' that was kept back) or REMOTE_NOTHING. */
 remote_event_t remote_quiet(remote_t *remote);
 
 /* What the buttons ask for. */
@@ -67,8 +67,8 @@ typedef enum {
     REMOTE_ACT_PAUSE     /* button 5 alone: pause or resume */
 } remote_act_t;
 
-/* The code table of remote.md. Button 5 in a chord counts as not held. All of the first eight buttons at once make 255,
- * which is stop's own code: a fist on the remote stops. */
+/* The code table of remote.md. Button 5 in a chord counts as not pressed. The first eight buttons at once make 255, the
+ * code of stop: a fist on the remote stops the robot. */
 remote_act_t remote_act(uint16_t buttons, uint8_t *code);
 
 #endif

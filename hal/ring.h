@@ -17,7 +17,7 @@ typedef struct {
     volatile uint8_t tail;  /* written by the reader only: bytes taken so far, modulo 256 */
 } ring_t;
 
-/* storage: `size` bytes, a power of two 2..256, lent for good. Neither side may be active. */
+/* storage: `size` bytes, a power of two 2..256; the ring keeps using it. Neither side may be active. */
 static inline void ring_init(ring_t *ring, uint8_t *storage, uint16_t size)
 {
     ring->bytes = storage;
@@ -26,13 +26,13 @@ static inline void ring_init(ring_t *ring, uint8_t *storage, uint16_t size)
     ring->tail = 0;
 }
 
-/* Bytes waiting. Reader: never too many. Writer: never too few. */
+/* Bytes waiting. For the reader never more than there are, for the writer never fewer. */
 static inline uint8_t ring_count(const ring_t *ring)
 {
     return (uint8_t)(ring->head - ring->tail);
 }
 
-/* Bytes that still go in. Writer: never too many. */
+/* Bytes that still fit. For the writer never more than there is room for. */
 static inline uint8_t ring_room(const ring_t *ring)
 {
     uint8_t capacity = ring->mask == 255u ? 255u : (uint8_t)(ring->mask + 1u);

@@ -15,8 +15,8 @@ enum {
     SYSTEM_RESET_JTAG = 1 << 4
 };
 
-/* First thing in main: watchdog off, reset cause taken and cleared, vectors to the application. Interrupts are off and
- * stay off. */
+/* The first call of main. Switches the watchdog off, takes and clears the reset cause, moves the vectors to the application.
+ * Interrupts are off afterwards. */
 void system_init(void);
 
 uint8_t system_reset_cause(void);
@@ -25,20 +25,19 @@ uint8_t system_reset_cause(void);
 void system_watchdog_on(void);
 void system_kick(void);
 
-/* Restarts the controller through the watchdog, within 20 ms; the boot loader then decides what runs. A word for the
- * next start may be left with system_set_note. Never returns. */
+/* Restarts the controller through the watchdog, within 20 ms. The boot loader then decides what runs. Never returns. */
 void system_restart(void) __attribute__((noreturn));
 
-/* Waits for an interrupt with the CPU stopped. Call with interrupts disabled, after having looked that there is nothing
- * to do; enables them and sleeps in one step, so that nothing slips in between. Returns with interrupts enabled. */
+/* Stops the CPU until an interrupt. Call with interrupts disabled, after checking that there is nothing to do. Enables them
+ * and sleeps in one step, so that no interrupt is missed in between. Returns with interrupts enabled. */
 void system_sleep(void);
 
-/* A failed ASSERT of the run before this reset: the line, and the byte address it was called from; false: none.
- * Told once. */
+/* A failed ASSERT of the run before this reset: its line, and the byte address it was called from. false: there was none,
+ * or it has been taken already. */
 bool system_take_failed_assert(uint16_t *line, uint32_t *address);
 
-/* One conversion of an ADC channel (0..7) against AREF: 0..1023. Blocks 104 us. The battery stands on channels 0 and 1
- * behind a divider that is not documented, so it is not turned into volts here: servos report theirs. */
+/* One conversion of an ADC channel (0..7) against AREF: 0..1023. Blocks 104 us. Channels 0 and 1 see the battery through a
+ * divider that is not documented, so nobody turns them into volts: servos report their voltage. */
 uint16_t system_adc(uint8_t channel);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * tick.h - the robot's beat: 128 ticks a second, exactly 125,000 cycles of 16 MHz each (Timer 1).
+ * tick.h - the time base of all motion: 128 ticks a second, exactly 125,000 cycles of 16 MHz each (Timer 1).
  * The main loop takes every tick once; a tick that is not taken before the next one comes is counted as missed.
  * Main loop only. RAM: 7 bytes. */
 #ifndef TICK_H
@@ -11,7 +11,7 @@
 #define TICK_HZ 128u
 #define TICK_CYCLES 125000ul
 
-/* Starts the beat; the first tick comes one tick later. Needs interrupts on to run. */
+/* Starts the timer; the first tick comes 7.8 ms later. Ticks need interrupts on. */
 void tick_init(void);
 
 /* Ticks since tick_init, wraps after 388 days. */
@@ -20,18 +20,18 @@ uint32_t tick_now(void);
 /* The same, low 16 bits (wraps after 512 s): for differences. Cheaper. */
 uint16_t tick_now16(void);
 
-/* true once per tick: the caller has the tick's work to do now. When several ticks have gone by since the last call,
- * one is given and the others are added to tick_missed. */
+/* true once per tick: do the tick's work now. When several ticks have gone by since the last call, returns true once and
+ * adds the others to tick_missed. */
 bool tick_take(void);
 
 /* Whether tick_take would say true. */
 bool tick_is_due(void);
 
-/* Ticks that were never taken since tick_init; stays at 65535. */
+/* Ticks since tick_init that were never taken; stops at 65535. */
 uint16_t tick_missed(void);
 
-/* Ticks gone by from now on without anyone taking them do not count as missed, up to the next tick_take:
- * for work that blocks on purpose while nothing moves (a search of servos, a page write). */
+/* Takes all ticks up to now without counting them as missed. Call it behind work that blocks on purpose while nothing moves
+ * (a search of servos, a page write). */
 void tick_forgive(void);
 
 #endif

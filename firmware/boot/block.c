@@ -11,9 +11,9 @@
 
 #define GAP_TICKS UART_TICKS(100)  /* inside a frame */
 #define IDLE_TICKS UART_TICKS(4000) /* between frames */
-#define NOISE_MAX 1000u             /* bytes without a frame, good or bad: someone is typing */
+#define NOISE_MAX 1000u             /* bytes outside of frames: someone is typing */
 #define SUMS_MAX 64u               /* pages in one answer */
-#define EEPROM_WRITE_MAX 32u       /* 0.27 s: the ring holds what comes meanwhile */
+#define EEPROM_WRITE_MAX 32u       /* takes 0.27 s, in which the ring does not run over */
 #define RAM_PAGES_END ((MEMORY_RAM + MEM_RAM_END) / 256u)
 #define EEPROM_PAGES (MEMORY_EEPROM / 256u)
 STATIC_ASSERT(MEM_RAM_END % 256u == 0, "RAM ends with a page");
@@ -22,7 +22,7 @@ enum { HELLO = 1, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE };
 enum { OK = 0, REFUSED = MEMORY_REFUSED, BAD_FRAME = 4 };
 enum { TO_PROMPT, TO_APPLICATION, TO_RESET };
 
-/* The bodies of the requests, one over the other (PROTOCOL.md). */
+/* The bodies of all requests (PROTOCOL.md). */
 typedef struct {
     uint16_t page; /* READ, WRITE, SUMS: address / 256. EE_WRITE: address. RATE: UBRR. LEAVE: where to */
     union {
@@ -42,7 +42,7 @@ static void put(uint8_t byte)
     uart_put(byte);
 }
 
-/* Everything of an answer but its data and end: the body is status, detail and then `bytes` (even) of data. */
+/* Sends an answer up to its data: head, status, detail. `bytes` (even) of data and answer_end must follow. */
 static void answer_begin(const uint8_t *request, uint8_t status, uint8_t detail, uint16_t bytes)
 {
     uart_put(FRAME_ANSWER);
@@ -61,7 +61,7 @@ static void answer_end(void)
     uart_put((uint8_t)end);
 }
 
-/* CRC and plain sum of each page: two different checks, so that a changed page does not pass as equal. */
+/* Sends CRC and plain sum of each page: two different checks, so that a changed page does not pass as equal. */
 static void put_sums(uint16_t page, uint16_t count)
 {
     for (; count > 0; count--) {
@@ -74,8 +74,8 @@ static void put_sums(uint16_t page, uint16_t count)
     }
 }
 
-/* Does what a good request asks, as far as it comes before the answer: its status. *bytes of data go with it, from the
- * cursor on (SUMS: computed while they are sent). */
+/* Does what must be done before the answer to a good request. Returns the answer's status. *bytes of data are to follow,
+ * read from the cursor on (SUMS: computed while they are sent). */
 static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
 {
     const block_body_t *body = (const block_body_t *)(request + FRAME_AT_BODY);
@@ -88,7 +88,7 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
         return body->page == UART_UBRR_57143 || body->page == UART_UBRR_117647 ? OK : REFUSED;
     case READ:
         if (body->page >= RAM_PAGES_END && body->page < EEPROM_PAGES) {
-            return REFUSED; /* nothing is there: the chip would read what its bus held last */
+            return REFUSED; /* no memory there: reads would return leftovers of the chip's bus */
         }
         memory_seek(flash_addr(body->page));
         *bytes = FLASH_PAGE_BYTES;
@@ -112,7 +112,7 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
     }
 }
 
-/* What comes after the answer. false: the session is over. */
+/* Does what must be done after the answer. false: the session is over. */
 static bool follow_up(uint8_t command, uint16_t where)
 {
     if (command == RATE) {
@@ -127,7 +127,7 @@ static bool follow_up(uint8_t command, uint16_t where)
     return command != LEAVE;
 }
 
-/* A good request from its action to its answer. false: the session is over. */
+/* Carries out a good request and answers it. false: the session is over. */
 static bool carry_out(const uint8_t *request)
 {
     const block_body_t *body = (const block_body_t *)(request + FRAME_AT_BODY);
@@ -175,8 +175,8 @@ void block_session(void)
             if (!is_proven) {
                 break;
             }
-            noise = 0; /* a program talks: at the prompt, the rest of what it sends would be typed text */
-            answer_begin(memory_work, BAD_FRAME, 0, 0); /* of which frame, is as uncertain as the rest of it */
+            noise = 0; /* still a program: if the session ended, the prompt would take the rest for typed text */
+            answer_begin(memory_work, BAD_FRAME, 0, 0); /* command and number may be damaged too (PROTOCOL.md) */
             answer_end();
         }
     }

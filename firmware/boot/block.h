@@ -5,8 +5,8 @@
 
 #include "frame.h"
 
-/* Runs from a frame's first byte (already taken) until LEAVE or 4 s without a good frame; a first frame that is not
- * good ends it at once. The line is back at 57,143 afterwards. */
+/* Runs a session. The caller has taken the first byte of the first frame. Ends with LEAVE, after 4 s without a good frame,
+ * or at once if the first frame is bad. Afterwards the line runs at 57,143 again. */
 void block_session(void);
 
 #endif

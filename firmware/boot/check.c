@@ -29,7 +29,7 @@ static uint16_t crc_of(uint16_t page, uint16_t end)
 
 typedef enum { PAGE_VALID, PAGE_EMPTY, PAGE_BAD } page_kind_t;
 
-/* Erased or nothing to play: empty. Sum right: valid. Goes on with the CRC of the area. */
+/* Judges a motion page: empty when erased or without steps, valid when its sum is right. Continues the area's CRC. */
 static page_kind_t page_kind(uint16_t flash_page)
 {
     memory_scan_start();
@@ -42,7 +42,7 @@ static page_kind_t page_kind(uint16_t flash_page)
     return (uint8_t)memory_sums.sum != GOOD_SUM ? PAGE_BAD : idle ? PAGE_EMPTY : PAGE_VALID;
 }
 
-/* Both patterns into every byte, which gets its own value back. Interrupts wait a microsecond each time. */
+/* Writes two patterns to every byte of RAM and restores it. Interrupts are off for a microsecond at a time. */
 static bool is_ram_good(void)
 {
     bool good = true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * check.h - CHECK, the memory checking of the 2005 manual, and ID. Reads only; the RAM test puts every byte back. */
+ * check.h - CHECK, the memory check of the 2005 manual, and ID. Reads only; the RAM test restores every byte. */
 #ifndef CHECK_H
 #define CHECK_H
 

@@ -3,7 +3,7 @@
  *
  *   0xA5 | command | number | n | 2 n bytes of body | CRC-16 high, low      CRC over command .. body (crc16.h)
  *
- * With its own two bytes behind it, high one first, the CRC of a good frame comes out as 0. */
+ * The CRC of a good frame, run over its own two bytes as well, is 0. */
 #ifndef FRAME_H
 #define FRAME_H
 
@@ -18,18 +18,18 @@
 enum { FRAME_AT_COMMAND, FRAME_AT_NUMBER, FRAME_AT_COUNT, FRAME_AT_BODY };
 
 typedef struct {
-    uint8_t *bytes; /* FRAME_BYTES_MAX of the caller's: command, number, n, body, CRC */
-    uint16_t at;    /* bytes of the frame received; 0xFFFF while hunting */
-    uint16_t crc;   /* over them */
+    uint8_t *bytes; /* the caller's, FRAME_BYTES_MAX: command, number, n, body, CRC */
+    uint16_t at;    /* bytes of the frame received; 0xFFFF while waiting for FRAME_REQUEST */
+    uint16_t crc;   /* of these bytes */
 } frame_t;
 
 typedef enum {
     FRAME_MORE = 0, /* nothing to do yet */
     FRAME_GOOD,     /* bytes[] holds a frame */
-    FRAME_BAD       /* CRC or count wrong: dropped, hunting again */
+    FRAME_BAD       /* CRC or count wrong: dropped, waiting for FRAME_REQUEST again */
 } frame_status_t;
 
-/* Begins to hunt for FRAME_REQUEST. */
+/* Begins to wait for FRAME_REQUEST. */
 void frame_init(frame_t *frame, uint8_t *bytes);
 
 /* true between FRAME_REQUEST and the end of the CRC. */

@@ -10,13 +10,13 @@
 #define SILENCE_TICKS UART_TICKS(111)
 #define REST_TICKS UART_TICKS(250)
 #define END_TICKS UART_TICKS(100)
-#define BLINK_TICKS 0x0400 /* a bit of the clock: 66 ms on, 66 ms off */
+#define BLINK_TICKS 0x0400 /* this bit of the clock: 66 ms on, 66 ms off */
 #define LOOK_TICKS UART_TICKS(20)
 #define READY_LOOKS 3000u  /* 60 s to find the file and send it */
 #define PATIENCE_TICKS UART_TICKS(2000)
 
-/* The address line and `ready`, then waits until data are in the ring. false: ESC on its own, START, or a minute of
- * nothing; the ESC stays in the ring and the prompt ignores it. */
+/* Prints the address line and `ready`, then waits for data. false: a lone ESC, START, or a minute of silence. The ESC
+ * stays in the ring, where the prompt ignores it. */
 static bool begin(uint32_t addr, const char *ready)
 {
     SAY("Write Address : ");
@@ -63,8 +63,8 @@ static void report(const load_record_t *record, bool is_good)
     print_hex8(record->last);
 }
 
-/* A byte is written when the next one has come, because the last one is the sum. The page under way is in
- * memory_work. */
+/* Keeps each byte back until the next one comes, because the last one is the sum. memory_work holds the page being
+ * filled. */
 void load_flash(uint32_t addr)
 {
     uint16_t page = (uint16_t)(addr >> 8), end = region_end(page);

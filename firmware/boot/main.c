@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * main.c - the boot loader from reset on: finish what a power cut left, answer the mailbox, stay or start.
+ * main.c - the boot loader from reset on: completes a save that a power cut interrupted, serves the mailbox, then stays or
+ * starts the application.
  *
- *   reset -> journal -> mailbox -> window of 60 ms ---- stay asked for, or no application ----> monitor
+ *   reset -> journal -> mailbox -> window of 60 ms ---- stay asked for, or no application ----> prompt
  *                                        \---- else ----> application */
 #include "button.h"
 #include "journal.h"
 #include "memory.h"
-#include "monitor.h"
+#include "prompt.h"
 #include "start.h"
 #include "print.h"
 #include "uart.h"
@@ -21,8 +22,8 @@
 #define MAIL_WRITTEN 0x55u
 #define MAIL_REFUSED 0xFFu
 
-/* A motion page that the factory application left in EEPROM (section 7a). The state stays AA until both flash pages
- * are right, so a power cut here is made good by the next start. A page above 127 lies in the boot section or beyond:
+/* Writes the motion page that the factory's application left in EEPROM (section 7a). The state stays AA until both flash
+ * pages are right, so after a power cut the next start does it again. A page above 127 lies in the boot section or beyond;
  * memory_commit refuses it. */
 static void answer_mailbox(void)
 {
@@ -44,8 +45,8 @@ static void answer_mailbox(void)
 
 typedef enum { STAY_NO, STAY_PROMPT, STAY_STK500 } stay_t;
 
-/* Looks at the line and at START for 60 ms, or longer where the application's CRC takes longer. Only the last byte
- * counts, as in the original; the sync of avrdude is two bytes. START counts when it is down from the reset to the end. */
+/* Watches the line and START for 60 ms, or for as long as the application's CRC takes. Only the last byte counts, as in the
+ * original; the sync of avrdude is two bytes. START counts when it is down the whole time. */
 static stay_t ask_to_stay(void)
 {
     uint8_t last = 0, byte = 0;
@@ -60,7 +61,7 @@ static stay_t ask_to_stay(void)
             byte = uart_next();
         }
     } while (uart_since(since) < WINDOW_TICKS);
-    if (last == MONITOR_SYNC_1 && byte == MONITOR_SYNC_2) {
+    if (last == PROMPT_SYNC_1 && byte == PROMPT_SYNC_2) {
         return STAY_STK500;
     }
     bool is_startable = app == MEMORY_APP_PLAIN || app == MEMORY_APP_GOOD;
@@ -69,7 +70,7 @@ static stay_t ask_to_stay(void)
                                                                                                        : STAY_NO;
 }
 
-/* Vectors of our own: of the 35 only two are used, and tables fill the gap between them (boot.ld.in). */
+/* Our own vectors: only two of the 35 are used, and tables fill the gap between them (boot.ld.in). */
 static void __attribute__((naked, used, section(".vectors"))) reset_vector(void)
 {
     asm volatile("jmp __init");
@@ -112,5 +113,5 @@ int __attribute__((OS_main, used, externally_visible)) main(void)
         uart_pause(LEDS_TICKS);
     }
     PORTS_LEDS_OFF();
-    monitor_run(stay == STAY_STK500);
+    prompt_run(stay == STAY_STK500);
 }

@@ -43,7 +43,7 @@ bool flash_equals(uint32_t addr, const void *data, uint16_t bytes)
     return true;
 }
 
-/* BOOT_OK, BOOT_ERR_RANGE, BOOT_ERR_VERIFY have the numbers of their FLASH_ twins. */
+/* BOOT_OK, BOOT_ERR_RANGE and BOOT_ERR_VERIFY equal FLASH_OK, FLASH_ERR_RANGE and FLASH_ERR_VERIFY. */
 static flash_status_t write_page(uint16_t page, const uint8_t *data, uint16_t bytes, uint8_t mode)
 {
     uint16_t result = boot_write_page(flash_addr(page), data, bytes, mode, &uart_rx);
@@ -76,7 +76,7 @@ uint8_t memory_next(void)
     if (at.byte[2] == MEMORY_RAM >> 16) {
         return *(const volatile uint8_t *)at.low;
     }
-    at.byte[2] &= (MEM_BOOT_END - 1) >> 16; /* past the end it begins again, as on the chip */
+    at.byte[2] &= (MEM_BOOT_END - 1) >> 16; /* wraps at the end of flash, as the chip does */
     return pgm_read_byte_far(at.addr);
 }
 
@@ -156,10 +156,9 @@ void memory_scan(uint16_t page)
 #define LENGTH_AT (MEM_APP_RECORD + APP_RECORD_AT_LENGTH)
 #define CRC_AT (MEM_APP_RECORD + APP_RECORD_AT_CRC)
 
-/* A magic with more bits set than it should is one that a power cut left half erased or half written: the image is ours
- * too, and damaged. The CRC as app_record.h says: its own two bytes count as 0xFF. The application lies below 64 KiB,
- * where the short reads reach: 46 cycles a byte, 60 ms for 20 KiB. Of its length the low half is enough, the CRC covers
- * the other. */
+/* A magic with extra bits set was half erased or half written when the power failed: that image is ours and damaged. The
+ * CRC counts its own two bytes as 0xFF (app_record.h). The application lies below 64 KiB, within reach of short reads:
+ * 46 cycles a byte, 60 ms for 20 KiB. The low half of the length is enough, because the CRC covers the high one. */
 memory_app_t memory_app(void)
 {
     uint16_t length = pgm_read_word(LENGTH_AT);

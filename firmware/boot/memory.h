@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The one large piece of RAM; one user at a time. The second half doubles as scratch of memory_scan. */
+/* The one large buffer; one user at a time. memory_scan uses its second half. */
 #define MEMORY_WORK_BYTES 2048u
 extern uint8_t memory_work[MEMORY_WORK_BYTES];
 #define memory_scratch (memory_work + 1024)
@@ -19,7 +19,7 @@ extern uint8_t memory_work[MEMORY_WORK_BYTES];
 #define MEMORY_RAM 0x800000ul
 #define MEMORY_EEPROM 0x810000ul
 
-/* Where memory_next reads; set it freely, whole or by bytes (low first; the third one is the space). */
+/* Where memory_next reads. May be set at any time, whole or by bytes (low first; the third one selects the memory). */
 typedef union {
     uint32_t addr;
     uint8_t byte[4];
@@ -30,7 +30,7 @@ extern memory_cursor_t memory_cursor;
 /* Moves the cursor. */
 void memory_seek(uint32_t addr);
 
-/* The byte at the cursor, which moves on. Flash and EEPROM begin again at their ends. */
+/* Returns the byte at the cursor and advances it. At the end of flash and EEPROM it begins again. */
 uint8_t memory_next(void);
 
 /* The next `count` of them. */
@@ -39,12 +39,12 @@ void memory_fetch(void *to, uint16_t count);
 /* Reads a flash page, an index modulo their number. */
 void memory_read_page(uint16_t page, uint8_t *to);
 
-/* Makes flash page `page` hold the 256 bytes unless it does already; up to ten tries, as the original, each failed one
- * counted in memory_rewrites. Drops a pending journal record before the first change of the motion area. */
+/* Writes 256 bytes to flash page `page` unless it holds them already. Up to ten tries, like the original; memory_rewrites
+ * counts the failed ones. Drops a pending journal record before the first change of the motion area. */
 typedef enum { MEMORY_WRITTEN = 0, MEMORY_EQUAL = 1, MEMORY_REFUSED = 2, MEMORY_BROKEN = 3 } memory_result_t;
 memory_result_t memory_commit(uint16_t page, const uint8_t *data);
 
-/* The same, with what stands in memory_work: whether the page holds it now. */
+/* The same with the first 256 bytes of memory_work. true: the page holds them now. */
 bool memory_write_work(uint16_t page);
 extern uint16_t memory_rewrites;
 
@@ -53,7 +53,7 @@ uint8_t memory_ee(uint16_t addr);
 void memory_ee_set(uint16_t addr, uint8_t value);
 void memory_ee_write(uint16_t addr, const void *from, uint16_t count);
 
-/* CRC-16 chained over pages, and sum and AND of one page. memory_scan copies the page to memory_scratch first. */
+/* CRC-16 over several pages, and sum and AND of one page. memory_scan copies the page to memory_scratch first. */
 typedef struct {
     uint16_t crc; /* set to CRC16_START at the beginning of an area */
     uint16_t sum; /* set to 0 at the beginning of a page */
@@ -63,7 +63,7 @@ extern memory_scan_t memory_sums;
 void memory_scan_start(void);
 void memory_scan(uint16_t page);
 
-/* The application: nothing there, there without a record (started as it is), record fits, record does not fit. */
+/* The application: none; one without a record (started as it is); its record fits; its record does not fit. */
 typedef enum { MEMORY_APP_NONE = 0, MEMORY_APP_PLAIN = 1, MEMORY_APP_GOOD = 2, MEMORY_APP_BAD = 3 } memory_app_t;
 memory_app_t memory_app(void);
 

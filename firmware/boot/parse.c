@@ -8,7 +8,7 @@ static bool is_separator(char c)
     return (c >= ' ' && c <= '/') || c == '\t';
 }
 
-/* Cuts the token at *line off, in upper case; *line moves to the next one or the end. */
+/* Ends the token at *line with a NUL, in upper case, and moves *line to the next token or the end. */
 static char *take_token(char **line)
 {
     char *token = *line, *p = token;
@@ -25,7 +25,7 @@ static char *take_token(char **line)
     return token;
 }
 
-/* PARSE_NUMBER_MAX + 1: not a number. */
+/* The number, or PARSE_NUMBER_MAX + 1 if it is none. */
 static uint32_t parse_hex(const char *token)
 {
     uint32_t value = 0;

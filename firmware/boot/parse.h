@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * parse.h - a typed line into a word and hexadecimal arguments. Pure; tested on the PC.
+ * parse.h - splits a typed line into a word and hexadecimal arguments. Pure; tested on the PC.
  * Separators are space to '/' (0x20..0x2F) and TAB; several count as one. A line that begins with one that is not a
  * space or TAB is empty (so `####` does no harm), as in the original. */
 #ifndef PARSE_H
@@ -16,14 +16,14 @@ typedef struct {
     uint32_t arg[PARSE_ARGS];    /* an address, 0 unless given, and a length, 1 unless given */
 } parse_t;
 
-/* What is wrong with the arguments; the word is set anyway. */
+/* What is wrong with the arguments. The word is set in any case. */
 typedef enum {
     PARSE_OK = 0,
     PARSE_ERR_NUMBER, /* not hexadecimal, with or without 0x, or above PARSE_NUMBER_MAX */
     PARSE_ERR_COUNT   /* more than PARSE_ARGS */
 } parse_status_t;
 
-/* line : NUL-terminated; changed: upper case, separators become NUL */
+/* line : NUL-terminated; changed to upper case, with NUL in the place of separators */
 parse_status_t parse_line(char *line, parse_t *parse);
 
 #endif

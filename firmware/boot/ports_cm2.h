@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * ports_cm2.h - the CM-2 / CM-2+: only the bus direction pin PE2 is known (board.md), so no other pin is driven, no LED
- * lights and no button is asked. PE2 low: the bus is not driven. */
+ * ports_cm2.h - the CM-2 / CM-2+. Only the bus direction pin PE2 is known (board.md), so no other pin is driven: there are
+ * no LEDs and no button. PE2 low: the bus is not driven. */
 #ifndef PORTS_H
 #define PORTS_H
 

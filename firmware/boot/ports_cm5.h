@@ -9,7 +9,7 @@
 #define BOOT_BOARD 1 /* app_record.h: CM-5 */
 #define PORTS_BOARD_NAME "CM5"
 
-/* While the loader runs the PC's line is gated in (PD5) and the radio's is not. */
+/* While the loader runs, the gate of the PC's line is open (PD5) and that of the radio is closed. */
 #define PORTS_OPEN() \
     (DDRB = 0x20, PORTB = 0x20, PORTC = 0x7E, DDRC = 0x77, PORTD = 0x31, DDRD = 0x70, PORTE = 0x00, DDRE = 0x0C)
 #define PORTS_HAND_OVER() (PORTD = 0x51) /* the others are as PORTS_OPEN left them */

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT
- * print.h - output of the loader: strings of the boot section and hexadecimal numbers.
- * The boot section lies above 64 KiB: a PROGMEM address is 16 bits and is read with RAMPZ = 1. */
+ * print.h - prints strings of the boot section and hexadecimal numbers.
+ * The boot section lies above 64 KiB, so its PROGMEM addresses of 16 bits are read with RAMPZ = 1. */
 #ifndef PRINT_H
 #define PRINT_H
 
 #include <avr/pgmspace.h>
 #include <stdint.h>
 
-/* PROGMEM for small tables that go between the two vectors in use: 112 bytes in all. */
+/* PROGMEM for small tables in the gap between the two vectors in use: 112 bytes in all. */
 #define PROGMEM_GAP __attribute__((section(".progmem.gap")))
 
 /* One byte of a PROGMEM object of the loader. */
 uint8_t print_byte(const void *progmem);
 
-/* A PROGMEM string as it is; say: behind CR LF and a space, as the original begins its messages. */
+/* Prints a PROGMEM string; print_say prints CR LF and a space before it, as the original does. */
 void print_put(const char *progmem);
 void print_say(const char *progmem);
 #define SAY(literal) print_say(PSTR(literal))

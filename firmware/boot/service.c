@@ -40,7 +40,8 @@ static void wait(const boot_rx_t *rx)
     }
 }
 
-/* Now and then is often enough, a byte takes 2,780 cycles to come: 512 bytes would cost 0.5 ms a page otherwise. */
+/* Polls the UART for some bytes only, because a character takes 2,780 cycles: polling for each of the 512 would cost
+ * 0.5 ms a page. */
 static void poll_now_and_then(uint8_t at, const boot_rx_t *rx)
 {
     if ((at & 0x1E) == 0) {
@@ -48,7 +49,7 @@ static void poll_now_and_then(uint8_t at, const boot_rx_t *rx)
     }
 }
 
-/* Fill, erase, write, compare. RAMPZ holds the 64 KiB half of the page all the while. */
+/* Fill, erase, write, compare. RAMPZ selects the 64 KiB half of the page throughout. */
 static bool write_once(uint16_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode, const boot_rx_t *rx)
 {
     uint8_t at = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * service.h - the page-write service behind the call table, and the receiver's other half.
- * Runs on an application's stack and RAM: no .data, no .bss, no PROGMEM string may be touched from here. */
+ * service.h - the page-write service behind the call table, and receiving while interrupts are off.
+ * Runs with an application's stack and RAM, so it must not use .data, .bss or PROGMEM strings. */
 #ifndef SERVICE_H
 #define SERVICE_H
 
@@ -12,7 +12,7 @@
 /* The entry at BOOT_API_WRITE_PAGE; contract in boot_api.h. */
 boot_write_page_t boot_write_page;
 
-/* Moves one byte from UART1 into the ring, if one is there. rx may be NULL: does nothing. */
+/* Moves a byte from UART1 into the ring, if one has come. rx may be NULL: does nothing. */
 void service_poll(const boot_rx_t *rx);
 
 #endif

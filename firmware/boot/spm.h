@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * spm.h - the four uses of the SPM instruction; this file is the only one that has any. The caller has set RAMPZ to the
- * 64 KiB half that is meant, interrupts are off, no EEPROM write runs. addr is a byte address in that half, of a page for
- * all but spm_fill and spm_read. Touches no RAM. Inlined: an erase is three instructions.
- * SPM must follow its store to SPMCSR within four cycles, and Z and r1:r0 carry address and data: hence assembly. */
+ * spm.h - the four uses of the SPM instruction, in this file only. Before a call: RAMPZ selects the 64 KiB half, interrupts
+ * are off, no EEPROM write is under way. addr is a byte address in that half; a page address for all but spm_fill and
+ * spm_read. Touches no RAM. Inlined: an erase is three instructions.
+ * Assembly, because SPM must follow the store to SPMCSR within four cycles, with address and data in Z and r1:r0. */
 #ifndef SPM_H
 #define SPM_H
 
@@ -19,7 +19,7 @@ static inline void spm_command(uint16_t addr, uint8_t command)
                  : "memory");
 }
 
-/* One word into the page buffer. */
+/* Puts one word into the page buffer. */
 static inline void spm_fill(uint16_t addr, uint16_t word)
 {
     asm volatile("movw r0, %[word]\n\t"
@@ -31,7 +31,7 @@ static inline void spm_fill(uint16_t addr, uint16_t word)
                  : "r0", "memory");
 }
 
-/* Start an erase or the write of the page buffer: 4.5 ms, ended when spm_is_busy says so. */
+/* Start to erase a page or to write the page buffer: 4.5 ms. spm_is_busy tells when it is done. */
 static inline void spm_erase(uint16_t addr)
 {
     spm_command(addr, 1 << PGERS | 1 << SPMEN);
@@ -47,7 +47,7 @@ static inline bool spm_is_busy(void)
     return (SPMCSR & 1 << SPMEN) != 0;
 }
 
-/* Makes the flash below 0x1E000 readable again; also empties the page buffer. */
+/* Makes the flash below 0x1E000 readable again and empties the page buffer. */
 static inline void spm_release(void)
 {
     spm_command(0, 1 << RWWSRE | 1 << SPMEN);

@@ -17,7 +17,7 @@ void start_jump(uint16_t word)
     uart_open(UART_UBRR_57143);
     TCCR1B = 0;
     TCNT1 = 0;
-    TIFR = 1 << TOV1 | 1 << OCF1A | 1 << OCF1B; /* all that timer 1 can have left */
+    TIFR = 1 << TOV1 | 1 << OCF1A | 1 << OCF1B; /* all flags that timer 1 may have set */
     UCSR0A = 1 << U2X0;
     UCSR0B = 1 << RXEN0 | 1 << TXEN0;
     PORTS_HAND_OVER();

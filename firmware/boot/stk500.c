@@ -15,7 +15,7 @@ enum { GET_SYNC = 0x30, SET_PARM = 0x40, GET_PARM = 0x41, SET_DEVICE = 0x42, SET
        ENTER = 0x50, LEAVE = 0x51, CHIP_ERASE = 0x52, LOAD_ADDRESS = 0x55, UNIVERSAL = 0x56, PROG_PAGE = 0x64,
        READ_PAGE = 0x74, READ_SIGN = 0x75 };
 
-/* Command, bytes behind it before SYNC_EOP. PROG_PAGE's data come on top. */
+/* A command and the number of its bytes before SYNC_EOP, not counting the data of PROG_PAGE. */
 static const uint8_t commands[] PROGMEM_GAP = {
     GET_SYNC, 0, SET_PARM, 2, GET_PARM, 1, SET_DEVICE, 20, SET_DEVICE_EXT, 5, ENTER, 0, LEAVE, 0,
     CHIP_ERASE, 0, LOAD_ADDRESS, 2, UNIVERSAL, 4, PROG_PAGE, 3, READ_PAGE, 3, READ_SIGN, 0, 0};
@@ -36,7 +36,7 @@ static uint8_t take(void)
     return 0;
 }
 
-/* 0xFF: no command of ours. */
+/* 0xFF: unknown command. */
 static uint8_t arg_count(uint8_t command)
 {
     for (uint8_t i = 0;; i += 2) {
@@ -60,7 +60,7 @@ static bool is_flash(void)
     return stk.args[2] == 'F';
 }
 
-/* A block that goes into the middle of a flash page comes together with what stands there (take_command). */
+/* A block for part of a flash page has been merged with the rest of that page already (take_command). */
 static bool program(void)
 {
     uint16_t count = length();
@@ -86,7 +86,7 @@ static void read(void)
     }
 }
 
-/* The answer between INSYNC and OK; returns the last byte of it. */
+/* Sends the answer between INSYNC and OK; returns its last byte. */
 static uint8_t carry_out(uint8_t command)
 {
     switch (command) {
@@ -104,7 +104,7 @@ static uint8_t carry_out(uint8_t command)
     return OK;
 }
 
-/* Arguments, data and SYNC_EOP of a command. */
+/* Receives arguments, data and SYNC_EOP of a command. */
 static bool take_command(uint8_t command)
 {
     uint8_t count = arg_count(command);

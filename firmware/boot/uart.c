@@ -29,7 +29,7 @@ void uart_put(uint8_t byte)
         wdt_reset();
     }
     UDR1 = byte;
-    UCSR1A = 1 << U2X1 | 1 << TXC1; /* after UDR1: before it, the byte under way could set the flag again */
+    UCSR1A = 1 << U2X1 | 1 << TXC1; /* cleared after UDR1: the byte before could still set the flag until then */
 }
 
 void uart_flush(void)
@@ -110,7 +110,7 @@ ISR(USART1_RX_vect)
     service_poll(&uart_rx);
 }
 
-/* The one vector besides reset; the linker puts it where the chip looks for it. */
+/* The only vector besides reset; the linker puts it in its place. */
 static void __attribute__((naked, used, section(".vector_rx"))) rx_vector(void)
 {
     asm volatile("jmp __vector_30");

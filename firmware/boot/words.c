@@ -14,23 +14,24 @@
 #define ERASED 0xFF
 #define CLEAR_DOT 256u
 
-/* One code a word, aliases share it; the order is that of `limits`. PLAY.. and on store a byte for an application. */
+/* One code for each word and its aliases, in the order of `limits`. From PLAY on, a word stores a byte for an
+ * application. */
 enum { HELP, FLASH, EEPROM, RAM, LOAD, UP, EEP_UP, EEP_DN, VERIFY, CLEAR, GO, RESET, APP, SYS, CHECK, ID,
        PLAY, TOSS, MON, EDIT, DUMP, WORD_CODES, UNKNOWN = 0xFF };
 
-/* Words, each ended by 0x80 + code; HELP prints them in this order. */
+/* Words, each ended by 0x80 + code, in the order of HELP. */
 static const char words[] PROGMEM =
     "HELP\x80" "FLASH\x81" "F\x81" "EEPROM\x82" "EEP\x82" "E\x82" "RAM\x83" "R\x83"
     "LOAD\x84" "LD\x84" "L\x84" "DOWN\x84" "DN\x84" "UP\x85" "EEP_UP\x86" "EEP_DN\x87" "VERIFY\x88" "V\x88"
     "CLEAR_EEPROM\x89" "GO\x8A" "G\x8A" "RESET\x8B" "APPLICATION\x8C" "APP\x8C" "SYSTEM\x8D" "SYS\x8D"
     "CHECK\x8E" "ID\x8F" "PLAY\x90" "TOSS\x91" "MONITOR\x92" "MON\x92" "EDIT\x93" "DUMP\x94";
 
-/* Fewest and most arguments: high and low nibble. */
+/* Numbers of arguments: the fewest in the high nibble, the most in the low one. */
 static const uint8_t limits[WORD_CODES] PROGMEM_GAP = {
     [FLASH] = 0x01, [EEPROM] = 0x01, [RAM] = 0x01, [LOAD] = 0x01, [UP] = 0x22, [EEP_UP] = 0x22, [EEP_DN] = 0x22,
     [CLEAR] = 0x02, [GO] = 0x01};
 
-/* The end of what the word's address and length are about, in units of 4 KiB; of what has none, 1. */
+/* The end of the memory that the word's address and length are about, in units of 4 KiB; 1 for words without. */
 static const uint8_t ends[WORD_CODES] PROGMEM_GAP = {
     [LOAD] = MEM_BOOT_START / 4096, [UP] = MEM_BOOT_END / 4096, [EEP_UP ... CLEAR] = MEM_EEPROM_BYTES / 4096,
     [GO] = 0x10000 / 4096, [RESET ... DUMP] = 1};
@@ -53,7 +54,7 @@ static uint8_t find(const char *word)
     return UNKNOWN;
 }
 
-/* All words, then what a newcomer must know. */
+/* Prints all words, then what a newcomer must know. */
 static void help(void)
 {
     print_line();
@@ -64,7 +65,7 @@ static void help(void)
     SAY("Hex numbers; # at reset stays here");
 }
 
-/* Without an argument a dump goes on where the last one (or a transfer) ended. */
+/* Prints a dump. Without an argument it continues where the last dump or transfer ended. */
 static void dump(uint8_t code, const parse_t *line)
 {
     if (line->count > 0) {
@@ -96,7 +97,7 @@ static void dump(uint8_t code, const parse_t *line)
     PUT("\r\n");
 }
 
-/* The second sum is right when it equals the third; meant for a download to 0 (it always begins there). */
+/* Sums flash from 0 on, so it checks downloads to 0 only: they are right when the second sum equals the third. */
 static void verify(void)
 {
     load_record_t record;
@@ -166,8 +167,8 @@ static void set_start(uint8_t code)
     PUT(" Mode");
 }
 
-/* Whether address and length lie in what the word is about; the addresses of dumps are taken modulo its size instead.
- * Numbers have 20 bits: the sum does not overflow, and in pages it fits 16. */
+/* Whether address and length lie in the word's memory (dumps take addresses modulo its size instead). Numbers have 20
+ * bits: the sum does not overflow, and as a number of pages it fits 16. */
 static bool is_in_range(uint8_t code, const parse_t *line)
 {
     uint16_t pages = (uint16_t)((line->arg[0] + line->arg[1] + 0xFF) >> 8);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * words.h - the words of the prompt and what they do. */
+ * words.h - carries out the words of the prompt. */
 #ifndef WORDS_H
 #define WORDS_H
 
 #include "parse.h"
 
-/* Carries out a parsed line with a word. `status` is what parse_line said of its arguments. */
+/* Carries out a parsed line that has a word. `status` is the result of parse_line. */
 void words_run(const parse_t *line, parse_status_t status);
 
-/* GO: to a word address, or nothing when that is an empty application. */
+/* GO: jumps to a word address. Returns only when that is 0 and there is no application. */
 void words_go(uint16_t word);
 
 #endif

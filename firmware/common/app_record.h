@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * app_record.h - what an application image says of itself: 16 bytes at MEM_APP_RECORD, right behind the vectors.
- * The image is linked with the magic and 0xFF; the post-link step fills in the rest. The boot loader starts an image
- * with a record only when length and CRC fit; an image without the magic is started as it is. A magic of which bits have
- * turned to 1 (a first page torn by a power cut, or one that ends before the record) still counts as a record, and the CRC
- * tells: a foreign program has to reach beyond the record, as any with all its vectors does. */
+ * app_record.h - how an application image describes itself: 16 bytes at MEM_APP_RECORD, right behind the vectors.
+ * The image is linked with the magic and 0xFF; tools/dev/app_record fills in the rest. The boot loader starts an image
+ * with a record only when length and CRC fit, and an image without the magic as it is. A magic with some bits turned to 1
+ * still counts as a record, because a power cut can tear the first page; then the CRC does not fit. So a foreign program
+ * must reach beyond the record, as every program with a full vector table does. */
 #ifndef APP_RECORD_H
 #define APP_RECORD_H
 
@@ -29,7 +29,7 @@ typedef struct {
 } app_record_t;
 STATIC_ASSERT(sizeof(app_record_t) == MEM_APP_RECORD_BYTES, "the linker scripts leave 16 bytes");
 
-/* Offsets for programs that patch or check an image: layout 1. */
+/* Offsets in layout 1, for programs that patch or check an image. */
 #define APP_RECORD_AT_LENGTH 4u
 #define APP_RECORD_AT_CRC 8u
 #define APP_RECORD_AT_BOARD 10u

@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-/* Where the linker script wants it; the post-link step fills it in. */
+/* The linker script places it; tools/dev/app_record fills it in. */
 extern const app_record_t app_record;
 const app_record_t app_record __attribute__((section(".app_record"), used)) = APP_RECORD_UNFILLED;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * bound.h - where the performer finds the parts it works with: the ones handed to its init. For performer*.c alone.
- * An image that has one of each may bring a bound.h of its own, found before this one, which names them: addresses that
- * the compiler knows need no pointer (firmware/edit/bound.h). The named ones must be those handed to init. */
+ * bound.h - how the performer reaches the parts that its init was given. For performer*.c only.
+ * An image with one of each may have a bound.h of its own, found before this one, which names them: fixed addresses take
+ * less code than pointers (firmware/edit/bound.h). They must be the parts that were given to init. */
 #ifndef BOUND_H
 #define BOUND_H
 

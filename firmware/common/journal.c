@@ -58,7 +58,7 @@ static uint8_t find_newest(record_t *newest)
     return found;
 }
 
-/* A motion page's worth of data; flash pages that hold theirs already are left alone. */
+/* Writes the flash pages of a motion page that differ from `data`. */
 static flash_status_t write_data(uint16_t page, const uint8_t data[JOURNAL_TARGET_BYTES])
 {
     flash_status_t status = FLASH_OK;

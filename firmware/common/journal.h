@@ -13,11 +13,11 @@
  *   save:     data -> record -> target (flash pages that differ) -> state := 0 (programmed, no erase)
  *   recover:  newest record pending -> target (pages that differ) -> state := 0
  *
- * Newest = highest sequence (modulo 65536) of the records whose own CRC fits; only that one is ever looked at, so an
- * older one is done whatever its state says. The slot after the newest is the next: every flash page of the area wears
- * once in JOURNAL_SLOTS saves; with one slot the journal lasts as long as a page that is saved each time. A torn data
- * page or record leaves the record invalid or done, hence the old page; from a valid record on the target is finished
- * at the next start, however often that is cut. */
+ * The newest record is the one with the highest sequence (modulo 65536) among those whose own CRC fits. Only that one
+ * counts; older ones are done whatever their state says. A save uses the slot after the newest, so every flash page of
+ * the area is erased once in JOURNAL_SLOTS saves.
+ * A power cut before the record is complete leaves an invalid record, hence the old page. From a complete record on the
+ * next start finishes the target, however often the power fails while it does so. */
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
@@ -32,24 +32,23 @@
 #define JOURNAL_SLOT_PAGES 3u     /* flash pages */
 #define JOURNAL_TARGET_BYTES 512u
 
-/* Replaces motion page `motion_page` (0..127). Call journal_recover once after start before the first save.
- * Nothing is written when it holds `data` already. At most 6 flash operations of 4.5 + 4.5 ms, the last one 4.5:
- * 53 ms in all.
+/* Replaces motion page `motion_page` (0..127). Call journal_recover once after start, before the first save.
+ * Writes nothing when the page holds `data` already. At most 6 flash operations: five of 9 ms, the last one 4.5 ms.
  * FLASH_ERR_RANGE, FLASH_ERR_NO_WRITER : nothing was touched
- * FLASH_ERR_VERIFY : the page is old, or undefined with a pending record that the next recovery repeats */
+ * FLASH_ERR_VERIFY : the page is old, or undefined with a pending record that the next recovery carries out */
 MUST_CHECK flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES]);
 
 typedef enum {
     JOURNAL_CLEAN = 0, /* nothing was pending */
-    JOURNAL_RESTORED,  /* a page was finished */
-    JOURNAL_LOST,      /* a record was pending but its data no longer fits its CRC (not a power cut); dropped */
-    JOURNAL_FAILED     /* flash did not take it or nobody can write: still pending */
+    JOURNAL_RESTORED,  /* the pending page was written */
+    JOURNAL_LOST,      /* the data of the pending record no longer fit their CRC (not by a power cut); dropped */
+    JOURNAL_FAILED     /* the write failed or nobody can write flash; still pending */
 } journal_result_t;
 
-/* Finishes what a power cut left. work : undefined afterwards. */
+/* Completes a save that a power cut interrupted. work : undefined afterwards. */
 journal_result_t journal_recover(uint8_t work[JOURNAL_TARGET_BYTES]);
 
-/* Whether journal_recover has a page to finish: for those who cannot. */
+/* Whether journal_recover has a page to write. For images without a writer. */
 bool journal_is_pending(void);
 
 /* Drops a pending record, before something else overwrites the motion area. */

@@ -12,14 +12,14 @@ page_save_status_t page_save(uint8_t page, uint8_t bytes[PAGE_BYTES])
     if (flash_equals(page_store_addr(page), bytes, PAGE_BYTES)) {
         return PAGE_SAVE_UNCHANGED;
     }
-    console_hold();
+    console_xoff();
     flash_status_t status = journal_save(page, bytes);
-    console_resume();
+    console_xon();
     tick_forgive();
     if (status == FLASH_ERR_NO_WRITER) {
         return PAGE_SAVE_ERR_NO_WRITER;
     }
-    return status == FLASH_OK ? PAGE_SAVE_OK : PAGE_SAVE_ERR_VERIFY;   /* each flash page was read back */
+    return status == FLASH_OK ? PAGE_SAVE_OK : PAGE_SAVE_ERR_VERIFY;   /* the journal reads each flash page back */
 }
 
 void page_save_by_mailbox(uint8_t page, uint8_t bytes[PAGE_BYTES])

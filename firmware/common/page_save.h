@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * page_save.h - puts a motion page into flash so that a power cut leaves the old page or the new one (journal.h), through
- * whoever can write here (page_service.h). The reading side is page_store.h. Main loop only, nothing may be moving.
- * After a start, journal_recover comes first, before page_store_init: it finishes what a power cut left. No RAM. At most
- * 60 ms: six flash pages of 9 ms; flow control keeps the PC silent meanwhile, and our loader's service keeps what still
- * arrives. */
+ * page_save.h - saves a motion page so that a power cut leaves the old page or the new one (journal.h), through whatever
+ * can write flash here (page_service.h). page_store.h is the reading side. Main loop only, nothing may be moving. No RAM.
+ * After a start call journal_recover first, then page_store_init. A save takes at most 60 ms: six flash pages of 9 ms.
+ * Flow control keeps the PC silent meanwhile; our loader's service keeps what still arrives. */
 #ifndef PAGE_SAVE_H
 #define PAGE_SAVE_H
 
@@ -14,13 +13,13 @@
 
 typedef enum {
     PAGE_SAVE_OK = 0,
-    PAGE_SAVE_UNCHANGED,       /* flash holds it already: nothing was written */
-    PAGE_SAVE_ERR_VERIFY,      /* the flash did not take it: old page, or the next start repairs it */
-    PAGE_SAVE_ERR_NO_WRITER    /* nobody here can write flash; page_save_by_mailbox may help */
+    PAGE_SAVE_UNCHANGED,       /* flash holds the page already: nothing was written */
+    PAGE_SAVE_ERR_VERIFY,      /* the write failed: flash has the old page, or the next start completes the new one */
+    PAGE_SAVE_ERR_NO_WRITER    /* no program here can write flash; try page_save_by_mailbox */
 } page_save_status_t;
 
-/* Sets the checksum byte, saves and reads back. Afterwards, whatever it says, the store has to look at the page anew
- * (page_store_refresh): not done here, so that the answer comes first. */
+/* Sets the checksum byte, saves and reads back. Call page_store_refresh afterwards, whatever the result: it is not done
+ * here, so that the user sees the answer first. */
 MUST_CHECK page_save_status_t page_save(uint8_t page, uint8_t bytes[PAGE_BYTES]);
 
 /* Sets the checksum byte and leaves the page in the mailbox of the factory loader, which saves it at the next start (4.5 s):

@@ -9,8 +9,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The factory loader 1.31, bootloader-original.md section 7b. Two ranges, because CRC-16 alone is thin ice to jump on;
- * the whole table of the spec would need a CRC-32 for nothing else. */
+/* The factory loader 1.31, bootloader-original.md section 7b. The CRCs of two ranges and a sum, because one CRC-16 is too
+ * weak a proof before a jump into foreign code. The CRC-32 of the spec would need code that nothing else uses. */
 #define FACTORY_CRC_ALL 0xD53Eu
 #define FACTORY_CRC_USED 0x7406u
 #define FACTORY_SUM_ALL 0x000F9AF0ul
@@ -35,7 +35,7 @@ static bool is_ours(void)
            (head.features & (BOOT_HAS_WRITE | BOOT_HAS_PROGRAM)) == (BOOT_HAS_WRITE | BOOT_HAS_PROGRAM);
 }
 
-/* What the boot section holds, when it is not ours: one pass over 8 KiB. */
+/* Which loader the boot section holds if it is not ours: one pass over 8 KiB. */
 static page_service_kind_t recognise(void)
 {
     uint8_t piece[16];
@@ -104,7 +104,7 @@ static NOINLINE void set_byte(uint16_t addr, uint8_t value)
     eeprom_update(addr, &value, 1);
 }
 
-/* FF4 comes last and is withdrawn first: a cut in between leaves no half page to be written. */
+/* Clears FF4 first and sets it last, so that a power cut in between leaves no half page to be written. */
 bool page_service_post(uint8_t motion_page, const uint8_t data[512])
 {
     if (motion_page >= MOTION_PAGES) {

@@ -36,7 +36,7 @@ static uint8_t source_check(void *context, uint8_t page)
     return (uint8_t)page_store_check(context, page);
 }
 
-/* The whole page, 64 bytes at a time: the same answer as page_check. */
+/* The result of page_check, without a page of RAM: reads 64 bytes at a time. */
 page_status_t page_store_look(uint8_t page)
 {
     uint8_t block[PAGE_STEP_BYTES];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * ranges.h - what the numbers of commands may be, by name: for the tables of commands (shell.h). Those of requests stand
- * here, those of an image in its ranges_own.h, counted from RANGE_OWN on. */
+ * ranges.h - the ranges of the numbers in commands, for the tables of commands (shell.h). The ranges of requests are here.
+ * Those of an image are in its ranges_own.h, numbered from RANGE_OWN on. */
 #ifndef RANGES_H
 #define RANGES_H
 
@@ -10,7 +10,7 @@
 #include "shell.h"
 
 enum {
-    RANGE_NONE = 0,   /* no number, or one that the handler looks at */
+    RANGE_NONE = 0,   /* not a number, or one that the handler checks */
     RANGE_PAGE,       /* 0..127 */
     RANGE_PLAYED,     /* 1..127 */
     RANGE_DEG_S,      /* 1..360 */
@@ -21,10 +21,11 @@ enum {
     RANGE_OWN
 };
 
-/* The image's. */
+/* The image's own ranges, from RANGE_OWN on. */
 extern const shell_range_t ranges_own_P[];
 
-/* The joints that the words from `first` on name: "3", "1-6", and "6-1" as well. Their bits are added to *joints. false: SHELL_ERR_RANGE. */
+/* Adds the joints that the words from `first` on name ("3", "1-6", "6-1") to the mask *joints. false: return
+ * SHELL_ERR_RANGE. */
 MUST_CHECK bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints);
 
 #endif

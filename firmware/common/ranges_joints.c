@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * ranges_joints.c - the joints that words name. Apart from ranges.c, which shell_words.c uses: this file uses the shell. */
+ * ranges_joints.c - the joints that words name. A file of its own because it uses shell_words.c, which uses ranges.c. */
 #include "ranges.h"
 
 #include <stddef.h>
@@ -9,7 +9,7 @@
 bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints)
 {
     for (uint8_t i = first; i < args->count; i++) {
-        char *dash = strchr(shell_word(args, i), '-');   /* in the caller's line */
+        char *dash = strchr(shell_word(args, i), '-');   /* the line is RAM of the caller: it may be cut here */
         uint16_t from, to;
         if (dash != NULL) {
             *dash = '\0';
@@ -23,7 +23,7 @@ bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joint
             if (!shell_take(&last, 0, RANGE_ID, &to)) {
                 return false;
             }
-            *dash = '-';   /* a word fewer: those behind it are counted by their ends */
+            *dash = '-';   /* shell_word finds the words behind by counting NULs */
         }
         servo_link_put(joints, (uint8_t)to, true);
         for (; from != to; from = from < to ? from + 1u : from - 1u) {

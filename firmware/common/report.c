@@ -71,7 +71,7 @@ void report_version(const app_record_t *record)
 
 void report_joints(uint32_t joints)
 {
-    uint8_t run = 0; /* joints in a row so far: 0, 1, 2 for more */
+    uint8_t run = 0; /* joints in a row so far: 0, 1, or 2 for two and more */
     if (joints == 0) {
         TEXT("none");
         return;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * report.h - what happened, in sentences: the same words in Play and in Edit.
- * Knows no console (text.h) and no command. Main loop only. No RAM of its own. Nothing here ends a line. */
+ * report.h - prints what happened as a sentence, in the same words in Play and in Edit.
+ * Knows no console (text.h) and no command. Main loop only. No RAM of its own. No function ends the line. */
 #ifndef REPORT_H
 #define REPORT_H
 
@@ -9,25 +9,24 @@
 #include "page.h"
 #include "performer.h"
 
-/* "checksum is wrong", "more than 7 steps", ...: what is wrong with a page (page_status_t), in flash, at most 19
- * characters. */
+/* What is wrong with a page (page_status_t): "checksum is wrong", "more than 7 steps". In flash, at most 19 characters. */
 const char *report_page_fault_P(uint8_t page_status);
 
 /* "Page 9 is damaged: checksum is wrong", "Page 9 is empty". */
 void report_bad_page(uint8_t page, uint8_t fault);
 
-/* Why a play did not start: report_bad_page, "Busy: stop what is playing first", ... Nothing for PERFORMER_OK. */
+/* Why a play did not start: report_bad_page, "Busy: stop what is playing first". Prints nothing for PERFORMER_OK. */
 void report_refusal(performer_status_t status, uint8_t page, uint8_t fault);
 
-/* "1.0.0": the version in an image's record. */
+/* The version in an image's record: "1.0.0". */
 void report_version(const app_record_t *record);
 
-/* "1-18 20": the joints of a mask; "none". */
+/* The joints of a mask: "1-18 20", or "none". */
 void report_joints(uint32_t joints);
 
-/* report_event.c, Play only: */
+/* ---- report_event.c, linked by Play only ---- */
 
-/* "overload, overheating": the bits of a servo's error byte. */
+/* The bits of a servo's error byte: "overload, overheating". */
 void report_servo_errors(uint8_t errors);
 
 /* "page 12 (walk)". */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * report_event.c - the sentences about events: Play's. Edit has shorter ones of its own. */
+ * report_event.c - Play's sentences for events. Edit has shorter ones of its own. */
 #include "report.h"
 
 #include "dxl.h"
@@ -53,7 +53,7 @@ void report_voltage(uint8_t dv)
     TEXT(" V");
 }
 
-/* What stands for a part of the event in a sentence. */
+/* Prints a part of the event where a sentence has one of these characters. */
 static void report_part(char part, const performer_event_t *event)
 {
     switch (part) {

@@ -7,7 +7,7 @@
 #include "report.h"
 #include "text.h"
 
-bool requests_are(const shell_args_t *args)
+bool requests_is_request(const shell_args_t *args)
 {
     return shell_word(args, 0)[0] == '@';
 }
@@ -25,7 +25,7 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
         text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" board=cm2") : TEXT_P(" board=cm5"));
     }
     TEXT(" protocol=1 pages=128 joints=31 line=110");
-    STATIC_ASSERT(PAGE_COUNT == 128 && PAGE_JOINTS == 31, "said in the line above");
+    STATIC_ASSERT(PAGE_COUNT == 128 && PAGE_JOINTS == 31, "the numbers in the line above");
     TEXT(" can=list,page,pose,move,torque,play,pause,where,crcs,watch,dense");
     if (requests_image.can_P != NULL) {
         text_P(requests_image.can_P);
@@ -33,7 +33,7 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
     return REQUEST_OK;
 }
 
-/* Into the boot loader's hands: it listens for '#' for 60 ms before it starts an image again. */
+/* A program follows it with '#': the boot loader listens for 60 ms before it starts an image again. */
 static uint8_t do_reset(void *context, const shell_args_t *args)
 {
     (void)context;
@@ -70,7 +70,7 @@ static const shell_command_t table[] PROGMEM = {
     {word_reset, do_reset, SHELL_ARGS(0, 0) | SHELL_STILL, 0},
 };
 
-/* The errors that have one sentence, by number. */
+/* Prints an error that always has the same sentence. */
 static void print_sentence(uint8_t status)
 {
     TEXT_NAMED(no_word, "Unknown word");
@@ -89,24 +89,24 @@ static void print_sentence(uint8_t status)
     text_P((const char *)pgm_read_ptr(&sentences[status]));
 }
 
-/* Not inlined four times. */
+/* NOINLINE: it would be copied to four places. */
 static NOINLINE uint8_t look_up(const shell_command_t *table_P, uint8_t count, shell_args_t *args)
 {
     return shell_run(table_P, count, requests_image.context, args, !performer_is_still(requests_image.performer));
 }
 
-/* The end of an answer, by what shell_run has returned. */
+/* Prints the end of an answer. result: what shell_run returned. */
 static void finish(uint8_t result)
 {
     switch (result) {
     case REQUEST_OK:
         TEXT(" OK");
         break;
-    case REQUEST_SAID:
+    case REQUEST_REPORTED:
         break;
     case SHELL_ERR_RANGE:
         (void)requests_error(REQUEST_ERR_RANGE);
-        shell_print_broken();
+        shell_print_range_error();
         break;
     case SHELL_ERR_UNKNOWN:
         print_sentence(REQUEST_ERR_WORD);

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * requests.h - the line protocol for programs: one request line, one answer line, the same in Play and in Edit. The words
- * that a person types in Play go the same way.
- * Knows no screen and no prompt: words in, text out (text.h). Main loop only. RAM: 5 bytes.
+ * requests.h - the line protocol for programs: one request line, one answer line, the same in Play and in Edit. Lines that
+ * a person types in Play go the same way.
+ * Knows no screen and no prompt: takes words, prints text (text.h). Main loop only. RAM: 5 bytes.
  *
- * Every word of a program begins with '@', so that it can be no word of a person, and so does every answer line:
+ * Every word of a program begins with '@', which no typed word does, and so does every answer line:
  *
- *     @where                                       what the program sends
- *     @where state=idle page=0 ... OK              what it gets: the word, fields, OK
+ *     @where                                       the request
+ *     @where state=idle page=0 ... OK              the answer: the word, fields, OK
  *     @play 300
  *     @play ERR 3 Page must be 1..127              or the word, ERR, a number, a sentence
  *
- * A person types the word without '@' and gets ` OK` or the sentence alone.
+ * A person types the word without '@' and gets ` OK`, or the sentence alone.
  *
  * A program reads lines and ignores those that do not begin with '@' (echo, prompt, status lines). After @watch, lines
  * that begin with @now come by themselves. firmware/edit/PROTOCOL.md is the manual, with every request. */
@@ -29,7 +29,7 @@ typedef enum {
     REQUEST_OK = 0,
     REQUEST_ERR_WORD = 1,      /* no such request */
     REQUEST_ERR_COUNT = 2,     /* too few or too many words */
-    REQUEST_ERR_RANGE = 3,     /* a number is none, or out of range */
+    REQUEST_ERR_RANGE = 3,     /* not a number, or out of range */
     REQUEST_ERR_BUSY = 4,      /* not while something moves */
     REQUEST_ERR_PAGE = 5,      /* the page is damaged */
     REQUEST_ERR_EMPTY = 6,     /* the page has no action */
@@ -43,56 +43,56 @@ typedef enum {
     REQUEST_ERR_IDLE = 14      /* nothing is playing */
 } request_status_t;
 
-/* What requests work on, and what an image adds: the one instance stands in its main.c. */
+/* What requests work on, and what the image adds. Each image defines the one instance. */
 typedef struct {
     const char *name_P;                /* "play" */
-    const char *can_P;                 /* what @ver names besides what all can, ",open,save"; or NULL */
+    const char *can_P;                 /* what @ver adds to the list of what all images can: ",open,save"; or NULL */
     performer_t *performer;
     servo_link_t *servos;
     page_store_t *pages;
-    /* Words of this image alone, without '@'. Their handlers get `context` and return a request_status_t, REQUEST_SAID
-     * behind requests_error, or SHELL_ERR_RANGE. */
+    /* The image's own words, without '@'. Their handlers get `context` and return a request_status_t, REQUEST_REPORTED
+     * after requests_error, or SHELL_ERR_RANGE. */
     void *context;
     const shell_command_t *own_P;
     uint8_t own_count;
-    void (*where)(void);               /* further fields of @where, each with a blank in front; or NULL */
-    void (*serve)(void);               /* what may not wait, between the parts of a request that takes long */
-    void (*restart)(void);             /* board_restart with the image's settings: does not return */
+    void (*where)(void);               /* prints further fields of @where, each after a blank; or NULL */
+    void (*serve)(void);               /* does what cannot wait; called between the parts of a long request */
+    void (*restart)(void);             /* calls board_restart with the image's settings; does not return */
 } requests_image_t;
 extern const requests_image_t requests_image;
 
-/* true when the line is a program's: its first word begins with '@'. */
-bool requests_are(const shell_args_t *args);
+/* Whether a program sent the line: its first word begins with '@'. */
+bool requests_is_request(const shell_args_t *args);
 
-/* Runs such a line and prints the answer line with its CR LF. */
+/* Runs a program's line and prints the answer line with its CR LF. */
 void requests_run(shell_args_t *args);
 
-/* The same for a line that a person has typed: a word of the image's own table or of this one, which is for persons only. */
+/* Runs a line that a person typed, with a word of requests_image.own_P or of `typed_P`, whose words programs do not have. */
 void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count);
 
-/* ---- @watch: the robot, as it is, every so many milliseconds ---- */
+/* ---- @watch: a line with the state of the robot every so many milliseconds ---- */
 
-/* A @now line is due: the image puts its cursor to the start of a line and calls requests_print_now. */
+/* Whether a @now line is due. The image then moves its cursor to the start of a line and calls requests_print_now. */
 bool requests_now_is_due(void);
 void requests_print_now(void);
 void requests_end_watch(void);
 
 /* ---- for handlers ---- */
 
-/* A program sent the line that runs. */
-bool requests_of_program(void);
+/* Whether a program sent the line that is being run. */
+bool requests_from_program(void);
 
-/* The joints that the words from `first` on name, or all that are present when there are none. They have to be there: else
- * the status to return. */
+/* The joints that the words from `first` on name, or all present joints if there are no words. Returns REQUEST_OK, or the
+ * status for the handler to return: a word names no joint, or a joint that is not present. */
 MUST_CHECK uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints);
 
-/* Says which servos did not answer; REQUEST_OK when there are none. */
+/* Prints which servos did not answer and returns REQUEST_REPORTED. REQUEST_OK if `joints` is empty. */
 uint8_t requests_no_answer(uint32_t joints);
 
-/* A performer's refusal as an error, with its sentence; REQUEST_OK for PERFORMER_OK. */
+/* Turns a performer's refusal into an error with its sentence; REQUEST_OK for PERFORMER_OK. */
 uint8_t requests_refusal(performer_status_t status);
 
-/* Handlers of words that both images have (requests_motion.c), for their tables. */
+/* Handlers for the tables of both images (requests_motion.c). */
 uint8_t request_play(void *context, const shell_args_t *args);      /* SHELL_BOTH(RANGE_PLAYED, RANGE_CODE) */
 uint8_t request_stop(void *context, const shell_args_t *args);
 uint8_t request_break(void *context, const shell_args_t *args);
@@ -101,13 +101,13 @@ uint8_t request_resume(void *context, const shell_args_t *args);
 uint8_t request_on(void *context, const shell_args_t *args);
 uint8_t request_off(void *context, const shell_args_t *args);
 
-/* Switches the torque of joints one at a time, so that nothing else waits for longer than 3 ms. Returns those that are as
- * they should be. */
+/* Switches the torque of joints one at a time and calls serve in between, at most 3 ms apart. Returns the joints that
+ * switched. */
 uint32_t requests_switch_torque(uint32_t joints, bool on);
 
-enum { REQUEST_SAID = 100 };   /* failed, and the error has been printed */
+enum { REQUEST_REPORTED = 100 };   /* failed, and the error has been printed */
 
-/* Begins an error; the sentence has to follow. A program gets " ERR n " in front of it. Returns REQUEST_SAID. */
+/* Begins an error: prints " ERR n " for a program. The caller prints the sentence. Returns REQUEST_REPORTED. */
 uint8_t requests_error(uint8_t status);
 
 #endif

@@ -13,7 +13,7 @@ void requests_set_program(bool program)
     for_program = program;
 }
 
-bool requests_of_program(void)
+bool requests_from_program(void)
 {
     return for_program;
 }
@@ -25,7 +25,7 @@ uint8_t requests_error(uint8_t status)
         text_number(status);
         text_put(' ');
     }
-    return REQUEST_SAID;
+    return REQUEST_REPORTED;
 }
 
 uint8_t requests_no_answer(uint32_t joints)
@@ -36,7 +36,7 @@ uint8_t requests_no_answer(uint32_t joints)
     (void)requests_error(REQUEST_ERR_SERVOS);
     TEXT("No answer from servos ");
     report_joints(joints);
-    return REQUEST_SAID;
+    return REQUEST_REPORTED;
 }
 
 uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints)
@@ -67,5 +67,5 @@ uint8_t requests_refusal(performer_status_t status)
     }
     (void)requests_error(pgm_read_byte(&numbers[status]));
     report_refusal(status, performer->fault_page, performer->fault);
-    return REQUEST_SAID;
+    return REQUEST_REPORTED;
 }

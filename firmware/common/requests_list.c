@@ -9,7 +9,7 @@
 
 #define CHUNK_BYTES 32u   /* a page is read in pieces of this size, on the stack */
 
-/* number:steps:"name", or number:!:"what is wrong". */
+/* Prints number:steps:"name", or number:!:"what is wrong". Nothing for an empty page. */
 static void print_list_entry(uint8_t page)
 {
     uint8_t header[PAGE_AT_STEPS + 1];
@@ -37,7 +37,7 @@ static void print_list_entry(uint8_t page)
     text_put('"');
 }
 
-/* The pages of a request: all of them when none is given, else the first and the last. false: they are not so, said. */
+/* The last page of a request that names none (then all) or a first and a last one. false: an error has been printed. */
 static bool take_pages(const shell_args_t *args, uint8_t *last)
 {
     *last = args->count > 1 ? (uint8_t)args->number[1] : (uint8_t)(PAGE_COUNT - 1u);
@@ -54,7 +54,7 @@ uint8_t request_list(void *context, const shell_args_t *args)
     uint8_t last;
     (void)context;
     if (!take_pages(args, &last)) {
-        return REQUEST_SAID;
+        return REQUEST_REPORTED;
     }
     for (uint8_t page = (uint8_t)args->number[0]; page <= last; page++) {
         print_list_entry(page);
@@ -71,10 +71,11 @@ static void print_hex(uint8_t byte)
     text_hex(byte, 2);
 }
 
-/* Six bits a character: the low six of each byte, and behind two, then always three bytes one with their high bits. */
+/* Prints six bits a character: the low six of each byte, and after every three bytes (the first time after two) a character
+ * with their high bits. */
 static struct {
-    uint8_t high_bits;           /* those of the newest byte in bits 7 and 6, of older ones below */
-    uint8_t bytes;               /* whose high bits wait */
+    uint8_t high_bits;           /* of the newest byte in bits 7 and 6, of older ones below */
+    uint8_t bytes;               /* number of bytes whose high bits wait */
 } dense;
 
 static void print_dense(uint8_t byte)
@@ -87,7 +88,7 @@ static void print_dense(uint8_t byte)
     }
 }
 
-/* The bytes of a page in flash, as they are, into their CRC; printed unless `print` is NULL. */
+/* The CRC of the 512 bytes of a page in flash. print: prints each of them; or NULL. */
 static uint16_t page_crc(uint8_t page, print_byte_t print)
 {
     uint16_t crc = CRC16_START;
@@ -120,22 +121,22 @@ uint8_t request_page(void *context, const shell_args_t *args)
     return answer_page(args, print_hex);
 }
 
-/* The same in two thirds of the time. */
+/* The same in two thirds of the characters. */
 uint8_t request_dense(void *context, const shell_args_t *args)
 {
     (void)context;
     dense.high_bits = 0;
-    dense.bytes = 1; /* two first: 512 bytes come out even */
+    dense.bytes = 1; /* two bytes first: 512 = 2 + 3 * 170 */
     return answer_page(args, print_dense);
 }
 
-/* Four digits a page, without a blank between them: 128 pages are 512 characters. */
+/* Four digits a page without blanks, so that 128 pages are 512 characters. */
 uint8_t request_crcs(void *context, const shell_args_t *args)
 {
     uint8_t last;
     (void)context;
     if (!take_pages(args, &last)) {
-        return REQUEST_SAID;
+        return REQUEST_REPORTED;
     }
     text_put(' ');
     for (uint8_t page = (uint8_t)args->number[0]; page <= last; page++) {

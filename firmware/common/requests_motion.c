@@ -5,7 +5,7 @@
 #include "ranges.h"
 #include "text.h"
 
-/* Fills to_pos and returns the joints that the digits name, three for each; 0: they are not as they must be. */
+/* Reads three digits a joint, from joint `id` on, into to_pos; --- skips a joint. Returns the joints read; 0: bad digits. */
 static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_JOINTS])
 {
     uint32_t joints = 0;
@@ -29,9 +29,9 @@ uint8_t request_move(void *context, const shell_args_t *args)
     (void)context;
     const uint32_t joints = parse_pose((uint8_t)args->number[1], shell_word(args, 3), to_pos);
     if (joints == 0) {
-        const uint8_t said = requests_error(REQUEST_ERR_RANGE);
+        const uint8_t reported = requests_error(REQUEST_ERR_RANGE);
         TEXT("Positions must be 000..3FF or ---, up to ID 30");
-        return said;
+        return reported;
     }
     return requests_refusal(performer_move(requests_image.performer, to_pos, joints, args->number[0]));
 }
@@ -61,7 +61,7 @@ static uint8_t switch_named(const shell_args_t *args, uint8_t first, bool on)
     if (status != REQUEST_OK) {
         return status;
     }
-    if (on && !performer_is_idle(requests_image.performer)) {   /* off is allowed at any time: the one word with two rules */
+    if (on && !performer_is_idle(requests_image.performer)) {   /* off may always be sent, so the table cannot refuse both */
         return REQUEST_ERR_BUSY;
     }
     return requests_no_answer(joints & ~requests_switch_torque(joints, on));
@@ -72,9 +72,9 @@ uint8_t request_torque(void *context, const shell_args_t *args)
     const bool on = shell_word_is(args, 1, PSTR("on"));
     (void)context;
     if (!on && !shell_word_is(args, 1, PSTR("off"))) {
-        const uint8_t said = requests_error(REQUEST_ERR_RANGE);
+        const uint8_t reported = requests_error(REQUEST_ERR_RANGE);
         TEXT("Say on or off");
-        return said;
+        return reported;
     }
     return switch_named(args, 2, on);
 }
@@ -97,7 +97,7 @@ uint8_t request_play(void *context, const shell_args_t *args)
     return requests_refusal(performer_start(requests_image.performer, (uint8_t)args->number[0], (uint8_t)args->number[1]));
 }
 
-/* These four say OK also when there is nothing to do: a program asks @where. */
+/* These four answer OK even if there is nothing to do: a program asks @where. */
 uint8_t request_stop(void *context, const shell_args_t *args)
 {
     (void)context;

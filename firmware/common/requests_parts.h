@@ -2,7 +2,7 @@
  * requests_parts.h - how the files of the requests see each other. For requests*.c only.
  *
  *   requests.c             the table, the dispatcher, ver and reset
- *     requests_list.c      list, page, crcs: the pages in flash
+ *     requests_list.c      list, page, dense, crcs: the pages in flash
  *     requests_state.c     pose, where, watch: the robot as it is now
  *     requests_motion.c    play, stop, move, torque: what moves the robot
  *       requests_answer.c  errors, and the joints that a line names

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT
- * requests_state.c - requests that tell what the robot does now: pose, where, watch. */
+ * requests_state.c - requests about the present state of the robot: pose, where, watch. */
 #include "requests_parts.h"
 
 #include "performer_shape.h"
 #include "text.h"
 #include "tick.h"
 
-#define WATCH_TICKS_MIN 6u   /* 47 ms: a @now line of 31 joints takes 37 of them */
+#define WATCH_TICKS_MIN 6u   /* 47 ms; a @now line of 31 joints takes 37 ms */
 
 static struct {
     uint16_t every_ticks;    /* 0: nobody watches */
     uint16_t last_tick;
 } watch;
 
-/* id:position:torque, position "?" when the servo does not answer. */
+/* Prints id:position:torque for each joint, position "?" if the servo does not answer. */
 uint8_t request_pose(void *context, const shell_args_t *args)
 {
     const servo_link_t *servos = requests_image.servos;
@@ -102,8 +102,8 @@ bool requests_now_is_due(void)
     return watch.every_ticks != 0 && (uint16_t)(tick_now16() - watch.last_tick) >= watch.every_ticks;
 }
 
-/* Somebody tells this joint where to be. */
-static bool is_told(const performer_t *performer, uint8_t id)
+/* Whether a play, a move or a layer gives this joint goals. */
+static bool has_goal(const performer_t *performer, uint8_t id)
 {
     const uint32_t of_play = performer->state > PERFORMER_READY ? performer->joints : 0;
     return ((of_play | performer_layers_joints(performer)) & servo_link_bit(id)) != 0;
@@ -133,7 +133,7 @@ void requests_print_now(void)
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if (servo_link_has(&servos->present, id)) {
             const uint16_t present_pos = servos->present_pos[id];
-            print_pos(is_told(performer, id), performer->goal_pos[id]);
+            print_pos(has_goal(performer, id), performer->goal_pos[id]);
             print_pos(!servo_link_has(&servos->silent, id) && present_pos != SERVO_LINK_NO_POSE, present_pos);
         }
     }

@@ -8,9 +8,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* One copy: this head, the settings (bytes only, so the struct is the record), CRC-16 of all before, low byte first. A
- * program of another version may have written fewer settings or more: new ones are only ever added at the end, and those
- * that a record does not have are the defaults. */
+/* One copy is this head, the settings, and the CRC-16 of both, low byte first. A program of another version may have
+ * written fewer settings or more, because new ones are added at the end. Settings that a record lacks get defaults. */
 typedef struct {
     uint8_t magic;
     uint8_t layout;
@@ -21,7 +20,8 @@ typedef struct {
 #define COPY_BYTES 64u
 #define MAGIC 'S'
 #define LAYOUT 1u
-/* A save goes: magic away, everything behind it, magic back; so no mixture of old and new ever carries the magic. */
+/* A save clears the magic, writes everything behind it, and writes the magic last. So no mixture of old and new bytes ever
+ * has the magic. */
 #define CRC_BYTES 2u
 #define BODY_BYTES_MAX (COPY_BYTES - sizeof(head_t) - CRC_BYTES)
 #define RECORD_BYTES (sizeof(head_t) + sizeof(settings_t) + CRC_BYTES)
@@ -89,7 +89,7 @@ static bool is_sound(const settings_t *settings)
     return true;
 }
 
-/* Reads one copy. false: it is not a good record; *magic is what stands in its first place. */
+/* Reads one copy. false: not a good record. *magic is its first byte in either case. */
 static bool load_copy(uint8_t copy, uint8_t *magic, uint8_t *sequence, settings_t *settings)
 {
     uint8_t bytes[COPY_BYTES];
@@ -140,7 +140,7 @@ void settings_save_start(settings_store_t *store)
     store->saving = true;
 }
 
-/* Byte `at` of the record to write. Not inlined: the main loop would keep the record's bytes of stack for ever. */
+/* Byte `at` of the record to write. NOINLINE: else the record would lie on the stack of the main loop for good. */
 static NOINLINE uint8_t byte_to_save(const settings_store_t *store, const settings_t *settings, uint8_t at)
 {
     const head_t head = { MAGIC, LAYOUT, (uint8_t)(store->sequence + 1u), sizeof *settings };

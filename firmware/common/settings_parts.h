@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * settings_parts.h - what settings.c and settings_names.c share: the ranges, apart from the texts, which not every image
- * has. */
+ * settings_parts.h - the ranges that settings.c and settings_names.c share. The texts are apart: only Play has them. */
 #ifndef SETTINGS_PARTS_H
 #define SETTINGS_PARTS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * shell.c - finds the command of a line in a table, checks what the table says of it, and calls its handler. */
+ * shell.c - finds the command of a line in a table, checks its arguments, and calls its handler. */
 #include "shell.h"
 
 #include <stddef.h>
@@ -7,7 +7,7 @@
 #include "compiler.h"
 #include "text.h"
 
-/* Takes the reader behind the next space. true: what stood before it is `word`. */
+/* Reads up to the next space. true: the characters before it are `word`. */
 static bool field_is(text_reader_t *reader, const char *word)
 {
     uint8_t differs = 0;
@@ -34,7 +34,7 @@ const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count,
     return NULL;
 }
 
-/* The first two words behind the command as numbers, where `ranges` says that they are some. */
+/* Parses the first two words behind the command, if `ranges` has ranges for them. false: out of range. */
 static bool take_numbers(shell_args_t *args, uint16_t ranges)
 {
     for (uint8_t i = 0; i < ARRAY_COUNT(args->number); i++, ranges >>= 8) {

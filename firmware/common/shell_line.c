@@ -89,7 +89,7 @@ static const char *history_line(const shell_t *shell, uint8_t back)
     return NULL;
 }
 
-/* Puts the line `back` lines ago in place of this one; 0 empties it; beyond the oldest nothing happens. */
+/* Replaces the line by the one typed `back` lines ago; 0 empties it. Nothing happens beyond the oldest line. */
 static void recall(shell_t *shell, uint8_t back)
 {
     const char *line = back == 0 ? "" : history_line(shell, back);
@@ -103,7 +103,7 @@ static void recall(shell_t *shell, uint8_t back)
     }
 }
 
-/* Newest first: older lines move up; what no longer fits whole is dropped at the far end. */
+/* Puts the line in front of the history. A line that no longer fits whole is dropped at the end. */
 static void remember(shell_t *shell)
 {
     const uint8_t bytes = (uint8_t)(shell->length + 1);
@@ -116,14 +116,14 @@ static void remember(shell_t *shell)
     }
     memmove(shell->history + bytes, shell->history, (size_t)(shell->history_bytes - bytes));
     memcpy(shell->history, shell->line, bytes);
-    /* The last byte ends the list. The oldest line may have been cut: then the list ends behind the NUL before it. */
+    /* Two NULs end the list. If the oldest line was cut, it is erased back to the NUL of the line before it. */
     char *end = shell->history + shell->history_bytes;
     do {
         *--end = '\0';
     } while (end[-1] != '\0');
 }
 
-/* true when the byte belonged to an escape sequence. */
+/* true: the byte belongs to an escape sequence. */
 static bool swallow_escape(shell_t *shell, uint8_t byte)
 {
     switch (shell->escape) {
@@ -139,7 +139,7 @@ static bool swallow_escape(shell_t *shell, uint8_t byte)
         }
         return true;
     default:
-        if (byte < 0x20) { /* a control character breaks a sequence off and counts */
+        if (byte < 0x20) { /* a control character ends the sequence and takes effect */
             shell->escape = byte == KEY_ESC ? ESC_BEGUN : ESC_NONE;
             return byte == KEY_ESC;
         }

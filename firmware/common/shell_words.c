@@ -26,7 +26,7 @@ bool shell_word_is(const shell_args_t *args, uint8_t index, const char *word_P)
 
 /* ---- numbers ---- */
 
-/* Value of a hexadecimal digit, 0..15; 16: it is none. */
+/* The value of a hexadecimal digit, 0..15; 16: not a digit. */
 static uint8_t digit_of(char character)
 {
     if (character >= '0' && character <= '9') {
@@ -59,7 +59,7 @@ bool shell_parse(const char *word, bool hex, uint16_t *value)
         return false;
     }
     const uint8_t base = hex ? 16 : 10;
-    const uint16_t sum_max = hex ? UINT16_MAX / 16 : UINT16_MAX / 10; /* before another digit */
+    const uint16_t sum_max = hex ? UINT16_MAX / 16 : UINT16_MAX / 10; /* if another digit follows */
     uint16_t sum = 0;
     for (; *word != '\0'; word++) {
         const uint8_t digit = digit_of(*word);
@@ -67,7 +67,7 @@ bool shell_parse(const char *word, bool hex, uint16_t *value)
             return false;
         }
         const uint16_t next = (uint16_t)(sum * base + digit);
-        if (sum > sum_max || next < digit) { /* 6553 tens take five more, and start anew then */
+        if (sum > sum_max || next < digit) { /* 65536..65539 pass the first test and wrap */
             return false;
         }
         sum = next;
@@ -76,13 +76,13 @@ bool shell_parse(const char *word, bool hex, uint16_t *value)
     return true;
 }
 
-/* The range that shell_take looked at last. */
+/* The range that shell_take checked last. */
 static struct {
     const shell_range_t *range_P;
     bool hex;
-} broken;
+} checked;
 
-/* Not inlined twice. */
+/* NOINLINE: it would be copied twice. */
 static NOINLINE void print_bound(int16_t number, bool hex)
 {
     if (!hex) {
@@ -108,8 +108,8 @@ bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t
     const shell_range_t *range_P = shell_range_P(range);
     const char *word = shell_word(args, index);
     const bool negative = *word == '-';
-    broken.range_P = range_P;
-    broken.hex = args->hex;
+    checked.range_P = range_P;
+    checked.hex = args->hex;
     if (!shell_parse(word + negative, args->hex, &size) || size > INT16_MAX) {
         return false;
     }
@@ -121,9 +121,9 @@ bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t
     return true;
 }
 
-void shell_print_broken(void)
+void shell_print_range_error(void)
 {
-    const shell_range_t *range_P = broken.range_P;
+    const shell_range_t *range_P = checked.range_P;
     shell_print_range(pgm_read_ptr(&range_P->name_P), (int16_t)pgm_read_word(&range_P->min),
-                      (int16_t)pgm_read_word(&range_P->max), broken.hex);
+                      (int16_t)pgm_read_word(&range_P->max), checked.hex);
 }

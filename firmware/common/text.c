@@ -33,7 +33,8 @@ void text_open_P(text_reader_t *reader, const char *string_P)
     reader->depth = 0;
 }
 
-/* Of a pair the second half waits, the first is what comes next, and may be a pair again. */
+/* A code of a packed text stands for a pair: the second half waits, and the first half, which may be a code again, comes
+ * next. */
 char text_next(text_reader_t *reader)
 {
     uint8_t code = reader->depth > 0 ? reader->waiting[--reader->depth] : pgm_read_byte(reader->at_P++);
@@ -64,7 +65,7 @@ char *text_copy_P(char *to, const char *string_P)
     return to;
 }
 
-/* Digits by subtraction: a 32-bit division costs ten times as much and a page of code. */
+/* Counts each digit by subtraction: a 32-bit division takes ten times as long, and flash for its routine. */
 void text_number32(uint32_t number)
 {
     static const uint32_t powers[] PROGMEM = {1000000000UL, 100000000UL, 10000000UL, 1000000UL, 100000UL, 10000UL,

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT
- * text.h - prints characters, texts from flash and numbers to the place an image has chosen.
- * Knows no console and no screen: the image hands over the function that takes one character. Main loop only.
- * RAM: the pointer to that function. Nothing is buffered here; a call takes as long as the image's function does. */
+ * text.h - prints characters, texts from flash and numbers.
+ * Knows no console and no screen: the image hands in the function that takes one character. Main loop only.
+ * RAM: the pointer to that function. Nothing is buffered: a call takes as long as the image's function does. */
 #ifndef TEXT_H
 #define TEXT_H
 
 #include <stdint.h>
 #include "pgm.h"
 
-/* How deep a packed text may be nested: codes that wait while another is taken apart. */
+/* How deep pairs of a packed text may be nested (text.c). */
 #define TEXT_READER_BYTES 6u
 
 typedef void (*text_put_t)(char character);
 
-/* Every later text goes to `put`. */
+/* From now on all text goes to `put`. */
 void text_init(text_put_t put);
 
 void text_put(char character);
@@ -21,12 +21,11 @@ void text_string(const char *string);   /* from RAM */
 void text_P(const char *string_P);      /* from flash */
 
 /* Texts that are only printed are marked, so that the images can hold them packed (tools/dev/pack_texts):
- *   TEXT("...")              prints it
- *   TEXT_P("...")            names it, inside a function, for text_P and all that hand a flash text on to it
- *   TEXT_NAMED(name, "...")  defines it as an array, for tables
- * Each takes a literal of printable characters and nothing else (a packed text needs the other codes). A text that is
- * compared with what someone typed is a plain PSTR; every function here takes plain texts of printable characters as well.
- * Whoever else walks a marked text does so with a text_reader_t. */
+ *   TEXT("...")              prints the text
+ *   TEXT_P("...")            is its address, for text_P and functions that call it; inside functions only
+ *   TEXT_NAMED(name, "...")  defines an array, for tables
+ * The literal has printable characters only; a packed text uses the other codes. Read a marked text with a text_reader_t
+ * only. A text that is compared with typed words is a plain PSTR; the functions here take those as well. */
 #define TEXT(literal) text_P(PSTR(literal))
 #define TEXT_P(literal) PSTR(literal)
 #define TEXT_NAMED(name, literal) static const char name[] PROGMEM = literal
@@ -34,16 +33,16 @@ void text_P(const char *string_P);      /* from flash */
 /* Hands out a flash text one character at a time. */
 typedef struct {
     const char *at_P;
-    uint8_t depth;                        /* codes that wait */
+    uint8_t depth;                        /* bytes in waiting[] */
     uint8_t waiting[TEXT_READER_BYTES];
 } text_reader_t;
 
 void text_open_P(text_reader_t *reader, const char *string_P);
-char text_next(text_reader_t *reader);           /* '\0' at the end; not to be called again then */
-char *text_copy_P(char *to, const char *string_P);   /* into RAM, with its end; returns where that stands */
+char text_next(text_reader_t *reader);           /* '\0' at the end; do not call again after that */
+char *text_copy_P(char *to, const char *string_P);   /* copies to RAM; returns the address of the NUL */
 
-void text_number(uint16_t number);                              /* decimal, as short as it is */
-void text_signed(int16_t number);                               /* the same, with a minus where it needs one */
+void text_number(uint16_t number);                              /* decimal, without zeros in front */
+void text_signed(int16_t number);                               /* the same, with a minus if negative */
 void text_number32(uint32_t number);
 void text_padded(uint16_t number, uint8_t width, char pad);     /* right aligned; wider numbers are not cut */
 void text_string_padded(const char *string, uint8_t width);     /* left aligned, filled with spaces */

@@ -25,8 +25,8 @@ static void put_number(uint8_t number)
     ansi_put((char)('0' + number % 10));
 }
 
-/* Half a millisecond at most, three bytes' time. The tick alone: the rest of robot_serve needs more stack than is left
- * here. */
+/* Waits for room: half a millisecond at most, the time of three bytes. Serves the tick alone, because the rest of
+ * robot_serve needs more stack than is left here. */
 static void wait_for_room(void)
 {
     for (uint8_t turn = 0; turn < UINT8_MAX && console_room() == 0; turn++) {
@@ -36,7 +36,7 @@ static void wait_for_room(void)
     }
 }
 
-/* Not inlined: it stands at the end of every text. */
+/* NOINLINE: every text ends here. */
 NOINLINE void ansi_put(char character)
 {
     wait_for_room();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * ansi.h - the few terminal sequences the editor sends (ANSI X3.64, as a VT100 knows them), straight to the console.
- * While the console's ring is full it waits; a play goes on meanwhile. Main loop only. No RAM. */
+ * ansi.h - sends the few terminal sequences that the editor uses (ANSI X3.64, as a VT100 has them) to the console.
+ * Waits while the console's ring is full; a play goes on meanwhile. Main loop only. No RAM. */
 #ifndef ANSI_H
 #define ANSI_H
 

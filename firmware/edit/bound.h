@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * bound.h - the editor's answer to firmware/common/bound.h: the performer works with its only ones (parts.h). */
+ * bound.h - takes the place of firmware/common/bound.h: the performer uses the editor's parts by name (parts.h). */
 #ifndef BOUND_H
 #define BOUND_H
 

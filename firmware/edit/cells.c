@@ -59,7 +59,7 @@ bool cell_at(uint16_t address, uint8_t *x, uint8_t *y)
     return true;
 }
 
-/* A byte that names a page: links, and partners for blending. */
+/* Whether the byte is a page number: a link, or a partner for blending. */
 static bool is_link(uint16_t address)
 {
     switch (address) {

@@ -7,7 +7,7 @@
 
 /* ---- SET ---- */
 
-/* What SET may put into the cell under the cursor. */
+/* The number that SET puts into the cell under the cursor. */
 static uint8_t value_range(uint8_t kind, uint16_t max)
 {
     if (kind == CELL_POSITION) {
@@ -16,7 +16,7 @@ static uint8_t value_range(uint8_t kind, uint16_t max)
     return max == PAGE_STEPS ? RANGE_STEPS : max == UINT8_MAX ? RANGE_BYTE : RANGE_LINK;
 }
 
-/* What is under the cursor. */
+/* The cell under the cursor. */
 typedef struct {
     uint16_t address;
     uint16_t max;    /* what it may hold */
@@ -35,7 +35,7 @@ static here_t look_here(void)
     return here;
 }
 
-/* An edit of the cell. A joint of the work pose moves; on page 0 the trim follows. */
+/* Edits the cell. A joint of the work pose moves; on page 0 the trim is computed anew. */
 static void put(const here_t *here, uint16_t value)
 {
     if (here->is_pose) {
@@ -59,7 +59,7 @@ COMMAND(cmd_set)
     uint16_t value;
     if (here.kind == CELL_OFFSET) {
         TEXT("This cell is computed");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     if (!shell_take(args, 1, value_range(here.kind, here.max), &value)) {
         return SHELL_ERR_RANGE;
@@ -70,8 +70,8 @@ COMMAND(cmd_set)
 
 /* ---- keys ---- */
 
-/* What the key makes of a cell: Page Step stops at its ends, other bytes go round (their maximum is 127 or 255). ---- and
- * ???? stay, and so does a position that would leave 0..1023: the value as it was. */
+/* The value of the cell after the key. Page Step stops at its ends; other bytes wrap (their maximum is 127 or 255). ----,
+ * ???? and a position that would leave 0..1023 keep their value. */
 static uint16_t changed(const here_t *here, uint16_t word, int8_t change)
 {
     uint16_t value = (uint16_t)(word + (uint16_t)change);
@@ -125,11 +125,11 @@ COMMAND(cmd_goto)
     uint8_t x = (uint8_t)args->number[0], y = (uint8_t)args->number[1];
     if (cell_kind(the_session.page, x, y) == CELL_NONE) {
         TEXT("There is no cell");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     if (x != CELL_X_HEADER && !screen_has_row(y)) {
         TEXT("That joint has no row");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     the_session.x = x;
     the_session.y = y;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * cmd_check.c - CHECK: what is wrong, or likely to be, in the stored pages: damage, links that lead nowhere, partners that
- * cannot be blended, pages that nothing leads to, positions outside a servo's limits, steps faster than a servo. */
+ * cmd_check.c - CHECK: looks for mistakes in the stored pages: damage, links to no page, partners that cannot be blended,
+ * pages that nothing leads to, positions outside a servo's limits, steps faster than a servo. */
 #include "bus_call.h"
 #include "commands.h"
 #include "dxl.h"
@@ -16,7 +16,7 @@ static const uint8_t link_fields[] PROGMEM = { PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_P
 enum { LINKS = 4, FIELDS = sizeof link_fields };
 #define BATTERY_DV 96
 
-/* One page may fill 200 lines, of 9 ms each, and ask 31 servos that answer late or not at all. */
+/* Serves what cannot wait: one page may print 200 lines of 9 ms each and ask 31 servos that answer late or not at all. */
 static void begin_line(uint8_t page)
 {
     system_kick();
@@ -81,7 +81,7 @@ static void check_reach(uint8_t page)
     text_line_end();
 }
 
-/* Tenths of a volt, as the first servo that answers measures them; without one, the CM-5's battery. */
+/* The supply in 0.1 V, from the first servo that answers; that of a CM-5's battery if none does. */
 static uint8_t supply_dv(void)
 {
     uint8_t supply = BATTERY_DV;

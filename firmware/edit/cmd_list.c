@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_list.c - HELP, LIST, FIND: what there is. Lists have the whole terminal, one item a line, a screen at a time. */
+ * cmd_list.c - HELP, LIST, FIND. Lists take the whole terminal: one item a line, a screen at a time. */
 #include "commands.h"
 #include "page_facts.h"
 #include "pgm.h"
@@ -8,7 +8,7 @@
 
 /* ---- HELP ---- */
 
-/* The first lines of HELP, a semicolon behind each. */
+/* The first lines of HELP, each ended by a semicolon. */
 TEXT_NAMED(first_wave,
            "A first wave:;"
            "page 99  opens an empty page;"
@@ -57,7 +57,7 @@ COMMAND(cmd_help)
     const shell_command_t *command = shell_find(commands_table_P, commands_count, args, 1);
     if (command == NULL) {
         TEXT("No such command: HELP");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     shell_print_help(command);
     return SHELL_OK;
@@ -67,7 +67,7 @@ COMMAND(cmd_mon)
 {
     (void)args;
     TEXT("MON and TOSS are an image of their own: load monitor.hex");
-    return SHELL_ERR_SAID;
+    return SHELL_ERR_REPORTED;
 }
 
 /* ---- LIST, FIND ---- */

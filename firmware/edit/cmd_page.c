@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_page.c - the page as a whole: open, copy, new, save, name, undo, and leaving. */
+ * cmd_page.c - commands for the whole page: open, copy, new, save, name, undo, exit. */
 #include "board.h"
 #include "commands.h"
 #include "compiler.h"
@@ -33,7 +33,7 @@ static uint8_t open_beside(bool is_there, int8_t way)
 {
     if (!is_there) {
         TEXT("Page must be 0..127");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     return open_asking((uint8_t)(the_session.page + way));
 }
@@ -50,8 +50,8 @@ COMMAND(cmd_before)
     return open_beside(the_session.page > 0, -1);
 }
 
-/* Play's `play wave` needs a name that only one page has: says which other page has the name of stored page `named`.
- * Not inlined: the names would lie on the stack while the page is saved. */
+/* Play's `play wave` needs a name that only one page has, so this tells which other page has the name of stored page
+ * `named`. NOINLINE: else the names would lie on the stack while the page is saved. */
 static NOINLINE void tell_namesake(uint8_t named, uint8_t own)
 {
     char name[PAGE_NAME_BYTES];
@@ -93,7 +93,7 @@ COMMAND(cmd_new)
 
 /* ---- save ---- */
 
-/* A stored page holds no torque-off marks (motion512.md): they become joints that the step does not use. */
+/* A stored page has no torque-off marks (motion512.md): such joints become joints that the step does not use. */
 static void clear_off_marks(void)
 {
     uint8_t count = 0;
@@ -118,7 +118,7 @@ static void clear_off_marks(void)
     }
 }
 
-/* Faults that a save does not cure. */
+/* Faults that remain after a save. */
 static bool page_is_sound(void)
 {
     page_status_t fault = session_check_fields();
@@ -151,7 +151,7 @@ static uint8_t save_by_mailbox(uint8_t page)
 
 page_save_status_t cmd_page_save(uint8_t page)
 {
-    servo_link_quiet(&the_servos);   /* interrupts are off for 9 ms at a time: nothing may be on its way */
+    servo_link_quiet(&the_servos);   /* interrupts go off for 9 ms at a time: no answer may be under way */
     page_save_status_t status = page_save(page, the_session.cells);
     page_store_refresh(&the_pages, page);
     if (page == the_session.page && (status == PAGE_SAVE_OK || status == PAGE_SAVE_UNCHANGED)) {
@@ -175,7 +175,7 @@ COMMAND(cmd_save)
 {
     uint8_t page = args->count > 1 ? (uint8_t)args->number[0] : the_session.page;
     if (!page_is_sound()) {
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     if (!overwriting_is_meant(page)) {
         return DIALOG_TO_ASK;
@@ -204,7 +204,7 @@ COMMAND(cmd_exit)
 
 /* ---- name ---- */
 
-/* An empty name keeps the old one: NAME was called by mistake. One blank empties it. */
+/* An empty line keeps the old name, because NAME was called by mistake. One blank empties it. */
 void cmd_name_done(const char *name)
 {
     uint8_t length = (uint8_t)strlen(name);

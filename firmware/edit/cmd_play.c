@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_play.c - PLAY and its keys, and what happens to servos meanwhile and at rest. */
+ * cmd_play.c - PLAY and its keys; faults of servos, during a play and at rest. */
 #include "commands.h"
 #include "dxl.h"
 #include "keys.h"
@@ -16,9 +16,9 @@ COMMAND(cmd_play)
     performer_status_t status = performer_start(&the_performer, page, 0);
     if (status != PERFORMER_OK) {
         report_refusal(status, page, the_performer.fault);
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
-    /* No step has been looked at yet. The voltage bounds what a high rate may ask of the servos. */
+    /* Sets the rate before the first step is planned. The voltage limits what a high rate may demand of the servos. */
     shape_set_voltage(&the_performer.shape, the_servos.voltage_dv);
     (void)!shape_set_rate(&the_performer.shape, args->count > 2 ? args->number[1] : SHAPE_NORMAL);
     return DIALOG_TO_PLAY;
@@ -53,7 +53,7 @@ void cmd_play_key(uint8_t key)
 
 /* ---- what happened ---- */
 
-/* What is the matter with a joint: DXL_ERR_ bits, and two more where servos report none. */
+/* The faults of a joint: DXL_ERR_ bits, and two bits that servos do not use. */
 enum { BIT_SILENT = 3, BIT_LIMP = 4 };
 
 static uint8_t state_of(uint8_t joint)
@@ -70,8 +70,8 @@ static uint8_t state_of(uint8_t joint)
     return state == 0 && servo_link_has(&the_performer.faulty, joint) ? 1u << BIT_LIMP : state;
 }
 
-/* All that is wrong with the servos in one sentence: several faults may come at once, and there is one row. Lost torque also
- * shows as ???? in the table. */
+/* Prints all faults of the servos as one sentence, because there is one row for several faults. Lost torque also shows as
+ * ???? in the table. */
 static NOINLINE void tell_faults(void)
 {
     TEXT_NAMED(voltage, "Low voltage");
@@ -82,7 +82,7 @@ static NOINLINE void tell_faults(void)
     TEXT_NAMED(overload, "Overload");
     static const char *const names[] PROGMEM = { voltage, angle, heat, silent, limp, overload };   /* by bit */
     the_dialog.faults_due = false;
-    the_robot.failed = false;   /* they count as silent */
+    the_robot.failed = false;   /* the_servos.silent has these joints */
     screen_open_line();
     if (the_dialog.broken_off) {
         TEXT("Ended: a servo failed.");
@@ -125,12 +125,12 @@ static void tell_end(const performer_event_t *event)
     }
 }
 
-/* The play is over: the work pose is what the servos hold now. */
+/* Ends a play: the work pose becomes the goals that the servos have now. */
 static void play_ended(const performer_event_t *event)
 {
     the_dialog.late_ticks = LATE_TICKS;
     the_dialog.step_due = false;
-    shape_reset(&the_performer.shape);   /* a program's @play goes at the stored rate */
+    shape_reset(&the_performer.shape);   /* the next @play has the stored rate */
     robot_read();
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         the_session.marks[joint] |= MARK_LABEL;   /* no live position any more */
@@ -143,7 +143,7 @@ static void play_ended(const performer_event_t *event)
     dialog_end_line();
 }
 
-/* Where the play is: Edit counts steps from 0, as the columns do. */
+/* Prints where the play is. Edit counts steps from 0, like its columns. */
 static void tell_step(void)
 {
     const player_t *player = &the_performer.engine.player;
@@ -166,7 +166,7 @@ void cmd_play_events(bool line_is_free)
         } else if (event.kind >= PERFORMER_EV_SILENT && event.kind <= PERFORMER_EV_HOT) {
             the_dialog.faults_due = !the_screen.hidden;
         } else if (event.kind == PERFORMER_EV_STEP) {
-            /* behind a key the row keeps what the key did, and what was said of servos stays where it is read */
+            /* the row keeps the effect of a key, and the faults of servos until they were read */
             the_dialog.step_due = the_dialog.mode == DIALOG_PLAY && !the_dialog.faults_stand && the_dialog.well_ticks == 0 &&
                                   !link_is_stopping(&the_performer.link);
         }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_servo.c - commands that move servos or let them go: GO, MIRROR, ON, OFF, and MIRROR's setting, PAIRS. */
+ * cmd_servo.c - commands that move servos or switch their torque: GO, MIRROR, ON, OFF; and PAIRS, the setting of MIRROR. */
 #include "commands.h"
 #include "pgm.h"
 #include "ranges_own.h"
@@ -8,7 +8,7 @@
 
 enum { NEUTRAL_POS = 512 };
 
-/* Sends a step and says what could not be sent. */
+/* Sends a step and prints the joints without a value. */
 static void send_step(const uint8_t step[PAGE_STEP_BYTES])
 {
     uint32_t missing = robot_send(step);
@@ -32,7 +32,7 @@ COMMAND(cmd_go)
 
 /* ---- mirror ---- */
 
-/* Neutral position of a joint: 512, or the first step of page 1 in flash (never its copy in RAM). */
+/* The neutral position of a joint: 512, or that in the first step of page 1 in flash (not its copy in RAM). */
 static uint16_t neutral_of(uint8_t joint)
 {
     uint8_t word[2];
@@ -44,7 +44,7 @@ static uint16_t neutral_of(uint8_t joint)
     return cell_is_position(pos) ? pos : (uint16_t)NEUTRAL_POS;
 }
 
-/* new[a] = N[a] - (s[b] - N[b]), kept within 0..1023; what is no position passes as it is. */
+/* new[a] = N[a] - (s[b] - N[b]), limited to 0..1023. A word that is no position is copied. */
 static uint16_t mirrored(uint8_t step, uint8_t joint, uint8_t partner)
 {
     uint16_t word = session_word(step, partner);
@@ -104,7 +104,7 @@ COMMAND(cmd_pairs)
 
 /* ---- torque ---- */
 
-/* IDs of the line; without any, all that are there. */
+/* The joints that the line names; without any, all present joints. */
 static bool take_joints(const shell_args_t *args, uint32_t *joints)
 {
     uint32_t there = the_servos.present;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_shape.c - what the original lacked: a step between two steps, the time of a page, steps from page to page. */
+ * cmd_shape.c - commands that the original lacked: a step between two steps, the time of a page, steps from page to page. */
 #include "commands.h"
 #include "compiler.h"
 #include "pgm.h"
@@ -9,13 +9,13 @@
 #define LAST_STEP (PAGE_STEPS - 1u)
 enum { PERCENT_DEFAULT = 50, PERCENT_WHOLE = 100 };
 
-/* value * mul / div, rounded to the nearer, halves up. */
+/* value * mul / div, rounded to the nearest, halves up. */
 static NOINLINE uint16_t part_of(uint16_t value, uint16_t mul, uint16_t div)
 {
     return (uint16_t)(((uint32_t)value * mul + div / 2u) / div);
 }
 
-/* a + (b - a) * percent / 100, rounded to the nearer, halves away from a. */
+/* a + (b - a) * percent / 100, rounded to the nearest, halves away from a. */
 static uint16_t between(uint16_t a, uint16_t b, uint8_t percent)
 {
     return b > a ? (uint16_t)(a + part_of(b - a, percent, PERCENT_WHOLE))
@@ -42,8 +42,8 @@ static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
     return (uint8_t)kept;
 }
 
-/* The inserted step takes its part of the time of the step behind it, so that the page takes as long as before; elsewhere,
- * and with speeds, what the step it leads to has. */
+/* With times, the inserted step takes its share of the time of the step behind it, so that the page takes as long as before.
+ * With speeds, or at the end, it gets the speed of that step. */
 static void share_time(uint8_t to, uint8_t b, uint8_t percent)
 {
     uint16_t at = (uint16_t)(session_step_at(b) + PAGE_STEP_AT_SPEED);
@@ -66,7 +66,7 @@ COMMAND(cmd_int)
     }
     if (steps >= PAGE_STEPS || a >= steps || b >= steps) {
         text_P(steps >= PAGE_STEPS ? TEXT_P("All 7 steps are used") : TEXT_P("That step is not used"));
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     uint8_t to = (uint8_t)(a + 1u);
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, to, LAST_STEP));
@@ -105,7 +105,7 @@ COMMAND(cmd_take)
     uint8_t last = args->count > 2 ? (uint8_t)args->number[1] : first;
     if (last < first) {
         TEXT("The first step comes first");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     the_dialog.take_page = the_session.page;
     the_dialog.take_first = first;
@@ -133,7 +133,7 @@ COMMAND(cmd_paste)
     uint8_t to = session_steps();
     if (the_dialog.take_page == DIALOG_NO_PAGE) {
         TEXT("Nothing noted: TAKE first");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     if (args->count > 1) {
         to = (uint8_t)args->number[0];
@@ -141,13 +141,13 @@ COMMAND(cmd_paste)
     uint8_t count = (uint8_t)(the_dialog.take_last - the_dialog.take_first + 1u);
     if (to + count > PAGE_STEPS) {
         TEXT("No room: 7 steps at most");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     session_begin();
     if (to + count > the_session.cells[PAGE_AT_STEPS]) {
         session_set_byte(PAGE_AT_STEPS, (uint8_t)(to + count));
     }
-    /* Upwards or downwards, so that overlapping steps of the same page are read before they are written. */
+    /* Copies upwards or downwards, so that overlapping steps of one page are read before they are overwritten. */
     for (uint8_t i = 0; i < count; i++) {
         uint8_t k = to > the_dialog.take_first ? (uint8_t)(count - 1u - i) : i;
         paste_step((uint8_t)(the_dialog.take_first + k), (uint8_t)(to + k));

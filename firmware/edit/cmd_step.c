@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_step.c - steps as wholes: their number, and writing, inserting, deleting, copying, swapping them. */
+ * cmd_step.c - commands for whole steps: their number; write, insert, delete, copy, swap. */
 #include "commands.h"
 #include "pgm.h"
 #include "report.h"
@@ -18,7 +18,7 @@ static void copy_step(uint8_t from, uint8_t to)
     session_set_bytes(session_step_at(to), &the_session.cells[session_step_at(from)], PAGE_STEP_BYTES);
 }
 
-/* Page 0: the trim follows from master pose and this robot's pose. */
+/* Page 0: computes the trim from the master pose and this robot's pose. */
 static void update_trim(uint8_t step)
 {
     if (the_session.page != 0 || step > 1) {
@@ -30,8 +30,8 @@ static void update_trim(uint8_t step)
     TEXT("Offset Updated");
 }
 
-/* The work pose becomes a step. Joints let go are written as ????: said, because it is seldom meant. Joints that are not
- * there are not used, whatever the work pose shows for them. */
+/* Writes the work pose to a step. Joints without torque are written as ????, with a message, because that is seldom meant.
+ * Joints that are not present become unused, whatever the work pose shows. */
 static void write_pose(uint8_t step)
 {
     uint32_t off = 0;
@@ -67,7 +67,7 @@ COMMAND(cmd_write)
         step = (uint8_t)args->number[0];
     } else if (step >= PAGE_STEPS) {
         TEXT("All 7 steps are used");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     session_begin();
     if (args->count == 1) {
@@ -94,13 +94,13 @@ COMMAND(cmd_insert)
     return dialog_edited();
 }
 
-/* The steps behind move down; the last one stays as a copy (editor-original.md section 6). */
+/* The steps behind move down. The last one stays where it was, as a copy (editor-original.md section 6). */
 static uint8_t delete_step(uint8_t step)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     if (step >= steps) {
         TEXT("That step is not used");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
     set_count((uint8_t)(steps - 1u));
@@ -118,7 +118,7 @@ COMMAND(cmd_delete)
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     if (steps == 0) {
         TEXT("There is no step");
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     session_begin();
     set_count((uint8_t)(steps - 1u));

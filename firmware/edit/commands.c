@@ -47,7 +47,7 @@ TEXT_NAMED(word_dec, "dec  decimal numbers");
 TEXT_NAMED(word_monitor, "monitor mon where it is");
 TEXT_NAMED(word_help, "help ? [command]  this list, or a line of it");
 
-/* In the order in which HELP lists them. */
+/* In the order of HELP. */
 const shell_command_t commands_table_P[] PROGMEM = {
     { word_page, cmd_page, SHELL_ARGS(1, 1) | SHELL_STILL, RANGE_PAGE },
     { word_next, cmd_next, SHELL_ARGS(0, SHELL_ANY_ARGS) | SHELL_STILL, 0 },

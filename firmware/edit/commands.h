@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * commands.h - the words of the editor and who carries them out. The table itself (commands.c) stands in flash; each
- * handler returns SHELL_OK, SHELL_ERR_SAID or one of DIALOG_TO_... */
+ * commands.h - the words of the editor and their handlers. The table (commands.c) is in flash. A handler returns SHELL_OK,
+ * SHELL_ERR_REPORTED, SHELL_ERR_RANGE or one of DIALOG_TO_... */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 
@@ -24,14 +24,14 @@ COMMAND(cmd_before);
 COMMAND(cmd_copy);
 COMMAND(cmd_new);
 COMMAND(cmd_save);
-/* The one way into flash, for SAVE and @save: the page in RAM as page `page`. Sets its checksum byte, keeps the servo bus
- * quiet, and puts in force what follows: the store, the unsaved mark, the trim. 60 ms. */
+/* The only way into flash, for SAVE and @save: saves the page in RAM as page `page`. Sets its checksum byte, keeps the servo
+ * bus quiet, and updates the store, the unsaved mark and the trim. 60 ms. */
 page_save_status_t cmd_page_save(uint8_t page);
 COMMAND(cmd_exit);
 COMMAND(cmd_name);
 COMMAND(cmd_undo);
 COMMAND(cmd_redo);
-/* Stores a name typed after "name:". */
+/* Stores the name that was typed after "name:". */
 void cmd_name_done(const char *name);
 
 /* cmd_step.c */
@@ -64,7 +64,7 @@ COMMAND(cmd_hex);
 COMMAND(cmd_dec);
 COMMAND(cmd_re);
 COMMAND(cmd_rows);
-/* The keys [ ] { } (a change by -1, 1, 10, -10) and space on the cell under the cursor. */
+/* The keys [ ] { } (change by -1, 1, -10, 10) and space, on the cell under the cursor. */
 void cmd_cell_change(int8_t change);
 void cmd_cell_space(void);
 

@@ -79,7 +79,7 @@ bool dialog_ask(const char *question_P)
     the_screen.lead = true;
     text_P(question_P);
     TEXT("Are you sure?[y/N]");
-    console_drop_input();   /* what was typed ahead knows nothing of the question */
+    console_drop_input();   /* what was typed ahead is no answer */
     the_dialog.quiet_since = tick_now16();
     return false;
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * dialog.h - what goes on with the person at the terminal: the line being typed or run, questions, lists, messages on the
- * command row. Commands (cmd_*.c) work with it; the keys that lead it on are above them (editor_keys.c). One instance; main
- * loop only.
+ * dialog.h - the state of the dialog with the user: the line being typed or run, questions, lists, messages on the command
+ * row. Commands (cmd_*.c) use it; editor_keys.c, above them, drives it with keys. One instance; main loop only.
  *
  *              first character                 CR
  *   TABLE ----------------------> LINE -----------------> run --> TABLE
@@ -22,7 +21,7 @@
 #define DIALOG_LINE_BYTES 112u    /* a line of a program (requests.h); the screen shows 77 */
 #define DIALOG_HISTORY_BYTES 30u
 #define DIALOG_NO_PAGE 0xFFu
-enum { LATE_TICKS = 64 };         /* half a second: a space that comes so late was meant for what has just ended */
+enum { LATE_TICKS = 64 };         /* half a second in which a space is meant for the play or list that has just ended */
 enum { WELL_TICKS = 128 };        /* a second: long enough to be read */
 
 typedef enum {
@@ -30,26 +29,26 @@ typedef enum {
     DIALOG_MORE, DIALOG_PROGRAM
 } dialog_mode_t;
 
-/* What a command handler returns besides SHELL_OK and SHELL_ERR_SAID: the mode that goes on from here. */
+/* Further results of a command handler: the mode that follows. */
 enum { DIALOG_TO_ASK = DIALOG_ASK, DIALOG_TO_NAME = DIALOG_NAME, DIALOG_TO_LIST = DIALOG_LIST,
        DIALOG_TO_PLAY = DIALOG_PLAY };
 
-/* Prints item `item` as one line, or nothing. false: there is no such item, the list ends. */
+/* Prints item `item` as one line, or nothing. false: there is no such item, so the list ends. */
 typedef bool (*dialog_item_t)(uint8_t item);
 
-/* Small things first: the AVR reaches 63 bytes behind a pointer with one instruction. */
+/* Small fields first: the AVR reaches 63 bytes behind a pointer with one instruction. */
 typedef struct {
     uint8_t mode;                  /* dialog_mode_t */
-    uint8_t asked, answered;       /* questions: put by this run, answered with yes */
+    uint8_t asked, answered;       /* questions that this run has asked, and how many were answered with yes */
     uint8_t next_item, lines;      /* of the list being shown */
     uint8_t list_first, list_last; /* pages of LIST and CHECK */
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
-    uint8_t late_ticks;            /* a play or a list has just ended: a space was meant for it */
-    uint8_t well_ticks;            /* the row says that all servos are well: steps wait until it was read */
-    bool step_due;                 /* a step has begun: the row says which when the line has room */
-    bool faults_stand;             /* the row has told faults, and not yet that all are well */
-    bool faults_due;               /* a servo has a new fault: the row says it when the line has room */
-    bool broken_off;               /* a servo's fault has ended the last play: the row says so until the next line is run */
+    uint8_t late_ticks;            /* counts down from LATE_TICKS when a play or a list has ended */
+    uint8_t well_ticks;            /* counts down from WELL_TICKS while the row shows that all servos are well */
+    bool step_due;                 /* a step has begun; the row will show it when the line has room */
+    bool faults_stand;             /* the row has shown faults, and not yet that all servos are well */
+    bool faults_due;               /* a servo has a new fault; the row will show it when the line has room */
+    bool broken_off;               /* a fault ended the last play; the row shows it until the next line is run */
     uint16_t quiet_since;          /* tick of the last byte that came, or of the question */
     shell_args_t args;             /* of the line being run */
     dialog_item_t item;            /* of the list being shown */
@@ -64,33 +63,33 @@ void dialog_init(void);
 
 /* ---- for commands ---- */
 
-/* Questions; the text says what would be lost. true: go on (it was answered, or need not be asked); false: return
- * DIALOG_TO_ASK. */
+/* Asks a question; the text says what would be lost. true: go on (answered with yes, or no need to ask). false: return
+ * DIALOG_TO_ASK; the command runs again after a yes. */
 bool dialog_ask(const char *question_P);
 bool dialog_ask_unsaved(void);
 
 /* Begins a list: `title_P` is its first line. Returns DIALOG_TO_LIST. */
 uint8_t dialog_list(dialog_item_t item, const char *title_P);
 
-/* Ends an editing command: tells when it cannot be undone. Returns SHELL_OK. */
+/* Ends an editing command; prints a message if it cannot be undone. Returns SHELL_OK. */
 uint8_t dialog_edited(void);
 
-/* Tells on the message row what is with these joints: "No answer: ID 5-7". None: nothing. */
+/* Prints a message about these joints: "No answer: ID 5-7". Nothing if there are none. */
 void dialog_tell_joints(const char *what_P, uint32_t joints) NOINLINE;
 
-/* ---- for whoever leads it on ---- */
+/* ---- for editor*.c ---- */
 
-/* The line has been dealt with: back to the table. */
+/* Ends the line: back to the table. */
 void dialog_end_line(void);
 
-/* A message on the command row while nobody types. */
+/* Begin and end a message on the command row, while no line is being typed. */
 void dialog_message_begin(void);
 void dialog_message_end(void);
 
-/* Tells on the message row which servos did not answer, and forgets them. */
+/* Prints which servos did not answer, and forgets them. */
 void dialog_tell_failed(void);
 
-/* The next item of a list, or the end of a screen or of the list. */
+/* Prints the next item of a list; stops at the end of a screen or of the list. */
 void dialog_list_turn(void);
 
 #endif

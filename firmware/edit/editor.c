@@ -15,7 +15,7 @@
 
 enum { PAINT_ROOM = CONSOLE_TX_BYTES / 2, BYTES_PER_TURN = 32 };
 
-static const char *notice;   /* in flash: to be told once */
+static const char *notice;   /* in flash; NULL after it was shown */
 
 void editor_init(const char *notice_P)
 {
@@ -41,7 +41,7 @@ void editor_put(char character)
 
 /* ---- the main loop ---- */
 
-/* While a broken play slows down keys wait, for what follows it. */
+/* Keys wait while the joints slow down after a break: they are meant for what follows. */
 static bool may_take_bytes(void)
 {
     return the_dialog.mode != DIALOG_LIST && !(the_dialog.mode == DIALOG_PLAY && the_performer.leaving);
@@ -73,7 +73,7 @@ static void tick_work(void)
     }
 }
 
-/* @now lines come on the plain terminal of programs, between their own. */
+/* Prints a @now line on the plain terminal of programs, between two of their lines. */
 static void print_now(void)
 {
     if (the_screen.hidden && the_dialog.mode == DIALOG_TABLE && requests_now_is_due()) {
@@ -83,7 +83,7 @@ static void print_now(void)
     }
 }
 
-/* Behind the first screen, whose size is known by then: what came before it would be wiped. */
+/* Shows the notice after the first screen, when the terminal's size is known: the screen would erase it. */
 static void tell_notice(void)
 {
     if (notice != NULL && the_dialog.mode == DIALOG_TABLE) {

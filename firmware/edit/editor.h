@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * editor.h - the editor as a whole: start, and what the main loop does. Everything else of Edit is below it:
+ * editor.h - the editor as a whole: start, and the work of the main loop. Everything else of Edit is below it:
  *
  *   main.c
  *     editor.c           start, a turn of the main loop, pages for the performer (editor_source.c)
@@ -7,25 +7,25 @@
  *         editor_line.c  a line that is complete: runs it
  *           commands.c, cmd_*.c, requests_page.c    words and handlers
  *             dialog.c   questions, lists, messages
- *               robot.c, screen.c, screen_paint.c   work pose and servos; what the terminal shows
- *                 frame.c, session.c, undo.c, cells.c, keys.c, ansi.c
+ *               robot.c, screen*.c   work pose and servos; what the terminal shows
+ *                 frame.c, session*.c, undo.c, cells.c, keys.c, ansi.c
  *
- * Each uses only what stands below it. One instance; main loop only; editor_turn never blocks longer than its slowest
- * command. */
+ * Each uses only files below it (tools/dev/check_circles). One instance; main loop only. editor_turn blocks no longer than
+ * its slowest command. */
 #ifndef EDITOR_H
 #define EDITOR_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* After board_start, page_store_init, settings_load, servo_link_scan, performer_init on the parts. text_init is the
- * caller's. notice_P: told once, when the first screen stands; or NULL. */
+/* Call after text_init, board_start, page_store_init, settings_load, servo_link_scan and performer_init. notice_P: a message
+ * for the first screen, shown once; or NULL. */
 void editor_init(const char *notice_P);
 
 /* One turn of the main loop: keys, the tick's work, one piece of the screen. true: there is more to do at once. */
 bool editor_turn(void);
 
-/* One character of text: what text_init is given calls this. */
+/* Takes one character of text; the function given to text_init calls it. */
 void editor_put(char character);
 
 #endif

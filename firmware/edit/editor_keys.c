@@ -18,8 +18,8 @@ enum { SWALLOW_TICKS = 60, STREAM_TICKS = 4 };   /* a person's next letter; a st
 enum { BACKSLASH = '\\', FIRST_WORD_KEY = '0', LAST_WORD_KEY = 'Z', FIRST_LOWER_KEY = '^', LAST_LOWER_KEY = 'z' };
 
 static keys_t keys;
-static bool swallow;    /* the rest of a line whose first letter answered a question */
-static bool after_cr;   /* the last byte was CR: a LF now belongs to it */
+static bool swallow;    /* ignore the rest of a line whose first letter answered a question */
+static bool after_cr;   /* the last byte was CR, so a LF now belongs to it */
 
 void editor_keys_init(void)
 {
@@ -52,7 +52,7 @@ static void open_program_line(void)
     (void)shell_byte(&the_dialog.shell, '@');
 }
 
-/* The screen again, whole, before a key that may open a line on it: 0.5 s. */
+/* Shows the whole screen again (0.5 s) before a key that may open a line on it. */
 static void take_screen_back(void)
 {
     requests_end_watch();
@@ -62,7 +62,7 @@ static void take_screen_back(void)
     }
 }
 
-/* Arrows by one cell, Home and End to the ends of the row, PgUp and PgDn by eight rows; four ways in keys.h's order. */
+/* Moves the cursor: arrows by one cell, Home and End to the ends of the row, PgUp and PgDn by eight rows. */
 static void move_key(uint8_t key)
 {
     uint8_t number = (uint8_t)(key - KEY_UP);
@@ -72,7 +72,7 @@ static void move_key(uint8_t key)
     }
 }
 
-/* true: the key was one for the cell under the cursor. */
+/* true: the key changes the cell under the cursor. */
 static bool cell_key(uint8_t key)
 {
     switch (key) {
@@ -94,7 +94,7 @@ static bool cell_key(uint8_t key)
     }
 }
 
-/* A key on the table that changes something there. */
+/* Handles a key that changes the table. */
 static void table_key(uint8_t key)
 {
     if (key == KEY_SIZE) {
@@ -113,13 +113,13 @@ static void table_key(uint8_t key)
     screen_sync();
 }
 
-/* What may follow a program's line. */
+/* Handles a byte after a program's line. */
 static bool is_no_key(uint8_t key)
 {
     return key == KEY_NONE || key == KEY_CR || key == KEY_LF;
 }
 
-/* Programs may have put the screen away or started what moves: nothing is edited under that. */
+/* A program may have hidden the screen or started a motion; then keys must not edit. */
 static void first_key(uint8_t key)
 {
     if (key == '@') {
@@ -143,11 +143,11 @@ static void line_byte(uint8_t byte)
         dialog_end_line();
         return;
     }
-    switch (shell_byte(&the_dialog.shell, byte < 0x80 ? byte : (uint8_t)'?')) {   /* an umlaut is seen to be none */
+    switch (shell_byte(&the_dialog.shell, byte < 0x80 ? byte : (uint8_t)'?')) {   /* only ASCII is stored */
     case SHELL_TYPING:
         break;
     case SHELL_TOO_LONG:
-        dialog_message_begin();   /* there is no room behind it */
+        dialog_message_begin();   /* no room for a message behind the line */
         TEXT("Line too long");
         dialog_end_line();
         break;
@@ -231,8 +231,8 @@ void editor_quiet(void)
     }
 }
 
-/* A question was answered with the first letter of a line: the rest of that line is no command, up to its end or a pause.
- * And what still streams in behind a question is no answer. */
+/* Ignores the rest of a line whose first letter answered a question, up to its end or a pause; and bytes that still stream
+ * in when a question is asked, which are no answer. */
 static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
 {
     if (swallow && quiet_ticks < SWALLOW_TICKS) {

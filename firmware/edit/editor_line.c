@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * editor_line.c - a line is complete: runs it, asks further, refuses. */
+ * editor_line.c - runs a complete line, again after each answered question, and prints refusals. */
 #include "commands.h"
 #include "dialog.h"
 #include "editor_parts.h"
@@ -18,7 +18,7 @@ static void print_refusal(uint8_t result)
         TEXT("Something moves");
         break;
     case SHELL_ERR_RANGE:
-        shell_print_broken();
+        shell_print_range_error();
         break;
     case SHELL_ERR_UNKNOWN:
         TEXT("Bad Command");
@@ -33,7 +33,7 @@ static void print_refusal(uint8_t result)
 
 static void go_on(uint8_t result)
 {
-    STATIC_ASSERT((int)DIALOG_ASK > (int)SHELL_ERR_SAID, "what a handler returns is a mode");
+    STATIC_ASSERT((int)DIALOG_ASK > (int)SHELL_ERR_REPORTED, "what a handler returns is a mode");
     if (result >= DIALOG_ASK && result <= DIALOG_PLAY) {
         the_dialog.mode = result;
         if (result == DIALOG_NAME) {

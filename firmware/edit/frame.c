@@ -9,7 +9,7 @@
 enum { FIRST_MARKER_COLUMN = 25, STEP_WIDTH = 5, FIRST_STEP_COLUMN = 26, SOFTNESS_COLUMN = 61,
        HEADER_COLUMN = 77, HEADER_LABEL_END = 76, NAME_COLUMN = 65, TITLE_COLUMN = 65, HEX_LOWER_FROM = 0x1A };
 
-/* Labels of header rows 1..19, a semicolon behind each; from row 3 on in the order of bytes 14..30. */
+/* Labels of header rows 1..19, each ended by a semicolon; from row 3 on in the order of bytes 14..30. */
 TEXT_NAMED(header_texts,
            "PageNumber:;Addr:;"
            "(Reserved) :;PlayCount:;(Reserved) :;Blend Right:;Blend Left:;(Reserved) :;Page Step:;"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * frame.h - where things stand on the screen and the texts around the table (editor-original.md section 3).
- * Pure: session in, columns and characters out. No RAM. */
+ * frame.h - the columns of the screen and the texts around the table (editor-original.md section 3).
+ * Pure: makes columns and characters from the session. No RAM. */
 #ifndef FRAME_H
 #define FRAME_H
 
@@ -25,7 +25,7 @@ uint8_t frame_cell_column(uint8_t x, uint8_t y);
 /* The cell's text: 4 characters for positions, 3 for bytes. */
 void frame_cell_text(uint8_t x, uint8_t y, char text[CELLS_TEXT_BYTES]);
 
-/* Columns 1..19 of table row y, opening bracket included (rows of bytes: 20 columns, blank up to the closing one). */
+/* Columns 1..19 of table row y, opening bracket included. Rows of bytes: 20 columns, blank before the closing bracket. */
 void frame_label_text(uint8_t y, char text[FRAME_LABEL_BYTES]);
 
 /* Label of header row y (0..19), "" for row 0, which has none; returns its column. */

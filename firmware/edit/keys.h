@@ -23,13 +23,13 @@ typedef struct {
 
 void keys_init(keys_t *keys);
 
-/* One byte. Returns a byte below 0x80 as it is, or a KEY_. Bytes of 0x80 and above and NUL give KEY_NONE. */
+/* Takes one byte. Returns a character below 0x80 or a KEY_. NUL and bytes from 0x80 on give KEY_NONE. */
 uint8_t keys_byte(keys_t *keys, uint8_t byte);
 
-/* Nothing has come for 50 ms: a lone ESC was the ESC key. */
+/* Call when no byte has come for 50 ms: a lone ESC was the ESC key. */
 uint8_t keys_quiet(keys_t *keys);
 
-/* A sequence is open: its bytes must not reach a line. */
+/* Whether a sequence is open; its bytes must not reach a line. */
 bool keys_is_open(const keys_t *keys);
 
 #endif

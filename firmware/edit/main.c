@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * main.c - the Edit image: the one instance of everything, start-up order, main loop. */
+ * main.c - the Edit image: its parts, start-up order, main loop. */
 #include "board.h"
 #include "compiler.h"
 #include "console.h"
@@ -15,14 +15,14 @@ servo_link_t the_servos;
 performer_t the_performer;
 settings_t the_settings;
 settings_store_t the_settings_store;
-static boot_rx_t receiver;   /* what the PC sends during a page write is kept in the console's ring */
+static boot_rx_t receiver;   /* the loader puts what the PC sends during a page write into the console's ring */
 
 static void put(char character)
 {
     editor_put(character);
 }
 
-/* What became of a page that SAVE left in the mailbox, or what SAVE is going to do. */
+/* The message for the first screen: what became of a page in the mailbox, or how SAVE is going to work. */
 static const char *mail_text_P(void)
 {
     page_service_mail_t mail = page_service_mail();
@@ -31,7 +31,7 @@ static const char *mail_text_P(void)
                                                : TEXT_P("Not saved");
 }
 
-/* Not inlined: main never returns, so its stack would stay in use. */
+/* NOINLINE: main never returns, so the stack used here would stay in use. */
 static NOINLINE void start(void)
 {
     board_start();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * page_facts.h - what can be told of a page in flash without playing it: how long it takes, how fast it gets.
+ * page_facts.h - computes how long a page in flash takes and how fast it gets, without playing it.
  * Reads flash through page_store.h, a word at a time. Main loop only. No RAM. The law is motion/step_plan.c. */
 #ifndef PAGE_FACTS_H
 #define PAGE_FACTS_H
@@ -12,10 +12,10 @@
 #define PAGE_FACTS_FASTEST_DEG_S(supply_dv) ((uint16_t)((supply_dv) * 59u / 20u))
 
 typedef struct {
-    uint16_t ticks;      /* without the pause; at least 1 */
+    uint16_t ticks;      /* duration without the pause; at least 1 */
     uint16_t pause_ticks;
     uint16_t way_pos;    /* the longest way of a joint, from the step before (step 0: from the last one) */
-    uint8_t joint;       /* whose it is */
+    uint8_t joint;       /* the joint with that way */
 } page_facts_t;
 
 /* One position word. */
@@ -27,7 +27,7 @@ void page_facts_step(uint8_t page, uint8_t step, page_facts_t *facts);
 /* Ticks that one repetition of a good page takes. */
 uint16_t page_facts_ticks(uint8_t page);
 
-/* Mean speed that a step demands of that joint, degrees/s. */
+/* Mean speed of that joint in the step, degrees/s. */
 uint16_t page_facts_deg_s(const page_facts_t *facts);
 
 #endif

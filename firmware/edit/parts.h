@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * parts.h - the parts of which the editor has one, defined in main.c. What joins several of them (commands, robot,
- * screen, editor) names them: an address that the compiler knows saves 1 KB of flash against pointers in every struct.
- * The logic below (session, undo, cells, keys, frame) is handed its state as everywhere, and is tested with its own. */
+ * parts.h - the editor's one instance of each part, defined in main.c. Files that join several parts (commands, robot,
+ * screen, editor) use them by name: fixed addresses save 1 KB of flash compared with pointers in every struct. */
 #ifndef PARTS_H
 #define PARTS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * performer_drive_none.c - nobody drives this image: the half of performer_shape.h about driving, empty. */
+ * performer_drive_none.c - for images that no program drives: the functions of performer_shape.h about driving, empty. */
 #include "performer_shape.h"
 
 bool performer_drive_is_lost(performer_t *performer)

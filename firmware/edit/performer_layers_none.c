@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * performer_layers_none.c - this image has no layers: the half of performer_shape.h about them, empty. */
+ * performer_layers_none.c - for images without layers: the functions of performer_shape.h about layers, empty. */
 #include "performer_shape.h"
 
 uint32_t performer_layers_joints(const performer_t *performer)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * requests_page.c - requests of Edit alone, which bring a page in: @open, @data, @crc, @save; and what Edit hands to
- * requests.h. */
+ * requests_page.c - Edit's own requests, which bring in a page: @open, @data, @crc, @save; and Edit's requests_image. */
 #include <string.h>
 #include "board.h"
 #include "commands.h"
@@ -24,7 +23,7 @@ REQUEST(do_open)
     return REQUEST_OK;
 }
 
-/* Pairs of hexadecimal digits as bytes; returns how many, 0: the digits are not as they must be. */
+/* Parses pairs of hexadecimal digits as bytes. Returns their number; 0: bad digits. */
 static uint8_t parse_bytes(const char *hex, uint8_t to[DATA_BYTES_MAX])
 {
     uint8_t count = 0;
@@ -44,9 +43,9 @@ REQUEST(do_data)
     const uint16_t offset = args->number[0];
     const uint8_t count = parse_bytes(shell_word(args, 2), bytes);
     if (count == 0 || offset + count > PAGE_BYTES) {
-        const uint8_t said = requests_error(REQUEST_ERR_RANGE);
+        const uint8_t reported = requests_error(REQUEST_ERR_RANGE);
         TEXT("Data must be 1..32 pairs of hexadecimal digits, within the page");
-        return said;
+        return reported;
     }
     memcpy(&the_session.cells[offset], bytes, count);
     session_replaced();
@@ -66,7 +65,7 @@ REQUEST(do_crc)
     return REQUEST_OK;
 }
 
-/* The CRC says what a person answers when asked: this page, as it is, in that place. */
+/* The CRC takes the place of a person's yes: this page, as it is, goes there. */
 REQUEST(do_save)
 {
     uint16_t crc;

@@ -114,7 +114,7 @@ void screen_follow(void)
         return;
     }
     while (!screen_has_row(the_session.y)) {
-        the_session.y++;   /* ends at the pause, which always has one */
+        the_session.y++;   /* stops at the pause, which always has a row */
     }
     uint8_t before = screen_rows_before(the_session.y);
     uint8_t top = the_screen.top;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * screen.h - the editor's full screen on an ANSI/VT100 terminal: sends what changed, and only that.
+ * screen.h - the editor's full screen on an ANSI/VT100 terminal. Sends only what has changed.
  * Knows the session and the console, no command and no servo. Main loop only. RAM: 26 bytes.
  *
- * There is no copy of the screen. A cell's text follows from the session, the session marks the cells that change, and
- * screen_paint sends marked cells, a row at a time, whenever the console has room; so input never waits for a repaint,
- * and what changed twice is sent once. The frame is that of editor-original.md section 3 with 35 rows or more. With
- * 24..34 rows only joints that are there have a row, the rest scrolls, and the last four rows stay:
+ * There is no copy of the screen. A cell's text is made from the session. The session marks the cells that change, and
+ * screen_paint sends marked cells, a row at a time, whenever the console has room. So input never waits for a repaint, and
+ * a cell that changes twice is sent once. With 35 rows or more the frame is that of editor-original.md section 3. With
+ * 24..34 rows only present joints have a row, the joints scroll, and the last four rows stay:
  *
  *      rows 1 .. rows-4     joints          | header, rows 1..20, does not scroll
  *      rows-3, rows-2       pause, speed    | what is wrong with the page; X, Y, A
@@ -24,13 +24,13 @@
 #define SCREEN_COLUMNS 80u
 
 typedef enum {
-    SCREEN_QUIET = 0,   /* text goes nowhere: there is no line */
+    SCREEN_QUIET = 0,   /* text is dropped: there is no line */
     SCREEN_LINE,        /* text goes to the command row, cut at its end */
     SCREEN_PLAIN        /* text goes to the terminal as it is: lists, monitor, line mode */
 } screen_sink_t;
 
 typedef struct {
-    uint32_t present;        /* joints that are there */
+    uint32_t present;        /* joints on the bus */
     uint16_t items;          /* single items to send */
     uint8_t rows;            /* of the terminal, 24..35 */
     uint8_t top;             /* rows that are scrolled out above */
@@ -47,20 +47,20 @@ extern screen_t the_screen;     /* the only one: all functions here are about it
 
 void screen_init(void);
 
-/* Everything is sent again, on a cleared screen. */
+/* Clears the screen and sends everything again. */
 void screen_redraw(void);
 
-/* The terminal has this many rows. Redraws when that changes the layout. */
+/* Sets the number of rows of the terminal. Redraws if that changes the layout. */
 void screen_set_rows(uint8_t rows);
 
-/* These joints are there. Redraws when that changes the layout. */
+/* Sets the present joints. Redraws if that changes the layout. */
 void screen_set_present(uint32_t present);
 
-/* Gives the screen away (plain text follows below a cleared screen), and takes it back. */
+/* Clears the screen for plain text, and shows it again. */
 void screen_hide(void);
 void screen_show(void);
 
-/* Looks what follows from the session besides cells: X Y A, marks, page number. Call after each key or command. */
+/* Updates what depends on the session besides the cells: X Y A, marks, page number. Call after each key or command. */
 void screen_sync(void);
 
 /* Sends the next piece, at most about 110 bytes. false: all is on the screen and the cursor rests at its cell (or at the
@@ -70,10 +70,10 @@ bool screen_paint(void);
 /* Empties the command row for a new line. */
 void screen_open_line(void);
 
-/* One character of text, to where the sink says. */
+/* Takes one character of text and sends it where `sink` says. */
 void screen_put(char character);
 
-/* Moves the cursor over what is shown. */
+/* Moves the cursor to a neighbouring cell that is shown. */
 void screen_move(session_way_t way);
 
 /* Whether joint `joint` has a row (perhaps scrolled out). */

@@ -59,8 +59,8 @@ static char marker_at(uint8_t column)
     return steps <= PAGE_STEPS && column == frame_marker_column(steps) ? '|' : ' ';
 }
 
-/* Goes right within table row y. Short gaps are written anew, which is shorter than a cursor sequence: what stands there
- * is the bracket of the work pose, a marker or nothing. */
+/* Moves right within table row y. Sends the characters of a short gap again, because that is shorter than a cursor sequence:
+ * the bracket of the work pose, a marker or a blank. */
 static void go_in_row(uint8_t row, uint8_t y, uint8_t column)
 {
     if (the_screen.at_row == row && y < PAGE_JOINTS && column > the_screen.at_column && column - the_screen.at_column <= 2) {
@@ -121,7 +121,7 @@ static void paint_label(uint8_t row, uint8_t y, uint16_t marks)
     }
 }
 
-/* The bracket behind the work pose belongs to the label, but stands right of its cell. */
+/* Sends the bracket behind the work pose, with the label although it is to the right of the cell. */
 static void paint_bracket(uint8_t row, uint16_t marks)
 {
     if ((marks & MARK_HEADER_LABEL) != 0) {
@@ -182,7 +182,7 @@ static bool marker_is_old(uint8_t y)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     uint8_t wanted = steps > PAGE_STEPS ? (uint8_t)MARK_STEP_NONE : steps;
-    /* screen_row_of last: it is slow, and 31 of it every idle turn make the answer to a key 1 ms later */
+    /* screen_row_of comes last because it is slow: 31 calls in every idle turn delay the answer to a key by 1 ms */
     return y < PAGE_JOINTS && the_session.marks[y] >> MARK_STEP_SHIFT != wanted && screen_row_of(y) != 0;
 }
 

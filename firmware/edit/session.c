@@ -7,7 +7,7 @@
 
 session_t the_session;
 
-/* The new page of editor-original.md section 1. */
+/* A new page: editor-original.md section 1. */
 enum { NEW_PLAY_COUNT = 1, NEW_STEP_SPEED = 64, NEW_LAST_SOFTNESS_AT = 63, ERASED = 0xFF };
 
 uint8_t session_new_byte(uint16_t offset)
@@ -48,7 +48,7 @@ void session_mark_all(void)
     }
 }
 
-/* A changed byte: its cell, and what else is made of it. */
+/* Marks the cell of a changed byte, and the label that depends on it. */
 static void mark_byte(uint16_t address)
 {
     uint8_t x, y;
@@ -142,7 +142,7 @@ void session_update_trim(uint8_t joint)
 
 /* ---- flash ---- */
 
-/* Byte `offset` of flash page `page` as it is edited: an erased page reads as a new one. */
+/* Byte `offset` of flash page `page`. An erased page reads as a new one. */
 static uint8_t stored_byte(uint8_t page, bool erased, uint16_t offset)
 {
     return erased ? session_new_byte(offset) : page_store_byte(page, offset);
@@ -255,7 +255,7 @@ static void enter(uint8_t x, uint8_t y)
     }
 }
 
-/* Up and down: where a column ends, the one left of it goes on. */
+/* Moves up or down. Where a column ends, the cursor goes on in the one to the left. */
 static void enter_row(uint8_t y)
 {
     uint8_t x = the_session.x;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * session.h - what is being edited: one page in RAM, the work pose behind it, the cursor, what was changed.
+ * session.h - the state of editing: one page in RAM, the work pose behind it, the cursor, undo.
  * Knows neither terminal nor servo. Reads flash through page_store.h, never writes it. Every change of a byte goes
- * through here: it is noted for undo and its cell is marked for the screen. Caller-owned, main loop only.
- * RAM: 576 bytes of cells, 384 of undo, 66 of marks, 9 more. */
+ * through here: it is noted for undo and its cell is marked for the screen. One instance; main loop only.
+ * RAM: 576 bytes of cells, 384 of undo, 66 of marks, 14 more. */
 #ifndef SESSION_H
 #define SESSION_H
 
@@ -14,7 +14,7 @@
 
 #define SESSION_NO_STEP 0xFFu
 
-/* Marks of a table row: what must be sent again. Bits 0..9: the cells X0..X9. */
+/* Marks of a table row: the parts that must be sent again. Bits 0..9: the cells X0..X9. */
 enum {
     MARK_CELLS = 0x03FF,
     MARK_LABEL = 0x0400,        /* left of the work pose */
@@ -28,57 +28,57 @@ enum { SESSION_SPARE_NONE = 0, SESSION_SPARE_UNDO, SESSION_SPARE_REDO };
 typedef struct {
     uint8_t page;                     /* number of the page being edited */
     uint8_t x, y;                     /* cursor: always on a cell */
-    uint8_t go_step;                  /* step last sent by GO, or SESSION_NO_STEP */
+    uint8_t go_step;                  /* the step that GO sent last, or SESSION_NO_STEP */
     bool hex;                         /* numbers are hexadecimal */
     bool was_damaged;                 /* the checksum was wrong when the page was opened; a save repairs it */
     bool is_changed;                  /* differs from what flash holds: the unsaved mark */
-    bool was_changed;                 /* the same, before the command under way */
-    bool undo_reloads;                /* the last command was too large to note, but what was there is in flash */
-    uint8_t spare_for;                /* what session_undo may do with the spare page: SESSION_SPARE_... */
-    uint16_t spare_crc;               /* of the spare page: a play has overwritten it when it no longer fits */
-    uint8_t *spare;                   /* PAGE_BYTES for the page as it was before the command, or NULL: the caller's */
+    bool was_changed;                 /* is_changed before the command under way */
+    bool undo_reloads;                /* the last command was too large to note, but flash has the page as it was before */
+    uint8_t spare_for;                /* what the spare page may be used for: SESSION_SPARE_... */
+    uint16_t spare_crc;               /* of the spare page; if it does not fit, a play has overwritten the page */
+    uint8_t *spare;                   /* the caller's PAGE_BYTES for the page before the command, or NULL */
     uint8_t cells[CELLS_BYTES];       /* page, then the work pose (STP7) */
     uint16_t marks[CELLS_ROWS];       /* written here, taken by the screen */
     undo_t undo;
 } session_t;
 
-extern session_t the_session;   /* the only one: all functions here are about it */
+extern session_t the_session;   /* the only one: all functions here use it */
 
-/* Opens page 1, as after power-on; the work pose is ---- in all joints, until the robot says more;
- * its speed that of a new page: a first WRITE must not store speed 0. */
+/* Opens page 1, as after power-on. The work pose is ---- in all joints until the robot is read. Its speed is that of a new
+ * page, because a first WRITE must not store speed 0. */
 void session_init(void);
 
-/* Opens `page` (0..127) from flash; what was changed is dropped, the undo history too. Cursor and work pose stay. Only
- * cells that differ are marked. An erased page opens as a new one. */
+/* Opens `page` (0..127) from flash. Drops all changes and the undo history; keeps cursor and work pose. Marks only the cells
+ * that differ. An erased page opens as a new one. */
 void session_open(uint8_t page);
 
-/* Editing commands: begin, any number of session_set..., end. */
+/* An editing command is session_begin, any number of session_set..., session_end. */
 void session_begin(void);
 void session_set_byte(uint16_t address, uint8_t byte);
 void session_set_word(uint16_t address, uint16_t word);
 void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count);
-/* Recomputes is_changed. false: the change is done but cannot be undone. */
+/* Updates is_changed. false: the change is done but cannot be undone. */
 bool session_end(void);
 
-/* Whole-page edits; each within begin and end. They can be undone even when undo.h has no room for them: from the spare
- * page, if there was one, or if the page was as in flash before. session_load: the contents of flash page `from` (COPY). */
+/* Edits of the whole page, within begin and end: load copies flash page `from` (COPY), clear makes a new page. If undo.h has
+ * no room, they can still be undone from the spare page, or from flash if the page was as in flash before. */
 void session_load(uint8_t from);
 void session_clear(void);
-/* Permutes whole steps (UNDO_TURN(...)): instead of session_begin, before any session_set. */
+/* Takes the place of session_begin and permutes whole steps: UNDO_TURN(...). */
 void session_begin_turn(uint8_t turn);
 
-/* One command back, or forth again. false: there is none. */
+/* Undoes or redoes one command. false: there is none. */
 bool session_undo(void);
 bool session_redo(void);
 
-/* The work pose: never undone. */
+/* The work pose; not part of undo. */
 void session_set_pose(uint8_t joint, uint16_t word);
 uint16_t session_pose(uint8_t joint);
 
-/* Page 0: the trim of `joint` (third step) from master pose and this robot's pose, when both are positions. */
+/* Page 0: sets the trim of `joint` (third step) from the master pose and this robot's pose, if both are positions. */
 void session_update_trim(uint8_t joint);
 
-/* Number of steps, 0..7 whatever the page says. */
+/* Number of steps, limited to 0..7. */
 uint8_t session_steps(void);
 
 /* Where step 0..6 begins in cells; step 7 is the work pose. */
@@ -87,29 +87,29 @@ uint16_t session_step_at(uint8_t step);
 /* Word of joint in step 0..6. */
 uint16_t session_word(uint8_t step, uint8_t joint);
 
-/* What flash would hold for byte `offset` of a new page. */
+/* Byte `offset` of a new page. */
 uint8_t session_new_byte(uint16_t offset);
 
-/* What is wrong with the page as it stands here: its checksum as it was opened, the rest as it is now. */
+/* What is wrong with the page: its checksum as it was when opened, the fields as they are now. */
 page_status_t session_check(void);
 
-/* The same without the checksum, which a save makes anew. */
+/* The same without the checksum, which a save sets. */
 page_status_t session_check_fields(void);
 
-/* true when flash page `page` holds nothing: erased, or a good page without name and step. */
+/* Whether flash page `page` is erased, or good and without name and steps. */
 bool session_is_empty(uint8_t page);
 
-/* The page was written to flash as it is. */
+/* Call when the page was written to flash. */
 void session_saved(void);
 
-/* Bytes of the page were changed from outside: nothing of it can be undone. */
+/* Call when bytes of the page were changed from outside: empties the undo history. */
 void session_replaced(void);
 
 /* Marks. */
 void session_mark(uint8_t x, uint8_t y);
 void session_mark_all(void);
 
-/* Moves the cursor one cell, as editor-original.md section 4 says; what does not exist is not entered. */
+/* Moves the cursor one cell (editor-original.md section 4), unless there is none. */
 typedef enum { SESSION_UP, SESSION_DOWN, SESSION_RIGHT, SESSION_LEFT } session_way_t;
 void session_move(session_way_t way);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * session_undo.c - editing commands: what each changes can be taken back. Small changes are noted (undo.h); a whole page is
- * kept in the spare one, as long as no play needs that memory. */
+ * session_undo.c - begins and ends editing commands, undoes and redoes them. Small changes are noted (undo.h). A larger one
+ * is undone from the spare page, which has the page as it was, until a play needs that memory. */
 #include "session_parts.h"
 
 #include <stddef.h>
@@ -36,7 +36,7 @@ static void keep_spare(uint8_t what_for)
     }
 }
 
-/* Exchanges the page and the spare one, if that is as it was left and meant for this. */
+/* Exchanges the page and the spare page, if that is intact and meant for this direction. */
 static bool exchange_spare(bool back)
 {
     if (the_session.spare == NULL || the_session.spare_for != (back ? SESSION_SPARE_UNDO : SESSION_SPARE_REDO) ||
@@ -78,8 +78,8 @@ static void swap_steps(uint8_t a, uint8_t b)
     }
 }
 
-/* UP first last: first -> first+1 -> .. -> last -> first. DOWN is the way back. Rotations are made of swaps of
- * neighbours, so nothing needs a spare step. */
+/* Permutes steps. UP first last: first -> first+1 -> .. -> last -> first; DOWN is its inverse. Rotations are made of swaps
+ * of neighbours, which need no spare step. */
 static void turn_steps(void *context __attribute__((unused)), uint8_t turn, bool back)
 {
     uint8_t first = (turn >> 3) & 7u;

@@ -54,7 +54,7 @@ static void drop_oldest(undo_t *undo)
     undo->applied--;
 }
 
-/* Room for `bytes` more at the end of the open record, at the cost of the oldest ones. */
+/* Makes room for `bytes` more at the end of the open record by dropping the oldest records. */
 static bool make_room(undo_t *undo, uint8_t bytes)
 {
     while (undo->used + bytes > UNDO_BYTES && undo->count > 0) {
@@ -66,7 +66,7 @@ static bool make_room(undo_t *undo, uint8_t bytes)
     return !undo->lost;
 }
 
-/* A new record ends what could be redone. */
+/* A new record drops those that could be redone. */
 static void open_record(undo_t *undo)
 {
     undo->used = record_at(undo, undo->applied);
@@ -134,7 +134,7 @@ void undo_note(undo_t *undo, uint16_t address, uint8_t bits)
     }
     uint8_t bytes = run_bytes(undo, undo->run_at);
     uint16_t end = (uint16_t)(run_address(undo, undo->run_at) + bytes);
-    /* A gap of one byte is noted as an unchanged byte: shorter than a new run. */
+    /* A gap of one byte is noted as an unchanged byte, which is shorter than a new run. */
     if (address == end + 1u && bytes < RUN_MAX_BYTES - 1) {
         append_byte(undo, 0);
         end++;
@@ -174,7 +174,7 @@ static void flip_runs(const undo_t *undo, uint16_t record, const undo_target_t *
     }
 }
 
-/* Record `index` back or forth: the turn of the steps comes first when it was made, last when it is undone. */
+/* Applies record `index`. The turn of the steps comes first in a redo and last in an undo. */
 static void carry_out(const undo_t *undo, uint8_t index, const undo_target_t *target, bool back)
 {
     uint16_t record = record_at(undo, index);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * monitor.c - the words of the servo bus's line monitor (editor-original.md section 11). Each sends one packet to the
- * current servo (CID) and shows it and its answer, byte by byte. */
+ * monitor.c - the words of the servo bus monitor (editor-original.md section 11). Most send one packet to the current servo
+ * (CID) and show it and its answer, byte by byte. */
 #include "monitor.h"
 
 #include <stddef.h>
@@ -20,7 +20,7 @@ enum { TABLE_BYTES = 50, DUMP_ROW = 10, PARAMS_MAX = 32, SCAN_LAST = 127 };
 
 /* The only one. */
 static struct {
-    uint8_t cid;    /* the servo that the words are for; 254: all */
+    uint8_t cid;    /* the current servo; 254: all */
     bool hex;       /* numbers are hexadecimal */
 } monitor;
 
@@ -32,7 +32,7 @@ static uint8_t send(uint8_t instruction, uint8_t count)
     return SHELL_OK;
 }
 
-/* All words as parameters; how many, 0: one is no byte (SHELL_ERR_RANGE). */
+/* Takes all words as parameters. Returns their number; 0: one of them is no byte (SHELL_ERR_RANGE). */
 static uint8_t take_bytes(const shell_args_t *args)
 {
     uint8_t count = (uint8_t)(args->count - 1u);
@@ -55,7 +55,7 @@ static uint8_t send_bytes(const shell_args_t *args, uint8_t instruction)
     return count == 0 ? (uint8_t)SHELL_ERR_RANGE : send(instruction, count);
 }
 
-/* A WRITE of the line's number to one address. */
+/* Writes the line's number to one address. */
 static bool write_number(const shell_args_t *args, uint8_t address)
 {
     packets_params()[0] = address;
@@ -63,7 +63,7 @@ static bool write_number(const shell_args_t *args, uint8_t address)
     return packets_exchange(monitor.cid, DXL_WRITE, 2);
 }
 
-/* What would be fatal for all is done to one servo only. */
+/* Refuses words that would ruin all servos at once. */
 static bool is_one_servo(void)
 {
     if (monitor.cid == DXL_BROADCAST) {
@@ -93,7 +93,7 @@ WORD(mon_read)
 {
     packets_params()[0] = (uint8_t)args->number[0];
     packets_params()[1] = args->count > 2 ? (uint8_t)args->number[1] : 1u;
-    return is_one_servo() ? send(DXL_READ, 2) : (uint8_t)SHELL_ERR_SAID;
+    return is_one_servo() ? send(DXL_READ, 2) : (uint8_t)SHELL_ERR_REPORTED;
 }
 
 WORD(mon_write)
@@ -132,12 +132,12 @@ WORD(mon_baud)
     return SHELL_OK;
 }
 
-/* A new ID must be free: two servos with one ID can only be told apart by unplugging one. */
+/* The new ID must be free: two servos with one ID can only be told apart by unplugging one. */
 WORD(mon_id)
 {
     uint8_t id = (uint8_t)args->number[0];
     if (!is_one_servo()) {
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     if (bus_call_ping(id, PACKETS_TRIES, NULL) == BUS_OK) {
         return packets_say(TEXT_P("That ID is taken"));
@@ -151,7 +151,7 @@ WORD(mon_id)
 WORD(mon_reset)
 {
     if (!is_one_servo()) {
-        return SHELL_ERR_SAID;
+        return SHELL_ERR_REPORTED;
     }
     return shell_word_is(args, 1, PSTR("yes")) ? send(DXL_RESET, 0) : packets_say(TEXT_P("RESET YES: factory values, ID 1"));
 }
@@ -316,7 +316,7 @@ void monitor_line(shell_t *shell)
         break;
     case SHELL_ERR_RANGE:
         text_put(' ');
-        shell_print_broken();
+        shell_print_range_error();
         text_line_end();
         break;
     default:

@@ -8,11 +8,11 @@
 
 #define TOSS_BUFFER_BYTES 64u   /* a power of two */
 
-/* toss.c: the PC speaks to the servos itself. Packets from the console go to the bus as they are, everything heard on the
- * bus goes to the console. Three ESC outside a packet end it. Blocks until then; the watchdog is kicked. */
+/* toss.c: connects the PC to the servos. Packets from the console go to the bus unchanged, everything heard on the bus goes
+ * to the console. Blocks until three ESC come outside a packet; kicks the watchdog. */
 void toss_run(uint8_t buffer[TOSS_BUFFER_BYTES]);
 
-/* monitor.c: prints the prompt, runs a line. `args->hex` follows HEX and DEC. */
+/* monitor.c: prints the prompt, runs a line. */
 void monitor_init(void);
 void monitor_prompt(void);
 void monitor_line(shell_t *shell);

@@ -12,7 +12,7 @@ uint8_t packets_say(const char *line_P)
 {
     text_P(line_P);
     text_line_end();
-    return SHELL_ERR_SAID;
+    return SHELL_ERR_REPORTED;
 }
 
 void packets_print_bytes(const char *before_P, const uint8_t *bytes, uint8_t count)

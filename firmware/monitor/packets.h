@@ -20,7 +20,7 @@ bool packets_exchange(uint8_t id, uint8_t instruction, uint8_t count);
 /* Prints " 0A 1B" behind a text. */
 void packets_print_bytes(const char *before_P, const uint8_t *bytes, uint8_t count);
 
-/* Prints a line, or the sentence for a failed packet. Both return SHELL_ERR_SAID, for handlers to return. */
+/* Prints a line, or the sentence for a failed packet. Both return SHELL_ERR_REPORTED, for handlers to return. */
 uint8_t packets_say(const char *line_P);
 uint8_t packets_say_status(bus_status_t status);
 

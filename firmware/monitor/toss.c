@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * toss.c - the bridge: the PC speaks to the servos itself. Packets from the console go to the bus as they are, everything
- * heard on the bus goes to the console. Three ESC outside a packet end it. */
+ * toss.c - the bridge between PC and servos. Packets from the console go to the bus unchanged, everything heard on the bus
+ * goes to the console. Three ESC outside a packet end it. */
 #include "monitor.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ typedef struct {
     uint8_t packet[BUS_PACKET_BYTES];
 } toss_t;
 
-/* One byte from the PC. true: a whole packet is there. */
+/* Takes a byte from the PC. true: the packet is complete. */
 static bool collect(toss_t *toss, uint8_t byte)
 {
     if (toss->count < 2 && byte != 0xFF) {
@@ -31,7 +31,7 @@ static bool collect(toss_t *toss, uint8_t byte)
     toss->escapes = 0;
     toss->packet[toss->count++] = byte;
     bool is_whole = toss->count > HEADER_BYTES && toss->count == toss->packet[LENGTH_AT] + HEADER_BYTES;
-    /* A length that no packet has: what it belongs to was none. */
+    /* A length that no packet has: drops the bytes, which were no packet. */
     if (!is_whole && (toss->count >= BUS_PACKET_BYTES || (toss->count == HEADER_BYTES && byte < LENGTH_MIN))) {
         toss->count = 0;
     }

@@ -138,7 +138,7 @@ static uint8_t do_help(void *context, const shell_args_t *args)
 void commands_run(play_t *play)
 {
     shell_args_t args = shell_split(&play->shell, false);
-    if (requests_are(&args)) {
+    if (requests_is_request(&args)) {
         requests_run(&args);
     } else if (args.count > 0) {
         requests_run_typed(&args, typed, ARRAY_COUNT(typed));

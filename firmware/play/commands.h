@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * commands.h - the words of Play, for requests.h. Answers end in " OK" or in one sentence that says what is wrong.
- * Main loop only; while an answer waits for room on the line, play_service goes on. */
+ * commands.h - the words of Play, for requests.h. An answer ends in " OK" or in one sentence about what is wrong.
+ * Main loop only. play_service runs while an answer waits for room on the line. */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 
@@ -10,7 +10,7 @@
 #define COMMANDS_SHARED 14u
 extern const shell_command_t commands_shared_P[COMMANDS_SHARED];
 
-/* Runs the line that the shell has completed and prints its answer with CR LF. */
+/* Runs the shell's complete line and prints its answer with CR LF. */
 void commands_run(play_t *play);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * commands_layers.c - a second page, and joints moved by code, over the play (performer_shape.h). */
+ * commands_layers.c - layer, aim, swing, free: a second page over the play, and joints moved by code (performer_shape.h). */
 #include "commands_parts.h"
 
 #include "performer_shape.h"
@@ -16,7 +16,7 @@ static uint8_t answer_of(const play_t *play, layers_status_t status)
     case LAYERS_ERR_EMPTY:
         (void)requests_error(status == LAYERS_ERR_PAGE ? REQUEST_ERR_PAGE : REQUEST_ERR_EMPTY);
         report_bad_page(performer->fault_page, performer->fault);
-        return REQUEST_SAID;
+        return REQUEST_REPORTED;
     case LAYERS_ERR_JOINTS:
         return commands_refuse(REQUEST_ERR_SERVOS, TEXT_P("None of these servos can be moved"));
     case LAYERS_ERR_FULL:

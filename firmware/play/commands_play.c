@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * commands_play.c - words that begin, end and interrupt a play. */
+ * commands_play.c - play, stop, break, pause, resume, code. */
 #include "commands_parts.h"
 
 #include "text.h"
 #include "views.h"
 
-/* The page that a name means; 0: there is none, and it has been said. */
+/* The page with this name; 0: none or several, and an error has been printed. */
 static uint8_t page_of_name(const play_t *play, const shell_args_t *args)
 {
     /* A name may hold separators: the words are put together again with a space between. */
@@ -29,7 +29,7 @@ static uint8_t page_of_name(const play_t *play, const shell_args_t *args)
     return page;
 }
 
-/* A page by its number, with a code behind it as if from the remote, or by its name. */
+/* Plays a page by its number, or by its name; a code may follow the number, as if from the remote. */
 uint8_t commands_do_play(void *context, const shell_args_t *args)
 {
     play_t *play = context;
@@ -40,15 +40,15 @@ uint8_t commands_do_play(void *context, const shell_args_t *args)
             return SHELL_ERR_RANGE;
         }
     } else if ((page = page_of_name(play, args)) == 0) {
-        return REQUEST_SAID;
+        return REQUEST_REPORTED;
     }
     return requests_refusal(performer_start(&play->performer, (uint8_t)page, (uint8_t)code));
 }
 
-/* Of a person a word that can do nothing is refused. A program hears OK: it asks @where. */
+/* A person gets a refusal if there is nothing to do. A program gets OK and asks @where. */
 static uint8_t done(bool something, const char *nothing_P)
 {
-    return something || requests_of_program() ? (uint8_t)REQUEST_OK : commands_refuse(REQUEST_ERR_IDLE, nothing_P);
+    return something || requests_from_program() ? (uint8_t)REQUEST_OK : commands_refuse(REQUEST_ERR_IDLE, nothing_P);
 }
 
 uint8_t commands_do_stop(void *context, const shell_args_t *args)
@@ -83,7 +83,7 @@ uint8_t commands_do_resume(void *context, const shell_args_t *args)
     return done(performer_resume(&play->performer), TEXT_P("Nothing is paused"));
 }
 
-/* The same as the remote: for boards without a panel. */
+/* Acts like the remote, for boards without a panel. */
 uint8_t commands_do_code(void *context, const shell_args_t *args)
 {
     play_t *play = context;
@@ -93,5 +93,5 @@ uint8_t commands_do_code(void *context, const shell_args_t *args)
         return REQUEST_OK;
     }
     views_print_refusal(&refusal);
-    return REQUEST_SAID;
+    return REQUEST_REPORTED;
 }

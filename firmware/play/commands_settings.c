@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * commands_settings.c - what is kept over power-off. */
+ * commands_settings.c - law, remote, settings: what EEPROM keeps. */
 #include "commands_parts.h"
 
 #include <string.h>
@@ -12,8 +12,8 @@ static void save(play_t *play)
     settings_save_start(&play->store);
 }
 
-/* One of several words for a setting of 0, 1, ...: `words_P` holds them one behind the other, each with its NUL, and an
- * empty one at the end. Prints the choice when the line has no word. */
+/* Sets 0, 1, ... by one of several words. `words_P` has them one behind the other, each with its NUL, and an empty one at
+ * the end. Prints the present word if the line has none. */
 static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, const char *words_P)
 {
     const char *word_P = words_P;
@@ -36,7 +36,7 @@ static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, 
         }
         text_P(word_P);
     }
-    return REQUEST_SAID;
+    return REQUEST_REPORTED;
 }
 
 uint8_t commands_do_law(void *context, const shell_args_t *args)
@@ -60,7 +60,7 @@ static uint8_t set_one(play_t *play, const shell_args_t *args)
             uint16_t value;
             if (!shell_parse(shell_word(args, 2), false, &value) || !settings_set(&play->settings, &item, value)) {
                 shell_print_range(item.name, item.low, item.high, false);
-                return REQUEST_SAID;
+                return REQUEST_REPORTED;
             }
             save(play);
             return REQUEST_OK;
@@ -68,7 +68,7 @@ static uint8_t set_one(play_t *play, const shell_args_t *args)
     }
     TEXT("No setting is named ");
     text_string(shell_word(args, 1));
-    return REQUEST_SAID;
+    return REQUEST_REPORTED;
 }
 
 uint8_t commands_do_settings(void *context, const shell_args_t *args)
@@ -80,7 +80,7 @@ uint8_t commands_do_settings(void *context, const shell_args_t *args)
     if (args->count == 2) {
         if (!shell_word_is(args, 1, PSTR("defaults"))) {
             TEXT("Say settings, settings name value, or settings defaults");
-            return REQUEST_SAID;
+            return REQUEST_REPORTED;
         }
         settings_defaults(&play->settings);
         save(play);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * commands_shape.c - words that shape a motion while it plays (performer_shape.h). */
+ * commands_shape.c - rate, amplitude, blend, drive, shape: shape a motion while it plays (performer_shape.h). */
 #include "commands_parts.h"
 
 #include "performer_shape.h"
@@ -35,7 +35,7 @@ uint8_t commands_do_blend(void *context, const shell_args_t *args)
     return REQUEST_OK;
 }
 
-/* Blend, rate and amplitude in one line: a joystick sends it 20 times a second. */
+/* Blend, rate and amplitude in one line, because a joystick sends it 20 times a second. */
 uint8_t commands_do_drive(void *context, const shell_args_t *args)
 {
     play_t *play = context;

@@ -5,7 +5,7 @@
 #include "console.h"
 #include "panel.h"
 
-#define TYPED_XOFF 48u    /* typed bytes waiting: the PC is told to wait; 80 more still fit */
+#define TYPED_XOFF 48u    /* typed bytes waiting that cause XOFF; 80 more still fit */
 #define TYPED_XON 16u
 
 void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages, const settings_t *settings)
@@ -70,14 +70,14 @@ bool inputs_next_refusal(inputs_t *inputs, inputs_refusal_t *refusal)
     return true;
 }
 
-/* L and R steer instead of being part of a code. */
+/* Takes L and R out of the code while they steer. */
 static bool steers(const inputs_t *inputs)
 {
     return inputs->settings->remote_mode == SETTINGS_REMOTE_DRIVE && steer_is_possible(inputs->performer);
 }
 
-/* A remote repeats its packet while buttons are held. Stop and pause count when they are pressed, codes always: a packet
- * lost on the air is made good by the next. */
+/* A remote repeats its packet while buttons are down. Stop and pause act once, when they are pressed. Codes act with every
+ * packet, so that a lost one does not matter. */
 static void take_packet(inputs_t *inputs)
 {
     const uint16_t buttons = inputs->remote.buttons;
@@ -113,10 +113,10 @@ static void control_flow(inputs_t *inputs)
     const uint8_t waiting = ring_count(&inputs->typed);
     if (!inputs->pc_waits && waiting >= TYPED_XOFF) {
         inputs->pc_waits = true;
-        console_hold();
+        console_xoff();
     } else if (inputs->pc_waits && waiting <= TYPED_XON) {
         inputs->pc_waits = false;
-        console_resume();
+        console_xon();
     }
 }
 

@@ -7,8 +7,8 @@
  *                                             |
  *                                             +--> commands --> views
  *
- * One loop. What may not wait (play_service) also runs while text waits for room on the serial line, so a tick is late
- * by no more than the longest single step of the rest: a few ms of a search by name. Nothing moves at power-on. */
+ * One loop. play_service also runs while text waits for room on the serial line. So a tick is late by no more than the
+ * longest single piece of other work, a few ms of a search by name. Nothing moves at power-on. */
 #include "board.h"
 #include "commands.h"
 #include "console.h"
@@ -47,7 +47,7 @@ const requests_image_t requests_image = {
     .serve = serve, .restart = restart,
 };
 
-/* Characters since the last line end: what a status line must cover. */
+/* Characters since the last line end; a status line must cover them. */
 static uint8_t column;
 
 /* ---- text ---- */
@@ -66,7 +66,7 @@ static void prompt(void)
     TEXT("] ");
 }
 
-/* Ends a status line over the prompt and gives back what was being typed. */
+/* Ends a status line over the prompt and prints again what was being typed. */
 static void end_status_line(uint8_t covered)
 {
     while (column < covered) {
@@ -87,7 +87,7 @@ static uint8_t begin_status_line(void)
     return covered;
 }
 
-/* What the setting `talk` 0 keeps to itself: all that goes as it should. */
+/* Events that the setting `talk` 0 suppresses: all that are no faults. */
 static bool is_chatter(uint8_t kind)
 {
     return kind == PERFORMER_EV_APPROACH || kind == PERFORMER_EV_STEP || kind == PERFORMER_EV_LINK;
@@ -111,7 +111,7 @@ static void print_news(void)
     }
 }
 
-/* A line of @watch stands by itself, whatever was being typed. */
+/* Prints a line of @watch by itself, whatever was being typed. */
 static void print_watched(void)
 {
     if (column > 0) {
@@ -149,7 +149,7 @@ static void greet(settings_status_t settings)
 {
     text_line_end();
     views_print_version();
-    if (journal_is_pending()) { /* our loader would have completed it; Play has no room for that */
+    if (journal_is_pending()) { /* our loader would have completed it; Play cannot write flash */
         TEXT("A save was cut off: start Edit once, it completes the page");
         text_line_end();
     }
@@ -179,7 +179,7 @@ static void start(void)
     greet(status);
 }
 
-/* Whether the loop has something to do that no interrupt will announce. */
+/* Whether the loop has work that no interrupt will announce. */
 static bool has_work(void)
 {
     return ring_count(&play.inputs.typed) > 0 || play.performer.events.count > 0 ||

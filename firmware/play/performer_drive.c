@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * performer_drive.c - a program drives the play; its silence stops it. */
+ * performer_drive.c - a program drives the play; when it falls silent, the play stops. */
 #include "performer_shape.h"
 
 #include "bound.h"

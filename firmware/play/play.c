@@ -6,8 +6,8 @@
 #include "system.h"
 #include "tick.h"
 
-#define LAMP_TICKS 6u       /* a traffic lamp stays lit this long: 47 ms */
-#define BLINK_TICKS_LOG2 5u /* paused: Play blinks, 250 ms on, 250 ms off */
+#define LAMP_TICKS 6u       /* a traffic lamp stays lit for 47 ms */
+#define BLINK_TICKS_LOG2 5u /* the lamp Play blinks during a pause, 250 ms on, 250 ms off */
 
 /* ---- lamps ---- */
 
@@ -51,10 +51,10 @@ void play_service(play_t *play)
 void play_find_servos(play_t *play)
 {
     int16_t trim_pos[PAGE_JOINTS];
-    console_hold();
+    console_xoff();
     servo_link_scan(&play->servos);
     (void)page_store_trim(&play->pages, trim_pos);
     (void)servo_link_set_trim(&play->servos, trim_pos);
-    console_resume();
+    console_xon();
     tick_forgive();
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * play.h - the parts of the Play image and what may not wait. main.c defines the one play_t and hands it to every command.
- * Above it: commands*.c, views.c, main.c. */
+ * play.h - the parts of the Play image, and the work that cannot wait. main.c defines the one play_t and hands it to every
+ * command. Used by commands*.c, views*.c and main.c. */
 #ifndef PLAY_H
 #define PLAY_H
 
@@ -29,11 +29,11 @@ typedef struct {
     char history[PLAY_HISTORY_BYTES];
 } play_t;
 
-/* Everything that may not wait: the tick, console input, the bus, a save of settings, lamps, the watchdog. Runs in the main
- * loop, while text waits for room on the line, and between the parts of a command that takes long. Prints nothing. */
+/* Does the work that cannot wait: the tick, console input, the bus, a save of settings, lamps, the watchdog. Called in the
+ * main loop, while text waits for room on the line, and between the parts of a long command. Prints nothing. */
 void play_service(play_t *play);
 
-/* Searches the bus for servos (0.3 s, nothing may be moving) and loads the trim of page 0. */
+/* Searches the bus for servos and loads the trim of page 0. Blocks 0.3 s; nothing may be moving. */
 void play_find_servos(play_t *play);
 
 #endif

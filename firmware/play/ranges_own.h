@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * ranges_own.h - what the numbers of Play may be, beyond those of ranges.h. */
+ * ranges_own.h - the ranges of Play's numbers beyond those of ranges.h. */
 #ifndef RANGES_OWN_H
 #define RANGES_OWN_H
 

@@ -45,7 +45,7 @@ void views_print_list(play_t *play)
 {
     uint8_t used = 0, damaged = 0;
     for (uint8_t page = 1; page < PAGE_COUNT; page++) {
-        play_service(play); /* pages without a line take up to 2 ms each */
+        play_service(play); /* a page without a line takes up to 2 ms */
         if (page_store_is_good(&play->pages, page)) {
             uint8_t header[PAGE_AT_COMPLIANCE];
             page_store_read(page, 0, header, sizeof header);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * views.h - what Play prints when it is asked: lists and states, in lines. Changes nothing of what it shows. */
+ * views.h - prints lists and states, for Play's commands. Changes nothing. */
 #ifndef VIEWS_H
 #define VIEWS_H
 
@@ -16,10 +16,10 @@ void views_print_version(void);
  * without a line end. */
 void views_print_shape(const performer_t *performer);
 
-/* "18 servos: 1-18", and who is there but cannot be used. */
+/* "18 servos: 1-18", and the servos that were found but cannot be used. */
 void views_print_servos_found(const play_t *play);
 
-/* Why a code started nothing; without a line end. */
+/* Why a code did not start a play; without a line end. */
 void views_print_refusal(const inputs_refusal_t *refusal);
 
 #endif

@@ -13,9 +13,9 @@
  *   0x1FFFE  2  CRC-16 (crc16.h) of 0x1E000..0x1FFFD, high byte first: over the whole section it comes out as 0
  *              (set by tools/dev/app_record)
  *
- * The entry is called as a plain avr-gcc function (its registers, r1 = 0, EIND absent on this chip: a word address
- * of 16 bits reaches all 128 KiB). It uses no RAM but the caller's stack, at most BOOT_API_STACK_BYTES in all,
- * changes RAMPZ back, returns with the interrupt flag as it was and the lower flash readable. */
+ * The entry is an ordinary avr-gcc function: r1 = 0, and a word address of 16 bits reaches all 128 KiB, since this chip
+ * has no EIND. It uses no RAM but the caller's stack, at most BOOT_API_STACK_BYTES in all. It restores RAMPZ and the
+ * interrupt flag and leaves the lower flash readable. */
 #ifndef BOOT_API_H
 #define BOOT_API_H
 
@@ -68,7 +68,7 @@ enum {
 enum {
     BOOT_OK = 0,
     BOOT_ERR_RANGE = 1,  /* not a page start, or in the boot section, or a bad count or mode: nothing was touched */
-    BOOT_ERR_VERIFY = 2  /* ten tries, still not what was asked for */
+    BOOT_ERR_VERIFY = 2  /* after ten tries the page still reads back wrong */
 };
 
 /* addr  : byte address of a flash page, a multiple of 256 below 0x1E000
@@ -76,9 +76,9 @@ enum {
  * bytes : 2..256, even; the rest of the page is programmed as 0xFF, which leaves it erased or untouched
  * mode  : BOOT_MODE_*
  * rx    : ring for UART1, or NULL: then the bytes stay in the UART, which overruns
- * Returns a BOOT_* in the low byte and the number of tries that failed before in the high byte.
- * Takes 9.5 ms (program only: 5 ms) with interrupts off and kicks the watchdog; waits for a running EEPROM write
- * first (up to 8.5 ms). Bytes of UART0 are not kept. */
+ * Returns a BOOT_* in the low byte and the number of failed tries in the high byte.
+ * First waits for an EEPROM write under way (up to 8.5 ms). Then takes 9.5 ms (program only: 5 ms) with interrupts off.
+ * Kicks the watchdog. Bytes of UART0 are lost meanwhile. */
 typedef uint16_t boot_write_page_t(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode,
                                    const boot_rx_t *rx);
 #endif

@@ -11,7 +11,7 @@
 
 #define MODE_U2X (1u << U2X0)
 #define FRAME_8N1 ((1u << UCSZ01) | (1u << UCSZ00))
-/* The receiver is off while we drive the line: what it would catch of the turn-round is nobody's answer. */
+/* The receiver is off while we drive the line: glitches of the turn-round are no answer. */
 #define SENDING (1u << TXEN0 | 1u << UDRIE0)
 #define TURNING (1u << TXEN0 | 1u << TXCIE0)
 #define LISTENING (1u << TXEN0 | 1u << RXEN0 | 1u << RXCIE0)
@@ -121,8 +121,8 @@ void bus_counts(bus_counts_t *counts)
     bus_core_counts(&core, counts);
 }
 
-/* 101 times in a frame of 31 joints; 65 cycles measured. A transmit complete that stands since a gap before the last byte
- * is stale; clearing it here cannot hit the byte's own, which is 160 cycles away. */
+/* 101 times in a frame of 31 joints; 65 cycles measured. A gap before the last byte leaves a stale transmit-complete flag.
+ * Clearing it here cannot clear the last byte's own, which comes 160 cycles later. */
 ISR(USART0_UDRE_vect)
 {
     uint8_t at = tx_at;

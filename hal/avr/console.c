@@ -22,10 +22,10 @@ static struct {
     volatile uint8_t received, sent; /* ISR */
     volatile uint8_t lost;           /* the loader's page-write */
     volatile bool xoff_is_out;       /* under flow control: the PC was told to stop */
-    volatile uint8_t since_xoff;     /* bytes that came all the same, modulo XOFF_AGAIN_BYTES */
-    volatile bool has_sent;          /* TXC means something */
+    volatile uint8_t since_xoff;     /* bytes that came after it, modulo XOFF_AGAIN_BYTES */
+    volatile bool has_sent;          /* a byte was sent, so TXC is valid */
     bool flow;
-    uint8_t holds;                   /* console_hold without its console_resume */
+    uint8_t xoffs;                   /* calls of console_xoff without their console_xon */
     console_counts_t counts;         /* ISR */
 } line;
 
@@ -60,7 +60,7 @@ bool console_get(uint8_t *byte)
     if (!ring_get(&line.rx, byte)) {
         return false;
     }
-    if (line.xoff_is_out && line.holds == 0 && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
+    if (line.xoff_is_out && line.xoffs == 0 && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }
@@ -115,33 +115,33 @@ void console_flush(void)
 void console_set_flow(bool on)
 {
     line.flow = on;
-    line.holds = 0;
+    line.xoffs = 0;
     if (on || line.xoff_is_out) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }
 }
 
-void console_hold(void)
+void console_xoff(void)
 {
     if (!line.flow) {
         return;
     }
-    line.holds++;
+    line.xoffs++;
     line.xoff_is_out = true;
     line.since_xoff = 0;
     send_flow(CONSOLE_XOFF);
     while (line.flow_byte != 0) {
     }
-    clock_wait_us(350);   /* it stands behind at most one character in the UART */
+    clock_wait_us(350);   /* at most one character in the UART goes before it */
 }
 
-void console_resume(void)
+void console_xon(void)
 {
-    if (line.holds != 0) {
-        line.holds--;
+    if (line.xoffs != 0) {
+        line.xoffs--;
     }
-    if (line.holds == 0 && line.xoff_is_out && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
+    if (line.xoffs == 0 && line.xoff_is_out && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
         line.xoff_is_out = false;
         send_flow(CONSOLE_XON);
     }
@@ -182,7 +182,7 @@ static inline void bump(uint8_t *count)
     }
 }
 
-/* Under flow control: the PC is told to stop when the ring runs low, and again for every 32 bytes it still sends. */
+/* Under flow control: tells the PC to stop when the ring runs full, and again for every 32 bytes that still come. */
 static inline void watch_room(void)
 {
     if (!line.flow || ring_room(&line.rx) >= CONSOLE_XOFF_ROOM) {

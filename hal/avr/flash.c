@@ -9,8 +9,8 @@ uint32_t flash_addr(uint16_t page)
     return (uint32_t)page * FLASH_PAGE_BYTES;
 }
 
-/* One far read and step is ELPM Z+ (24 bits: RAMPZ counts along, so 0x10000 is no border). 7 cycles a byte, two at
- * a time; an odd one comes first. */
+/* ELPM Z+ reads a byte and steps all 24 bits of the address, RAMPZ included, so 0x10000 is no border. 7 cycles a byte. The
+ * loop copies two bytes at a time; an odd one comes first. */
 void flash_read(uint32_t addr, void *to, uint16_t bytes)
 {
     if (bytes == 0) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * pgm.h - constants that stay in flash, AVR version (host version: tests/fake/pgm.h). May be included anywhere.
- * The words are avr-libc's: PROGMEM, PSTR, pgm_read_byte/word/dword/ptr, memcpy_P, strlen_P, strcmp_P, strcasecmp_P,
- * strncasecmp_P, strcpy_P. Near reads only: the linker scripts keep PROGMEM below 64 KiB (the loader's, which lies at
- * 0x1E000, is read with flash.h). */
+ * The names are avr-libc's: PROGMEM, PSTR, pgm_read_byte/word/dword/ptr, memcpy_P, strlen_P, strcmp_P, strcasecmp_P,
+ * strncasecmp_P, strcpy_P. Near reads only: the linker scripts keep PROGMEM below 64 KiB. (The loader, at 0x1E000, reads
+ * its constants as print.h says.) */
 #ifndef PGM_H
 #define PGM_H
 

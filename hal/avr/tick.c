@@ -9,7 +9,7 @@ _Static_assert(TICK_CYCLES % PRESCALER == 0, "the tick is exact");
 _Static_assert(TICK_CYCLES * TICK_HZ == F_CPU, "128 ticks are a second");
 
 static volatile uint32_t ticks;   /* ISR */
-static uint16_t taken;            /* low half of the last tick that was given out */
+static uint16_t taken;            /* low half of the last tick that was taken */
 static uint16_t missed;
 
 void tick_init(void)

@@ -14,7 +14,7 @@ static size_t output_count;
 static uint8_t room, rate, received, sent;
 static volatile uint8_t lost;
 static bool flow;
-static uint8_t holds;
+static uint8_t xoffs;
 static console_counts_t counters;
 
 void fake_console_reset(void)
@@ -28,7 +28,7 @@ void fake_console_reset(void)
     sent = 0;
     lost = 0;
     flow = false;
-    holds = 0;
+    xoffs = 0;
 }
 
 void fake_console_type_bytes(const void *bytes, size_t count)
@@ -76,7 +76,7 @@ uint8_t fake_console_rate(void)
 
 int fake_console_is_held(void)
 {
-    return holds != 0;
+    return xoffs != 0;
 }
 
 void console_init(void)
@@ -142,17 +142,17 @@ void console_flush(void)
 void console_set_flow(bool on)
 {
     flow = on;
-    holds = 0;
+    xoffs = 0;
 }
 
-void console_hold(void)
+void console_xoff(void)
 {
-    holds = (uint8_t)(holds + (flow ? 1 : 0));
+    xoffs = (uint8_t)(xoffs + (flow ? 1 : 0));
 }
 
-void console_resume(void)
+void console_xon(void)
 {
-    holds = (uint8_t)(holds - (holds != 0 ? 1 : 0));
+    xoffs = (uint8_t)(xoffs - (xoffs != 0 ? 1 : 0));
 }
 
 ring_t *console_rx_ring(void)

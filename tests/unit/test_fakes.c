@@ -102,14 +102,14 @@ static void test_console_output_obeys_its_room(void)
 
 static void test_console_holds_only_under_flow_control(void)
 {
-    console_hold();
+    console_xoff();
     TEST_ASSERT_FALSE(fake_console_is_held());
     console_set_flow(true);
-    console_hold();
-    console_hold();
-    console_resume();
+    console_xoff();
+    console_xoff();
+    console_xon();
     TEST_ASSERT_TRUE(fake_console_is_held()); /* holds are counted */
-    console_resume();
+    console_xon();
     TEST_ASSERT_FALSE(fake_console_is_held());
 }
 

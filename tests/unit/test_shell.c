@@ -263,7 +263,7 @@ static uint8_t do_fail(void *context, const shell_args_t *args)
 {
     (void)context;
     (void)args;
-    return SHELL_ERR_SAID;
+    return SHELL_ERR_REPORTED;
 }
 
 static uint8_t do_go(void *context, const shell_args_t *args)
@@ -311,7 +311,7 @@ static void test_shell_run_finds_word_and_abbreviation_in_any_case(void)
     TEST_ASSERT_EQUAL_UINT8(42, seen);
     TEST_ASSERT_EQUAL_UINT8(SHELL_OK, run("Pl 1 2"));
     TEST_ASSERT_EQUAL_UINT8(43, seen);
-    TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_SAID, run("fail"));
+    TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_REPORTED, run("fail"));
 }
 
 static void test_shell_run_wants_the_whole_word(void)
@@ -329,7 +329,7 @@ static void test_shell_run_counts_the_arguments(void)
     TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_COUNT, run("play"));
     TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_COUNT, run("play 1 2 3"));
     TEST_ASSERT_EQUAL_UINT8(0, seen);
-    TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_SAID, run("fail 1 2 3 4 5 6"));
+    TEST_ASSERT_EQUAL_UINT8(SHELL_ERR_REPORTED, run("fail 1 2 3 4 5 6"));
 }
 
 static void test_shell_run_of_an_empty_line_is_ok(void)
@@ -349,7 +349,7 @@ static void test_shell_run_takes_the_numbers_that_the_table_names(void)
         TEST_ASSERT_EQUAL_UINT8_MESSAGE(SHELL_ERR_RANGE, run(wrong[i]), wrong[i]);
     }
     clear_out();
-    shell_print_broken();
+    shell_print_range_error();
     TEST_ASSERT_EQUAL_STRING("Rate must be 10..400", out);
 }
 
@@ -372,7 +372,7 @@ static void test_shell_take_of_a_word_out_of_range_leaves_the_value_and_names_th
         TEST_ASSERT_EQUAL_INT16_MESSAGE(rows[i].value, (int16_t)value, rows[i].line);
         clear_out();
         if (!rows[i].good) {
-            shell_print_broken();
+            shell_print_range_error();
         }
         TEST_ASSERT_EQUAL_STRING(rows[i].said, out);
         shell_clear(&shell);
@@ -392,7 +392,7 @@ static void test_shell_take_of_a_range_below_zero(void)
         TEST_ASSERT_FALSE_MESSAGE(shell_take(&args, 1, 3, &value), wrong[i]);
     }
     clear_out();
-    shell_print_broken();
+    shell_print_range_error();
     TEST_ASSERT_EQUAL_STRING("Blend must be -100..100", out);
 }
 
@@ -403,7 +403,7 @@ static void test_shell_take_in_hex_mode_names_the_range_so(void)
     uint16_t page = 5;
     TEST_ASSERT_FALSE(shell_take(&args, 1, 1, &page));
     clear_out();
-    shell_print_broken();
+    shell_print_range_error();
     TEST_ASSERT_EQUAL_STRING("Page must be 0x01..0x7F", out);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The boot loader's prompt, words, downloads, STK500 and block protocol: monitor.c and all below it but the registers.
+ * The boot loader's prompt, words, downloads, STK500 and block protocol: prompt.c and all below it but the registers.
  *
  * Input: bytes of the line, but FE nn is a silence of nn * 100 ms (FE FE: the byte itself), FD presses or releases START,
  * and FC begins a block frame whose length and CRC are made good (FC, command, number, count, that many words). */
@@ -15,7 +15,7 @@
 #include "check.h"
 #include "firmware/common/crc16.h"
 #include "memory.h"
-#include "monitor.h"
+#include "prompt.h"
 #include "print.h"
 #include "service.h"
 #include "start.h"
@@ -354,7 +354,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     turns = 0;
     given = 0;
     if (setjmp(over) == 0) {
-        monitor_run(size > 0 && data[0] == 0xFB);
+        prompt_run(size > 0 && data[0] == 0xFB);
     }
     ASSERT(why == OVER_INPUT || why == OVER_JUMP || why == OVER_RESET);
     ASSERT(memcmp(flash + MEM_BOOT_START, flash_before + MEM_BOOT_START, 0x2000) == 0);

@@ -93,12 +93,12 @@ TRY try_console_flush(void)
 
 TRY try_console_hold(void)
 {
-    console_hold();
+    console_xoff();
 }
 
 TRY try_console_resume(void)
 {
-    console_resume();
+    console_xon();
 }
 
 TRY try_bus_poll(void)

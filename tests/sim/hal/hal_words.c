@@ -112,12 +112,12 @@ static void take_all(void)
 static void hold(void)
 {
     console_set_flow(true);
-    console_hold();
+    console_xoff();
     for (uint8_t i = 0; i < 100; i++) {
         clock_wait_us(1000);
         system_kick();
     }
-    console_resume();
+    console_xon();
     say_P(PSTR("held\n"));
 }
 

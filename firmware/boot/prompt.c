@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "monitor.h"
+#include "prompt.h"
 
 #include "block.h"
 #include "button.h"
@@ -19,8 +19,8 @@ enum { BACKSPACE = 8, ESC = 27, CR = 13, LF = 10 };
 
 static char line[LINE_BYTES];
 static uint8_t length;
-static bool is_binary;    /* the line has bytes that no one types: not a command */
-static bool was_released; /* START, since the prompt came */
+static bool is_binary;    /* the line has bytes that nobody types, so it is no command */
+static bool was_released; /* START was up since the prompt came */
 
 static void prompt(void)
 {
@@ -44,14 +44,14 @@ static void __attribute__((noinline)) run_line(void)
     prompt();
 }
 
-/* true when the byte began one of the binary protocols, which then ran to its end. */
+/* true: the byte began a binary protocol, whose session has run and ended. */
 static bool is_protocol(uint8_t byte)
 {
     if (byte == FRAME_REQUEST) {
         block_session();
         return true;
     }
-    if (byte == MONITOR_SYNC_1 && length == 0 && uart_wait_for(MONITOR_SYNC_2, SYNC_TICKS)) {
+    if (byte == PROMPT_SYNC_1 && length == 0 && uart_wait_for(PROMPT_SYNC_2, SYNC_TICKS)) {
         stk500_session();
         return true;
     }
@@ -75,7 +75,7 @@ static void edit_line(uint8_t byte)
     }
 }
 
-/* START at the prompt is GO, but not while it is still held from before. */
+/* START at the prompt means GO, unless it has been down since before the prompt came. */
 static void watch_start(void)
 {
     button_t start = button_look();
@@ -88,7 +88,7 @@ static void watch_start(void)
     }
 }
 
-void monitor_run(bool stk500)
+void prompt_run(bool stk500)
 {
     if (stk500) {
         stk500_session();
