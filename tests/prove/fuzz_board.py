@@ -164,7 +164,7 @@ class Session:
 
 # ---- the shell ----
 
-WORDS = ("play stop break pause resume code on off list status servos faults law remote settings baud version help p s b ? "
+WORDS = ("play stop break pause resume code on off list status servos faults law remote settings version help p s b ? "
          "rate amplitude blend drive layer aim swing free shape @rate @amplitude @blend @drive @layer @aim @swing @free @shape @watch "
          "@ver @list @page @dense @pose @move @torque @play @stop @break @pause @resume @where @open @data @crc @save @ @nothing").split()
 ARGUMENTS = ("0 1 2 3 4 8 9 11 13 14 15 16 17 18 19 20 21 22 30 31 32 64 126 127 128 200 240 255 256 1023 1024 65535 65536 99999999999 "
@@ -363,25 +363,10 @@ class PlayBus(Bus):
 class EditBus(Bus):
     name = "edit-bus"
     promise = "Edit stands whatever is on the servo bus"
-    how = "the same at Edit's table, while teaching (OFF, poses by hand, ON, WRITE), playing and in the bus monitor"
+    how = "the same at Edit's table, while teaching (OFF, poses by hand, ON, WRITE) and playing"
     image = "edit-cm5.hex"
     waking = (b"page 1\r", b"on\r", b"off\r", b"write\r", b"go 0\r", b"play\r", b"\r", b" ", b"\x03", b"step 1\r", b"goto 1 3\r", b"set 400\r", b"]",
-              b"}", b"re\r", b"mon\r", b"scan\r", b"read 36 8\r", b"dump\r", b"ping 1\r", b"exit\r", b"@where\r", b"@pose\r", b"check\r", b"\x1b")
-
-    def pieces(self):
-        """EXIT at the table restarts: it is typed where it leaves the monitor only, behind a MON."""
-        made = []
-        for verb, data in super().pieces():
-            if verb == "say" and data in (b"exit\r", b"mon\r"):
-                made += [("say", b"\x03"), ("wait", 300), ("say", b"mon\r"), ("wait", 1500)] if data == b"mon\r" else [("leave", b"")]
-            else:
-                made.append((verb, data))
-        return made
-
-    def leave(self, _):
-        if b"[CID:" in self.board.console[-40:]:
-            self.board.send(b"exit\r")
-            self.board.run(ms=1500)
+              b"}", b"re\r", b"@where\r", b"@pose\r", b"check\r", b"\x1b")
 
     def start(self):
         self.board = Board(images=["boot-cm5.hex", self.image], motions=pages(), servos=self.servos, seed=self.seed % 65536 + 1)
@@ -399,9 +384,6 @@ class EditBus(Bus):
             for keys, ms in ((b"\x03", 1500), (b"\x1b", 300), (b"\x15\r", 500), (b"\x03", 100)):
                 self.board.send(keys)
                 self.board.run(ms=ms)
-                if b"[CID:" in self.board.console[-40:]:
-                    self.board.send(b"exit\r")
-                    self.board.run(ms=1500)
             self.board.take()
             self.board.send(b"@where\r")
             try:
@@ -420,7 +402,7 @@ class EditConsole:
 
     name = "edit-console"
     promise = "Edit stands whatever is typed, and flash is what SAVE wrote"
-    how = ("its grammar, answers, keys, lines of programs, the monitor and its bridge, saves, restarts, broken pieces of them and bytes "
+    how = ("its grammar, answers, keys, lines of programs, saves, restarts, broken pieces of them and bytes "
            "without sense; three senders in four do not stop at XOFF, and most of theirs is lost, as it would be")
     size = 100_000
     slow_size = 4_000

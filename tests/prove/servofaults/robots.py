@@ -103,7 +103,7 @@ class Watched:
 
     def where(self):
         """The answer to @where as a dictionary."""
-        answer = self.machine("@where")
+        answer = self.request("@where")
         return dict(word.split("=") for word in answer.split() if "=" in word)
 
 
@@ -149,7 +149,7 @@ class PlayRobot(Watched):
     def line(self, text):
         return play_robot.ask(self.board, text)
 
-    def machine(self, text):
+    def request(self, text):
         self.board.send(text + "\r")
         return self.board.expect("OK\r\n")
 
@@ -235,7 +235,7 @@ class EditRobot(Watched):
         buffer = self.robot.terminal.screen.buffer[joint]
         return "".join(buffer[x].data for x in range(19, 23))
 
-    def machine(self, text):
+    def request(self, text):
         self.robot.settle()
         self.board.send(text + "\r")
         answer = self.board.expect("OK\r\n")
