@@ -16,13 +16,16 @@ import { make } from './view/element.ts';
 async function start(): Promise<void> {
   const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
   const desk = new RobotDesk(body, parts, fileFormats(), storage);
+  await Promise.all([desk.start(), show(desk, parts)]); // the robot starts in its worker while the page is built
+  keepOffline(desk);
+}
+
+async function show(desk: RobotDesk, parts: EditorParts): Promise<void> {
   await desk.documents.start(parts.document);
   const shell = new AppShell();
   shell.desk = desk;
   document.body.append(shell);
   void desk.files.readAddress(window.location.hash);
-  await desk.start();
-  keepOffline(desk);
 }
 
 /** The first document holds what the robot in the page has. */

@@ -39,6 +39,8 @@ import { SimulatedSource } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
 
 const WHERE_MS = 300;
+/** What went wrong is to be read before the board's next line takes its place. */
+const TROUBLE_STAYS_MS = 6000;
 const REMOTE_REPEAT_MS = 100;
 const ESCAPE_SEQUENCE = /\x1b\[[0-9;?]*[A-Za-z~]/g;
 const READY_MS = 180_000;
@@ -66,6 +68,7 @@ export class RobotDesk implements Desk {
   private held: ReadonlySet<RemoteButton> = new Set();
   private whereTimer: ReturnType<typeof setTimeout> | undefined;
   private typing = '';
+  private troubleUntilMs = 0;
   private readonly follower = new Follow(() => this.connection, (error) => this.fail(error));
   /** What the robot in the page has in its flash. */
   private inPage: readonly Uint8Array[] = [];
@@ -88,7 +91,10 @@ export class RobotDesk implements Desk {
       frame: (state: RobotState) => this.frames.tell(state),
       text: (bytes: Uint8Array) => this.hear(bytes),
       connection: (state: ConnectionState) => this.connectionChanged(state),
-      change: (change: Partial<DeskState>) => this.state.set(change),
+      change: (change: Partial<DeskState>) => {
+        this.state.set(change);
+        if (change.physics === 'on') this.standUp();
+      },
       motions: (image: Uint8Array) => this.simulatedMotions(image),
     };
     this.simulated = new SimulatedSource(body, events);
@@ -300,13 +306,14 @@ export class RobotDesk implements Desk {
 
   private fail(error: unknown): void {
     if (!(error instanceof RobotError)) throw error;
+    this.troubleUntilMs = performance.now() + TROUBLE_STAYS_MS;
     this.state.set({ said: { text: errorText(error), tone: 'bad' } });
   }
 
   private hear(bytes: Uint8Array): void {
     this.texts.tell(bytes);
     const said = this.lastSaid.take(bytes);
-    if (said) this.state.set({ said: { text: said.text, tone: said.isTrouble ? 'bad' : 'calm' } });
+    if (said && (said.isTrouble || performance.now() > this.troubleUntilMs)) this.state.set({ said: { text: said.text, tone: said.isTrouble ? 'bad' : 'calm' } });
   }
 
   private connectionChanged(state: ConnectionState): void {
@@ -315,9 +322,15 @@ export class RobotDesk implements Desk {
     this.tell();
     if (state !== 'ready') return;
     void askList(this.connection.requests).then((pages) => this.state.set({ pages }), (error: unknown) => this.fail(error));
-    if (this.isSimulated && version?.image === 'play') void this.simulated.prepare().catch((error: unknown) => this.fail(error));
+    this.standUp();
     void this.askWhere();
     if (!this.isSimulated && this.editor.state.get().robot.length === 0) void this.learnYours();
+  }
+
+  /** The robot in the page stands up by itself as soon as it answers and has a body, whichever comes last. */
+  private standUp(): void {
+    const { connection, version } = this.state.get();
+    if (this.isSimulated && connection === 'ready' && version?.image === 'play') void this.simulated.prepare().catch((error: unknown) => this.fail(error));
   }
 
   /** Reads what your robot has and keeps it, as soon as it is known; no question is asked for it. */
@@ -340,7 +353,7 @@ export class RobotDesk implements Desk {
 
   /** Only Play hears a remote control. */
   private becomeDriven(): void {
-    if (this.state.get().image === 'play') return void this.simulated.prepare();
+    if (this.state.get().image === 'play') return this.standUp();
     this.say({ text: PLAY_TEXTS.startsPlay, tone: 'calm' });
     this.runImage('play');
   }

@@ -22,6 +22,7 @@ const KEY = 'cm5';
 /** Page of the motion library in which the robot stands by itself. */
 const READY_PAGE = 1;
 const STAND_LIMIT_MS = 8000;
+const ASK_MS = 50;
 
 export interface SourceEvents {
   frame(state: RobotState): void;
@@ -48,6 +49,7 @@ export class SimulatedSource {
   private robot: SimulatedRobot | null = null;
   private isShown = true;
   private standing: Promise<void> | null = null;
+  private hasPhysics = false;
   private clock = new TickClock();
   private readonly waiting: ((state: RobotState) => void)[] = [];
   connection: Connection | null = null;
@@ -64,6 +66,7 @@ export class SimulatedSource {
     this.robot = robot;
     this.events.motions(kept ? motionsIn(kept) : images.motions);
     this.standing = null;
+    this.hasPhysics = false;
     robot.post({ kind: 'start', module, body: this.body, images, kept });
     this.clock = new TickClock();
     this.connection = new Connection(robot.port, this.clock, {
@@ -119,15 +122,22 @@ export class SimulatedSource {
   private async stand(): Promise<void> {
     const connection = this.connection;
     const now = await this.nextFrame();
-    if (!connection?.version || !now.isHeld) return;
-    await play(connection.requests, READY_PAGE);
-    const { clock } = this;
-    const endMs = clock.now() + STAND_LIMIT_MS;
-    while (clock.now() < endMs) {
-      const where = await askWhere(connection.requests, { timeoutMs: 3000 });
-      if (where.state === 'idle') break;
+    if (!connection?.version || !now.isHeld) {
+      if (!this.hasPhysics) this.standing = null; // the hand comes with the body
+      return;
     }
+    await this.untilIdle(connection, Infinity); // what plays already ends in the hand
+    await play(connection.requests, READY_PAGE);
+    await this.untilIdle(connection, STAND_LIMIT_MS);
     this.post({ kind: 'hold', held: false });
+  }
+
+  private async untilIdle({ requests }: Connection, limitMs: number): Promise<void> {
+    const { clock } = this;
+    for (const endMs = clock.now() + limitMs; clock.now() < endMs; await clock.pass(ASK_MS)) {
+      const where = await askWhere(requests, { timeoutMs: 3000 });
+      if (where.state === 'idle') return;
+    }
   }
 
   private nextFrame(): Promise<RobotState> {
@@ -151,6 +161,7 @@ export class SimulatedSource {
         return this.isShown ? this.events.frame(message.state) : undefined;
       case 'started': return this.events.change({ faultNames: message.faults, stopped: null });
       case 'physics':
+        this.hasPhysics = message.error === null;
         return this.events.change(message.error === null ? { physics: 'on' } : { physics: 'off', said: { text: `${TEXTS.noPhysics} (${message.error})`, tone: 'bad' } });
       case 'memories': return void this.keep(message.memories);
       case 'violation': return this.stop(violationText(message.violation, message.text));

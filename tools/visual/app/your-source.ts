@@ -12,7 +12,6 @@ import { RobotError } from '../robot/robot-error.ts';
 import type { ServoState } from '../robot/robot-state.ts';
 import { WebSerialPort } from '../robot/web-serial-port.ts';
 import { Standing } from '../sim/standing.ts';
-import { TEXTS } from '../view/texts.ts';
 import type { SourceEvents } from './simulated-source.ts';
 
 export class YourSource {
@@ -33,7 +32,7 @@ export class YourSource {
 
   /** Lets the person choose a port, unless one was allowed before. false: the chooser was closed. */
   async choose(): Promise<boolean> {
-    if (!('serial' in navigator)) throw new RobotError('port-busy', TEXTS.noSerial);
+    if (!('serial' in navigator)) throw new RobotError('no-serial');
     try {
       const [known] = await navigator.serial.getPorts();
       this.port = known ?? (await navigator.serial.requestPort());

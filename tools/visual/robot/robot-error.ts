@@ -6,6 +6,7 @@ export type RobotErrorCode =
   | 'refused' // the board answered ERR: its number and words are in `words`
   | 'not-connected' // there is no open port
   | 'port-lost' // the cable was pulled, or the port died
+  | 'no-serial' // this browser has no Web Serial
   | 'port-busy' // the port cannot be opened: another program has it, or no permission
   | 'foreign' // something else answers there
   | 'in-loader' // the boot loader waits at its prompt

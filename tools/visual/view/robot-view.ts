@@ -20,7 +20,7 @@ import { TEXTS } from './texts.ts';
 import './robot-view.css';
 
 /** A mark in the browser's performance timeline: the robot is in the picture for the first time. */
-export const ROBOT_DRAWN = 'robot-drawn';
+const ROBOT_DRAWN = 'robot-drawn';
 const TURN_RAD = 0.12;
 
 export class RobotView extends HTMLElement {

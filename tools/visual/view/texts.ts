@@ -12,6 +12,7 @@ const ERRORS: Record<RobotErrorCode, string> = {
   'not-connected': 'No robot is connected. Choose one at the top.',
   'port-lost': 'The cable was pulled. Plug it in again; the page reconnects by itself.',
   'port-busy': 'The port cannot be opened. Close the other program that uses it, then try again.',
+  'no-serial': 'This browser cannot reach a serial port. Use Chrome or Edge on a computer or Android; the robot in the page works here.',
   foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
   'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
   cancelled: 'Stopped.',
@@ -68,7 +69,6 @@ export function violationText(kind: string, text: string): string {
 }
 
 export const TEXTS = {
-  noSerial: 'This browser cannot reach a serial port. Use Chrome or Edge on a computer or Android; the robot in the page works here.',
   noWebGl: 'This browser draws no 3D picture (WebGL is off). Everything else works.',
   noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
   waits: 'The robot stands and waits.',

@@ -3,6 +3,7 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+import { comesLater, weights } from './weight.ts';
 
 let browser: Browser;
 const servers: PageServer[] = [];
@@ -19,10 +20,22 @@ afterAll(async () => {
   for (const server of servers) await server.stop();
 });
 
+test('the first load is at most 1 MB, compressed, with both images; physics and Python come behind it', () => {
+  const { first, physics, python } = weights();
+  expect(first).toBeLessThanOrEqual(1_000_000);
+  expect(Math.min(physics, python)).toBeGreaterThan(1_000_000); // they are there, and not counted
+});
+
 test('from a sub-path, and the second visit with the server stopped', async () => {
   const server = await serve('--under', '/some/where');
-  const visitor = await Visitor.come(browser, server.address);
+  const asked: string[] = [];
+  const visitor = await Visitor.come(browser, server.address, 'light', 1, undefined, async (page) => {
+    page.on('request', (request) => asked.push(request.url()));
+  });
   await visitor.untilStanding();
+  // What was asked for until then is what the first load is said to be: nothing of Python is in it, and every file is there.
+  expect(asked.filter((url) => comesLater(url, '') === 'python')).toEqual([]);
+  expect(asked.every((url) => url.startsWith(server.address))).toBe(true);
   await visitor.page.evaluate(async () => {
     await navigator.serviceWorker.ready;
   });

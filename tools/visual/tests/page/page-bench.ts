@@ -12,6 +12,8 @@ export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/
 export const FLAGS = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(process.getuid?.() === 0 ? ['--no-sandbox'] : [])];
 const VIEWPORT = { width: 1000, height: 640 };
+/** robot-view.ts sets it. */
+const ROBOT_DRAWN = 'robot-drawn';
 const LIMIT_MS = 120_000; // of every wait that names none: a busy machine decides no verdict
 
 export class PageServer {
@@ -41,9 +43,10 @@ export class PageServer {
   }
 }
 
-export async function startBrowser(): Promise<Browser> {
+/** more: flags besides ours. */
+export async function startBrowser(...more: string[]): Promise<Browser> {
   if (!BROWSER) throw new Error('there is no Chromium: tools/dev/setup webtest');
-  return chromium.launch({ executablePath: BROWSER, headless: true, args: FLAGS });
+  return chromium.launch({ executablePath: BROWSER, headless: true, args: [...FLAGS, ...more] });
 }
 
 /** One visitor with a browser profile of its own. */
@@ -57,12 +60,14 @@ export class Visitor {
     this.page = page;
   }
 
-  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1, viewport = VIEWPORT): Promise<Visitor> {
+  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1, viewport = VIEWPORT,
+    before: (page: Page) => Promise<unknown> = async () => undefined): Promise<Visitor> {
     // Reduced motion: no colour is looked at while it changes.
     const context = await browser.newContext({ viewport, colorScheme: theme, deviceScaleFactor: sharpness, reducedMotion: 'reduce' });
     context.setDefaultTimeout(LIMIT_MS);
     const visitor = new Visitor(context, await context.newPage());
     visitor.watch(new URL(address).origin);
+    await before(visitor.page);
     await visitor.page.goto(address);
     return visitor;
   }
@@ -87,6 +92,12 @@ export class Visitor {
 
   async open(tab: 'Remote' | 'Steps' | 'Curves' | 'Pages' | 'Links' | 'Checks' | 'Terminal' | 'Lab'): Promise<void> {
     await this.page.getByRole('tab', { name: tab, exact: true }).click();
+  }
+
+  /** Waits until the robot is in the picture; milliseconds since the page was asked for. */
+  async untilDrawn(): Promise<number> {
+    const drawn = await this.page.waitForFunction((mark) => performance.getEntriesByName(mark)[0]?.startTime, ROBOT_DRAWN);
+    return (await drawn.jsonValue()) ?? NaN;
   }
 
   /** Waits until the firmware answers; with physics, until the robot stands by itself. */
