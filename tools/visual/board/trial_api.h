@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * trial_api.h - the robot without its chip (tools/sim/quick) as flat functions, for a web page that asks what physics says of
- * a motion: the firmware's player, the virtual servos, and a body that the page brings (imported_body.h). Everything declared
- * here is exported by trial.wasm under its own name, and nothing else is (but `memory` and `_initialize`).
+ * trial_api.h - the robot without its chip (tools/sim/quick) as flat functions, for a web page that tries a motion in
+ * physics: the firmware's player, the virtual servos, and a body that the page brings (imported_body.h). trial.wasm exports
+ * everything declared here under its own name, and besides that only `memory` and `_initialize`.
  *
  * One robot at a time. Time passes in ticks of 1/128 s, as fast as it can be computed. The same calls and the same body give
  * the same run. Wrong numbers are refused, never undefined; without a robot every function does nothing and returns 0. */
