@@ -10,8 +10,8 @@
 void leave_open(session_t *session);
 void leave_close(session_t *session);
 
-/* Call it repeatedly. Writes the row when the robot has drawn its screen and is silent: after every redraw if the terminal has
- * a row below the robot's screen, else once for each start of the robot, until the robot writes there. */
+/* Call it repeatedly. Writes the row when the robot has drawn its screen and is silent: after every redraw if the terminal
+ * has a row below the robot's screen, else once for each start of the robot, until the robot writes there. */
 void leave_show(session_t *session);
 
 /* A person has pressed Ctrl-C, which goes to the robot: says once what ends the simulator. */
