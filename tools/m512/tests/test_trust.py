@@ -348,6 +348,7 @@ def test_doctor_does_not_repeat_itself(m512, monkeypatch, tmp_path):
     monkeypatch.setenv("M512_BUILD", str(tmp_path))
     monkeypatch.setenv("PATH", "")
     said = m512("doctor", "-p", "robot").stdout
+    assert "there are:" not in said
     lines = [line.strip(" ->") for line in said.splitlines()]
     for line in lines:
         assert said.count(line) == 1 or len(line) < 12, line

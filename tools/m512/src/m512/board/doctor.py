@@ -70,7 +70,7 @@ def _port(word: str, add) -> Optional[str]:
         Link(url).close()
     except M512Error as error:
         if found or word:
-            first, *rest = str(error).splitlines()
+            first = str(error).splitlines()[0].removesuffix("; there are:")   # they stand in the line above
             add("port", BAD, first, "" if "-p" in first or "--port" in first else "name the port with -p")
         return None
     add("port", OK, f"{url} opens")
