@@ -209,6 +209,18 @@ def test_diff_finds_every_single_byte():
         assert images(a, b), at
 
 
+def test_diff_says_once_what_empty_pages_have_that_has_no_effect(m512, tmp_path):
+    """A .mtn fills unused steps and joints in its own way; of 124 empty pages a person wants to hear nothing but that."""
+    (tmp_path / "a.m512").write_text("motion512 1\npage 1 a\n  step 1s | 1:500 2:500\npage 3 c\n  step 1s | 1:400\n")
+    assert m512("convert", tmp_path / "a.m512", tmp_path / "a.mtn").exit_code == 0
+    found = m512("diff", tmp_path / "a.m512", tmp_path / "a.mtn")
+    said = found.stdout.splitlines()
+    assert found.exit_code == 3
+    assert [line for line in said if not line.startswith(("page 1 ", "page 3 "))] == [
+        "pages 2 and 4..127: empty in both; bytes without effect differ"]
+    assert len([line for line in said if "unused step" in line]) == 2
+
+
 def test_diff_images_of_different_size():
     a, b = Image.empty(128), Image.empty(256)
     b[200] = read_text(TEXT)[3]

@@ -118,6 +118,6 @@ def diff(first, second, bits, as_json):
     if as_json:
         ui.show(json.dumps([change.as_dict() for change in found], indent=2))
     else:
-        for change in found:
-            ui.show(str(change))
+        for line in difference.lines(found):
+            ui.show(line)
     raise SystemExit(EXIT_DIFFERENT if found else 0)

@@ -78,8 +78,8 @@ class Source:
         from m512.pages import difference
 
         changes = difference.images(self.found, self.image)
-        for change in changes:
-            ui.say(str(change))
+        for line in difference.lines(changes):
+            ui.say(line)
         if not changes:
             ui.say("The board holds this already.")
             return

@@ -164,8 +164,10 @@ def positions_of(words):
 
     out = {}
     for word in words:
-        joints, _, value = word.rpartition(":")
+        joints, colon, value = word.rpartition(":")
         try:
+            if not colon:
+                raise WordError(f"{word}: say ID:POSITION, such as 2:600 or 2:30deg")
             at = position(value, 0x4000, 1023)
             if at > 1023:
                 raise WordError(f"{word}: a position is 0..1023")

@@ -7,6 +7,7 @@ from typing import List, Optional
 
 from m512.files.image import Image, is_erased
 from m512.files.page import EMPTY, JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Page
+from m512.files.wording import pages_text
 from m512.files.text.words import code_text, position_text
 
 
@@ -42,6 +43,15 @@ FIELDS = {"repeat": "repeat", "speed": "speed", "dxl_setup": "dxl_setup", "accel
           "blend_left": "blend partner to the left", "byte63": "byte 63"}
 CODES = {"code": "code", "link1_code": "code of linked page 1", "link2_code": "code of linked page 2"}
 SCHEDULES = {SCHEDULE_TIME: "time base", SCHEDULE_SPEED: "speed base"}
+
+
+BOTH_EMPTY = "empty in both; bytes without effect differ"
+
+
+def lines(changes: List[Change]) -> List[str]:
+    """As a person reads them: of empty pages one line, in the end."""
+    empty = [change.page for change in changes if change.what == BOTH_EMPTY]
+    return [str(change) for change in changes if change.what != BOTH_EMPTY] + ([f"{pages_text(empty)}: {BOTH_EMPTY}"] if empty else [])
 
 
 def images(first: Image, second: Image) -> List[Change]:
@@ -93,9 +103,9 @@ def pages(number: int, a: Page, b: Page, image: Optional[Image] = None) -> List[
         add("time" if b.schedule == SCHEDULE_TIME else "speed", a.time(step), b.time(step), step)
         for joint in range(JOINTS):
             add("", position_text(a.word(step, joint), pos_max), position_text(b.word(step, joint), pos_max), step, joint)
-    for step in range(used, STEPS):
-        if a.step_bytes(step) != b.step_bytes(step):
-            out.append(Change(number, name, "contents of an unused step differ", "", "", step))
+    unused = [step for step in range(used, STEPS) if a.step_bytes(step) != b.step_bytes(step)]
+    if unused:
+        out.append(Change(number, name, f"contents of unused steps differ ({', '.join(map(str, unused))})", "", ""))
     if Fault.CHECKSUM in (a.fault(), b.fault()):
         add("checksum", f"0x{a.checksum:02X}", f"0x{b.checksum:02X}")
     return out
@@ -119,6 +129,8 @@ def _whole(number: int, a: Page, b: Page) -> List[Change]:
         return [Change(number, b.title, "", "empty", _summary(b))]
     if b.is_empty and not a.is_empty:
         return [Change(number, a.title, "", _summary(a), "empty")]
+    if a.is_empty and b.is_empty and a != b and not a.fault() and not b.fault():
+        return [Change(number, "", BOTH_EMPTY, "", "")]
     return []
 
 
