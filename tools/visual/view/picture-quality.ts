@@ -21,12 +21,17 @@ export class PictureQuality {
   private step: number;
   private slow = 0;
   private fast = 0;
-  /** Frames closer together than this are not drawn: a picture by software must not take the processor from the robot. */
-  readonly leastMs: number;
+  private readonly bySoftware: boolean;
 
   constructor(bySoftware: boolean) {
+    this.bySoftware = bySoftware;
     this.step = bySoftware ? 2 : 0;
-    this.leastMs = bySoftware ? SOFTWARE_MS : 0;
+  }
+
+  /** Milliseconds from one look at the picture to the next. A picture by software must not take the processor from the robot: it gets
+   *  no more than half of the time. frameMs: what the last one took. */
+  restMs(frameMs: number): number {
+    return this.bySoftware ? Math.max(SOFTWARE_MS, 2 * frameMs) : 0;
   }
 
   get quality(): Quality {
@@ -35,7 +40,7 @@ export class PictureQuality {
 
   /** A frame took so long; true when the quality has changed. */
   take(frameMs: number): boolean {
-    if (this.leastMs > 0) return false; // slow by nature
+    if (this.bySoftware) return false; // slow by nature
     this.slow = frameMs > SLOW_MS ? this.slow + 1 : 0;
     this.fast = frameMs < FAST_MS ? this.fast + 1 : 0;
     const change = this.slow >= DOWN_AFTER && this.step < STEPS.length - 1 ? 1 : this.fast >= UP_AFTER && this.step > 0 ? -1 : 0;

@@ -8,6 +8,7 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Body } from '../model/body.ts';
 import type { Place, Vector } from '../model/space.ts';
+import { PictureChange } from './picture-change.ts';
 import type { Quality } from './picture-quality.ts';
 import { RobotFigure } from './robot-figure.ts';
 
@@ -40,6 +41,7 @@ export class RobotScene {
   private readonly string: Line;
   private readonly followed = new Vector3(0, 0, 0.14);
   private readonly raycaster = new Raycaster();
+  private readonly change = new PictureChange();
 
   /** Throws when the browser has no WebGL. */
   constructor(canvas: HTMLCanvasElement, body: Body) {
@@ -66,6 +68,7 @@ export class RobotScene {
     this.floor.map?.dispose();
     this.floor.map = tiles(floor, lines);
     this.floor.needsUpdate = true;
+    this.change.touch();
   }
 
   resize(width: number, height: number, quality: Quality): void {
@@ -74,6 +77,7 @@ export class RobotScene {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / Math.max(height, 1);
     this.camera.updateProjectionMatrix();
+    this.change.touch();
   }
 
   tilt(front: number, left: number): void {
@@ -92,9 +96,17 @@ export class RobotScene {
     this.light.target.position.copy(this.followed);
   }
 
-  draw(): void {
+  /** Draws the next time in any case. */
+  redraw(): void {
+    this.change.touch();
+  }
+
+  /** Draws what is to be seen now; false: it is what was drawn last. */
+  draw(): boolean {
     this.controls.update();
-    this.renderer.render(this.scene, this.camera);
+    const isNew = this.change.take(this.scene, this.camera);
+    if (isNew) this.renderer.render(this.scene, this.camera);
+    return isNew;
   }
 
   /** What is under a point of the picture (-1..1, y up). */
@@ -145,6 +157,7 @@ export class RobotScene {
     if (!frame || !point || !target) return;
     const from = this.room.worldToLocal(frame.localToWorld(new Vector3(...point)));
     this.string.geometry.setFromPoints([from, new Vector3(...target)]);
+    this.change.touch();
   }
 
   dispose(): void {

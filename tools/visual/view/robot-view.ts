@@ -85,15 +85,19 @@ export class RobotView extends HTMLElement {
   private drawFrames(scene: RobotScene): void {
     let request = 0;
     let beforeMs = 0;
+    let tookMs = 0;
+    let wasNew = false;
     let isDrawn = false;
     const draw = (nowMs: number): void => {
       request = requestAnimationFrame(draw);
-      if (nowMs - beforeMs < this.quality.leastMs) return;
+      if (wasNew) tookMs = nowMs - beforeMs; // the browser asks again when it is through with it
+      wasNew = false;
+      if (nowMs - beforeMs < this.quality.restMs(tookMs)) return;
       if (this.quality.take(nowMs - beforeMs)) this.resize(scene);
       beforeMs = nowMs;
       this.place(scene);
       if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
-      scene.draw();
+      wasNew = scene.draw();
       if (this.state && !isDrawn) isDrawn = performance.mark(ROBOT_DRAWN) !== null;
     };
     request = requestAnimationFrame(draw);
@@ -139,6 +143,7 @@ export class RobotView extends HTMLElement {
     canvas.addEventListener('keydown', (event) => this.key(event));
     canvas.addEventListener('keyup', () => this.pose?.keyUp());
     canvas.addEventListener('blur', () => this.pose?.keyUp());
+    canvas.addEventListener('webglcontextrestored', () => this.scene?.redraw());
   }
 
   private at(event: PointerEvent): readonly [number, number] {

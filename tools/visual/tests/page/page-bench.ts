@@ -9,7 +9,9 @@ import { chromium } from 'playwright-core';
 import type { Browser, BrowserContext, Page } from 'playwright-core';
 
 export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
-export const FLAGS = ['--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+/** There is no graphics chip: WebGL is drawn by software. The page around it is then put together without it: by WebGL's software that takes
+ *  0.2 s a frame, and a robot that shall keep its time waits for every one of them. */
+export const FLAGS = ['--disable-gpu-compositing', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(process.getuid?.() === 0 ? ['--no-sandbox'] : [])];
 const VIEWPORT = { width: 1000, height: 640 };
 /** robot-view.ts sets it. */
