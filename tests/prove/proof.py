@@ -77,12 +77,18 @@ def headline(figures):
     return "; ".join(short or [f"{len(figures)} of {len(figures)} figures kept"])
 
 
+def write_details(name, part):
+    """tests/proofs/NAME.md."""
+    DETAILS.mkdir(exist_ok=True)
+    lines = [f"# {part['title']}", "", part["about"], "", f"`{part['command']}` at commit {part['commit']}:", "", *table(part["figures"])]
+    (DETAILS / f"{name}.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
 def write_pages(names):
     """tests/PROOFS.md and tests/proofs/ from the results of the parts that ran here, in the order of `names`.
 
     A part that did not run here keeps its page and its row.
     """
-    DETAILS.mkdir(exist_ok=True)
     old = {}
     if PAGE.exists():
         old = {line.split("proofs/")[1].split(".md")[0]: line
@@ -94,9 +100,7 @@ def write_pages(names):
             rows += [old[name]] if name in old else []
             continue
         part = json.loads(path.read_text(encoding="utf-8"))
-        lines = [f"# {part['title']}", "", part["about"], "", f"`{part['command']}` at commit {part['commit']}:", "",
-                 *table(part["figures"])]
-        (DETAILS / f"{name}.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        write_details(name, part)
         rows.append(f"| [{part['title']}](proofs/{name}.md) | {part['promise']} | {headline(part['figures'])} | "
                     f"`{part['command']}` | {part['commit']} |")
     PAGE.write_text("\n".join([

@@ -4,21 +4,20 @@ by `@drive` as a joystick would. Bodies by chance (friction 0.5..1.1, 9.6..12 V,
 to 2 degrees, servo friction and rotor varied; with --hard those of the part physics, whose servo zeros are off by a degree as well). Physics
 is a model, and no real robot has walked our motions yet.
 """
+import dataclasses
 import functools
+import json
 import pathlib
 import random
-import sys
 
 import proof
 import promises
+import shape_player
 from body.chance import NOMINAL, body_of_the_bench, random_body
 from body.description import load
 from body.driven import Eight, Stick, drive, rounds
 from body.trial import pace
 from m512.files.formats import load as load_motions
-
-sys.path.insert(0, str(proof.TOP / "tests" / "compare"))
-import handed  # noqa: E402  (the path comes first)
 
 TITLE = "Driven motions in physics"
 PROMISE = "A walk stays a walk while its speed, size and direction change, while a second page plays over it, and when the cable is pulled."
@@ -213,46 +212,38 @@ def layer_figures(walk, seeds, options, name):
                          f"{len(results) - len(bad)} of {len(results)}" + told(bad), not bad)]
 
 
-# --- a layer that comes and goes at every tick ---
-
-EVERY_DEPTH = range(1, handed.DEPTH)
-BY_CHANCE = 2000
-
-
-def came_at(offs, item):
-    """(walks, [what is wrong]) of a walk over which a layer came at this tick and went after each of so many."""
-    law, name, on = item
-    return handed.every_tick(law, name, ons=[on], offs=offs)
-
-
-def hand_over_figures(options):
-    offs, chances = (range(3, handed.DEPTH, 40), 100) if options.sample else (EVERY_DEPTH, BY_CHANCE)
-    items = [(law, name, on) for law in handed.LAWS for name in handed.LAYERS for on in range(handed.CYCLE)]
-    results = proof.each(functools.partial(came_at, offs), items, "layer", options.jobs)
-    bad = [said for _, found in results for said in found]
-    seeds = range(options.seed, options.seed + chances)
-    strange = [said for said in proof.each(handed.by_chance, seeds, "pages by chance", options.jobs) if said]
-    walks = sum(count for count, _ in results)
-    how = "the player on the PC against the page of the spec; a joint that changes hands: 60 degrees/s, however many ticks one looks at"
-    return [proof.Figure("A layer comes at every tick of a walk and goes at every tick: who changes hands keeps to the approach speed and does not leap, the "
-                         "others go on bit by bit.", f"{how}; `wave_over` and `look` over our walk, both laws", f"{len(bad)} of {walks} walks wrong"
-                         + (f"; the first: {bad[0]}" if bad else ""), not bad, headline=True),
-            proof.Figure("The same with pages, joints, moments and speeds by chance.", how, f"{len(strange)} of {chances} walks wrong"
-                         + (f"; the first: {strange[0]}" if strange else ""), not strange)]
-
-
 def library():
     return load_motions(proof.TOP / "tools" / "motions" / "motions.m512")
 
 
 ROWS = {
     **{kind: functools.partial(lambda kind, walk, seeds, options: sweep_figures(walk, kind, seeds, options), kind) for kind in VALUES},
-    "layer": lambda walk, seeds, options: hand_over_figures(options),
+    "player": lambda walk, seeds, options: shape_player.law_figures(options),
+    "layer": lambda walk, seeds, options: shape_player.hand_over_figures(options),
     "cable": cable_figures,
     "eight": eight_figures,
     **{name: functools.partial(lambda name, walk, seeds, options: layer_figures(walk, seeds, options, name), name) for name in LAYERS},
 }
-SAMPLE = {"layer": 1, "cable": 1, "eight": 1, "look": 1}                  # rows of a sample, and how many bodies
+ROWS_KEPT = proof.RESULTS / "shape.rows.json"
+
+
+def keep_row(row, figures):
+    """A row that ran whole takes the place of its last run; then the page is written from the last run of each row."""
+    kept = json.loads(ROWS_KEPT.read_text(encoding="utf-8")) if ROWS_KEPT.exists() else {}
+    how = f"`--only {row}`, commit {proof.commit()}: "
+    kept[row] = [{**dataclasses.asdict(figure), "how": how + figure.how} for figure in figures]
+    proof.RESULTS.mkdir(parents=True, exist_ok=True)
+    ROWS_KEPT.write_text(json.dumps(kept, indent=1), encoding="utf-8")
+    write_rows(kept)
+
+
+def write_rows(kept):
+    """tests/proofs/shape.md from {row: figures}."""
+    proof.write_details("shape", {"title": TITLE, "about": " ".join(__doc__.split()), "command": "tools/prove shape",
+                                  "commit": "named in each line", "figures": [figure for row in ROWS for figure in kept.get(row, ())]})
+
+
+SAMPLE = {"player": 1, "layer": 1, "cable": 1, "eight": 1, "look": 1}                  # rows of a sample, and how many bodies
 
 
 def run(options):
@@ -263,7 +254,10 @@ def run(options):
             continue
         count = options.bodies or (SAMPLE[row] if options.sample else BODIES)
         seeds = [options.seed_of] if options.seed_of is not None else list(range(options.seed, options.seed + count))
-        figures += make(walk, seeds, options)
+        found = make(walk, seeds, options)
+        figures += found
+        if not (options.sample or options.bodies or options.seed_of is not None or options.hard):
+            keep_row(row, found)
     if options.only or options.bodies or options.seed_of is not None or options.hard:
         options.keep = False                     # a piece of the work
     return figures

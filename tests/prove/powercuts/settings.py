@@ -2,8 +2,11 @@
 """Scenes in which Play and Edit keep settings in EEPROM."""
 import re
 
+import bus_watch
 from boot_board import MAP, crc16
 from m512.board.client import DATA_BYTES, Client
+
+from made_page import page
 
 from . import robot
 from .robot import Memories
@@ -61,9 +64,10 @@ class Settings:
     copies = (b"", b"")
     changes = (("approach", 90), ("law", 1), ("low", 75), ("hot", 66), ("talk", 0))
     waits = True
+    servos = ()
 
     def __init__(self, seed):
-        self.board = robot.new_board("boot-cm5.hex", f"{self.app}-cm5.hex", seed=seed)
+        self.board = robot.new_board("boot-cm5.hex", f"{self.app}-cm5.hex", seed=seed, servos=self.servos)
         for copy, data in enumerate(self.copies):
             at = AREA.start + COPY_BYTES * copy
             self.board.eeprom[at:at + len(data)] = data
@@ -194,4 +198,59 @@ class PairsAndSave(Pairs):
         self.saved()
 
 
-SCENES = (Settings, SettingsWrap, SettingsDamaged, SettingsQuick, Pairs, PairsAndSave)
+class SettingsDriven(Settings):
+    """Play: a walk is driven at 20 Hz and a second page lies over it, while settings are saved."""
+
+    name, about, chunks, rates = "settings-driven", 46, 2, (4, 1, 1)
+    promise = "Settings saved while a walk is driven and a layer plays: the old or the new ones; behind the cut nothing of it goes on by itself"
+    changes = (("approach", 90), ("low", 75), ("hot", 66))
+    servos = range(1, 19)
+    LOOP, LAYER, OWN = 5, 6, (3, 5)
+
+    def __init__(self, seed):
+        super().__init__(seed)
+        for number, joints, way in ((self.LOOP, range(1, 19), 40), (self.LAYER, self.OWN, 150)):
+            looping = page("loop", [(40, {joint: 512 + way for joint in joints}), (40, {})], joints=joints, next=number)
+            at = robot.MOTIONS + robot.PAGE_BYTES * number
+            self.board.flash[at:at + robot.PAGE_BYTES] = bytes(looping.data)
+        self.memories = Memories(self.board)
+        self.memories.free_eeprom |= set(AREA)
+        self.say("on", f"play {self.LOOP}")
+        self.board.expect("Playing page", ms=5000)
+        self.drive(200)
+        self.say(f"layer {self.LAYER}")
+        self.board.clear_trace()
+
+    def say(self, *lines):
+        for line in lines:
+            self.board.take()
+            self.board.send(line + "\r")
+            self.board.expect(" OK", ms=3000)
+
+    def drive(self, ms):
+        for _ in range(ms // 50):
+            self.board.send("@drive 0 120 100\r")
+            self.board.run(ms=50)
+
+    def saved(self):
+        operations = -1
+        while operations != self.board.operations:
+            operations = self.board.operations
+            self.drive(500)
+        self.allowed = self.allowed[-1:]
+        moved = {joint for _, goals in bus_watch.frames_of(self.board.packets) for joint, goal in goals.items() if goal > 560}
+        assert moved == set(self.OWN), f"the layer does not play: {moved}"
+        self.board.clear_trace()
+
+    def restart(self):
+        self.board.clear_trace()
+        super().restart()
+
+    def verdict(self, cut):
+        if cut:
+            self.board.run(ms=1500)
+            assert not bus_watch.frames_of(self.board.packets), "the robot moves by itself"
+        return super().verdict(cut)
+
+
+SCENES = (Settings, SettingsWrap, SettingsDamaged, SettingsQuick, SettingsDriven, Pairs, PairsAndSave)
