@@ -31,25 +31,9 @@ void performer_set_source(performer_t *performer, const page_source_t *source)
 
 /* ---- what it is doing ---- */
 
-bool performer_is_idle(const performer_t *performer)
-{
-    return performer->state == PERFORMER_IDLE;
-}
-
 bool performer_is_still(const performer_t *performer)
 {
     return performer_is_idle(performer) && !performer_layers_are_moving(performer);
-}
-
-bool performer_is_paused(const performer_t *performer)
-{
-    return performer->state == PERFORMER_STOOD ||
-           (performer->state == PERFORMER_PLAY && player_is_paused(&performer->engine.player));
-}
-
-uint32_t performer_usable(const performer_t *performer)
-{
-    return PERFORMER_SERVOS(performer)->present & ~performer->released;
 }
 
 bool performer_next_event(performer_t *performer, performer_event_t *event)
@@ -57,7 +41,7 @@ bool performer_next_event(performer_t *performer, performer_event_t *event)
     return performer_event_take(&performer->events, event);
 }
 
-/* The end of the player: behind the approach, and behind the goals that servo_link may still be sending. */
+/* The memory at the end of the player: not used by the approach, nor by goals that servo_link may still be sending. */
 uint8_t *performer_spare(performer_t *performer)
 {
     STATIC_ASSERT(sizeof performer->engine.player + PAGE_BYTES <= sizeof performer->engine &&
@@ -79,7 +63,7 @@ static performer_status_t somebody_can_move(const performer_t *performer)
     return performer_usable(performer) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
 }
 
-/* Starts a fresh player at `page` from where the goals are. */
+/* Starts a fresh player at `page` from the present goals. */
 static NOINLINE player_status_t start_player(performer_t *performer, uint8_t page, uint32_t joints)
 {
     const player_law_t law =
@@ -119,7 +103,7 @@ performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t
     if (status != PERFORMER_OK) {
         return status;
     }
-    /* A start without joints, only to hear what the player has against this page. It may use the links up: call again. */
+    /* Starts a player without joints, to learn whether it accepts the page. */
     performer_shape_follow(performer);
     call_link(performer, code);
     fresh_player(performer);
@@ -155,7 +139,7 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
 
 /* ---- from one state to the next ---- */
 
-/* Every joint stands where the page or the move begins. */
+/* Begins the play, or ends the move: every joint is at its place. */
 static void begin(performer_t *performer)
 {
     if (performer->move_deg_s != 0) {
@@ -197,7 +181,7 @@ static void approach_over(performer_t *performer)
     if (performer->leaving) {
         performer_go_idle(performer, performer->end_reason);
     } else if (performer->pausing) {
-        performer->state = PERFORMER_STOOD;
+        performer->state = PERFORMER_APPROACH_PAUSED;
         performer_event_put(&performer->events, PERFORMER_EV_PAUSED, performer->page, 0, 0);
     } else {
         begin(performer);
@@ -228,7 +212,7 @@ static void act_on(performer_t *performer, performer_verdict_t verdict, uint32_t
         servo_link_torque_off(PERFORMER_SERVOS(performer), joint);
         return;
     }
-    performer->end_reason = PERFORMER_END_SERVO; /* of a play, if one is on */
+    performer->end_reason = PERFORMER_END_SERVO; /* used if a play is on */
     if (verdict == WATCH_EXIT) {
         performer_stop_softly(performer);
     } else {
@@ -256,8 +240,8 @@ static void send_goals(performer_t *performer, uint32_t joints)
     servo_link_goals(PERFORMER_SERVOS(performer), performer->goal_pos, joints | performer_layers_joints(performer));
 }
 
-/* The compliance bytes of the pages that play, to the servos. Not inlined: the tick would keep 31 bytes of stack
- * for what happens once a page. */
+/* Sends the compliance bytes of the pages that play. NOINLINE: else every tick would need 31 bytes of stack for what happens
+ * once a page. */
 static NOINLINE void send_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
@@ -277,7 +261,7 @@ static void approach_or_move_tick(performer_t *performer)
     }
 }
 
-/* Tells what the player did in this tick. */
+/* Queues the player's events of this tick. */
 static void tell(performer_t *performer, uint8_t events)
 {
     const player_t *player = &performer->engine.player;
@@ -295,7 +279,7 @@ static void tell(performer_t *performer, uint8_t events)
     }
 }
 
-/* A page's slopes go out a tick or more after its first goals: the tick in which a page begins has enough to do. */
+/* A page's slopes go out a tick or more after its first goals, because the tick in which a page begins is a long one. */
 static void play_tick(performer_t *performer)
 {
     const bool slopes_due = performer->slopes_due;
@@ -310,7 +294,7 @@ static void play_tick(performer_t *performer)
         send_goals(performer, performer->engine.player.joints);
     }
     if ((events & PLAYER_EV_STEP) != 0) {
-        servo_link_hold_slopes(PERFORMER_SERVOS(performer));
+        servo_link_delay_slopes(PERFORMER_SERVOS(performer));
     }
     tell(performer, events);
 }

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "performer_event.h"
 
-#define ROOM_FOR_STEPS (PERFORMER_EVENTS - 6u)  /* the rest is for rarer and graver events */
-#define ROOM_FOR_OTHERS (PERFORMER_EVENTS - 1u) /* the last place is for the end */
+#define ROOM_FOR_STEPS (PERFORMER_EVENTS - 6u)  /* the rest is for more important events */
+#define ROOM_FOR_OTHERS (PERFORMER_EVENTS - 1u) /* the last place is for the end of a play */
 
 static uint8_t room_for(uint8_t kind)
 {
     return kind == PERFORMER_EV_STEP ? ROOM_FOR_STEPS : kind == PERFORMER_EV_ENDED ? PERFORMER_EVENTS : ROOM_FOR_OTHERS;
 }
 
-/* An index around the end of the array: a division would take 200 cycles of a tick. */
+/* Wraps an index at the end of the array. A division would take 200 cycles of a tick. */
 static uint8_t wrapped(uint8_t at)
 {
     return at >= PERFORMER_EVENTS ? (uint8_t)(at - PERFORMER_EVENTS) : at;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * performer_event.h - what a performer tells: kinds of events, reasons for an end, and the queue in which they wait until
- * the image prints them (report.h makes sentences of them). Main loop only. The queue is caller-owned:
+ * performer_event.h - the events of a performer: their kinds, the reasons for an end, and the queue in which they wait
+ * until the image prints them (report.h makes sentences of them). Main loop only. The queue is caller-owned:
  * RAM 4 * PERFORMER_EVENTS + 3 bytes. */
 #ifndef PERFORMER_EVENT_H
 #define PERFORMER_EVENT_H
@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #ifndef PERFORMER_EVENTS
-#define PERFORMER_EVENTS 12u /* at least 7; an image may have less than Play */
+#define PERFORMER_EVENTS 12u /* at least 7; an image may have fewer */
 #endif
 
 /* Why a play ended. */
@@ -17,29 +17,29 @@ typedef enum {
     PERFORMER_END_DONE = 0,  /* a link of 0 */
     PERFORMER_END_STOPPED,   /* after a stop, through the exit links */
     PERFORMER_END_BROKEN,    /* break */
-    PERFORMER_END_LOOP,      /* after a stop, the exit pages came back to themselves */
-    PERFORMER_END_PAGE,      /* the page that was to follow is damaged */
+    PERFORMER_END_LOOP,      /* after a stop, the exit links form a loop */
+    PERFORMER_END_PAGE,      /* the next page is damaged */
     PERFORMER_END_SERVO,     /* the rule for faults ended it */
     PERFORMER_END_THERE      /* a move has arrived */
 } performer_end_t;
 
-/* What happened; a and b by kind. */
+/* Kinds of events, and the meaning of a, b and c. */
 typedef enum {
     PERFORMER_EV_NONE = 0,
-    PERFORMER_EV_APPROACH,   /* a: page; b: seconds it takes, rounded up */
+    PERFORMER_EV_APPROACH,   /* a: page, b: duration in seconds, rounded up */
     PERFORMER_EV_STEP,       /* a: page, b: step 1..7, c: repetition */
-    PERFORMER_EV_LINK,       /* a: page it leads to (0: the end), b: link_taken_t */
+    PERFORMER_EV_LINK,       /* a: the next page (0: the end), b: link_taken_t */
     PERFORMER_EV_PAUSED,     /* all joints stand */
     PERFORMER_EV_ENDED,      /* a: page, b: page_status_t of a damaged page, c: performer_end_t */
     PERFORMER_EV_SILENT,     /* a: servo ID */
     PERFORMER_EV_BACK,       /* a: servo ID */
-    PERFORMER_EV_ERRORS,     /* a: servo ID, b: DXL_ERR_ bits, 0: none any more */
-    PERFORMER_EV_TORQUE,     /* a: servo ID: its torque went off by itself */
+    PERFORMER_EV_ERRORS,     /* a: servo ID, b: DXL_ERR_ bits, 0: no more errors */
+    PERFORMER_EV_TORQUE,     /* a: servo ID whose torque went off by itself */
     PERFORMER_EV_BATTERY,    /* a: lowest voltage of all servos, 0.1 V */
     PERFORMER_EV_HOT,        /* a: servo ID, b: degrees C */
-    PERFORMER_EV_LAYER_ENDED, /* a: the page it ended in */
-    PERFORMER_EV_DRIVE_LOST, /* the program that drove has fallen silent: the play is being stopped */
-    PERFORMER_EV_LOST        /* a: how many events found the queue full */
+    PERFORMER_EV_LAYER_ENDED, /* a: the page in which it ended */
+    PERFORMER_EV_DRIVE_LOST, /* the driving program is silent; the play is being stopped */
+    PERFORMER_EV_LOST        /* a: number of events dropped because the queue was full */
 } performer_event_kind_t;
 
 typedef struct {
@@ -52,10 +52,10 @@ typedef struct {
     performer_event_t event[PERFORMER_EVENTS];
 } performer_events_t;
 
-/* All bytes 0: empty. */
+/* A queue of zero bytes is empty. */
 
-/* Puts an event behind the others. When the queue is full the event is dropped and counted. Steps find it full first,
- * then everything else, and the end of a play last: who waits for the end must hear of it. */
+/* Appends an event, or drops and counts it if the queue is full. Some room is kept for the end of a play, because somebody
+ * waits for that, and some for all events but steps. */
 void performer_event_put(performer_events_t *events, uint8_t kind, uint8_t a, uint8_t b, uint8_t c);
 
 /* Takes the oldest event; behind the last one PERFORMER_EV_LOST when some were dropped. false: none. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * performer_ready.c - between "play this" and the first goal: pose, torque, the plan of the approach. */
+ * performer_ready.c - the state READY: pose, torque, the plan of the approach. */
 #include "performer_parts.h"
 
 #include <string.h>
@@ -13,8 +13,8 @@ void performer_get_ready(performer_t *performer)
     performer->faulty = 0;
     performer->leaving = false;
     performer->pausing = false;
-    performer->battery_told = false;
-    performer->heat_told = false;
+    performer->battery_reported = false;
+    performer->heat_reported = false;
     performer->end_reason = PERFORMER_END_DONE;
     performer->state = PERFORMER_READY;
 }
@@ -29,14 +29,14 @@ static uint8_t lowest_joint(uint32_t joints)
     return id;
 }
 
-/* Torque on in one call, pose in the next: at most 5 ms each. Edit leaves slow moving speeds behind; goals a tick apart need
- * the servos' full one. */
+/* Switches torque on in one call and reads the pose in the next: at most 5 ms each. Sets full moving speed, because goals
+ * come a tick apart and Edit may have set a slow one. */
 static performer_ready_t ask_one_joint(performer_t *performer)
 {
     servo_link_t *servos = PERFORMER_SERVOS(performer);
     const uint8_t id = lowest_joint(performer->ready_left);
     const uint32_t joint = servo_link_bit(id);
-    bool is_there = (performer_layers_joints(performer) & joint) != 0; /* under way already: its goal is where it is */
+    bool is_there = (performer_layers_joints(performer) & joint) != 0; /* a layer moves it: its goal is its place */
     if (!is_there && !servo_link_has(&servos->torque, id)) {
         if (servo_link_torque_on(servos, joint) != 0) {
             return READY_ASKING;
@@ -56,8 +56,8 @@ static performer_ready_t ask_one_joint(performer_t *performer)
     return PERFORMER_SETTINGS(performer)->fault_rule == SETTINGS_FAULT_LIMP ? READY_ASKING : READY_SILENT;
 }
 
-/* Where the approach leads: the first step's positions, or the pose of a move, which stands there already. Returns the
- * joints it concerns. */
+/* Puts the target of the approach into engine.approach.target_pos: the positions of the first step. (The pose of a move is
+ * there already.) Returns the joints that have one. */
 static uint32_t take_first_pose(performer_t *performer)
 {
     uint16_t *to_pos = performer->engine.approach.target_pos;

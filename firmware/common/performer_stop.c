@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * performer_stop.c - what ends a play or interrupts it: stop, break, pause, torque off. */
+ * performer_stop.c - ends a play or interrupts it: stop, break, pause, torque off. */
 #include "performer_parts.h"
 
 #include "bound.h"
@@ -52,14 +52,14 @@ void performer_break(performer_t *performer)
     }
     if (performer->state == PERFORMER_APPROACH) {
         approach_break(&performer->engine.approach);
-    } else if (performer->state == PERFORMER_STOOD) {
+    } else if (performer->state == PERFORMER_APPROACH_PAUSED) {
         performer_go_idle(performer, performer->end_reason);
     } else if (performer->state == PERFORMER_PLAY) {
         player_break(&performer->engine.player);
     }
 }
 
-/* One more stop: true when it is the second within a second, or comes before the first step, and so was made a break. */
+/* Counts a stop. true: it was the second within a second, or came before the first step, and was carried out as a break. */
 static bool stop_is_break(performer_t *performer)
 {
     const bool again = performer->since_stop_ticks < SECOND_STOP_TICKS;
@@ -185,6 +185,6 @@ void performer_off(performer_t *performer, uint32_t joints)
     performer_drop(performer, joints);
     servo_link_torque_off(PERFORMER_SERVOS(performer), joints & PERFORMER_SERVOS(performer)->present);
     if (!performer_is_idle(performer) && (performer->joints | performer->ready_left) == 0) {
-        performer_go_idle(performer, PERFORMER_END_BROKEN); /* nobody is left who moves */
+        performer_go_idle(performer, PERFORMER_END_BROKEN); /* no joint is left to move */
     }
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * performer_watch.c - what happens to the servos beside the play: faults and the rule for them, battery, heat. */
+ * performer_watch.c - faults of servos and the rule for them, battery, heat. */
 #include "performer_parts.h"
 
 #include "bound.h"
 #include "dxl.h"
 #include "performer_shape.h"
 
-/* What the fault rule acts on. A voltage error is told but ends nothing: the battery is low long before it is empty. */
+/* Errors for the fault rule. A voltage error is reported but ends nothing: the battery is low long before it is empty. */
 #define ERRORS_GRAVE (DXL_ERR_ANGLE | DXL_ERR_HEAT | DXL_ERR_OVERLOAD)
 
 static NOINLINE void tell(performer_t *performer, uint8_t kind, uint8_t a, uint8_t b)
@@ -16,13 +16,13 @@ static NOINLINE void tell(performer_t *performer, uint8_t kind, uint8_t a, uint8
 
 /* ---- faults ---- */
 
-/* The kinds of events stand in the order of the kinds of faults. */
+/* The kinds of events are in the order of the kinds of faults. */
 STATIC_ASSERT(PERFORMER_EV_BACK - PERFORMER_EV_SILENT == SERVO_FAULT_BACK - SERVO_FAULT_SILENT &&
                   PERFORMER_EV_ERRORS - PERFORMER_EV_SILENT == SERVO_FAULT_ERRORS - SERVO_FAULT_SILENT &&
                   PERFORMER_EV_TORQUE - PERFORMER_EV_SILENT == SERVO_FAULT_TORQUE - SERVO_FAULT_SILENT,
               "faults and events in one order");
 
-/* Tells one fault. true: the rule for faults acts on it. */
+/* Reports one fault. true: the rule for faults acts on it. */
 static bool take_fault(performer_t *performer, const servo_fault_t *fault)
 {
     const bool is_errors = fault->kind == SERVO_FAULT_ERRORS;
@@ -70,8 +70,8 @@ static performer_verdict_t take_faults(performer_t *performer, uint32_t *joint)
 static void watch_battery(performer_t *performer)
 {
     const uint8_t now_dv = PERFORMER_SERVOS(performer)->voltage_dv;
-    if (!performer->battery_told && now_dv != 0 && now_dv < PERFORMER_SETTINGS(performer)->battery_low_dv) {
-        performer->battery_told = true;
+    if (!performer->battery_reported && now_dv != 0 && now_dv < PERFORMER_SETTINGS(performer)->battery_low_dv) {
+        performer->battery_reported = true;
         tell(performer, PERFORMER_EV_BATTERY, now_dv, 0);
     }
 }
@@ -80,8 +80,8 @@ static void watch_heat(performer_t *performer)
 {
     const uint8_t limit = PERFORMER_SETTINGS(performer)->hot_degrees;
     const uint8_t now = PERFORMER_SERVOS(performer)->hottest_degrees;
-    if (!performer->heat_told && limit != 0 && now >= limit) {
-        performer->heat_told = true;
+    if (!performer->heat_reported && limit != 0 && now >= limit) {
+        performer->heat_reported = true;
         tell(performer, PERFORMER_EV_HOT, PERFORMER_SERVOS(performer)->hottest_id, now);
     }
 }

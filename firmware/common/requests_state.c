@@ -54,7 +54,7 @@ static void print_state_name(const performer_t *performer)
     TEXT_NAMED(playing, "playing");
     static const char *const names[] PROGMEM = {
         [PERFORMER_IDLE] = idle, [PERFORMER_READY] = ready, [PERFORMER_APPROACH] = approach,
-        [PERFORMER_STOOD] = paused, [PERFORMER_PLAY] = playing,
+        [PERFORMER_APPROACH_PAUSED] = paused, [PERFORMER_PLAY] = playing,
     };
     text_P(performer_is_paused(performer) ? paused : (const char *)pgm_read_ptr(&names[performer->state]));
 }

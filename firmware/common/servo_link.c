@@ -8,20 +8,20 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Where a tick stands. A tick begins at PHASE_POLL, or at PHASE_GOALS when there are goals:
+/* The phases of a tick. It begins at PHASE_POLL, or at PHASE_GOALS when there are goals:
  *
  *   GOALS -> SLOPES -> DEAF -> ACTION -> POLL -> POLLING -> DONE       (each may be skipped)
  *
- * QUIET: others use the bus until the next tick. */
+ * QUIET: the bus is free for other callers until the next tick. */
 enum { PHASE_QUIET = 0, PHASE_GOALS, PHASE_SLOPES, PHASE_DEAF, PHASE_ACTION, PHASE_POLL, PHASE_POLLING, PHASE_DONE };
 
 #define POS_MAX 1023u
-/* What a packet holds: 7 bytes around, the checksum, and per joint ID, slopes and goal. */
+/* Joints in a packet of BUS_PACKET_BYTES: 7 bytes before them, a checksum behind; each joint has ID, slopes and goal. */
 #define PACKET_BYTES (BUS_PACKET_BYTES < DXL_PACKET_MAX ? BUS_PACKET_BYTES : DXL_PACKET_MAX)
 #define JOINTS_WITH_SLOPES ((PACKET_BYTES - 8u) / 5u)
-#define SLOPES_JOINTS 8u   /* what a packet of slopes alone takes: a byte of the mask */
+#define SLOPES_JOINTS 8u   /* joints in a packet of slopes alone: a byte of the mask */
 STATIC_ASSERT(PACKET_BYTES >= 8u + 3u * SERVO_LINK_JOINTS, "all joints' goals fit into one packet");
-/* The health poll's stretch of the control table. */
+/* The part of the control table that the health poll reads. */
 #define POLL_AT DXL_AT_TORQUE_ENABLE
 #define POLL_BYTES (DXL_AT_TEMPERATURE + 1u - POLL_AT)
 STATIC_ASSERT(POLL_BYTES <= DXL_ANSWER_PARAMS, "the bus takes the poll's answer");
@@ -51,7 +51,7 @@ void servo_link_put(uint32_t *mask, uint8_t id, bool on)
     *mask = on ? *mask | bit : *mask & ~bit;
 }
 
-/* Takes the lowest joint out of a mask that is not empty. */
+/* Removes the lowest joint from a mask that is not empty, and returns it. */
 static NOINLINE uint8_t take_lowest(uint32_t *mask)
 {
     uint8_t id = 0;
@@ -62,7 +62,7 @@ static NOINLINE uint8_t take_lowest(uint32_t *mask)
     return id;
 }
 
-/* Byte by byte: 150 cycles for 31 bits, a third of what 32-bit steps take. */
+/* Works byte by byte: 150 cycles for 31 bits, a third of the time with 32-bit shifts. */
 static NOINLINE uint8_t count_bits(uint32_t mask)
 {
     uint8_t count = 0;
@@ -81,7 +81,7 @@ uint32_t servo_link_drivable(const servo_link_t *link)
 
 /* ---- coordinates ---- */
 
-/* pos < 0 ? 0 : pos > POS_MAX ? POS_MAX : pos, with one look at the high byte for what is within 0..1023. */
+/* pos < 0 ? 0 : pos > POS_MAX ? POS_MAX : pos, with one test of the high byte if pos is within 0..1023. */
 ALWAYS_INLINE uint16_t limited(uint16_t pos)
 {
     const uint8_t high = (uint8_t)(pos >> 8);
@@ -118,7 +118,7 @@ uint32_t servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LI
 
 /* ---- one tick of goals ---- */
 
-/* Slope register values of a compliance byte: 2^nibble, CW in the low byte; 0 and above 7 count as 5. */
+/* The slope registers of a compliance byte: 2^nibble, CW in the low byte. Nibbles 0 and above 7 count as 5. */
 static NOINLINE uint16_t slopes_of(uint8_t compliance)
 {
     static const uint8_t slope[16] PROGMEM = { 32, 2, 4, 8, 16, 32, 64, 128, 32, 32, 32, 32, 32, 32, 32, 32 };
@@ -131,8 +131,8 @@ ALWAYS_INLINE void put_word(dxl_writer_t *writer, uint16_t word)
     dxl_put(writer, (uint8_t)(word >> 8));
 }
 
-/* SYNC WRITE of goals: 101 bytes for 31 joints, once a tick. One loop over all joints, with nothing but the pointers that
- * it moves: 31 cycles a joint. */
+/* Builds the SYNC WRITE of goals: 101 bytes for 31 joints, once a tick. A single loop that only moves pointers: 31 cycles a
+ * joint. */
 static NOINLINE uint8_t build_goals(const uint16_t *goal, const int16_t *trim, uint32_t joints)
 {
     dxl_writer_t writer;
@@ -152,7 +152,7 @@ static NOINLINE uint8_t build_goals(const uint16_t *goal, const int16_t *trim, u
     return dxl_end(&writer);
 }
 
-/* SYNC WRITE of slopes, or of both. */
+/* Builds a SYNC WRITE of slopes, or of slopes and goals. */
 static NOINLINE uint8_t build_slopes(const servo_link_t *link, uint32_t joints, bool with_goals)
 {
     dxl_writer_t writer;
@@ -194,11 +194,11 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
     link->goals_joints = joints;
     if (link->no_sync != 0) {
         if (link->phase == PHASE_DEAF && link->deaf_left == 0) {
-            send_action();              /* the last tick did not get to it */
+            send_action();              /* no time for it in the last tick */
             (void)bus_wait(NULL);
         }
         if (link->deaf_left != 0) {
-            count_late(link);           /* the round begun a tick ago goes on, with the new goals */
+            count_late(link);           /* the round of the last tick continues with the new goals */
         } else {
             link->deaf_left = joints & link->no_sync;
         }
@@ -232,7 +232,7 @@ void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_J
         }
     }
     link->slopes_wait = 2;
-    link->slopes_held = 0;
+    link->slopes_delayed = 0;
 }
 
 uint8_t servo_link_write_answer(const servo_link_t *link, uint8_t id)
@@ -240,7 +240,7 @@ uint8_t servo_link_write_answer(const servo_link_t *link, uint8_t id)
     return servo_link_has(&link->no_reply, id) ? BUS_NO_ANSWER : 0;
 }
 
-/* REG WRITE of slopes and goal to the next servo that is deaf to SYNC WRITE. */
+/* Sends slopes and goal as REG WRITE to the next servo that is deaf to SYNC WRITE. */
 static void send_deaf(servo_link_t *link)
 {
     uint8_t id = take_lowest(&link->deaf_left);
@@ -255,7 +255,7 @@ static void send_deaf(servo_link_t *link)
 
 /* ---- health ---- */
 
-/* A full round publishes its lowest voltage and highest temperature. */
+/* At the end of a round, publishes its lowest voltage and highest temperature. */
 static void end_round(servo_link_t *link)
 {
     link->voltage_dv = link->round_voltage_dv;
@@ -265,7 +265,7 @@ static void end_round(servo_link_t *link)
     link->round_degrees = 0;
 }
 
-/* Asks the servo that missed once more, or the next one. */
+/* Asks the servo that did not answer again, or the next one. */
 static void send_poll(servo_link_t *link)
 {
     link->phase = PHASE_DONE;
@@ -286,7 +286,7 @@ static void send_poll(servo_link_t *link)
 
 static void note_fault(servo_link_t *link, uint8_t id, servo_fault_kind_t kind)
 {
-    servo_link_put(&link->untold[kind - 1], id, true);
+    servo_link_put(&link->unreported[kind - 1], id, true);
 }
 
 static void take_torque(servo_link_t *link, uint8_t id, const uint8_t *table)
@@ -340,7 +340,7 @@ static void take_miss(servo_link_t *link)
     link->poll_misses = 0;
 }
 
-/* The poll's result, when there is one. */
+/* Handles the result of the poll, if there is one. */
 static NOINLINE void end_poll(servo_link_t *link)
 {
     bus_answer_t answer;
@@ -360,8 +360,8 @@ static NOINLINE void end_poll(servo_link_t *link)
 
 void servo_link_tick(servo_link_t *link)
 {
-    /* Waiting for the end costs 1 ms at most, and only when the main loop was busy elsewhere: giving up instead would put
-     * our goals on the wire together with the servo's answer. */
+    /* The wait takes 1 ms at most, and only when the main loop was busy elsewhere. Without it our goals could collide with a
+     * servo's answer. */
     if (link->phase == PHASE_POLLING) {
         (void)bus_wait(NULL);
         end_poll(link);
@@ -374,7 +374,7 @@ void servo_link_tick(servo_link_t *link)
     }
 }
 
-/* Sends what comes after the goals of this tick; true while there was something. */
+/* Sends the next packet after the goals of this tick. true: a packet was sent. */
 static bool send_rest(servo_link_t *link)
 {
     uint32_t pending = link->slopes_pending & link->goals_joints & ~link->no_sync;
@@ -429,9 +429,9 @@ void servo_link_quiet(servo_link_t *link)
 bool servo_link_next_fault(servo_link_t *link, servo_fault_t *fault)
 {
     for (uint8_t kind = 1; kind <= SERVO_FAULT_KINDS; kind++) {
-        if (link->untold[kind - 1] != 0) {
+        if (link->unreported[kind - 1] != 0) {
             fault->kind = kind;
-            fault->id = take_lowest(&link->untold[kind - 1]);
+            fault->id = take_lowest(&link->unreported[kind - 1]);
             fault->errors = link->errors[fault->id];
             return true;
         }

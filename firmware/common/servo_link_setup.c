@@ -11,7 +11,7 @@
 
 #define PING_TRIES 2u
 #define WRITE_BYTES_MAX 4u
-/* Torque enable .. present position: what torque_on and read_pose look at. */
+/* The registers that torque_on and read_pose read: torque enable .. present position. */
 #define READ_FROM DXL_AT_TORQUE_ENABLE
 #define READ_BYTES (DXL_AT_PRESENT + 2u - READ_FROM)
 STATIC_ASSERT(READ_BYTES <= DXL_ANSWER_PARAMS, "the bus takes the answer");
@@ -23,10 +23,10 @@ static uint16_t word_at(const uint8_t *bytes)
 
 /* ---- one after the other ---- */
 
-/* Something that is done to one servo; true: it worked. */
+/* Does something to one servo. true: success. */
 typedef bool (*servo_action_t)(servo_link_t *link, uint8_t id);
 
-/* Does it to each of `ids`; returns those it worked for. */
+/* Does it to each of `ids`. Returns those with success. */
 static uint32_t for_each(servo_link_t *link, uint32_t ids, servo_action_t action)
 {
     uint32_t done = 0;
@@ -52,7 +52,7 @@ bool servo_link_write(const servo_link_t *link, uint8_t id, uint8_t at, const ui
         == BUS_OK;
 }
 
-/* One or two bytes; whoever calls looks at the servo afterwards. */
+/* Writes one or two bytes. Has no result: the caller reads the servo afterwards. */
 static void write_one(const servo_link_t *link, uint8_t id, uint8_t at, uint16_t value, uint8_t count)
 {
     const uint8_t bytes[2] = { (uint8_t)value, (uint8_t)(value >> 8) };
@@ -67,7 +67,7 @@ static bool ping(servo_link_t *link, uint8_t id)
     return bus_call_ping(id, PING_TRIES, NULL) == BUS_OK;
 }
 
-/* Status return level: no READ answered is level 0, no WRITE answered level 1. */
+/* Finds out the status return level: a servo that answers no READ has level 0, one that answers no WRITE level 1. */
 static bool look_at_level(servo_link_t *link, uint8_t id)
 {
     uint8_t level = 0;
@@ -83,7 +83,7 @@ static bool is_led_dark(servo_link_t *link, uint8_t id)
     return read_byte(id, DXL_AT_LED, &led) && led == 0;
 }
 
-/* One byte to the same address of many, by SYNC WRITE. */
+/* Writes one byte to the same address of many servos, by SYNC WRITE. */
 static void sync_write(uint32_t ids, uint8_t at, uint8_t value)
 {
     dxl_writer_t writer;
@@ -151,7 +151,8 @@ uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids)
     return for_each(link, ids & link->present, read_pose);
 }
 
-/* Goal first, so that it stays where it is; then what a shutdown may have taken away; then torque. */
+/* The goal comes first, so that the servo stays where it is; then the torque limit, which a shutdown may have cut; then
+ * torque. */
 static bool torque_on(servo_link_t *link, uint8_t id)
 {
     uint8_t table[READ_BYTES], maximum[2];
@@ -182,7 +183,7 @@ static bool torque_off(servo_link_t *link, uint8_t id)
 {
     write_one(link, id, DXL_AT_TORQUE_ENABLE, 0, 1);
     servo_link_put(&link->torque, id, false);
-    servo_link_put(&link->untold[SERVO_FAULT_TORQUE - 1], id, false);
+    servo_link_put(&link->unreported[SERVO_FAULT_TORQUE - 1], id, false);
     return true;
 }
 

@@ -96,8 +96,8 @@ static NOINLINE void tell_faults(void)
         dialog_tell_joints((const char *)pgm_read_ptr(&names[bit]), joints);
     }
     the_screen.lead = true;
-    the_dialog.faults_stand = the_performer.battery_told || the_screen.line_column != column;
-    if (the_performer.battery_told) {
+    the_dialog.faults_stand = the_performer.battery_reported || the_screen.line_column != column;
+    if (the_performer.battery_reported) {
         TEXT("Battery low");
     } else if (!the_dialog.faults_stand) {
         TEXT("All servos are well");

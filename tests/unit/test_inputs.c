@@ -52,7 +52,7 @@ bool performer_pause(performer_t *p)
         return false;
     }
     note("pause", 0, 0);
-    p->state = PERFORMER_STOOD;
+    p->state = PERFORMER_APPROACH_PAUSED;
     return true;
 }
 

@@ -120,7 +120,7 @@ static void test_performer_pause_during_the_approach(void)
     reach(PERFORMER_APPROACH);
     ticks(10);
     TEST_ASSERT_TRUE(performer_pause(&performer));
-    reach(PERFORMER_STOOD);
+    reach(PERFORMER_APPROACH_PAUSED);
     TEST_ASSERT_TRUE(performer_is_paused(&performer));
     TEST_ASSERT_FALSE(performer_pause(&performer));
     TEST_ASSERT_TRUE(performer_resume(&performer));

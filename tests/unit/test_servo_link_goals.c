@@ -139,7 +139,7 @@ static void busy_tick(void)
 {
     servo_link_tick(&servos);
     servo_link_goals(&servos, goals, SERVO_LINK_ALL);
-    servo_link_hold_slopes(&servos);
+    servo_link_delay_slopes(&servos);
     for (uint8_t i = 0; i < 6; i++) {
         servo_link_poll(&servos);
     }
