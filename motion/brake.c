@@ -3,6 +3,13 @@
 #include "fix.h"
 #include "law.h"
 
+/* Toward zero. By hand: -Os calls a division of 32 bits for value / 2, 650 cycles a joint. */
+static NOINLINE int32_t half(int32_t value)
+{
+    uint32_t size = (uint32_t)(value < 0 ? -value : value) >> 1;
+    return value < 0 ? -(int32_t)size : (int32_t)size;
+}
+
 static void set_speed(player_exact_t *exact, int32_t speed)
 {
     exact->pos_q16_16 = fix_from_pos(fix_pos(exact->pos_q16_16)) + (speed < 0 ? FIX_ROUND_DOWN : FIX_ROUND_UP);
@@ -22,8 +29,9 @@ void exact_freeze(player_t *player)
             int32_t speed = (int32_t)exact->exit_q16_16;
             set_speed(exact, exact->down ? -speed : speed);
         } else { /* speed is that of the coming tick: half an acceleration further on */
-            exact->speed_q16_16 -= exact->accel_q16_16 / 2;
+            exact->speed_q16_16 -= half(exact->accel_q16_16);
         }
+        exact->exit_q16_16 = 0; /* what is planned next begins from a stand */
     }
 }
 
@@ -39,7 +47,7 @@ void brake_start(player_t *player)
             accel = -accel;
         }
         joint->exact.accel_q16_16 = accel;
-        joint->exact.speed_q16_16 = speed + accel / 2;
+        joint->exact.speed_q16_16 = speed + half(accel);
     }
 }
 

@@ -31,13 +31,21 @@ static inline int32_t fix_from_pos(uint16_t pos)
     return (int32_t)((uint32_t)pos << FIX_POS_BITS);
 }
 
+/* a * b: mul_u16_u16 by a call, for code in which 45 bytes count more than 15 cycles. */
+uint32_t fix_product(uint16_t a, uint16_t b);
+ONE_COPY NOINLINE uint32_t fix_product(uint16_t a, uint16_t b)
+{
+    return mul_u16_u16(a, b);
+}
+
 /* start + one of these, then fix_pos: nearest, halves up or down. With the first for motions up and the second for those
  * down, mirrored motions are rounded to mirrored positions. */
 #define FIX_ROUND_UP (FIX_POS_ONE / 2)
 #define FIX_ROUND_DOWN (FIX_POS_ONE / 2 - 1)
 
 /* 2^32 / ticks, ticks 1..65535: what fix_mean multiplies by. Floor of (2^32 - 1) / ticks; one 32-bit division. */
-static inline uint32_t fix_recip32(uint16_t ticks)
+uint32_t fix_recip32(uint16_t ticks);
+ONE_COPY NOINLINE uint32_t fix_recip32(uint16_t ticks)
 {
     return UINT32_MAX / ticks;
 }
@@ -58,7 +66,8 @@ static inline uint32_t fix_share(uint32_t value, uint16_t share_q0_16)
 }
 
 /* part / whole as q0.16, 0 <= part <= whole, whole not 0; 1 becomes 65535. One 32-bit division. */
-static inline uint16_t fix_ratio(uint16_t part, uint16_t whole)
+uint16_t fix_ratio(uint16_t part, uint16_t whole);
+ONE_COPY NOINLINE uint16_t fix_ratio(uint16_t part, uint16_t whole)
 {
     if (part >= whole) {
         return UINT16_MAX;
@@ -69,7 +78,8 @@ static inline uint16_t fix_ratio(uint16_t part, uint16_t whole)
 /* One over a ramp of 1..255 ticks, for fix_by_ramp: 2^16 / ticks below 16 ticks, 2^20 / ticks from there on, so that at
  * least 12 bits are significant; a little less than that (at most 2^-12 of it). Two 16-bit divisions. */
 #define FIX_LONG_RAMP 16u
-static inline uint16_t fix_ramp_recip(uint8_t ticks)
+uint16_t fix_ramp_recip(uint8_t ticks);
+ONE_COPY NOINLINE uint16_t fix_ramp_recip(uint8_t ticks)
 {
     uint16_t quotient = (uint16_t)(UINT16_MAX / ticks);
     if (ticks < FIX_LONG_RAMP) {
@@ -80,7 +90,8 @@ static inline uint16_t fix_ramp_recip(uint8_t ticks)
 }
 
 /* speed / ticks, exact for 1 and 2 ticks; else never more, relative error below 2^-12 and 2^-16. */
-static inline uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks)
+uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks);
+ONE_COPY uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks)
 {
     if (ticks <= 2) {
         return ticks == 2 ? speed >> 1 : speed;

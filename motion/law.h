@@ -2,9 +2,12 @@
  * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence.c), the two laws
  * (law_exact.c, law_classic.c), slowing down (brake.c). Included by these only.
  *
- * How a step follows another; the work is spread over three ticks, so that none has too much with 31 joints:
+ * How a step follows another; the work is spread over several ticks, so that none has too much with 31 joints:
  *
- *   last but one    look     the link of a page's last step is decided; the step behind the coming one is read and shaped
+ *   last but five   look     where something is set (shape.h): the link of a page's last step is decided, the step behind the
+ *                            coming one is read
+ *   the four after  shape    a share of that step's joints (shape_step.h); shorter steps have larger shares
+ *   last but one    look     where nothing is set
  *   last            take     the joints are at their targets; the coming step becomes `now`, and is planned for half of them
  *   first of `now`  begin    the other half, and the tick itself
  *
@@ -57,6 +60,15 @@ void sequence_take_first(player_t *player);
  * (classic: those of the page that the link names, although another will be played).
  * Call only while player->coming.page is not 0. */
 void sequence_look(player_t *player, link_t *link) NOINLINE;
+
+/* What is left of the work for the coming step, at the end of a tick `left` ticks before it begins; with left 0 all of it is
+ * done. A step that is not shaped is looked at as late as can be, so that a code or a stop still counts; a shaped one in
+ * time for a share of joints in each of the ticks that follow. */
+void sequence_prepare(player_t *player, link_t *link, uint8_t left) NOINLINE;
+
+/* Whether `left` ticks before the step begins, 0 to SEQUENCE_AHEAD, is too early for that. */
+#define SEQUENCE_AHEAD 5u /* a look, and four shares of SHAPE_STEP_SHARE joints */
+bool sequence_is_early(const player_t *player, uint8_t left) NOINLINE;
 
 /* coming_pos to target_pos, looked_at to coming_pos, with coming_joints and the longest ways (0 where no length depends on
  * them). Without a coming step no joint is used. */

@@ -169,34 +169,45 @@ void classic_start(player_t *player, link_t *link)
     take(player);
 }
 
-/* Calls until the step is over; in RISE, which is followed by two sections at least, only that they are many. */
+/* Calls until the step is over. An empty section takes one: without ramps FALL, in a skipped step CRUISE too. */
 static uint16_t calls_left(const player_t *player)
 {
     uint16_t left = (uint16_t)(player->section_ticks - player->tick);
     switch (player->section) {
     case SECTION_RISE:
-        return UINT16_MAX;
+        left = (uint16_t)(player->step_ticks - player->tick);
+        if (player->ramp_ticks == 0) {
+            left = (uint16_t)(left + (left != 0 ? 1u : 2u));
+        }
+        break;
     case SECTION_CRUISE:
-        left = (uint16_t)(left + (player->ramp_ticks != 0 ? player->ramp_ticks : 1u)); /* an empty section takes a call */
-        return (uint16_t)(left + player->hold_ticks);
+        left = (uint16_t)(left + (player->ramp_ticks != 0 ? player->ramp_ticks : 1u));
+        break;
     case SECTION_FALL:
-        return (uint16_t)(left + player->hold_ticks);
+        break;
     default:
         return left;
+    }
+    return (uint16_t)(left + player->hold_ticks);
+}
+
+/* By itself: an ordinary tick saves no registers for it. */
+static NOINLINE void come_to_the_end(player_t *player, link_t *link, uint8_t left)
+{
+    if (sequence_is_early(player, left) || (!player->looked && player->coming.page == 0)) {
+        return;
+    }
+    sequence_prepare(player, link, left);
+    if (left == 0) {
+        take(player);
     }
 }
 
 void classic_step_over(player_t *player, link_t *link)
 {
     uint16_t left = calls_left(player);
-    if (player->arrived || left > 1 || (!player->looked && player->coming.page == 0)) {
-        return;
-    }
-    if (!player->looked) {
-        sequence_look(player, link);
-    }
-    if (left == 0) {
-        take(player);
+    if (!player->arrived && left <= SEQUENCE_AHEAD) {
+        come_to_the_end(player, link, (uint8_t)left);
     }
 }
 
@@ -385,7 +396,8 @@ static int32_t speed_now(const player_t *player, const player_classic_t *classic
     }
     if (player->section == SECTION_CRUISE || (player->section == SECTION_FALL && classic->through)) {
         int16_t way = player->section == SECTION_CRUISE ? classic->main : classic->to_go;
-        return (int32_t)way * FIX_POS_ONE / (int32_t)num;
+        int32_t speed = (int32_t)((uint32_t)fix_from_pos(fix_size(way)) / num);
+        return way < 0 ? -speed : speed;
     }
     int16_t from = classic->carried, to = classic->speed;
     if (player->section == SECTION_FALL) {
@@ -402,6 +414,7 @@ void classic_freeze(player_t *player)
         uint16_t out_pos = (uint16_t)joint->classic.out_pos;
         joint->exact.pos_q16_16 = fix_from_pos(out_pos) + FIX_ROUND_UP;
         joint->exact.speed_q16_16 = speed;
+        joint->exact.exit_q16_16 = 0;
     }
     player->step_ticks = ticks_left(player);
     if (player->arrived || player->section != SECTION_HOLD) {

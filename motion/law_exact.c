@@ -109,9 +109,9 @@ static inline uint32_t exit_speed(const player_t *player, const player_joint_t *
     return mean < next_mean ? mean : next_mean;
 }
 
-/* Plans `now`, from where the joints are to target_pos in step_ticks, for joints first to end - 1. from_stand: without the
- * speed that the step before leaves. */
-static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end, bool from_stand)
+/* Plans `now`, from where the joints are and with the speed that the step before leaves (exit), to target_pos in step_ticks,
+ * for joints first to end - 1. */
+static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
 {
     const uint16_t *coming = &player->coming_pos[first];
     const player_joint_t *const behind = &player->joint[end];
@@ -123,7 +123,7 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end, b
         player_exact_t *exact = &joint->exact;
         uint16_t from_pos = fix_pos(exact->pos_q16_16), to_pos = joint->target_pos;
         OPAQUE(from_pos); /* two bytes to keep, not the four they come from: 30 cycles a joint */
-        uint32_t entry = from_stand ? 0 : exact->exit_q16_16;
+        uint32_t entry = exact->exit_q16_16;
         uint32_t mean = even(fix_mean(way_between(from_pos, to_pos), player->step_recip));
         exact->down = to_pos < from_pos;
         exact->exit_q16_16 = exit_speed(player, joint, *coming, mean);
@@ -184,18 +184,16 @@ static NOINLINE void take(player_t *player)
     player->arrived = true;
     player->runs_on = player->coming.page != 0 && player->now.pause == 0;
     set_ramp(player);
-    plan_joints(player, 0, planned_ahead, false);
+    plan_joints(player, 0, planned_ahead);
 }
 
-uint8_t exact_step_over(player_t *player, link_t *link)
+/* By itself: an ordinary tick saves no registers for it. */
+static NOINLINE uint8_t come_to_the_end(player_t *player, link_t *link, uint8_t left)
 {
-    uint16_t left = (uint16_t)(player->step_ticks + player->hold_ticks - player->tick);
-    if (player->arrived || left > 1) {
+    if (sequence_is_early(player, left)) {
         return 0;
     }
-    if (!player->looked && player->coming.page != 0) {
-        sequence_look(player, link);
-    }
+    sequence_prepare(player, link, left);
     if (left == 0) {
         if (!player->looked) {
             return player_end(player);
@@ -203,6 +201,12 @@ uint8_t exact_step_over(player_t *player, link_t *link)
         take(player);
     }
     return 0;
+}
+
+uint8_t exact_step_over(player_t *player, link_t *link)
+{
+    uint16_t left = (uint16_t)(player->step_ticks + player->hold_ticks - player->tick);
+    return player->arrived || left > SEQUENCE_AHEAD ? 0 : come_to_the_end(player, link, (uint8_t)left);
 }
 
 void exact_start(player_t *player, link_t *link)
@@ -241,7 +245,7 @@ uint8_t exact_tick(player_t *player, link_t *link)
     uint8_t events = PLAYER_EV_OUTPUT;
     if (player->arrived) {
         events |= sequence_announce(player);
-        plan_joints(player, player->planned, PAGE_JOINTS, false);
+        plan_joints(player, player->planned, PAGE_JOINTS);
         advance(player);
     } else if (player->tick < player->step_ticks) {
         advance(player);
@@ -276,7 +280,7 @@ bool exact_rest_start(player_t *player)
     player->step_recip = fix_recip32(player->step_ticks);
     player->tick = 0;
     set_ramp(player);
-    plan_joints(player, 0, PAGE_JOINTS, true);
+    plan_joints(player, 0, PAGE_JOINTS);
     return true;
 }
 

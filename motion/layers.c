@@ -3,6 +3,7 @@
 
 #include <string.h>
 #include "approach.h"
+#include "fix.h"
 
 /* Servo units a tick of degrees/s: 1024 / 300 / 128, in q8.8. */
 static uint16_t units_per_tick_q8_8(uint16_t deg_s)
@@ -39,14 +40,15 @@ static NOINLINE layers_code_t *slot_of(layers_t *layers, uint8_t joint)
 /* sin of a phase, as a size 0..65535: y = 4 x (1 - x) of the half turn x, then 0.775 y + 0.225 y^2. */
 static uint16_t sine_size(uint32_t phase)
 {
-    uint32_t x = (phase >> 15) & 0xFFFFu, y = (x * (0x10000u - x)) >> 14;
-    y = y > 0xFFFFu ? 0xFFFFu : y;
-    return (uint16_t)((y * 50790u + ((y * y) >> 16) * 14746u) >> 16);
+    uint16_t x = (uint16_t)((phase << 1) >> 16);
+    uint32_t product = fix_product(x, (uint16_t)(0u - x)); /* up to 2^30 */
+    uint16_t y = product >> 30 != 0 ? 0xFFFFu : (uint16_t)((product << 2) >> 16);
+    return (uint16_t)((fix_product(y, 50790u) + fix_product(mul_u16_high(y, y), 14746u)) >> 16);
 }
 
 static uint16_t asked_by_code(const layers_code_t *code)
 {
-    uint16_t way = (uint16_t)(((uint32_t)code->amplitude_pos * sine_size(code->phase) + 0x8000u) >> 16);
+    uint16_t way = (uint16_t)((fix_product(code->amplitude_pos, sine_size(code->phase)) + 0x8000u) >> 16);
     bool below = (code->phase & 0x80000000u) != 0;
     return below ? (uint16_t)(code->centre_pos - way) : (uint16_t)(code->centre_pos + way);
 }
@@ -294,31 +296,24 @@ void layers_free(layers_t *layers, uint32_t joints)
 
 /* --- a tick ------------------------------------------------------------------------------------------------------- */
 
-/* A step of one of the plays has begun. */
-static void note_step(const player_t *play)
-{
-    const uint8_t self = play->self;
-    for (player_joint_t *joint = play->joint, *behind = joint + PAGE_JOINTS; joint < behind; joint++) {
-        uint8_t hand_over = joint->hand_over;
-        if (hand_over != HAND_OVER_DONE && hand_over != HAND_OVER_CATCHES_UP && joint->owner == self) {
-            joint->hand_over++;
-        }
-    }
-}
-
 /* A joint this near to what its owner asks for has caught up: one that is slower than the owner's page might never meet it
  * exactly. */
 #define CAUGHT_UP_POS 1u
 
-/* Where a joint that changes hands goes in this tick, on its way to what its owner asks for. */
-static uint16_t follow(layers_t *layers, uint8_t i, uint16_t from, uint8_t most)
+/* Where joint i, which changes hands, goes from `from` in this tick, on its way to what its owner asks for. */
+static uint16_t follow(layers_t *layers, player_joint_t *joint, uint8_t i, uint16_t from)
 {
-    player_joint_t *joint = &layers->main->joint[i];
     const player_t *owner = joint->owner == PLAYER_OWNER_LAYER ? &layers->play : layers->main;
-    uint16_t asked = player_is_moving(owner) ? player_asks(owner, i) : from; /* nobody asks for more: it stays */
-    uint16_t goal = approach_by(from, asked, most);
+    if (!player_is_moving(owner)) { /* nobody asks for more: it stays */
+        joint->hand_over = HAND_OVER_DONE;
+        return from;
+    }
+    if (joint->hand_over != HAND_OVER_CATCHES_UP && (layers->events[joint->owner] & PLAYER_EV_STEP) != 0) {
+        joint->hand_over++;
+    }
+    uint16_t asked = player_asks(owner, i), goal = approach_by(from, asked, layers->most_pos);
     bool near = (uint16_t)(goal - asked + CAUGHT_UP_POS) <= 2u * CAUGHT_UP_POS;
-    if (!player_is_moving(owner) || (near && joint->hand_over == HAND_OVER_CATCHES_UP)) {
+    if (near && joint->hand_over == HAND_OVER_CATCHES_UP) {
         joint->hand_over = HAND_OVER_DONE;
     }
     return goal;
@@ -326,12 +321,13 @@ static uint16_t follow(layers_t *layers, uint8_t i, uint16_t from, uint8_t most)
 
 static void follow_plays(layers_t *layers, const uint16_t before_pos[PAGE_JOINTS])
 {
-    uint8_t most = layers->paused ? 0 : allow(&layers->allowance_q8_8, layers->speed_q8_8);
-    const player_joint_t *joint = layers->main->joint;
+    player_joint_t *joint = layers->main->joint;
+    uint16_t *goal = layers->goal_pos;
+    layers->most_pos = layers->paused ? 0 : allow(&layers->allowance_q8_8, layers->speed_q8_8);
     layers->changing = false;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++, joint++) {
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++, joint++, goal++) {
         if (joint->hand_over != HAND_OVER_DONE && joint->owner != PLAYER_OWNER_CODE) {
-            layers->goal_pos[i] = follow(layers, i, before_pos[i], most);
+            *goal = follow(layers, joint, i, before_pos[i]);
             layers->changing |= joint->hand_over != HAND_OVER_DONE;
         }
     }
@@ -371,13 +367,11 @@ static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *l
         memcpy(before_pos, layers->goal_pos, sizeof before_pos);
         events = player_tick(layers->main, main_link);
         *layer_events = tick_layer(layers);
-        if ((events & PLAYER_EV_STEP) != 0) {
-            note_step(layers->main);
+        if (layers->changing) {
+            layers->events[PLAYER_OWNER_MAIN] = events;
+            layers->events[PLAYER_OWNER_LAYER] = *layer_events;
+            follow_plays(layers, before_pos);
         }
-        if ((*layer_events & PLAYER_EV_STEP) != 0) {
-            note_step(&layers->play);
-        }
-        follow_plays(layers, before_pos);
         if ((*layer_events & PLAYER_EV_ENDED) != 0) {
             hand_back(layers, layers->play.present);
         }

@@ -22,9 +22,10 @@ void player_init(player_t *player, const page_source_t *source, player_joint_t j
     *player = (player_t){.source = source, .joint = joint, .goal_pos = goal_pos, .self = PLAYER_OWNER_MAIN};
 }
 
-void player_set_shape(player_t *player, const shape_t *shape)
+void player_set_shape(player_t *player, const shape_t *shape, shape_step_t *shaping)
 {
     player->shape = shape;
+    player->shaping = shaping;
 }
 
 uint8_t player_end(player_t *player)

@@ -16,6 +16,7 @@
 #include "page.h"
 #include "page_source.h"
 #include "shape.h"
+#include "shape_step.h"
 
 #define PLAYER_TICKS_PER_SECOND 128u
 
@@ -134,6 +135,8 @@ typedef struct player {
     player_joint_t *joint;
     uint16_t coming_pos[PAGE_JOINTS]; /* where the coming step ends, lent joints included */
     uint16_t looked_at[PAGE_JOINTS];  /* position words of the step that was looked at; PAGE_POS_UNUSED: stays */
+    shape_step_t *shaping;          /* that step, while shaping_is_on */
+    bool shaping_is_on;             /* joints of it are still as stored */
 } player_t;
 
 /* Binds the source of pages, the joints and their goals (both arrays of PAGE_JOINTS; the goals may outlive the play) and
@@ -142,8 +145,9 @@ typedef struct player {
 void player_init(player_t *player, const page_source_t *source, player_joint_t joint[PAGE_JOINTS],
                  uint16_t goal_pos[PAGE_JOINTS]);
 
-/* Plays by `shape` from the next step that is looked at; NULL: as stored. Call it any time after player_init. */
-void player_set_shape(player_t *player, const shape_t *shape);
+/* Plays by `shape` from the next step that is looked at; NULL: as stored. Call it any time after player_init. shaping:
+ * memory for a step that is being shaped, this play's alone; a program with shape_step_none.c needs none. */
+void player_set_shape(player_t *player, const shape_t *shape, shape_step_t *shaping);
 
 /* Begins at step 1 of `page` with the joints standing at pose_pos (page coordinates; may be goal_pos itself; values above
  * 1023 count as 1023), which becomes goal_pos. The caller has told

@@ -14,25 +14,37 @@ static void read_header(const page_source_t *source, uint8_t page, uint8_t heade
     source->read(source->context, page, from, &header[from], (uint8_t)(HEADER_BYTES - from));
 }
 
-static void read_step(const page_source_t *source, const shape_t *shape, uint8_t page, uint8_t step,
-                      uint8_t bytes[PAGE_STEP_BYTES])
+/* The position words of a step, PAGE_POS_UNUSED for all that are not used or not in `joints`. Returns the joints' bits that
+ * are used. */
+static uint32_t read_words(const page_source_t *source, uint8_t page, uint8_t step, uint32_t joints,
+                           uint16_t words[PAGE_JOINTS])
 {
-    source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), bytes, PAGE_STEP_BYTES);
-    if (shape != NULL) {
-        shape_step(shape, source, page, step, bytes);
+    uint32_t used = 0; /* a joint's bit: the lowest of `joints`, the highest of `used` */
+    source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), words, 2u * PAGE_JOINTS);
+    for (uint16_t *word = words; word < &words[PAGE_JOINTS]; word++, joints >>= 1) {
+        used >>= 1;
+        if (((uint8_t)joints & 1u) == 0 || !page_pos_is_used(*word)) {
+            *word = PAGE_POS_UNUSED;
+        } else {
+            used |= 0x80000000u;
+        }
     }
+    return used >> 1; /* 31 joints */
 }
 
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS])
 {
-    uint8_t bytes[PAGE_STEP_BYTES];
-    uint32_t joints = 0;
-    read_step(source, shape, page, 1, bytes);
+    uint16_t words[PAGE_JOINTS];
+    uint32_t joints = read_words(source, page, 1, UINT32_MAX, words);
+    if (shape != NULL) {
+        shape_step_t shaping;
+        shape_step_begin(&shaping, shape, source, page, 1);
+        while (shape_step_share(&shaping, source, words)) {
+        }
+    }
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        uint16_t word = page_word(&bytes[2 * i]);
-        if (page_pos_is_used(word)) {
-            pose_pos[i] = word;
-            joints |= (uint32_t)1 << i;
+        if (words[i] != PAGE_POS_UNUSED) {
+            pose_pos[i] = words[i];
         }
     }
     return joints;
@@ -143,52 +155,48 @@ static bool looks_elsewhere(const player_t *player)
     return LAW_IS_CLASSIC(player) && player->look_page != player->coming.page;
 }
 
-/* Words of a step to looked_at. */
-static void note_words(player_t *player, const uint8_t step[PAGE_STEP_BYTES])
+/* Whether something is set that this play is shaped by. */
+static bool shapes(const player_t *player)
 {
-    uint32_t left = player->present, used = 0; /* a joint's bit is the lowest of `left`, the highest of `used` */
-    const uint16_t *const behind = &player->looked_at[PAGE_JOINTS];
-    for (uint16_t *to = player->looked_at; to < behind; to++, step += 2, left >>= 1) {
-        uint16_t word = page_word(step);
-        used >>= 1;
-        if (((uint8_t)left & 1u) == 0 || !page_pos_is_used(word)) {
-            word = PAGE_POS_UNUSED;
-        } else {
-            used |= 0x80000000u;
-        }
-        *to = word;
-    }
-    player->looked_joints = used >> 1; /* 31 joints */
+    return player->shape != NULL && !shape_is_neutral(player->shape);
 }
 
-/* Reads the coming step. */
+bool sequence_is_early(const player_t *player, uint8_t left)
+{
+    return left > 1 && !shapes(player);
+}
+
+/* Reads a step's words to looked_at. Page 0: no joint is used. */
+static NOINLINE void look_at(player_t *player, uint8_t page, uint8_t step)
+{
+    player->looked_joints = read_words(player->source, page, step, page != 0 ? player->present : 0, player->looked_at);
+}
+
+/* Shapes all joints of the looked-at step that are left. */
+static void shape_the_rest(player_t *player)
+{
+    while (player->shaping_is_on && shape_step_share(player->shaping, player->source, player->looked_at)) {
+    }
+    player->shaping_is_on = false;
+}
+
+STATIC_ASSERT(offsetof(player_step_t, time) == offsetof(player_step_t, pause) + 1, "side by side, as in a step");
+
+/* Reads the coming step, and begins to shape it. */
 static void look_at_coming(player_t *player)
 {
-    uint8_t step[PAGE_STEP_BYTES];
     player_step_t *coming = &player->coming;
     const shape_t *shape = player->shape;
-    bool shapes = shape != NULL && !shape_is_neutral(shape);
-    read_step(player->source, shape, coming->page, coming->step, step);
-    coming->pause = step[PAGE_STEP_AT_PAUSE];
-    coming->time = step[PAGE_STEP_AT_SPEED];
-    coming->rate_percent = shapes ? shape->rate_percent : SHAPE_NORMAL;
-    coming->top_speed_q4_4 = shapes ? shape->top_speed_q4_4 : 0;
-    note_words(player, step);
-}
-
-/* Reads step 1 of the page that the link named. */
-static void look_elsewhere(player_t *player)
-{
-    uint8_t step[PAGE_STEP_BYTES];
-    read_step(player->source, player->shape, player->look_page, 1, step);
-    note_words(player, step);
-}
-
-static void look_at_nothing(player_t *player)
-{
-    uint8_t step[PAGE_STEP_BYTES];
-    memset(step, PAGE_POS_UNUSED >> 8, sizeof step);
-    note_words(player, step);
+    bool shaped = shapes(player);
+    look_at(player, coming->page, coming->step);
+    player->source->read(player->source->context, coming->page,
+                         (uint16_t)(PAGE_STEP_BYTES * coming->step + PAGE_STEP_AT_PAUSE), &coming->pause, 2);
+    coming->rate_percent = shaped ? shape->rate_percent : SHAPE_NORMAL;
+    coming->top_speed_q4_4 = shaped ? shape->top_speed_q4_4 : 0;
+    player->shaping_is_on = shaped;
+    if (shaped) {
+        shape_step_begin(player->shaping, shape, player->source, coming->page, coming->step);
+    }
 }
 
 void sequence_look(player_t *player, link_t *link)
@@ -207,13 +215,29 @@ void sequence_look(player_t *player, link_t *link)
         events |= decide(player, link);
     }
     player->announced_events = events;
-    uint8_t page = looks_elsewhere(player) ? player->look_page : player->coming.page;
-    if (page == 0) {
-        look_at_nothing(player);
-    } else if (page == player->coming.page) {
+    if (shapes(player)) {
+        player->look_page = player->coming.page; /* the original has no shaped step to be equal to */
+    }
+    if (looks_elsewhere(player)) {
+        look_at(player, player->look_page, 1);
+    } else if (player->coming.page != 0) {
         look_at_coming(player);
     } else {
-        look_elsewhere(player);
+        look_at(player, 0, 0);
+    }
+}
+
+void sequence_prepare(player_t *player, link_t *link, uint8_t left)
+{
+    if (player->looked) {
+        if (player->shaping_is_on) {
+            player->shaping_is_on = shape_step_share(player->shaping, player->source, player->looked_at);
+        }
+    } else if (player->coming.page != 0) {
+        sequence_look(player, link);
+    }
+    if (left <= 1) {
+        shape_the_rest(player);
     }
 }
 
@@ -222,8 +246,9 @@ void sequence_take(player_t *player)
     uint16_t longest = 0, longest_lent = 0;
     player->looked = false;
     if (looks_elsewhere(player)) { /* the step that will really be played */
-        player->coming.page != 0 ? look_at_coming(player) : look_at_nothing(player);
+        player->coming.page != 0 ? look_at_coming(player) : look_at(player, 0, 0);
     }
+    shape_the_rest(player);
     bool measures = player->coming.schedule == PAGE_SCHEDULE_SPEED || player->coming.top_speed_q4_4 != 0;
     const uint16_t *looked_at = player->looked_at;
     const uint8_t self = player->self;

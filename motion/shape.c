@@ -69,8 +69,3 @@ void shape_set_voltage(shape_t *shape, uint8_t decivolts)
     uint16_t top = (uint16_t)((uint32_t)decivolts * TOP_SPEED_NUMERATOR / TOP_SPEED_DENOMINATOR);
     shape->top_speed_q4_4 = top > UINT8_MAX ? UINT8_MAX : (uint8_t)top;
 }
-
-bool shape_is_neutral(const shape_t *shape)
-{
-    return shape->rate_percent == SHAPE_NORMAL && shape->blend_percent == 0 && !shape->scales;
-}

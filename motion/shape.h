@@ -61,6 +61,9 @@ MUST_CHECK shape_status_t shape_set_centre(shape_t *shape, uint8_t page);
 void shape_set_voltage(shape_t *shape, uint8_t decivolts);
 
 /* true when rate, amplitude and blend are 100, 100, 0: then no limit acts either. */
-bool shape_is_neutral(const shape_t *shape);
+static inline bool shape_is_neutral(const shape_t *shape)
+{
+    return shape->rate_percent == SHAPE_NORMAL && shape->blend_percent == 0 && !shape->scales;
+}
 
 #endif

@@ -1,128 +1,110 @@
 /* SPDX-License-Identifier: MIT
  * shape_step.c - blend, amplitude and clamp of a step's position words (shaping.md). One rounding, at the end:
  *
- *   p2 = c + A (p + W (q - p) - c)        as c + d / 10000,  d = A (100 (p - c) + W (q - p)) in percents
+ *   p2 = c + A (p + W (q - p) - c)        as c + d / 10000,  d = A |100 p1 - 100 c|,  100 p1 = (100 - W) p + W q in percents
  *
  * Rounded half away from c, so that a mirrored motion stays mirrored. A joint without a centre is not scaled; c is p then.
- * Ranges: |p - c|, |q - p| <= 1023, so |d| <= 150 * (100 + 100) * 1023 = 30,690,000. */
+ * Ranges: 100 p1, 100 c <= 102,300; d <= 150 * 102,300 = 15,345,000. */
 #include "shape_step.h"
-#include "mul.h"
+#include "fix.h"
 
-#define NO_POS PAGE_POS_UNUSED
 #define WHOLE 10000u
-#define AT_ONCE 8u /* joints: the stack has no room for three whole steps */
 
-static uint8_t header_byte(const page_source_t *source, uint8_t page, uint8_t at)
+static void read_header(const page_source_t *source, uint8_t page, uint8_t at, uint8_t *to, uint8_t count)
 {
-    uint8_t byte;
-    source->read(source->context, page, at, &byte, 1);
-    return byte;
+    source->read(source->context, page, at, to, count);
+}
+
+/* Steps of a page; 0: it has none, or there is no such page, or it is damaged. */
+static NOINLINE uint8_t steps_of(const page_source_t *source, uint8_t page)
+{
+    uint8_t steps;
+    if (page == 0 || page >= PAGE_COUNT || source->check(source->context, page) != PAGE_OK) {
+        return 0;
+    }
+    read_header(source, page, PAGE_AT_STEPS, &steps, 1);
+    return steps;
 }
 
 /* The page that `page` is blended with; 0: none, or not one of the same number of steps. */
 static uint8_t partner_of(const shape_t *shape, const page_source_t *source, uint8_t page)
 {
-    uint8_t at = shape->blend_percent > 0 ? PAGE_AT_BLEND_RIGHT : PAGE_AT_BLEND_LEFT;
-    uint8_t partner = shape->blend_percent == 0 ? 0 : header_byte(source, page, at);
-    if (partner == 0 || partner >= PAGE_COUNT || source->check(source->context, partner) != PAGE_OK ||
-        header_byte(source, partner, PAGE_AT_STEPS) != header_byte(source, page, PAGE_AT_STEPS)) {
-        return 0;
+    uint8_t header[PAGE_AT_STEPS + 1u - PAGE_AT_BLEND_RIGHT];
+    read_header(source, page, PAGE_AT_BLEND_RIGHT, header, sizeof header);
+    uint8_t partner = header[shape->blend_percent > 0 ? 0 : PAGE_AT_BLEND_LEFT - PAGE_AT_BLEND_RIGHT];
+    if (shape->blend_percent == 0 || steps_of(source, partner) != header[sizeof header - 1u]) {
+        partner = 0;
     }
     return partner;
 }
 
-/* The page of the centre pose; 0: there is none. */
-static uint8_t centre_of(const shape_t *shape, const page_source_t *source)
+/* Words of a share of joints from `first` on in a step of a page; of page 0 none is used. (Behind joint 30 stand pause and
+ * time.) */
+static NOINLINE void read_share(const page_source_t *source, uint8_t page, uint8_t step, uint8_t first,
+                                uint16_t words[SHAPE_STEP_SHARE])
 {
-    uint8_t page = shape->centre_page;
-    if (page != 0 && (source->check(source->context, page) != PAGE_OK || header_byte(source, page, PAGE_AT_STEPS) == 0)) {
-        page = 0;
-    }
-    return page;
-}
-
-/* Positions of AT_ONCE joints from `first` on in a step of a page, NO_POS where there is none; page 0 has none. (Behind
- * joint
- * 30 stand pause and time.) */
-static void read_positions(const page_source_t *source, uint8_t page, uint8_t step, uint8_t first, uint16_t pos[AT_ONCE])
-{
-    if (page != 0) {
-        source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step + 2u * first), pos, 2u * AT_ONCE);
-    }
-    for (uint8_t i = 0; i < AT_ONCE; i++) {
-        if (page == 0 || !page_pos_is_used(pos[i])) {
-            pos[i] = NO_POS;
-        }
+    if (page == 0) {
+        memset(words, PAGE_POS_UNUSED >> 8, 2u * SHAPE_STEP_SHARE);
+    } else {
+        source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step + 2u * first), words, 2u * SHAPE_STEP_SHARE);
     }
 }
 
-/* size / 10000, halves up; size up to 30,690,000. By the reciprocal, 2^24 / 10000 = 1677.7 rounded down: at most two too
- * small.
- * A division of 32 bits takes 650 cycles, and there are 31 of these in a tick. */
+/* size / 10000, halves up; size up to 15,345,000. By the reciprocal of 10000 / 256, 2^16 / 39.0625 = 1677.7 rounded down: at
+ * most one too small. A division of 32 bits takes 650 cycles. */
 static uint16_t round_to_whole(uint32_t size)
 {
     size += WHOLE / 2;
-    uint16_t quotient = (uint16_t)(mul_u32_u16_shift16(size, 1677u) >> 8);
-    uint32_t rest = size - mul_u16_u16(quotient, WHOLE);
-    for (; rest >= WHOLE; rest -= WHOLE) {
-        quotient++;
-    }
-    return quotient;
-}
-
-/* way * percent; |way| <= 1023, percent up to 15,000. */
-static int32_t part_of_way(int16_t way, uint16_t percent)
-{
-    int32_t size = (int32_t)mul_u16_u16((uint16_t)(way < 0 ? -way : way), percent);
-    return way < 0 ? -size : size;
-}
-
-/* way * percent / 100, halves up: round_to_whole(way * percent * 100), at half its cycles. (n / 4) / 25 is n / 100, and
- * 41944 is 2^20 / 25 rounded up, exact up to 38,375. */
-static uint16_t scaled(uint16_t way, uint8_t percent)
-{
-    uint32_t hundredths = mul_u16_u16(way, percent) + 50u;
-    return mul_u16_high((uint16_t)(hundredths >> 2), 41944u) >> 4;
+    uint16_t quotient = mul_u16_high((uint16_t)(size >> 8), 1677u);
+    uint16_t rest = (uint16_t)((uint16_t)size - (uint16_t)(quotient * WHOLE)); /* below 2 * WHOLE: 16 bits will do */
+    return rest >= WHOLE ? (uint16_t)(quotient + 1u) : quotient;
 }
 
 static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, uint8_t blend)
 {
-    bool down = p < c;
-    int16_t whole;
-    if (q == p) {
-        whole = (int16_t)scaled((uint16_t)(down ? c - p : p - c), amplitude);
-    } else {
-        int32_t way = part_of_way((int16_t)(p - c), (uint16_t)(amplitude * 100u)) +
-                      part_of_way((int16_t)(q - p), (uint16_t)(amplitude * blend));
-        down = way < 0;
-        whole = (int16_t)round_to_whole((uint32_t)(down ? -way : way));
+    uint32_t hundredths = fix_product(p, (uint16_t)(100u - blend)) + fix_product(q, blend);
+    uint32_t centre = fix_product(c, 100u);
+    bool down = hundredths < centre;
+    uint32_t way = down ? centre - hundredths : hundredths - centre;
+    uint32_t size = fix_product((uint16_t)way, amplitude);
+    if (way >> 16 != 0) { /* it has 17 bits */
+        size += (uint32_t)amplitude << 16;
     }
-    int16_t pos = (int16_t)((int16_t)c + (down ? -whole : whole));
-    return pos < 0 ? 0 : pos > (int16_t)PAGE_POS_MAX ? PAGE_POS_MAX : (uint16_t)pos;
+    uint16_t whole = round_to_whole(size);
+    if (down) {
+        return whole > c ? 0 : (uint16_t)(c - whole);
+    }
+    uint16_t pos = (uint16_t)(c + whole);
+    return pos > PAGE_POS_MAX ? PAGE_POS_MAX : pos;
 }
 
-void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step,
-                uint8_t bytes[PAGE_STEP_BYTES])
+void shape_step_begin(shape_step_t *shaping, const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step)
 {
-    uint8_t partner = partner_of(shape, source, page);
-    if (partner == 0 && !shape->scales) {
-        return;
+    shaping->partner = partner_of(shape, source, page);
+    shaping->centre = steps_of(source, shape->centre_page) != 0 ? shape->centre_page : 0;
+    shaping->step = step;
+    shaping->blend_percent = (uint8_t)(shape->blend_percent < 0 ? -shape->blend_percent : shape->blend_percent);
+    shaping->done = shaping->partner == 0 && !shape->scales ? PAGE_JOINTS : 0;
+    memcpy(shaping->amplitude_percent, shape->amplitude_percent, sizeof shaping->amplitude_percent);
+}
+
+bool shape_step_share(shape_step_t *shaping, const page_source_t *source, uint16_t words[PAGE_JOINTS])
+{
+    uint16_t partner[SHAPE_STEP_SHARE], centre[SHAPE_STEP_SHARE];
+    uint8_t joint = shaping->done;
+    if (joint >= PAGE_JOINTS) {
+        return false;
     }
-    uint8_t centre = centre_of(shape, source);
-    uint8_t blend = (uint8_t)(shape->blend_percent < 0 ? -shape->blend_percent : shape->blend_percent);
-    uint16_t partner_pos[AT_ONCE], centre_pos[AT_ONCE];
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++, bytes += 2) {
-        uint8_t at = i % AT_ONCE;
-        if (at == 0) {
-            read_positions(source, partner, step, i, partner_pos);
-            read_positions(source, centre, 1, i, centre_pos);
-        }
-        uint16_t p = page_word(bytes), q = partner_pos[at], c = centre_pos[at];
-        if (page_pos_is_used(p) && (q != NO_POS || c != NO_POS)) {
-            uint8_t amplitude = c != NO_POS ? shape->amplitude_percent[i] : SHAPE_NORMAL;
-            uint16_t pos = shaped(p, q != NO_POS ? q : p, c != NO_POS ? c : p, amplitude, blend);
-            bytes[0] = (uint8_t)pos;
-            bytes[1] = (uint8_t)(pos >> 8);
+    read_share(source, shaping->partner, shaping->step, joint, partner);
+    read_share(source, shaping->centre, 1, joint, centre);
+    for (uint8_t i = 0; i < SHAPE_STEP_SHARE && joint < PAGE_JOINTS; i++, joint++) {
+        uint16_t p = words[joint], q = partner[i], c = centre[i];
+        bool scales = page_pos_is_used(c), blends = page_pos_is_used(q);
+        if (page_pos_is_used(p) && (scales || blends)) {
+            uint8_t amplitude = scales ? shaping->amplitude_percent[joint] : SHAPE_NORMAL;
+            words[joint] = shaped(p, blends ? q : p, scales ? c : p, amplitude, shaping->blend_percent);
         }
     }
+    shaping->done = joint;
+    return joint < PAGE_JOINTS;
 }

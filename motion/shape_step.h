@@ -1,14 +1,31 @@
 /* SPDX-License-Identifier: MIT
  * shape_step.h - the seam between the sequence of steps and their shaping. An image without blend and amplitude links
- * shape_step_none.c: rate and limit remain. */
+ * shape_step_none.c: rate and limit remain.
+ *
+ * 31 joints are too much for the tick in which a step is looked at, so a step is shaped in shares, SHAPE_STEP_SHARE joints
+ * each. What was set when its shaping began holds for all of them. */
 #ifndef SHAPE_STEP_H
 #define SHAPE_STEP_H
 
 #include "page_source.h"
 #include "shape.h"
 
-/* Blends, scales and clamps the position words of step 1..7 of `page`, whose stored 64 bytes `bytes` holds. */
-void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step,
-                uint8_t bytes[PAGE_STEP_BYTES]);
+#define SHAPE_STEP_SHARE 8u
+
+/* A step that is being shaped. Private to shape_step.c. */
+typedef struct shape_step {
+    uint8_t partner, centre;        /* pages; 0: none */
+    uint8_t step;                   /* 1..7 */
+    uint8_t blend_percent;          /* 0..100, toward the partner */
+    uint8_t done;                   /* joints below this are shaped */
+    uint8_t amplitude_percent[PAGE_JOINTS];
+} shape_step_t;
+
+/* Begins with step 1..7 of `page`, by what is set now. */
+void shape_step_begin(shape_step_t *shaping, const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step);
+
+/* Blends, scales and clamps the next SHAPE_STEP_SHARE of the step's position words, in place; words that do not drive their
+ * joint stay. false: all joints are done. */
+bool shape_step_share(shape_step_t *shaping, const page_source_t *source, uint16_t words[PAGE_JOINTS]);
 
 #endif

@@ -30,7 +30,9 @@ static NOINLINE uint32_t at_rate(uint32_t length, uint16_t rate_percent)
     if (length > LENGTH_MAX) {
         length = LENGTH_MAX;
     }
-    return length / rate_percent * SHAPE_NORMAL + length % rate_percent * SHAPE_NORMAL / rate_percent;
+    bool fits = length <= UINT32_MAX / SHAPE_NORMAL; /* longer ones lose 1/20 tick */
+    uint32_t quotient = (fits ? length * SHAPE_NORMAL : length) / rate_percent;
+    return fits ? quotient : quotient * SHAPE_NORMAL;
 }
 
 /* The least ticks in which no joint's mean speed is above the top speed; 0: no limit. */

@@ -10,7 +10,7 @@ static void fresh_player(performer_t *performer)
 {
     player_t *player = &performer->engine.player;
     player_init(player, performer->source, performer->engine.joint, performer->goal_pos);
-    player_set_shape(player, &performer->shape);
+    player_set_shape(player, &performer->shape, performer->shaping);
 }
 
 void performer_init(performer_t *performer, const page_source_t *source, servo_link_t *servos,

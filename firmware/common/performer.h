@@ -75,6 +75,7 @@ typedef struct {
     servo_link_t *servos;
     const settings_t *settings;
     layers_t *layers;           /* performer_shape.h; NULL in an image without layers */
+    shape_step_t *shaping;      /* memory for the step that is being shaped; NULL in such an image */
     uint16_t drive_left_ticks;  /* time left for the next performer_drive; 0: not driven */
     bool is_driven;             /* performer_drive has set the shape */
     uint8_t shape_voltage_dv;   /* the voltage that the shape's limit follows */

@@ -141,11 +141,9 @@ static NOINLINE uint8_t build_goals(const uint16_t *goal, const int16_t *trim, u
     dxl_put(&writer, 2);
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++, joints >>= 1) {
         uint16_t pos = (uint16_t)(*goal++ + (uint16_t)*trim++);
-        OPAQUE(pos); /* load and step in one, whether the joint is there or not: 8 cycles less */
         if ((uint8_t)joints & 1u) {
             dxl_put(&writer, id);
             pos = limited(pos);
-            OPAQUE(pos);
             put_word(&writer, pos);
         }
     }

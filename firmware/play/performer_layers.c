@@ -7,6 +7,7 @@
 void performer_set_layers(performer_t *performer, layers_t *layers)
 {
     performer->layers = layers;
+    performer->shaping = &layers->shaping;
     layers_init(layers, performer->goal_pos);
 }
 

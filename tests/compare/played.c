@@ -52,7 +52,7 @@ void played_call(int call)
 int played_start(int law, int page, uint32_t present, const uint16_t *pose_pos)
 {
     player_init(&player, &source, joint, goal_pos);
-    player_set_shape(&player, &shape);
+    player_set_shape(&player, &shape, &layers.shaping);
     layers_init(&layers, goal_pos);
     layers_bind(&layers, &player);
     return (int)player_start(&player, &links, (uint8_t)page, (player_law_t)law, pose_pos, present);

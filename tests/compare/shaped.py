@@ -20,6 +20,7 @@ import shaping
 
 ALL = 0x7FFFFFFF
 LIMIT = 1500
+LOOK_AHEAD = 7  # a step is looked at up to 6 ticks before the one in front of it begins; what is set behind a tick counts from the next
 
 
 def page_by_chance(chance, steps, pages):
@@ -140,7 +141,7 @@ class Judge:
             if events & STEP or events & ENDED:
                 if self.steps and not (events & ENDED and not events & STEP and events & OUTPUT):
                     place, begun = self.steps[-1][:2]
-                    since = self.steps[-2][1] - 3 if len(self.steps) > 1 else 0
+                    since = self.steps[-2][1] - LOOK_AHEAD if len(self.steps) > 1 else 0
                     wrong = self.step_ends(place, tick - begun, self.before, self.candidates(tick, since))
                     if wrong:
                         return f"tick {tick}: {wrong}"

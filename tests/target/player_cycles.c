@@ -166,6 +166,7 @@ static void measure_all_in_force(player_law_t law)
 {
     static layers_t layers;
     static shape_t shape;
+    static shape_step_t shaping;
     uint16_t pose[PAGE_JOINTS], longest = 0;
     uint8_t layer_events;
     kind = 1; /* steps of 20 ticks */
@@ -177,7 +178,7 @@ static void measure_all_in_force(player_law_t law)
     TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, 90));
     TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 80, 0x7FFFFFFF));
     player_init(&player, &source, joints, goals_of_all);
-    player_set_shape(&player, &shape);
+    player_set_shape(&player, &shape, &shaping);
     layers_init(&layers, goals_of_all);
     layers_bind(&layers, &player);
     link_init(&l, LINK_LATCH);

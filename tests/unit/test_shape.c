@@ -13,6 +13,7 @@
 #define OTHER_LENGTH 4u
 
 static shape_t shape;
+static shape_step_t shaping;
 static uint16_t pages[5][4];  /* step 1: joints 0..3 */
 static uint8_t damaged;
 
@@ -80,10 +81,12 @@ void tearDown(void)
 /* Joint 0..3 of the shaped step. */
 static uint16_t shaped(uint8_t joint)
 {
-    uint8_t bytes[PAGE_STEP_BYTES];
-    read_page(NULL, PAGE, PAGE_AT_STEP0, bytes, sizeof bytes);
-    shape_step(&shape, &source, PAGE, 1, bytes);
-    return page_word(&bytes[2 * joint]);
+    uint16_t words[PAGE_JOINTS];
+    read_page(NULL, PAGE, PAGE_AT_STEP0, words, sizeof words);
+    shape_step_begin(&shaping, &shape, &source, PAGE, 1);
+    while (shape_step_share(&shaping, &source, words)) {
+    }
+    return words[joint];
 }
 
 static void expect(uint16_t a, uint16_t b, uint16_t c, uint16_t d)
@@ -203,7 +206,7 @@ static void start(player_law_t law)
         pose[i] = 512;
     }
     player_init(&player, &source, joints, goal_pos);
-    player_set_shape(&player, &shape);
+    player_set_shape(&player, &shape, &shaping);
     link_init(&l, LINK_LATCH);
     TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, PAGE, law, pose, 0xF));
 }
@@ -260,6 +263,71 @@ static void test_shape_rate_never_makes_classic_skip_a_step(void)
     TEST_ASSERT_UINT16_WITHIN(8, 612, goal_pos[0]);
 }
 
+/* --- a step is shaped in shares: all of it by one shape -------------------------------------------------------------- */
+
+#define MANY 5u       /* page of the centre: all joints on 512 */
+static uint8_t many_ticks;
+
+/* Page MANY + 1: seven steps of many_ticks with all joints, to 612 and 412 in turn, round and round. */
+static void read_many(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
+{
+    (void)context;
+    for (uint8_t *bytes = to; count != 0; count--, offset++) {
+        uint8_t step = (uint8_t)(offset / PAGE_STEP_BYTES), at = (uint8_t)(offset % PAGE_STEP_BYTES);
+        uint16_t word = page == MANY ? 512 : step % 2 != 0 ? 612 : 412;
+        *bytes++ = (uint8_t)(step == 0 ? (offset == PAGE_AT_STEPS ? 7 : offset == PAGE_AT_NEXT_PAGE ? page : byte_of(PAGE, offset))
+                             : at == PAGE_STEP_AT_SPEED ? many_ticks
+                             : at == PAGE_STEP_AT_PAUSE ? 0
+                             : at % 2 != 0              ? word >> 8
+                                                        : word);
+    }
+}
+
+static const page_source_t many_source = {0, read_many, check_page};
+
+/* The amplitude changes behind every tick; the joints of a step agree all the same, and the step is one of those amplitudes
+ * about 512. No tick is without output. */
+static void expect_one_shape_a_step(player_law_t law, uint8_t ticks, uint8_t tolerance)
+{
+    uint16_t pose[PAGE_JOINTS];
+    uint8_t percent = 10;
+    uint16_t steps = 0;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        pose[i] = 512;
+    }
+    many_ticks = ticks;
+    shape_init(&shape);
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_centre(&shape, MANY));
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, percent, 0x7FFFFFFF));
+    player_init(&player, &many_source, joints, goal_pos);
+    player_set_shape(&player, &shape, &shaping);
+    link_init(&l, LINK_LATCH);
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, MANY + 1, law, pose, 0x7FFFFFFF));
+    for (uint16_t tick = 0; tick < 400; tick++) {
+        uint8_t events = player_tick(&player, &l);
+        TEST_ASSERT_TRUE((events & PLAYER_EV_OUTPUT) != 0 || law == PLAYER_LAW_CLASSIC);
+        steps = (uint16_t)(steps + ((events & PLAYER_EV_STEP) != 0));
+        for (uint8_t i = 1; i < PAGE_JOINTS; i++) {
+            TEST_ASSERT_EQUAL_UINT16(goal_pos[0], goal_pos[i]);
+        }
+        if (player.arrived) { /* on the way-point: 512 +- A for A in tens */
+            uint16_t way = (uint16_t)(goal_pos[0] > 512 ? goal_pos[0] - 512 : 512 - goal_pos[0]);
+            TEST_ASSERT_UINT16_WITHIN(tolerance, (way + 5) / 10 * 10, way);
+        }
+        percent = percent == 150 ? 10 : (uint8_t)(percent + 10);
+        TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, percent, 0x7FFFFFFF));
+    }
+    TEST_ASSERT_GREATER_THAN(400 / (ticks + 1) / 2, steps);
+}
+
+static void test_shape_of_a_step_is_one_however_short_it_is(void)
+{
+    for (uint8_t ticks = 1; ticks <= 12; ticks++) {
+        expect_one_shape_a_step(PLAYER_LAW_EXACT, ticks, 0);
+        expect_one_shape_a_step(PLAYER_LAW_CLASSIC, ticks, 4);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -275,5 +343,6 @@ int main(void)
     RUN_TEST(test_shape_rate_is_that_of_both_laws);
     RUN_TEST(test_shape_limit_stretches_a_step_that_is_too_fast);
     RUN_TEST(test_shape_rate_never_makes_classic_skip_a_step);
+    RUN_TEST(test_shape_of_a_step_is_one_however_short_it_is);
     return UNITY_END();
 }

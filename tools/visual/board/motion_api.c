@@ -15,6 +15,7 @@ static struct {
     link_t link;
     player_t player;
     shape_t shape;
+    shape_step_t shaping;
     bool is_shaped;
     player_joint_t joint[PAGE_JOINTS];
     uint16_t goal_pos[PAGE_JOINTS];
@@ -176,7 +177,7 @@ int motion_api_start(int page, int law, int mode, int code, uint32_t present)
         return PLAYER_ERR_RANGE;
     }
     player_init(&api.player, &source, api.joint, api.goal_pos);
-    player_set_shape(&api.player, shape_now());
+    player_set_shape(&api.player, shape_now(), &api.shaping);
     link_init(&api.link, mode ? LINK_HOLD : LINK_LATCH);
     link_call(&api.link, (uint8_t)code);
     return (int)player_start(&api.player, &api.link, (uint8_t)page, law ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT,
