@@ -9,9 +9,9 @@
  *             /                  \        RISE: speed v c / A in tick c; FALL: v (A - c) / A
  *            RISE A   cruise   FALL A     way = v (N - A)
  *
- * All joints share one plan: how much of its way each has made, 0..1 as q0.32. step_q0_32 is v / A; truncated, it leaves
- * the longest approach possible (1023 units at 1 degree/s, 38,363 ticks) 0.3 units short, which the last tick, exactly on
- * target, swallows. */
+ * All joints share one plan: the part of its way that each has made, 0..1 as q0.32. step_q0_32 is v / A, truncated. So the
+ * longest approach (1023 units at 1 degree/s, 38,363 ticks) is 0.3 units short before the last tick, which is set to the
+ * target. */
 #define RAMP_TICKS_MAX 32u
 /* Servo units per tick at 1 degree/s: 1024 / 300 / 128 = 2 / 75. */
 #define LIMIT_NUMERATOR 2u

@@ -27,11 +27,11 @@ typedef struct {
 uint16_t approach_start(approach_t *approach, const uint16_t from_pos[PAGE_JOINTS],
                         const uint16_t to_pos[PAGE_JOINTS], uint32_t joints, uint16_t limit_deg_s);
 
-/* One tick: writes the goals of the joints under way. Returns false with (and after) the last tick, which is exactly on
- * target. */
+/* One tick: writes the goals of the joints under way. Returns false with the last tick, which is exactly on target, and
+ * after it. */
 bool approach_tick(approach_t *approach, uint16_t goal_pos[PAGE_JOINTS]);
 
-/* Slows to a stand within 32 ticks, no reversal; approach_tick returns false when it stands. */
+/* Slows all joints to a stand within 32 ticks, without reversal. approach_tick returns false when they stand. */
 void approach_break(approach_t *approach);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * brake.c - break and pause: from whatever speed a joint has to a stand, at a constant deceleration. */
+ * brake.c - break and pause: slows each joint from its present speed to a stand, at a constant deceleration. */
 #include "fix.h"
 #include "law.h"
 
@@ -51,7 +51,7 @@ void brake_start(player_t *player)
     }
 }
 
-/* A joint that reaches an end of its range while slowing down stands there. */
+/* A joint that reaches an end of its range while slowing down stops there. */
 static void keep_in_range(player_exact_t *exact)
 {
     int32_t pos = exact->pos_q16_16 + exact->speed_q16_16;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * classic_math.h - the arithmetic of the classic law, equal to the original's bit by bit and without a division in a
- * tick. Included by law_classic.c only. Each expression's plain form stands above it (N, A, M, v as in player.md). */
+ * classic_math.h - the arithmetic of the classic law: the original's results, bit by bit, without a division in a tick.
+ * Included by law_classic.c only. Above each function is the plain expression that it equals (N, A, M, v as in
+ * player.md). */
 #ifndef CLASSIC_MATH_H
 #define CLASSIC_MATH_H
 
@@ -22,8 +23,8 @@ static inline int16_t with_sign(uint16_t size, bool negative)
     return negative ? (int16_t)-(int16_t)size : (int16_t)size;
 }
 
-/* acc = floor(3 * speed * c / 160) for |speed| <= 1023, c <= 255, without signs and long shifts: speed + 1120 is positive
- * and makes acc 21 c larger, and 3 / 160 is 24 / 256 / 5: a byte dropped, and an exact division by 5 of 16 bits. */
+/* acc = floor(3 * speed * c / 160) for |speed| <= 1023, c <= 255, without signs and long shifts. speed + 1120 is positive
+ * and makes acc 21 c larger. 3 / 160 = 24 / 256 / 5: one byte is dropped, and 16 bits are divided by 5 exactly. */
 #define RAMP_BIAS 1120
 #define RAMP_BIAS_WAY 21u
 
@@ -43,8 +44,8 @@ ALWAYS_INLINE int16_t ramp_way(int16_t speed, ramp_share_t share)
     return (int16_t)((mul_u16_high(fifths, 52429u) >> 2) - share.bias);
 }
 
-/* int16((v * A * 12 / 5) >> 8): way of a FALL to a stand. The truncated and then floored quotient is 3 v A / 320, of
- * negative products (3 |v| A + 318) / 320 with a minus; 320 is 64 * 5, and / 64 is * 4 and a byte dropped. */
+/* int16((v * A * 12 / 5) >> 8): the way of a FALL to a stand. For v >= 0 that is 3 v A / 320, for v < 0
+ * -((3 |v| A + 318) / 320). 320 is 64 * 5, and / 64 is * 4 and a byte dropped. */
 static inline int16_t fall_way(int16_t v, uint8_t ramp)
 {
     uint32_t product = mul_u16_u16(fix_size(v), (uint16_t)(12u * ramp));
@@ -66,8 +67,8 @@ static inline part_t part_of(uint16_t c, uint16_t num)
     return (part_t){c, num, fix_ratio(c, num)};
 }
 
-/* x * c / num, toward zero, |x| <= 32767. The estimate is at most one too small, and what is left of the product below
- * 2 * num: 16 bits are enough to see which. */
+/* x * c / num, toward zero, |x| <= 32767. The estimate is at most one too small. The remainder is then below 2 * num, so 16
+ * bits are enough to correct it. */
 ALWAYS_INLINE int16_t share_of(int16_t x, part_t part)
 {
     uint16_t size = fix_size(x);
@@ -81,15 +82,14 @@ ALWAYS_INLINE int16_t share_of(int16_t x, part_t part)
 
 /* --- the speed of a step ---------------------------------------------------------------------------------------------- */
 
-/* K = M * 2560 / 12 = M * 640 / 3 of a way 0..1023: 213 M + M / 3. */
+/* K = M * 2560 / 12 = M * 640 / 3 = 213 M + M / 3, for a way 0..1023. */
 ALWAYS_INLINE uint32_t way_in_speed_units(uint16_t size)
 {
     return mul_u16_u16(size, 213) + mul_u16_high(size, 21846);
 }
 
-/* size / divisor, limited to CLASSIC_SPEED_MAX, by long division: ten bits are all that the limit leaves. size below 2^20,
- * divisor not 0. A quotient from 32768 on, which becomes negative in 16 bits before it is limited, gives
- * -CLASSIC_SPEED_MAX. */
+/* size / divisor, limited to CLASSIC_SPEED_MAX, by long division of ten bits. size below 2^20, divisor not 0. A quotient
+ * from 32768 on gives -CLASSIC_SPEED_MAX, because the original has it in 16 bits, negative, before it is limited. */
 static inline int16_t divide_speed(uint32_t size, uint16_t divisor)
 {
     uint16_t upper = (uint16_t)(size >> 8), rest = upper >> 2;
@@ -103,7 +103,7 @@ static inline int16_t divide_speed(uint32_t size, uint16_t divisor)
         }
         return few;
     }
-    uint16_t bits = (uint16_t)size; /* the dividend's last ten go out at bit 10, the quotient's come in at bit 0 */
+    uint16_t bits = (uint16_t)size; /* the dividend's last ten bits leave at bit 10, the quotient's enter at bit 0 */
     for (uint8_t left = 10; left != 0; left--) {
         bits = (uint16_t)(bits << 1);
         rest = (uint16_t)(rest << 1);

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * fix.h - fixed-point arithmetic of the motion core. The only place where scaled numbers are multiplied and rounded.
+ * fix.h - fixed-point arithmetic of the motion core. Scaled numbers are multiplied and rounded only here.
  *
  *   pos, speed, acceleration   q16.16 in int32_t / uint32_t    +-32767.999 servo units, 1/65536
  *   share                      q0.16 in uint16_t               0 .. 0.99998
  *   time                       q5.11 fraction of a tick        1/2048
  *
- * 16 fraction bits make the output the upper word of the position, which is what a tick must be fast at. The price is
- * paid by very long ramps: an acceleration is up to 2^-16 too small, and the position after a ramp of 255 ticks half a
- * servo unit short of the ideal (after one of 32, 1/128). That is why all roundings are toward zero on sizes: a joint is
- * late, never past its target (law_exact.c). Signs are applied afterwards, so that a mirrored motion is mirrored in
- * every bit. */
+ * With 16 fraction bits the output is the upper word of the position, which costs a tick nothing. The price: an acceleration
+ * is up to 2^-16 too small, so that after a ramp of 255 ticks a joint is half a servo unit short of the ideal (after 32
+ * ticks 1/128). All roundings are toward zero, on sizes, so that a joint is late but never past its target (law_exact.c).
+ * Signs are applied afterwards, so that a mirrored motion is mirrored in every bit. */
 #ifndef FIX_H
 #define FIX_H
 
@@ -38,8 +37,8 @@ ONE_COPY NOINLINE uint32_t fix_product(uint16_t a, uint16_t b)
     return mul_u16_u16(a, b);
 }
 
-/* start + one of these, then fix_pos: nearest, halves up or down. With the first for motions up and the second for those
- * down, mirrored motions are rounded to mirrored positions. */
+/* Added to the start, these make fix_pos round to the nearest: halves up (motions up) or halves down (motions down), so that
+ * mirrored motions are rounded to mirrored positions. */
 #define FIX_ROUND_UP (FIX_POS_ONE / 2)
 #define FIX_ROUND_DOWN (FIX_POS_ONE / 2 - 1)
 
@@ -53,7 +52,7 @@ ONE_COPY NOINLINE uint32_t fix_recip32(uint16_t ticks)
 /* Mean speed q16.16 of a way 0..65535 over the ticks of fix_recip32. Floor; at most 2^-16 * way + 1 units of 2^-16 small. */
 ALWAYS_INLINE uint32_t fix_mean(uint16_t way, uint32_t recip32)
 {
-    if (recip32 == UINT32_MAX) { /* one tick: spares a step that needs all in it the multiplication */
+    if (recip32 == UINT32_MAX) { /* one tick: no time for the multiplication in such a step */
         return way == 0 ? 0 : ((uint32_t)way << 16) - 1u;
     }
     return mul_u32_u16_shift16(recip32, way);
@@ -75,8 +74,8 @@ ONE_COPY NOINLINE uint16_t fix_ratio(uint16_t part, uint16_t whole)
     return (uint16_t)(((uint32_t)part << 16) / whole);
 }
 
-/* One over a ramp of 1..255 ticks, for fix_by_ramp: 2^16 / ticks below 16 ticks, 2^20 / ticks from there on, so that at
- * least 12 bits are significant; a little less than that (at most 2^-12 of it). Two 16-bit divisions. */
+/* The reciprocal of a ramp of 1..255 ticks, for fix_by_ramp: 2^16 / ticks below 16 ticks, 2^20 / ticks from there on, so
+ * that at least 12 bits are significant. Too small by at most 2^-12 of its value. Two 16-bit divisions. */
 #define FIX_LONG_RAMP 16u
 uint16_t fix_ramp_recip(uint8_t ticks);
 ONE_COPY NOINLINE uint16_t fix_ramp_recip(uint8_t ticks)
@@ -89,7 +88,7 @@ ONE_COPY NOINLINE uint16_t fix_ramp_recip(uint8_t ticks)
     return (uint16_t)(quotient * 16u + (remainder * 16u) / ticks);
 }
 
-/* speed / ticks, exact for 1 and 2 ticks; else never more, relative error below 2^-12 and 2^-16. */
+/* speed / ticks. Exact for 1 and 2 ticks; else never too large, with an error below 2^-12 of it plus 2^-16. */
 uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks);
 ONE_COPY uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks)
 {
@@ -100,8 +99,8 @@ ONE_COPY uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks
     return ticks < FIX_LONG_RAMP ? quotient : quotient >> 4;
 }
 
-/* dividend / divisor and the remainder, exact, by the divisor's reciprocal (fix_recip16). Costs a multiplication
- * instead of a division: the estimate is at most one too small. divisor 1..65535 */
+/* dividend / divisor and the remainder, exact, by the reciprocal of the divisor (fix_recip16): a multiplication instead of a
+ * division, because the estimate is at most one too small. divisor 1..65535 */
 static inline uint16_t fix_recip16(uint16_t divisor)
 {
     return (uint16_t)(UINT16_MAX / divisor);

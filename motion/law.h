@@ -2,16 +2,16 @@
  * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence.c), the two laws
  * (law_exact.c, law_classic.c), slowing down (brake.c). Included by these only.
  *
- * How a step follows another; the work is spread over several ticks, so that none has too much with 31 joints:
+ * The work between two steps is spread over several ticks, so that none takes too long with 31 joints:
  *
- *   last but five   look     where something is set (shape.h): the link of a page's last step is decided, the step behind the
- *                            coming one is read
- *   the four after  shape    a share of that step's joints (shape_step.h); shorter steps have larger shares
- *   last but one    look     where nothing is set
- *   last            take     the joints are at their targets; the coming step becomes `now`, and is planned for half of them
- *   first of `now`  begin    the other half, and the tick itself
+ *   last but five   look     if the play is shaped (shape.h): decides the link at a page's last step; reads the step behind
+ *                            the coming one
+ *   the next four   shape    a share of that step's joints (shape_step.h); a shorter step has larger shares
+ *   last but one    look     if the play is not shaped
+ *   last            take     the joints are at their targets; the coming step becomes `now`; plans it for half of the joints
+ *   first of `now`  begin    plans the other half; the first tick itself
  *
- * Functions that run once a step are NOINLINE: inlined, they make every ordinary tick save registers for them. */
+ * Functions that run once a step are NOINLINE: inlined, they would make every tick save registers. */
 #ifndef LAW_H
 #define LAW_H
 
@@ -33,7 +33,7 @@ static inline bool law_owns(uint8_t self, const player_joint_t *joint)
     return !PLAYER_LAYERS || joint->owner == self;
 }
 
-/* Every joint that this play owns; the same with its goal.
+/* Loops over the joints that this play owns; the same with their goals.
  * NOLINTBEGIN(bugprone-macro-parentheses): what a declaration names takes no parentheses */
 #define FOR_OWN_JOINTS(player, joint_)                                                                               \
     const uint8_t self_ = (player)->self;                                                                            \
@@ -48,16 +48,16 @@ static inline bool law_owns(uint8_t self, const player_joint_t *joint)
 
 /* --- sequence.c --------------------------------------------------------------------------------------------------- */
 
-/* Finds the page that plays first and takes its first step as `coming`. false: none (player.fault tells why); then only
- * .fault and .fault_page have changed. */
+/* Finds the page that plays first and takes its first step as `coming`. false: none; only .fault and .fault_page have
+ * changed. */
 bool sequence_start(player_t *player, link_t *link, uint8_t page);
 
 /* Takes the positions of the first step: fills coming_pos, coming_joints and the longest ways. */
 void sequence_take_first(player_t *player);
 
-/* Finds the step behind the coming one, which decides the link at the last step of a page, and reads it. From now on `now`
- * is the coming step and `coming` the one behind it (page 0: the play ends behind `now`), whose words are in looked_at
- * (classic: those of the page that the link names, although another will be played).
+/* Finds and reads the step behind the coming one; decides the link at the last step of a page. Then `now` is the coming step
+ * and `coming` the one behind it (page 0: the play ends behind `now`). looked_at has its words; under the classic law those
+ * of the page that the link names, even if another page will be played.
  * Call only while player->coming.page is not 0. */
 void sequence_look(player_t *player, link_t *link) NOINLINE;
 
@@ -74,12 +74,12 @@ bool sequence_is_early(const player_t *player, uint8_t left) NOINLINE;
  * them). Without a coming step no joint is used. */
 void sequence_take(player_t *player);
 
-/* `now` begins: makes it public and returns its events. 0 when none is about to begin. */
+/* Begins `now`: makes it public and returns its events. 0 if no step is about to begin. */
 uint8_t sequence_announce(player_t *player);
 
 /* --- player.c ----------------------------------------------------------------------------------------------------- */
 
-/* The play ends here. Returns PLAYER_EV_ENDED. */
+/* Ends the play. Returns PLAYER_EV_ENDED. */
 uint8_t player_end(player_t *player);
 
 /* --- the laws ----------------------------------------------------------------------------------------------------- */
@@ -93,27 +93,27 @@ uint8_t exact_tick(player_t *player, link_t *link);
 uint8_t exact_step_over(player_t *player, link_t *link);
 void exact_freeze(player_t *player);
 
-/* Whether the play follows the classic law. Where that law is left out nothing behind this question is compiled. */
+/* Whether the play follows the classic law. In a program without that law the constant false removes all its code. */
 #define LAW_IS_CLASSIC(player) (PLAYER_CLASSIC && (player)->law == PLAYER_LAW_CLASSIC)
 void classic_start(player_t *player, link_t *link);
 uint8_t classic_tick(player_t *player, link_t *link);
 void classic_step_over(player_t *player, link_t *link);
 void classic_freeze(player_t *player);
-void classic_thaw(player_t *player); /* classic takes over again behind a pause, or behind the rest of a step */
+void classic_thaw(player_t *player); /* back to the classic law after a pause, or after the rest of a step */
 
-/* The rest of an interrupted step, from a stand to target_pos, by the exact law whatever the play's: in the ticks that the
- * step still had, but at least in those that slowing down took. Start returns false when there is nothing left to do; a
- * tick false when it was the last, on target. */
+/* The rest of an interrupted step, from a stand to target_pos, always by the exact law. It takes as many ticks as the step
+ * still had, and at least as many as slowing down took. start returns false if there is nothing left to do, tick with the
+ * last tick, which is on target. */
 bool exact_rest_start(player_t *player);
 bool exact_rest_tick(player_t *player);
 
-/* One tick's way at the present speed and acceleration of every joint. */
+/* Moves every joint by one tick at its present speed and acceleration. */
 void exact_move(player_t *player);
 
 /* --- brake.c ------------------------------------------------------------------------------------------------------ */
 
-/* Slows down from pos and speed in law_brake_ticks: as long as the step's ramp, at least 8 ticks, so that no joint leaves
- * the way that its page would have taken it. brake_tick returns false with the last tick. */
+/* Slows down from pos and speed in law_brake_ticks: as many as the step's ramp, at least 8. So no joint leaves the way of
+ * its page. brake_tick returns false with the last tick. */
 #define BRAKE_TICKS_MIN 8u
 static inline uint8_t law_brake_ticks(const player_t *player)
 {

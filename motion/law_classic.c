@@ -47,15 +47,15 @@ static int16_t speed_left(const player_t *player, const player_classic_t *classi
 
 /* --- from step to step -------------------------------------------------------------------------------------------- */
 
-/* next_word: a position word; PAGE_POS_UNUSED: the joint stays. */
+/* Whether the joint keeps its speed at the end of the step. next_word: its next position word; PAGE_POS_UNUSED: it stays. */
 static bool runs_on(int16_t from, int16_t to, uint16_t next_word)
 {
     int16_t next = (int16_t)next_word;
     return next_word != PAGE_POS_UNUSED && ((from < to && to < next) || (from > to && to > next));
 }
 
-/* Joints begin on their target; behind a pause (or at the start) where they are. A joint that the step does not use stays
- * there, and its target too. */
+/* Sets start and way of each joint. A joint starts on its last target; after a pause, and in the first step, where it is. A
+ * joint that the step does not use keeps its place and target. */
 static NOINLINE void aim_joints(player_t *player, bool may_run_on)
 {
     uint32_t used = player->coming_joints;
@@ -112,7 +112,7 @@ static int16_t plan_speed(const player_classic_t *classic, const divisors_t *by)
     return down ? (int16_t)-speed : speed;
 }
 
-/* v of a step that is skipped: the divisor is 1, and int16(K) may be anything. It counts where the play ends behind it. */
+/* v of a skipped step: the divisor is 1, and int16(K) may be any number. It matters if the play ends after this step. */
 static int16_t skipped_speed(const player_classic_t *classic)
 {
     uint16_t size = (uint16_t)way_in_speed_units(fix_size(classic->to_go));
@@ -120,7 +120,7 @@ static int16_t skipped_speed(const player_classic_t *classic)
     return speed > CLASSIC_SPEED_MAX ? CLASSIC_SPEED_MAX : speed < -CLASSIC_SPEED_MAX ? -CLASSIC_SPEED_MAX : speed;
 }
 
-/* v of the joints first to end - 1. */
+/* Computes v of the joints first to end - 1. */
 static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
 {
     uint16_t ticks = player->step_ticks;
@@ -140,7 +140,7 @@ static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
 /* Joints that are planned in the tick before their step begins. */
 #define PLANNED_AHEAD 5u
 
-/* Behind the last tick of a step: what begins with the next call. */
+/* After the last tick of a step: plans what begins with the next call. */
 static NOINLINE void take(player_t *player)
 {
     bool from_output = player->section == SECTION_HOLD;
@@ -295,7 +295,7 @@ static NOINLINE void make_fall(player_t *player)
     }
 }
 
-/* One tick of the running section; an empty one uses up the call without output. */
+/* One tick of the running section. An empty section takes the call and makes no output. */
 static uint8_t make_tick(player_t *player)
 {
     if (player->section_ticks == 0) {
@@ -318,9 +318,9 @@ static uint8_t make_tick(player_t *player)
     return PLAYER_EV_OUTPUT;
 }
 
-/* When nothing follows, the original has begun a step all the same before it finds out: it sends one more tick, the first
- * of a RISE from the last output with the last step's speed and the last section's length. The traces in tests/golden
- * end with it, 0 to 8 units off the target. */
+/* The tick behind the end of a play. The original begins another step before it finds out that nothing follows, and sends
+ * its first tick: a RISE from the last output, with the speed of the last step and the length of the last section. The
+ * traces in tests/golden end with it, 0 to 8 units off the target. */
 static NOINLINE uint8_t end_play(player_t *player)
 {
     uint8_t events = player_end(player);
@@ -336,7 +336,7 @@ static NOINLINE uint8_t end_play(player_t *player)
     return (uint8_t)(events | PLAYER_EV_OUTPUT);
 }
 
-/* The running section is used up. false: nothing follows. */
+/* Begins what follows the section that has ended. false: nothing follows. */
 static bool next_section(player_t *player)
 {
     if (player->section == SECTION_RISE) {

@@ -40,7 +40,7 @@ void exact_move(player_t *player)
     }
 }
 
-/* In CRUISE, where no speed changes. */
+/* One tick in CRUISE, where no speed changes. */
 static void move_steadily(player_t *player)
 {
     FOR_OWN_GOALS(player, joint, goal) {
@@ -60,7 +60,7 @@ static void land(player_t *player)
 
 /* --- planning ----------------------------------------------------------------------------------------------------- */
 
-/* RISE, and the speed of CRUISE, of a joint that stands on from_pos; exit and down are set already. mean, entry: sizes. */
+/* Plans RISE and the speed of CRUISE of a joint at from_pos; exit and down are set already. mean, entry: sizes. */
 static inline void plan_joint(const player_t *player, player_exact_t *exact, uint16_t from_pos, uint32_t mean,
                               uint32_t entry)
 {
@@ -96,9 +96,8 @@ static void set_ramp(player_t *player)
     }
 }
 
-/* Speed at target_pos of a joint that comes with this mean speed: the smaller of both steps' means, or 0 where it turns
- * round
- * or stays. */
+/* Speed at target_pos of a joint whose mean speed in this step is `mean`: the smaller of both steps' means, or 0 if it turns
+ * round or stays. */
 static inline uint32_t exit_speed(const player_t *player, const player_joint_t *joint, uint16_t next_pos, uint32_t mean)
 {
     uint16_t at_pos = joint->target_pos;
@@ -164,11 +163,11 @@ static NOINLINE void begin_fall(player_t *player)
 
 /* --- from step to step -------------------------------------------------------------------------------------------- */
 
-/* Joints that are planned in the tick before their step begins; fewer where that tick has a whole step of its own. */
+/* Joints that are planned in the tick before their step begins. Fewer if that tick is itself a whole step. */
 #define PLANNED_AHEAD 13u
 #define PLANNED_AHEAD_OF_ONE 5u
 
-/* The joints are on target_pos: the next step begins with the next tick. */
+/* Takes the coming step: the joints are on target_pos, and it begins with the next tick. */
 static NOINLINE void take(player_t *player)
 {
     player->joints |= player->coming_joints;
@@ -256,8 +255,7 @@ uint8_t exact_tick(player_t *player, link_t *link)
     return (uint8_t)(events | exact_step_over(player, link));
 }
 
-/* --- slowing down, and the rest of an interrupted step
- * ------------------------------------------------------------------------------ */
+/* --- slowing down, and the rest of an interrupted step ---------------------------------------------------------------- */
 
 static bool is_on_target(const player_t *player)
 {

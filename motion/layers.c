@@ -16,7 +16,7 @@ static NOINLINE uint32_t bit_of(uint8_t joint)
     return (uint32_t)1 << joint;
 }
 
-/* Every joint of a mask, which is used up. */
+/* Loops over the joints of a mask, which is empty afterwards. */
 #define FOR_JOINTS(i_, joints_)                                        \
     for (uint8_t i_ = 0; (joints_) != 0; (i_)++, (joints_) >>= 1)     \
         if (((uint8_t)(joints_) & 1u) != 0)
@@ -55,7 +55,7 @@ static uint16_t asked_by_code(const layers_code_t *code)
 
 /* --- hand-over ---------------------------------------------------------------------------------------------------- */
 
-/* Servo units that a joint may go in this tick; what is left over is kept. */
+/* Servo units that a joint may go in this tick; keeps the fraction that is left over. */
 static NOINLINE uint8_t allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
 {
     uint16_t sum = (uint16_t)(*allowance_q8_8 + speed_q8_8);
@@ -63,7 +63,7 @@ static NOINLINE uint8_t allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
     return (uint8_t)(sum >> 8);
 }
 
-/* One tick from `from` toward `to`. */
+/* `from`, one tick's way nearer to `to`. */
 static NOINLINE uint16_t approach_by(uint16_t from, uint16_t to, uint8_t most)
 {
     if (to > from) {
@@ -182,7 +182,7 @@ layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
     link_t link;
     link_init(&link, LINK_LATCH);
     if (player_start(&layers->play, &link, page, (player_law_t)layers->main->law, layers->goal_pos, joints) != PLAYER_OK) {
-        return LAYERS_ERR_PAGE; /* cannot be: the page has just been checked */
+        return LAYERS_ERR_PAGE; /* unreachable: the page has just been checked */
     }
     FOR_JOINTS(i, joints) { /* they belong to the layer already, and its first step is planned from where they are */
         follow_from_here(layers, i, false);
@@ -304,7 +304,7 @@ void layers_free(layers_t *layers, uint32_t joints)
 static uint16_t follow(layers_t *layers, player_joint_t *joint, uint8_t i, uint16_t from)
 {
     const player_t *owner = joint->owner == PLAYER_OWNER_LAYER ? &layers->play : layers->main;
-    if (!player_is_moving(owner)) { /* nobody asks for more: it stays */
+    if (!player_is_moving(owner)) { /* the owner does not play: the joint stays */
         joint->hand_over = HAND_OVER_DONE;
         return from;
     }
@@ -350,7 +350,7 @@ static void move_by_code(layers_t *layers)
     }
 }
 
-/* The layer hears no codes and no stop, so its links need no memory. */
+/* The layer gets no codes and no stop, so a fresh link_t will do. */
 static uint8_t tick_layer(layers_t *layers)
 {
     link_t link;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * layers.h - what plays over the main play on joints of its own: a second page, and motion made by code (shaping.md).
- * Each joint belongs to one of the three. The main play keeps its timing whatever joints are lent: the goals of the others
- * are the same as without a layer, bit by bit.
+ * layers.h - motion over the main play on joints of its own: a second page, and motion made by code (shaping.md).
+ * Each joint belongs to one of the three. The main play keeps its timing whatever joints are lent; the goals of its other
+ * joints are the same as without a layer, bit by bit.
  *
  *   main play --- layers_start, aim, swing ---> page layer or code      the joint changes hands: its goal follows what the
  *             <-- the layer ends, free --------                          new owner asks for at the hand-over speed at most,
@@ -75,7 +75,7 @@ void layers_bind(layers_t *layers, player_t *main_play);
  * ends first. The page itself has to have an action. Any error: nothing changed but play.fault and .fault_page. */
 MUST_CHECK layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints);
 
-/* The page layer ends now; its joints go back to the main play. Without one: nothing. */
+/* Ends the page layer, if there is one; its joints go back to the main play. */
 void layers_end(layers_t *layers);
 
 /* Both replace what code did with that joint; a page layer loses it.

@@ -38,7 +38,7 @@ void link_code(link_t *link, uint8_t code)
 {
     bool repeated = code == link->held_code;
     if (code == LINK_CODE_STOP) {
-        stop(link); /* whoever held a code before still holds it: held_code stays */
+        stop(link); /* a stop does not release a button that is held, so held_code stays */
         return;
     }
     link->held_code = code;
@@ -72,7 +72,7 @@ bool link_is_stopping(const link_t *link)
     return link->stopping || link->ending;
 }
 
-/* Marks an exit page as gone through. Returns false when it had been. */
+/* Marks an exit page as visited. false: it was visited before. */
 static bool mark_exit(link_t *link, uint8_t page)
 {
     uint8_t *byte = &link->exits_seen[(page % PAGE_COUNT) / 8];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * link.h - which page follows: codes, calls, the four links, stop, chains of exit pages.
- * Pure: knows codes and page numbers, not where they come from. One link_t per player, main loop only.
+ * Pure: knows codes and page numbers, not their sources. One link_t per player, main loop only.
  * Source: remote.md ("What a code does"). */
 #ifndef LINK_H
 #define LINK_H

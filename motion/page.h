@@ -61,20 +61,20 @@ typedef enum {
     PAGE_ERR_SPEED,      /* PAGE_SPEED is 0 */
     PAGE_ERR_LINK,       /* a place only: a link above 127 is 0 to a play (player.md), and no fault */
     PAGE_ERR_POSITION,   /* a position of a used step is above 1023 and has neither flag (0x4000, 0x2000) */
-    PAGE_EMPTY           /* valid, but without action. Never from page_check (see page_is_playable): why a play ends */
+    PAGE_EMPTY           /* valid, but without action: page_is_playable. Ends a play; page_check never returns it */
 } page_status_t;
 
 /* 8-bit sum of `count` bytes, added to `sum`: pages are summed in pieces as they are read. */
 uint8_t page_sum(uint8_t sum, const uint8_t *bytes, uint16_t count);
 
-/* The checks of page_check but for the checksum and the positions: on the 64 header bytes alone. */
+/* The checks of page_check that need only the 64 header bytes: all but checksum and positions. */
 page_status_t page_check_header(const uint8_t header[PAGE_STEP_BYTES]);
 
 /* The positions of one used step: PAGE_OK or PAGE_ERR_POSITION. */
 page_status_t page_check_step(const uint8_t step[PAGE_STEP_BYTES]);
 
-/* Everything, on a whole page: the sum, the header, the steps that PAGE_STEP counts. A caller who reads the page in
- * pieces gets the same answer from page_sum, page_check_header and page_check_step, asked in this order. */
+/* Checks a whole page: the sum, the header, the steps that PAGE_STEP counts. A caller that reads the page in pieces gets the
+ * same result from page_sum, page_check_header and page_check_step, in this order. */
 page_status_t page_check(const uint8_t page[PAGE_BYTES]);
 
 /* Sets byte 31 so that the page sums to 0xFF. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * page_source.h - where motion pages come from: flash on the robot, an array in a test. */
+ * page_source.h - the source of motion pages: flash on the robot, an array in a test. */
 #ifndef PAGE_SOURCE_H
 #define PAGE_SOURCE_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * player.h - plays pages: each tick (1/128 s) turns pages and links into goal positions.
- * Pure: knows neither bus nor flash; pages come through page_source_t a few bytes at a time, straight from where they
- * are kept. Caller-owned state, main loop only, one call per tick. Law of motion: player.md.
+ * Pure: knows neither bus nor flash; reads pages through page_source_t, a few bytes at a time. Caller-owned state, main
+ * loop only, one call per tick. Law of motion: player.md.
  *
  * A play is a player_t. What belongs to a joint is in player_joint_t and goal_pos, which two plays may share: each moves the
  * joints whose `owner` it is (layers.h).
@@ -139,49 +139,47 @@ typedef struct player {
     bool shaping_is_on;             /* joints of it are still as stored */
 } player_t;
 
-/* Binds the source of pages, the joints and their goals (both arrays of PAGE_JOINTS; the goals may outlive the play) and
- * sets
- * everything idle. The play is the main one. */
+/* Starts idle, as the main play. Source, joints and goals (both arrays of PAGE_JOINTS) stay the caller's. */
 void player_init(player_t *player, const page_source_t *source, player_joint_t joint[PAGE_JOINTS],
                  uint16_t goal_pos[PAGE_JOINTS]);
 
-/* Plays by `shape` from the next step that is looked at; NULL: as stored. Call it any time after player_init. shaping:
- * memory for a step that is being shaped, this play's alone; a program with shape_step_none.c needs none. */
+/* Sets the shape that acts from the next step that is looked at; NULL: play as stored. Call it any time after player_init.
+ * shaping: memory for a step that is being shaped, for this play alone; NULL in a program with shape_step_none.c. */
 void player_set_shape(player_t *player, const shape_t *shape, shape_step_t *shaping);
 
-/* Begins at step 1 of `page` with the joints standing at pose_pos (page coordinates; may be goal_pos itself; values above
- * 1023 count as 1023), which becomes goal_pos. The caller has told
- * `link` of the call (link_call). `present`: bit per joint that may be driven; others are never touched.
- * player.page is at once the page that will really be played first (pages with PLAY_COUNT 0 are passed over).
- * Any error: nothing changed but .fault and .fault_page. The first output comes with the next player_tick. */
+/* Begins at step 1 of `page`. Call link_call before.
+ * pose_pos : where the joints are (page coordinates; values above 1023 count as 1023); copied to goal_pos, may be goal_pos
+ * present  : bit per joint that may be driven; others are never touched
+ * Afterwards player.page is the page that plays first: pages with PLAY_COUNT 0 are passed over. The first output comes with
+ * the next player_tick. Any error: nothing changed but .fault and .fault_page. */
 MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
                                         const uint16_t pose_pos[PAGE_JOINTS], uint32_t present);
 
-/* Where step 1 of `page`, shaped, wants its joints: fills those places of pose_pos and returns their bits. For the
- * approach. */
+/* For the approach: fills pose_pos with the positions of step 1 of `page`, shaped, and returns the bits of the joints that
+ * have one. */
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
 
 /* One tick. Returns PLAYER_EV_ bits; 0 when idle. */
 uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* by itself, so that the bench can measure it */
 
-/* Leaves the page at once: every joint slows down to a stand within ACCEL_TIME ticks (at least 8), no reversal. */
+/* Leaves the page at once: every joint slows to a stand within ACCEL_TIME ticks (at least 8), without reversal. */
 void player_break(player_t *player);
 
-/* Decelerates and holds; resume goes on to the interrupted step's target in the time that was left (but never faster
- * than a ramp of the length it took to slow down). */
+/* pause slows all joints to a stand. resume goes on to the target of the interrupted step in the time that was left, but
+ * never faster than a ramp of the length that slowing down took. */
 void player_pause(player_t *player);
 void player_resume(player_t *player);
 
 bool player_is_moving(const player_t *player);   /* a play is on, paused or breaking included */
-bool player_is_paused(const player_t *player);   /* told to pause: slowing down or standing */
+bool player_is_paused(const player_t *player);   /* after player_pause: slowing down or standing */
 
 /* Takes joints out of a running play (torque lost, servo silent): they keep their last goal and are not in `joints`. */
 void player_drop_joints(player_t *player, uint32_t joints);
 
-/* A joint stands at `pos` and belongs to this play from now on; it moves again with the next step. For layers.h. */
+/* For layers.h: gives a joint that is at `pos` to this play. It moves again with the next step. */
 void player_give_joint(player_t *player, uint8_t joint, uint16_t pos);
 
-/* What the play asks of a joint of its own at this moment, 0..1023, whether this tick made output or not. */
+/* The position 0..1023 where the play wants a joint of its own now, whether this tick made output or not. */
 uint16_t player_asks(const player_t *player, uint8_t joint);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * sequence.c - which page and which step comes: repetitions, links, pages without action; and its bytes, shaped. */
+ * sequence.c - finds the page and step that come next (repetitions, links, pages without action); reads and shapes them. */
 #include <string.h>
 #include "law.h"
 #include "shape_step.h"
@@ -8,7 +8,7 @@
 
 /* --- reading ------------------------------------------------------------------------------------------------------ */
 
-/* The header's bytes from `from` on, to their places; the name is left as it is. */
+/* Reads the header from byte `from` on into its place; does not read the name. */
 static void read_header(const page_source_t *source, uint8_t page, uint8_t header[HEADER_BYTES], uint8_t from)
 {
     source->read(source->context, page, from, &header[from], (uint8_t)(HEADER_BYTES - from));
@@ -59,7 +59,7 @@ static uint8_t fail(player_t *player, uint8_t page, uint8_t fault)
     return 0;
 }
 
-/* The link that is followed. One above the last page counts as none. */
+/* The link that is followed. A link above the last page counts as 0. */
 static uint8_t follow(link_t *link, uint8_t page, const uint8_t header[HEADER_BYTES], link_taken_t *taken)
 {
     uint8_t next = link_decide(link, page, header, taken);
@@ -149,13 +149,13 @@ static uint8_t decide(player_t *player, link_t *link)
 
 /* --- which step --------------------------------------------------------------------------------------------------- */
 
-/* The original looks ahead to the page that the link names, even when that one is then passed over or ends the play. */
+/* The original looks ahead to the page that the link names, even if that page is then passed over or ends the play. */
 static bool looks_elsewhere(const player_t *player)
 {
     return LAW_IS_CLASSIC(player) && player->look_page != player->coming.page;
 }
 
-/* Whether something is set that this play is shaped by. */
+/* Whether the settings of shape.h change this play. */
 static bool shapes(const player_t *player)
 {
     return player->shape != NULL && !shape_is_neutral(player->shape);
@@ -172,7 +172,7 @@ static NOINLINE void look_at(player_t *player, uint8_t page, uint8_t step)
     player->looked_joints = read_words(player->source, page, step, page != 0 ? player->present : 0, player->looked_at);
 }
 
-/* Shapes all joints of the looked-at step that are left. */
+/* Shapes the remaining joints of the step that was looked at. */
 static void shape_the_rest(player_t *player)
 {
     while (player->shaping_is_on && shape_step_share(player->shaping, player->source, player->looked_at)) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * shape.h - how a motion is shaped while it plays: rate, amplitude, blend, limit (shaping.md).
- * A step is shaped once, when the player looks at it; what is set acts from the first step that has not been looked at,
- * two steps ahead at most. Pure; caller-owned; main loop only. The main play is shaped, layers play as stored.
+ * A step is shaped once, when the player looks at it. So a change acts from the first step that has not been looked at, two
+ * steps ahead at most. Only the main play is shaped; layers play as stored. Pure; caller-owned; main loop only.
  *
  *   blend      p1 = p + W (q - p)         q: the same step and joint of the partner page, right (W > 0) or left
  *   amplitude  p2 = c + A (p1 - c)        c: the joint in the centre pose
@@ -9,7 +9,7 @@
  *   rate       ticks / R                  of the step and of its pause
  *   limit      a step in which a joint's mean speed is above the servo's top speed is made longer
  *
- * With nothing set (shape_is_neutral) every goal is what it is without this module, bit by bit.
+ * With nothing set (shape_is_neutral) every goal is the same as without this module, bit by bit.
  * RAM: sizeof(shape_t), 38 bytes on the AVR. */
 #ifndef SHAPE_H
 #define SHAPE_H
@@ -41,10 +41,10 @@ typedef struct shape {
     uint8_t amplitude_percent[PAGE_JOINTS];      /* 0..150 */
 } shape_t;
 
-/* Nothing set; the centre page and the voltage stay. */
+/* Sets rate, amplitude and blend to 100, 100, 0; keeps the centre page and the voltage. */
 void shape_reset(shape_t *shape);
 
-/* Nothing set, centre page 1, no limit until the voltage is known. */
+/* Rate, amplitude and blend 100, 100, 0; centre page 1; no limit until the voltage is known. */
 void shape_init(shape_t *shape);
 
 /* percent: see the ranges above. joints: bit per joint; at least one. */
@@ -55,9 +55,8 @@ MUST_CHECK shape_status_t shape_set_blend(shape_t *shape, int16_t percent);
 /* 0..127. */
 MUST_CHECK shape_status_t shape_set_centre(shape_t *shape, uint8_t page);
 
-/* The battery's present voltage, 0.1 V (a servo's register 42). Sets the limit to 90 % of the top speed of an AX-12, 8.7
- * units
- * a tick at 11.1 V, in proportion to the voltage (body.md). 0: not known, no limit. */
+/* Sets the limit from the battery's present voltage, 0.1 V (a servo's register 42): 90 % of the top speed of an AX-12, which
+ * is 8.7 units a tick at 11.1 V, in proportion to the voltage (body.md). 0: not known, no limit. */
 void shape_set_voltage(shape_t *shape, uint8_t decivolts);
 
 /* true when rate, amplitude and blend are 100, 100, 0: then no limit acts either. */

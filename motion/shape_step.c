@@ -15,7 +15,7 @@ static void read_header(const page_source_t *source, uint8_t page, uint8_t at, u
     source->read(source->context, page, at, to, count);
 }
 
-/* Steps of a page; 0: it has none, or there is no such page, or it is damaged. */
+/* The number of steps of a page; 0 if there is no such page or it is damaged. */
 static NOINLINE uint8_t steps_of(const page_source_t *source, uint8_t page)
 {
     uint8_t steps;
@@ -26,7 +26,7 @@ static NOINLINE uint8_t steps_of(const page_source_t *source, uint8_t page)
     return steps;
 }
 
-/* The page that `page` is blended with; 0: none, or not one of the same number of steps. */
+/* The page that `page` is blended with; 0: none, or it has another number of steps. */
 static uint8_t partner_of(const shape_t *shape, const page_source_t *source, uint8_t page)
 {
     uint8_t header[PAGE_AT_STEPS + 1u - PAGE_AT_BLEND_RIGHT];
@@ -38,7 +38,7 @@ static uint8_t partner_of(const shape_t *shape, const page_source_t *source, uin
     return partner;
 }
 
-/* Words of a share of joints from `first` on in a step of a page; of page 0 none is used. (Behind joint 30 stand pause and
+/* Reads the words of a share of joints from `first` on. In page 0 no joint is used. (The word behind joint 30 is pause and
  * time.) */
 static NOINLINE void read_share(const page_source_t *source, uint8_t page, uint8_t step, uint8_t first,
                                 uint16_t words[SHAPE_STEP_SHARE])

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * shape_step.h - the seam between the sequence of steps and their shaping. An image without blend and amplitude links
- * shape_step_none.c: rate and limit remain.
+ * shape_step.h - shapes the position words of a step. An image without blend and amplitude links shape_step_none.c; rate and
+ * limit remain.
  *
- * 31 joints are too much for the tick in which a step is looked at, so a step is shaped in shares, SHAPE_STEP_SHARE joints
- * each. What was set when its shaping began holds for all of them. */
+ * 31 joints are too many for the tick in which a step is looked at. So a step is shaped in shares of SHAPE_STEP_SHARE
+ * joints, all with the settings at its beginning. */
 #ifndef SHAPE_STEP_H
 #define SHAPE_STEP_H
 
@@ -21,7 +21,7 @@ typedef struct shape_step {
     uint8_t amplitude_percent[PAGE_JOINTS];
 } shape_step_t;
 
-/* Begins with step 1..7 of `page`, by what is set now. */
+/* Begins with step 1..7 of `page`, with the present settings. */
 void shape_step_begin(shape_step_t *shaping, const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step);
 
 /* Blends, scales and clamps the next SHAPE_STEP_SHARE of the step's position words, in place; words that do not drive their

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * shape_step_none.c - linked in place of shape_step.c by an image that has no room for blend and amplitude. */
+ * shape_step_none.c - for images without room for blend and amplitude: linked in place of shape_step.c. */
 #include "shape_step.h"
 
 void shape_step_begin(shape_step_t *shaping, const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step)

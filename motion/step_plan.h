@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * step_plan.h - how many ticks a step takes: both laws' reading of time, speed, pause and ramp (player.md, section 1
- * rules 3, 5, 6 and section 2 rule 1), and of rate and limit (shaping.md). Pure functions.
+ * step_plan.h - how many ticks a step takes: time, speed, pause and ramp under both laws (player.md, section 1 rules 3, 5, 6
+ * and section 2 rule 1), rate and limit (shaping.md). Pure functions.
  *
  * Where a length has a fraction of a tick, the fraction is carried to the next step or pause in *carry_q5_11. */
 #ifndef STEP_PLAN_H
@@ -25,7 +25,7 @@ uint16_t step_plan_exact_ticks(const player_step_t *step, uint16_t longest_way, 
 uint16_t step_plan_exact_hold(const player_step_t *step, uint16_t *carry_q5_11);
 uint8_t step_plan_exact_ramp(uint8_t accel_time, uint16_t ticks);
 
-/* Half a tick: with this to begin with, a page's length is right to the nearest tick. */
+/* Half a tick: begin with this carry to get a page's length to the nearest tick. */
 #define STEP_PLAN_CARRY_START 1024u
 
 #endif
