@@ -18,6 +18,16 @@
 #include <stddef.h>
 #include "player.h"
 
+/* States of a play; player.c has the diagram. */
+enum { STATE_IDLE, STATE_PLAYING, STATE_BRAKING, STATE_STANDING, STATE_RESTING };
+
+/* Ends the play. Returns PLAYER_EV_ENDED. */
+static inline uint8_t law_end_play(player_t *player)
+{
+    player->state = STATE_IDLE;
+    return PLAYER_EV_ENDED;
+}
+
 /* Sections of a step.
  *
  *  speed          ________
@@ -76,11 +86,6 @@ void sequence_take(player_t *player);
 
 /* Begins `now`: makes it public and returns its events. 0 if no step is about to begin. */
 uint8_t sequence_announce(player_t *player);
-
-/* --- player.c ----------------------------------------------------------------------------------------------------- */
-
-/* Ends the play. Returns PLAYER_EV_ENDED. */
-uint8_t player_end(player_t *player);
 
 /* --- the laws ----------------------------------------------------------------------------------------------------- */
 

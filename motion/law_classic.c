@@ -323,7 +323,7 @@ static uint8_t make_tick(player_t *player)
  * traces in tests/golden end with it, 0 to 8 units off the target. */
 static NOINLINE uint8_t end_play(player_t *player)
 {
-    uint8_t events = player_end(player);
+    uint8_t events = law_end_play(player);
     if (player->section_ticks == 0) {
         return events;
     }

@@ -195,7 +195,7 @@ static NOINLINE uint8_t come_to_the_end(player_t *player, link_t *link, uint8_t 
     sequence_prepare(player, link, left);
     if (left == 0) {
         if (!player->looked) {
-            return player_end(player);
+            return law_end_play(player);
         }
         take(player);
     }

@@ -12,7 +12,6 @@
  *                  v                          |
  *                BRAKING ------------> STANDING      (a break ends: IDLE)
  */
-enum { STATE_IDLE, STATE_PLAYING, STATE_BRAKING, STATE_STANDING, STATE_RESTING };
 
 #define ALL_JOINTS 0x7FFFFFFFu
 
@@ -26,12 +25,6 @@ void player_set_shape(player_t *player, const shape_t *shape, shape_step_t *shap
 {
     player->shape = shape;
     player->shaping = shaping;
-}
-
-uint8_t player_end(player_t *player)
-{
-    player->state = STATE_IDLE;
-    return PLAYER_EV_ENDED;
 }
 
 /* --- joints ------------------------------------------------------------------------------------------------------ */
@@ -138,7 +131,7 @@ static uint8_t tick_braking(player_t *player)
         return PLAYER_EV_OUTPUT;
     }
     if (player->breaking) {
-        return (uint8_t)(PLAYER_EV_OUTPUT | PLAYER_EV_STANDING | player_end(player));
+        return (uint8_t)(PLAYER_EV_OUTPUT | PLAYER_EV_STANDING | law_end_play(player));
     }
     player->state = STATE_STANDING;
     return PLAYER_EV_OUTPUT | PLAYER_EV_STANDING;
@@ -169,7 +162,7 @@ uint8_t player_tick(player_t *player, link_t *link)
     case STATE_RESTING:
         return tick_resting(player, link);
     case STATE_STANDING:
-        return player->breaking ? (uint8_t)(PLAYER_EV_STANDING | player_end(player)) : 0;
+        return player->breaking ? (uint8_t)(PLAYER_EV_STANDING | law_end_play(player)) : 0;
     default:
         return 0;
     }
