@@ -18,6 +18,7 @@ struct quick {
     uint16_t player_goal_pos[PAGE_JOINTS];
     link_t link;
     shape_t shape;
+    shape_step_t shaping;
     servo_bus_t *bus;
     uint64_t now_cycles;
     uint16_t goal_pos[PAGE_JOINTS];
@@ -142,7 +143,7 @@ int quick_start(quick_t *quick, uint8_t page, int law)
 void quick_shape(quick_t *quick, const shape_t *shape)
 {
     quick->shape = *shape;
-    player_set_shape(&quick->player, &quick->shape);
+    player_set_shape(&quick->player, &quick->shape, &quick->shaping);
 }
 
 void quick_keys(quick_t *quick, uint8_t code)
