@@ -275,7 +275,8 @@ static void read_many(void *context, uint8_t page, uint16_t offset, void *to, ui
     for (uint8_t *bytes = to; count != 0; count--, offset++) {
         uint8_t step = (uint8_t)(offset / PAGE_STEP_BYTES), at = (uint8_t)(offset % PAGE_STEP_BYTES);
         uint16_t word = page == MANY ? 512 : step % 2 != 0 ? 612 : 412;
-        *bytes++ = (uint8_t)(step == 0 ? (offset == PAGE_AT_STEPS ? 7 : offset == PAGE_AT_NEXT_PAGE ? page : byte_of(PAGE, offset))
+        uint8_t of_header = offset == PAGE_AT_STEPS ? 7 : offset == PAGE_AT_NEXT_PAGE ? page : byte_of(PAGE, offset);
+        *bytes++ = (uint8_t)(step == 0 ? of_header
                              : at == PAGE_STEP_AT_SPEED ? many_ticks
                              : at == PAGE_STEP_AT_PAUSE ? 0
                              : at % 2 != 0              ? word >> 8

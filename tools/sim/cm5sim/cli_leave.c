@@ -18,7 +18,8 @@ static const char hint[] = "Ctrl-] ends the simulator";
 static bool has_title(const session_t *session)
 {
     const char *term = getenv("TERM");
-    return term != NULL && session_is_on_terminal(session) && strncmp(term, "linux", 5) != 0;   /* older kernels print it */
+    /* Consoles of older kernels print it. */
+    return term != NULL && session_is_on_terminal(session) && strncmp(term, "linux", 5) != 0;
 }
 
 void leave_open(session_t *session)
