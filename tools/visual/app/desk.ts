@@ -10,14 +10,14 @@ import type { Shape } from '../model/motion.ts';
 import { pagesOfPlay } from '../model/page-reach.ts';
 import type { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { askList, askWhere, command, play, setAmplitude, setBlend, setRate, setTorque } from '../robot/protocol.ts';
+import { aim, askList, askWhere, command, free, play, setAmplitude, setBlend, setLayer, setRate, setTorque, swing } from '../robot/protocol.ts';
 import type { Command } from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Desk, DeskState, Floor, Hand, ImageName, Notice, PanelButton, Tab } from '../view/desk.ts';
-import { PLAY_TEXTS } from '../view/editor/step-texts.ts';
+import type { Beside, Desk, DeskState, Floor, Hand, ImageName, Notice, PanelButton, Tab } from '../view/desk.ts';
+import { LAYER_TEXTS, PLAY_TEXTS } from '../view/editor/step-texts.ts';
 import { refusalText } from '../view/editor/texts.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
@@ -78,6 +78,7 @@ export class RobotDesk implements Desk {
     this.body = body;
     this.editor = new DocumentEditor(body, parts, {
       changed: (document) => this.documents.keep(document),
+      opened: () => this.trials.forget(),
       refused: (refusal) => this.state.set({ said: { text: refusalText(refusal), tone: 'bad' } }),
     });
     this.files = new DocumentFiles(this.editor, formats);
@@ -174,6 +175,28 @@ export class RobotDesk implements Desk {
       await setAmplitude(requests, amplitude);
       await setBlend(requests, blend);
     });
+  }
+
+  beside(what: Beside): Promise<void> {
+    return this.deed(async () => {
+      const { requests } = this.connection;
+      switch (what.kind) {
+        case 'layer': return this.layer(what.page, what.joints);
+        case 'aim': return aim(requests, what.joint, what.position, what.degreesPerSecond);
+        case 'swing': return swing(requests, what.joint, what.centre, what.amplitude, what.periodMs);
+        case 'free': return free(requests, what.joints);
+        default: return what satisfies never;
+      }
+    });
+  }
+
+  /** A layer is what the robot has in its flash: one that differs is not played. Why not; null: it plays. */
+  private async layer(page: number | null, joints: readonly number[]): Promise<string | null> {
+    const { state, format } = this.editor;
+    const dirty = dirtyPages(state.get(), format);
+    if (page !== null && pagesOfPlay(format, state.get().document, page).some((one) => dirty.has(one))) return this.isSimulated ? LAYER_TEXTS.otherwise : LAYER_TEXTS.otherwiseYours;
+    await setLayer(this.connection.requests, page, joints);
+    return null;
   }
 
   follow(positions: readonly (number | null)[] | null): void {

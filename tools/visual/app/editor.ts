@@ -35,6 +35,8 @@ export interface EditorEvents {
   /** A finished edit, undo or redo has made another document. */
   changed(document: MotionDocument): void;
   refused(refusal: Refusal): void;
+  /** Another document has taken the place of the one before. */
+  opened(): void;
 }
 
 export class DocumentEditor implements Editor {
@@ -107,6 +109,7 @@ export class DocumentEditor implements Editor {
   open(document: MotionDocument): void {
     const { robot, law } = this.state.get();
     this.show({ ...states.startState(document), robot, law });
+    this.events.opened();
   }
 
   rename(name: string): void {

@@ -9,7 +9,7 @@ import { deepestTouches, posesOf, verdictOf } from '../model/trial.ts';
 import type { StepTouch, Touch, TrialRecord, TrialRequest } from '../model/trial.ts';
 import type { TrialClient } from '../sim/trial-client.ts';
 import { Store } from '../view/store.ts';
-import type { PageTrial, Trials, TrialsState } from '../view/trial-desk.ts';
+import type { Trials, TrialsState } from '../view/trial-desk.ts';
 import type { DocumentEditor } from './editor.ts';
 
 /** A motion that goes round is told to stop then: 6 s. */
@@ -32,6 +32,7 @@ export class MotionTrials implements Trials {
   private readonly makeClient: () => Promise<TrialClient>;
   private client: Promise<TrialClient> | null = null;
   private readonly tried = new Map<number, Tried>();
+  private hasFailed = false;
   private stop = new AbortController();
   /** One motion at a time is in the worker. */
   private last: Promise<unknown> = Promise.resolve();
@@ -46,6 +47,7 @@ export class MotionTrials implements Trials {
     const due = pages.filter((page) => this.isPlayable(page) && !this.isFresh(page));
     if (phase === 'loading' || phase === 'trying' || due.length === 0) return;
     this.stop = new AbortController();
+    this.hasFailed = false;
     const { signal } = this.stop;
     this.state.set({ phase: 'loading', done: 0, total: due.length, trouble: null });
     try {
@@ -58,12 +60,20 @@ export class MotionTrials implements Trials {
       this.state.set({ phase: 'idle', page: null, done: due.length });
     } catch (error) {
       const isStopped = signal.aborted;
+      if (!isStopped) this.giveUp();
       this.state.set({ phase: isStopped ? 'idle' : 'failed', page: null, trouble: isStopped ? null : wordsOf(error) });
     }
   }
 
   cancel(): void {
     this.stop.abort();
+  }
+
+  /** Nothing is known any more: it is another document. */
+  forget(): void {
+    this.cancel();
+    this.tried.clear();
+    this.state.set({ trials: new Map() });
   }
 
   isFresh(page: number): boolean {
@@ -73,19 +83,26 @@ export class MotionTrials implements Trials {
   }
 
   async follow(page: number, ticks: number, shape: Shape, signal: AbortSignal): Promise<Float32Array | null> {
-    if (!this.isPlayable(page)) return null;
+    if (!this.isPlayable(page) || this.hasFailed) return null;
     const request = { ...this.request(page, shape, ticks), toTheEnd: false };
-    const client = await this.ready().catch(() => null);
-    const record = client && (await this.play(client, request, signal));
-    return record?.stood ? record.positions : null;
+    try {
+      const record = await this.play(await this.ready(), request, signal);
+      return record.stood ? record.positions : null;
+    } catch (error) {
+      if (signal.aborted) throw error;
+      this.giveUp();
+      return null;
+    }
   }
 
   async touching(pose: ArrayLike<number>): Promise<readonly Touch[]> {
+    if (this.hasFailed) return [];
     try {
       const [touches] = await (await this.ready()).touching(Uint16Array.from(pose));
       return touches ?? [];
     } catch {
-      return []; // without physics nothing is told; Checks says why
+      this.giveUp();
+      return []; // Checks says why, when somebody asks there
     }
   }
 
@@ -95,8 +112,9 @@ export class MotionTrials implements Trials {
     const request = this.request(page, AS_STORED, TICKS);
     const touches = await this.touchesOf(client, page);
     const record = await this.play(client, request, signal);
+    signal.throwIfAborted();
     this.tried.set(page, { law, pages: reached });
-    this.note(page, { verdict: verdictOf(record), pages: record.pages, touches });
+    this.state.set({ trials: new Map([...this.state.get().trials, [page, { verdict: verdictOf(record), pages: record.pages, touches }]]) });
   }
 
   private async touchesOf(client: TrialClient, page: number): Promise<StepTouch[]> {
@@ -104,10 +122,6 @@ export class MotionTrials implements Trials {
     if (!curve) return [];
     const { poses, steps } = posesOf(curve, page);
     return deepestTouches(steps, await client.touching(poses));
-  }
-
-  private note(page: number, trial: PageTrial): void {
-    this.state.set({ trials: new Map([...this.state.get().trials, [page, trial]]) });
   }
 
   private play(client: TrialClient, request: TrialRequest, signal: AbortSignal): Promise<TrialRecord> {
@@ -125,13 +139,16 @@ export class MotionTrials implements Trials {
     return page > 0 && this.editor.format.isPlayable(pageOf(this.editor.state.get().document, page));
   }
 
-  /** Made once; after a failure, anew. */
   private ready(): Promise<TrialClient> {
-    this.client ??= this.makeClient().catch((error: unknown) => {
-      this.client = null;
-      throw error;
-    });
+    this.client ??= this.makeClient();
     return this.client;
+  }
+
+  /** Physics does not work: nothing asks for it again until a person does. */
+  private giveUp(): void {
+    this.hasFailed = true;
+    void this.client?.then((client) => client.dispose(), () => undefined);
+    this.client = null;
   }
 }
 

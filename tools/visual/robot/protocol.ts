@@ -203,6 +203,26 @@ export async function setBlend(requests: Requests, percent: number): Promise<voi
   await requests.ask(`@blend ${percent}`);
 }
 
+/** A second page over the play, on these joints or those that its first step uses; null: no more. Play alone has layers. */
+export async function setLayer(requests: Requests, page: number | null, ids: readonly number[] = []): Promise<void> {
+  await requests.ask(page === null ? '@layer off' : ['@layer', page, ...ids].join(' '));
+}
+
+/** Moves a joint by code: to a position (servo units), at most so fast (1..360), and holds it there. */
+export async function aim(requests: Requests, id: number, position: number, degreesPerSecond: number): Promise<void> {
+  await requests.ask(`@aim ${id} ${position} ${degreesPerSecond}`);
+}
+
+/** To and fro about a centre: servo units, a period of 125..30000 ms. */
+export async function swing(requests: Requests, id: number, centre: number, amplitude: number, periodMs: number): Promise<void> {
+  await requests.ask(`@swing ${id} ${centre} ${amplitude} ${periodMs}`);
+}
+
+/** These joints, or all, go back to the play; without one they stay. */
+export async function free(requests: Requests, ids: readonly number[] = []): Promise<void> {
+  await requests.ask(['@free', ...ids].join(' '));
+}
+
 /** Everything as stored. */
 export async function resetShape(requests: Requests): Promise<void> {
   await requests.ask('@shape reset');

@@ -22,7 +22,7 @@ let ids = 0;
 async function openTab(storage: DocumentStorage, options: { taken?: string } = {}) {
   const failures: unknown[] = [];
   const editor: DocumentEditor = new DocumentEditor(body, { format, player, document: library }, {
-    changed: (document) => documents.keep(document), refused: () => undefined,
+    changed: (document) => documents.keep(document), refused: () => undefined, opened: () => undefined,
   });
   const documents: KeptDocuments = new KeptDocuments({
     open: (document) => editor.open(document), rename: (name) => editor.rename(name), document: () => editor.state.get().document,

@@ -3,7 +3,7 @@
 import { afterEach, expect, test } from 'vitest';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { askDensePage, askList, askPage, askPose, askVersion, askWhere, command, drive, movePose, play, resetShape, setAmplitude, setBlend, setRate, setTorque } from '../robot/protocol.ts';
+import { aim, askDensePage, askList, askPage, askPose, askVersion, askWhere, command, drive, free, movePose, play, resetShape, setAmplitude, setBlend, setLayer, setRate, setTorque, swing } from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import { RobotBench, robotImages, settle } from './robot-bench.ts';
@@ -207,4 +207,29 @@ test('a play is shaped, and shaped back', async () => {
   expect(await shape()).toEqual(['150', '-20', '80']);
   await bench.until(resetShape(requests));
   expect(await shape()).toEqual(['100', '0', '100']);
+});
+
+test('beside a play: a page laid over the walk, a joint aimed, one swung, all given back; what cannot be is refused and changes nothing', async () => {
+  const { bench, connection } = await ready('play', 27);
+  const { requests } = connection;
+  const beside = async (): Promise<(string | undefined)[]> => {
+    const { fields } = await bench.until(askWhere(requests));
+    return ['layer', 'aim'].map((name) => fields.get(name));
+  };
+  const refused = (request: Promise<void>): Promise<unknown> => bench.until(request.then(() => 'done', (error: unknown) => (error instanceof RobotError ? error.code : error)));
+  await bench.until(play(requests, 20));
+  for (let i = 0; i < 40 && (await bench.until(askWhere(requests))).state !== 'playing'; i++) await bench.run(250);
+  await bench.until(setLayer(requests, 60));
+  expect(await beside()).toEqual(['60', '00000000']);
+  await bench.until(setLayer(requests, null));
+  await bench.until(aim(requests, 2, 600, 90));
+  await bench.until(swing(requests, 6, 512, 40, 2000));
+  expect((await beside())[1]).toBe('00000044'); // bits 2 and 6
+  expect(await refused(swing(requests, 6, 1000, 100, 2000))).toBe('refused'); // leaves 0..1023
+  expect(await refused(setLayer(requests, 126))).toBe('refused'); // no such page
+  expect((await beside())[1]).toBe('00000044');
+  await bench.until(free(requests, [2]));
+  await bench.until(free(requests));
+  expect((await beside())[1]).toBe('00000000');
+  expect((await bench.until(askWhere(requests))).state).toBe('playing');
 });

@@ -101,3 +101,15 @@ test('of a curve the poses of its own page are looked at; of each step the deepe
   const touch = (depthM: number) => ({ links: ['a', 'b'] as const, depthM });
   expect(deepestTouches([0, 0, 1], [[touch(0.004)], [touch(0.009), touch(0.005)], [touch(0.001)]])).toEqual([{ ...touch(0.009), step: 0 }]);
 });
+
+test('the verdict: what stood, fell, rose, ended low or could not begin', () => {
+  const at = { tick: 180, page: 5, step: 2 };
+  const record = { stood: true, ticks: 256, positions: new Float32Array(), pages: [5], fell: null, ended: true, onFeet: true };
+  const kindOf = (change: Partial<typeof record> | { fell: typeof at }): string => verdictOf({ ...record, ...change }).kind;
+  expect(kindOf({})).toBe('stands');
+  expect(kindOf({ ended: false, onFeet: false })).toBe('stands'); // goes on and on, and did not fall
+  expect(kindOf({ onFeet: false })).toBe('low');
+  expect(kindOf({ fell: at })).toBe('rises');
+  expect(verdictOf({ ...record, fell: at, onFeet: false })).toEqual({ kind: 'falls', at, seconds: 2 });
+  expect(kindOf({ stood: false, onFeet: false })).toBe('no-start');
+});

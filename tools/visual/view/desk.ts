@@ -55,6 +55,15 @@ export interface Hand {
   readonly target: Vector;
 }
 
+/** What goes on beside a play: a second page on joints of its own (null: no more; no joints: those that its first step uses), or
+ *  joints that code moves. Servo units. */
+export type Beside =
+  | { readonly kind: 'layer'; readonly page: number | null; readonly joints: readonly number[] }
+  | { readonly kind: 'aim'; readonly joint: number; readonly position: number; readonly degreesPerSecond: number }
+  | { readonly kind: 'swing'; readonly joint: number; readonly centre: number; readonly amplitude: number; readonly periodMs: number }
+  /** No joints: all. */
+  | { readonly kind: 'free'; readonly joints: readonly number[] };
+
 export interface Floor {
   readonly tiltFront: number;
   readonly tiltLeft: number;
@@ -83,6 +92,8 @@ export interface Desk {
   playEdited(page: number): Promise<void>;
   /** How what plays is shaped, from its next step on. Only Play can. */
   shape(shape: Shape): Promise<void>;
+  /** What goes on beside a play. Only Play can. */
+  beside(what: Beside): Promise<void>;
   /** From now on the robot goes slowly to this pose (servo units by ID; null: this joint stays); null: no more. */
   follow(positions: readonly (number | null)[] | null): void;
   /** Says something in the strip. */

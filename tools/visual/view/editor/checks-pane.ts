@@ -39,6 +39,9 @@ export class ChecksPane extends HTMLElement {
   private readonly list = make('ul', { 'aria-label': 'Findings' });
   private readonly byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
   private shown: MotionDocument | null = null;
+  /** What is looked at next, or was looked at last. */
+  private due: MotionDocument | null = null;
+  private drawn = '';
   /** What is known without physics, as it was looked at last. */
   private known: { readonly document: MotionDocument; readonly all: readonly Shown[]; readonly note: string } | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -57,8 +60,12 @@ export class ChecksPane extends HTMLElement {
 
   private later(): void {
     const { document, gesture } = this.desk.editor.state.get();
-    if (this.desk.state.get().tab !== 'checks' || gesture || document === this.shown) return;
+    if (this.desk.state.get().tab !== 'checks' || gesture) return;
+    if (document === this.shown) this.render(); // another law makes trials old
+    if (document === this.due) return; // a robot that talks does not put it off
     clearTimeout(this.timer);
+    this.due = document;
+    if (document === this.shown) return;
     this.timer = setTimeout(() => void this.look(document), this.shown === null ? 0 : WAIT_MS);
   }
 
@@ -105,12 +112,14 @@ export class ChecksPane extends HTMLElement {
 
   /** What physics says of the pages that it has tried. Of those that stand nothing is to be told. */
   private physicsFindings(): Shown[] {
-    const { trials } = this.desk.trials.state.get();
-    return [...trials].flatMap(([page, trial]) => {
-      const stale = this.desk.trials.isFresh(page) ? '' : TRIAL_TEXTS.stale;
-      const { verdict } = trial;
-      const said = verdict.kind === 'stands' ? [] : [this.verdictShown(page, trial, trials)];
-      const touches = trial.touches.slice(0, 1).map((touch) => ({ page, step: touch.step, joint: null, text: touchText(touch), isFault: false, tab: 'steps' as const }));
+    const { editor, trials: physics } = this.desk;
+    const { document } = editor.state.get();
+    const { trials } = physics.state.get();
+    return [...trials].filter(([page]) => editor.format.isPlayable(pageOf(document, page))).flatMap(([page, trial]) => {
+      const stale = physics.isFresh(page) ? '' : TRIAL_TEXTS.stale;
+      const said = trial.verdict.kind === 'stands' ? [] : [this.verdictShown(page, trial, trials)];
+      const [deepest] = [...trial.touches].sort((a, b) => b.depthM - a.depthM);
+      const touches = deepest ? [{ page, step: deepest.step, joint: null, text: touchText(deepest, trial.touches.map(({ step }) => step)), isFault: false, tab: 'steps' as const }] : [];
       return [...said, ...touches].map((one) => ({ ...one, text: stale + one.text }));
     });
   }
@@ -135,8 +144,12 @@ export class ChecksPane extends HTMLElement {
     const used = document.pages.filter((bytes, page) => page > 0 && !format.isEmpty(bytes)).length;
     const faults = all.filter((one) => one.isFault).length;
     const counted = all.length === 0 ? EDITOR_TEXTS.allGood(used) : `${faults} ${faults === 1 ? 'fault' : 'faults'}, ${all.length - faults} to know.`;
-    this.summary.textContent = [counted, note].filter(Boolean).join(' ');
+    const said = [counted, note].filter(Boolean).join(' ');
+    if (this.summary.textContent !== said) this.summary.textContent = said;
     const sorted = [...all].sort((a, b) => Number(b.isFault) - Number(a.isFault) || a.page - b.page || (a.step ?? -1) - (b.step ?? -1));
+    const drawn = JSON.stringify(sorted);
+    if (drawn === this.drawn) return; // the keyboard stays where it is
+    this.drawn = drawn;
     this.list.replaceChildren(...sorted.map((one) => this.row(one)));
   }
 

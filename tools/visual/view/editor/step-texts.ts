@@ -31,6 +31,18 @@ export const PLAY_TEXTS = {
   writeFirst: 'Your robot has this page otherwise. Write it first: "To the robot …". Then play it.',
 } as const;
 
+export const LAYER_TEXTS = {
+  purpose: 'A second page on joints of its own while another one plays, or joints moved by code. Nothing of it is stored.',
+  otherwise: 'The robot has this page otherwise than the document. Play it by itself, which writes it; then start Play again and lay it over.',
+  otherwiseYours: 'Your robot has this page otherwise than the document. Write it first: "To the robot …".',
+  needsPlay: 'Edit runs, and only Play has layers.',
+  needsPlayYours: 'Your robot runs Edit, and only Play has layers. Flash it with: m512 flash play-cm5.hex',
+  none: 'Nothing goes on beside the play.',
+  chooseJoint: 'Choose a joint above to move it by code.',
+  page: (title: string) => `Over the play: ${title}.`,
+  joints: (ids: readonly number[]) => `Moved by code: joint ${ids.join(', ')}.`,
+} as const;
+
 export const CURVE_TEXTS = {
   purpose: 'What the robot\'s own player will send, tick by tick. Choose a joint and drag its points: up and down the position, to the sides the time.',
   notFast: 'Every joint can follow.',

@@ -2,7 +2,7 @@
 // Every sentence of what physics says of motions.
 
 import { BRUSH_M } from '../../model/trial.ts';
-import type { StepTouch, Touch, Verdict, VerdictKind } from '../../model/trial.ts';
+import type { Touch, Verdict, VerdictKind } from '../../model/trial.ts';
 import type { TrialsState } from '../trial-desk.ts';
 
 export const TRIAL_TEXTS = {
@@ -66,6 +66,9 @@ export function touchesText(touches: readonly Touch[]): string {
   return `Touching: ${pairs.join('; ')}${more > 0 ? `; ${more} more` : ''}`;
 }
 
-export function touchText({ links: [a, b], depthM, step }: StepTouch): string {
-  return `Step ${step + 1}, or the way to it: ${linkTitle(a)} and ${linkTitle(b)} meet (${Math.round(depthM * 1000)} mm), and servos push against each other.`;
+/** deepest: of all; steps: those in which limbs meet, 0..6. */
+export function touchText({ links: [a, b], depthM }: Touch, steps: readonly number[]): string {
+  const numbers = steps.map((step) => String(step + 1));
+  const where = numbers.length === 1 ? `Step ${numbers[0]}, or the way to it` : `Steps ${numbers.slice(0, -1).join(', ')} and ${numbers.at(-1)}, or the ways to them`;
+  return `${where}: ${linkTitle(a)} and ${linkTitle(b)} meet (${Math.round(depthM * 1000)} mm). Servos push against each other.`;
 }
