@@ -7,6 +7,7 @@ import { jointAngle, soleCorners } from '../model/body.ts';
 import { STILL, add, cross, heading, inverse, length, multiply, rotate, scale, subtract, turn } from '../model/space.ts';
 import type { Place, Quaternion, Vector } from '../model/space.ts';
 import type { Touch } from '../model/trial.ts';
+import { geomTouches, linkTouches } from './contacts.ts';
 import type { Floor, Grip } from './messages.ts';
 import { OBJECT } from './mujoco.ts';
 import type { Data, Model, Mujoco } from './mujoco.ts';
@@ -154,18 +155,12 @@ export class PhysicalBody {
   /** Upright, and nothing but its soles on the floor. */
   get isOnItsFeet(): boolean {
     const { floorGeom, soleGeoms } = this;
-    return this.upright > UPRIGHT && this.contacts().every(({ geoms }) => !geoms.includes(floorGeom) || geoms.some((geom) => soleGeoms.has(geom)));
+    return this.upright > UPRIGHT && geomTouches(this.data).every(({ geoms }) => !geoms.includes(floorGeom) || geoms.some((geom) => soleGeoms.has(geom)));
   }
 
-  /** Links of the robot that touch each other now: each pair once, as deep as it is. */
+  /** Links of the robot that touch each other now. */
   touching(): Touch[] {
-    const pairs = new Map<string, Touch>();
-    for (const { geoms, depthM } of this.contacts()) {
-      const [a, b] = geoms.map((geom) => this.linkNames.get(this.model.geom_bodyid[geom] ?? -1)).sort();
-      if (a === undefined || b === undefined) continue;
-      if (depthM >= (pairs.get(`${a} ${b}`)?.depthM ?? 0)) pairs.set(`${a} ${b}`, { links: [a, b], depthM });
-    }
-    return [...pairs.values()];
+    return linkTouches(geomTouches(this.data), (geom) => this.linkNames.get(this.model.geom_bodyid[geom] ?? -1));
   }
 
   /** Links that would be in each other with these joint angles. The robot is lifted off the floor for it, and stays there. */
@@ -194,18 +189,6 @@ export class PhysicalBody {
       direction: joint.direction,
       offsetRad: jointAngle(joint, 512), // shaft angle 0 is servo position 512
     });
-  }
-
-  private contacts(): { readonly geoms: readonly number[]; readonly depthM: number }[] {
-    const { ncon, contact } = this.data;
-    const all = Array.from({ length: ncon }, (_, i) => {
-      const one = contact.get(i);
-      const copied = { geoms: [one?.geom1 ?? -1, one?.geom2 ?? -1], depthM: -(one?.dist ?? 1) };
-      one?.delete();
-      return copied;
-    });
-    contact.delete();
-    return all.filter(({ depthM }) => depthM >= 0);
   }
 
   private id(kind: number, name: string): number {
