@@ -63,6 +63,7 @@ export class CurveCanvas extends HTMLElement {
     const { canvas } = this;
     canvas.addEventListener('pointerdown', (event) => this.down(event));
     canvas.addEventListener('pointermove', (event) => this.move(event));
+    canvas.addEventListener('pointerleave', () => (this.label.textContent = ''));
     canvas.addEventListener('pointerup', () => this.end(true));
     canvas.addEventListener('pointercancel', () => this.end(false));
     canvas.addEventListener('keydown', (event) => this.key(event));

@@ -33,7 +33,8 @@ export class LayerBar extends HTMLElement {
 
   connectedCallback(): void {
     const [lay, off, aim, swing, free] = this.deeds;
-    this.byCode.replaceChildren(this.jointName, make('label', {}, 'to ', this.position), aim ?? '', make('label', {}, '± ', this.amplitude), make('label', {}, 's ', this.seconds), swing ?? '', free ?? '');
+    const [to, by, time] = [make('label', {}, 'to ', this.position), make('label', {}, '± ', this.amplitude), make('label', {}, 'in ', this.seconds, ' s')];
+    this.byCode.replaceChildren(this.jointName, to, aim ?? '', make('span', { class: 'break' }), by, time, swing ?? '', free ?? '');
     this.replaceChildren(make('h2', {}, 'Beside what plays'), make('p', { class: 'hint' }, LAYER_TEXTS.purpose),
       make('div', { class: 'row' }, this.page, this.joints, lay ?? '', off ?? ''), this.byCode, make('div', { class: 'row' }, this.startPlay, this.said));
     this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(() => this.render()));
