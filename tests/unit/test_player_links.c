@@ -216,6 +216,29 @@ static void test_player_ends_standing_before_a_page_that_cannot_be_played(void)
     bad_next_page_ends_the_play(PLAYER_LAW_CLASSIC, true);
 }
 
+/* player.md: "a link above 127 counts as 0". 127 is a page; there is none in these tests, so it is a damaged one. */
+static void link_to(player_law_t law, uint8_t named, uint8_t next_page, uint8_t fault)
+{
+    sparse_clear();
+    setUp();
+    sparse_step(1, 10, 0, 600);
+    sparse_pages[1].next = named;
+    start_law(1, law);
+    (void)run_to_end();
+    TEST_ASSERT_EQUAL_UINT8(next_page, player.next_page);
+    TEST_ASSERT_EQUAL_UINT8(fault, player.fault);
+    TEST_ASSERT_EQUAL_UINT8(fault == PAGE_OK ? 0 : named, player.fault_page);
+}
+
+static void test_player_link_above_127_counts_as_none(void)
+{
+    for (uint8_t law = PLAYER_LAW_EXACT; law <= PLAYER_LAW_CLASSIC; law++) {
+        link_to((player_law_t)law, 128, 0, PAGE_OK);
+        link_to((player_law_t)law, 255, 0, PAGE_OK);
+    }
+    link_to(PLAYER_LAW_EXACT, 127, 127, PAGE_ERR_CHECKSUM);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -228,6 +251,7 @@ int main(void)
     RUN_TEST(test_player_stop_ends_the_repetitions_through_the_exit_page);
     RUN_TEST(test_player_code_that_comes_during_the_step_before_the_last_counts);
     RUN_TEST(test_player_passes_pages_with_play_count_0);
+    RUN_TEST(test_player_link_above_127_counts_as_none);
     RUN_TEST(test_player_ends_standing_before_a_page_that_cannot_be_played);
     return UNITY_END();
 }
