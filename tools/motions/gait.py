@@ -36,6 +36,7 @@ class Gait:
     slope: int = 5            # compliance of the legs
     hip_slope: int = 5        # of the hips' pitch, on which the trunk stands: stiff
     ankle_slope: int = 5      # of the ankles' pitch: soft, soles find the floor where zeros are wrong
+    roll_slope: int = 5       # of hips and ankles to the side: stiff where the robot stands on one foot for long
     stride: float = 0.0       # a foot is this far before and behind its middle
     side: float = 0.0         # the same to the right
     turn: float = 0.0         # the same as an angle: the body turns to the right
@@ -56,13 +57,15 @@ class Gait:
     @property
     def slopes(self):
         """{joints, as the text format names them: compliance}."""
-        return {"7..10": self.slope, "11..12": self.hip_slope, "13..14": self.slope, "15..16": self.ankle_slope, "17..18": self.slope}
+        return {"7..8": self.slope, "9..10": self.roll_slope, "11..12": self.hip_slope, "13..14": self.slope, "15..16": self.ankle_slope,
+                "17..18": self.roll_slope}
 
 
 READY_ARM = {1: 12.0, 3: 12.0, 5: -20.0}  # shoulder swing, lift, elbow
 BRACE = 0.5                               # of the stride, at a stop
-KICK_SWAY = 40.0                          # on one leg for long: the body right above the foot
-KICK_SPREAD = 3.0                         # what the hip of that leg gives way under the load
+KICK_SWAY = 39.0                          # on one leg for long: the body right above the foot
+KICK_LAND = 20.0                          # the foot comes down further inward, where the body is on its way to
+KICK_SPREAD = 6.0                         # what the hip of that leg gives way under the load
 
 
 def numbers():
@@ -144,12 +147,14 @@ def end(gait, ready):
 
 
 def kick(ready_gait):
-    """With the right foot: weight onto the left one, back, forward fast, and down again. As short on one foot as the servos allow."""
+    """With the right foot: weight onto the left one, back, forward fast, and down again. Most falls were to the left, and began to
+    the right: the hip gave way, the right foot met the floor too early and pushed the body over the other one."""
     def leg(x, lift):
         return stand(ready_gait, KICK_SWAY, right={"x": ready_gait.ahead + x, "height": ready_gait.height - lift},
                      left={"spread": KICK_SPREAD}, arms=(-0.5 * x, 0.5 * x))
-    over = stand(ready_gait, KICK_SWAY)
-    return [(72, over), (40, leg(-30, 18)), (28, leg(40, 18)), (32, leg(0, 14)), (32, over), (64, stand(ready_gait))]
+    ready = stand(ready_gait)
+    return [(32, ready), (72, stand(ready_gait, KICK_SWAY)), (40, leg(-30, 18)), (28, leg(40, 18)), (32, leg(0, 14)),
+            (32, stand(ready_gait, KICK_LAND)), (64, ready)]
 
 
 @dataclass(frozen=True)
@@ -226,7 +231,7 @@ def sheets(gaits):
     """All pages, by number."""
     ready = stand(gaits["ready"])
     kick_r = Sheet(36, "kick_r", "code R+B4", "Kicks with the right foot, standing on the left.", tuple(kick(gaits["ready"])),
-                   replace(gaits["ready"], accel=6))
+                   replace(gaits["ready"], accel=6, roll_slope=4))
     return sorted([
         *walking(gaits["walk"], gaits["turn"].turn, ready), *backing(gaits["back"], ready),
         *aside(gaits["spin"], ready, ((32, 40, 41, 42), (33, 43, 44, 45)), ("right", "left"), ("R", "L"), "Turns right on the spot."),

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+"""The library's motions stand on bodies on which earlier versions of them fell, each for a reason of its own."""
+import pathlib
+import sys
+
+import pytest
+
+from body.physics import Physics
+from body.quick import Quick
+from body.trial import first_pose
+from m512.files.formats import load as load_motions
+
+MOTIONS = pathlib.Path(__file__).resolve().parents[2] / "motions"
+sys.path.insert(0, str(MOTIONS))
+import promises  # noqa: E402  (the path comes first)
+
+LIBRARY = load_motions(MOTIONS / "motions.m512")
+IMAGE = LIBRARY.to_bytes()
+AIRBORNE_TICKS = 72              # a kick holds its foot up for longer than this
+
+
+def promise_of(page):
+    return next(promise for promise in promises.STANDS if promise.page == page)
+
+
+@pytest.mark.parametrize("page, seed", [
+    ("kick_r", 30), ("kick_r", 52),      # fell while it stood on two feet still, too far to the side
+    ("kick_r", 189), ("kick_r", 206),    # its hip gave way, the foot met the floor too early and pushed the body over the other one
+    ("cheer", 13)])                      # was pushed forward as its arms came down
+def test_stands_on_a_body_on_which_it_fell(page, seed):
+    kept, said = promises.stands(IMAGE, promises.number_of(LIBRARY, page), promise_of(page), seed)
+    assert kept, said
+
+
+@pytest.mark.parametrize("page, side", [("kick_r", "right"), ("kick_l", "left")])
+def test_a_kick_is_a_kick(page, side):
+    """What stands because it hardly moves is no kick: the foot is off the floor, goes back and comes 40 mm forward from there."""
+    physics, number = Physics(promises.ROBOT), promises.number_of(LIBRARY, page)
+    physics.stand(first_pose(IMAGE, number, promises.ROBOT))
+    quick = Quick(IMAGE, physics)
+    quick.torque_on()
+    quick.start(number)
+    ways = []
+    while quick.run(4):
+        if not any({"floor", f"{side}_sole"} <= set(pair) for pair in physics.touching()):
+            ways.append(1000 * physics.data.body(f"{side}_foot").xpos[0])
+    assert 4 * len(ways) > AIRBORNE_TICKS and ways[-1] > min(ways) and max(ways) - min(ways) > 40, ways
