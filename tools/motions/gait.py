@@ -53,6 +53,7 @@ class Gait:
     spread: float = 5.0       # of the standing leg's hip while it stands alone
     toes: float = 0.0         # up, in the air
     arms: float = 0.4         # degrees of an arm for each mm of the other side's foot
+    brace: float = 0.5        # of the stride: at a stop the feet stand this much further on
 
     @property
     def slopes(self):
@@ -62,7 +63,6 @@ class Gait:
 
 
 READY_ARM = {1: 12.0, 3: 12.0, 5: -20.0}  # shoulder swing, lift, elbow
-BRACE = 0.5                               # of the stride, at a stop
 KICK_SWAY = 39.0                          # on one leg for long: the body right above the foot
 KICK_LAND = 20.0                          # the foot comes down further inward, where the body is on its way to
 KICK_SPREAD = 6.0                         # what the hip of that leg gives way under the load
@@ -140,7 +140,7 @@ def start(gait, ready, first=-1):
 def end(gait, ready):
     """From where the left foot's half ends: the right foot closes up. Both end up further on than under a body that stands, and
     so hold up what is still on its way; then it comes up to ready."""
-    whole, braced = cycle(gait), replace(gait, ahead=gait.ahead + BRACE * gait.stride)
+    whole, braced = cycle(gait), replace(gait, ahead=gait.ahead + gait.brace * gait.stride)
     part = cycle(half(braced))
     return [(gait.ticks, whole[0]), (round(1.5 * gait.ticks), part[1]), (gait.ticks, part[2]), (gait.ticks, stand(braced, 0.35 * gait.sway)),
             (40, ready)]
