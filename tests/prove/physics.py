@@ -2,11 +2,14 @@
 """Motions in physics: the shipped player and true servos move a body in MuJoCo, in bodies by chance. First the yardstick: the
 maker's own motions for its GP robot, which walk on the real one, must walk here, and must fall when they are spoiled. A physics in
 which they do not may judge nothing. Physics is a model, and no real robot has walked our motions yet.
+
+Bodies that were tried are kept in build/prove/bodies.jsonl: an interrupted campaign goes on, and its parts are added up.
 """
 import functools
 import os
 import pathlib
 
+import bodies
 import proof
 import promises
 from body.chance import NOMINAL, Variation, random_body
@@ -27,11 +30,17 @@ MODELS = {"AX-18": AX18, "AX-12": {}}
 EXPECTED = {("AX-18", FORWARD): 210, ("AX-18", BACK): -204, ("AX-12", FORWARD): 139, ("AX-12", BACK): -83}
 TOLERANCE = 0.25
 SECONDS = 10
+TRIED = proof.RESULTS / "bodies.jsonl"
+FIRST_SEED = 1000                # those below were looked at while the motions were made
 
 
 def add_arguments(group):
     group.add_argument("--only", metavar="PAGE", help="of our motions this one alone")
-    group.add_argument("--bodies", type=int, metavar="N", help="bodies for each motion (default: as promises.py says)")
+    group.add_argument("--from", type=int, default=FIRST_SEED, metavar="SEED", dest="first",
+                       help="the first body (default: %(default)s; those below were looked at while the motions were made)")
+    group.add_argument("--bodies", type=int, metavar="N", help="bodies for each motion (default: as promises.py says); those tried before "
+                       "are not tried again")
+    group.add_argument("--add-up", action="store_true", help="no new bodies: figures and page from all that were tried so far")
     group.add_argument("--on-board", type=int, default=100, metavar="N",
                        help="bodies that walk with the shipped image on the simulated board (default: %(default)s)")
     group.add_argument("--seed-of", type=int, metavar="SEED", help="repeat this body alone")
@@ -122,38 +131,66 @@ def walk_on_board(image, number, ready, item):
     return outcome.fell_s is None and outcome.on_feet, outcome.said()
 
 
-def share_figure(what, how, promise, seeds, results):
-    bad = [(seed, said) for seed, (kept, said) in zip(seeds, results) if not kept]
-    stood = len(seeds) - len(bad)
-    measured = f"{stood} of {len(seeds)} bodies"
+def share_figure(what, how, promise, results):
+    """results: {seed: (kept, said)}, of at least one body."""
+    bad = {seed: said for seed, (kept, said) in sorted(results.items()) if not kept}
+    stood = len(results) - len(bad)
+    measured = f"{stood} of {len(results)} bodies; seeds {bodies.seeds_said(results)}"
     if bad:
-        measured += f"; not seeds {', '.join(str(seed) for seed, _ in bad[:60])}; the first: {bad[0][1]}"
-    return proof.Figure(what, how, measured, stood >= promise.share * len(seeds), headline=promise.page == "walk")
+        measured += f"; not {', '.join(str(seed) for seed in list(bad)[:60])}; the first: {next(iter(bad.values()))}"
+    return proof.Figure(what, how, measured, stood >= promise.share * len(results), headline=promise.page == "walk")
 
 
-def stand_figures(options, image, library):
+class Campaign:
+    """The bodies of one run: those that were tried before, and those that it tries."""
+
+    def __init__(self, options, library):
+        self.options, self.library, self.commit = options, library, proof.commit()
+        self.tried = None if options.sample or options.seed_of else bodies.Tried(TRIED)
+
+    def results(self, work, promise, count, where="player"):
+        """{seed: (kept, said)} of a motion's bodies. work((promise, seed)) tries one."""
+        if self.options.seed_of:
+            seeds = [self.options.seed_of]
+        else:
+            seeds = range(self.options.first, self.options.first + count)
+        key = bodies.key_of(self.library, promises.number_of(self.library, promise.page), promise, promises.ROBOT, where)
+        old = self.tried.of(key) if self.tried else {}
+        if self.options.add_up:
+            return {seed: result for seed, result in old.items() if seed >= FIRST_SEED}
+        todo = [(promise, seed) for seed in seeds if seed not in old]
+        done = functools.partial(self._keep, key, where) if self.tried else None
+        new = proof.each(work, todo, f"{promise.page}, {where}", self.options.jobs, done=done)
+        old |= {seed: result for (_, seed), result in zip(todo, new)}
+        return {seed: old[seed] for seed in seeds}
+
+    def _keep(self, key, where, item, result):
+        promise, seed = item
+        self.tried.add(key, seed, result, page=promise.page, how=promise.how, where=where, commit=self.commit)
+
+
+def stand_figures(options, image, library, campaign):
     figures = []
     for promise in promises.STANDS:
         if options.only not in (None, promise.page) or (options.sample and promise.page not in promises.EASY):
             continue
-        count = options.bodies or (2 if options.sample else promise.bodies)
-        seeds = [options.seed_of] if options.seed_of else range(options.seed, options.seed + count)
+        count = promise.bodies if options.bodies is None else options.bodies
         work = functools.partial(body_stands, image, promises.number_of(library, promise.page))
-        results = proof.each(work, [(promise, seed) for seed in seeds], promise.page, options.jobs)
+        results = campaign.results(work, promise, 2 if options.sample else count)
         begin = f", from its {promise.lie}, arms anyhow" if promise.lie else ""
         how = f" {promise.how}" if promise.how else ""
-        figures.append(share_figure(f"`{promise.page}`{how}{begin}: it ends on its feet.", f"{promise.seconds:.0f} s, bodies by chance", promise,
-                                    seeds, results))
+        if results:
+            figures.append(share_figure(f"`{promise.page}`{how}{begin}: it ends on its feet.", f"{promise.seconds:.0f} s, bodies by chance",
+                                        promise, results))
     return figures
 
 
-def board_figure(options, image, library):
+def board_figures(options, image, library, campaign):
     walk = next(promise for promise in promises.STANDS if promise.page == "walk")
-    seeds = range(options.seed, options.seed + options.on_board)
     work = functools.partial(walk_on_board, image, promises.number_of(library, "walk"), promises.number_of(library, "ready"))
-    results = proof.each(work, [(walk, seed) for seed in seeds], "walk, on the board", options.jobs)
-    return share_figure("`walk` led by the shipped image: it ends on its feet.", "the same, on the simulated board with a remote", walk, seeds,
-                        results)
+    results = campaign.results(work, walk, options.on_board, "board")
+    return [share_figure("`walk` led by the shipped image: it ends on its feet.", "the same, on the simulated board with a remote", walk,
+                         results)] if results else []
 
 
 def nominal_figure(image, library):
@@ -194,14 +231,15 @@ def run(options):
         print(f"   the maker's motions are not here ({DATA.name}): no yardstick")
     library = library_image()
     image = library.to_bytes()
-    figures += stand_figures(options, image, library)
+    campaign = Campaign(options, library)
+    figures += stand_figures(options, image, library, campaign)
     if not options.only and options.seed_of is None:
         figures.append(eases_figure(options, image, library))
     if not options.sample and options.seed_of is None:
         if options.only in (None, "walk") and options.on_board:
-            figures.append(board_figure(options, image, library))
+            figures += board_figures(options, image, library, campaign)
         if not options.only:
             figures += [nominal_figure(image, library), bears_figure(image, library)]
-    if options.only or options.bodies or options.seed_of:
+    if options.only or options.bodies is not None or options.seed_of:
         options.keep = False                     # a piece of the work
     return figures

@@ -47,10 +47,11 @@ def use(scheduler):
     _scheduler = scheduler
 
 
-def each(work, items, what, jobs=None, scheduler=None):
+def each(work, items, what, jobs=None, scheduler=None, done=None):
     """[work(item) for item in items], in the order of the items, with progress. An exception in a job ends the campaign.
 
     jobs: processes at once (None: one a core); with a scheduler its workers decide. ConnectionError: no scheduler answers.
+    done(item, result): called here, in this process, as soon as each job has ended: to keep what a campaign that is interrupted found.
     """
     items = list(items)
     address = scheduler or _scheduler
@@ -58,6 +59,8 @@ def each(work, items, what, jobs=None, scheduler=None):
     results = [None] * len(items)
     for index, result in (_on_scheduler if address else _here)(work, items, address or jobs):
         results[index] = result
+        if done:
+            done(items[index], result)
         progress.advance()
     return results
 

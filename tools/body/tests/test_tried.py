@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: MIT
+"""A campaign of bodies can be interrupted and done in parts (tests/prove/bodies.py): no body is lost, none is tried twice, none counts
+for a motion that it was not tried with."""
+import argparse
+import pathlib
+import sys
+
+import pytest
+
+from m512.files.formats import load as load_motions
+
+TOP = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(TOP / place) for place in ("tests/prove", "tools/campaign", "tools/motions")]
+import bodies  # noqa: E402  (the paths come first)
+import physics  # noqa: E402
+import promises  # noqa: E402
+
+BOW = promises.Stands("bow", 4)
+
+
+@pytest.fixture(name="library")
+def _library():
+    return load_motions(TOP / "tools" / "motions" / "motions.m512")
+
+
+def campaign(library, path, monkeypatch, first=1000, **options):
+    monkeypatch.setattr(physics, "TRIED", path)
+    asked = {"sample": False, "seed_of": None, "add_up": False, "jobs": 1, "first": first} | options
+    return physics.Campaign(argparse.Namespace(**asked), library)
+
+
+def odd_fall(item):
+    _, seed = item
+    return seed % 2 == 0, f"body {seed}"
+
+
+def pulled_at_1003(item):
+    if item[1] == 1003:
+        raise KeyboardInterrupt
+    return odd_fall(item)
+
+
+def only_from_1003(item):
+    assert item[1] >= 1003, "tried again"
+    return odd_fall(item)
+
+
+def never(item):
+    raise AssertionError(f"body {item[1]} is tried")
+
+
+def test_an_interrupted_campaign_goes_on_where_it_was(library, tmp_path, monkeypatch):
+    path = tmp_path / "deep" / "bodies.jsonl"
+    with pytest.raises(KeyboardInterrupt):
+        campaign(library, path, monkeypatch).results(pulled_at_1003, BOW, 6)
+    results = campaign(library, path, monkeypatch).results(only_from_1003, BOW, 6)
+    assert results == {seed: (seed % 2 == 0, f"body {seed}") for seed in range(1000, 1006)}
+
+
+def test_parts_are_added_up_without_seeds_that_motions_were_made_with(library, tmp_path, monkeypatch):
+    path = tmp_path / "bodies.jsonl"
+    for first in (1, 1000, 2000):
+        campaign(library, path, monkeypatch, first).results(odd_fall, BOW, 2)
+    assert sorted(campaign(library, path, monkeypatch, add_up=True).results(never, BOW, 100)) == [1000, 1001, 2000, 2001]
+
+
+@pytest.mark.parametrize("how", [{"sample": True}, {"seed_of": 1001}])
+def test_a_sample_and_a_body_asked_for_are_tried_anew(library, tmp_path, monkeypatch, how):
+    path = tmp_path / "bodies.jsonl"
+    campaign(library, path, monkeypatch).results(odd_fall, BOW, 2)
+    with pytest.raises(AssertionError, match="is tried"):
+        campaign(library, path, monkeypatch, **how).results(never, BOW, 2)
+
+
+def test_a_torn_line_costs_one_body(tmp_path):
+    path = tmp_path / "bodies.jsonl"
+    first = bodies.Tried(path)
+    first.add("k", 1, (True, "stands"))
+    first.add("k", 2, (False, "fell"))
+    path.write_bytes(path.read_bytes()[:-9])
+    again = bodies.Tried(path)
+    assert again.of("k") == {1: (True, "stands")}
+    again.add("k", 3, (True, "stands"))
+    assert bodies.Tried(path).of("k") == {1: (True, "stands"), 3: (True, "stands")}
+
+
+def changed(library, page):
+    library[page].set_word(0, 11, library[page].word(0, 11) + 1)
+    library[page].seal()
+    return library
+
+
+def test_a_result_counts_for_its_motion_alone(library):
+    """A walk can come to its turns; it never comes to a bow."""
+    walk = promises.STANDS[0]
+    number = {name: promises.number_of(library, name) for name in ("walk", "turn_l2", "bow")}
+
+    def key(promise=walk, where="player"):
+        return bodies.key_of(library, number[promise.page], promise, promises.ROBOT, where)
+    before, by_board, bow = key(), key(where="board"), key(BOW)
+    changed(library, number["bow"])
+    assert key() == before != by_board and key(BOW) != bow
+    changed(library, number["turn_l2"])
+    assert key() != before
+
+
+def test_seeds_are_said_as_people_write_them():
+    assert bodies.seeds_said([1002, 1000, 1001, 1010]) == "1000-1002, 1010"
