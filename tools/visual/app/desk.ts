@@ -77,7 +77,7 @@ export class RobotDesk implements Desk {
   constructor(body: Body, parts: EditorParts, formats: FileFormats, storage: DeskStorage) {
     this.body = body;
     this.editor = new DocumentEditor(body, parts, {
-      changed: (document) => this.documents.keep(document),
+      changed: () => this.documents.keep(),
       opened: () => this.trials.forget(),
       refused: (refusal) => this.state.set({ said: { text: refusalText(refusal), tone: 'bad' } }),
     });

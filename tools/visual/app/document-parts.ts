@@ -3,6 +3,7 @@
 
 import { emptyDocument } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
+import type { History } from '../model/history.ts';
 import type { Requests } from '../robot/requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { DocumentStorage } from '../view/document-storage.ts';
@@ -29,7 +30,8 @@ export interface RobotForPages {
 
 export function makeDocuments(editor: DocumentEditor, { storage, isKept }: DeskStorage, failed: () => void): KeptDocuments {
   const shown = {
-    open: (document: MotionDocument) => editor.open(document), rename: (name: string) => editor.rename(name), document: () => editor.state.get().document,
+    open: (document: MotionDocument, history: History) => editor.open(document, history), rename: (name: string) => editor.rename(name),
+    edited: () => editor.state.get(),
   };
   return new KeptDocuments(shown, {
     storage, isKept, failed, hold: holdDocument, empty: emptyDocument(editor.format, ''), nowMs: () => Date.now(), newId: () => crypto.randomUUID(),

@@ -4,16 +4,20 @@
 
 import { documentFrom, imageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
+import { DROP_ALL, EMPTY_LOG, advance, positionOf, restored } from '../model/history-log.ts';
+import type { HistoryLog, StepsChange } from '../model/history-log.ts';
+import type { Edited, History } from '../model/history.ts';
+import { NO_HISTORY } from '../model/history.ts';
 import type { Backup, DocumentStorage, KeptDocument } from '../view/document-storage.ts';
 import type { Documents, DocumentsState } from '../view/documents-desk.ts';
 import { Store } from '../view/store.ts';
 
 /** Where a document is shown. */
 export interface Shown {
-  open(document: MotionDocument): void;
+  open(document: MotionDocument, history: History): void;
   /** The same document under another name. */
   rename(name: string): void;
-  document(): MotionDocument;
+  edited(): Edited;
 }
 
 /** Takes a document for this tab, or says that another tab has it. The last one taken is given back. */
@@ -35,10 +39,11 @@ export interface DocumentsParts {
 const NEWEST_FIRST = (a: { savedMs: number }, b: { savedMs: number }): number => b.savedMs - a.savedMs;
 
 export class KeptDocuments implements Documents {
-  readonly state = new Store<DocumentsState>({ documents: [], openId: '', backups: [], unreadable: [], saving: 'saved' });
+  readonly state = new Store<DocumentsState>({ documents: [], openId: '', backups: [], unreadable: [], forgotten: 0, saving: 'saved' });
   private readonly parts: DocumentsParts;
   private readonly shown: Shown;
   private underWay = 0;
+  private log: HistoryLog = EMPTY_LOG;
 
   constructor(shown: Shown, parts: DocumentsParts) {
     this.shown = shown;
@@ -53,9 +58,7 @@ export class KeptDocuments implements Documents {
     const [newest] = [...kept.documents].sort(NEWEST_FIRST);
     this.state.set({ documents: kept.documents.map(entryOf) });
     if (!newest) return this.create(first.name, first);
-    const document = documentFrom(newest.image, newest.name);
-    if (await this.parts.hold(newest.id)) this.show(newest.id, document);
-    else await this.create(`${newest.name} (copy)`, document);
+    await this.take(newest);
   }
 
   async create(name: string, from?: MotionDocument): Promise<void> {
@@ -63,22 +66,19 @@ export class KeptDocuments implements Documents {
     await this.parts.hold(id);
     const document = { ...(from ?? this.parts.empty), name };
     this.state.set({ documents: [...this.state.get().documents, { id, name, savedMs: this.parts.nowMs() }] });
-    this.show(id, document);
-    this.keep(document);
+    this.show(id, { document, history: NO_HISTORY, log: EMPTY_LOG });
+    this.keep();
   }
 
   async open(id: string): Promise<void> {
     if (id === this.state.get().openId) return;
     const kept = await this.find(id);
-    if (!kept) return;
-    const document = documentFrom(kept.image, kept.name);
-    if (await this.parts.hold(id)) this.show(id, document);
-    else await this.create(`${kept.name} (copy)`, document);
+    if (kept) await this.take(kept);
   }
 
   rename(name: string): void {
     this.shown.rename(name);
-    this.keep(this.shown.document());
+    this.keep();
   }
 
   async remove(): Promise<void> {
@@ -97,13 +97,21 @@ export class KeptDocuments implements Documents {
   }
 
   /** A finished edit: it is in the storage's hands when this returns. */
-  keep(document: MotionDocument): void {
-    const { storage } = this.parts;
+  keep(): void {
+    const { document, history } = this.shown.edited();
     const { openId, documents } = this.state.get();
     const entry = { id: openId, name: document.name, savedMs: this.parts.nowMs() };
     this.state.set({ documents: documents.map((one) => (one.id === openId ? entry : one)) });
     if (openId === '') return;
-    this.follow(storage.putDocument({ ...entry, image: imageOf(document) }));
+    const { log, change } = advance(this.log, history);
+    this.log = log;
+    this.follow(this.put({ ...entry, image: imageOf(document), position: positionOf(log, history) }, change));
+  }
+
+  /** The document comes before its history: where there is no room for both, the history goes. */
+  private put(document: KeptDocument, change: StepsChange): Promise<void> {
+    const { storage } = this.parts;
+    return storage.putDocument(document, change).catch(() => storage.putDocument(document, DROP_ALL));
   }
 
   /** Keeps a robot's pages, unless the newest backup of that robot is the same. */
@@ -117,9 +125,18 @@ export class KeptDocuments implements Documents {
     await this.parts.storage.putBackup(backup);
   }
 
-  private show(id: string, document: MotionDocument): void {
-    this.state.set({ openId: id });
-    this.shown.open(document);
+  /** Opens what is kept, with its history; a copy of it when another tab has it. */
+  private async take(kept: KeptDocument): Promise<void> {
+    const document = documentFrom(kept.image, kept.name);
+    if (!(await this.parts.hold(kept.id))) return this.create(`${kept.name} (copy)`, document);
+    const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // then it is forgotten, and said so
+    this.show(kept.id, restored(document, kept.position ?? 0, steps));
+  }
+
+  private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }): void {
+    this.log = log;
+    this.state.set({ openId: id, forgotten: log.base });
+    this.shown.open(document, history);
   }
 
   private async load(): ReturnType<DocumentStorage['load']> {

@@ -9,6 +9,7 @@ import { makeEdits } from '../model/edit.ts';
 import type { Edits } from '../model/edit.ts';
 import * as states from '../model/editor-state.ts';
 import type { EditorState, Selection } from '../model/editor-state.ts';
+import type { History } from '../model/history.ts';
 import { AS_STORED, JOINTS, Motion } from '../model/motion.ts';
 import type { Curve, Shape } from '../model/motion.ts';
 import { PageFormat } from '../model/page-format.ts';
@@ -105,10 +106,10 @@ export class DocumentEditor implements Editor {
     this.show(change.page === undefined || change.step !== undefined ? state : { ...state, step: 0, steps: new Set([0]) });
   }
 
-  /** Another document takes the place of this one; its history begins anew. */
-  open(document: MotionDocument): void {
+  /** Another document takes the place of this one, with the history that was kept of it. */
+  open(document: MotionDocument, history: History): void {
     const { robot, law } = this.state.get();
-    this.show({ ...states.startState(document), robot, law });
+    this.show({ ...states.startState(document), history, robot, law });
     this.events.opened();
   }
 

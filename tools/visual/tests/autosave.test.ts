@@ -7,6 +7,8 @@ import { DocumentEditor } from '../app/editor.ts';
 import type { Body } from '../model/body.ts';
 import { emptyDocument, imageOf, pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
+import { EMPTY_LOG, advance, restored } from '../model/history-log.ts';
+import type { Transaction } from '../model/transaction.ts';
 import { PassingStorage, sortKept } from '../view/document-storage.ts';
 import type { DocumentStorage } from '../view/document-storage.ts';
 import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
@@ -22,10 +24,10 @@ let ids = 0;
 async function openTab(storage: DocumentStorage, options: { taken?: string } = {}) {
   const failures: unknown[] = [];
   const editor: DocumentEditor = new DocumentEditor(body, { format, player, document: library }, {
-    changed: (document) => documents.keep(document), refused: () => undefined, opened: () => undefined,
+    changed: () => documents.keep(), refused: () => undefined, opened: () => undefined,
   });
   const documents: KeptDocuments = new KeptDocuments({
-    open: (document) => editor.open(document), rename: (name) => editor.rename(name), document: () => editor.state.get().document,
+    open: (document, history) => editor.open(document, history), rename: (name) => editor.rename(name), edited: () => editor.state.get(),
   }, {
     storage, isKept: true, empty: emptyDocument(format, ''), nowMs: () => ++ids, newId: () => `id${++ids}`,
     hold: (id) => Promise.resolve(id !== options.taken), failed: (error) => failures.push(error),
@@ -38,7 +40,22 @@ function now(editor: DocumentEditor): MotionDocument {
   return editor.state.get().document;
 }
 
-test('closed at 500 moments: all that was finished is there, an open gesture is not', async () => {
+/** Undo and redo, to the last, go through the same versions of the document as before. */
+function checkUndo(editor: DocumentEditor, versions: readonly Uint8Array[], at: number, where: string): void {
+  const is = (version: Uint8Array | undefined): boolean => Buffer.from(imageOf(now(editor))).equals(Buffer.from(version ?? []));
+  const { done, undone } = editor.state.get().history;
+  expect([done.length, undone.length], where).toEqual([at, versions.length - 1 - at]);
+  for (let i = at; i > 0; i--) {
+    editor.undo();
+    expect(is(versions[i - 1]), `${where}, undone to ${i - 1}`).toBe(true);
+  }
+  for (let i = 1; i < versions.length; i++) {
+    editor.redo();
+    expect(is(versions[i]), `${where}, redone to ${i}`).toBe(true);
+  }
+}
+
+test('closed at 500 moments: all that was finished is there, with its undo and redo; an open gesture is not', async () => {
   for (let seed = 1; seed <= 500; seed++) {
     const random = randomNumbers(seed);
     const disk = new PassingStorage();
@@ -69,8 +86,77 @@ test('closed at 500 moments: all that was finished is there, an open gesture is 
     }
     const { editor: next } = await openTab(disk); // the first tab is gone, in whatever it was doing
     expect(Buffer.from(imageOf(now(next))).equals(Buffer.from(versions[at] ?? [])), `seed ${seed}`).toBe(true);
+    checkUndo(next, versions, at, `seed ${seed}`);
   }
 }, 120_000);
+
+test('a history that goes on over three tabs; the names of its steps too', async () => {
+  const disk = new PassingStorage();
+  for (const [i, name] of ['one', 'two', 'three'].entries()) {
+    const { editor } = await openTab(disk);
+    expect(editor.state.get().history.done.map((step) => step.label)).toEqual(Array.from({ length: 2 * i }, (_, k) => (k % 2 ? 'set-link' : 'rename')));
+    editor.dispatch(editor.edits.rename(now(editor), 2, name));
+    editor.dispatch(editor.edits.setLink(now(editor), 3, 'exit', i + 1));
+    editor.undo();
+    editor.redo();
+  }
+  const { editor, documents } = await openTab(disk);
+  for (let i = 0; i < 6; i++) editor.undo();
+  expect(imageOf(now(editor))).toEqual(imageOf(library));
+  expect(documents.state.get().forgotten).toBe(0);
+});
+
+test('a step that is damaged or missing on the disk: what is older is forgotten, and told; the document is whole', async () => {
+  for (const [spoil, left] of [['missing', 2], ['torn', 2], ['of another document', 2]] as const) {
+    const disk = new PassingStorage();
+    const { editor } = await openTab(disk);
+    for (const name of ['a', 'b', 'c', 'd', 'e']) editor.dispatch(editor.edits.rename(now(editor), 2, name));
+    const last = imageOf(now(editor));
+    const readSteps = disk.readSteps.bind(disk);
+    disk.readSteps = async (id) => (await readSteps(id)).flatMap((step) => {
+      const found = step as { number: number; changes: { after: Uint8Array }[] };
+      if (found.number !== 2) return [step];
+      const other = { ...found.changes[0], after: library.pages[9] };
+      return spoil === 'missing' ? [] : [{ ...found, changes: spoil === 'torn' ? [{ ...found.changes[0], after: new Uint8Array(3) }] : [other] }];
+    });
+    const { editor: next, documents } = await openTab(disk);
+    expect(imageOf(now(next)), spoil).toEqual(last);
+    expect(next.state.get().history.done, spoil).toHaveLength(left);
+    expect(documents.state.get().forgotten, spoil).toBe(3);
+  }
+});
+
+test('a history too long for its room: the oldest steps go, undo goes back as far as was kept', () => {
+  const step = (i: number): Transaction => ({ label: 'rename', changes: [{ page: 2, before: library.pages[i] ?? format.empty, after: library.pages[i + 1] ?? format.empty }] });
+  const steps = Array.from({ length: 50 }, (_, i) => step(i + 1));
+  let log = EMPTY_LOG;
+  const kept = new Map<number, unknown>();
+  for (let count = 1; count <= steps.length; count++) {
+    const made = advance(log, { done: steps.slice(0, count), undone: [] }, 20 * 1200);
+    log = made.log;
+    for (const number of [...kept.keys()]) if (number < made.change.dropBefore || number >= made.change.dropFrom) kept.delete(number);
+    for (const one of made.change.add) kept.set(one.number, one);
+  }
+  expect(kept.size).toBe(21);
+  const document = { ...library, pages: library.pages.map((bytes, page) => (page === 2 ? (library.pages[51] ?? bytes) : bytes)) };
+  const { history, log: again } = restored(document, 50, [...kept.values()]);
+  expect(history.done).toHaveLength(21);
+  expect(again.base).toBe(29);
+});
+
+test('no room for document and history: the history goes, the document stays', async () => {
+  const disk = new PassingStorage();
+  const { editor, failures } = await openTab(disk);
+  const put = disk.putDocument.bind(disk);
+  disk.putDocument = (document, steps) => (steps.add.length > 0 ? Promise.reject(new Error('QuotaExceededError')) : put(document, steps));
+  editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
+  await settle();
+  expect(failures).toEqual([]);
+  const next = await openTab(disk);
+  expect(next.editor.page(2).name).toBe('curtsy');
+  expect(next.editor.state.get().history.done).toEqual([]);
+  expect(next.documents.state.get().forgotten).toBe(1);
+});
 
 test('several documents, each with its own pages; the one edited last is opened', async () => {
   const disk = new PassingStorage();

@@ -2,6 +2,7 @@
 // Documents and backups of robots in the browser's IndexedDB. A put is handed over whole, and its transaction committed, before
 // the call returns: a tab that closes at the next moment does not take it along.
 
+import type { StepsChange } from '../model/history-log.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 
 /** A document as it is kept. */
@@ -11,6 +12,8 @@ export interface KeptDocument {
   /** 65,536 bytes. */
   readonly image: Uint8Array;
   readonly savedMs: number;
+  /** How many steps of its history are done; not there: nothing of it was kept. */
+  readonly position?: number;
 }
 
 /** A robot's pages before something was written into it. */
@@ -31,7 +34,10 @@ export interface Kept {
 
 export interface DocumentStorage {
   load(): Promise<Kept>;
-  putDocument(document: KeptDocument): Promise<void>;
+  /** With what changes about the steps of its history: both or nothing. */
+  putDocument(document: KeptDocument, steps: StepsChange): Promise<void>;
+  /** The steps of a document's history that are kept, in any order. */
+  readSteps(id: string): Promise<readonly unknown[]>;
   putBackup(backup: Backup): Promise<void>;
   removeDocument(id: string): Promise<void>;
 }
@@ -39,6 +45,9 @@ export interface DocumentStorage {
 const DATABASE = 'motion512-editor';
 const DOCUMENTS = 'documents';
 const BACKUPS = 'backups';
+/** Of the documents' histories, by document and number. */
+const STEPS = 'steps';
+const KEYS = { [DOCUMENTS]: 'id', [BACKUPS]: 'id', [STEPS]: ['document', 'number'] };
 
 function isImage(value: unknown): value is Uint8Array {
   return value instanceof Uint8Array && value.length === PAGE_BYTES * PAGE_COUNT;
@@ -49,6 +58,22 @@ function done<T>(asked: IDBRequest<T>): Promise<T> {
     asked.onsuccess = () => resolve(asked.result);
     asked.onerror = () => reject(asked.error);
   });
+}
+
+/** The database, unless a tab with an older page still holds it. */
+function opened(asked: IDBOpenDBRequest): Promise<IDBDatabase> {
+  return new Promise((resolve, reject) => {
+    asked.onblocked = () => reject(new Error('another tab has an older page open'));
+    done(asked).then((database) => {
+      database.onversionchange = () => database.close(); // a newer page needs it; this one says that it keeps nothing more
+      resolve(database);
+    }, reject);
+  });
+}
+
+/** Numbers from..below of a document. */
+function stepsIn(id: string, from: number, below: number): IDBKeyRange {
+  return IDBKeyRange.bound([id, from], [id, below], false, true);
 }
 
 /** Sorts what a database holds into what can be read and what cannot. */
@@ -74,11 +99,12 @@ export class BrowserStorage implements DocumentStorage {
 
   /** Rejects when the browser keeps nothing (a private window, a full disk). */
   static async open(): Promise<BrowserStorage> {
-    const asked = indexedDB.open(DATABASE, 1);
+    const asked = indexedDB.open(DATABASE, 2);
     asked.onupgradeneeded = () => {
-      for (const store of [DOCUMENTS, BACKUPS]) asked.result.createObjectStore(store, { keyPath: 'id' });
+      const there = asked.result.objectStoreNames;
+      for (const [store, keyPath] of Object.entries(KEYS)) if (!there.contains(store)) asked.result.createObjectStore(store, { keyPath });
     };
-    return new BrowserStorage(await done(asked));
+    return new BrowserStorage(await opened(asked));
   }
 
   async load(): Promise<Kept> {
@@ -87,24 +113,36 @@ export class BrowserStorage implements DocumentStorage {
     return sortKept(documents ?? [], backups ?? []);
   }
 
-  putDocument(document: KeptDocument): Promise<void> {
-    return this.write(DOCUMENTS, (store) => store.put(document));
+  putDocument(document: KeptDocument, { dropBefore, dropFrom, add }: StepsChange): Promise<void> {
+    return this.write((store) => {
+      store(DOCUMENTS).put(document);
+      store(STEPS).delete(stepsIn(document.id, dropFrom, Infinity));
+      if (dropBefore > 0) store(STEPS).delete(stepsIn(document.id, 0, dropBefore)); // a range of nothing is an error
+      for (const step of add) store(STEPS).put({ ...step, document: document.id });
+    });
+  }
+
+  readSteps(id: string): Promise<readonly unknown[]> {
+    return done(this.database.transaction(STEPS).objectStore(STEPS).getAll(stepsIn(id, 0, Infinity)) as IDBRequest<unknown[]>);
   }
 
   putBackup(backup: Backup): Promise<void> {
-    return this.write(BACKUPS, (store) => store.put(backup));
+    return this.write((store) => store(BACKUPS).put(backup));
   }
 
   removeDocument(id: string): Promise<void> {
-    return this.write(DOCUMENTS, (store) => store.delete(id));
+    return this.write((store) => {
+      store(DOCUMENTS).delete(id);
+      store(STEPS).delete(stepsIn(id, 0, Infinity));
+    });
   }
 
-  private write(name: string, deed: (store: IDBObjectStore) => IDBRequest): Promise<void> {
+  private write(deed: (store: (name: string) => IDBObjectStore) => unknown): Promise<void> {
     return new Promise((resolve, reject) => {
-      const transaction = this.database.transaction(name, 'readwrite');
+      const transaction = this.database.transaction(Object.keys(KEYS), 'readwrite');
       transaction.oncomplete = () => resolve();
       transaction.onabort = transaction.onerror = () => reject(transaction.error ?? new Error('nothing was kept'));
-      deed(transaction.objectStore(name));
+      deed((name) => transaction.objectStore(name));
       transaction.commit();
     });
   }
@@ -114,14 +152,22 @@ export class BrowserStorage implements DocumentStorage {
 export class PassingStorage implements DocumentStorage {
   private readonly documents = new Map<string, KeptDocument>();
   private readonly backups = new Map<string, Backup>();
+  private readonly steps = new Map<string, Map<number, unknown>>();
 
   load(): Promise<Kept> {
     return Promise.resolve(sortKept([...this.documents.values()], [...this.backups.values()]));
   }
 
-  putDocument(document: KeptDocument): Promise<void> {
+  putDocument(document: KeptDocument, { dropBefore, dropFrom, add }: StepsChange): Promise<void> {
     this.documents.set(document.id, document);
+    const steps = new Map([...(this.steps.get(document.id) ?? [])].filter(([number]) => number >= dropBefore && number < dropFrom));
+    for (const step of add) steps.set(step.number, step);
+    this.steps.set(document.id, steps);
     return Promise.resolve();
+  }
+
+  readSteps(id: string): Promise<readonly unknown[]> {
+    return Promise.resolve([...(this.steps.get(id)?.values() ?? [])]);
   }
 
   putBackup(backup: Backup): Promise<void> {
@@ -131,6 +177,7 @@ export class PassingStorage implements DocumentStorage {
 
   removeDocument(id: string): Promise<void> {
     this.documents.delete(id);
+    this.steps.delete(id);
     return Promise.resolve();
   }
 }

@@ -18,6 +18,8 @@ export interface DocumentsState {
   readonly backups: readonly Backup[];
   /** Names of what is kept but cannot be read. */
   readonly unreadable: readonly string[];
+  /** So many of the oldest steps of the open one's history are not kept any more. */
+  readonly forgotten: number;
   /** 'off': this browser keeps nothing. */
   readonly saving: 'saved' | 'saving' | 'off';
 }

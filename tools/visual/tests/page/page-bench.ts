@@ -107,6 +107,11 @@ export class Visitor {
     await this.page.getByText('The robot stands and waits.', { exact: true }).waitFor({ timeout: LIMIT_MS });
   }
 
+  /** Until what has changed is on the screen: a mouse hits what is seen there. */
+  async untilSeen(): Promise<void> {
+    await this.page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  }
+
   /** The terminal's screen as text. */
   screen(): Promise<string> {
     return this.page.locator('terminal-pane').evaluate((pane) => (pane as unknown as { screenText: string }).screenText);

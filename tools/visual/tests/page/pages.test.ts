@@ -27,6 +27,7 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
   await card(page, /^page 3 wave/).dragTo(card(page, /^page 2 curtsy/));
   await button(page, 'Cancel').click(); // it was the wrong place
   await page.getByRole('searchbox', { name: 'Search pages' }).fill('7'); // page 7 beside many that are empty
+  await person.untilSeen();
   await card(page, /^page 7 stand/).dragTo(card(page, /^page 70, empty/));
   await page.getByRole('dialog').getByRole('button', { name: 'Copy' }).click();
   await card(page, /^page 70 stand/).waitFor();
@@ -61,6 +62,10 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
     await card(tab, new RegExp(`^page 2 ${name}`)).waitFor();
   }
   await button(tab, /^To the robot \(1\)/).waitFor(); // and the robot kept what was written
+  for (const name of ['one', 'bow']) { // undo goes back over both closed tabs
+    await button(tab, /^Undo: name \(page 2\)/).click();
+    await card(tab, new RegExp(`^page 2 ${name}`)).waitFor();
+  }
   await person.leave();
 }, 600_000);
 

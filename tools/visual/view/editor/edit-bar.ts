@@ -36,7 +36,7 @@ export class EditBar extends HTMLElement {
     document.addEventListener('keydown', keys);
     this.disposals.push(
       this.desk.documents.state.watch((state) => this.renderDocuments(state)), this.desk.editor.state.watch((state) => this.renderEdits(state)),
-      () => document.removeEventListener('keydown', keys),
+      this.desk.documents.state.watch(() => this.renderEdits(this.desk.editor.state.get())), () => document.removeEventListener('keydown', keys),
     );
   }
 
@@ -63,6 +63,8 @@ export class EditBar extends HTMLElement {
       button.setAttribute('aria-label', button.title);
     };
     show(this.undo, 'Undo', done.at(-1));
+    const { forgotten } = this.desk.documents.state.get();
+    if (done.length === 0 && forgotten > 0) this.undo.title = EDITOR_TEXTS.forgotten(forgotten);
     show(this.redo, 'Redo', undone.at(-1));
     const count = dirtyPages(state, this.desk.editor.format).size;
     this.transfer.textContent = count > 0 ? `To the robot (${count}) …` : 'To the robot …';

@@ -57,6 +57,7 @@ export function keptText(saving: 'saved' | 'saving' | 'off'): string {
 export const EDITOR_TEXTS = {
   pages: 'Pages: the 128 motions of this document. Drag one to copy or move it; double-click to edit its steps.',
   unreadable: 'cannot be read; it is kept as it is',
+  forgotten: (steps: number) => `Undo: the first ${steps} steps of this document were not kept when its tab was closed.`,
   removal: (name: string) => `"${name}" is removed from this browser. This cannot be undone. Robots and files keep what they have.`,
   nothingFound: 'No page is called so. Empty the search to see all of them.',
   nameHint: 'At most 13 letters, digits and signs.',
