@@ -4,6 +4,7 @@ import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { DocumentEditor } from '../app/editor.ts';
 import { MotionTrials } from '../app/trials.ts';
+import { NO_HISTORY } from '../model/history.ts';
 import type { Body } from '../model/body.ts';
 import { AS_STORED } from '../model/motion.ts';
 import type { TrialRecord, TrialRequest } from '../model/trial.ts';
@@ -61,7 +62,7 @@ test('another document knows nothing; who stops keeps what is known', async () =
   unwatch();
   expect([...trials.state.get().trials.keys()]).toEqual([2]);
   expect(trials.state.get()).toMatchObject({ phase: 'idle', trouble: null });
-  editor.open(library);
+  editor.open(library, NO_HISTORY);
   expect(trials.state.get().trials.size).toBe(0);
   expect(trials.isFresh(2)).toBe(false);
 });
