@@ -22,8 +22,10 @@ static NOINLINE uint32_t bit_of(uint8_t joint)
         if (((uint8_t)(joints_) & 1u) != 0)
 
 /* hand_over of a joint: its owner is about to begin a step that was planned without it; has not begun a step with it; plays
- * its first step; has completed that, and the joint has to catch up only. */
-enum { HAND_OVER_DONE, HAND_OVER_WAITS, HAND_OVER_FRESH, HAND_OVER_FIRST_STEP, HAND_OVER_CATCHES_UP };
+ * its first step; has completed that, and the joint has to catch up only. The last two: likewise, and what the owner asked for
+ * last was below it, above it. */
+enum { HAND_OVER_DONE, HAND_OVER_WAITS, HAND_OVER_FRESH, HAND_OVER_FIRST_STEP, HAND_OVER_CATCHES_UP,
+       HAND_OVER_ASKED_BELOW, HAND_OVER_ASKED_ABOVE };
 
 /* --- code-made motion: the slots --------------------------------------------------------------------------------- */
 
@@ -300,6 +302,15 @@ void layers_free(layers_t *layers, uint32_t joints)
  * exactly. */
 #define CAUGHT_UP_POS 1u
 
+/* A joint that catches up: whether what its owner asks for has come past it since the last tick. Then they have met, and it goes
+ * on with its owner: one that is much slower than the owner's page might never be near it at a tick. */
+static bool have_met(player_joint_t *joint, uint16_t at, uint16_t asked)
+{
+    const uint8_t before = joint->hand_over;
+    joint->hand_over = asked < at ? HAND_OVER_ASKED_BELOW : HAND_OVER_ASKED_ABOVE;
+    return before != HAND_OVER_CATCHES_UP && before != joint->hand_over;
+}
+
 /* Where joint i, which changes hands, goes from `from` in this tick, on its way to what its owner asks for. */
 static uint16_t follow(layers_t *layers, player_joint_t *joint, uint8_t i, uint16_t from)
 {
@@ -308,13 +319,14 @@ static uint16_t follow(layers_t *layers, player_joint_t *joint, uint8_t i, uint1
         joint->hand_over = HAND_OVER_DONE;
         return from;
     }
-    if (joint->hand_over != HAND_OVER_CATCHES_UP && (layers->events[joint->owner] & PLAYER_EV_STEP) != 0) {
+    if (joint->hand_over < HAND_OVER_CATCHES_UP && (layers->events[joint->owner] & PLAYER_EV_STEP) != 0) {
         joint->hand_over++;
     }
     uint16_t asked = player_asks(owner, i), goal = approach_by(from, asked, layers->most_pos);
-    bool near = (uint16_t)(goal - asked + CAUGHT_UP_POS) <= 2u * CAUGHT_UP_POS;
-    if (near && joint->hand_over == HAND_OVER_CATCHES_UP) {
-        joint->hand_over = HAND_OVER_DONE;
+    if (joint->hand_over >= HAND_OVER_CATCHES_UP) {
+        goal = have_met(joint, from, asked) ? asked : goal;
+        bool near = (uint16_t)(goal - asked + CAUGHT_UP_POS) <= 2u * CAUGHT_UP_POS;
+        joint->hand_over = near ? HAND_OVER_DONE : joint->hand_over;
     }
     return goal;
 }

@@ -15,6 +15,12 @@ def test_pages_joints_and_moments_by_chance():
     assert not [said for said in map(handed.by_chance, range(100)) if said]
 
 
+@pytest.mark.parametrize("seed", [522, 1357, 1808])
+def test_a_joint_much_slower_than_its_owners_page_meets_it_all_the_same(seed):
+    """What the owner asks for comes past it between two ticks, and never near it at one."""
+    assert handed.by_chance(seed) is None
+
+
 @pytest.mark.parametrize("law", handed.LAWS)
 def test_a_hand_over_that_is_too_fast_is_found(monkeypatch, law):
     monkeypatch.setattr(handed, "UNITS_A_TICK", 0.97 * handed.UNITS_A_TICK)
