@@ -84,6 +84,7 @@ export class PoseTool {
     const isPosing = edited !== null && this.isPosing;
     const alarms = new Set(robot.servos.filter((servo) => servo.alarms !== 0).map((servo) => servo.id));
     const figure = isPosing && edited ? edited : real;
+    this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
     this.scene.figure.show(figure.trunk, figure.angles, isPosing ? new Set() : alarms);
     this.scene.figure.choose(isPosing ? this.chosenLinks() : new Set());
     const other = isPosing ? real : edited;
@@ -92,7 +93,6 @@ export class PoseTool {
     this.balance = edited && this.editing.get().balance ? this.balanceOf(edited) : null;
     this.layer.showBalance(this.balance);
     this.touchWatch.look(edited ? (isPosing ? this.shownPose() : robotPose(robot)) : null);
-    this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
     return isPosing;
   }
 
