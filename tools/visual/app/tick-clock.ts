@@ -5,9 +5,13 @@
 import type { Clock } from '../robot/clock.ts';
 
 const TICKS_PER_SECOND = 128;
+/** A page that was busy hears of more than this at once. What it asked meanwhile may not have reached the robot, and the answer
+ *  not the page: so much counts as passed, and no more. */
+const MOST_STEP_MS = 100;
 
 export class TickClock implements Clock {
   private ms = 0;
+  private reachedMs = 0;
   private nextId = 1;
   private readonly timers = new Map<number, { readonly atMs: number; readonly call: () => void }>();
 
@@ -28,7 +32,9 @@ export class TickClock implements Clock {
 
   /** The robot has come so far. */
   reach(ticks: number): void {
-    this.ms = (1000 * ticks) / TICKS_PER_SECOND;
+    const robotMs = (1000 * ticks) / TICKS_PER_SECOND;
+    this.ms += Math.min(robotMs - this.reachedMs, MOST_STEP_MS);
+    this.reachedMs = robotMs;
     for (const [id, timer] of [...this.timers]) {
       if (timer.atMs > this.ms || !this.timers.delete(id)) continue;
       timer.call();

@@ -66,6 +66,7 @@ export class AppShell extends HTMLElement {
         make('div', { class: 'areas' }, this.tabList(), this.give(this.editBar), ...this.panels.values())),
       this.give(new StatusStrip()), compare, this.keys.element,
     );
+    this.addEventListener('click', (event) => this.giveKeysBack(event));
     const unlisten = this.keys.listen();
     const unwatch = this.desk.state.watch((state) => this.render(state));
     this.unwatch = () => {
@@ -93,6 +94,12 @@ export class AppShell extends HTMLElement {
     const keys = make('button', { 'aria-label': 'Keys', title: 'Keys (?)', onclick: () => this.keys.open() }, '?');
     return make('header', {}, make('h1', {}, 'Motion512'),
       make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours), this.give(new FilesMenu()), make('a', { href: './licences.html' }, 'Licences'), tour, keys, theme);
+  }
+
+  /** A button that the mouse has pressed does not keep the keys: beside the remote, the space bar is to stop and not to press it again. */
+  private giveKeysBack(event: MouseEvent): void {
+    const byMouse = event.detail > 0 && event.target instanceof Element;
+    if (byMouse && this.desk.state.get().tab === 'remote') event.target.closest('button')?.blur();
   }
 
   private changeTheme(): void {

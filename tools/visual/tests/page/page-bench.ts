@@ -16,7 +16,7 @@ export const FLAGS = ['--disable-gpu-compositing', '--disable-quic', '--no-first
 const VIEWPORT = { width: 1000, height: 640 };
 /** robot-view.ts sets it. */
 const ROBOT_DRAWN = 'robot-drawn';
-const LIMIT_MS = 120_000; // of every wait that names none: a busy machine decides no verdict
+const LIMIT_MS = 240_000; // of every wait that names none: a busy machine decides no verdict
 
 export class PageServer {
   readonly address: string;

@@ -3,7 +3,7 @@
 
 import { mkdir } from 'node:fs/promises';
 import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll } from 'vitest';
+import { afterAll, afterEach, beforeAll } from 'vitest';
 import { PageServer, startBrowser } from './page-bench.ts';
 
 /** Screenshots: build products. */
@@ -21,6 +21,10 @@ export function pageSuite(): PageSuite {
   beforeAll(async () => {
     await mkdir(SHOTS, { recursive: true });
     [suite.browser, suite.server] = await Promise.all([startBrowser(), PageServer.start()]);
+  });
+  // The page of a test that failed would go on working beside the next one.
+  afterEach(async () => {
+    for (const context of suite.browser?.contexts() ?? []) await context.close();
   });
   afterAll(async () => {
     await suite.browser?.close();

@@ -4,7 +4,7 @@
 // without the chooser. That needs root, /dev/ttyS0 and unshare; where they are missing the test says that it was left out.
 import { spawn, spawnSync } from 'node:child_process';
 import type { ChildProcess } from 'node:child_process';
-import { chmodSync, existsSync, mkdirSync, mkdtempSync, realpathSync, writeFileSync } from 'node:fs';
+import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, realpathSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { chromium } from 'playwright-core';
@@ -26,14 +26,35 @@ function reasonToLeaveOut(): string | null {
 const why = reasonToLeaveOut();
 if (why) console.warn(`left out: Web Serial to cm5sim: ${why}`);
 
-async function robotOnPty(folder: string): Promise<{ process: ChildProcess; pty: string }> {
-  const link = join(folder, 'robot');
-  const eeprom = join(folder, 'eeprom');
-  writeFileSync(eeprom, Buffer.concat([Buffer.alloc(4095, 0xff), Buffer.of(0x11)])); // the loader starts Play without a word
-  const robot = spawn(SIMULATOR, ['boot-cm5.hex', 'play-cm5.hex', '--motions', join(BUILD, 'motions/motions.bin'), '--servos', '1-18', '--eeprom', eeprom,
-    `--pty=${link}`, '--no-stdio'], { stdio: ['ignore', 'ignore', 'inherit'], cwd: join(BUILD, '..') });
-  for (let i = 0; i < 100 && !existsSync(link); i++) await new Promise((resolve) => setTimeout(resolve, 100));
-  return { process: robot, pty: realpathSync(link) };
+/** A robot in cm5sim; its flash is written to `flash` when it ends. */
+class Robot {
+  readonly pty: string;
+  readonly flash: string;
+  private readonly process: ChildProcess;
+
+  private constructor(process: ChildProcess, pty: string, flash: string) {
+    this.process = process;
+    this.pty = pty;
+    this.flash = flash;
+  }
+
+  static async start(folder: string, image: 'play' | 'edit'): Promise<Robot> {
+    const [link, eeprom, flash] = ['robot', 'eeprom', 'flash'].map((name) => join(folder, name)) as [string, string, string];
+    writeFileSync(eeprom, Buffer.concat([Buffer.alloc(4095, 0xff), Buffer.of(0x11)])); // the loader starts the image without a word
+    const robot = spawn(SIMULATOR, ['boot-cm5.hex', `${image}-cm5.hex`, '--motions', join(BUILD, 'motions/motions.bin'), '--servos', '1-18', '--eeprom', eeprom,
+      '--flash', flash, `--pty=${link}`, '--no-stdio'], { stdio: ['ignore', 'ignore', 'inherit'], cwd: join(BUILD, '..') });
+    for (let i = 0; i < 600 && !existsSync(link); i++) await new Promise((resolve) => setTimeout(resolve, 100));
+    return new Robot(robot, realpathSync(link), flash);
+  }
+
+  /** Pulls its cable: its end of the line is gone. */
+  stop(): Promise<void> {
+    return new Promise((resolve) => {
+      if (this.process.exitCode !== null || this.process.signalCode !== null) return resolve();
+      this.process.once('exit', () => resolve());
+      this.process.kill('SIGINT');
+    });
+  }
 }
 
 /** A browser that sees the pty as /dev/ttyS0 and may use it on this origin. */
@@ -48,36 +69,72 @@ function wrapper(folder: string, pty: string, origin: string): string {
   return script;
 }
 
-test.skipIf(why !== null)('a hobbyist: connects, the page knows the robot, plays a bow, the picture follows; the cable is pulled', async () => {
+/** What somebody does with a robot on the port of this computer. */
+async function atTheRobot(image: 'play' | 'edit', deed: (person: Visitor, robot: Robot) => Promise<void>): Promise<void> {
   const folder = mkdtempSync(join(tmpdir(), 'm512-serial-'));
   const server = await PageServer.start();
-  const robot = await robotOnPty(folder);
+  const robot = await Robot.start(folder, image);
   const browser = await chromium.launch({ executablePath: wrapper(folder, robot.pty, new URL(server.address).origin), headless: true, args: FLAGS });
   try {
     const person = await Visitor.come(browser, server.address);
     await person.untilStanding();
     await person.button('Your robot …').click();
     await person.button('serial port').waitFor();
-    await person.untilStanding();
-    await person.button('Bow').click();
-    await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor({ timeout: 30_000 });
-    const hip = await person.page.evaluate(() => new Promise<number>((resolve) => {
-      type Frame = { servos: { id: number; position: number }[] };
-      const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
-      const stop = desk.onFrame((state) => {
-        const position = state.servos.find((servo) => servo.id === 11)?.position ?? 0;
-        if (position > 700) resolve((stop(), position));
-      });
-    }));
-    expect(hip).toBeGreaterThan(700);
-    robot.process.kill(); // the other end is gone
-    await person.doing.filter({ hasText: 'The cable is out.' }).waitFor({ timeout: 30_000 });
-    await person.button('Robot in this page').click();
-    await person.untilStanding();
+    await deed(person, robot);
     await person.leave();
   } finally {
     await browser.close();
-    robot.process.kill();
+    await robot.stop();
     await server.stop();
   }
+}
+
+/** Waits until a servo of the picture is beyond this position; how many poses a second the picture got meanwhile. */
+function untilBeyond(person: Visitor, servo: number, position: number): Promise<number> {
+  return person.page.evaluate(([id, beyond]) => new Promise<number>((resolve) => {
+    type Frame = { servos: { id: number; position: number }[] };
+    const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
+    const startMs = performance.now();
+    let poses = 0;
+    const stop = desk.onFrame((state) => {
+      poses++;
+      if ((state.servos.find((one) => one.id === id)?.position ?? 0) <= beyond) return;
+      stop();
+      resolve((1000 * poses) / (performance.now() - startMs));
+    });
+  }), [servo, position] as const);
+}
+
+test.skipIf(why !== null)('a hobbyist: connects, walks by keyboard, plays a bow, the picture follows; the cable is pulled', async () => {
+  await atTheRobot('play', async (person, robot) => {
+    await person.untilStanding();
+    await person.page.keyboard.press('ArrowUp');
+    await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+    await person.page.keyboard.press('Space');
+    await person.untilStanding();
+    await person.button('Bow').click();
+    console.log(`the picture got ${(await untilBeyond(person, 11, 700)).toFixed(1)} poses a second over Web Serial`); // a bow: the right hip
+    await robot.stop();
+    await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
+    await person.button('Robot in this page').click();
+    await person.untilStanding();
+  });
+});
+
+test.skipIf(why !== null)('a hobbyist with Edit: a page named and saved in the terminal is in the flash of the robot', async () => {
+  await atTheRobot('edit', async (person, robot) => {
+    await person.open('Terminal');
+    await person.type('\r'); // draws the screen: it was put away by the page's questions
+    await person.untilScreenSays('PageNumber');
+    await person.type('page 100\r');
+    await person.untilScreenSays('PageNumber:0100');
+    await person.type('name salute\r');
+    await person.untilScreenSays(/\* unsaved/);
+    await person.type('save\r');
+    await expect.poll(async () => (await person.screen()).includes('* unsaved'), { timeout: 120_000 }).toBe(false);
+    await robot.stop();
+    await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
+    expect(readFileSync(robot.flash).toString('latin1')).toContain('salute');
+    expect(readFileSync(join(BUILD, 'motions/motions.bin')).toString('latin1')).not.toContain('salute');
+  });
 });
