@@ -117,34 +117,36 @@ class Numbers:
         return [math.log(part / (1 - part)) for part in (min(0.97, max(0.03, part)) for part in parts)]
 
 
-def write(gaits):
-    (HERE / "gait.json").write_text(json.dumps({name: asdict(one) for name, one in gaits.items()}, indent=1) + "\n", encoding="utf-8")
+def write(gaits, path):
+    path.write_text(json.dumps({name: asdict(one) for name, one in gaits.items()}, indent=1) + "\n", encoding="utf-8")
 
 
 def search(options):
+    """Writes options.output whenever it has found better numbers than those it began with; returns the best. Numbers are compared on
+    the same bodies: when these change, the best so far is tried again."""
     import cma
 
     gaits = gait.numbers()
-    space = Numbers(options.kind, gaits[options.kind])
-    chance = random.Random(options.seed)
+    best, hard = gaits[options.kind], []
+    space, chance = Numbers(options.kind, best), random.Random(options.seed)
     strategy = cma.CMAEvolutionStrategy(space.vector(), options.sigma, {"seed": options.seed, "popsize": options.population, "verbose": -9})
-    hard, best = [], None
     for generation in range(options.generations):
-        if generation % options.keep == 0:
-            fresh = [chance.randrange(1 << 30) for _ in range(options.bodies)]
-            seeds, best = (hard + fresh)[:options.bodies], None
+        fresh = generation % options.keep == 0
+        if fresh:
+            seeds = (hard + [chance.randrange(1 << 30) for _ in range(options.bodies)])[:options.bodies]
         vectors = strategy.ask()
-        sets = [gaits | {options.kind: space.of(vector)} for vector in vectors]
-        found = each(trial, [(options.kind, one, options.target, seeds) for one in sets], f"generation {generation + 1}", options.jobs,
-                     options.scheduler)
-        costs = [cost for cost, _ in found]
-        strategy.tell(vectors, costs)
-        cost, fell = min(found)
-        if best is None or cost < best[0]:
-            best = (cost, sets[costs.index(cost)][options.kind])
-            hard = list(fell)[:options.bodies // 2]
-            write(gaits | {options.kind: best[1]})
-        print(f"generation {generation + 1}: best {cost:.1f}, {len(fell)} of {len(seeds)} bodies fall", flush=True)
+        tried = [space.of(vector) for vector in vectors] + ([best] if fresh else [])
+        work = [(options.kind, gaits | {options.kind: one}, options.target, seeds) for one in tried]
+        found = each(trial, work, f"generation {generation + 1}", options.jobs, options.scheduler)
+        strategy.tell(vectors, [cost for cost, _ in found[:len(vectors)]])
+        if fresh:
+            least, hard = found[-1][0], list(found[-1][1])
+        cost, fell = min(found[:len(vectors)])
+        if cost < least:
+            least, hard, best = cost, list(fell), tried[[of_one for of_one, _ in found].index(cost)]
+            write(gaits | {options.kind: best}, options.output)
+        hard = hard[:options.bodies // 2]
+        print(f"generation {generation + 1}: cost {cost:.1f}, {len(fell)} of {len(seeds)} bodies fall; the best so far {least:.1f}", flush=True)
     return best
 
 
@@ -158,6 +160,7 @@ def main():
     parser.add_argument("--keep", type=int, default=4, help="generations that the same bodies stay")
     parser.add_argument("--sigma", type=float, default=0.3, help="how far it looks at first")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--output", type=pathlib.Path, default=HERE / "gait.json", metavar="FILE", help="default: gait.json")
     parser.add_argument("--jobs", type=int, help="processes at once (default: one a core)")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask scheduler whose workers do it")
     options = parser.parse_args()
