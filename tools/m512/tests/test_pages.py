@@ -135,6 +135,15 @@ def test_pages_retime_and_time(m512, lib):
     assert out["pages"][1]["seconds"] == pytest.approx(2 * 180 / 128, abs=0.01)
 
 
+def test_pages_time_ends_where_no_page_follows(m512, tmp_path):
+    """In a whole image, too, which has a page 0."""
+    path = tmp_path / "fast.bin"
+    (tmp_path / "fast.m512").write_text(FAST)
+    assert m512("convert", tmp_path / "fast.m512", path).exit_code == 0
+    out = json.loads(m512("pages", path, "time", "1", "--json").stdout)
+    assert [p["page"] for p in out["pages"]] == [1] and out["end"] == "ends"
+
+
 FAST = """motion512 1
 row 1..2
 page 1 fast

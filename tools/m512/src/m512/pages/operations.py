@@ -225,7 +225,7 @@ def chain(image: Image, number: int) -> Tuple[List[Tuple[int, int, float]], str]
             pose = end_pose(page, pose)
             again = page_seconds(page, pose)
             out.append((number, page.repeat, once + (page.repeat - 1) * again))
-        if not image.first <= page.next < image.end:
+        if not max(1, image.first) <= page.next < image.end:     # page 0 is the trim: no link leads there
             return out, "ends"
         number = page.next
 
