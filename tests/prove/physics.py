@@ -31,6 +31,7 @@ EXPECTED = {("AX-18", FORWARD): 210, ("AX-18", BACK): -204, ("AX-12", FORWARD): 
 TOLERANCE = 0.25
 SECONDS = 10
 TRIED = proof.RESULTS / "bodies.jsonl"
+WALKS_ON_BOARD = 100
 FIRST_SEED = 1000                # those below were looked at while the motions were made
 
 
@@ -41,7 +42,7 @@ def add_arguments(group):
     group.add_argument("--bodies", type=int, metavar="N", help="bodies for each motion (default: as promises.py says); those tried before "
                        "are not tried again")
     group.add_argument("--add-up", action="store_true", help="no new bodies: figures and page from all that were tried so far")
-    group.add_argument("--on-board", type=int, default=100, metavar="N",
+    group.add_argument("--on-board", type=int, default=WALKS_ON_BOARD, metavar="N",
                        help="bodies that walk with the shipped image on the simulated board (default: %(default)s)")
     group.add_argument("--seed-of", type=int, metavar="SEED", help="repeat this body alone")
 
@@ -131,11 +132,12 @@ def walk_on_board(image, number, ready, item):
     return outcome.fell_s is None and outcome.on_feet, outcome.said()
 
 
-def share_figure(what, how, promise, results):
-    """results: {seed: (kept, said)}, of at least one body."""
+def share_figure(what, how, promise, results, of):
+    """results: {seed: (kept, said)}, of at least one body. of: how many bodies a whole campaign has; with fewer the figure says so."""
     bad = {seed: said for seed, (kept, said) in sorted(results.items()) if not kept}
     stood = len(results) - len(bad)
-    measured = f"{stood} of {len(results)} bodies; seeds {bodies.seeds_said(results)}"
+    part = f", {of} are promised" if len(results) < of else ""
+    measured = f"{stood} of {len(results)} bodies{part}; seeds {bodies.seeds_said(results)}"
     if bad:
         measured += f"; not {', '.join(str(seed) for seed in list(bad)[:60])}; the first: {next(iter(bad.values()))}"
     return proof.Figure(what, how, measured, stood >= promise.share * len(results), headline=promise.page == "walk")
@@ -181,7 +183,7 @@ def stand_figures(options, image, library, campaign):
         how = f" {promise.how}" if promise.how else ""
         if results:
             figures.append(share_figure(f"`{promise.page}`{how}{begin}: it ends on its feet.", f"{promise.seconds:.0f} s, bodies by chance",
-                                        promise, results))
+                                        promise, results, promise.bodies))
     return figures
 
 
@@ -190,7 +192,7 @@ def board_figures(options, image, library, campaign):
     work = functools.partial(walk_on_board, image, promises.number_of(library, "walk"), promises.number_of(library, "ready"))
     results = campaign.results(work, walk, options.on_board, "board")
     return [share_figure("`walk` led by the shipped image: it ends on its feet.", "the same, on the simulated board with a remote", walk,
-                         results)] if results else []
+                         results, WALKS_ON_BOARD)] if results else []
 
 
 def nominal_figure(image, library):

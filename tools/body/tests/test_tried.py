@@ -106,3 +106,9 @@ def test_a_result_counts_for_its_motion_alone(library):
 
 def test_seeds_are_said_as_people_write_them():
     assert bodies.seeds_said([1002, 1000, 1001, 1010]) == "1000-1002, 1010"
+
+
+def test_a_figure_of_few_bodies_says_how_many_are_promised():
+    few = physics.share_figure("bow", "4 s", BOW, {1000: (True, "stands"), 1001: (False, "fell")}, 200)
+    assert few.measured.startswith("1 of 2 bodies, 200 are promised; seeds 1000-1001; not 1001") and not few.kept
+    assert physics.share_figure("bow", "4 s", BOW, {1000: (True, "stands")}, 1).measured == "1 of 1 bodies; seeds 1000"
