@@ -7,8 +7,8 @@ from typing import List, Optional
 
 from m512.files.image import Image, is_erased
 from m512.files.page import EMPTY, JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Page
-from m512.files.wording import pages_text
 from m512.files.text.words import code_text, position_text
+from m512.files.wording import pages_text
 
 
 @dataclass(frozen=True)
