@@ -21,9 +21,10 @@ static NOINLINE uint32_t bit_of(uint8_t joint)
     for (uint8_t i_ = 0; (joints_) != 0; (i_)++, (joints_) >>= 1)     \
         if (((uint8_t)(joints_) & 1u) != 0)
 
-/* hand_over of a joint: its owner is about to begin a step that was planned without it; has not begun a step with it; plays
- * its first step; has completed that, and the joint has to catch up only. The last two: likewise, and what the owner asked for
- * last was below it, above it. */
+/* hand_over of a joint. WAITS: its owner is about to begin a step that was planned without it. FRESH: the owner has not
+ * begun a step with it. FIRST_STEP: the owner plays its first step with it. CATCHES_UP: that step is over; the joint only
+ * has to catch up. ASKED_BELOW, ASKED_ABOVE: the same, and the position that the owner asked for last was below or above
+ * the joint. */
 enum { HAND_OVER_DONE, HAND_OVER_WAITS, HAND_OVER_FRESH, HAND_OVER_FIRST_STEP, HAND_OVER_CATCHES_UP,
        HAND_OVER_ASKED_BELOW, HAND_OVER_ASKED_ABOVE };
 
@@ -302,8 +303,8 @@ void layers_free(layers_t *layers, uint32_t joints)
  * exactly. */
 #define CAUGHT_UP_POS 1u
 
-/* A joint that catches up: whether what its owner asks for has come past it since the last tick. Then they have met, and it goes
- * on with its owner: one that is much slower than the owner's page might never be near it at a tick. */
+/* Whether the position that the owner asks for has passed a joint that catches up since the last tick. Then they have met: a
+ * joint much slower than its owner's page might never be near that position at a tick. */
 static bool have_met(player_joint_t *joint, uint16_t at, uint16_t asked)
 {
     const uint8_t before = joint->hand_over;

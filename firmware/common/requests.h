@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * requests.h - the line protocol for programs: one request line, one answer line, the same in Play and in Edit. Lines that
  * a person types in Play go the same way.
- * Knows no screen and no prompt: takes words, prints text (text.h). Main loop only. RAM: 5 bytes.
+ * Knows no screen and no prompt: takes words, prints text (text.h). Main loop only. RAM: 7 bytes.
  *
  * Every word of a program begins with '@', which no typed word does, and so does every answer line:
  *
