@@ -124,6 +124,7 @@ test.skipIf(why !== null)('a hobbyist: connects, walks by keyboard, plays a bow,
 
 test.skipIf(why !== null)('a hobbyist with Edit: a page named and saved in the terminal is in the flash of the robot', async () => {
   await atTheRobot('edit', async (person, robot) => {
+    await person.page.getByRole('log', { name: 'Last message' }).filter({ hasText: 'All pages of your robot are read' }).waitFor();
     await person.open('Terminal');
     await person.type('\r'); // draws the screen: it was put away by the page's questions
     await person.untilScreenSays('PageNumber');
