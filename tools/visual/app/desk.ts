@@ -16,6 +16,7 @@ import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
+import { typedLine } from '../robot/typed-line.ts';
 import type { Beside, Desk, DeskState, Floor, Hand, ImageName, Notice, PanelButton, Tab } from '../view/desk.ts';
 import { LAYER_TEXTS, PLAY_TEXTS } from '../view/editor/step-texts.ts';
 import { refusalText } from '../view/editor/texts.ts';
@@ -42,7 +43,8 @@ const WHERE_MS = 300;
 /** What went wrong is to be read before the board's next line takes its place. */
 const TROUBLE_STAYS_MS = 6000;
 const REMOTE_REPEAT_MS = 100;
-const ESCAPE_SEQUENCE = /\x1b\[[0-9;?]*[A-Za-z~]/g;
+/** A line that was left half typed keeps the page's questions back for so long after its last key. */
+const TYPING_MS = 5000;
 const READY_MS = 180_000;
 
 const ROBOT_IN_PAGE = 'robot in the page';
@@ -218,9 +220,8 @@ export class RobotDesk implements Desk {
   }
 
   type(bytes: Uint8Array): void {
-    // What a terminal answers by itself, and the keys of Edit's screen, are no line that somebody types.
-    const typed = String.fromCharCode(...bytes).replaceAll(ESCAPE_SEQUENCE, '');
-    for (const letter of typed) this.typing = letter === '\r' || letter === '\x03' ? '' : this.typing + letter;
+    this.typing = typedLine(this.typing, String.fromCharCode(...bytes));
+    this.connection.holdOff(this.typing === '' ? 0 : TYPING_MS);
     void this.connection.write(bytes).catch((error: unknown) => this.fail(error));
   }
 

@@ -87,6 +87,11 @@ export class Connection {
     await this.line.write(bytes);
   }
 
+  /** Requests wait for so long (0: no longer): somebody is typing a line. Without a line: nothing. */
+  holdOff(ms: number): void {
+    this.asked?.holdOff(ms);
+  }
+
   private on(event: ConnectionEvent): void {
     const next = nextState(this.current, event);
     if (!next) return;

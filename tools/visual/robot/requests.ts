@@ -33,6 +33,8 @@ export class Requests {
   private current: Request | null = null;
   private abandoned: string | null = null;
   private cancelTimer: () => void = () => undefined;
+  private isHeldOff = false;
+  private cancelHold: () => void = () => undefined;
   private isEnded = false;
 
   constructor(line: Pick<Line, 'write' | 'expect' | 'forget'>, clock: Clock) {
@@ -49,6 +51,17 @@ export class Requests {
       options.signal?.addEventListener('abort', () => this.cancel(request), { once: true });
       if (options.signal?.aborted) return reject(new RobotError('cancelled'));
       this.queue.push(request);
+      this.next();
+    });
+  }
+
+  /** What waits in the queue is sent after so long at the earliest; 0: now. What is under way goes on. Called again, it counts anew. */
+  holdOff(ms: number): void {
+    this.cancelHold();
+    this.isHeldOff = ms > 0;
+    if (!this.isHeldOff) return this.next();
+    this.cancelHold = this.clock.after(ms, () => {
+      this.isHeldOff = false;
       this.next();
     });
   }
@@ -73,6 +86,7 @@ export class Requests {
   end(code: 'port-lost' | 'not-connected'): void {
     this.isEnded = true;
     this.cancelTimer();
+    this.cancelHold();
     const all = this.current ? [this.current, ...this.queue] : [...this.queue];
     this.current = null;
     this.queue.length = 0;
@@ -80,7 +94,7 @@ export class Requests {
   }
 
   private next(): void {
-    if (this.current || this.abandoned !== null) return;
+    if (this.current || this.abandoned !== null || this.isHeldOff) return;
     const request = this.queue.shift();
     if (!request) return;
     this.current = request;
