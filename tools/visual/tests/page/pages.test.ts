@@ -38,6 +38,7 @@ test('a hobbyist: renames and copies pages, sees what will change, writes with a
   const rows = page.getByRole('list', { name: 'Pages that differ' });
   await rows.getByText('name "bow" -> "curtsy"').waitFor(); // m512's words: Python is loaded for them
   await rows.getByText('page 70 (stand)').waitFor();
+  expect(await rows.getByRole('button', { name: 'Take the robot\'s page 2 (curtsy)' }).count()).toBe(1); // what stands on it, and which page
   await page.screenshot({ path: `${SHOTS}to-the-robot.png` });
   await button(page, 'Write 2 pages into the robot').click();
   await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 pages.' }).waitFor();

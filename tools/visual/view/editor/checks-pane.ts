@@ -157,7 +157,7 @@ export class ChecksPane extends HTMLElement {
     const title = this.titleOf(one.page);
     return make('li', { class: one.isFault ? 'fault' : 'note' },
       make('span', { class: 'sign' }, one.isFault ? '⚠ fault' : 'to know'), make('b', {}, title), make('span', { class: 'words' }, one.text),
-      make('button', { 'aria-label': `Go to ${title}${one.step === null ? '' : `, step ${one.step + 1}`}`, onclick: () => this.goTo(one) }, 'Go there'));
+      make('button', { 'aria-label': `Go to ${title}${one.step === null ? '' : `, step ${one.step + 1}`}`, onclick: () => this.goTo(one) }, 'Go'));
   }
 
   private goTo({ page, step, joint, tab }: Shown): void {

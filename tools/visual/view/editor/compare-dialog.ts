@@ -123,7 +123,8 @@ export class CompareDialog extends HTMLElement {
     const mark = make('span', { class: 'account' });
     this.marks.set(page, mark);
     const pictures = page === 0 ? null : isRobot ? ghosts(desk.body, other, mine) : ghosts(desk.body, mine, other);
-    const take = make('button', { 'aria-label': `Take over ${title}`, onclick: () => void this.takeOver([page]) }, isRobot ? 'Take the robot\'s' : 'Take over');
+    const words = isRobot ? 'Take the robot\'s' : 'Take over';
+    const take = make('button', { 'aria-label': `${words} ${title}`, onclick: () => void this.takeOver([page]) }, words);
     const note = page === 0 ? EDITOR_TEXTS.trimStays : format.fault(source) !== null ? EDITOR_TEXTS.damagedStays : '';
     return make('li', { 'data-page': page }, make('label', {}, tick, make('b', {}, title)), mark, take, pictures,
       make('div', { class: 'words' }, note || EDITOR_TEXTS.wordsComing));

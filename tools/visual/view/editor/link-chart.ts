@@ -126,13 +126,14 @@ function box(page: number, laid: Laid, node: PageNode | null, links: readonly Pa
   const { x, y } = laid.nodes.get(page) ?? { x: 0, y: 0 };
   const itself = links.filter((link) => link.from === page && link.to === page).map((link) => LINK_TEXTS[link.kind]);
   const oddities = [node ? '' : 'nothing to play here', node?.isUnreachable ? 'nothing leads here' : '', node?.exitsRound ? 'exits go round' : ''].filter(Boolean);
-  const words = [pageText(page, node?.name ?? ''), node?.code ? `called by ${codeText(node.code)}` : '', itself.length > 0 ? `${itself.join(', ')}: itself` : '', ...oddities];
+  const name = `${page} ${node?.name ?? ''}`.trimEnd();
+  const words = [`page ${name}`, node?.code ? `${codeText(node.code)} calls it` : '', itself.length > 0 ? `${itself.join(', ')}: itself` : '', ...oddities];
   const title = words.filter(Boolean).join(', ');
   const signs = [node?.code ? codeText(node.code) : '', itself.length > 0 ? '⟲' : '', oddities.length > 0 ? '⚠' : ''].filter(Boolean).join(' ');
   return draw('g', { class: `node${node ? '' : ' dead'}${oddities.length > 0 ? ' odd' : ''}`, 'data-page': page, tabindex: -1, role: 'button', 'aria-label': title,
     transform: `translate(${x - NODE.width / 2} ${y - NODE.height / 2})` },
   draw('rect', { width: NODE.width, height: NODE.height, rx: 7 }), draw('title', {}, title),
-  draw('text', { x: 8, y: 17, class: 'name' }, `${page} ${node?.name ?? ''}`), draw('text', { x: 8, y: 32, class: 'signs' }, signs));
+  draw('text', { x: 8, y: 17, class: 'name' }, name), ' ', draw('text', { x: 8, y: 32, class: 'signs' }, signs));
 }
 
 /** What is chosen and what plays, on a chart that stands. */

@@ -46,7 +46,7 @@ export class PageCard extends HTMLElement {
     this.setAttribute('role', 'option');
     this.dataset['page'] = String(this.page);
     this.title1.textContent = String(this.page);
-    this.append(this.frame, make('span', { class: 'line' }, this.title1, this.name1), this.facts);
+    this.append(this.frame, make('span', { class: 'line' }, this.title1, ' ', this.name1), ' ', this.facts);
   }
 
   /** A name by which it is found, in small letters. */
@@ -80,18 +80,19 @@ export class PageCard extends HTMLElement {
     this.draggable = !isEmpty && !isDamaged && this.page > 0;
     this.name1.textContent = this.page === 0 ? 'trim' : page.name;
     const seconds = pageSeconds(format, bytes);
-    const parts = [seconds > 0 ? `${seconds.toFixed(1)} s` : '', page.steps.length > 0 ? `${page.steps.length} st` : '', codeText(page.code)];
+    const steps = page.steps.length;
+    const parts = [seconds > 0 ? `${seconds.toFixed(1)} s` : '', steps > 0 ? `${steps} st` : '', codeText(page.code)];
     this.facts.textContent = isDamaged ? '⚠ damaged' : isEmpty ? '' : parts.filter(Boolean).join(' · ');
-    this.setAttribute('aria-label', this.label(isEmpty, isDamaged, page.steps.length, seconds));
+    this.setAttribute('aria-label', this.label(isEmpty, steps));
     this.picture = null;
     this.draw();
   }
 
-  private label(isEmpty: boolean, isDamaged: boolean, steps: number, seconds: number): string {
-    const name = this.name1.textContent ?? '';
-    if (isDamaged) return `page ${this.page}, damaged`;
-    if (isEmpty) return `page ${this.page}, empty`;
-    return `page ${this.page} ${name}, ${steps} steps, ${seconds.toFixed(1)} seconds`;
+  /** Begins with what stands on the card, in its order: who calls it by what they see is understood (WCAG 2.5.3). Then the whole word. */
+  private label(isEmpty: boolean, steps: number): string {
+    const title = `page ${this.page} ${this.name1.textContent ?? ''}`.trimEnd();
+    const whole = isEmpty ? 'empty' : steps === 1 ? '1 step' : `${steps} steps`;
+    return [title, this.facts.textContent, whole].filter(Boolean).join(', ');
   }
 
   private draw(): void {
