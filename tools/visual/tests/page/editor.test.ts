@@ -77,7 +77,7 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
     await said(pupil, /(Take the right|Drag the) hand/);
     await dragHand(pupil, dx, dy);
     await said(pupil, /^(Press "Add step|Add this pose)/);
-    if (i === 1) await pupil.page.screenshot({ path: `${SHOTS}tour.png`, timeout: 60_000 });
+    if (i === 1) await pupil.page.screenshot({ path: `${SHOTS}tour.png` });
     await addStep(pupil);
     await expect.poll(() => steps(pupil).count(), PATIENT).toBe(i + 1);
   }
@@ -92,7 +92,7 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
   await pupil.button('▶ Play').click();
   await pupil.doing.filter({ hasText: /Playing page \d+ \(hello\)/ }).waitFor(PATIENT);
   await said(pupil, 'That is your first motion.');
-  await pupil.page.screenshot({ path: `${SHOTS}steps.png`, timeout: 60_000 });
+  await pupil.page.screenshot({ path: `${SHOTS}steps.png` });
   await pupil.page.getByText('The robot stands and waits.', { exact: true }).waitFor(PATIENT);
   // Somebody who reads needs 4 s for a click, 8 for a drag or a name; the rest is the robot's own time since Edit began.
   expect(11 * 4 + 4 * 8 + (await robotSeconds(pupil))).toBeLessThan(120);

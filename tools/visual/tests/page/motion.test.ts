@@ -79,13 +79,13 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
   }
   await page.getByLabel('Servos in physics').check();
   await page.getByRole('status', { name: 'Other lines' }).filter({ hasText: /behind by up to \d+° \(joint 15\)/ }).waitFor(PATIENT);
-  await page.screenshot({ path: `${SHOTS}curves.png`, timeout: 60_000 });
+  await page.screenshot({ path: `${SHOTS}curves.png` });
 
   await person.open('Checks');
   await button(page, /^Try page \d+ \(reel\)/).click();
   const falls = verdicts(page).filter({ hasText: /Falls in step 2 after \d\.\d s, and stays on the floor/ });
   await falls.waitFor(PATIENT);
-  await page.screenshot({ path: `${SHOTS}checks-physics.png`, timeout: 60_000 });
+  await page.screenshot({ path: `${SHOTS}checks-physics.png` });
   await falls.getByRole('button', { name: /^Go to page \d+ \(reel\), step 2/ }).click();
   expect(await button(page, 'Step 2').getAttribute('aria-current')).toBe('true');
   await button(page, 'Delete').click();
@@ -116,7 +116,7 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
   await expect.poll(() => rows.count(), PATIENT).toBe(2); // the bow, and the page that is new here
   await button(page, 'Take over page 2 (bow)').click();
   await expect.poll(() => rows.count(), PATIENT).toBe(1);
-  await page.screenshot({ path: `${SHOTS}compare.png`, timeout: 60_000 });
+  await page.screenshot({ path: `${SHOTS}compare.png` });
   await button(page, 'Close').click();
   for (const name of ['bow', 'wave']) await page.getByRole('option', { name: new RegExp(`^page \\d+ ${name},`) }).waitFor();
 
@@ -125,7 +125,7 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
   await button(page, /^1 right shoulder/).click();
   await button(page, 'Aim').click();
   await beside.filter({ hasText: 'Moved by code: joint 1.' }).waitFor(PATIENT);
-  await page.screenshot({ path: `${SHOTS}layers.png`, timeout: 60_000 });
+  await page.screenshot({ path: `${SHOTS}layers.png` });
   await button(page, 'Free').click();
   await beside.filter({ hasText: 'Nothing goes on beside the play.' }).waitFor(PATIENT);
   await person.leave();

@@ -133,7 +133,7 @@ test.skipIf(why !== null)('a hobbyist with Edit: a page named and saved in the t
     await person.type('name salute\r');
     await person.untilScreenSays(/\* unsaved/);
     await person.type('save\r');
-    await expect.poll(async () => (await person.screen()).includes('* unsaved'), { timeout: 120_000 }).toBe(false);
+    await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
     await robot.stop();
     await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
     expect(readFileSync(robot.flash).toString('latin1')).toContain('salute');
