@@ -10,7 +10,7 @@ import type { Edits } from '../model/edit.ts';
 import * as states from '../model/editor-state.ts';
 import type { EditorState, Selection } from '../model/editor-state.ts';
 import type { History } from '../model/history.ts';
-import { AS_STORED, JOINTS, Motion } from '../model/motion.ts';
+import { AS_STORED, JOINTS, Motion, POSITION_MIDDLE } from '../model/motion.ts';
 import type { Curve, Shape } from '../model/motion.ts';
 import { PageFormat } from '../model/page-format.ts';
 import { readPage } from '../model/page.ts';
@@ -22,7 +22,6 @@ import type { CurveOptions, Editor, Gesture } from '../view/editor-desk.ts';
 import { Store } from '../view/store.ts';
 
 const CURVE_TICKS = 4096;
-const MIDDLE = 512;
 
 /** What an editor begins with. */
 export interface EditorParts {
@@ -138,7 +137,7 @@ export class DocumentEditor implements Editor {
   firstPose(page: number, shape: Shape = AS_STORED): Uint16Array {
     this.load();
     this.player.setShape(shape);
-    return this.player.firstPose(page, new Uint16Array(JOINTS).fill(MIDDLE));
+    return this.player.firstPose(page, new Uint16Array(JOINTS).fill(POSITION_MIDDLE));
   }
 
   /** The player has the document's pages; only those that changed are copied. */

@@ -2,9 +2,9 @@
 // The clock of the robot in the page: its time-outs count its own time, so that a slow or busy computer, slow motion and a
 // pause are no silence of the robot.
 
+import { TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Clock } from '../robot/clock.ts';
 
-const TICKS_PER_SECOND = 128;
 /** A page that was busy hears of more than this at once. What it asked meanwhile may not have reached the robot, and the answer
  *  not the page: so much counts as passed, and no more. */
 const MOST_STEP_MS = 100;

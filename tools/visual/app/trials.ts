@@ -2,7 +2,7 @@
 // Motions of the document in physics: joins the editor with the worker for trials, which is made when it is first wanted.
 
 import { imageOf, pageOf } from '../model/document.ts';
-import { AS_STORED } from '../model/motion.ts';
+import { AS_STORED, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Law, Shape } from '../model/motion.ts';
 import { pagesOfPlay } from '../model/page-reach.ts';
 import { deepestTouches, posesOf, verdictOf } from '../model/trial.ts';
@@ -13,7 +13,7 @@ import type { Trials, TrialsState } from '../view/trial-desk.ts';
 import type { DocumentEditor } from './editor.ts';
 
 /** A motion that goes round is told to stop then: 6 s. */
-const TICKS = 6 * 128;
+const TICKS = 6 * TICKS_PER_SECOND;
 /** Of a CM-5's battery. */
 const NOMINAL_VOLTS = 9.6;
 const CURVE_TICKS = 6000;

@@ -4,6 +4,7 @@
 
 import { jointAngle } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
+import { POSITION_MIDDLE, TICKS_PER_SECOND } from '../model/motion.ts';
 import { Connection } from '../robot/connection.ts';
 import { wallClock } from '../robot/clock.ts';
 import { PoseFollower } from '../robot/pose-follower.ts';
@@ -69,10 +70,10 @@ export class YourSource {
   private show(pose: readonly JointPose[]): void {
     const positions = new Map(pose.map((joint) => [joint.id, joint.position]));
     const servos: ServoState[] = pose.map(({ id, position, torque }) => ({
-      id, goalPos: null, position: position ?? 512, torque, alarms: 0, celsius: 0, faults: 0,
+      id, goalPos: null, position: position ?? POSITION_MIDDLE, torque, alarms: 0, celsius: 0, faults: 0,
     }));
     const trunk = this.standing.move((joint) => jointAngle(joint, positions.get(joint.servo) ?? joint.zero));
-    const ticks = Math.floor(((performance.now() - this.startedMs) / 1000) * 128);
+    const ticks = Math.floor(((performance.now() - this.startedMs) / 1000) * TICKS_PER_SECOND);
     this.events.frame({ ticks, servos, trunk, leds: 0, isPowered: true, isHeld: false, hasFallen: false, lateMs: 0, trace: new Float32Array(0) });
   }
 }

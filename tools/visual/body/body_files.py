@@ -13,7 +13,7 @@ import sys
 from math import cos, radians, sin, sqrt
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "body" / "src"))
-from body.description import load, numbers  # noqa: E402
+from body.description import UNITS_PER_RADIAN, load, numbers  # noqa: E402
 
 
 def multiplied(a, b):
@@ -62,8 +62,8 @@ def described(body):
                       "quat": list(quaternion(element))})
         shapes += [shape(geom, name) for geom in element.findall("geom")]
     axes = {joint.get("name"): list(numbers(joint.get("axis", "0 0 1"))) for joint in root.iter("joint")}
-    joints = [{"servo": j.servo, "name": j.name, "body": j.body, "direction": j.direction, "zero": j.zero, "low": j.low,
-               "high": j.high, "axis": axes[j.name]} for j in body.joints.values()]
+    joints = [{"servo": j.servo, "name": j.name, "body": j.body, "direction": j.direction, "zero": j.zero,
+               "radiansPerUnit": 1 / UNITS_PER_RADIAN, "low": j.low, "high": j.high, "axis": axes[j.name]} for j in body.joints.values()]
     materials = {m.get("name"): list(numbers(m.get("rgba"))) for m in root.iter("material")}
     return {"name": body.name, "links": links, "joints": joints, "shapes": shapes, "materials": materials}
 

@@ -2,6 +2,7 @@
 // The robot's body as numbers: build/wasm/body.json, made from tools/body by body/body_files.py. Servo positions to
 // angles, angles to places of the links.
 
+import { POSITION_MAX } from './motion.ts';
 import { within, turn } from './space.ts';
 import type { Place, Quaternion, Vector } from './space.ts';
 
@@ -21,6 +22,8 @@ export interface Joint {
   readonly direction: 1 | -1;
   /** Servo position of angle 0. */
   readonly zero: number;
+  /** Of its servo: what a unit of position turns. */
+  readonly radiansPerUnit: number;
   /** Radians. */
   readonly low: number;
   readonly high: number;
@@ -48,17 +51,17 @@ export interface Body {
   readonly materials: Readonly<Record<string, readonly [number, number, number, number]>>;
 }
 
-export const POSITION_MAX = 1023;
-
-/** 1024 positions are 300 degrees. */
-const RADIANS_PER_UNIT = (300 / 1024) * (Math.PI / 180);
-
 export function jointAngle(joint: Joint, position: number): number {
-  return joint.direction * (position - joint.zero) * RADIANS_PER_UNIT;
+  return joint.direction * (position - joint.zero) * joint.radiansPerUnit;
 }
 
 export function servoPosition(joint: Joint, angleRad: number): number {
-  return joint.zero + (joint.direction * angleRad) / RADIANS_PER_UNIT;
+  return joint.zero + (joint.direction * angleRad) / joint.radiansPerUnit;
+}
+
+/** So many units of position, in degrees. */
+export function degreesOf(joint: Joint, units: number): number {
+  return (units * joint.radiansPerUnit * 180) / Math.PI;
 }
 
 /** Servo IDs of the joints that mirror each other, right and left: their names differ only in their side. */

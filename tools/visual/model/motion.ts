@@ -2,10 +2,16 @@
 // The firmware's page checks and player (motion.wasm), with names and types. What each function means stands in
 // board/motion_api.h. Pure: the module's instance comes from outside.
 
+/** The firmware's sizes, for what has no motion.wasm at hand. They stand only here, and page-format.ts takes no motion.wasm that has
+ *  others. */
 export const PAGE_BYTES = 512;
 export const PAGE_COUNT = 128;
 export const JOINTS = 31;
 export const TICKS_PER_SECOND = 128;
+/** Of a servo: units 0..POSITION_MAX. */
+export const POSITION_MAX = 1023;
+/** Where a servo stands in the middle of its way. */
+export const POSITION_MIDDLE = (POSITION_MAX + 1) / 2;
 const MARK_BYTES = 3;
 
 export type Law = 'exact' | 'classic';
@@ -79,7 +85,7 @@ export class Motion {
   }
 
   setPage(page: number, bytes: Uint8Array): void {
-    if (bytes.length !== PAGE_BYTES) throw new RangeError(`a page has 512 bytes, not ${bytes.length}`);
+    if (bytes.length !== PAGE_BYTES) throw new RangeError(`a page has ${PAGE_BYTES} bytes, not ${bytes.length}`);
     this.pages.set(bytes, this.place(page));
   }
 

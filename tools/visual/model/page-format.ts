@@ -2,6 +2,7 @@
 // Where things stand in a page of 512 bytes, its empty form, its checksum and its checks: all of it from motion/page.h,
 // through an instance of motion.wasm. No number of the format is written here.
 
+import { JOINTS, PAGE_BYTES, PAGE_COUNT, POSITION_MAX, TICKS_PER_SECOND } from './motion.ts';
 import type { Law, Motion, PageFault } from './motion.ts';
 
 /** The order is that of layout[] in board/motion_api.c. `at...` are byte offsets, in a step from its beginning. */
@@ -11,7 +12,7 @@ const PAGE_LAYOUT = [
   'atPlayCode', 'atSpeed', 'atAccelTime', 'atNext', 'atExit', 'atLinked1',
   'atLinked1Code', 'atLinked2', 'atLinked2Code', 'atChecksum', 'atCompliance', 'atStep0',
   'atStepPause', 'atStepTime', 'scheduleSpeed', 'scheduleTime', 'speedNominal',
-  'posMax', 'posUnused', 'posTorqueOff',
+  'posMax', 'posUnused', 'posTorqueOff', 'ticksPerSecond',
 ] as const;
 
 export type PageLayout = Readonly<Record<(typeof PAGE_LAYOUT)[number], number>>;
@@ -19,6 +20,8 @@ export type PageLayout = Readonly<Record<(typeof PAGE_LAYOUT)[number], number>>;
 /** The page that the C functions work on. Any but 0 does. */
 const SCRATCH = 1;
 const ERASED = 0xff;
+/** What motion.ts says without asking. */
+const KNOWN: Partial<PageLayout> = { pageBytes: PAGE_BYTES, pageCount: PAGE_COUNT, joints: JOINTS, posMax: POSITION_MAX, ticksPerSecond: TICKS_PER_SECOND };
 
 export class PageFormat {
   readonly layout: PageLayout;
@@ -31,8 +34,9 @@ export class PageFormat {
   /** Takes an instance of motion.wasm for itself. Throws when it is of another version than this file. */
   constructor(motion: Motion) {
     const numbers = motion.layout;
-    if (numbers.length !== PAGE_LAYOUT.length) throw new Error('motion.wasm is of another version than the page: build again');
     this.layout = Object.fromEntries(PAGE_LAYOUT.map((name, i) => [name, numbers[i]])) as PageLayout;
+    const differs = Object.entries(KNOWN).some(([name, number]) => this.layout[name as keyof PageLayout] !== number);
+    if (numbers.length !== PAGE_LAYOUT.length || differs) throw new Error('motion.wasm is of another version than the page: build again');
     this.motion = motion;
     motion.clear(SCRATCH);
     this.empty = motion.page(SCRATCH);

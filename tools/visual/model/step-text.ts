@@ -4,8 +4,7 @@
 //
 //     step 40 pause 8 | 1:600 2:424
 
-import { JOINTS } from './motion.ts';
-import { POSITION_MAX } from './body.ts';
+import { JOINTS, POSITION_MAX } from './motion.ts';
 import type { Step } from './page.ts';
 
 const LINE = /^step (\d{1,3})(?: pause (\d{1,3}))? \|((?: \d{1,2}:\d{1,4})*)$/;

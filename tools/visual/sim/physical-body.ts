@@ -4,6 +4,7 @@
 
 import type { Body } from '../model/body.ts';
 import { jointAngle, soleCorners } from '../model/body.ts';
+import { POSITION_MIDDLE } from '../model/motion.ts';
 import { STILL, add, cross, heading, inverse, length, multiply, rotate, scale, subtract, turn } from '../model/space.ts';
 import type { Place, Quaternion, Vector } from '../model/space.ts';
 import type { Touch } from '../model/trial.ts';
@@ -187,7 +188,7 @@ export class PhysicalBody {
       speedAt: this.model.jnt_dofadr[index] ?? 0,
       torqueAt: motor,
       direction: joint.direction,
-      offsetRad: jointAngle(joint, 512), // shaft angle 0 is servo position 512
+      offsetRad: jointAngle(joint, POSITION_MIDDLE), // shaft angle 0 is that position
     });
   }
 

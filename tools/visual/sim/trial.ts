@@ -4,7 +4,7 @@
 
 import { jointAngle } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
-import { JOINTS } from '../model/motion.ts';
+import { JOINTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { TrialMoment, TrialRecord, TrialRequest } from '../model/trial.ts';
 import type { ShaftBody } from './board.ts';
 import { SHAFT_FIELDS } from './physical-body.ts';
@@ -16,7 +16,7 @@ const IMAGE_BYTES = 0x10000;
 const SETTLE_TICKS = 32;
 const AFTER_TICKS = 96;
 /** For what a motion does when it is told to stop. */
-const STOP_TICKS = 12 * 128;
+const STOP_TICKS = 12 * TICKS_PER_SECOND;
 const STOP = 255;
 /** Cosine of 60 degrees, as the trials of tools/body have it. */
 const FALLEN = 0.5;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Goals against positions of one servo, over the last seconds of the robot's time, tick by tick.
 
+import { TICKS_PER_SECOND } from '../model/motion.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import { define, make } from './element.ts';
 
-const TICKS = 128 * 6;
+const TICKS = TICKS_PER_SECOND * 6;
 const MARGIN_UNITS = 12;
 const LEAST_SPAN = 80;
 const DRAWN_EVERY_MS = 60;

@@ -4,8 +4,7 @@
 // Alt left and right change the time.
 
 import type { TickSpan } from '../../model/curve-speed.ts';
-import { POSITION_MAX } from '../../model/body.ts';
-import { AS_STORED, JOINTS, TICKS_PER_SECOND } from '../../model/motion.ts';
+import { AS_STORED, JOINTS, POSITION_MAX, TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import type { Gesture } from '../editor-desk.ts';

@@ -2,8 +2,7 @@
 // What there is to draw of a page's curves: what will be sent as it is shaped, what is stored, its way-points, where it is too fast.
 
 import { tooFast } from '../../model/curve-speed.ts';
-import { POSITION_MAX } from '../../model/body.ts';
-import { AS_STORED, JOINTS, TICKS_PER_SECOND } from '../../model/motion.ts';
+import { AS_STORED, JOINTS, POSITION_MAX, TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Curve, Shape } from '../../model/motion.ts';
 import { pageOf } from '../../model/document.ts';
 import type { Editor } from '../editor-desk.ts';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Curves: what the firmware's player makes of the page, under either law, and as it is shaped.
 
-import { jointTitle } from '../../model/body.ts';
+import { degreesOf, jointTitle } from '../../model/body.ts';
 import type { TickSpan } from '../../model/curve-speed.ts';
 import type { Law } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
@@ -69,7 +69,10 @@ export class CurvesPane extends HTMLElement {
   private lagText({ lags, isUnknown }: Drawn, hasJoint: boolean): string {
     if (isUnknown) return CURVE_TEXTS.noLags;
     if (!hasJoint) return CURVE_TEXTS.lagsNeedJoint;
-    return lags.size === 0 ? CURVE_TEXTS.lagsComing : CURVE_TEXTS.lags([...lags]);
+    return lags.size === 0 ? CURVE_TEXTS.lagsComing : CURVE_TEXTS.lags(this.desk.body.joints.flatMap((joint) => {
+      const units = lags.get(joint.servo);
+      return units === undefined ? [] : [[joint.servo, degreesOf(joint, units)] as const];
+    }));
   }
 
   private jointRow(): HTMLElement {

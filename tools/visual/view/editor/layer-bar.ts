@@ -4,6 +4,7 @@
 import { jointAngle, jointTitle, nearestPosition } from '../../model/body.ts';
 import type { Joint } from '../../model/body.ts';
 import { pageOf } from '../../model/document.ts';
+import { POSITION_MAX, POSITION_MIDDLE } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import { LAYER_TEXTS } from './step-texts.ts';
@@ -15,8 +16,8 @@ export class LayerBar extends HTMLElement {
   desk!: Desk; // set before it is connected
   private readonly page = make('select', { 'aria-label': 'Page to lay over the play' });
   private readonly joints = make('select', { 'aria-label': 'Joints of the layer' }, make('option', { value: 'own' }, 'on its own joints'), make('option', { value: 'chosen' }, 'on the chosen joints'));
-  private readonly position = make('input', { type: 'number', min: 0, max: 1023, value: 512, 'aria-label': 'Position' });
-  private readonly amplitude = make('input', { type: 'number', min: 1, max: 512, value: 60, 'aria-label': 'To and fro by' });
+  private readonly position = make('input', { type: 'number', min: 0, max: POSITION_MAX, value: POSITION_MIDDLE, 'aria-label': 'Position' });
+  private readonly amplitude = make('input', { type: 'number', min: 1, max: POSITION_MIDDLE, value: 60, 'aria-label': 'To and fro by' });
   private readonly seconds = make('input', { type: 'number', min: 0.125, max: 30, step: 0.125, value: 2, 'aria-label': 'Seconds to and fro' });
   private readonly byCode = make('div', { class: 'by-code' });
   private readonly jointName = make('span', { class: 'joint' });

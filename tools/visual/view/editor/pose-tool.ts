@@ -5,7 +5,7 @@
 import { centreOfMass, lowerFoot, marginInside, supportPolygon, trunkOn } from '../../model/balance.ts';
 import { angleIn, placeLinks } from '../../model/body.ts';
 import type { Angles, Body, Side } from '../../model/body.ts';
-import { JOINTS } from '../../model/motion.ts';
+import { JOINTS, POSITION_MIDDLE } from '../../model/motion.ts';
 import { dragged, grab, jointAxis } from '../../model/pose-drag.ts';
 import type { Grab, Stance } from '../../model/pose-drag.ts';
 import type { Place } from '../../model/space.ts';
@@ -25,7 +25,6 @@ import type { Balance, Posed } from './pose-layer.ts';
 const HERE: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
 /** Poses that differ less than this need no ghost (radians). */
 const SAME_RAD = 0.02;
-const MIDDLE = 512;
 const KEY_UNITS = { fine: 1, coarse: 10 };
 
 interface Drag {
@@ -236,7 +235,7 @@ export class PoseTool {
 
 /** Servo units by ID, as the robot stands. */
 function robotPose(robot: RobotState): number[] {
-  const pose = new Array<number>(JOINTS).fill(MIDDLE);
+  const pose = new Array<number>(JOINTS).fill(POSITION_MIDDLE);
   for (const { id, position } of robot.servos) pose[id] = Math.round(position);
   return pose;
 }

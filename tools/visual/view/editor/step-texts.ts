@@ -52,7 +52,7 @@ export const CURVE_TEXTS = {
   stored: 'Dotted: as stored.',
   lagsNeedJoint: 'Choose a joint to see its servo.',
   lagsComing: 'Asking physics …',
-  lags: (lags: readonly (readonly [number, number])[]) => `Thin: the servos; behind by up to ${lags.map(([joint, units]) => `${Math.round((units * 300) / 1024)}° (joint ${joint})`).join(', ')}.`,
+  lags: (lags: readonly (readonly [joint: number, degrees: number])[]) => `Thin: the servos; behind by up to ${lags.map(([joint, degrees]) => `${Math.round(degrees)}° (joint ${joint})`).join(', ')}.`,
   noLags: 'Physics cannot tell: the robot does not stand in the first pose, or physics is not there.',
   shapes: 'The robot takes it with its next step.',
   shapeNeedsPlay: 'Drawn only: Edit runs, and only Play shapes a motion. Play a motion below the picture by the remote to go back to Play.',

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every sentence of what physics says of motions.
 
+import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import { BRUSH_M } from '../../model/trial.ts';
 import type { Touch, Verdict, VerdictKind } from '../../model/trial.ts';
 import type { TrialsState } from '../trial-desk.ts';
@@ -36,7 +37,7 @@ export function countedText(kinds: readonly VerdictKind[], untried: number, chan
 
 /** The verdict on a page in one sentence. titleOf: of a page; behind: a page that was tried and led through this one. */
 export function verdictText({ kind, at, seconds }: Verdict, page: number, titleOf: (page: number) => string, behind: readonly [number, VerdictKind] | null): string {
-  const where = at ? `in step ${at.step + 1}${at.page === page ? '' : ` of ${titleOf(at.page)}`} after ${(at.tick / 128).toFixed(1)} s` : '';
+  const where = at ? `in step ${at.step + 1}${at.page === page ? '' : ` of ${titleOf(at.page)}`} after ${(at.tick / TICKS_PER_SECOND).toFixed(1)} s` : '';
   switch (kind) {
     case 'stands': return `Stands: played for ${seconds.toFixed(1)} s.`;
     case 'rises': return `Goes to the floor ${where}, and is on its feet in the end.`;
