@@ -16,7 +16,8 @@ export interface Model {
   /** The body that a geom belongs to. */
   readonly geom_bodyid: Int32Array;
   readonly body_mass: Float64Array;
-  readonly opt: { gravity: Float64Array };
+  /** timestep: seconds. */
+  readonly opt: { gravity: Float64Array; readonly timestep: number };
   delete(): void;
 }
 

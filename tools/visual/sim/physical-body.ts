@@ -13,7 +13,6 @@ import type { Floor, Grip } from './messages.ts';
 import { OBJECT } from './mujoco.ts';
 import type { Data, Model, Mujoco } from './mujoco.ts';
 
-export const STEPS_PER_SECOND = 1024;
 /** servo_shaft_t: ID, torque in N m, angle in radians, speed in radians a second. */
 export const SHAFT_FIELDS = 4;
 
@@ -44,6 +43,7 @@ export class PhysicalBody {
   private readonly soleGeoms: ReadonlySet<number>;
   /** By the number of the body that is the link. */
   private readonly linkNames: ReadonlyMap<number, string>;
+  private readonly stepsPerSecond: number;
   private readonly massKg: number;
   private grip: { link: number; point: Vector; target: Vector; before: Vector | null } | null = null;
   private holdHeading = 0;
@@ -66,6 +66,7 @@ export class PhysicalBody {
     this.floorGeom = this.id(OBJECT.geom, 'floor');
     this.soleGeoms = new Set(['right_sole', 'left_sole'].map((name) => this.id(OBJECT.geom, name)));
     this.linkNames = new Map(body.links.map(({ name }) => [this.id(OBJECT.body, name), name]));
+    this.stepsPerSecond = 1 / this.model.opt.timestep;
     this.massKg = this.model.body_mass.reduce((sum, mass) => sum + mass, 0);
     mujoco.mj_forward(this.model, this.data);
   }
@@ -226,7 +227,7 @@ export class PhysicalBody {
   private pullGrip(forces: Float64Array, grip: NonNullable<PhysicalBody['grip']>): void {
     const place = this.linkPlace(grip.link);
     const point = add(place.pos, rotate(place.quat, grip.point));
-    const speed = grip.before ? scale(subtract(point, grip.before), STEPS_PER_SECOND) : ([0, 0, 0] as const);
+    const speed = grip.before ? scale(subtract(point, grip.before), this.stepsPerSecond) : ([0, 0, 0] as const);
     grip.before = point;
     const pull = subtract(scale(subtract(grip.target, point), GRIP.newtonPerMetre), scale(speed, GRIP.newtonSecondPerMetre));
     const force = scale(pull, Math.min(1, GRIP.limitNewton / Math.max(length(pull), 1e-9)));
