@@ -107,7 +107,7 @@ def test_first_wave_of_help_can_be_typed_as_it_stands():
         first = rows.index("A first wave:")
         assert first <= 1 and rows[first + 8].startswith("Keys: ") and rows[first + 9] == "Commands:"
         lines = [row.split("  ")[0] for row in rows[first + 1:first + 8]]
-        assert lines == ["page 20", "off", "on", "write", "name hi", "play", "save"]
+        assert lines == ["page 99", "off", "on", "write", "name hi", "play", "save"]
         r.keys("q")
         for line in lines[:4]:
             r.line(line)
@@ -115,7 +115,7 @@ def test_first_wave_of_help_can_be_typed_as_it_stands():
         for line in lines[1:5]:
             r.line(line)
         r.line("play", ms=5000)
-        assert r.line("save").endswith(" OK") and r.flash_page(20)[:3] == b"hi\0" and r.flash_page(20)[20] == 2
+        assert r.line("save").endswith(" OK") and r.flash_page(99)[:3] == b"hi\0" and r.flash_page(99)[20] == 2
 
 
 def test_letter_that_is_not_ascii_is_seen_to_be_none(r):
