@@ -11,8 +11,9 @@
 
 #pragma GCC visibility push(default)
 
-/* Where things stand in a page, and its limits: page.h as numbers, and the ticks of a second (player.h), in the order of layout[] in motion_api.c, which is the
- * order of PAGE_LAYOUT in ../model/page-format.ts. motion_api_layout_count(): how many. */
+/* Where things stand in a page, and its limits: page.h as numbers, and the ticks of a second (player.h), in the order of
+ * layout[] in motion_api.c, which is the order of PAGE_LAYOUT in ../model/page-format.ts. motion_api_layout_count(): how
+ * many. */
 const uint16_t *motion_api_layout(void);
 int motion_api_layout_count(void);
 
