@@ -222,8 +222,11 @@ bool layers_have_room(layers_t *layers, uint8_t id)
 static layers_status_t take_for_code(layers_t *layers, uint8_t id, layers_code_t **slot)
 {
     player_t *main_play = layers->main;
+    if (id >= PAGE_JOINTS) {
+        return LAYERS_ERR_JOINTS;
+    }
     const uint32_t bit = bit_of(id);
-    if (id >= PAGE_JOINTS || (main_play != NULL && player_is_moving(main_play) && (main_play->present & bit) == 0)) {
+    if (main_play != NULL && player_is_moving(main_play) && (main_play->present & bit) == 0) {
         return LAYERS_ERR_JOINTS;
     }
     *slot = free_slot(layers, id);

@@ -8,7 +8,7 @@
  *   IDLE --------> PLAYING ---------------------------> IDLE
  *                  |   ^  ^ rest of the step played
  *            pause |   |  +--------------- RESTING
- *            break |   +-- still standing     ^ resume
+ *            break |   +-- still standing     ^ resume, or at once when it came while BRAKING
  *                  v                          |
  *                BRAKING ------------> STANDING      (a break ends: IDLE)
  */
@@ -134,6 +134,10 @@ static uint8_t tick_braking(player_t *player)
         return (uint8_t)(PLAYER_EV_OUTPUT | PLAYER_EV_STANDING | law_end_play(player));
     }
     player->state = STATE_STANDING;
+    if (player->resuming) {
+        player_resume(player);
+        return PLAYER_EV_OUTPUT;
+    }
     return PLAYER_EV_OUTPUT | PLAYER_EV_STANDING;
 }
 
@@ -187,6 +191,7 @@ void player_break(player_t *player)
 
 void player_pause(player_t *player)
 {
+    player->resuming = false;
     if (player->state == STATE_PLAYING || player->state == STATE_RESTING) {
         slow_down(player);
     }
@@ -194,6 +199,7 @@ void player_pause(player_t *player)
 
 void player_resume(player_t *player)
 {
+    player->resuming = player->state == STATE_BRAKING;
     if (player->state != STATE_STANDING || player->breaking) {
         return;
     }
@@ -214,5 +220,5 @@ bool player_is_moving(const player_t *player)
 
 bool player_is_paused(const player_t *player)
 {
-    return (player->state == STATE_BRAKING || player->state == STATE_STANDING) && !player->breaking;
+    return (player->state == STATE_BRAKING || player->state == STATE_STANDING) && !player->breaking && !player->resuming;
 }

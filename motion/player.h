@@ -111,6 +111,7 @@ typedef struct player {
     uint8_t self : 2;               /* PLAYER_OWNER_MAIN or _LAYER */
     uint8_t state;
     bool breaking;
+    bool resuming;                  /* while BRAKING: goes on as soon as it stands */
     bool looked;                    /* the step behind the coming one has been looked at (law.h) */
     bool arrived;                   /* the joints are at the end of a step; `now` is planned and begins with the next tick */
     uint8_t announced_events;       /* PLAYER_EV_ bits of that beginning */
@@ -166,12 +167,12 @@ uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* by itself, so t
 void player_break(player_t *player);
 
 /* pause slows all joints to a stand. resume goes on to the target of the interrupted step in the time that was left, but
- * never faster than a ramp of the length that slowing down took. */
+ * never faster than a ramp of the length that slowing down took; while it still slows down, as soon as it stands. */
 void player_pause(player_t *player);
 void player_resume(player_t *player);
 
 bool player_is_moving(const player_t *player);   /* a play is on, paused or breaking included */
-bool player_is_paused(const player_t *player);   /* after player_pause: slowing down or standing */
+bool player_is_paused(const player_t *player);   /* after player_pause, until player_resume */
 
 /* Takes joints out of a running play (torque lost, servo silent): they keep their last goal and are not in `joints`. */
 void player_drop_joints(player_t *player, uint32_t joints);

@@ -167,6 +167,17 @@ def test_resume_goes_on_to_the_target():
     assert (board.servos[1].goal, board.servos[2].goal) == (812, 212)
 
 
+@pytest.mark.parametrize("word, said", [("resume", "Ended after"), ("stop", "Stopped after")])
+def test_a_word_right_behind_pause_is_not_lost(word, said):
+    """It comes while the robot still slows down."""
+    board = robot()
+    ask(board, "play 14")
+    board.expect("Playing", ms=8000)
+    board.send(f"pause\r{word}\r")
+    assert "Paused" not in board.expect(said, ms=12_000)
+    assert (board.servos[1].goal, board.servos[2].goal) == (812, 212)
+
+
 def test_second_stop_on_the_remote_breaks():
     board = walking()
     for value in (STOP, 0, STOP):

@@ -328,6 +328,33 @@ static void test_layers_break_and_pause_hold_for_both(void)
     TEST_ASSERT_FALSE(player_is_moving(&player) || layers_are_moving(&layers));
 }
 
+/* The layer takes 60 ticks to stand, the walk 8: a resume between the two is for both. */
+static void test_layers_that_stand_later_than_the_walk_resume_too(void)
+{
+    sparse_pages[WAVE].accel = 60;
+    play_alone(PLAYER_LAW_EXACT);
+    start(PLAYER_LAW_EXACT);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
+    for (uint16_t t = 0; t < 100; t++) {
+        (void)tick();
+    }
+    player_pause(&player);
+    layers_pause(&layers);
+    while ((tick() & PLAYER_EV_STANDING) == 0) {
+    }
+    TEST_ASSERT_TRUE(player_is_paused(&layers.play));
+    layers_resume(&layers);
+    player_resume(&player);
+    for (uint16_t t = 0; t < 100; t++) {
+        (void)tick();
+    }
+    const uint16_t was_pos = goal_pos[2];
+    for (uint16_t t = 0; t < 20; t++) {
+        (void)tick();
+    }
+    TEST_ASSERT_TRUE(goal_pos[2] != was_pos && !player_is_paused(&layers.play));
+}
+
 static void test_layers_dropped_joint_stands(void)
 {
     play_alone(PLAYER_LAW_EXACT);
@@ -372,6 +399,7 @@ int main(void)
     RUN_TEST(test_layers_swing_is_a_sine);
     RUN_TEST(test_layers_swing_over_a_walk_and_free);
     RUN_TEST(test_layers_break_and_pause_hold_for_both);
+    RUN_TEST(test_layers_that_stand_later_than_the_walk_resume_too);
     RUN_TEST(test_layers_dropped_joint_stands);
     RUN_TEST(test_layers_dropped_without_a_main_play);
     return UNITY_END();

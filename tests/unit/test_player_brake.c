@@ -154,6 +154,59 @@ static void test_player_classic_goes_on_after_a_pause_to_its_end(void)
     }
 }
 
+/* The play goes on as soon as it stands, in the same ticks as with a resume right behind that; nobody is told that it stands. */
+static void resume_while_slowing_down(player_law_t law)
+{
+    const uint16_t made = (uint16_t)(pause_and_go_on(law, 25));
+    for (uint8_t after = 0; after < ACCEL; after++) {
+        uint16_t ticks = 25;
+        uint8_t events = 0;
+        play_to(law, 25);
+        player_pause(&player);
+        for (uint8_t i = 0; i < after; i++, ticks++) {
+            (void)player_tick(&player, &l);
+        }
+        player_resume(&player);
+        TEST_ASSERT_FALSE(player_is_paused(&player));
+        while ((events & PLAYER_EV_ENDED) == 0 && ticks < 1000) {
+            events = player_tick(&player, &l);
+            TEST_ASSERT_EQUAL_HEX8(0, events & PLAYER_EV_STANDING);
+            ticks++;
+        }
+        TEST_ASSERT_EQUAL_UINT16(made, ticks);
+        TEST_ASSERT_UINT16_WITHIN(law == PLAYER_LAW_EXACT ? 0 : 4, 512, player.goal_pos[0]);
+    }
+}
+
+static void test_player_resume_while_slowing_down_is_not_lost(void)
+{
+    resume_while_slowing_down(PLAYER_LAW_EXACT);
+    resume_while_slowing_down(PLAYER_LAW_CLASSIC);
+}
+
+/* Pause, resume, pause, all before it stands: the last one counts. So does a break. */
+static void test_player_pause_takes_back_a_resume(void)
+{
+    uint8_t events = 0;
+    play_to(PLAYER_LAW_EXACT, 30);
+    player_pause(&player);
+    player_resume(&player);
+    player_pause(&player);
+    TEST_ASSERT_TRUE(player_is_paused(&player));
+    for (uint8_t i = 0; i < ACCEL; i++) {
+        events |= player_tick(&player, &l);
+    }
+    TEST_ASSERT_TRUE((events & PLAYER_EV_STANDING) != 0 && player_is_paused(&player));
+    play_to(PLAYER_LAW_EXACT, 30);
+    player_pause(&player);
+    player_resume(&player);
+    player_break(&player);
+    for (uint8_t i = 0; i < ACCEL; i++) {
+        events = player_tick(&player, &l);
+    }
+    TEST_ASSERT_TRUE((events & PLAYER_EV_ENDED) != 0 && !player_is_moving(&player));
+}
+
 static void test_player_break_while_paused_ends_the_play_where_it_stands(void)
 {
     uint8_t events = 0;
@@ -239,6 +292,8 @@ int main(void)
     RUN_TEST(test_player_exact_goes_on_after_a_pause_in_the_time_left);
     RUN_TEST(test_player_classic_goes_on_after_a_pause_to_its_end);
     RUN_TEST(test_player_exact_goes_on_from_any_tick_of_short_steps);
+    RUN_TEST(test_player_resume_while_slowing_down_is_not_lost);
+    RUN_TEST(test_player_pause_takes_back_a_resume);
     RUN_TEST(test_player_break_while_paused_ends_the_play_where_it_stands);
     RUN_TEST(test_player_break_stops_on_half_the_way_that_its_speed_would_take);
     RUN_TEST(test_player_break_near_the_end_of_the_range_stays_in_range);
