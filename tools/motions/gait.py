@@ -66,6 +66,7 @@ READY_ARM = {1: 12.0, 3: 12.0, 5: -20.0}  # shoulder swing, lift, elbow
 KICK_SWAY = 39.0                          # on one leg for long: the body right above the foot
 KICK_LAND = 20.0                          # the foot comes down further inward, where the body is on its way to
 KICK_SPREAD = 6.0                         # what the hip of that leg gives way under the load
+KICK_ARMS_OUT = 15.0                      # degrees: hands pass beside hips and knees
 
 
 def numbers():
@@ -73,17 +74,18 @@ def numbers():
     return {name: Gait(**values) for name, values in json.loads((HERE / "gait.json").read_text()).items()}
 
 
-def arm(side, swing=0.0):
-    angles = READY_ARM | {1: READY_ARM[1] + swing}
+def arm(side, swing=0.0, out=0.0):
+    angles = READY_ARM | {1: READY_ARM[1] + swing, 3: READY_ARM[3] + out}
     return {joint + (side < 0): CENTRE + side * units(angle) for joint, angle in angles.items()}
 
 
-def stand(gait, sway=0.0, right=None, left=None, arms=(0.0, 0.0)):
-    """Positions of all joints: feet side by side, the body `sway` mm to the left; right, left: what differs of a foot."""
+def stand(gait, sway=0.0, right=None, left=None, arms=(0.0, 0.0), arms_out=0.0):
+    """Positions of all joints: feet side by side, the body `sway` mm to the left; right, left: what differs of a foot. arms: degrees
+    that they swing forward; arms_out: that they are lifted to the side."""
     row = {}
     for side, change, swing in ((1, right, arms[0]), (-1, left, arms[1])):
         foot = Foot(gait.ahead, -side * gait.apart / 2 - sway, height=gait.height)
-        row |= reach(replace(foot, **(change or {})), side, gait.lean) | arm(side, swing)
+        row |= reach(replace(foot, **(change or {})), side, gait.lean) | arm(side, swing, arms_out)
     return row
 
 
@@ -151,10 +153,10 @@ def kick(ready_gait):
     the right: the hip gave way, the right foot met the floor too early and pushed the body over the other one."""
     def leg(x, lift):
         return stand(ready_gait, KICK_SWAY, right={"x": ready_gait.ahead + x, "height": ready_gait.height - lift},
-                     left={"spread": KICK_SPREAD}, arms=(-0.5 * x, 0.5 * x))
+                     left={"spread": KICK_SPREAD}, arms=(-0.5 * x, 0.5 * x), arms_out=KICK_ARMS_OUT)
     ready = stand(ready_gait)
-    return [(32, ready), (72, stand(ready_gait, KICK_SWAY)), (40, leg(-30, 18)), (28, leg(40, 18)), (32, leg(0, 14)),
-            (32, stand(ready_gait, KICK_LAND)), (64, ready)]
+    return [(32, ready), (72, stand(ready_gait, KICK_SWAY, arms_out=KICK_ARMS_OUT)), (40, leg(-30, 18)), (28, leg(40, 18)),
+            (32, leg(0, 14)), (32, stand(ready_gait, KICK_LAND, arms_out=KICK_ARMS_OUT)), (64, ready)]
 
 
 @dataclass(frozen=True)
