@@ -9,6 +9,7 @@ from body.physics import Physics
 from body.quick import Quick
 from body.trial import first_pose
 from m512.files.formats import load as load_motions
+from m512.motion.player import play
 
 MOTIONS = pathlib.Path(__file__).resolve().parents[2] / "motions"
 sys.path.insert(0, str(MOTIONS))
@@ -16,6 +17,7 @@ import promises  # noqa: E402  (the path comes first)
 
 LIBRARY = load_motions(MOTIONS / "motions.m512")
 IMAGE = LIBRARY.to_bytes()
+THROUGH_MM = 10                  # goals so deep in another link only press a hand against a hip
 AIRBORNE_TICKS = 72              # a kick holds its foot up for longer than this
 
 
@@ -48,3 +50,25 @@ def test_a_kick_is_a_kick(page, side):
         if not any({"floor", f"{side}_sole"} <= set(pair) for pair in physics.touching()):
             ways.append(1000 * physics.data.body(f"{side}_foot").xpos[0])
     assert 4 * len(ways) > AIRBORNE_TICKS and ways[-1] > min(ways) and max(ways) - min(ways) > 40, ways
+
+
+def deepest_mm(number):
+    """How deep the goals of a play drive the robot's links into each other: mm, and which geoms."""
+    physics, deepest = Physics(promises.ROBOT), (0.0, ())
+    floor = physics.model.geom("floor").id
+    begin = first_pose(IMAGE, number, promises.ROBOT)
+    physics.data.qpos[2] = 5                                         # far above the floor
+    for tick in play(LIBRARY, number, "exact", [begin.get(joint, 512) for joint in range(31)], 512):
+        if tick.goals and tick.number % 2 == 0:
+            physics.pose({servo: tick.goals[servo] for servo in promises.ROBOT.servos})
+            for contact in physics.data.contact[:physics.data.ncon]:
+                geoms = contact.geom1, contact.geom2
+                if floor not in geoms and -1000 * contact.dist > deepest[0]:
+                    deepest = -1000 * contact.dist, tuple(physics.model.geom(geom).name for geom in geoms)
+    return deepest
+
+
+@pytest.mark.parametrize("page", sorted({promise.page for promise in promises.STANDS}))
+def test_goals_do_not_drive_links_through_each_other(page):
+    depth, geoms = deepest_mm(promises.number_of(LIBRARY, page))
+    assert depth <= (0 if page.startswith("kick") else THROUGH_MM), geoms
