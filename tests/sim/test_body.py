@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The shipped image on the simulated board, its servos in a physical body: in lock step, and what comes of it."""
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 
 import pytest
@@ -96,9 +98,53 @@ def test_command_tells_falls_way_and_heading(tmp_path):
     assert "s: fell" in run.stderr and re.search(r"1 falls; \d+ mm forward, .*; lies", run.stderr), run.stderr
 
 
-def test_command_says_what_is_wrong_with_a_body():
+def test_command_says_what_is_wrong_with_a_body(monkeypatch):
+    for display in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(display, raising=False)
     for words, code, says in ((["play-cm5.hex", "--body", "robocop"], 4, "known here: gp, humanoid"),
                               (["play-cm5.hex", "--view"], 2, "--view shows the --body"),
+                              (["play-cm5.hex", "--body", "gp", "--view"], 4, "--view needs a display, and none answers here"),
                               (["--body", "humanoid", "--bus-pty"], 2, "--body needs a board")):
         run = cm5sim("--time", "10ms", "--fast", *words)
         assert run.returncode == code and says in run.stderr, run.stderr
+        assert "Traceback" not in run.stderr and "GLFW" not in run.stderr
+
+
+@pytest.mark.parametrize("words", [["--body", "humanoid"], ["--body=humanoid"], ["--bod", "humanoid"]])
+def test_command_takes_the_body_as_any_option_is_written(words):
+    """And says of a robot that nobody let stand what to do."""
+    run = cm5sim("play-cm5.hex", "--time", "10ms", "--fast", *words)
+    assert run.returncode == 0 and "the hand held it to the end" in run.stderr and "Play `ready`" in run.stderr, run.stderr
+
+
+@pytest.fixture(name="demo")
+def _demo(tmp_path):
+    """demo(words, display) -> what tools/demo says, and the words that it starts cm5sim with. Setup and build are left out."""
+    for path, text in (("tools/dev/setup", ""), ("tools/dev/build", ""), ("build/host/tools/sim/cm5sim", 'echo "cm5sim $@"')):
+        stub = tmp_path / path
+        stub.parent.mkdir(parents=True, exist_ok=True)
+        stub.write_text(f"#!/bin/sh\n{text}\n")
+        stub.chmod(0o755)
+    shutil.copy(TOP / "tools" / "demo", tmp_path / "tools" / "demo")
+
+    def run(words, display=None):
+        environment = {"PATH": os.environ["PATH"]} | ({"DISPLAY": display} if display else {})
+        done = subprocess.run([tmp_path / "tools" / "demo", *words], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              check=True)
+        said = done.stdout.splitlines()
+        return "\n".join(said[:-1]), said[-1].split()
+    return run
+
+
+@pytest.mark.parametrize("words, body", [(["play", "--body"], "humanoid"), (["--body"], "humanoid"), (["play", "--body", "gp"], "gp")])
+def test_demo_shows_the_body_where_there_is_a_display_and_says_where_there_is_none(demo, words, body):
+    said, started = demo(words)
+    assert started[started.index("--body") + 1] == body and "--view" not in started
+    assert "no display here: the robot's body is not shown" in said
+    said, started = demo(words, display=":0")
+    assert started[started.index("--body") + 1] == body and "--view" in started and "no display" not in said
+
+
+def test_demo_without_a_body_asks_for_none(demo):
+    said, started = demo(["play"], display=":0")
+    assert "--body" not in started and "--view" not in started and "display" not in said

@@ -203,17 +203,20 @@ static void run(session_t *session, script_t *script)
     }
 }
 
-/* --body: a script of Python loads MuJoCo and calls cm5sim_run() of the same program as a library. */
-static int run_in_body(int argc, char **argv)
+/* --body: a script of Python loads MuJoCo and calls cm5sim_run() of the same program as a library. It is given the body and whether
+ * it is shown, and behind them the command line as it was typed: options may be shortened, and only argp knows how. */
+static int run_in_body(const options_t *options, int argc, char **argv)
 {
     const char *python = getenv("M512_PYTHON"), *body = getenv("M512_BODY_SCRIPT"); /* set by the wheel's command */
     python = python ? python : CM5SIM_PYTHON;
     body = body ? body : CM5SIM_BODY_SCRIPT;
-    char **more = calloc((size_t)argc + 2, sizeof *more);
+    char **more = calloc((size_t)argc + 4, sizeof *more);
     if (more) {
         more[0] = (char *)python;
         more[1] = (char *)body;
-        memcpy(more + 2, argv + 1, (size_t)argc * sizeof *more); /* with the NULL behind the last */
+        more[2] = (char *)options->body;
+        more[3] = (char *)(options->view ? "view" : "tell");
+        memcpy(more + 4, argv + 1, (size_t)argc * sizeof *more); /* with the NULL behind the last */
         execvp(python, more);
     }
     fprintf(stderr, "cm5sim: --body needs %s with MuJoCo: tools/dev/setup demo test physics\n", python);
@@ -228,7 +231,7 @@ int cm5sim_run(int argc, char **argv, const servo_body_t *body)
     script_t script;
     options_parse(&options, argc, argv);
     if (options.body && body == NULL) {
-        return run_in_body(argc, argv);
+        return run_in_body(&options, argc, argv);
     }
     options.hung_on = body;
     catch_signals();
