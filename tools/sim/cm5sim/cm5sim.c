@@ -203,8 +203,8 @@ static void run(session_t *session, script_t *script)
     }
 }
 
-/* --body: a script of Python loads MuJoCo and calls cm5sim_run() of the same program as a library. It is given the body and whether
- * it is shown, and behind them the command line as it was typed: options may be shortened, and only argp knows how. */
+/* --body: a script of Python loads MuJoCo and calls cm5sim_run() of the same program as a library. It is given the body
+ * and whether it is shown, and behind them the command line as it was typed: options may be shortened, as argp allows. */
 static int run_in_body(const options_t *options, int argc, char **argv)
 {
     const char *python = getenv("M512_PYTHON"), *body = getenv("M512_BODY_SCRIPT"); /* set by the wheel's command */
