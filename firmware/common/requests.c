@@ -70,25 +70,6 @@ static const shell_command_t table[] PROGMEM = {
     {word_reset, do_reset, SHELL_ARGS(0, 0) | SHELL_STILL, 0},
 };
 
-/* Prints an error that always has the same sentence. */
-static void print_sentence(uint8_t status)
-{
-    TEXT_NAMED(no_word, "Unknown word");
-    TEXT_NAMED(count, "Too few or too many words");
-    TEXT_NAMED(busy, "Busy: stop what is playing first");
-    TEXT_NAMED(crc, "The CRC does not fit the page in RAM");
-    TEXT_NAMED(image, "Not in this image");
-    TEXT_NAMED(save, "The page could not be saved");
-    TEXT_NAMED(unsaved, "The open page has edits that are not saved");
-    static const char *const sentences[] PROGMEM = {
-        [REQUEST_ERR_WORD] = no_word, [REQUEST_ERR_COUNT] = count, [REQUEST_ERR_BUSY] = busy,
-        [REQUEST_ERR_CRC] = crc, [REQUEST_ERR_IMAGE] = image,
-        [REQUEST_ERR_SAVE] = save, [REQUEST_ERR_UNSAVED] = unsaved,
-    };
-    (void)requests_error(status);
-    text_P((const char *)pgm_read_ptr(&sentences[status]));
-}
-
 /* NOINLINE: it would be copied to four places. */
 static NOINLINE uint8_t look_up(const shell_command_t *table_P, uint8_t count, shell_args_t *args)
 {
@@ -102,24 +83,21 @@ static void finish(uint8_t result)
     case REQUEST_OK:
         TEXT(" OK");
         break;
-    case REQUEST_REPORTED:
+    case SHELL_ERR_UNKNOWN:
+        (void)requests_refuse(REQUEST_ERR_WORD, TEXT_P("Unknown word"));
+        break;
+    case SHELL_ERR_COUNT:
+        (void)requests_refuse(REQUEST_ERR_COUNT, TEXT_P("Too few or too many words"));
         break;
     case SHELL_ERR_RANGE:
         (void)requests_error(REQUEST_ERR_RANGE);
         shell_print_range_error();
         break;
-    case SHELL_ERR_UNKNOWN:
-        print_sentence(REQUEST_ERR_WORD);
-        break;
-    case SHELL_ERR_COUNT:
-        print_sentence(REQUEST_ERR_COUNT);
-        break;
     case SHELL_ERR_MOVING:
-        print_sentence(REQUEST_ERR_BUSY);
+        (void)requests_refusal(PERFORMER_ERR_BUSY);
         break;
     default:
-        print_sentence(result);
-        break;
+        break;   /* SHELL_ERR_REPORTED */
     }
 }
 

@@ -50,8 +50,8 @@ typedef struct {
     performer_t *performer;
     servo_link_t *servos;
     page_store_t *pages;
-    /* The image's own words, without '@'. Their handlers get `context` and return a request_status_t, REQUEST_REPORTED
-     * after requests_error, or SHELL_ERR_RANGE. */
+    /* The image's own words, without '@'. Their handlers get `context` and return SHELL_OK, SHELL_ERR_RANGE or _MOVING, or
+     * SHELL_ERR_REPORTED after requests_error. */
     void *context;
     const shell_command_t *own_P;
     uint8_t own_count;
@@ -86,7 +86,7 @@ bool requests_from_program(void);
  * status for the handler to return: a word names no joint, or a joint that is not present. */
 MUST_CHECK uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints);
 
-/* Prints which servos did not answer and returns REQUEST_REPORTED. REQUEST_OK if `joints` is empty. */
+/* Prints which servos did not answer and returns SHELL_ERR_REPORTED. REQUEST_OK if `joints` is empty. */
 uint8_t requests_no_answer(uint32_t joints);
 
 /* Turns a performer's refusal into an error with its sentence; REQUEST_OK for PERFORMER_OK. */
@@ -105,9 +105,10 @@ uint8_t request_off(void *context, const shell_args_t *args);
  * switched. */
 uint32_t requests_switch_torque(uint32_t joints, bool on);
 
-enum { REQUEST_REPORTED = 100 };   /* failed, and the error has been printed */
-
-/* Begins an error: prints " ERR n " for a program. The caller prints the sentence. Returns REQUEST_REPORTED. */
+/* Begins an error: prints " ERR n " for a program. The caller prints the sentence. Returns SHELL_ERR_REPORTED. */
 uint8_t requests_error(uint8_t status);
+
+/* The same with its sentence, a flash text (text.h). */
+uint8_t requests_refuse(uint8_t status, const char *sentence_P);
 
 #endif

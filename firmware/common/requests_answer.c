@@ -25,7 +25,14 @@ uint8_t requests_error(uint8_t status)
         text_number(status);
         text_put(' ');
     }
-    return REQUEST_REPORTED;
+    return SHELL_ERR_REPORTED;
+}
+
+uint8_t requests_refuse(uint8_t status, const char *sentence_P)
+{
+    const uint8_t reported = requests_error(status);
+    text_P(sentence_P);
+    return reported;
 }
 
 uint8_t requests_no_answer(uint32_t joints)
@@ -36,7 +43,7 @@ uint8_t requests_no_answer(uint32_t joints)
     (void)requests_error(REQUEST_ERR_SERVOS);
     TEXT("No answer from servos ");
     report_joints(joints);
-    return REQUEST_REPORTED;
+    return SHELL_ERR_REPORTED;
 }
 
 uint8_t requests_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joints)
@@ -67,5 +74,5 @@ uint8_t requests_refusal(performer_status_t status)
     }
     (void)requests_error(pgm_read_byte(&numbers[status]));
     report_refusal(status, performer->fault_page, performer->fault);
-    return REQUEST_REPORTED;
+    return SHELL_ERR_REPORTED;
 }

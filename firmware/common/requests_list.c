@@ -54,7 +54,7 @@ uint8_t request_list(void *context, const shell_args_t *args)
     uint8_t last;
     (void)context;
     if (!take_pages(args, &last)) {
-        return REQUEST_REPORTED;
+        return SHELL_ERR_REPORTED;
     }
     for (uint8_t page = (uint8_t)args->number[0]; page <= last; page++) {
         print_list_entry(page);
@@ -136,7 +136,7 @@ uint8_t request_crcs(void *context, const shell_args_t *args)
     uint8_t last;
     (void)context;
     if (!take_pages(args, &last)) {
-        return REQUEST_REPORTED;
+        return SHELL_ERR_REPORTED;
     }
     text_put(' ');
     for (uint8_t page = (uint8_t)args->number[0]; page <= last; page++) {

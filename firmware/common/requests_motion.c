@@ -29,9 +29,7 @@ uint8_t request_move(void *context, const shell_args_t *args)
     (void)context;
     const uint32_t joints = parse_pose((uint8_t)args->number[1], shell_word(args, 3), to_pos);
     if (joints == 0) {
-        const uint8_t reported = requests_error(REQUEST_ERR_RANGE);
-        TEXT("Positions must be 000..3FF or ---, up to ID 30");
-        return reported;
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Positions must be 000..3FF or ---, up to ID 30"));
     }
     return requests_refusal(performer_move(requests_image.performer, to_pos, joints, args->number[0]));
 }
@@ -62,7 +60,7 @@ static uint8_t switch_named(const shell_args_t *args, uint8_t first, bool on)
         return status;
     }
     if (on && !performer_is_idle(requests_image.performer)) {   /* off may always be sent, so the table cannot refuse both */
-        return REQUEST_ERR_BUSY;
+        return SHELL_ERR_MOVING;
     }
     return requests_no_answer(joints & ~requests_switch_torque(joints, on));
 }
@@ -72,9 +70,7 @@ uint8_t request_torque(void *context, const shell_args_t *args)
     const bool on = shell_word_is(args, 1, PSTR("on"));
     (void)context;
     if (!on && !shell_word_is(args, 1, PSTR("off"))) {
-        const uint8_t reported = requests_error(REQUEST_ERR_RANGE);
-        TEXT("Say on or off");
-        return reported;
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Say on or off"));
     }
     return switch_named(args, 2, on);
 }

@@ -17,7 +17,7 @@
 REQUEST(do_open)
 {
     if (the_session.is_changed) {
-        return REQUEST_ERR_UNSAVED;
+        return requests_refuse(REQUEST_ERR_UNSAVED, TEXT_P("The open page has edits that are not saved"));
     }
     robot_open_page((uint8_t)args->number[0]);
     return REQUEST_OK;
@@ -43,9 +43,8 @@ REQUEST(do_data)
     const uint16_t offset = args->number[0];
     const uint8_t count = parse_bytes(shell_word(args, 2), bytes);
     if (count == 0 || offset + count > PAGE_BYTES) {
-        const uint8_t reported = requests_error(REQUEST_ERR_RANGE);
-        TEXT("Data must be 1..32 pairs of hexadecimal digits, within the page");
-        return reported;
+        return requests_refuse(REQUEST_ERR_RANGE,
+                               TEXT_P("Data must be 1..32 pairs of hexadecimal digits, within the page"));
     }
     memcpy(&the_session.cells[offset], bytes, count);
     session_replaced();
@@ -70,10 +69,13 @@ REQUEST(do_save)
 {
     uint16_t crc;
     if (!shell_parse(shell_word(args, 2), true, &crc) || crc != ram_crc()) {
-        return REQUEST_ERR_CRC;
+        return requests_refuse(REQUEST_ERR_CRC, TEXT_P("The CRC does not fit the page in RAM"));
     }
-    page_save_status_t status = cmd_page_save((uint8_t)args->number[0]);
-    return status == PAGE_SAVE_OK || status == PAGE_SAVE_UNCHANGED ? REQUEST_OK : REQUEST_ERR_SAVE;
+    const page_save_status_t status = cmd_page_save((uint8_t)args->number[0]);
+    if (status != PAGE_SAVE_OK && status != PAGE_SAVE_UNCHANGED) {
+        return requests_refuse(REQUEST_ERR_SAVE, TEXT_P("The page could not be saved"));
+    }
+    return REQUEST_OK;
 }
 
 TEXT_NAMED(word_open, "open  ");

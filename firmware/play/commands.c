@@ -42,10 +42,10 @@ static uint8_t do_servos(void *context, const shell_args_t *args)
         return REQUEST_OK;
     }
     if (!shell_word_is(args, 1, PSTR("find"))) {
-        return commands_refuse(REQUEST_ERR_RANGE, TEXT_P("Say servos, or servos find"));
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Say servos, or servos find"));
     }
     if (!performer_is_still(&play->performer)) {
-        return REQUEST_ERR_BUSY;
+        return SHELL_ERR_MOVING;
     }
     play_find_servos(play);
     views_print_servos_found(play);
@@ -121,7 +121,7 @@ static uint8_t do_help(void *context, const shell_args_t *args)
         const shell_command_t *command = shell_find(commands_shared_P, COMMANDS_SHARED, args, 1);
         command = command != NULL ? command : shell_find(typed, ARRAY_COUNT(typed), args, 1);
         if (command == NULL) {
-            return REQUEST_ERR_WORD;
+            return requests_refuse(REQUEST_ERR_WORD, TEXT_P("Unknown word"));
         }
         shell_print_help(command);
         return REQUEST_OK;

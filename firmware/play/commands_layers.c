@@ -16,17 +16,17 @@ static uint8_t answer_of(const play_t *play, layers_status_t status)
     case LAYERS_ERR_EMPTY:
         (void)requests_error(status == LAYERS_ERR_PAGE ? REQUEST_ERR_PAGE : REQUEST_ERR_EMPTY);
         report_bad_page(performer->fault_page, performer->fault);
-        return REQUEST_REPORTED;
+        return SHELL_ERR_REPORTED;
     case LAYERS_ERR_JOINTS:
-        return commands_refuse(REQUEST_ERR_SERVOS, TEXT_P("None of these servos can be moved"));
+        return requests_refuse(REQUEST_ERR_SERVOS, TEXT_P("None of these servos can be moved"));
     case LAYERS_ERR_FULL:
-        return commands_refuse(REQUEST_ERR_FULL, TEXT_P("Four joints are moved already: free one"));
+        return requests_refuse(REQUEST_ERR_FULL, TEXT_P("Four joints are moved already: free one"));
     case LAYERS_ERR_BUSY:
-        return REQUEST_ERR_BUSY;
+        return SHELL_ERR_MOVING;
     case LAYERS_ERR_RANGE:
-        return commands_refuse(REQUEST_ERR_RANGE, TEXT_P("Too far or too fast"));
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Too far or too fast"));
     default:
-        return commands_refuse(REQUEST_ERR_IDLE, TEXT_P("Nothing is playing"));
+        return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("Nothing is playing"));
     }
 }
 

@@ -37,12 +37,4 @@ uint8_t commands_do_aim(void *context, const shell_args_t *args);
 uint8_t commands_do_swing(void *context, const shell_args_t *args);
 uint8_t commands_do_free(void *context, const shell_args_t *args);
 
-/* Prints an error with its sentence, in flash. Returns the status for the handler to return. */
-static inline uint8_t commands_refuse(uint8_t status, const char *sentence_P)
-{
-    const uint8_t reported = requests_error(status);
-    text_P(sentence_P);
-    return reported;
-}
-
 #endif

@@ -40,7 +40,7 @@ uint8_t commands_do_play(void *context, const shell_args_t *args)
             return SHELL_ERR_RANGE;
         }
     } else if ((page = page_of_name(play, args)) == 0) {
-        return REQUEST_REPORTED;
+        return SHELL_ERR_REPORTED;
     }
     return requests_refusal(performer_start(&play->performer, (uint8_t)page, (uint8_t)code));
 }
@@ -48,7 +48,7 @@ uint8_t commands_do_play(void *context, const shell_args_t *args)
 /* A person gets a refusal if there is nothing to do. A program gets OK and asks @where. */
 static uint8_t done(bool something, const char *nothing_P)
 {
-    return something || requests_from_program() ? (uint8_t)REQUEST_OK : commands_refuse(REQUEST_ERR_IDLE, nothing_P);
+    return something || requests_from_program() ? (uint8_t)REQUEST_OK : requests_refuse(REQUEST_ERR_IDLE, nothing_P);
 }
 
 uint8_t commands_do_stop(void *context, const shell_args_t *args)
@@ -93,5 +93,5 @@ uint8_t commands_do_code(void *context, const shell_args_t *args)
         return REQUEST_OK;
     }
     views_print_refusal(&refusal);
-    return REQUEST_REPORTED;
+    return SHELL_ERR_REPORTED;
 }

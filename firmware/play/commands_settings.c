@@ -36,7 +36,7 @@ static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, 
         }
         text_P(word_P);
     }
-    return REQUEST_REPORTED;
+    return SHELL_ERR_REPORTED;
 }
 
 uint8_t commands_do_law(void *context, const shell_args_t *args)
@@ -60,7 +60,7 @@ static uint8_t set_one(play_t *play, const shell_args_t *args)
             uint16_t value;
             if (!shell_parse(shell_word(args, 2), false, &value) || !settings_set(&play->settings, &item, value)) {
                 shell_print_range(item.name, item.low, item.high, false);
-                return REQUEST_REPORTED;
+                return SHELL_ERR_REPORTED;
             }
             save(play);
             return REQUEST_OK;
@@ -68,7 +68,7 @@ static uint8_t set_one(play_t *play, const shell_args_t *args)
     }
     TEXT("No setting is named ");
     text_string(shell_word(args, 1));
-    return REQUEST_REPORTED;
+    return SHELL_ERR_REPORTED;
 }
 
 uint8_t commands_do_settings(void *context, const shell_args_t *args)
@@ -80,7 +80,7 @@ uint8_t commands_do_settings(void *context, const shell_args_t *args)
     if (args->count == 2) {
         if (!shell_word_is(args, 1, PSTR("defaults"))) {
             TEXT("Say settings, settings name value, or settings defaults");
-            return REQUEST_REPORTED;
+            return SHELL_ERR_REPORTED;
         }
         settings_defaults(&play->settings);
         save(play);

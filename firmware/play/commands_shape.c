@@ -57,7 +57,7 @@ uint8_t commands_do_shape(void *context, const shell_args_t *args)
         return REQUEST_OK;
     }
     if (!shell_word_is(args, 1, PSTR("reset"))) {
-        return commands_refuse(REQUEST_ERR_RANGE, TEXT_P("Say shape, or shape reset"));
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Say shape, or shape reset"));
     }
     shape_reset(&play->performer.shape);
     return REQUEST_OK;
