@@ -47,21 +47,19 @@ const settings_range_t settings_ranges_P[SETTINGS_ITEMS] PROGMEM = {
     ITEM(drive, drive_ds, 0, 250),
 };
 
+#define NONE SETTINGS_NO_PARTNER
+static const settings_t defaults_P PROGMEM = {
+    .approach_deg_s = 60, .fault_rule = SETTINGS_FAULT_HOLD, .battery_low_dv = 90, .hot_degrees = 70, .flow = 1, .talk = 1,
+    .pair = {
+        NONE, 2, 1, 4, 3, 6, 5, 8, 7, 10, 9, 12, 11, 14, 13, 16, 15, 18, 17,   /* IDs 0 to 18 */
+        NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    },
+    .centre_page = 1, .drive_ds = 10,
+};
+
 void settings_defaults(settings_t *settings)
 {
-    memset(settings, 0, sizeof *settings);
-    settings->approach_deg_s = 60;
-    settings->fault_rule = SETTINGS_FAULT_HOLD;
-    settings->battery_low_dv = 90;
-    settings->hot_degrees = 70;
-    settings->flow = 1;
-    settings->talk = 1;
-    settings->centre_page = 1;
-    settings->drive_ds = 10;
-    for (uint8_t joint = 0; joint < SETTINGS_JOINTS; joint++) {
-        uint8_t partner = joint & 1u ? (uint8_t)(joint + 1u) : (uint8_t)(joint - 1u);
-        settings->pair[joint] = joint >= 1u && joint <= 18u ? partner : SETTINGS_NO_PARTNER;
-    }
+    memcpy_P(settings, &defaults_P, sizeof *settings);
 }
 
 /* ---- loading ---- */
@@ -73,11 +71,11 @@ static uint16_t copy_addr(uint8_t copy)
 
 static bool is_sound(const settings_t *settings)
 {
-    settings_range_t item;
     for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
-        memcpy_P(&item, &settings_ranges_P[i], sizeof item);
-        uint8_t value = ((const uint8_t *)settings)[item.offset];
-        if (value < item.low || value > item.high) {
+        settings_range_t range;
+        memcpy_P(&range, &settings_ranges_P[i], sizeof range);
+        const uint8_t value = ((const uint8_t *)settings)[range.offset];
+        if (value < range.low || value > range.high) {
             return false;
         }
     }
@@ -191,15 +189,15 @@ void settings_save(settings_store_t *store, const settings_t *settings)
 
 uint8_t settings_value(const settings_t *settings, const settings_item_t *item)
 {
-    return ((const uint8_t *)settings)[item->offset];
+    return ((const uint8_t *)settings)[item->range.offset];
 }
 
 bool settings_set(settings_t *settings, const settings_item_t *item, uint16_t value)
 {
-    if (value < item->low || value > item->high) {
+    if (value < item->range.low || value > item->range.high) {
         return false;
     }
-    ((uint8_t *)settings)[item->offset] = (uint8_t)value;
+    ((uint8_t *)settings)[item->range.offset] = (uint8_t)value;
     return true;
 }
 

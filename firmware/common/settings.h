@@ -81,15 +81,25 @@ void settings_save(settings_store_t *store, const settings_t *settings);
 
 /* Settings by name, for the shell: all but the pairs. */
 typedef struct {
+    uint8_t offset;          /* within settings_t */
+    uint8_t low, high;       /* its range */
+} settings_range_t;
+
+typedef struct {
     const char *name;        /* flash */
     const char *meaning;     /* flash, one line with the unit */
-    uint8_t offset, low, high;
+    settings_range_t range;
 } settings_item_t;
 
 #define SETTINGS_ITEMS 12u
 
 /* Item `index` 0..SETTINGS_ITEMS-1, copied from flash. settings_names.c: linked by Play only. */
 void settings_item(uint8_t index, settings_item_t *item);
+
+/* The values of `law` and of `remote` as words: lists in flash of words with their NULs, an empty one at the end.
+ * settings_word_P returns word `value` of such a list. settings_names.c as well. */
+extern const char settings_laws_P[], settings_remotes_P[];
+const char *settings_word_P(const char *words_P, uint8_t value);
 
 uint8_t settings_value(const settings_t *settings, const settings_item_t *item);
 

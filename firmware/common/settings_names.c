@@ -40,11 +40,18 @@ static const struct {
 
 void settings_item(uint8_t index, settings_item_t *item)
 {
-    settings_range_t range;
-    memcpy_P(&range, &settings_ranges_P[index], sizeof range);
     item->name = pgm_read_ptr(&texts_P[index].name);
     item->meaning = pgm_read_ptr(&texts_P[index].meaning);
-    item->offset = range.offset;
-    item->low = range.low;
-    item->high = range.high;
+    memcpy_P(&item->range, &settings_ranges_P[index], sizeof item->range);
+}
+
+const char settings_laws_P[] PROGMEM = "exact\0classic\0";
+const char settings_remotes_P[] PROGMEM = "latch\0hold\0drive\0";
+
+const char *settings_word_P(const char *words_P, uint8_t value)
+{
+    for (; value > 0; value--) {
+        words_P += strlen_P(words_P) + 1;
+    }
+    return words_P;
 }

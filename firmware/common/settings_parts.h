@@ -5,10 +5,6 @@
 
 #include "settings.h"
 
-typedef struct {
-    uint8_t offset, low, high;
-} settings_range_t;
-
 extern const settings_range_t settings_ranges_P[SETTINGS_ITEMS];
 
 #endif

@@ -12,25 +12,24 @@ static void save(play_t *play)
     settings_save_start(&play->store);
 }
 
-/* Sets 0, 1, ... by one of several words. `words_P` has them one behind the other, each with its NUL, and an empty one at
- * the end. Prints the present word if the line has none. */
+/* Sets 0, 1, ... by one of several words (settings_word_P). Prints the present word if the line has none. */
 static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, const char *words_P)
 {
-    const char *word_P = words_P;
-    for (uint8_t value = 0; pgm_read_byte(word_P) != '\0'; value++, word_P += strlen_P(word_P) + 1) {
-        if (args->count == 1 && *setting == value) {
-            text_P(word_P);
-            text_line_end();
-            return REQUEST_OK;
-        }
-        if (args->count > 1 && shell_word_is(args, 1, word_P)) {
+    const char *word_P;
+    if (args->count == 1) {
+        text_P(settings_word_P(words_P, *setting));
+        text_line_end();
+        return REQUEST_OK;
+    }
+    for (uint8_t value = 0; pgm_read_byte(word_P = settings_word_P(words_P, value)) != '\0'; value++) {
+        if (shell_word_is(args, 1, word_P)) {
             *setting = value;
             save(play);
             return REQUEST_OK;
         }
     }
     TEXT("Say ");
-    for (word_P = words_P; pgm_read_byte(word_P) != '\0'; word_P += strlen_P(word_P) + 1) {
+    for (word_P = words_P; pgm_read_byte(word_P) != '\0'; word_P = settings_word_P(word_P, 1)) {
         if (word_P != words_P) {
             TEXT(" or ");
         }
@@ -42,13 +41,13 @@ static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, 
 uint8_t commands_do_law(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    return choose(play, args, &play->settings.law, PSTR("exact\0classic\0"));
+    return choose(play, args, &play->settings.law, settings_laws_P);
 }
 
 uint8_t commands_do_remote(void *context, const shell_args_t *args)
 {
     play_t *play = context;
-    return choose(play, args, &play->settings.remote_mode, PSTR("latch\0hold\0drive\0"));
+    return choose(play, args, &play->settings.remote_mode, settings_remotes_P);
 }
 
 static uint8_t set_one(play_t *play, const shell_args_t *args)
@@ -59,7 +58,7 @@ static uint8_t set_one(play_t *play, const shell_args_t *args)
         if (shell_word_is(args, 1, item.name)) {
             uint16_t value;
             if (!shell_parse(shell_word(args, 2), false, &value) || !settings_set(&play->settings, &item, value)) {
-                shell_print_range(item.name, item.low, item.high, false);
+                shell_print_range(item.name, item.range.low, item.range.high, false);
                 return SHELL_ERR_REPORTED;
             }
             save(play);

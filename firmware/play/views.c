@@ -110,11 +110,9 @@ void views_print_status(const play_t *play)
         text_line_end();
     }
     TEXT("Law ");
-    text_P(play->settings.law == PLAYER_LAW_CLASSIC ? TEXT_P("classic") : TEXT_P("exact"));
+    text_P(settings_word_P(settings_laws_P, play->settings.law));
     TEXT(", remote ");
-    text_P(play->settings.remote_mode == SETTINGS_REMOTE_HOLD    ? TEXT_P("hold")
-           : play->settings.remote_mode == SETTINGS_REMOTE_DRIVE ? TEXT_P("drive")
-                                                                 : TEXT_P("latch"));
+    text_P(settings_word_P(settings_remotes_P, play->settings.remote_mode));
     TEXT(", approach ");
     if (play->settings.approach_deg_s == 0) {
         TEXT("off");
@@ -185,9 +183,9 @@ void views_print_settings(const play_t *play)
         text_put(' ');
         text_number(settings_value(&play->settings, &item));
         TEXT("  (");
-        text_number(item.low);
+        text_number(item.range.low);
         TEXT("..");
-        text_number(item.high);
+        text_number(item.range.high);
         TEXT(")  ");
         text_P(item.meaning);
         text_line_end();
