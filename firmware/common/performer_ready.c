@@ -19,22 +19,12 @@ void performer_get_ready(performer_t *performer)
     performer->state = PERFORMER_READY;
 }
 
-static uint8_t lowest_joint(uint32_t joints)
-{
-    uint8_t id = 0;
-    while ((joints & 1u) == 0) {
-        joints >>= 1;
-        id++;
-    }
-    return id;
-}
-
 /* Switches torque on in one call and reads the pose in the next: at most 5 ms each. Sets full moving speed, because goals
  * come a tick apart and Edit may have set a slow one. */
 static performer_ready_t ask_one_joint(performer_t *performer)
 {
     servo_link_t *servos = PERFORMER_SERVOS(performer);
-    const uint8_t id = lowest_joint(performer->ready_left);
+    const uint8_t id = servo_link_lowest(&performer->ready_left);
     const uint32_t joint = servo_link_bit(id);
     bool is_there = (performer_layers_joints(performer) & joint) != 0; /* a layer moves it: its goal is its place */
     if (!is_there && !servo_link_has(&servos->torque, id)) {

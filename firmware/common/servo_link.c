@@ -33,45 +33,12 @@ void servo_link_init(servo_link_t *link)
     memset(link->present_pos, 0xFF, sizeof link->present_pos);
 }
 
-/* ---- masks ---- */
-
-uint32_t servo_link_bit(uint8_t id)
-{
-    return SERVO_LINK_BIT(id);
-}
-
-bool servo_link_has(const uint32_t *mask, uint8_t id)
-{
-    return (*mask & servo_link_bit(id)) != 0;
-}
-
-void servo_link_put(uint32_t *mask, uint8_t id, bool on)
-{
-    uint32_t bit = servo_link_bit(id);
-    *mask = on ? *mask | bit : *mask & ~bit;
-}
-
 /* Removes the lowest joint from a mask that is not empty, and returns it. */
 static NOINLINE uint8_t take_lowest(uint32_t *mask)
 {
-    uint8_t id = 0;
-    while (!servo_link_has(mask, id)) {
-        id++;
-    }
+    const uint8_t id = servo_link_lowest(mask);
     servo_link_put(mask, id, false);
     return id;
-}
-
-/* Works byte by byte: 150 cycles for 31 bits, a third of the time with 32-bit shifts. */
-static NOINLINE uint8_t count_bits(uint32_t mask)
-{
-    uint8_t count = 0;
-    for (; mask != 0; mask >>= 8) {
-        for (uint8_t byte = (uint8_t)mask; byte != 0; byte = (uint8_t)(byte & (byte - 1u))) {
-            count++;
-        }
-    }
-    return count;
 }
 
 uint32_t servo_link_drivable(const servo_link_t *link)
@@ -206,7 +173,7 @@ void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOI
     if (joints == 0) {
         return;
     }
-    if (link->slopes_wait != 0 && (link->slopes_pending & joints) != 0 && count_bits(joints) <= JOINTS_WITH_SLOPES) {
+    if (link->slopes_wait != 0 && (link->slopes_pending & joints) != 0 && servo_link_count(joints) <= JOINTS_WITH_SLOPES) {
         size = build_slopes(link, joints, true);
         link->slopes_pending &= ~joints;
     } else {

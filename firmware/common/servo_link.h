@@ -2,7 +2,7 @@
  * servo_link.h - the robot's joints: finds the servos, sends one tick's goals as one SYNC WRITE, reads one servo's health
  * in the rest of each tick. Callers use page coordinates; servo coordinates on the wire are trim added, limited to 0..1023.
  * Knows no pages. Works over bus.h. Main loop only. RAM: one servo_link_t, 260 bytes.
- * Code: servo_link.c (while running), servo_link_setup.c (what blocks).
+ * Code: servo_link.c (while running), servo_link_setup.c (what blocks), servo_link_masks.c.
  *
  * Nothing is ever written to a servo's EEPROM area.
  *
@@ -30,6 +30,8 @@
 uint32_t servo_link_bit(uint8_t id) NOINLINE;
 bool servo_link_has(const uint32_t *mask, uint8_t id) NOINLINE;
 void servo_link_put(uint32_t *mask, uint8_t id, bool on) NOINLINE;
+uint8_t servo_link_count(uint32_t mask) NOINLINE;
+uint8_t servo_link_lowest(const uint32_t *mask) NOINLINE;   /* of a mask that is not empty */
 
 /* Faults of a servo, and their ends. */
 typedef enum {

@@ -10,11 +10,7 @@
 
 void views_print_servos_found(const play_t *play)
 {
-    uint8_t count = 0;
-    for (uint32_t joints = play->servos.present; joints != 0; joints &= joints - 1) {
-        count++;
-    }
-    text_number(count);
+    text_number(servo_link_count(play->servos.present));
     TEXT(" servos: ");
     report_joints(play->servos.present);
     text_line_end();

@@ -32,21 +32,6 @@ void fake_servo_link_fault(servo_link_t *link, uint8_t id, uint8_t kind, uint8_t
     faults[fault_count++] = (servo_fault_t){.id = id, .kind = kind, .errors = errors};
 }
 
-uint32_t servo_link_bit(uint8_t id)
-{
-    return SERVO_LINK_BIT(id);
-}
-
-bool servo_link_has(const uint32_t *mask, uint8_t id)
-{
-    return (*mask & servo_link_bit(id)) != 0;
-}
-
-void servo_link_put(uint32_t *mask, uint8_t id, bool on)
-{
-    *mask = on ? *mask | servo_link_bit(id) : *mask & ~servo_link_bit(id);
-}
-
 bool servo_link_next_fault(servo_link_t *link, servo_fault_t *fault)
 {
     (void)link;
