@@ -75,20 +75,11 @@ static performer_status_t refusal(performer_t *performer, player_status_t status
 {
     performer->fault = performer->engine.player.fault;
     performer->fault_page = performer->engine.player.fault_page;
-    switch (status) {
-    case PLAYER_OK:
-        return PERFORMER_OK;
-    case PLAYER_ERR_RANGE:
-        return PERFORMER_ERR_RANGE;
-    case PLAYER_ERR_PAGE:
-        return PERFORMER_ERR_PAGE;
-    case PLAYER_ERR_EMPTY:
-        return PERFORMER_ERR_EMPTY;
-    case PLAYER_ERR_LAW:
-        return PERFORMER_ERR_LAW;
-    default:
-        return PERFORMER_ERR_BUSY;
-    }
+    STATIC_ASSERT((int)PERFORMER_ERR_RANGE == (int)PLAYER_ERR_RANGE && (int)PERFORMER_ERR_PAGE == (int)PLAYER_ERR_PAGE &&
+                      (int)PERFORMER_ERR_EMPTY == (int)PLAYER_ERR_EMPTY && (int)PERFORMER_ERR_BUSY == (int)PLAYER_ERR_BUSY &&
+                      (int)PERFORMER_ERR_LAW == (int)PLAYER_ERR_LAW,
+                  "the performer's errors begin with the player's");
+    return (performer_status_t)status;
 }
 
 static void call_link(performer_t *performer, uint8_t code)

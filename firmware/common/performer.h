@@ -38,9 +38,9 @@ typedef enum {
     PERFORMER_ERR_PAGE,       /* the page, or one that its links lead to, is damaged: performer.fault_page, .fault */
     PERFORMER_ERR_EMPTY,      /* the page has no action */
     PERFORMER_ERR_BUSY,       /* something is playing */
+    PERFORMER_ERR_LAW,        /* this image has no classic law; up to here as player_status_t */
     PERFORMER_ERR_NO_SERVOS,  /* no servo answered the last search */
-    PERFORMER_ERR_RELEASED,   /* every servo was switched off by hand (performer_off) */
-    PERFORMER_ERR_LAW         /* this image has no classic law */
+    PERFORMER_ERR_RELEASED    /* every servo was switched off by hand (performer_off) */
 } performer_status_t;
 
 typedef enum {
