@@ -65,22 +65,16 @@ char *text_copy_P(char *to, const char *string_P)
     return to;
 }
 
-/* Counts each digit by subtraction: a 32-bit division takes ten times as long, and flash for its routine. */
 void text_number32(uint32_t number)
 {
-    static const uint32_t powers[] PROGMEM = {1000000000UL, 100000000UL, 10000000UL, 1000000UL, 100000UL, 10000UL,
-                                              1000UL,       100UL,       10UL,       1UL};
-    bool begun = false;
-    for (uint8_t i = 0; i < ARRAY_COUNT(powers); i++) {
-        const uint32_t power = pgm_read_dword(&powers[i]);
-        char digit = '0';
-        for (; number >= power; digit++) {
-            number -= power;
-        }
-        begun = begun || digit != '0' || i == ARRAY_COUNT(powers) - 1;
-        if (begun) {
-            text_put(digit);
-        }
+    char digits[10];
+    uint8_t count = 0;
+    do {
+        digits[count++] = (char)('0' + number % 10);
+        number /= 10;
+    } while (number > 0);
+    while (count > 0) {
+        text_put(digits[--count]);
     }
 }
 
