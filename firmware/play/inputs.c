@@ -81,10 +81,11 @@ static bool steers(const inputs_t *inputs)
 static void take_packet(inputs_t *inputs)
 {
     const uint16_t buttons = inputs->remote.buttons;
-    uint8_t code, code_before;
-    const remote_act_t act = remote_act(buttons, &code);
-    const remote_act_t act_before = remote_act(inputs->remote_buttons, &code_before);
-    inputs->remote_buttons = buttons;
+    uint8_t code;
+    const uint8_t act_before = inputs->remote_act;
+    const uint8_t act = (uint8_t)remote_act(buttons, &code);
+    inputs->remote_act = act;
+    inputs->remote_buttons = (uint8_t)buttons;
     inputs->silent_ticks = buttons == 0 ? INPUTS_SILENCE_TICKS : 0;
     if (act == REMOTE_ACT_CODE) {
         inputs_code(inputs, steers(inputs) ? (uint8_t)(code & ~(REMOTE_LEFT | REMOTE_RIGHT)) : code);
@@ -165,7 +166,7 @@ static void take_panel(inputs_t *inputs)
 
 static void steer(inputs_t *inputs)
 {
-    const uint8_t held = (uint8_t)inputs->remote_buttons;
+    const uint8_t held = inputs->remote_buttons;
     const int8_t direction = (int8_t)(((held & REMOTE_RIGHT) != 0) - ((held & REMOTE_LEFT) != 0));
     steer_tick(&inputs->steer, inputs->performer, direction != 0 && steers(inputs) ? direction : 0);
 }
@@ -180,6 +181,7 @@ void inputs_tick(inputs_t *inputs)
         }
     }
     if (inputs->silent_ticks < INPUTS_SILENCE_TICKS && ++inputs->silent_ticks == INPUTS_SILENCE_TICKS) {
+        inputs->remote_act = REMOTE_ACT_CODE;
         inputs->remote_buttons = 0;
         if (inputs->settings->remote_mode == LINK_HOLD && inputs->code != LINK_CODE_NONE) {
             inputs_code(inputs, LINK_CODE_NONE);

@@ -35,7 +35,8 @@ typedef struct {
     const page_store_t *pages;
     const settings_t *settings;
     remote_t remote;
-    uint16_t remote_buttons;   /* of the packet before, to find presses */
+    uint8_t remote_act;        /* remote_act_t of the packet before, to find presses */
+    uint8_t remote_buttons;    /* its first eight buttons */
     uint8_t panel_buttons;
     bool panel_was_free;       /* all buttons were up once: one held since power-on is no press */
     uint8_t code;              /* the last code, from any source */
@@ -51,12 +52,14 @@ typedef struct {
 
 void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages, const settings_t *settings);
 
+/* These two are NOINLINE: inlined, they would compute the address of inputs_t from that of play_t at each use (100 bytes). */
+
 /* Call in every turn of the main loop: takes the console's bytes. With the setting `flow` sends XOFF while the shell is
  * behind. A PC that ignores it loses typed bytes, never remote packets. */
-void inputs_take(inputs_t *inputs);
+void inputs_take(inputs_t *inputs) NOINLINE;
 
 /* Call once a tick, after panel_tick. */
-void inputs_tick(inputs_t *inputs);
+void inputs_tick(inputs_t *inputs) NOINLINE;
 
 /* The next typed byte. false: none. */
 bool inputs_get(inputs_t *inputs, uint8_t *byte);
