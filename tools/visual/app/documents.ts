@@ -61,13 +61,14 @@ export class KeptDocuments implements Documents {
     await this.take(newest);
   }
 
+  /** It is open when this returns: the next edit is one of the new document. What is resolved is only that this tab has it. */
   async create(name: string, from?: MotionDocument): Promise<void> {
     const id = this.parts.newId();
-    await this.parts.hold(id);
     const document = { ...(from ?? this.parts.empty), name };
     this.state.set({ documents: [...this.state.get().documents, { id, name, savedMs: this.parts.nowMs() }] });
     this.show(id, { document, history: NO_HISTORY, log: EMPTY_LOG });
     this.keep();
+    await this.parts.hold(id); // nobody else knows it yet
   }
 
   async open(id: string): Promise<void> {

@@ -177,6 +177,23 @@ test('several documents, each with its own pages; the one edited last is opened'
   expect(now(again.editor).name).toBe('Dances');
 });
 
+test('what is edited right after a copy was asked for belongs to the copy, and the first document stays as it was', async () => {
+  const disk = new PassingStorage();
+  const { editor, documents } = await openTab(disk);
+  const first = documents.state.get().openId;
+  const made = documents.create('My motions (copy)', now(editor));
+  editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy')); // before the browser has given the copy to this tab
+  await made;
+  await settle();
+  const kept = new Map((await disk.load()).documents.map((one) => [one.name, one.image]));
+  expect(Buffer.from(kept.get('My motions') ?? []).equals(imageOf(library))).toBe(true);
+  expect(now(editor).name).toBe('My motions (copy)');
+  expect(Buffer.from(kept.get('My motions (copy)') ?? []).equals(imageOf(now(editor)))).toBe(true);
+  expect(editor.page(2).name).toBe('curtsy');
+  await documents.open(first);
+  expect(editor.page(2).name).toBe('bow');
+});
+
 test('a document that another tab has opens as a copy', async () => {
   const disk = new PassingStorage();
   const { documents } = await openTab(disk);

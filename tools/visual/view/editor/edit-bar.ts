@@ -77,7 +77,7 @@ export class EditBar extends HTMLElement {
     this.documents.value = documents.state.get().openId;
     switch (value) {
       case NEW: return this.create('New document', 'My motions');
-      case COPY: return this.create('Copy of this document', `${name} (copy)`, editor.state.get().document);
+      case COPY: return this.create('Copy of this document', `${name} (copy)`, () => editor.state.get().document);
       case FROM_ROBOT: return this.createFromRobot();
       case RENAME: {
         const given = await askText('Rename this document', 'Name', name);
@@ -88,16 +88,17 @@ export class EditBar extends HTMLElement {
     }
   }
 
-  private async create(title: string, proposal: string, from?: MotionDocument): Promise<void> {
+  /** from: asked when the name is given, for the document may have changed meanwhile. */
+  private async create(title: string, proposal: string, from?: () => MotionDocument): Promise<void> {
     const name = await askText(title, 'Name', proposal);
-    if (name) await this.desk.documents.create(name, from);
+    if (name) await this.desk.documents.create(name, from?.());
   }
 
   private async createFromRobot(): Promise<void> {
     const { transfer, editor } = this.desk;
     if (!(await transfer.read())) return this.onTransfer(); // which says why, and offers to try again
     const pages = editor.state.get().robot.map((bytes) => bytes ?? editor.format.empty);
-    await this.create('What the robot has, as a document', 'My robot', { name: '', pages });
+    await this.create('What the robot has, as a document', 'My robot', () => ({ name: '', pages }));
   }
 
   /** Ctrl+Z and Ctrl+Y, but for what is being typed. */
