@@ -16,7 +16,6 @@ import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import { typedLine } from '../robot/typed-line.ts';
 import type { Beside, Desk, DeskState, Floor, Hand, ImageName, Notice, PanelButton, Tab } from '../view/desk.ts';
 import { LAYER_TEXTS, PLAY_TEXTS } from '../view/editor/step-texts.ts';
 import { refusalText } from '../view/editor/texts.ts';
@@ -43,8 +42,6 @@ const WHERE_MS = 300;
 /** What went wrong is to be read before the board's next line takes its place. */
 const TROUBLE_STAYS_MS = 6000;
 const REMOTE_REPEAT_MS = 100;
-/** A line that was left half typed keeps the page's questions back for so long after its last key. */
-const TYPING_MS = 5000;
 const READY_MS = 180_000;
 
 const ROBOT_IN_PAGE = 'robot in the page';
@@ -69,7 +66,6 @@ export class RobotDesk implements Desk {
   private readonly lastSaid = new LastSaid();
   private held: ReadonlySet<RemoteButton> = new Set();
   private whereTimer: ReturnType<typeof setTimeout> | undefined;
-  private typing = '';
   private troubleUntilMs = 0;
   private readonly follower = new Follow(() => this.connection, (error) => this.fail(error));
   /** What the robot in the page has in its flash. */
@@ -220,9 +216,7 @@ export class RobotDesk implements Desk {
   }
 
   type(bytes: Uint8Array): void {
-    this.typing = typedLine(this.typing, String.fromCharCode(...bytes));
-    this.connection.holdOff(this.typing === '' ? 0 : TYPING_MS);
-    void this.connection.write(bytes).catch((error: unknown) => this.fail(error));
+    void this.connection.type(bytes).catch((error: unknown) => this.fail(error));
   }
 
   useSimulated(): void {
@@ -406,7 +400,7 @@ export class RobotDesk implements Desk {
   private mayAsk(): boolean {
     const { connection, version, tab } = this.state.get();
     const isEditOnScreen = version?.image === 'edit' && tab === 'terminal';
-    return connection === 'ready' && this.typing === '' && !isEditOnScreen && !this.transfer.isWriting;
+    return connection === 'ready' && !this.connection.isHeldOff && !isEditOnScreen && !this.transfer.isWriting;
   }
 
   private async askWhere(): Promise<void> {

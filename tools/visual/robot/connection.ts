@@ -81,15 +81,22 @@ export class Connection {
     await this.shut();
   }
 
-  /** What a person types, and the bytes of a remote. Rejects when there is no line. */
+  /** What a person types: questions keep out of the line. Rejects when there is no line. */
+  async type(bytes: Uint8Array): Promise<void> {
+    const written = this.write(bytes); // before a question that waited for the end of the line
+    this.asked?.typed(String.fromCharCode(...bytes));
+    await written;
+  }
+
+  /** The bytes of a remote. Rejects when there is no line. */
   async write(bytes: Uint8Array): Promise<void> {
     if (!this.line) throw new RobotError('not-connected');
     await this.line.write(bytes);
   }
 
-  /** Requests wait for so long (0: no longer): somebody is typing a line. Without a line: nothing. */
-  holdOff(ms: number): void {
-    this.asked?.holdOff(ms);
+  /** A person is in the middle of a line: what is asked now waits (Requests.typed). */
+  get isHeldOff(): boolean {
+    return this.asked?.isHeldOff ?? false;
   }
 
   private on(event: ConnectionEvent): void {

@@ -9,10 +9,15 @@ import type { Clock } from './clock.ts';
 import type { Line } from './line.ts';
 import { isAnswer } from './line-parser.ts';
 import { RobotError } from './robot-error.ts';
+import { typedLine } from './typed-line.ts';
 
 const ANSWER_MS = 1000;
 /** After a time-out nothing is sent for so long, or until the late answer has come: it must not answer the next one. */
 const SETTLE_MS = 500;
+/** A line that was left half typed holds questions back for so long after its last key. */
+const TYPING_MS = 5000;
+/** Ctrl-U empties the line, in every image; Enter leaves the empty line, which Edit wants before a question. */
+const EMPTY_LINE = '\x15\r';
 
 export interface RequestOptions {
   readonly timeoutMs?: number;
@@ -33,7 +38,8 @@ export class Requests {
   private current: Request | null = null;
   private abandoned: string | null = null;
   private cancelTimer: () => void = () => undefined;
-  private isHeldOff = false;
+  private typing = '';
+  private isHeld = false;
   private cancelHold: () => void = () => undefined;
   private isEnded = false;
 
@@ -55,15 +61,22 @@ export class Requests {
     });
   }
 
-  /** What waits in the queue is sent after so long at the earliest; 0: now. What is under way goes on. Called again, it counts anew. */
-  holdOff(ms: number): void {
+  /** A person's keys have gone down the line. While a line is half typed nothing is asked: until it ends, or five seconds after its last
+   *  key. What is under way goes on. */
+  typed(keys: string): void {
     this.cancelHold();
-    this.isHeldOff = ms > 0;
-    if (!this.isHeldOff) return this.next();
-    this.cancelHold = this.clock.after(ms, () => {
-      this.isHeldOff = false;
+    this.typing = typedLine(this.typing, keys);
+    this.isHeld = this.typing !== '';
+    if (!this.isHeld) return this.next();
+    this.cancelHold = this.clock.after(TYPING_MS, () => {
+      this.isHeld = false;
       this.next();
     });
+  }
+
+  /** Somebody is typing: a question would only wait. */
+  get isHeldOff(): boolean {
+    return this.isHeld;
   }
 
   /** An answer line has come. */
@@ -94,13 +107,14 @@ export class Requests {
   }
 
   private next(): void {
-    if (this.current || this.abandoned !== null || this.isHeldOff) return;
+    if (this.current || this.abandoned !== null || this.isHeld) return;
     const request = this.queue.shift();
     if (!request) return;
     this.current = request;
     this.line.expect(request.text);
     this.cancelTimer = this.clock.after(request.timeoutMs, () => this.timeOut(request));
-    const bytes = new TextEncoder().encode(`${request.text}\r`);
+    const bytes = new TextEncoder().encode(`${this.typing === '' ? '' : EMPTY_LINE}${request.text}\r`); // what was left is no part of it
+    this.typing = '';
     this.line.write(bytes).catch((cause: unknown) => {
       if (this.current !== request) return;
       this.line.forget();

@@ -15,8 +15,7 @@ export type RobotErrorCode =
   | 'page-unsaved' // the page in Edit's memory has edits of somebody else
   | 'page-not-saved' // after a save the robot still has another page: its number is in `words`
   | 'no-backup' // the robot's pages could not be kept here, so nothing was written
-  | 'needs-edit' // Play runs there, and only Edit saves pages
-  | 'typing'; // somebody is typing a line in the terminal
+  | 'needs-edit'; // Play runs there, and only Edit saves pages
 
 /** Every rejection of this folder. `words`: what the board said, if it said anything. */
 export class RobotError extends Error {

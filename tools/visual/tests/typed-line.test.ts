@@ -2,8 +2,11 @@
 // A line that somebody types, and the page's questions, which wait for its end.
 import { expect, test } from 'vitest';
 import type { Clock } from '../robot/clock.ts';
+import { Connection } from '../robot/connection.ts';
+import { askWhere } from '../robot/protocol.ts';
 import { Requests } from '../robot/requests.ts';
 import { typedLine } from '../robot/typed-line.ts';
+import { RobotBench } from './robot-bench.ts';
 
 test.each([
   ['', 'pla', 'pla'], ['pla', 'y 3', 'play 3'], ['play 3', '\r', ''], ['pl', '\x03', ''], ['pl', '\x15', ''], ['pl', '\x7f', 'p'], ['p', '\x7f\x7f', ''],
@@ -37,17 +40,19 @@ function bench() {
 test('questions wait while somebody types, keep their order, and none is lost', async () => {
   const { requests, sent, pass } = bench();
   const first = requests.ask('@where');
-  requests.holdOff(5000); // a key, while a question is under way
+  requests.typed('p'); // a key, while a question is under way
   const second = requests.ask('@page 1');
   const third = requests.ask('@pose');
   requests.take('@where state=idle OK');
   expect(await first).toBe('state=idle');
   expect(sent).toEqual(['@where\r']);
   pass(4000);
-  requests.holdOff(5000); // another key
+  requests.typed('l');
   pass(4000);
   expect(sent).toHaveLength(1);
-  requests.holdOff(0); // Enter
+  expect(requests.isHeldOff).toBe(true);
+  requests.typed('\r');
+  expect(requests.isHeldOff).toBe(false);
   expect(sent).toEqual(['@where\r', '@page 1\r']);
   requests.take('@page 1 00 OK');
   requests.take('@pose 1:512:0 OK');
@@ -55,24 +60,51 @@ test('questions wait while somebody types, keep their order, and none is lost', 
   expect(await third).toBe('1:512:0');
 });
 
-test('a line that is left half typed keeps them back for five seconds only; the time limit of a question counts from its sending', async () => {
+test('a line that is left half typed keeps them back for five seconds and is emptied then; the time limit of a question counts from its sending', async () => {
   const { requests, sent, pass } = bench();
-  requests.holdOff(5000);
+  requests.typed('pla');
   const asked = requests.ask('@where', { timeoutMs: 1000 });
   pass(4999);
   expect(sent).toEqual([]);
+  expect(requests.isHeldOff).toBe(true);
   pass(1);
-  expect(sent).toEqual(['@where\r']);
+  expect(requests.isHeldOff).toBe(false);
+  expect(sent).toEqual(['\x15\r@where\r']);
   requests.take('@where state=idle OK');
   expect(await asked).toBe('state=idle');
+  void requests.ask('@pose');
+  expect(sent.at(-1)).toBe('@pose\r'); // nothing is left to be emptied
 });
 
 test('a line that is lost meanwhile ends them', async () => {
   const { requests, sent, pass } = bench();
-  requests.holdOff(5000);
+  requests.typed('p');
   const asked = requests.ask('@where');
   requests.end('port-lost');
   await expect(asked).rejects.toMatchObject({ code: 'port-lost' });
   pass(6000);
   expect(sent).toEqual([]);
+});
+
+test.each([['play', 81, 'help', /play/i], ['edit', 82, 'pairs', /1-2/]] as const)('%s: a question neither lands in a line that is finished, nor in one that is left', async (image, seed, words, said) => {
+  const robot = await RobotBench.make(image, seed);
+  let heard = '';
+  const connection = new Connection(robot.port, robot.clock, { state: () => undefined, text: (bytes) => (heard += String.fromCharCode(...bytes)) });
+  connection.connect();
+  for (let ms = 0; connection.state !== 'ready' && ms < 10_000; ms += 50) await robot.run(50);
+  const type = (keys: string): Promise<void> => connection.type(new TextEncoder().encode(keys));
+  await robot.until(type(words.slice(0, 3)));
+  const waiting = askWhere(connection.requests);
+  await robot.run(500);
+  heard = '';
+  void type(`${words.slice(3)}\r`);
+  expect((await robot.until(waiting)).state).toBe('idle');
+  await robot.run(500);
+  expect(heard).toMatch(said);
+  await robot.until(type('nonsen'));
+  heard = '';
+  expect((await robot.until(askWhere(connection.requests))).state).toBe('idle'); // five seconds later
+  await robot.run(500);
+  expect(heard).not.toMatch(/unknown|no command|bad/i);
+  await connection.close();
 });

@@ -21,7 +21,6 @@ const ERRORS: Record<RobotErrorCode, string> = {
   'page-not-saved': 'The robot took this page but does not have it now. Its flash may be worn out; your page is safe here. Try again: page',
   'no-backup': 'The robot\'s pages could not be kept in this browser (private window, or the disk is full), so nothing was written. Make room, then try again.',
   'needs-edit': 'The robot runs Play, and only Edit saves pages. Flash it with: m512 flash edit-cm5.hex, then try again. Motions stay.',
-  typing: 'A line is being typed in the terminal. Finish it with Enter first.',
 };
 
 /** One sentence for an error; the board's own words are quoted behind it. */
