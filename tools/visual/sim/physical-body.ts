@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The robot's body in MuJoCo: torques of the servos in, angles and speeds of their shafts out, 1024 times a second. And
-// what happens to a robot in a room: a hand that grips a limb, a hand that holds it upright, a floor that tilts.
+// The robot's body in MuJoCo: torques of the servos in, angles and speeds of their shafts out, 1024 times a second. It stands in a
+// room: its floor may tilt, and hands (hands.ts) may grip and hold it.
 
 import type { Body } from '../model/body.ts';
 import { jointAngle, soleCorners } from '../model/body.ts';
 import { POSITION_MIDDLE } from '../model/motion.ts';
-import { STILL, add, cross, heading, inverse, length, multiply, rotate, scale, subtract, turn } from '../model/space.ts';
-import type { Place, Quaternion, Vector } from '../model/space.ts';
+import { STILL, add, cross, length, rotate, scale, turn } from '../model/space.ts';
+import type { Place, Vector } from '../model/space.ts';
 import type { Touch } from '../model/trial.ts';
 import { geomTouches, linkTouches } from './contacts.ts';
+import { CLEARANCE_M, GRAVITY, Hands, UPRIGHT } from './hands.ts';
+import type { HandledBody } from './hands.ts';
 import type { Floor, Grip } from './messages.ts';
 import { OBJECT } from './mujoco.ts';
 import type { Data, Model, Mujoco } from './mujoco.ts';
@@ -16,11 +18,6 @@ import type { Data, Model, Mujoco } from './mujoco.ts';
 /** servo_shaft_t: ID, torque in N m, angle in radians, speed in radians a second. */
 export const SHAFT_FIELDS = 4;
 
-const GRAVITY = 9.81;
-const GRIP = { newtonPerMetre: 150, newtonSecondPerMetre: 6, limitNewton: 14 };
-/** The hand that holds the trunk: critically damped for a robot of 1.8 kg. */
-const HOLD = { move: 400, moveDamp: 50, turn: 20, turnDamp: 1.6, farthestM: 0.1, clearanceM: 0.001, liftedM: 0.36, releaseSteps: 400 };
-const UPRIGHT = 0.9; // cosine of the tilt below which the soles are not the lowest part
 const FALLEN = 0.55;
 const LIFTED_M = 2;
 
@@ -32,26 +29,20 @@ interface Shaft {
   readonly offsetRad: number;
 }
 
-export class PhysicalBody {
+export class PhysicalBody implements HandledBody {
   private readonly mujoco: Mujoco;
   private readonly model: Model;
-  private readonly data: Data;
+  readonly data: Data;
   private readonly shafts = new Map<number, Shaft>();
   private readonly soles: { readonly link: number; readonly corners: readonly Vector[] }[];
-  private readonly trunkLink: number;
+  readonly trunkLink: number;
   private readonly floorGeom: number;
   private readonly soleGeoms: ReadonlySet<number>;
   /** By the number of the body that is the link. */
   private readonly linkNames: ReadonlyMap<number, string>;
-  private readonly stepsPerSecond: number;
-  private readonly massKg: number;
-  private grip: { link: number; point: Vector; target: Vector; before: Vector | null } | null = null;
-  private holdHeading = 0;
-  private holdAt: Vector = [0, 0, 0];
-  private holding = 0; // 1: held, between: being let go, 0: free
-  private isHeld = false;
-  /** A hand has left forces behind. */
-  private wasTouched = false;
+  readonly stepsPerSecond: number;
+  readonly massKg: number;
+  private readonly hands: Hands;
 
   /** xml: body.xml. Throws MuJoCo's words when it is no model. */
   constructor(mujoco: Mujoco, xml: string, body: Body) {
@@ -68,6 +59,7 @@ export class PhysicalBody {
     this.linkNames = new Map(body.links.map(({ name }) => [this.id(OBJECT.body, name), name]));
     this.stepsPerSecond = 1 / this.model.opt.timestep;
     this.massKg = this.model.body_mass.reduce((sum, mass) => sum + mass, 0);
+    this.hands = new Hands(this);
     mujoco.mj_forward(this.model, this.data);
   }
 
@@ -85,7 +77,7 @@ export class PhysicalBody {
     const lean = length(axis) < 1e-9 ? STILL : turn(scale(axis, 1 / length(axis)), Math.atan2(length(axis), up[2]));
     lean.forEach((value, i) => (qpos[3 + i] = value));
     this.mujoco.mj_forward(this.model, this.data);
-    qpos[2] = (qpos[2] ?? 0) - this.lowestSole() + HOLD.clearanceM;
+    qpos[2] = (qpos[2] ?? 0) - this.lowestSole() + CLEARANCE_M;
     this.mujoco.mj_forward(this.model, this.data);
   }
 
@@ -107,28 +99,23 @@ export class PhysicalBody {
       const shaft = this.shafts.get(shafts[at] ?? -1);
       if (shaft) ctrl[shaft.torqueAt] = shaft.direction * (shafts[at + 1] ?? 0);
     }
-    this.pull();
+    this.hands.pull();
     this.mujoco.mj_step(this.model, this.data);
     this.look(shafts);
   }
 
   setGrip(grip: Grip | null): void {
     const link = grip ? this.id(OBJECT.body, grip.link) : -1;
-    if (!grip || link <= 0) this.grip = null;
-    else this.grip = { link, point: grip.point, target: grip.target, before: this.grip?.link === link ? this.grip.before : null };
+    this.hands.setGrip(grip && link > 0 ? { ...grip, link } : null);
   }
 
   /** Held: upright, over the place where it is, feet just off the floor. Let go: in 0.4 s. */
   setHeld(held: boolean): void {
-    this.isHeld = held;
-    if (!held) return;
-    this.holding = 1;
-    this.holdHeading = heading(this.trunk.quat);
-    this.holdAt = this.trunk.pos;
+    this.hands.setHeld(held);
   }
 
   get held(): boolean {
-    return this.holding > 0;
+    return this.hands.isHolding;
   }
 
   /** A tilted floor is gravity that leans: the picture tilts, the numbers stay small. */
@@ -197,7 +184,7 @@ export class PhysicalBody {
     return this.mujoco.mj_name2id(this.model, kind, name);
   }
 
-  private linkPlace(link: number): Place {
+  linkPlace(link: number): Place {
     const { xpos, xquat } = this.data;
     return {
       pos: [xpos[3 * link] ?? 0, xpos[3 * link + 1] ?? 0, xpos[3 * link + 2] ?? 0],
@@ -205,7 +192,7 @@ export class PhysicalBody {
     };
   }
 
-  private lowestSole(): number {
+  lowestSole(): number {
     let lowest = Infinity;
     for (const { link, corners } of this.soles) {
       const foot = this.linkPlace(link);
@@ -213,60 +200,4 @@ export class PhysicalBody {
     }
     return lowest;
   }
-
-  private pull(): void {
-    const isTouched = this.grip !== null || this.holding > 0;
-    if (!isTouched && !this.wasTouched) return; // MuJoCo keeps applying a force until it is taken away
-    this.wasTouched = isTouched;
-    const forces = this.data.xfrc_applied;
-    forces.fill(0);
-    if (this.grip) this.pullGrip(forces, this.grip);
-    if (this.holding > 0) this.pullTrunk(forces);
-  }
-
-  private pullGrip(forces: Float64Array, grip: NonNullable<PhysicalBody['grip']>): void {
-    const place = this.linkPlace(grip.link);
-    const point = add(place.pos, rotate(place.quat, grip.point));
-    const speed = grip.before ? scale(subtract(point, grip.before), this.stepsPerSecond) : ([0, 0, 0] as const);
-    grip.before = point;
-    const pull = subtract(scale(subtract(grip.target, point), GRIP.newtonPerMetre), scale(speed, GRIP.newtonSecondPerMetre));
-    const force = scale(pull, Math.min(1, GRIP.limitNewton / Math.max(length(pull), 1e-9)));
-    this.apply(forces, grip.link, force, cross(subtract(point, this.middle(grip.link)), force));
-  }
-
-  private pullTrunk(forces: Float64Array): void {
-    if (!this.isHeld) this.holding = Math.max(0, this.holding - 1 / HOLD.releaseSteps);
-    const { pos, quat } = this.trunk;
-    const qvel = this.data.qvel;
-    const speed: Vector = [qvel[0] ?? 0, qvel[1] ?? 0, qvel[2] ?? 0];
-    const spin = rotate(quat, [qvel[3] ?? 0, qvel[4] ?? 0, qvel[5] ?? 0]);
-    const isUpright = rotate(quat, [0, 0, 1])[2] > UPRIGHT;
-    const height = isUpright ? pos[2] - this.lowestSole() + HOLD.clearanceM : HOLD.liftedM;
-    const away = subtract([this.holdAt[0], this.holdAt[1], height], pos);
-    const near = scale(away, Math.min(1, HOLD.farthestM / Math.max(length(away), 1e-9)));
-    const lift: Vector = [0, 0, this.massKg * GRAVITY];
-    const force = add(add(scale(near, HOLD.move), scale(speed, -HOLD.moveDamp)), lift);
-    const torque = add(scale(turnOf(multiply(turn([0, 0, 1], this.holdHeading), inverse(quat))), HOLD.turn), scale(spin, -HOLD.turnDamp));
-    this.apply(forces, this.trunkLink, scale(force, this.holding), scale(torque, this.holding));
-  }
-
-  private middle(link: number): Vector {
-    const at = this.data.xipos;
-    return [at[3 * link] ?? 0, at[3 * link + 1] ?? 0, at[3 * link + 2] ?? 0];
-  }
-
-  /** A force at the link's centre of mass and a torque, added to what acts already. */
-  private apply(forces: Float64Array, link: number, force: Vector, torque: Vector): void {
-    [...force, ...torque].forEach((value, i) => {
-      forces[6 * link + i] = (forces[6 * link + i] ?? 0) + value;
-    });
-  }
-}
-
-/** A rotation as axis times angle, the short way. */
-function turnOf(q: Quaternion): Vector {
-  const sign = q[0] < 0 ? -1 : 1;
-  const sine = Math.hypot(q[1], q[2], q[3]);
-  const angle = 2 * Math.atan2(sine, Math.abs(q[0]));
-  return sine < 1e-9 ? [0, 0, 0] : [(q[1] / sine) * angle * sign, (q[2] / sine) * angle * sign, (q[3] / sine) * angle * sign];
 }

@@ -209,7 +209,7 @@ export class RobotView extends HTMLElement {
   }
 
   private standOf(joint: Joint): string {
-    if (this.pose?.isPosing) return String(Math.round(this.pose.shownPose()[joint.servo] ?? joint.zero));
+    if (this.pose?.isPosing) return String(Math.round(this.pose.shownPose[joint.servo] ?? joint.zero));
     const servo = this.state?.servos.find((one) => one.id === joint.servo);
     return `${Math.round(servo?.position ?? joint.zero)}${servo?.torque ? '' : ', limp'}`;
   }

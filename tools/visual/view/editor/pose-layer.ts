@@ -3,6 +3,7 @@
 // onion skin, the centre of mass over the soles' ground. Shows what it is told.
 
 import { BufferGeometry, CircleGeometry, Group, Line, LineBasicMaterial, LineLoop, Mesh, MeshBasicMaterial, Vector3 } from 'three';
+import { centreOfMass, marginInside, supportPolygon } from '../../model/balance.ts';
 import type { Point } from '../../model/balance.ts';
 import { angleIn, placeLinks } from '../../model/body.ts';
 import type { Angles, Body } from '../../model/body.ts';
@@ -20,6 +21,13 @@ export interface Balance {
   readonly centre: Vector;
   /** Metres inside the soles' ground; negative: outside. */
   readonly margin: number;
+}
+
+export function balanceOf(body: Body, { trunk, angles }: Posed): Balance {
+  const places = placeLinks(body, trunk, angleIn(angles));
+  const centre = centreOfMass(body, places);
+  const polygon = supportPolygon(body, places);
+  return { polygon, centre, margin: marginInside(polygon, [centre[0], centre[1]]) };
 }
 
 const LOOKS = {

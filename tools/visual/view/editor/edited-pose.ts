@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// The pose that is edited: what the chosen step has for the joints, and where the figure stands with it. A page without steps begins
+// with the robot's pose.
+
+import { lowerFoot, trunkOn } from '../../model/balance.ts';
+import { angleIn, placeLinks } from '../../model/body.ts';
+import type { Angles, Body, Side } from '../../model/body.ts';
+import { JOINTS, POSITION_MIDDLE } from '../../model/motion.ts';
+import type { Stance } from '../../model/pose-drag.ts';
+import type { Place } from '../../model/space.ts';
+import type { RobotState } from '../../robot/robot-state.ts';
+import type { Editor } from '../editor-desk.ts';
+import type { Store } from '../store.ts';
+import { poseAfter, robotAngles, robotPositions, stanceOf, stepAngles } from './editing.ts';
+import type { Editing } from './editing.ts';
+import type { Posed } from './pose-layer.ts';
+
+const HERE: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
+
+export class EditedPose {
+  private readonly editor: Editor;
+  private readonly body: Body;
+  private readonly editing: Store<Editing>;
+  /** As it was seen last. */
+  robot: RobotState | null = null;
+
+  constructor(editor: Editor, body: Body, editing: Store<Editing>) {
+    this.editor = editor;
+    this.body = body;
+    this.editing = editing;
+  }
+
+  get angles(): Angles {
+    const { page, step } = this.editor.state.get();
+    if (this.isEmpty && this.robot) return robotAngles(this.body, this.robot);
+    return stepAngles(this.editor, this.body, page, step);
+  }
+
+  /** Servo units by ID. */
+  get positions(): number[] {
+    const { page, step } = this.editor.state.get();
+    const pose = poseAfter(this.editor, page, step);
+    if (!this.isEmpty || !this.robot) return pose;
+    return robotPositions(this.robot).map((position, id) => position ?? pose[id] ?? 0);
+  }
+
+  stance(angles: Angles): Stance {
+    return stanceOf(this.body, this.editing.get(), angles, this.feet());
+  }
+
+  /** The figure with these angles on this foot. */
+  posed(angles: Angles, stance: Stance): Posed {
+    return { trunk: trunkOn(this.body, stance.keep, angles, stance.at), angles };
+  }
+
+  /** The figure as a step of the page leaves it, on its own foot; null: there is no such step. */
+  atStep(at: number): Posed | null {
+    const { page } = this.editor.state.get();
+    if (at < 0 || at >= this.editor.page(page).steps.length) return null;
+    const angles = stepAngles(this.editor, this.body, page, at);
+    const { keep } = this.editing.get();
+    const foot = keep === 'lower' ? lowerFoot(this.body, angles) : keep;
+    return this.posed(angles, { keep: foot, at: this.feet()[foot] });
+  }
+
+  private get isEmpty(): boolean {
+    return this.editor.page(this.editor.state.get().page).steps.length === 0;
+  }
+
+  /** Where the robot has its feet: there the edited step stands too. */
+  private feet(): Record<Side, Place> {
+    const { robot } = this;
+    const places = robot ? placeLinks(this.body, robot.trunk, angleIn(robotAngles(this.body, robot))) : null;
+    return { right: places?.get('right_foot') ?? HERE, left: places?.get('left_foot') ?? HERE };
+  }
+}
+
+/** Servo units by ID, as the robot stands. */
+export function robotPose(robot: RobotState): number[] {
+  const pose = new Array<number>(JOINTS).fill(POSITION_MIDDLE);
+  for (const { id, position } of robot.servos) pose[id] = Math.round(position);
+  return pose;
+}
