@@ -86,6 +86,15 @@ void page_set_pos(uint8_t *page, uint8_t step, uint8_t joint, uint16_t word)
     page[at + 1] = (uint8_t)(word >> 8);
 }
 
+uint16_t page_pos_mirrored(uint16_t pos, uint16_t neutral_sum)
+{
+    if (pos >= neutral_sum) {
+        return 0;
+    }
+    uint16_t mirrored = (uint16_t)(neutral_sum - pos);
+    return mirrored > PAGE_POS_MAX ? PAGE_POS_MAX : mirrored;
+}
+
 uint8_t page_slope(uint8_t nibble)
 {
     if (nibble == 0 || nibble > 7) {

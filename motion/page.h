@@ -49,6 +49,7 @@ enum { PAGE_STEP_AT_PAUSE = 62, PAGE_STEP_AT_SPEED = 63 };
 #define PAGE_CHECKSUM_SUM 0xFFu   /* 8-bit sum of all 512 bytes of a good page */
 
 #define PAGE_POS_MAX 1023u
+#define PAGE_POS_MIDDLE 512u
 #define PAGE_POS_UNUSED 0x4000u   /* flag: joint not used in this step */
 #define PAGE_POS_TORQUE_OFF 0x2000u /* flag: torque off (work pose only; never in a page we store) */
 
@@ -103,6 +104,10 @@ static inline bool page_pos_is_used(uint16_t word)
     flags &= (PAGE_POS_UNUSED | PAGE_POS_TORQUE_OFF) >> 8;
     return flags == 0;
 }
+
+/* A position as the joint on the other side has it: as far from its own neutral position, the other way; limited to
+ * 0..PAGE_POS_MAX. `neutral_sum`: the neutral positions of both joints together, 2 * PAGE_POS_MIDDLE unless known. */
+uint16_t page_pos_mirrored(uint16_t pos, uint16_t neutral_sum);
 
 /* Compliance slope register value, 2^nibble, of one nibble 1..7 of the compliance byte (motion512.md). A nibble of 0
  * or above 7 stands for 5, the default. */

@@ -14,7 +14,6 @@
 static const uint8_t link_fields[] PROGMEM = { PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE,
                                                PAGE_AT_LINKED2_PAGE, PAGE_AT_BLEND_RIGHT, PAGE_AT_BLEND_LEFT };
 enum { LINKS = 4, FIELDS = sizeof link_fields };
-#define BATTERY_DV 96
 
 /* Serves what cannot wait: one page may print 200 lines of 9 ms each and ask 31 servos that answer late or not at all. */
 static void begin_line(uint8_t page)
@@ -84,13 +83,13 @@ static void check_reach(uint8_t page)
 /* The supply in 0.1 V, from the first servo that answers; that of a CM-5's battery if none does. */
 static uint8_t supply_dv(void)
 {
-    uint8_t supply = BATTERY_DV;
+    uint8_t supply = PAGE_FACTS_BATTERY_DV;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         if (robot_has(joint) && bus_call_read(joint, DXL_AT_VOLTAGE, &supply, 1, NULL) == BUS_OK) {
             return supply;
         }
     }
-    return BATTERY_DV;
+    return PAGE_FACTS_BATTERY_DV;
 }
 
 static void check_speed(uint8_t page)

@@ -6,8 +6,6 @@
 #include "report.h"
 #include "text.h"
 
-enum { NEUTRAL_POS = 512 };
-
 /* Sends a step and prints the joints without a value. */
 static void send_step(const uint8_t step[PAGE_STEP_BYTES])
 {
@@ -32,27 +30,26 @@ COMMAND(cmd_go)
 
 /* ---- mirror ---- */
 
-/* The neutral position of a joint: 512, or that in the first step of page 1 in flash (not its copy in RAM). */
+/* The neutral position of a joint: the middle, or that in the first step of page 1 in flash (not its copy in RAM). */
 static uint16_t neutral_of(uint8_t joint)
 {
     uint8_t word[2];
     if (the_settings.neutral != SETTINGS_NEUTRAL_PAGE1 || !page_store_is_good(&the_pages, 1)) {
-        return NEUTRAL_POS;
+        return PAGE_POS_MIDDLE;
     }
     page_store_read(1, (uint16_t)(PAGE_AT_STEP0 + 2u * joint), word, sizeof word);
     uint16_t pos = (uint16_t)(word[0] | (uint16_t)word[1] << 8);
-    return cell_is_position(pos) ? pos : (uint16_t)NEUTRAL_POS;
+    return cell_is_position(pos) ? pos : (uint16_t)PAGE_POS_MIDDLE;
 }
 
-/* new[a] = N[a] - (s[b] - N[b]), limited to 0..1023. A word that is no position is copied. */
+/* What the partner's position is for this joint. A word that is no position is copied. */
 static uint16_t mirrored(uint8_t step, uint8_t joint, uint8_t partner)
 {
     uint16_t word = session_word(step, partner);
     if (!cell_is_position(word)) {
         return word;
     }
-    int16_t pos = (int16_t)((int16_t)neutral_of(joint) + (int16_t)neutral_of(partner) - (int16_t)word);
-    return pos < 0 ? 0 : pos > (int16_t)PAGE_POS_MAX ? (uint16_t)PAGE_POS_MAX : (uint16_t)pos;
+    return page_pos_mirrored(word, (uint16_t)(neutral_of(joint) + neutral_of(partner)));
 }
 
 COMMAND(cmd_mirror)

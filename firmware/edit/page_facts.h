@@ -11,6 +11,9 @@
  * 9.6 V. */
 #define PAGE_FACTS_FASTEST_DEG_S(supply_dv) ((uint16_t)((supply_dv) * 59u / 20u))
 
+/* The supply while nobody has told it: a CM-5's eight cells, in 0.1 V. */
+#define PAGE_FACTS_BATTERY_DV 96u
+
 typedef struct {
     uint16_t ticks;      /* duration without the pause; at least 1 */
     uint16_t pause_ticks;

@@ -127,6 +127,16 @@ static void test_page_slope_is_two_to_the_nibble(void)
     TEST_ASSERT_EQUAL_UINT8(32, page_slope(15));
 }
 
+static void test_page_mirrored_position_is_as_far_on_the_other_side_within_the_servo(void)
+{
+    TEST_ASSERT_EQUAL_UINT16(512, page_pos_mirrored(512, 1024));
+    TEST_ASSERT_EQUAL_UINT16(424, page_pos_mirrored(600, 1024));
+    TEST_ASSERT_EQUAL_UINT16(1, page_pos_mirrored(1023, 1024));
+    TEST_ASSERT_EQUAL_UINT16(1023, page_pos_mirrored(0, 1024));
+    TEST_ASSERT_EQUAL_UINT16(0, page_pos_mirrored(900, 2 * 400));
+    TEST_ASSERT_EQUAL_UINT16(1023, page_pos_mirrored(100, 2 * 700));
+}
+
 static void test_page_is_playable_needs_steps_and_a_count(void)
 {
     page[PAGE_AT_STEPS] = 1;
@@ -146,6 +156,7 @@ int main(void)
     RUN_TEST(test_page_check_ignores_positions_of_steps_not_used);
     RUN_TEST(test_page_position_flags_release_the_joint_whatever_is_below);
     RUN_TEST(test_page_words_are_little_endian_at_documented_places);
+    RUN_TEST(test_page_mirrored_position_is_as_far_on_the_other_side_within_the_servo);
     RUN_TEST(test_page_slope_is_two_to_the_nibble);
     RUN_TEST(test_page_is_playable_needs_steps_and_a_count);
     return UNITY_END();

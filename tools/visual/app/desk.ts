@@ -7,7 +7,6 @@ import type { Body } from '../model/body.ts';
 import { documentFrom } from '../model/document.ts';
 import { dirtyPages } from '../model/editor-state.ts';
 import type { Shape } from '../model/motion.ts';
-import { pagesOfPlay } from '../model/page-reach.ts';
 import type { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import { aim, askList, askWhere, command, free, play, setAmplitude, setBlend, setLayer, setRate, setTorque, swing } from '../robot/protocol.ts';
@@ -145,7 +144,7 @@ export class RobotDesk implements Desk {
   playEdited(page: number): Promise<void> {
     return this.deed(async () => {
       const { format, state } = this.editor;
-      const why = await this.bringPages(pagesOfPlay(format, state.get().document, page));
+      const why = await this.bringPages(format.reach(state.get().document, page));
       if (why !== null) return why;
       if (this.isSimulated) await this.simulated.prepare();
       await play(this.connection.requests, page);
@@ -192,7 +191,7 @@ export class RobotDesk implements Desk {
   private async layer(page: number | null, joints: readonly number[]): Promise<string | null> {
     const { state, format } = this.editor;
     const dirty = dirtyPages(state.get(), format);
-    if (page !== null && pagesOfPlay(format, state.get().document, page).some((one) => dirty.has(one))) return this.isSimulated ? LAYER_TEXTS.otherwise : LAYER_TEXTS.otherwiseYours;
+    if (page !== null && format.reach(state.get().document, page).some((one) => dirty.has(one))) return this.isSimulated ? LAYER_TEXTS.otherwise : LAYER_TEXTS.otherwiseYours;
     await setLayer(this.connection.requests, page, joints);
     return null;
   }

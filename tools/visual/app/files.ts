@@ -6,7 +6,6 @@ import { imageOf, pageOf } from '../model/document.ts';
 import type { FileFormats, NoRoom, Opened, Refused, Suffix } from '../model/file-formats.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { readPage } from '../model/page.ts';
-import { pagesOfPlay } from '../model/page-reach.ts';
 import { FILE_TEXTS } from '../view/editor/file-texts.ts';
 import type { Files, FilesState, SavedFile } from '../view/files-desk.ts';
 import { Store } from '../view/store.ts';
@@ -138,7 +137,7 @@ export class DocumentFiles implements Files {
   private reached(start: number): Map<number, Uint8Array> {
     const { document } = this.editor.state.get();
     const { format } = this.editor;
-    const others = pagesOfPlay(format, document, start).filter((page) => page !== start);
+    const others = format.reach(document, start).filter((page) => page !== start);
     const pages = [start, ...others].map((page): [number, Uint8Array] => [page, pageOf(document, page)]);
     return new Map(pages.filter(([page, bytes]) => page > 0 && !format.isEmpty(bytes) && format.fault(bytes) === null));
   }

@@ -93,7 +93,7 @@ export class RobotTransfer implements Transfer {
       const [before, after] = [robot[page], pageOf(document, page)];
       return before && !this.parts.format.isSame(before, after) && this.parts.format.fault(after) === null ? [{ page, before, after }] : [];
     });
-    return new PageWrite(wanted, this.parts.format.empty);
+    return new PageWrite(wanted, this.parts.format);
   }
 
   /** What was written is known of the robot, whether the rest was written or not. */
@@ -116,7 +116,7 @@ export class RobotTransfer implements Transfer {
     const document = this.parts.document();
     const known = this.parts.robot();
     const candidates = (page: number): Uint8Array[] => [known[page] ?? format.empty, pageOf(document, page), format.empty, format.erased];
-    const pages = await readPages(this.parts.requests(), {
+    const pages = await readPages(this.parts.requests(), (bytes) => format.crc(bytes), {
       known: candidates, signal: this.stop.signal, progress: (done, total) => this.state.set({ done, total }),
     });
     this.parts.setRobot(pages);

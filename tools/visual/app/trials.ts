@@ -2,9 +2,8 @@
 // Motions of the document in physics: joins the editor with the worker for trials, which is made when it is first wanted.
 
 import { imageOf, pageOf } from '../model/document.ts';
-import { AS_STORED, TICKS_PER_SECOND } from '../model/motion.ts';
+import { AS_STORED, NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Law, Shape } from '../model/motion.ts';
-import { pagesOfPlay } from '../model/page-reach.ts';
 import { deepestTouches, posesOf, verdictOf } from '../model/trial.ts';
 import type { StepTouch, Touch, TrialRecord, TrialRequest } from '../model/trial.ts';
 import type { TrialClient } from '../sim/trial-client.ts';
@@ -14,8 +13,6 @@ import type { DocumentEditor } from './editor.ts';
 
 /** A motion that goes round is told to stop then: 6 s. */
 const TICKS = 6 * TICKS_PER_SECOND;
-/** Of a CM-5's battery. */
-const NOMINAL_VOLTS = 9.6;
 const CURVE_TICKS = 6000;
 
 /** What a trial held for. */
@@ -108,7 +105,7 @@ export class MotionTrials implements Trials {
 
   private async tryPage(client: TrialClient, page: number, signal: AbortSignal): Promise<void> {
     const { document, law } = this.editor.state.get();
-    const reached = new Map(pagesOfPlay(this.editor.format, document, page).map((one) => [one, pageOf(document, one)]));
+    const reached = new Map(this.editor.format.reach(document, page).map((one) => [one, pageOf(document, one)]));
     const request = this.request(page, AS_STORED, TICKS);
     const touches = await this.touchesOf(client, page);
     const record = await this.play(client, request, signal);

@@ -3,11 +3,11 @@
 
 #include <string.h>
 
+#include "crc16.h"
 #include "player.h"
+#include "remote.h"
 #include "shape.h"
 #include "step_plan.h"
-
-enum { MARK_BYTES = 3 };
 
 static struct {
     uint8_t pages[PAGE_COUNT][PAGE_BYTES];
@@ -20,7 +20,11 @@ static struct {
     player_joint_t joint[PAGE_JOINTS];
     uint16_t goal_pos[PAGE_JOINTS];
     uint16_t goals[MOTION_API_CURVE_TICKS][PAGE_JOINTS];
-    uint8_t marks[MOTION_API_CURVE_TICKS][MARK_BYTES];
+    uint8_t marks[MOTION_API_CURVE_TICKS][MOTION_API_MARK_BYTES];
+    uint8_t leads[MOTION_API_LEADS][MOTION_API_LEAD_BYTES];
+    uint8_t lead_count;
+    uint8_t reached[PAGE_COUNT];
+    uint8_t moved[PAGE_COUNT];
 } api;
 
 static bool is_page(int page) { return page >= 0 && page < (int)PAGE_COUNT; }
@@ -38,19 +42,6 @@ static uint8_t check_page(void *context, uint8_t page)
 }
 
 static const page_source_t source = { .read = read_page, .check = check_page };
-
-static const uint16_t layout[] = {
-    PAGE_BYTES, PAGE_COUNT, PAGE_JOINTS, PAGE_STEPS, PAGE_STEP_BYTES, PAGE_NAME_BYTES,
-    PAGE_AT_NAME, PAGE_AT_PLAY_COUNT, PAGE_AT_SCHEDULE, PAGE_AT_BLEND_RIGHT, PAGE_AT_BLEND_LEFT, PAGE_AT_STEPS,
-    PAGE_AT_PLAY_CODE, PAGE_AT_SPEED, PAGE_AT_ACCEL_TIME, PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE,
-    PAGE_AT_LINKED1_CODE, PAGE_AT_LINKED2_PAGE, PAGE_AT_LINKED2_CODE, PAGE_AT_CHECKSUM, PAGE_AT_COMPLIANCE, PAGE_AT_STEP0,
-    PAGE_STEP_AT_PAUSE, PAGE_STEP_AT_SPEED, PAGE_SCHEDULE_SPEED, PAGE_SCHEDULE_TIME, PAGE_SPEED_NOMINAL,
-    PAGE_POS_MAX, PAGE_POS_UNUSED, PAGE_POS_TORQUE_OFF, PLAYER_TICKS_PER_SECOND,
-};
-
-const uint16_t *motion_api_layout(void) { return layout; }
-
-int motion_api_layout_count(void) { return (int)(sizeof layout / sizeof layout[0]); }
 
 uint8_t *motion_api_pages(void) { return api.pages[0]; }
 
@@ -79,6 +70,127 @@ void motion_api_clear(int page)
 }
 
 bool motion_api_is_playable(int page) { return is_page(page) && page_is_playable(api.pages[page]); }
+
+int motion_api_crc16(int page)
+{
+    return is_page(page) ? (int)crc16_bytes(CRC16_START, api.pages[page], PAGE_BYTES) : -1;
+}
+
+int motion_api_mirrored(int pos)
+{
+    return (int)page_pos_mirrored((uint16_t)pos, 2u * PAGE_POS_MIDDLE);
+}
+
+int motion_api_remote_code(int buttons)
+{
+    uint8_t code;
+    return remote_act((uint16_t)buttons, &code) == REMOTE_ACT_CODE ? code : LINK_CODE_NONE;
+}
+
+/* --- links --- */
+
+/* In the order of motion_api_lead_t. */
+static const uint8_t link_at[MOTION_API_LEADS] = { PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE,
+                                                   PAGE_AT_LINKED2_PAGE, PAGE_AT_BLEND_RIGHT, PAGE_AT_BLEND_LEFT };
+
+static bool has_steps(int page) { return page_check(api.pages[page]) == PAGE_OK && api.pages[page][PAGE_AT_STEPS] != 0; }
+
+static void lead(int page, motion_api_lead_t kind, uint8_t code)
+{
+    uint8_t to = api.pages[page][link_at[kind]];
+    if (to != 0 && to < PAGE_COUNT) {
+        uint8_t *row = api.leads[api.lead_count++];
+        row[0] = (uint8_t)kind;
+        row[1] = to;
+        row[2] = code;
+    }
+}
+
+/* The link that a page is left by when this code called it. */
+static link_taken_t taken_by(int page, uint8_t code)
+{
+    link_t link;
+    link_taken_t taken;
+    link_init(&link, LINK_LATCH);
+    link_call(&link, code);
+    (void)link_decide(&link, (uint8_t)page, api.pages[page], &taken);
+    return taken;
+}
+
+int motion_api_leads(int page)
+{
+    api.lead_count = 0;
+    if (!is_page(page) || !has_steps(page)) {
+        return 0;
+    }
+    lead(page, MOTION_API_LEAD_NEXT, LINK_CODE_NONE);
+    lead(page, MOTION_API_LEAD_EXIT, LINK_CODE_NONE);
+    for (uint8_t code = 1; code < LINK_CODE_STOP; code++) {
+        link_taken_t taken = taken_by(page, code);
+        if (taken == LINK_LINKED1 || taken == LINK_LINKED2) {
+            lead(page, taken == LINK_LINKED1 ? MOTION_API_LEAD_LINKED1 : MOTION_API_LEAD_LINKED2, code);
+        }
+    }
+    lead(page, MOTION_API_LEAD_BLEND_RIGHT, LINK_CODE_NONE);
+    lead(page, MOTION_API_LEAD_BLEND_LEFT, LINK_CODE_NONE);
+    return api.lead_count;
+}
+
+const uint8_t *motion_api_leads_table(void) { return api.leads[0]; }
+
+const uint8_t *motion_api_reach(int first)
+{
+    uint8_t waiting[PAGE_COUNT];
+    int count = 0;
+    memset(api.reached, 0, sizeof api.reached);
+    for (int page = 1; page < (int)PAGE_COUNT; page++) {
+        if (first != 0 ? page == first : has_steps(page) && api.pages[page][PAGE_AT_PLAY_CODE] != LINK_CODE_NONE) {
+            api.reached[page] = 1;
+            waiting[count++] = (uint8_t)page;
+        }
+    }
+    while (count > 0) {
+        int leads = motion_api_leads(waiting[--count]);
+        for (int i = 0; i < leads; i++) {
+            uint8_t to = api.leads[i][1];
+            if (api.reached[to] == 0) {
+                api.reached[to] = 1;
+                waiting[count++] = to;
+            }
+        }
+    }
+    return api.reached;
+}
+
+bool motion_api_exits_round(int page)
+{
+    link_t link;
+    link_taken_t taken = LINK_NEXT;
+    link_init(&link, LINK_LATCH);
+    link_code(&link, LINK_CODE_STOP);
+    while (is_page(page) && page != 0 && has_steps(page) && taken != LINK_END_OF_EXIT_LOOP) {
+        page = link_decide(&link, (uint8_t)page, api.pages[page], &taken);
+    }
+    return taken == LINK_END_OF_EXIT_LOOP;
+}
+
+uint8_t *motion_api_moved(void) { return api.moved; }
+
+void motion_api_relink(int page)
+{
+    if (!is_page(page) || page_check(api.pages[page]) != PAGE_OK) {
+        return;
+    }
+    for (int i = 0; i < MOTION_API_LEADS; i++) {
+        uint8_t *to = &api.pages[page][link_at[i]];
+        if (*to != 0 && *to < PAGE_COUNT) {
+            *to = api.moved[*to];
+        }
+    }
+    page_seal(api.pages[page]);
+}
+
+/* --- play --- */
 
 uint16_t *motion_api_pose(void) { return api.pose; }
 

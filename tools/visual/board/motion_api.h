@@ -11,12 +11,6 @@
 
 #pragma GCC visibility push(default)
 
-/* Where things stand in a page, and its limits: page.h as numbers, and the ticks of a second (player.h), in the order of
- * layout[] in motion_api.c, which is the order of PAGE_LAYOUT in ../model/page-format.ts. motion_api_layout_count(): how
- * many. */
-const uint16_t *motion_api_layout(void);
-int motion_api_layout_count(void);
-
 /* The motion area: 128 pages of 512 bytes. The page writes it; play and checks read it. */
 uint8_t *motion_api_pages(void);
 
@@ -30,6 +24,41 @@ int motion_api_check_step(int page, int step);
 void motion_api_seal(int page);
 void motion_api_clear(int page);
 bool motion_api_is_playable(int page);
+
+/* The CRC-16 of a page, as @crcs and @save have it. */
+int motion_api_crc16(int page);
+
+/* A position as the joint on the other side has it, neutral positions in the middle. */
+int motion_api_mirrored(int pos);
+
+/* The code that these buttons of a remote give (hal/remote.h); 0 when they give none: none is down, a stop, a pause. */
+int motion_api_remote_code(int buttons);
+
+/* --- Links --- */
+
+typedef enum { MOTION_API_LEAD_NEXT, MOTION_API_LEAD_EXIT, MOTION_API_LEAD_LINKED1, MOTION_API_LEAD_LINKED2,
+               MOTION_API_LEAD_BLEND_RIGHT, MOTION_API_LEAD_BLEND_LEFT, MOTION_API_LEADS } motion_api_lead_t;
+
+/* Where a page leads, as link.c decides it: links that are never followed (a linked page without a code, a page above 127)
+ * are none. Rows of three bytes: motion_api_lead_t, page 1..127, the code that chooses it (0: none is needed). Returns the
+ * number of rows, at most MOTION_API_LEADS; a page that is damaged or has no steps leads nowhere. */
+#define MOTION_API_LEAD_BYTES 3
+int motion_api_leads(int page);
+const uint8_t *motion_api_leads_table(void);
+
+/* Marks the pages that a play of page `first` can come to, itself too; first 0: of all pages that a code calls. 128 bytes, 1
+ * or 0. A page that is damaged or empty is marked when something leads to it. */
+const uint8_t *motion_api_reach(int first);
+
+/* The exit links go round: a stop that begins in this page is ended by link.c, not by a page without an exit. */
+bool motion_api_exits_round(int page);
+
+/* The links and partners of a good page follow pages that have moved: motion_api_moved() holds the new number of each page,
+ * 0 where nothing is left to lead to. The page is sealed. As `m512 pages` does it (pages/operations.py). */
+uint8_t *motion_api_moved(void);
+void motion_api_relink(int page);
+
+/* --- Play --- */
 
 /* Where the joints stand before a play: 31 words, servo units. To be filled before motion_api_start(). */
 uint16_t *motion_api_pose(void);
@@ -71,6 +100,7 @@ bool motion_api_is_moving(void);
 /* Plays on for at most `ticks` (up to MOTION_API_CURVE_TICKS) and writes the way: 31 goals a tick, and what happened in
  * each (page, step and events: three bytes). Returns the ticks played; fewer than asked for means that the play ended. */
 #define MOTION_API_CURVE_TICKS 16384
+#define MOTION_API_MARK_BYTES 3
 uint32_t motion_api_curve(uint32_t ticks);
 const uint16_t *motion_api_curve_goals(void);
 const uint8_t *motion_api_curve_marks(void);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where a curve asks more of a servo than it can do.
 
-import { JOINTS } from './motion.ts';
+import { JOINTS, MARK_BYTES } from './motion.ts';
 import type { Curve } from './motion.ts';
 
 /** Ticks [from, to) of a curve. */
@@ -39,7 +39,7 @@ export function fastSteps(curve: Curve, unitsPerTick: number): FastStep[] {
   for (let joint = 0; joint < JOINTS; joint++) {
     for (const [from, to] of tooFast(curve, joint, unitsPerTick)) {
       for (let tick = from + OVER_TICKS; tick < to; tick++) {
-        const [page = 0, step = 0] = curve.marks.subarray(3 * tick);
+        const [page = 0, step = 0] = curve.marks.subarray(MARK_BYTES * tick);
         const way = Math.abs((curve.goals[tick * JOINTS + joint] ?? 0) - (curve.goals[(tick - OVER_TICKS) * JOINTS + joint] ?? 0));
         const times = way / OVER_TICKS / unitsPerTick;
         const key = (page << 3) | step;

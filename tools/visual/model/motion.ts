@@ -2,37 +2,60 @@
 // The firmware's page checks and player (motion.wasm), with names and types. What each function means stands in
 // board/motion_api.h. Pure: the module's instance comes from outside.
 
-/** The firmware's sizes, for what has no motion.wasm at hand. They stand only here, and page-format.ts takes no motion.wasm that has
- *  others. */
-export const PAGE_BYTES = 512;
-export const PAGE_COUNT = 128;
-export const JOINTS = 31;
-export const TICKS_PER_SECOND = 128;
+import * as facts from './facts.ts';
+
+export const { PAGE_BYTES, PAGE_COUNT } = facts;
+export const JOINTS = facts.PAGE_JOINTS;
+export const TICKS_PER_SECOND = facts.PLAYER_TICKS_PER_SECOND;
 /** Of a servo: units 0..POSITION_MAX. */
-export const POSITION_MAX = 1023;
+export const POSITION_MAX = facts.PAGE_POS_MAX;
 /** Where a servo stands in the middle of its way. */
-export const POSITION_MIDDLE = (POSITION_MAX + 1) / 2;
-const MARK_BYTES = 3;
+export const POSITION_MIDDLE = facts.PAGE_POS_MIDDLE;
+/** Of a battery of which nobody has told the voltage. */
+export const NOMINAL_VOLTS = facts.PAGE_FACTS_BATTERY_DV / 10;
+
+/** A tick in Curve.marks. */
+export const MARK_BYTES = facts.MOTION_API_MARK_BYTES;
 
 export type Law = 'exact' | 'classic';
+export const LAW_OF: Readonly<Record<Law, number>> = { exact: facts.PLAYER_LAW_EXACT, classic: facts.PLAYER_LAW_CLASSIC };
 
-/** What is wrong with a page, in the order of page_status_t. */
-export const PAGE_FAULTS = ['checksum', 'steps', 'schedule', 'speed', 'link', 'position'] as const;
-export type PageFault = (typeof PAGE_FAULTS)[number];
+/** What is wrong with a page, by page_status_t. */
+const PAGE_FAULTS = {
+  [facts.PAGE_ERR_CHECKSUM]: 'checksum', [facts.PAGE_ERR_STEPS]: 'steps', [facts.PAGE_ERR_SCHEDULE]: 'schedule', [facts.PAGE_ERR_SPEED]: 'speed',
+  [facts.PAGE_ERR_POSITION]: 'position',
+} as const;
+export type PageFault = (typeof PAGE_FAULTS)[keyof typeof PAGE_FAULTS];
+const FAULT_OF: Readonly<Record<number, PageFault>> = PAGE_FAULTS;
 
-/** How a play is shaped, in percent: rate 10..400, amplitude 0..150, blend -100 (left) .. 100 (right). */
+/** Where a page leads, by motion_api_lead_t: the links that a play follows, and the partners for blending. */
+const LEADS = {
+  [facts.MOTION_API_LEAD_NEXT]: 'next', [facts.MOTION_API_LEAD_EXIT]: 'exit', [facts.MOTION_API_LEAD_LINKED1]: 'linked1',
+  [facts.MOTION_API_LEAD_LINKED2]: 'linked2', [facts.MOTION_API_LEAD_BLEND_RIGHT]: 'blendRight', [facts.MOTION_API_LEAD_BLEND_LEFT]: 'blendLeft',
+} as const;
+export type LeadKind = (typeof LEADS)[keyof typeof LEADS];
+const LEAD_OF: Readonly<Record<number, LeadKind>> = LEADS;
+
+/** code: of the remote, that chooses it; 0: none is needed. */
+export interface Lead {
+  readonly kind: LeadKind;
+  readonly to: number;
+  readonly code: number;
+}
+
+/** How a play is shaped, in percent; blend: negative to the left. Ranges: SHAPE_RANGES. */
 export interface Shape {
   readonly rate: number;
   readonly amplitude: number;
   readonly blend: number;
 }
 
-export const AS_STORED: Shape = { rate: 100, amplitude: 100, blend: 0 };
+export const AS_STORED: Shape = { rate: facts.SHAPE_NORMAL, amplitude: facts.SHAPE_NORMAL, blend: 0 };
+export const SHAPE_RANGES: Readonly<Record<keyof Shape, readonly [least: number, most: number]>> = {
+  rate: [facts.SHAPE_RATE_MIN, facts.SHAPE_RATE_MAX], amplitude: [0, facts.SHAPE_AMPLITUDE_MAX], blend: [-facts.SHAPE_BLEND_MAX, facts.SHAPE_BLEND_MAX],
+};
 
-/** What happened in a tick: bits of player.h. */
-export const PLAYER_EVENT = { output: 1, step: 2, page: 4, link: 8, busy: 16, ended: 32, standing: 64 } as const;
-
-/** A piece of a play: 31 goals a tick (servo units), and page, step, events of each tick. */
+/** A piece of a play: JOINTS goals a tick (servo units), and MARK_BYTES of each tick: page, step, events. */
 export interface Curve {
   readonly ticks: number;
   readonly goals: Uint16Array;
@@ -44,13 +67,20 @@ export interface Curve {
 export interface MotionExports {
   readonly memory: { readonly buffer: ArrayBuffer };
   _initialize(): void;
-  motion_api_layout(): number;
-  motion_api_layout_count(): number;
   motion_api_pages(): number;
   motion_api_check(page: number): number;
   motion_api_seal(page: number): void;
   motion_api_clear(page: number): void;
   motion_api_is_playable(page: number): number;
+  motion_api_crc16(page: number): number;
+  motion_api_mirrored(pos: number): number;
+  motion_api_remote_code(buttons: number): number;
+  motion_api_leads(page: number): number;
+  motion_api_leads_table(): number;
+  motion_api_reach(first: number): number;
+  motion_api_exits_round(page: number): number;
+  motion_api_moved(): number;
+  motion_api_relink(page: number): void;
   motion_api_pose(): number;
   motion_api_first_pose(page: number): number;
   motion_api_step_ticks(page: number, step: number, law: number): number;
@@ -74,11 +104,6 @@ export class Motion {
     api._initialize();
   }
 
-  /** Where things stand in a page: the numbers that page-format.ts gives their names. */
-  get layout(): readonly number[] {
-    return [...new Uint16Array(this.api.memory.buffer, this.api.motion_api_layout(), this.api.motion_api_layout_count())];
-  }
-
   /** The 65,536 bytes of all pages, as they lie in flash; a view, good until the next call. */
   get pages(): Uint8Array {
     return new Uint8Array(this.api.memory.buffer, this.api.motion_api_pages(), PAGE_BYTES * PAGE_COUNT);
@@ -96,7 +121,7 @@ export class Motion {
   /** The first thing that is wrong with a page, or null. */
   check(page: number): PageFault | null {
     const status = this.api.motion_api_check(this.number(page));
-    return PAGE_FAULTS[status - 1] ?? null;
+    return FAULT_OF[status] ?? null;
   }
 
   seal(page: number): void {
@@ -111,6 +136,49 @@ export class Motion {
     return this.api.motion_api_is_playable(this.number(page)) !== 0;
   }
 
+  /** The CRC-16 of a page. */
+  crc(page: number): number {
+    return this.api.motion_api_crc16(this.number(page));
+  }
+
+  /** A position (servo units) as the joint on the other side has it. */
+  mirrored(position: number): number {
+    return this.api.motion_api_mirrored(position);
+  }
+
+  /** The code that buttons of a remote give together (their bits); 0: none. */
+  remoteCode(buttons: number): number {
+    return this.api.motion_api_remote_code(buttons);
+  }
+
+  /** Where a page leads, as the firmware decides it; what it never follows is not there. */
+  leads(page: number): Lead[] {
+    const count = this.api.motion_api_leads(this.number(page));
+    const rows = new Uint8Array(this.api.memory.buffer, this.api.motion_api_leads_table(), count * facts.MOTION_API_LEAD_BYTES);
+    return Array.from({ length: count }, (_, i) => {
+      const [kind = 0, to = 0, code = 0] = rows.subarray(i * facts.MOTION_API_LEAD_BYTES);
+      return { kind: LEAD_OF[kind] ?? 'next', to, code };
+    });
+  }
+
+  /** Pages that a play of `first` can come to, itself too; 0: of all pages that a code calls. In order. */
+  reach(first: number): number[] {
+    const reached = new Uint8Array(this.api.memory.buffer, this.api.motion_api_reach(first), PAGE_COUNT);
+    return Array.from(reached, (is, page) => (is ? page : 0)).filter((page) => page !== 0);
+  }
+
+  /** The exit links, from this page on, go round. */
+  exitsRound(page: number): boolean {
+    return this.api.motion_api_exits_round(this.number(page)) !== 0;
+  }
+
+  /** Links and partners of a page follow pages that have moved: from -> to, 0 where nothing is left. */
+  relink(page: number, moved: ReadonlyMap<number, number>): void {
+    const table = new Uint8Array(this.api.memory.buffer, this.api.motion_api_moved(), PAGE_COUNT);
+    table.set(Array.from(table, (_, from) => moved.get(from) ?? from));
+    this.api.motion_api_relink(this.number(page));
+  }
+
   /** Where step 1 of a page wants its joints; the others as in `from` (servo units). */
   firstPose(page: number, from: ArrayLike<number>): Uint16Array {
     this.pose.set(from);
@@ -122,7 +190,7 @@ export class Motion {
   stepTicks(page: number, step: number, from: ArrayLike<number>, law: Law = 'exact'): { move: number; pause: number } {
     this.pose.set(from);
     const number = this.number(page);
-    const lawNumber = law === 'classic' ? 1 : 0;
+    const lawNumber = LAW_OF[law];
     const move = this.api.motion_api_step_ticks(number, step, lawNumber);
     const pause = this.api.motion_api_pause_ticks(number, step, lawNumber);
     if (move < 0 || pause < 0) throw new RangeError(`no step ${step} in page ${page}`);
@@ -143,17 +211,17 @@ export class Motion {
   /** Begins a play from a pose (31 servo units). false: the page is damaged or has no action. */
   start(page: number, pose: ArrayLike<number>, options: { law?: Law; code?: number; joints?: number } = {}): boolean {
     this.pose.set(pose);
-    const law = options.law === 'classic' ? 1 : 0;
+    const law = LAW_OF[options.law ?? 'exact'];
     const joints = options.joints ?? 0x7fffffff;
     return this.api.motion_api_start(this.number(page), law, 0, options.code ?? 0, joints) === 0;
   }
 
-  /** A code arrives (0 released, 255 stop); it counts at the next decision of a link, as in the robot. */
+  /** A code arrives (0 released, LINK_CODE_STOP); it counts at the next decision of a link, as in the robot. */
   code(code: number): void {
     this.api.motion_api_code(code);
   }
 
-  /** Plays on for at most so many ticks (16,384 at once). */
+  /** Plays on for at most so many ticks (MOTION_API_CURVE_TICKS at once). */
   curve(ticks: number): Curve {
     const played = this.api.motion_api_curve(ticks);
     const memory = this.api.memory.buffer;

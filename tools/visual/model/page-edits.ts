@@ -4,7 +4,6 @@
 import { isSamePage, pageOf } from './document.ts';
 import type { MotionDocument } from './document.ts';
 import type { PageFormat } from './page-format.ts';
-import { LINK_FIELDS, PARTNER_FIELDS, readPage, writePage } from './page.ts';
 import type { LinkField, PageView } from './page.ts';
 import { ok, refuse } from './result.ts';
 import type { Result } from './result.ts';
@@ -22,8 +21,6 @@ export interface PageTransfer {
   readonly replace?: boolean;
 }
 
-const ALL_LINKS: readonly LinkField[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
-
 export function rename(format: PageFormat, document: MotionDocument, page: number, name: string): Result<Transaction> {
   return changePage(format, 'rename', document, page, () => ok({ name }));
 }
@@ -35,19 +32,6 @@ export function setHeader(format: PageFormat, document: MotionDocument, page: nu
 /** target 0: no link. */
 export function setLink(format: PageFormat, document: MotionDocument, page: number, link: LinkField, target: number): Result<Transaction> {
   return changePage(format, 'set-link', document, page, () => ok({ [link]: target }));
-}
-
-/** The page with its links to `moved`'s keys leading to their values; the same object when there is none. */
-function relinked(format: PageFormat, bytes: Uint8Array, moved: ReadonlyMap<number, number>): Uint8Array {
-  if (format.isErased(bytes) || format.fault(bytes) !== null) return bytes;
-  const view = readPage(format, bytes);
-  const change = Object.fromEntries(ALL_LINKS.flatMap((link) => {
-    const target = moved.get(view[link]);
-    return view[link] !== 0 && target !== undefined ? [[link, target]] : [];
-  }));
-  if (Object.keys(change).length === 0) return bytes;
-  const after = writePage(format, bytes, change);
-  return after.ok ? after.value : bytes;
 }
 
 /** Both are pages of motions, and the source has contents. */
@@ -64,7 +48,7 @@ export function copyPage(format: PageFormat, document: MotionDocument, from: num
   if (!source.ok) return source;
   const before = pageOf(document, to);
   if (from !== to && !format.isEmpty(before) && !options.replace) return refuse('page-in-use', String(to));
-  return ok(transaction('copy-page', [{ page: to, before, after: relinked(format, source.value, new Map([[from, to]])) }]));
+  return ok(transaction('copy-page', [{ page: to, before, after: format.relinked(source.value, new Map([[from, to]])) }]));
 }
 
 export function movePage(format: PageFormat, document: MotionDocument, from: number, to: number, options: PageTransfer = {}): Result<Transaction> {
@@ -73,7 +57,7 @@ export function movePage(format: PageFormat, document: MotionDocument, from: num
   if (from === to) return ok(transaction('move-page', []));
   if (!format.isEmpty(pageOf(document, to)) && !options.replace) return refuse('page-in-use', String(to));
   const moved = new Map([[from, to]]);
-  const pages = new Map([[from, format.empty], [to, relinked(format, source.value, moved)]]);
+  const pages = new Map([[from, format.empty], [to, format.relinked(source.value, moved)]]);
   return ok(transaction('move-page', rearranged(format, document, pages, options.linksFollow ? moved : null)));
 }
 
@@ -84,7 +68,7 @@ export function swapPages(format: PageFormat, document: MotionDocument, a: numbe
   if (!first.ok) return first;
   if (!second.ok) return second;
   const moved = new Map([[a, b], [b, a]]);
-  const own = (bytes: Uint8Array, from: number, to: number): Uint8Array => relinked(format, bytes, options.linksFollow ? moved : new Map([[from, to]]));
+  const own = (bytes: Uint8Array, from: number, to: number): Uint8Array => format.relinked(bytes, options.linksFollow ? moved : new Map([[from, to]]));
   const pages = new Map([[a, own(second.value, b, a)], [b, own(first.value, a, b)]]);
   return ok(transaction('swap-pages', a === b ? [] : rearranged(format, document, pages, options.linksFollow ? moved : null)));
 }
@@ -92,7 +76,7 @@ export function swapPages(format: PageFormat, document: MotionDocument, a: numbe
 /** Changes that put these pages in; the links of all others follow `moved`. */
 function rearranged(format: PageFormat, document: MotionDocument, pages: ReadonlyMap<number, Uint8Array>, moved: ReadonlyMap<number, number> | null): Change[] {
   return document.pages.map((before, page) => {
-    const after = pages.get(page) ?? (moved && page !== 0 ? relinked(format, before, moved) : before);
+    const after = pages.get(page) ?? (moved && page !== 0 ? format.relinked(before, moved) : before);
     return { page, before, after };
   });
 }
@@ -131,7 +115,7 @@ export function adoptPages(
     filled = { ...filled, pages: filled.pages.with(to, bytes) };
   }
   const moved = new Map(Array.from(document.pages, (_, page) => [page, placed.get(page) ?? 0]));
-  const here = new Map(Array.from(pages, ([from, bytes]) => [placed.get(from) ?? from, relinked(format, bytes, moved)]));
+  const here = new Map(Array.from(pages, ([from, bytes]) => [placed.get(from) ?? from, format.relinked(bytes, moved)]));
   const edit = replacePages(format, document, here);
   return edit.ok ? ok({ edit: edit.value, placed }) : edit;
 }

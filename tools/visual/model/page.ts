@@ -2,7 +2,7 @@
 // One page as names and numbers, and back. Reading never fails: of a damaged page it shows what can be read. Writing makes
 // new, sealed bytes and changes nothing else: flags, unused words and reserved bytes stay as they were found.
 
-import { TICKS_PER_SECOND } from './motion.ts';
+import { POSITION_MIDDLE, TICKS_PER_SECOND } from './motion.ts';
 import type { Law } from './motion.ts';
 import type { PageFormat } from './page-format.ts';
 import { ok, refuse } from './result.ts';
@@ -52,6 +52,8 @@ export type ByteField = keyof typeof BYTE_FIELDS;
 export const LINK_FIELDS = ['next', 'exit', 'linked1', 'linked2'] as const;
 export const PARTNER_FIELDS = ['blendRight', 'blendLeft'] as const;
 export type LinkField = (typeof LINK_FIELDS)[number] | (typeof PARTNER_FIELDS)[number];
+/** What a field of one byte holds. */
+export const BYTE_MAX = 0xff;
 const LINKS: readonly string[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
 
 function word(bytes: Uint8Array, at: number): number {
@@ -107,7 +109,7 @@ export function writePage(format: PageFormat, found: Uint8Array, change: Partial
   for (const [field, at] of Object.entries(BYTE_FIELDS) as [ByteField, (typeof BYTE_FIELDS)[ByteField]][]) {
     const value = change[field];
     if (value === undefined) continue;
-    const most = LINKS.includes(field) ? layout.pageCount - 1 : 255;
+    const most = LINKS.includes(field) ? layout.pageCount - 1 : BYTE_MAX;
     const least = field === 'speed' ? 1 : 0;
     if (!isWhole(value, least, most)) return refuse('bad-number', `${field} ${value}, not ${least}..${most}`);
     bytes[layout[at]] = value;
@@ -151,8 +153,8 @@ function writeSteps(format: PageFormat, bytes: Uint8Array, steps: readonly Step[
 function writeStep(format: PageFormat, bytes: Uint8Array, index: number, step: Step): Result<never> | null {
   const { layout } = format;
   const at = stepAt(format, index);
-  if (!isWhole(step.time, 0, 255)) return refuse('bad-number', `time ${step.time}, not 0..255`);
-  if (!isWhole(step.pause, 0, 255)) return refuse('bad-number', `pause ${step.pause}, not 0..255`);
+  if (!isWhole(step.time, 0, BYTE_MAX)) return refuse('bad-number', `time ${step.time}, not 0..${BYTE_MAX}`);
+  if (!isWhole(step.pause, 0, BYTE_MAX)) return refuse('bad-number', `pause ${step.pause}, not 0..${BYTE_MAX}`);
   if (step.positions.length !== layout.joints) return refuse('no-such-joint', `${step.positions.length} joints`);
   for (const [id, position] of step.positions.entries()) {
     if (position === readPosition(format, word(bytes, at + 2 * id))) continue; // what a flag hides stays
@@ -176,9 +178,9 @@ export function stepSeconds(format: PageFormat, bytes: Uint8Array, step: number,
  *  no step has used yet in the middle. 0: it has no action or is damaged. */
 export function pageSeconds(format: PageFormat, bytes: Uint8Array, law: Law = 'exact'): number {
   if (!format.isPlayable(bytes)) return 0;
-  const { posMax, joints } = format.layout;
+  const { joints } = format.layout;
   const page = readPage(format, bytes);
-  const from = Array.from({ length: joints }, (_, id) => page.steps[0]?.positions[id] ?? (posMax + 1) / 2);
+  const from = Array.from({ length: joints }, (_, id) => page.steps[0]?.positions[id] ?? POSITION_MIDDLE);
   const once = page.steps.reduce((sum, _, step) => {
     const { move, pause } = stepSeconds(format, bytes, step, from, law);
     return sum + move + pause;

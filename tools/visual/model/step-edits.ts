@@ -105,12 +105,6 @@ export function setPause(format: PageFormat, document: MotionDocument, page: num
   return changePage(format, 'set-pause', document, page, (view) => eachStep(view, steps, (step) => ({ ...step, pause })));
 }
 
-/** The position that a mirror shows, as m512's mirror has it: 1024 - p, at most 1023. */
-export function mirrored(format: PageFormat, position: number | null): number | null {
-  const { posMax } = format.layout;
-  return position === null ? null : Math.min(posMax + 1 - position, posMax);
-}
-
 /** Makes one side look like the mirror image of the other. */
 export function mirrorSteps(
   format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>, pairs: readonly JointPair[], from: Side,
@@ -133,7 +127,8 @@ function takeMirrored(
     ...step,
     positions: step.positions.map((position, id) => {
       const source = sources.get(id);
-      return source === undefined ? position : mirrored(format, step.positions[source] ?? null);
+      const seen = source === undefined ? position : step.positions[source] ?? null;
+      return source === undefined || seen === null ? seen : format.mirrored(seen);
     }),
   })));
 }

@@ -5,10 +5,10 @@
 //     step 40 pause 8 | 1:600 2:424
 
 import { JOINTS, POSITION_MAX } from './motion.ts';
+import { BYTE_MAX } from './page.ts';
 import type { Step } from './page.ts';
 
 const LINE = /^step (\d{1,3})(?: pause (\d{1,3}))? \|((?: \d{1,2}:\d{1,4})*)$/;
-const BYTE_MAX = 255;
 
 export function stepsToText(steps: readonly Step[]): string {
   return steps.map(({ positions, time, pause }) => {

@@ -2,7 +2,7 @@
 // What physics says of a motion: the record of one trial and the verdict on it, and limbs that meet. Pure; sim/trial.ts
 // makes the records.
 
-import { JOINTS, TICKS_PER_SECOND } from './motion.ts';
+import { JOINTS, MARK_BYTES, TICKS_PER_SECOND } from './motion.ts';
 import type { Curve, Law, Shape } from './motion.ts';
 
 /** Two links of the body, by name, in the order of the alphabet. */
@@ -85,10 +85,10 @@ export const TOUCH_STRIDE = 4;
 
 /** The poses of one page in its curve that are to be looked at: JOINTS numbers each, and the step of each. */
 export function posesOf({ ticks, goals, marks }: Curve, page: number): { readonly poses: Uint16Array; readonly steps: readonly number[] } {
-  const seen = Array.from({ length: Math.ceil(ticks / TOUCH_STRIDE) }, (_, i) => i * TOUCH_STRIDE).filter((tick) => marks[3 * tick] === page);
+  const seen = Array.from({ length: Math.ceil(ticks / TOUCH_STRIDE) }, (_, i) => i * TOUCH_STRIDE).filter((tick) => marks[MARK_BYTES * tick] === page);
   const poses = new Uint16Array(seen.length * JOINTS);
   seen.forEach((tick, i) => poses.set(goals.subarray(tick * JOINTS, (tick + 1) * JOINTS), i * JOINTS));
-  return { poses, steps: seen.map((tick) => (marks[3 * tick + 1] ?? 1) - 1) };
+  return { poses, steps: seen.map((tick) => (marks[MARK_BYTES * tick + 1] ?? 1) - 1) };
 }
 
 /** The deepest touch of each step. touches: of each pose, in the order of `steps`. */

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where a remote's keys lead: from rest, and from a page that plays. Pure.
 
-import { linksOf } from './links.ts';
 import type { PageFormat } from './page-format.ts';
 import { readPage } from './page.ts';
 import type { PageView } from './page.ts';
@@ -37,10 +36,10 @@ export function callsOf(format: PageFormat, pages: RobotPages): Way[] {
 
 /** Where the page leads at its end: keys first, then what it does without one, then a stop. */
 export function waysFrom(format: PageFormat, pages: RobotPages, page: number): Way[] {
-  const read = view(format, pages, page);
-  if (!read) return [];
+  const bytes = pages[page];
+  if (page === 0 || !bytes) return [];
   const order = ['linked', 'then', 'stop'];
-  const ways = linksOf(page, read).flatMap(({ to, kind, code }) => {
+  const ways = format.leads(bytes).flatMap(({ to, kind, code }) => {
     const name = view(format, pages, to)?.name;
     return name === undefined || kind === 'blendRight' || kind === 'blendLeft' ? [] : [{ kind: KINDS[kind], code, page: to, name }];
   });

@@ -2,7 +2,8 @@
 // Reads all pages of a robot: CRCs first, then only those that nobody here has already.
 
 import { askPageCrcs } from './page-requests.ts';
-import { REFUSED, askDensePage, askPage, crc16 } from './protocol.ts';
+import { REFUSED, askDensePage, askPage } from './protocol.ts';
+import type { PageCrc } from './protocol.ts';
 import { RobotError } from './robot-error.ts';
 import type { Requests } from './requests.ts';
 
@@ -14,18 +15,18 @@ export interface ReadOptions {
 }
 
 /** The 128 pages as they stand in flash. Rejects with RobotError; cancelled between two pages. */
-export async function readPages(requests: Requests, options: ReadOptions = {}): Promise<Uint8Array[]> {
+export async function readPages(requests: Requests, crcOf: PageCrc, options: ReadOptions = {}): Promise<Uint8Array[]> {
   const crcs = await askPageCrcs(requests);
-  const pages = crcs.map((crc, page) => options.known?.(page).find((bytes) => crc16(bytes) === crc));
+  const pages = crcs.map((crc, page) => options.known?.(page).find((bytes) => crcOf(bytes) === crc));
   const missing = pages.flatMap((bytes, page) => (bytes ? [] : [page]));
   let ask = askDensePage;
   for (const [done, page] of missing.entries()) {
     if (options.signal?.aborted) throw new RobotError('cancelled');
     options.progress?.(done, missing.length);
-    pages[page] = await ask(requests, page).catch((error: unknown) => {
+    pages[page] = await ask(requests, page, crcOf).catch((error: unknown) => {
       if (!(error instanceof RobotError) || error.number !== REFUSED.noCommand) throw error;
       ask = askPage; // an older image
-      return askPage(requests, page);
+      return askPage(requests, page, crcOf);
     });
   }
   options.progress?.(missing.length, missing.length);

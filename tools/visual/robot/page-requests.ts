@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Requests of PROTOCOL.md that bring pages in and tell which are there: `@crcs` in both images, the others in Edit alone.
 
+import { PAGE_COUNT } from '../model/motion.ts';
 import { RobotError } from './robot-error.ts';
 import type { Requests } from './requests.ts';
 
@@ -23,7 +24,7 @@ function crcOf(words: string): number {
 }
 
 /** The CRC-16 of each of these pages, as they stand in flash. */
-export async function askPageCrcs(requests: Ask, first = 0, last = 127): Promise<number[]> {
+export async function askPageCrcs(requests: Ask, first = 0, last = PAGE_COUNT - 1): Promise<number[]> {
   const answer = await requests.ask(`@crcs ${first} ${last}`, { timeoutMs: CRCS_MS });
   const words = answer.match(/.{1,4}/g) ?? [];
   if (words.length !== last - first + 1) throw new RobotError('foreign', `@crcs: ${words.length} pages`);

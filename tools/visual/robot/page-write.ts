@@ -8,9 +8,9 @@
 //                                                                       |
 //                                  the line was lost: asked when run() begins anew
 
+import type { PageFormat } from '../model/page-format.ts';
 import { DATA_BYTES, ERR_UNSAVED, askPageCrcs, askRamCrc, openPage, savePage, sendData } from './page-requests.ts';
 import type { Ask } from './page-requests.ts';
-import { crc16 } from './protocol.ts';
 import { RobotError } from './robot-error.ts';
 
 export type PageAccount = 'waiting' | 'sending' | 'saving' | 'written' | 'verified';
@@ -31,18 +31,16 @@ export interface WriteOptions {
 
 /** A request whose answer was lost in noise may be sent again: all of them do the same thing twice. */
 const TRIES = 3;
-const ERASED = 0xff;
 
 export class PageWrite {
   readonly account: Map<number, PageAccount>;
   private readonly pages: readonly PageToWrite[];
-  private readonly empty: Uint8Array;
+  private readonly format: PageFormat;
 
-  /** empty: the empty page, which Edit takes for erased flash. */
-  constructor(pages: readonly PageToWrite[], empty: Uint8Array) {
+  constructor(pages: readonly PageToWrite[], format: PageFormat) {
     this.pages = [...pages].sort((a, b) => a.page - b.page);
     this.account = new Map(this.pages.map(({ page }) => [page, 'waiting']));
-    this.empty = empty;
+    this.format = format;
   }
 
   get isDone(): boolean {
@@ -77,8 +75,8 @@ export class PageWrite {
     const crcs = await this.crcs(requests);
     for (const { page, before, after } of this.pages) {
       const crc = crcs.get(page);
-      if (crc === crc16(after)) set(page, 'written');
-      else if (crc === crc16(before)) set(page, 'waiting');
+      if (crc === this.format.crc(after)) set(page, 'written');
+      else if (crc === this.format.crc(before)) set(page, 'waiting');
       else throw new RobotError('page-changed', String(page));
     }
   }
@@ -86,7 +84,7 @@ export class PageWrite {
   private async verify(requests: Ask, set: (page: number, state: PageAccount) => void): Promise<void> {
     const crcs = await this.crcs(requests);
     for (const { page, after } of this.pages) {
-      if (crcs.get(page) !== crc16(after)) {
+      if (crcs.get(page) !== this.format.crc(after)) {
         set(page, 'waiting');
         throw new RobotError('page-not-saved', String(page));
       }
@@ -104,7 +102,7 @@ export class PageWrite {
     const { page, after } = one;
     set(page, 'sending');
     await this.open(requests, page);
-    const crc = crc16(after);
+    const crc = this.format.crc(after);
     const inRam = this.loaded(one);
     for (const offset of differences(inRam, after)) await sendData(requests, offset, piece(after, offset));
     if ((await askRamCrc(requests)) !== crc) {
@@ -134,7 +132,7 @@ export class PageWrite {
       const offsets = differences(inRam, one.after);
       for (const [sent, offset] of offsets.entries()) {
         inRam.set(piece(one.after, offset), offset);
-        if (crc16(inRam) !== crc) continue;
+        if (this.format.crc(inRam) !== crc) continue;
         for (const back of offsets.slice(0, sent + 1)) await sendData(requests, back, piece(this.loaded(one), back));
         return;
       }
@@ -142,9 +140,9 @@ export class PageWrite {
     throw new RobotError('page-unsaved');
   }
 
-  /** What `@open` brings into the RAM. */
+  /** What `@open` brings into the RAM: Edit takes erased flash for the empty page. */
   private loaded({ before }: PageToWrite): Uint8Array {
-    return before.every((byte) => byte === ERASED) ? this.empty : before;
+    return this.format.isErased(before) ? this.format.empty : before;
   }
 }
 

@@ -110,34 +110,27 @@ export async function askList(requests: Requests): Promise<PageEntry[]> {
   });
 }
 
-/** CRC-16, polynomial 0x1021, start 0xFFFF. */
-export function crc16(bytes: Uint8Array): number {
-  let crc = 0xffff;
-  for (const byte of bytes) {
-    crc ^= byte << 8;
-    for (let bit = 0; bit < 8; bit++) crc = ((crc << 1) ^ (crc & 0x8000 ? 0x1021 : 0)) & 0xffff;
-  }
-  return crc;
-}
+/** The CRC-16 of a page: PageFormat.crc. */
+export type PageCrc = (page: Uint8Array) => number;
 
 /** The 512 bytes of a page, checked by their CRC. */
-export function askPage(requests: Requests, page: number): Promise<Uint8Array> {
-  return readWhole(requests, '@page', page, (text) => {
+export function askPage(requests: Requests, page: number, crcOf: PageCrc): Promise<Uint8Array> {
+  return readWhole(requests, '@page', page, crcOf, (text) => {
     return Uint8Array.from({ length: text.length / 2 }, (_, i) => Number.parseInt(text.slice(2 * i, 2 * i + 2), 16));
   });
 }
 
 /** The same in two thirds of the time. An image that is older refuses with ERR 1. */
-export function askDensePage(requests: Requests, page: number): Promise<Uint8Array> {
-  return readWhole(requests, '@dense', page, fromDense);
+export function askDensePage(requests: Requests, page: number, crcOf: PageCrc): Promise<Uint8Array> {
+  return readWhole(requests, '@dense', page, crcOf, fromDense);
 }
 
-async function readWhole(requests: Requests, word: string, page: number, decode: (text: string) => Uint8Array): Promise<Uint8Array> {
+async function readWhole(requests: Requests, word: string, page: number, crcOf: PageCrc, decode: (text: string) => Uint8Array): Promise<Uint8Array> {
   const answer = await requests.ask(`${word} ${page}`, { timeoutMs: PAGE_MS });
   const [number, text = '', crc = ''] = answer.split(' ');
   if (Number(number) !== page) throw strange(word, answer);
   const bytes = decode(text);
-  if (bytes.length !== PAGE_BYTES || crc16(bytes) !== Number.parseInt(crc, 16)) throw strange(word, 'the CRC does not fit');
+  if (bytes.length !== PAGE_BYTES || crcOf(bytes) !== Number.parseInt(crc, 16)) throw strange(word, 'the CRC does not fit');
   return bytes;
 }
 

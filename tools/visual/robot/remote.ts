@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The RC-100 remote control: buttons to packets. Source: remote.md, "Sources of a code".
+// The RC-100 remote control: buttons to packets, for the other end is hal/remote.c, which takes them apart. What a packet calls is
+// decided there too (PageFormat.remoteCode).
+
+import * as facts from '../model/facts.ts';
 
 export const REMOTE_BUTTONS = {
-  up: 1, down: 2, left: 4, right: 8, b1: 16, b2: 32, b3: 64, b4: 128, b5: 256, b6: 512,
+  up: facts.REMOTE_UP, down: facts.REMOTE_DOWN, left: facts.REMOTE_LEFT, right: facts.REMOTE_RIGHT, b1: facts.REMOTE_BUTTON1, b2: facts.REMOTE_BUTTON2,
+  b3: facts.REMOTE_BUTTON3, b4: facts.REMOTE_BUTTON4, b5: facts.REMOTE_BUTTON5, b6: facts.REMOTE_BUTTON6,
 } as const;
 export type RemoteButton = keyof typeof REMOTE_BUTTONS;
 
-function wordOf(held: Iterable<RemoteButton>): number {
+/** The word H:L of a packet. */
+export function wordOf(held: Iterable<RemoteButton>): number {
   let word = 0;
   for (const button of held) word |= REMOTE_BUTTONS[button];
   return word;
-}
-
-/** The code of these buttons; 0 for none, and with buttons 5 or 6, which call no page. */
-export function codeOf(held: Iterable<RemoteButton>): number {
-  const word = wordOf(held);
-  return word > 0xff ? 0 : word;
 }
 
 /** FF 55 low ~low high ~high; no button: the packet of letting go. */

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
 // The simulated robot of board.wasm, with names and types. What each function means stands in board/board_api.h.
 
+import * as facts from '../model/facts.ts';
 import { wasiImports } from './wasi.ts';
 
-export const CYCLES_PER_TICK = 125_000;
-export const CYCLES_PER_MS = 16_000;
-export const FLASH_BYTES = 0x20000;
-export const EEPROM_BYTES = 0x1000;
-export const MOTIONS_ADDRESS = 0xe000;
-const SERVO_EEPROM_BYTES = 24;
-const SERVO_FIELDS = 10;
-const SHAFT_FIELDS = 4;
-const BUFFER_BYTES = 0x80000;
+export const CYCLES_PER_TICK = facts.M128_HZ / facts.PLAYER_TICKS_PER_SECOND;
+export const CYCLES_PER_MS = facts.M128_HZ / 1000;
+export const FLASH_BYTES = facts.MEM_BOOT_END;
+export const EEPROM_BYTES = facts.MEM_EEPROM_BYTES;
+export const MOTIONS_ADDRESS = facts.MEM_MOTION_START;
+/** servo_shaft_t as doubles: ID, torque in N m, angle in radians, speed in radians a second. */
+export const SHAFT_FIELDS = facts.SERVO_SHAFT_FIELDS;
+/** As it is shipped. */
+const AX12_BPS = 1_000_000;
+const { BOARD_API_BUFFER_BYTES: BUFFER_BYTES, BOARD_API_SERVO_FIELDS: SERVO_FIELDS, SERVO_EEPROM_BYTES } = facts;
 
 export type Sender = 'pc' | 'remote';
 export const BUTTONS = ['up', 'down', 'left', 'right', 'start', 'mode'] as const;
 export type Button = (typeof BUTTONS)[number];
 
-/** One servo as of now. Positions in servo units (0..1023 = 300 degrees), speeds in units a second. */
+/** One servo as of now. Positions in servo units, speeds in units a second. */
 export interface ServoReading {
   readonly id: number;
   readonly goalPos: number;
@@ -89,7 +91,7 @@ export class Board {
     this.api = api;
     this.seam = seam;
     this.bufferAt = api.board_api_buffer();
-    if (!api.board_api_new(0, seed)) throw new Error('no memory for a simulated board');
+    if (!api.board_api_new(facts.BOARD_CM5, seed)) throw new Error('no memory for a simulated board');
   }
 
   /** A CM-5 without power, erased, without servos. seed: contents of its SRAM at power-on. */
@@ -116,7 +118,7 @@ export class Board {
   }
 
   addServo(id: number): void {
-    if (!this.api.board_api_add_servo(id, 0, 1_000_000)) throw new Error(`servo ${id} cannot be plugged in`);
+    if (!this.api.board_api_add_servo(id, facts.SERVO_AX12, AX12_BPS)) throw new Error(`servo ${id} cannot be plugged in`);
   }
 
   setPower(on: boolean): void {
@@ -240,8 +242,10 @@ export class Board {
     for (let i = 0; i < this.servoCount; i++) {
       const field = (n: number): number => table[i * SERVO_FIELDS + n] ?? 0;
       readings.push({
-        id: field(0), goalPos: field(1), position: field(2), velocity: field(3), output: field(4),
-        torque: field(5) !== 0, alarms: field(6), celsius: field(7), faults: field(8), led: field(9) !== 0,
+        id: field(facts.BOARD_API_SERVO_ID), goalPos: field(facts.BOARD_API_SERVO_GOAL), position: field(facts.BOARD_API_SERVO_POSITION),
+        velocity: field(facts.BOARD_API_SERVO_VELOCITY), output: field(facts.BOARD_API_SERVO_OUTPUT), torque: field(facts.BOARD_API_SERVO_TORQUE) !== 0,
+        alarms: field(facts.BOARD_API_SERVO_ALARMS), celsius: field(facts.BOARD_API_SERVO_CELSIUS), faults: field(facts.BOARD_API_SERVO_FAULTS),
+        led: field(facts.BOARD_API_SERVO_LED) !== 0,
       });
     }
     return readings;

@@ -2,7 +2,8 @@
 // The simulated robot as a whole: board, servos and, when there is one, a body. Runs for so many cycles; knows no wall
 // clock, no worker and no storage.
 
-import { Board, CYCLES_PER_MS, EEPROM_BYTES, MOTIONS_ADDRESS } from './board.ts';
+import * as facts from '../model/facts.ts';
+import { Board, CYCLES_PER_MS, MOTIONS_ADDRESS } from './board.ts';
 import type { ServoReading } from './board.ts';
 
 /** Boot loader, application and motions for a robot fresh from the factory. */
@@ -20,10 +21,8 @@ export interface Memories {
 }
 
 export const SERVO_IDS: readonly number[] = Array.from({ length: 18 }, (_, i) => i + 1);
-const MODE_BYTE = EEPROM_BYTES - 1;
 /** The loader's mode byte: start the application without a word (an erased one keeps it at its prompt). */
-const MODE_APPLICATION = 0x11;
-const APPLICATION_BYTES = 0xc000;
+const { MEM_EE_BOOT_MODE: MODE_BYTE, START_MODE_APPLICATION: MODE_APPLICATION, MEM_APP_END: APPLICATION_END } = facts;
 const RESET_CYCLES = 10 * CYCLES_PER_MS;
 
 /** A robot without power. What it kept is loaded first, then the images over it, as a new firmware would be; motions only
@@ -35,7 +34,7 @@ export async function makeMachine(module: WebAssembly.Module, images: Images, ke
     board.writeFlash(0, kept.flash);
     board.writeEeprom(0, kept.eeprom);
     board.writeServoEeproms(kept.servos);
-    board.writeFlash(0, new Uint8Array(APPLICATION_BYTES).fill(0xff));
+    board.writeFlash(0, new Uint8Array(APPLICATION_END).fill(0xff));
   } else {
     board.writeFlash(MOTIONS_ADDRESS, images.motions);
     board.writeEeprom(MODE_BYTE, Uint8Array.of(MODE_APPLICATION));

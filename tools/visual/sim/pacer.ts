@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How much simulated time is due. Pure: the wall clock is an argument.
 
-const CYCLES_PER_MS = 16_000;
+import { CYCLES_PER_MS } from './board.ts';
+
 /** Behind by more than this (a hidden tab, a machine that slept), the time is let go: a robot must not leap to catch up. */
 const FORGIVEN_MS = 250;
 

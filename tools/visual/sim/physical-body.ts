@@ -8,15 +8,13 @@ import { POSITION_MIDDLE } from '../model/motion.ts';
 import { STILL, add, cross, length, rotate, scale, turn } from '../model/space.ts';
 import type { Place, Vector } from '../model/space.ts';
 import type { Touch } from '../model/trial.ts';
+import { SHAFT_FIELDS } from './board.ts';
 import { geomTouches, linkTouches } from './contacts.ts';
 import { CLEARANCE_M, GRAVITY, Hands, UPRIGHT } from './hands.ts';
 import type { HandledBody } from './hands.ts';
 import type { Floor, Grip } from './messages.ts';
 import { OBJECT } from './mujoco.ts';
 import type { Data, Model, Mujoco } from './mujoco.ts';
-
-/** servo_shaft_t: ID, torque in N m, angle in radians, speed in radians a second. */
-export const SHAFT_FIELDS = 4;
 
 const FALLEN = 0.55;
 const LIFTED_M = 2;

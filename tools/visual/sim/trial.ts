@@ -4,20 +4,19 @@
 
 import { jointAngle } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
-import { JOINTS, TICKS_PER_SECOND } from '../model/motion.ts';
+import { LINK_CODE_STOP, TRIAL_API_IMAGE_BYTES as IMAGE_BYTES } from '../model/facts.ts';
+import { JOINTS, LAW_OF, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { TrialMoment, TrialRecord, TrialRequest } from '../model/trial.ts';
+import { SHAFT_FIELDS } from './board.ts';
 import type { ShaftBody } from './board.ts';
-import { SHAFT_FIELDS } from './physical-body.ts';
 import type { PhysicalBody } from './physical-body.ts';
 import { wasiImports } from './wasi.ts';
 
-const IMAGE_BYTES = 0x10000;
 /** In the first pose, before the play, and after it: does it stay? */
 const SETTLE_TICKS = 32;
 const AFTER_TICKS = 96;
 /** For what a motion does when it is told to stop. */
 const STOP_TICKS = 12 * TICKS_PER_SECOND;
-const STOP = 255;
 /** Cosine of 60 degrees, as the trials of tools/body have it. */
 const FALLEN = 0.5;
 /** Between two looks at the post box: about 10 ms of computing. */
@@ -85,7 +84,7 @@ export class TrialStand {
     if (stood) this.start(play, request);
     const limit = request.ticks + (request.toTheEnd ? STOP_TICKS : 0);
     for (let done = 1; play.isOn && done <= limit; done++) {
-      if (done > request.ticks) api.trial_api_keys(STOP);
+      if (done > request.ticks) api.trial_api_keys(LINK_CODE_STOP);
       this.tick(play, done <= request.ticks);
       if (done % TURN_TICKS === 0) yield Math.min(done, request.ticks);
     }
@@ -120,7 +119,7 @@ export class TrialStand {
   }
 
   private start(play: Play, { page, law }: TrialRequest): void {
-    const status = this.api.trial_api_start(page, law === 'classic' ? 1 : 0);
+    const status = this.api.trial_api_start(page, LAW_OF[law]);
     if (status !== 0) throw new Error(`page ${page} cannot be played (${status})`);
     play.isOn = true;
   }

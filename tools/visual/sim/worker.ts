@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The worker with the simulated robot: its loop in wall-clock time, and its post box (messages.ts).
 
+import { CYCLES_PER_TICK } from './board.ts';
 import { resetBoard, makeMachine, readMemories } from './machine.ts';
 import type { FromSim, ToSim } from './messages.ts';
 import { Pacer } from './pacer.ts';
@@ -69,7 +70,7 @@ function run(robot: Simulation, startMs: number): boolean {
   while (robot.board.nowCycles < pacer.dueCycle(performance.now(), robot.board.nowCycles)) {
     const before = robot.board.nowCycles;
     const due = pacer.dueCycle(performance.now(), before);
-    if (due - before < 125_000) return false; // less than a tick
+    if (due - before < CYCLES_PER_TICK) return false; // less than a tick
     if (!robot.runTick()) {
       const violation = robot.board.violation;
       isStopped = true;

@@ -10,7 +10,6 @@ import { footLimb, handLimb, reach } from '../model/ik.ts';
 import { STILL, add, length, rotate, subtract } from '../model/space.ts';
 import type { Vector } from '../model/space.ts';
 import { OBJECT, makeMujoco } from '../sim/mujoco.ts';
-import { mirrored as inMirror } from '../model/step-edits.ts';
 import { makeFormat } from './motion-bench.ts';
 import { randomNumbers } from './robot-bench.ts';
 
@@ -86,7 +85,7 @@ test('the mirror of the edits is the mirror of this body: mirrored positions giv
   const random = randomNumbers(SEED + 2);
   const positions = new Map(body.joints.map((one) => [one.servo, 300 + Math.floor(random() * 420)]));
   const mirrored = new Map(jointPairs(body).flatMap(([right, left]) =>
-    ([[right, left], [left, right]] as const).map(([to, from]) => [to, inMirror(format, positions.get(from)!)!] as const)));
+    ([[right, left], [left, right]] as const).map(([to, from]) => [to, format.mirrored(positions.get(from)!)] as const)));
   expect(mirrored.size).toBe(18);
   const places = (all: ReadonlyMap<number, number>) => placeLinks(body, ORIGIN, (one) => jointAngle(one, all.get(one.servo)!));
   const [here, there] = [places(positions), places(mirrored)];

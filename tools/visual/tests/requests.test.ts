@@ -6,8 +6,11 @@ import type { ConnectionState } from '../robot/connection-table.ts';
 import { aim, askDensePage, askList, askPage, askPose, askVersion, askWhere, command, drive, free, movePose, play, resetShape, setAmplitude, setBlend, setLayer, setRate, setTorque, swing } from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
+import { makeFormat } from './motion-bench.ts';
 import { RobotBench, robotImages, settle } from './robot-bench.ts';
 
+const { format } = await makeFormat();
+const crcOf = (bytes: Uint8Array): number => format.crc(bytes);
 const open: Connection[] = [];
 afterEach(async () => {
   for (const connection of open.splice(0)) await connection.close();
@@ -46,8 +49,8 @@ test.each([['play', 11], ['edit', 12]] as const)('%s: the questions of the proto
   expect(list).toContainEqual({ page: 2, name: 'bow', steps: expect.any(Number), fault: '' });
   const { motions } = await robotImages('play');
   for (const page of [2, 100]) {
-    expect(await bench.until(askPage(requests, page))).toEqual(motions.slice(page * 512, page * 512 + 512));
-    expect(await bench.until(askDensePage(requests, page))).toEqual(motions.slice(page * 512, page * 512 + 512));
+    expect(await bench.until(askPage(requests, page, crcOf))).toEqual(motions.slice(page * 512, page * 512 + 512));
+    expect(await bench.until(askDensePage(requests, page, crcOf))).toEqual(motions.slice(page * 512, page * 512 + 512));
   }
 });
 
@@ -96,7 +99,7 @@ test('a board that says nothing: time-out, and the late answer does not answer t
   expect(list.length).toBeGreaterThan(30);
   await expect(bench.until(connection.requests.ask('@page 2', { timeoutMs: 5 }))).rejects.toMatchObject({ code: 'no-answer' });
   const { motions } = await robotImages('play');
-  expect(await bench.until(askPage(connection.requests, 3))).toEqual(motions.slice(3 * 512, 4 * 512));
+  expect(await bench.until(askPage(connection.requests, 3, crcOf))).toEqual(motions.slice(3 * 512, 4 * 512));
   bench.board.setPower(false);
   await expect(bench.until(askWhere(connection.requests))).rejects.toMatchObject({ code: 'no-answer' });
 });

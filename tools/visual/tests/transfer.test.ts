@@ -31,6 +31,8 @@ async function ready(image: 'play' | 'edit', seed: number, prepare: (bench: Robo
   return { bench, connection };
 }
 
+const crcOf = (bytes: Uint8Array): number => format.crc(bytes);
+
 async function untilReady(bench: RobotBench, connection: Connection): Promise<void> {
   for (let i = 0; i < 400 && connection.state !== 'ready'; i++) await bench.run(25);
   expect(connection.state).toBe('ready');
@@ -52,13 +54,13 @@ function another(bytes: Uint8Array, random: () => number): Uint8Array {
 test.each([['edit', 41], ['play', 42]] as const)('%s: all pages are read, only those that nobody has; within 20 s', async (image, seed) => {
   const { bench, connection } = await ready(image, seed);
   const started = bench.clock.now();
-  const all = await bench.until(readPages(connection.requests, { known: () => [format.empty, new Uint8Array(512).fill(0xff)] }), 60_000);
+  const all = await bench.until(readPages(connection.requests, crcOf, { known: () => [format.empty, new Uint8Array(512).fill(0xff)] }), 60_000);
   const first = bench.clock.now() - started;
   expect(all).toEqual(library.pages);
   const again: number[] = [];
   const from = bench.clock.now();
   const known = (page: number) => (page === 20 ? [] : [pageOf(library, page)]);
-  expect(await bench.until(readPages(connection.requests, { known, progress: (_, total) => again.push(total) }))).toEqual(library.pages);
+  expect(await bench.until(readPages(connection.requests, crcOf, { known, progress: (_, total) => again.push(total) }))).toEqual(library.pages);
   expect(again.at(-1)).toBe(1);
   const second = bench.clock.now() - from;
   console.log(`${image}: the library's pages in ${(first / 1000).toFixed(1)} s, with one page changed in ${(second / 1000).toFixed(1)} s`);
@@ -71,7 +73,7 @@ test('128 pages of which nobody has any, every byte by chance, within 20 s', asy
   const pages = Array.from({ length: 128 }, () => Uint8Array.from({ length: 512 }, () => Math.floor(bench.random() * 256)));
   for (const [page, bytes] of pages.entries()) bench.board.writeFlash(MOTIONS_ADDRESS + 512 * page, bytes);
   const started = bench.clock.now();
-  expect(await bench.until(readPages(connection.requests), 60_000)).toEqual(pages);
+  expect(await bench.until(readPages(connection.requests, crcOf), 60_000)).toEqual(pages);
   const took = bench.clock.now() - started;
   console.log(`128 pages, every byte by chance, in ${(took / 1000).toFixed(1)} s`);
   expect(took).toBeLessThan(20_000);
@@ -85,7 +87,7 @@ test('an image that does not know the dense form is read all the same', async ()
     return text.startsWith('@dense') ? Promise.reject(new RobotError('refused', 'Unknown word', { number: 1 })) : connection.requests.ask(text, options);
   } } as typeof connection.requests;
   const known = (page: number) => (page < 4 ? [] : [pageOf(library, page)]);
-  expect(await bench.until(readPages(older, { known }))).toEqual(library.pages);
+  expect(await bench.until(readPages(older, crcOf, { known }))).toEqual(library.pages);
   expect(asked.filter((text) => text.startsWith('@dense'))).toHaveLength(1);
   expect(asked.filter((text) => text.startsWith('@page'))).toHaveLength(4);
 }, 60_000);
@@ -128,7 +130,7 @@ test('twenty pages: what is written is in flash, nothing else is touched, and th
   const { bench, connection } = await ready('edit', 43, spoil);
   const pages = twenty(bench);
   const others = Array.from({ length: 128 }, (_, page) => flashPage(bench, page));
-  const write = new PageWrite(pages, format.empty);
+  const write = new PageWrite(pages, format);
   const started = bench.clock.now();
   await bench.until(write.run(connection.requests), 60_000);
   console.log(`twenty pages written and verified in ${((bench.clock.now() - started) / 1000).toFixed(1)} s`);
@@ -140,12 +142,12 @@ test('twenty pages: what is written is in flash, nothing else is touched, and th
 test('a page that changed in the robot meanwhile is not written over, nor are edits of somebody at the terminal', async () => {
   const { bench, connection } = await ready('edit', 44);
   const page = { page: 30, before: pageOf(library, 31), after: another(format.empty, bench.random) };
-  const other = new PageWrite([page], format.empty);
+  const other = new PageWrite([page], format);
   await expect(bench.until(other.run(connection.requests))).rejects.toMatchObject({ code: 'page-changed', words: '30' });
   expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
   await connection.write(new TextEncoder().encode('page 100\rname secret\r'));
   await bench.run(3000);
-  const mine = new PageWrite([{ ...page, before: pageOf(library, 30) }], format.empty);
+  const mine = new PageWrite([{ ...page, before: pageOf(library, 30) }], format);
   await expect(bench.until(mine.run(connection.requests))).rejects.toMatchObject({ code: 'page-unsaved' });
   expect(mine.account.get(30)).toBe('sending');
   expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
@@ -154,7 +156,7 @@ test('a page that changed in the robot meanwhile is not written over, nor are ed
 test('stopped between two pages: those before are new, those after old, and the next run goes on', async () => {
   const { bench, connection } = await ready('edit', 45);
   const pages = twenty(bench);
-  const write = new PageWrite(pages, format.empty);
+  const write = new PageWrite(pages, format);
   const stop = new AbortController();
   const changed = (): void => void ([...write.account.values()].filter((state) => state === 'written').length === 5 && stop.abort());
   await expect(bench.until(write.run(connection.requests, { signal: stop.signal, changed }), 30_000)).rejects.toMatchObject({ code: 'cancelled' });
@@ -178,7 +180,7 @@ test('the cable pulled at requests of a write of twenty pages: old or new, the a
   const { bench, connection } = await ready('edit', 46, spoil);
   let pages = twenty(bench);
   const counter = pullAt(bench, '', 0);
-  await bench.until(new PageWrite(pages, format.empty).run(connection.requests), 60_000);
+  await bench.until(new PageWrite(pages, format).run(connection.requests), 60_000);
   counter.restore();
   const every = KINDS.flatMap((kind) => Array.from({ length: counter.counts.get(kind) ?? 0 }, (_, i) => [kind, i + 1] as const));
   const some = ['@crcs', '@open', '@data', '@crc', '@save', '@save'].map((kind) => {
@@ -189,7 +191,7 @@ test('the cable pulled at requests of a write of twenty pages: old or new, the a
   for (const [kind, nth] of cuts) {
     pages = twenty(bench);
     const where = `${kind} ${nth}`;
-    const write = new PageWrite(pages, format.empty);
+    const write = new PageWrite(pages, format);
     const pull = pullAt(bench, kind, nth);
     const outcome = await bench.until(write.run(connection.requests).then(() => 'done', (error: { code: string }) => error.code), 60_000);
     pull.restore();

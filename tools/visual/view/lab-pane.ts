@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The laboratory of the simulated robot: time, power, floor, battery, servos and their faults.
 
-import { TICKS_PER_SECOND } from '../model/motion.ts';
+import { NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Desk, DeskState, ImageName, PanelButton } from './desk.ts';
 import { define, make } from './element.ts';
 import { ServoTable } from './servo-table.ts';
@@ -74,7 +74,7 @@ export class LabPane extends HTMLElement {
       make('button', { onclick: () => this.desk.setPower(true) }, 'Power on'), make('button', { onclick: () => this.desk.setPower(false) }, 'Power off'),
       make('button', { onclick: () => void this.desk.setTorque(false) }, 'Torque off'));
     for (const [name, sign] of PANEL) row.append(this.panelButton(name, sign));
-    return this.section('Power and panel', row, this.leds, this.slider('Battery', 6, 12.6, 0.1, 9.6, ' V', (volts) => this.desk.setBattery(volts)));
+    return this.section('Power and panel', row, this.leds, this.slider('Battery', 6, 12.6, 0.1, NOMINAL_VOLTS, ' V', (volts) => this.desk.setBattery(volts)));
   }
 
   private panelButton(name: PanelButton, sign: string): HTMLButtonElement {

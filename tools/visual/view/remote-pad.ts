@@ -2,7 +2,7 @@
 // The RC-100 remote control: on the screen, by keyboard (arrows or W A S D, 1 to 6) and by game pad. Buttons count as long
 // as they are held, several at once too. The stick of a game pad drives (`@drive`).
 
-import { codeOf } from '../robot/remote.ts';
+import { wordOf } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { Desk } from './desk.ts';
 import { define, make } from './element.ts';
@@ -112,7 +112,7 @@ export class RemotePad extends HTMLElement {
     if (names === this.told) return;
     this.told = names;
     for (const [name, button] of this.buttons) button.setAttribute('aria-pressed', String(all.has(name)));
-    this.ways.light(codeOf(all));
+    this.ways.light(this.desk.editor.format.remoteCode(wordOf(all)));
     this.desk.remote(all);
   }
 }

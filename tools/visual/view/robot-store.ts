@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the simulated robot keeps without power, in IndexedDB: flash, EEPROM and its servos' EEPROMs, under one key.
 
+import { MEM_BOOT_END, MEM_EEPROM_BYTES } from '../model/facts.ts';
+
 export interface KeptRobot {
   readonly flash: Uint8Array;
   readonly eeprom: Uint8Array;
@@ -36,7 +38,7 @@ async function withStore<T>(mode: IDBTransactionMode, deed: (store: IDBObjectSto
 export async function loadRobot(key: string): Promise<KeptRobot | null> {
   const kept: unknown = await withStore('readonly', (store) => store.get(key) as IDBRequest<unknown>);
   const robot = kept as Partial<KeptRobot> | undefined;
-  const isWhole = robot?.flash?.length === 0x20000 && robot.eeprom?.length === 0x1000 && robot.servos instanceof Uint8Array;
+  const isWhole = robot?.flash?.length === MEM_BOOT_END && robot.eeprom?.length === MEM_EEPROM_BYTES && robot.servos instanceof Uint8Array;
   return isWhole ? (robot as KeptRobot) : null;
 }
 

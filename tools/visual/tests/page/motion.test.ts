@@ -18,12 +18,13 @@ const verdicts = (page: Page) => page.getByRole('list', { name: 'Findings' }).ge
 /** Where a person sees a way-point, once it is drawn: the canvas is one picture to the browser. */
 async function wayPoint(page: Page, joint: number, step: number): Promise<{ x: number; y: number }> {
   const at = await page.waitForFunction(([wantedJoint, wantedStep]) => {
-    type Drawn = { scene: { wayPoints: { joint: number; step: number; tick: number; position: number }[] } | null; frame: { x(tick: number): number; y(position: number): number } };
+    type Drawn = { drawing: { scene: { wayPoints: { joint: number; step: number; tick: number; position: number }[] }; frame: { x(tick: number): number; y(position: number): number } } | null };
     const element = document.querySelector('curve-canvas') as unknown as Element & Drawn;
-    const point = element.scene?.wayPoints.find((one) => one.joint === wantedJoint && one.step === wantedStep);
-    if (!point) return null;
+    const point = element.drawing?.scene.wayPoints.find((one) => one.joint === wantedJoint && one.step === wantedStep);
+    if (!element.drawing || !point) return null;
+    const { frame } = element.drawing;
     const box = element.getBoundingClientRect();
-    return { x: box.left + element.frame.x(point.tick), y: box.top + element.frame.y(point.position) };
+    return { x: box.left + frame.x(point.tick), y: box.top + frame.y(point.position) };
   }, [joint, step]);
   const place = await at.jsonValue();
   if (!place) throw new Error('there is no such way-point');

@@ -8,6 +8,7 @@ import type { PageFinding } from '../../model/checks.ts';
 import { imageOf, pageOf } from '../../model/document.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { Finding } from '../../model/file-formats.ts';
+import { NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Desk, Tab } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { PageTrial } from '../trial-desk.ts';
@@ -18,7 +19,6 @@ import './checks-pane.css';
 
 const WAIT_MS = 400;
 /** Of a CM-5's battery. */
-const NOMINAL_VOLTS = 9.6;
 /** A page and what follows it within four seconds of it: enough for its own steps. */
 const CURVE_TICKS = 6000;
 

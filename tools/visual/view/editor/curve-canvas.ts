@@ -2,7 +2,7 @@
 // The curves of the page, drawn from the firmware's own player at every change. What a hand does to them: curve-hand.ts.
 
 import type { TickSpan } from '../../model/curve-speed.ts';
-import { AS_STORED } from '../../model/motion.ts';
+import { AS_STORED, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
@@ -148,8 +148,5 @@ export class CurveCanvas extends HTMLElement {
     if (this.hand.up(keep)) this.later();
   }
 }
-
-/** A CM-5's eight cells: while nobody has told the voltage. */
-const NOMINAL_VOLTS = 9.6;
 
 define('curve-canvas', CurveCanvas);

@@ -3,6 +3,7 @@
 // Keys: left and right choose the step, up and down turn the chosen joints, with Alt left and right change the time.
 
 import { JOINTS, POSITION_MAX, TICKS_PER_SECOND } from '../../model/motion.ts';
+import { BYTE_MAX } from '../../model/page.ts';
 import type { Desk } from '../desk.ts';
 import type { Gesture } from '../editor-desk.ts';
 import type { CurveFrame, CurveScene, WayPoint } from './curve-picture.ts';
@@ -128,7 +129,7 @@ export class CurveHand {
   private changeTime(by: number): void {
     const { editor } = this.desk;
     const { page, step, document } = editor.state.get();
-    const time = Math.min(Math.max((editor.page(page).steps[step]?.time ?? 0) + by, 0), 255);
+    const time = Math.min(Math.max((editor.page(page).steps[step]?.time ?? 0) + by, 0), BYTE_MAX);
     editor.dispatch(editor.edits.setTime(document, page, [step], time));
   }
 }

@@ -6,6 +6,7 @@ import { lowerFoot } from '../../model/balance.ts';
 import { anglesOf, jointAngle, nearestPosition } from '../../model/body.ts';
 import type { Angles, Body, Side } from '../../model/body.ts';
 import { JOINTS } from '../../model/motion.ts';
+import { BYTE_MAX } from '../../model/page.ts';
 import type { Step } from '../../model/page.ts';
 import type { Stance } from '../../model/pose-drag.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
@@ -85,7 +86,7 @@ const LEAST_TIME = 48;
 /** Time of a step (ticks at nominal speed) in which no joint has to hurry on its way from the pose before. */
 export function easyTime(from: readonly (number | null)[], to: readonly (number | null)[]): number {
   const ways = to.map((position, id) => Math.abs((position ?? 0) - (from[id] ?? position ?? 0)));
-  return Math.min(255, Math.max(LEAST_TIME, Math.ceil(Math.max(...ways) / SAFE_UNITS_PER_TICK)));
+  return Math.min(BYTE_MAX, Math.max(LEAST_TIME, Math.ceil(Math.max(...ways) / SAFE_UNITS_PER_TICK)));
 }
 
 /** A step of these positions that the robot reaches without haste. */

@@ -5,7 +5,7 @@ import { PAGE_COUNT } from '../../model/motion.ts';
 import { LINK_FIELDS, PARTNER_FIELDS } from '../../model/page.ts';
 import type { LinkField } from '../../model/page.ts';
 import type { LinkGraph } from '../../model/links.ts';
-import { REMOTE_BUTTONS, codeOf } from '../../robot/remote.ts';
+import { REMOTE_BUTTONS, wordOf } from '../../robot/remote.ts';
 import type { RemoteButton } from '../../robot/remote.ts';
 import type { Editor } from '../editor-desk.ts';
 import { make } from '../element.ts';
@@ -13,8 +13,8 @@ import { LINK_TEXTS, codeText, pageText } from './texts.ts';
 
 const CODE_OF: Partial<Record<LinkField, 'linked1Code' | 'linked2Code'>> = { linked1: 'linked1Code', linked2: 'linked2Code' };
 /** What may be chosen: no key, each button alone, and the slanting directions. */
-const CODES: readonly number[] = [0, ...(Object.keys(REMOTE_BUTTONS) as RemoteButton[]).map((button) => codeOf([button])),
-  ...(['up', 'down'] as const).flatMap((way) => [codeOf([way, 'left']), codeOf([way, 'right'])])];
+const CHORDS: readonly (readonly RemoteButton[])[] = [[], ...(Object.keys(REMOTE_BUTTONS) as RemoteButton[]).map((button) => [button]),
+  ...(['up', 'down'] as const).flatMap((way) => [[way, 'left'], [way, 'right']] as const)];
 
 export function linkList(editor: Editor, graph: LinkGraph, page: number): HTMLElement[] {
   const title = pageText(page, editor.page(page).name);
@@ -49,7 +49,7 @@ function targets(editor: Editor): [number, string][] {
 
 function codeField(editor: Editor, page: number, link: LinkField, code: 'linked1Code' | 'linked2Code'): HTMLElement {
   const value = editor.page(page)[code];
-  const codes = [...CODES, value];
+  const codes = [...CHORDS.map((held) => editor.format.remoteCode(wordOf(held))), value];
   const choice = make('select', { 'aria-label': `Key of ${LINK_TEXTS[link]}` }, ...[...new Set(codes)].map((one) =>
     make('option', { value: one, selected: one === value }, one === 0 ? 'no key' : codeText(one))));
   choice.addEventListener('change', () => editor.dispatch(editor.edits.setHeader(editor.state.get().document, page, { [code]: Number(choice.value) })));

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Speed, size and direction of what plays: drawn in the curves at once, and told to the robot while Play runs.
 
-import { AS_STORED } from '../../model/motion.ts';
+import { AS_STORED, SHAPE_RANGES } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import { CURVE_TEXTS } from './step-texts.ts';
 
-const SLIDERS: readonly (readonly [keyof Shape, string, number, number, number])[] = [
-  ['rate', 'Speed', 10, 400, 5], ['amplitude', 'Size', 0, 150, 5], ['blend', 'Left – right', -100, 100, 5],
-];
+const SLIDERS: readonly (readonly [keyof Shape, string])[] = [['rate', 'Speed'], ['amplitude', 'Size'], ['blend', 'Left – right']];
+const PERCENT_STEP = 5;
 
 export class ShapeBar extends HTMLElement {
   desk!: Desk; // set before it is connected
@@ -20,9 +19,10 @@ export class ShapeBar extends HTMLElement {
   private unwatch: () => void = () => undefined;
 
   connectedCallback(): void {
-    const sliders = SLIDERS.map(([name, title, min, max, step]) => {
+    const sliders = SLIDERS.map(([name, title]) => {
+      const [min, max] = SHAPE_RANGES[name];
       const output = make('output', {}, `${this.shape[name]} %`);
-      const input = make('input', { type: 'range', min, max, step, value: this.shape[name] });
+      const input = make('input', { type: 'range', min, max, step: PERCENT_STEP, value: this.shape[name] });
       input.addEventListener('input', () => this.set({ ...this.shape, [name]: input.valueAsNumber }, false));
       input.addEventListener('change', () => this.set({ ...this.shape, [name]: input.valueAsNumber }, true));
       this.inputs.set(name, { input, output });

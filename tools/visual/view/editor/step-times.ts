@@ -2,7 +2,7 @@
 // Seconds of steps, as the firmware plays them, and back to what the page holds.
 
 import type { PageView } from '../../model/page.ts';
-import { stepSeconds, writePage } from '../../model/page.ts';
+import { BYTE_MAX, stepSeconds, writePage } from '../../model/page.ts';
 import { pageOf } from '../../model/document.ts';
 import type { Editor } from '../editor-desk.ts';
 
@@ -38,11 +38,11 @@ export function nearestSetting(editor: Editor, page: number, step: number, field
     const { move, pause } = stepSeconds(editor.format, changed.value, step, from, law);
     return field === 'time' ? move : pause;
   };
-  let [low, high] = [0, 255];
+  let [low, high] = [0, BYTE_MAX];
   while (low < high) {
     const middle = Math.ceil((low + high) / 2);
     if (lasts(middle) <= seconds + 1e-9) low = middle;
     else high = middle - 1;
   }
-  return low < 255 && Math.abs(lasts(low + 1) - seconds) < Math.abs(lasts(low) - seconds) ? low + 1 : low;
+  return low < BYTE_MAX && Math.abs(lasts(low + 1) - seconds) < Math.abs(lasts(low) - seconds) ? low + 1 : low;
 }

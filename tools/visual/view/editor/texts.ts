@@ -3,6 +3,7 @@
 
 import type { Refusal, RefusalCode } from '../../model/result.ts';
 import type { PageFinding } from '../../model/checks.ts';
+import { NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { PageFault } from '../../model/motion.ts';
 import type { LinkField } from '../../model/page.ts';
 import type { EditName, Transaction } from '../../model/transaction.ts';
@@ -110,7 +111,7 @@ export const ACCOUNT_TEXTS: Readonly<Record<PageAccount, string>> = {
 };
 
 const FAULTS: Record<PageFault, string> = {
-  checksum: 'its checksum is wrong', steps: 'it counts more than seven steps', schedule: 'its schedule is unknown', speed: 'its speed is 0', link: 'a link leads beyond page 127',
+  checksum: 'its checksum is wrong', steps: 'it counts more than seven steps', schedule: 'its schedule is unknown', speed: 'its speed is 0',
   position: 'a position is above 1023',
 };
 
@@ -127,7 +128,7 @@ export function findingText({ kind, step, amount, fault }: PageFinding, jointTit
   const where = step === null ? '' : `Step ${step + 1}: `;
   switch (kind) {
     case 'damaged': return `Damaged: ${fault ? FAULTS[fault] : ''}. It is not played. Clear it, or take it from a backup or a file.`;
-    case 'too-fast': return `${where}the ${jointTitle} is asked for ${amount.toFixed(2)} times the speed that suits the servo at 9.6 V, and lags behind. Give the step more time.`;
+    case 'too-fast': return `${where}the ${jointTitle} is asked for ${amount.toFixed(2)} times the speed that suits the servo at ${NOMINAL_VOLTS} V, and lags behind. Give the step more time.`;
     case 'out-of-reach': return `${where}the ${jointTitle} is turned farther than the body lets it.`;
     case 'tips-over': return `${where}held like this it tips over: its centre of mass is ${Math.round(amount * 1000)} mm outside the soles. In a fast motion, or lying, that may be meant.`;
     case 'unreachable': return 'No key of the remote calls it, and no page that is called leads to it. It can be played by its number only.';

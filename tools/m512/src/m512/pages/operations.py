@@ -99,9 +99,7 @@ def _must_be_free(image: Image, number: int, replace: bool) -> None:
 def copy(image: Image, source: int, target: int, replace: bool = False) -> List[str]:
     _must_be_free(image, target, replace)
     page = need_good(image, source).copy()
-    for link in Page.LINKS:
-        if getattr(page, link) == source:      # a page that links to itself goes on doing so
-            setattr(page, link, target)
+    relink(page, {source: target})             # a page that leads to itself goes on doing so
     image[target] = page.seal()
     return [f"the copy has the same name {page.title!r} and code {page.code}"] if page.name or page.code else []
 
