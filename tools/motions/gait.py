@@ -54,6 +54,7 @@ class Gait:
     toes: float = 0.0         # up, in the air
     arms: float = 0.4         # degrees of an arm for each mm of the other side's foot
     brace: float = 0.5        # of the stride: at a stop the feet stand this much further on
+    crouch: int = 0           # ticks in which a start first comes down to the gait's height; 0: on the way into the first step
 
     @property
     def slopes(self):
@@ -135,7 +136,8 @@ def start(gait, ready, first=-1):
     """From ready, half a way: onto one foot, the other (`first`: +1 right, -1 left) goes; ends where that half of the cycle ends."""
     whole, part = cycle(gait), cycle(half(gait))
     at = 0 if first > 0 else 4
-    return [(32, ready), (round(1.6 * gait.ticks), stand(gait, first * 0.7 * gait.sway)),
+    down = [(gait.crouch, stand(gait))] if gait.crouch else []
+    return [(32, ready), *down, (round(1.6 * gait.ticks), stand(gait, first * 0.7 * gait.sway)),
             (gait.ticks, part[at + 1]), (gait.ticks, part[at + 2]), (round(1.5 * gait.ticks), whole[at + 3])]
 
 

@@ -86,11 +86,11 @@ GOES = [
     Goes("back", 12, ((0, DOWN),), forward_mm_s=(None, -60)),
     Goes("right", 12, ((0, RIGHT),), turn_deg_s=(None, -30), drift_mm_a_turn=50),
     Goes("left", 12, ((0, LEFT),), turn_deg_s=(30, None), drift_mm_a_turn=50),
-    # A cycle to the side takes 72 ticks: 30 mm a step and less than 10 forward. A curve's takes 64: 20 degrees a cycle.
+    # A cycle to the side takes 72 ticks: 30 mm a step and less than 10 forward. A curve's takes 56: 20 degrees a cycle.
     Goes("side_r", 12, ((0, RIGHT + 16),), sideways_mm_s=(None, -53), forward_mm_s=(-17, 17)),
     Goes("side_l", 12, ((0, LEFT + 16),), sideways_mm_s=(53, None), forward_mm_s=(-17, 17)),
-    Goes("turn_r", 12, turn_deg_s=(None, -40)),
-    Goes("turn_l", 12, turn_deg_s=(40, None)),
+    Goes("turn_r", 12, turn_deg_s=(None, -46)),
+    Goes("turn_l", 12, turn_deg_s=(46, None)),
 ]
 BEARS_S = 600                    # of walking
 BEARS_NM = 1.5 * 11.1 / 12 / 3   # mean torque of a servo: a third of what stalls it at 11.1 V

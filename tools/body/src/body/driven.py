@@ -91,7 +91,7 @@ class Eight:
     """
 
     FULL = 1 / 240               # curve (1 / radius in mm) at blend 100, as the library's curves are on the nominal body
-    CYCLE_LINES = 11             # of the walk: 64 ticks
+    CYCLE_LINES = 9              # of the walk: 56 ticks
     LATE_S = 0.5
     BACK_MM = 130.0              # within about this way it is back on the path
 
