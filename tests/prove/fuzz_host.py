@@ -13,7 +13,7 @@ CORPUS = HERE / "corpus"
 FUZZERS = proof.BUILD / "fuzz"
 REPLAYS = proof.BUILD / "host" / "tests" / "prove" / "fuzz"
 NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem != "fuzz_image")
-LONGEST = {"page": 513, "bus": 400, "remote": 200, "settings": 160, "journal": 140, "player": 500, "loader": 1200, "play": 1000,
+LONGEST = {"page": 513, "bus": 400, "remote": 200, "settings": 160, "journal": 140, "player": 500, "layers": 700, "loader": 1200, "play": 1000,
            "edit": 1000}
 # libFuzzer goes by the clock of the wall: on a busy machine 10 s for one input, its limit for a slow one, mean nothing.
 PATIENCE = ["-timeout=1200", "-report_slow_units=1200"]

@@ -1,19 +1,15 @@
 /* SPDX-License-Identifier: MIT
  * Links and player on any pages: the plays end or loop, and no goal ever leaves 0..1023 or a joint that is not theirs.
  *
- * Input: law and first page; joints present; then pages 1..6, each 15 header bytes and for each of its steps pause, time
- * and four words (joints 0, 1, 17, 30); then what happens: an action and its argument. Three bits of the first header byte
- * say how wild the page is: 0..4 is sealed and in range, 5..6 sealed as it is, 7 has the checksum that is written. */
-#include "fuzz.h"
+ * Input: law and first page; joints present; the pages (fuzz_pages.h); then what happens: an action and its argument. */
+#include "fuzz_pages.h"
 #include "player.h"
 #include "trap.h"
 
 #include <string.h>
 
-#define PAGES 6u
 #define TICKS_MAX 3000u
 
-static uint8_t pages[PAGES + 1][PAGE_BYTES];
 static player_t player;
 static player_joint_t states[PAGE_JOINTS];
 static uint16_t goals_of_all[PAGE_JOINTS];
@@ -23,64 +19,6 @@ static uint32_t present, dropped;
 static uint16_t pose[PAGE_JOINTS];
 static bool undisturbed;   /* no break or pause since the step began: its targets must be met */
 
-static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
-{
-    (void)context;
-    ASSERT(page < PAGE_COUNT && offset + count <= PAGE_BYTES);
-    if (page <= PAGES) {
-        memcpy(to, &pages[page][offset], count);
-    } else {
-        memset(to, 0xFF, count);
-    }
-}
-
-static uint8_t check_page(void *context, uint8_t page)
-{
-    (void)context;
-    ASSERT(page < PAGE_COUNT);
-    return page <= PAGES ? (uint8_t)page_check(pages[page]) : PAGE_ERR_CHECKSUM;
-}
-
-static const page_source_t source = {.read = read_page, .check = check_page};
-
-static void make_step(uint8_t *page, uint8_t step, bool wild, fuzz_t *fuzz)
-{
-    static const uint8_t joints[] = {0, 1, 17, 30};
-    uint8_t *at = &page[PAGE_AT_STEP0 + step * PAGE_STEP_BYTES];
-    at[PAGE_STEP_AT_PAUSE] = fuzz_byte(fuzz);
-    at[PAGE_STEP_AT_SPEED] = fuzz_byte(fuzz);
-    for (unsigned i = 0; i < sizeof joints; i++) {
-        const uint16_t word = fuzz_word(fuzz);
-        page_set_pos(page, step, joints[i], wild ? word : word & 0x63FF);
-    }
-}
-
-static void make_page(uint8_t *page, fuzz_t *fuzz)
-{
-    const uint8_t options = fuzz_byte(fuzz);
-    const bool wild = (options & 7) >= 5;
-    page_clear(page);
-    for (unsigned at = PAGE_AT_PLAY_COUNT; at < PAGE_AT_CHECKSUM; at++) {
-        page[at] = at < PAGE_AT_STEPS && at > PAGE_AT_SCHEDULE ? 0 : fuzz_byte(fuzz);
-    }
-    if (!wild) {
-        page[PAGE_AT_SCHEDULE] = page[PAGE_AT_SCHEDULE] & 1 ? PAGE_SCHEDULE_TIME : PAGE_SCHEDULE_SPEED;
-        page[PAGE_AT_STEPS] &= 7;
-        page[PAGE_AT_SPEED] |= page[PAGE_AT_SPEED] == 0;
-        for (unsigned at = PAGE_AT_NEXT_PAGE; at <= PAGE_AT_LINKED2_PAGE; at++) {
-            page[at] = at == PAGE_AT_LINKED1_CODE ? page[at] : page[at] % (PAGES + 2);
-        }
-    }
-    memset(&page[PAGE_AT_COMPLIANCE], options, 4);
-    for (uint8_t step = 0; step < PAGE_STEPS && step < page[PAGE_AT_STEPS]; step++) {
-        make_step(page, step, wild, fuzz);
-    }
-    page_seal(page);
-    if ((options & 7) == 7) {
-        page[PAGE_AT_CHECKSUM] = fuzz_byte(fuzz);
-    }
-}
-
 /* Behind the last tick of a step every joint that it used stands where the page wants it. */
 static void must_be_on_target(void)
 {
@@ -89,7 +27,7 @@ static void must_be_on_target(void)
     }
     ASSERT(player.step >= 1);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        const uint16_t word = page_pos(pages[player.page], (uint8_t)(player.step - 1), joint);
+        const uint16_t word = page_pos(fuzz_pages[player.page], (uint8_t)(player.step - 1), joint);
         ASSERT(((present & ~dropped) >> joint & 1) == 0 || !page_pos_is_used(word) || player.goal_pos[joint] == word);
     }
 }
@@ -114,9 +52,9 @@ static void tick(void)
     must_be_in_range();
     ASSERT(moving || events == 0);
     if ((events & PLAYER_EV_STEP) != 0) {
-        ASSERT(player.page >= 1 && player.page <= PAGES);
-        ASSERT(player.step >= 1 && player.step <= pages[player.page][PAGE_AT_STEPS]);
-        ASSERT(page_check(pages[player.page]) == PAGE_OK);
+        ASSERT(player.page >= 1 && player.page <= FUZZ_PAGES);
+        ASSERT(player.step >= 1 && player.step <= fuzz_pages[player.page][PAGE_AT_STEPS]);
+        ASSERT(page_check(fuzz_pages[player.page]) == PAGE_OK);
         undisturbed = true;
     }
     if ((events & PLAYER_EV_ENDED) != 0) {
@@ -129,13 +67,13 @@ static void tick(void)
 static void start(uint8_t number, player_law_t law)
 {
     const bool was_moving = player_is_moving(&player);
-    const page_status_t check = number >= 1 && number <= PAGES ? page_check(pages[number]) : PAGE_ERR_CHECKSUM;
+    const page_status_t check = number >= 1 && number <= FUZZ_PAGES ? page_check(fuzz_pages[number]) : PAGE_ERR_CHECKSUM;
     link_call(&links, 0);
     const player_status_t status = player_start(&player, &links, number, law, pose, present);
     ASSERT(status != PLAYER_ERR_LAW && (status == PLAYER_ERR_BUSY) == was_moving);
     if (!was_moving) {
         ASSERT(status != PLAYER_OK || check == PAGE_OK);
-        ASSERT(check != PAGE_OK || !page_is_playable(pages[number]) || status == PLAYER_OK);
+        ASSERT(check != PAGE_OK || !page_is_playable(fuzz_pages[number]) || status == PLAYER_OK);
         undisturbed = true;
     }
 }
@@ -185,16 +123,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         pose[joint] = (uint16_t)(joint * 33u);
     }
     dropped = 0;
-    memset(pages, 0, sizeof pages);
-    for (unsigned page = 1; page <= PAGES; page++) {
-        make_page(pages[page], &fuzz);
-    }
+    fuzz_pages_make(&fuzz);
     ticks_left = TICKS_MAX;
-    player_init(&player, &source, states, goals_of_all);
+    player_init(&player, &fuzz_pages_source, states, goals_of_all);
     memcpy(player.goal_pos, pose, sizeof pose);
     link_init(&links, options & 2 ? LINK_HOLD : LINK_LATCH);
-    (void)player_first_pose(&source, NULL, number & 127, (uint16_t[PAGE_JOINTS]){0});
-    start(options & 4 ? number : number % (PAGES + 2), (player_law_t)(options & 1));
+    (void)player_first_pose(&fuzz_pages_source, NULL, number & 127, (uint16_t[PAGE_JOINTS]){0});
+    start(options & 4 ? number : number % (FUZZ_PAGES + 2), (player_law_t)(options & 1));
     while (fuzz_left(&fuzz) > 0 && ticks_left > 0) {
         const uint8_t action = fuzz_byte(&fuzz);
         act(action, fuzz_byte(&fuzz));
