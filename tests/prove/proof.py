@@ -17,6 +17,7 @@ to see it again.
 import dataclasses
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 
@@ -51,12 +52,13 @@ def commit():
 
 
 def keep(name, module, figures, command):
-    """Writes the result of a part for the page."""
+    """Writes the result of a whole part: build/prove/NAME.json, and its page."""
     RESULTS.mkdir(parents=True, exist_ok=True)
     about = " ".join((module.__doc__ or "").split("\n\n")[0].split())
-    (RESULTS / f"{name}.json").write_text(json.dumps({
-        "title": module.TITLE, "promise": module.PROMISE, "about": about, "command": command, "commit": commit(),
-        "figures": [dataclasses.asdict(figure) for figure in figures]}, indent=1), encoding="utf-8")
+    part = {"title": module.TITLE, "promise": module.PROMISE, "about": about, "command": command, "commit": commit(),
+            "figures": [dataclasses.asdict(figure) for figure in figures]}
+    (RESULTS / f"{name}.json").write_text(json.dumps(part, indent=1), encoding="utf-8")
+    write_details(name, part)
 
 
 def table(figures):
@@ -77,32 +79,47 @@ def headline(figures):
     return "; ".join(short or [f"{len(figures)} of {len(figures)} figures kept"])
 
 
+FOUND = "Found: {found}; by `{command}` at commit {commit}."
+AGAIN = "A sample again at commit {commit}: {found}."
+
+
+def pattern(line):
+    """What finds such a line."""
+    return re.compile("^" + re.sub(r"\\{(\w+)\\}", r"(?P<\1>.*?)", re.escape(line)) + "$", re.M)
+
+
 def write_details(name, part):
-    """tests/proofs/NAME.md."""
+    """tests/proofs/NAME.md. The row of the short page is made from its head (row_of)."""
     DETAILS.mkdir(exist_ok=True)
-    lines = [f"# {part['title']}", "", part["about"], "", f"`{part['command']}` at commit {part['commit']}:", "", *table(part["figures"])]
+    found = FOUND.format(found=headline(part["figures"]), command=part["command"], commit=part["commit"])
+    lines = [f"# {part['title']}", "", part["promise"], "", found, "", part["about"], "", *table(part["figures"])]
     (DETAILS / f"{name}.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def write_pages(names):
-    """tests/PROOFS.md and tests/proofs/ from the results of the parts that ran here, in the order of `names`.
+def note_sample(name, figures):
+    """What a sample found goes to the page of the last whole run, below what that found, in the place of the sample before."""
+    path = DETAILS / f"{name}.md"
+    text = path.read_text(encoding="utf-8")
+    before = pattern(AGAIN).search(text)
+    if before:
+        text = text[:before.start()].rstrip() + text[before.end():]
+    found = pattern(FOUND).search(text)
+    note = AGAIN.format(commit=commit(), found=headline([dataclasses.asdict(figure) for figure in figures]))
+    path.write_text(f"{text[:found.end()]}\n\n{note}{text[found.end():]}", encoding="utf-8")
 
-    A part that did not run here keeps its page and its row.
-    """
-    old = {}
-    if PAGE.exists():
-        old = {line.split("proofs/")[1].split(".md")[0]: line
-               for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("| [")}
-    rows = []
-    for name in names:
-        path = RESULTS / f"{name}.json"
-        if not path.exists():
-            rows += [old[name]] if name in old else []
-            continue
-        part = json.loads(path.read_text(encoding="utf-8"))
-        write_details(name, part)
-        rows.append(f"| [{part['title']}](proofs/{name}.md) | {part['promise']} | {headline(part['figures'])} | "
-                    f"`{part['command']}` | {part['commit']} |")
+
+def row_of(name):
+    """The row of a part, from its page."""
+    text = (DETAILS / f"{name}.md").read_text(encoding="utf-8")
+    title, promise = re.match(r"# (.*)\n\n(.*)\n", text).groups()
+    found, again = pattern(FOUND).search(text), pattern(AGAIN).search(text)
+    at = found["commit"] + (f"; a sample again at {again['commit']}: {again['found']}" if again else "")
+    return f"| [{title}](proofs/{name}.md) | {promise} | {found['found']} | `{found['command']}` | {at} |"
+
+
+def write_page(names):
+    """tests/PROOFS.md: a row for each part that has a page in tests/proofs/, in the order of `names`."""
+    rows = [row_of(name) for name in names if (DETAILS / f"{name}.md").exists()]
     PAGE.write_text("\n".join([
         "# Proofs", "", "What Motion512 promises, and what machines found when they tried to break it. `tools/prove` makes this page; "
         "do not edit it.", "", "| | promise | found | command | at commit |", "| --- | --- | --- | --- | --- |", *rows]) + "\n",

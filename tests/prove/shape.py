@@ -9,6 +9,7 @@ import functools
 import json
 import pathlib
 import random
+import re
 
 import proof
 import promises
@@ -97,8 +98,7 @@ def sweep_figures(walk, kind, seeds, options):
     lowest, highest = VALUES[kind][0], VALUES[kind][-1]
     how = f"60 s on the nominal body and {len(seeds) - 1} by chance, a value for {SEGMENT_S} s, in any order; the stick goes 50 % a second"
     values = ", ".join(f"{value}: {mean:.0f}" for value, mean in zip(VALUES[kind], means))
-    return [proof.Figure(f"{kind} {lowest}..{highest} %: no fall.", how, f"{len(fallen)} of {len(seeds)} fall" + told(fallen), not fallen,
-                         headline=True),
+    return [proof.Figure(f"{kind} {lowest}..{highest} %: no fall.", how, f"{len(fallen)} of {len(seeds)} fall" + told(fallen), not fallen),
             proof.Figure(f"More {kind}, more {unit}.", how, f"mean {unit} at {values}; rises without a break on {sum(steady)} of {len(seeds)} "
                          "bodies, on the nominal one too" + ("" if steady[0] else ": NO"),
                          steady[0] and all(sign * a < sign * b for a, b in zip(means, means[1:])))]
@@ -238,9 +238,11 @@ def keep_row(row, figures):
 
 
 def write_rows(kept):
-    """tests/proofs/shape.md from {row: figures}."""
-    proof.write_details("shape", {"title": TITLE, "about": " ".join(__doc__.split()), "command": "tools/prove shape",
-                                  "commit": "named in each line", "figures": [figure for row in ROWS for figure in kept.get(row, ())]})
+    """tests/proofs/shape.md from {row: figures}, and its row of the short page."""
+    figures = [figure for row in ROWS for figure in kept.get(row, ())]
+    commits = dict.fromkeys(re.search(r"commit (\w+)", figure["how"])[1] for figure in figures)
+    proof.write_details("shape", {"title": TITLE, "promise": PROMISE, "about": " ".join(__doc__.split()), "command": "tools/prove shape",
+                                  "commit": ", ".join(commits), "figures": figures})
 
 
 SAMPLE = {"player": 1, "layer": 1, "cable": 1, "eight": 1, "look": 1}                  # rows of a sample, and how many bodies

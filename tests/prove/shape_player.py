@@ -68,6 +68,6 @@ def hand_over_figures(options):
     how = "the player on the PC against the page of the spec; a joint that changes hands: 60 degrees/s, however many ticks one looks at"
     return [proof.Figure("A layer comes at every tick of a walk and goes at every tick: who changes hands keeps to the approach speed and does not leap, the "
                          "others go on bit by bit.", f"{how}; `wave_over` and `look` over our walk, both laws", f"{len(bad)} of {walks} walks wrong"
-                         + (f"; the first: {bad[0]}" if bad else ""), not bad, headline=True),
+                         + (f"; the first: {bad[0]}" if bad else ""), not bad),
             proof.Figure("The same with pages, joints, moments and speeds by chance.", how, f"{len(strange)} of {chances} walks wrong"
                          + (f"; the first: {strange[0]}" if strange else ""), not strange)]

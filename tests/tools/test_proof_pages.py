@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+"""The pages of tools/prove: the short one is made of the heads of the others, and nobody edits it by hand."""
+import pathlib
+import re
+import sys
+
+import pytest
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(TOP / "tests" / "prove"))
+import proof  # noqa: E402  (the path comes first)
+
+PARTS = re.search(r'PARTS = \[name for name in \((.*?)\)', (TOP / "tools" / "prove").read_text(encoding="utf-8"))[1].replace('"', "").split(", ")
+
+
+@pytest.fixture
+def pages(tmp_path, monkeypatch):
+    """An empty tests/ folder, and the head of a part."""
+    monkeypatch.setattr(proof, "DETAILS", tmp_path / "proofs")
+    monkeypatch.setattr(proof, "PAGE", tmp_path / "PROOFS.md")
+    monkeypatch.setattr(proof, "commit", lambda: "0123456789")
+    return {"title": "Cuts", "promise": "Nothing is lost.", "about": "How, at `length`; by hand.", "command": "tools/prove cuts", "commit": "abc"}
+
+
+def figures(*measured, kept=True):
+    return [proof.Figure(f"promise {text}", "how", text, kept, headline=True) for text in measured]
+
+
+def put(part, *measured, **options):
+    proof.write_details("cuts", {**part, "figures": [vars(figure) for figure in figures(*measured, **options)]})
+
+
+def test_a_row_is_the_head_of_its_page(pages):
+    put(pages, "7 states, 0 broken; 3 min")
+    proof.write_page(["other", "cuts"])
+    assert proof.PAGE.read_text().splitlines()[-1] == (
+        "| [Cuts](proofs/cuts.md) | Nothing is lost. | 7 states, 0 broken | `tools/prove cuts` | abc |")
+
+
+def test_what_is_broken_stands_in_the_row(pages):
+    put(pages, "7 states, 1 broken", kept=False)
+    assert "| **1 of 1 broken** |" in proof.row_of("cuts")
+
+
+def test_a_sample_is_noted_beside_the_whole_run_once(pages):
+    put(pages, "7 states, 0 broken")
+    proof.note_sample("cuts", figures("2 states, 0 broken"))
+    proof.note_sample("cuts", figures("3 states, 0 broken"))
+    assert proof.row_of("cuts").endswith("| 7 states, 0 broken | `tools/prove cuts` | abc; a sample again at 0123456789: 3 states, 0 broken |")
+    assert "2 states" not in (proof.DETAILS / "cuts.md").read_text()
+
+
+def test_a_whole_run_takes_the_place_of_the_samples(pages):
+    put(pages, "7 states, 0 broken")
+    proof.note_sample("cuts", figures("2 states, 0 broken"))
+    put(pages, "8 states, 0 broken")
+    assert proof.row_of("cuts").endswith("| 8 states, 0 broken | `tools/prove cuts` | abc |")
+
+
+def test_the_page_of_this_tree_is_what_the_others_say():
+    rows = [line for line in proof.PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("| [")]
+    assert rows == [proof.row_of(name) for name in PARTS if (proof.DETAILS / f"{name}.md").exists()]
+    assert len(rows) == len(list(proof.DETAILS.glob("*.md")))
