@@ -227,6 +227,9 @@ class Walker:
             self.board.send("@drive {} {} {}\r".format(*wish))
             if line % 30 == 15:
                 self.board.send(self.chance.choice((f"layer {self.layer}\r", "layer off\r")))
+            if line % 30 == 25:
+                joint = self.chance.choice(self.joints)
+                self.board.send(self.chance.choice((f"swing {joint} 512 60 1500\r", f"aim {joint} 540\r", "free\r")))
             self.run(50)
             self.done["driven"] += 1
         if not self.until("Stopped|Broken|Ended", 9000):

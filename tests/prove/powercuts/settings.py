@@ -17,6 +17,7 @@ FIELDS = ("law", "remote", "approach", "fault", "low", "hot", "neutral", "flow",
 JOINTS = 31
 LAST = ("centre", "drive")                # behind the partners of the joints
 BODY_BYTES = len(FIELDS) + JOINTS + len(LAST)
+PLACES = {field: at for at, field in enumerate(FIELDS)} | {field: len(FIELDS) + JOINTS + at for at, field in enumerate(LAST)}
 
 
 def defaults():
@@ -91,7 +92,7 @@ class Settings:
 
     def set(self, field, value):
         body = bytearray(self.allowed[-1])
-        body[FIELDS.index(field)] = value
+        body[PLACES[field]] = value
         self.allowed.append(bytes(body))
         self.board.take()
         self.board.send(f"settings {field} {value}\r")
@@ -120,8 +121,8 @@ class Settings:
         self.board.take()
         self.board.send("settings\r")
         text = self.board.expect(" OK", ms=2000)
-        values = bytes(int(re.search(rf"{field} (\d+) ", text)[1]) for field in FIELDS)
-        assert values == body[:len(FIELDS)], f"kept {body[:10].hex()}, shown {values.hex()}"
+        values = {field: int(re.search(rf"\b{field} (\d+) ", text)[1]) for field in PLACES}
+        assert values == {field: body[at] for field, at in PLACES.items()}, f"kept {body.hex()}, shown {values}"
 
 
 class SettingsWrap(Settings):
@@ -203,7 +204,7 @@ class SettingsDriven(Settings):
 
     name, about, chunks, rates = "settings-driven", 46, 2, (4, 1, 1)
     promise = "Settings saved while a walk is driven and a layer plays: the old or the new ones; behind the cut nothing of it goes on by itself"
-    changes = (("approach", 90), ("low", 75), ("hot", 66))
+    changes = (("approach", 90), ("centre", 5), ("drive", 20))
     servos = range(1, 19)
     LOOP, LAYER, OWN = 5, 6, (3, 5)
 

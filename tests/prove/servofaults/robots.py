@@ -22,6 +22,7 @@ UNUSED = (18, 19, 20)
 TORQUE_OFF_MARK, UNUSED_MARK = 0x2000, 0x4000
 WALK, EXIT, POSE, LAYER = 4, 5, 6, 7
 LAID_OVER = (1, 2, 3)          # joints of the layer
+BY_CODE = ("swing 5 512 40 1500", "aim 15 540")   # and of motion made by code
 LOW, HIGH, MIDDLE = 412, 612, 512
 RULES = ("hold", "exit", "limp")   # settings fault 0, 1, 2
 SLICE_MS = 10
@@ -123,8 +124,9 @@ class PlayRobot(Watched):
             self.line(f"play {WALK}")
             self.board.expect("Page 4 step 2", ms=4000)
         if state == "layer":
-            for line in ("rate 120", "amplitude 90", f"layer {LAYER}"):
-                self.line(line)
+            for line in ("rate 120", "amplitude 90", f"layer {LAYER}", *BY_CODE):
+                answer = self.line(line)
+                assert answer.endswith("OK"), f"{line}: {answer}"
         if state == "pause":
             self.line("pause")
             self.board.run(ms=500)
