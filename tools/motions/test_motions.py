@@ -38,7 +38,8 @@ BODY = {  # degrees of the right side, see README.md; the left side is its mirro
     17: (-25, 25), 19: (-90, 90)}
 HEAD_TILT = -40, 40
 KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "1": 16, "2": 32, "3": 64, "4": 128}
-ON_THE_FLOOR = {"pushups", "pushups_do", "pushups_up", "get_up", "get_up_back", "up_to_seat", "up_from_seat"}
+ON_THE_FLOOR = {"pushups", "pushups_do", "pushups_up", "get_up", "up_on_arms", "get_up_back", "up_on_elbows", "up_to_seat", "up_from_seat"}
+LEFT_ALONE = {("get_up", 0): {1, 2}}     # joints that a step does not use: they stay where they are
 LEANING = {"bow", "dance_end", "sit"} | ON_THE_FLOOR
 CHAINS = ["walk walk_r walk_l walk_r walk_l end_r", "walk walk_r turn_l turn_l2 turn_l walk_r walk_l turn_r turn_r2 end_r",
           "back back_r back_l back_r back_end_l", "right right_a right_b right_a right_b right_end", "left left_a left_b left_end",
@@ -52,7 +53,8 @@ def left_of(name):
 
 
 def pose(page, step):
-    return {joint: page.word(step, joint) for joint in JOINTS}
+    """{joint: position} of those that the step uses."""
+    return {joint: page.word(step, joint) for joint in JOINTS if page.word(step, joint) < 1024}
 
 
 def first(page):
@@ -111,8 +113,8 @@ def test_every_joint_is_said_in_every_step_and_no_other():
     for number, page in PAGES.items():
         assert page.schedule == SCHEDULE_TIME
         for step in range(page.steps):
-            used = [joint for joint in range(31) if page.word(step, joint) < 1024]
-            assert used == list(JOINTS), (number, step)
+            used = {joint for joint in range(31) if page.word(step, joint) < 1024}
+            assert used == set(JOINTS) - LEFT_ALONE.get((page.title, step), set()), (number, step)
 
 
 @pytest.mark.parametrize("name", LAYERS)
@@ -261,7 +263,7 @@ def test_mean_speed_leaves_the_servo_a_margin_in_steps_and_over_links(name):
 
 
 def mean_speed(before, after, ticks):
-    return max(abs(after[joint] - before[joint]) for joint in JOINTS) / ticks
+    return max(abs(after[joint] - before[joint]) for joint in before.keys() & after.keys()) / ticks
 
 
 @pytest.mark.parametrize("names", CHAINS + [name for name in NUMBER if PAGES[NUMBER[name]].code])
