@@ -36,8 +36,8 @@ from m512.files.text import read_text  # noqa: E402
 # What may vary, and between what.
 RANGES = {
     "stride": (-50, 50), "side": (-5, 40), "turn": (-2, 20), "sway": (5, 40),
-    "sway_lead": (-0.12, 0.15), "step_lead": (-0.1, 0.1), "swing": (0.28, 0.5), "lift": (8, 35), "square": (0.2, 1.2),
-    "height": (118, 146), "lean": (-6, 18), "ahead": (-18, 15), "apart": (-8, 20), "spread": (-4, 16), "toes": (-8, 8), "arms": (0, 1.2)}
+    "sway_lead": (-0.12, 0.15), "step_lead": (-0.1, 0.1), "swing": (0.28, 0.5), "lift": (7, 35), "square": (0.2, 1.2),
+    "height": (104, 146), "lean": (-6, 18), "ahead": (-18, 20), "apart": (-8, 20), "spread": (-4, 16), "toes": (-8, 8), "arms": (0, 1.2)}
 FIXED = {"walk": ("side", "turn"), "back": ("side", "turn"), "spin": ("side",), "side": ("turn",)}
 FIRST_PAGE = {"walk": 20, "back": 27, "spin": 32, "side": 34}
 TARGETS = {"walk": 165.0, "back": 80.0, "spin": 36.0, "side": 60.0}   # mm/s, degrees/s

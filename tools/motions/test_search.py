@@ -74,3 +74,11 @@ def test_bodies_that_fell_stay_up_to_half(run):
     run([20.0, 30.0, 20.0, 30.0], cost)
     before, after = seen[0], seen[-1]
     assert before != after and after[:2] == before[-3:][:2] and not set(after[2:]) & set(before)
+
+
+@pytest.mark.parametrize("kind", list(search.TARGETS))
+def test_the_search_begins_with_the_numbers_that_stand(kind):
+    """A number outside its range would be moved before the search begins."""
+    numbers = gait.numbers()[kind]
+    space = search.Numbers(kind, numbers)
+    assert vars(space.of(space.vector())) == pytest.approx(vars(numbers), abs=0.001)

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""How sure a way of going is: the least push that fells a robot whose ankles are off, in N s.
+
+    tools/motions/margins.py walk                                      as it is: half a minute of an idle core
+    tools/motions/margins.py walk height=118 ankle_slope=6,lift=12     and with other numbers of gait.json, a line each
+
+Falls of bodies by chance are too rare to tell a good change from a bad one. This shows it at once: nearly all falls are of a robot that leans
+to one side through its zeros and is pushed to that side. A cell is forward / backwards: pushed forward while it leans forward by LEAN
+degrees, and the same backwards, in two moments of its cycle; the smaller counts. 0: it falls without a push. A column is a body or a
+way that is harder than the nominal one. Needs `tools/dev/setup physics` and a build.
+"""
+import argparse
+import os
+import pathlib
+import sys
+from dataclasses import dataclass, fields, replace
+
+HERE = pathlib.Path(__file__).resolve().parent
+VENV = HERE.parents[1] / "build" / "venv"
+if (VENV / "bin" / "python").exists() and pathlib.Path(sys.prefix).resolve() != VENV.resolve():
+    os.execv(VENV / "bin" / "python", [str(VENV / "bin" / "python"), *sys.argv])
+sys.path[:0] = [str(HERE), *(str(HERE.parent / part) for part in ("body/src", "campaign", "m512/src"))]
+
+import gait  # noqa: E402  (the paths come first)
+from body.chance import DEGREE, NOMINAL, Push, Variation  # noqa: E402
+from body.description import load  # noqa: E402
+from body.trial import STOP, try_motion  # noqa: E402
+from campaign import each  # noqa: E402
+from search import FIRST_PAGE, UP, image_of  # noqa: E402
+
+LEAN = 3.0                       # degrees
+MOST_NEWTON_S = 0.9
+HALVINGS = 5                     # of 0..MOST_NEWTON_S: to 0.03 N s
+MOMENTS_S = (3.0, 3.2)
+FALLS_WITHIN_S = 2.3
+LEFT = 4
+FORWARD, BACKWARDS = 0, 180      # towards, in degrees
+
+
+@dataclass(frozen=True)
+class Case:
+    """A body and a way. keys: of the remote, besides those that it goes with; differ: degrees that the right ankle is off more than
+    the left one."""
+
+    name: str
+    body: Variation = NOMINAL
+    differ: float = 0.0
+    keys: tuple = ()
+
+
+CASES = [Case("nominal"), Case("heavy rotors", replace(NOMINAL, rotor_kgm2=0.009)), Case("9.2 V", replace(NOMINAL, volts=9.2)),
+         Case("legs differ", differ=5.0), Case("stop", keys=((2.6, STOP),))]
+OF_THE_WALK = [Case("curve", keys=((1.0, LEFT),))]
+
+
+def leaning(body, degrees, differ=0.0):
+    """The same body, its ankles off so that it leans forward by this much."""
+    right, left = degrees + differ / 2, degrees - differ / 2
+    zeros = dict(body.zero_units)
+    zeros[15] = zeros.get(15, 0.0) - right * DEGREE
+    zeros[16] = zeros.get(16, 0.0) + left * DEGREE
+    return replace(body, zero_units=zeros)
+
+
+def stands(image, page, body, keys, at_s, newton_s, towards):
+    pushed = replace(body, pushes=(Push(at_s, newton_s, towards),) if newton_s else ())
+    return try_motion(image, page, at_s + FALLS_WITHIN_S, load("humanoid"), pushed, keys=keys).fell_s is None
+
+
+def least_push(item):
+    """N s: between what it stands and what fells it. A body that stands a push is taken to stand all smaller ones.
+    item: (image, page, body, keys, at_s, towards)"""
+    image, page, body, keys, at_s, towards = item
+    if not stands(image, page, body, keys, at_s, 0.0, towards):
+        return 0.0
+    low, high = 0.0, MOST_NEWTON_S
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        if stands(image, page, body, keys, at_s, middle, towards):
+            low = middle
+        else:
+            high = middle
+    return (low + high) / 2
+
+
+def items_of(kind, gaits):
+    """[(case, direction)], and for each of them an item for every moment."""
+    image, page = image_of(gaits), FIRST_PAGE[kind]
+    first = ((0, UP),) if kind == "walk" else ()
+    asked = [(case, towards) for case in CASES + (OF_THE_WALK if kind == "walk" else []) for towards in (FORWARD, BACKWARDS)]
+    return asked, [(image, page, leaning(case.body, LEAN if towards == FORWARD else -LEAN, case.differ), (*first, *case.keys), at_s, towards)
+                   for case, towards in asked for at_s in MOMENTS_S]
+
+
+def margins(kind, gaits, jobs=None, scheduler=None):
+    """{case: {towards: N s}}"""
+    asked, items = items_of(kind, gaits)
+    found = each(least_push, items, "pushes", jobs, scheduler)
+    result = {}
+    for k, (case, towards) in enumerate(asked):
+        result.setdefault(case.name, {})[towards] = min(found[k * len(MOMENTS_S):(k + 1) * len(MOMENTS_S)])
+    return result
+
+
+def change_of(text):
+    """"height=118,lift=12" -> {"height": 118.0, "lift": 12.0}"""
+    kinds = {field.name: field.type for field in fields(gait.Gait)}
+    change = {}
+    for part in text.split(","):
+        name, _, value = part.partition("=")
+        if name not in kinds:
+            raise argparse.ArgumentTypeError(f"{part}: give NAME=NUMBER; the names are {', '.join(kinds)}")
+        try:
+            change[name] = kinds[name](value)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{part}: {value or 'nothing'} is no {kinds[name].__name__}") from None
+    return change
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("kind", choices=list(FIRST_PAGE))
+    parser.add_argument("changes", nargs="*", type=change_of, metavar="NAME=NUMBER,...", help="other numbers, a line each")
+    parser.add_argument("--jobs", type=int, help="processes at once (default: one a core)")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask scheduler whose workers do it")
+    options = parser.parse_args()
+    gaits = gait.numbers()
+    for change in [{}, *options.changes]:
+        try:
+            found = margins(options.kind, gaits | {options.kind: replace(gaits[options.kind], **change)}, options.jobs, options.scheduler)
+        except ValueError as error:
+            sys.exit(f"margins: {error}")
+        said = ", ".join(f"{name}={value:g}" for name, value in change.items()) or "as it is"
+        print(f"{said}: " + ", ".join(f"{name} {both[FORWARD]:.2f} / {both[BACKWARDS]:.2f}" for name, both in found.items()), flush=True)
+
+
+if __name__ == "__main__":
+    main()
