@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * console.h - the serial line to terminal, PC and remote control (UART 1, 57,600 baud 8N1), by interrupt.
  * Bytes only: knows no lines and no packets. Main loop only. RAM: 256 + 128 bytes of rings, 24 of state.
- * No byte is lost at full line rate as long as the main loop takes bytes every 44 ms (255 bytes), or with flow control
- * on. Interrupts may be off for 350 us (two characters): the UART keeps that many. */
+ * No byte is lost at full line rate as long as the main loop takes bytes every 44 ms (255 bytes; 22 ms with a ring of 128),
+ * or with flow control on. Interrupts may be off for 350 us (two characters): the UART keeps that many. */
 #ifndef CONSOLE_H
 #define CONSOLE_H
 
@@ -10,8 +10,10 @@
 #include <stdint.h>
 #include "ring.h"
 
+/* An image may define these smaller (powers of two, for the whole image). The loader's page-write wants 256 for input. */
+#ifndef CONSOLE_RX_BYTES
 #define CONSOLE_RX_BYTES 256u
-/* An image short of RAM may define it smaller (a power of two, for the whole image). */
+#endif
 #ifndef CONSOLE_TX_BYTES
 #define CONSOLE_TX_BYTES 128u
 #endif
@@ -57,7 +59,7 @@ void console_flush(void);
  * ring has less than CONSOLE_XOFF_ROOM bytes left, and again for every 32 bytes that still come. XON goes out when the ring
  * is nearly empty. Switching on sends XON, because the PC may still obey an XOFF from before a restart. Switching off sends
  * XON if an XOFF is in force. (XON and XOFF from the PC are data: they occur in remote packets.) */
-#define CONSOLE_XOFF_ROOM 128u
+#define CONSOLE_XOFF_ROOM (CONSOLE_RX_BYTES / 2u)
 #define CONSOLE_XON_COUNT 32u
 void console_set_flow(bool on);
 
