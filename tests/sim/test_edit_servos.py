@@ -5,6 +5,7 @@ import re
 
 import pytest
 from cm5sim import Board
+from cm5sim.board import CYCLES_PER_TICK
 
 from edit_robot import page, robot, UNUSED
 
@@ -345,6 +346,30 @@ def test_fault_that_ends_a_play_is_named_behind_its_end():
     with start() as r:
         play_until(r, "overheating")
         assert r.message.strip() == "Ended: a servo failed. Hot: ID 4"
+
+
+def eeprom_with_rule_limp():
+    """A play goes on without a servo that fails. Edit has no command for this setting, so Play writes it."""
+    with Board(images=["play-cm5.hex"]) as board:
+        board.expect("] ", ms=2000)
+        board.send("settings fault 2\r")
+        board.run(ms=1000)
+        return bytes(board.eeprom[0:4096])
+
+
+def test_play_that_goes_on_without_a_servo_keeps_its_ticks():
+    with start(eeprom=eeprom_with_rule_limp()) as r:
+        r.line("on")
+        r.keys("play 6\r", ms=2200)
+        r.board.clear_trace()
+        for joint in range(2, 19):      # each is told at another time within a tick
+            r.board.servos[joint].fault("silent")
+            r.board.run(ms=300 + joint % 8)
+        r.pump()
+        assert r.message.strip() == "No answer: ID 2-18"
+        frames = [frame.cycle for frame in r.board.trace]
+        latest = max(after - before for before, after in zip(frames, frames[1:])) - CYCLES_PER_TICK
+        assert len(frames) > 600 and latest < 12_000
 
 
 def test_end_of_a_play_is_still_told_when_one_more_servo_fails():
