@@ -125,8 +125,7 @@ class PlayRobot(Watched):
             self.board.expect("Page 4 step 2", ms=4000)
         if state == "layer":
             for line in ("rate 120", "amplitude 90", f"layer {LAYER}", *BY_CODE):
-                answer = self.line(line)
-                assert answer.endswith("OK"), f"{line}: {answer}"
+                assert self.does(line), line
         if state == "pause":
             self.line("pause")
             self.board.run(ms=500)
