@@ -6,6 +6,6 @@ import { defineConfig } from 'vitest/config';
 export default defineConfig({
   test: {
     include: ['tests/page/*.test.ts'], testTimeout: 400_000, hookTimeout: 120_000, fileParallelism: false, maxWorkers: 1, retry: 1,
-    expect: { poll: { timeout: 240_000 } }, // as long as every other wait (page-bench.ts)
+    expect: { poll: { timeout: Number(process.env['WAIT_MS'] ?? 240_000) } }, // as long as every other wait (page-bench.ts)
   },
 });

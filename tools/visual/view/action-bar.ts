@@ -6,7 +6,8 @@ import { liesOnFace } from '../model/space.ts';
 import type { PageEntry } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Desk, DeskState } from './desk.ts';
-import { define, make } from './element.ts';
+import { onChoice } from './choice.ts';
+import { define, keepFocus, make } from './element.ts';
 import './action-bar.css';
 
 /** Names of the motion library that get a button, and what stands on it. */
@@ -43,9 +44,9 @@ export class ActionBar extends HTMLElement {
       const page = byName.get(name);
       return page ? [this.button(title, isReady, () => this.desk.play(page.page))] : [];
     };
-    this.replaceChildren(this.button('Stop', isReady, () => this.desk.command('stop'), 'stop'), ...BUTTONS.flatMap(([name, title]) => plays(name, title)),
+    keepFocus(this, () => this.replaceChildren(this.button('Stop', isReady, () => this.desk.command('stop'), 'stop'), ...BUTTONS.flatMap(([name, title]) => plays(name, title)),
       ...(state.source === 'simulated' ? this.oneGetUp(byName) : [...plays(GET_UP.face, 'Get up (face)'), ...plays(GET_UP.back, 'Get up (back)')]),
-      this.list(state.pages, isReady));
+      this.list(state.pages, isReady)));
     this.look(this.frame);
   }
 
@@ -77,8 +78,8 @@ export class ActionBar extends HTMLElement {
     const options = playable.map((page) => make('option', { value: page.page }, `${page.page} ${page.name}`));
     const list = make('select', { 'aria-label': 'Play a page', disabled: !isReady || playable.length === 0 },
       make('option', { value: '' }, 'All pages …'), ...options);
-    list.addEventListener('change', () => {
-      if (list.value !== '') void this.desk.play(Number(list.value));
+    onChoice(list, (page) => {
+      if (page !== '') void this.desk.play(Number(page));
       list.value = '';
     });
     return list;

@@ -92,7 +92,8 @@ export class AppShell extends HTMLElement {
     const theme = make('button', { 'aria-label': 'Light or dark', title: 'Light or dark', onclick: () => this.changeTheme() }, '◐');
     const tour = make('button', { class: 'tour-start', title: 'Two minutes to the first motion', onclick: () => this.startTour() }, 'Tour');
     const keys = make('button', { 'aria-label': 'Keys', title: 'Keys (?)', onclick: () => this.keys.open() }, '?');
-    return make('header', {}, make('h1', {}, 'Motion512'),
+    const skip = make('button', { class: 'skip', onclick: () => this.tabs.get(this.desk.state.get().tab)?.focus() }, 'To the areas');
+    return make('header', {}, skip, make('h1', {}, 'Motion512'),
       make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours), this.give(new FilesMenu()), make('a', { href: './licences.html' }, 'Licences'), tour, keys, theme);
   }
 
@@ -130,6 +131,8 @@ export class AppShell extends HTMLElement {
   }
 
   private render(state: DeskState): void {
+    // Whoever was in an area that goes with the keyboard is at the tab of the one that comes.
+    const isLeft = [...this.panels].some(([name, panel]) => name !== state.tab && panel.contains(document.activeElement));
     this.editBar.hidden = !EDITING.includes(state.tab);
     for (const [name, tab] of this.tabs) {
       tab.setAttribute('aria-selected', String(name === state.tab));
@@ -137,6 +140,7 @@ export class AppShell extends HTMLElement {
       const panel = this.panels.get(name);
       if (panel) panel.hidden = name !== state.tab;
     }
+    if (isLeft) this.tabs.get(state.tab)?.focus({ preventScroll: true });
     this.simulated.setAttribute('aria-pressed', String(state.source === 'simulated'));
     this.yours.setAttribute('aria-pressed', String(state.source === 'yours'));
     this.yours.textContent = state.source === 'yours' && state.connection !== 'closed' ? state.portName : 'Your robot …';

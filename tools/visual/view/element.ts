@@ -15,6 +15,27 @@ export function make<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: 
   return element;
 }
 
+/** Do letters go into what has the keyboard? */
+export function isTyping(event: KeyboardEvent): boolean {
+  const NOT_TEXT = '[type="range"], [type="checkbox"], [type="radio"]';
+  return event.target instanceof Element && event.target.closest(`input:not(${NOT_TEXT}), textarea, terminal-pane`) !== null;
+}
+
+/** What stands on an element, for those who do not see it. */
+function nameOf(element: Element): string {
+  return element.getAttribute('aria-label') ?? element.textContent;
+}
+
+/** Renders what stands in `root` anew. Whoever was at something in there with the keyboard is at what is called the same again. */
+export function keepFocus(root: Element, render: () => void): void {
+  const { activeElement } = document;
+  const name = activeElement && root.contains(activeElement) ? nameOf(activeElement) : null;
+  render();
+  if (name === null) return;
+  const all = root.querySelectorAll<HTMLElement>('button, select, input');
+  [...all].find((element) => nameOf(element) === name)?.focus({ preventScroll: true });
+}
+
 /** A custom element of ours, made with what it works on. */
 export function define(name: string, element: CustomElementConstructor): void {
   if (!customElements.get(name)) customElements.define(name, element);

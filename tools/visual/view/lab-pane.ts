@@ -4,6 +4,7 @@
 import { NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Desk, DeskState, ImageName, PanelButton } from './desk.ts';
 import { define, make } from './element.ts';
+import { pushRobot } from './push.ts';
 import { ServoTable } from './servo-table.ts';
 import { TEXTS } from './texts.ts';
 import './lab-pane.css';
@@ -11,7 +12,6 @@ import './lab-pane.css';
 const SPEEDS: readonly (readonly [number, string])[] = [[0.1, '0.1×'], [0.25, '¼×'], [0.5, '½×'], [1, 'real time'], [2, '2×'], [4, '4×']];
 const PANEL: readonly (readonly [PanelButton, string])[] = [['up', '▲'], ['down', '▼'], ['left', '◀'], ['right', '▶'], ['start', 'START'], ['mode', 'MODE']];
 const LEDS = ['Power', 'TxD', 'RxD', 'Aux', 'Manage', 'Program', 'Play'];
-const PUSH_TICKS = 38; // 0.3 s
 const RADIANS = Math.PI / 180;
 
 export class LabPane extends HTMLElement {
@@ -66,7 +66,9 @@ export class LabPane extends HTMLElement {
       this.speeds.set(speed, button);
       row.append(button);
     }
-    return this.section('Time', row, this.clock);
+    const section = this.section('Time', row, this.clock);
+    section.classList.add('time');
+    return section;
   }
 
   private powerSection(): HTMLElement {
@@ -81,8 +83,10 @@ export class LabPane extends HTMLElement {
     const button = make('button', { 'aria-label': `panel button ${name}` }, sign);
     button.addEventListener('pointerdown', () => this.desk.press(name, true));
     for (const end of ['pointerup', 'pointerleave'] as const) button.addEventListener(end, () => this.desk.press(name, false));
-    button.addEventListener('keydown', (event) => event.key === 'Enter' && !event.repeat && this.desk.press(name, true));
-    button.addEventListener('keyup', (event) => event.key === 'Enter' && this.desk.press(name, false));
+    const isPress = ({ key }: KeyboardEvent): boolean => key === 'Enter' || key === ' ';
+    button.addEventListener('keydown', (event) => isPress(event) && !event.repeat && this.desk.press(name, true));
+    button.addEventListener('keyup', (event) => isPress(event) && this.desk.press(name, false));
+    button.addEventListener('blur', () => this.desk.press(name, false));
     return button;
   }
 
@@ -94,20 +98,10 @@ export class LabPane extends HTMLElement {
     };
     return this.section('Hand and floor',
       make('div', { class: 'row' }, make('button', { onclick: () => this.desk.hold(true) }, 'Put on its feet'), make('button', { onclick: () => this.desk.hold(false) }, 'Let go'),
-        make('button', { onclick: () => this.push(1) }, 'Push ahead'), make('button', { onclick: () => this.push(-1) }, 'Push back')),
+        make('button', { onclick: () => pushRobot(this.desk, 1) }, 'Push ahead'), make('button', { onclick: () => pushRobot(this.desk, -1) }, 'Push back')),
       this.slider('Slope to the front', -15, 15, 1, 0, '°', (angle) => set({ tiltFront: angle * RADIANS })),
       this.slider('Slope to the left', -15, 15, 1, 0, '°', (angle) => set({ tiltLeft: angle * RADIANS })),
       this.slider('Grip of the floor', 0, 1.5, 0.05, 0.8, '', (friction) => set({ friction })));
-  }
-
-  /** What a drag of the mouse at the head does, by keyboard. */
-  private push(direction: 1 | -1): void {
-    const trunk = this.desk.body.links[0]?.name ?? 'trunk';
-    const stop = this.desk.onFrame((state) => {
-      stop();
-      const [x, y, z] = state.trunk.pos;
-      this.desk.pull({ link: trunk, point: [0, 0, 0.03], target: [x + direction * 0.2, y, z + 0.03] }, PUSH_TICKS);
-    });
   }
 
   private imageSection(): HTMLElement {

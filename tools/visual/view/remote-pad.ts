@@ -76,7 +76,7 @@ export class RemotePad extends HTMLElement {
     const name = KEYS[event.code];
     const target = event.target instanceof HTMLElement ? event.target : null;
     const isElsewhere = target?.closest('input, select, textarea, terminal-pane, [role="tablist"]') !== null && target !== null;
-    if (!name || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and the arrows turn the picture
     if (event.type === 'keydown' && this.desk.state.get().tab !== 'remote') return; // elsewhere the arrows edit
     if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button')))) return;
     event.preventDefault();

@@ -3,7 +3,7 @@
 
 import {
   AmbientLight, BufferGeometry, CanvasTexture, CircleGeometry, Color, DirectionalLight, Fog, Group, HemisphereLight, Line, LineBasicMaterial, Mesh,
-  MeshStandardMaterial, Object3D, PCFShadowMap, PerspectiveCamera, Raycaster, RepeatWrapping, SRGBColorSpace, Scene, Vector2, Vector3, WebGLRenderer, Plane,
+  MeshStandardMaterial, Object3D, PCFShadowMap, PerspectiveCamera, Quaternion, Raycaster, RepeatWrapping, SRGBColorSpace, Scene, Spherical, Vector2, Vector3, WebGLRenderer, Plane,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Body } from '../model/body.ts';
@@ -16,6 +16,9 @@ const ROOM_RADIUS = 12;
 const TILE_M = 0.1;
 const FOLLOW = 0.08; // of the way a frame
 const MOST_PIXELS = 2;
+/** three's spherical coordinates have y up, the room z. */
+const TO_Y_UP = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(0, 1, 0));
+const LEAST_POLAR = 0.05;
 const EDGE_ON = 0.2; // sine of the angle between sight and plane
 
 export interface Picked {
@@ -87,6 +90,14 @@ export class RobotScene {
   /** Something of the room that comes and goes: ghosts, marks on the floor. */
   add(...objects: Object3D[]): void {
     this.room.add(...objects);
+  }
+
+  /** The camera goes round what it looks at, over or under it (radians), and to so much of its distance. */
+  turn(around: number, down: number, distance: number): void {
+    const { object, target, minDistance, maxDistance, maxPolarAngle } = this.controls;
+    const from = new Spherical().setFromVector3(object.position.clone().sub(target).applyQuaternion(TO_Y_UP));
+    from.set(clamp(from.radius * distance, minDistance, maxDistance), clamp(from.phi + down, LEAST_POLAR, maxPolarAngle), from.theta + around);
+    object.position.setFromSpherical(from).applyQuaternion(TO_Y_UP.clone().invert()).add(target);
   }
 
   /** The camera goes with the trunk, if it shall. */
@@ -186,6 +197,10 @@ export class RobotScene {
     this.controls.target.add(step);
     this.camera.position.add(step);
   }
+}
+
+function clamp(value: number, least: number, most: number): number {
+  return Math.min(Math.max(value, least), most);
 }
 
 /** Tiles of 10 cm, so that one sees how far it walks. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The picture of the robot. The mouse turns the camera; on the robot it takes hold of a limb and pulls, or, while a step is
-// edited, it changes the step (editor/pose-tool.ts). By keyboard: the arrows turn the camera, and the Lab pulls by numbers.
+// The picture of the robot. Mouse or finger turn the camera; on the robot they take hold of a limb and pull, or, while a step is
+// edited, change the step (editor/pose-tool.ts). Two fingers are always the camera's. By keyboard: Shift and the arrows turn it,
+// Page Up and Down look from above and below, + and - go nearer and farther, P pushes.
 
 import { jointTitle } from '../model/body.ts';
 import type { Joint } from '../model/body.ts';
@@ -12,16 +13,22 @@ import { EDITING_START } from './editor/editing.ts';
 import type { Editing } from './editor/editing.ts';
 import { PoseTool } from './editor/pose-tool.ts';
 import { define, make } from './element.ts';
+import { Fingers } from './fingers.ts';
 import { PictureQuality } from './picture-quality.ts';
 import { RobotScene } from './robot-scene.ts';
 import type { Picked } from './robot-scene.ts';
 import { Store } from './store.ts';
+import { pushRobot } from './push.ts';
 import { TEXTS } from './texts.ts';
 import './robot-view.css';
 
 /** A mark in the browser's performance timeline: the robot is in the picture for the first time. */
 const ROBOT_DRAWN = 'robot-drawn';
 const TURN_RAD = 0.12;
+const NEARER = 0.9;
+/** How far beside the robot a finger may be, which is broader than an arm of it, to take hold of it. CSS pixels. */
+const FINGER_PX = 14;
+const AROUND = Array.from({ length: 8 }, (_, i) => (i * Math.PI) / 4);
 
 export class RobotView extends HTMLElement {
   desk!: Desk; // set before it is connected
@@ -32,8 +39,11 @@ export class RobotView extends HTMLElement {
   private state: RobotState | null = null;
   private grabbed: (Picked & { target: Picked['world'] }) | null = null;
   private taught: readonly number[] = [];
+  /** Pointer that has hold of the robot. */
+  private holder: number | null = null;
   private readonly label = make('div', { class: 'joint-label', 'aria-hidden': 'true' });
   private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'The robot' });
+  private readonly fingers = new Fingers(this.canvas, () => this.endDrag());
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
@@ -138,21 +148,46 @@ export class RobotView extends HTMLElement {
     const canvas = this.canvas;
     canvas.addEventListener('pointerdown', (event) => this.grab(event), { capture: true });
     canvas.addEventListener('pointermove', (event) => this.move(event));
-    canvas.addEventListener('pointerup', () => this.release(true));
-    canvas.addEventListener('pointercancel', () => this.release(false));
+    canvas.addEventListener('pointerup', (event) => this.lift(event, true));
+    canvas.addEventListener('pointercancel', (event) => this.lift(event, false));
     canvas.addEventListener('keydown', (event) => this.key(event));
     canvas.addEventListener('keyup', () => this.pose?.keyUp());
     canvas.addEventListener('blur', () => this.pose?.keyUp());
     canvas.addEventListener('webglcontextrestored', () => this.scene?.redraw());
   }
 
-  private at(event: PointerEvent): readonly [number, number] {
+  private at(event: PointerEvent, dx = 0, dy = 0): readonly [number, number] {
     const box = this.canvas.getBoundingClientRect();
-    return [((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2];
+    return [((event.clientX + dx - box.left) / box.width) * 2 - 1, 1 - ((event.clientY + dy - box.top) / box.height) * 2];
+  }
+
+  private pick(event: PointerEvent): Picked | null {
+    const picked = this.scene?.pick(...this.at(event)) ?? null;
+    if (picked || event.pointerType !== 'touch') return picked;
+    for (const angle of AROUND) {
+      const near = this.scene?.pick(...this.at(event, FINGER_PX * Math.cos(angle), FINGER_PX * Math.sin(angle)));
+      if (near) return near;
+    }
+    return null;
+  }
+
+  /** A second finger: what the first one drags is taken back. */
+  private endDrag(): boolean {
+    const hadHold = this.holder !== null;
+    this.release(false);
+    this.label.hidden = true;
+    return hadHold;
+  }
+
+  private lift(event: PointerEvent, keep: boolean): void {
+    this.fingers.remove(event);
+    if (event.pointerType === 'touch') this.label.hidden = true;
+    if (event.pointerId === this.holder) this.release(keep);
   }
 
   private grab(event: PointerEvent): void {
-    const picked = event.button === 0 ? this.scene?.pick(...this.at(event)) : null;
+    if (this.fingers.isHandingOver || !this.fingers.add(event)) return;
+    const picked = event.button === 0 ? this.pick(event) : null;
     const isPosing = this.pose?.isPosing === true;
     if (!picked || !this.scene || (!isPosing && this.desk.state.get().source !== 'simulated')) return;
     event.stopImmediatePropagation(); // the camera stays where it is
@@ -160,6 +195,8 @@ export class RobotView extends HTMLElement {
     this.canvas.focus({ preventScroll: true });
     this.scene.controls.enabled = false;
     this.canvas.setPointerCapture(event.pointerId);
+    this.holder = event.pointerId;
+    if (event.pointerType === 'touch') this.showJoint(picked.link);
     if (isPosing) this.pose?.down(picked, event.shiftKey || event.ctrlKey);
     else this.take(picked);
   }
@@ -174,8 +211,10 @@ export class RobotView extends HTMLElement {
 
   private move(event: PointerEvent): void {
     if (!this.scene) return;
+    this.fingers.move(event);
+    if (this.holder !== null && event.pointerId !== this.holder) return;
     if (this.pose?.isDragging) return this.pose.move(...this.at(event));
-    if (!this.grabbed) return this.hover(event);
+    if (!this.grabbed) return event.pointerType === 'touch' ? undefined : this.hover(event);
     const target = this.scene.drag(...this.at(event), this.grabbed.world);
     this.grabbed = { ...this.grabbed, target };
     this.desk.pull({ link: this.grabbed.link, point: this.grabbed.point, target });
@@ -185,6 +224,7 @@ export class RobotView extends HTMLElement {
   private release(keep: boolean): void {
     if (!this.scene) return;
     this.scene.controls.enabled = true;
+    this.holder = null;
     this.pose?.up(keep);
     if (!this.grabbed) return;
     this.grabbed = null;
@@ -200,9 +240,13 @@ export class RobotView extends HTMLElement {
   }
 
   private hover(event: PointerEvent): void {
-    const link = this.scene?.pick(...this.at(event))?.link ?? null;
+    const link = this.pick(event)?.link ?? null;
     this.scene?.figure.mark(link);
     this.canvas.classList.toggle('over-robot', link !== null);
+    this.showJoint(link);
+  }
+
+  private showJoint(link: string | null): void {
     const joint = this.desk.body.joints.find((one) => one.body === link);
     this.label.hidden = !joint;
     if (joint) this.label.textContent = `${joint.servo} ${jointTitle(joint)}: ${this.standOf(joint)}`;
@@ -215,17 +259,20 @@ export class RobotView extends HTMLElement {
   }
 
   private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
     if (this.pose?.isPosing && this.pose.key(event)) event.preventDefault();
     else if (event.key === 'Escape') this.release(false);
-    else this.turnByKey(event);
+    else if (event.key.toLowerCase() === 'p' && !this.pose?.isPosing) pushRobot(this.desk, event.shiftKey ? -1 : 1);
+    else this.lookByKey(event);
   }
 
-  private turnByKey(event: KeyboardEvent): void {
-    const turn = { ArrowLeft: -TURN_RAD, ArrowRight: TURN_RAD }[event.key];
-    if (turn === undefined || !this.scene) return;
+  private lookByKey(event: KeyboardEvent): void {
+    const around = event.shiftKey ? { ArrowLeft: -1, ArrowRight: 1 }[event.key] : undefined;
+    const down = { PageUp: -1, PageDown: 1 }[event.key];
+    const nearer = { '+': NEARER, '-': 1 / NEARER, '−': 1 / NEARER }[event.key];
+    if (around === undefined && down === undefined && nearer === undefined) return;
     event.preventDefault();
-    const { object, target } = this.scene.controls;
-    object.position.sub(target).applyAxisAngle(object.up, turn).add(target);
+    this.scene?.turn(TURN_RAD * (around ?? 0), TURN_RAD * (down ?? 0), nearer ?? 1);
   }
 }
 

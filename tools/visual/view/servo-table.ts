@@ -4,6 +4,7 @@
 import { jointTitle } from '../model/body.ts';
 import type { RobotState, ServoState } from '../robot/robot-state.ts';
 import type { Desk } from './desk.ts';
+import { onChoice } from './choice.ts';
 import { define, make } from './element.ts';
 import { ServoChart } from './servo-chart.ts';
 import { FAULT_TITLES } from './texts.ts';
@@ -43,7 +44,7 @@ export class ServoTable extends HTMLElement {
   private row(servo: number, title: string): HTMLTableRowElement {
     const cells = { goal: make('td', { class: 'number' }), position: make('td', { class: 'number' }), state: make('td') };
     const fault = make('select', { 'aria-label': `Fault of servo ${servo}` });
-    fault.addEventListener('change', () => this.setFault(servo, fault));
+    onChoice(fault, () => this.setFault(servo, fault));
     const choice = make('input', { type: 'radio', name: 'charted', 'aria-label': `Draw servo ${servo}`, checked: servo === 13 });
     choice.addEventListener('change', () => this.chart.choose(servo));
     this.rows.set(servo, { ...cells, fault });

@@ -31,6 +31,8 @@ export class TerminalPane extends HTMLElement {
     this.terminal = terminal;
     terminal.open(screen);
     terminal.textarea?.setAttribute('aria-label', 'Terminal of the robot');
+    // Tab goes on to the next thing, as everywhere: no firmware wants it, and a keyboard must get out of here.
+    terminal.attachCustomKeyEventHandler((event) => event.key !== 'Tab');
     terminal.onData((text) => this.desk.type(new TextEncoder().encode(text)));
     terminal.onBinary((text) => this.desk.type(Uint8Array.from(text, (c) => c.charCodeAt(0))));
     const observer = new ResizeObserver(() => this.fit(terminal));

@@ -13,10 +13,18 @@ export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/
  *  0.2 s a frame, and a robot that shall keep its time waits for every one of them. */
 export const FLAGS = ['--disable-gpu-compositing', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(process.getuid?.() === 0 ? ['--no-sandbox'] : [])];
-const VIEWPORT = { width: 1000, height: 640 };
+/** CSS pixels. */
+export interface Screen {
+  readonly width: number;
+  readonly height: number;
+  readonly hasTouch?: boolean;
+}
+
+const SCREEN: Screen = { width: 1000, height: 640 };
 /** robot-view.ts sets it. */
 const ROBOT_DRAWN = 'robot-drawn';
-const LIMIT_MS = 240_000; // of every wait that names none: a busy machine decides no verdict
+/** Of every wait that names none: a busy machine decides no verdict. Somebody who writes tests does not wait so long (WAIT_MS). */
+const LIMIT_MS = Number(process.env['WAIT_MS'] ?? 240_000);
 
 export class PageServer {
   readonly address: string;
@@ -62,10 +70,10 @@ export class Visitor {
     this.page = page;
   }
 
-  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1, viewport = VIEWPORT,
+  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1, { width, height, hasTouch = false } = SCREEN,
     before: (page: Page) => Promise<unknown> = async () => undefined): Promise<Visitor> {
     // Reduced motion: no colour is looked at while it changes.
-    const context = await browser.newContext({ viewport, colorScheme: theme, deviceScaleFactor: sharpness, reducedMotion: 'reduce' });
+    const context = await browser.newContext({ viewport: { width, height }, hasTouch, colorScheme: theme, deviceScaleFactor: sharpness, reducedMotion: 'reduce' });
     context.setDefaultTimeout(LIMIT_MS);
     const visitor = new Visitor(context, await context.newPage());
     visitor.watch(new URL(address).origin);

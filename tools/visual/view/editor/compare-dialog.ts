@@ -25,6 +25,7 @@ export class CompareDialog extends HTMLElement {
   private readonly go = make('button', { class: 'primary', onclick: () => void this.deed() });
   private readonly stop = make('button', { hidden: true, onclick: () => this.desk.transfer.cancel() }, 'Stop');
   private readonly again = make('button', { hidden: true, onclick: () => void this.tryAgain() }, 'Try again');
+  private readonly shut = make('button', { onclick: () => this.dialog.close() }, 'Close');
   private readonly reread = make('button', { onclick: () => void this.readRobot() }, 'Read the robot again');
   private readonly dialog = make('dialog', { class: 'compare', 'aria-label': 'Compare and write' });
   private file: { readonly title: string; readonly pages: readonly Uint8Array[] } | null = null;
@@ -35,11 +36,10 @@ export class CompareDialog extends HTMLElement {
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
-    const close = make('button', { onclick: () => this.dialog.close() }, 'Close');
     const file = make('button', { onclick: () => this.chooser.click() }, 'A file …');
     this.dialog.replaceChildren(
       make('header', {}, make('h2', {}, 'Compare and write'), make('label', {}, 'With ', this.which), file, this.chooser, this.reread),
-      make('p', { class: 'purpose' }, EDITOR_TEXTS.compare), this.rows, make('footer', {}, this.status, this.bar, this.stop, this.again, this.go, close));
+      make('p', { class: 'purpose' }, EDITOR_TEXTS.compare), this.rows, make('footer', {}, this.status, this.bar, this.stop, this.again, this.go, this.shut));
     this.replaceChildren(this.dialog);
     this.disposals.push(this.desk.transfer.state.watch((state) => this.dialog.open && this.renderTransfer(state)));
   }
@@ -169,6 +169,17 @@ export class CompareDialog extends HTMLElement {
     await this.look();
   }
 
+  /** What was at hand may be gone or of no use now: the keyboard is at what comes next. */
+  private keepFocus(): void {
+    const { activeElement } = document;
+    const isThere = activeElement !== null && this.dialog.contains(activeElement) && !activeElement.matches(':disabled, [hidden]');
+    if (!this.dialog.open || isThere) return;
+    const isDone = this.desk.transfer.state.get().phase === 'written';
+    const row = isDone ? null : this.rows.querySelector<HTMLElement>('button');
+    const next = [this.stop, this.again].find((button) => !button.hidden) ?? row ?? this.shut;
+    next.focus({ preventScroll: true });
+  }
+
   private renderTransfer(state: TransferState): void {
     const isRobot = this.key === 'robot';
     const isBusy = state.phase === 'reading' || state.phase === 'writing';
@@ -187,6 +198,7 @@ export class CompareDialog extends HTMLElement {
       const account = isRobot ? state.account.get(page) : undefined;
       mark.textContent = account ? ACCOUNT_TEXTS[account] : '';
     }
+    this.keepFocus();
   }
 }
 

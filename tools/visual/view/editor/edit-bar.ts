@@ -6,7 +6,8 @@ import type { MotionDocument } from '../../model/document.ts';
 import type { EditorState } from '../../model/editor-state.ts';
 import type { Desk } from '../desk.ts';
 import type { DocumentsState } from '../documents-desk.ts';
-import { define, make } from '../element.ts';
+import { onChoice } from '../choice.ts';
+import { define, isTyping, make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
 import { EDITOR_TEXTS, editText, keptText } from './texts.ts';
 import './edit-bar.css';
@@ -21,7 +22,7 @@ export class EditBar extends HTMLElement {
   desk!: Desk; // set before it is connected
   /** Opens the way to the robot. */
   onTransfer: () => void = () => undefined;
-  private readonly documents = make('select', { 'aria-label': 'Document', onchange: () => void this.chooseDocument() });
+  private readonly documents = make('select', { 'aria-label': 'Document' });
   private readonly kept = make('span', { class: 'kept', role: 'status', 'aria-label': 'Autosave' });
   private readonly undo = make('button', { onclick: () => this.desk.editor.undo() }, '↶');
   private readonly redo = make('button', { onclick: () => this.desk.editor.redo() }, '↷');
@@ -32,6 +33,7 @@ export class EditBar extends HTMLElement {
     this.setAttribute('role', 'toolbar');
     this.setAttribute('aria-label', 'Document');
     this.replaceChildren(this.documents, this.kept, this.undo, this.redo, this.transfer);
+    onChoice(this.documents, (value) => void this.chooseDocument(value));
     const keys = (event: KeyboardEvent): void => this.key(event);
     document.addEventListener('keydown', keys);
     this.disposals.push(
@@ -70,9 +72,8 @@ export class EditBar extends HTMLElement {
     this.transfer.textContent = count > 0 ? `To the robot (${count}) …` : 'To the robot …';
   }
 
-  private async chooseDocument(): Promise<void> {
+  private async chooseDocument(value: string): Promise<void> {
     const { documents, editor } = this.desk;
-    const { value } = this.documents;
     const { name } = editor.state.get().document;
     this.documents.value = documents.state.get().openId;
     switch (value) {
@@ -103,8 +104,8 @@ export class EditBar extends HTMLElement {
 
   /** Ctrl+Z and Ctrl+Y, but for what is being typed. */
   private key(event: KeyboardEvent): void {
-    const isTyping = event.target instanceof Element && event.target.closest('input:not([type="range"]), textarea, terminal-pane, dialog') !== null;
-    if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping || this.closest('[hidden]')) return;
+    const isInDialog = event.target instanceof Element && event.target.closest('dialog') !== null;
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping(event) || isInDialog || this.closest('[hidden]')) return;
     const key = event.key.toLowerCase();
     if (key !== 'z' && key !== 'y') return;
     event.preventDefault();

@@ -5,6 +5,7 @@
 import { SUFFIXES } from '../../model/file-formats.ts';
 import type { Suffix } from '../../model/file-formats.ts';
 import type { Desk } from '../desk.ts';
+import { onChoice } from '../choice.ts';
 import { define, make } from '../element.ts';
 import type { FilesState } from '../files-desk.ts';
 import { FILE_TEXTS } from './file-texts.ts';
@@ -24,8 +25,8 @@ export class FilesMenu extends HTMLElement {
   connectedCallback(): void {
     const save = make('select', { 'aria-label': 'Save as a file' }, make('option', { value: '' }, 'Save as …'),
       ...Object.entries(SUFFIXES).map(([suffix, title]) => make('option', { value: suffix }, `${title} (${suffix})`)));
-    save.addEventListener('change', () => {
-      if (save.value !== '') void this.save(save.value as Suffix);
+    onChoice(save, (suffix) => {
+      if (suffix !== '') void this.save(suffix as Suffix); // one of the options
       save.value = '';
     });
     this.replaceChildren(make('button', { onclick: () => this.chooser.click() }, 'Open …'), save,
@@ -113,6 +114,7 @@ export class FilesMenu extends HTMLElement {
     if (page === 0) return;
     window.history.replaceState(null, '', window.location.pathname + window.location.search);
     this.desk.show('steps');
+    document.getElementById('tab-steps')?.focus();
     if (plays) void this.desk.playEdited(page);
   }
 

@@ -8,6 +8,7 @@ import type { LinkGraph } from '../../model/links.ts';
 import { REMOTE_BUTTONS, wordOf } from '../../robot/remote.ts';
 import type { RemoteButton } from '../../robot/remote.ts';
 import type { Editor } from '../editor-desk.ts';
+import { onChoice } from '../choice.ts';
 import { make } from '../element.ts';
 import { LINK_TEXTS, codeText, pageText } from './texts.ts';
 
@@ -33,7 +34,7 @@ function field(editor: Editor, page: number, link: LinkField): HTMLElement[] {
   const view = editor.page(page);
   const target = view[link];
   const choice = make('select', { 'aria-label': LINK_TEXTS[link] }, ...targets(editor).map(([value, title]) => make('option', { value, selected: value === target }, title)));
-  choice.addEventListener('change', () => editor.dispatch(editor.edits.setLink(editor.state.get().document, page, link, Number(choice.value))));
+  onChoice(choice, (to) => editor.dispatch(editor.edits.setLink(editor.state.get().document, page, link, Number(to))));
   const go = make('button', { disabled: target === 0, 'aria-label': `Go to ${LINK_TEXTS[link]}`, onclick: () => editor.select({ page: target }) }, 'Go');
   const code = CODE_OF[link];
   return [make('label', {}, LINK_TEXTS[link]), choice, code ? codeField(editor, page, link, code) : make('span'), go];
@@ -52,6 +53,6 @@ function codeField(editor: Editor, page: number, link: LinkField, code: 'linked1
   const codes = [...CHORDS.map((held) => editor.format.remoteCode(wordOf(held))), value];
   const choice = make('select', { 'aria-label': `Key of ${LINK_TEXTS[link]}` }, ...[...new Set(codes)].map((one) =>
     make('option', { value: one, selected: one === value }, one === 0 ? 'no key' : codeText(one))));
-  choice.addEventListener('change', () => editor.dispatch(editor.edits.setHeader(editor.state.get().document, page, { [code]: Number(choice.value) })));
+  onChoice(choice, (key) => editor.dispatch(editor.edits.setHeader(editor.state.get().document, page, { [code]: Number(key) })));
   return choice;
 }

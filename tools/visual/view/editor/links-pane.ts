@@ -6,7 +6,7 @@ import { linkGraph } from '../../model/links.ts';
 import type { LinkGraph } from '../../model/links.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { Desk } from '../desk.ts';
-import { define, make } from '../element.ts';
+import { define, keepFocus, make } from '../element.ts';
 import { LINK_FIELDS, PARTNER_FIELDS } from '../../model/page.ts';
 import type { LinkField } from '../../model/page.ts';
 import { ask } from './ask-dialog.ts';
@@ -51,7 +51,7 @@ export class LinksPane extends HTMLElement {
     const key = `${page}`;
     if (key === this.listed) return;
     this.listed = key;
-    this.list.replaceChildren(...(page === 0 ? [make('p', {}, EDITOR_TEXTS.trimStays)] : linkList(editor, this.graph, page)));
+    keepFocus(this.list, () => this.list.replaceChildren(...(page === 0 ? [make('p', {}, EDITOR_TEXTS.trimStays)] : linkList(editor, this.graph, page))));
     this.centre(this.chart.querySelector('.node.selected'));
   }
 

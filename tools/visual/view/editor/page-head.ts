@@ -16,7 +16,7 @@ export class PageHead extends HTMLElement {
 
   connectedCallback(): void {
     this.name.addEventListener('change', () => this.rename());
-    this.name.addEventListener('keydown', (event) => event.key === 'Enter' && this.name.blur());
+    this.name.addEventListener('keydown', (event) => event.key === 'Enter' && this.rename());
     this.replaceChildren(this.choice, this.name, make('button', { title: 'The first empty page', onclick: () => this.newPage() }, 'New page'),
       make('span', { class: 'space' }), this.play, make('button', { class: 'stop', onclick: () => void this.desk.command('stop') }, 'Stop'));
     this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(() => this.render()));

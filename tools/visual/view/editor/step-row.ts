@@ -8,6 +8,7 @@ import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import { poseAfter } from './editing.ts';
 import { showPose } from './pose-picture.ts';
+import { STEP_TEXTS } from './step-texts.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 
@@ -27,7 +28,7 @@ export class StepRow extends HTMLElement {
   desk!: Desk; // set before it is connected
   private readonly list = make('ol', { 'aria-label': 'Steps of the page' });
   private readonly cards: Card[] = [];
-  private readonly empty = make('p', { class: 'empty' }, 'No step yet. Add the robot as it stands, or drag it in the picture.');
+  private readonly empty = make('p', { class: 'empty', tabindex: -1 }, STEP_TEXTS.empty);
   private playing = -1;
   private isBehind = false;
   private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
@@ -50,9 +51,9 @@ export class StepRow extends HTMLElement {
     for (const dispose of this.disposals.splice(0)) dispose();
   }
 
-  /** The cursor's card gets the keyboard. */
+  /** The cursor's card gets the keyboard; without a step, what is said instead of them. */
   focusCursor(): void {
-    this.cards[this.desk.editor.state.get().step]?.pick.focus();
+    (this.cards[this.desk.editor.state.get().step]?.pick ?? this.empty).focus();
   }
 
   private render(): void {

@@ -3,12 +3,13 @@
 
 export const POSE_TEXTS = {
   poseMode: 'Drag a joint, a hand, a foot or the body: the chosen step changes. The robot itself stays as it is.',
-  handMode: 'Your hand pulls the robot: limp limbs follow, stiff ones resist.',
+  handMode: 'Your hand pulls the robot: limp limbs follow, stiff ones resist. By keyboard choose Pose: the arrows turn its joints.',
   tips: 'Standing like this, the robot would tip over.',
 } as const;
 
 export const STEP_TEXTS = {
   purpose: 'A page is up to seven poses, its steps; the robot goes from one to the next. Choose a step and drag the robot in the picture.',
+  empty: 'No step yet. Add the robot as it stands, or drag it in the picture.',
   copied: 'The chosen steps are in the clipboard, as text.',
   noClipboard: 'The browser keeps the clipboard to itself here. Click a step and press Ctrl+C or Ctrl+V.',
   noSteps: 'There are no steps in the clipboard. Copy some from a page, or lines that begin with "step" from a .m512 file.',
