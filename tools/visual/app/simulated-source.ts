@@ -179,7 +179,7 @@ export class SimulatedSource {
     await this.connection?.close();
     this.connection = null;
     robot?.dispose();
-    this.events.change({ physics: 'loading', version: null, where: null, said: null });
+    this.events.change({ physics: 'loading', speed: 1, version: null, where: null, said: null });
   }
 
   private async load(): Promise<KeptRobot | null> {
