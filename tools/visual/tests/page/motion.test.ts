@@ -5,6 +5,7 @@ import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
+import { wayPoint } from './way-point.ts';
 
 const PATIENT = { timeout: 240_000 };
 const LIBRARY = new URL('../../../../build/motions/motions.bin', import.meta.url).pathname;
@@ -14,22 +15,6 @@ const button = (page: Page, name: string | RegExp) => page.getByRole('button', {
 const timeOf = (page: Page, step: number) => page.getByRole('spinbutton', { name: `Time of step ${step}` });
 const position = (page: Page, joint: RegExp) => page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton', { name: joint });
 const verdicts = (page: Page) => page.getByRole('list', { name: 'Findings' }).getByRole('listitem');
-
-/** Where a person sees a way-point, once it is drawn: the canvas is one picture to the browser. */
-async function wayPoint(page: Page, joint: number, step: number): Promise<{ x: number; y: number }> {
-  const at = await page.waitForFunction(([wantedJoint, wantedStep]) => {
-    type Drawn = { drawing: { scene: { wayPoints: { joint: number; step: number; tick: number; position: number }[] }; frame: { x(tick: number): number; y(position: number): number } } | null };
-    const element = document.querySelector('curve-canvas') as unknown as Element & Drawn;
-    const point = element.drawing?.scene.wayPoints.find((one) => one.joint === wantedJoint && one.step === wantedStep);
-    if (!element.drawing || !point) return null;
-    const { frame } = element.drawing;
-    const box = element.getBoundingClientRect();
-    return { x: box.left + frame.x(point.tick), y: box.top + frame.y(point.position) };
-  }, [joint, step]);
-  const place = await at.jsonValue();
-  if (!place) throw new Error('there is no such way-point');
-  return place;
-}
 
 async function drag(page: Page, from: { x: number; y: number }, dx: number, dy: number): Promise<void> {
   await page.mouse.move(from.x, from.y);

@@ -2,6 +2,7 @@
 // What people do with the robot in the page, as they do it: mouse and keyboard, found by what stands on things. A long motion is
 // watched at four times the speed, as somebody does who has seen it before.
 import { expect, test } from 'vitest';
+import { nameAndSave } from './edit-session.ts';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
@@ -57,13 +58,7 @@ test('somebody who debugs: Edit in the terminal, a page saved, and the browser k
   await person.open('Lab');
   await person.button('Run Edit').click();
   await person.open('Terminal');
-  await person.untilScreenSays('PageNumber');
-  await person.type('page 100\r');
-  await person.untilScreenSays('PageNumber:0100');
-  await person.type('name salute\r');
-  await person.untilScreenSays('salute');
-  await person.untilScreenSays(/\* unsaved/);
-  await person.type('save\r');
+  await nameAndSave(person, 'salute');
   await expect.poll(() => keptFlash(person), PATIENT).toContain('salute');
   await person.page.reload();
   await person.untilStanding();

@@ -49,6 +49,8 @@ export class CurveCanvas extends HTMLElement {
     canvas.addEventListener('pointerleave', () => (this.label.textContent = ''));
     canvas.addEventListener('pointerup', () => this.end(true));
     canvas.addEventListener('pointercancel', () => this.end(false));
+    // A finger beside all way-points scrolls the area, as it does everywhere else.
+    canvas.addEventListener('touchstart', (event) => this.hand.dragged && event.preventDefault(), { passive: false });
     canvas.addEventListener('keydown', (event) => this.hand.key(event) && event.preventDefault());
     canvas.addEventListener('keyup', () => this.hand.keyUp());
     canvas.addEventListener('blur', () => this.hand.keyUp());

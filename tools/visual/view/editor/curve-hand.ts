@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a hand does to the curves. Mouse: a way-point up and down is a position, to the sides a time; a click chooses a joint.
+// What a hand does to the curves. Mouse or finger: a way-point up and down is a position, to the sides a time; a click chooses a joint.
 // Keys: left and right choose the step, up and down turn the chosen joints, with Alt left and right change the time.
 
 import { JOINTS, POSITION_MAX, TICKS_PER_SECOND } from '../../model/motion.ts';
@@ -11,7 +11,7 @@ import { poseAfter } from './editing.ts';
 import { JointTurn } from './joint-turn.ts';
 import { nearestSetting } from './step-times.ts';
 
-const NEAR_PX = 12;
+const NEAR_PX = { mouse: 12, finger: 26 };
 /** So far the mouse goes before it is clear what is dragged. */
 const CLEAR_PX = 4;
 const COARSE_UNITS = 10;
@@ -22,8 +22,9 @@ export interface CurveDrawing {
   readonly frame: CurveFrame;
 }
 
-/** A place on the canvas in pixels. */
+/** A place on the canvas in pixels, and whose it is: `touch` is a finger. */
 interface Spot {
+  readonly pointerType: string;
   readonly offsetX: number;
   readonly offsetY: number;
 }
@@ -61,7 +62,7 @@ export class CurveHand {
       return false;
     }
     editor.select({ step: point.step, steps: new Set([point.step]) });
-    this.drag = { ...drawing, point, gesture: editor.gesture('drag'), start: { offsetX: spot.offsetX, offsetY: spot.offsetY }, axis: null };
+    this.drag = { ...drawing, point, gesture: editor.gesture('drag'), start: { offsetX: spot.offsetX, offsetY: spot.offsetY, pointerType: spot.pointerType }, axis: null };
     return true;
   }
 
@@ -134,17 +135,22 @@ export class CurveHand {
   }
 }
 
+/** How far beside a thing it may still be meant. */
+function reachPx(pointerType: string): number {
+  return pointerType === 'touch' ? NEAR_PX.finger : NEAR_PX.mouse;
+}
+
 /** The way-point under the mouse. */
-export function nearestPoint({ scene, frame }: CurveDrawing, { offsetX, offsetY }: Spot): WayPoint | null {
+export function nearestPoint({ scene, frame }: CurveDrawing, { offsetX, offsetY, pointerType }: Spot): WayPoint | null {
   const distance = (point: WayPoint): number => Math.hypot(frame.x(point.tick) - offsetX, frame.y(point.position) - offsetY);
-  const near = scene.wayPoints.filter((point) => distance(point) < NEAR_PX).sort((a, b) => distance(a) - distance(b));
+  const near = scene.wayPoints.filter((point) => distance(point) < reachPx(pointerType)).sort((a, b) => distance(a) - distance(b));
   return near[0] ?? null;
 }
 
 /** The joint whose curve is under the mouse. */
-export function jointAt({ scene, frame }: CurveDrawing, { offsetX, offsetY }: Spot): number | null {
+export function jointAt({ scene, frame }: CurveDrawing, { offsetX, offsetY, pointerType }: Spot): number | null {
   const tick = Math.min(Math.max(Math.round(frame.tick(offsetX)) - 1, 0), scene.curve.ticks - 1);
   const off = (joint: number): number => Math.abs(frame.y(scene.curve.goals[tick * JOINTS + joint] ?? 0) - offsetY);
   const [near] = [...scene.joints].sort((a, b) => off(a) - off(b));
-  return near !== undefined && off(near) < NEAR_PX ? near : null;
+  return near !== undefined && off(near) < reachPx(pointerType) ? near : null;
 }

@@ -7,6 +7,8 @@ import { define, make } from '../element.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 
+/** How far beside an end it may be taken hold of. */
+const NEAR_PX = { mouse: 7, finger: 24 };
 /** Seconds behind the end, so that the last step can be dragged longer. */
 const ROOM_S = 0.4;
 
@@ -33,6 +35,7 @@ export class TimeLine extends HTMLElement {
 
   connectedCallback(): void {
     this.replaceChildren(this.bar, this.total);
+    this.bar.addEventListener('pointerdown', (event) => this.down(event));
     this.bar.addEventListener('pointermove', (event) => this.move(event));
     this.bar.addEventListener('pointerup', () => this.end(true));
     this.bar.addEventListener('pointercancel', () => this.end(false));
@@ -61,8 +64,8 @@ export class TimeLine extends HTMLElement {
     if (!this.drag) this.scale = all + ROOM_S; // the scale stands still under a drag
     const share = (seconds: number): string => `${(100 * seconds) / this.scale}%`;
     this.bar.replaceChildren(...times.flatMap(({ move, pause }, index) => {
-      const way = make('div', { class: `way${chosen.has(index) ? ' chosen' : ''}` }, make('span', {}, String(index + 1)), isTimed ? this.handle(index, 'time', move) : null);
-      const rest = make('div', { class: 'rest' }, this.handle(index, 'pause', pause));
+      const way = make('div', { class: `way${chosen.has(index) ? ' chosen' : ''}` }, make('span', {}, String(index + 1)), isTimed ? this.handle('time') : null);
+      const rest = make('div', { class: 'rest' }, this.handle('pause'));
       way.style.width = share(move);
       rest.style.width = share(pause);
       return [way, rest];
@@ -72,16 +75,33 @@ export class TimeLine extends HTMLElement {
     this.bar.setAttribute('aria-label', `The page takes ${all.toFixed(2)} seconds`);
   }
 
-  private handle(index: number, field: TimedField, seconds: number): HTMLElement {
-    const handle = make('i', { class: `handle ${field}`, title: field === 'time' ? 'Drag: how long the step takes' : 'Drag: how long it pauses' });
-    handle.addEventListener('pointerdown', (event) => {
-      if (event.button !== 0) return;
-      event.preventDefault();
-      this.bar.setPointerCapture(event.pointerId);
-      const gesture = this.desk.editor.gesture(field === 'time' ? 'set-time' : 'set-pause');
-      this.drag = { index, field, startX: event.clientX, startSeconds: seconds, secondsPerPixel: this.scale / Math.max(1, this.bar.clientWidth), gesture };
+  private handle(field: TimedField): HTMLElement {
+    return make('i', { class: `handle ${field}`, title: field === 'time' ? 'Drag: how long the step takes' : 'Drag: how long it pauses' });
+  }
+
+  private down(event: PointerEvent): void {
+    const end = event.button === 0 ? this.endAt(event) : null;
+    if (!end) return;
+    event.preventDefault();
+    this.bar.setPointerCapture(event.pointerId);
+    const { index, field } = end;
+    const { editor } = this.desk;
+    const times = stepTimes(editor, editor.state.get().page)[index];
+    const gesture = editor.gesture(field === 'time' ? 'set-time' : 'set-pause');
+    const startSeconds = (field === 'time' ? times?.move : times?.pause) ?? 0;
+    this.drag = { index, field, startX: event.clientX, startSeconds, secondsPerPixel: this.scale / Math.max(1, this.bar.clientWidth), gesture };
+  }
+
+  /** The nearest end; a step without pause is drawn a little wide, so that both of its ends can be taken hold of. */
+  private endAt({ clientX, pointerType }: PointerEvent): { readonly index: number; readonly field: TimedField } | null {
+    const { editor } = this.desk;
+    const isTimed = editor.page(editor.state.get().page).schedule === 'time';
+    const ends = [...this.bar.children].map((part, i) => {
+      const field: TimedField = i % 2 === 0 ? 'time' : 'pause'; // as render() draws them
+      return { index: Math.floor(i / 2), field, off: Math.abs(clientX - part.getBoundingClientRect().right) };
     });
-    return handle;
+    const [nearest] = ends.filter(({ field }) => isTimed || field === 'pause').sort((a, b) => a.off - b.off);
+    return nearest && nearest.off <= (pointerType === 'touch' ? NEAR_PX.finger : NEAR_PX.mouse) ? nearest : null;
   }
 
   private move(event: PointerEvent): void {
