@@ -78,9 +78,14 @@ export class RemotePad extends HTMLElement {
     const isElsewhere = target?.closest('input, select, textarea, terminal-pane, [role="tablist"]') !== null && target !== null;
     if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and the arrows turn the picture
     if (event.type === 'keydown' && this.desk.state.get().tab !== 'remote') return; // elsewhere the arrows edit
-    if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button')))) return;
+    if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // a robot that moves is stopped
     event.preventDefault();
     this.change('keys', name, event.type === 'keydown');
+  }
+
+  private get isPlaying(): boolean {
+    const { where } = this.desk.state.get();
+    return where !== null && where.state !== 'idle' && where.state !== 'ready';
   }
 
   private readPad(): void {

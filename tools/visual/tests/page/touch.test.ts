@@ -73,7 +73,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
   await fingers.pinch(ground, { x: 520, y: 200 }, { x: -40, y: 40 }, { x: 50, y: -60 });
   await expect.poll(() => size(page)).toBeGreaterThan(small * 1.1);
   const large = await size(page);
-  await fingers.pinch(await placeOf(page, 'chest'), await placeOf(page, 'right_shank'), { x: 0, y: 60 }, { x: 0, y: -60 }); // both on the robot
+  await fingers.pinch(await placeOf(page, 'face'), await placeOf(page, 'right_thigh'), { x: 0, y: 60 }, { x: 0, y: -60 }); // both on the robot
   await expect.poll(() => size(page)).toBeLessThan(large * 0.95);
   expect(await undo(page).isDisabled()).toBe(true); // it was looked at, not changed
 
@@ -138,7 +138,7 @@ test('on end: a hand is taught by finger, the area scrolls under it, the picture
   expect(await page.evaluate(() => scrollY)).toBe(0);
   await page.getByRole('button', { name: 'Add step from the robot' }).tap();
   await page.getByRole('button', { name: 'Step 1', exact: true }).waitFor();
-  await page.screenshot({ path: `${SHOTS}tablet-on-end.png`, fullPage: true });
+  await page.screenshot({ path: `${SHOTS}tablet-on-end.png` });
   expect(await tooSmall(page)).toEqual([]);
   await page.evaluate(() => scrollTo(0, 0));
   await fingers.drag({ x: 400, y: 1150 }, 0, -200); // over the area

@@ -128,8 +128,9 @@ export class FilesMenu extends HTMLElement {
   }
 }
 
+/** Scrolls when it is long, also by keyboard. */
 function lines(texts: readonly string[]): HTMLElement | null {
-  return texts.length === 0 ? null : make('ul', {}, ...texts.map((text) => make('li', {}, text)));
+  return texts.length === 0 ? null : make('ul', { tabindex: 0 }, ...texts.map((text) => make('li', {}, text)));
 }
 
 define('files-menu', FilesMenu);

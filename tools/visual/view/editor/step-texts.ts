@@ -3,7 +3,7 @@
 
 export const POSE_TEXTS = {
   poseMode: 'Drag a joint, a hand, a foot or the body: the chosen step changes. The robot itself stays as it is.',
-  handMode: 'Your hand pulls the robot: limp limbs follow, stiff ones resist. By keyboard choose Pose: the arrows turn its joints.',
+  handMode: 'Your hand pulls the robot: limp limbs follow, stiff ones resist.',
   tips: 'Standing like this, the robot would tip over.',
 } as const;
 
@@ -18,7 +18,7 @@ export const STEP_TEXTS = {
 
 export const TEACH_TEXTS = {
   stiff: 'All joints hold. Let a limb go, move it, hold it, add a step.',
-  limpSimulated: 'Drag the limb in the picture; it holds when you let go of it. Then add a step.',
+  limpSimulated: 'Drag the limb in the picture; it holds when you let go of it. Then add a step. By keyboard: Pose, where the arrows turn its joints.',
   limpYours: 'Move the limp limb by hand; the picture follows. Then hold it or add a step. Support the robot: limp legs do not carry it.',
 } as const;
 
