@@ -5,6 +5,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { afterAll, beforeAll, expect, test } from 'vitest';
+import { Keyboard } from './keyboard.ts';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
@@ -57,7 +58,7 @@ test('a RoboPlus file is opened, looked at, taken over, and saved in every form 
   await person.leave();
 });
 
-test('a teacher sends a motion as a link; a pupil adds it', async () => {
+test('a teacher sends a motion as a link; a pupil adds it by keyboard', async () => {
   const teacher = await Visitor.come(suite.browser, suite.address);
   await teacher.open('Pages');
   await teacher.page.getByRole('option', { name: /^page 2 bow/ }).click();
@@ -69,7 +70,10 @@ test('a teacher sends a motion as a link; a pupil adds it', async () => {
   const pupil = await Visitor.come(suite.browser, link);
   await pupil.page.getByRole('dialog', { name: 'A motion for you' }).waitFor();
   await pupil.untilStanding();
-  await pupil.button('Add it and play').click();
+  const keys = new Keyboard(pupil);
+  await keys.at('Add it and play');
+  await keys.press('Enter');
+  await keys.at('Steps');
   await pupil.doing.filter({ hasText: /Playing page \d+ \(bow\)/ }).waitFor();
   expect(new URL(pupil.page.url()).hash).toBe('');
   await pupil.leave();
