@@ -181,7 +181,9 @@ def run(options):
     else:
         items = [("walk", options.seed, minutes), ("crowd", options.seed, minutes / 6),
                  ("edit", options.seed, saves // 2), ("edit", options.seed + 1, saves - saves // 2)]
-    results = proof.each(work, items, "lives", options.jobs)
+    kept = proof.Kept("endurance", options.keep and not options.sample)
+    results = kept.each(work, items, "lives", options.jobs)
+    kept.finish()
     died = [result["died"] for result in results if "died" in result]
     for text in died:
         print(f"   tools/prove endurance --seed {options.seed}: {text}")

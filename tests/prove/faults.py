@@ -276,7 +276,9 @@ def run(options):
         others = [name for name in names if name not in laid]
         chance = random.Random(options.seed)
         names = sorted(chance.sample(others, SAMPLE) + chance.sample(laid, SAMPLE // 10))
-    results = dict(zip(names, proof.each(work, names, "states", options.jobs)))
+    kept = proof.Kept("faults", options.keep and not options.sample)
+    results = dict(zip(names, kept.each(work, names, "states", options.jobs)))
+    kept.finish()
     broken = {name: found for name, (found, _, _) in results.items() if found}
     for name, found in broken.items():
         print(f"   tools/prove faults --only {name}")

@@ -61,6 +61,11 @@ def session(task):
         return Result(sent=getattr(kind, "sent", 0), fault=describe(fault))
 
 
+def session_row(task):
+    """The same as a list."""
+    return list(dataclasses.astuple(session(task)))
+
+
 def fails(name, seed, size, chosen):
     """The fault of a session of these pieces alone, "" when it has none."""
     kind = fuzz_board.INPUTS[name](seed, size)
@@ -137,9 +142,11 @@ def images(options, names):
         count = 1 if options.sample else -(-options.bytes // fuzz_board.mean_size(name))
         tasks += [(name, options.seed * 10_000 + i, size) for i in range(count)]
     tasks.sort(key=lambda task: (-fuzz_board.INPUTS[task[0]].size, task[1]))
-    results = proof.each(session, tasks, "sessions on the board", options.jobs)
+    kept = proof.Kept("fuzz", options.keep and not options.sample)
+    results = [Result(*row) for row in kept.each(session_row, tasks, "sessions on the board", options.jobs)]
     for name in names:
         yield image_figure(name, [(task, result) for task, result in zip(tasks, results) if task[0] == name], options)
+    kept.finish()
 
 
 def image_figure(name, done, options):

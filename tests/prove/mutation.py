@@ -252,6 +252,7 @@ def unspoilt(mutations):
 def run_all(mutations, options, scratch):
     """The results, in the order of the table; mistakes that unit tests notice come first, then what needs the board."""
     trees, lock, jobs = queue.SimpleQueue(), threading.Lock(), max(1, options.jobs)
+    kept = proof.Kept("mutation", options.keep and not options.sample)
     work = []
     for board in (False, True):
         part = [mutation for mutation in mutations if mutation.needs_board == board]
@@ -262,12 +263,19 @@ def run_all(mutations, options, scratch):
     progress = proof.Progress("mistakes and checks", len(work))
 
     def do(item):
-        tree = trees.get()
-        try:
-            result = item[0](tree, item[1])
-        finally:
-            trees.put(tree)
+        work, mutation = item
+        key = (work.__name__, mutation.name, mutation.by)
+        if repr(key) in kept.found:
+            result = kept.found[repr(key)] and Result(mutation, *kept.found[repr(key)])
+        else:
+            tree = trees.get()
+            try:
+                result = work(tree, mutation)
+            finally:
+                trees.put(tree)
         with lock:
+            if repr(key) not in kept.found:
+                kept.keep(key, result and [result.caught, result.by, result.seconds, result.is_fault])
             progress.advance()
             if result and not result.caught:
                 print(f"   {result.mutation.name} ({result.mutation.by}): {result.by}", file=sys.stderr, flush=True)
@@ -279,6 +287,7 @@ def run_all(mutations, options, scratch):
         except BaseException:
             pool.shutdown(cancel_futures=True)  # Ctrl-C ends it with what is under way
             raise
+    kept.finish()
     order = {mutation: at for at, mutation in enumerate(mutations)}
     return sorted(results, key=lambda result: order.get(result.mutation, -1))
 

@@ -106,13 +106,15 @@ def run(options):
     names = [one] if one else [*SCENES, *LIVES, lives.Wear.name]
     begun, spent = time.monotonic(), 0
     results, operations, wear = collections.defaultdict(list), {}, None
-    for name, found, count, seconds in proof.each(play, pieces(names, options.seed, options.sample), "pieces of work", options.jobs):
+    kept = proof.Kept("power", options.keep and not options.sample)
+    for name, found, count, seconds in kept.each(play, pieces(names, options.seed, options.sample), "pieces of work", options.jobs):
         spent += seconds
         operations[name] = max(count, operations.get(name, 0))
         if name == lives.Wear.name:
             wear = found, count
         else:
             results[name] += found
+    kept.finish()
     figures = [figure_of(name, results[name], operations[name]) for name in names if name in results]
     figures += [wear_figure(*wear)] if wear else []
     return [total_figure(results, time.monotonic() - begun, spent), *figures]

@@ -51,6 +51,37 @@ def commit():
     return (git("rev-parse", "--short=10", "HEAD") or "no commit") + (" and changes" if changed else "")
 
 
+class Kept:
+    """Results of a whole run, kept as they come: a line an item in build/prove/PART.jsonl. A run that was interrupted goes on where it
+    was, if the tree is still the same commit without changes; a run that ends forgets them."""
+
+    def __init__(self, part, is_whole=True):
+        self.path, self.commit, self.found = RESULTS / f"{part}.jsonl", commit(), {}
+        self.is_on = is_whole and "changes" not in self.commit and self.commit != "no commit"
+        if self.is_on and self.path.exists():
+            lines = map(json.loads, self.path.read_text(encoding="utf-8").splitlines())
+            self.found = {line["item"]: line["result"] for line in lines if line["commit"] == self.commit}
+
+    def keep(self, item, result):
+        """result: what JSON can say; tuples come back as lists."""
+        self.found[repr(item)] = result
+        if self.is_on:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            with self.path.open("a", encoding="utf-8") as file:
+                file.write(json.dumps({"commit": self.commit, "item": repr(item), "result": result}) + "\n")
+
+    def each(self, work, items, what, jobs):
+        """campaign.each() over what is not done yet; the results of all."""
+        items = list(items)
+        each(work, [item for item in items if repr(item) not in self.found], what, jobs, done=self.keep)
+        return [self.found[repr(item)] for item in items]
+
+    def finish(self):
+        """The run has ended."""
+        if self.is_on:
+            self.path.unlink(missing_ok=True)
+
+
 def keep(name, module, figures, command):
     """Writes the result of a whole part: build/prove/NAME.json, and its page."""
     RESULTS.mkdir(parents=True, exist_ok=True)

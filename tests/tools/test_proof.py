@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The pages of tools/prove: the short one is made of the heads of the others, and nobody edits it by hand."""
+"""What the parts of tools/prove share. Its pages: the short one is made of the heads of the others, and nobody edits it by hand. Its whole
+runs: one that was interrupted goes on."""
 import pathlib
 import re
 import sys
@@ -61,3 +62,51 @@ def test_the_page_of_this_tree_is_what_the_others_say():
     rows = [line for line in proof.PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("| [")]
     assert rows == [proof.row_of(name) for name in PARTS if (proof.DETAILS / f"{name}.md").exists()]
     assert len(rows) == len(list(proof.DETAILS.glob("*.md")))
+
+
+@pytest.fixture
+def calls(tmp_path, monkeypatch):
+    """What was worked on; each() in this process, and its third item breaks down once."""
+    made = []
+
+    def each(work, items, what, jobs, done):
+        for item in items:
+            made.append(item)
+            if made == [1, 2, 3]:
+                raise KeyboardInterrupt
+            done(item, work(item))
+    monkeypatch.setattr(proof, "RESULTS", tmp_path)
+    monkeypatch.setattr(proof, "commit", lambda: "0123456789")
+    monkeypatch.setattr(proof, "each", each)
+    with pytest.raises(KeyboardInterrupt):
+        proof.Kept("cuts").each(lambda item: [item, "fine"], [1, 2, 3, 4], "items", 1)
+    return made
+
+
+def again(**options):
+    return proof.Kept("cuts", **options).each(lambda item: [item, "fine"], [1, 2, 3, 4], "items", 1)
+
+
+def test_an_interrupted_run_goes_on_where_it_was(calls):
+    assert again() == [[number, "fine"] for number in (1, 2, 3, 4)]
+    assert calls == [1, 2, 3, 3, 4]
+
+
+@pytest.mark.parametrize("commit", ["123456789a", "0123456789 and changes", "no commit"])
+def test_another_tree_begins_anew(calls, monkeypatch, commit):
+    monkeypatch.setattr(proof, "commit", lambda: commit)
+    again()
+    assert calls == [1, 2, 3, 1, 2, 3, 4]
+
+
+def test_a_run_that_ends_is_forgotten(calls):
+    kept = proof.Kept("cuts")
+    kept.each(lambda item: [item, "fine"], [1, 2, 3, 4], "items", 1)
+    kept.finish()
+    again()
+    assert calls == [1, 2, 3, 3, 4, 1, 2, 3, 4]
+
+
+def test_a_piece_of_the_work_keeps_and_takes_nothing(calls):
+    again(is_whole=False)
+    assert calls == [1, 2, 3, 1, 2, 3, 4]
