@@ -54,8 +54,8 @@ uint16_t page_facts_ticks(uint8_t page)
     return ticks;
 }
 
-/* pos / ticks * 128 ticks/s * 300 degrees / 1023 pos. */
+/* pos / ticks * 128 ticks/s * 300 degrees / 1024 pos = 37.5 pos / ticks. */
 uint16_t page_facts_deg_s(const page_facts_t *facts)
 {
-    return (uint16_t)((uint32_t)facts->way_pos * (128u * 300u / 1023u) / facts->ticks);
+    return (uint16_t)((uint32_t)facts->way_pos * 75u / 2u / facts->ticks);
 }

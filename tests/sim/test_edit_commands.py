@@ -533,6 +533,16 @@ def test_check_knows_how_fast_a_servo_is_at_this_battery():
             assert ("Page   1: step 1 ID 5 too fast" in r.show()) == too_fast, r.show()
 
 
+@pytest.mark.parametrize("units, said", [(90, None), (91, 284)])
+def test_check_counts_units_as_the_servo_does(units, said):
+    """An AX-12 does 59 rpm at 12 V, 300 degrees are 1024 units: 283.2 degrees/s = 90.6 units in 12 ticks at 9.6 V."""
+    with robot(pages={1: page("fast", [(30, {5: 400}), (12, {5: 400 + units})], code=1)}) as r:
+        r.board.battery(9.6)
+        r.line("check", ms=3000)
+        assert ("too fast" in r.show()) == (said is not None), r.show()
+        assert said is None or f"step 1 ID 5 too fast, {said} degrees/s" in r.show(), r.show()
+
+
 def test_check_names_what_is_wrong():
     torn = page("torn", [(30, {})])
     torn.data[100] ^= 1
