@@ -2,7 +2,7 @@
  * servo_link.h - the robot's joints: finds the servos, sends one tick's goals as one SYNC WRITE, reads one servo's health
  * in the rest of each tick. Callers use page coordinates; servo coordinates on the wire are trim added, limited to 0..1023.
  * Knows no pages. Works over bus.h. Main loop only. RAM: one servo_link_t, 260 bytes.
- * Code: servo_link.c (while running), servo_link_setup.c (what blocks), servo_link_masks.c.
+ * Code: see servo_link_parts.h.
  *
  * Nothing is ever written to a servo's EEPROM area.
  *

@@ -9,6 +9,7 @@ m512_unit_test(test_page_store SOURCES firmware/common/page_store.c motion/page.
     tests/fake/fake_system.c INCLUDES firmware/common)
 foreach(test test_servo_link test_servo_link_goals test_servo_link_health)
     m512_unit_test(${test} INCLUDES firmware/common SOURCES tests/unit/servo_link_stage.c
+        firmware/common/servo_link_joints.c firmware/common/servo_link_goals.c firmware/common/servo_link_health.c
         firmware/common/servo_link.c firmware/common/servo_link_masks.c firmware/common/servo_link_setup.c hal/bus_call.c
         hal/dxl_packet.c tests/fake/fake_bus.c tests/fake/fake_system.c tests/fake/fake_time.c)
 endforeach()
