@@ -2,8 +2,10 @@
  * screen_parts.h - how the files of the screen see each other. For screen*.c only.
  *
  *   screen.c             what has to be sent: follows the session, scrolls, the command row
- *     screen_paint.c     sends it, the shortest way
- *       screen_layout.c  which row of the table stands in which row of the screen
+ *     screen_paint.c     paints what is marked, one row or one item a turn
+ *       screen_row.c     a row of the table
+ *         screen_send.c    characters and the cursor, the shortest way
+ *         screen_layout.c  which row of the table stands in which row of the screen
  *
  * Each uses only files below it. */
 #ifndef SCREEN_PARTS_H
@@ -33,10 +35,17 @@ uint8_t screen_row_of(uint8_t y);                   /* of table row y; 0: it is 
 uint8_t screen_rows_before(uint8_t joint);          /* how many joints below `joint` have a row, in sight or not */
 uint8_t screen_joint_in_row(uint8_t row);           /* or the last one above it */
 
-/* ---- screen_paint.c ---- */
+/* ---- screen_row.c ---- */
 
-/* Places the terminal's cursor; sends one character there. */
+bool screen_paint_row(uint8_t y);                   /* false: nothing was marked */
+
+/* ---- screen_send.c ---- */
+
+/* Places the terminal's cursor; sends characters there. */
 void screen_go(uint8_t row, uint8_t column);
 void screen_send(char character);
+void screen_send_text(const char *text);
+void screen_send_text_P(const char *text);
+void screen_send_spaces(uint8_t count);
 
 #endif
