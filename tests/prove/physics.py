@@ -216,7 +216,8 @@ def eases_figure(options, image, library):
     bad = [f"{promise.page}: {', '.join(missing)}" for promise, (missing, _) in zip(asked, results) if missing]
     said = ", ".join(f"{promise.page} {what}" for promise, (_, what) in zip(asked, results))
     return proof.Figure("No motion asks a servo for more than 90 % of its speed, or for more than a third of its torque on average.",
-                        "nominal body, AX-12, 11.1 V, every motion once", "; ".join(bad) or said, not bad)
+                        "nominal body, AX-12, 11.1 V, every motion once; goals are whole units (compare.library_speeds: over four ticks)",
+                        "; ".join(bad) or said, not bad)
 
 
 def bears_figure(image, library):
