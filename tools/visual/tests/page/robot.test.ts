@@ -95,7 +95,7 @@ function rightArm(visitor: Visitor): Promise<number> {
   }));
 }
 
-test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by tick; a broken servo is named', async () => {
+test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by tick', async () => {
   const person = await Visitor.come(suite.browser, suite.address, 'dark');
   await person.untilStanding();
   const arm = await find(person, /right elbow/);
@@ -109,19 +109,62 @@ test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by t
   await person.open('Lab');
   const clock = person.page.locator('lab-pane .clock');
   const seconds = async (): Promise<number> => Number.parseFloat(await clock.innerText());
+  const facts = person.page.locator('status-strip .facts');
   await person.button('Pause').click();
   await person.button('Pause').and(person.page.locator('[aria-pressed="true"]')).waitFor();
+  await facts.filter({ hasText: 'time stands still' }).waitFor();
   for (let i = 0; i < 3; i++) await rightArm(person); // each a state that was asked for after the one before: the last is of the pause
   const stands = await seconds();
   for (let i = 0; i < 16; i++) await person.button('One tick').click();
   await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 0.05); // 16 ticks of 1/128 s, shown in tenths
   expect(await seconds()).toBeLessThan(stands + 0.25);
+  await person.button('0.1×').click(); // how slow that is: pacer.test.ts
+  await facts.filter({ hasText: '0.1× time' }).waitFor();
+  await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 0.25);
   await person.button('real time').click();
   await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 1);
+  await person.leave();
+});
 
-  await person.page.getByLabel('Fault of servo 5', { exact: true }).selectOption('does not answer');
+/** A row of the table of servos: what it was told, where it is, what it says of itself. */
+async function servo(visitor: Visitor, id: number): Promise<{ goal: number; position: number; state: string }> {
+  const [goal = '', position = '', state = ''] = await visitor.page.locator('servo-table tbody tr').nth(id - 1).locator('td').allInnerTexts().then((cells) => cells.slice(1));
+  return { goal: Number.parseInt(goal, 10), position: Number.parseInt(position, 10), state };
+}
+
+test('somebody who debugs breaks servos, lowers the battery, tilts the floor: the firmware names each, goals stand beside positions', async () => {
+  const person = await Visitor.come(suite.browser, suite.address, 'dark');
+  const { page } = person;
+  const said = page.getByRole('log', { name: 'Last message' });
+  const fault = (id: number, what: string) => page.getByLabel(`Fault of servo ${id}`, { exact: true }).selectOption(what);
+  await person.untilStanding();
+  await person.open('Lab');
+
+  await fault(13, 'blocked'); // a knee
+  const before = (await servo(person, 13)).position;
   await person.button('Bow').click();
-  await person.page.getByRole('log', { name: 'Last message' }).filter({ hasText: /servos? 5\b/i }).waitFor();
-  await person.page.screenshot({ path: `${SHOTS}lab-dark.png` });
+  await expect.poll(async () => Math.abs((await servo(person, 13)).goal - before), PATIENT).toBeGreaterThan(12); // the bow bends it further
+  expect(Math.abs((await servo(person, 13)).position - before)).toBeLessThan(4); // and it does not follow
+  expect((await servo(person, 11)).state).toBe('holds');
+  await person.untilStanding();
+  await fault(13, 'none');
+
+  for (const [id, what, says, state] of [[1, 'overloaded', /servo 1\b/i, 'overload'], [3, 'too hot', /servo 3 is hot/i, 'hot'], [5, 'does not answer', /servo 5 does not answer/i, 'holds']] as const) {
+    await fault(id, what);
+    await said.filter({ hasText: says }).waitFor();
+    await expect.poll(async () => (await servo(person, id)).state, PATIENT).toBe(state); // the table is written anew ten times a second
+    if (id === 5) await page.screenshot({ path: `${SHOTS}lab-dark.png` });
+    await fault(id, 'none');
+  }
+  await said.filter({ hasText: 'Servo 5 answers again' }).waitFor();
+  await person.button('Bow').click();
+  await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
+  await person.untilStanding(); // whole again
+
+  await page.getByLabel('Battery').fill('6.5');
+  await said.filter({ hasText: 'Battery is low: 6.5 V' }).waitFor();
+  await page.locator('status-strip .facts').filter({ hasText: '6.5 V' }).waitFor();
+  await page.getByLabel('Slope to the front').fill('15');
+  await person.doing.filter({ hasText: LIES }).waitFor();
   await person.leave();
 });
