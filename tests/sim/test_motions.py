@@ -42,6 +42,9 @@ def fastest(trace):
     return most
 
 
+LEFT_ALONE = {"get_up": {1, 2}}  # its first step does not use them
+
+
 @pytest.mark.parametrize("name", NUMBER)
 def test_page_plays_to_its_end(library, name):
     """By name; a page that leads on is stopped there, and goes through its exit. The robot stands where the last page of the
@@ -63,7 +66,8 @@ def test_page_plays_to_its_end(library, name):
     for joint, target in last_pose(final).items():
         assert abs(board.servos[joint].goal - target) <= board.off_target, joint
         assert abs(board.servos[joint].present - board.servos[joint].goal) <= 3, joint
-    assert all(set(frame.goals) == set(JOINTS) for frame in board.trace)
+    driven = set(JOINTS) - LEFT_ALONE.get(name, set())
+    assert all(driven <= set(frame.goals) <= set(JOINTS) for frame in board.trace)
     assert fastest(board.trace) <= MOST_UNITS_PER_TICK
 
 
