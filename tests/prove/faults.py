@@ -11,8 +11,9 @@ import random
 
 import bus_watch
 import proof
+import snapshot
 from cm5sim import Violation
-from servofaults import model, snapshot
+from servofaults import model
 from servofaults.model import FAULTS, GRAVE, OVERLOAD, SILENT, TORQUE
 from servofaults.robots import BACK, MARKED_OFF, POSE, RELEASED, SWINGING, THERE, UNUSED, EditRobot, PlayRobot
 

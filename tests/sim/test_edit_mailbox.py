@@ -5,6 +5,7 @@ import pytest
 from cm5sim import PowerCut
 
 from edit_robot import MOTION_START, page, robot, seal
+from snapshot import attempt
 
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
 OTHER = page("other", [(11, {1: 900})])
@@ -91,40 +92,48 @@ def test_a_loader_that_knows_no_mailbox_is_told_of():
         assert "SAVE will restart" in r.command
 
 
-def save_cut(fresh, operation, phase, tear):
-    """One save with the power cut there. The page after the restart and what was cut, or None when it ended before."""
-    with mailbox_robot(fresh) as r:
+def save_cut(r, operation, phase, tear):
+    """The save of a robot that has asked whether it may restart, with the power cut there. The page after the restart and what was cut,
+    or None when it ended before."""
+    others = bytes(r.board.flash[MOTION_START + 1024:])
+    r.board.cut_power(operation, phase, tear)
+    try:
+        r.keys("y", ms=RESTART_MS)
+        return None
+    except PowerCut:
+        pass
+    restarted(r)
+    assert bytes(r.board.flash[MOTION_START + 1024:]) == others
+    state = r.flash_page(1)
+    assert state in (bytes(OLD.data), new_bytes()), (operation, phase, tear)
+    assert r.fault == "" and r.text(1, 65, 3) == "old" and r.board.eeprom[STATE] == 0xFF
+    if state == bytes(OLD.data):   # and the next one works
         edit(r)
-        others = bytes(r.board.flash[MOTION_START + 1024:])
         r.line("save")
-        r.board.cut_power(operation, phase, tear)
-        try:
-            r.keys("y", ms=RESTART_MS)
-            return None
-        except PowerCut:
-            pass
-        restarted(r)
-        assert bytes(r.board.flash[MOTION_START + 1024:]) == others
-        state = r.flash_page(1)
-        assert state in (bytes(OLD.data), new_bytes()), (operation, phase, tear)
-        assert r.fault == "" and r.text(1, 65, 3) == "old" and r.board.eeprom[STATE] == 0xFF
-        if state == bytes(OLD.data):   # and the next one works
+        r.keys("y", ms=RESTART_MS)
+        assert r.flash_page(1) == new_bytes()
+    return state
+
+
+@pytest.fixture(scope="module")
+def about_to_save():
+    """By whether the mailbox is fresh: a robot that waits for the answer; each cut is made to a copy (snapshot)."""
+    with mailbox_robot(False) as used, mailbox_robot(True) as fresh:
+        for r in used, fresh:
             edit(r)
             r.line("save")
-            r.keys("y", ms=RESTART_MS)
-            assert r.flash_page(1) == new_bytes()
-        return state
+        yield {False: used, True: fresh}
 
 
 def count(states, state):
     states["old" if state == bytes(OLD.data) else "new"] += 1
 
 
-def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page():
+def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page(about_to_save):
     states, operation = {"old": 0, "new": 0}, 1
     while True:
         for phase, tear in (("before", 0), ("during", 3), ("during", 8), ("after", 0)):
-            state = save_cut(False, operation, phase, tear)
+            state = attempt(save_cut, about_to_save[False], operation, phase, tear)
             if state is None:
                 break
             count(states, state)
@@ -138,8 +147,8 @@ def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page():
 
 
 @pytest.mark.parametrize("operation", [1, 100, 300, 500, 514, 515, 516, 519])
-def test_power_cut_while_a_whole_page_goes_into_a_fresh_mailbox(operation):
-    assert save_cut(True, operation, "during", 5) is not None
+def test_power_cut_while_a_whole_page_goes_into_a_fresh_mailbox(about_to_save, operation):
+    assert attempt(save_cut, about_to_save[True], operation, "during", 5) is not None
 
 
 @pytest.mark.parametrize("ms", [4300, 4390, 4410, 4430, 4500])

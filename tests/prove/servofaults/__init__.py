@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What befalls the servos of faults.py (model.py), the robots it befalls (robots.py), copies of them (snapshot.py)."""
+"""What befalls the servos of faults.py (model.py), the robots it befalls (robots.py)."""
