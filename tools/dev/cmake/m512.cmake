@@ -142,15 +142,18 @@ function(m512_unit_test name)
     endif()
 endfunction()
 
-# m512_pytest(<ctest name> <file or folder> [TIMEOUT s]): a pytest file, run with the interpreter of the project's
-# virtual environment (build/venv, made by tools/dev/setup) when there is one.
+# m512_pytest(<ctest name> <file or folder> [TIMEOUT s] [COST s]): a pytest file, run with the interpreter of the project's
+# virtual environment (build/venv, made by tools/dev/setup) when there is one. COST: see tests/CMakeLists.txt.
 function(m512_pytest name path)
-    cmake_parse_arguments(ARG "" "TIMEOUT" "" ${ARGN})
+    cmake_parse_arguments(ARG "" "TIMEOUT;COST" "" ${ARGN})
     if(NOT ARG_TIMEOUT)
         set(ARG_TIMEOUT 600)
     endif()
+    if(NOT ARG_COST)
+        set(ARG_COST 3)
+    endif()
     add_test(NAME ${name} COMMAND ${M512_PYTHON} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/${path})
-    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT}
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST ${ARG_COST}
         ENVIRONMENT "PYTHONPATH=${CMAKE_SOURCE_DIR}/tools/sim/python:${CMAKE_SOURCE_DIR}/tools/m512/src:${CMAKE_SOURCE_DIR}/tools/body/src:${CMAKE_SOURCE_DIR}/tools/campaign;PYTHONDONTWRITEBYTECODE=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
 endfunction()
 
