@@ -109,6 +109,13 @@ static inline bool page_pos_is_used(uint16_t word)
  * 0..PAGE_POS_MAX. `neutral_sum`: the neutral positions of both joints together, 2 * PAGE_POS_MIDDLE unless known. */
 uint16_t page_pos_mirrored(uint16_t pos, uint16_t neutral_sum);
 
+/* A position `percent` (0..100) of the way from a to b: rounded to the nearest, halves away from a. */
+uint16_t page_pos_between(uint16_t a, uint16_t b, uint8_t percent);
+
+/* Shares the time of a step with one that is put in `percent` of the way before it: returns the new one's, rounded to the
+ * nearest, halves up; `time` keeps the rest. Both are at least 1, unless there was no time. */
+uint8_t page_time_split(uint8_t *time, uint8_t percent);
+
 /* Compliance slope register value, 2^nibble, of one nibble 1..7 of the compliance byte (motion512.md). A nibble of 0
  * or above 7 stands for 5, the default. */
 uint8_t page_slope(uint8_t nibble);

@@ -15,13 +15,6 @@ static NOINLINE uint16_t part_of(uint16_t value, uint16_t mul, uint16_t div)
     return (uint16_t)(((uint32_t)value * mul + div / 2u) / div);
 }
 
-/* a + (b - a) * percent / 100, rounded to the nearest, halves away from a. */
-static uint16_t between(uint16_t a, uint16_t b, uint8_t percent)
-{
-    return b > a ? (uint16_t)(a + part_of(b - a, percent, PERCENT_WHOLE))
-                 : (uint16_t)(a - part_of(a - b, percent, PERCENT_WHOLE));
-}
-
 static void set_between(uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
 {
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
@@ -29,7 +22,7 @@ static void set_between(uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
         uint16_t second = session_word(b, joint);
         bool both = cell_is_position(first) && cell_is_position(second);
         session_set_word((uint16_t)(session_step_at(to) + 2u * joint),
-                         both ? between(first, second, percent) : (uint16_t)PAGE_POS_UNUSED);
+                         both ? page_pos_between(first, second, percent) : (uint16_t)PAGE_POS_UNUSED);
     }
 }
 
@@ -49,10 +42,9 @@ static void share_time(uint8_t to, uint8_t b, uint8_t percent)
     uint16_t at = (uint16_t)(session_step_at(b) + PAGE_STEP_AT_SPEED);
     uint8_t time = the_session.cells[at];
     if (b == to + 1u && the_session.cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME) {
-        bool cut = false;
-        uint8_t part = scaled(time, percent, PERCENT_WHOLE, &cut);
-        session_set_byte(at, time > part ? (uint8_t)(time - part) : 1u);
-        time = part;
+        uint8_t rest = time;
+        time = page_time_split(&rest, percent);
+        session_set_byte(at, rest);
     }
     session_set_byte((uint16_t)(session_step_at(to) + PAGE_STEP_AT_SPEED), time);
 }

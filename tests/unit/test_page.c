@@ -137,6 +137,35 @@ static void test_page_mirrored_position_is_as_far_on_the_other_side_within_the_s
     TEST_ASSERT_EQUAL_UINT16(1023, page_pos_mirrored(100, 2 * 700));
 }
 
+static void test_page_position_between_two_is_rounded_away_from_the_first(void)
+{
+    TEST_ASSERT_EQUAL_UINT16(513, page_pos_between(512, 513, 50));
+    TEST_ASSERT_EQUAL_UINT16(512, page_pos_between(513, 512, 50));
+    TEST_ASSERT_EQUAL_UINT16(400, page_pos_between(400, 800, 0));
+    TEST_ASSERT_EQUAL_UINT16(800, page_pos_between(400, 800, 100));
+    TEST_ASSERT_EQUAL_UINT16(256, page_pos_between(0, 1023, 25));
+    TEST_ASSERT_EQUAL_UINT16(767, page_pos_between(1023, 0, 25));
+}
+
+static void test_page_time_is_shared_and_nothing_gets_none(void)
+{
+    uint8_t time = 31;
+    TEST_ASSERT_EQUAL_UINT8(16, page_time_split(&time, 50));
+    TEST_ASSERT_EQUAL_UINT8(15, time);
+    time = 255;
+    TEST_ASSERT_EQUAL_UINT8(64, page_time_split(&time, 25));
+    TEST_ASSERT_EQUAL_UINT8(191, time);
+    time = 1;
+    TEST_ASSERT_EQUAL_UINT8(1, page_time_split(&time, 50));
+    TEST_ASSERT_EQUAL_UINT8(1, time);
+    time = 9;
+    TEST_ASSERT_EQUAL_UINT8(1, page_time_split(&time, 0));
+    TEST_ASSERT_EQUAL_UINT8(8, time);
+    time = 0;
+    TEST_ASSERT_EQUAL_UINT8(0, page_time_split(&time, 50));
+    TEST_ASSERT_EQUAL_UINT8(0, time);
+}
+
 static void test_page_is_playable_needs_steps_and_a_count(void)
 {
     page[PAGE_AT_STEPS] = 1;
@@ -157,6 +186,8 @@ int main(void)
     RUN_TEST(test_page_position_flags_release_the_joint_whatever_is_below);
     RUN_TEST(test_page_words_are_little_endian_at_documented_places);
     RUN_TEST(test_page_mirrored_position_is_as_far_on_the_other_side_within_the_servo);
+    RUN_TEST(test_page_position_between_two_is_rounded_away_from_the_first);
+    RUN_TEST(test_page_time_is_shared_and_nothing_gets_none);
     RUN_TEST(test_page_slope_is_two_to_the_nibble);
     RUN_TEST(test_page_is_playable_needs_steps_and_a_count);
     return UNITY_END();

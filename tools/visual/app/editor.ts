@@ -140,6 +140,12 @@ export class DocumentEditor implements Editor {
     return this.player.firstPose(page, new Uint16Array(JOINTS).fill(POSITION_MIDDLE));
   }
 
+  poseAfter(page: number, step: number): number[] {
+    this.load();
+    this.player.setShape(AS_STORED);
+    return Array.from(this.player.poseAfter(page, step, new Uint16Array(JOINTS).fill(POSITION_MIDDLE)));
+  }
+
   /** The player has the document's pages; only those that changed are copied. */
   private load(): void {
     for (const [page, bytes] of this.state.get().document.pages.entries()) {

@@ -81,6 +81,17 @@ int motion_api_mirrored(int pos)
     return (int)page_pos_mirrored((uint16_t)pos, 2u * PAGE_POS_MIDDLE);
 }
 
+enum { HALF = 50 };
+
+int motion_api_pos_between(int a, int b) { return page_pos_between((uint16_t)a, (uint16_t)b, HALF); }
+
+int motion_api_time_between(int time)
+{
+    uint8_t rest = (uint8_t)time;
+    uint8_t share = page_time_split(&rest, HALF);
+    return share | rest << 8;
+}
+
 int motion_api_remote_code(int buttons)
 {
     uint8_t code;
@@ -238,6 +249,14 @@ static uint16_t go_to_step(uint16_t pose[PAGE_JOINTS], const uint8_t *page, uint
         }
     }
     return longest;
+}
+
+void motion_api_pose_after(int page, int step)
+{
+    (void)motion_api_first_pose(page);
+    for (int i = 0; is_page(page) && is_step(page, i) && i <= step && i < api.pages[page][PAGE_AT_STEPS]; i++) {
+        (void)go_to_step(api.pose, api.pages[page], (uint8_t)i);
+    }
 }
 
 static player_step_t step_at(const uint8_t *page, int step)

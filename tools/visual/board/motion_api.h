@@ -31,6 +31,10 @@ int motion_api_crc16(int page);
 /* A position as the joint on the other side has it, neutral positions in the middle. */
 int motion_api_mirrored(int pos);
 
+/* The position and the time of a step that is put in half-way: page_pos_between() and page_time_split() with 50 %. */
+int motion_api_pos_between(int a, int b);
+int motion_api_time_between(int time); /* the share | the rest << 8 */
+
 /* The code that these buttons of a remote give (hal/remote.h); 0 when they give none: none is down, a stop, a pause. */
 int motion_api_remote_code(int buttons);
 
@@ -65,6 +69,10 @@ uint16_t *motion_api_pose(void);
 
 /* Where step 1 of a page wants its joints: fills those places of the pose; returns their bits. */
 uint32_t motion_api_first_pose(int page);
+
+/* Where a page leaves the joints behind a step: the first pose, and what its steps 0..step want; a step that is not there ends
+ * it. Fills the pose. */
+void motion_api_pose_after(int page, int step);
 
 /* Ticks that a step (0..6) of a good page takes under a law (0 exact, 1 classic), and its pause; fractions of a tick are not
  * carried. Before step 0 the joints stand as in the pose; it matters only for pages in speed base. -1: no such step. */

@@ -74,6 +74,8 @@ export interface MotionExports {
   motion_api_is_playable(page: number): number;
   motion_api_crc16(page: number): number;
   motion_api_mirrored(pos: number): number;
+  motion_api_pos_between(a: number, b: number): number;
+  motion_api_time_between(time: number): number;
   motion_api_remote_code(buttons: number): number;
   motion_api_leads(page: number): number;
   motion_api_leads_table(): number;
@@ -83,6 +85,7 @@ export interface MotionExports {
   motion_api_relink(page: number): void;
   motion_api_pose(): number;
   motion_api_first_pose(page: number): number;
+  motion_api_pose_after(page: number, step: number): void;
   motion_api_step_ticks(page: number, step: number, law: number): number;
   motion_api_pause_ticks(page: number, step: number, law: number): number;
   motion_api_shape(rate: number, amplitude: number, blend: number): number;
@@ -146,6 +149,17 @@ export class Motion {
     return this.api.motion_api_mirrored(position);
   }
 
+  /** A position half-way from a to b. */
+  positionBetween(a: number, b: number): number {
+    return this.api.motion_api_pos_between(a, b);
+  }
+
+  /** What a step that is put in half-way takes of the time (0..255) of the step behind it, and what is left. */
+  timeSplit(time: number): { readonly share: number; readonly rest: number } {
+    const both = this.api.motion_api_time_between(time);
+    return { share: both & 0xff, rest: both >> 8 };
+  }
+
   /** The code that buttons of a remote give together (their bits); 0: none. */
   remoteCode(buttons: number): number {
     return this.api.motion_api_remote_code(buttons);
@@ -183,6 +197,13 @@ export class Motion {
   firstPose(page: number, from: ArrayLike<number>): Uint16Array {
     this.pose.set(from);
     this.api.motion_api_first_pose(this.number(page));
+    return this.pose.slice();
+  }
+
+  /** Where a page leaves the joints behind a step; those that it does not use, as in `from` (servo units). */
+  poseAfter(page: number, step: number, from: ArrayLike<number>): Uint16Array {
+    this.pose.set(from);
+    this.api.motion_api_pose_after(this.number(page), step);
     return this.pose.slice();
   }
 

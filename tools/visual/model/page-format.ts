@@ -4,6 +4,7 @@
 
 import * as facts from './facts.ts';
 import type { MotionDocument } from './document.ts';
+import type { Schedule, Step } from './page.ts';
 import type { Law, Lead, Motion, PageFault } from './motion.ts';
 
 /** `at...` are byte offsets, in a step from its beginning. */
@@ -86,6 +87,18 @@ export class PageFormat {
   /** A position (servo units) as the joint on the other side has it. */
   mirrored(position: number): number {
     return this.motion.mirrored(position);
+  }
+
+  /** The step half-way from one to the next, without a pause: a joint that one of them does not use stays unused. Its time is that share of
+   *  the next one's, in time base, which keeps the rest. */
+  between(a: Step, b: Step, schedule: Schedule): readonly [between: Step, next: Step] {
+    const positions = a.positions.map((from, id) => {
+      const to = b.positions[id] ?? null;
+      return from === null || to === null ? null : this.motion.positionBetween(from, to);
+    });
+    if (schedule === 'speed') return [{ positions, time: b.time, pause: 0 }, b];
+    const { share, rest } = this.motion.timeSplit(b.time);
+    return [{ positions, time: share, pause: 0 }, { ...b, time: rest }];
   }
 
   /** The code that buttons of a remote give together (their bits); 0: none. */

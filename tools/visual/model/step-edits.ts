@@ -133,19 +133,12 @@ function takeMirrored(
   })));
 }
 
-/** Puts a step half-way between `step` and the one behind it; both halves together take as long as the way did. A joint that one of
- *  the two does not use stays unused. */
+/** Puts a step half-way between `step` and the one behind it; both halves together take as long as the way did. */
 export function interpolate(format: PageFormat, document: MotionDocument, page: number, step: number): Result<Transaction> {
   return changePage(format, 'interpolate', document, page, (view) => {
     const a = view.steps[step];
     const b = view.steps[step + 1];
     if (!a || !b) return refuse('no-such-step', String(step + 2));
-    const positions = a.positions.map((from, id) => {
-      const to = b.positions[id] ?? null;
-      return from === null || to === null ? null : Math.round((from + to) / 2);
-    });
-    const halves = view.schedule === 'time' ? [Math.floor(b.time / 2), Math.ceil(b.time / 2)] : [b.time, b.time];
-    const [first = 0, second = 0] = halves;
-    return ok({ steps: view.steps.toSpliced(step + 1, 1, { positions, time: first, pause: 0 }, { ...b, time: second }) });
+    return ok({ steps: view.steps.toSpliced(step + 1, 1, ...format.between(a, b, view.schedule)) });
   });
 }

@@ -107,9 +107,9 @@ test('steps are moved, duplicated, deleted and put in between as one would by ha
   expect(order()).toEqual([4, 1, 3, 4, 3, 5, 2]);
   expect(refusalOf(edits.interpolate(document, 5, 0))).toBe('steps-full');
   document = after(document, edits.deleteSteps(document, 5, [3, 4]));
-  document = after(document, edits.interpolate(document, 5, 1)); // between 1 and 3, whose time 31 becomes 15 and 16
+  document = after(document, edits.interpolate(document, 5, 1)); // between 1 and 3, whose time 31 becomes 16 and 15, as Edit's INT shares it
   expect(order()).toEqual([4, 1, 2, 3, 5, 2]);
-  expect(view(document, 5).steps.slice(2, 4).map((step) => [step.time, step.pause])).toEqual([[15, 0], [16, 3]]);
+  expect(view(document, 5).steps.slice(2, 4).map((step) => [step.time, step.pause])).toEqual([[16, 0], [15, 3]]);
   expect(refusalOf(edits.interpolate(document, 5, 5))).toBe('no-such-step');
 });
 

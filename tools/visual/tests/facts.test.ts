@@ -21,6 +21,7 @@ const OTHERS: Readonly<Record<string, string>> = {
   'model/page-format.ts: const ERASED = 0xff;': 'what flash is made of',
   'model/page.ts: export const BYTE_MAX = 0xff;': 'what a byte is',
   'model/page.ts: bytes[at + 2 * id] = value & 0xff;': 'what a byte is',
+  'model/motion.ts: return { share: both & 0xff, rest: both >> 8 };': 'what a byte is',
   'robot/connection.ts: const ASK_AGAIN_MS = 400;': 'a time',
   'robot/line-parser.ts: const LINE_MAX = 8192;': 'a limit of the parser',
   'robot/remote.ts: const low = word & 0xff;': 'what a byte is',

@@ -56,6 +56,8 @@ export interface Editor {
   /** Pose in which a play of the page begins (31 servo units); joints that its first step does not use stand at 512. As stored,
    *  unless a shape is given. */
   firstPose(page: number, shape?: Shape): Uint16Array;
+  /** Where the page leaves the joints behind a step (31 servo units): those that it does not use stay as the steps before left them. */
+  poseAfter(page: number, step: number): number[];
   /** The fastest that servos may be asked to go at this voltage (servo units a tick). */
   topSpeed(volts: number): number;
 }

@@ -7,7 +7,6 @@ import { BYTE_MAX } from '../../model/page.ts';
 import type { Desk } from '../desk.ts';
 import type { Gesture } from '../editor-desk.ts';
 import type { CurveFrame, CurveScene, WayPoint } from './curve-picture.ts';
-import { poseAfter } from './editing.ts';
 import { JointTurn } from './joint-turn.ts';
 import { nearestSetting } from './step-times.ts';
 
@@ -117,7 +116,7 @@ export class CurveHand {
   private turn(units: number): void {
     const { editor } = this.desk;
     const { page, step, joints } = editor.state.get();
-    if (joints.size > 0) this.arrows.turn(units, () => poseAfter(editor, page, step));
+    if (joints.size > 0) this.arrows.turn(units, () => editor.poseAfter(page, step));
   }
 
   private chooseStep(by: number): void {

@@ -11,7 +11,7 @@ import type { Place } from '../../model/space.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Editor } from '../editor-desk.ts';
 import type { Store } from '../store.ts';
-import { poseAfter, robotAngles, robotPositions, stanceOf, stepAngles } from './editing.ts';
+import { robotAngles, robotPositions, stanceOf, stepAngles } from './editing.ts';
 import type { Editing } from './editing.ts';
 import type { Posed } from './pose-layer.ts';
 
@@ -39,7 +39,7 @@ export class EditedPose {
   /** Servo units by ID. */
   get positions(): number[] {
     const { page, step } = this.editor.state.get();
-    const pose = poseAfter(this.editor, page, step);
+    const pose = this.editor.poseAfter(page, step);
     if (!this.isEmpty || !this.robot) return pose;
     return robotPositions(this.robot).map((position, id) => position ?? pose[id] ?? 0);
   }

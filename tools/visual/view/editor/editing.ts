@@ -40,17 +40,8 @@ export function isEditing(tab: Tab): boolean {
   return EDITING_TABS.has(tab);
 }
 
-/** Servo units by ID in which a step leaves the joints: those that it does not use stay as the steps before left them. */
-export function poseAfter(editor: Editor, page: number, step: number): number[] {
-  const pose = Array.from(editor.firstPose(page));
-  for (const { positions } of editor.page(page).steps.slice(0, step + 1)) {
-    for (const [id, position] of positions.entries()) if (position !== null) pose[id] = position;
-  }
-  return pose;
-}
-
 export function stepAngles(editor: Editor, body: Body, page: number, step: number): Angles {
-  return anglesOf(body, poseAfter(editor, page, step), new Map());
+  return anglesOf(body, editor.poseAfter(page, step), new Map());
 }
 
 export function robotAngles(body: Body, robot: RobotState): Angles {

@@ -5,7 +5,7 @@
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
-import { isEditing, poseAfter } from './editing.ts';
+import { isEditing } from './editing.ts';
 import type { Editing } from './editing.ts';
 import { FOLLOW_TEXTS } from './step-texts.ts';
 
@@ -35,7 +35,7 @@ export class FollowBar extends HTMLElement {
     const shall = follow && isEditing(tab) && connection === 'ready' && editor.page(page).steps.length > 0;
     if (!shall && !this.told) return;
     this.told = shall;
-    this.desk.follow(shall ? poseAfter(editor, page, step) : null);
+    this.desk.follow(shall ? editor.poseAfter(page, step) : null);
   }
 }
 

@@ -8,7 +8,7 @@ import type { RobotState } from '../../robot/robot-state.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
-import { isEditing, poseAfter } from './editing.ts';
+import { isEditing } from './editing.ts';
 import type { Editing, PictureMode } from './editing.ts';
 import { changeStep } from './joint-edits.ts';
 import { POSE_TEXTS } from './step-texts.ts';
@@ -86,7 +86,7 @@ export class PoseBar extends HTMLElement {
     }
     const { editor } = this.desk;
     const { page, step } = editor.state.get();
-    const pose = poseAfter(editor, page, step);
+    const pose = editor.poseAfter(page, step);
     for (const joint of joints) {
       const field = this.fields.get(joint.servo);
       const position = pose[joint.servo] ?? joint.zero;

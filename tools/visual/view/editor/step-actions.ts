@@ -2,7 +2,7 @@
 // What can be done with the chosen steps: buttons, their keys, and the clipboard.
 
 import { stepsFromText, stepsToText } from '../../model/step-text.ts';
-import { easyStep, poseAfter, robotPositions } from './editing.ts';
+import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
@@ -83,7 +83,7 @@ export class StepActions extends HTMLElement {
     const { page, step, document } = editor.state.get();
     const count = editor.page(page).steps.length;
     const positions = robotPositions(this.robot);
-    const before = count > 0 ? poseAfter(editor, page, step) : positions;
+    const before = count > 0 ? editor.poseAfter(page, step) : positions;
     const at = count > 0 ? step + 1 : 0;
     if (editor.dispatch(editor.edits.insertSteps(document, page, at, [easyStep(positions, before)]))) this.choose(at, 1);
   }
@@ -105,7 +105,7 @@ export class StepActions extends HTMLElement {
     const { steps } = editor.page(page);
     const next = steps[step];
     if (!next) return;
-    const before = poseAfter(editor, page, step - 1);
+    const before = editor.poseAfter(page, step - 1);
     const positions = next.positions.map((to, id) => (to === null ? null : Math.round((to + (step > 0 ? (before[id] ?? to) : to)) / 2)));
     if (editor.dispatch(editor.edits.insertSteps(document, page, step, [{ ...next, positions, pause: 0 }]))) this.choose(step, 1);
   }

@@ -6,7 +6,6 @@ import { anglesOf } from '../../model/body.ts';
 import type { Step } from '../../model/page.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
-import { poseAfter } from './editing.ts';
 import { showPose } from './pose-picture.ts';
 import { STEP_TEXTS } from './step-texts.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
@@ -91,7 +90,7 @@ export class StepRow extends HTMLElement {
 
   private picture(card: Card, index: number): void {
     const { editor, body } = this.desk;
-    const pose = poseAfter(editor, editor.state.get().page, index);
+    const pose = editor.poseAfter(editor.state.get().page, index);
     const key = pose.join();
     if (key === card.pose) return;
     card.pose = key;
