@@ -13,6 +13,8 @@ from m512.pages import difference, operations
 
 BOARD_PAGES = 128
 BITS = 10
+#: A sentence that quotes a whole line of a damaged file is cut in its middle.
+SENTENCE = 400
 IMAGE = Path("image.bin")
 
 
@@ -21,8 +23,13 @@ def _told(function):
         try:
             return function(*arguments)
         except M512Error as error:
-            return {"error": str(error)}
+            return {"error": short(str(error))}
     return told
+
+
+def short(sentence):
+    part = SENTENCE // 2
+    return sentence if len(sentence) <= SENTENCE else f"{sentence[:part]} … {sentence[-part:]}"
 
 
 @_told

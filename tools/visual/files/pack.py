@@ -18,6 +18,7 @@ def use_everything():
     for name in ("a.bin", "a.hex", "a.m512", "a.mtn"):
         file = bridge.saved(name, empty)["file"]
         bridge.opened(name, file)
+        bridge.opened(name, file[:-2] + "\ufffd".encode())   # a checksum that an editor spoiled: encodings of its own
     assert "error" in bridge.opened("a.csv", b"page,") and "error" in bridge.opened("a.txt", b"?")
     bridge.checked(empty)
     bridge.differences(empty, empty)

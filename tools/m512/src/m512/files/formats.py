@@ -60,6 +60,16 @@ def load(path: Path, bits: Optional[int] = None, base: Optional[Image] = None) -
 
 
 def decode(data: bytes, path: Path, bits: Optional[int] = None, base: Optional[Image] = None) -> Image:
+    """An image out of a file's bytes. Every FileError names the file."""
+    try:
+        return _decoded(data, path, bits, base)
+    except FileError as error:
+        if str(path) in str(error):
+            raise
+        raise FileError(f"{path}: {error}") from None
+
+
+def _decoded(data: bytes, path: Path, bits: Optional[int], base: Optional[Image]) -> Image:
     kind = recognise(data, path)
     if kind == BINARY:
         return scale12.judged(raw.from_bytes(data, bits or 10), bits)

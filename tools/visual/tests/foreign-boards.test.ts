@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Boards that are none of ours, and noise: what m512's test_noise.py puts before m512, put before the page's connection. It ends in a state
+// that has a sentence, every question is answered or refused in bounded time, and nothing but a RobotError comes out.
+import { execFileSync } from 'node:child_process';
+import { expect, test } from 'vitest';
+import { Connection } from '../robot/connection.ts';
+import type { ConnectionState } from '../robot/connection-table.ts';
+import { askDensePage, askList, askPage, askPose, askVersion, askWhere } from '../robot/protocol.ts';
+import { readPages } from '../robot/page-read.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import type { Requests } from '../robot/requests.ts';
+import { BytePort } from '../sim/byte-port.ts';
+import { connectionText, errorText } from '../view/texts.ts';
+import { makeFormat } from './motion-bench.ts';
+import { SimulatedClock, randomNumbers, settle } from './robot-bench.ts';
+
+const ROOT = new URL('../../../', import.meta.url).pathname;
+const SEED = 20261122;
+/** Each question has its time limit, and they wait for each other. */
+const LIMIT_MS = 60_000;
+const { format } = await makeFormat();
+const crcOf = (bytes: Uint8Array): number => format.crc(bytes);
+const QUESTIONS: readonly ((requests: Requests) => Promise<unknown>)[] = [
+  askVersion, askWhere, askPose, askList, (requests) => askPage(requests, 1, crcOf), (requests) => askDensePage(requests, 1, crcOf), (requests) => readPages(requests, crcOf),
+];
+
+function talks(): Uint8Array[] {
+  const lines = execFileSync(`${ROOT}build/venv/bin/python`, [`${ROOT}tools/visual/tests/m512_cases.py`, 'noise'], { encoding: 'utf8' }).trim().split('\n');
+  return lines.map((line) => new Uint8Array(Buffer.from(JSON.parse(line) as string, 'base64')));
+}
+
+/** A board that says some of its bytes whenever it is spoken to, and then no more. */
+function boardThatSays(bytes: Uint8Array, random: () => number): BytePort {
+  let left = bytes;
+  const port: BytePort = new BytePort('a strange board', () => {
+    const count = Math.min(left.length, 1 + Math.floor(random() * 40));
+    if (count > 0) port.push(left.slice(0, count));
+    left = left.subarray(count);
+  });
+  return port;
+}
+
+test('m512\'s strange boards: a state with a sentence, and every question ends', async () => {
+  const random = randomNumbers(SEED);
+  const clock = new SimulatedClock();
+  const all = talks();
+  const states = new Map<ConnectionState, number>();
+  let answered = 0;
+  for (const [i, bytes] of all.entries()) {
+    const where = `seed ${SEED}, talk ${i}: ${Buffer.from(bytes).toString('latin1').slice(0, 80)}`;
+    const connection = new Connection(boardThatSays(bytes, random), clock, { state: () => undefined, text: () => undefined });
+    const pass = async (ms: number): Promise<void> => {
+      for (let done = 0; done < ms; done += 100) {
+        clock.advance(100);
+        await settle();
+      }
+    };
+    connection.connect();
+    await pass(1000);
+    expect(['silent', 'foreign', 'asking', 'ready'], where).toContain(connection.state);
+    const asked = QUESTIONS.map((ask) => ask(connection.requests).then(() => 'answered', (error: unknown) => error));
+    let ends: unknown[] | null = null;
+    void Promise.all(asked).then((all) => (ends = all));
+    for (let ms = 0; ends === null && ms < LIMIT_MS; ms += 1000) await pass(1000);
+    expect(ends, where).not.toBeNull();
+    for (const end of ends ?? []) {
+      if (end === 'answered') answered++;
+      else {
+        expect(end, where).toBeInstanceOf(RobotError);
+        const sentence = errorText(end as RobotError);
+        expect(sentence.length, where).toBeGreaterThan(10);
+        expect(sentence, where).not.toMatch(/undefined|\[object/);
+      }
+    }
+    const { state, error } = connection;
+    states.set(state, (states.get(state) ?? 0) + 1);
+    expect(connectionText(state), where).toMatch(/^[^\n]{10,}[.!…]$/);
+    if (state === 'silent' || state === 'foreign') expect(error, where).toBeInstanceOf(RobotError);
+    await connection.close();
+  }
+  console.log(`${all.length} talks: ${[...states].map(([state, count]) => `${count} ${state}`).join(', ')}; ${answered} questions were answered by chance`);
+  expect(all.length).toBeGreaterThan(150);
+  expect([...states.keys()]).toContain('foreign');
+}, 240_000);
