@@ -81,5 +81,5 @@ test('every file of m512\'s tests: the same image, or one sentence that names fi
   console.log(`${counts.tests} tests of m512 read ${counts.files} files; ${cases.length} of them opened in the page, ${counts.refused} refused (${how})`);
   expect(counts.tests).toBeGreaterThan(150);
   expect(counts.refused).toBeGreaterThan(70);
-  expect(new Set(cases.map(({ name }) => name))).toEqual(new Set(['case.bin', 'case.hex', 'case.mtn', 'case.m512', 'case.csv']));
+  expect(cases.map(({ name }) => name)).toEqual(expect.arrayContaining(['case.bin', 'case.hex', 'case.mtn', 'case.m512', 'case.csv']));
 }, 1_800_000);
