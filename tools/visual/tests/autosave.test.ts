@@ -56,6 +56,7 @@ function checkUndo(editor: DocumentEditor, versions: readonly Uint8Array[], at: 
 }
 
 test('closed at 500 moments: all that was finished is there, with its undo and redo; an open gesture is not', async () => {
+  const closed = { edits: 0, inGesture: 0, undone: 0 };
   for (let seed = 1; seed <= 500; seed++) {
     const random = randomNumbers(seed);
     const disk = new PassingStorage();
@@ -84,10 +85,16 @@ test('closed at 500 moments: all that was finished is there, with its undo and r
         if (before && !Buffer.from(imageOf(now(editor))).equals(Buffer.from(before))) finished();
       }
     }
+    closed.edits += at;
+    closed.inGesture += Number(open !== null);
+    closed.undone += Number(at < versions.length - 1);
     const { editor: next } = await openTab(disk); // the first tab is gone, in whatever it was doing
     expect(Buffer.from(imageOf(now(next))).equals(Buffer.from(versions[at] ?? [])), `seed ${seed}`).toBe(true);
     checkUndo(next, versions, at, `seed ${seed}`);
   }
+  expect(closed.edits).toBeGreaterThan(500);
+  expect(closed.inGesture).toBeGreaterThan(50);
+  expect(closed.undone).toBeGreaterThan(50);
 }, 120_000);
 
 test('a history that goes on over three tabs; the names of its steps too', async () => {

@@ -56,6 +56,7 @@ test('10,000 random edits: all undone is the first document, all redone the last
   let state: EditorState = states.startState(first);
   let made = 0;
   let refused = 0;
+  const effective = new Map<string, number>();
   while (made < 10_000) {
     const edit = randomEdit(random, state.document);
     const before = state;
@@ -64,9 +65,12 @@ test('10,000 random edits: all undone is the first document, all redone the last
     const changed = state.document.pages.filter((bytes, page) => bytes !== before.document.pages[page]).length;
     expect(changed).toBe(edit.ok ? edit.value.changes.length : 0); // untouched pages stay the same object
     if (state !== before) made++;
+    if (edit.ok && changed > 0) effective.set(edit.value.label, (effective.get(edit.value.label) ?? 0) + 1);
     if (made % 500 === 0) for (let n = Math.floor(random() * 20); n > 0; n--) state = random() < 0.6 ? states.undoOne(state) : states.redoOne(state);
   }
   expect(refused).toBeGreaterThan(100);
+  expect(effective.size).toBe(18); // every kind of edit above has changed something, and often
+  expect(Math.min(...effective.values())).toBeGreaterThan(15);
   const last = imageOf(state.document);
   for (const [page, bytes] of state.document.pages.entries()) if (page > 0) expect(format.fault(bytes), `page ${page}`).toBeNull();
   const count = state.history.done.length;
