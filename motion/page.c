@@ -99,7 +99,8 @@ static uint16_t share_of(uint16_t whole, uint8_t percent) { return (uint16_t)(((
 
 uint16_t page_pos_between(uint16_t a, uint16_t b, uint8_t percent)
 {
-    return b > a ? (uint16_t)(a + share_of((uint16_t)(b - a), percent)) : (uint16_t)(a - share_of((uint16_t)(a - b), percent));
+    return b > a ? (uint16_t)(a + share_of((uint16_t)(b - a), percent))
+                 : (uint16_t)(a - share_of((uint16_t)(a - b), percent));
 }
 
 uint8_t page_time_split(uint8_t *time, uint8_t percent)

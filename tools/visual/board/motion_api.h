@@ -70,8 +70,8 @@ uint16_t *motion_api_pose(void);
 /* Where step 1 of a page wants its joints: fills those places of the pose; returns their bits. */
 uint32_t motion_api_first_pose(int page);
 
-/* Where a page leaves the joints behind a step: the first pose, and what its steps 0..step want; a step that is not there ends
- * it. Fills the pose. */
+/* Where a page leaves the joints behind a step: the first pose, and what its steps 0..step want; a step that is not there
+ * ends it. Fills the pose. */
 void motion_api_pose_after(int page, int step);
 
 /* Ticks that a step (0..6) of a good page takes under a law (0 exact, 1 classic), and its pause; fractions of a tick are not
