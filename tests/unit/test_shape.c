@@ -126,6 +126,14 @@ static void test_shape_blend_goes_to_the_partner(void)
     expect(712, 413, 150, 801);
 }
 
+/* Joint 3 has no centre: it is blended, and not scaled. By hand: 512 + (637 - 512) / 2, 512 - 99 / 2, 100 - 25 / 2, 700 + 101 / 4. */
+static void test_shape_blend_and_amplitude_together(void)
+{
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, 25));
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 50, 0x7FFFFFFF));
+    expect(575, 462, 87, 725);
+}
+
 static void test_shape_partner_of_another_length_or_damaged_is_not_blended(void)
 {
     TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, -100));
@@ -335,6 +343,7 @@ int main(void)
     RUN_TEST(test_shape_neutral_changes_nothing);
     RUN_TEST(test_shape_amplitude_scales_about_the_centre_pose);
     RUN_TEST(test_shape_blend_goes_to_the_partner);
+    RUN_TEST(test_shape_blend_and_amplitude_together);
     RUN_TEST(test_shape_partner_of_another_length_or_damaged_is_not_blended);
     RUN_TEST(test_shape_without_a_centre_nothing_is_scaled);
     RUN_TEST(test_shape_clamps_to_the_servos_range);
