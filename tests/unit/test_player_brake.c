@@ -154,7 +154,8 @@ static void test_player_classic_goes_on_after_a_pause_to_its_end(void)
     }
 }
 
-/* The play goes on as soon as it stands, in the same ticks as with a resume right behind that; nobody is told that it stands. */
+/* The play goes on as soon as it stands, in the same ticks as with a resume right behind that; nobody is told that it
+ * stands. */
 static void resume_while_slowing_down(player_law_t law)
 {
     const uint16_t made = (uint16_t)(pause_and_go_on(law, 25));

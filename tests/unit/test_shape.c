@@ -126,7 +126,8 @@ static void test_shape_blend_goes_to_the_partner(void)
     expect(712, 413, 150, 801);
 }
 
-/* Joint 3 has no centre: it is blended, and not scaled. By hand: 512 + (637 - 512) / 2, 512 - 99 / 2, 100 - 25 / 2, 700 + 101 / 4. */
+/* Joint 3 has no centre: it is blended, and not scaled. By hand: 512 + (637 - 512) / 2, 512 - 99 / 2, 100 - 25 / 2, 700
+ * + 101 / 4. */
 static void test_shape_blend_and_amplitude_together(void)
 {
     TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, 25));

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * A main play that is shaped, a page layer and code-made motion over it, on any pages, with every call of layers.h and shape.h at
- * any tick. Beside it the same play goes without layers: whatever was never lent must go the same way, bit by bit, in the same time.
- * What a robot must not do is in must_move_well, what must fit together in must_be_sane (shaping.md, "Layers").
+ * A main play that is shaped, a page layer and code-made motion over it, on any pages, with every call of layers.h and
+ * shape.h at any tick. Beside it the same play goes without layers: whatever was never lent must go the same way, bit by bit,
+ * in the same time. What a robot must not do is in must_move_well, what must fit together in must_be_sane (shaping.md,
+ * "Layers").
  *
  * Input: options, hand-over speed, joints present; the pages (fuzz_pages.h), two of which get partners; then what happens: an
  * action, its arguments, and how many ticks go by. */
@@ -85,7 +86,9 @@ static void must_be_sane(void)
         return;
     }
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        const uint8_t owner = has(of_code, joint) ? PLAYER_OWNER_CODE : has(of_page, joint) ? PLAYER_OWNER_LAYER : PLAYER_OWNER_MAIN;
+        const uint8_t owner = has(of_code, joint)   ? PLAYER_OWNER_CODE
+                              : has(of_page, joint) ? PLAYER_OWNER_LAYER
+                                                    : PLAYER_OWNER_MAIN;
         if (has(laid.player.present, joint)) {
             ASSERT(laid.joint[joint].owner == owner);
             ASSERT(has(laid.player.lent, joint) == (owner == PLAYER_OWNER_CODE));
@@ -112,7 +115,8 @@ static int most_of_code(const layers_code_t *code, bool was_there)
     return code->amplitude_pos == 0 ? 0 : most < (int)LAYERS_SWING_SPEED_MAX + 1 ? most : (int)LAYERS_SWING_SPEED_MAX + 1;
 }
 
-/* A joint that changes hands goes no faster than the hand-over speed; in the tick in which it meets its owner's way, as fast as that. */
+/* A joint that changes hands goes no faster than the hand-over speed; in the tick in which it meets its owner's way, as
+ * fast as that. */
 static int most_of_hand_over(uint8_t joint, int asked_before, bool layer_ended)
 {
     const player_t *owner = laid.joint[joint].owner == PLAYER_OWNER_LAYER ? &layers.play : &laid.player;
@@ -161,8 +165,9 @@ static void must_move_well(const before_t *before, bool layer_ended)
     }
 }
 
-/* Under the classic law a step that begins from a stand is as long as the longest way from where the joints are: a joint that was lent
- * is elsewhere than in `alone`. Only if lengths come from ways: pages of speed base, and the top speed's limit. */
+/* Under the classic law a step that begins from a stand is as long as the longest way from where the joints are: a joint
+ * that was lent is elsewhere than in `alone`. Only if lengths come from ways: pages of speed base, and the top speed's
+ * limit. */
 static bool may_differ(void)
 {
     bool by_way = shape.top_speed_q4_4 != 0;
@@ -172,8 +177,8 @@ static bool may_differ(void)
     return law == PLAYER_LAW_CLASSIC && by_way && (touched & present) != 0;
 }
 
-/* A joint that was the main play's for a whole step ends it where it would have ended it without layers, but for the unit within which
- * it had caught up, if all that was left of the step was a hold. */
+/* A joint that was the main play's for a whole step ends it where it would have ended it without layers, but for the
+ * unit within which it had caught up, if all that was left of the step was a hold. */
 static void must_end_step_well(void)
 {
     for (uint8_t joint = 0; joint < PAGE_JOINTS && undisturbed && keeps_time && law == PLAYER_LAW_EXACT; joint++) {
@@ -344,7 +349,8 @@ static void lay(uint8_t page, uint32_t joints)
 static void move_by_code(fuzz_t *fuzz, bool swings)
 {
     uint8_t id = fuzz_byte(fuzz);
-    id = layers.main != NULL || id >= PAGE_JOINTS || has(present, id) ? id : 0;   /* without a play the caller asks who is there */
+    /* Without a play the caller asks who is there. */
+    id = layers.main != NULL || id >= PAGE_JOINTS || has(present, id) ? id : 0;
     const uint16_t pos = fuzz_word(fuzz) & 0x7FF;
     const uint16_t amount = fuzz_byte(fuzz), period = swings ? fuzz_word(fuzz) : 0;
     const layers_t old = layers;

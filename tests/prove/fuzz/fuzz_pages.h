@@ -12,9 +12,9 @@
 extern uint8_t fuzz_pages[FUZZ_PAGES + 1][PAGE_BYTES];   /* page 0 stays zero */
 extern const page_source_t fuzz_pages_source;            /* asserts that what is asked for lies in a page */
 
-/* Makes all six anew. Of each page the input holds an options byte, 15 header bytes, and for each of its steps pause, time and four
- * words (joints 0, 1, 17, 30). Three bits of the options say how wild the page is: 0..4 is sealed and in range, 5..6 sealed as it is,
- * 7 has the checksum that is written (one byte more). */
+/* Makes all six anew. Of each page the input holds an options byte, 15 header bytes, and for each of its steps pause,
+ * time and four words (joints 0, 1, 17, 30). Three bits of the options say how wild the page is: 0..4 is sealed and in
+ * range, 5..6 sealed as it is, 7 has the checksum that is written (one byte more). */
 void fuzz_pages_make(fuzz_t *fuzz);
 
 /* Seals a page after a change, if its checksum was right before. */
