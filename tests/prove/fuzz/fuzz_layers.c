@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * A main play that is shaped, a page layer and code-made motion over it, on any pages, with every call of layers.h and
- * shape.h at any tick. Beside it the same play goes without layers: whatever was never lent must go the same way, bit by bit,
- * in the same time. What a robot must not do is in must_move_well, what must fit together in must_be_sane (shaping.md,
+ * shape.h at any tick. Beside it the same play goes without layers: whatever was never lent must go the same way, bit by
+ * bit, in the same time. What a robot must not do is in must_move_well, what must fit together in must_be_sane (shaping.md,
  * "Layers").
  *
- * Input: options, hand-over speed, joints present; the pages (fuzz_pages.h), two of which get partners; then what happens: an
- * action, its arguments, and how many ticks go by. */
+ * Input: options, hand-over speed, joints present; the pages (fuzz_pages.h), two of which get partners; then what happens:
+ * an action, its arguments, and how many ticks go by. */
 #include "approach.h"
 #include "fuzz_pages.h"
 #include "layers.h"
