@@ -52,7 +52,7 @@ typedef struct {
 
 void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *pages, const settings_t *settings);
 
-/* These two are NOINLINE: inlined, they would compute the address of inputs_t from that of play_t at each use (100 bytes). */
+/* These two are NOINLINE: inlined, they would compute the address of inputs_t from that of play_t each time (100 bytes). */
 
 /* Call in every turn of the main loop: takes the console's bytes. With the setting `flow` sends XOFF while the shell is
  * behind. A PC that ignores it loses typed bytes, never remote packets. */
