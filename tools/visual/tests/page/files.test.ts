@@ -4,7 +4,11 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
+import { imageOf, withChanges } from '../../model/document.ts';
+import { readPage } from '../../model/page.ts';
+import { libraryDocument, makeFormat, must } from '../motion-bench.ts';
 import { Keyboard } from './keyboard.ts';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
@@ -24,37 +28,104 @@ function convert(from: string, to: string): Buffer {
   return readFileSync(join(folder, to));
 }
 
-test('a RoboPlus file is opened, looked at, taken over, and saved in every form as m512 does; a damaged one is refused', async () => {
+const PAGE = 100;
+const at = (page: number, step: number, byte: number): number => 512 * page + 64 + 64 * step + byte;
+const EASY = 192; // 1.5 s in ticks
+
+/** The library with a motion that leans too far, too fast, in page 60, as a RoboPlus file. */
+async function foundOnTheNet(): Promise<void> {
+  const { format, edits } = await makeFormat();
+  const library = await libraryDocument();
+  const [stand] = readPage(format, library.pages[7] ?? new Uint8Array(512)).steps;
+  if (!stand) throw new Error('page 7 of the library has no step');
+  const lean = { ...stand, positions: stand.positions.map((position, id) => ({ 3: (stand.positions[3] ?? 512) + 60, 15: 530, 16: 494 }[id] ?? position)), time: 15, pause: 40 };
+  const filled = withChanges(library, must(edits.insertSteps(library, PAGE, 0, [{ ...stand, time: 60 }, lean])).changes);
+  writeFileSync(join(folder, 'library.bin'), imageOf(withChanges(filled, must(edits.rename(filled, PAGE, 'topple')).changes)));
+  convert(join(folder, 'library.bin'), 'found.mtn');
+}
+
+/** What the person does to the page, done to its bytes: step 2 takes 1.5 s, its left side becomes the mirror of the right. */
+function changed(image: Buffer): Buffer {
+  const bytes = Buffer.from(image);
+  bytes[at(PAGE, 1, 63)] = EASY;
+  for (let right = 1; right <= 17; right += 2) {
+    bytes.writeUInt16LE(Math.min(1024 - bytes.readUInt16LE(at(PAGE, 1, 2 * right)), 1023), at(PAGE, 1, 2 * right + 2));
+  }
+  bytes[512 * PAGE + 31] = 0;
+  bytes[512 * PAGE + 31] = 0xff - (bytes.subarray(512 * PAGE, 512 * (PAGE + 1)).reduce((sum, byte) => sum + byte, 0) & 0xff);
+  return bytes;
+}
+
+/** Strokes on the curves in the colour of what is bad. */
+function redPixels(page: Page): Promise<number> {
+  return page.locator('curve-canvas canvas').evaluate((canvas) => {
+    const { width, height } = canvas as HTMLCanvasElement;
+    const sample = document.createElement('canvas').getContext('2d');
+    const context = (canvas as HTMLCanvasElement).getContext('2d');
+    if (!sample || !context) return -1;
+    sample.fillStyle = getComputedStyle(canvas).getPropertyValue('--bad').trim();
+    sample.fillRect(0, 0, 1, 1);
+    const [r = 0, g = 0, b = 0] = sample.getImageData(0, 0, 1, 1).data;
+    const { data } = context.getImageData(0, 0, width, height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) count += Number(Math.abs((data[i] ?? 0) - r) + Math.abs((data[i + 1] ?? 0) - g) + Math.abs((data[i + 2] ?? 0) - b) < 24);
+    return count;
+  });
+}
+
+test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fast and where it falls, stretches, mirrors, saves it in every form as m512 does', async () => {
+  await foundOnTheNet();
   const person = await Visitor.come(suite.browser, suite.address);
-  convert(join(ROOT, 'build/motions/motions.bin'), 'found.mtn');
-  const chooser = person.page.getByLabel('Motion file');
+  const { page } = person;
+  const chooser = page.getByLabel('Motion file');
   writeFileSync(join(folder, 'torn.mtn'), readFileSync(join(folder, 'found.mtn')).subarray(0, 5000));
   await chooser.setInputFiles(join(folder, 'torn.mtn'));
-  await person.page.getByRole('dialog', { name: 'That did not work' }).getByText(/torn\.mtn/).waitFor();
+  await page.getByRole('dialog', { name: 'That did not work' }).getByText(/torn\.mtn/).waitFor();
   await person.button('Close').click();
 
   await chooser.setInputFiles(join(folder, 'found.mtn'));
-  const dialog = person.page.getByRole('dialog', { name: 'found.mtn' });
+  const dialog = page.getByRole('dialog', { name: 'found.mtn' });
   await dialog.getByText(/^[1-9]\d motion pages/).waitFor();
-  await person.page.screenshot({ path: `${SHOTS}opened.png` });
+  await page.screenshot({ path: `${SHOTS}opened.png` });
   await dialog.getByRole('button', { name: 'Take them over' }).click();
   await dialog.waitFor({ state: 'hidden' });
 
-  convert(join(folder, 'found.mtn'), 'found.bin');
-  for (const suffix of ['.mtn', '.m512', '.bin', '.hex']) {
-    const [download] = await Promise.all([person.page.waitForEvent('download'), person.page.getByLabel('Save as a file').selectOption(suffix)]);
+  await person.open('Checks');
+  const findings = page.getByRole('list', { name: 'Findings' }).getByRole('listitem').filter({ hasText: 'topple' });
+  const fast = findings.filter({ hasText: /Step 2: the [a-z ]+ is asked for \d+\.\d\d times the speed/ });
+  await fast.getByRole('button', { name: `Go to page ${PAGE} (topple), step 2` }).click();
+  expect(await person.button('Step 2').getAttribute('aria-current')).toBe('true');
+  await person.open('Checks');
+  await person.button(`Try page ${PAGE} (topple)`).click();
+  await findings.filter({ hasText: /Falls in step 2 after \d\.\d s, and stays on the floor/ }).waitFor();
+  await person.open('Curves');
+  const tooFast = page.getByRole('status', { name: 'Too fast' });
+  await tooFast.and(page.locator('[data-tone=bad]')).waitFor();
+  await expect.poll(() => redPixels(page), { timeout: 240_000 }).toBeGreaterThan(50);
+  await page.screenshot({ path: `${SHOTS}too-fast.png` });
+
+  await person.open('Steps');
+  await page.getByRole('spinbutton', { name: 'Time of step 2' }).fill('1.5');
+  await page.keyboard.press('Enter');
+  await person.button('Mirror ◂').click();
+  await person.button(`Undo: mirror (page ${PAGE})`).waitFor();
+  await person.open('Curves');
+  await tooFast.and(page.locator('[data-tone=calm]')).waitFor();
+  await expect.poll(() => redPixels(page), { timeout: 240_000 }).toBe(0);
+
+  const wanted = changed(convert(join(folder, 'found.mtn'), 'found.bin'));
+  for (const suffix of ['.bin', '.mtn', '.m512', '.hex']) {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel('Save as a file').selectOption(suffix)]);
     const saved = readFileSync(await download.path());
     if (suffix === '.mtn') await person.button('Understood').click(); // it says what the form cannot hold: unused bytes at least
     expect(download.suggestedFilename()).toBe(`My motions${suffix}`);
-    const wanted = convert(join(folder, 'found.bin'), `wanted${suffix}`);
-    // Page 0 is this robot's own trim; the file brought none.
-    if (suffix === '.bin') expect(saved.subarray(512).equals(wanted.subarray(512)), suffix).toBe(true);
-    else expect(saved.length, suffix).toBeGreaterThan(1000);
-    writeFileSync(join(folder, `again${suffix}`), saved);
+    if (suffix === '.bin') {
+      expect(saved.subarray(512).equals(wanted.subarray(512))).toBe(true); // page 0 is this robot's own trim; the file brought none
+      writeFileSync(join(folder, 'saved.bin'), saved);
+    } else {
+      expect(saved.equals(convert(join(folder, 'saved.bin'), `wanted${suffix}`)), suffix).toBe(true);
+    }
   }
-  expect(readFileSync(join(folder, 'again.mtn')).equals(convert(join(folder, 'again.bin'), 'again2.mtn'))).toBe(true);
-  expect(readFileSync(join(folder, 'again.m512')).equals(convert(join(folder, 'again.bin'), 'again2.m512'))).toBe(true);
-  expect(readFileSync(join(folder, 'again.hex')).equals(convert(join(folder, 'again.bin'), 'again2.hex'))).toBe(true);
   await person.leave();
 });
 
