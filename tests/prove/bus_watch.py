@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What was on the servo bus, judged: a frame in every tick, no leap, nobody driven who must not be."""
+"""Judges the traffic on the servo bus: every tick has a frame, no goal leaps, and no joint is driven that must not be."""
 from cm5sim.board import CYCLES_PER_TICK, sync_goals
 
 WRITE, REG_WRITE, SYNC_WRITE = 3, 4, 0x83
@@ -7,7 +7,7 @@ TORQUE_AT, GOAL_AT = 24, 30
 
 
 def phase_of(board):
-    """A cycle in which a tick begins."""
+    """Returns a cycle at which a tick begins."""
     board.run_to("__vector_12")
     return board.now_cycles
 
@@ -52,7 +52,7 @@ def last_step(frames, failed):
 
 
 def written(packets, address, value=None):
-    """IDs of single WRITEs and REG WRITEs that reach an address (with that value)."""
+    """Returns the IDs of the servos that a WRITE or REG WRITE to this address reached (with this value, if one is given)."""
     return {packet[2] for _, packet in packets if packet[4] in (WRITE, REG_WRITE)
             and packet[5] <= address < packet[5] + len(packet) - 7
             and value in (None, packet[6 + address - packet[5]])}

@@ -105,7 +105,7 @@ def edit(seed, saves):
 # ---- all of it ----
 
 def work(item):
-    """One robot's life; a violation or a silence ends it."""
+    """Runs one robot to the end of its time. A violation or a missing answer ends the run."""
     what, seed, amount = item
     try:
         if what == "edit":
@@ -118,7 +118,7 @@ def work(item):
 
 
 def walked(result, joints):
-    """The figures of one walk."""
+    """Returns the figures of one walk."""
     bus, counts, done = result["bus"], result["counts"], result["done"]
     how = (f"Play with {joints} servos, {result['minutes']:.1f} simulated minutes in one run: {done['packets']} packets of the remote, "
            f"{done['plays']} pages called, {done['stops']} stops, {done['breaks']} breaks, {done['pauses']} pauses, "
@@ -146,7 +146,7 @@ def walked(result, joints):
 
 
 def edited(results):
-    """The figures of all editors."""
+    """Returns the figures of all editors."""
     complaints = [text for result in results for text in result["complaints"]]
     for complaint in complaints[:10]:
         print(f"   {complaint}")

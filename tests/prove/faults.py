@@ -54,7 +54,7 @@ def parse(name):
 
 
 def all_states(seed):
-    """Names of all states; which joints a pair befalls is left to chance."""
+    """Returns the names of all states. Chance picks the joints of a pair of faults."""
     chance = random.Random(seed)
     for situation in SITUATIONS:
         for fault, joint in itertools.product(FAULTS, ALONE_ON):
@@ -72,7 +72,7 @@ def all_states(seed):
 # ---- one state ----
 
 class Trial:
-    """One state, from the fault to the robot that plays again."""
+    """Plays one state: the fault, what the robot does, the repair, and the next play."""
 
     def __init__(self, robot, faults):
         self.robot, self.board = robot, robot.board
@@ -93,7 +93,7 @@ class Trial:
         self.found.append(text)
 
     def befall(self):
-        """The faults begin; runs until everything that must be named is, at most until it is too late."""
+        """Begins the faults and runs until all of them are named, or until the time allowed is over."""
         robot = self.robot
         robot.remember_screen()
         for fault, joint in self.faults:
@@ -115,14 +115,14 @@ class Trial:
                 self.named_ms = max(self.named_ms, ms)
 
     def is_pushing_still(self, joint, kind):
-        """A jammed servo that has not noticed yet."""
+        """Whether the servo is jammed and has not noticed yet."""
         return kind in (OVERLOAD, TORQUE) and "blocked" in self.by_joint[joint] and OVERLOAD not in self.servos[joint].alarms
 
     def rule_acts(self):
         return self.robot.playing and any(kind in GRAVE and joint != RELEASED for joint, kind in self.robot.told)
 
     def obey_rule(self):
-        """What the rest of the robot does."""
+        """Checks that the rest of the robot does what the rule for faults says."""
         robot = self.robot
         robot.run(max(0, NAMED_MS - robot.since_ms))
         if not self.rule_acts() or robot.rule == "limp":
@@ -181,7 +181,7 @@ class Trial:
             self.complain(f"healthy joints went limp: {limp}")
 
     def recover(self):
-        """The faults are over: the servos answer, are switched on, and the robot plays."""
+        """Ends the faults; the servos must answer, switch on, and play."""
         robot = self.robot
         silent = {joint for joint, kind in robot.told if kind == SILENT and (joint, BACK) not in robot.told}
         robot.told = {told: ms for told, ms in robot.told.items() if told[1] != BACK}

@@ -47,12 +47,12 @@ class Result:
 
 
 def describe(fault):
-    """A fault in one line."""
+    """Describes a fault in one line."""
     return f"{type(fault).__name__}: {' '.join(str(fault).split())[:300]}"
 
 
 def session(task):
-    """(input, seed, bytes): one session."""
+    """Plays one session. task: (input, seed, bytes)."""
     name, seed, size = task
     kind = fuzz_board.INPUTS[name](seed, size)
     try:
@@ -62,12 +62,12 @@ def session(task):
 
 
 def session_row(task):
-    """The same as a list."""
+    """The result of a session as a list, for JSON."""
     return list(dataclasses.astuple(session(task)))
 
 
 def fails(name, seed, size, chosen):
-    """The fault of a session of these pieces alone, "" when it has none."""
+    """Plays these pieces alone. Returns the fault, or ""."""
     kind = fuzz_board.INPUTS[name](seed, size)
     pieces = kind.pieces()
     try:
@@ -78,7 +78,7 @@ def fails(name, seed, size, chosen):
 
 
 def shrink(name, seed, size):
-    """Fewer pieces of a session that fail as well: halves, quarters, ... of them are left out while the trials last."""
+    """Finds fewer pieces of a session that still fail: leaves out halves, quarters, and so on, for as many trials as are given."""
     kind = fuzz_board.INPUTS[name](seed, size)
     if not hasattr(kind, "pieces"):
         return ""
@@ -109,7 +109,7 @@ def ranges(numbers):
 
 
 def again(options):
-    """--only: one session, with what it did when it fails."""
+    """Plays the one session that --only names. If it fails, prints what it did."""
     name, seed, *chosen = options.only.split(":")
     kind = fuzz_board.INPUTS[name](int(seed), size_of(name, options))
     began = time.monotonic()
@@ -150,7 +150,7 @@ def images(options, names):
 
 
 def image_figure(name, done, options):
-    """One row: an input."""
+    """Returns the figure of one input."""
     kind = fuzz_board.INPUTS[name]
     faults = [(task, result) for task, result in done if result.fault]
     measured = (f"{sum(r.sent for _, r in done):,} bytes in {len(done)} sessions, {sum(r.seconds for _, r in done):,.0f} simulated s, "
@@ -187,7 +187,7 @@ def modules(options, names):
 
 
 def run(options):
-    """The whole part."""
+    """Runs the whole part."""
     options.keep = not (options.only or options.inputs or options.bytes < BYTES or options.seconds < SECONDS)
     if options.only:
         return again(options)

@@ -69,7 +69,7 @@ class Session:
         raise NotImplementedError
 
     def look(self):
-        """What this input looks at, besides the common, when all is over."""
+        """What this input checks at the end, besides what all inputs check."""
 
     # verbs
 
@@ -109,7 +109,7 @@ class Session:
         self.board.clear_trace()
 
     def answer(self):
-        """`@where`, as soon as what was typed before has been dealt with."""
+        """Asks `@where` once the lines typed before have been answered."""
         self.board.run(ms=50)
         self.board.take()
         began = self.board.now_ms
@@ -139,7 +139,7 @@ class Session:
         self.board.clear_trace()
 
     def play(self, pieces):
-        """Plays the pieces on a new board and looks at everything."""
+        """Plays the pieces on a new board and checks everything."""
         self.start()
         self.who = {servo.id: servo for servo in self.board.servos}
         flash, eeprom = bytes(self.board.flash), bytes(self.board.eeprom)
@@ -241,7 +241,7 @@ class Remote(Session):
         return bytes(made)
 
     def look(self):
-        """Two stops within a second are a break: the robot stands, whatever it did."""
+        """Two stops within a second are a break, so the robot must stand now."""
         for _ in range(2):
             self.board.remote(packet_of(512))
             self.board.run(ms=200)
@@ -312,7 +312,7 @@ class Bus(Session):
         self.sent += len(burst)
 
     def say(self, data):
-        """A line, and no more: the console is quiet otherwise."""
+        """Sends one line; the console is quiet otherwise."""
         self.board.send(data)
 
     def start(self):
@@ -378,7 +378,7 @@ class EditBus(Bus):
         self.phase = self.board.now_cycles % CYCLES_PER_TICK
 
     def answer(self):
-        """Out of whatever mode, as Edit's manual says; then a program's line."""
+        """Leaves whatever mode Edit is in, as its manual says, and sends a program's line."""
         began = self.board.now_ms
         for _ in range(6):
             for keys, ms in ((b"\x03", 1500), (b"\x1b", 300), (b"\x15\r", 500), (b"\x03", 100)):
@@ -436,6 +436,6 @@ INPUTS = {kind.name: kind for kind in (PlayConsole, Remote, PlayBus, EditConsole
 
 
 def mean_size(name):
-    """Bytes of a session of this input, in the mean over its seeds."""
+    """The mean size of a session of this input, in bytes."""
     kind = INPUTS[name]
     return kind.size if kind is not EditConsole else (3 * kind.size + kind.slow_size) // 4

@@ -22,7 +22,7 @@ ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0:handle_abort=1", "UBSAN_OPTIONS":
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """What came of one harness."""
+    """The result of one harness."""
     name: str
     executions: int
     edges: int
@@ -41,7 +41,7 @@ def build():
 
 
 def replay(name):
-    """The corpus once, without libFuzzer."""
+    """Runs the harness over the corpus once, without libFuzzer."""
     files = list((CORPUS / name).iterdir())
     done = subprocess.run([REPLAYS / f"fuzz_{name}", CORPUS / name], capture_output=True, text=True, errors="replace", check=False)
     finding = "" if done.returncode == 0 else f"{name}: {REPLAYS / f'fuzz_{name}'} {CORPUS / name}: {done.stderr.strip()[-300:]}"
@@ -73,7 +73,7 @@ def search(task):
 
 
 def describe(name, artifacts, output):
-    """A finding, made smaller, and the command that repeats it."""
+    """Makes a finding smaller and returns it with the command that repeats it."""
     said = re.search(r"ASSERT\(.*|runtime error: .*|ERROR: (?:AddressSanitizer|libFuzzer): .*", output)
     where = pathlib.Path(artifacts[0]) if artifacts else None
     if where:
@@ -86,7 +86,7 @@ def describe(name, artifacts, output):
 
 
 def merge(name, work):
-    """The fewest inputs, old and new, that reach all that is reached."""
+    """Keeps the fewest inputs, old and new, that reach the same code."""
     small = work / "small"
     small.mkdir()
     subprocess.run([FUZZERS / f"fuzz_{name}", "-set_cover_merge=1", "-use_counters=0", f"-max_len={LONGEST[name]}", small,

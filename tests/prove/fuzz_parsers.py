@@ -34,7 +34,7 @@ WORDS = (b"page", b"step", b"spare", b"fill", b"raw", b"link1", b"next", b"exit"
 
 @dataclasses.dataclass
 class Outcome:
-    """What came of many inputs."""
+    """The result of many inputs."""
     done: int = 0
     read: int = 0
     findings: list = dataclasses.field(default_factory=list)
@@ -101,7 +101,7 @@ def mutate(rng, data, others):
 
 
 def mend(suffix, data):
-    """Right checksums, so that what is behind them is reached."""
+    """Corrects the checksums, so that the code behind their checks is reached."""
     if suffix == ".mtn":
         return data[:-2] + (~sum(data[:-2]) & 0xFFFF).to_bytes(2, "big")
     if suffix != ".hex":
@@ -117,7 +117,7 @@ def mend(suffix, data):
 
 
 def judge(data, suffix, folder):
-    """Whether the file was read. What must not be, comes as an exception."""
+    """Returns whether the file was read. Raises an exception for what must not happen."""
     from m512.files import formats
     from m512.errors import M512Error
     began = time.process_time()
@@ -138,7 +138,7 @@ def judge(data, suffix, folder):
 
 
 def files(task):
-    """(seed, count): that many damaged files."""
+    """Reads damaged files. task: (seed, count)."""
     seed, count = task
     rng, outcome, originals = random.Random(f"files {seed}"), Outcome(), seeds()
     others = [data for group in originals.values() for data in group]
@@ -165,7 +165,7 @@ def keep(name, data, fault):
 
 
 def answers(task):
-    """(seed, count): that many conversations with something that is no board."""
+    """Lets m512 talk to something that is no board. task: (seed, number of conversations)."""
     from hypothesis import HealthCheck, given, seed, settings
     import test_noise
     number, count = task

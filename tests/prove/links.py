@@ -35,7 +35,7 @@ def add_arguments(group):
 
 
 def chunk(numbers):
-    """Some schedules in one process."""
+    """Plays some schedules in one process."""
     return [runs.play(number) for number in numbers]
 
 
@@ -54,7 +54,7 @@ def run(options):
 
 
 def play_all(options, play, count, sample, schedule, at_once, words):
-    """The figures of one loader."""
+    """Returns the figures of one loader."""
     if options.only is not None:
         options.keep = False
         outcomes = play([options.only])

@@ -87,7 +87,7 @@ def read_table(path=TABLE):
 
 @dataclasses.dataclass(frozen=True)
 class Result:
-    """What came of one mutation."""
+    """The result of one mutation."""
 
     mutation: Mutation
     caught: bool
@@ -149,7 +149,7 @@ class Tree:
                 return process.communicate()[0], TIMED_OUT
 
     def configure(self, world):
-        """Once."""
+        """Configures a world, once."""
         if not (self.top / "build" / world / "build.ninja").exists():
             text, status = self.run(BUILD_SECONDS, "cmake", "--preset", world, "--log-level=WARNING")
             if status != 0:
@@ -215,7 +215,7 @@ class Tree:
         return (True, f"{failed} (not by {mutation.by})", False) if failed else (False, "every test passes", False)
 
     def evaluate(self, mutation):
-        """Makes the mistake, looks who notices, and takes it back."""
+        """Makes the mistake, finds the test that notices it, and takes it back."""
         begun = time.monotonic()
         places = mutation.places(self.top)
         if places != 1:
@@ -335,7 +335,7 @@ def table_figure(mutations):
 
 
 def chosen(mutations, options):
-    """Those that this run makes."""
+    """Returns the mutations of this run."""
     if options.only:
         found = [mutation for mutation in mutations if any(re.fullmatch(name, mutation.name) for name in options.only)]
         if not found:
@@ -348,7 +348,7 @@ def chosen(mutations, options):
 
 
 def run(options):
-    """The figures."""
+    """Runs the part and returns its figures."""
     mutations = read_table()
     fits = table_figure(mutations)
     if not fits.kept and not options.only:

@@ -68,7 +68,7 @@ def spoiled(how):
 
 
 def gp_body(seed):
-    """As in the table that the yardstick comes from: friction, supply, masses."""
+    """The body of the table that the yardstick comes from: its friction, supply, and masses."""
     if seed is None:
         return NOMINAL
     chance = random_body(GP, seed)

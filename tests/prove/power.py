@@ -54,7 +54,7 @@ def chooser(scene, seed, sample, chunk):
 
 
 def play(work):
-    """One piece of work in a process of its own: (scene, [(state, outcome, fault)], operations, seconds of a core)."""
+    """Plays one piece of work in a process of its own. Returns (scene, [(state, outcome, fault)], operations, seconds of a core)."""
     spent = sum(os.times()[:4])
     return (*play_one(*work), sum(os.times()[:4]) - spent)
 
@@ -73,7 +73,7 @@ def play_one(name, part, seed, sample):
 
 
 def repeat(state, seed):
-    """A single state again."""
+    """Plays a single state again."""
     name, _, rest = state.partition(":")
     life, _, number = name.rpartition("-")
     if not rest or (life not in LIVES and name not in SCENES):
@@ -90,7 +90,7 @@ def repeat(state, seed):
 
 
 def pieces(names, seed, sample):
-    """All work, the longest first."""
+    """Returns all pieces of work, the longest first."""
     work = []
     for name in names:
         parts = 1 if sample else LIFE_COUNT if name in LIVES else SCENES[name].chunks if name in SCENES else 1

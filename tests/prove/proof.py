@@ -77,7 +77,7 @@ class Kept:
         return [self.found[repr(item)] for item in items]
 
     def finish(self):
-        """The run has ended."""
+        """Call at the end of the run: forgets the results kept for going on."""
         if self.is_on:
             self.path.unlink(missing_ok=True)
 
@@ -115,7 +115,7 @@ AGAIN = "A sample again at commit {commit}: {found}."
 
 
 def pattern(line):
-    """What finds such a line."""
+    """The pattern that finds such a line."""
     return re.compile("^" + re.sub(r"\\{(\w+)\\}", r"(?P<\1>.*?)", re.escape(line)) + "$", re.M)
 
 

@@ -21,7 +21,7 @@ OUTAGE_MOST = 3.0                  # seconds; the longest hole that weather() ma
 
 @dataclasses.dataclass(frozen=True)
 class Weather:
-    """What a line is like. Chances are per byte; times in seconds."""
+    """The faults of a line. Chances are per byte, times in seconds."""
 
     kind: str = "good"
     speed: float = 1.0             # of the line rate: 0.05 .. 1
@@ -42,7 +42,7 @@ class Weather:
 
 
 def weather(chance: random.Random) -> Weather:
-    """A line as chance has it: one of the plain kinds, or everything at once."""
+    """Draws a line: one of the plain kinds, or every fault at once."""
     slow = dict(speed=chance.uniform(0.05, 0.9))
     late = dict(late=chance.choice((0.016, 0.05, 0.2, 0.6)) * chance.uniform(0.5, 1.0))
     lumpy = dict(lump=chance.choice((0.004, 0.016, 0.1, 0.4)))
@@ -76,7 +76,7 @@ class Wire:
         self.broken = False
 
     def cut(self):
-        """The cable comes off: what is under way is lost, and all that follows."""
+        """Pulls the cable: all bytes under way are lost, and so are those that follow."""
         self.waiting.clear()
         self.broken = True
 
@@ -133,5 +133,5 @@ class Wire:
 
 
 def wires(weather: Weather, seed: int) -> tuple[Wire, Wire]:
-    """Both directions of a line: to the board, to the PC."""
+    """Returns both directions of a line: to the board, to the PC."""
     return Wire(weather, 2 * seed), Wire(weather, 2 * seed + 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An editor that is worked on for ever: cells, undo, plays and, above all, saves. What the flash must hold is known at any time.
+"""An editor that is used without end: cells, undo, plays and, above all, saves. What the flash must hold is known at any time.
 
 There is no terminal emulator before it, only a line: what Edit paints is read away, as a fast terminal does.
 """
@@ -17,7 +17,7 @@ MOTION_START, PAGE_BYTES = 0xE000, 512
 
 
 class Editor:
-    """The robot and whoever edits its pages."""
+    """The robot and the person who edits its pages."""
 
     def __init__(self, seed):
         self.chance = random.Random(seed)
@@ -52,7 +52,7 @@ class Editor:
         self.settle(ms)
 
     def program(self, text):
-        """A line of a program; its answer."""
+        """Sends a line of a program and returns its answer."""
         self.board.take()
         self.board.send(text + "\r")
         self.board.expect(text.split()[0], ms=2000)
@@ -68,7 +68,7 @@ class Editor:
         self.line(f"page {self.open}")
 
     def edit(self):
-        """Some cells; some of them are taken back."""
+        """Edits some cells and undoes some of these edits."""
         for _ in range(self.chance.randrange(1, 4)):
             step, joint = self.chance.randrange(STEPS), self.chance.choice(list(JOINTS))
             old, new = self.pages[self.open].word(step, joint), self.chance.randrange(300, 700)

@@ -60,7 +60,7 @@ def ticks_of(page):
 
 
 class Walker:
-    """The robot and what is done to it."""
+    """The robot and all that happens to it."""
 
     def __init__(self, seed, joints, motions, reference, layer):
         self.chance = random.Random(seed)
@@ -148,7 +148,7 @@ class Walker:
         self.run(2500)
 
     def stand(self):
-        """Everything let go, everything over."""
+        """Lets go of all buttons, breaks the play, and waits until nothing moves."""
         if self.flooding:
             self.stop_typing()
         self.hold(0)
@@ -167,7 +167,7 @@ class Walker:
         self.stop()
 
     def stop(self):
-        """By the remote, the panel or a word; sometimes twice within a second."""
+        """Stops the walk by remote, panel, or typed word; sometimes twice within a second."""
         self.hold(0)
         for _ in range(self.chance.choice((1, 1, 1, 2))):
             way = self.chance.randrange(3)
@@ -186,7 +186,7 @@ class Walker:
         self.until("Stopped|Broken|Ended", 6000)
 
     def call(self):
-        """A page by its number, for a while."""
+        """Plays a page by its number for a while."""
         self.say(f"play {self.chance.choice(list(self.pages))}")
         self.done["plays"] += 1
         self.run(self.chance.randrange(200, 9000))
@@ -205,7 +205,7 @@ class Walker:
             self.stop()
 
     def flood(self):
-        """The line is full in both directions while the robot walks."""
+        """Fills the line in both directions while the robot walks."""
         self.hold(UP)
         self.run(1500)
         self.flooding = 1
@@ -236,7 +236,7 @@ class Walker:
             self.complaints.append(f"nobody drives, and the play goes on, at {self.board.now_ms:.0f} ms: {before[-40:]} ... {self.text[-80:]}")
 
     def passing_faults(self):
-        """Spoiled answers, one or two in a row: the walk goes on."""
+        """Spoils one or two answers in a row; the walk must go on."""
         self.hold(UP)
         for _ in range(self.chance.randrange(2, 8)):
             self.board.servos[self.chance.choice(self.joints)].fault(self.chance.choice(PASSING), times=self.chance.choice((1, 2)))

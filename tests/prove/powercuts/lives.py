@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Long lives: one board that is cut at random in save after save, and in the repairs; and one that is never cut, for the
+"""Long runs: one board that is cut at random in save after save, and in the repairs; and one that is never cut, for the
 wear."""
 import random
 
@@ -109,7 +109,7 @@ class SettingsLife(Life, settings.Settings):
 
 
 class Wear(Life):
-    """Saves of one page, never cut."""
+    """Saves one page again and again, never cut."""
 
     name = "wear"
     saves = 250

@@ -122,7 +122,7 @@ class Download:
         self.settled()
 
     def settled(self):
-        """Runs until whatever must come has come: an application that is whole, else the loader's prompt."""
+        """Runs until the application answers if it is whole, else until the loader's prompt."""
         state = {self.old: self.old_image, self.new: self.new_image}.get(self.now())
         if state is None:
             self.board.expect(PROMPT, ms=1500)

@@ -134,7 +134,7 @@ class Memories:
         return found
 
     def outcome(self):
-        """check, in a word: all pages old, all new, or some."""
+        """Returns the result of check as a word: all pages old, all new, or some."""
         found = self.check()
         steps = {(found[number], len(self.pages[number]) - 1) for number in self.pages}
         return "old" if all(now == 0 < last for now, last in steps) else "new" if all(now == last for now, last in steps) else "between"
@@ -187,7 +187,7 @@ def application_answers(board, name, ms=2500):
 
 
 def quiet(board, ms=60):
-    """Runs until nothing has come for so long; what came."""
+    """Runs until nothing has come for so long. Returns what came before."""
     came = b""
     while True:
         board.run(ms=ms)
@@ -198,7 +198,7 @@ def quiet(board, ms=60):
 
 
 def ask(board, request, wanted="OK", ms=1500):
-    """One line of the protocol for programs; its answer."""
+    """Sends one line of the protocol for programs and returns its answer."""
     board.send(request + "\r")
     word = request.split()[0]
     if word == request:

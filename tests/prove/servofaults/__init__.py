@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What befalls the servos of faults.py (model.py), the robots it befalls (robots.py)."""
+"""For faults.py: the faults of servos (model.py) and the robots that have them (robots.py)."""

@@ -41,13 +41,13 @@ def _register(address, value, well):
 
 
 def _jam(board, servo):
-    """Held where no page goes, so that it has to push."""
+    """Holds the servo where no page goes, so that it has to push."""
     servo.push_to(JAMMED_POS)
     servo.fault("blocked")
 
 
 def _blink(board, servo):
-    """Without power for a moment."""
+    """Takes the power away for a moment."""
     servo.fault("dead")
     board.run(ms=50)
     servo.clear("dead")

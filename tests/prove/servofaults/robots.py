@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The robots that faults befall: Play and Edit, at rest, being taught, playing; and what their screens say.
+"""The robots that have the faults: Play and Edit, at rest, being taught, playing; and what their screens say.
 
 Of twenty servos 1..15 and 17 have positions in the pages, but 17 was switched off by hand; 16 has the torque-off mark in the
 pages, 18..20 are there and no page uses them.

@@ -63,7 +63,7 @@ class Watch:
             self._show()
 
     def _say(self, text):
-        """While the board runs: a terminal in raw mode needs its line feeds whole."""
+        """Prints a line while the board runs: a terminal in raw mode needs CR LF."""
         say(text, "\r\n" if self._lib.keys_are_raw() else "\n")
 
     def _show(self):

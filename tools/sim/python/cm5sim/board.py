@@ -32,7 +32,7 @@ _TIME, _VIOLATION, _POWER_CUT, _TEXT, _ADDRESS, _REQUEST = range(6)
 
 
 class Violation(Exception):
-    """The firmware did what a chip would not forgive: kind, cycle, pc, function, text."""
+    """The firmware did something that fails on the real chip: kind, cycle, pc, function, text."""
 
     def __init__(self, kind, cycle, pc, function, text):
         super().__init__(f"{kind} at cycle {cycle}, pc 0x{pc:05X} in {function}: {text}")
@@ -149,7 +149,7 @@ class Board:
     # Time
 
     def run(self, ms=0, cycles=0, ticks=0):
-        """Lets time pass; returns True if the whole of it did (False: a stop armed by hand)."""
+        """Lets time pass. Returns True if all of it has passed, False if an armed stop ended the run."""
         total = int(ms * CYCLES_PER_MS) + int(cycles) + int(ticks * CYCLES_PER_TICK)
         return self._run(total) == _TIME
 
@@ -296,7 +296,7 @@ class Board:
         self._lib.board_body(self._pointer, seam)
 
     def uart(self, number):
-        """Counters of UART 0 (bus) or 1 (console): sent, received, overruns, framing, deaf."""
+        """The counters of UART 0 (bus) or 1 (console): sent, received, overruns, framing, deaf."""
         counts = library.UartCounts()
         self._lib.board_uart_counts(self._pointer, number, ctypes.byref(counts))
         return counts
@@ -337,7 +337,7 @@ class Board:
         self._lib.board_press(self._pointer, BUTTONS.index(button.upper()), False)
 
     def bounce(self, ms):
-        """How long contacts bounce behind a press or a release (5 ms at first)."""
+        """Sets how long contacts bounce after a press or a release (5 ms at first)."""
         self._lib.board_set_bounce(self._pointer, int(ms * CYCLES_PER_MS))
 
     @property
@@ -364,7 +364,7 @@ class Board:
         return self._lib.board_eeprom_wear(self._pointer, address)
 
     def age(self, page, erases):
-        """Makes a flash page old: its wear becomes so much."""
+        """Sets how often a flash page has been erased."""
         self._lib.board_age_flash(self._pointer, page, erases)
 
     def age_eeprom(self, address, writes):
@@ -452,7 +452,7 @@ class Board:
             raise ValueError(f"interrupt {vector} cannot be raised")
 
     def sweep(self, function, vector, byte=0):
-        """From now on each call of a function is interrupted once, behind one instruction more each time."""
+        """Interrupts each call of a function once from now on, each time one instruction later than in the call before."""
         number = VECTORS.get(vector, vector)
         if not self._lib.board_sweep(self._pointer, function.encode(), number, byte):
             raise KeyError(f"no function {function} in the loaded images, or interrupt {vector} cannot be raised")
@@ -472,7 +472,7 @@ class Board:
         self._lib.board_skip_waits(self._pointer, on)
 
     def step(self):
-        """One instruction or interrupt response; its cycles."""
+        """Runs one instruction or interrupt response and returns its cycles."""
         return self._lib.board_step(self._pointer)
 
     def vcd(self, path):

@@ -4,7 +4,7 @@ import ctypes
 
 
 class Memory:
-    """Reads and writes the chip's memory directly, as a programmer would: no time passes, nothing wears."""
+    """Reads and writes the chip's memory directly, as a programming device does: no time passes, nothing wears."""
 
     def __init__(self, board, size, read, write):
         self._board, self._size, self._read, self._write = board, size, read, write
