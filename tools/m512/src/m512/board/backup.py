@@ -30,7 +30,7 @@ class Backup:
 
 
 def take(loader: Loader, folder: Path, areas: List[str], phase) -> Backup:
-    """Reads the areas and writes the folder, manifest last."""
+    """Reads the areas of the board and writes the folder; the manifest comes last."""
     if folder.exists() and any(folder.iterdir()):
         raise FileError(f"{folder} is there already and not empty")
     data = {}

@@ -48,7 +48,7 @@ def page_sum(page: bytes) -> Tuple[int, int]:
 
 
 class BlockLoader:
-    """A session with our loader. Use as a context: leaves the loader at its prompt, at the usual rate."""
+    """A session with our loader. Use it as a context; it leaves the loader at its prompt, at the usual rate."""
 
     name = "Motion512 boot loader"
     was_at_prompt = False     # before this program came
@@ -124,7 +124,7 @@ class BlockLoader:
     # Rate
 
     def go_faster(self) -> bool:
-        """Tries 117,647 baud; comes back to the usual rate when that does not work."""
+        """Tries 117,647 baud; goes back to the usual rate if that does not work."""
         self._ask(RATE, FAST_UBRR.to_bytes(2, "little"))
         self.link.sleep(0.02)
         try:
@@ -174,7 +174,7 @@ class BlockLoader:
         return out
 
     def different(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> List[int]:
-        """Which of these pages the board holds otherwise."""
+        """Returns those of these pages that differ on the board."""
         if not pages:
             return []
         sums = self._sums(min(pages), max(pages) - min(pages) + 1, progress)
@@ -240,7 +240,7 @@ class BlockLoader:
     # The end
 
     def leave(self, to: int = TO_PROMPT) -> None:
-        """To the prompt, to the application, or by a reset."""
+        """Leaves the loader: to its prompt, to the application, or by a reset."""
         self._ask(LEAVE, to.to_bytes(2, "little"))
         if self.rate != BAUD:
             self.link.set_rate(BAUD)

@@ -42,7 +42,7 @@ class Client:
         return dict(part.split("=", 1) for part in text.split() if "=" in part)
 
     def ask(self, request: str, seconds: float = ANSWER_SECONDS, tries: int = TRIES) -> str:
-        """The answer's text between the word and OK. BoardError: the board's ERR."""
+        """Sends a request. Returns the text of the answer between the word and OK. BoardError: the board answered ERR."""
         word = "@" + request.split()[0]
         for _ in range(tries):
             self.link.write(f"@{request}\r".encode())
@@ -57,7 +57,7 @@ class Client:
         raise NoAnswerError(f"no answer to {word}")
 
     def _answer(self, word: str, request: str, seconds: float) -> Optional[str]:
-        """What stands behind the word in the first whole line that answers; None: none in time."""
+        """Returns the text behind the word in the first whole line that answers. None: no such line came in time."""
         deadline = self.link.now() + seconds
         while True:
             left = deadline - self.link.now()
@@ -123,7 +123,7 @@ class Client:
         return False
 
     def save_page(self, number: int, page: Page) -> None:
-        """Into the board's flash, through its page in RAM."""
+        """Saves a page in the board's flash, through its page in RAM."""
         self.ask(f"open {number}")
         data = bytes(page)
         for at in range(0, PAGE_BYTES, DATA_BYTES):

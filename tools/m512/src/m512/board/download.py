@@ -65,7 +65,7 @@ def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: Optional[List[
 
 def _to_factory(loader: FactoryLoader, pages: Dict[int, bytes], progress: Callable[[int, int], None],
                 around: Dict[int, bytes]) -> None:
-    """Writes; whatever ends it early says how the board stands and what is safe to do."""
+    """Writes. If something ends it early, the error says in which state the board is and what is safe to do."""
     try:
         loader.write(pages, progress, around)
     except KeyboardInterrupt:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The factory boot loader, the PC's side: its prompt, its dumps, its EEPROM, and in which way each page is written.
 
-It acknowledges nothing, guards nothing, and takes late data for typed text. So every line is typed, its echo compared, and
+It acknowledges nothing, checks nothing, and takes late data for typed text. So every line is typed, its echo compared, and
 only then ended; words are long ones, of which no single wrong bit makes another word; all that was written is read back by
 dumps. What writes flash is in factory_flash.py and mailbox.py, which say why they cannot hurt the loader.
 """
@@ -55,7 +55,7 @@ class FactoryLoader:
         return PATIENCE + 3 * self.pace * count
 
     def clean(self) -> None:
-        """An empty line behind a prompt. Not while a download may be open."""
+        """Brings the loader to an empty line behind its prompt. Not while a download may be open."""
         for _ in range(TRIES):
             self.link.drain(0.05, 5.0)
             self.link.write(KNOCK)
@@ -76,7 +76,7 @@ class FactoryLoader:
         return state + again + stays
 
     def type_line(self, line: str) -> None:
-        """Types a line but for its end, once the echo shows that it arrived as it is."""
+        """Types a line without its end, until the echo shows that it arrived unchanged."""
         for _ in range(TRIES):
             begun = self.link.now()
             self.link.write(line.encode())
@@ -102,7 +102,7 @@ class FactoryLoader:
     # Reading
 
     def _dump(self, word: str, start: int, end: int, modulo: int, progress: Optional[Progress]) -> bytes:
-        """Memory by dumps of 128 bytes, a few asked for ahead as long as all goes well."""
+        """Reads memory by dumps of 128 bytes; asks for a few in advance while none is damaged."""
         first = start - start % DUMP_BYTES
         out, tries, ahead = bytearray(), 0, DUMP_AHEAD
         while first + len(out) < end:
@@ -146,7 +146,7 @@ class FactoryLoader:
         return self._dump("eeprom", start, end, 0x1000, progress)
 
     def different(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> List[int]:
-        """Which of these pages the board holds otherwise."""
+        """Returns those of these pages that differ on the board."""
         out, done = [], 0
         for address, data in Plan(pages).runs(list(pages)):
             found = self.read(address, address + len(data), progress and _behind(progress, done, len(pages)))
@@ -234,7 +234,7 @@ class FactoryLoader:
     # Starting and staying
 
     def stay(self) -> None:
-        """From now on the controller stays in this loader at every start, until leave()."""
+        """Makes the controller stay in this loader at every start, until leave()."""
         if self.stays:
             return
         self.mode_before = self.read_eeprom(mailbox.BOOT_MODE, mailbox.BOOT_MODE + 1)[0]
@@ -251,7 +251,7 @@ class FactoryLoader:
         raise BoardError(f"`{word}` does not change the boot mode")
 
     def restart(self) -> None:
-        """A reset; afterwards the loader is at its prompt again (it stays: see stay())."""
+        """Resets the controller. Then the loader is at its prompt again (see stay())."""
         self.type_line("reset")
         self.link.write(b"\r")
         self.link.look_for(PROMPT, START_SECONDS + self.patience(100))
@@ -272,7 +272,7 @@ class FactoryLoader:
 
 
 def _behind(progress: Progress, done: int, total: int) -> Progress:
-    """Progress in bytes as progress in pages, behind those that are done."""
+    """Turns progress in bytes into progress in pages, counted on from those that are done."""
     return lambda count, _: progress(done + count // FLASH_PAGE, total)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A line to a board: bytes out and in with time limits, on anything pyserial can open (device, pty, socket:// URL).
 
-Every trouble with the line itself becomes a PortError that says what to look at. Nothing here knows a protocol.
+Every fault of the line itself becomes a PortError that says what to check. Nothing here knows a protocol.
 """
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Link:
             raise PortError(f"{self.url} cannot do {rate} baud: {error}") from None
 
     def write(self, data: bytes, wait: bool = True) -> None:
-        """Sends; with `wait` returns when all has left this computer."""
+        """Sends bytes. With `wait` it returns when all of them have left this computer."""
         if self.trace:
             self.trace("->", data)
         try:
@@ -68,7 +68,7 @@ class Link:
             raise self._lost(error) from None
 
     def _receive(self, limit: int, seconds: float) -> bytes:
-        """What is there, at least a byte if one comes within the time."""
+        """Returns the bytes that are there, or waits for the first one within the time."""
         if self.held:
             out, self.held = self.held[:limit], self.held[limit:]
             return out
@@ -88,7 +88,7 @@ class Link:
         return first
 
     def read_some(self, seconds: float, limit: int = 4096) -> bytes:
-        """Bytes as they come; empty when none came within the time."""
+        """Returns bytes as they come; empty if none came within the time."""
         return self._receive(limit, seconds)
 
     def read_exactly(self, count: int, seconds: float, what: str) -> bytes:
@@ -102,7 +102,7 @@ class Link:
         return out
 
     def read_until(self, end: bytes, seconds: float, what: str, limit: int = 1 << 20) -> bytes:
-        """Up to and with `end`; `seconds` for all of it. What comes behind is kept for the next read."""
+        """Reads up to and including `end`, for at most `seconds`. Later bytes are kept for the next read."""
         out, until = self.look_for(end, seconds, limit)
         if not until:
             tail = out[-60:].decode("ascii", "replace").strip()
@@ -110,7 +110,7 @@ class Link:
         return out
 
     def look_for(self, end: bytes, seconds: float, limit: int = 1 << 20) -> "tuple[bytes, bool]":
-        """(what came, whether `end` was in it)."""
+        """Reads as read_until does. Returns (what came, whether `end` was in it)."""
         out, deadline = b"", self.now() + seconds
         while len(out) < limit:
             at = out.find(end)
@@ -136,7 +136,7 @@ class Link:
 
 
 def _keep_others_out(port: Any) -> None:
-    """Lets nobody else open the device meanwhile (POSIX; Windows does so anyway). Not every device can."""
+    """Keeps other programs from opening the device meanwhile (POSIX; Windows does so anyway). Some devices cannot."""
     try:
         import fcntl
         import termios

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Getting into a board's boot loader, whichever it is, and finding out which.
+"""Gets into a board's boot loader and finds out which one it is.
 
     prompt there? ---- yes --> identify
        | no
@@ -94,7 +94,7 @@ def call_by_hash(link: Link, seconds: float) -> bool:
 
 
 def refuse(question: str) -> None:
-    """Nobody can be asked."""
+    """The answer where nobody can be asked: raises RefusedError."""
     raise RefusedError(f"{question} Nobody was asked")
 
 

@@ -45,7 +45,7 @@ def write_motion_page(loader: "FactoryLoader", number: int, data: bytes) -> None
 
 
 def different(loader: "FactoryLoader", wanted: Dict[int, int]) -> Dict[int, int]:
-    """Those of the cells that the board holds otherwise."""
+    """Returns those of the cells that differ on the board."""
     out, cells = {}, sorted(wanted)
     for run in _runs(cells):
         found = loader.read_eeprom(run[0], run[-1] + 1)
@@ -64,7 +64,7 @@ def _runs(cells: list) -> list:
 
 
 def _settle(loader: "FactoryLoader", cell: int, value: int) -> None:
-    """One EEPROM cell, written when it differs and read back."""
+    """Writes one EEPROM cell if it differs, and reads it back."""
     for _ in range(TRIES):
         if not different(loader, {cell: value}):
             return

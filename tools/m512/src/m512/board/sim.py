@@ -83,7 +83,7 @@ class Simulator:
 
     @staticmethod
     def _must_fit(image: Image, motions: Path) -> None:
-        """What a board of 10 bits and 128 pages cannot play is refused, as on the way to a real one."""
+        """Refuses what a board of 10 bits and 128 pages cannot play, as for a real one."""
         if image.bits != 10:
             raise RefusedError(f"{motions}: 12-bit positions mean nothing to this board: {HINT}")
         lost = image.beyond(128)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A raw terminal between this one and a board: two threads, one key of its own."""
+"""A raw terminal: two threads join this terminal and a board. Ctrl-] is the only key that it keeps for itself."""
 from __future__ import annotations
 
 import sys
@@ -88,7 +88,7 @@ class Terminal:
         sys.stderr.flush()
 
     def _read(self, console) -> None:
-        """From the board to the screen, as it is."""
+        """Copies what the board sends to the screen, unchanged."""
         while self.running:
             try:
                 data = self.link.read_some(0.1)
@@ -120,7 +120,7 @@ class Terminal:
                 return
 
     def _own(self, console) -> bool:
-        """The key after Ctrl-]. False: quit."""
+        """Acts on the key after Ctrl-]. False: quit."""
         key = console.getkey().lower()
         if key == "q":
             return False
