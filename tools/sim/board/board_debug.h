@@ -33,12 +33,10 @@ typedef struct {
 } probe_t;
 bool board_probe(board_t *board, const char *function);
 const probe_t *board_probe_result(const board_t *board, const char *function);
-void board_probe_clear(board_t *board); /* figures back to 0, probes stay */
 
-/* Cycles spent in interrupts (response and return included), and how often by vector 1..34. */
-uint64_t board_interrupt_cycles(const board_t *board);
+/* How often the interrupt of a vector 1..34 was taken. */
 uint64_t board_interrupt_count(const board_t *board, int vector);
-uint64_t board_interrupt_max(const board_t *board, int vector); /* longest, nested ones included */
+uint64_t board_interrupt_max(const board_t *board, int vector); /* longest, in cycles, response, return and nested ones included */
 
 /* Raises an interrupt now, as if its cause had just come: a timer's flag (vectors 9..16, 24..29); a received character
  * (18, 30), which is `byte`; or the character that a UART is sending has left (19, 20, 31, 32; earlier than its time).

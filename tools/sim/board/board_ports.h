@@ -39,10 +39,6 @@ struct servo_bus *board_servo_bus(board_t *board);
 struct servo_body;
 void board_body(board_t *board, const struct servo_body *body);
 
-/* Every byte the board puts on the servo bus (from_board) and every byte it hears from it. */
-typedef void (*board_bus_fn)(void *context, uint64_t now_cycles, uint8_t byte, bool from_board, bool bad);
-void board_on_bus(board_t *board, board_bus_fn heard, void *context);
-
 /* The longest time, in cycles, between the last stop bit of a packet of the board's and its listening again: a servo that
  * answers sooner is not heard. forget: measure anew. */
 uint64_t board_bus_turn(board_t *board, bool forget);
@@ -75,10 +71,6 @@ void board_press(board_t *board, button_t button, bool down);
  * starts once, after it (its start-up time is longer). */
 void board_set_bounce(board_t *board, uint64_t cycles);
 uint8_t board_leds(const board_t *board); /* bit n: led_t n is lit */
-
-/* Called when the set of lit LEDs changes. */
-typedef void (*board_leds_fn)(void *context, uint64_t now_cycles, uint8_t lit);
-void board_on_leds(board_t *board, board_leds_fn changed, void *context);
 
 /* One port pin as the outside sees it: 0, 1, or -1 when nothing drives it. port 'A'..'G'. */
 int board_pin(const board_t *board, char port, int bit);

@@ -53,9 +53,6 @@ static void sent(uart_t *uart, uint64_t now, uint8_t byte, uint32_t rate_bps)
     if (driven_high(board) & PIN_DRIVE) {
         servo_bus_host_byte(wire->bus, now, byte, rate_bps);
         bus_wire_follow(board);
-        if (wire->heard) {
-            wire->heard(wire->heard_context, now, byte, true, false);
-        }
     }
 }
 
@@ -74,9 +71,6 @@ static void from_servo(void *context, uint64_t now, uint8_t byte, uint32_t rate_
         bad = true;
     }
     vcd_byte(board, 0, false, byte);
-    if (wire->heard) {
-        wire->heard(wire->heard_context, now, byte, false, bad);
-    }
     uart_receive(&board->uart[0], start, byte, rate_bps, bad);
 }
 
@@ -105,12 +99,6 @@ uint64_t board_bus_turn(board_t *board, bool forget)
     uint64_t longest = board->wire.longest_turn;
     board->wire.longest_turn = forget ? 0 : longest;
     return longest;
-}
-
-void board_on_bus(board_t *board, board_bus_fn heard, void *context)
-{
-    board->wire.heard = heard;
-    board->wire.heard_context = context;
 }
 
 bool bus_wire_init(board_t *board)

@@ -166,8 +166,6 @@ bool board_interrupt(board_t *board, int vector, uint8_t byte)
     return true;
 }
 
-uint64_t board_interrupt_cycles(const board_t *board) { return board->cpu.interrupt_cycles; }
-
 uint64_t board_interrupt_count(const board_t *board, int vector)
 {
     return vector > 0 && vector < VECTOR_COUNT ? board->cpu.count[vector] : 0;

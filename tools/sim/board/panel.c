@@ -25,12 +25,7 @@ static void follow_leds(board_t *board)
     if (board->kind == BOARD_CM2) {
         lit = 0;
     }
-    if (lit != board->panel.leds) {
-        board->panel.leds = lit;
-        if (board->panel.changed) {
-            board->panel.changed(board->panel.changed_context, board->avr->cycle, lit);
-        }
-    }
+    board->panel.leds = lit;
 }
 
 static bool charger_is_on(const board_t *board)
@@ -146,12 +141,6 @@ void board_press(board_t *board, button_t button, bool down)
 void board_set_bounce(board_t *board, uint64_t cycles) { board->panel.bounce = cycles; }
 
 uint8_t board_leds(const board_t *board) { return board->panel.leds; }
-
-void board_on_leds(board_t *board, board_leds_fn changed, void *context)
-{
-    board->panel.changed = changed;
-    board->panel.changed_context = context;
-}
 
 int board_pin(const board_t *board, char port, int bit)
 {

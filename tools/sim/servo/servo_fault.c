@@ -52,15 +52,6 @@ void servo_fault_set(servo_t *servo, servo_fault_t fault, uint32_t answers)
     }
 }
 
-void servo_fault_clear_all(servo_t *servo)
-{
-    for (int fault = 0; fault < SERVO_FAULTS; fault++) {
-        if (servo->fault_left[fault]) {
-            servo_fault_set(servo, (servo_fault_t)fault, 0);
-        }
-    }
-}
-
 bool servo_fault_is_on(const servo_t *servo, servo_fault_t fault)
 {
     return servo->fault_left[fault] > 0;

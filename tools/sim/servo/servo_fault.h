@@ -32,7 +32,6 @@ const char *servo_fault_name(servo_fault_t fault);
 /* Turns a fault on for that many answers (SERVO_FAULT_ALWAYS: until cleared; 0: off). Faults of the body rather
  * than of answers know only on and off. servo_advance() first. */
 void servo_fault_set(servo_t *servo, servo_fault_t fault, uint32_t answers);
-void servo_fault_clear_all(servo_t *servo);
 bool servo_fault_is_on(const servo_t *servo, servo_fault_t fault);
 
 /* One answer passes: is it to be spoiled this way? Counts down. */

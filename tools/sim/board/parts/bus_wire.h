@@ -10,8 +10,6 @@ typedef struct {
     uint64_t listening_since; /* NEVER: not listening */
     uint64_t sent_at;         /* when our last stop bit left; NEVER: the board has listened since */
     uint64_t longest_turn;
-    board_bus_fn heard;
-    void *heard_context;
 } bus_wire_t;
 
 bool bus_wire_init(board_t *board);

@@ -16,8 +16,6 @@ typedef struct {
     /* simavr's own handlers of the port registers, called first so that its pin signals stay right */
     struct { avr_io_write_t write; void *param; } inner[M128_PORTB + 1];
     double battery_v, thermistor_v;
-    board_leds_fn changed;
-    void *changed_context;
 } panel_t;
 
 void panel_init(board_t *board);
