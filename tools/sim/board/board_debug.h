@@ -36,7 +36,8 @@ const probe_t *board_probe_result(const board_t *board, const char *function);
 
 /* How often the interrupt of a vector 1..34 was taken. */
 uint64_t board_interrupt_count(const board_t *board, int vector);
-uint64_t board_interrupt_max(const board_t *board, int vector); /* longest, in cycles, response, return and nested ones included */
+/* The longest interrupt of a vector, in cycles: response, return and nested ones included. */
+uint64_t board_interrupt_max(const board_t *board, int vector);
 
 /* Raises an interrupt now, as if its cause had just come: a timer's flag (vectors 9..16, 24..29); a received character
  * (18, 30), which is `byte`; or the character that a UART is sending has left (19, 20, 31, 32; earlier than its time).
