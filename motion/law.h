@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence.c), the two laws
- * (law_exact.c, law_classic.c), slowing down (brake.c). Included by these only.
+ * (law_exact.c, law_classic.c and its classic_plan.c), slowing down (brake.c). Included by these only.
  *
  * The work between two steps is spread over several ticks, so that none takes too long with 31 joints:
  *

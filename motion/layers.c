@@ -1,25 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#include "layers.h"
+#include "layers_parts.h"
 
 #include <string.h>
 #include "approach.h"
-#include "fix.h"
-
-/* Servo units a tick of degrees/s: 1024 / 300 / 128, in q8.8. */
-static uint16_t units_per_tick_q8_8(uint16_t deg_s)
-{
-    return (uint16_t)((uint32_t)deg_s * 512u / 75u);
-}
-
-static NOINLINE uint32_t bit_of(uint8_t joint)
-{
-    return (uint32_t)1 << joint;
-}
-
-/* Loops over the joints of a mask, which is empty afterwards. */
-#define FOR_JOINTS(i_, joints_)                                        \
-    for (uint8_t i_ = 0; (joints_) != 0; (i_)++, (joints_) >>= 1)     \
-        if (((uint8_t)(joints_) & 1u) != 0)
 
 /* hand_over of a joint. WAITS: its owner is about to begin a step that was planned without it. FRESH: the owner has not
  * begun a step with it. FIRST_STEP: the owner plays its first step with it. CATCHES_UP: that step is over; the joint only
@@ -28,46 +11,16 @@ static NOINLINE uint32_t bit_of(uint8_t joint)
 enum { HAND_OVER_DONE, HAND_OVER_WAITS, HAND_OVER_FRESH, HAND_OVER_FIRST_STEP, HAND_OVER_CATCHES_UP,
        HAND_OVER_ASKED_BELOW, HAND_OVER_ASKED_ABOVE };
 
-/* --- code-made motion: the slots --------------------------------------------------------------------------------- */
-
-static NOINLINE layers_code_t *slot_of(layers_t *layers, uint8_t joint)
-{
-    for (uint8_t i = 0; i < LAYERS_CODE_JOINTS; i++) {
-        if (layers->code[i].joint == joint) {
-            return &layers->code[i];
-        }
-    }
-    return NULL;
-}
-
-/* sin of a phase, as a size 0..65535: y = 4 x (1 - x) of the half turn x, then 0.775 y + 0.225 y^2. */
-static uint16_t sine_size(uint32_t phase)
-{
-    uint16_t x = (uint16_t)((phase << 1) >> 16);
-    uint32_t product = fix_product(x, (uint16_t)(0u - x)); /* up to 2^30 */
-    uint16_t y = product >> 30 != 0 ? 0xFFFFu : (uint16_t)((product << 2) >> 16);
-    return (uint16_t)((fix_product(y, 50790u) + fix_product(mul_u16_high(y, y), 14746u)) >> 16);
-}
-
-static uint16_t asked_by_code(const layers_code_t *code)
-{
-    uint16_t way = (uint16_t)((fix_product(code->amplitude_pos, sine_size(code->phase)) + 0x8000u) >> 16);
-    bool below = (code->phase & 0x80000000u) != 0;
-    return below ? (uint16_t)(code->centre_pos - way) : (uint16_t)(code->centre_pos + way);
-}
-
 /* --- hand-over ---------------------------------------------------------------------------------------------------- */
 
-/* Servo units that a joint may go in this tick; keeps the fraction that is left over. */
-static NOINLINE uint8_t allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
+uint8_t layers_allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
 {
     uint16_t sum = (uint16_t)(*allowance_q8_8 + speed_q8_8);
     *allowance_q8_8 = sum & 0xFFu;
     return (uint8_t)(sum >> 8);
 }
 
-/* `from`, one tick's way nearer to `to`. */
-static NOINLINE uint16_t approach_by(uint16_t from, uint16_t to, uint8_t most)
+uint16_t layers_approach_by(uint16_t from, uint16_t to, uint8_t most)
 {
     if (to > from) {
         return to - from > most ? (uint16_t)(from + most) : to;
@@ -82,8 +35,7 @@ static void follow_from_here(layers_t *layers, uint8_t joint, bool too_late)
     layers->changing = true;
 }
 
-/* Joints go back to the main play, or stay where they are when that does not play or may not drive them. */
-static void hand_back(layers_t *layers, uint32_t joints)
+void layers_hand_back(layers_t *layers, uint32_t joints)
 {
     player_t *main_play = layers->main;
     if (main_play == NULL) {
@@ -98,25 +50,17 @@ static void hand_back(layers_t *layers, uint32_t joints)
 
 /* --- init, bind --------------------------------------------------------------------------------------------------- */
 
-static void forget_code(layers_t *layers)
-{
-    layers->code_joints = 0;
-    for (uint8_t i = 0; i < LAYERS_CODE_JOINTS; i++) {
-        layers->code[i].joint = LAYERS_NO_JOINT;
-    }
-}
-
 void layers_init(layers_t *layers, uint16_t goal_pos[PAGE_JOINTS])
 {
     memset(layers, 0, sizeof *layers);
     layers->goal_pos = goal_pos;
     layers_set_speed(layers, 0);
-    forget_code(layers);
+    layers_forget_code(layers);
 }
 
 void layers_set_speed(layers_t *layers, uint16_t deg_s)
 {
-    layers->speed_q8_8 = units_per_tick_q8_8(deg_s != 0 ? deg_s : APPROACH_SPEED_DEFAULT);
+    layers->speed_q8_8 = layers_units_per_tick_q8_8(deg_s != 0 ? deg_s : APPROACH_SPEED_DEFAULT);
 }
 
 static void init_play(layers_t *layers)
@@ -201,103 +145,8 @@ void layers_end(layers_t *layers)
     if (layers->main != NULL && player_is_moving(&layers->play)) {
         uint32_t joints = layers->play.present;
         init_play(layers);
-        hand_back(layers, joints);
+        layers_hand_back(layers, joints);
     }
-}
-
-/* --- aim, swing, free --------------------------------------------------------------------------------------------- */
-
-static layers_code_t *free_slot(layers_t *layers, uint8_t id)
-{
-    layers_code_t *slot = slot_of(layers, id);
-    return slot != NULL ? slot : slot_of(layers, LAYERS_NO_JOINT);
-}
-
-bool layers_have_room(layers_t *layers, uint8_t id)
-{
-    return free_slot(layers, id) != NULL;
-}
-
-/* A slot for the joint, which now belongs to code. */
-static layers_status_t take_for_code(layers_t *layers, uint8_t id, layers_code_t **slot)
-{
-    player_t *main_play = layers->main;
-    if (id >= PAGE_JOINTS) {
-        return LAYERS_ERR_JOINTS;
-    }
-    const uint32_t bit = bit_of(id);
-    if (main_play != NULL && player_is_moving(main_play) && (main_play->present & bit) == 0) {
-        return LAYERS_ERR_JOINTS;
-    }
-    *slot = free_slot(layers, id);
-    if (*slot == NULL) {
-        return LAYERS_ERR_FULL;
-    }
-    if (main_play != NULL) {
-        player_drop_joints(&layers->play, bit);
-        main_play->joint[id].owner = PLAYER_OWNER_CODE;
-        main_play->lent |= bit;
-    }
-    layers->code_joints |= bit;
-    memset(*slot, 0, sizeof **slot);
-    (*slot)->joint = id;
-    (*slot)->speed_q8_8 = layers->speed_q8_8;
-    return LAYERS_OK;
-}
-
-layers_status_t layers_aim(layers_t *layers, uint8_t id, uint16_t pos, uint16_t deg_s)
-{
-    layers_code_t *slot;
-    if (pos > PAGE_POS_MAX || deg_s > LAYERS_SPEED_MAX_DEG_S) {
-        return LAYERS_ERR_RANGE;
-    }
-    layers_status_t status = take_for_code(layers, id, &slot);
-    if (status == LAYERS_OK) {
-        slot->centre_pos = pos;
-        if (deg_s != 0) {
-            slot->speed_q8_8 = units_per_tick_q8_8(deg_s);
-        }
-    }
-    return status;
-}
-
-bool layers_can_swing(uint16_t centre, uint16_t amplitude, uint16_t period_ticks)
-{
-    if (centre > PAGE_POS_MAX || amplitude > centre || amplitude > PAGE_POS_MAX - centre ||
-        period_ticks < LAYERS_PERIOD_MIN_TICKS) {
-        return false;
-    }
-    return (uint32_t)amplitude * 44u <= (uint32_t)period_ticks * (7u * LAYERS_SWING_SPEED_MAX); /* 2 pi A / T */
-}
-
-layers_status_t layers_swing(layers_t *layers, uint8_t id, uint16_t centre, uint16_t amplitude, uint16_t period_ticks,
-                             uint16_t phase_deg)
-{
-    layers_code_t *slot;
-    if (phase_deg > 359u || !layers_can_swing(centre, amplitude, period_ticks)) {
-        return LAYERS_ERR_RANGE;
-    }
-    layers_status_t status = take_for_code(layers, id, &slot);
-    if (status == LAYERS_OK) {
-        slot->centre_pos = centre;
-        slot->amplitude_pos = amplitude;
-        slot->phase_step = UINT32_MAX / period_ticks;
-        slot->phase = (UINT32_MAX / 360u) * phase_deg;
-    }
-    return status;
-}
-
-void layers_free(layers_t *layers, uint32_t joints)
-{
-    joints &= layers->code_joints;
-    layers->code_joints &= ~joints;
-    for (uint8_t i = 0; i < LAYERS_CODE_JOINTS; i++) {
-        uint8_t joint = layers->code[i].joint;
-        if (joint != LAYERS_NO_JOINT && (layers->code_joints & bit_of(joint)) == 0) {
-            layers->code[i].joint = LAYERS_NO_JOINT;
-        }
-    }
-    hand_back(layers, joints);
 }
 
 /* --- a tick ------------------------------------------------------------------------------------------------------- */
@@ -326,7 +175,7 @@ static uint16_t follow(layers_t *layers, player_joint_t *joint, uint8_t i, uint1
     if (joint->hand_over < HAND_OVER_CATCHES_UP && (layers->events[joint->owner] & PLAYER_EV_STEP) != 0) {
         joint->hand_over++;
     }
-    uint16_t asked = player_asks(owner, i), goal = approach_by(from, asked, layers->most_pos);
+    uint16_t asked = player_asks(owner, i), goal = layers_approach_by(from, asked, layers->most_pos);
     if (joint->hand_over >= HAND_OVER_CATCHES_UP) {
         goal = have_met(joint, from, asked) ? asked : goal;
         bool near = (uint16_t)(goal - asked + CAUGHT_UP_POS) <= 2u * CAUGHT_UP_POS;
@@ -339,30 +188,13 @@ static void follow_plays(layers_t *layers, const uint16_t before_pos[PAGE_JOINTS
 {
     player_joint_t *joint = layers->main->joint;
     uint16_t *goal = layers->goal_pos;
-    layers->most_pos = layers->paused ? 0 : allow(&layers->allowance_q8_8, layers->speed_q8_8);
+    layers->most_pos = layers->paused ? 0 : layers_allow(&layers->allowance_q8_8, layers->speed_q8_8);
     layers->changing = false;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, joint++, goal++) {
         if (joint->hand_over != HAND_OVER_DONE && joint->owner != PLAYER_OWNER_CODE) {
             *goal = follow(layers, joint, i, before_pos[i]);
             layers->changing |= joint->hand_over != HAND_OVER_DONE;
         }
-    }
-}
-
-static void move_by_code(layers_t *layers)
-{
-    for (layers_code_t *code = layers->code; code < &layers->code[LAYERS_CODE_JOINTS]; code++) {
-        if (code->joint == LAYERS_NO_JOINT) {
-            continue;
-        }
-        uint16_t *goal = &layers->goal_pos[code->joint], asked = asked_by_code(code);
-        if (code->there) {
-            *goal = asked;
-        } else {
-            *goal = approach_by(*goal, asked, allow(&code->allowance_q8_8, code->speed_q8_8));
-            code->there = *goal == asked;
-        }
-        code->phase += code->phase_step;
     }
 }
 
@@ -389,11 +221,11 @@ static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *l
             follow_plays(layers, before_pos);
         }
         if ((*layer_events & PLAYER_EV_ENDED) != 0) {
-            hand_back(layers, layers->play.present);
+            layers_hand_back(layers, layers->play.present);
         }
     }
     if (!layers->paused) {
-        move_by_code(layers);
+        layers_move_by_code(layers);
     }
     *layer_events |= PLAYER_EV_OUTPUT;
     return events;
