@@ -27,7 +27,7 @@ void exact_freeze(player_t *player)
             set_speed(exact, 0);
         } else if (joint >= planned) { /* between two steps */
             int32_t speed = (int32_t)exact->exit_q16_16;
-            set_speed(exact, exact->down ? -speed : speed);
+            set_speed(exact, joint->down ? -speed : speed);
         } else { /* speed is that of the coming tick: half an acceleration further on */
             exact->speed_q16_16 -= half(exact->accel_q16_16);
         }

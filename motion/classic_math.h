@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * classic_math.h - the arithmetic of the classic law: the original's results, bit by bit, without a division in a tick.
- * Included by law_classic.c and classic_plan.c only. Above each function is the plain expression that it equals (N, A, M, v as in
- * player.md). */
+ * Included by law_classic.c and classic_plan.c only. Above each function is the plain expression that it equals (N, A, M, v
+ * as in player.md). */
 #ifndef CLASSIC_MATH_H
 #define CLASSIC_MATH_H
 
@@ -57,18 +57,18 @@ static inline int16_t fall_way(int16_t v, uint8_t ramp)
 
 /* --- x * c / num ---------------------------------------------------------------------------------------------------- */
 
-/* c / num, 0 < c <= num <= 32767. One division for all joints of a tick. */
+/* c / num, 0 < c <= num <= 32767, for all joints of a tick; recip32: fix_recip32(num). */
 typedef struct {
     uint16_t c, num, share_q0_16;
 } part_t;
 
-static inline part_t part_of(uint16_t c, uint16_t num)
+static inline part_t part_of(uint16_t c, uint16_t num, uint32_t recip32)
 {
-    return (part_t){c, num, fix_ratio(c, num)};
+    return (part_t){c, num, fix_part(c, recip32)};
 }
 
-/* x * c / num, toward zero, |x| <= 32767. The estimate is at most one too small. The remainder is then below 2 * num, so 16
- * bits are enough to correct it. */
+/* x * c / num, toward zero, |x| <= 32767. share_q0_16 is less than 2^-15 small, so the estimate is at most one too small.
+ * The remainder is then below 2 * num, so 16 bits are enough to correct it. */
 ALWAYS_INLINE int16_t share_of(int16_t x, part_t part)
 {
     uint16_t size = fix_size(x);

@@ -5,22 +5,14 @@
 #include "classic_plan.h"
 #include "step_plan.h"
 
-int16_t classic_speed_left(const player_t *player, const player_classic_t *classic)
+/* Whether a joint that goes `way` keeps its speed at the end of the step. next_word: its next position word;
+ * PAGE_POS_UNUSED: it stays. */
+static inline bool runs_on(int16_t way, int16_t to, uint16_t next_word)
 {
-    if (player->section == SECTION_HOLD) {
-        return 0;
+    if (way == 0 || next_word == PAGE_POS_UNUSED) {
+        return false;
     }
-    if (player->step_ticks == 0) {
-        return classic->carried;
-    }
-    return player->ramp_ticks == 0 || classic->through ? classic->speed : 0;
-}
-
-/* Whether the joint keeps its speed at the end of the step. next_word: its next position word; PAGE_POS_UNUSED: it stays. */
-static bool runs_on(int16_t from, int16_t to, uint16_t next_word)
-{
-    int16_t next = (int16_t)next_word;
-    return next_word != PAGE_POS_UNUSED && ((from < to && to < next) || (from > to && to > next));
+    return way > 0 ? (int16_t)next_word > to : (int16_t)next_word < to;
 }
 
 /* Sets start and way of each joint. A joint starts on its last target; after a pause, and in the first step, where it is. A
@@ -30,21 +22,23 @@ static NOINLINE void aim_joints(player_t *player, bool may_run_on)
     uint32_t used = player->coming_joints;
     const uint16_t *coming = player->coming_pos, *next = player->looked_at;
     const uint8_t self = player->self;
+    const classic_left_t left = classic_left(player);
+    const bool from_output = player->section == SECTION_HOLD;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, coming++, next++, used >>= 1) {
         if (!law_owns(self, joint)) {
             continue;
         }
         player_classic_t *classic = &joint->classic;
-        int16_t from = player->section == SECTION_HOLD ? classic->out_pos : (int16_t)joint->target_pos, to = from;
-        int16_t carried = 0;
+        const int16_t from = from_output ? classic->out_pos : (int16_t)joint->target_pos;
+        int16_t way = 0, carried = 0;
         if (((uint8_t)used & 1u) != 0) {
-            to = (int16_t)*coming;
-            carried = classic_speed_left(player, classic);
+            way = (int16_t)((int16_t)*coming - from);
+            carried = classic_speed_left(left, classic);
         }
         classic->carried = carried;
-        classic->through = may_run_on && runs_on(from, to, *next);
+        classic->through = may_run_on && runs_on(way, (int16_t)*coming, *next);
         classic->start_pos = from;
-        classic->to_go = (int16_t)(to - from);
+        classic->to_go = way;
     }
 }
 
@@ -89,40 +83,62 @@ static int16_t skipped_speed(const player_classic_t *classic)
     return speed > CLASSIC_SPEED_MAX ? CLASSIC_SPEED_MAX : speed < -CLASSIC_SPEED_MAX ? -CLASSIC_SPEED_MAX : speed;
 }
 
-void classic_plan_joints(player_t *player, uint8_t first, uint8_t end)
+void classic_plan_joints(player_t *player, uint8_t most)
 {
     uint16_t ticks = player->step_ticks;
     uint8_t ramp = player->ramp_ticks;
     divisors_t by = {(uint16_t)(4 * (ticks - ramp)), (uint16_t)(4 * ticks - 2 * ramp), (uint16_t)(2 * ramp)};
-    const player_joint_t *const behind = &player->joint[end];
+    uint8_t planned = player->planned;
     const uint8_t self = player->self;
-    for (player_joint_t *joint = &player->joint[first]; joint < behind; joint++) {
+    for (player_joint_t *joint = &player->joint[planned]; planned < PAGE_JOINTS && most != 0; planned++, joint++) {
         if (law_owns(self, joint)) {
+            most--;
             player_classic_t *classic = &joint->classic;
             classic->speed = ticks != 0 ? plan_speed(classic, &by) : skipped_speed(classic);
         }
     }
-    player->planned = end;
+    player->planned = planned;
 }
 
-/* Joints that are planned in the tick before their step begins. */
+void classic_measure(player_t *player)
+{
+    player_step_t *now = &player->now;
+    if (player->section == SECTION_HOLD || player->hold_ticks != 0 || sequence_looks_elsewhere(player)) {
+        return;
+    }
+    now->hold_ticks = step_plan_classic_hold(now, &player->carry_q5_11);
+    now->ticks = step_plan_classic_ticks(now, player->coming_way, &player->carry_q5_11);
+    sequence_measure(player);
+    player->measured = true;
+}
+
+/* One joint in so many is planned in the tick before its step begins. */
 #define PLANNED_AHEAD 5u
 
 void classic_take(player_t *player)
 {
+    player_step_t *now = &player->now;
     bool from_output = player->section == SECTION_HOLD;
     player->joints |= player->coming_joints;
-    uint16_t hold_ticks = step_plan_classic_hold(&player->now, &player->carry_q5_11);
-    aim_joints(player, player->look_page != 0 && hold_ticks == 0);
-    uint16_t way = player->coming_way; /* from targets: also of joints that are lent */
-    if (from_output) {
-        way = longest_way(player);
-        way = way < player->lent_way ? player->lent_way : way;
+    if (!player->measured) {
+        now->hold_ticks = step_plan_classic_hold(now, &player->carry_q5_11);
     }
-    player->hold_ticks = hold_ticks;
-    player->step_ticks = step_plan_classic_ticks(&player->now, way, &player->carry_q5_11);
-    player->ramp_ticks = step_plan_classic_ramp(player->now.accel_time, &player->step_ticks);
-    sequence_take(player);
+    aim_joints(player, player->look_page != 0 && now->hold_ticks == 0);
+    if (!player->measured) {
+        uint16_t way = player->coming_way; /* from targets: also of joints that are lent */
+        if (from_output) {
+            way = longest_way(player);
+            way = way < player->lent_way ? player->lent_way : way;
+        }
+        now->ticks = step_plan_classic_ticks(now, way, &player->carry_q5_11);
+        sequence_measure(player);
+    }
+    player->accel_time = now->accel_time;
+    player->hold_ticks = now->hold_ticks;
+    player->step_ticks = now->ticks;
+    player->ramp_ticks = step_plan_classic_ramp(now->accel_time, &player->step_ticks);
+    uint8_t joints = sequence_take(player);
     player->arrived = true;
-    classic_plan_joints(player, 0, PLANNED_AHEAD);
+    player->planned = 0;
+    classic_plan_joints(player, joints / PLANNED_AHEAD);
 }

@@ -9,10 +9,31 @@
 /* Takes the coming step after the last tick of a step: plans what begins with the next call. */
 void classic_take(player_t *player) NOINLINE;
 
-/* Computes v of the joints first to end - 1. */
-void classic_plan_joints(player_t *player, uint8_t first, uint8_t end) NOINLINE;
+/* Measures `now` and the coming step ahead of take, unless that depends on the joints' last output or on the page that a
+ * link has named. */
+void classic_measure(player_t *player) NOINLINE;
 
-/* g, the speed that a joint has at the end of the step; a skipped step (N = 0) leaves w, and one without ramps v. */
-int16_t classic_speed_left(const player_t *player, const player_classic_t *classic);
+/* Computes v of the next `most` joints of those that are not planned yet. */
+void classic_plan_joints(player_t *player, uint8_t most) NOINLINE;
+
+/* g, the speed that a joint has at the end of the step: 0 behind a pause; a skipped step (N = 0) leaves w, and one without
+ * ramps v. */
+typedef enum { CLASSIC_LEFT_NONE, CLASSIC_LEFT_CARRIED, CLASSIC_LEFT_SPEED, CLASSIC_LEFT_IF_THROUGH } classic_left_t;
+
+static inline classic_left_t classic_left(const player_t *player)
+{
+    return player->section == SECTION_HOLD ? CLASSIC_LEFT_NONE
+           : player->step_ticks == 0       ? CLASSIC_LEFT_CARRIED
+           : player->ramp_ticks == 0       ? CLASSIC_LEFT_SPEED
+                                           : CLASSIC_LEFT_IF_THROUGH;
+}
+
+static inline int16_t classic_speed_left(classic_left_t left, const player_classic_t *classic)
+{
+    if (left == CLASSIC_LEFT_SPEED || (left == CLASSIC_LEFT_IF_THROUGH && classic->through)) {
+        return classic->speed;
+    }
+    return left == CLASSIC_LEFT_CARRIED ? classic->carried : 0;
+}
 
 #endif

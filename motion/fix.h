@@ -46,16 +46,20 @@ ONE_COPY NOINLINE uint32_t fix_product(uint16_t a, uint16_t b)
 uint32_t fix_recip32(uint16_t ticks);
 ONE_COPY NOINLINE uint32_t fix_recip32(uint16_t ticks)
 {
-    return UINT32_MAX / ticks;
+    return ticks == 1 ? UINT32_MAX : UINT32_MAX / ticks; /* a step of one tick has no time for the division */
 }
 
 /* Mean speed q16.16 of a way 0..65535 over the ticks of fix_recip32. Floor; at most 2^-16 * way + 1 units of 2^-16 small. */
 ALWAYS_INLINE uint32_t fix_mean(uint16_t way, uint32_t recip32)
 {
-    if (recip32 == UINT32_MAX) { /* one tick: no time for the multiplication in such a step */
-        return way == 0 ? 0 : ((uint32_t)way << 16) - 1u;
-    }
     return mul_u32_u16_shift16(recip32, way);
+}
+
+/* part / whole as q0.16, 0 < part <= whole, by fix_recip32(whole); less than 2^-15 small. */
+uint16_t fix_part(uint16_t part, uint32_t recip32);
+ONE_COPY NOINLINE uint16_t fix_part(uint16_t part, uint32_t recip32)
+{
+    return (uint16_t)fix_mean(part, recip32);
 }
 
 /* value * share, floor; error below value * 2^-16 + 1. No overflow. */

@@ -2,14 +2,16 @@
  * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence.c), the two laws
  * (law_exact.c, law_classic.c and its classic_plan.c), slowing down (brake.c). Included by these only.
  *
- * The work between two steps is spread over several ticks, so that none takes too long with 31 joints:
+ * The work between two steps is spread over several ticks, so that none takes too long with 31 joints. From six ticks before
+ * the end a tick does one piece, in this order; a tick that begins the step or FALL does none, if there is time:
  *
- *   last but five   look     if the play is shaped (shape.h): decides the link at a page's last step; reads the step behind
- *                            the coming one
- *   the next four   shape    a share of that step's joints (shape_step.h); a shorter step has larger shares
- *   last but one    look     if the play is not shaped
- *   last            take     the joints are at their targets; the coming step becomes `now`; plans it for half of the joints
- *   first of `now`  begin    plans the other half; the first tick itself
+ *   look     decides the link at a page's last step; reads the step behind the coming one. The last tick but one, if the
+ *            play is neither shaped (shape.h) nor a page layer: a code or a stop shall still count
+ *   shape    a share of that step's joints (shape_step.h), three times, if the play is shaped
+ *   measure  lengths that only depend on the joints' targets; in the last tick but one at the latest
+ *
+ *   last            take     the joints are at their targets; the coming step becomes `now`; plans it for some of the joints
+ *   first of `now`  begin    plans the others; the first tick itself
  *
  * Functions that run once a step are NOINLINE: inlined, they would make every tick save registers. */
 #ifndef LAW_H
@@ -62,8 +64,8 @@ static inline bool law_owns(uint8_t self, const player_joint_t *joint)
  * changed. */
 bool sequence_start(player_t *player, link_t *link, uint8_t page);
 
-/* Takes the positions of the first step: fills coming_pos, coming_joints and the longest ways. */
-void sequence_take_first(player_t *player);
+/* Looks at the first step. */
+void sequence_look_first(player_t *player);
 
 /* Finds and reads the step behind the coming one; decides the link at the last step of a page. Then `now` is the coming step
  * and `coming` the one behind it (page 0: the play ends behind `now`). looked_at has its words; under the classic law those
@@ -71,18 +73,23 @@ void sequence_take_first(player_t *player);
  * Call only while player->coming.page is not 0. */
 void sequence_look(player_t *player, link_t *link) NOINLINE;
 
-/* What is left of the work for the coming step, at the end of a tick `left` ticks before it begins; with left 0 all of it is
- * done. A step that is not shaped is looked at as late as can be, so that a code or a stop still counts; a shaped one in
- * time for a share of joints in each of the ticks that follow. */
-void sequence_prepare(player_t *player, link_t *link, uint8_t left) NOINLINE;
+/* A piece of the work for the coming step, at the end of a tick `left` ticks before it begins (0 to SEQUENCE_AHEAD); a tick
+ * before and in the last one all that is left. busy: this tick has had enough to do; only a look that is due does not wait.
+ * Returns whether the law has to measure the lengths now. */
+bool sequence_prepare(player_t *player, link_t *link, uint8_t left, bool busy) NOINLINE;
+#define SEQUENCE_AHEAD 6u /* a look, three shares of SHAPE_STEP_SHARE joints, a busy tick, the lengths, the end */
 
-/* Whether `left` ticks before the step begins, 0 to SEQUENCE_AHEAD, is too early for that. */
-#define SEQUENCE_AHEAD 5u /* a look, and four shares of SHAPE_STEP_SHARE joints */
-bool sequence_is_early(const player_t *player, uint8_t left) NOINLINE;
+/* Whether looked_at has the words of the page that the link names although another page, or none, will be played: the
+ * original does so when that page is passed over or ends the play. */
+bool sequence_looks_elsewhere(const player_t *player);
 
-/* coming_pos to target_pos, looked_at to coming_pos, with coming_joints and the longest ways (0 where no length depends on
- * them). Without a coming step no joint is used. */
-void sequence_take(player_t *player);
+/* Shapes what is left of the coming step and measures its longest ways, from coming_pos to looked_at (0 where no length
+ * depends on them). Then looked_at has the words of the step that will be played. */
+void sequence_measure(player_t *player);
+
+/* coming_pos to target_pos, looked_at to coming_pos, with coming_joints. Without a coming step no joint is used. Returns the
+ * number of joints that the play owns. */
+uint8_t sequence_take(player_t *player);
 
 /* Begins `now`: makes it public and returns its events. 0 if no step is about to begin. */
 uint8_t sequence_announce(player_t *player);

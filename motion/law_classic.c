@@ -20,6 +20,9 @@
 
 static void enter(player_t *player, uint8_t section, uint16_t ticks)
 {
+    if (ticks != player->section_ticks && ticks != 0) { /* a RISE is often as long as the FALL before it */
+        player->recip = fix_recip32(ticks);
+    }
     player->section = section;
     player->section_ticks = ticks;
     player->tick = 0;
@@ -35,7 +38,9 @@ ALWAYS_INLINE void put(player_classic_t *classic, uint16_t *goal, int16_t way)
 
 void classic_start(player_t *player, link_t *link)
 {
-    sequence_take_first(player);
+    sequence_look_first(player);
+    sequence_measure(player);
+    (void)sequence_take(player);
     enter(player, SECTION_HOLD, 0);
     player->hold_ticks = 0;
     sequence_look(player, link);
@@ -67,11 +72,13 @@ static uint16_t calls_left(const player_t *player)
 /* By itself: an ordinary tick saves no registers for it. */
 static NOINLINE void come_to_the_end(player_t *player, link_t *link, uint8_t left)
 {
-    if (sequence_is_early(player, left) || (!player->looked && player->coming.page == 0)) {
+    if (!player->looked && player->coming.page == 0) {
         return;
     }
-    sequence_prepare(player, link, left);
-    if (left == 0) {
+    bool begins = player->section == SECTION_RISE && player->tick == 1; /* the step, in this tick */
+    if (sequence_prepare(player, link, left, begins) && left != 0) {
+        classic_measure(player);
+    } else if (left == 0) {
         classic_take(player);
     }
 }
@@ -89,7 +96,7 @@ void classic_step_over(player_t *player, link_t *link)
 static NOINLINE uint8_t begin_step(player_t *player)
 {
     uint8_t events = sequence_announce(player);
-    classic_plan_joints(player, player->planned, PAGE_JOINTS);
+    classic_plan_joints(player, PAGE_JOINTS);
     enter(player, SECTION_RISE, player->ramp_ticks);
     if (player->ramp_ticks == 0) {
         FOR_OWN_GOALS(player, joint, goal) {
@@ -108,7 +115,8 @@ static NOINLINE void begin_cruise(player_t *player)
     if (cruise == 0) {
         return; /* only in a skipped step */
     }
-    part_t part = part_of(cruise, (uint16_t)(ticks - ramp));
+    uint16_t ticks_on = (uint16_t)(ticks - ramp);
+    part_t part = part_of(cruise, ticks_on, fix_recip32(ticks_on));
     FOR_OWN_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
         classic->start_pos = classic->out_pos;
@@ -135,7 +143,7 @@ static NOINLINE void begin_fall(player_t *player)
 
 static NOINLINE void make_rise(player_t *player)
 {
-    part_t part = part_of(player->tick, player->section_ticks);
+    part_t part = part_of(player->tick, player->section_ticks, player->recip);
     ramp_share_t share = ramp_share((uint8_t)player->tick);
     FOR_OWN_GOALS(player, joint, goal) {
         player_classic_t *classic = &joint->classic;
@@ -147,7 +155,7 @@ static NOINLINE void make_rise(player_t *player)
 
 static NOINLINE void make_cruise(player_t *player)
 {
-    part_t part = part_of(player->tick, player->section_ticks);
+    part_t part = part_of(player->tick, player->section_ticks, player->recip);
     FOR_OWN_GOALS(player, joint, goal) {
         player_classic_t *classic = &joint->classic;
         put(classic, goal, share_of(classic->main, part));
@@ -156,7 +164,7 @@ static NOINLINE void make_cruise(player_t *player)
 
 static NOINLINE void make_fall(player_t *player)
 {
-    part_t part = part_of(player->tick, player->section_ticks);
+    part_t part = part_of(player->tick, player->section_ticks, player->recip);
     ramp_share_t share = ramp_share((uint8_t)player->tick);
     FOR_OWN_GOALS(player, joint, goal) {
         player_classic_t *classic = &joint->classic;
@@ -201,7 +209,7 @@ static NOINLINE uint8_t end_play(player_t *player)
         return events;
     }
     FOR_OWN_JOINTS(player, joint) {
-        joint->classic.carried = classic_speed_left(player, &joint->classic);
+        joint->classic.carried = classic_speed_left(classic_left(player), &joint->classic);
         joint->classic.start_pos = joint->classic.out_pos;
     }
     player->tick = 1;
@@ -277,7 +285,7 @@ static int32_t speed_now(const player_t *player, const player_classic_t *classic
         from = to;
         to = 0;
     }
-    return (int32_t)(from + share_of((int16_t)(to - from), part_of(player->tick, num))) * SPEED_UNIT_Q16_16;
+    return (int32_t)(from + share_of((int16_t)(to - from), part_of(player->tick, num, player->recip))) * SPEED_UNIT_Q16_16;
 }
 
 void classic_freeze(player_t *player)

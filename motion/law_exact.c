@@ -60,11 +60,11 @@ static void land(player_t *player)
 
 /* --- planning ----------------------------------------------------------------------------------------------------- */
 
-/* Plans RISE and the speed of CRUISE of a joint at from_pos; exit and down are set already. mean, entry: sizes. */
-static inline void plan_joint(const player_t *player, player_exact_t *exact, uint16_t from_pos, uint32_t mean,
+/* Plans RISE and the speed of CRUISE of a joint at from_pos; exit is set already. mean, entry: sizes. */
+static inline void plan_joint(const player_t *player, player_exact_t *exact, uint16_t from_pos, bool down, uint32_t mean,
                               uint32_t entry)
 {
-    uint32_t cruise = mean, speed = mean, accel = 0;
+    uint32_t cruise = mean, speed = entry, accel = 0; /* without a ramp begin_cruise sets the speed */
     uint8_t ramp_ticks = player->ramp_ticks;
     if (ramp_ticks != 0) {
         uint32_t more = mean - ((entry + exact->exit_q16_16) >> 1);
@@ -74,7 +74,7 @@ static inline void plan_joint(const player_t *player, player_exact_t *exact, uin
     }
     exact->cruise_q16_16 = cruise;
     int32_t pos = fix_from_pos(from_pos) + FIX_ROUND_UP;
-    if (exact->down) {
+    if (down) {
         pos += FIX_ROUND_DOWN - FIX_ROUND_UP;
         speed = 0 - speed;
         accel = 0 - accel;
@@ -84,67 +84,79 @@ static inline void plan_joint(const player_t *player, player_exact_t *exact, uin
     exact->accel_q16_16 = (int32_t)accel;
 }
 
-/* Ramp of the step, and its A / (N - A). */
-static void set_ramp(player_t *player)
+/* 1 / A and A / (N - A) of a step of so many ticks. Returns A. */
+static NOINLINE uint8_t measure_ramp(uint8_t accel_time, uint16_t ticks, uint16_t *recip, uint16_t *share_q0_16)
 {
-    uint16_t ticks = player->step_ticks;
-    uint8_t ramp_ticks = step_plan_exact_ramp(player->now.accel_time, ticks);
-    player->ramp_ticks = ramp_ticks;
+    uint8_t ramp_ticks = step_plan_exact_ramp(accel_time, ticks);
     if (ramp_ticks != 0) {
-        player->ramp_recip = fix_ramp_recip(ramp_ticks);
-        player->ramp_share_q0_16 = fix_ratio(ramp_ticks, (uint16_t)(ticks - ramp_ticks));
+        *recip = fix_ramp_recip(ramp_ticks);
+        *share_q0_16 = fix_ratio(ramp_ticks, (uint16_t)(ticks - ramp_ticks));
     }
+    return ramp_ticks;
 }
 
 /* Speed at target_pos of a joint whose mean speed in this step is `mean`: the smaller of both steps' means, or 0 if it turns
  * round or stays. */
-static inline uint32_t exit_speed(const player_t *player, const player_joint_t *joint, uint16_t next_pos, uint32_t mean)
+static inline uint32_t exit_speed(const player_t *player, const player_joint_t *joint, uint16_t next_pos, uint32_t mean,
+                                  uint32_t next_recip)
 {
     uint16_t at_pos = joint->target_pos;
-    if (mean == 0 || !player->runs_on || (joint->exact.down ? next_pos >= at_pos : next_pos <= at_pos)) {
+    if (mean == 0 || !player->runs_on || (joint->down ? next_pos >= at_pos : next_pos <= at_pos)) {
         return 0;
     }
-    uint32_t next_mean = even(fix_mean(way_between(at_pos, next_pos), player->coming_recip));
+    uint32_t next_mean = even(fix_mean(way_between(at_pos, next_pos), next_recip));
     return mean < next_mean ? mean : next_mean;
 }
 
 /* Plans `now`, from where the joints are and with the speed that the step before leaves (exit), to target_pos in step_ticks,
- * for joints first to end - 1. */
-static NOINLINE void plan_joints(player_t *player, uint8_t first, uint8_t end)
+ * for the next `most` joints of those that are not planned yet. */
+static NOINLINE void plan_joints(player_t *player, uint8_t most)
 {
-    const uint16_t *coming = &player->coming_pos[first];
-    const player_joint_t *const behind = &player->joint[end];
+    uint8_t planned = player->planned;
+    const uint16_t *coming = &player->coming_pos[planned];
     const uint8_t self = player->self;
-    for (player_joint_t *joint = &player->joint[first]; joint < behind; joint++, coming++) {
+    const bool is_of_one = player->step_ticks == 1; /* no time for the multiplication in such a step */
+    const uint32_t next_recip = player->looked ? player->now.recip : player->coming.recip;
+    for (player_joint_t *joint = &player->joint[planned]; planned < PAGE_JOINTS && most != 0; planned++, joint++, coming++) {
         if (!law_owns(self, joint)) {
             continue;
         }
+        most--;
         player_exact_t *exact = &joint->exact;
         uint16_t from_pos = fix_pos(exact->pos_q16_16), to_pos = joint->target_pos;
         OPAQUE(from_pos); /* two bytes to keep, not the four they come from: 30 cycles a joint */
         uint32_t entry = exact->exit_q16_16;
-        uint32_t mean = even(fix_mean(way_between(from_pos, to_pos), player->step_recip));
-        exact->down = to_pos < from_pos;
-        exact->exit_q16_16 = exit_speed(player, joint, *coming, mean);
-        if (player->step_ticks != 1) { /* such a step goes straight to its target */
-            plan_joint(player, exact, from_pos, mean, entry);
+        const uint16_t way = way_between(from_pos, to_pos);
+        const uint32_t mean = even(!is_of_one ? fix_mean(way, player->recip) : way != 0 ? ((uint32_t)way << 16) - 1u : 0);
+        bool down = to_pos < from_pos;
+        joint->down = down;
+        exact->exit_q16_16 = exit_speed(player, joint, *coming, mean, next_recip);
+        if (!is_of_one) {
+            plan_joint(player, exact, from_pos, down, mean, entry);
         }
     }
-    player->planned = end;
+    player->planned = planned;
 }
 
-/* Length of the coming step. */
-static void measure_coming(player_t *player)
+/* Length, pause and ramp of the coming step. */
+static NOINLINE void measure_coming(player_t *player)
 {
-    player->coming_ticks = step_plan_exact_ticks(&player->coming, player->coming_way, &player->carry_q5_11);
-    player->coming_recip = fix_recip32(player->coming_ticks);
+    player_step_t *coming = &player->coming;
+    player->measured = true;
+    if (coming->page != 0) {
+        sequence_measure(player);
+        coming->ticks = step_plan_exact_ticks(coming, player->coming_way, &player->carry_q5_11);
+        coming->hold_ticks = step_plan_exact_hold(coming, &player->carry_q5_11);
+        coming->recip = fix_recip32(coming->ticks);
+        (void)measure_ramp(coming->accel_time, coming->ticks, &coming->ramp_recip, &coming->ramp_share_q0_16);
+    }
 }
 
 static NOINLINE void begin_cruise(player_t *player)
 {
     FOR_OWN_JOINTS(player, joint) {
         int32_t speed = (int32_t)joint->exact.cruise_q16_16;
-        joint->exact.speed_q16_16 = joint->exact.down ? -speed : speed;
+        joint->exact.speed_q16_16 = joint->down ? -speed : speed;
     }
 }
 
@@ -156,43 +168,55 @@ static NOINLINE void begin_fall(player_t *player)
         uint32_t cruise = joint->exact.cruise_q16_16;
         int32_t accel = (int32_t)fix_by_ramp(cruise - joint->exact.exit_q16_16, recip, player->ramp_ticks);
         int32_t speed = (int32_t)cruise - (accel >> 1);
-        joint->exact.speed_q16_16 = joint->exact.down ? -speed : speed;
-        joint->exact.accel_q16_16 = joint->exact.down ? accel : -accel;
+        joint->exact.speed_q16_16 = joint->down ? -speed : speed;
+        joint->exact.accel_q16_16 = joint->down ? accel : -accel;
     }
 }
 
 /* --- from step to step -------------------------------------------------------------------------------------------- */
 
-/* Joints that are planned in the tick before their step begins. Fewer if that tick is itself a whole step. */
-#define PLANNED_AHEAD 13u
-#define PLANNED_AHEAD_OF_ONE 5u
+/* How many of so many joints are planned in the tick before their step begins; the others follow in its first tick. Half of
+ * them, unless one of these ticks is a whole step, or also the one in which the next step is looked at. None for a step of
+ * one tick, which goes straight to its target: a break before it needs the speed with which the joints come. */
+static uint8_t planned_ahead(uint8_t joints, uint16_t old_ticks, uint16_t new_ticks)
+{
+    if (new_ticks == 1) {
+        return 0;
+    }
+    if (old_ticks == 1) {
+        return joints / 6u;
+    }
+    return new_ticks == 2 ? (uint8_t)(joints - joints / 3u) : (uint8_t)((joints - 1u) / 2u);
+}
 
 /* Takes the coming step: the joints are on target_pos, and it begins with the next tick. */
 static NOINLINE void take(player_t *player)
 {
+    const uint16_t old_ticks = player->step_ticks;
     player->joints |= player->coming_joints;
-    uint8_t planned_ahead = player->step_ticks == 1 ? PLANNED_AHEAD_OF_ONE : PLANNED_AHEAD;
-    player->step_ticks = player->coming_ticks;
-    player->step_recip = player->coming_recip;
-    player->hold_ticks = step_plan_exact_hold(&player->now, &player->carry_q5_11);
-    sequence_take(player);
-    if (player->coming.page != 0) {
-        measure_coming(player);
-    }
+    player->accel_time = player->now.accel_time;
+    player->step_ticks = player->now.ticks;
+    player->recip = player->now.recip;
+    player->hold_ticks = player->now.hold_ticks;
+    player->ramp_ticks = step_plan_exact_ramp(player->accel_time, player->step_ticks);
+    player->ramp_recip = player->now.ramp_recip;
+    player->ramp_share_q0_16 = player->now.ramp_share_q0_16;
+    const uint8_t joints = sequence_take(player);
     player->tick = 0;
     player->arrived = true;
     player->runs_on = player->coming.page != 0 && player->now.pause == 0;
-    set_ramp(player);
-    plan_joints(player, 0, planned_ahead);
+    player->planned = 0;
+    plan_joints(player, planned_ahead(joints, old_ticks, player->step_ticks));
 }
 
 /* By itself: an ordinary tick saves no registers for it. */
 static NOINLINE uint8_t come_to_the_end(player_t *player, link_t *link, uint8_t left)
 {
-    if (sequence_is_early(player, left)) {
-        return 0;
+    /* It began the step, or FALL. */
+    bool busy = player->tick == 1 || player->tick == (uint16_t)(player->step_ticks - player->ramp_ticks + 1u);
+    if (sequence_prepare(player, link, left, busy)) {
+        measure_coming(player);
     }
-    sequence_prepare(player, link, left);
     if (left == 0) {
         if (!player->looked) {
             return law_end_play(player);
@@ -210,9 +234,11 @@ uint8_t exact_step_over(player_t *player, link_t *link)
 
 void exact_start(player_t *player, link_t *link)
 {
-    sequence_take_first(player);
+    sequence_look_first(player);
     measure_coming(player);
+    (void)sequence_take(player);
     sequence_look(player, link);
+    measure_coming(player);
     take(player);
 }
 
@@ -244,7 +270,7 @@ uint8_t exact_tick(player_t *player, link_t *link)
     uint8_t events = PLAYER_EV_OUTPUT;
     if (player->arrived) {
         events |= sequence_announce(player);
-        plan_joints(player, player->planned, PAGE_JOINTS);
+        plan_joints(player, PAGE_JOINTS);
         advance(player);
     } else if (player->tick < player->step_ticks) {
         advance(player);
@@ -275,10 +301,12 @@ bool exact_rest_start(player_t *player)
         return false;
     }
     player->step_ticks = ticks < braked ? braked : ticks;
-    player->step_recip = fix_recip32(player->step_ticks);
+    player->recip = fix_recip32(player->step_ticks);
     player->tick = 0;
-    set_ramp(player);
-    plan_joints(player, 0, PAGE_JOINTS);
+    player->ramp_ticks =
+        measure_ramp(player->accel_time, player->step_ticks, &player->ramp_recip, &player->ramp_share_q0_16);
+    player->planned = 0;
+    plan_joints(player, PAGE_JOINTS);
     return true;
 }
 

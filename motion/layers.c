@@ -4,50 +4,6 @@
 #include <string.h>
 #include "approach.h"
 
-/* hand_over of a joint. WAITS: its owner is about to begin a step that was planned without it. FRESH: the owner has not
- * begun a step with it. FIRST_STEP: the owner plays its first step with it. CATCHES_UP: that step is over; the joint only
- * has to catch up. ASKED_BELOW, ASKED_ABOVE: the same, and the position that the owner asked for last was below or above
- * the joint. */
-enum { HAND_OVER_DONE, HAND_OVER_WAITS, HAND_OVER_FRESH, HAND_OVER_FIRST_STEP, HAND_OVER_CATCHES_UP,
-       HAND_OVER_ASKED_BELOW, HAND_OVER_ASKED_ABOVE };
-
-/* --- hand-over ---------------------------------------------------------------------------------------------------- */
-
-uint8_t layers_allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
-{
-    uint16_t sum = (uint16_t)(*allowance_q8_8 + speed_q8_8);
-    *allowance_q8_8 = sum & 0xFFu;
-    return (uint8_t)(sum >> 8);
-}
-
-uint16_t layers_approach_by(uint16_t from, uint16_t to, uint8_t most)
-{
-    if (to > from) {
-        return to - from > most ? (uint16_t)(from + most) : to;
-    }
-    return from - to > most ? (uint16_t)(from - most) : to;
-}
-
-/* The joint begins to follow its new owner from where it is. too_late: for the step that begins with the next tick. */
-static void follow_from_here(layers_t *layers, uint8_t joint, bool too_late)
-{
-    layers->main->joint[joint].hand_over = too_late ? HAND_OVER_WAITS : HAND_OVER_FRESH;
-    layers->changing = true;
-}
-
-void layers_hand_back(layers_t *layers, uint32_t joints)
-{
-    player_t *main_play = layers->main;
-    if (main_play == NULL) {
-        return;
-    }
-    main_play->lent &= ~joints;
-    FOR_JOINTS(i, joints) {
-        player_give_joint(main_play, i, layers->goal_pos[i]);
-        follow_from_here(layers, i, main_play->arrived);
-    }
-}
-
 /* --- init, bind --------------------------------------------------------------------------------------------------- */
 
 void layers_init(layers_t *layers, uint16_t goal_pos[PAGE_JOINTS])
@@ -132,7 +88,7 @@ layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
         return LAYERS_ERR_PAGE; /* unreachable: the page has just been checked */
     }
     FOR_JOINTS(i, joints) { /* they belong to the layer already, and its first step is planned from where they are */
-        follow_from_here(layers, i, false);
+        layers_follow_from_here(layers, i, false);
     }
     if (player_is_paused(layers->main)) {
         player_pause(&layers->play);
@@ -151,53 +107,6 @@ void layers_end(layers_t *layers)
 
 /* --- a tick ------------------------------------------------------------------------------------------------------- */
 
-/* A joint this near to what its owner asks for has caught up: one that is slower than the owner's page might never meet it
- * exactly. */
-#define CAUGHT_UP_POS 1u
-
-/* Whether the position that the owner asks for has passed a joint that catches up since the last tick. Then they have met: a
- * joint much slower than its owner's page might never be near that position at a tick. */
-static bool have_met(player_joint_t *joint, uint16_t at, uint16_t asked)
-{
-    const uint8_t before = joint->hand_over;
-    joint->hand_over = asked < at ? HAND_OVER_ASKED_BELOW : HAND_OVER_ASKED_ABOVE;
-    return before != HAND_OVER_CATCHES_UP && before != joint->hand_over;
-}
-
-/* Where joint i, which changes hands, goes from `from` in this tick, on its way to what its owner asks for. */
-static uint16_t follow(layers_t *layers, player_joint_t *joint, uint8_t i, uint16_t from)
-{
-    const player_t *owner = joint->owner == PLAYER_OWNER_LAYER ? &layers->play : layers->main;
-    if (!player_is_moving(owner)) { /* the owner does not play: the joint stays */
-        joint->hand_over = HAND_OVER_DONE;
-        return from;
-    }
-    if (joint->hand_over < HAND_OVER_CATCHES_UP && (layers->events[joint->owner] & PLAYER_EV_STEP) != 0) {
-        joint->hand_over++;
-    }
-    uint16_t asked = player_asks(owner, i), goal = layers_approach_by(from, asked, layers->most_pos);
-    if (joint->hand_over >= HAND_OVER_CATCHES_UP) {
-        goal = have_met(joint, from, asked) ? asked : goal;
-        bool near = (uint16_t)(goal - asked + CAUGHT_UP_POS) <= 2u * CAUGHT_UP_POS;
-        joint->hand_over = near ? HAND_OVER_DONE : joint->hand_over;
-    }
-    return goal;
-}
-
-static void follow_plays(layers_t *layers, const uint16_t before_pos[PAGE_JOINTS])
-{
-    player_joint_t *joint = layers->main->joint;
-    uint16_t *goal = layers->goal_pos;
-    layers->most_pos = layers->paused ? 0 : layers_allow(&layers->allowance_q8_8, layers->speed_q8_8);
-    layers->changing = false;
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++, joint++, goal++) {
-        if (joint->hand_over != HAND_OVER_DONE && joint->owner != PLAYER_OWNER_CODE) {
-            *goal = follow(layers, joint, i, before_pos[i]);
-            layers->changing |= joint->hand_over != HAND_OVER_DONE;
-        }
-    }
-}
-
 /* The layer gets no codes and no stop, so a fresh link_t will do. */
 static uint8_t tick_layer(layers_t *layers)
 {
@@ -212,13 +121,14 @@ static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *l
     uint16_t before_pos[PAGE_JOINTS];
     uint8_t events = 0;
     if (layers->main != NULL) {
-        memcpy(before_pos, layers->goal_pos, sizeof before_pos);
+        const bool changing = layers->changing;
+        if (changing) {
+            memcpy(before_pos, layers->goal_pos, sizeof before_pos);
+        }
         events = player_tick(layers->main, main_link);
         *layer_events = tick_layer(layers);
-        if (layers->changing) {
-            layers->events[PLAYER_OWNER_MAIN] = events;
-            layers->events[PLAYER_OWNER_LAYER] = *layer_events;
-            follow_plays(layers, before_pos);
+        if (changing) {
+            layers_follow_plays(layers, events, *layer_events, before_pos);
         }
         if ((*layer_events & PLAYER_EV_ENDED) != 0) {
             layers_hand_back(layers, layers->play.present);

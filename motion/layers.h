@@ -45,19 +45,17 @@ typedef struct {
 #define LAYERS_NO_JOINT 0xFFu
 
 typedef struct {
-    /* Read only for callers. */
-    player_t play;               /* the page layer */
-    uint32_t code_joints;        /* moved by code */
-    bool changing;               /* a joint is on its way to a new owner */
-    shape_step_t shaping;        /* memory for the main play's player_set_shape */
     /* Private. */
     player_t *main;              /* NULL: see layers_bind */
     uint16_t *goal_pos;
     uint16_t speed_q8_8, allowance_q8_8; /* of the hand-over */
     bool paused;
-    uint8_t events[2];           /* of this tick: the main play's, the layer's */
-    uint8_t most_pos;            /* that a joint which changes hands may go in this tick */
-    layers_code_t code[LAYERS_CODE_JOINTS];
+    /* Read only for callers. */
+    bool changing;               /* a joint is on its way to a new owner */
+    uint32_t code_joints;        /* moved by code */
+    player_t play;               /* the page layer */
+    layers_code_t code[LAYERS_CODE_JOINTS]; /* private */
+    shape_step_t shaping;        /* memory for the main play's player_set_shape */
 } layers_t;
 
 /* No layer, no code-made motion. goal_pos: the goals of all joints, the same array as the main play's. */

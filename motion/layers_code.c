@@ -126,13 +126,18 @@ void layers_free(layers_t *layers, uint32_t joints)
 
 /* --- a tick ------------------------------------------------------------------------------------------------------- */
 
-/* sin of a phase, as a size 0..65535: y = 4 x (1 - x) of the half turn x, then 0.775 y + 0.225 y^2. */
+/* sin of a phase, as a size 0..65535: y = 4 x (1 - x) of the half turn x, then y (0.775 + 0.225 y). */
 static uint16_t sine_size(uint32_t phase)
 {
     uint16_t x = (uint16_t)((phase << 1) >> 16);
-    uint32_t product = fix_product(x, (uint16_t)(0u - x)); /* up to 2^30 */
-    uint16_t y = product >> 30 != 0 ? 0xFFFFu : (uint16_t)((product << 2) >> 16);
-    return (uint16_t)((fix_product(y, 50790u) + fix_product(mul_u16_high(y, y), 14746u)) >> 16);
+    uint16_t quarter = mul_u16_high(x, (uint16_t)(0u - x)); /* up to 2^14 */
+    uint16_t y = UINT16_MAX;
+    if (quarter >> 14 == 0) {
+        y = (uint16_t)(quarter << 2);
+    }
+    uint16_t slope = mul_u16_high(y, 14746u);
+    slope = (uint16_t)(slope + 50790u);
+    return mul_u16_high(y, slope);
 }
 
 static uint16_t asked_by_code(const layers_code_t *code)

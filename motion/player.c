@@ -45,10 +45,9 @@ static void stand(const player_t *player, player_joint_t *joint, uint16_t pos)
     }
 }
 
-uint16_t player_asks(const player_t *player, uint8_t joint)
+uint16_t player_asks(const player_t *player, const player_joint_t *joint)
 {
-    const player_joint_t *asked = &player->joint[joint];
-    return is_classic(player) ? (uint16_t)asked->classic.out_pos : fix_pos(asked->exact.pos_q16_16);
+    return is_classic(player) ? (uint16_t)joint->classic.out_pos : fix_pos(joint->exact.pos_q16_16);
 }
 
 void player_give_joint(player_t *player, uint8_t joint, uint16_t pos)

@@ -48,6 +48,9 @@ typedef struct {
     uint8_t pause, time;                      /* bytes 62 and 63 of the step */
     uint16_t rate_percent;                    /* 100: as stored (shape.h) */
     uint8_t top_speed_q4_4;                   /* servo units a tick; 0: no limit (shape.h) */
+    uint16_t ticks, hold_ticks;               /* its length and its pause, once they are measured (law.h) */
+    uint32_t recip;                           /* exact: 2^32 over the ticks */
+    uint16_t ramp_recip, ramp_share_q0_16;    /* exact: 1 / A; A / (N - A) */
 } player_step_t;
 
 /* A joint under the exact law, and under either law while it slows down and while the rest of an interrupted step is
@@ -58,7 +61,6 @@ typedef struct {
     int32_t accel_q16_16;
     uint32_t cruise_q16_16;     /* size of the speed between the ramps */
     uint32_t exit_q16_16;       /* size of the speed at the step's end */
-    bool down;                  /* the step leads to a smaller position */
 } player_exact_t;
 
 /* A joint under the classic law. Speeds in its units: 0.01875 servo units per tick. Names as in player.md. */
@@ -88,56 +90,60 @@ enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE };
 typedef struct {
     uint16_t target_pos;        /* where the running step ends */
     uint8_t owner : 2;          /* PLAYER_OWNER_ */
-    uint8_t hand_over : 3;      /* layers.c's; 0: nothing is under way */
+    uint8_t hand_over : 3;      /* layers_hand.c's; 0: nothing is under way */
+    bool down : 1;              /* exact: the step leads to a smaller position */
     union {
         player_exact_t exact;
         player_classic_t classic;
     };
 } player_joint_t;
 
+/* Small and often used fields come first: the AVR reaches the first 64 bytes with one instruction. */
 typedef struct player {
-    /* Public, read only for callers. */
-    uint16_t *goal_pos;             /* the tick's output: 31 goals 0..1023, page coordinates (no trim) */
-    uint32_t joints;                /* bit per joint: driven by this play: present, and used by a step that has begun (a
-                                     * step begins with the last tick of the one before) */
-    uint8_t page, step;             /* playing now; step 1..7 */
-    uint8_t repetition;             /* 1.. PLAY_COUNT */
-    uint8_t next_page, link_taken;  /* of the last PLAYER_EV_LINK */
-    uint8_t fault_page, fault;      /* page that ended the play, and why: page_status_t or PAGE_EMPTY; PAGE_OK: none */
-    uint8_t law;                    /* player_law_t */
-    uint32_t present;               /* joints that may be driven, those lent to others included */
-    uint32_t lent;                  /* joints that player_start gives to no play: set it between init and start (layers.h) */
     /* The planner's own. */
-    uint8_t self : 2;               /* PLAYER_OWNER_MAIN or _LAYER */
+    player_joint_t *joint;
     uint8_t state;
+    uint8_t self : 2;               /* PLAYER_OWNER_MAIN or _LAYER */
+    bool looked : 1;                /* the step behind the coming one has been looked at (law.h) */
+    bool measured : 1;              /* and the lengths that depend on it are known */
+    bool runs_on : 1;               /* exact: a joint may keep its speed at the step's end */
+    bool shaping_is_on : 1;         /* joints of the step that was looked at are still as stored */
+    bool arrived;                   /* the joints are at the end of a step; `now` is planned and begins with the next tick */
     bool breaking;
     bool resuming;                  /* while BRAKING: goes on as soon as it stands */
-    bool looked;                    /* the step behind the coming one has been looked at (law.h) */
-    bool arrived;                   /* the joints are at the end of a step; `now` is planned and begins with the next tick */
-    uint8_t announced_events;       /* PLAYER_EV_ bits of that beginning */
     uint8_t section;                /* classic */
     uint16_t tick, section_ticks;   /* tick: of the section (classic), of the step with its pause (exact) */
     uint16_t step_ticks, hold_ticks;
     uint8_t ramp_ticks, brake_ticks;
+    uint8_t accel_time;             /* of the step's page, for the rest of an interrupted step */
     uint16_t ramp_recip, ramp_share_q0_16; /* exact: 1 / A; A / (N - A) */
     uint8_t planned;                /* joints below this are planned for `now` */
-    bool runs_on;                   /* exact: a joint may keep its speed at the step's end */
+    uint8_t announced_events;       /* PLAYER_EV_ bits of the beginning of `now` */
     uint16_t carry_q5_11;           /* the fraction of a tick that is left over */
-    uint32_t step_recip, coming_recip; /* exact: 2^32 over the ticks */
-    uint16_t coming_ticks;          /* exact: of the coming step */
     uint16_t coming_way, lent_way;  /* longest way in the coming step: of any joint; of one that is lent */
+    uint32_t recip;                 /* 2^32 over the ticks: of the step (exact), of the section (classic) */
+    const page_source_t *source;
+    const shape_t *shape;           /* NULL: as stored */
+    shape_step_t *shaping;          /* the step that was looked at, while shaping_is_on */
+    /* Public, read only for callers. */
+    uint16_t *goal_pos;             /* the tick's output: 31 goals 0..1023, page coordinates (no trim) */
+    uint8_t law;                    /* player_law_t */
+    uint8_t page, step;             /* playing now; step 1..7 */
+    uint8_t repetition;             /* 1.. PLAY_COUNT */
+    uint8_t next_page, link_taken;  /* of the last PLAYER_EV_LINK */
+    uint8_t fault_page, fault;      /* page that ended the play, and why: page_status_t or PAGE_EMPTY; PAGE_OK: none */
+    uint32_t joints;                /* bit per joint: driven by this play: present, and used by a step that has begun (a
+                                     * step begins with the last tick of the one before) */
+    uint32_t present;               /* joints that may be driven, those lent to others included */
+    uint32_t lent;                  /* joints that player_start gives to no play: set it between init and start (layers.h) */
+    /* The planner's own. */
     player_step_t now, coming;      /* the step that plays, or begins next; the one behind it */
     uint8_t look_page;              /* classic: the page that the link named, before pages without action are passed over */
     uint8_t count_left;             /* repetitions, 8 bits as in the original */
     uint8_t coming_repetition;
     uint32_t coming_joints, looked_joints; /* that these steps use */
-    const page_source_t *source;
-    const shape_t *shape;           /* NULL: as stored */
-    player_joint_t *joint;
     uint16_t coming_pos[PAGE_JOINTS]; /* where the coming step ends, lent joints included */
     uint16_t looked_at[PAGE_JOINTS];  /* position words of the step that was looked at; PAGE_POS_UNUSED: stays */
-    shape_step_t *shaping;          /* that step, while shaping_is_on */
-    bool shaping_is_on;             /* joints of it are still as stored */
 } player_t;
 
 /* Starts idle, as the main play. Source, joints and goals (both arrays of PAGE_JOINTS) stay the caller's. */
@@ -180,7 +186,7 @@ void player_drop_joints(player_t *player, uint32_t joints);
 /* For layers.h: gives a joint that is at `pos` to this play. It moves again with the next step. */
 void player_give_joint(player_t *player, uint8_t joint, uint16_t pos);
 
-/* The position 0..1023 where the play wants a joint of its own now, whether this tick made output or not. */
-uint16_t player_asks(const player_t *player, uint8_t joint);
+/* The position 0..1023 where the play wants `joint`, one of its own, now, whether this tick made output or not. */
+uint16_t player_asks(const player_t *player, const player_joint_t *joint);
 
 #endif

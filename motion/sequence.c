@@ -19,17 +19,18 @@ static void read_header(const page_source_t *source, uint8_t page, uint8_t heade
 static uint32_t read_words(const page_source_t *source, uint8_t page, uint8_t step, uint32_t joints,
                            uint16_t words[PAGE_JOINTS])
 {
-    uint32_t used = 0; /* a joint's bit: the lowest of `joints`, the highest of `used` */
+    /* A joint's bit leaves `joints` as the lowest one; the bit of what it uses enters as the highest. */
     source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), words, 2u * PAGE_JOINTS);
-    for (uint16_t *word = words; word < &words[PAGE_JOINTS]; word++, joints >>= 1) {
-        used >>= 1;
-        if (((uint8_t)joints & 1u) == 0 || !page_pos_is_used(*word)) {
-            *word = PAGE_POS_UNUSED;
+    for (uint16_t *word = words; word < &words[PAGE_JOINTS]; word++) {
+        bool is_used = ((uint8_t)joints & 1u) != 0 && page_pos_is_used(*word);
+        joints >>= 1;
+        if (is_used) {
+            joints |= 0x80000000u;
         } else {
-            used |= 0x80000000u;
+            *word = PAGE_POS_UNUSED;
         }
     }
-    return used >> 1; /* 31 joints */
+    return joints >> 1; /* 31 joints */
 }
 
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS])
@@ -149,8 +150,7 @@ static uint8_t decide(player_t *player, link_t *link)
 
 /* --- which step --------------------------------------------------------------------------------------------------- */
 
-/* The original looks ahead to the page that the link names, even if that page is then passed over or ends the play. */
-static bool looks_elsewhere(const player_t *player)
+bool sequence_looks_elsewhere(const player_t *player)
 {
     return LAW_IS_CLASSIC(player) && player->look_page != player->coming.page;
 }
@@ -161,9 +161,11 @@ static bool shapes(const player_t *player)
     return player->shape != NULL && !shape_is_neutral(player->shape);
 }
 
-bool sequence_is_early(const player_t *player, uint8_t left)
+/* Whether `left` ticks before the step begins is too early for a look: a code or a stop shall still count. Not for a play
+ * that is shaped, which needs the time, nor for a page layer, which gets neither. */
+static bool is_early(const player_t *player, uint8_t left)
 {
-    return left > 1 && !shapes(player);
+    return left > 1 && !shapes(player) && (!PLAYER_LAYERS || player->self == PLAYER_OWNER_MAIN);
 }
 
 /* Reads a step's words to looked_at. Page 0: no joint is used. */
@@ -218,7 +220,7 @@ void sequence_look(player_t *player, link_t *link)
     if (shapes(player)) {
         player->look_page = player->coming.page; /* the original has no shaped step to be equal to */
     }
-    if (looks_elsewhere(player)) {
+    if (sequence_looks_elsewhere(player)) {
         look_at(player, player->look_page, 1);
     } else if (player->coming.page != 0) {
         look_at_coming(player);
@@ -227,60 +229,79 @@ void sequence_look(player_t *player, link_t *link)
     }
 }
 
-void sequence_prepare(player_t *player, link_t *link, uint8_t left)
+bool sequence_prepare(player_t *player, link_t *link, uint8_t left, bool busy)
 {
-    if (player->looked) {
-        if (player->shaping_is_on) {
-            player->shaping_is_on = shape_step_share(player->shaping, player->source, player->looked_at);
+    bool hurry = left <= 1;
+    if (!player->looked) {
+        if (player->coming.page == 0 || is_early(player, left) || (busy && left > SEQUENCE_AHEAD - 2u)) {
+            return false;
         }
-    } else if (player->coming.page != 0) {
         sequence_look(player, link);
+        busy = true;
+    } else if (player->shaping_is_on && !busy) {
+        player->shaping_is_on = shape_step_share(player->shaping, player->source, player->looked_at);
+        busy = true;
     }
-    if (left <= 1) {
+    if (hurry) {
         shape_the_rest(player);
     }
+    return !player->measured && (hurry || !busy);
 }
 
-void sequence_take(player_t *player)
+void sequence_measure(player_t *player)
 {
     uint16_t longest = 0, longest_lent = 0;
-    player->looked = false;
-    if (looks_elsewhere(player)) { /* the step that will really be played */
+    if (sequence_looks_elsewhere(player)) { /* the step that will really be played */
         player->coming.page != 0 ? look_at_coming(player) : look_at(player, 0, 0);
     }
     shape_the_rest(player);
-    bool measures = player->coming.schedule == PAGE_SCHEDULE_SPEED || player->coming.top_speed_q4_4 != 0;
-    const uint16_t *looked_at = player->looked_at;
+    player->coming_way = player->lent_way = 0;
+    if (player->coming.schedule != PAGE_SCHEDULE_SPEED && player->coming.top_speed_q4_4 == 0) {
+        return;
+    }
+    const uint16_t *looked_at = player->looked_at, *from = player->coming_pos;
     const uint8_t self = player->self;
-    player_joint_t *joint = player->joint;
-    for (uint16_t *pos = player->coming_pos; pos < &player->coming_pos[PAGE_JOINTS]; pos++, joint++) {
-        uint16_t from = *pos, to = *looked_at++;
-        bool is_own = law_owns(self, joint);
-        if (is_own) {
-            joint->target_pos = from;
-        }
-        if (to == PAGE_POS_UNUSED) {
+    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+        uint16_t from_pos = *from++, to_pos = *looked_at++;
+        if (to_pos == PAGE_POS_UNUSED) {
             continue;
         }
-        *pos = to;
-        if (measures) {
-            uint16_t way = to > from ? (uint16_t)(to - from) : (uint16_t)(from - to);
-            longest = way > longest ? way : longest;
-            if (!is_own && way > longest_lent) {
-                longest_lent = way;
-            }
+        uint16_t way = to_pos > from_pos ? (uint16_t)(to_pos - from_pos) : (uint16_t)(from_pos - to_pos);
+        longest = way > longest ? way : longest;
+        if (!law_owns(self, joint) && way > longest_lent) {
+            longest_lent = way;
         }
     }
-    player->coming_joints = player->looked_joints;
     player->coming_way = longest;
     player->lent_way = longest_lent;
 }
 
-void sequence_take_first(player_t *player)
+uint8_t sequence_take(player_t *player)
+{
+    uint8_t own = 0;
+    const uint8_t self = player->self;
+    uint16_t *pos = player->coming_pos;
+    const uint16_t *looked_at = player->looked_at;
+    player_joint_t *joint = player->joint;
+    for (uint8_t left = PAGE_JOINTS; left != 0; left--, joint++, pos++) {
+        uint16_t word = *looked_at++;
+        if (law_owns(self, joint)) {
+            joint->target_pos = *pos;
+            own++;
+        }
+        if (word != PAGE_POS_UNUSED) {
+            *pos = word;
+        }
+    }
+    player->coming_joints = player->looked_joints;
+    player->looked = player->measured = false;
+    return own;
+}
+
+void sequence_look_first(player_t *player)
 {
     player->look_page = player->coming.page;
     look_at_coming(player);
-    sequence_take(player);
 }
 
 uint8_t sequence_announce(player_t *player)

@@ -38,15 +38,16 @@ static uint8_t partner_of(const shape_t *shape, const page_source_t *source, uin
     return partner;
 }
 
-/* Reads the words of a share of joints from `first` on. In page 0 no joint is used. (The word behind joint 30 is pause and
- * time.) */
+/* Reads the words of a share of joints from `first` on. In page 0 no joint is used. */
 static NOINLINE void read_share(const page_source_t *source, uint8_t page, uint8_t step, uint8_t first,
                                 uint16_t words[SHAPE_STEP_SHARE])
 {
     if (page == 0) {
         memset(words, PAGE_POS_UNUSED >> 8, 2u * SHAPE_STEP_SHARE);
     } else {
-        source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step + 2u * first), words, 2u * SHAPE_STEP_SHARE);
+        uint8_t count = PAGE_JOINTS - first;
+        count = count < SHAPE_STEP_SHARE ? count : SHAPE_STEP_SHARE;
+        source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step + 2u * first), words, (uint8_t)(2u * count));
     }
 }
 
@@ -62,11 +63,11 @@ static uint16_t round_to_whole(uint32_t size)
 
 static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, uint8_t blend)
 {
-    uint32_t hundredths = fix_product(p, (uint16_t)(100u - blend)) + fix_product(q, blend);
-    uint32_t centre = fix_product(c, 100u);
+    uint32_t hundredths = mul_u16_u8(p, (uint8_t)(100u - blend)) + mul_u16_u8(q, blend);
+    uint32_t centre = mul_u16_u8(c, 100u);
     bool down = hundredths < centre;
     uint32_t way = down ? centre - hundredths : hundredths - centre;
-    uint32_t size = fix_product((uint16_t)way, amplitude);
+    uint32_t size = mul_u16_u8((uint16_t)way, amplitude);
     if (way >> 16 != 0) { /* it has 17 bits */
         size += (uint32_t)amplitude << 16;
     }

@@ -10,7 +10,7 @@
 #include "page_source.h"
 #include "shape.h"
 
-#define SHAPE_STEP_SHARE 8u
+#define SHAPE_STEP_SHARE 11u /* three of them */
 
 /* A step that is being shaped. Private to shape_step.c. */
 typedef struct shape_step {

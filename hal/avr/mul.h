@@ -33,6 +33,23 @@ ALWAYS_INLINE uint16_t mul_u16_high(uint16_t a, uint16_t b)
     return high;
 }
 
+/* a * b, all 24 bits. */
+ALWAYS_INLINE uint32_t mul_u16_u8(uint16_t a, uint8_t b)
+{
+    uint32_t product;
+    __asm__("mul %A[a], %[b] \n\t"
+            "movw %A[product], r0 \n\t"
+            "clr %C[product] \n\t"
+            "clr %D[product] \n\t"
+            "mul %B[a], %[b] \n\t"
+            "add %B[product], r0 \n\t"
+            "adc %C[product], r1 \n\t"
+            "clr r1 \n\t"
+            : [product] "=&r"(product)
+            : [a] "r"(a), [b] "r"(b));
+    return product;
+}
+
 /* a * b, all 32 bits. */
 ALWAYS_INLINE uint32_t mul_u16_u16(uint16_t a, uint16_t b)
 {

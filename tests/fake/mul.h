@@ -17,6 +17,11 @@ static inline uint16_t mul_u16_high(uint16_t a, uint16_t b)
     return (uint16_t)(((uint32_t)a * b) >> 16);
 }
 
+static inline uint32_t mul_u16_u8(uint16_t a, uint8_t b)
+{
+    return (uint32_t)a * b;
+}
+
 static inline uint32_t mul_u16_u16(uint16_t a, uint16_t b)
 {
     return (uint32_t)a * b;

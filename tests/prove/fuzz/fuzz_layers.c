@@ -124,7 +124,7 @@ static int most_of_hand_over(uint8_t joint, int asked_before, bool layer_ended)
     if (laid.joint[joint].hand_over != 0 && !layer_ended) {
         return most;
     }
-    const int own_way = distance(player_asks(owner, joint), asked_before);
+    const int own_way = distance(player_asks(owner, &laid.joint[joint]), asked_before);
     return most > own_way ? most : own_way;
 }
 
@@ -140,7 +140,8 @@ static void remember(before_t *before)
         const layers_code_t *code = code_of(joint);
         const bool of_layer = layers.main != NULL && laid.joint[joint].owner == PLAYER_OWNER_LAYER;
         before->goal_pos[joint] = laid.goal_pos[joint];
-        before->asked_pos[joint] = layers.main != NULL ? player_asks(of_layer ? &layers.play : &laid.player, joint) : 0;
+        const player_t *owner = of_layer ? &layers.play : &laid.player;
+        before->asked_pos[joint] = layers.main != NULL ? player_asks(owner, &laid.joint[joint]) : 0;
         before->hand_over[joint] = layers.main != NULL ? laid.joint[joint].hand_over : 0;
         before->there[joint] = code != NULL && code->there;
     }
