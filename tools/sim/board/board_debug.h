@@ -33,6 +33,7 @@ typedef struct {
 } probe_t;
 bool board_probe(board_t *board, const char *function);
 const probe_t *board_probe_result(const board_t *board, const char *function);
+void board_probe_clear(board_t *board); /* figures back to 0, probes stay */
 
 /* How often the interrupt of a vector 1..34 was taken. */
 uint64_t board_interrupt_count(const board_t *board, int vector);

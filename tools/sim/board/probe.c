@@ -129,3 +129,11 @@ const probe_t *board_probe_result(const board_t *board, const char *function)
     const entry_t *entry = find(board, function);
     return entry ? &entry->result : NULL;
 }
+
+void board_probe_clear(board_t *board)
+{
+    struct probes *probes = board->probes;
+    for (int i = 0; probes && i < probes->count; i++) {
+        memset(&probes->entries[i].result, 0, sizeof probes->entries[i].result);
+    }
+}

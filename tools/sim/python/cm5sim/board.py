@@ -443,6 +443,9 @@ class Board:
         calls = max(r.calls, 1)
         return Cycles(r.calls, r.own_max, r.own_sum / calls, r.total_max, r.total_sum / calls, r.max_at)
 
+    def clear_probes(self):
+        self._lib.board_probe_clear(self._pointer)
+
     def interrupt(self, vector, byte=0):
         """Raises an interrupt now (a number of board_debug.h's board_interrupt, or a name of VECTORS)."""
         if not self._lib.board_interrupt(self._pointer, VECTORS.get(vector, vector), byte):

@@ -82,7 +82,7 @@ _FUNCTIONS = {
     "board_function": (U32, P, S), "board_variable": (U32, P, S), "board_function_at": (S, P, U32),
     "board_pc": (U32, P), "board_stack_low": (U32, P), "board_stack_headroom": (U32, P),
     "board_probe": (B, P, S), "board_probe_result": (ctypes.POINTER(ProbeResult), P, S),
-    "board_interrupt_count": (U64, P, I),
+    "board_probe_clear": (None, P), "board_interrupt_count": (U64, P, I),
     "board_interrupt_max": (U64, P, I), "board_interrupt": (B, P, I, U8), "board_sweep": (B, P, S, I, U8),
     "board_sweep_result": (ctypes.POINTER(SweepResult), P, S), "board_sweep_end": (None, P),
     "board_skip_waits": (None, P, B), "board_step": (U32, P), "board_gdb": (B, P, I, B),
