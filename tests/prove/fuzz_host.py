@@ -12,7 +12,7 @@ HERE = proof.TOP / "tests" / "prove" / "fuzz"
 CORPUS = HERE / "corpus"
 FUZZERS = proof.BUILD / "fuzz"
 REPLAYS = proof.BUILD / "host" / "tests" / "prove" / "fuzz"
-NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem != "fuzz_image")
+NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem not in ("fuzz_image", "fuzz_pages"))   # no harnesses
 LONGEST = {"page": 513, "bus": 400, "remote": 200, "settings": 160, "journal": 140, "player": 500, "layers": 700, "loader": 1200, "play": 1000,
            "edit": 1000}
 # libFuzzer goes by the clock of the wall: on a busy machine 10 s for one input, its limit for a slow one, mean nothing.
@@ -36,7 +36,7 @@ def build():
     targets = subprocess.run(["cmake", "--build", str(host), "--target", "fuzzers", *(f"fuzz_{name}" for name in NAMES)],
                              capture_output=True, text=True, check=False)
     if targets.returncode:
-        raise RuntimeError(f"the harnesses do not build:\n{targets.stdout[-3000:]}")
+        raise RuntimeError(f"the harnesses do not build:\n{(targets.stdout + targets.stderr)[-3000:]}")
     return all((FUZZERS / f"fuzz_{name}").exists() for name in NAMES)
 
 
