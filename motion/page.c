@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "page.h"
+#include "compiler.h"
 
 uint8_t page_sum(uint8_t sum, const uint8_t *bytes, uint16_t count)
 {
@@ -95,7 +96,15 @@ uint16_t page_pos_mirrored(uint16_t pos, uint16_t neutral_sum)
     return mirrored > PAGE_POS_MAX ? PAGE_POS_MAX : mirrored;
 }
 
-static uint16_t share_of(uint16_t whole, uint8_t percent) { return (uint16_t)(((uint32_t)whole * percent + 50u) / 100u); }
+uint16_t page_part_of(uint16_t value, uint16_t mul, uint16_t div)
+{
+    return (uint16_t)(((uint32_t)value * mul + div / 2u) / div);
+}
+
+static NOINLINE uint16_t share_of(uint16_t whole, uint8_t percent)
+{
+    return page_part_of(whole, percent, 100);
+}
 
 uint16_t page_pos_between(uint16_t a, uint16_t b, uint8_t percent)
 {

@@ -109,6 +109,9 @@ static inline bool page_pos_is_used(uint16_t word)
  * 0..PAGE_POS_MAX. `neutral_sum`: the neutral positions of both joints together, 2 * PAGE_POS_MIDDLE unless known. */
 uint16_t page_pos_mirrored(uint16_t pos, uint16_t neutral_sum);
 
+/* value * mul / div, rounded to the nearest, halves up. div is not 0; the result has to fit 16 bits. */
+uint16_t page_part_of(uint16_t value, uint16_t mul, uint16_t div);
+
 /* A position `percent` (0..100) of the way from a to b: rounded to the nearest, halves away from a. */
 uint16_t page_pos_between(uint16_t a, uint16_t b, uint8_t percent);
 

@@ -58,8 +58,7 @@ COMMAND(cmd_set)
     here_t here = look_here();
     uint16_t value;
     if (here.kind == CELL_OFFSET) {
-        TEXT("This cell is computed");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("This cell is computed"));
     }
     if (!shell_take(args, 1, value_range(here.kind, here.max), &value)) {
         return SHELL_ERR_RANGE;
@@ -124,12 +123,10 @@ COMMAND(cmd_goto)
 {
     uint8_t x = (uint8_t)args->number[0], y = (uint8_t)args->number[1];
     if (cell_kind(the_session.page, x, y) == CELL_NONE) {
-        TEXT("There is no cell");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("There is no cell"));
     }
     if (x != CELL_X_HEADER && !screen_has_row(y)) {
-        TEXT("That joint has no row");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("That joint has no row"));
     }
     the_session.x = x;
     the_session.y = y;

@@ -56,8 +56,7 @@ COMMAND(cmd_help)
     }
     const shell_command_t *command = shell_find(commands_table_P, commands_count, args, 1);
     if (command == NULL) {
-        TEXT("No such command: HELP");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("No such command: HELP"));
     }
     shell_print_help(command);
     return SHELL_OK;
@@ -66,8 +65,7 @@ COMMAND(cmd_help)
 COMMAND(cmd_mon)
 {
     (void)args;
-    TEXT("MON and TOSS are an image of their own: load monitor.hex");
-    return SHELL_ERR_REPORTED;
+    return dialog_refuse(TEXT_P("MON and TOSS are an image of their own: load monitor.hex"));
 }
 
 /* ---- LIST, FIND ---- */

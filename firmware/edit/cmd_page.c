@@ -32,8 +32,7 @@ COMMAND(cmd_page)
 static uint8_t open_beside(bool is_there, int8_t way)
 {
     if (!is_there) {
-        TEXT("Page must be 0..127");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("Page must be 0..127"));
     }
     return open_asking((uint8_t)(the_session.page + way));
 }

@@ -1,19 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * cmd_shape.c - commands that the original lacked: a step between two steps, the time of a page, steps from page to page. */
 #include "commands.h"
-#include "compiler.h"
 #include "pgm.h"
 #include "ranges_own.h"
 #include "text.h"
 
 #define LAST_STEP (PAGE_STEPS - 1u)
 enum { PERCENT_DEFAULT = 50, PERCENT_WHOLE = 100 };
-
-/* value * mul / div, rounded to the nearest, halves up. */
-static NOINLINE uint16_t part_of(uint16_t value, uint16_t mul, uint16_t div)
-{
-    return (uint16_t)(((uint32_t)value * mul + div / 2u) / div);
-}
 
 static void set_between(uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
 {
@@ -29,7 +22,7 @@ static void set_between(uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
 /* value * mul / div, rounded, 1..255; notes when it does not fit. */
 static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
 {
-    uint16_t result = part_of(value, mul, div);
+    uint16_t result = page_part_of(value, mul, div);
     uint16_t kept = result > UINT8_MAX ? (uint16_t)UINT8_MAX : result == 0 && value != 0 ? 1u : result;
     *cut = *cut || kept != result;
     return (uint8_t)kept;
@@ -57,8 +50,7 @@ COMMAND(cmd_int)
         return SHELL_ERR_RANGE;
     }
     if (steps >= PAGE_STEPS || a >= steps || b >= steps) {
-        text_P(steps >= PAGE_STEPS ? TEXT_P("All 7 steps are used") : TEXT_P("That step is not used"));
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(steps >= PAGE_STEPS ? TEXT_P("All 7 steps are used") : TEXT_P("That step is not used"));
     }
     uint8_t to = (uint8_t)(a + 1u);
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, to, LAST_STEP));
@@ -96,8 +88,7 @@ COMMAND(cmd_take)
     uint8_t first = (uint8_t)args->number[0];
     uint8_t last = args->count > 2 ? (uint8_t)args->number[1] : first;
     if (last < first) {
-        TEXT("The first step comes first");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("The first step comes first"));
     }
     the_dialog.take_page = the_session.page;
     the_dialog.take_first = first;
@@ -124,16 +115,14 @@ COMMAND(cmd_paste)
 {
     uint8_t to = session_steps();
     if (the_dialog.take_page == DIALOG_NO_PAGE) {
-        TEXT("Nothing noted: TAKE first");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("Nothing noted: TAKE first"));
     }
     if (args->count > 1) {
         to = (uint8_t)args->number[0];
     }
     uint8_t count = (uint8_t)(the_dialog.take_last - the_dialog.take_first + 1u);
     if (to + count > PAGE_STEPS) {
-        TEXT("No room: 7 steps at most");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("No room: 7 steps at most"));
     }
     session_begin();
     if (to + count > the_session.cells[PAGE_AT_STEPS]) {

@@ -66,8 +66,7 @@ COMMAND(cmd_write)
     if (args->count > 1) {
         step = (uint8_t)args->number[0];
     } else if (step >= PAGE_STEPS) {
-        TEXT("All 7 steps are used");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("All 7 steps are used"));
     }
     session_begin();
     if (args->count == 1) {
@@ -99,8 +98,7 @@ static uint8_t delete_step(uint8_t step)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     if (step >= steps) {
-        TEXT("That step is not used");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("That step is not used"));
     }
     session_begin_turn(UNDO_TURN(UNDO_TURN_DOWN, step, LAST_STEP));
     set_count((uint8_t)(steps - 1u));
@@ -117,8 +115,7 @@ COMMAND(cmd_delete)
     }
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     if (steps == 0) {
-        TEXT("There is no step");
-        return SHELL_ERR_REPORTED;
+        return dialog_refuse(TEXT_P("There is no step"));
     }
     session_begin();
     set_count((uint8_t)(steps - 1u));

@@ -89,6 +89,12 @@ bool dialog_ask_unsaved(void)
     return !the_session.is_changed || dialog_ask(TEXT_P("The edits would be lost. "));
 }
 
+uint8_t dialog_refuse(const char *sentence_P)
+{
+    text_P(sentence_P);
+    return SHELL_ERR_REPORTED;
+}
+
 uint8_t dialog_edited(void)
 {
     if (!session_end()) {

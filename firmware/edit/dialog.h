@@ -71,6 +71,9 @@ bool dialog_ask_unsaved(void);
 /* Begins a list: `title_P` is its first line. Returns DIALOG_TO_LIST. */
 uint8_t dialog_list(dialog_item_t item, const char *title_P);
 
+/* Prints why a command is refused. Returns SHELL_ERR_REPORTED. */
+uint8_t dialog_refuse(const char *sentence_P) NOINLINE;
+
 /* Ends an editing command; prints a message if it cannot be undone. Returns SHELL_OK. */
 uint8_t dialog_edited(void);
 
