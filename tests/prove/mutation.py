@@ -342,7 +342,8 @@ def chosen(mutations, options):
             raise SystemExit(f"mutation: no mistake is called {' or '.join(options.only)} (tests/prove/{TABLE.name})")
         return found
     if options.sample:
-        quick = [mutation for mutation in mutations if re.fullmatch(r"unit\.\w+", mutation.by) and mutation.file.endswith(".c")]
+        quick = [mutation for mutation in mutations
+                 if re.fullmatch(r"unit\.\w+", mutation.by) and mutation.file.endswith(".c") and not mutation.reason]
         return random.Random(options.seed).sample(quick, min(SAMPLE_RUNS, len(quick)))
     return mutations
 
