@@ -97,6 +97,9 @@ static void clear_off_marks(void)
 {
     uint8_t count = 0;
     for (uint16_t address = PAGE_AT_STEP0; address < PAGE_BYTES; address = (uint16_t)(address + 2u)) {
+        if ((the_session.cells[address + 1u] & PAGE_POS_TORQUE_OFF >> 8) == 0) {
+            continue;   /* nearly all words, so without calls: 0.6 ms of SAVE's 60 */
+        }
         uint16_t word = cell_word(the_session.cells, address);
         if (!cell_is_off(word)) {
             continue;

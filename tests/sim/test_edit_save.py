@@ -45,7 +45,7 @@ def test_save_takes_less_than_60_ms_and_keeps_everything(phase_ms):
         took = r.board.now_ms - start
         save_ms = r.board.cycles("cmd_page_save").total_max / 16000
         print(f"save: {save_ms:.1f} ms, both halves changed; {took:.1f} ms from Enter to OK on the terminal (original: 2100)")
-        assert save_ms < took <= 60.5    # 60 in whole ms: work of a tick may come before
+        assert save_ms < took <= 60
         r.settle()
         assert r.flash_page(1) == new_bytes() and not r.unsaved
         assert r.xya[:2] == ("07", "31")
