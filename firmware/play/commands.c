@@ -121,7 +121,7 @@ static uint8_t do_help(void *context, const shell_args_t *args)
         const shell_command_t *command = shell_find(commands_shared_P, COMMANDS_SHARED, args, 1);
         command = command != NULL ? command : shell_find(typed, ARRAY_COUNT(typed), args, 1);
         if (command == NULL) {
-            return requests_refuse(REQUEST_ERR_WORD, TEXT_P("Unknown word"));
+            return SHELL_ERR_UNKNOWN;
         }
         shell_print_help(command);
         return REQUEST_OK;
