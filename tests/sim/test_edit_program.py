@@ -231,7 +231,9 @@ def test_watch_streams_goals_and_positions_and_costs_no_tick():
         idle = watched(r, 1000)
         assert 19 <= len(idle) <= 21
         assert idle[-1][1:4] == ["0", "0", "0007FFFE"] and idle[-1][4] == "---200" * 18
-        assert ask(r, "@play 1", ms=60) == "@play OK"     # behind an @now line of 26 ms, too
+        r.board.expect("@now", ms=100)
+        r.board.expect("\r\n", ms=100)   # 26 ms are free until the next line
+        assert ask(r, "@play 1", ms=20) == "@play OK"
         r.board.run(ms=1500)
         missed = fields(ask(r, "@where", ms=100))["missed"]
         lines = watched(r, 2000)
