@@ -7,8 +7,8 @@
 #include <stdint.h>
 
 /* Turns the line to sending and starts to send the first `count` bytes of bus_packet(). Main loop. The bytes must not change
- * until bus_core_on_sent. The port calls bus_core_on_last when the last byte went to the UART, and bus_core_on_sent when its
- * stop bit has left. */
+ * until bus_core_on_sent. The port calls bus_core_on_last when the last bytes go to the UART, and bus_core_on_sent when
+ * their stop bit has left. */
 void bus_port_send(uint8_t count);
 
 /* Turns the line to listening and drops what the receiver caught before. Called from bus_core_on_sent, in the ISR. */

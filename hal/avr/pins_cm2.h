@@ -7,18 +7,19 @@
 #include <avr/io.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include "compiler.h"
 
 #define PINS_HAVE_PANEL false
 
 /* One direction pin: high = transmit, low = receive. */
 #define PINS_BUS_DRIVE (1u << PE2)
 
-static inline void pins_bus_drive(void)
+ALWAYS_INLINE void pins_bus_drive(void)
 {
     PORTE |= PINS_BUS_DRIVE;
 }
 
-static inline void pins_bus_listen(void)
+ALWAYS_INLINE void pins_bus_listen(void)
 {
     PORTE &= (uint8_t)~PINS_BUS_DRIVE;
 }

@@ -6,6 +6,7 @@
 #include <avr/io.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include "compiler.h"
 
 #define PINS_HAVE_PANEL true
 
@@ -24,13 +25,13 @@
 
 /* The bus transceiver: PE2 drives the line, PE3 listens to it, never both. Single-bit writes of port E are atomic (SBI,
  * CBI), so main loop and ISR may both do this. */
-static inline void pins_bus_drive(void)
+ALWAYS_INLINE void pins_bus_drive(void)
 {
     PORTE &= (uint8_t)~PINS_BUS_LISTEN;
     PORTE |= PINS_BUS_DRIVE;
 }
 
-static inline void pins_bus_listen(void)
+ALWAYS_INLINE void pins_bus_listen(void)
 {
     PORTE &= (uint8_t)~PINS_BUS_DRIVE;
     PORTE |= PINS_BUS_LISTEN;

@@ -8,7 +8,7 @@ import pytest
 from cm5sim import Board
 
 JOBS = ("", "tick", "clock", "counts", "tap", "eeprom", "idle", "get", "put", "flush", "retry", "flow on", "hold",
-        "resume", "submit", "stars", "drain")
+        "resume", "submit", "stars", "drain", "packet")
 TAP_BYTES, TAPS = 21, 14   # a ring and its 16 bytes; the first and the last tap differ in both bytes of their address
 XON, XOFF = 0x11, 0x13
 
@@ -138,6 +138,45 @@ def test_noise_in_the_moment_of_sending_spoils_nothing():
     for place in board.places("try_bus_submit", "bus byte", 0xFF):
         board.do("submit")
         assert board.peek("atomic_status") == 0, place
+
+
+def numbered_packet(size):
+    """As hal_atomic.c builds it."""
+    body = bytes([254, size - 4, 0x55, *range(1, size - 5)])
+    return b"\xFF\xFF" + body + bytes([~sum(body) & 0xFF])
+
+
+def test_packets_of_every_length_leave_whole():
+    """Two bytes at a time: an odd one begins alone."""
+    board = Atomic(servos=[1])
+    for size in range(6, 144):   # servos take 143 at most
+        board.clear_trace()
+        board.poke("atomic_byte", size)
+        board.do("packet")
+        assert board.peek("atomic_status") == 0
+        assert [packet for _, packet in board.packets] == [numbered_packet(size)]
+
+
+@pytest.mark.parametrize("size", [9, 10])
+def test_packets_leave_whole_whatever_interrupts_their_first_bytes(size):
+    """A byte of the PC and the tick together take longer than a character of the bus."""
+    board = Atomic(servos=[1])
+    inside = 0
+    for place in range(120):
+        board.clear_trace()
+        board.poke("atomic_byte", size)
+        board.poke("atomic_job", JOBS.index("packet"))
+        board.run_to("try_bus_send", ms=100)
+        for _ in range(place):
+            board.step()
+        inside += board.ram[board.variable("core")] == 0     # IDLE: not submitted yet
+        board.interrupt("console byte", 0x55)
+        board.interrupt("tick")
+        board.run_to("atomic_done", ms=100)
+        board.run(cycles=100)
+        assert board.peek("atomic_status") == 0, place
+        assert [packet for _, packet in board.packets] == [numbered_packet(size)], place
+    assert 10 < inside < 80
 
 
 # ---- EEPROM ----

@@ -29,6 +29,7 @@ EXPECTED = {
     "eeprom_worn": ("eeprom-worn", None),
     "uart_overrun": ("uart-overrun", "wait_for"),
     "uart_tx_full": ("uart-tx-lost", "send_three"),
+    "uart_tx_moving": ("uart-tx-lost", "send_two"),
     "uart_tx_off": ("uart-tx-lost", "send_one"),
     "uart_format": ("uart-format", "set_format"),
     "uart_setup": ("uart-setup", "change_rate"),

@@ -20,7 +20,8 @@
 #define TRY NOINLINE __attribute__((noclone, used)) static void
 
 enum { JOB_NONE, JOB_TICK, JOB_CLOCK, JOB_COUNTS, JOB_TAP, JOB_EEPROM, JOB_IDLE, JOB_GET, JOB_PUT, JOB_FLUSH, JOB_RETRY,
-       JOB_FLOW_ON, JOB_HOLD, JOB_RESUME, JOB_SUBMIT, JOB_STARS, JOB_DRAIN };
+       JOB_FLOW_ON, JOB_HOLD, JOB_RESUME, JOB_SUBMIT, JOB_STARS, JOB_DRAIN,
+       JOB_PACKET };
 
 /* For the test. */
 volatile uint8_t atomic_job;
@@ -111,12 +112,18 @@ TRY try_bus_submit(void)
     (void)bus_submit(dxl_build(bus_packet(), 1, DXL_PING, 0, 0), 0, 1);
 }
 
+TRY try_bus_send(uint8_t size)
+{
+    (void)bus_submit(size, BUS_NO_ANSWER, 1);
+}
+
 /* A PING of nobody whose last character is just leaving: transmit complete can come at any moment. */
 static void begin_last_character(void)
 {
     (void)bus_wait(0);
     (void)bus_submit(dxl_build(bus_packet(), 99, DXL_PING, 0, 0), 0, 1);
-    while (!(UCSR0B & (1u << TXCIE0)) || !(UCSR0A & (1u << UDRE0))) {
+    const bus_core_t *core = (const bus_core_t *)(bus_packet() - offsetof(bus_core_t, packet));
+    while (core->state != BUS_TURNING || !(UCSR0A & (1u << UDRE0))) {
     }
 }
 
@@ -170,6 +177,17 @@ static void submit(void)
     bus_counts(&atomic_counts);
 }
 
+/* A packet of atomic_byte bytes for everybody, of an instruction that no servo knows. */
+static void packet(void)
+{
+    uint8_t *params = bus_packet() + DXL_PARAMS_AT, count = (uint8_t)(atomic_byte - DXL_PACKET_OVERHEAD);
+    for (uint8_t i = 0; i < count; i++) {
+        params[i] = (uint8_t)(i + 1u);
+    }
+    try_bus_send(dxl_build(bus_packet(), DXL_BROADCAST, 0x55, params, count));
+    atomic_status = (uint8_t)bus_wait(0);
+}
+
 static void flush(void)
 {
     console_write("***", 3);
@@ -208,6 +226,7 @@ static void obey(uint8_t job)
     case JOB_RESUME: try_console_resume(); console_flush(); break;
     case JOB_SUBMIT: submit(); break;
     case JOB_STARS: console_write("***", 3); break;
+    case JOB_PACKET: packet(); break;
     case JOB_DRAIN: console_drop_input(); break;
     default: break;
     }

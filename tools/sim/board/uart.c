@@ -11,11 +11,15 @@ static const place_t places[2] = {
     { 0x9C, 0x9B, 0x9A, 0x9D, 0x98, 0x99, VECTOR_USART1_RX },
 };
 
+/* A character for an empty shift register leaves UDR with the next bit of the transmitter's clock, which runs all the time.
+ * Here that takes as long as it can: a whole bit. (It begins to leave the chip at once.) */
+static bool is_full(const uart_t *uart) { return uart->waiting || uart->moving; }
+
 static void update_lines(uart_t *uart)
 {
     int vector = places[uart->index].vector; /* RX, UDRE, TX follow each other */
     interrupt_line(uart->board, vector, (uart->b & UCSRB_RXCIE) && uart->fill);
-    interrupt_line(uart->board, vector + 1, (uart->b & UCSRB_UDRIE) && !uart->waiting);
+    interrupt_line(uart->board, vector + 1, (uart->b & UCSRB_UDRIE) && !is_full(uart));
     interrupt_line(uart->board, vector + 2, (uart->b & UCSRB_TXCIE) && (uart->a & UCSRA_TXC));
 }
 
@@ -51,7 +55,8 @@ static void load_shift(uart_t *uart, uint64_t now)
     uart->shift = uart->udr;
     uart->waiting = false;
     uart->shifting = true;
-    event_at(uart->board, uart->index ? EVENT_UART1 : EVENT_UART0, now + BITS * uart->bit_cycles);
+    uart->ends_at = now + BITS * uart->bit_cycles;
+    event_at(uart->board, uart->index ? EVENT_UART1 : EVENT_UART0, uart->ends_at);
     if (uart->begin) {
         uart->begin(uart, now);
     }
@@ -62,6 +67,12 @@ void uart_event(uart_t *uart, uint64_t now)
 {
     uint8_t byte = uart->shift;
     uint32_t rate_bps = uart->rate_bps;
+    if (uart->moving) {
+        uart->moving = false;
+        event_at(uart->board, uart->index ? EVENT_UART1 : EVENT_UART0, uart->ends_at);
+        update_lines(uart);
+        return;
+    }
     uart->shifting = false;
     uart->counts.sent++;
     vcd_byte(uart->board, uart->index, true, -1);
@@ -82,7 +93,7 @@ static void write_udr(avr_t *avr, avr_io_addr_t address, uint8_t value, void *pa
         violation_note(uart->board, VIOLATION_UART_TX_LOST, "UDR%u written with the transmitter off", uart->index);
         return;
     }
-    if (uart->waiting) {
+    if (is_full(uart)) {
         violation_note(uart->board, VIOLATION_UART_TX_LOST, "UDR%u written while it is full", uart->index);
         return;
     }
@@ -90,6 +101,8 @@ static void write_udr(avr_t *avr, avr_io_addr_t address, uint8_t value, void *pa
     uart->waiting = true;
     if (!uart->shifting) {
         load_shift(uart, avr->cycle);
+        uart->moving = true;
+        event_at(uart->board, uart->index ? EVENT_UART1 : EVENT_UART0, avr->cycle + uart->bit_cycles);
     }
     update_lines(uart);
 }
@@ -150,7 +163,7 @@ static uint8_t read_a(avr_t *avr, avr_io_addr_t address, void *param)
 {
     const uart_t *uart = param;
     unsigned value = uart->a;
-    value |= uart->waiting ? 0u : UCSRA_UDRE;
+    value |= is_full(uart) ? 0u : UCSRA_UDRE;
     value |= uart->fill ? (unsigned)UCSRA_RXC | uart->flags[0] : 0u;
     avr->data[address] = (uint8_t)value;
     return (uint8_t)value;
@@ -163,6 +176,7 @@ void uart_raise(uart_t *uart, bool received, uint8_t byte)
     if (received) {
         uart_receive(uart, now > bits ? now - bits : 0, byte, M128_HZ / bit_cycles(uart), false);
     } else if (uart->shifting) {
+        uart->moving = false;
         event_at(board, uart->index ? EVENT_UART1 : EVENT_UART0, now);
     }
 }
@@ -237,7 +251,7 @@ void uart_reset(uart_t *uart)
     uart->ubrr = 0;
     uart->fill = 0;
     uart->freed_at = 0;
-    uart->shifting = uart->waiting = false;
+    uart->shifting = uart->waiting = uart->moving = false;
     avr->data[place->a] = UCSRA_UDRE;
     avr->data[place->b] = 0;
     avr->data[place->c] = UCSRC_8N1;

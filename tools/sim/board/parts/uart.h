@@ -11,9 +11,10 @@ typedef struct uart {
     uint8_t index, a, b, c;
     uint16_t ubrr;
     bool shifting, waiting;      /* transmitter: shift register, UDR */
+    bool moving;                 /* UDR still holds the character that is in the shift register already */
     uint8_t shift, udr;
     uint32_t rate_bps;           /* of the character in the shift register */
-    uint64_t bit_cycles;
+    uint64_t bit_cycles, ends_at;
     uint8_t fifo[3], flags[3];   /* two-character buffer and the receive shift register behind it */
     uint8_t fill;
     uint64_t freed_at;           /* when the receive shift register became free */
