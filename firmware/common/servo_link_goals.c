@@ -25,20 +25,17 @@ ALWAYS_INLINE void put_word(dxl_writer_t *writer, uint16_t word)
     dxl_put(writer, (uint8_t)(word >> 8));
 }
 
-/* Builds the SYNC WRITE of goals: 101 bytes for 31 joints, once a tick. A single loop that only moves pointers: 31 cycles a
- * joint. */
+/* Builds the SYNC WRITE of goals: 101 bytes for 31 joints, once a tick. 43 cycles a joint. */
 static NOINLINE uint8_t build_goals(const uint16_t *goal, const int16_t *trim, uint32_t joints)
 {
     dxl_writer_t writer;
     dxl_begin(&writer, bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE);
     dxl_put(&writer, DXL_AT_GOAL);
     dxl_put(&writer, 2);
-    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++, joints >>= 1) {
-        uint16_t pos = (uint16_t)(*goal++ + (uint16_t)*trim++);
+    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++, goal++, trim++, joints >>= 1) {
         if ((uint8_t)joints & 1u) {
             dxl_put(&writer, id);
-            pos = limited(pos);
-            put_word(&writer, pos);
+            put_word(&writer, limited((uint16_t)(*goal + (uint16_t)*trim)));
         }
     }
     return dxl_end(&writer);

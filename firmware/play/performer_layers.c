@@ -92,11 +92,15 @@ uint8_t performer_layers_tick(performer_t *performer, bool with_play)
 void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS])
 {
     const player_t *play = &performer->layers->play;
-    uint32_t joints = player_is_moving(play) ? play->present : 0;
+    if (!player_is_moving(play)) {
+        return;
+    }
+    uint8_t of_layer[PAGE_JOINTS];
+    performer->source->read(performer->source->context, play->page, PAGE_AT_COMPLIANCE, of_layer, sizeof of_layer);
+    uint32_t joints = play->present;
     for (uint8_t i = 0; joints != 0; i++, joints >>= 1) {
         if (((uint8_t)joints & 1u) != 0) {
-            performer->source->read(performer->source->context, play->page, (uint16_t)(PAGE_AT_COMPLIANCE + i),
-                                    &compliance[i], 1);
+            compliance[i] = of_layer[i];
         }
     }
 }
