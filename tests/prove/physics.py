@@ -143,6 +143,16 @@ def share_figure(what, how, promise, results, of):
     return proof.Figure(what, how, measured, stood >= promise.share * len(results), headline=promise.page == "walk")
 
 
+def as_on_page(what, promise):
+    """[the figure as it stands on the page], with the commit it is from, or []. For bodies that were tried in another clone only."""
+    found = []
+    for figure in proof.figures_on_page("physics"):
+        if figure["promise"] == what:
+            at = "" if "commit" in figure["how"] else f", commit {proof.commit_on_page('physics')}"
+            found.append(proof.Figure(**figure | {"how": figure["how"] + at, "headline": promise.page == "walk"}))
+    return found
+
+
 class Campaign:
     """The bodies of one run: those that were tried before, and those that it tries."""
 
@@ -181,9 +191,11 @@ def stand_figures(options, image, library, campaign):
         results = campaign.results(work, promise, 2 if options.sample else count)
         begin = f", from its {promise.lie}, arms anyhow" if promise.lie else ""
         how = f" {promise.how}" if promise.how else ""
+        what = f"`{promise.page}`{how}{begin}: it ends on its feet."
         if results:
-            figures.append(share_figure(f"`{promise.page}`{how}{begin}: it ends on its feet.", f"{promise.seconds:.0f} s, bodies by chance",
-                                        promise, results, promise.bodies))
+            figures.append(share_figure(what, f"{promise.seconds:.0f} s, bodies by chance", promise, results, promise.bodies))
+        else:
+            figures += as_on_page(what, promise)
     return figures
 
 
@@ -191,8 +203,10 @@ def board_figures(options, image, library, campaign):
     walk = next(promise for promise in promises.STANDS if promise.page == "walk")
     work = functools.partial(walk_on_board, image, promises.number_of(library, "walk"), promises.number_of(library, "ready"))
     results = campaign.results(work, walk, options.on_board, "board")
-    return [share_figure("`walk` led by the shipped image: it ends on its feet.", "the same, on the simulated board with a remote", walk,
-                         results, WALKS_ON_BOARD)] if results else []
+    what = "`walk` led by the shipped image: it ends on its feet."
+    if not results:
+        return as_on_page(what, walk)
+    return [share_figure(what, "the same, on the simulated board with a remote", walk, results, WALKS_ON_BOARD)]
 
 
 def nominal_figure(image, library):

@@ -101,6 +101,17 @@ def table(figures):
     return rows
 
 
+def figures_on_page(name):
+    """The figures of tests/proofs/NAME.md, as write_details() got them but for their headlines; [] if there is no such page."""
+    path = DETAILS / f"{name}.md"
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    found = []
+    for line in [line for line in text.splitlines() if line.startswith("| ")][2:]:
+        promise, how, measured, kept = (cell.replace("\\|", "|") for cell in re.split(r" (?<!\\)\| ", line[2:-2]))
+        found.append(dataclasses.asdict(Figure(promise, how, measured, kept == "kept")))
+    return found
+
+
 def headline(figures):
     """What stands on the short page of a part's figures."""
     broken = [figure for figure in figures if not figure["kept"]]
@@ -137,6 +148,11 @@ def note_sample(name, figures):
     found = pattern(FOUND).search(text)
     note = AGAIN.format(commit=commit(), found=headline([dataclasses.asdict(figure) for figure in figures]))
     path.write_text(f"{text[:found.end()]}\n\n{note}{text[found.end():]}", encoding="utf-8")
+
+
+def commit_on_page(name):
+    """The commit of the last whole run, from the part's page."""
+    return pattern(FOUND).search((DETAILS / f"{name}.md").read_text(encoding="utf-8"))["commit"]
 
 
 def row_of(name):

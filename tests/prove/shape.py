@@ -6,7 +6,6 @@ is a model, and no real robot has walked our motions yet.
 """
 import dataclasses
 import functools
-import json
 import pathlib
 import random
 import re
@@ -224,17 +223,25 @@ ROWS = {
     "eight": eight_figures,
     **{name: functools.partial(lambda name, walk, seeds, options: layer_figures(walk, seeds, options, name), name) for name in LAYERS},
 }
-ROWS_KEPT = proof.RESULTS / "shape.rows.json"
 
 
 def keep_row(row, figures):
-    """A row that ran whole takes the place of its last run; then the page is written from the last run of each row."""
-    kept = json.loads(ROWS_KEPT.read_text(encoding="utf-8")) if ROWS_KEPT.exists() else {}
+    """A row that ran whole takes the place of its last run on tests/proofs/shape.md. The others stay there with their commits: the
+    page is the only record."""
+    kept = {}
+    for figure in proof.figures_on_page("shape"):
+        kept.setdefault(row_of(figure), []).append(figure)
     how = f"`--only {row}`, commit {proof.commit()}: "
     kept[row] = [{**dataclasses.asdict(figure), "how": how + figure.how} for figure in figures]
-    proof.RESULTS.mkdir(parents=True, exist_ok=True)
-    ROWS_KEPT.write_text(json.dumps(kept, indent=1), encoding="utf-8")
     write_rows(kept)
+
+
+def row_of(figure):
+    """The row that a figure of the page came from."""
+    found = re.match(r"`--only (\w+)`, commit ", figure["how"])
+    if not found:
+        raise ValueError(f"tests/proofs/shape.md: a figure that names no row: {figure['how']}")
+    return found[1]
 
 
 def write_rows(kept):
@@ -260,6 +267,5 @@ def run(options):
         figures += found
         if not (options.sample or options.bodies or options.seed_of is not None or options.hard):
             keep_row(row, found)
-    if options.only or options.bodies or options.seed_of is not None or options.hard:
-        options.keep = False                     # a piece of the work
+    options.keep = False                         # keep_row has written the page
     return figures

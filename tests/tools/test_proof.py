@@ -64,6 +64,25 @@ def test_the_page_of_this_tree_is_what_the_others_say():
     assert len(rows) == len(list(proof.DETAILS.glob("*.md")))
 
 
+ODD = [proof.Figure("a | b\nc", "`x | y`: how", "1; 2 |", True), proof.Figure("| d", "by\nhand |", "3 \\", False)]
+
+
+def test_figures_come_back_from_a_page(pages):
+    put(pages, "7 states, 0 broken")
+    proof.write_details("cuts", {**pages, "figures": [vars(figure) for figure in ODD]})
+    proof.note_sample("cuts", figures("2 states, 0 broken"))
+    back = proof.figures_on_page("cuts")
+    assert proof.table(back) == proof.table([vars(figure) for figure in ODD])
+    assert [figure["kept"] for figure in back] == [True, False] and back[1]["measured"] == "3 \\"
+    assert proof.figures_on_page("other") == []
+
+
+def test_figures_come_back_from_the_pages_of_this_tree():
+    for name in PARTS:
+        rows = [line for line in (proof.DETAILS / f"{name}.md").read_text(encoding="utf-8").splitlines() if line.startswith("|")]
+        assert proof.table(proof.figures_on_page(name)) == rows and len(rows) > 2
+
+
 @pytest.fixture
 def calls(tmp_path, monkeypatch):
     """What was worked on; each() in this process, and its third item breaks down once."""
