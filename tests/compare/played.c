@@ -16,6 +16,7 @@ static link_t links;
 static shape_t shape;
 static layers_t layers;
 static uint8_t layer_events;
+static bool alone;
 
 static void read_page(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
@@ -53,6 +54,7 @@ int played_start(int law, int page, uint32_t present, const uint16_t *pose_pos)
 {
     player_init(&player, &source, joint, goal_pos);
     player_set_shape(&player, &shape, &layers.shaping);
+    alone = false;
     layers_init(&layers, goal_pos);
     layers_bind(&layers, &player);
     return (int)player_start(&player, &links, (uint8_t)page, (player_law_t)law, pose_pos, present);
@@ -67,7 +69,7 @@ void played_code(int code)
 
 int played_tick(void)
 {
-    return layers_tick(&layers, &links, &layer_events);
+    return alone ? player_tick(&player, &links) : layers_tick(&layers, &links, &layer_events);
 }
 
 /* A layer comes and goes; degrees/s of the hand-over. Returns layers_status_t. */
@@ -75,6 +77,11 @@ int played_layer(int page, uint32_t joints, int deg_s)
 {
     layers_set_speed(&layers, (uint16_t)deg_s);
     return (int)layers_start(&layers, (uint8_t)page, joints);
+}
+
+void played_speed(int deg_s)
+{
+    layers_set_speed(&layers, (uint16_t)deg_s);
 }
 
 void played_layer_off(void)
@@ -94,6 +101,64 @@ void played_run(int first, int count, int all, uint16_t *goals, uint8_t *events,
             goals[i * all + tick] = goal_pos[i];
         }
     }
+}
+
+/* The tick as a program without layers has it; nothing is shaped. Call it behind played_start. */
+void played_alone(void)
+{
+    alone = true;
+    player_set_shape(&player, NULL, NULL);
+}
+
+void played_stop(void)
+{
+    link_stop(&links);
+}
+
+/* As the performer does it: for both plays. Nothing happens where it would do nothing. */
+void played_pause(void)
+{
+    if (player_is_moving(&player) && !player_is_paused(&player) && !player.breaking) {
+        layers_pause(&layers);
+        player_pause(&player);
+    }
+}
+
+void played_resume(void)
+{
+    if (player_is_paused(&player)) {
+        layers_resume(&layers);
+        player_resume(&player);
+    }
+}
+
+void played_break(void)
+{
+    layers_break(&layers);
+    player_break(&player);
+}
+
+void played_drop(uint32_t joints)
+{
+    layers_drop_joints(&layers, joints);
+    player_drop_joints(&player, joints);
+}
+
+/* Each returns layers_status_t. */
+int played_aim(int id, int pos, int deg_s)
+{
+    return (int)layers_aim(&layers, (uint8_t)id, (uint16_t)pos, (uint16_t)deg_s);
+}
+
+int played_swing(int id, int centre, int amplitude, int ticks, int phase_deg)
+{
+    return (int)layers_swing(&layers, (uint8_t)id, (uint16_t)centre, (uint16_t)amplitude,
+                             (uint16_t)ticks, (uint16_t)phase_deg);
+}
+
+void played_free(uint32_t joints)
+{
+    layers_free(&layers, joints);
 }
 
 const uint16_t *played_goals(void)
