@@ -59,3 +59,10 @@ class Running:
         self.process.wait()
         self.process.stdout.close()
         self.process.stderr.close()
+
+
+def play(tmp_path, text, *arguments):
+    """Runs a script."""
+    path = tmp_path / "script.txt"
+    path.write_text(text)
+    return run(ROBOT, "--script", path, *arguments)

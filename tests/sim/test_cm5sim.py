@@ -1,29 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""The command cm5sim with a small robot (robot/robot.c): its ways in, scripts, files, exit codes."""
-import csv
+"""The command cm5sim with a small robot (robot/robot.c): its ways in, exit codes, wrong usage."""
 import io
 import os
 import pathlib
 import re
-import shutil
 import signal
 import socket
-import subprocess
 import time
-import xml.etree.ElementTree
 
 import pexpect
 import pytest
 import serial
 
 from sim_command import CM5SIM, ROBOT, Running, run
-
-
-def play(tmp_path, text, *arguments):
-    """Runs a script."""
-    path = tmp_path / "script.txt"
-    path.write_text(text)
-    return run(ROBOT, "--script", path, *arguments)
 
 
 # --- ways in ---
@@ -149,6 +138,8 @@ def test_terminal_knobs(terminal):
 
 
 TITLE = re.compile(rb"\x1b\[2[23];2t|\x1b\]2;[^\a]*\a")
+
+
 OVERLAY = re.compile(rb"\x1b\[\?1049h(.*?)\x1b\[\?1049l", re.S)
 
 
@@ -211,168 +202,6 @@ def test_terminal_keys_as_remote(terminal):
     terminal.expect("flash FF")
 
 
-# --- scripts ---
-
-GOOD = """\
-# The whole language.
-expect "ready" within 100ms
-at 200ms send "p"
-expect "servo 3: 00\\r\\n"
-goal 3 == 512              # still where it stood
-torque 3 == 0
-send "m"
-expect "moving"
-goal 3 == 600
-torque 3 == 1
-present 3 >= 599 within 500ms
-register 3 28 == 32
-temperature 3 <= 40
-servo 3 push 400
-present 3 < 450
-present 3 >= 598 within 1s
-push 3 400
-wait 100ms
-present 3 == 400
-let go
-present 3 >= 598 within 1s
-push 3 410
-let go 3
-servo 3 clear
-servo 2 load -0.3
-servo 2 load 0
-panel PLAY off
-panel POWER on
-send "l"
-panel PLAY on
-press START 50ms
-expect "START"
-wait 20ms
-press START 0
-expect "START"
-release START
-rc U+3
-expect "rc 0041"
-rc L 150ms
-expect "rc 0004"
-expect "rc 0004"
-expect "rc 0000"
-servo 3 silent 1 times
-send "p"
-expect "silent"
-servo 3 checksum
-send "p"
-expect "garbled"
-servo 3 clear
-send "p"
-expect "3: 00"
-battery 5.5
-send "p"
-expect "3: 01"
-battery 9.6
-after 10ms reset
-expect "ready"
-power off
-expect no "ready" for 200ms
-power on
-expect "ready"
-send "\\x68\\x0d"
-expect "h\\r"
-note "half way"
-wait 2ticks
-quit
-send "never reached"
-"""
-
-
-def test_script_of_everything_passes(tmp_path):
-    done = play(tmp_path, GOOD)
-    assert done.stderr.decode().endswith(" s: half way\n"), done.stderr.decode()
-    assert done.returncode == 0
-
-
-@pytest.mark.parametrize("line, says", [
-    ('expect "hello" within 20ms', "\"hello\" did not come within 0.020 s"),
-    ("goal 3 == 600 within 10ms", "it is 512 after 0.010 s"),
-    ("present 99 == 1", "there is no servo 99"),
-    ("panel PLAY on within 1ms", "the LED is not lit"),
-    ('expect no "ready" for 1s', "\"ready\" came, and should not have"),
-])
-def test_script_failure_names_line_and_time(tmp_path, line, says):
-    done = play(tmp_path, f"# a comment\n\n{line}\n")
-    assert done.returncode == 1
-    assert "script.txt:3: at " in done.stderr.decode()
-    assert says in done.stderr.decode()
-
-
-@pytest.mark.parametrize("relation, right, wrong", [
-    ("==", 512, 511), ("!=", 511, 512), ("<", 513, 512), (">", 511, 512), ("<=", 512, 511), (">=", 512, 513)])
-def test_script_relations_hold_and_fail(tmp_path, relation, right, wrong):
-    assert play(tmp_path, f"present 3 {relation} {right} within 1ms\n").returncode == 0
-    assert play(tmp_path, f"present 3 {relation} {wrong} within 1ms\n").returncode == 1
-
-
-def test_script_after_counts_from_the_end_of_the_line_before(tmp_path):
-    done = play(tmp_path, 'wait 300ms\nafter 200ms note "now"\nat 700ms note "then"\n')
-    assert done.stderr.decode().split() == "cm5sim: 0.500 s: now cm5sim: 0.700 s: then".split()
-
-
-def test_script_failure_shows_what_the_robot_said(tmp_path):
-    done = play(tmp_path, 'expect "rea"\nexpect "go" within 50ms\n')
-    assert done.returncode == 1
-    assert 'the robot said: "dy\\r\\n"' in done.stderr.decode()
-
-
-@pytest.mark.parametrize("line, says", [
-    ("send p", 'a "text" to send is missing here'),
-    ('send "p', 'a closing " is missing'),
-    ('send "\\q"', "unknown escape"),
-    ("jump 3", "unknown action"),
-    ("wait", "a time like 500ms"),
-    ("wait 5", "a time like 500ms"),
-    ("at 5x send \"p\"", "a time like 500ms"),
-    ("goal 3 = 5", "a comparison is missing"),
-    ("goal 300 == 5", "a servo ID 0..253"),
-    ("goal 3 == 5 within", "a time like 500ms"),
-    ("press FIRE", "buttons are UP DOWN"),
-    ("rc U+7", "keys are U D L R 1..6"),
-    ("servo 3 tired", "what about the servo?"),
-    ("servo 3 silent 2", "\"times\" is missing"),
-    ("servo 3 push 2000", "a position 0..1023"),
-    ("panel NOSE on", "LEDs are POWER"),
-    ("power maybe", "on or off"),
-    ("quit now", "too many words"),
-    ('expect ""', "an empty text"),
-    ('expect no "x"', "for how long?"),
-])
-def test_script_mistakes_are_named_with_their_line(tmp_path, line, says):
-    done = play(tmp_path, f'expect "ready"\n{line}\n')
-    assert done.returncode == 2
-    assert "script.txt:2: " in done.stderr.decode()
-    assert says in done.stderr.decode()
-    assert done.stdout == b""  # nothing ran
-
-
-def test_script_cut_short_has_not_passed(tmp_path):
-    done = play(tmp_path, 'expect "ready"\nwait 10s\n', "--time", "500ms")
-    assert done.returncode == 1 and b"script.txt:2: the run ended here" in done.stderr
-    (tmp_path / "long.txt").write_text('expect "ready"\nnote "under way"\nwait 1000s\n')
-    with Running(ROBOT, "--script", tmp_path / "long.txt", "--realtime") as robot:
-        robot.message("(under way)")
-        assert robot.stop() == 1
-
-
-def test_script_goes_on_when_nobody_reads(tmp_path):
-    (tmp_path / "s.txt").write_text('expect "ready"\nwait 100ms\nsend "p"\nexpect "00"\n')
-    done = subprocess.run(f"({CM5SIM} {ROBOT} --script s.txt --realtime; echo code $? >&2) | true", shell=True,
-                          cwd=tmp_path, stderr=subprocess.PIPE, check=False)
-    assert done.stderr.endswith(b"code 0\n")
-
-
-def test_script_tells_all_mistakes_at_once(tmp_path):
-    done = play(tmp_path, "jump\nwait 1s\nhop\n")
-    assert ":1: " in done.stderr.decode() and ":3: " in done.stderr.decode()
-
-
 # --- violations and wrong usage ---
 
 def test_sweep_is_told_in_the_summary():
@@ -428,101 +257,3 @@ def test_help_shows_examples():
     done = run("--help")
     assert done.returncode == 0
     assert b"cm5sim play-cm5.hex" in done.stdout
-
-
-# --- what is kept, what is written ---
-
-def test_flash_and_eeprom_are_kept(tmp_path):
-    kept = ["--flash", tmp_path / "robot.bin", "--eeprom", tmp_path / "robot.eep"]
-    motions = tmp_path / "motions.bin"
-    motions.write_bytes(bytes([0x42]) + bytes(65535))
-    assert run(ROBOT, *kept, "--motions", motions, stdin=b"ew").stdout == b"ready\r\neeprom 00\r\nflash 42\r\n"
-    again = run(*kept, stdin=b"ew")  # no image: it is in the flash
-    assert again.stdout == b"ready\r\neeprom 01\r\nflash 42\r\n"
-    motions.write_bytes(bytes([0x77]) + bytes(65535))
-    careful = run(ROBOT, *kept, "--motions", motions, stdin=b"ew")  # the robot's own pages win
-    assert careful.stdout == b"ready\r\neeprom 02\r\nflash 42\r\n"
-    assert b"not loaded over them" in careful.stderr
-    assert (tmp_path / "robot.bin").stat().st_size == 0x20000
-
-
-def test_servo_eeprom_is_kept(tmp_path):
-    kept = tmp_path / "servos.bin"
-    assert play(tmp_path, "quit\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0
-    table = bytearray(kept.read_bytes())
-    assert len(table) == 2 * 24 and table[3] == 3 and table[27] == 7
-    table[27] = 9
-    kept.write_bytes(table)
-    assert play(tmp_path, "goal 9 == 512\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0
-
-
-def test_file_of_another_kind_is_refused(tmp_path):
-    wrong = tmp_path / "robot.bin"
-    wrong.write_bytes(b"my thesis")
-    done = run(ROBOT, "--flash", wrong)
-    assert done.returncode == 4 and b"131072 bytes" in done.stderr
-    assert wrong.read_bytes() == b"my thesis"
-
-
-MOVE = 'expect "ready"\nat 100ms send "m"\nat 1s quit\n'
-
-
-def test_trace_has_goal_and_present_of_every_servo_by_tick(tmp_path):
-    trace = tmp_path / "trace.csv"
-    assert play(tmp_path, MOVE, "--servos", "1-4", "--trace", trace).returncode == 0
-    with open(trace, newline="", encoding="ascii") as file:
-        rows = list(csv.DictReader(file))
-    assert list(rows[0]) == ["tick", "ms"] + [f"{what}{n}" for n in (1, 2, 3, 4) for what in ("goal", "present")]
-    assert [int(row["tick"]) for row in rows] == list(range(1, 129))  # 1 s
-    assert abs(float(rows[127]["ms"]) - 1000) < 0.01
-    assert rows[11]["goal3"] == "" and rows[11]["present3"] == "512"  # limp before the order
-    assert rows[127]["goal3"] == "600" and rows[127]["present3"] in ("599", "600")
-    middle = [int(row["present3"]) for row in rows]
-    assert sorted(middle) == middle and any(520 < position < 590 for position in middle)  # it takes time
-    assert {row["present4"] for row in rows} == {"512"}  # not part of the order
-
-
-def test_plot_is_a_picture(tmp_path):
-    svg, png = tmp_path / "move.svg", tmp_path / "move.png"
-    assert play(tmp_path, MOVE, "--servos", "1-4", "--plot", svg).returncode == 0
-    root = xml.etree.ElementTree.parse(svg).getroot()
-    assert root.tag.endswith("svg") and len(list(root.iter("{http://www.w3.org/2000/svg}path"))) > 20
-    assert play(tmp_path, MOVE, "--servos", "1-4", "--plot", png).returncode == 0
-    assert png.read_bytes().startswith(b"\x89PNG")
-
-
-def test_plot_without_matplotlib_says_so(tmp_path, monkeypatch):
-    (tmp_path / "python").write_text("#!/bin/sh\nexec python3 -I -S \"$@\"\n")  # no site-packages
-    (tmp_path / "python").chmod(0o755)
-    monkeypatch.setenv("M512_PYTHON", str(tmp_path / "python"))
-    done = play(tmp_path, MOVE, "--plot", tmp_path / "move.svg")
-    assert done.returncode == 4
-    assert b"no picture without matplotlib" in done.stderr
-
-
-def test_vcd_is_written(tmp_path):
-    vcd = tmp_path / "pins.vcd"
-    assert play(tmp_path, MOVE, "--vcd", vcd).returncode == 0
-    text = vcd.read_text()
-    assert "$timescale" in text and "$enddefinitions" in text and text.count("#") > 10
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-@pytest.mark.skipif(not shutil.which("avr-gdb"), reason="needs avr-gdb (package gdb-avr)")
-def test_gdb_finds_the_chip_at_its_first_instruction_and_stops_at_a_function():
-    port = free_port()
-    with Running(ROBOT, f"--gdb={port}", "--time", "200ms") as robot:
-        robot.message("(waiting for avr-gdb)")
-        time.sleep(0.5)
-        gdb = subprocess.run(
-            ["avr-gdb", "-batch", "-ex", f"target remote :{port}", "-ex", "info registers pc", "-ex", "break say",
-             "-ex", "continue", "-ex", "backtrace", "-ex", "delete", "-ex", "detach", ROBOT.with_suffix(".elf")],
-            capture_output=True, text=True, timeout=300, check=False)
-        assert "pc             0x0 " in gdb.stdout
-        assert "Breakpoint 1, say (" in gdb.stdout and "in main ()" in gdb.stdout
-        assert robot.process.wait(300) == 0

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: MIT
+"""What the command cm5sim keeps and writes: flash, EEPROM, traces, plots, VCD; and its port for avr-gdb."""
+import csv
+import shutil
+import socket
+import subprocess
+import time
+import xml.etree.ElementTree
+
+import pytest
+
+from sim_command import ROBOT, Running, play, run
+
+
+# --- what is kept, what is written ---
+
+def test_flash_and_eeprom_are_kept(tmp_path):
+    kept = ["--flash", tmp_path / "robot.bin", "--eeprom", tmp_path / "robot.eep"]
+    motions = tmp_path / "motions.bin"
+    motions.write_bytes(bytes([0x42]) + bytes(65535))
+    assert run(ROBOT, *kept, "--motions", motions, stdin=b"ew").stdout == b"ready\r\neeprom 00\r\nflash 42\r\n"
+    again = run(*kept, stdin=b"ew")  # no image: it is in the flash
+    assert again.stdout == b"ready\r\neeprom 01\r\nflash 42\r\n"
+    motions.write_bytes(bytes([0x77]) + bytes(65535))
+    careful = run(ROBOT, *kept, "--motions", motions, stdin=b"ew")  # the robot's own pages win
+    assert careful.stdout == b"ready\r\neeprom 02\r\nflash 42\r\n"
+    assert b"not loaded over them" in careful.stderr
+    assert (tmp_path / "robot.bin").stat().st_size == 0x20000
+
+
+def test_servo_eeprom_is_kept(tmp_path):
+    kept = tmp_path / "servos.bin"
+    assert play(tmp_path, "quit\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0
+    table = bytearray(kept.read_bytes())
+    assert len(table) == 2 * 24 and table[3] == 3 and table[27] == 7
+    table[27] = 9
+    kept.write_bytes(table)
+    assert play(tmp_path, "goal 9 == 512\n", "--servos", "3,7", "--servo-eeprom", kept).returncode == 0
+
+
+def test_file_of_another_kind_is_refused(tmp_path):
+    wrong = tmp_path / "robot.bin"
+    wrong.write_bytes(b"my thesis")
+    done = run(ROBOT, "--flash", wrong)
+    assert done.returncode == 4 and b"131072 bytes" in done.stderr
+    assert wrong.read_bytes() == b"my thesis"
+
+
+MOVE = 'expect "ready"\nat 100ms send "m"\nat 1s quit\n'
+
+
+def test_trace_has_goal_and_present_of_every_servo_by_tick(tmp_path):
+    trace = tmp_path / "trace.csv"
+    assert play(tmp_path, MOVE, "--servos", "1-4", "--trace", trace).returncode == 0
+    with open(trace, newline="", encoding="ascii") as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0]) == ["tick", "ms"] + [f"{what}{n}" for n in (1, 2, 3, 4) for what in ("goal", "present")]
+    assert [int(row["tick"]) for row in rows] == list(range(1, 129))  # 1 s
+    assert abs(float(rows[127]["ms"]) - 1000) < 0.01
+    assert rows[11]["goal3"] == "" and rows[11]["present3"] == "512"  # limp before the order
+    assert rows[127]["goal3"] == "600" and rows[127]["present3"] in ("599", "600")
+    middle = [int(row["present3"]) for row in rows]
+    assert sorted(middle) == middle and any(520 < position < 590 for position in middle)  # it takes time
+    assert {row["present4"] for row in rows} == {"512"}  # not part of the order
+
+
+def test_plot_is_a_picture(tmp_path):
+    svg, png = tmp_path / "move.svg", tmp_path / "move.png"
+    assert play(tmp_path, MOVE, "--servos", "1-4", "--plot", svg).returncode == 0
+    root = xml.etree.ElementTree.parse(svg).getroot()
+    assert root.tag.endswith("svg") and len(list(root.iter("{http://www.w3.org/2000/svg}path"))) > 20
+    assert play(tmp_path, MOVE, "--servos", "1-4", "--plot", png).returncode == 0
+    assert png.read_bytes().startswith(b"\x89PNG")
+
+
+def test_plot_without_matplotlib_says_so(tmp_path, monkeypatch):
+    (tmp_path / "python").write_text("#!/bin/sh\nexec python3 -I -S \"$@\"\n")  # no site-packages
+    (tmp_path / "python").chmod(0o755)
+    monkeypatch.setenv("M512_PYTHON", str(tmp_path / "python"))
+    done = play(tmp_path, MOVE, "--plot", tmp_path / "move.svg")
+    assert done.returncode == 4
+    assert b"no picture without matplotlib" in done.stderr
+
+
+def test_vcd_is_written(tmp_path):
+    vcd = tmp_path / "pins.vcd"
+    assert play(tmp_path, MOVE, "--vcd", vcd).returncode == 0
+    text = vcd.read_text()
+    assert "$timescale" in text and "$enddefinitions" in text and text.count("#") > 10
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@pytest.mark.skipif(not shutil.which("avr-gdb"), reason="needs avr-gdb (package gdb-avr)")
+def test_gdb_finds_the_chip_at_its_first_instruction_and_stops_at_a_function():
+    port = free_port()
+    with Running(ROBOT, f"--gdb={port}", "--time", "200ms") as robot:
+        robot.message("(waiting for avr-gdb)")
+        time.sleep(0.5)
+        gdb = subprocess.run(
+            ["avr-gdb", "-batch", "-ex", f"target remote :{port}", "-ex", "info registers pc", "-ex", "break say",
+             "-ex", "continue", "-ex", "backtrace", "-ex", "delete", "-ex", "detach", ROBOT.with_suffix(".elf")],
+            capture_output=True, text=True, timeout=300, check=False)
+        assert "pc             0x0 " in gdb.stdout
+        assert "Breakpoint 1, say (" in gdb.stdout and "in main ()" in gdb.stdout
+        assert robot.process.wait(300) == 0

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: MIT
+"""Scripts of the command cm5sim, with a small robot (robot/robot.c): what they do, and how failures and mistakes are named."""
+import subprocess
+
+import pytest
+
+from sim_command import CM5SIM, ROBOT, Running, play
+
+
+# --- scripts ---
+
+GOOD = """\
+# The whole language.
+expect "ready" within 100ms
+at 200ms send "p"
+expect "servo 3: 00\\r\\n"
+goal 3 == 512              # still where it stood
+torque 3 == 0
+send "m"
+expect "moving"
+goal 3 == 600
+torque 3 == 1
+present 3 >= 599 within 500ms
+register 3 28 == 32
+temperature 3 <= 40
+servo 3 push 400
+present 3 < 450
+present 3 >= 598 within 1s
+push 3 400
+wait 100ms
+present 3 == 400
+let go
+present 3 >= 598 within 1s
+push 3 410
+let go 3
+servo 3 clear
+servo 2 load -0.3
+servo 2 load 0
+panel PLAY off
+panel POWER on
+send "l"
+panel PLAY on
+press START 50ms
+expect "START"
+wait 20ms
+press START 0
+expect "START"
+release START
+rc U+3
+expect "rc 0041"
+rc L 150ms
+expect "rc 0004"
+expect "rc 0004"
+expect "rc 0000"
+servo 3 silent 1 times
+send "p"
+expect "silent"
+servo 3 checksum
+send "p"
+expect "garbled"
+servo 3 clear
+send "p"
+expect "3: 00"
+battery 5.5
+send "p"
+expect "3: 01"
+battery 9.6
+after 10ms reset
+expect "ready"
+power off
+expect no "ready" for 200ms
+power on
+expect "ready"
+send "\\x68\\x0d"
+expect "h\\r"
+note "half way"
+wait 2ticks
+quit
+send "never reached"
+"""
+
+
+def test_script_of_everything_passes(tmp_path):
+    done = play(tmp_path, GOOD)
+    assert done.stderr.decode().endswith(" s: half way\n"), done.stderr.decode()
+    assert done.returncode == 0
+
+
+@pytest.mark.parametrize("line, says", [
+    ('expect "hello" within 20ms', "\"hello\" did not come within 0.020 s"),
+    ("goal 3 == 600 within 10ms", "it is 512 after 0.010 s"),
+    ("present 99 == 1", "there is no servo 99"),
+    ("panel PLAY on within 1ms", "the LED is not lit"),
+    ('expect no "ready" for 1s', "\"ready\" came, and should not have"),
+])
+def test_script_failure_names_line_and_time(tmp_path, line, says):
+    done = play(tmp_path, f"# a comment\n\n{line}\n")
+    assert done.returncode == 1
+    assert "script.txt:3: at " in done.stderr.decode()
+    assert says in done.stderr.decode()
+
+
+@pytest.mark.parametrize("relation, right, wrong", [
+    ("==", 512, 511), ("!=", 511, 512), ("<", 513, 512), (">", 511, 512), ("<=", 512, 511), (">=", 512, 513)])
+def test_script_relations_hold_and_fail(tmp_path, relation, right, wrong):
+    assert play(tmp_path, f"present 3 {relation} {right} within 1ms\n").returncode == 0
+    assert play(tmp_path, f"present 3 {relation} {wrong} within 1ms\n").returncode == 1
+
+
+def test_script_after_counts_from_the_end_of_the_line_before(tmp_path):
+    done = play(tmp_path, 'wait 300ms\nafter 200ms note "now"\nat 700ms note "then"\n')
+    assert done.stderr.decode().split() == "cm5sim: 0.500 s: now cm5sim: 0.700 s: then".split()
+
+
+def test_script_failure_shows_what_the_robot_said(tmp_path):
+    done = play(tmp_path, 'expect "rea"\nexpect "go" within 50ms\n')
+    assert done.returncode == 1
+    assert 'the robot said: "dy\\r\\n"' in done.stderr.decode()
+
+
+@pytest.mark.parametrize("line, says", [
+    ("send p", 'a "text" to send is missing here'),
+    ('send "p', 'a closing " is missing'),
+    ('send "\\q"', "unknown escape"),
+    ("jump 3", "unknown action"),
+    ("wait", "a time like 500ms"),
+    ("wait 5", "a time like 500ms"),
+    ("at 5x send \"p\"", "a time like 500ms"),
+    ("goal 3 = 5", "a comparison is missing"),
+    ("goal 300 == 5", "a servo ID 0..253"),
+    ("goal 3 == 5 within", "a time like 500ms"),
+    ("press FIRE", "buttons are UP DOWN"),
+    ("rc U+7", "keys are U D L R 1..6"),
+    ("servo 3 tired", "what about the servo?"),
+    ("servo 3 silent 2", "\"times\" is missing"),
+    ("servo 3 push 2000", "a position 0..1023"),
+    ("panel NOSE on", "LEDs are POWER"),
+    ("power maybe", "on or off"),
+    ("quit now", "too many words"),
+    ('expect ""', "an empty text"),
+    ('expect no "x"', "for how long?"),
+])
+def test_script_mistakes_are_named_with_their_line(tmp_path, line, says):
+    done = play(tmp_path, f'expect "ready"\n{line}\n')
+    assert done.returncode == 2
+    assert "script.txt:2: " in done.stderr.decode()
+    assert says in done.stderr.decode()
+    assert done.stdout == b""  # nothing ran
+
+
+def test_script_cut_short_has_not_passed(tmp_path):
+    done = play(tmp_path, 'expect "ready"\nwait 10s\n', "--time", "500ms")
+    assert done.returncode == 1 and b"script.txt:2: the run ended here" in done.stderr
+    (tmp_path / "long.txt").write_text('expect "ready"\nnote "under way"\nwait 1000s\n')
+    with Running(ROBOT, "--script", tmp_path / "long.txt", "--realtime") as robot:
+        robot.message("(under way)")
+        assert robot.stop() == 1
+
+
+def test_script_goes_on_when_nobody_reads(tmp_path):
+    (tmp_path / "s.txt").write_text('expect "ready"\nwait 100ms\nsend "p"\nexpect "00"\n')
+    done = subprocess.run(f"({CM5SIM} {ROBOT} --script s.txt --realtime; echo code $? >&2) | true", shell=True,
+                          cwd=tmp_path, stderr=subprocess.PIPE, check=False)
+    assert done.stderr.endswith(b"code 0\n")
+
+
+def test_script_tells_all_mistakes_at_once(tmp_path):
+    done = play(tmp_path, "jump\nwait 1s\nhop\n")
+    assert ":1: " in done.stderr.decode() and ":3: " in done.stderr.decode()

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: MIT
+"""Editing commands that make, move, exchange and scale steps, and UNDO: the 512 bytes, worked out here from editor-original.md and
+firmware/edit/DIFFERENCES.md."""
+import pytest
+
+from edit_base import BASE, FULL, PAGES, bytes_of, opened, step
+from edit_robot import changed, robot, seal, word, UNUSED
+
+
+@pytest.fixture(scope="module", name="shared")
+def _shared():
+    with robot(pages=PAGES) as one:
+        yield one
+
+
+@pytest.fixture
+def r(shared):
+    return opened(shared)
+
+
+# ---- steps ----
+
+def test_step_sets_the_count(r):
+    r.line("step 5")
+    assert bytes_of(r) == changed(BASE, {20: 5})
+    r.line("s 0")
+    assert bytes_of(r) == changed(BASE, {20: 0})
+
+
+def pose_step(r):
+    """The work pose as the screen shows it, as 64 bytes of a stored step (???? is stored as unused)."""
+    data = bytearray()
+    for y in range(31):
+        text = r.cell(0, y)
+        if text == "????":
+            live = r.text(y + 1, 14, 4)
+            value = UNUSED | (int(live) if live.isdigit() else 0)
+        else:
+            value = UNUSED if text == "----" else int(text)
+        data += bytes([value & 0xFF, value >> 8])
+    return bytes(data) + bytes([int(r.cell(0, 31)), int(r.cell(0, 32))])
+
+
+def stored(data, changes):
+    data = bytearray(data)
+    for k, content in changes.items():
+        data[64 + 64 * k:128 + 64 * k] = content
+    return data
+
+
+def test_write_appends_the_work_pose(r):
+    r.line("on")
+    pose = pose_step(r)
+    r.line("write")
+    data = stored(BASE.data, {3: pose})
+    data[20] = 4
+    assert bytes_of(r) == seal(data)
+    r.line("step 7")
+    assert r.line("w") == "w All 7 steps are used"
+    r.line("off")
+
+
+@pytest.mark.parametrize("line, step", [("write", 3), ("write 1", 1), ("insert 1", 1)])
+def test_joints_that_are_not_there_are_not_written(r, line, step):
+    """Whatever the work pose shows for them: here ????, by the space bar. So an ordinary SAVE has nothing to say."""
+    r.line("on")
+    for y in (0, 19, 30):
+        r.line(f"goto 0 {y}")
+        if r.cell(0, y) != "????":
+            r.keys(" ")
+        assert r.cell(0, y) == "????"
+    r.line(line)
+    assert r.message == line and [r.cell(step + 1, y) for y in (0, 19, 30)] == ["----"] * 3
+    saved = r.line("save 126")
+    if "[y/N]" in saved:
+        r.keys("y")
+    assert "????" not in r.message, r.message
+    assert [word(r.flash_page(126), step, y) for y in (0, 19, 30)] == [UNUSED] * 3
+    for y in (0, 19, 30):
+        r.line(f"goto 0 {y}")
+        r.keys(" ")
+    r.line("off")
+
+
+def test_write_n_does_not_count(r):
+    r.line("on")
+    pose = pose_step(r)
+    r.line("w 6")
+    assert bytes_of(r) == seal(stored(BASE.data, {6: pose}))
+    r.line("off")
+
+
+def test_insert_moves_up_and_the_last_step_falls_out(r):
+    r.line("page 3")
+    r.line("on")
+    pose = pose_step(r)
+    assert r.line("insert 2").startswith("insert 2 Step 6 fell out")
+    full = FULL.data
+    assert bytes_of(r) == seal(stored(full, {2: pose, **{k: step(full, k - 1) for k in range(3, 7)}}))
+    r.line("undo")   # what SAVE made of ????
+    r.line("undo")
+    assert bytes_of(r) == bytes(full)
+    r.line("page 1")
+    r.line("i 1")
+    data = stored(BASE.data, {1: pose, **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
+    data[20] = 4
+    assert bytes_of(r) == seal(data)
+    r.line("off")
+
+
+def test_delete(r):
+    r.line("page 3")
+    r.line("delete 2")
+    data = stored(FULL.data, {k: step(FULL.data, k + 1) for k in range(2, 6)})
+    data[20] = 6
+    assert bytes_of(r) == seal(data)
+    r.line("undo")
+    r.line("d 6")
+    assert bytes_of(r) == changed(FULL, {20: 6})
+    r.line("d")
+    assert bytes_of(r) == changed(FULL, {20: 5})
+    r.line("step 0")
+    assert r.line("d") == "d There is no step"
+
+
+def test_move_copies(r):
+    r.line("on")
+    assert r.line("move 0 4") == "move 0 4:000->004"
+    assert bytes_of(r) == seal(stored(BASE.data, {4: step(BASE.data, 0)}))
+    assert r.line("move 1 7").startswith("move 1 7:001->007")
+    assert r.cell(0, 3) == "0300" and r.cell(0, 32) == "050"
+    r.line("off")
+
+
+def test_swap(r):
+    r.line("swap 0 2")
+    assert bytes_of(r) == seal(stored(BASE.data, {0: step(BASE.data, 2), 2: step(BASE.data, 0)}))
+    r.line("undo")
+    assert bytes_of(r) == bytes(BASE.data)
+
+
+def between(made, a, b, percent):
+    """The 64 bytes of step a with each joint `percent` of the way to step b, no pause, time 0."""
+    data = bytearray(step(made.data, a))
+    for joint in range(1, 19):
+        first, second = made.word(a, joint), made.word(b, joint)
+        value = first + int(abs(second - first) * percent / 100 + 0.5) * (1 if second > first else -1)
+        data[2 * joint:2 * joint + 2] = value.to_bytes(2, "little")
+    data[62:64] = b"\0\0"
+    return data
+
+
+def test_int_makes_a_step_between_two_and_the_page_takes_as_long_as_before(r):
+    r.line("int 0 1 34")
+    data = stored(BASE.data, {1: between(BASE, 0, 1, 34), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
+    data[20], data[64 + 64 + 63], data[64 + 128 + 63] = 4, 17, 33   # of 50: a third of the way, a third of the time
+    assert bytes_of(r) == seal(data)
+    r.line("undo")
+    assert bytes_of(r) == bytes(BASE.data)
+
+
+def test_int_between_steps_that_do_not_follow_each_other_takes_the_time_of_the_second(r):
+    r.line("int 0 2")
+    data = stored(BASE.data, {1: between(BASE, 0, 2, 50), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
+    data[20], data[64 + 64 + 63] = 4, 60
+    assert bytes_of(r) == seal(data)
+    r.line("undo")
+    r.line("speed")   # a speed is the same on both halves of a way
+    r.line("int 0 1")
+    data = stored(BASE.data, {1: between(BASE, 0, 1, 50), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
+    data[16], data[20], data[64 + 64 + 63] = 0, 4, 50
+    assert bytes_of(r) == seal(data)
+
+
+def test_scale_changes_times_and_pauses(r):
+    r.line("scale 150")
+    assert bytes_of(r) == changed(BASE, {64 + 62: 5, 64 + 63: 60, 128 + 63: 75, 192 + 63: 90})
+
+
+def test_take_and_paste_between_pages(r):
+    r.line("page 3")
+    r.line("take 1 2")
+    r.line("page 1")
+    r.line("paste")
+    data = stored(BASE.data, {3: step(FULL.data, 1), 4: step(FULL.data, 2)})
+    data[20] = 5
+    assert bytes_of(r) == seal(data)
+    r.line("paste 0")
+    data = stored(data, {0: step(FULL.data, 1), 1: step(FULL.data, 2)})
+    assert bytes_of(r) == seal(data)
+    assert r.line("paste 6") == "paste 6 No room: 7 steps at most"
+
+
+def test_paste_within_a_page_reads_before_it_writes(r):
+    r.line("take 0 2")
+    r.line("paste 1")
+    data = stored(BASE.data, {k + 1: step(BASE.data, k) for k in range(3)})
+    data[20] = 4
+    assert bytes_of(r) == seal(data)
+    r.line("undo")
+    r.line("take 1 2")
+    r.line("paste 0")
+    assert bytes_of(r) == seal(stored(BASE.data, {k: step(BASE.data, k + 1) for k in range(2)}))
+
+
+# ---- undo ----
+
+def test_eight_commands_are_undone_and_redone(r):
+    states = [bytes_of(r)]
+    for line in ("set 11", "swap 0 1", "step 5", "move 0 6", "int 0 1", "delete 0", "speed", "copy 2", "new"):
+        r.line(line)
+        if "[y/N]" in r.command:
+            r.keys("y")
+        states.append(bytes_of(r))
+    for state in reversed(states[:-1]):
+        assert r.line("u") == "u"
+        assert bytes_of(r) == state
+    assert not r.unsaved
+    for state in states[1:]:
+        r.line("redo")
+        assert bytes_of(r) == state
