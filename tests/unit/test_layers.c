@@ -297,7 +297,8 @@ static void test_layers_swing_over_a_walk_and_free(void)
     TEST_ASSERT_FALSE(layers_are_moving(&layers));
 }
 
-static void test_layers_break_and_pause_hold_for_both(void)
+/* 100 ticks of both, then a pause. */
+static void pause_a_wave_over_the_walk(void)
 {
     play_alone(PLAYER_LAW_EXACT);
     start(PLAYER_LAW_EXACT);
@@ -307,6 +308,11 @@ static void test_layers_break_and_pause_hold_for_both(void)
     }
     player_pause(&player);
     layers_pause(&layers);
+}
+
+static void test_layers_break_and_pause_hold_for_both(void)
+{
+    pause_a_wave_over_the_walk();
     for (uint16_t t = 0; t < 20; t++) {
         (void)tick();
     }
@@ -332,14 +338,7 @@ static void test_layers_break_and_pause_hold_for_both(void)
 static void test_layers_that_stand_later_than_the_walk_resume_too(void)
 {
     sparse_pages[WAVE].accel = 60;
-    play_alone(PLAYER_LAW_EXACT);
-    start(PLAYER_LAW_EXACT);
-    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
-    for (uint16_t t = 0; t < 100; t++) {
-        (void)tick();
-    }
-    player_pause(&player);
-    layers_pause(&layers);
+    pause_a_wave_over_the_walk();
     while ((tick() & PLAYER_EV_STANDING) == 0) {
     }
     TEST_ASSERT_TRUE(player_is_paused(&layers.play));

@@ -147,23 +147,19 @@ static void test_page_position_between_two_is_rounded_away_from_the_first(void)
     TEST_ASSERT_EQUAL_UINT16(767, page_pos_between(1023, 0, 25));
 }
 
+static void must_split(uint8_t time, uint8_t percent, uint8_t first, uint8_t rest)
+{
+    TEST_ASSERT_EQUAL_UINT8(first, page_time_split(&time, percent));
+    TEST_ASSERT_EQUAL_UINT8(rest, time);
+}
+
 static void test_page_time_is_shared_and_nothing_gets_none(void)
 {
-    uint8_t time = 31;
-    TEST_ASSERT_EQUAL_UINT8(16, page_time_split(&time, 50));
-    TEST_ASSERT_EQUAL_UINT8(15, time);
-    time = 255;
-    TEST_ASSERT_EQUAL_UINT8(64, page_time_split(&time, 25));
-    TEST_ASSERT_EQUAL_UINT8(191, time);
-    time = 1;
-    TEST_ASSERT_EQUAL_UINT8(1, page_time_split(&time, 50));
-    TEST_ASSERT_EQUAL_UINT8(1, time);
-    time = 9;
-    TEST_ASSERT_EQUAL_UINT8(1, page_time_split(&time, 0));
-    TEST_ASSERT_EQUAL_UINT8(8, time);
-    time = 0;
-    TEST_ASSERT_EQUAL_UINT8(0, page_time_split(&time, 50));
-    TEST_ASSERT_EQUAL_UINT8(0, time);
+    must_split(31, 50, 16, 15);
+    must_split(255, 25, 64, 191);
+    must_split(1, 50, 1, 1);
+    must_split(9, 0, 1, 8);
+    must_split(0, 50, 0, 0);
 }
 
 static void test_page_is_playable_needs_steps_and_a_count(void)
