@@ -11,6 +11,7 @@ import type { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import { aim, askList, askWhere, command, free, play, setAmplitude, setBlend, setLayer, setRate, setTorque, swing } from '../robot/protocol.ts';
 import type { Command } from '../robot/protocol.ts';
+import type { TerminalSize } from '../robot/edit-screen.ts';
 import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
@@ -66,6 +67,7 @@ export class RobotDesk implements Desk {
   private held: ReadonlySet<RemoteButton> = new Set();
   private whereTimer: ReturnType<typeof setTimeout> | undefined;
   private troubleUntilMs = 0;
+  private terminal: TerminalSize | null = null;
   private readonly follower = new Follow(() => this.connection, (error) => this.fail(error));
   /** What the robot in the page has in its flash. */
   private inPage: readonly Uint8Array[] = [];
@@ -124,6 +126,12 @@ export class RobotDesk implements Desk {
 
   show(tab: Tab): void {
     this.state.set({ tab });
+    this.look();
+  }
+
+  terminalSize(size: TerminalSize): void {
+    this.terminal = size;
+    this.look();
   }
 
   play(page: number): Promise<void> {
@@ -337,6 +345,7 @@ export class RobotDesk implements Desk {
     const { version, name } = this.connection;
     this.state.set({ connection: state, version, portName: name, where: null });
     this.tell();
+    this.look();
     if (state !== 'ready') return;
     void askList(this.connection.requests).then((pages) => this.state.set({ pages }), (error: unknown) => this.fail(error));
     this.standUp();
@@ -397,9 +406,17 @@ export class RobotDesk implements Desk {
 
   /** A program's question would spoil a line that somebody types, and puts Edit's screen away. */
   private mayAsk(): boolean {
-    const { connection, version, tab } = this.state.get();
-    const isEditOnScreen = version?.image === 'edit' && tab === 'terminal';
-    return connection === 'ready' && !this.connection.isHeldOff && !isEditOnScreen && !this.transfer.isWriting;
+    return this.state.get().connection === 'ready' && !this.connection.isHeldOff && !this.isEditOnScreen && !this.transfer.isWriting;
+  }
+
+  private get isEditOnScreen(): boolean {
+    const { version, tab } = this.state.get();
+    return version?.image === 'edit' && tab === 'terminal';
+  }
+
+  /** Questions that the page has to ask put Edit's screen away: while somebody looks at it, it comes back. */
+  private look(): void {
+    if (this.state.get().connection === 'ready') this.connection.look(this.isEditOnScreen ? this.terminal : null);
   }
 
   private async askWhere(): Promise<void> {

@@ -3,6 +3,7 @@
 // when they change stand in connection-table.ts.
 
 import type { Clock } from './clock.ts';
+import type { TerminalSize } from './edit-screen.ts';
 import { nextState } from './connection-table.ts';
 import type { ConnectionEvent, ConnectionState } from './connection-table.ts';
 import { Line } from './line.ts';
@@ -99,6 +100,11 @@ export class Connection {
     return this.asked?.isHeldOff ?? false;
   }
 
+  /** Somebody looks at Edit's screen (EditScreen.look): of this line, until it ends. */
+  look(size: TerminalSize | null): void {
+    this.asked?.screen.look(size);
+  }
+
   private on(event: ConnectionEvent): void {
     const next = nextState(this.current, event);
     if (!next) return;
@@ -136,7 +142,10 @@ export class Connection {
     }
     if (this.current !== 'opening') return void this.shut(); // stopped meanwhile
     this.line = new Line(this.port, this.clock, {
-      text: (bytes) => this.events.text(bytes),
+      text: (bytes) => {
+        this.asked?.screen.heard();
+        this.events.text(bytes);
+      },
       answer: (line) => this.asked?.take(line),
       lost: (cause) => this.lose(cause),
     });

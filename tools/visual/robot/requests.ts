@@ -6,6 +6,7 @@
 //                                     +--time over--> rejected; late answers to it are dropped until the line is settled
 
 import type { Clock } from './clock.ts';
+import { EditScreen } from './edit-screen.ts';
 import type { Line } from './line.ts';
 import { isAnswer } from './line-parser.ts';
 import { RobotError } from './robot-error.ts';
@@ -42,10 +43,14 @@ export class Requests {
   private isHeld = false;
   private cancelHold: () => void = () => undefined;
   private isEnded = false;
+  /** What these questions put away. */
+  readonly screen: EditScreen;
 
   constructor(line: Pick<Line, 'write' | 'expect' | 'forget'>, clock: Clock) {
     this.line = line;
     this.clock = clock;
+    this.screen = new EditScreen(clock, () => !this.current && this.abandoned === null && this.queue.length === 0 && this.typing === '',
+      (keys) => void line.write(new TextEncoder().encode(keys)).catch(() => undefined)); // a lost line has no screen
   }
 
   /** Sends a request, `@where` for example; resolves to the words between its own first word and OK.
@@ -64,6 +69,7 @@ export class Requests {
   /** A person's keys have gone down the line. While a line is half typed nothing is asked: until it ends, or five seconds after its last
    *  key. What is under way goes on. */
   typed(keys: string): void {
+    this.screen.typed(keys);
     this.cancelHold();
     this.typing = typedLine(this.typing, keys);
     this.isHeld = this.typing !== '';
@@ -100,6 +106,7 @@ export class Requests {
     this.isEnded = true;
     this.cancelTimer();
     this.cancelHold();
+    this.screen.end();
     const all = this.current ? [this.current, ...this.queue] : [...this.queue];
     this.current = null;
     this.queue.length = 0;
@@ -112,6 +119,7 @@ export class Requests {
     if (!request) return;
     this.current = request;
     this.line.expect(request.text);
+    this.screen.asked();
     this.cancelTimer = this.clock.after(request.timeoutMs, () => this.timeOut(request));
     const bytes = new TextEncoder().encode(`${this.typing === '' ? '' : EMPTY_LINE}${request.text}\r`); // what was left is no part of it
     this.typing = '';

@@ -6,6 +6,7 @@ import type { Body } from '../model/body.ts';
 import type { Shape } from '../model/motion.ts';
 import type { Vector } from '../model/space.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
+import type { TerminalSize } from '../robot/edit-screen.ts';
 import type { Command, PageEntry, Version, Where } from '../robot/protocol.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { RobotState } from '../robot/robot-state.ts';
@@ -84,6 +85,8 @@ export interface Desk {
   onText(listener: (bytes: Uint8Array) => void): () => void;
 
   show(tab: Tab): void;
+  /** The terminal shows so many letters. */
+  terminalSize(size: TerminalSize): void;
   play(page: number): Promise<void>;
   command(command: Command): Promise<void>;
   /** Without servos: of all. */

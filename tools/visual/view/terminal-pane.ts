@@ -66,6 +66,7 @@ export class TerminalPane extends HTMLElement {
     const rows = Math.floor(height / (size * LETTER.height));
     terminal.options.fontSize = Math.floor(size * 2) / 2;
     terminal.resize(COLUMNS, Math.max(ROWS_LEAST, Math.min(ROWS_MOST, rows)));
+    this.desk.terminalSize({ rows: terminal.rows, columns: terminal.cols });
   }
 }
 
