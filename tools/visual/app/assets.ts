@@ -22,8 +22,11 @@ import type { MotionExports } from '../model/motion.ts';
 import type { Images } from '../sim/machine.ts';
 import { TrialClient } from '../sim/trial-client.ts';
 
-async function get(url: string): Promise<Response> {
-  const response = await fetch(url);
+/** A line that stands still, as at the edge of a wireless network, is no reason to wait for ever. */
+const FIRMWARE_MS = 120_000;
+
+async function get(url: string, signal: AbortSignal | null = null): Promise<Response> {
+  const response = await fetch(url, { signal });
   if (!response.ok) throw new Error(`${url.split('/').at(-1)} could not be loaded (${response.status})`);
   return response;
 }
@@ -48,9 +51,11 @@ export async function motionLibrary(): Promise<Uint8Array> {
   return new Uint8Array(await (await get(motionsUrl)).arrayBuffer());
 }
 
+/** Rejects when a file does not come within two minutes. */
 export async function robotImages(image: 'play' | 'edit'): Promise<Images> {
+  const signal = AbortSignal.timeout(FIRMWARE_MS);
   const [boot, application, motions] = await Promise.all([
-    get(bootUrl).then((r) => r.text()), get(image === 'play' ? playUrl : editUrl).then((r) => r.text()), get(motionsUrl).then((r) => r.arrayBuffer()),
+    get(bootUrl, signal).then((r) => r.text()), get(image === 'play' ? playUrl : editUrl, signal).then((r) => r.text()), get(motionsUrl, signal).then((r) => r.arrayBuffer()),
   ]);
   return { boot, application, motions: new Uint8Array(motions) };
 }

@@ -290,16 +290,23 @@ export class RobotDesk implements Desk {
   }
 
   runImage(image: ImageName): void {
-    void this.restart(image);
+    void this.restart(image).catch((error: unknown) => this.fail(error));
   }
 
+  /** Rejects with RobotError when the image cannot be had: the robot goes on as it was. */
   private async restart(image: ImageName): Promise<void> {
-    this.state.set({ image, connection: 'opening' });
-    await this.simulated.restart(image);
+    const before = this.state.get().image;
+    this.state.set({ image });
+    try {
+      await this.simulated.restart(image);
+    } catch (cause) {
+      if (this.state.get().image === image) this.state.set({ image: before });
+      throw new RobotError('no-image', '', { cause });
+    }
   }
 
-  forget(): Promise<void> {
-    return this.simulated.forget(this.state.get().image);
+  async forget(): Promise<void> {
+    await this.simulated.forget(this.state.get().image).catch((cause: unknown) => this.fail(new RobotError('no-image', '', { cause })));
   }
 
   /** Only Play can be driven. */

@@ -8,6 +8,7 @@ import type { ConnectionState } from '../robot/connection-table.ts';
 import { askWhere, play } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
+import type { Images } from '../sim/machine.ts';
 import type { FromSim, ToSim } from '../sim/messages.ts';
 import { SimulatedRobot } from '../sim/robot-client.ts';
 import type { DeskState, ImageName } from '../view/desk.ts';
@@ -23,6 +24,11 @@ const KEY = 'cm5';
 const READY_PAGE = 1;
 const STAND_LIMIT_MS = 8000;
 const ASK_MS = 50;
+
+interface Parts {
+  readonly module: WebAssembly.Module;
+  readonly images: Images;
+}
 
 export interface SourceEvents {
   frame(state: RobotState): void;
@@ -47,6 +53,7 @@ export class SimulatedSource {
   private readonly body: Body;
   private readonly events: SourceEvents;
   private robot: SimulatedRobot | null = null;
+  private turn: Promise<void> = Promise.resolve();
   private isShown = true;
   private standing: Promise<void> | null = null;
   private hasPhysics = false;
@@ -59,15 +66,68 @@ export class SimulatedSource {
     this.events = events;
   }
 
-  async start(image: ImageName): Promise<void> {
-    const [module, images, kept] = await Promise.all([boardModule(), robotImages(image), this.load()]);
+  /** Starts the first robot. */
+  start(image: ImageName): Promise<void> {
+    return this.inTurn(async () => {
+      const [parts, kept] = await Promise.all([this.parts(image), this.load()]);
+      this.begin(parts, kept);
+    });
+  }
+
+  /** Starts the robot anew with this image; what is in its memories stays. Rejects when the image cannot be had: then the robot
+   *  goes on as it was. */
+  restart(image: ImageName): Promise<void> {
+    return this.inTurn(async () => {
+      const parts = await this.parts(image);
+      const kept = await this.memories();
+      await this.end();
+      this.begin(parts, kept);
+    });
+  }
+
+  /** Starts a robot as the factory gives it. Rejects as restart() does. */
+  forget(image: ImageName): Promise<void> {
+    return this.inTurn(async () => {
+      const parts = await this.parts(image);
+      await this.end();
+      await forgetRobot(KEY).catch(() => this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } }));
+      this.begin(parts, null);
+    });
+  }
+
+  /** One robot at a time: who presses twice gets the second one when the first is there. */
+  private inTurn(deed: () => Promise<void>): Promise<void> {
+    const done = this.turn.then(deed);
+    this.turn = done.catch(() => undefined); // its caller hears of it
+    return done;
+  }
+
+  private async parts(image: ImageName): Promise<Parts> {
+    const [module, images] = await Promise.all([boardModule(), robotImages(image)]);
+    return { module, images };
+  }
+
+  /** What the robot has now; when it has crashed, what was kept of it last. */
+  private async memories(): Promise<KeptRobot | null> {
+    try {
+      const memories = await this.robot?.memories();
+      if (!memories) return await this.load();
+      await this.keep(memories);
+      return memories;
+    } catch {
+      return this.load();
+    }
+  }
+
+  private begin({ module, images }: Parts, kept: KeptRobot | null): void {
     const worker = new Worker(new URL('../sim/worker.ts', import.meta.url), { type: 'module' });
-    const robot = new SimulatedRobot(worker, { message: (message) => this.take(message) });
+    const robot: SimulatedRobot = new SimulatedRobot(worker, { message: (message) => this.robot === robot && this.take(message) });
     this.robot = robot;
     this.events.motions(kept ? motionsIn(kept) : images.motions);
     this.standing = null;
     this.hasPhysics = false;
     robot.post({ kind: 'start', module, body: this.body, images, kept });
+    if (!this.isShown) robot.post({ kind: 'speed', speed: 0 });
     this.clock = new TickClock();
     this.connection = new Connection(robot.port, this.clock, {
       state: (state) => this.isShown && this.events.connection(state),
@@ -75,22 +135,6 @@ export class SimulatedSource {
     });
     this.connection.connect();
     void this.addPhysics(robot);
-  }
-
-  async restart(image: ImageName): Promise<void> {
-    const robot = this.robot;
-    this.robot = null;
-    if (robot) await this.keep(await robot.memories());
-    await this.end(robot);
-    await this.start(image);
-  }
-
-  async forget(image: ImageName): Promise<void> {
-    const robot = this.robot;
-    this.robot = null;
-    await this.end(robot);
-    await forgetRobot(KEY).catch(() => this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } }));
-    await this.start(image);
   }
 
   post(message: ToSim): void {
@@ -112,11 +156,13 @@ export class SimulatedSource {
   /** Does what a person does before a motion: holds the robot, lets it go to its standing pose, lets go of it. At once when
    *  it stands already. Rejects with RobotError when the robot refuses. */
   prepare(): Promise<void> {
-    this.standing ??= this.stand().catch((error: unknown) => {
-      this.standing = null;
+    if (this.standing) return this.standing;
+    const standing: Promise<void> = this.stand().catch((error: unknown) => {
+      if (this.standing === standing) this.standing = null; // another robot has its own
       throw error;
     });
-    return this.standing;
+    this.standing = standing;
+    return standing;
   }
 
   private async stand(): Promise<void> {
@@ -175,7 +221,9 @@ export class SimulatedSource {
     this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
   }
 
-  private async end(robot: SimulatedRobot | null): Promise<void> {
+  private async end(): Promise<void> {
+    const robot = this.robot;
+    this.robot = null;
     await this.connection?.close();
     this.connection = null;
     robot?.dispose();

@@ -22,6 +22,8 @@ let seenOperations = 0;
 let writtenAtMs = 0;
 let isStopped = false;
 let isSeen = true;
+/** What was asked of a robot that is still being made. */
+const early: ToSim[] = [];
 const ready = new MessageChannel();
 
 function tell(message: FromSim, transfer: Transferable[] = []): void {
@@ -37,6 +39,7 @@ async function start(message: Extract<ToSim, { kind: 'start' }>): Promise<void> 
   board.setPower(true);
   pacer.setSpeed(1, performance.now(), board.nowCycles);
   tell({ kind: 'started', faults: board.faultNames() });
+  for (const one of early.splice(0)) handle(one);
   loop();
 }
 
@@ -99,8 +102,11 @@ function sendFrame(robot: Simulation, nowMs: number): void {
 
 function handle(message: ToSim): void {
   if (message.kind === 'start') return void start(message).catch(crash);
+  if (!simulation) {
+    if (message.kind !== 'bytes') early.push(message); // bytes: nobody listens to the wire yet
+    return;
+  }
   if (message.kind === 'physics') return void addPhysics(message);
-  if (!simulation) return;
   if (message.kind === 'seen') {
     isSeen = true;
     return;

@@ -29,7 +29,7 @@ export class StatusStrip extends HTMLElement {
   }
 
   private render(state: DeskState): void {
-    const liesIdle = this.fallen === TEXTS.fallen && state.doing.text === TEXTS.waits;
+    const liesIdle = this.fallen === TEXTS.fallen && (state.doing.text === TEXTS.waits || state.doing.text === TEXTS.editRuns);
     this.write(this.doing, { ...state.doing, text: liesIdle ? TEXTS.getUp : [state.doing.text, this.fallen].filter(Boolean).join(' ') });
     this.write(this.said, state.said);
     const where = state.where;

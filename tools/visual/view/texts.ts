@@ -15,6 +15,7 @@ const ERRORS: Record<RobotErrorCode, string> = {
   'no-serial': 'This browser cannot reach a serial port. Use Chrome or Edge on a computer or Android; the robot in the page works here.',
   foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
   'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
+  'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
   cancelled: 'Stopped.',
   'page-changed': 'This page has changed in the robot since it was read; nothing was written over it. Compare once more: page',
   'page-unsaved': 'The page in Edit\'s memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.',
@@ -52,9 +53,10 @@ function pageTitle(state: DeskState, page: number): string {
 export function doingText(state: DeskState, where: Where | null): string {
   if (state.stopped !== null) return state.stopped;
   if (state.connection !== 'ready') return CONNECTIONS[state.connection];
-  if (!where) return state.version?.image === 'edit' ? 'Edit runs: its screen is in the terminal.' : 'Ready.';
+  const isEdit = state.version?.image === 'edit';
+  if (!where) return isEdit ? TEXTS.editRuns : 'Ready.';
   switch (where.state) {
-    case 'idle': case 'ready': return TEXTS.waits;
+    case 'idle': case 'ready': return isEdit ? TEXTS.editRuns : TEXTS.waits;
     case 'approach': return `Going slowly to the first pose of ${pageTitle(state, where.page)}.`;
     case 'paused': return `Paused in ${pageTitle(state, where.page)}, step ${where.step}.`;
     case 'playing': return `Playing ${pageTitle(state, where.page)}, step ${where.step}.`;
@@ -71,6 +73,8 @@ export const TEXTS = {
   noWebGl: 'This browser draws no 3D picture (WebGL is off). Everything else works.',
   noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
   waits: 'The robot stands and waits.',
+  /** It waits as well; this is what one has to know of it. */
+  editRuns: 'Edit runs: its screen is in the terminal.',
   fallen: 'The robot lies on the floor.',
   getUp: 'The robot lies on the floor. Press Get up.',
   held: 'A hand holds the robot.',

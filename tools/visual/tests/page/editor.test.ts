@@ -93,7 +93,7 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
   await pupil.doing.filter({ hasText: /Playing page \d+ \(hello\)/ }).waitFor(PATIENT);
   await said(pupil, 'That is your first motion.');
   await pupil.page.screenshot({ path: `${SHOTS}steps.png` });
-  await pupil.page.getByText('The robot stands and waits.', { exact: true }).waitFor(PATIENT);
+  await pupil.untilStanding();
   // Somebody who reads needs 4 s for a click, 8 for a drag or a name; the rest is the robot's own time since Edit began.
   expect(11 * 4 + 4 * 8 + (await robotSeconds(pupil))).toBeLessThan(120);
   expect(farthest(await arm(pupil), lifted)).toBeLessThan(25); // where the hand had put it

@@ -110,9 +110,9 @@ export class Visitor {
     return (await drawn.jsonValue()) ?? NaN;
   }
 
-  /** Waits until the firmware answers; with physics, until the robot stands by itself. */
+  /** Waits until the firmware answers and nothing plays; with physics, until the robot stands by itself. */
   async untilStanding(): Promise<void> {
-    await this.page.getByText('The robot stands and waits.', { exact: true }).waitFor({ timeout: LIMIT_MS });
+    await this.page.getByText(/^(The robot stands and waits|Edit runs: its screen is in the terminal)\.$/).waitFor({ timeout: LIMIT_MS });
   }
 
   /** Until what has changed is on the screen: a mouse hits what is seen there. */

@@ -2,7 +2,7 @@
 // What every file of browser tests begins and ends with.
 
 import { mkdir } from 'node:fs/promises';
-import type { Browser } from 'playwright-core';
+import type { Browser, Page } from 'playwright-core';
 import { afterAll, afterEach, beforeAll } from 'vitest';
 import { PageServer, startBrowser } from './page-bench.ts';
 
@@ -15,6 +15,22 @@ export interface PageSuite {
   readonly address: string;
 }
 
+const TELL_MS = 20_000;
+
+/** What a page shows and knows, for the report of a test that failed: a wait alone says nothing of why. */
+async function told(page: Page): Promise<string> {
+  const shows = page.evaluate(() => {
+    const shell = document.querySelector('app-shell') as unknown as { desk: { state: { get(): Record<string, unknown> } } } | null;
+    const { connection, image, physics, speed, stopped, tab, version, where } = shell?.desk.state.get() ?? {};
+    const text = (name: string): string => document.querySelector<HTMLElement>(name)?.innerText ?? '';
+    const terminal = document.querySelector('terminal-pane') as unknown as { screenText?: string } | null;
+    const strip = [text('.start-failed'), text('status-strip')].filter(Boolean).join('\n');
+    return `${strip}\n${JSON.stringify({ connection, image, physics, speed, stopped, tab, version, where })}\n${terminal?.screenText ?? ''}`;
+  });
+  const silent = new Promise<string>((resolve) => setTimeout(() => resolve('nothing: it has hung'), TELL_MS));
+  return Promise.race([shows, silent]).catch((error: unknown) => `nothing: ${String(error)}`);
+}
+
 /** One browser and one server for all tests of a file; there from its first test to its last. */
 export function pageSuite(): PageSuite {
   const suite: { browser?: Browser; server?: PageServer } = {};
@@ -23,7 +39,9 @@ export function pageSuite(): PageSuite {
     [suite.browser, suite.server] = await Promise.all([startBrowser(), PageServer.start()]);
   });
   // The page of a test that failed would go on working beside the next one.
-  afterEach(async () => {
+  afterEach(async ({ task }) => {
+    const pages = suite.browser?.contexts().flatMap((context) => context.pages()) ?? [];
+    if (task.result?.state === 'fail') for (const page of pages) console.log(`when "${task.name}" failed, ${page.url()} showed:\n${await told(page)}`);
     for (const context of suite.browser?.contexts() ?? []) await context.close();
   });
   afterAll(async () => {

@@ -193,7 +193,6 @@ test.skipIf(why !== null)('a hobbyist with Edit: all pages read and kept, a step
     await rows.getByText('Nothing differs.').waitFor();
     await person.button('Close').click();
     await person.open('Terminal');
-    await person.type('\r'); // draws the screen: it was put away by the page's questions
     await nameAndSave(person, 'salute');
     await robot.pull();
     await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The sentence about what the robot does, for Edit: it has to stay as long as it is true, because who starts Edit looks for its screen.
+import { expect, test } from 'vitest';
+import type { PlayState, Where } from '../robot/protocol.ts';
+import type { DeskState } from '../view/desk.ts';
+import { doingText } from '../view/texts.ts';
+
+const state = (image: string): DeskState => ({ connection: 'ready', stopped: null, pages: [{ page: 2, name: 'bow', steps: 3, fault: '' }], version: { image } }) as unknown as DeskState;
+const where = (now: PlayState): Where => ({ state: now, page: 2, step: 1 }) as Where;
+
+test('Edit says where its screen is, before its first answer and after it, until something plays', () => {
+  const said = [null, where('idle'), where('ready')].map((now) => doingText(state('edit'), now));
+  expect(said).toEqual(Array(3).fill('Edit runs: its screen is in the terminal.'));
+  expect(doingText(state('edit'), where('playing'))).toBe('Playing page 2 (bow), step 1.');
+  expect(doingText(state('play'), where('idle'))).toBe('The robot stands and waits.');
+});
