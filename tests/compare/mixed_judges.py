@@ -9,7 +9,7 @@ import handed
 import mixed_cases
 from mixed_cases import LAYER_DEEDS, SHAPE_DEEDS, TICKS, play
 from mixed_facts import bits, dropped, ends_of, first_difference, halts_of, in_force, is_broken, lent, owners, paused_ticks
-from played import CLASSIC, ENDED, EXACT, JOINTS, STANDING
+from played import CLASSIC, ENDED, EXACT, JOINTS, OUTPUT, STANDING
 from shaped import model_pose
 
 import classic_law  # tests/oracle, on the path by now
@@ -46,7 +46,8 @@ def poses_of(case, run):
                     return f"page {page} step {step} ends in tick {ends[k]}: no shape that was in force makes these goals"
                 poses = [pose for pose, by in zip(poses, off) if by == 0]
             else:
-                most = min(off) + BESIDE_TARGET if min(off) <= BESIDE_TARGET else max(off)    # a step that is skipped ends anywhere
+                played = any(run.events[at] & OUTPUT for at in range(tick, ends[k] + 1))     # else it is skipped, and ends anywhere
+                most = min(off) + BESIDE_TARGET if played and min(off) <= BESIDE_TARGET else max(off)
                 poses = [pose for by, pose in sorted(zip(off, poses), key=lambda pair: pair[0]) if by <= most]
         found.append(poses)
     return found
