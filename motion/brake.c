@@ -25,7 +25,7 @@ void exact_freeze(player_t *player)
         player_exact_t *exact = &joint->exact;
         if (holds) {
             set_speed(exact, 0);
-        } else if (joint >= planned) { /* between two steps */
+        } else if (player->arrived && joint >= planned) { /* between two steps */
             int32_t speed = (int32_t)exact->exit_q16_16;
             set_speed(exact, joint->down ? -speed : speed);
         } else { /* speed is that of the coming tick: half an acceleration further on */

@@ -93,6 +93,7 @@ void classic_plan_joints(player_t *player, uint8_t most)
     for (player_joint_t *joint = &player->joint[planned]; planned < PAGE_JOINTS && most != 0; planned++, joint++) {
         if (law_owns(self, joint)) {
             most--;
+            law_work(player, LAW_WORK_PLAN_JOINT);
             player_classic_t *classic = &joint->classic;
             classic->speed = ticks != 0 ? plan_speed(classic, &by) : skipped_speed(classic);
         }
@@ -137,7 +138,9 @@ void classic_take(player_t *player)
     player->hold_ticks = now->hold_ticks;
     player->step_ticks = now->ticks;
     player->ramp_ticks = step_plan_classic_ramp(now->accel_time, &player->step_ticks);
-    uint8_t joints = sequence_take(player);
+    const uint8_t joints = sequence_take(player);
+    player->own_joints = joints;
+    law_work(player, LAW_WORK_TAKE + joints / 2u);
     player->arrived = true;
     player->planned = 0;
     classic_plan_joints(player, joints / PLANNED_AHEAD);

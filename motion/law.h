@@ -2,16 +2,18 @@
  * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence.c), the two laws
  * (law_exact.c, law_classic.c and its classic_plan.c), slowing down (brake.c). Included by these only.
  *
- * The work between two steps is spread over several ticks, so that none takes too long with 31 joints. From six ticks before
- * the end a tick does one piece, in this order; a tick that begins the step or FALL does none, if there is time:
+ * The work between two steps is spread over several ticks, so that none takes too long with 31 joints:
  *
- *   look     decides the link at a page's last step; reads the step behind the coming one. The last tick but one, if the
- *            play is neither shaped (shape.h) nor a page layer: a code or a stop shall still count
+ *   look     decides the link at a page's last step; reads the step behind the coming one. In the last tick but one, so that
+ *            a code or a stop counts as long as it can; earlier if the play is shaped (shape.h) or a page layer. When a main
+ *            play looks depends on itself alone, not on a layer
  *   shape    a share of that step's joints (shape_step.h), three times, if the play is shaped
- *   measure  lengths that only depend on the joints' targets; in the last tick but one at the latest
+ *   measure  lengths that only depend on the joints' targets
+ *   plan     exact: a third of the joints, in the last tick but one
+ *   take     in the last tick: the joints are at their targets; the coming step becomes `now`; plans more of the joints
+ *   begin    in the first tick of `now`: plans the rest; the tick itself
  *
- *   last            take     the joints are at their targets; the coming step becomes `now`; plans it for some of the joints
- *   first of `now`  begin    plans the others; the first tick itself
+ * A look, a share or a measure waits for a tick that has time for it, as long as there is one (LAW_WORK_).
  *
  * Functions that run once a step are NOINLINE: inlined, they would make every tick save registers. */
 #ifndef LAW_H
@@ -73,11 +75,31 @@ void sequence_look_first(player_t *player);
  * Call only while player->coming.page is not 0. */
 void sequence_look(player_t *player, link_t *link) NOINLINE;
 
-/* A piece of the work for the coming step, at the end of a tick `left` ticks before it begins (0 to SEQUENCE_AHEAD); a tick
- * before and in the last one all that is left. busy: this tick has had enough to do; only a look that is due does not wait.
- * Returns whether the law has to measure the lengths now. */
-bool sequence_prepare(player_t *player, link_t *link, uint8_t left, bool busy) NOINLINE;
-#define SEQUENCE_AHEAD 6u /* a look, three shares of SHAPE_STEP_SHARE joints, a busy tick, the lengths, the end */
+/* Whether the play follows the classic law. In a program without that law the constant false removes all its code. */
+#define LAW_IS_CLASSIC(player) (PLAYER_CLASSIC && (player)->law == PLAYER_LAW_CLASSIC)
+
+/* How much of this work a tick has done, in units of 256 cycles on the ATmega128, roughly. Both plays count together: the
+ * layer's tick comes first, and what it has done is the main play's beginning. */
+#define LAW_WORK_LOOK 12u
+#define LAW_WORK_SHARE 12u
+#define LAW_WORK_MEASURE 17u
+#define LAW_WORK_TAKE 5u
+#define LAW_WORK_PLAN_JOINT 2u
+#define LAW_WORK_MOST 30u /* with the tick itself, 15,000 cycles under the exact law */
+
+static inline void law_work(player_t *player, uint8_t work)
+{
+    if (PLAYER_LAYERS) {
+        player->work = (uint8_t)(player->work + work);
+    }
+}
+
+/* The pieces of the work for the coming step, up to its lengths, that are done at the end of a tick `left` ticks before it
+ * begins (0 to SEQUENCE_AHEAD). begins: this tick has begun a step. Returns whether the law has to measure the lengths
+ * now. */
+bool sequence_prepare(player_t *player, link_t *link, uint8_t left, bool begins) NOINLINE;
+#define SEQUENCE_AHEAD 16u        /* of a page layer, which gets neither codes nor stops */
+#define SEQUENCE_AHEAD_SHAPED 6u  /* of a main play that is shaped */
 
 /* Whether looked_at has the words of the page that the link names although another page, or none, will be played: the
  * original does so when that page is passed over or ends the play. */
@@ -105,8 +127,9 @@ uint8_t exact_tick(player_t *player, link_t *link);
 uint8_t exact_step_over(player_t *player, link_t *link);
 void exact_freeze(player_t *player);
 
-/* Whether the play follows the classic law. In a program without that law the constant false removes all its code. */
-#define LAW_IS_CLASSIC(player) (PLAYER_CLASSIC && (player)->law == PLAYER_LAW_CLASSIC)
+/* A joint that stands on its target and has just become the play's: plans it if it is too late for plan ahead. */
+void exact_plan_given(player_t *player, uint8_t joint);
+
 void classic_start(player_t *player, link_t *link);
 uint8_t classic_tick(player_t *player, link_t *link);
 void classic_step_over(player_t *player, link_t *link);

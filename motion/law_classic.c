@@ -75,8 +75,7 @@ static NOINLINE void come_to_the_end(player_t *player, link_t *link, uint8_t lef
     if (!player->looked && player->coming.page == 0) {
         return;
     }
-    bool begins = player->section == SECTION_RISE && player->tick == 1; /* the step, in this tick */
-    if (sequence_prepare(player, link, left, begins) && left != 0) {
+    if (sequence_prepare(player, link, left, player->section == SECTION_RISE && player->tick == 1) && left != 0) {
         classic_measure(player);
     } else if (left == 0) {
         classic_take(player);
@@ -97,6 +96,7 @@ static NOINLINE uint8_t begin_step(player_t *player)
 {
     uint8_t events = sequence_announce(player);
     classic_plan_joints(player, PAGE_JOINTS);
+    player->planned = 0;
     enter(player, SECTION_RISE, player->ramp_ticks);
     if (player->ramp_ticks == 0) {
         FOR_OWN_GOALS(player, joint, goal) {
@@ -116,6 +116,7 @@ static NOINLINE void begin_cruise(player_t *player)
         return; /* only in a skipped step */
     }
     uint16_t ticks_on = (uint16_t)(ticks - ramp);
+    law_work(player, player->own_joints / 2u);
     part_t part = part_of(cruise, ticks_on, fix_recip32(ticks_on));
     FOR_OWN_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;

@@ -50,10 +50,14 @@ static void move_steadily(player_t *player)
     }
 }
 
+/* The last tick. A joint that is planned ahead is on the target already. */
 static void land(player_t *player)
 {
+    const player_joint_t *planned = &player->joint[PLAYER_LAYERS ? player->planned : 0];
     FOR_OWN_GOALS(player, joint, goal) {
-        joint->exact.pos_q16_16 = fix_from_pos(joint->target_pos);
+        if (joint >= planned) {
+            joint->exact.pos_q16_16 = fix_from_pos(joint->target_pos);
+        }
         *goal = joint->target_pos;
     }
 }
@@ -95,47 +99,56 @@ static NOINLINE uint8_t measure_ramp(uint8_t accel_time, uint16_t ticks, uint16_
     return ramp_ticks;
 }
 
-/* Speed at target_pos of a joint whose mean speed in this step is `mean`: the smaller of both steps' means, or 0 if it turns
- * round or stays. */
-static inline uint32_t exit_speed(const player_t *player, const player_joint_t *joint, uint16_t next_pos, uint32_t mean,
+/* Speed at at_pos, the end of a step in which a joint's mean speed is `mean`: the smaller of both steps' means, or 0 if it
+ * turns round or stays. */
+static inline uint32_t exit_speed(const player_t *player, bool down, uint16_t at_pos, uint16_t next_pos, uint32_t mean,
                                   uint32_t next_recip)
 {
-    uint16_t at_pos = joint->target_pos;
-    if (mean == 0 || !player->runs_on || (joint->down ? next_pos >= at_pos : next_pos <= at_pos)) {
+    if (mean == 0 || !player->runs_on || (down ? next_pos >= at_pos : next_pos <= at_pos)) {
         return 0;
     }
     uint32_t next_mean = even(fix_mean(way_between(at_pos, next_pos), next_recip));
     return mean < next_mean ? mean : next_mean;
 }
 
-/* Plans `now`, from where the joints are and with the speed that the step before leaves (exit), to target_pos in step_ticks,
- * for the next `most` joints of those that are not planned yet. */
-static NOINLINE void plan_joints(player_t *player, uint8_t most)
+/* Plans the next `most` joints of those that are not planned yet, with the speed that the step before leaves (exit): from
+ * where they are to target_pos. ahead: a step that has not been taken, from target_pos to coming_pos. */
+static NOINLINE void plan_joints(player_t *player, bool ahead, uint8_t most)
 {
     uint8_t planned = player->planned;
     const uint16_t *coming = &player->coming_pos[planned];
     const uint8_t self = player->self;
-    const bool is_of_one = player->step_ticks == 1; /* no time for the multiplication in such a step */
-    const uint32_t next_recip = player->looked ? player->now.recip : player->coming.recip;
-    for (player_joint_t *joint = &player->joint[planned]; planned < PAGE_JOINTS && most != 0; planned++, joint++, coming++) {
+    const bool is_of_one = !ahead && player->step_ticks == 1; /* no time for the multiplication in such a step */
+    const uint32_t next_recip = player->looked && !ahead ? player->now.recip : player->coming.recip;
+    uint8_t left = most;
+    for (player_joint_t *joint = &player->joint[planned]; planned < PAGE_JOINTS && left != 0; planned++, joint++, coming++) {
         if (!law_owns(self, joint)) {
             continue;
         }
-        most--;
+        left--;
         player_exact_t *exact = &joint->exact;
-        uint16_t from_pos = fix_pos(exact->pos_q16_16), to_pos = joint->target_pos;
+        uint16_t from_pos = fix_pos(exact->pos_q16_16), to_pos = joint->target_pos, next_pos = *coming;
+        if (PLAYER_LAYERS && ahead) {
+            from_pos = to_pos;
+            to_pos = next_pos;
+            next_pos = player->looked_at[planned];
+            if (next_pos == PAGE_POS_UNUSED) {
+                next_pos = to_pos;
+            }
+        }
         OPAQUE(from_pos); /* two bytes to keep, not the four they come from: 30 cycles a joint */
         uint32_t entry = exact->exit_q16_16;
         const uint16_t way = way_between(from_pos, to_pos);
         const uint32_t mean = even(!is_of_one ? fix_mean(way, player->recip) : way != 0 ? ((uint32_t)way << 16) - 1u : 0);
         bool down = to_pos < from_pos;
         joint->down = down;
-        exact->exit_q16_16 = exit_speed(player, joint, *coming, mean, next_recip);
+        exact->exit_q16_16 = exit_speed(player, down, to_pos, next_pos, mean, next_recip);
         if (!is_of_one) {
             plan_joint(player, exact, from_pos, down, mean, entry);
         }
     }
     player->planned = planned;
+    law_work(player, (uint8_t)(LAW_WORK_PLAN_JOINT * (uint8_t)(most - left)));
 }
 
 /* Length, pause and ramp of the coming step. */
@@ -163,6 +176,7 @@ static NOINLINE void begin_cruise(player_t *player)
 static NOINLINE void begin_fall(player_t *player)
 {
     uint16_t recip = player->ramp_recip;
+    law_work(player, player->own_joints / 2u);
     recip = recip == UINT16_MAX ? recip : (uint16_t)(recip + 1u); /* rather slow early than go past the target */
     FOR_OWN_JOINTS(player, joint) {
         uint32_t cruise = joint->exact.cruise_q16_16;
@@ -175,18 +189,60 @@ static NOINLINE void begin_fall(player_t *player)
 
 /* --- from step to step -------------------------------------------------------------------------------------------- */
 
-/* How many of so many joints are planned in the tick before their step begins; the others follow in its first tick. Half of
- * them, unless one of these ticks is a whole step, or also the one in which the next step is looked at. None for a step of
- * one tick, which goes straight to its target: a break before it needs the speed with which the joints come. */
-static uint8_t planned_ahead(uint8_t joints, uint16_t old_ticks, uint16_t new_ticks)
+/* The joints of a step are planned in three ticks: in the last but one of the step before it, at whose end nothing but the
+ * target of the running step is needed any more; in the last one; in the step's own first one. A step of one tick is planned
+ * in its own: it goes straight to its target, and a break before it needs the speed with which the joints come. */
+
+/* What planning `now` needs. */
+static NOINLINE void prepare_plan(player_t *player)
 {
-    if (new_ticks == 1) {
+    const player_step_t *now = &player->now;
+    player->recip = now->recip;
+    player->ramp_recip = now->ramp_recip;
+    player->ramp_share_q0_16 = now->ramp_share_q0_16;
+    player->accel_time = now->accel_time;
+    player->ramp_ticks = step_plan_exact_ramp(now->accel_time, now->ticks);
+    player->runs_on = player->coming.page != 0 && now->pause == 0;
+}
+
+/* In the last tick but one: a third of the joints, fewer after other work. */
+static void plan_ahead(player_t *player)
+{
+    const uint8_t third = player->own_joints / 3u;
+    const uint8_t room = (uint8_t)(player->work < LAW_WORK_MOST ? (LAW_WORK_MOST - player->work) / LAW_WORK_PLAN_JOINT : 0u);
+    if (player->now.ticks > 1) {
+        player->ahead = true;
+        prepare_plan(player);
+        plan_joints(player, true, third < room ? third : room);
+    }
+}
+
+void exact_plan_given(player_t *player, uint8_t joint)
+{
+    const uint8_t planned = player->planned;
+    if (player->ahead && joint < planned) {
+        player->planned = joint;
+        plan_joints(player, true, 1);
+        player->planned = planned;
+    }
+}
+
+/* How many of so many joints are planned in the last tick: half of those that are not planned ahead. More if the step that
+ * follows is short: the next one is looked at soon. Few if one of the two ticks that are left is a whole step. */
+static uint8_t planned_last(const player_t *player, uint8_t joints, uint16_t old_ticks)
+{
+    uint16_t short_ticks = 2;
+    if (player->step_ticks == 1) {
         return 0;
     }
     if (old_ticks == 1) {
-        return joints / 6u;
+        return joints / 7u;
     }
-    return new_ticks == 2 ? (uint8_t)(joints - joints / 3u) : (uint8_t)((joints - 1u) / 2u);
+    if (player->planned != 0) { /* a third */
+        joints = (uint8_t)(joints - joints / 3u);
+        short_ticks = 4;
+    }
+    return player->step_ticks <= short_ticks ? (uint8_t)(joints - joints / 3u) : (uint8_t)((joints - 1u) / 2u);
 }
 
 /* Takes the coming step: the joints are on target_pos, and it begins with the next tick. */
@@ -194,27 +250,20 @@ static NOINLINE void take(player_t *player)
 {
     const uint16_t old_ticks = player->step_ticks;
     player->joints |= player->coming_joints;
-    player->accel_time = player->now.accel_time;
     player->step_ticks = player->now.ticks;
-    player->recip = player->now.recip;
     player->hold_ticks = player->now.hold_ticks;
-    player->ramp_ticks = step_plan_exact_ramp(player->accel_time, player->step_ticks);
-    player->ramp_recip = player->now.ramp_recip;
-    player->ramp_share_q0_16 = player->now.ramp_share_q0_16;
-    const uint8_t joints = sequence_take(player);
+    prepare_plan(player);
+    player->own_joints = sequence_take(player);
     player->tick = 0;
+    player->ahead = false;
     player->arrived = true;
-    player->runs_on = player->coming.page != 0 && player->now.pause == 0;
-    player->planned = 0;
-    plan_joints(player, planned_ahead(joints, old_ticks, player->step_ticks));
+    plan_joints(player, false, planned_last(player, player->own_joints, old_ticks));
 }
 
 /* By itself: an ordinary tick saves no registers for it. */
 static NOINLINE uint8_t come_to_the_end(player_t *player, link_t *link, uint8_t left)
 {
-    /* It began the step, or FALL. */
-    bool busy = player->tick == 1 || player->tick == (uint16_t)(player->step_ticks - player->ramp_ticks + 1u);
-    if (sequence_prepare(player, link, left, busy)) {
+    if (sequence_prepare(player, link, left, player->tick == 1)) {
         measure_coming(player);
     }
     if (left == 0) {
@@ -222,6 +271,8 @@ static NOINLINE uint8_t come_to_the_end(player_t *player, link_t *link, uint8_t 
             return law_end_play(player);
         }
         take(player);
+    } else if (PLAYER_LAYERS && left == 1 && player->measured) {
+        plan_ahead(player);
     }
     return 0;
 }
@@ -270,7 +321,8 @@ uint8_t exact_tick(player_t *player, link_t *link)
     uint8_t events = PLAYER_EV_OUTPUT;
     if (player->arrived) {
         events |= sequence_announce(player);
-        plan_joints(player, PAGE_JOINTS);
+        plan_joints(player, false, PAGE_JOINTS);
+        player->planned = 0;
         advance(player);
     } else if (player->tick < player->step_ticks) {
         advance(player);
@@ -306,7 +358,8 @@ bool exact_rest_start(player_t *player)
     player->ramp_ticks =
         measure_ramp(player->accel_time, player->step_ticks, &player->ramp_recip, &player->ramp_share_q0_16);
     player->planned = 0;
-    plan_joints(player, PAGE_JOINTS);
+    plan_joints(player, false, PAGE_JOINTS);
+    player->planned = 0;
     return true;
 }
 

@@ -125,8 +125,10 @@ static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *l
         if (changing) {
             memcpy(before_pos, layers->goal_pos, sizeof before_pos);
         }
-        events = player_tick(layers->main, main_link);
         *layer_events = tick_layer(layers);
+        layers->main->work = layers->play.work;
+        layers->play.work = 0;
+        events = player_tick(layers->main, main_link);
         if (changing) {
             layers_follow_plays(layers, events, *layer_events, before_pos);
         }

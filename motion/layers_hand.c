@@ -46,17 +46,17 @@ void layers_hand_back(layers_t *layers, uint32_t joints)
 /* A play, for the joints that change hands to it. */
 typedef struct {
     const player_t *play;
-    bool moves, begins_step;
+    bool moves, outputs, begins_step;
 } owner_t;
 
 static owner_t owner_of(const player_t *play, uint8_t events)
 {
-    return (owner_t){play, player_is_moving(play), (events & PLAYER_EV_STEP) != 0};
+    return (owner_t){play, player_is_moving(play), (events & PLAYER_EV_OUTPUT) != 0, (events & PLAYER_EV_STEP) != 0};
 }
 
 /* Where a joint that changes hands goes from `from` in this tick, by `most` at most, on its way to what its owner asks
- * for. */
-ALWAYS_INLINE uint16_t follow_owner(const owner_t *owner, player_joint_t *joint, uint16_t from, uint8_t most)
+ * for: goal, if the owner has made goals in this tick. */
+ALWAYS_INLINE uint16_t follow_owner(const owner_t *owner, player_joint_t *joint, uint16_t from, uint16_t goal, uint8_t most)
 {
     uint8_t hand_over = joint->hand_over;
     if (!owner->moves) { /* the joint stays */
@@ -66,7 +66,7 @@ ALWAYS_INLINE uint16_t follow_owner(const owner_t *owner, player_joint_t *joint,
     if (owner->begins_step && hand_over < HAND_OVER_CATCHES_UP) {
         hand_over++;
     }
-    const uint16_t asked = player_asks(owner->play, joint);
+    const uint16_t asked = owner->outputs ? goal : player_asks(owner->play, joint);
     uint16_t at = layers_approach_by(from, asked, most);
     if (hand_over >= HAND_OVER_CATCHES_UP) {
         const uint8_t before = hand_over;
@@ -91,7 +91,7 @@ void layers_follow_plays(layers_t *layers, uint8_t main_events, uint8_t layer_ev
         if (joint->hand_over == HAND_OVER_DONE || joint->owner == PLAYER_OWNER_CODE) {
             continue;
         }
-        *goal = follow_owner(joint->owner == PLAYER_OWNER_MAIN ? &main_play : &layer, joint, *before_pos, most);
+        *goal = follow_owner(joint->owner == PLAYER_OWNER_MAIN ? &main_play : &layer, joint, *before_pos, *goal, most);
         if (joint->hand_over != HAND_OVER_DONE) {
             layers->changing = true;
         }

@@ -54,6 +54,9 @@ void player_give_joint(player_t *player, uint8_t joint, uint16_t pos)
 {
     player->joint[joint].owner = player->self;
     stand(player, &player->joint[joint], pos);
+    if (PLAYER_LAYERS) {
+        exact_plan_given(player, joint);
+    }
 }
 
 void player_drop_joints(player_t *player, uint32_t joints)
@@ -114,12 +117,25 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
     player->page = player->coming.page;
     player->step = 0;
     player->breaking = false;
-    player->ramp_ticks = 0;
+    player->ramp_ticks = player->planned = 0;
     player->carry_q5_11 = STEP_PLAN_CARRY_START;
     player->state = STATE_PLAYING;
     stand_at(player, pose_pos, present);
     LAW_IS_CLASSIC(player) ? classic_start(player, link) : exact_start(player, link);
     return PLAYER_OK;
+}
+
+/* --- slowing down ------------------------------------------------------------------------------------------------ */
+
+/* Begins to slow down; behind the coming tick if joints are ahead, whose words are those behind it. */
+static void slow_down(player_t *player)
+{
+    const bool of_classic = is_classic(player);
+    player->state = STATE_BRAKING;
+    if (!player->ahead) {
+        of_classic ? classic_freeze(player) : exact_freeze(player);
+        brake_start(player);
+    }
 }
 
 /* --- a tick ------------------------------------------------------------------------------------------------------ */
@@ -155,7 +171,7 @@ static uint8_t tick_resting(player_t *player, link_t *link)
     return (uint8_t)(events | exact_step_over(player, link));
 }
 
-uint8_t player_tick(player_t *player, link_t *link)
+static uint8_t tick(player_t *player, link_t *link)
 {
     switch (player->state) {
     case STATE_PLAYING:
@@ -171,14 +187,25 @@ uint8_t player_tick(player_t *player, link_t *link)
     }
 }
 
-/* --- break, pause, resume ---------------------------------------------------------------------------------------- */
-
-static void slow_down(player_t *player)
+uint8_t player_tick(player_t *player, link_t *link)
 {
-    LAW_IS_CLASSIC(player) && player->state == STATE_PLAYING ? classic_freeze(player) : exact_freeze(player);
-    brake_start(player);
-    player->state = STATE_BRAKING;
+    const bool slows_behind = player->state == STATE_BRAKING && player->ahead;
+    if (slows_behind) {
+        player->state = STATE_PLAYING;
+    }
+    uint8_t events = tick(player, link);
+    if (player->self == PLAYER_OWNER_MAIN) {
+        player->work = 0;
+    }
+    if (slows_behind && player->state == STATE_PLAYING) {
+        slow_down(player);
+        player->brake_ticks--; /* this one counts */
+        events |= PLAYER_EV_OUTPUT;
+    }
+    return events;
 }
+
+/* --- break, pause, resume ---------------------------------------------------------------------------------------- */
 
 void player_break(player_t *player)
 {

@@ -107,7 +107,8 @@ typedef struct player {
     bool looked : 1;                /* the step behind the coming one has been looked at (law.h) */
     bool measured : 1;              /* and the lengths that depend on it are known */
     bool runs_on : 1;               /* exact: a joint may keep its speed at the step's end */
-    bool shaping_is_on : 1;         /* joints of the step that was looked at are still as stored */
+    uint8_t shares_left : 2;        /* of the joints of the step that was looked at, which are still to be shaped */
+    bool ahead : 1;                 /* exact: joints may be planned for `now` before it is taken */
     bool arrived;                   /* the joints are at the end of a step; `now` is planned and begins with the next tick */
     bool breaking;
     bool resuming;                  /* while BRAKING: goes on as soon as it stands */
@@ -117,6 +118,8 @@ typedef struct player {
     uint8_t ramp_ticks, brake_ticks;
     uint8_t accel_time;             /* of the step's page, for the rest of an interrupted step */
     uint16_t ramp_recip, ramp_share_q0_16; /* exact: 1 / A; A / (N - A) */
+    uint8_t work;                   /* between steps, done in this tick by both plays: LAW_WORK_ units (law.h) */
+    uint8_t own_joints;             /* how many it moved when the step was taken */
     uint8_t planned;                /* joints below this are planned for `now` */
     uint8_t announced_events;       /* PLAYER_EV_ bits of the beginning of `now` */
     uint16_t carry_q5_11;           /* the fraction of a tick that is left over */
@@ -124,7 +127,7 @@ typedef struct player {
     uint32_t recip;                 /* 2^32 over the ticks: of the step (exact), of the section (classic) */
     const page_source_t *source;
     const shape_t *shape;           /* NULL: as stored */
-    shape_step_t *shaping;          /* the step that was looked at, while shaping_is_on */
+    shape_step_t *shaping;          /* the step that was looked at, while shares_left is not 0 */
     /* Public, read only for callers. */
     uint16_t *goal_pos;             /* the tick's output: 31 goals 0..1023, page coordinates (no trim) */
     uint8_t law;                    /* player_law_t */

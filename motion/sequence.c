@@ -161,25 +161,24 @@ static bool shapes(const player_t *player)
     return player->shape != NULL && !shape_is_neutral(player->shape);
 }
 
-/* Whether `left` ticks before the step begins is too early for a look: a code or a stop shall still count. Not for a play
- * that is shaped, which needs the time, nor for a page layer, which gets neither. */
-static bool is_early(const player_t *player, uint8_t left)
-{
-    return left > 1 && !shapes(player) && (!PLAYER_LAYERS || player->self == PLAYER_OWNER_MAIN);
-}
-
 /* Reads a step's words to looked_at. Page 0: no joint is used. */
 static NOINLINE void look_at(player_t *player, uint8_t page, uint8_t step)
 {
     player->looked_joints = read_words(player->source, page, step, page != 0 ? player->present : 0, player->looked_at);
 }
 
+static void shape_a_share(player_t *player)
+{
+    (void)shape_step_share(player->shaping, player->source, player->looked_at);
+    player->shares_left--;
+}
+
 /* Shapes the remaining joints of the step that was looked at. */
 static void shape_the_rest(player_t *player)
 {
-    while (player->shaping_is_on && shape_step_share(player->shaping, player->source, player->looked_at)) {
+    while (player->shares_left != 0) {
+        shape_a_share(player);
     }
-    player->shaping_is_on = false;
 }
 
 STATIC_ASSERT(offsetof(player_step_t, time) == offsetof(player_step_t, pause) + 1, "side by side, as in a step");
@@ -195,7 +194,7 @@ static void look_at_coming(player_t *player)
                          (uint16_t)(PAGE_STEP_BYTES * coming->step + PAGE_STEP_AT_PAUSE), &coming->pause, 2);
     coming->rate_percent = shaped ? shape->rate_percent : SHAPE_NORMAL;
     coming->top_speed_q4_4 = shaped ? shape->top_speed_q4_4 : 0;
-    player->shaping_is_on = shaped;
+    player->shares_left = shaped ? SHAPE_STEP_SHARES : 0;
     if (shaped) {
         shape_step_begin(player->shaping, shape, player->source, coming->page, coming->step);
     }
@@ -229,23 +228,50 @@ void sequence_look(player_t *player, link_t *link)
     }
 }
 
-bool sequence_prepare(player_t *player, link_t *link, uint8_t left, bool busy)
+/* Whether a piece of work is done in this tick, `left` ticks before the step begins: if the tick has time for it, or if more
+ * pieces are left than ticks. */
+static bool fits(player_t *player, uint8_t left, uint8_t pieces, uint8_t work)
 {
-    bool hurry = left <= 1;
+    uint8_t most = LAW_WORK_MOST;
+    if (PLAYER_LAYERS && player->self == PLAYER_OWNER_LAYER) {
+        most = LAW_WORK_MOST - LAW_WORK_MOST / 3u; /* the main play comes after it */
+    }
+    if (PLAYER_LAYERS && left > 1 && pieces <= left && player->work + work > most) {
+        return false;
+    }
+    law_work(player, work);
+    return true;
+}
+
+/* Whether the play may look in this tick. When a main play does depends on itself alone: with a layer and without, the same
+ * settings, codes and stops count. */
+static bool may_look(player_t *player, uint8_t left, bool begins)
+{
+    if (PLAYER_LAYERS && player->self == PLAYER_OWNER_LAYER) {
+        return fits(player, left, 2, LAW_WORK_LOOK);
+    }
+    if (left > 1 && (left > SEQUENCE_AHEAD_SHAPED || (begins && left > SHAPE_STEP_SHARES) || !shapes(player))) {
+        return false;
+    }
+    law_work(player, LAW_WORK_LOOK);
+    return true;
+}
+
+bool sequence_prepare(player_t *player, link_t *link, uint8_t left, bool begins)
+{
     if (!player->looked) {
-        if (player->coming.page == 0 || is_early(player, left) || (busy && left > SEQUENCE_AHEAD - 2u)) {
+        if (player->coming.page == 0 || !may_look(player, left, begins)) {
             return false;
         }
         sequence_look(player, link);
-        busy = true;
-    } else if (player->shaping_is_on && !busy) {
-        player->shaping_is_on = shape_step_share(player->shaping, player->source, player->looked_at);
-        busy = true;
     }
-    if (hurry) {
-        shape_the_rest(player);
+    while (player->shares_left != 0) {
+        if (!fits(player, left, (uint8_t)(player->shares_left + 1u), LAW_WORK_SHARE)) {
+            return false;
+        }
+        shape_a_share(player);
     }
-    return !player->measured && (hurry || !busy);
+    return !player->measured && fits(player, left, 1, LAW_WORK_MEASURE);
 }
 
 void sequence_measure(player_t *player)

@@ -10,7 +10,8 @@
 #include "page_source.h"
 #include "shape.h"
 
-#define SHAPE_STEP_SHARE 11u /* three of them */
+#define SHAPE_STEP_SHARES 3u
+#define SHAPE_STEP_SHARE 11u /* joints */
 
 /* A step that is being shaped. Private to shape_step.c. */
 typedef struct shape_step {
