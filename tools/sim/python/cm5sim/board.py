@@ -15,19 +15,18 @@ import pathlib
 from typing import NamedTuple
 
 from . import library
+from .inside import Inside
+from .library import CYCLES_PER_MS
 from .memory import Memory
 from .servo import Servos
+from .wear import Wear
 
-CYCLES_PER_MS = 16000
 CYCLES_PER_TICK = 125000
 MOTIONS_ADDRESS = 0xE000
 BOOT_ADDRESS = 0x1E000
 BUTTONS = ("UP", "DOWN", "LEFT", "RIGHT", "START", "MODE")
 LEDS = ("power", "txd", "rxd", "aux", "manage", "program", "play")
 RESET_CAUSES = {1: "power-on", 2: "external", 4: "brown-out", 8: "watchdog"}
-# Interrupts of this firmware by what causes them.
-VECTORS = {"tick": 12, "bus byte": 18, "bus room": 19, "bus sent": 20, "console byte": 30, "console room": 31}
-OPERATIONS = ("erase", "write", "eeprom")
 _TIME, _VIOLATION, _POWER_CUT, _TEXT, _ADDRESS, _REQUEST = range(6)
 
 
@@ -43,16 +42,6 @@ class PowerCut(Exception):
     """The power cut that was armed has struck; power_on() starts the board again."""
 
 
-class Cycles(NamedTuple):
-    """Cycles of a probed function: own time (interrupts taken out) and total time."""
-    count: int
-    max: int
-    mean: float
-    total_max: int
-    total_mean: float
-    max_at: int
-
-
 class Frame(NamedTuple):
     """One SYNC WRITE with goal positions. tick counts from the first frame of the trace."""
     cycle: int
@@ -66,7 +55,7 @@ def find_image(name):
     return path if path.exists() else library.build_folder() / "firmware" / name
 
 
-class Board:
+class Board(Inside, Wear):
     """One controller board; see the module's text."""
 
     def __init__(self, kind="cm5", images=(), motions=None, servos=(), seed=1, bootrst=None):
@@ -353,134 +342,6 @@ class Board:
 
     def battery(self, volts):
         self._lib.board_battery(self._pointer, volts)
-
-    # Wear and power cuts
-
-    def wear(self, page):
-        """Erases of a 256-byte flash page."""
-        return self._lib.board_flash_wear(self._pointer, page)
-
-    def eeprom_wear(self, address):
-        return self._lib.board_eeprom_wear(self._pointer, address)
-
-    def age(self, page, erases):
-        """Sets how often a flash page has been erased."""
-        self._lib.board_age_flash(self._pointer, page, erases)
-
-    def age_eeprom(self, address, writes):
-        self._lib.board_age_eeprom(self._pointer, address, writes)
-
-    @property
-    def operations(self):
-        """Flash erases, flash writes and EEPROM byte writes so far."""
-        return self._lib.board_operations(self._pointer)
-
-    def operation(self, number):
-        """("erase" | "write" | "eeprom", address) of operation number (1, 2, ...)."""
-        kind, address = ctypes.c_int(), ctypes.c_uint32()
-        if not self._lib.board_operation(self._pointer, number, ctypes.byref(kind), ctypes.byref(address)):
-            raise IndexError(f"operation {number} is not on record")
-        return OPERATIONS[kind.value], address.value
-
-    def cut_power(self, op, phase="during", tear=0):
-        """Arms a power cut at the op-th operation from now on (1 = the next), in phase before, during or after."""
-        phases = ("before", "during", "after")
-        self._lib.board_cut_power(self._pointer, self.operations + op, phases.index(phase), tear)
-
-    def cut_power_at(self, ms):
-        """Arms a power cut so many milliseconds from now."""
-        self._lib.board_cut_power_at(self._pointer, self.now_cycles + int(ms * CYCLES_PER_MS))
-
-    def on_operation(self, done):
-        """Calls done() at the end of each operation that is not cut, in the middle of run(); it must not raise. None:
-        no more."""
-        self._done_before = getattr(self, "_done", None)  # may be the one that is just calling
-        self._done = library.OPERATION_DONE(lambda *_: done()) if done else library.OPERATION_DONE()
-        self._lib.board_on_operation(self._pointer, self._done, None)
-
-    def lock(self, bits):
-        self._lib.board_set_lock(self._pointer, bits)
-
-    # Inside the firmware
-
-    def function(self, name):
-        address = self._lib.board_function(self._pointer, name.encode())
-        if address == 0xFFFFFFFF:
-            raise KeyError(f"no function {name} in the loaded images")
-        return address
-
-    def variable(self, name):
-        """Data address of a variable."""
-        address = self._lib.board_variable(self._pointer, name.encode())
-        if address == 0xFFFFFFFF:
-            raise KeyError(f"no variable {name} in the loaded images")
-        return address
-
-    def function_at(self, address):
-        return self._lib.board_function_at(self._pointer, address).decode()
-
-    @property
-    def pc(self):
-        return self._lib.board_pc(self._pointer)
-
-    @property
-    def stack_headroom(self):
-        """Bytes between the end of the variables and the lowest stack so far."""
-        return self._lib.board_stack_headroom(self._pointer)
-
-    def probe(self, *names):
-        """Counts the cycles of functions from now on."""
-        for name in names:
-            if not self._lib.board_probe(self._pointer, name.encode()):
-                raise KeyError(f"no function {name} in the loaded images, or too many probes")
-
-    def cycles(self, name):
-        """Figures of a probed function."""
-        pointer = self._lib.board_probe_result(self._pointer, name.encode())
-        if not pointer:
-            raise KeyError(f"{name} is not probed")
-        r = pointer.contents
-        calls = max(r.calls, 1)
-        return Cycles(r.calls, r.own_max, r.own_sum / calls, r.total_max, r.total_sum / calls, r.max_at)
-
-    def clear_probes(self):
-        self._lib.board_probe_clear(self._pointer)
-
-    def interrupt(self, vector, byte=0):
-        """Raises an interrupt now (a number of board_debug.h's board_interrupt, or a name of VECTORS)."""
-        if not self._lib.board_interrupt(self._pointer, VECTORS.get(vector, vector), byte):
-            raise ValueError(f"interrupt {vector} cannot be raised")
-
-    def sweep(self, function, vector, byte=0):
-        """Interrupts each call of a function once from now on, each time one instruction later than in the call before."""
-        number = VECTORS.get(vector, vector)
-        if not self._lib.board_sweep(self._pointer, function.encode(), number, byte):
-            raise KeyError(f"no function {function} in the loaded images, or interrupt {vector} cannot be raised")
-
-    def swept(self, function):
-        """How far a sweep has come: place, calls, rounds, taken."""
-        pointer = self._lib.board_sweep_result(self._pointer, function.encode())
-        if not pointer:
-            raise KeyError(f"{function} is not swept")
-        return pointer.contents
-
-    def end_sweeps(self):
-        self._lib.board_sweep_end(self._pointer)
-
-    def skip_waits(self, on=True):
-        """Rounds of loops that only wait are counted instead of executed: the same run, faster. Probes do not see them."""
-        self._lib.board_skip_waits(self._pointer, on)
-
-    def step(self):
-        """Runs one instruction or interrupt response and returns its cycles."""
-        return self._lib.board_step(self._pointer)
-
-    def vcd(self, path):
-        if not self._lib.board_vcd_start(self._pointer, str(path).encode()):
-            raise OSError(self._lib.board_error(self._pointer).decode())
-
-    def stop_vcd(self):
-        self._lib.board_vcd_stop(self._pointer)
 
 
 def sync_goals(packet):

@@ -7,6 +7,7 @@ import pathlib
 
 from . import servo
 
+CYCLES_PER_MS = 16000
 HERE = pathlib.Path(__file__).resolve().parent
 ROBOT = HERE / "robot"  # in a wheel: what it takes from the build tree, in the same folders (setup.py), and lib/
 
