@@ -62,9 +62,10 @@ typedef struct {
                          * negative numbers; 0 when not given */
 } shell_args_t;
 
-/* Puts the complete line into the history, then splits it in place. The words are valid until shell_clear.
+/* Puts the complete line into the history, then splits it in place. The words are valid until shell_clear; args->number is
+ * left as it is.
  * hex: numbers without prefix are hexadecimal. */
-shell_args_t shell_split(shell_t *shell, bool hex);
+void shell_split(shell_t *shell, bool hex, shell_args_t *args);
 
 /* Word `index`; an empty string when there is none. */
 const char *shell_word(const shell_args_t *args, uint8_t index);

@@ -192,15 +192,17 @@ static bool is_separator(char character)
     return character == ' ' || character == ',' || character == '.' || character == ':' || character == ';';
 }
 
-shell_args_t shell_split(shell_t *shell, bool hex)
+void shell_split(shell_t *shell, bool hex, shell_args_t *args)
 {
     remember(shell);
-    shell_args_t args = {.words = shell->line, .count = 0, .hex = hex};
+    args->words = shell->line;
+    args->count = 0;
+    args->hex = hex;
     char *to = shell->line;
     bool inside = false;
     for (const char *from = shell->line; *from != '\0'; from++) {
         if (!is_separator(*from)) {
-            args.count = (uint8_t)(args.count + (inside ? 0 : 1));
+            args->count = (uint8_t)(args->count + (inside ? 0 : 1));
             inside = true;
             *to++ = *from;
         } else if (inside) {
@@ -209,5 +211,4 @@ shell_args_t shell_split(shell_t *shell, bool hex)
         }
     }
     *to = '\0';
-    return args;
 }

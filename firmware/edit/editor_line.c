@@ -64,13 +64,13 @@ void editor_line(void)
         dialog_end_line();
         return;
     }
-    the_dialog.args = shell_split(&the_dialog.shell, the_session.hex);
+    shell_split(&the_dialog.shell, the_session.hex, &the_dialog.args);
     editor_run();
 }
 
 void editor_program_line(void)
 {
     the_screen.sink = SCREEN_PLAIN;
-    the_dialog.args = shell_split(&the_dialog.shell, false);
+    shell_split(&the_dialog.shell, false, &the_dialog.args);
     requests_run(&the_dialog.args);
 }

@@ -306,7 +306,8 @@ void monitor_prompt(void)
 
 void monitor_line(shell_t *shell)
 {
-    shell_args_t args = shell_split(shell, monitor.hex);
+    shell_args_t args;
+    shell_split(shell, monitor.hex, &args);
     switch (shell_run(table_P, ARRAY_COUNT(table_P), NULL, &args, false)) {
     case SHELL_ERR_UNKNOWN:
         (void)packets_say(TEXT_P(" Bad Command: HELP lists all"));

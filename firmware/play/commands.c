@@ -137,7 +137,8 @@ static uint8_t do_help(void *context, const shell_args_t *args)
 
 void commands_run(play_t *play)
 {
-    shell_args_t args = shell_split(&play->shell, false);
+    shell_args_t args;
+    shell_split(&play->shell, false, &args);
     if (requests_is_request(&args)) {
         requests_run(&args);
     } else if (args.count > 0) {

@@ -192,7 +192,8 @@ static void test_while_something_moves_every_other_word_is_refused(void)
             shell_clear(&the_dialog.shell);
             (void)snprintf(the_dialog.line, DIALOG_LINE_BYTES, "%s %s", word, numbers[commands_table_P[i].args >> 4 & 7]);
             the_dialog.shell.length = (uint8_t)strlen(the_dialog.line);
-            shell_args_t args = shell_split(&the_dialog.shell, false);
+            shell_args_t args;
+            shell_split(&the_dialog.shell, false, &args);
             const bool moving = !performer_is_idle(&the_performer);
             TEST_ASSERT_EQUAL_UINT8_MESSAGE(
                 SHELL_ERR_MOVING, shell_run(commands_table_P, commands_count, NULL, &args, moving), word);

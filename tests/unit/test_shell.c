@@ -51,7 +51,9 @@ static shell_args_t enter(const char *text)
 {
     TEST_ASSERT_EQUAL_UINT8(SHELL_TYPING, keys(text));
     TEST_ASSERT_EQUAL_UINT8(SHELL_LINE, keys("\r"));
-    return shell_split(&shell, false);
+    shell_args_t args;
+    shell_split(&shell, false, &args);
+    return args;
 }
 
 static void enter_and_clear(const char *text)
@@ -399,7 +401,8 @@ static void test_shell_take_of_a_range_below_zero(void)
 static void test_shell_take_in_hex_mode_names_the_range_so(void)
 {
     keys("page 80\r");
-    const shell_args_t args = shell_split(&shell, true);
+    shell_args_t args;
+    shell_split(&shell, true, &args);
     uint16_t page = 5;
     TEST_ASSERT_FALSE(shell_take(&args, 1, 1, &page));
     clear_out();
