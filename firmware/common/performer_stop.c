@@ -172,7 +172,6 @@ uint32_t performer_on(performer_t *performer, uint32_t joints)
     if (!performer_is_idle(performer)) {
         return 0;
     }
-    joints &= PERFORMER_SERVOS(performer)->present;
     const uint32_t on = servo_link_torque_on(PERFORMER_SERVOS(performer), joints);
     performer->released &= ~on;
     performer->faulty &= ~on;
@@ -183,7 +182,7 @@ void performer_off(performer_t *performer, uint32_t joints)
 {
     performer->released |= joints;
     performer_drop(performer, joints);
-    servo_link_torque_off(PERFORMER_SERVOS(performer), joints & PERFORMER_SERVOS(performer)->present);
+    servo_link_torque_off(PERFORMER_SERVOS(performer), joints);
     if (!performer_is_idle(performer) && (performer->joints | performer->ready_left) == 0) {
         performer_go_idle(performer, PERFORMER_END_BROKEN); /* no joint is left to move */
     }

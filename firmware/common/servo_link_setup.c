@@ -39,6 +39,13 @@ static uint32_t for_each(servo_link_t *link, uint32_t ids, servo_action_t action
     return done;
 }
 
+/* Ends what the tick has begun, then does it to those of `ids` that are present. */
+static NOINLINE uint32_t for_present(servo_link_t *link, uint32_t ids, servo_action_t action)
+{
+    servo_link_quiet(link);
+    return for_each(link, ids & link->present, action);
+}
+
 static bool read_byte(uint8_t id, uint8_t at, uint8_t *byte)
 {
     return bus_call_read(id, at, byte, 1, NULL) == BUS_OK;
@@ -147,8 +154,7 @@ static bool read_pose(servo_link_t *link, uint8_t id)
 
 uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids)
 {
-    servo_link_quiet(link);
-    return for_each(link, ids & link->present, read_pose);
+    return for_present(link, ids, read_pose);
 }
 
 /* The goal comes first, so that the servo stays where it is; then the torque limit, which a shutdown may have cut; then
@@ -175,8 +181,7 @@ static bool torque_on(servo_link_t *link, uint8_t id)
 
 uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids)
 {
-    servo_link_quiet(link);
-    return for_each(link, ids & link->present, torque_on);
+    return for_present(link, ids, torque_on);
 }
 
 static bool torque_off(servo_link_t *link, uint8_t id)
@@ -190,9 +195,8 @@ static bool torque_off(servo_link_t *link, uint8_t id)
 void servo_link_torque_off(servo_link_t *link, uint32_t ids)
 {
     servo_link_quiet(link);
-    ids &= link->present;
-    sync_write(ids, DXL_AT_TORQUE_ENABLE, 0);
-    (void)for_each(link, ids, torque_off);
+    sync_write(ids & link->present, DXL_AT_TORQUE_ENABLE, 0);
+    (void)for_present(link, ids, torque_off);
 }
 
 static bool full_speed(servo_link_t *link, uint8_t id)
@@ -203,6 +207,5 @@ static bool full_speed(servo_link_t *link, uint8_t id)
 
 void servo_link_full_speed(servo_link_t *link, uint32_t ids)
 {
-    servo_link_quiet(link);
-    (void)for_each(link, ids & link->present, full_speed);
+    (void)for_present(link, ids, full_speed);
 }
