@@ -22,8 +22,7 @@ NOINLINE const char *report_page_fault_P(uint8_t page_status)
 
 void report_bad_page(uint8_t page, uint8_t fault)
 {
-    TEXT("Page ");
-    text_number(page);
+    text_P_number(TEXT_P("Page "), page);
     if (fault == PAGE_EMPTY || page_store_is_erased(page)) {
         TEXT(" is empty");
         return;

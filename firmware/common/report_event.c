@@ -35,8 +35,7 @@ void report_servo_errors(uint8_t errors)
 void report_page(uint8_t page)
 {
     char name[PAGE_NAME_BYTES];
-    TEXT("page ");
-    text_number(page);
+    text_P_number(TEXT_P("page "), page);
     page_store_name(page, name);
     if (name[0] != '\0') {
         TEXT(" (");

@@ -21,8 +21,7 @@ bool requests_from_program(void)
 uint8_t requests_error(uint8_t status)
 {
     if (for_program) {
-        TEXT(" ERR ");
-        text_number(status);
+        text_P_number(TEXT_P(" ERR "), status);
         text_put(' ');
     }
     return SHELL_ERR_REPORTED;

@@ -37,14 +37,6 @@ uint8_t request_pose(void *context, const shell_args_t *args)
     return REQUEST_OK;
 }
 
-static void field(const char *name_P, uint16_t value)
-{
-    text_put(' ');
-    text_P(name_P);
-    text_put('=');
-    text_number(value);
-}
-
 static void print_state_name(const performer_t *performer)
 {
     TEXT_NAMED(idle, "idle");
@@ -67,12 +59,12 @@ uint8_t request_where(void *context, const shell_args_t *args)
     (void)args;
     TEXT(" state=");
     print_state_name(performer);
-    field(TEXT_P("page"), performer_is_idle(performer) ? 0 : performer->page);
-    field(TEXT_P("step"), plays ? performer->engine.player.step : 0);
-    field(TEXT_P("repetition"), plays ? performer->engine.player.repetition : 0);
-    field(TEXT_P("code"), plays ? performer->link.code : 0);
-    field(TEXT_P("dv"), requests_image.servos->voltage_dv);
-    field(TEXT_P("missed"), tick_missed());
+    text_P_number(TEXT_P(" page="), performer_is_idle(performer) ? 0 : performer->page);
+    text_P_number(TEXT_P(" step="), plays ? performer->engine.player.step : 0);
+    text_P_number(TEXT_P(" repetition="), plays ? performer->engine.player.repetition : 0);
+    text_P_number(TEXT_P(" code="), plays ? performer->link.code : 0);
+    text_P_number(TEXT_P(" dv="), requests_image.servos->voltage_dv);
+    text_P_number(TEXT_P(" missed="), tick_missed());
     TEXT(" faulty=");
     text_mask(performer->faulty);
     if (requests_image.where != NULL) {
@@ -123,8 +115,7 @@ void requests_print_now(void)
     const performer_t *performer = requests_image.performer;
     const servo_link_t *servos = requests_image.servos;
     watch.last_tick = tick_now16();
-    TEXT("@now ");
-    text_number(performer_is_idle(performer) ? 0 : performer->page);
+    text_P_number(TEXT_P("@now "), performer_is_idle(performer) ? 0 : performer->page);
     text_put(' ');
     text_number(performer->state == PERFORMER_PLAY ? performer->engine.player.step : 0);
     text_put(' ');

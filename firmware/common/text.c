@@ -83,6 +83,12 @@ void text_number(uint16_t number)
     text_padded(number, 1, '0');
 }
 
+void text_P_number(const char *string_P, uint16_t number)
+{
+    text_P(string_P);
+    text_number(number);
+}
+
 void text_signed(int16_t number)
 {
     if (number < 0) {

@@ -12,8 +12,7 @@
 static void print_page_link(const char *what_P, uint8_t page)
 {
     if (page != 0) {
-        text_P(what_P);
-        text_number(page);
+        text_P_number(what_P, page);
     }
 }
 
@@ -24,17 +23,14 @@ static void print_page_line(uint8_t page, const uint8_t *header)
     text_padded(page, 3, ' ');
     text_put(' ');
     text_string_padded(name, PAGE_NAME_BYTES);
-    TEXT("steps ");
-    text_number(header[PAGE_AT_STEPS]);
-    TEXT(" x ");
-    text_number(header[PAGE_AT_PLAY_COUNT]);
+    text_P_number(TEXT_P("steps "), header[PAGE_AT_STEPS]);
+    text_P_number(TEXT_P(" x "), header[PAGE_AT_PLAY_COUNT]);
     print_page_link(TEXT_P(" code "), header[PAGE_AT_PLAY_CODE]);
     print_page_link(TEXT_P(" next "), header[PAGE_AT_NEXT_PAGE]);
     print_page_link(TEXT_P(" exit "), header[PAGE_AT_EXIT_PAGE]);
     for (uint8_t at = PAGE_AT_LINKED1_PAGE; at <= PAGE_AT_LINKED2_PAGE; at = (uint8_t)(at + 2)) {
         if (header[at + 1] != 0) {
-            TEXT(" on code ");
-            text_number(header[at + 1]);
+            text_P_number(TEXT_P(" on code "), header[at + 1]);
             print_page_link(TEXT_P(" to "), header[at]);
         }
     }
@@ -63,8 +59,7 @@ void views_print_list(play_t *play)
         }
     }
     text_number(used);
-    TEXT(" pages, ");
-    text_number(damaged);
+    text_P_number(TEXT_P(" pages, "), damaged);
     TEXT(" damaged");
     text_line_end();
 }
@@ -92,12 +87,9 @@ static void print_state(const performer_t *performer)
         }
     }
     if (performer->state == PERFORMER_PLAY) {
-        TEXT(" step ");
-        text_number(performer->engine.player.step);
-        TEXT(" repetition ");
-        text_number(performer->engine.player.repetition);
-        TEXT(" code ");
-        text_number(performer->link.code);
+        text_P_number(TEXT_P(" step "), performer->engine.player.step);
+        text_P_number(TEXT_P(" repetition "), performer->engine.player.repetition);
+        text_P_number(TEXT_P(" code "), performer->link.code);
     }
     text_line_end();
 }
@@ -126,10 +118,8 @@ void views_print_status(const play_t *play)
     if (play->servos.voltage_dv != 0) {
         TEXT(", ");
         report_voltage(play->servos.voltage_dv);
-        TEXT(", hottest servo ");
-        text_number(play->servos.hottest_id);
-        TEXT(" at ");
-        text_number(play->servos.hottest_degrees);
+        text_P_number(TEXT_P(", hottest servo "), play->servos.hottest_id);
+        text_P_number(TEXT_P(" at "), play->servos.hottest_degrees);
         TEXT(" C");
     }
     text_line_end();
@@ -147,16 +137,10 @@ static bool has_one_amplitude(const shape_t *shape)
     return true;
 }
 
-static void print_field(const char *name_P, uint16_t value)
-{
-    text_P(name_P);
-    text_number(value);
-}
-
 void views_print_shape(const performer_t *performer)
 {
     const shape_t *shape = &performer->shape;
-    print_field(TEXT_P(" rate="), shape->rate_percent);
+    text_P_number(TEXT_P(" rate="), shape->rate_percent);
     TEXT(" blend=");
     text_signed(shape->blend_percent);
     TEXT(" amplitude=");
@@ -167,7 +151,7 @@ void views_print_shape(const performer_t *performer)
             text_hex(shape->amplitude_percent[id], 2);
         }
     }
-    print_field(TEXT_P(" layer="), performer_layer_page(performer));
+    text_P_number(TEXT_P(" layer="), performer_layer_page(performer));
     TEXT(" aim=");
     text_mask(performer->layers->code_joints);
 }
@@ -182,10 +166,8 @@ void views_print_settings(const play_t *play)
         text_P(item.name);
         text_put(' ');
         text_number(settings_value(&play->settings, &item));
-        TEXT("  (");
-        text_number(item.range.low);
-        TEXT("..");
-        text_number(item.range.high);
+        text_P_number(TEXT_P("  ("), item.range.low);
+        text_P_number(TEXT_P(".."), item.range.high);
         TEXT(")  ");
         text_P(item.meaning);
         text_line_end();
@@ -224,8 +206,7 @@ void views_print_version(void)
     uint16_t line;
     uint32_t address;
     if (system_take_failed_assert(&line, &address)) {
-        TEXT("The run before ended at line ");
-        text_number(line);
+        text_P_number(TEXT_P("The run before ended at line "), line);
         text_line_end();
     }
 }
@@ -233,8 +214,7 @@ void views_print_version(void)
 void views_print_refusal(const inputs_refusal_t *refusal)
 {
     if (refusal->no_page) {
-        TEXT("No page has code ");
-        text_number(refusal->code);
+        text_P_number(TEXT_P("No page has code "), refusal->code);
     } else {
         report_refusal((performer_status_t)refusal->status, refusal->page, refusal->fault);
     }

@@ -65,22 +65,13 @@ void views_print_servos(const play_t *play)
 
 /* ---- faults ---- */
 
-static void print_count(const char *what_P, uint16_t count)
-{
-    text_put(' ');
-    text_P(what_P);
-    text_put(' ');
-    text_number(count);
-}
-
 static void print_servo_faults(const servo_link_t *servos)
 {
     bool any = false;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if (servo_link_has(&servos->present, id) && is_in_trouble(servos, id)) {
             any = true;
-            TEXT("Servo ");
-            text_number(id);
+            text_P_number(TEXT_P("Servo "), id);
             print_trouble(servos, id);
             text_line_end();
         }
@@ -100,23 +91,23 @@ void views_print_faults(const play_t *play)
     text_number32(bus.packets);
     TEXT(" answers ");
     text_number32(bus.answers);
-    print_count(TEXT_P("retries"), bus.retries);
-    print_count(TEXT_P("time-outs"), bus.timeouts);
-    print_count(TEXT_P("checksum"), bus.checksums);
-    print_count(TEXT_P("framing"), bus.framing);
-    print_count(TEXT_P("wrong ID"), bus.wrong_ids);
+    text_P_number(TEXT_P(" retries "), bus.retries);
+    text_P_number(TEXT_P(" time-outs "), bus.timeouts);
+    text_P_number(TEXT_P(" checksum "), bus.checksums);
+    text_P_number(TEXT_P(" framing "), bus.framing);
+    text_P_number(TEXT_P(" wrong ID "), bus.wrong_ids);
     text_line_end();
     console_counts_t console;
     console_counts(&console);
     TEXT("Serial:");
-    print_count(TEXT_P("overruns"), console.overruns);
-    print_count(TEXT_P("framing"), console.framing);
-    print_count(TEXT_P("lost"), (uint16_t)(console.ring_full + play->inputs.lost));
-    print_count(TEXT_P("remote packets"), play->inputs.remote.packets);
-    print_count(TEXT_P("remote noise"), play->inputs.remote.dropped);
+    text_P_number(TEXT_P(" overruns "), console.overruns);
+    text_P_number(TEXT_P(" framing "), console.framing);
+    text_P_number(TEXT_P(" lost "), (uint16_t)(console.ring_full + play->inputs.lost));
+    text_P_number(TEXT_P(" remote packets "), play->inputs.remote.packets);
+    text_P_number(TEXT_P(" remote noise "), play->inputs.remote.dropped);
     text_line_end();
     TEXT("Ticks:");
-    print_count(TEXT_P("missed"), tick_missed());
-    print_count(TEXT_P("goals late"), play->servos.late);
+    text_P_number(TEXT_P(" missed "), tick_missed());
+    text_P_number(TEXT_P(" goals late "), play->servos.late);
     text_line_end();
 }
