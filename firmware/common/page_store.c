@@ -127,8 +127,7 @@ uint8_t page_store_find_code(const page_store_t *store, uint8_t code)
 {
     uint8_t header[PAGE_AT_PLAY_CODE + 1u];
     for (uint8_t page = 1; page < PAGE_COUNT; page++) {
-        page_store_read(page, PAGE_AT_PLAY_CODE, header, 1);
-        if (header[0] == code && page_store_is_good(store, page)) {
+        if (page_store_byte(page, PAGE_AT_PLAY_CODE) == code && page_store_is_good(store, page)) {
             page_store_read(page, 0, header, sizeof header);
             if (page_is_playable(header)) {
                 return page;
@@ -140,17 +139,14 @@ uint8_t page_store_find_code(const page_store_t *store, uint8_t code)
 
 bool page_store_trim(const page_store_t *store, int16_t trim_pos[PAGE_JOINTS])
 {
-    uint8_t word[2];
     memset(trim_pos, 0, PAGE_JOINTS * sizeof *trim_pos);
     if (!page_store_is_good(store, 0)) {
         return false;
     }
+    page_store_read(0, PAGE_AT_STEP0 + 2u * PAGE_STEP_BYTES, trim_pos, PAGE_JOINTS * sizeof *trim_pos);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        page_store_read(0, (uint16_t)(PAGE_AT_STEP0 + 2u * PAGE_STEP_BYTES + 2u * joint), word, 2);
-        uint16_t value = page_word(word);
-        if ((value & 0xE000u) != PAGE_POS_UNUSED) {
-            trim_pos[joint] = (int16_t)value;
-        }
+        const uint16_t value = page_word((const uint8_t *)&trim_pos[joint]);
+        trim_pos[joint] = (value & 0xE000u) != PAGE_POS_UNUSED ? (int16_t)value : 0;
     }
     return true;
 }

@@ -73,9 +73,9 @@ typedef struct {
     uint32_t deaf_left;                      /* deaf joints whose REG WRITE must still be sent */
     uint32_t unreported[SERVO_FAULT_KINDS];  /* [kind - 1]: joints with a fault to return by servo_link_next_fault */
     /* Public again. */
+    uint8_t errors[SERVO_LINK_JOINTS];       /* last DXL_ERR_ bits heard, of the four above */
     uint16_t present_pos[SERVO_LINK_JOINTS]; /* last pose read, page coordinates, or SERVO_LINK_NO_POSE */
     int16_t trim_pos[SERVO_LINK_JOINTS];     /* in force */
-    uint8_t errors[SERVO_LINK_JOINTS];       /* last DXL_ERR_ bits heard, of the four above */
     uint8_t slopes[SERVO_LINK_JOINTS];       /* private: the last compliance byte requested; 0 = none */
 } servo_link_t;
 

@@ -42,7 +42,7 @@ uint32_t servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LI
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         int16_t trim = trim_pos == NULL ? 0 : trim_pos[id];
         if (trim > SERVO_LINK_TRIM_MAX || trim < -SERVO_LINK_TRIM_MAX) {
-            servo_link_put(&refused, id, true);
+            refused |= servo_link_bit(id);
             trim = 0;
         }
         link->trim_pos[id] = trim;

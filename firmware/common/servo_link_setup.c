@@ -113,7 +113,6 @@ void servo_link_scan(servo_link_t *link)
     servo_link_quiet(link);
     memset(link, 0, offsetof(servo_link_t, present_pos));
     memset(link->present_pos, 0xFF, sizeof link->present_pos);
-    memset(link->errors, 0, sizeof link->errors);
     link->slopes_pending = SERVO_LINK_ALL;
     link->slopes_wait = 2;
     bus_set_rate(BUS_RATE_57142);
