@@ -61,9 +61,13 @@ static void put(char character)
     }
 }
 
+/* Prints the prompt and what has been typed. */
 static void prompt(void)
 {
     TEXT("] ");
+    for (uint8_t i = 0; i < play.shell.length; i++) {
+        text_put(play.shell.line[i]);
+    }
 }
 
 /* Ends a status line over the prompt and prints again what was being typed. */
@@ -74,9 +78,6 @@ static void end_status_line(uint8_t covered)
     }
     text_line_end();
     prompt();
-    for (uint8_t i = 0; i < play.shell.length; i++) {
-        text_put(play.shell.line[i]);
-    }
 }
 
 static uint8_t begin_status_line(void)
@@ -119,9 +120,6 @@ static void print_watched(void)
     }
     requests_print_now();
     prompt();
-    for (uint8_t i = 0; i < play.shell.length; i++) {
-        text_put(play.shell.line[i]);
-    }
 }
 
 static void take_typed(void)
