@@ -38,8 +38,8 @@ uint32_t requests_switch_torque(uint32_t joints, bool on)
 {
     uint32_t done = 0;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        const uint32_t joint = joints & servo_link_bit(id);
-        if (joint != 0) {
+        if (servo_link_has(&joints, id)) {
+            const uint32_t joint = servo_link_bit(id);
             if (on) {
                 done |= performer_on(requests_image.performer, joint);
             } else {

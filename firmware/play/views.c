@@ -16,6 +16,14 @@ static void print_page_link(const char *what_P, uint8_t page)
     }
 }
 
+static void print_code_link(uint8_t page, uint8_t code)
+{
+    if (code != 0) {
+        text_P_number(TEXT_P(" on code "), code);
+        print_page_link(TEXT_P(" to "), page);
+    }
+}
+
 static void print_page_line(uint8_t page, const uint8_t *header)
 {
     char name[PAGE_NAME_BYTES];
@@ -28,12 +36,8 @@ static void print_page_line(uint8_t page, const uint8_t *header)
     print_page_link(TEXT_P(" code "), header[PAGE_AT_PLAY_CODE]);
     print_page_link(TEXT_P(" next "), header[PAGE_AT_NEXT_PAGE]);
     print_page_link(TEXT_P(" exit "), header[PAGE_AT_EXIT_PAGE]);
-    for (uint8_t at = PAGE_AT_LINKED1_PAGE; at <= PAGE_AT_LINKED2_PAGE; at = (uint8_t)(at + 2)) {
-        if (header[at + 1] != 0) {
-            text_P_number(TEXT_P(" on code "), header[at + 1]);
-            print_page_link(TEXT_P(" to "), header[at]);
-        }
-    }
+    print_code_link(header[PAGE_AT_LINKED1_PAGE], header[PAGE_AT_LINKED1_CODE]);
+    print_code_link(header[PAGE_AT_LINKED2_PAGE], header[PAGE_AT_LINKED2_CODE]);
     text_line_end();
 }
 

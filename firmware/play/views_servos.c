@@ -21,7 +21,7 @@ void views_print_servos_found(const play_t *play)
     }
 }
 
-static bool is_in_trouble(const servo_link_t *servos, uint8_t id)
+static NOINLINE bool is_in_trouble(const servo_link_t *servos, uint8_t id)
 {
     return servo_link_has(&servos->silent, id) || servos->errors[id] != 0;
 }
@@ -40,8 +40,7 @@ void views_print_servos(const play_t *play)
 {
     const servo_link_t *servos = &play->servos;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
-        const uint32_t joint = servo_link_bit(id);
-        if ((servos->present & joint) == 0) {
+        if (!servo_link_has(&servos->present, id)) {
             continue;
         }
         text_padded(id, 3, ' ');
@@ -51,8 +50,8 @@ void views_print_servos(const play_t *play)
         } else {
             text_padded(servos->present_pos[id], 4, ' ');
         }
-        text_P((servos->torque & joint) != 0 ? TEXT_P("  torque on ") : TEXT_P("  torque off"));
-        if ((play->performer.released & joint) != 0) {
+        text_P(servo_link_has(&servos->torque, id) ? TEXT_P("  torque on ") : TEXT_P("  torque off"));
+        if (servo_link_has(&play->performer.released, id)) {
             TEXT("  switched off");
         }
         if (is_in_trouble(servos, id)) {
