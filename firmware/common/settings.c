@@ -164,7 +164,7 @@ bool settings_save_poll(settings_store_t *store, const settings_t *settings)
         store->saving = false;
         return false;
     }
-    uint8_t at = (uint8_t)(store->at % RECORD_BYTES);
+    const uint8_t at = store->at == RECORD_BYTES ? 0 : store->at;   /* the magic is written last */
     uint8_t byte = store->at == 0 ? (uint8_t)NO_MAGIC : byte_to_save(store, settings, at);
     if (eeprom_start((uint16_t)(copy_addr(copy) + at), byte)) {
         store->at++;
