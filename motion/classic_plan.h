@@ -9,10 +9,6 @@
 /* Takes the coming step after the last tick of a step: plans what begins with the next call. */
 void classic_take(player_t *player) NOINLINE;
 
-/* Measures `now` and the coming step ahead of take, unless that depends on the joints' last output or on the page that a
- * link has named. */
-void classic_measure(player_t *player) NOINLINE;
-
 /* Computes v of the next `most` joints of those that are not planned yet. */
 void classic_plan_joints(player_t *player, uint8_t most) NOINLINE;
 

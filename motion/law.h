@@ -86,6 +86,7 @@ void sequence_look(player_t *player, link_t *link) NOINLINE;
 #define LAW_WORK_TAKE 5u
 #define LAW_WORK_PLAN_JOINT 2u
 #define LAW_WORK_MOST 30u /* with the tick itself, 15,000 cycles under the exact law */
+#define LAW_WORK_AHEAD 24u /* planning ahead leaves some of it: what it does not plan has two more ticks */
 
 static inline void law_work(player_t *player, uint8_t work)
 {
@@ -126,6 +127,12 @@ void exact_start(player_t *player, link_t *link);
 uint8_t exact_tick(player_t *player, link_t *link);
 uint8_t exact_step_over(player_t *player, link_t *link);
 void exact_freeze(player_t *player);
+
+/* The lengths that depend on the joints' targets only, in any tick after sequence_look. The classic law leaves them to take if
+ * they depend on the joints' last output, or on the page that a link has named. */
+void exact_measure(player_t *player) NOINLINE;
+void classic_measure(player_t *player) NOINLINE;
+
 
 /* A joint that stands on its target and has just become the play's: plans it if it is too late for plan ahead. */
 void exact_plan_given(player_t *player, uint8_t joint);

@@ -152,7 +152,7 @@ static NOINLINE void plan_joints(player_t *player, bool ahead, uint8_t most)
 }
 
 /* Length, pause and ramp of the coming step. */
-static NOINLINE void measure_coming(player_t *player)
+void exact_measure(player_t *player)
 {
     player_step_t *coming = &player->coming;
     player->measured = true;
@@ -209,7 +209,8 @@ static NOINLINE void prepare_plan(player_t *player)
 static void plan_ahead(player_t *player)
 {
     const uint8_t third = player->own_joints / 3u;
-    const uint8_t room = (uint8_t)(player->work < LAW_WORK_MOST ? (LAW_WORK_MOST - player->work) / LAW_WORK_PLAN_JOINT : 0u);
+    const uint8_t work = player->work;
+    const uint8_t room = (uint8_t)(work < LAW_WORK_AHEAD ? (LAW_WORK_AHEAD - work) / LAW_WORK_PLAN_JOINT : 0u);
     if (player->now.ticks > 1) {
         player->ahead = true;
         prepare_plan(player);
@@ -264,7 +265,7 @@ static NOINLINE void take(player_t *player)
 static NOINLINE uint8_t come_to_the_end(player_t *player, link_t *link, uint8_t left)
 {
     if (sequence_prepare(player, link, left, player->tick == 1)) {
-        measure_coming(player);
+        exact_measure(player);
     }
     if (left == 0) {
         if (!player->looked) {
@@ -286,10 +287,10 @@ uint8_t exact_step_over(player_t *player, link_t *link)
 void exact_start(player_t *player, link_t *link)
 {
     sequence_look_first(player);
-    measure_coming(player);
+    exact_measure(player);
     (void)sequence_take(player);
     sequence_look(player, link);
-    measure_coming(player);
+    exact_measure(player);
     take(player);
 }
 

@@ -11,4 +11,4 @@ def test_bench_prints_its_table_and_every_budget_holds():
     print(done.stdout, done.stderr)
     rows = done.stdout.splitlines()[1:]
     assert done.returncode == 0 and not any(row.endswith("MISSED") for row in rows)
-    assert sum("<=" in row or ">=" in row for row in rows) == 2 * (14 + 20) + 2
+    assert sum("<=" in row or ">=" in row for row in rows) == 2 * (14 + 38) + 2
