@@ -128,8 +128,8 @@ uint8_t exact_tick(player_t *player, link_t *link);
 uint8_t exact_step_over(player_t *player, link_t *link);
 void exact_freeze(player_t *player);
 
-/* The lengths that depend on the joints' targets only, in any tick after sequence_look. The classic law leaves them to take if
- * they depend on the joints' last output, or on the page that a link has named. */
+/* The lengths that depend on the joints' targets only, in any tick after sequence_look. The classic law leaves them to take
+ * if they depend on the joints' last output, or on the page that a link has named. */
 void exact_measure(player_t *player) NOINLINE;
 void classic_measure(player_t *player) NOINLINE;
 

@@ -61,8 +61,8 @@ void player_give_joint(player_t *player, uint8_t joint, uint16_t pos)
 
 void player_drop_joints(player_t *player, uint32_t joints)
 {
-    /* A step that has been looked at has the length that it has with them. The tick in which it is measured depends on a layer,
-     * and the timing of the main play may not. */
+    /* A step that has been looked at has the length that it has with them: the tick in which it is measured depends on a
+     * layer, and the timing of the main play may not. */
     if (PLAYER_LAYERS && player->looked && !player->measured) {
         LAW_IS_CLASSIC(player) ? classic_measure(player) : exact_measure(player);
     }
