@@ -80,6 +80,8 @@ def unrolled(case, run, poses):
 def judge_bytes(case, run):
     if case.about["rates"] or not run.steps:
         return None
+    if dropped(run) and by_way(case, run):
+        return None     # lost behind the look, a joint counts for the length of that step; a shaped step is looked at earlier
     poses = poses_of(case, run)
     if isinstance(poses, str):
         return poses
