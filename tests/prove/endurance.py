@@ -26,6 +26,7 @@ MEASURE_MINUTES = 10            # the yardstick is laid on so often
 FLASH_CYCLES, EEPROM_CYCLES = 10_000, 100_000   # what the data sheet promises
 PLAY_HEADROOM, EDIT_HEADROOM = 512, 384
 FLASH_PAGE = MAP["MEM_FLASH_PAGE_BYTES"]
+SLOT_PAGES = SLOT_BYTES // FLASH_PAGE
 JOURNAL = MAP["MEM_JOURNAL_START"], MAP["MEM_JOURNAL_START"] + SLOTS * SLOT_BYTES   # two flash pages behind it are no slot
 ALL_JOINTS = range(31)
 BOW = 2
@@ -91,15 +92,21 @@ def edit(seed, saves):
     while editor.saves < saves:
         editor.episode()
     editor.check_all()
-    slots = {at // FLASH_PAGE for at in range(*JOURNAL, FLASH_PAGE)}
+    slots = [at // FLASH_PAGE for at in range(*JOURNAL, FLASH_PAGE)]
     saved = {MOTION_START // FLASH_PAGE + 2 * number + half for number in range(FIRST, LAST + 1) for half in (0, 1)}
     return {
         "saves": editor.saves, "done": editor.done, "complaints": editor.complaints, "bus": vars(editor.bus),
         "resets": board.resets - editor.resets, "overruns": board.uart(0).overruns + board.uart(1).overruns,
         "headroom": board.stack_headroom, "journal": [board.wear(number) for number in slots],
         "motions": [board.wear(number) for number in saved],
-        "other wear": max(board.wear(number) for number in set(range(512)) - slots - saved),
+        "other wear": max(board.wear(number) for number in set(range(512)) - set(slots) - saved),
         "eeprom wear": max(board.eeprom_wear(at) for at in range(4096)), "minutes": board.now_ms / 60_000}
+
+
+def wears_evenly(journal):
+    """A slot's record (SLOT_PAGES - 1 pages behind its beginning) is written anew in each save, by turns; its data unless they are there already."""
+    records = journal[SLOT_PAGES - 1::SLOT_PAGES]
+    return max(records) - min(records) <= 1 and all(wear <= records[number // SLOT_PAGES] for number, wear in enumerate(journal))
 
 
 # ---- all of it ----
@@ -154,7 +161,7 @@ def edited(results):
     missed, overruns = sum(one["missed"] + one["doubled"] for one in bus), sum(result["overruns"] for result in results)
     resets, headroom = sum(result["resets"] for result in results), min(result["headroom"] for result in results)
     low, high = min(min(result["journal"]) for result in results), max(max(result["journal"]) for result in results)
-    even = all(max(result["journal"]) - min(result["journal"]) <= 2 for result in results)
+    even = all(wears_evenly(result["journal"]) for result in results)
     worst = max(results, key=lambda result: max(result["journal"]) / result["saves"])
     lasts = FLASH_CYCLES * worst["saves"] // max(1, max(worst["journal"]))
     target = max(max(result["motions"]) for result in results)

@@ -232,8 +232,13 @@ class Walker:
                 self.board.send(self.chance.choice((f"swing {joint} 512 60 1500\r", f"aim {joint} 540\r", "free\r")))
             self.run(50)
             self.done["driven"] += 1
-        if not self.until("Stopped|Broken|Ended", 9000):
+        if not self.until("Stopped|Broken|Ended", 9000) and not self.is_idle():
             self.complaints.append(f"nobody drives, and the play goes on, at {self.board.now_ms:.0f} ms: {before[-40:]} ... {self.text[-80:]}")
+
+    def is_idle(self):
+        """Whether nothing plays. A play that ended early, as a walk does whose code the remote held, has told so long ago."""
+        self.say("@where")
+        return self.until("state=idle", 1000)
 
     def passing_faults(self):
         """Spoils one or two answers in a row; the walk must go on."""
