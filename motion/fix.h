@@ -7,7 +7,7 @@
  *
  * With 16 fraction bits the output is the upper word of the position, which costs a tick nothing. The price: an acceleration
  * is up to 2^-16 too small, so that after a ramp of 255 ticks a joint is half a servo unit short of the ideal (after 32
- * ticks 1/128). All roundings are toward zero, on sizes, so that a joint is late but never past its target (law_exact.c).
+ * ticks 1/128). All roundings are toward zero, on sizes, so that a joint is late but never past its target (exact_plan.c).
  * Signs are applied afterwards, so that a mirrored motion is mirrored in every bit. */
 #ifndef FIX_H
 #define FIX_H

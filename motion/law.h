@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence.c), the two laws
- * (law_exact.c, law_classic.c and its classic_plan.c), slowing down (brake.c). Included by these only.
+ * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence*.c), the two laws
+ * (law_exact.c with exact_plan.c, law_classic.c with classic_plan.c), slowing down (brake.c). Included by these only.
  *
  * The work between two steps is spread over several ticks, so that none takes too long with 31 joints:
  *
@@ -60,7 +60,7 @@ static inline bool law_owns(uint8_t self, const player_joint_t *joint)
         if (law_owns(self_, joint_))
 /* NOLINTEND(bugprone-macro-parentheses) */
 
-/* --- sequence.c --------------------------------------------------------------------------------------------------- */
+/* --- sequence.c, sequence_read.c, sequence_work.c ----------------------------------------------------------------- */
 
 /* Finds the page that plays first and takes its first step as `coming`. false: none; only .fault and .fault_page have
  * changed. */

@@ -56,7 +56,7 @@ typedef struct {
 /* A joint under the exact law, and under either law while it slows down and while the rest of an interrupted step is
  * played. Speeds are servo units per tick. */
 typedef struct {
-    int32_t pos_q16_16;         /* with its rounding: see law_exact.c */
+    int32_t pos_q16_16;         /* with its rounding: see exact_plan.c */
     int32_t speed_q16_16;       /* the way of the coming tick */
     int32_t accel_q16_16;
     uint32_t cruise_q16_16;     /* size of the speed between the ramps */
