@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * performer_parts.h - how the files of the performer see each other. For performer*.c only.
  *
- *   performer.c            start, the tick, the work of the main loop; acts on the verdicts of performer_watch.c
+ *   performer.c            the tick, the work of the main loop; acts on the verdicts of performer_watch.c
+ *     performer_start.c    begins a play or a move
  *     performer_stop.c     stop, break, pause, torque off: everything that ends a play or interrupts it
  *     performer_ready.c    state READY: reads pose and torque of the servos, plans the approach
  *     performer_watch.c    faults of servos, battery, heat: the verdict on each
@@ -19,6 +20,12 @@ void performer_go_idle(performer_t *performer, uint8_t reason);         /* ends 
 void performer_stop_softly(performer_t *performer);                     /* state PLAY: through the exit page; ends a pause */
 void performer_drive_lost(performer_t *performer);                      /* performer_drive came too late: stops the play */
 void performer_drop(performer_t *performer, uint32_t joints);           /* takes joints out of the play and its layers */
+
+/* performer_start.c */
+void performer_fresh_player(performer_t *performer);                    /* an idle player with the performer's shape */
+
+/* Starts a fresh player at `page` from the present goals, by the law of the settings. */
+player_status_t performer_start_player(performer_t *performer, uint8_t page, uint32_t joints) NOINLINE;
 
 /* performer_ready.c */
 typedef enum {

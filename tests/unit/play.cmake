@@ -6,7 +6,8 @@ m512_unit_test(test_remote TARGET_TOO SOURCES hal/remote.c)
 m512_unit_test(test_inputs INCLUDES firmware/common firmware/play
     SOURCES firmware/play/inputs.c firmware/play/steer.c motion/shape.c hal/remote.c hal/debounce.c tests/fake/fake_console.c tests/fake/fake_panel.c
             tests/fake/fake_time.c)
-set(performer_sources performer.c performer_event.c performer_ready.c performer_state.c performer_stop.c performer_watch.c servo_link_masks.c)
+set(performer_sources performer.c performer_event.c performer_ready.c performer_start.c performer_state.c performer_stop.c
+    performer_watch.c servo_link_masks.c)
 list(TRANSFORM performer_sources PREPEND firmware/common/)
 list(APPEND performer_sources firmware/play/performer_drive.c firmware/play/performer_layers.c tests/unit/fake_servo_link.c tests/unit/performer_stage.c
     motion/approach.c ${M512_PLAYER_FULL})
