@@ -1,15 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Three pages and one robot, for tests of Edit's commands that leave the flash as it was: each test begins with page 1 from flash at X1 Y0.
-
-    @pytest.fixture(scope="module", name="shared")
-    def _shared():
-        with robot(pages=PAGES) as one:
-            yield one
-
-    @pytest.fixture
-    def r(shared):
-        return opened(shared)
-"""
+"""Three pages for tests of Edit's commands that leave the flash as it was, and the way back to page 1. The robot itself: conftest.py."""
 from edit_robot import page
 
 BASE = page("base", [(40, {1: 480, 2: 544}, 3), (50, {3: 300}), (60, {4: 10})], code=7, next=3)

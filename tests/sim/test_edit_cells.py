@@ -2,19 +2,8 @@
 """Editing one cell: SET, the keys that change a value, Space, arrows; editor-original.md sections 4 and 5."""
 import pytest
 
-from edit_base import BASE, PAGES, bytes_of, opened
-from edit_robot import changed, robot, word, UNUSED
-
-
-@pytest.fixture(scope="module", name="shared")
-def _shared():
-    with robot(pages=PAGES) as one:
-        yield one
-
-
-@pytest.fixture
-def r(shared):
-    return opened(shared)
+from edit_base import BASE, bytes_of
+from edit_robot import changed, word, UNUSED
 
 
 # ---- cells ----

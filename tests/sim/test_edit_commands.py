@@ -3,19 +3,8 @@
 bytes, worked out here from the specification. Intended differences: firmware/edit/DIFFERENCES.md."""
 import pytest
 
-from edit_base import BASE, OTHER, PAGES, bytes_of, opened
+from edit_base import BASE, OTHER, PAGES, bytes_of
 from edit_robot import new_page, robot, seal
-
-
-@pytest.fixture(scope="module", name="shared")
-def _shared():
-    with robot(pages=PAGES) as one:
-        yield one
-
-
-@pytest.fixture
-def r(shared):
-    return opened(shared)
 
 
 # ---- messages ----

@@ -5,6 +5,7 @@ import re
 
 import pytest
 
+from edit_base import opened
 from edit_robot import changed, new_page, page, robot, seal
 
 BASE = page("base", [(40, {1: 480, 2: 544}, 3), (50, {3: 300}), (60, {4: 10})], code=7, next=3, exit=5, link1_page=11, link1_code=12,
@@ -13,22 +14,12 @@ NEUTRAL = page("neutral", [(40, {1: 300, 2: 700, 3: 20, 4: 1000})])
 PAGES = {1: BASE, 2: page("other", [(11, {1: 900}), (22, {2: 100})]), 8: NEUTRAL}
 
 
-@pytest.fixture(scope="module")
-def shared():
-    with robot(pages=PAGES) as r:
-        yield r
-
-
 @pytest.fixture
 def r(shared):
     """Page 1 as it is in flash, X1 Y0, decimal, all servos let go."""
     shared.keys("\x03")
     shared.line("dec")
-    shared.line("page 1")
-    if "[y/N]" in shared.command:
-        shared.keys("y")
-    shared.page_address()
-    shared.line("goto 1 0")
+    opened(shared).page_address()
     shared.line("off")
     for servo in range(1, 19):
         shared.board.servos[servo].push_to(512)

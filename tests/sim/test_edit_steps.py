@@ -3,19 +3,8 @@
 firmware/edit/DIFFERENCES.md."""
 import pytest
 
-from edit_base import BASE, FULL, PAGES, bytes_of, opened, step
-from edit_robot import changed, robot, seal, word, UNUSED
-
-
-@pytest.fixture(scope="module", name="shared")
-def _shared():
-    with robot(pages=PAGES) as one:
-        yield one
-
-
-@pytest.fixture
-def r(shared):
-    return opened(shared)
+from edit_base import BASE, FULL, bytes_of, step
+from edit_robot import changed, seal, word, UNUSED
 
 
 # ---- steps ----

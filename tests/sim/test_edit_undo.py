@@ -4,7 +4,8 @@ import random
 
 import pytest
 
-from edit_robot import JOINTS, page, robot
+from edit_base import opened
+from edit_robot import JOINTS, page
 
 
 def big(seed, joints):
@@ -17,20 +18,10 @@ PAGES = {1: big(1, range(31)), 2: big(2, range(31)), 3: page("three", [(40, {1: 
          5: big(5, JOINTS)}
 
 
-@pytest.fixture(scope="module")
-def shared():
-    with robot(pages=PAGES) as r:
-        yield r
-
-
 @pytest.fixture
 def r(shared):
     shared.keys("\x03")
-    shared.line("page 1")
-    if "[y/N]" in shared.command:
-        shared.keys("y")
-    shared.line("goto 1 0")
-    shared.page_address()
+    opened(shared).page_address()
     return shared
 
 
