@@ -6,7 +6,7 @@ import random
 import pytest
 
 from play_robot import JOINTS, ask, robot
-from test_play_layers import EXIT, LOOP, looping, pages, run_of_a_walk, where
+from walking_robot import EXIT, LOOP, looping, pages, run_of_a_walk, where
 
 HEAD = (19, 20)
 WITH_HEAD = (*JOINTS, *HEAD)

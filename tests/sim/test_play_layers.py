@@ -2,47 +2,9 @@
 """A second page over a play (shaping.md), in the shipped Play image."""
 import random
 
-from play_robot import JOINTS, ask, motions, page, robot, tick_of, walk_steps
 from m512.files.image import from_bytes
-
-LOOP, EXIT, WAVE = 30, 33, 34
-
-
-def pages():
-    """The pages of the other tests, a walk (30), its exit, and a wave for joints 3 and 5."""
-    image = from_bytes(motions())
-    image[LOOP] = page("loop", walk_steps(), next=LOOP, exit=EXIT)
-    image[EXIT] = page("stand", [(40, {})])
-    image[WAVE] = page("wave", [(32, {3: 700, 5: 600}), (32, {3: 650, 5: 640})], joints=(3, 5), next=WAVE, exit=0)
-    return image.to_bytes()
-
-
-def looping():
-    """A robot that walks page 30 and says nothing of it."""
-    board = robot(pages=pages())
-    ask(board, "settings talk 0")
-    assert ask(board, f"play {LOOP}").endswith("OK")
-    board.run(ms=3000)
-    board.clear_trace()
-    return board
-
-
-def where(board):
-    """The fields of @where."""
-    return dict(field.split("=") for field in ask(board, "@where").split() if "=" in field)
-
-
-def run_of_a_walk(words, ms=6000):
-    """{tick: goals} of a walk in which words are typed at given times: [(ms, word)]."""
-    board = looping()
-    tick = tick_of(board)
-    board.clear_trace()
-    begin = board.now_ms
-    for at, word in words:
-        board.run(ms=max(0, at - (board.now_ms - begin)))
-        assert ask(board, word).endswith("OK")
-    board.run(ms=ms - (board.now_ms - begin))
-    return {tick(frame.cycle): frame.goals for frame in board.trace if len(frame.goals) > 1}
+from play_robot import JOINTS, ask, robot, tick_of
+from walking_robot import LOOP, WAVE, looping, pages, run_of_a_walk, where
 
 
 def test_layer_in_a_walk_leaves_the_other_joints_goals_as_they_are():

@@ -4,37 +4,8 @@ import re
 
 import pytest
 
-from play_robot import LEFT, UP, ask, motions, page, robot, walk_steps
-from m512.files.image import from_bytes
-
-LOOP, CURVE_R, CURVE_L, EXIT = 30, 31, 32, 33
-
-
-def pages():
-    """The pages of the other tests, and a walk with partners (30), its curves and its exit."""
-    image = from_bytes(motions())
-    image[LOOP] = page("loop", walk_steps(), next=LOOP, exit=EXIT)
-    image[LOOP].data[17], image[LOOP].data[18] = CURVE_R, CURVE_L
-    image[LOOP].seal()
-    image[CURVE_R] = page("curve r", walk_steps(-40), next=CURVE_R, exit=EXIT)
-    image[CURVE_L] = page("curve l", walk_steps(40), next=CURVE_L, exit=EXIT)
-    image[EXIT] = page("stand", [(40, {})])
-    return image.to_bytes()
-
-
-def looping(**options):
-    """A robot that walks page 30 and says nothing of it; counted from the tick in which its step 2 was told."""
-    board = robot(pages=pages(), **options)
-    ask(board, "settings talk 0")
-    assert ask(board, f"play {LOOP}").endswith("OK")
-    board.run(ms=3000)
-    board.clear_trace()
-    return board
-
-
-def where(board):
-    """The fields of @where."""
-    return dict(field.split("=") for field in ask(board, "@where").split() if "=" in field)
+from play_robot import LEFT, UP, ask, robot
+from walking_robot import LOOP, looping, pages, where
 
 
 # --- words ---
