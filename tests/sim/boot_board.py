@@ -11,6 +11,7 @@ import struct
 
 from cm5sim import Board, library
 from intelhex import IntelHex
+from m512.crc16 import crc16
 
 PROMPT = "\r\n - "
 PLAIN_APP = b"\xff\xcf" + bytes(0x8E)  # `rjmp .`, and no record where ours have one (app_record.h)
@@ -71,15 +72,6 @@ def pending_record(board, page, data):
     record += crc16(record).to_bytes(2, "little") + b"\xff\xff"
     board.flash[JOURNAL_START:JOURNAL_START + 512] = data
     board.flash[JOURNAL_START + 512:JOURNAL_START + 512 + len(record)] = record
-
-
-def crc16(data):
-    crc = 0xFFFF
-    for byte in data:
-        crc ^= byte << 8
-        for _ in range(8):
-            crc = (crc << 1 ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
-    return crc
 
 
 FACTORY_USED, FACTORY_SUM, FACTORY_CRC = 0x1B90, 0x000B2F60, 0x7406

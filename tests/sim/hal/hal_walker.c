@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * hal_walker.c - a robot that waves all its joints for ever and swallows whatever comes on the serial line, for
- * test_hal.py. What it counts stands in variables that the test reads. */
+ * test_hal*.py. What it counts stands in variables that the test reads. */
 #include "board.h"
 #include "bus.h"
 #include "console.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * hal_words.c - does what one byte on the serial line says, on the real hal, for test_hal.py:
+ * hal_words.c - does what one byte on the serial line says, on the real hal, for test_hal*.py:
  *
  *   l  loads the settings: "load STATUS LAW APPROACH"     s / S  saves law 1, approach 77 / law 0, approach 33: "saved"
  *   p  checks all pages: "pages GOOD"

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: MIT
+"""The bus on the simulated board: what a frame costs, half duplex, pauses in packets, servos that fail, servos of other kinds."""
+import pytest
+
+from cm5sim import Board
+from hal_board import LINE_BYTES_PER_S, bus_counts, pattern, walker, word
+
+
+def test_bus_begins_at_1_mbps():
+    board = Board(images=["tests/hal_words.hex"], servos=[1])
+    board.expect("start")
+    board.send("i")
+    board.expect("ping 00000000", ms=100)
+
+
+def test_frame_of_31_joints_is_one_packet_a_tick_in_under_10000_cycles(capsys):
+    board = walker()
+    board.run(ms=100)
+    board.clear_trace()
+    board.probe("servo_link_goals", "__vector_18", "__vector_20")
+    board.run(ticks=128)
+    frames = board.trace
+    assert len(frames) in (127, 128, 129)
+    assert all(len(frame.goals) == 31 for frame in frames)
+    build = board.cycles("servo_link_goals").max
+    # Each interrupt: its own cycles, 4 of response and 3 of the vector's jump. One sends two bytes, the last one turns the line
+    # round: 51 for the goals of 31 joints. The packet that asks a servo needs 4 more, which the sum leaves out.
+    sent, heard = (board.cycles(name).total_mean + 7 for name in ("__vector_20", "__vector_18"))
+    assert board.cycles("__vector_20").count / len(frames) == pytest.approx(51 + 4, abs=0.6)
+    total = build + 51 * sent
+    with capsys.disabled():
+        print(f"\nhal: frame of 31 joints: build {build}, send 51 x {sent:.1f}, in all {total:.0f} cycles;"
+              f" a byte heard {heard:.0f}")
+    assert total <= 10_000
+    assert heard < 160
+
+
+@pytest.mark.parametrize("kind", ["cm5", "cm2"])
+@pytest.mark.parametrize("return_delay", [0, 250, 254])
+def test_turn_round_loses_no_answer(kind, return_delay):
+    """With a return delay of 0 a servo answers within 20 us of our last stop bit."""
+    board = walker(kind, servos=range(1, 19), table=[(5, return_delay)])
+    before = bus_counts(board)
+    board.run(ticks=500)
+    counts = bus_counts(board)
+    assert counts["answers"] - before["answers"] >= 498
+    assert all(counts[name] == 0 for name in ("checksums", "framing", "overruns", "wrong_ids", "lengths", "strays")), counts
+    assert counts["timeouts"] == before["timeouts"]
+
+
+BUS_TURNING = 2   # bus_core.h
+TURN_US = 20   # dynamixel.md: with a return delay of 0 an answer begins within about 20 us
+
+
+def test_turn_round_is_bounded_whatever_else_interrupts(capsys):
+    """The tick, bytes of the PC in both directions and the program's own locks may all stand in its way. Ten seconds of all
+    of them at the full rate, and then the same on purpose: a byte comes from the PC at every place of the interrupt that
+    ends a packet, and the tick with it."""
+    board = walker()
+    board.bus_turn_us(forget=True)
+    board.send(pattern(int(10 * LINE_BYTES_PER_S)), wait=True)
+    flooded = board.bus_turn_us(forget=True)
+    longest = 0
+    state = board.variable("core")
+    for place in range(0, 480, 3):
+        board.run_to("__vector_20", ms=20)           # a packet is being sent
+        while board._lib.board_pin(board._pointer, b"E", 2) == 1 and board.ram[state] != BUS_TURNING:
+            board.step()                             # up to its last two bytes
+        board.run(cycles=480 - place)
+        board.interrupt("console byte", 0x55)
+        board.run(cycles=20)                         # its interrupt has begun: the tick's comes before that of the bus
+        board.interrupt("tick")
+        board.run(ms=3)
+        longest = max(longest, board.bus_turn_us(forget=True))
+    with capsys.disabled():
+        print(f"\nhal: turning the bus round: at most {flooded:.1f} us in a flood, {longest:.1f} us on purpose")
+    assert 5 < flooded <= TURN_US and 5 < longest <= TURN_US
+
+
+def pauses_us(path):
+    """The pauses between the characters of our packets, from a recording of the line."""
+    pauses, now, ended, driven = [], 0, None, False
+    for line in path.read_text().splitlines():
+        if line.startswith("#"):
+            now = int(line[1:])
+        elif line in ("0h", "1h"):              # bus_drive
+            driven, ended = line == "1h", None
+        elif line == "bzzzzzzzz B":             # bus_tx
+            ended = now
+        elif line.startswith("b") and line.endswith(" B") and driven and ended is not None:
+            pauses.append((now - ended) / 1000)
+    return pauses
+
+
+def test_pauses_inside_a_packet_are_short_whatever_else_interrupts(tmp_path, capsys):
+    """Two characters leave without a pause; before the next two the interrupt must be served. Servos allow far more:
+    the simulated ones 100 us."""
+    board = walker()
+    board.send(pattern(int(LINE_BYTES_PER_S)))
+    board.vcd(tmp_path / "line.vcd")
+    board.run(ms=1000)
+    board.stop_vcd()
+    pauses = pauses_us(tmp_path / "line.vcd")
+    real = [pause for pause in pauses if pause > 0]
+    with capsys.disabled():
+        print(f"\nhal: pauses in packets in a flood: {sum(real) / len(real):.1f} us on the average, at most {max(real):.1f} us")
+    assert len(pauses) > 127 * (100 + 7)
+    assert len(real) <= len(pauses) / 2 + 1
+    assert max(real) <= 20
+
+
+def test_silent_servo_is_named_within_a_second_and_the_others_walk_on():
+    board = walker()
+    board.run(ms=300)
+    board.servos[17].fault("silent")
+    board.run(ms=1000)
+    assert (word(board, "walker_fault_id", 1), word(board, "walker_fault_kind", 1)) == (17, 1)
+    board.clear_trace()
+    board.run(ticks=20)
+    assert all(set(frame.goals) == set(range(31)) - {17} for frame in board.trace)
+    board.servos[17].clear()
+    board.run(ms=1000)
+    assert (word(board, "walker_fault_id", 1), word(board, "walker_fault_kind", 1)) == (17, 2)
+    assert word(board, "walker_missed") == 0
+    assert word(board, "walker_late", 1) == 0
+
+
+@pytest.mark.parametrize("fault", ["checksum", "noise", "late", "short", "two-talkers", "duplicate"])
+def test_bad_answers_are_counted_and_never_stop_the_walk(fault):
+    board = walker(servos=range(1, 19))
+    board.run(ms=300)
+    board.servos[5].fault(fault)
+    board.clear_trace()
+    board.run(ticks=500)
+    assert len(board.trace) in (499, 500, 501)
+    assert word(board, "walker_missed") == 0
+    counts = bus_counts(board)
+    bad = sum(counts[name] for name in ("timeouts", "checksums", "framing", "wrong_ids", "lengths"))
+    assert fault == "noise" or bad > 0, counts
+
+
+@pytest.mark.parametrize("fault, bit", [("overload", 32), ("overheating", 4), ("low-voltage", 1), ("angle-limit", 2)])
+def test_errors_of_a_servo_are_named_within_a_second(fault, bit):
+    board = walker()
+    board.run(ms=300)
+    board.servos[9].fault(fault)
+    faults = word(board, "walker_faults", 1)
+    board.run(ms=1000)
+    assert word(board, "walker_faults", 1) > faults
+    assert word(board, "walker_fault_id", 1) == 9
+    assert word(board, "walker_fault_kind", 1) in (3, 4)
+
+
+@pytest.mark.parametrize("return_delay, count, late", [(250, 6, False), (0, 18, False), (250, 18, True)])
+def test_servos_deaf_to_sync_write_follow_all_the_same(return_delay, count, late):
+    """REG WRITE to each and one ACTION: 0.7 ms each, 0.2 ms with a return delay of 0. What does not fit into a tick goes
+    on in the next, and is counted."""
+    board = walker(servos=[20, 21], deaf=range(1, count + 1), table=[(5, return_delay)])
+    seen = {number: set() for number in range(1, count + 1)}
+    for _ in range(120):
+        board.run(ticks=1)
+        for number, goals in seen.items():
+            goals.add(board.servos[number].goal)
+    fewest = min(len(goals) for goals in seen.values())
+    assert fewest > 110 if not late else 40 < fewest < 110
+    assert (word(board, "walker_late", 1) > 0) == late
+    assert word(board, "walker_missed") == 0
+
+
+def test_slow_servos_are_left_alone():
+    board = Board(images=["tests/hal_walker_cm5.hex"], servos=[1])
+    board.servos.add(7, model="dx117")
+    before = bytes(board.servos[7].table)
+    board.expect("walking", ms=3000)
+    board.run(ms=300)
+    assert bytes(board.servos[7].table)[:24] == before[:24]
+    assert word(board, "walker_slow", 4) == 1 << 7
+    assert word(board, "walker_present", 4) == 1 << 1
+    assert word(board, "walker_faults", 1) == 0
