@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: MIT
 # What Play and Edit share above the hardware: the line shell, the remote control, the play engine; and Play's inputs.
-m512_unit_test(test_shell TARGET_TOO SOURCES firmware/common/shell.c firmware/common/shell_line.c
-    firmware/common/shell_words.c firmware/common/text.c INCLUDES firmware/common)
+foreach(test test_shell test_shell_line)
+    m512_unit_test(${test} TARGET_TOO INCLUDES firmware/common
+        SOURCES firmware/common/shell.c firmware/common/shell_line.c firmware/common/shell_words.c firmware/common/text.c tests/unit/shell_stage.c)
+endforeach()
 m512_unit_test(test_remote TARGET_TOO SOURCES hal/remote.c)
-m512_unit_test(test_inputs INCLUDES firmware/common firmware/play
-    SOURCES firmware/play/inputs.c firmware/play/steer.c motion/shape.c hal/remote.c hal/debounce.c tests/fake/fake_console.c tests/fake/fake_panel.c
-            tests/fake/fake_time.c)
+foreach(test test_inputs test_steer)
+    m512_unit_test(${test} INCLUDES firmware/common firmware/play
+        SOURCES firmware/play/inputs.c firmware/play/steer.c motion/shape.c hal/remote.c hal/debounce.c tests/unit/inputs_stage.c
+                tests/fake/fake_console.c tests/fake/fake_panel.c tests/fake/fake_time.c)
+endforeach()
 set(performer_sources performer.c performer_event.c performer_ready.c performer_start.c performer_state.c performer_stop.c
     performer_watch.c servo_link_masks.c)
 list(TRANSFORM performer_sources PREPEND firmware/common/)
