@@ -15,16 +15,22 @@ from body.picture import flat, scene
 PICTURE = pathlib.Path(__file__).resolve().parents[1] / "picture"
 
 
-@pytest.mark.parametrize("name", ["humanoid", "gp"])
-def test_links_stand_where_mujoco_has_them(name):
-    robot, chance = load(name), numpy.random.default_rng(6)
+def poses(name, seed, count):
+    """(robot, pose, MuJoCo's state in it) for poses by chance."""
+    robot, chance = load(name), numpy.random.default_rng(seed)
     model = mujoco.MjModel.from_xml_string(robot.xml())
     data = mujoco.MjData(model)
-    for _ in range(20):
+    for _ in range(count):
         pose = {servo: 512 + chance.uniform(-150, 150) for servo in robot.servos}
         for servo, position in pose.items():
             data.joint(robot.joints[servo].name).qpos[0] = robot.angle(servo, position)
         mujoco.mj_forward(model, data)
+        yield robot, pose, data
+
+
+@pytest.mark.parametrize("name", ["humanoid", "gp"])
+def test_links_stand_where_mujoco_has_them(name):
+    for robot, pose, data in poses(name, seed=6, count=20):
         for body, (origin, turned) in places(robot, pose).items():
             away = 1000 * (data.body(body).xpos - data.body("trunk").xpos)
             assert origin == pytest.approx(away, abs=1e-6) and turned == pytest.approx(data.body(body).xmat.reshape(3, 3), abs=1e-9)
@@ -32,14 +38,7 @@ def test_links_stand_where_mujoco_has_them(name):
 
 @pytest.mark.parametrize("name", ["humanoid", "gp"])
 def test_weight_is_where_mujoco_has_it(name):
-    robot, chance = load(name), numpy.random.default_rng(7)
-    model = mujoco.MjModel.from_xml_string(robot.xml())
-    data = mujoco.MjData(model)
-    for _ in range(10):
-        pose = {servo: 512 + chance.uniform(-150, 150) for servo in robot.servos}
-        for servo, position in pose.items():
-            data.joint(robot.joints[servo].name).qpos[0] = robot.angle(servo, position)
-        mujoco.mj_forward(model, data)
+    for robot, pose, data in poses(name, seed=7, count=10):
         assert centre_of_mass(robot, pose) == pytest.approx(1000 * (data.subtree_com[1] - data.body("trunk").xpos), abs=1e-6)
 
 

@@ -11,6 +11,7 @@ import pytest
 from block_peer import BlockPeer, BlockPtyPeer
 from conftest import REPO
 from factory_peer import FactoryPeer, FactoryPtyPeer
+from hex_files import hex_file
 from m512.board import backup, memory
 from m512.board.block import frame
 from m512.board.factory import FactoryLoader
@@ -41,19 +42,9 @@ def make_app(board=1, kind=1, size=5000, good=True):
     return bytes(app)
 
 
-def as_hex(path, *pieces):
-    from intelhex import IntelHex
-
-    file = IntelHex()
-    for address, data in pieces:
-        file.frombytes(data, offset=address)
-    file.write_hex_file(str(path))
-    return path
-
-
 @pytest.fixture
 def app_hex(tmp_path):
-    return as_hex(tmp_path / "play.hex", (0, make_app()))
+    return hex_file(tmp_path / "play.hex", (0, make_app()))
 
 
 @pytest.fixture
@@ -232,7 +223,7 @@ def test_block_flash_that_does_not_take_the_data(m512, motions):
 
 
 def test_block_wrong_board_is_refused_before_anything_is_written(m512, tmp_path):
-    image = as_hex(tmp_path / "x.hex", (0, make_app(board=2)))
+    image = hex_file(tmp_path / "x.hex", (0, make_app(board=2)))
     with BlockPeer(old_flash(), board=1) as peer:
         result = m512("flash", image, "-p", peer.path)
         assert result.exit_code == 5 and "for cm2, but this board is a cm5" in result.stderr and not peer.writes
@@ -326,12 +317,12 @@ def test_factory_full_line_does_not_hurt_when_work_begins():
     ([(0x100, bytes(100))], "no reset vector at 0"),
 ])
 def test_flash_refuses_what_would_hurt(m512, tmp_path, pieces, says):
-    result = m512("flash", as_hex(tmp_path / "x.hex", *pieces), "--dry-run")
+    result = m512("flash", hex_file(tmp_path / "x.hex", *pieces), "--dry-run")
     assert result.exit_code == 5 and says in result.stderr
 
 
 def test_flash_refuses_damaged_images(m512, tmp_path):
-    result = m512("flash", as_hex(tmp_path / "x.hex", (0, make_app(good=False))), "--dry-run")
+    result = m512("flash", hex_file(tmp_path / "x.hex", (0, make_app(good=False))), "--dry-run")
     assert result.exit_code == 5 and "length or CRC" in result.stderr
     image = Image.empty()
     image[3].data[100] ^= 1

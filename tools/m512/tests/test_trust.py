@@ -9,6 +9,7 @@ import sys
 import pytest
 from block_peer import PROMPTED, BlockPeer, BlockPtyPeer
 from conftest import REPO
+from hex_files import hex_file
 from m512 import __version__
 from m512.board.link import Link
 from m512.board.memory import plan
@@ -44,16 +45,6 @@ def run(*args, **options):
 
 
 # Motions in Intel HEX: the rules of every motion file
-
-def hex_file(path, *pieces):
-    from intelhex import IntelHex
-
-    file = IntelHex()
-    for address, data in pieces:
-        file.frombytes(data, offset=address)
-    file.write_hex_file(str(path))
-    return path
-
 
 def test_hex_of_motions_leaves_the_trim_alone(tmp_path):
     (tmp_path / "x.hex").write_text(to_hex(read_text(TEXT)))
