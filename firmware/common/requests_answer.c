@@ -34,7 +34,8 @@ uint8_t requests_refuse(uint8_t status, const char *sentence_P)
     return reported;
 }
 
-uint8_t requests_no_answer(uint32_t joints)
+/* NOINLINE: it would be copied twice. */
+NOINLINE uint8_t requests_no_answer(uint32_t joints)
 {
     if (joints == 0) {
         return REQUEST_OK;

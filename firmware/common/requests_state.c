@@ -94,14 +94,15 @@ bool requests_now_is_due(void)
     return watch.every_ticks != 0 && (uint16_t)(tick_now16() - watch.last_tick) >= watch.every_ticks;
 }
 
-/* Whether a play, a move or a layer gives this joint goals. */
-static bool has_goal(const performer_t *performer, uint8_t id)
+/* The joints that a play, a move or a layer gives goals. */
+static uint32_t joints_with_goals(const performer_t *performer)
 {
     const uint32_t of_play = performer->state > PERFORMER_READY ? performer->joints : 0;
-    return ((of_play | performer_layers_joints(performer)) & servo_link_bit(id)) != 0;
+    return of_play | performer_layers_joints(performer);
 }
 
-static void print_pos(bool known, uint16_t pos)
+/* NOINLINE: it would be copied twice. */
+static NOINLINE void print_pos(bool known, uint16_t pos)
 {
     if (known) {
         text_hex(pos, 3);
@@ -114,6 +115,7 @@ void requests_print_now(void)
 {
     const performer_t *performer = requests_image.performer;
     const servo_link_t *servos = requests_image.servos;
+    const uint32_t with_goals = joints_with_goals(performer);
     watch.last_tick = tick_now16();
     text_P_number(TEXT_P("@now "), performer_is_idle(performer) ? 0 : performer->page);
     text_put(' ');
@@ -124,7 +126,7 @@ void requests_print_now(void)
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if (servo_link_has(&servos->present, id)) {
             const uint16_t present_pos = servos->present_pos[id];
-            print_pos(has_goal(performer, id), performer->goal_pos[id]);
+            print_pos(servo_link_has(&with_goals, id), performer->goal_pos[id]);
             print_pos(!servo_link_has(&servos->silent, id) && present_pos != SERVO_LINK_NO_POSE, present_pos);
         }
     }

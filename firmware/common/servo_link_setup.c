@@ -59,8 +59,8 @@ bool servo_link_write(const servo_link_t *link, uint8_t id, uint8_t at, const ui
         == BUS_OK;
 }
 
-/* Writes one or two bytes. Has no result: the caller reads the servo afterwards. */
-static void write_one(const servo_link_t *link, uint8_t id, uint8_t at, uint16_t value, uint8_t count)
+/* Writes one or two bytes. Has no result: the caller reads the servo afterwards. NOINLINE: it would be copied five times. */
+static NOINLINE void write_one(const servo_link_t *link, uint8_t id, uint8_t at, uint16_t value, uint8_t count)
 {
     const uint8_t bytes[2] = { (uint8_t)value, (uint8_t)(value >> 8) };
     (void)!servo_link_write(link, id, at, bytes, count);

@@ -57,7 +57,8 @@ static const settings_t defaults_P PROGMEM = {
     .centre_page = 1, .drive_ds = 10,
 };
 
-void settings_defaults(settings_t *settings)
+/* NOINLINE: it would be copied three times. */
+NOINLINE void settings_defaults(settings_t *settings)
 {
     memcpy_P(settings, &defaults_P, sizeof *settings);
 }
@@ -72,10 +73,9 @@ static uint16_t copy_addr(uint8_t copy)
 static bool is_sound(const settings_t *settings)
 {
     for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
-        settings_range_t range;
-        memcpy_P(&range, &settings_ranges_P[i], sizeof range);
-        const uint8_t value = ((const uint8_t *)settings)[range.offset];
-        if (value < range.low || value > range.high) {
+        const settings_range_t *range_P = &settings_ranges_P[i];
+        const uint8_t value = ((const uint8_t *)settings)[pgm_read_byte(&range_P->offset)];
+        if (value < pgm_read_byte(&range_P->low) || value > pgm_read_byte(&range_P->high)) {
             return false;
         }
     }
