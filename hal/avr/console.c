@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "console.h"
 #include "clock.h"
+#include "compiler.h"
 #include "irq.h"
 
 #include <avr/io.h>
@@ -55,15 +56,21 @@ static void send_flow(uint8_t byte)
     UCSR1B = TALKING;
 }
 
+/* Lets the PC go on once nothing keeps it waiting. NOINLINE: it would be copied twice. */
+static NOINLINE void end_xoff(void)
+{
+    if (line.xoff_is_out && line.xoffs == 0 && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
+        line.xoff_is_out = false;
+        send_flow(CONSOLE_XON);
+    }
+}
+
 bool console_get(uint8_t *byte)
 {
     if (!ring_get(&line.rx, byte)) {
         return false;
     }
-    if (line.xoff_is_out && line.xoffs == 0 && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
-        line.xoff_is_out = false;
-        send_flow(CONSOLE_XON);
-    }
+    end_xoff();
     return true;
 }
 
@@ -141,10 +148,7 @@ void console_xon(void)
     if (line.xoffs != 0) {
         line.xoffs--;
     }
-    if (line.xoffs == 0 && line.xoff_is_out && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
-        line.xoff_is_out = false;
-        send_flow(CONSOLE_XON);
-    }
+    end_xoff();
 }
 
 ring_t *console_rx_ring(void)
