@@ -24,9 +24,9 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
         report_version(&record);
         text_P(record.board == APP_RECORD_CM2 ? TEXT_P(" board=cm2") : TEXT_P(" board=cm5"));
     }
-    TEXT(" protocol=1 pages=128 joints=31 line=110");
-    STATIC_ASSERT(PAGE_COUNT == 128 && PAGE_JOINTS == 31, "the numbers in the line above");
-    TEXT(" can=list,page,pose,move,torque,play,pause,where,crcs,watch,dense");
+    STATIC_ASSERT(PAGE_COUNT == 128 && PAGE_JOINTS == 31, "the numbers in the next line");
+    TEXT(" protocol=1 pages=128 joints=31 line=110"
+         " can=list,page,pose,move,torque,play,pause,where,crcs,watch,dense");
     if (requests_image.can_P != NULL) {
         text_P(requests_image.can_P);
     }
