@@ -114,6 +114,13 @@ static const shell_command_t typed[] PROGMEM = {
     { word_help, do_help, SHELL_ARGS(0, 1), 0 },
 };
 
+static void print_help(const shell_command_t *table_P, uint8_t count)
+{
+    for (; count > 0; count--) {
+        shell_print_help(table_P++);
+    }
+}
+
 static uint8_t do_help(void *context, const shell_args_t *args)
 {
     (void)context;
@@ -126,12 +133,8 @@ static uint8_t do_help(void *context, const shell_args_t *args)
         shell_print_help(command);
         return REQUEST_OK;
     }
-    for (uint8_t i = 0; i < COMMANDS_SHARED; i++) {
-        shell_print_help(&commands_shared_P[i]);
-    }
-    for (uint8_t i = 0; i < ARRAY_COUNT(typed); i++) {
-        shell_print_help(&typed[i]);
-    }
+    print_help(commands_shared_P, COMMANDS_SHARED);
+    print_help(typed, ARRAY_COUNT(typed));
     return REQUEST_OK;
 }
 

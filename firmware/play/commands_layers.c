@@ -6,17 +6,15 @@
 #include "pgm.h"
 #include "text.h"
 
-static uint8_t answer_of(const play_t *play, layers_status_t status)
+static uint8_t answer_of(layers_status_t status)
 {
-    const performer_t *performer = &play->performer;
     switch (status) {
     case LAYERS_OK:
         return REQUEST_OK;
     case LAYERS_ERR_PAGE:
+        return requests_refusal(PERFORMER_ERR_PAGE);
     case LAYERS_ERR_EMPTY:
-        (void)requests_error(status == LAYERS_ERR_PAGE ? REQUEST_ERR_PAGE : REQUEST_ERR_EMPTY);
-        report_bad_page(performer->fault_page, performer->fault);
-        return SHELL_ERR_REPORTED;
+        return requests_refusal(PERFORMER_ERR_EMPTY);
     case LAYERS_ERR_JOINTS:
         return requests_refuse(REQUEST_ERR_SERVOS, TEXT_P("None of these servos can be moved"));
     case LAYERS_ERR_FULL:
@@ -48,7 +46,7 @@ uint8_t commands_do_layer(void *context, const shell_args_t *args)
             return status;
         }
     }
-    return answer_of(play, performer_layer(&play->performer, (uint8_t)page, joints));
+    return answer_of(performer_layer(&play->performer, (uint8_t)page, joints));
 }
 
 uint8_t commands_do_aim(void *context, const shell_args_t *args)
@@ -60,7 +58,7 @@ uint8_t commands_do_aim(void *context, const shell_args_t *args)
         return SHELL_ERR_RANGE;
     }
     const layers_status_t status = performer_take_for_code(&play->performer, id);
-    return answer_of(play, status != LAYERS_OK ? status : layers_aim(&play->layers, id, args->number[1], deg_s));
+    return answer_of(status != LAYERS_OK ? status : layers_aim(&play->layers, id, args->number[1], deg_s));
 }
 
 /* id centre amplitude ms [phase] */
@@ -78,8 +76,8 @@ uint8_t commands_do_swing(void *context, const shell_args_t *args)
     if (layers_can_swing(args->number[1], amplitude, ticks)) {
         status = performer_take_for_code(&play->performer, id);
     }
-    return answer_of(play, status != LAYERS_OK ? status
-                               : layers_swing(&play->layers, id, args->number[1], amplitude, ticks, phase_deg));
+    return answer_of(status != LAYERS_OK ? status
+                         : layers_swing(&play->layers, id, args->number[1], amplitude, ticks, phase_deg));
 }
 
 uint8_t commands_do_free(void *context, const shell_args_t *args)

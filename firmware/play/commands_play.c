@@ -51,22 +51,28 @@ static uint8_t done(bool something, const char *nothing_P)
     return something || requests_from_program() ? (uint8_t)REQUEST_OK : requests_refuse(REQUEST_ERR_IDLE, nothing_P);
 }
 
+/* NOINLINE: it would be copied twice. */
+static NOINLINE uint8_t end(play_t *play, bool at_once)
+{
+    const bool moves = !performer_is_still(&play->performer);
+    if (at_once) {
+        performer_break(&play->performer);
+    } else {
+        performer_stop(&play->performer);
+    }
+    return done(moves, TEXT_P("Nothing is playing"));
+}
+
 uint8_t commands_do_stop(void *context, const shell_args_t *args)
 {
-    play_t *play = context;
-    const bool moves = !performer_is_still(&play->performer);
     (void)args;
-    performer_stop(&play->performer);
-    return done(moves, TEXT_P("Nothing is playing"));
+    return end(context, false);
 }
 
 uint8_t commands_do_break(void *context, const shell_args_t *args)
 {
-    play_t *play = context;
-    const bool moves = !performer_is_still(&play->performer);
     (void)args;
-    performer_break(&play->performer);
-    return done(moves, TEXT_P("Nothing is playing"));
+    return end(context, true);
 }
 
 uint8_t commands_do_pause(void *context, const shell_args_t *args)

@@ -70,8 +70,8 @@ bool inputs_next_refusal(inputs_t *inputs, inputs_refusal_t *refusal)
     return true;
 }
 
-/* Takes L and R out of the code while they steer. */
-static bool steers(const inputs_t *inputs)
+/* Whether L and R steer, and are no part of the code. NOINLINE: it would be copied twice. */
+static NOINLINE bool steers(const inputs_t *inputs)
 {
     return inputs->settings->remote_mode == SETTINGS_REMOTE_DRIVE && steer_is_possible(inputs->performer);
 }

@@ -11,6 +11,12 @@ void performer_set_layers(performer_t *performer, layers_t *layers)
     layers_init(layers, performer->goal_pos);
 }
 
+/* Sets the speed of what joins or leaves a play: that of the approach. NOINLINE: the division would be copied twice. */
+static NOINLINE void set_speed(performer_t *performer)
+{
+    layers_set_speed(performer->layers, PERFORMER_SETTINGS(performer)->approach_deg_s);
+}
+
 /* ---- a second page ---- */
 
 layers_status_t performer_layer(performer_t *performer, uint8_t page, uint32_t joints)
@@ -18,7 +24,7 @@ layers_status_t performer_layer(performer_t *performer, uint8_t page, uint32_t j
     if (performer->state != PERFORMER_PLAY || performer->leaving || performer_is_paused(performer)) {
         return LAYERS_ERR_IDLE;
     }
-    layers_set_speed(performer->layers, PERFORMER_SETTINGS(performer)->approach_deg_s);
+    set_speed(performer);
     const layers_status_t status = layers_start(performer->layers, page, joints);
     performer->fault_page = performer->layers->play.fault_page;
     performer->fault = performer->layers->play.fault;
@@ -43,7 +49,7 @@ layers_status_t performer_take_for_code(performer_t *performer, uint8_t id)
 {
     servo_link_t *servos = PERFORMER_SERVOS(performer);
     const uint32_t joint = servo_link_bit(id);
-    layers_set_speed(performer->layers, PERFORMER_SETTINGS(performer)->approach_deg_s);
+    set_speed(performer);
     if (!layers_have_room(performer->layers, id)) {
         return LAYERS_ERR_FULL;
     }

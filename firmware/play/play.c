@@ -11,22 +11,27 @@
 
 /* ---- lamps ---- */
 
-static void show_traffic(uint8_t led, uint8_t count, uint8_t *last, uint8_t *ticks_left)
+typedef struct {
+    uint8_t count;      /* bytes so far, modulo 256 */
+    uint8_t ticks_left; /* the lamp stays lit */
+} traffic_t;
+
+static NOINLINE void show_traffic(uint8_t led, uint8_t count, traffic_t *traffic)
 {
-    if (count != *last) {
-        *last = count;
-        *ticks_left = LAMP_TICKS;
-    } else if (*ticks_left > 0) {
-        (*ticks_left)--;
+    if (count != traffic->count) {
+        traffic->count = count;
+        traffic->ticks_left = LAMP_TICKS;
+    } else if (traffic->ticks_left > 0) {
+        traffic->ticks_left--;
     }
-    panel_set(led, *ticks_left > 0);
+    panel_set(led, traffic->ticks_left > 0);
 }
 
 static void show_lamps(const performer_t *performer)
 {
-    static uint8_t sent, sent_ticks, received, received_ticks;
-    show_traffic(PANEL_LED_TXD, console_sent(), &sent, &sent_ticks);
-    show_traffic(PANEL_LED_RXD, console_received(), &received, &received_ticks);
+    static traffic_t sent, received;
+    show_traffic(PANEL_LED_TXD, console_sent(), &sent);
+    show_traffic(PANEL_LED_RXD, console_received(), &received);
     const bool dark = performer_is_paused(performer) && (tick_now16() >> BLINK_TICKS_LOG2) % 2 != 0;
     panel_set(PANEL_LED_PLAY, !performer_is_still(performer) && !dark);
     panel_set(PANEL_LED_AUX, performer->faulty != 0 || performer->battery_reported || performer->heat_reported);
