@@ -121,12 +121,13 @@ void performer_layers_drop(performer_t *performer, uint32_t joints)
     layers_drop_joints(performer->layers, joints);
 }
 
-void performer_layers_break(performer_t *performer)
+/* These two are NOINLINE: they would be copied to each place that ends or interrupts a play. */
+NOINLINE void performer_layers_break(performer_t *performer)
 {
     layers_break(performer->layers);
 }
 
-void performer_layers_pause(performer_t *performer, bool pause)
+NOINLINE void performer_layers_pause(performer_t *performer, bool pause)
 {
     if (pause) {
         layers_pause(performer->layers);
