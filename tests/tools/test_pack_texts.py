@@ -60,12 +60,6 @@ def test_nesting_is_bounded():
     assert decode(packed[b"x" * 2000], pairs) == b"x" * 2000 + b"\0"
 
 
-def test_a_text_is_written_with_as_few_codes_as_there_are():
-    codes = {b"a": 1, b"b": 2, b"c": 3, b"\0": 0, b"ab": 0x80, b"ca": 0x81, b"bcab\0": 0x82}
-    assert tool.fewest_codes(b"abcab\0", codes) == (1, 0x82)   # from the left, the longest first: ab, ca, b, 0
-    assert tool.fewest_codes(b"abc\0", codes) == (0x80, 3, 0)
-
-
 def test_a_pair_that_does_not_pay_is_not_made():
     assert tool.pack([b"abc", b"abd"])[1] == {}
 
