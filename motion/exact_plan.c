@@ -201,7 +201,6 @@ void exact_take(player_t *player)
 void exact_plan_others(player_t *player)
 {
     plan_joints(player, false, PAGE_JOINTS);
-    player->planned = 0;
 }
 
 void exact_plan_rest(player_t *player)
@@ -211,4 +210,5 @@ void exact_plan_rest(player_t *player)
         measure_ramp(player->accel_time, player->step_ticks, &player->ramp_recip, &player->ramp_share_q0_16);
     player->planned = 0;
     exact_plan_others(player);
+    player->planned = 0;
 }

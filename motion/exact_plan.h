@@ -13,7 +13,7 @@ void exact_plan_ahead(player_t *player);
 /* Takes the coming step: the joints are on target_pos, and it begins with the next tick. Plans some more of them. */
 void exact_take(player_t *player) NOINLINE;
 
-/* In the first tick of a step: plans the joints that are not planned yet. */
+/* In the first tick of a step, or before: plans the joints that are not planned yet. */
 void exact_plan_others(player_t *player);
 
 /* Plans all joints for the rest of an interrupted step: from where they stand to target_pos, in step_ticks. */

@@ -45,6 +45,7 @@ void classic_start(player_t *player, link_t *link)
     player->hold_ticks = 0;
     sequence_look(player, link);
     classic_take(player);
+    classic_plan_joints(player, PAGE_JOINTS); /* a start is no part of a tick */
 }
 
 /* Calls until the step is over. An empty section takes one: without ramps FALL, in a skipped step CRUISE too. */
@@ -314,5 +315,6 @@ void classic_thaw(player_t *player)
     if (!player->arrived && player->section != SECTION_HOLD) {
         enter(player, SECTION_FALL, 0); /* used up */
     }
+    player->planned = 0;
     player->step_ticks = player->arrived ? 0 : 1; /* 0 only where the step is skipped */
 }

@@ -127,6 +127,7 @@ void exact_start(player_t *player, link_t *link)
     sequence_look(player, link);
     exact_measure(player);
     exact_take(player);
+    exact_plan_others(player); /* a start is no part of a tick */
 }
 
 uint8_t exact_tick(player_t *player, link_t *link)
@@ -135,6 +136,7 @@ uint8_t exact_tick(player_t *player, link_t *link)
     if (player->arrived) {
         events |= sequence_announce(player);
         exact_plan_others(player);
+        player->planned = 0;
         advance(player);
     } else if (player->tick < player->step_ticks) {
         advance(player);

@@ -84,7 +84,8 @@ void player_drop_joints(player_t *player, uint32_t joints)
 
 /* --- start ------------------------------------------------------------------------------------------------------- */
 
-/* A layer takes its own joints only; the main play all that are not lent. */
+/* A layer takes its own joints only; the main play all that are not lent. Joints that are not there are nobody's, so no tick
+ * works for them. */
 static void stand_at(player_t *player, const uint16_t pose_pos[PAGE_JOINTS], uint32_t present)
 {
     bool is_main = !PLAYER_LAYERS || player->self == PLAYER_OWNER_MAIN;
@@ -92,13 +93,17 @@ static void stand_at(player_t *player, const uint16_t pose_pos[PAGE_JOINTS], uin
     player->joints = player->coming_joints = 0;
     uint32_t bit = 1;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, bit <<= 1) {
+        const bool is_there = (present & bit) != 0;
         uint16_t pos = pose_pos[i] > PAGE_POS_MAX ? PAGE_POS_MAX : pose_pos[i];
         player->coming_pos[i] = pos;
         if (PLAYER_LAYERS && is_main && (player->lent & bit) != 0) {
             player->joint[i].owner = PLAYER_OWNER_CODE;
-        } else if (is_main || (present & bit) != 0) {
+        } else if (is_main || is_there) {
             player->goal_pos[i] = pos;
             player_give_joint(player, i, pos);
+            if (PLAYER_LAYERS && !is_there) {
+                player->joint[i].owner = PLAYER_OWNER_NONE;
+            }
         }
     }
 }

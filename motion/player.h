@@ -75,8 +75,8 @@ typedef struct {
     bool through;
 } player_classic_t;
 
-/* Who moves a joint. */
-enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE };
+/* Who moves a joint. NONE: it is not there. */
+enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE, PLAYER_OWNER_NONE };
 
 /* What a program may leave out: 0 for the classic law (law_classic.c is not linked) and for layers (every joint is the main
  * play's). */

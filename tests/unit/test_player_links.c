@@ -44,6 +44,21 @@ static void test_player_absent_joint_is_never_touched_nor_timed(void)
     TEST_ASSERT_EQUAL_HEX32(0x7, player.joints);
 }
 
+/* No loop of a tick stops at a joint that is not there: 18 servos cost less than 31. The next play may find it. */
+static void test_player_absent_joint_is_nobodys(void)
+{
+    sparse_step(1, 16, 0, 700);
+    pose[3] = 900;
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_EXACT, pose, 0x7));
+    TEST_ASSERT_EQUAL_UINT8(PLAYER_OWNER_MAIN, player.joint[2].owner);
+    TEST_ASSERT_EQUAL_UINT8(PLAYER_OWNER_NONE, player.joint[3].owner);
+    TEST_ASSERT_EQUAL_UINT16(16, run_to_end());
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_EXACT, pose, 0xF));
+    TEST_ASSERT_EQUAL_UINT8(PLAYER_OWNER_MAIN, player.joint[3].owner);
+    TEST_ASSERT_EQUAL_UINT16(16, run_to_end());
+    TEST_ASSERT_EQUAL_UINT16(700, player.goal_pos[3]);
+}
+
 static void dropped_joint_stays(player_law_t law)
 {
     sparse_step(1, 30, 0, 700);
@@ -244,6 +259,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_player_unused_joint_keeps_its_target_and_starts_from_there);
     RUN_TEST(test_player_absent_joint_is_never_touched_nor_timed);
+    RUN_TEST(test_player_absent_joint_is_nobodys);
     RUN_TEST(test_player_dropped_joint_keeps_its_goal);
     RUN_TEST(test_player_first_pose_tells_the_joints_of_step_1);
     RUN_TEST(test_player_refuses_what_cannot_be_played);
