@@ -6,6 +6,7 @@ import os
 import pathlib
 import pty
 import re
+import select
 import shutil
 import subprocess
 import time
@@ -39,8 +40,8 @@ def run_avrdude(board, *arguments, part="m128", limit=800):
             said = board.take()
             if said:
                 os.write(master, said)
-            else:
-                time.sleep(0.0005)
+            elif not board.waiting:
+                select.select([master], [], [], 0.0005)
         return process.returncode, process.stdout.read()
     finally:
         os.close(master)
@@ -80,7 +81,7 @@ def test_play_image_written_and_started(tmp_path):
 
 
 @needs_avrdude
-def test_64_kib_of_motions_written_verified_read_back(tmp_path):
+def test_64_kib_of_motions_written_verified_and_all_of_the_flash_read_back(tmp_path):
     board = prompt_board()
     motions = noise(65536, 2)
     image = tmp_path / "motions.hex"
@@ -92,7 +93,7 @@ def test_64_kib_of_motions_written_verified_read_back(tmp_path):
     code, text = run_avrdude(board, "-U", f"flash:w:{image}:i", "-U", f"flash:r:{back}:r")
     assert code == 0 and "65536 bytes of flash verified" in text, text
     assert bytes(board.flash[0xE000:0x1E000]) == motions
-    assert back.read_bytes()[0xE000:0x1E000] == motions
+    assert back.read_bytes() == bytes(board.flash)   # the loader's own section too
     assert bytes(board.flash[:0xE000]) == b"\xff" * 0xE000
 
 
@@ -127,7 +128,7 @@ def test_wrong_part_is_refused(tmp_path, part):
 
 
 @needs_avrdude
-def test_boot_section_is_read_but_not_written(tmp_path):
+def test_boot_section_is_not_written(tmp_path):
     board = prompt_board()
     before = bytes(board.flash)
     contents = pytest.importorskip("intelhex").IntelHex()
@@ -136,10 +137,6 @@ def test_boot_section_is_read_but_not_written(tmp_path):
     code, text = run_avrdude(board, "-U", f"flash:w:{tmp_path / 'boot.hex'}:i")
     assert code != 0 and "expects OK byte 0x10 but got 0x11" in text, text
     assert bytes(board.flash[BOOT_START:]) == before[BOOT_START:]
-    back = tmp_path / "back.bin"
-    code, text = run_avrdude(board, "-U", f"flash:r:{back}:r")
-    assert code == 0, text
-    assert back.read_bytes()[BOOT_START:] == before[BOOT_START:]
 
 
 @needs_avrdude
