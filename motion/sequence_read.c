@@ -28,10 +28,10 @@ uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, ui
 {
     uint16_t words[PAGE_JOINTS];
     uint32_t joints = read_words(source, page, 1, UINT32_MAX, words);
-    if (shape != NULL) {
-        shape_step_t shaping;
-        shape_step_begin(&shaping, shape, source, page, 1);
-        while (shape_step_share(&shaping, source, words)) {
+    shape_step_t shaping;
+    if (shape != NULL && shape_step_begin(&shaping, shape, source, page, 1)) {
+        for (uint8_t left = SHAPE_STEP_SHARES; left != 0; left--) {
+            shape_step_share(&shaping, source, words);
         }
     }
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
@@ -62,7 +62,7 @@ static NOINLINE void look_at(player_t *player, uint8_t page, uint8_t step)
 
 void sequence_shape_a_share(player_t *player)
 {
-    (void)shape_step_share(player->shaping, player->source, player->looked_at);
+    shape_step_share(player->shaping, player->source, player->looked_at);
     player->shares_left--;
 }
 
@@ -79,9 +79,9 @@ static void look_at_coming(player_t *player)
                          (uint16_t)(PAGE_STEP_BYTES * coming->step + PAGE_STEP_AT_PAUSE), &coming->pause, 2);
     coming->rate_percent = shaped ? shape->rate_percent : SHAPE_NORMAL;
     coming->top_speed_q4_4 = shaped ? shape->top_speed_q4_4 : 0;
-    player->shares_left = shaped ? SHAPE_STEP_SHARES : 0;
-    if (shaped) {
-        shape_step_begin(player->shaping, shape, player->source, coming->page, coming->step);
+    player->shares_left = 0;
+    if (shaped && shape_step_begin(player->shaping, shape, player->source, coming->page, coming->step)) {
+        player->shares_left = SHAPE_STEP_SHARES;
     }
 }
 

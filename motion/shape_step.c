@@ -79,23 +79,21 @@ static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, ui
     return pos > PAGE_POS_MAX ? PAGE_POS_MAX : pos;
 }
 
-void shape_step_begin(shape_step_t *shaping, const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step)
+bool shape_step_begin(shape_step_t *shaping, const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step)
 {
     shaping->partner = partner_of(shape, source, page);
     shaping->centre = steps_of(source, shape->centre_page) != 0 ? shape->centre_page : 0;
     shaping->step = step;
     shaping->blend_percent = (uint8_t)(shape->blend_percent < 0 ? -shape->blend_percent : shape->blend_percent);
-    shaping->done = shaping->partner == 0 && !shape->scales ? PAGE_JOINTS : 0;
+    shaping->done = 0;
     memcpy(shaping->amplitude_percent, shape->amplitude_percent, sizeof shaping->amplitude_percent);
+    return shaping->partner != 0 || shape->scales;
 }
 
-bool shape_step_share(shape_step_t *shaping, const page_source_t *source, uint16_t words[PAGE_JOINTS])
+void shape_step_share(shape_step_t *shaping, const page_source_t *source, uint16_t words[PAGE_JOINTS])
 {
     uint16_t partner[SHAPE_STEP_SHARE], centre[SHAPE_STEP_SHARE];
     uint8_t joint = shaping->done;
-    if (joint >= PAGE_JOINTS) {
-        return false;
-    }
     read_share(source, shaping->partner, shaping->step, joint, partner);
     read_share(source, shaping->centre, 1, joint, centre);
     for (uint8_t i = 0; i < SHAPE_STEP_SHARE && joint < PAGE_JOINTS; i++, joint++) {
@@ -107,5 +105,4 @@ bool shape_step_share(shape_step_t *shaping, const page_source_t *source, uint16
         }
     }
     shaping->done = joint;
-    return joint < PAGE_JOINTS;
 }

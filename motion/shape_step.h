@@ -22,11 +22,12 @@ typedef struct shape_step {
     uint8_t amplitude_percent[PAGE_JOINTS];
 } shape_step_t;
 
-/* Begins with step 1..7 of `page`, with the present settings. */
-void shape_step_begin(shape_step_t *shaping, const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step);
+/* Begins with step 1..7 of `page`, with the present settings. Returns whether blend or amplitude shape it: then it has
+ * SHAPE_STEP_SHARES shares, else none. */
+bool shape_step_begin(shape_step_t *shaping, const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step);
 
 /* Blends, scales and clamps the next SHAPE_STEP_SHARE of the step's position words, in place; words that do not drive their
- * joint stay. false: all joints are done. */
-bool shape_step_share(shape_step_t *shaping, const page_source_t *source, uint16_t words[PAGE_JOINTS]);
+ * joint stay. Only for the shares that the step has. */
+void shape_step_share(shape_step_t *shaping, const page_source_t *source, uint16_t words[PAGE_JOINTS]);
 
 #endif

@@ -5,6 +5,7 @@ m512_unit_test(test_link TARGET_TOO SOURCES motion/link.c)
 m512_unit_test(test_approach TARGET_TOO SOURCES motion/approach.c)
 m512_unit_test(test_mul TARGET_TOO SOURCES motion/page.c)
 m512_unit_test(test_classic_math SOURCES motion/page.c)
+m512_unit_test(test_fix SOURCES motion/page.c)
 
 # The same vectors judge the C codec and m512's.
 m512_unit_test(test_page_vectors SOURCES motion/page.c)

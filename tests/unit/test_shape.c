@@ -83,8 +83,10 @@ static uint16_t shaped(uint8_t joint)
 {
     uint16_t words[PAGE_JOINTS];
     read_page(NULL, PAGE, PAGE_AT_STEP0, words, sizeof words);
-    shape_step_begin(&shaping, &shape, &source, PAGE, 1);
-    while (shape_step_share(&shaping, &source, words)) {
+    if (shape_step_begin(&shaping, &shape, &source, PAGE, 1)) {
+        for (uint8_t left = SHAPE_STEP_SHARES; left != 0; left--) {
+            shape_step_share(&shaping, &source, words);
+        }
     }
     return words[joint];
 }
@@ -104,6 +106,21 @@ static void test_shape_neutral_changes_nothing(void)
     TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, 50));
     TEST_ASSERT_FALSE(shape_is_neutral(&shape));
     expect(612, 413, 50, 700);
+}
+
+/* A rate, a limit and a blend with a damaged page change no position. */
+static void test_shape_only_a_changed_step_has_shares(void)
+{
+    TEST_ASSERT_FALSE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, 50));
+    shape_set_voltage(&shape, 110);
+    TEST_ASSERT_FALSE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, 25));
+    TEST_ASSERT_TRUE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
+    damaged = RIGHT;
+    TEST_ASSERT_FALSE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
+    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 90, 0x1));
+    TEST_ASSERT_TRUE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
 }
 
 /* About 512, 512, 100; joint 3 is not in the centre pose. 50 % of -99 is -49.5: away from the centre. */
@@ -342,6 +359,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_shape_neutral_changes_nothing);
+    RUN_TEST(test_shape_only_a_changed_step_has_shares);
     RUN_TEST(test_shape_amplitude_scales_about_the_centre_pose);
     RUN_TEST(test_shape_blend_goes_to_the_partner);
     RUN_TEST(test_shape_blend_and_amplitude_together);
