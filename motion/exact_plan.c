@@ -191,11 +191,13 @@ void exact_take(player_t *player)
     player->step_ticks = player->now.ticks;
     player->hold_ticks = player->now.hold_ticks;
     prepare_plan(player);
-    player->own_joints = sequence_take(player);
+    const uint8_t joints = sequence_take(player);
+    player->own_joints = joints;
+    law_work(player, LAW_WORK_TAKE + joints / 2u);
     player->tick = 0;
     player->ahead = false;
     player->arrived = true;
-    plan_joints(player, false, planned_last(player, player->own_joints, old_ticks));
+    plan_joints(player, false, planned_last(player, joints, old_ticks));
 }
 
 void exact_plan_others(player_t *player)

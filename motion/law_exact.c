@@ -128,6 +128,7 @@ void exact_start(player_t *player, link_t *link)
     exact_measure(player);
     exact_take(player);
     exact_plan_others(player); /* a start is no part of a tick */
+    player->work = 0;
 }
 
 uint8_t exact_tick(player_t *player, link_t *link)
