@@ -9,10 +9,9 @@ import { dirtyPages } from '../model/editor-state.ts';
 import type { Shape } from '../model/motion.ts';
 import type { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { aim, askList, askWhere, command, free, play, setAmplitude, setBlend, setLayer, setRate, setTorque, swing } from '../robot/protocol.ts';
+import { aim, askList, command, free, play, setAmplitude, setBlend, setLayer, setRate, setTorque, swing } from '../robot/protocol.ts';
 import type { Command } from '../robot/protocol.ts';
 import type { TerminalSize } from '../robot/edit-screen.ts';
-import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
@@ -22,7 +21,7 @@ import { refusalText } from '../view/editor/texts.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
 import type { EditorParts } from './editor.ts';
-import { TEXTS, doingText, errorText } from '../view/texts.ts';
+import { TEXTS, errorText } from '../view/texts.ts';
 import { makeDocuments, makeTransfer } from './document-parts.ts';
 import type { DeskStorage } from './document-parts.ts';
 import type { KeptDocuments } from './documents.ts';
@@ -30,6 +29,8 @@ import { DocumentFiles } from './files.ts';
 import { Follow } from './follow.ts';
 import { Listeners } from './listeners.ts';
 import { LastSaid } from './said.ts';
+import { RemoteKeys } from './remote-keys.ts';
+import { Status } from './status.ts';
 import { StickDrive } from './stick.ts';
 import type { Stick } from './stick.ts';
 import type { RobotTransfer } from './transfer.ts';
@@ -38,17 +39,15 @@ import { MotionTrials } from './trials.ts';
 import { SimulatedSource } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
 
-const WHERE_MS = 300;
 /** What went wrong is to be read before the board's next line takes its place. */
 const TROUBLE_STAYS_MS = 6000;
-const REMOTE_REPEAT_MS = 100;
 const READY_MS = 180_000;
 
 const ROBOT_IN_PAGE = 'robot in the page';
 
 const START: DeskState = {
-  source: 'simulated', connection: 'closed', portName: '', version: null, where: null, pages: [], image: 'play', physics: 'loading', speed: 1,
-  stopped: null, doing: { text: 'Starting …', tone: 'calm' }, said: null, faultNames: [], tab: 'remote',
+  source: 'simulated', connection: 'closed', portName: '', version: null, where: null, isInDialog: false, pages: [], image: 'play',
+  physics: 'loading', speed: 1, stopped: null, doing: { text: 'Starting …', tone: 'calm' }, said: null, faultNames: [], tab: 'remote',
 };
 
 export class RobotDesk implements Desk {
@@ -64,10 +63,9 @@ export class RobotDesk implements Desk {
   private readonly simulated: SimulatedSource;
   private readonly yours: YourSource;
   private readonly lastSaid = new LastSaid();
-  private held: ReadonlySet<RemoteButton> = new Set();
-  private whereTimer: ReturnType<typeof setTimeout> | undefined;
+  private readonly remoteKeys = new RemoteKeys((packet) => this.sendRemote(packet));
+  private readonly status: Status = new Status({ state: this.state, connection: () => this.connection, isWriting: () => this.transfer.isWriting });
   private troubleUntilMs = 0;
-  private terminal: TerminalSize | null = null;
   private readonly follower = new Follow(() => this.connection, (error) => this.fail(error));
   /** What the robot in the page has in its flash. */
   private inPage: readonly Uint8Array[] = [];
@@ -94,12 +92,12 @@ export class RobotDesk implements Desk {
       change: (change: Partial<DeskState>) => {
         this.state.set(change);
         if (change.physics === 'on') this.standUp();
+        if (change.isInDialog !== undefined) this.status.tell();
       },
       motions: (image: Uint8Array) => this.simulatedMotions(image),
     };
     this.simulated = new SimulatedSource(body, events);
-    this.yours = new YourSource(body, events, () => this.mayAsk());
-    setInterval(() => this.repeatRemote(), REMOTE_REPEAT_MS);
+    this.yours = new YourSource(body, events, () => this.status.mayAsk());
   }
 
   /** Starts the robot in the page. */
@@ -126,12 +124,11 @@ export class RobotDesk implements Desk {
 
   show(tab: Tab): void {
     this.state.set({ tab });
-    this.look();
+    this.status.look();
   }
 
   terminalSize(size: TerminalSize): void {
-    this.terminal = size;
-    this.look();
+    this.status.terminalSize(size);
   }
 
   play(page: number): Promise<void> {
@@ -142,7 +139,10 @@ export class RobotDesk implements Desk {
   }
 
   command(what: Command): Promise<void> {
-    return this.deed(() => command(this.connection.requests, what));
+    return this.deed(async () => {
+      const isStop = what === 'stop' || what === 'break';
+      if (!isStop || !(await this.connection.breakOff())) await command(this.connection.requests, what);
+    });
   }
 
   setTorque(on: boolean, servos: readonly number[] = []): Promise<void> {
@@ -213,9 +213,9 @@ export class RobotDesk implements Desk {
   }
 
   remote(held: ReadonlySet<RemoteButton>): void {
-    this.held = held;
     if (held.size > 0 && this.isSimulated) this.becomeDriven();
-    this.sendRemote();
+    if (held.size > 0 && this.isYoursWithEdit) this.say({ text: TEXTS.editNoRemote, tone: 'bad' });
+    this.remoteKeys.hold(held);
   }
 
   drive(stick: Stick | null): void {
@@ -330,7 +330,7 @@ export class RobotDesk implements Desk {
     try {
       const why = (await deed()) ?? null;
       this.state.set({ said: why === null ? null : { text: why, tone: 'bad' } });
-      void this.askWhere();
+      void this.status.ask();
     } catch (error) {
       this.fail(error);
     }
@@ -349,14 +349,14 @@ export class RobotDesk implements Desk {
   }
 
   private connectionChanged(state: ConnectionState): void {
-    const { version, name } = this.connection;
-    this.state.set({ connection: state, version, portName: name, where: null });
-    this.tell();
-    this.look();
+    const { version, name, isInDialog } = this.connection;
+    this.state.set({ connection: state, version, portName: name, where: null, isInDialog });
+    this.status.tell();
+    this.status.look();
     if (state !== 'ready') return;
     void askList(this.connection.requests).then((pages) => this.state.set({ pages }), (error: unknown) => this.fail(error));
     this.standUp();
-    void this.askWhere();
+    void this.status.ask();
     if (!this.isSimulated && this.editor.state.get().robot.length === 0) void this.learnYours();
   }
 
@@ -405,47 +405,12 @@ export class RobotDesk implements Desk {
     });
   }
 
-  private tell(): void {
-    const state = this.state.get();
-    const tone = state.stopped !== null || state.connection === 'foreign' || state.connection === 'waiting' ? 'bad' : 'calm';
-    this.state.set({ doing: { text: doingText(state, state.where), tone } });
+  private get isYoursWithEdit(): boolean {
+    return !this.isSimulated && this.state.get().version?.image === 'edit';
   }
 
-  /** A program's question would spoil a line that somebody types, and puts Edit's screen away. */
-  private mayAsk(): boolean {
-    return this.state.get().connection === 'ready' && !this.connection.isHeldOff && !this.isEditOnScreen && !this.transfer.isWriting;
-  }
-
-  private get isEditOnScreen(): boolean {
-    const { version, tab } = this.state.get();
-    return version?.image === 'edit' && tab === 'terminal';
-  }
-
-  /** Questions that the page has to ask put Edit's screen away: while somebody looks at it, it comes back. */
-  private look(): void {
-    if (this.state.get().connection === 'ready') this.connection.look(this.isEditOnScreen ? this.terminal : null);
-  }
-
-  private async askWhere(): Promise<void> {
-    clearTimeout(this.whereTimer);
-    this.whereTimer = setTimeout(() => void this.askWhere(), WHERE_MS);
-    if (!this.mayAsk() || this.state.get().speed === 0) return;
-    try {
-      const where = await askWhere(this.connection.requests, { timeoutMs: 3000 });
-      this.state.set({ where });
-      this.tell();
-    } catch (error) {
-      if (error instanceof RobotError && error.code === 'no-answer') this.connection.askAgain();
-    }
-  }
-
-  private repeatRemote(): void {
-    if (this.held.size > 0) this.sendRemote();
-  }
-
-  private sendRemote(): void {
-    const packet = remotePacket(this.held);
+  private sendRemote(packet: Uint8Array): void {
     if (this.isSimulated) this.simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
-    else void this.connection.write(packet).catch((error: unknown) => this.fail(error));
+    else if (!this.isYoursWithEdit) void this.connection.write(packet).catch((error: unknown) => this.fail(error)); // letters to Edit
   }
 }

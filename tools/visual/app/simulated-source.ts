@@ -132,8 +132,9 @@ export class SimulatedSource {
     this.connection = new Connection(robot.port, this.clock, {
       state: (state) => this.isShown && this.events.connection(state),
       text: (bytes) => this.isShown && this.events.text(bytes),
+      dialog: (isInDialog) => this.isShown && this.events.change({ isInDialog }),
     });
-    this.connection.connect();
+    this.connection.connect(true);
     void this.addPhysics(robot);
   }
 

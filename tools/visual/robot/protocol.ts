@@ -160,7 +160,7 @@ export async function drive(requests: Requests, blend: number, rate: number, amp
 export type Command = 'stop' | 'break' | 'pause' | 'resume' | 'reset';
 
 export async function command(requests: Requests, what: Command): Promise<void> {
-  await requests.ask(`@${what}`);
+  await requests.ask(`@${what}`, { isUrgent: what === 'stop' || what === 'break' });
 }
 
 /** Without IDs: all servos. */

@@ -6,6 +6,7 @@
 //                                     +--time over--> rejected; late answers to it are dropped until the line is settled
 
 import type { Clock } from './clock.ts';
+import { EditDialog } from './edit-dialog.ts';
 import { EditScreen } from './edit-screen.ts';
 import type { Line } from './line.ts';
 import { isAnswer } from './line-parser.ts';
@@ -18,11 +19,13 @@ const SETTLE_MS = 500;
 /** A line that was left half typed holds questions back for so long after its last key. */
 const TYPING_MS = 5000;
 /** Ctrl-U empties the line, in every image; Enter leaves the empty line, which Edit wants before a question. */
-const EMPTY_LINE = '\x15\r';
+export const EMPTY_LINE = '\x15\r';
 
 export interface RequestOptions {
   readonly timeoutMs?: number;
   readonly signal?: AbortSignal;
+  /** Goes first, and waits for no half-typed line: that is emptied. */
+  readonly isUrgent?: boolean;
 }
 
 interface Request {
@@ -43,25 +46,30 @@ export class Requests {
   private isHeld = false;
   private cancelHold: () => void = () => undefined;
   private isEnded = false;
+  private readonly dialog: EditDialog;
   /** What these questions put away. */
   readonly screen: EditScreen;
 
-  constructor(line: Pick<Line, 'write' | 'expect' | 'forget'>, clock: Clock) {
+  /** dialog: whoever has the line tells it what is typed and heard; when it changes, call dialogChanged(). */
+  constructor(line: Pick<Line, 'write' | 'expect' | 'forget'>, clock: Clock, dialog = new EditDialog(clock, () => undefined)) {
     this.line = line;
     this.clock = clock;
-    this.screen = new EditScreen(clock, () => !this.current && this.abandoned === null && this.queue.length === 0 && this.typing === '',
+    this.dialog = dialog;
+    this.screen = new EditScreen(clock, () => !this.current && this.abandoned === null && this.queue.length === 0 && this.typing === '' && !dialog.isOpen,
       (keys) => void line.write(new TextEncoder().encode(keys)).catch(() => undefined)); // a lost line has no screen
   }
 
   /** Sends a request, `@where` for example; resolves to the words between its own first word and OK.
-   *  Rejects with RobotError: refused, no-answer, not-connected, port-lost, cancelled. */
+   *  Rejects with RobotError: refused, no-answer, not-connected, port-lost, cancelled, edit-waits. */
   ask(text: string, options: RequestOptions = {}): Promise<string> {
     return new Promise((resolve, reject) => {
       if (this.isEnded) return reject(new RobotError('not-connected'));
       const request = { text, timeoutMs: options.timeoutMs ?? ANSWER_MS, resolve, reject };
       options.signal?.addEventListener('abort', () => this.cancel(request), { once: true });
       if (options.signal?.aborted) return reject(new RobotError('cancelled'));
-      this.queue.push(request);
+      if (options.isUrgent) this.queue.unshift(request);
+      else this.queue.push(request);
+      this.isHeld &&= !options.isUrgent;
       this.next();
     });
   }
@@ -70,19 +78,19 @@ export class Requests {
    *  key. What is under way goes on. */
   typed(keys: string): void {
     this.screen.typed(keys);
-    this.cancelHold();
-    this.typing = typedLine(this.typing, keys);
-    this.isHeld = this.typing !== '';
-    if (!this.isHeld) return this.next();
-    this.cancelHold = this.clock.after(TYPING_MS, () => {
-      this.isHeld = false;
-      this.next();
-    });
+    this.holdFor(typedLine(this.typing, keys));
+    this.next();
   }
 
-  /** Somebody is typing: a question would only wait. */
+  /** What was typed meanwhile was for the dialog: when it ends no line is half typed. */
+  dialogChanged(): void {
+    if (!this.dialog.isOpen) this.holdFor('');
+    this.next();
+  }
+
+  /** Somebody is typing, or Edit waits for an answer: a question would only wait. */
   get isHeldOff(): boolean {
-    return this.isHeld;
+    return this.isHeld || this.dialog.isOpen;
   }
 
   /** An answer line has come. */
@@ -113,15 +121,32 @@ export class Requests {
     for (const request of all) request.reject(new RobotError(code));
   }
 
+  private holdFor(typing: string): void {
+    this.cancelHold();
+    this.typing = typing;
+    this.isHeld = typing !== '';
+    if (!this.isHeld) return;
+    this.cancelHold = this.clock.after(TYPING_MS, () => {
+      this.isHeld = false;
+      this.next();
+    });
+  }
+
+  private refuseAll(): void {
+    for (const request of this.queue.splice(0)) request.reject(new RobotError('edit-waits'));
+  }
+
   private next(): void {
-    if (this.current || this.abandoned !== null || this.isHeld) return;
+    if (this.dialog.isLong) this.refuseAll(); // done later, it would surprise
+    if (this.current || this.abandoned !== null || this.isHeldOff) return;
     const request = this.queue.shift();
     if (!request) return;
     this.current = request;
     this.line.expect(request.text);
     this.screen.asked();
     this.cancelTimer = this.clock.after(request.timeoutMs, () => this.timeOut(request));
-    const bytes = new TextEncoder().encode(`${this.typing === '' ? '' : EMPTY_LINE}${request.text}\r`); // what was left is no part of it
+    const isLeft = this.typing !== '' || this.dialog.hasLine;
+    const bytes = new TextEncoder().encode(`${isLeft ? EMPTY_LINE : ''}${request.text}\r`); // what was left is no part of it
     this.typing = '';
     this.line.write(bytes).catch((cause: unknown) => {
       if (this.current !== request) return;

@@ -39,6 +39,7 @@ async function ready(image: 'play' | 'edit', seed: number) {
 test.each([['play', 11], ['edit', 12]] as const)('%s: the questions of the protocol', async (image, seed) => {
   const { bench, connection } = await ready(image, seed);
   const requests = connection.requests;
+  await bench.run(2000); // the voltage is asked after the start
   expect(connection.version).toMatchObject({ image, board: 'cm5', protocol: 1 });
   expect(connection.version?.can.has('save')).toBe(image === 'edit');
   expect(await bench.until(askWhere(requests))).toMatchObject({ state: 'idle', batteryVolts: 9.6, faulty: 0 });

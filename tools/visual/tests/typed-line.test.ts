@@ -3,7 +3,7 @@
 import { expect, test } from 'vitest';
 import type { Clock } from '../robot/clock.ts';
 import { Connection } from '../robot/connection.ts';
-import { askWhere } from '../robot/protocol.ts';
+import { askWhere, command } from '../robot/protocol.ts';
 import { Requests } from '../robot/requests.ts';
 import { typedLine } from '../robot/typed-line.ts';
 import { RobotBench } from './robot-bench.ts';
@@ -74,6 +74,19 @@ test('a line that is left half typed keeps them back for five seconds and is emp
   expect(await asked).toBe('state=idle');
   void requests.ask('@pose');
   expect(sent.at(-1)).toBe('@pose\r'); // nothing is left to be emptied
+});
+
+test('stop waits for no half-typed line, and goes before what waits', async () => {
+  const { requests, sent } = bench();
+  requests.typed('pla');
+  const waiting = requests.ask('@where');
+  const stopped = command(requests, 'stop');
+  expect(sent).toEqual(['\x15\r@stop\r']);
+  requests.take('@stop OK');
+  await stopped;
+  expect(sent.at(-1)).toBe('@where\r');
+  requests.take('@where state=idle OK');
+  expect(await waiting).toBe('state=idle');
 });
 
 test('a line that is lost meanwhile ends them', async () => {

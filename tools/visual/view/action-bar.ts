@@ -36,7 +36,8 @@ export class ActionBar extends HTMLElement {
 
   private render(state: DeskState): void {
     const isReady = state.connection === 'ready';
-    const key = `${isReady} ${state.source} ${state.pages.map(({ page, name, steps }) => `${page}:${name}:${steps}`).join()}`;
+    const mayStop = isReady || state.isInDialog; // that ends what Edit waits for
+    const key = `${isReady} ${mayStop} ${state.source} ${state.pages.map(({ page, name, steps }) => `${page}:${name}:${steps}`).join()}`;
     if (key === this.shown) return;
     this.shown = key;
     const byName = new Map(state.pages.map((page) => [page.name, page]));
@@ -44,7 +45,7 @@ export class ActionBar extends HTMLElement {
       const page = byName.get(name);
       return page ? [this.button(title, isReady, () => this.desk.play(page.page))] : [];
     };
-    keepFocus(this, () => this.replaceChildren(this.button('Stop', isReady, () => this.desk.command('stop'), 'stop'), ...BUTTONS.flatMap(([name, title]) => plays(name, title)),
+    keepFocus(this, () => this.replaceChildren(this.button('Stop', mayStop, () => this.desk.command('stop'), 'stop'), ...BUTTONS.flatMap(([name, title]) => plays(name, title)),
       ...(state.source === 'simulated' ? this.oneGetUp(byName) : [...plays(GET_UP.face, 'Get up (face)'), ...plays(GET_UP.back, 'Get up (back)')]),
       this.list(state.pages, isReady)));
     this.look(this.frame);

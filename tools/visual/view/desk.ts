@@ -34,6 +34,8 @@ export interface DeskState {
   readonly portName: string;
   readonly version: Version | null;
   readonly where: Where | null;
+  /** Edit waits for a person in its terminal, or plays what was typed there; nothing is asked of the robot. */
+  readonly isInDialog: boolean;
   readonly pages: readonly PageEntry[];
   /** Image that the simulated robot runs. */
   readonly image: ImageName;

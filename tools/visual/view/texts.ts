@@ -15,6 +15,7 @@ const ERRORS: Record<RobotErrorCode, string> = {
   'no-serial': 'This browser cannot reach a serial port. Use Chrome or Edge on a computer or Android; the robot in the page works here.',
   foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
   'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
+  'edit-waits': 'Not done: Edit waits for you in the terminal. Finish there, or press Stop; then try again.',
   'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
   cancelled: 'Stopped.',
   'page-changed': 'This page has changed in the robot since it was read; nothing was written over it. Compare once more: page',
@@ -52,6 +53,7 @@ function pageTitle(state: DeskState, page: number): string {
 /** What the robot does, in one sentence. */
 export function doingText(state: DeskState, where: Where | null): string {
   if (state.stopped !== null) return state.stopped;
+  if (state.isInDialog) return TEXTS.editWaits;
   if (state.connection !== 'ready') return CONNECTIONS[state.connection];
   const isEdit = state.version?.image === 'edit';
   if (!where) return isEdit ? TEXTS.editRuns : 'Ready.';
@@ -75,6 +77,9 @@ export const TEXTS = {
   waits: 'The robot stands and waits.',
   /** It waits as well; this is what one has to know of it. */
   editRuns: 'Edit runs: its screen is in the terminal.',
+  /** A question, a list or a play: the page cannot tell which. */
+  editWaits: 'Edit waits for you in the terminal: answer its question, leave its list, or let the motion end. Stop ends it, too.',
+  editNoRemote: 'Edit hears no remote control; Play does. Flash it with: m512 flash play-cm5.hex. Motions stay.',
   fallen: 'The robot lies on the floor.',
   getUp: 'The robot lies on the floor. Press Get up.',
   held: 'A hand holds the robot.',

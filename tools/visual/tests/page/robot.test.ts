@@ -52,6 +52,40 @@ function keptFlash(visitor: Visitor): Promise<string> {
   }));
 }
 
+test('somebody leaves the terminal while Edit waits for a name: the page says so, asks nothing, does nothing later; Stop ends it', async () => {
+  const person = await Visitor.come(suite.browser, suite.address);
+  const waits = person.doing.filter({ hasText: /^Edit waits for you in the terminal/ });
+  const runs = person.doing.filter({ hasText: /^Edit runs/ });
+  const said = person.page.getByRole('log', { name: 'Last message' });
+  await person.untilStanding();
+  await person.open('Lab');
+  await person.button('Run Edit').click();
+  await runs.waitFor();
+  await person.open('Terminal');
+  await person.untilScreenSays('PageNumber');
+  await person.type('page 100\rname\r');
+  await person.untilScreenSays('name name:');
+  await person.open('Remote');
+  await waits.waitFor();
+  await person.button('Bow').click();
+  await said.filter({ hasText: /^Not done: Edit waits/ }).waitFor();
+  await person.page.screenshot({ path: `${SHOTS}edit-waits.png` });
+  await person.open('Terminal');
+  await person.type('salute\r');
+  await person.untilScreenSays(/\* unsaved/);
+  expect(await person.screen()).toContain('salute');
+  await runs.waitFor();
+  await person.type('new\r');
+  await person.untilScreenSays('Are you sure?');
+  await person.open('Remote');
+  await waits.waitFor();
+  await person.button('Stop').click();
+  await runs.waitFor();
+  await person.open('Terminal');
+  await person.untilScreenSays('salute'); // it was a no
+  await person.leave();
+});
+
 test('somebody who debugs: Edit in the terminal, a page saved, and the browser keeps it over a reload', async () => {
   const person = await Visitor.come(suite.browser, suite.address);
   await person.untilStanding();

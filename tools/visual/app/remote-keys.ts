@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The keys of the remote, as long as they are held: the robot in the page hears them over its own link, yours over the serial line.
+
+import { remotePacket } from '../robot/remote.ts';
+import type { RemoteButton } from '../robot/remote.ts';
+
+const REPEAT_MS = 100;
+
+export class RemoteKeys {
+  private readonly send: (packet: Uint8Array) => void;
+  private held: ReadonlySet<RemoteButton> = new Set();
+
+  constructor(send: (packet: Uint8Array) => void) {
+    this.send = send;
+    setInterval(() => this.held.size > 0 && this.send(remotePacket(this.held)), REPEAT_MS);
+  }
+
+  hold(held: ReadonlySet<RemoteButton>): void {
+    this.held = held;
+    this.send(remotePacket(held));
+  }
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// What the page asks of a robot by itself, again and again, and the sentence in the strip that says what it does. Edit's screen is put
+// away by a question: while somebody looks at it nothing is asked, and it is brought back after a question that has to be.
+
+import type { Connection } from '../robot/connection.ts';
+import type { TerminalSize } from '../robot/edit-screen.ts';
+import { askWhere } from '../robot/protocol.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import type { DeskState } from '../view/desk.ts';
+import type { Store } from '../view/store.ts';
+import { doingText } from '../view/texts.ts';
+
+const WHERE_MS = 300;
+
+export interface StatusParts {
+  readonly state: Store<DeskState>;
+  /** Throws RobotError not-connected when there is none. */
+  connection(): Connection;
+  /** Pages are being written: a question in between would only cost time. */
+  isWriting(): boolean;
+}
+
+export class Status {
+  private readonly parts: StatusParts;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private terminal: TerminalSize | null = null;
+
+  constructor(parts: StatusParts) {
+    this.parts = parts;
+  }
+
+  /** A program's question would spoil a line that somebody types, and puts Edit's screen away. */
+  mayAsk(): boolean {
+    return this.state.connection === 'ready' && !this.parts.connection().isHeldOff && !this.isEditOnScreen && !this.parts.isWriting();
+  }
+
+  /** Asks now, and then again and again. */
+  async ask(): Promise<void> {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => void this.ask(), WHERE_MS);
+    if (!this.mayAsk() || this.state.speed === 0) return;
+    const connection = this.parts.connection();
+    try {
+      const where = await askWhere(connection.requests, { timeoutMs: 3000 });
+      this.parts.state.set({ where });
+      this.tell();
+    } catch (error) {
+      if (error instanceof RobotError && error.code === 'no-answer') connection.askAgain();
+    }
+  }
+
+  /** The strip says what the robot does now. */
+  tell(): void {
+    const { stopped, connection, isInDialog, where } = this.state;
+    const tone = stopped !== null || isInDialog || connection === 'foreign' || connection === 'waiting' ? 'bad' : 'calm';
+    this.parts.state.set({ doing: { text: doingText(this.state, where), tone } });
+  }
+
+  /** The terminal shows so many letters. */
+  terminalSize(size: TerminalSize): void {
+    this.terminal = size;
+    this.look();
+  }
+
+  /** Somebody looks at Edit's screen now, or does no more. */
+  look(): void {
+    if (this.state.connection === 'ready') this.parts.connection().look(this.isEditOnScreen ? this.terminal : null);
+  }
+
+  private get state(): DeskState {
+    return this.parts.state.get();
+  }
+
+  private get isEditOnScreen(): boolean {
+    return this.state.version?.image === 'edit' && this.state.tab === 'terminal';
+  }
+}
