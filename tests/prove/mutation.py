@@ -173,7 +173,7 @@ class Tree:
         self.configure("host")
         units = [f"test_{name}" for name in re.findall(r"unit\.(\w+)", mutation.by)]
         if not mutation.needs_board:
-            units += ["m512quick"] if mutation.by == "body" else []
+            units += ["m512quick", "played"] if mutation.by == "body" else []
             return self.build("host", units) if units else ""
         # An image that was built with the mistake before is built anew, even if this mistake does not concern it.
         is_image = mutation.file.startswith(IMAGE_FOLDERS)
