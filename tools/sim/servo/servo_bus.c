@@ -202,7 +202,8 @@ static void pass_next_byte(servo_bus_t *bus)
     servo_talk_t *next = &bus->noise;
     for (int i = 0; i < bus->count; i++) {
         servo_talk_t *talk = &bus->servos[i]->talk;
-        if (servo_wire_is_talking(talk) && (!servo_wire_is_talking(next) || servo_wire_byte_end(talk) < servo_wire_byte_end(next))) {
+        if (servo_wire_is_talking(talk)
+            && (!servo_wire_is_talking(next) || servo_wire_byte_end(talk) < servo_wire_byte_end(next))) {
             next = talk;
         }
     }
