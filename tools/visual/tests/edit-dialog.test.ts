@@ -1,44 +1,28 @@
 // SPDX-License-Identifier: MIT
 // What a line typed into Edit opens (a question, a name, a list, a play) is never answered by a question of the page: against the real
 // firmware, in simulated time. The page asks as its desk does, whenever it may; somebody types and goes to another tab.
-import { afterEach, expect, test } from 'vitest';
-import { Connection } from '../robot/connection.ts';
+import { expect, test } from 'vitest';
 import { askWhere, play } from '../robot/protocol.ts';
-import { RobotBench, randomNumbers } from './robot-bench.ts';
+import { connectedEdit } from './connected.ts';
+import { randomNumbers } from './robot-bench.ts';
 
 const SEED = 20261123;
 const LIMIT_MS = 300_000;
 const keys = (text: string): Uint8Array => new TextEncoder().encode(text);
-const open: Connection[] = [];
-afterEach(async () => {
-  for (const connection of open.splice(0)) await connection.close();
-});
 
 async function edit(seed: number) {
-  const bench = await RobotBench.make('edit', seed);
-  let text = '';
-  let sent = '';
-  const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text: (bytes) => (text += new TextDecoder('latin1').decode(bytes)) });
-  open.push(connection);
-  connection.connect();
-  for (let ms = 0; connection.state !== 'ready' && ms < 5000; ms += 50) await bench.run(50);
-  expect(connection.state, `seed ${seed}`).toBe('ready');
-  const send = bench.board.send.bind(bench.board);
-  bench.board.send = (sender, bytes) => {
-    sent += new TextDecoder().decode(bytes);
-    send(sender, bytes);
-  };
+  const { bench, connection, sent, text, forget } = await connectedEdit(seed);
   const whatComes = async (ms: number): Promise<{ readonly sent: string; readonly text: string }> => {
-    sent = '';
+    sent.length = 0;
     for (let at = 0; at < ms; at += 100) {
       if (at % 300 === 0 && !connection.isHeldOff) void askWhere(connection.requests).catch(() => undefined);
       await bench.run(100);
     }
-    return { sent, text };
+    return { sent: sent.join(''), text: text() };
   };
   /** As a terminal sends it: an arrow is one piece. */
   const type = async (line: string, restMs = 10): Promise<void> => {
-    text = '';
+    forget();
     for (const [key] of line.matchAll(/\x1b\[A|[^]/g)) {
       await connection.type(keys(key));
       if (restMs > 0) await bench.run(restMs);

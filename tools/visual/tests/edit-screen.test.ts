@@ -1,39 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Edit's screen beside the page's own questions, in simulated time, against the real firmware. A question puts the screen away; a person
 // who looks at it sees what was typed all the same.
-import { afterEach, expect, test } from 'vitest';
-import { Connection } from '../robot/connection.ts';
+import { expect, test } from 'vitest';
 import { askList, askWhere, play } from '../robot/protocol.ts';
-import { RobotBench, randomNumbers } from './robot-bench.ts';
+import { connectedEdit } from './connected.ts';
+import { randomNumbers } from './robot-bench.ts';
 
 const SEED = 20261122;
 const SIZE = { rows: 35, columns: 80 };
 const keys = (text: string): Uint8Array => new TextEncoder().encode(text);
-const open: Connection[] = [];
-afterEach(async () => {
-  for (const connection of open.splice(0)) await connection.close();
-});
-
-async function edit(seed: number) {
-  const bench = await RobotBench.make('edit', seed);
-  let text = '';
-  const sent: string[] = [];
-  const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text: (bytes) => (text += new TextDecoder('latin1').decode(bytes)) });
-  open.push(connection);
-  connection.connect();
-  for (let ms = 0; connection.state !== 'ready' && ms < 5000; ms += 50) await bench.run(50);
-  expect(connection.state, `seed ${seed}`).toBe('ready');
-  const send = bench.board.send.bind(bench.board);
-  bench.board.send = (sender, bytes) => {
-    sent.push(new TextDecoder().decode(bytes));
-    send(sender, bytes);
-  };
-  return { bench, connection, sent, text: () => text, forget: () => (text = '') };
-}
 
 test('a line typed beside questions is done and shown, wherever among its keys they fall', async () => {
   const random = randomNumbers(SEED);
-  const { bench, connection, text, forget } = await edit(SEED);
+  const { bench, connection, text, forget } = await connectedEdit(SEED);
   connection.look(SIZE);
   await bench.run(1500);
   for (const number of ['0100', '0101', '0102']) {
@@ -51,7 +30,7 @@ test('a line typed beside questions is done and shown, wherever among its keys t
 }, 300_000);
 
 test('whoever comes to the terminal sees the screen, and questions in a row do not draw it again and again', async () => {
-  const { bench, connection, sent, text, forget } = await edit(SEED + 1);
+  const { bench, connection, sent, text, forget } = await connectedEdit(SEED + 1);
   for (let i = 0; i < 3; i++) await bench.until(askWhere(connection.requests));
   await bench.run(2000);
   expect(sent.every((one) => one.startsWith('@'))).toBe(true); // nobody looks
@@ -71,7 +50,7 @@ test('whoever comes to the terminal sees the screen, and questions in a row do n
 }, 300_000);
 
 test('a half-typed line is let alone; another size of the terminal is told once', async () => {
-  const { bench, connection, sent, text, forget } = await edit(SEED + 2);
+  const { bench, connection, sent, text, forget } = await connectedEdit(SEED + 2);
   connection.look(SIZE);
   await bench.run(1500);
   sent.length = 0;
@@ -88,7 +67,7 @@ test('a half-typed line is let alone; another size of the terminal is told once'
 }, 300_000);
 
 test('while the robot moves Edit draws nothing: the screen comes when it stands', async () => {
-  const { bench, connection, text, forget } = await edit(SEED + 3);
+  const { bench, connection, text, forget } = await connectedEdit(SEED + 3);
   await bench.until(play(connection.requests, 2)); // a bow
   forget();
   connection.look(SIZE);

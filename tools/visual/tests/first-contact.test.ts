@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: MIT
 // A page that is loaded anew does not know what was typed before it: its first question does no harm there. Against the real firmware, in
 // simulated time.
-import { afterEach, expect, test } from 'vitest';
-import { Connection } from '../robot/connection.ts';
+import { expect, test } from 'vitest';
+import { connected } from './connected.ts';
 import { RobotBench } from './robot-bench.ts';
 
 const SEED = 20261124;
 const LIMIT_MS = 300_000;
-const open: Connection[] = [];
-afterEach(async () => {
-  for (const connection of open.splice(0)) await connection.close();
-});
 
 async function visit(bench: RobotBench, isFresh = false) {
-  let text = '';
-  const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text: (bytes) => (text += new TextDecoder('latin1').decode(bytes)) });
-  open.push(connection);
-  connection.connect(isFresh);
+  const { connection, text } = connected(bench, isFresh);
   const untilReady = async (limitMs: number): Promise<number> => {
     let ms = 0;
     for (; connection.state !== 'ready' && ms < limitMs; ms += 10) await bench.run(10);
@@ -26,7 +19,7 @@ async function visit(bench: RobotBench, isFresh = false) {
     await connection.type(new TextEncoder().encode(keys));
     await bench.run(700); // the screen comes back first
   };
-  return { connection, untilReady, type, text: () => text };
+  return { connection, untilReady, type, text };
 }
 
 /** Somebody types these keys one after another, then loads the page anew. */
