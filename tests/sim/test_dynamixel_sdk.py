@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Other people's code against our servos: the real dynamixel-sdk (PyPI), protocol 1.0, on cm5sim --bus-pty."""
+import itertools
 import time
 
 import pytest
@@ -10,6 +11,7 @@ from sim_command import Running
 
 GOAL, SPEED, PRESENT, LED, ID, BAUD, TORQUE = 30, 32, 36, 25, 3, 4, 24
 AX12, DX117 = 12, 117
+PATIENCE_S = 300  # the bus runs in real time, on a PC that may be busy
 
 
 class PatientPort(PortHandler):
@@ -58,8 +60,8 @@ class Bus:
         return value
 
     def until_at(self, number, goal):
-        """Waits until the servo stands at its goal. The bus runs in real time, on a PC that may be busy."""
-        end = time.monotonic() + 60
+        """Waits until the servo says that it is at its goal, give or take a unit."""
+        end = time.monotonic() + PATIENCE_S
         while abs(self.read2(number, PRESENT) - goal) > 1:
             assert time.monotonic() < end, f"servo {number} stands at {self.read2(number, PRESENT)}, not {goal}"
 
@@ -104,7 +106,8 @@ def test_read_and_write(make):
 def test_motion_takes_real_time(make):
     bus = make("--servos", "1")
     bus.packets.write2ByteTxRx(bus.port, 1, SPEED, 100)  # 227.1 units a second
-    for way in (1, -1) * 5:
+    end = time.monotonic() + PATIENCE_S
+    for way in itertools.cycle((1, -1)):
         start = bus.read2(1, PRESENT)
         before_order = time.monotonic()
         bus.packets.write2ByteTxRx(bus.port, 1, GOAL, start + 300 * way)
@@ -113,11 +116,12 @@ def test_motion_takes_real_time(make):
         before_look = time.monotonic()
         gone = way * (bus.read2(1, PRESENT) - start)
         after_look = time.monotonic()
-        assert gone < 227.1 * (after_look - before_order) + 5
-        if gone > 227.1 * (before_look - after_order) - 5:
+        at_most = 227.1 * (after_look - before_order) + 5
+        assert min(227.1 * (before_look - after_order) - 5, 298) < gone < at_most
+        if at_most < 300:  # it was still on its way: neither bound came from the goal
             return
+        assert time.monotonic() < end, "no look came while the servo was moving"
         bus.until_at(1, start + 300 * way)
-    pytest.fail("late in ten of ten motions")
 
 
 def test_sync_write_moves_all_at_once(make):
@@ -180,9 +184,24 @@ def test_new_id_and_factory_reset(make):
 def test_idle_bus_costs_no_cpu(make):
     bus = make("--servos", "1-18")
     bus.ping(1)
-    before = bus.sim.cpu_seconds()
+    before, begun = bus.sim.cpu_seconds(), time.monotonic()
     time.sleep(1.5)
-    assert bus.sim.cpu_seconds() - before < 0.1
+    assert bus.sim.cpu_seconds() - before < 0.07 * (time.monotonic() - begun)
+
+
+def rows_of(trace):
+    """The rows that are in the file so far, as numbers; a last one without its line end is not whole yet."""
+    head, *rows = trace.read_text().splitlines(keepends=True)
+    assert head == "tick,ms,goal1,present1,goal2,present2\n"
+    return [[float(field or "nan") for field in row.split(",")] for row in rows if row.endswith("\n")]
+
+
+def until_traced(trace, seen):
+    """Waits until a row of the trace shows it. The bus writes a row for every tick of its clock, and to the file some later."""
+    end = time.monotonic() + PATIENCE_S
+    while not (trace.read_text() and any(seen(row) for row in rows_of(trace))):
+        assert time.monotonic() < end, trace.read_text()[-500:]
+        time.sleep(0.05)
 
 
 def test_trace_and_servo_eeprom_of_the_bus(make, tmp_path):
@@ -190,9 +209,10 @@ def test_trace_and_servo_eeprom_of_the_bus(make, tmp_path):
     bus = make("--servos", "1-2", "--trace", trace, "--servo-eeprom", kept)
     bus.packets.write1ByteTxRx(bus.port, 2, ID, 5)
     bus.packets.write2ByteTxRx(bus.port, 1, GOAL, 600)
-    bus.until_at(1, 600)
+    until_traced(trace, lambda row: row[3] >= 599)
     assert bus.sim.stop() == 0
-    lines = trace.read_text().splitlines()
-    assert lines[0] == "tick,ms,goal1,present1,goal2,present2"
-    assert lines[-1].split(",")[2:4] == ["600", "600"] or lines[-1].split(",")[2:4] == ["600", "599"]
+    rows = rows_of(trace)
+    assert [row[0] for row in rows] == list(range(len(rows)))  # a row a tick
+    assert rows[0][3] == 512
+    assert rows[-1][2] == 600 and abs(rows[-1][3] - 600) <= 1  # the compliance margin: there the motor rests
     assert kept.read_bytes()[24 + 3] == 5
