@@ -10,6 +10,7 @@ REPO = Path(__file__).resolve().parents[3]
 SHARED = Path(os.environ.get("M512_SHARED", REPO.parent / "shared"))
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.insert(0, str(REPO / "tools" / "m512" / "src"))
+sys.path.insert(0, str(REPO / "tools" / "sim" / "python"))
 
 
 def separate_runner():
@@ -56,3 +57,27 @@ def m512(monkeypatch):
         return result
 
     return run
+
+
+@pytest.fixture
+def started(monkeypatch):
+    """started("boot-cm5.hex", "play-cm5.hex", text=...) -> a SimulatedBoard with these images and motions, a second after its power
+    came on. Needs the build's products."""
+    monkeypatch.setenv("M512_BUILD", str(REPO / "build"))
+    from cm5sim import Board
+    from m512.files.text import read_text
+    from virtual_peer import SimulatedBoard
+
+    boards = []
+
+    def start(*images, text=None, servos=range(1, 19)):
+        board = Board(images=images, motions=read_text(text).to_bytes() if text else None, servos=servos)
+        board.skip_waits()
+        boards.append(SimulatedBoard(board))
+        boards[-1].pass_time(1.0)
+        return boards[-1]
+
+    yield start
+    for board in boards:
+        board.pull()
+        assert board.board.violation is None

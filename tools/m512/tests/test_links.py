@@ -14,10 +14,11 @@ from badlinks.factory_model import Board, Loader  # noqa: E402
 from badlinks.line import CANCELLED, KILLED, Killed, Line  # noqa: E402
 from badlinks.wire import BYTE_SECONDS, Weather, Wire, wires  # noqa: E402
 from m512.board import download, loaders, typed  # noqa: E402
+from m512.board.client import Client  # noqa: E402
 from m512.board.factory import FactoryLoader  # noqa: E402
 from m512.board.factory_flash import BLIND_MOST, LAST_START  # noqa: E402
 from m512.board.memory import Plan  # noqa: E402
-from m512.errors import CancelledError, M512Error  # noqa: E402
+from m512.errors import CancelledError, M512Error, NoAnswerError  # noqa: E402
 
 GOOD = Weather()
 
@@ -172,13 +173,15 @@ def test_typed_text_is_cut_before_the_line_end_that_would_do_harm(text, expected
 
 
 def test_what_is_sent_blindly_cannot_reach_the_loader():
-    """Nobody answers for a minute. Each byte doubled, behind a page of a download that somebody left open."""
+    """Nobody answers for a minute, neither as an application nor as a loader. Each byte doubled, behind a page of a download that somebody left open."""
     bench = Bench()
     bench.loader.eeprom[0xFFF] = 0x11
     bench.say(b"reset\r")
     assert bench.loader.where == "application"
     before = bench.line.sent
-    with pytest.raises(M512Error, match="no boot loader answered"):
+    with pytest.raises(NoAnswerError):
+        Client(bench.line)
+    with pytest.raises(NoAnswerError, match="no boot loader answered"):
         loaders.enter(bench.line, lambda text: None, 60.0)
     sent = bench.line.sent - before
     assert 1000 < sent <= BLIND_MOST and LAST_START + 2 * (256 + sent) <= 0x1E000

@@ -1,18 +1,12 @@
 # SPDX-License-Identifier: MIT
 """m512 against the simulated board with our real loader, Play and Edit, in simulated time. Needs the build's products."""
 import json
-import sys
 
 import pytest
-from conftest import REPO
-
-sys.path.insert(0, str(REPO / "tools" / "sim" / "python"))
-
-from cm5sim import Board  # noqa: E402
-from m512.board import driving  # noqa: E402
-from m512.board.client import Client  # noqa: E402
-from m512.files.text import read_text  # noqa: E402
-from virtual_peer import SimulatedBoard, VirtualLink  # noqa: E402
+from m512.board import driving
+from m512.board.client import Client
+from m512.files.text import read_text
+from virtual_peer import VirtualLink
 
 MOTIONS = """motion512 1
 page 1 stand
@@ -26,36 +20,13 @@ page 100 nod
 """
 
 
-@pytest.fixture(autouse=True)
-def build(monkeypatch):
-    monkeypatch.setenv("M512_BUILD", str(REPO / "build"))
-
-
 OLD = MOTIONS.replace("nod", "old").replace("1:560", "1:490")
-
-
-@pytest.fixture
-def started():
-    """started("play-cm5.hex", text) -> a SimulatedBoard, a second after its power came on."""
-    boards = []
-
-    def start(image, text=OLD):
-        board = Board(images=["boot-cm5.hex", image], motions=read_text(text).to_bytes() if text else None, servos=range(1, 19))
-        board.skip_waits()
-        boards.append(SimulatedBoard(board))
-        boards[-1].pass_time(1.0)
-        return boards[-1]
-
-    yield start
-    for board in boards:
-        board.pull()
-        assert board.board.violation is None
 
 
 @pytest.fixture
 def robot(started):
     """A board that has older motions, so that flashing ours does not take the whole 12 s of 64 KiB."""
-    return started("play-cm5.hex")
+    return started("boot-cm5.hex", "play-cm5.hex", text=OLD)
 
 
 @pytest.fixture
@@ -136,7 +107,7 @@ def test_board_cable_pulled(m512, robot, motions, cut):
 
 
 def test_board_put_through_edit(m512, started, motions, tmp_path):
-    edit = started("edit-cm5.hex", None)         # without a loader nobody can save
+    edit = started("boot-cm5.hex", "edit-cm5.hex")         # without a loader nobody can save
     assert "waits in its boot loader" in m512("pose", "-p", edit.path).stderr
     start(m512, edit)
     result = m512("put", motions, "walk:30", "stand", "-p", edit.path, "--json")
@@ -158,7 +129,7 @@ def test_sim_option_plays_without_a_robot(m512, motions):
 
 
 def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, started):
-    edit = started("edit-cm5.hex")
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text=OLD)
     start(m512, edit)
     looked = m512("flash", motions, "-p", edit.path, "--dry-run")
     assert looked.exit_code == 0 and '"old" -> "nod"' in looked.stderr and "edit" in looked.stderr

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from typing import Dict, List, Optional, Sequence, Tuple
 
+from m512.board import contact
 from m512.board.link import Link
 from m512.crc16 import crc16
 from m512.errors import BoardError, NoAnswerError
@@ -22,14 +23,16 @@ ERR_PAGE_FAULTS = (5,)
 
 
 class Client:
-    """Play or Edit on a line. Raises NoAnswerError when nobody answers to @ver."""
+    """Play or Edit on a line. Raises NoAnswerError when nobody answers to @ver, RefusedError when Edit plays what was typed into its
+    terminal. is_met: contact.make() has been called."""
 
-    def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5)):
+    def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5), is_met: bool = False):
         self.link = link
-        self.version = self._fields(self._first_contact(patience))
+        if not is_met:
+            contact.make(link)
+        self.version = self._fields(self._ask_version(patience))
 
-    def _first_contact(self, patience: Sequence[float]) -> str:
-        self.link.drain(0.02, 0.5)
+    def _ask_version(self, patience: Sequence[float]) -> str:
         for seconds in patience:
             try:
                 return self.ask("ver", seconds, tries=1)

@@ -9,7 +9,7 @@ import sys
 from dataclasses import asdict, dataclass
 from typing import Callable, List, Optional
 
-from m512.errors import M512Error, NoAnswerError
+from m512.errors import M512Error, NoAnswerError, RefusedError
 
 OK, WARN, BAD = "ok", "look", "bad"
 LOW_BATTERY_DV = 96       # below 9.6 V without a load a pack is nearly empty
@@ -86,6 +86,9 @@ def _board(url: str, add) -> None:
             client = Client(link)
         except NoAnswerError:
             _loader(link, add)
+            return
+        except RefusedError as error:
+            add("board", WARN, *str(error).split(": ", 1))
             return
         except M512Error as error:
             add("board", BAD, str(error), "check the cable")

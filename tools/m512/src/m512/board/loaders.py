@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Gets into a board's boot loader and finds out which one it is.
 
+    a play typed into Edit? --- yes --> RefusedError (contact.py)
+       | no
     prompt there? ---- yes --> identify
        | no
     Play or Edit? ---- yes --> @reset, then '#' (asks first when edits would be lost)
@@ -13,6 +15,7 @@ from __future__ import annotations
 
 from typing import Callable, Union
 
+from m512.board import contact
 from m512.board.block import BlockLoader
 from m512.board.factory import KNOCK, PROMPT, FactoryLoader
 from m512.board.link import Link
@@ -23,7 +26,7 @@ Loader = Union[BlockLoader, FactoryLoader]
 BANNER = b"SYSTEM O.K."
 STAY, START, RESET = range(3)  # leave()
 HASH_SECONDS = 0.025           # the window behind a start is 60 ms
-HASHES_MOST = 2300             # with the rest of what is sent blindly: less than factory_flash.BLIND_MOST
+HASHES_MOST = 2100             # with the rest of what is sent blindly: less than factory_flash.BLIND_MOST
 KNOCK_SECONDS = 1.5
 IDENTIFY_TRIES = 6
 WAIT_SECONDS = 60.0
@@ -101,6 +104,7 @@ def refuse(question: str) -> None:
 def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS, may: May = refuse) -> Loader:
     """The board's loader, ready for work. `say` tells the user what is waited for; `may` asks a question and raises
     RefusedError when the answer is no."""
+    contact.make(link)
     if at_prompt(link):
         loader = identify(link)
         loader.was_at_prompt = True
@@ -127,11 +131,11 @@ def give_back(loader: Loader) -> None:
 
 
 def reset_by_application(link: Link, say: Callable[[str], None], may: May = refuse) -> bool:
-    """Asks Play or Edit to restart the controller; whether it will. `may` is asked when edits would be lost."""
+    """Asks Play or Edit, which have been met, to restart the controller; whether it will. `may` is asked when edits would be lost."""
     from m512.board.client import Client
 
     try:
-        client = Client(link, (0.7,))
+        client = Client(link, (0.7,), is_met=True)
     except NoAnswerError:
         return False
     if client.where().get("state") != "idle":

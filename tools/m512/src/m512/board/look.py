@@ -30,9 +30,9 @@ def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> List[str]:
 
 
 def through_application(link: Link, plan: Plan, phase: PhaseMaker) -> List[str]:
-    """In words, asked of a running Play or Edit, which goes on."""
+    """In words, asked of a running Play or Edit, which has been met (contact.py) and goes on."""
     try:
-        client = Client(link, (0.7,))
+        client = Client(link, (0.7,), is_met=True)
     except NoAnswerError:
         return ["neither Play nor Edit nor a boot loader answers there: what is on the board is not known"]
     version = client.version

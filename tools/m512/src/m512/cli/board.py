@@ -87,7 +87,7 @@ def _flash(image, address, fast, with_trim, damaged, dry_run, yes, port, wait, a
 
 def _look(plan, port):
     """What a plan would change on the board, which goes on with what it does."""
-    from m512.board import loaders, look, ports
+    from m512.board import contact, loaders, look, ports
     from m512.board.link import Link
 
     try:
@@ -98,6 +98,7 @@ def _look(plan, port):
         ui.say(f"note: no board was looked at ({str(error).splitlines()[0]})")
         return
     with link:
+        contact.make(link)
         if loaders.at_prompt(link):
             found = look.through_loader(loaders.identify(link), plan, ui.phase)
         else:

@@ -28,9 +28,9 @@ def robot_options(function):
 
 
 @contextmanager
-def robot(options):
-    """The Client that the options mean; whatever was started for it ends with the command."""
-    from m512.board import ports
+def robot(options, end=b""):
+    """The Client that the options mean; whatever was started for it ends with the command. end: a key for what plays there (contact.py)."""
+    from m512.board import contact, ports
     from m512.board.client import Client
     from m512.board.link import Link
 
@@ -46,7 +46,8 @@ def robot(options):
         return
     with Link(ports.pick(options["port"])) as link:
         try:
-            client = Client(link)
+            contact.make(link, end)
+            client = Client(link, is_met=True)
         except NoAnswerError as error:
             from m512.board.loaders import at_prompt
 
@@ -125,7 +126,9 @@ Examples:
 @robot_options
 def stop(now, **options):
     """Stop what is playing."""
-    with robot(options) as client:
+    from m512.board import contact
+
+    with robot(options, contact.BREAK if now else contact.STOP) as client:
         client.ask("break" if now else "stop")
         _report(client, options["as_json"])
 
