@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""libFuzzer on the harnesses of tests/prove/fuzz. Used by fuzz.py."""
+"""The harnesses of tests/prove/fuzz: libFuzzer, or inputs that are made blindly. Used by fuzz.py."""
 import dataclasses
 import pathlib
 import re
@@ -40,12 +40,28 @@ def build():
     return all((FUZZERS / f"fuzz_{name}").exists() for name in NAMES)
 
 
-def replay(name):
-    """Runs the harness over the corpus once, without libFuzzer."""
-    files = list((CORPUS / name).iterdir())
-    done = subprocess.run([REPLAYS / f"fuzz_{name}", CORPUS / name], capture_output=True, text=True, errors="replace", check=False)
-    finding = "" if done.returncode == 0 else f"{name}: {REPLAYS / f'fuzz_{name}'} {CORPUS / name}: {done.stderr.strip()[-300:]}"
-    return Run(name, len(files), 0, len(files), finding)
+def replay(task):
+    """(name, runs, seed): the plain program over the corpus, and over so many inputs more that are made from it by chance."""
+    name, runs, seed = task
+    work = proof.RESULTS / "fuzz" / name
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    done = subprocess.run([REPLAYS / f"fuzz_{name}", f"-runs={runs}", f"-seed={seed}", f"-max_len={LONGEST[name]}",
+                           f"-artifact_prefix={work}/", CORPUS / name],
+                          capture_output=True, text=True, errors="replace", check=False)
+    counted = re.search(r"^(\d+) inputs$", done.stdout, re.M)
+    finding = ""
+    if done.returncode or not counted:
+        made = [path for path in work.iterdir() if path.is_file()]
+        named = (made or [CORPUS / name])[0].relative_to(proof.TOP)
+        finding = f"{name}: {what_was_said(done.stderr)}: {(REPLAYS / f'fuzz_{name}').relative_to(proof.TOP)} {named}"
+    return Run(name, int(counted[1]) if counted else 0, 0, len(list((CORPUS / name).iterdir())), finding)
+
+
+def what_was_said(output):
+    """The line that says what a harness found."""
+    said = re.search(r"ASSERT\(.*|runtime error: .*|ERROR: (?:AddressSanitizer|libFuzzer): .*", output)
+    return said.group(0) if said else output.strip()[-200:]
 
 
 def search(task):
@@ -74,15 +90,13 @@ def search(task):
 
 def describe(name, artifacts, output):
     """Makes a finding smaller and returns it with the command that repeats it."""
-    said = re.search(r"ASSERT\(.*|runtime error: .*|ERROR: (?:AddressSanitizer|libFuzzer): .*", output)
     where = pathlib.Path(artifacts[0]) if artifacts else None
     if where:
         small = where.with_name("smallest")
         subprocess.run([FUZZERS / f"fuzz_{name}", "-minimize_crash=1", "-runs=20000", "-max_total_time=20",
                         f"-exact_artifact_path={small}", where], capture_output=True, check=False, env=ENVIRONMENT)
         where = small if small.exists() else where
-    what = said.group(0) if said else output.strip()[-200:]
-    return f"{name}: {what}: {(REPLAYS / f'fuzz_{name}').relative_to(proof.TOP)} {where.relative_to(proof.TOP) if where else ''}"
+    return f"{name}: {what_was_said(output)}: {(REPLAYS / f'fuzz_{name}').relative_to(proof.TOP)} {where.relative_to(proof.TOP) if where else ''}"
 
 
 def merge(name, work):
