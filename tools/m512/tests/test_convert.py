@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from chance import given, settings
 from hypothesis import strategies as st
 from m512.errors import FileError, RefusedError
 from m512.files import formats, mtn, scale12
@@ -330,7 +330,7 @@ def test_bad_input_truncated_anywhere(tmp_path, suffix):
             assert str(error)
 
 
-@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=200)
 @given(st.sampled_from([".hex", ".mtn", ".m512", ".csv"]), st.integers(0, 10**6), st.integers(0, 255), st.booleans(),
        st.booleans())
 def test_bad_input_any_byte_changed(tmp_path, suffix, at, value, insert, repaired):
@@ -345,7 +345,7 @@ def test_bad_input_any_byte_changed(tmp_path, suffix, at, value, insert, repaire
         assert str(error)
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=100)
 @given(st.binary(max_size=600), st.sampled_from(["", ":", "type=motion\n", "motion512 1\n", "page,1\n"]),
        st.sampled_from([".bin", ".hex", ".mtn", ".m512", ".csv", ".xyz"]))
 def test_bad_input_any_bytes(tmp_path, data, start, suffix):

@@ -2,7 +2,7 @@
 """Whatever comes over the line, the PC's side of each protocol ends with a result or one of our errors, in bounded time."""
 import random
 
-from hypothesis import given, settings
+from chance import given, settings
 from hypothesis import strategies as st
 from m512.board import link as links
 from m512.board.block import BlockLoader, frame
@@ -49,7 +49,7 @@ def survives(action):
         assert str(error)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(pieces())
 def test_noise_machine(data):
     def talk():
@@ -60,7 +60,7 @@ def test_noise_machine(data):
     survives(talk)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(pieces())
 def test_noise_factory_loader(data):
     def talk():
@@ -71,7 +71,7 @@ def test_noise_factory_loader(data):
     survives(talk)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(pieces())
 def test_noise_block_loader(data):
     def talk():

@@ -3,8 +3,8 @@
 import json
 
 import pytest
+from chance import given
 from conftest import REPO
-from hypothesis import given
 from hypothesis import strategies as st
 from m512.files.page import EMPTY, Fault, Kind, Page, is_used
 

@@ -3,8 +3,8 @@
 import csv
 
 import pytest
+from chance import given, settings
 from conftest import REPO, SHARED
-from hypothesis import given, settings
 from hypothesis import strategies as st
 from m512.files.image import Image, from_bytes
 from m512.files.page import Page
@@ -108,7 +108,7 @@ page_recipe = st.tuples(st.lists(st.integers(0, 1023), min_size=1, max_size=7), 
                         st.integers(8, 90))
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120)
 @given(page_recipe)
 def test_player_exact_never_passes_a_way_point_and_ends_on_target(recipe):
     steps, time, accel, speed = recipe
@@ -123,7 +123,7 @@ def test_player_exact_never_passes_a_way_point_and_ends_on_target(recipe):
     assert abs(len(ticks) - ideal) <= 1 or time * speed < 32
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(page_recipe)
 def test_player_exact_mirrors(recipe):
     steps, time, accel, speed = recipe

@@ -3,8 +3,8 @@
 import re
 
 import pytest
+from chance import given, settings
 from conftest import REPO
-from hypothesis import given, settings
 from hypothesis import strategies as st
 from m512.errors import FileError, TextError
 from m512.files.image import Image, from_bytes
@@ -281,7 +281,7 @@ def mutated(recipe):
     return page.seal() if sealed else page
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(st.lists(mutations(), min_size=1, max_size=5), st.sampled_from([10, 12]))
 def test_text_round_trip_of_damaged_pages(recipes, bits):
     image = Image.empty()
@@ -291,7 +291,7 @@ def test_text_round_trip_of_damaged_pages(recipes, bits):
     round_trip(image)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.binary(min_size=512, max_size=512))
 def test_text_round_trip_of_any_bytes(data):
     image = Image.empty()
@@ -299,7 +299,7 @@ def test_text_round_trip_of_any_bytes(data):
     round_trip(image)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.text(alphabet=st.sampled_from('pagestlinkrow 0123456789.:|;~-?@+"#\\\n'), max_size=120))
 def test_text_any_characters_give_an_image_or_a_clear_error(text):
     try:
