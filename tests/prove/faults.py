@@ -28,7 +28,7 @@ TALKS_INTO_FRAMES = {"late", "late-2"}  # such an answer may spoil a frame on th
 LAST_STEP_MAX = 2       # before it stands
 POSE_ERROR_MAX = 4
 OUT_MS = 50             # between the sentence and the last goal that may still have been on its way
-SAMPLE = 60             # states, when only a sample is asked for
+SAMPLE = 30             # states, when only a sample is asked for
 PASSING = {"blink", "late", "late-2"}   # a servo with one of these may answer again by itself
 SITUATIONS = {f"{image}.{state}": (robot, words) for image, robot, states in (
     ("play", PlayRobot, ("rest", "walk.hold", "walk.exit", "walk.limp", "off", "pause.hold", "pause.limp", "layer.hold", "layer.exit")),

@@ -17,7 +17,7 @@ TITLE = "Bad lines to a boot loader"
 PROMISE = "No byte outside the pages that m512 names ever changes, whatever the line does."
 SCHEDULES = 4000
 SAMPLE = 150
-OUR_SCHEDULES, OUR_SAMPLE = 2000, 20     # our own loader runs instruction by instruction: 0.4 s each
+OUR_SCHEDULES, OUR_SAMPLE = 2000, 10     # our own loader runs instruction by instruction: 0.4 s each
 CHUNK = 25
 SHOWN = 12
 

@@ -23,7 +23,7 @@ PROMISE = "Whenever the power fails, each motion page, setting and download is o
 SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *settings.SCENES)}
 LIVES = {life.name: life for life in lives.LIVES}
 LIFE_COUNT = 5
-SAMPLE_STATES = 2       # of each scene
+SAMPLE_STATES = 1       # of each scene
 DEEPEST = 3
 SHOWN = 12              # failures that are printed one by one
 

@@ -52,13 +52,13 @@ def sources(*folders):
 
 def lint_figure():
     """clang-tidy and cppcheck."""
-    kept, text = command(TOOLS / "lint")
+    kept, text = command(TOOLS / "lint", "--deep")
     tidied = re.search(r"clang-tidy: (\d+) files", text)
     rules = command("clang-tidy", "--list-checks", f"--config-file={proof.TOP / '.clang-tidy'}")[1].count("\n    ")
     passed = len([path for path in sources(*FIRMWARE) if path.suffix == ".c"])
     escapes = sum(bool(ESCAPES.search(path.read_text(encoding="utf-8"))) for path in sources(*FIRMWARE, "tools/sim"))
     return proof.Figure(
-        "clang-tidy and cppcheck find nothing", "tools/dev/lint: mistakes, not style: bugprone, clang's analyzer (null, memory, "
+        "clang-tidy and cppcheck find nothing", "tools/dev/lint --deep: mistakes, not style: bugprone, clang's analyzer (null, memory, "
         "dead stores, unreachable states), performance, redundant or misleading code, functions above 60 lines (.clang-tidy); "
         "cppcheck for an 8-bit machine (warnings, performance, portability)",
         f"{tidied[1] if tidied else 0} files against {rules} rules of clang-tidy, {passed} files of the images by cppcheck; "

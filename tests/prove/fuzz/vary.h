@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * vary.h - changes an input by chance, blindly: what a sample does where libFuzzer is not asked. The same seed gives the same
- * inputs on every machine. */
+ * vary.h - changes an input by chance, blindly: what a sample does, which has no time for libFuzzer. The same seed gives
+ * the same inputs on every machine. */
 #ifndef VARY_H
 #define VARY_H
 

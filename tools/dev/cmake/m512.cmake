@@ -144,6 +144,8 @@ endfunction()
 
 # m512_pytest(<ctest name> <file or folder> [TIMEOUT s] [COST s]): a pytest file, run with the interpreter of the project's
 # virtual environment (build/venv, made by tools/dev/setup) when there is one. COST: see tests/CMakeLists.txt.
+# No plugins: no test needs one, and pytest would rewrite the whole of hypothesis for its plugin (0.6 s a file). What Python compiles
+# is kept in build/pycache.
 function(m512_pytest name path)
     cmake_parse_arguments(ARG "" "TIMEOUT;COST" "" ${ARGN})
     if(NOT ARG_TIMEOUT)
@@ -154,7 +156,7 @@ function(m512_pytest name path)
     endif()
     add_test(NAME ${name} COMMAND ${M512_PYTHON} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/${path})
     set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST ${ARG_COST}
-        ENVIRONMENT "PYTHONPATH=${CMAKE_SOURCE_DIR}/tools/sim/python:${CMAKE_SOURCE_DIR}/tools/m512/src:${CMAKE_SOURCE_DIR}/tools/body/src:${CMAKE_SOURCE_DIR}/tools/campaign;PYTHONDONTWRITEBYTECODE=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
+        ENVIRONMENT "PYTHONPATH=${CMAKE_SOURCE_DIR}/tools/sim/python:${CMAKE_SOURCE_DIR}/tools/m512/src:${CMAKE_SOURCE_DIR}/tools/body/src:${CMAKE_SOURCE_DIR}/tools/campaign;PYTHONPYCACHEPREFIX=${CMAKE_SOURCE_DIR}/build/pycache;PYTEST_DISABLE_PLUGIN_AUTOLOAD=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
 endfunction()
 
 if(NOT M512_AVR)
