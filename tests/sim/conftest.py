@@ -1,6 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""The robot of the tests of Edit, for files that ask for it. In its flash are the pages of edit_base.py, or the file's own PAGES."""
+"""The robot of the tests of Edit, for files that ask for it. In its flash are the pages of edit_base.py, or the file's own PAGES.
+And the paths of our packages, so that pytest by hand finds them as ctest does."""
+import pathlib
+import sys
+
 import pytest
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(TOP / path) for path in ("tools/sim/python", "tools/m512/src", "tools/body/src", "tools/campaign")]
 
 
 @pytest.fixture(scope="module")
