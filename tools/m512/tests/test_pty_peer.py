@@ -18,8 +18,8 @@ class Replugged(PtyPeer):
         super()._wait()
         if self.spare is not None:
             os.close(self.spare)         # a lower number becomes free, so that the new files have other numbers
-            self.spare = None
             self.plug()
+            self.spare = None            # whoever waits for this finds the new path
 
 
 def test_peer_hears_the_cable_that_was_plugged_while_it_read():
