@@ -2,32 +2,30 @@
 """Our loader's line shell and block protocol, made from its description, with a line that can be disturbed."""
 import binascii
 
+from peer import APP, RESET, LoaderBoard
 from pty_peer import PtyPeer
 from virtual_peer import VirtualPeer
 
 PROMPT = b"\r\n - "
-APP, RESET, PROMPTED, SESSION = range(4)
+PROMPTED, SESSION = range(2, 4)
 
 
 def crc16(data):
     return binascii.crc_hqx(data, 0xFFFF)
 
 
-class BlockBoard:
+class BlockBoard(LoaderBoard):
     def __init__(self, flash=None, board=1, state=PROMPTED, presses_mode=True):
         self.flash = bytearray(flash or b"\xff" * 0x20000)
         self.eeprom = bytearray(b"\xff" * 4096)
-        self.board, self.state, self.presses_mode = board, state, presses_mode
-        self.line, self.frame = bytearray(), None
-        self.writes, self.left, self.app_heard = [], [], bytearray()
+        self.board, self.frame = board, None
+        self.writes, self.left = [], []
         self.broken_pages = set()
-        self.since, self.last = 0.0, 0
-        super().__init__()
+        super().__init__(state, presses_mode)
 
     def press_mode(self):
-        self.state, self.since, self.last, self.frame = RESET, self.now(), 0, None
-        self.line.clear()
-        self.send(b"\xff")
+        self.frame = None
+        super().press_mode()
 
     def on_silence(self, seconds):
         if self.state == RESET and self.now() - self.since > 0.06:
@@ -42,14 +40,9 @@ class BlockBoard:
             self.send(PROMPT)
 
     def on_byte(self, byte):
-        if self.state == APP:
-            self.app_heard.append(byte)
-            if self.presses_mode and self.app_heard.endswith(b"##"):
-                self.app_heard.clear()
-                self.press_mode()
-        elif self.state == RESET:
-            self.last = byte
-        elif self.state == SESSION or byte == 0xA5:
+        if self.before_the_loader(byte):
+            return
+        if self.state == SESSION or byte == 0xA5:
             self.state = SESSION
             self._frame_byte(byte)
         elif byte == 0x0D:

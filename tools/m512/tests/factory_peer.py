@@ -4,6 +4,7 @@
 What a careless PC tool would break is broken here too, and noted in `hurt`: its own section overwritten, a line of 80
 characters ended by CR, the type-ahead ring overrun.
 """
+from peer import APP, RESET, LoaderBoard
 from pty_peer import PtyPeer
 from virtual_peer import VirtualPeer
 
@@ -11,28 +12,24 @@ WINDOW, LED_TIME, SILENCE = 0.060, 0.100, 0.111
 BANNER = b"\r\n\n SYSTEM O.K. (CM5 Boot loader V1.31)"
 PROMPT = b"\r\n - "
 SEPARATORS = bytes(range(0x20, 0x30)) + b"\t"
-APP, RESET, LEDS, PROMPTED, READY, LOADING, EEPROM_DATA = range(7)
+LEDS, PROMPTED, READY, LOADING, EEPROM_DATA = range(2, 7)
 
 
-class FactoryBoard:
+class FactoryBoard(LoaderBoard):
     def __init__(self, flash=None, state=PROMPTED, presses_mode=True):
         self.flash = bytearray(flash or b"\xff" * 0x20000)
         self.eeprom = bytearray(b"\xff" * 4096)
         self.eeprom[0xFFF] = 0x11
         self.before = bytes(self.flash)
         self.hurt, self.downloads, self.words, self.mails = [], [], [], []
-        self.state, self.since, self.presses_mode = state, 0.0, presses_mode
-        self.line, self.last, self.dump_at, self.page = bytearray(), 0, 0, bytearray(256)
-        self.app_heard = bytearray()
+        self.dump_at, self.page = 0, bytearray(256)
         self.dead_pages = set()        # flash that does not take the data
-        super().__init__()
+        super().__init__(state, presses_mode)
 
     # Start
 
     def press_mode(self):
-        self.state, self.since, self.last = RESET, self.now(), 0
-        self.line.clear()
-        self.send(b"\xff")
+        super().press_mode()
         if self.eeprom[0xFF4] == 0xAA:       # the mailbox
             at = 0xE000 + 512 * self.eeprom[0xFF5]
             self.flash[at:at + 512] = self.eeprom[0x800:0xA00]
@@ -54,14 +51,9 @@ class FactoryBoard:
             self._download_ends()
 
     def on_byte(self, byte):
-        if self.state == APP:
-            self.app_heard.append(byte)
-            if self.presses_mode and self.app_heard.endswith(b"##"):
-                self.app_heard.clear()
-                self.press_mode()
-        elif self.state == RESET:
-            self.last = byte
-        elif self.state == LEDS:
+        if self.before_the_loader(byte):
+            return
+        if self.state == LEDS:
             self.line.append(byte)
         elif self.state == PROMPTED:
             self._typed(byte)

@@ -39,3 +39,35 @@ class Peer:
 
     def on_silence(self, seconds):
         """So long nothing has come; called often."""
+
+
+APP, RESET = range(2)
+
+
+class LoaderBoard:
+    """The start of a board with a boot loader. An application runs (APP) until MODE is pressed (RESET), by a person who sees `##` come
+    unless presses_mode is off. The loader's own states follow."""
+
+    def __init__(self, state, presses_mode):
+        self.state, self.presses_mode = state, presses_mode
+        self.since, self.last = 0.0, 0       # of the reset; the last byte behind it
+        self.line, self.app_heard = bytearray(), bytearray()
+        super().__init__()
+
+    def press_mode(self):
+        self.state, self.since, self.last = RESET, self.now(), 0
+        self.line.clear()
+        self.send(b"\xff")
+
+    def before_the_loader(self, byte):
+        """Whether the byte came before the loader takes any."""
+        if self.state == APP:
+            self.app_heard.append(byte)
+            if self.presses_mode and self.app_heard.endswith(b"##"):
+                self.app_heard.clear()
+                self.press_mode()
+            return True
+        if self.state == RESET:
+            self.last = byte
+            return True
+        return False
