@@ -197,7 +197,7 @@ def test_gdb_stops_at_a_function():
     runner = threading.Thread(target=lambda: board.run(ms=100))
     runner.start()
     result = subprocess.run(
-        ["avr-gdb", "-nx", "-batch", "-ex", f"target remote 127.0.0.1:{port}", "-ex", "break ping", "-ex", "continue",
+        ["avr-gdb", "-nx", "-batch", "-ex", "set remotetimeout 300", "-ex", f"target remote 127.0.0.1:{port}", "-ex", "break ping", "-ex", "continue",
          "-ex", "backtrace", "-ex", "stepi", "-ex", "delete", "-ex", "detach", NEGATIVE / "right-bus_overrun.elf"],
         capture_output=True, text=True, timeout=300, check=False)
     runner.join(timeout=300)

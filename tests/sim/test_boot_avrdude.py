@@ -19,8 +19,12 @@ AVRDUDE = shutil.which("avrdude")
 needs_avrdude = pytest.mark.skipif(not AVRDUDE, reason="avrdude is not installed (tools/dev/packages.txt)")
 
 
+BUSY_TURNS = 20     # of 2 ms: so long the board may be at work behind the last byte that passed
+
+
 def run_avrdude(board, *arguments, part="m128", limit=800):
-    """Exit code and output of avrdude with the board at the other end of the line."""
+    """Exit code and output of avrdude with the board at the other end of the line. While nothing passes, simulated time is slower than
+    the clock, so that avrdude may be kept waiting by a busy PC without the loader giving it up."""
     master, slave = pty.openpty()
     try:
         tty.setraw(master)
@@ -29,19 +33,21 @@ def run_avrdude(board, *arguments, part="m128", limit=800):
         command = [AVRDUDE, "-c", "arduino", "-p", part, "-b", "57600", "-P", os.ttyname(slave), *map(str, arguments)]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         board.take()
-        end = time.monotonic() + limit
+        end, idle = time.monotonic() + limit, 0
         while process.poll() is None:
             assert time.monotonic() < end, "avrdude hangs"
             try:
                 board.send(os.read(master, 4096))
+                idle = 0
             except BlockingIOError:
                 pass
             board.run(ms=2)
             said = board.take()
             if said:
                 os.write(master, said)
-            elif not board.waiting:
-                select.select([master], [], [], 0.0005)
+            idle = 0 if said or board.waiting else idle + 1
+            if idle:
+                select.select([master], [], [], 0.0005 if idle < BUSY_TURNS else 0.02)
         return process.returncode, process.stdout.read()
     finally:
         os.close(master)

@@ -57,11 +57,11 @@ def test_pty_at_a_wrong_rate_is_garbage_as_on_a_cable():
         path = robot.message(r"serial port: (/dev/pts/\d+)")
         with serial.Serial(path, 115200, timeout=1) as port:
             port.write(b"ho")
+            assert robot.message(r"rate was set to (\d+) bps") == "115200"   # it has taken them
             assert b"ho" not in port.read(20)
         with serial.Serial(path, 57600, timeout=60) as port:
             port.write(b"ho")
             assert port.read_until(b"ho").endswith(b"ho")
-        assert robot.message(r"rate was set to (\d+) bps") == "115200"
 
 
 def test_tcp_session_one_client_at_a_time():
@@ -86,9 +86,9 @@ def test_waiting_robot_costs_little_cpu():
     with Running(ROBOT.parent / "asleep.hex", "--pty", "--no-stdio") as robot:
         robot.message(r"(serial port)")
         time.sleep(0.5)
-        before = robot.cpu_seconds()
+        before, begun = robot.cpu_seconds(), time.monotonic()
         time.sleep(2)
-        assert robot.cpu_seconds() - before < 0.6
+        assert robot.cpu_seconds() - before < 0.3 * (time.monotonic() - begun)
 
 
 @pytest.fixture(name="terminal")
@@ -143,6 +143,14 @@ TITLE = re.compile(rb"\x1b\[2[23];2t|\x1b\]2;[^\a]*\a")
 OVERLAY = re.compile(rb"\x1b\[\?1049h(.*?)\x1b\[\?1049l", re.S)
 
 
+def until(terminal, holds):
+    """Reads until that holds."""
+    end = time.monotonic() + 300
+    while not holds():
+        assert time.monotonic() < end
+        terminal.expect(pexpect.TIMEOUT, timeout=0.1)
+
+
 def test_terminal_words_for_the_user_leave_the_robots_screen_alone(terminal):
     """They stand on the terminal's other screen: without them, what came is what the robot said, byte for byte; also what
     it said meanwhile."""
@@ -151,7 +159,9 @@ def test_terminal_words_for_the_user_leave_the_robots_screen_alone(terminal):
     for keys in ("p\x14?", "xp\x14v", "x\x14hbattery 9\r", "p\x14h", "\x1b[A\r", "\x14r\x14rp", "\x14?"):
         terminal.send(keys)
         terminal.expect(pexpect.TIMEOUT, timeout=0.4)
-    terminal.send("x\x1d")
+    terminal.send("x")
+    until(terminal, lambda: OVERLAY.sub(b"", heard.getvalue()).count(b"servo 3: 00\r\n") == 4)
+    terminal.send("\x1d")
     terminal.expect(pexpect.EOF)
     shown = [part.decode() for part in OVERLAY.findall(heard.getvalue())]
     assert len(shown) >= 7
@@ -165,14 +175,11 @@ def test_terminal_words_for_the_user_leave_the_robots_screen_alone(terminal):
 def test_terminal_hand_pushes_holds_and_lets_go(terminal):
     terminal.send("m")   # servo 3 goes to 600
     terminal.expect("moving")
-    terminal.send("\x14hpush 3 400\r")
-    terminal.expect(pexpect.TIMEOUT, timeout=0.5)
-    terminal.send("\x14v")
+    terminal.send("\x14hpush 3 400\r\x14v")
     terminal.expect("3 +600 +400  on +0x.. +held")
-    terminal.send("x\x14hlet go\r")
-    terminal.expect(pexpect.TIMEOUT, timeout=1)
-    terminal.send("\x14v")
-    terminal.expect("3 +600 +(599|600|601)  on")
+    terminal.send("x\x14hlet go\r\x14v")
+    while terminal.expect(["3 +600 +(599|600|601)  on", "3 +600 +[0-9]+  on"]):   # still on its way: look again
+        terminal.send("x\x14v")
 
 
 @pytest.mark.parametrize("line, says", [

@@ -102,7 +102,7 @@ def test_gdb_finds_the_chip_at_its_first_instruction_and_stops_at_a_function():
         robot.message("(waiting for avr-gdb)")
         time.sleep(0.5)
         gdb = subprocess.run(
-            ["avr-gdb", "-batch", "-ex", f"target remote :{port}", "-ex", "info registers pc", "-ex", "break say",
+            ["avr-gdb", "-batch", "-ex", "set remotetimeout 300", "-ex", f"target remote :{port}", "-ex", "info registers pc", "-ex", "break say",
              "-ex", "continue", "-ex", "backtrace", "-ex", "delete", "-ex", "detach", ROBOT.with_suffix(".elf")],
             capture_output=True, text=True, timeout=300, check=False)
         assert "pc             0x0 " in gdb.stdout

@@ -10,7 +10,7 @@ from snapshot import attempt
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
 OTHER = page("other", [(11, {1: 900})])
 STATE, NUMBER, BOOT_MODE, DATA = 0xFF4, 0xFF5, 0xFFF, 0x800
-RESTART_MS = 6500   # 520 EEPROM bytes of 8.5 ms, and a start
+RESTART_MS = 6500   # at most: 520 EEPROM bytes of 8.5 ms, and a start
 IMAGES = {"images": ("tests/mailbox.hex", "edit-cm5.hex"), "bootrst": True}
 
 
@@ -32,6 +32,15 @@ def mailbox_robot(fresh=False, **options):
 def edit(r):
     r.line("goto 1 3")
     r.line("set 700")
+
+
+def confirm(r):
+    """Answers yes, and waits until the robot has restarted and Edit is at rest again."""
+    resets, end = r.board.resets, r.board.now_ms + RESTART_MS
+    r.keys("y")
+    while r.board.resets == resets and r.board.now_ms < end:
+        r.settle(ms=100)
+    r.settle(ms=1500)
 
 
 def restarted(r):
@@ -98,7 +107,7 @@ def save_cut(r, operation, phase, tear):
     others = bytes(r.board.flash[MOTION_START + 1024:])
     r.board.cut_power(operation, phase, tear)
     try:
-        r.keys("y", ms=RESTART_MS)
+        confirm(r)
         return None
     except PowerCut:
         pass
@@ -110,7 +119,7 @@ def save_cut(r, operation, phase, tear):
     if state == bytes(OLD.data):   # and the next one works
         edit(r)
         r.line("save")
-        r.keys("y", ms=RESTART_MS)
+        confirm(r)
         assert r.flash_page(1) == new_bytes()
     return state
 
