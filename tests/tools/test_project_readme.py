@@ -3,6 +3,7 @@
 tools/README.md has a line for everything in tools/."""
 import pathlib
 import re
+import subprocess
 
 import pytest
 
@@ -32,6 +33,16 @@ def entries(folder):
     """Names in a folder, without what speaks for itself and what tools leave behind."""
     return {path.name for path in (TOP / folder).iterdir() if not path.name.startswith((".", "__"))} - {
         "CMakeLists.txt", "README.md"}
+
+
+@pytest.mark.parametrize("tool", ["demo", "test", "bench", "prove", "combine", "release", "sim/bench", "body/try", "body/picture",
+                                  "dev/size_report", "dev/bench_edit", "dev/pack_texts", "dev/app_record", "dev/lint"])
+def test_tool_says_by_itself_what_it_does(tool):
+    """Called as a person calls it, without the project's Python; nothing is built or installed for that."""
+    done = subprocess.run([TOP / "tools" / tool, "--help"], capture_output=True, text=True, timeout=300,
+                          env={"PATH": "/usr/local/bin:/usr/bin:/bin"}, check=False)
+    assert f"{tool.rpartition('/')[2]}" in done.stdout + done.stderr and "Traceback" not in done.stderr, done.stderr
+    assert done.returncode == (2 if tool == "dev/lint" else 0) and "==" not in done.stdout
 
 
 @pytest.mark.parametrize("folder,heading", [("tools/", "people run"), ("tools/dev/", "`dev/`")])
