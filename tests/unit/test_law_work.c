@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT
+ * test_law_work.c - what a play notes of the work between two of its steps, by which the pieces of both plays are spread
+ * over the ticks (law.h, LAW_WORK_). Looked at in a page layer, whose note stands until layers_tick hands it to the main
+ * play. */
+#include <string.h>
+#include "law.h"
+#include "layers.h"
+#include "sparse_pages.h"
+#include "unity.h"
+
+#define ALL 0x7FFFFFFFul
+#define WALK 1u
+#define WAVE 2u
+#define WAVE_TICKS 30u
+
+static player_t player;
+static player_joint_t joints[PAGE_JOINTS];
+static uint16_t goal_pos[PAGE_JOINTS];
+static link_t l;
+static layers_t layers;
+
+/* Two steps of 30 ticks each, round and round, without ramps: no section begins where a step ends. */
+static void make_page(uint8_t page, uint16_t one_pos, uint16_t other_pos)
+{
+    sparse_step(page, WAVE_TICKS, 0, one_pos);
+    sparse_step(page, WAVE_TICKS, 0, other_pos);
+    sparse_pages[page].next = page;
+    sparse_pages[page].accel = 0;
+}
+
+void setUp(void)
+{
+    sparse_clear();
+    make_page(WALK, 512, 520);
+    make_page(WAVE, 600, 500);
+    memset(joints, 0, sizeof joints);
+    layers_init(&layers, goal_pos);
+}
+
+void tearDown(void)
+{
+}
+
+/* A wave of these joints over a walk, under the exact law. */
+static void start(uint32_t wave_joints)
+{
+    uint16_t pose[PAGE_JOINTS];
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        pose[i] = 512;
+    }
+    player_init(&player, &sparse_source, joints, goal_pos);
+    layers_bind(&layers, &player);
+    link_init(&l, LINK_LATCH);
+    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, WALK, PLAYER_LAW_EXACT, pose, ALL));
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, wave_joints));
+}
+
+/* One tick of the layer alone; what it notes goes to *work. */
+static uint8_t tick(uint8_t *work)
+{
+    link_t link;
+    link_init(&link, LINK_LATCH);
+    layers.play.work = 0;
+    const uint8_t events = player_tick(&layers.play, &link);
+    *work = layers.play.work;
+    return events;
+}
+
+/* The notes of the last tick of a step and of the first of the next. */
+static void at_the_end_of_a_step(uint8_t *last, uint8_t *first)
+{
+    uint8_t work = 0, events = 0;
+    (void)tick(&work); /* the first step's own first tick */
+    for (uint8_t ticks = 1; (events & PLAYER_EV_STEP) == 0; ticks++) {
+        TEST_ASSERT_LESS_OR_EQUAL(WAVE_TICKS, ticks);
+        *last = work;
+        events = tick(&work);
+    }
+    *first = work;
+}
+
+/* One joint is planned in the next step's first tick: the last one has the taking alone. */
+static void test_law_work_of_the_last_tick_is_the_taking(void)
+{
+    uint8_t last = 0, first = 0;
+    start(4);
+    at_the_end_of_a_step(&last, &first);
+    TEST_ASSERT_EQUAL_UINT8(LAW_WORK_TAKE, last);
+    TEST_ASSERT_EQUAL_UINT8(LAW_WORK_PLAN_JOINT, first);
+}
+
+/* More joints are more work, beside what planning them costs: each is set on its target. */
+static void test_law_work_of_the_taking_grows_with_the_joints(void)
+{
+    uint8_t last = 0, first = 0;
+    start(15);
+    at_the_end_of_a_step(&last, &first);
+    TEST_ASSERT_EQUAL_UINT8(4, layers.play.own_joints);
+    /* planned in the tick before, and in the one behind */
+    const uint8_t ahead = 4u / 3u, rest = first / LAW_WORK_PLAN_JOINT;
+    TEST_ASSERT_GREATER_THAN_UINT8(LAW_WORK_TAKE + LAW_WORK_PLAN_JOINT * (4u - ahead - rest), last);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_law_work_of_the_last_tick_is_the_taking);
+    RUN_TEST(test_law_work_of_the_taking_grows_with_the_joints);
+    return UNITY_END();
+}
