@@ -18,6 +18,7 @@ import pickle
 import sys
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+ANSWER_S = 10     # so long each() waits for a scheduler
 _scheduler = None
 
 
@@ -83,7 +84,7 @@ def _on_scheduler(work, items, address):
         raise ConnectionError(f"a scheduler needs Dask ({missing}); run: tools/dev/setup campaign") from None
     cloudpickle.register_pickle_by_value(sys.modules[__name__])       # workers need nothing of ours to begin with
     try:
-        client = Client(address, timeout="10s")
+        client = Client(address, timeout=ANSWER_S)
     except OSError as error:
         raise ConnectionError(f"no Dask scheduler answers at {address} ({error})") from None
     paths = [str(pathlib.Path(path).resolve().relative_to(TOP)) for path in sys.path

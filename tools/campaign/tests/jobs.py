@@ -4,6 +4,8 @@ import os
 import random
 import time
 
+PATIENCE_S = 300
+
 
 def number(seed):
     """By chance, from the seed alone; later items are quicker, so that they are done first."""
@@ -12,7 +14,17 @@ def number(seed):
 
 
 def where(_):
-    time.sleep(0.1)
+    return os.getpid()
+
+
+def meet(folder, number):
+    """Waits until so many processes have come here: none of them can have done the others' work. Its own number."""
+    folder.joinpath(str(os.getpid())).touch()
+    end = time.monotonic() + PATIENCE_S
+    while len(list(folder.iterdir())) < number:
+        if time.monotonic() > end:
+            raise TimeoutError(f"{len(list(folder.iterdir()))} of {number} processes came")
+        time.sleep(0.01)
     return os.getpid()
 
 

@@ -17,6 +17,7 @@ EXPECTED = [jobs.number(seed) for seed in range(12)]
 
 @pytest.fixture(scope="module", name="address")
 def _address():
+    campaign.ANSWER_S = jobs.PATIENCE_S
     with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50) as cluster:
         yield cluster.scheduler_address
 
@@ -26,9 +27,9 @@ def test_on_this_machine(processes):
     assert campaign.each(jobs.number, range(12), "numbers", processes) == EXPECTED
 
 
-def test_on_a_cluster_of_two_workers(address):
+def test_on_a_cluster_of_two_workers(address, tmp_path):
     assert campaign.each(jobs.number, range(12), "numbers", scheduler=address) == EXPECTED
-    places = set(campaign.each(jobs.where, range(8), "places", scheduler=address))
+    places = set(campaign.each(functools.partial(jobs.meet, tmp_path), [2] * 8, "places", scheduler=address))
     assert len(places) == 2 and os.getpid() not in places
 
 
@@ -51,7 +52,8 @@ def test_a_bad_job_ends_the_campaign(address):
             campaign.each(jobs.fails, range(6), "jobs", **how)
 
 
-def test_nobody_at_the_address():
+def test_nobody_at_the_address(monkeypatch):
+    monkeypatch.setattr(campaign, "ANSWER_S", 1)
     with pytest.raises(ConnectionError, match="no Dask scheduler answers at tcp://127.0.0.1:1"):
         campaign.each(jobs.number, [1], "numbers", scheduler="tcp://127.0.0.1:1")
 

@@ -95,7 +95,7 @@ test('closed at 500 moments: all that was finished is there, with its undo and r
   expect(closed.edits).toBeGreaterThan(500);
   expect(closed.inGesture).toBeGreaterThan(50);
   expect(closed.undone).toBeGreaterThan(50);
-}, 120_000);
+});
 
 test('a history that goes on over three tabs; the names of its steps too', async () => {
   const disk = new PassingStorage();

@@ -27,7 +27,7 @@ test('a line typed beside questions is done and shown, wherever among its keys t
     for (let ms = 0; !text().includes(`PageNumber:${number}`) && ms < 3000; ms += 50) await bench.run(50);
     expect(text(), `seed ${SEED}, page ${number}, a question before key ${asksAt}`).toContain(`PageNumber:${number}`);
   }
-}, 300_000);
+});
 
 test('whoever comes to the terminal sees the screen, and questions in a row do not draw it again and again', async () => {
   const { bench, connection, sent, text, forget } = await connectedEdit(SEED + 1);
@@ -47,7 +47,7 @@ test('whoever comes to the terminal sees the screen, and questions in a row do n
   await bench.until(askWhere(connection.requests));
   await bench.run(2000);
   expect(sent).toEqual(['@where\r']);
-}, 300_000);
+});
 
 test('a half-typed line is let alone; another size of the terminal is told once', async () => {
   const { bench, connection, sent, text, forget } = await connectedEdit(SEED + 2);
@@ -64,7 +64,7 @@ test('a half-typed line is let alone; another size of the terminal is told once'
   expect(sent).toEqual(['page 10', '0\r', '\x1b[28;80R']);
   expect(text()).toContain('PageNumber:0100');
   expect(text()).toContain('\x1b[28;1H'); // its command row is the last one
-}, 300_000);
+});
 
 test('while the robot moves Edit draws nothing: the screen comes when it stands', async () => {
   const { bench, connection, text, forget } = await connectedEdit(SEED + 3);
@@ -75,4 +75,4 @@ test('while the robot moves Edit draws nothing: the screen comes when it stands'
   expect(text()).not.toContain('PageNumber:');
   for (let ms = 0; !text().includes('PageNumber:') && ms < 15_000; ms += 50) await bench.run(50);
   expect(text()).toContain('PageNumber:');
-}, 300_000);
+});

@@ -69,7 +69,7 @@ test('files of others, where they are there', async (context) => {
       expect(Buffer.from(opened.image).equals(bytes.subarray(0, 65536)) || bytes.length !== 65536, name).toBe(true);
     }
   }
-}, 120_000);
+});
 
 test('a damaged file is refused with m512\'s sentence', async () => {
   const hex = new TextEncoder().encode(':10E00000');

@@ -68,7 +68,7 @@ test('what is asked of a robot that is still being made is answered when it is t
   robot.post({ kind: 'start', module: await bench.wasmModule('board'), body: BODY, images, kept: null });
   const { flash } = await robot.memories();
   expect(flash.slice(MOTIONS_ADDRESS, MOTIONS_ADDRESS + images.motions.length)).toEqual(images.motions);
-}, 300_000);
+});
 
 test('pressed again before the robot is there, and again: the last one runs, and it is the only one', async () => {
   const { source } = page();
@@ -79,7 +79,7 @@ test('pressed again before the robot is there, and again: the last one runs, and
   await source.restart('play');
   await runs(source, 'play');
   expect(NodeWorker.alive.size).toBe(1);
-}, 300_000);
+});
 
 test('an image that cannot be loaded: the robot goes on as it was, and the next try is one', async () => {
   const { source, seen } = page();
@@ -94,7 +94,7 @@ test('an image that cannot be loaded: the robot goes on as it was, and the next 
   files.missing = '';
   await source.restart('edit');
   await runs(source, 'edit');
-}, 300_000);
+});
 
 test('after a crash the next robot starts, with what was kept', async () => {
   const { source, seen } = page();
@@ -105,7 +105,7 @@ test('after a crash the next robot starts, with what was kept', async () => {
   await source.restart('play');
   await vi.waitFor(() => expect(seen.stopped).toBeNull(), { timeout: 240_000 });
   expect(seen.motions.every((byte) => byte === 0x5a)).toBe(true);
-}, 300_000);
+});
 
 test('a browser that keeps nothing: another image has the motions of the one before', async () => {
   const { source, seen } = page();
@@ -116,4 +116,4 @@ test('a browser that keeps nothing: another image has the motions of the one bef
   browser.keeps = false;
   await source.restart('edit');
   expect(seen.motions[5000]).toBe(0x77);
-}, 300_000);
+});

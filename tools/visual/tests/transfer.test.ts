@@ -66,7 +66,7 @@ test.each([['edit', 41], ['play', 42]] as const)('%s: all pages are read, only t
   console.log(`${image}: the library's pages in ${(first / 1000).toFixed(1)} s, with one page changed in ${(second / 1000).toFixed(1)} s`);
   expect(first).toBeLessThan(20_000);
   expect(second).toBeLessThan(1000);
-}, 120_000);
+});
 
 test('128 pages of which nobody has any, every byte by chance, within 20 s', async () => {
   const { bench, connection } = await ready('edit', 51);
@@ -77,7 +77,7 @@ test('128 pages of which nobody has any, every byte by chance, within 20 s', asy
   const took = bench.clock.now() - started;
   console.log(`128 pages, every byte by chance, in ${(took / 1000).toFixed(1)} s`);
   expect(took).toBeLessThan(20_000);
-}, 120_000);
+});
 
 test('an image that does not know the dense form is read all the same', async () => {
   const { bench, connection } = await ready('edit', 53);
@@ -90,7 +90,7 @@ test('an image that does not know the dense form is read all the same', async ()
   expect(await bench.until(readPages(older, crcOf, { known }))).toEqual(library.pages);
   expect(asked.filter((text) => text.startsWith('@dense'))).toHaveLength(1);
   expect(asked.filter((text) => text.startsWith('@page'))).toHaveLength(4);
-}, 60_000);
+});
 
 /** Twenty pages: of the library, empty, erased and damaged ones. */
 function twenty(bench: RobotBench): PageToWrite[] {
@@ -139,7 +139,7 @@ test('twenty pages: what is written is in flash, nothing else is touched, and th
   expect(write.isDone).toBe(true);
   for (const { page, after } of pages) others[page] = after;
   for (const [page, bytes] of others.entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
-}, 120_000);
+});
 
 test('a page that changed in the robot meanwhile is not written over, nor are edits of somebody at the terminal', async () => {
   const { bench, connection } = await ready('edit', 44);
@@ -153,7 +153,7 @@ test('a page that changed in the robot meanwhile is not written over, nor are ed
   await expect(bench.until(mine.run(connection.requests))).rejects.toMatchObject({ code: 'page-unsaved' });
   expect(mine.account.get(30)).toBe('sending');
   expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
-}, 60_000);
+});
 
 test('stopped between two pages: those before are new, those after old, and the next run goes on', async () => {
   const { bench, connection } = await ready('edit', 45);
@@ -165,7 +165,7 @@ test('stopped between two pages: those before are new, those after old, and the 
   for (const [i, { page, before, after }] of pages.entries()) expect(flashPage(bench, page)).toEqual(i < 5 ? after : before);
   await bench.until(write.run(connection.requests), 60_000);
   expect(write.isDone).toBe(true);
-}, 120_000);
+});
 
 /** Looks whether the account says what is in flash. */
 function checkAccount(bench: RobotBench, write: PageWrite, pages: readonly PageToWrite[], where: string): void {
@@ -244,7 +244,7 @@ test('the page: a backup before the first write, a cable pulled in mid-write, "t
   expect(transfer.state.get()).toMatchObject({ phase: 'written', done: 20, total: 20, trouble: null });
   for (const [page, bytes] of robot().entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
   expect(kept).toHaveLength(1);
-}, 120_000);
+});
 
 test('the page: Play cannot save, and a robot that cannot be kept is not written', async () => {
   const { bench, connection } = await ready('play', 48);
@@ -253,4 +253,4 @@ test('the page: Play cannot save, and a robot that cannot be kept is not written
   expect(transfer.state.get().trouble).toContain('m512 flash edit-cm5.hex');
   expect(kept).toEqual([]);
   expect(flashPage(bench, 1)).toEqual(pageOf(library, 1));
-}, 60_000);
+});
