@@ -6,6 +6,7 @@ import json
 import random
 
 import pytest
+from factory_peer import FactoryPeer
 from m512.board.client import Client
 from virtual_peer import VirtualLink
 
@@ -120,6 +121,26 @@ def test_a_line_that_is_half_typed_into_play_is_not_run(m512, board, keys, told)
     assert result.exit_code == 0 and told in result.stderr and result.stderr.count("note:") == (told != NOTHING), result.stderr
     with VirtualLink(play.path) as link:
         assert Client(link).where()["state"] == "idle"
+
+
+@pytest.mark.parametrize("keys, told", [((), NOTHING), (("g",), LINE), (("load e000",), LINE)])
+def test_a_line_that_is_half_typed_into_our_loader_is_not_run(m512, board, keys, told):
+    loader = board("boot-cm5.hex")
+    type_(loader, *keys)
+    result = m512("doctor", "-p", loader.path)
+    assert "Motion512 boot loader" in result.stdout, result.stdout
+    assert told in result.stderr and result.stderr.count("note:") == (told != NOTHING), result.stderr
+    assert "Jump" not in said(loader) and "Ready" not in said(loader)
+
+
+@pytest.mark.parametrize("keys, told", [("", NOTHING), ("g", LINE), ("load e000", LINE)])
+def test_a_line_that_is_half_typed_into_the_factorys_loader_is_not_run(m512, keys, told):
+    with FactoryPeer() as loader:
+        loader.put(keys.encode())
+        result = m512("doctor", "-p", loader.path)
+        assert "factory boot loader" in result.stdout, result.stdout
+        assert told in result.stderr and result.stderr.count("note:") == (told != NOTHING), result.stderr
+        assert not {b"g", b"load e000"} & set(loader.words) and not loader.hurt
 
 
 def test_what_plays_in_play_goes_on(m512, board):

@@ -21,8 +21,9 @@ from m512.errors import RefusedError
 
 # A question of Edit passes over what comes close behind another byte; NUL means nothing anywhere.
 WHO = b"\0@"
-# A boot loader's knock rubs out 100 characters, lines of Edit hold 111. Ctrl-U empties those; to a loader it is a letter.
-EMPTY = b"\x15" + KNOCK
+# A boot loader's knock rubs out 100 characters, lines of Edit hold 111: Ctrl-U empties those. To a loader it is a letter, echoed and rubbed out.
+CTRL_U = b"\x15"
+EMPTY = CTRL_U + KNOCK
 STOP, BREAK = b"\r", b"\x03"       # keys that end a play in Edit: through its exit page; at once
 SILENT_SECONDS = 0.5               # a play draws every 0.24 s, and oftener with more than one joint
 DRAWING_SECONDS = 2.0              # the whole screen takes half a second
@@ -73,5 +74,5 @@ def _tell(heard: bytes, answer: bytes) -> None:
         ui.say("note: Edit was waiting for a name: the page keeps the one that it has")
     elif not heard and re.match(rb"[\x00\x11\x13]* no\b", answer):
         ui.say('note: Edit was asking "Are you sure?": it was told no, and nothing was done')
-    elif answer.count(RUBBED_OUT) > heard.count(b"@"):
+    elif answer.count(RUBBED_OUT) > heard.count(b"@") + answer.count(CTRL_U):
         ui.say("note: a half-typed line in the board's terminal was not run")
