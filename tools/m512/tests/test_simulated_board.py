@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """m512 against the simulated board with our real loader, Play and Edit, in simulated time. Needs the build's products."""
 import json
+from types import SimpleNamespace
 
 import pytest
-from m512.board import driving
+from m512.board import doctor, driving
 from m512.board.client import Client
 from m512.files.text import read_text
 from virtual_peer import VirtualLink
@@ -144,6 +145,27 @@ def test_flash_restarts_edit_and_asks_where_edits_would_be_lost(m512, motions, s
     assert result.exit_code == 5 and "not saved" in result.stderr and "--yes" in result.stderr
     result = m512("flash", motions, "-p", edit.path, "--wait", "5", "--yes")
     assert result.exit_code == 0 and "MODE" not in result.stderr, result.stderr
+
+
+def test_doctor_takes_edits_drawing_for_no_missed_motion(m512, started):
+    edit = started("edit-cm5.hex", text=OLD)
+    edit.pass_time(1.5)
+    for _ in range(3):
+        with VirtualLink(edit.path) as link:
+            missed = int(Client(link).where()["missed"])
+        edit.put(b"x\r")                     # brings the screen back
+        edit.pass_time(0.7)
+    assert missed > 100
+    result = m512("doctor", "-p", edit.path)
+    assert result.exit_code == 0 and "image" in result.stdout and "ticks" not in result.stdout, result.stdout
+
+
+@pytest.mark.parametrize("missed, told", [("0", False), ("1", True)])
+def test_doctor_tells_of_motion_that_play_missed(missed, told):
+    findings = []
+    client = SimpleNamespace(version={"image": "play"}, where=lambda: {"missed": missed, "dv": "111", "faulty": "00000000"})
+    doctor._robot(client, lambda *parts: findings.append(parts))
+    assert any(what == "ticks" for what, *_ in findings) == told
 
 
 def start(m512, robot):
