@@ -124,7 +124,7 @@ def test_drive_without_a_terminal_says_so(m512, monkeypatch):
     @contextmanager
     def robot(_):
         class Client:
-            find = staticmethod(lambda page: 1)
+            find, shape = staticmethod(lambda page: 1), staticmethod(dict)
 
         yield Client()
 

@@ -234,6 +234,16 @@ def test_amplitudes_of_single_joints_are_told_with_their_joints(m512, robot):
         assert client.shape()["amplitude"] == "60 3,4:120"
 
 
+@pytest.mark.parametrize("words", [("shape",), ("drive", "walk", "--pad"), ("layer", "old"), ("aim", "1:512"), ("play", "walk", "--rate", "120")])
+def test_edit_refuses_what_takes_play_and_nothing_moves(m512, started, words):
+    edit = started("edit-cm5.hex", text=OLD)
+    edit.pass_time(1.5)
+    result = m512(*words, "-p", edit.path)
+    assert result.exit_code == 8 and "edit has no @" in result.stderr and "takes Play" in result.stderr, result.stderr
+    edit.pass_time(1)
+    assert not edit.board.trace
+
+
 def test_drive_ends_through_the_exit_page_when_the_line_falls_silent(m512, robot):
     start(m512, robot)
     with VirtualLink(robot.path) as link:

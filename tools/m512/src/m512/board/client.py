@@ -18,8 +18,7 @@ from m512.files.page import JOINTS, PAGE_BYTES, Page
 ANSWER_SECONDS = 3.0
 TRIES = 3
 DATA_BYTES = 32
-ERR_WORD, ERR_BUSY, ERR_IMAGE, ERR_EDITS = 1, 4, 10, 12
-ERR_PAGE_FAULTS = (5,)
+ERR_WORD, ERR_EDITS = 1, 12
 
 
 class Client:
@@ -28,6 +27,7 @@ class Client:
 
     def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5), is_met: bool = False):
         self.link = link
+        self.version: Dict[str, str] = {}
         if not is_met:
             contact.make(link)
         self.version = self._fields(self._ask_version(patience))
@@ -56,8 +56,14 @@ class Client:
                 return line[:-2].strip()
             match = re.match(r"ERR (\d+) ?(.*)", line)
             if match:
-                raise BoardError(match.group(2) or f"error {match.group(1)}", int(match.group(1)))
+                raise self._error(word, int(match.group(1)), match.group(2))
         raise NoAnswerError(f"no answer to {word}")
+
+    def _error(self, word: str, number: int, text: str) -> BoardError:
+        if number == ERR_WORD:
+            image = self.version.get("image", "this image")
+            text = f"{image} has no {word}: it takes {'Play' if image == 'edit' else 'Edit' if image == 'play' else 'another image'}"
+        return BoardError(text or f"error {number}", number)
 
     def _answer(self, word: str, request: str, seconds: float) -> Optional[str]:
         """Returns the text behind the word in the first whole line that answers. None: no such line came in time."""

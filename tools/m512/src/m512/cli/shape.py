@@ -64,6 +64,7 @@ def drive(page, pad, laid, **options):
     from m512.board import driving
 
     with robot(options) as client:
+        client.shape()          # Edit refuses here; it would play the page, and could not be driven
         number, second = client.find(page), client.find(laid) if laid else 0
         with (_pad() if pad else _keys()) as source:
             client.play(number)
