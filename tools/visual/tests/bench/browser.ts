@@ -89,7 +89,7 @@ const load = (): string => loadavg().map((value) => value.toFixed(1)).join(' ');
 console.log(`load of the machine ${load()}, ${availableParallelism()} cores`);
 weight();
 const [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
-const visitor = await Visitor.come(browser, server.address);
+const visitor = await Visitor.come(browser, server.address, { keepsPage: true });
 await start('cold start', visitor);
 await visitor.page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
 await visitor.page.reload();

@@ -19,7 +19,7 @@ interface Frames {
 
 const FRAMES = 100;
 const [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
-const visitor = await Visitor.come(browser, server.address, 'light', 1, { width: 1280, height: 800 });
+const visitor = await Visitor.come(browser, server.address, { screen: { width: 1280, height: 800 } });
 await visitor.untilStanding();
 await visitor.open('Lab');
 await visitor.button('Pause').click(); // the robot's own work is not measured here

@@ -23,7 +23,7 @@ async function pullAtThirdSave(person: Visitor): Promise<void> {
 }
 
 test('a cable pulled while four pages are written: each is told as old or new, "Try again" finishes', async () => {
-  const person = await Visitor.come(suite.browser, suite.address);
+  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
   const { page } = person;
   await person.untilStanding();
   await person.open('Lab');

@@ -62,7 +62,7 @@ const robotSeconds = async (visitor: Visitor): Promise<number> => Number.parseFl
 const WAVES = [[-60, -190], [-70, 80], [60, -90]] as const;
 
 test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays it; undo takes each thing back', async () => {
-  const pupil = await Visitor.come(suite.browser, suite.address, 'light', 1, { width: 1280, height: 800 });
+  const pupil = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 } });
   await pupil.untilStanding();
   await pupil.button('Tour').click();
   await said(pupil, 'You will teach the robot to wave.');

@@ -75,7 +75,7 @@ function redPixels(page: Page): Promise<number> {
 
 test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fast and where it falls, stretches, mirrors, saves it in every form as m512 does', async () => {
   await foundOnTheNet();
-  const person = await Visitor.come(suite.browser, suite.address);
+  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
   const { page } = person;
   const chooser = page.getByLabel('Motion file');
   writeFileSync(join(folder, 'torn.mtn'), readFileSync(join(folder, 'found.mtn')).subarray(0, 5000));
@@ -130,7 +130,7 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
 });
 
 test('a teacher sends a motion as a link; a pupil adds it by keyboard', async () => {
-  const teacher = await Visitor.come(suite.browser, suite.address);
+  const teacher = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
   await teacher.open('Pages');
   await teacher.page.getByRole('option', { name: /^page 2 bow/ }).click();
   await teacher.button('Send as link').click();
@@ -138,7 +138,7 @@ test('a teacher sends a motion as a link; a pupil adds it by keyboard', async ()
   expect(link.length).toBeLessThan(2000);
   await teacher.leave();
 
-  const pupil = await Visitor.come(suite.browser, link);
+  const pupil = await Visitor.come(suite.browser, link, { hasPicture: false });
   await pupil.page.getByRole('dialog', { name: 'A motion for you' }).waitFor();
   await pupil.untilStanding();
   const keys = new Keyboard(pupil);

@@ -18,7 +18,7 @@ const place = (person: Visitor): Promise<string> => person.page.locator('robot-v
 });
 
 test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, names it, plays it; sends it as a teacher does', async () => {
-  const pupil = await Visitor.come(suite.browser, suite.address, 'light', 1, WIDE);
+  const pupil = await Visitor.come(suite.browser, suite.address, { screen: WIDE });
   const keys = new Keyboard(pupil);
   const { page } = pupil;
   await page.context().grantPermissions(['clipboard-write']);
@@ -91,7 +91,7 @@ test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, name
 }, 900_000);
 
 test('a hobbyist: opens a file, goes where it is faulty, renames, copies and clears pages, links them, writes; somebody debugs', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, 'dark', 1, WIDE);
+  const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', screen: WIDE, hasPicture: false });
   const keys = new Keyboard(person);
   const { page } = person;
   const card = (name: RegExp) => page.getByRole('option', { name });

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 // What a browser or a network lacks is said in one sentence, and everything else works.
 import { expect, test } from 'vitest';
-import { Visitor, startBrowser } from './page-bench.ts';
+import { PHYSICS, Visitor, startBrowser } from './page-bench.ts';
 import { pageSuite } from './page-suite.ts';
 
-const PHYSICS = '**/mujoco.wasm*';
 const suite = pageSuite();
 
 test('physics that comes late, as over a slow line: the robot plays without it, then a hand holds it until it stands', async () => {
   let arrive = (): void => undefined;
   const arrived = new Promise<void>((resolve) => (arrive = resolve));
-  const person = await Visitor.come(suite.browser, suite.address, 'light', 1, undefined, (page) => page.route(PHYSICS, async (route) => {
+  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, before: (page) => page.route(PHYSICS, async (route) => {
     await arrived;
     await route.continue();
-  }));
+  }) });
   await person.untilStanding();
   await person.button('Bow').click();
   await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
@@ -26,10 +25,10 @@ test('physics that comes late, as over a slow line: the robot plays without it, 
 test('an old machine: no picture, no serial port, no physics', async () => {
   const browser = await startBrowser('--disable-3d-apis');
   try {
-    const person = await Visitor.come(browser, suite.address, 'light', 1, undefined, async (page) => {
+    const person = await Visitor.come(browser, suite.address, { before: async (page) => {
       await page.route(PHYSICS, (route) => route.abort());
       await page.addInitScript(() => Reflect.deleteProperty(Navigator.prototype, 'serial'));
-    });
+    } });
     await person.page.getByText('This browser draws no 3D picture (WebGL is off). Everything else works.').waitFor();
     const said = person.page.getByRole('log', { name: 'Last message' });
     await said.filter({ hasText: 'Physics could not be loaded, so the robot cannot fall.' }).waitFor();

@@ -29,9 +29,9 @@ test('the first load is at most 1 MB, compressed, with both images; physics and 
 test('from a sub-path, and the second visit with the server stopped', async () => {
   const server = await serve('--under', '/some/where');
   const asked: string[] = [];
-  const visitor = await Visitor.come(browser, server.address, 'light', 1, undefined, async (page) => {
+  const visitor = await Visitor.come(browser, server.address, { keepsPage: true, before: async (page) => {
     page.on('request', (request) => asked.push(request.url()));
-  });
+  } });
   await visitor.untilStanding();
   // What was asked for until then is what the first load is said to be: nothing of Python is in it, and every file is there.
   expect(asked.filter((url) => comesLater(url, '') === 'python')).toEqual([]);
@@ -47,7 +47,7 @@ test('from a sub-path, and the second visit with the server stopped', async () =
 
 test('the policy holds: no code from text, in the page', async () => {
   const server = await serve();
-  const visitor = await Visitor.come(browser, server.address);
+  const visitor = await Visitor.come(browser, server.address, { hasPicture: false, hasPhysics: false });
   // Playwright's own scripts may do what the policy forbids; a text that the page is to run later may not.
   const ran = await visitor.page.evaluate(async () => {
     (setTimeout as (code: string) => void)('document.title = "made from text"');

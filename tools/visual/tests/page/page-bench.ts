@@ -6,7 +6,7 @@ import { spawn } from 'node:child_process';
 import type { ChildProcess } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { chromium } from 'playwright-core';
-import type { Browser, BrowserContext, Page } from 'playwright-core';
+import type { Browser, BrowserContext, ConsoleMessage, Page } from 'playwright-core';
 
 export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
 /** There is no graphics chip: WebGL is drawn by software. The page around it is then put together without it: by WebGL's software that takes
@@ -21,6 +21,42 @@ export interface Screen {
 }
 
 const SCREEN: Screen = { width: 1000, height: 640 };
+
+/** How somebody comes. */
+export interface Visit {
+  readonly theme?: 'light' | 'dark';
+  /** Pixels of the screen to a CSS pixel. */
+  readonly sharpness?: number;
+  readonly screen?: Screen;
+  /** false: the browser has no WebGL, as on an old machine (lacking.test.ts). For what is not about the picture: drawing it by software takes
+   *  more of the processor than all else. */
+  readonly hasPicture?: boolean;
+  /** false: the robot's physics cannot be loaded, so it stands without a body of mass, and can be used three seconds sooner. */
+  readonly hasPhysics?: boolean;
+  /** The browser keeps the page for the time without a network (offline.test.ts): it writes 10 MB for that. */
+  readonly keepsPage?: boolean;
+  /** Done with the empty page, before the address is opened. */
+  readonly before?: (page: Page) => Promise<unknown>;
+}
+
+/** What a browser says to the console of what it was told to lack. */
+const NO_PICTURE = /^THREE\.WebGLRenderer/;
+const NO_PHYSICS = /ERR_FAILED .*mujoco\.wasm/;
+/** The file that the robot's physics are in. */
+export const PHYSICS = '**/mujoco.wasm*';
+
+/** In the browser: WebGL is off. */
+function withoutWebGl(): void {
+  const { prototype } = HTMLCanvasElement;
+  const contextOf = prototype.getContext as (this: HTMLCanvasElement, kind: string, options?: unknown) => RenderingContext | null;
+  Object.assign(prototype, {
+    getContext(this: HTMLCanvasElement, kind: string, options?: unknown) {
+      return kind.startsWith('webgl') ? null : contextOf.call(this, kind, options);
+    },
+  });
+}
+
+const STANDS = /^(The robot stands and waits|Edit runs: its screen is in the terminal)\.$/;
 /** robot-view.ts sets it. */
 const ROBOT_DRAWN = 'robot-drawn';
 /** Of every wait that names none: a busy machine decides no verdict. Somebody who writes tests does not wait so long (WAIT_MS). */
@@ -70,20 +106,24 @@ export class Visitor {
     this.page = page;
   }
 
-  static async come(browser: Browser, address: string, theme: 'light' | 'dark' = 'light', sharpness = 1, { width, height, hasTouch = false } = SCREEN,
-    before: (page: Page) => Promise<unknown> = async () => undefined): Promise<Visitor> {
+  static async come(browser: Browser, address: string, visit: Visit = {}): Promise<Visitor> {
+    const { theme = 'light', sharpness = 1, screen: { width, height, hasTouch = false } = SCREEN, hasPicture = true, hasPhysics = true, keepsPage = false, before } = visit;
     // Reduced motion: no colour is looked at while it changes.
-    const context = await browser.newContext({ viewport: { width, height }, hasTouch, colorScheme: theme, deviceScaleFactor: sharpness, reducedMotion: 'reduce' });
+    const context = await browser.newContext({ viewport: { width, height }, hasTouch, colorScheme: theme, deviceScaleFactor: sharpness, reducedMotion: 'reduce',
+      serviceWorkers: keepsPage ? 'allow' : 'block' });
     context.setDefaultTimeout(LIMIT_MS);
+    if (!hasPicture) await context.addInitScript(withoutWebGl);
+    if (!hasPhysics) await context.route(PHYSICS, (route) => route.abort());
     const visitor = new Visitor(context, await context.newPage());
-    visitor.watch(new URL(address).origin);
-    await before(visitor.page);
+    visitor.watch(new URL(address).origin, [...(hasPicture ? [] : [NO_PICTURE]), ...(hasPhysics ? [] : [NO_PHYSICS])]);
+    await before?.(visitor.page);
     await visitor.page.goto(address);
     return visitor;
   }
 
-  private watch(origin: string): void {
-    this.page.on('console', (message) => message.type() === 'error' && this.faults.push(`console: ${message.text()}`));
+  private watch(origin: string, expected: readonly RegExp[]): void {
+    const isExpected = (message: ConsoleMessage): boolean => expected.some((lack) => lack.test(`${message.text()} ${message.location().url}`));
+    this.page.on('console', (message) => message.type() === 'error' && !isExpected(message) && this.faults.push(`console: ${message.text()}`));
     this.page.on('pageerror', (error) => this.faults.push(`error: ${error.message}`));
     this.context.on('request', (request) => {
       const url = request.url();
@@ -112,7 +152,7 @@ export class Visitor {
 
   /** Waits until the firmware answers and nothing plays; with physics, until the robot stands by itself. */
   async untilStanding(): Promise<void> {
-    await this.page.getByText(/^(The robot stands and waits|Edit runs: its screen is in the terminal)\.$/).waitFor({ timeout: LIMIT_MS });
+    await this.page.locator('status-strip .doing').filter({ hasText: STANDS }).waitFor();
   }
 
   /** Until what has changed is on the screen: a mouse hits what is seen there. */

@@ -25,7 +25,8 @@ async function told(page: Page): Promise<string> {
     const text = (name: string): string => document.querySelector<HTMLElement>(name)?.innerText ?? '';
     const terminal = document.querySelector('terminal-pane') as unknown as { screenText?: string } | null;
     const strip = [text('.start-failed'), text('status-strip')].filter(Boolean).join('\n');
-    return `${strip}\n${JSON.stringify({ connection, image, physics, speed, stopped, tab, version, where })}\n${terminal?.screenText ?? ''}`;
+    const shown = ['[role="tabpanel"]:not([hidden])', 'dialog[open]'].map((name) => text(name).slice(0, 2000)).join('\n');
+    return `${strip}\n${shown}\n${JSON.stringify({ connection, image, physics, speed, stopped, tab, version, where })}\n${terminal?.screenText ?? ''}`;
   });
   const silent = new Promise<string>((resolve) => setTimeout(() => resolve('nothing: it has hung'), TELL_MS));
   return Promise.race([shows, silent]).catch((error: unknown) => `nothing: ${String(error)}`);

@@ -12,7 +12,7 @@ const card = (page: Page, name: RegExp) => page.getByRole('option', { name });
 const button = (page: Page, name: string | RegExp) => page.getByRole('button', { name });
 
 test('a hobbyist: renames and copies pages, sees what will change, writes with a backup, takes a page back; a closed tab loses nothing', async () => {
-  const person = await Visitor.come(suite.browser, suite.address);
+  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
   const { page } = person;
   await person.untilStanding();
   await person.open('Pages');

@@ -11,7 +11,7 @@ const PATIENT = { timeout: 240_000 };
 const suite = pageSuite();
 
 test('a pupil: it stands, walks while the keys light up, is pushed over, gets up; a hand puts it on its feet, too', async () => {
-  const pupil = await Visitor.come(suite.browser, suite.address, 'light', 2); // sharp, for the README
+  const pupil = await Visitor.come(suite.browser, suite.address, { sharpness: 2 }); // sharp, for the README
   await pupil.untilStanding();
   expect(await pupil.button('Get up').isDisabled()).toBe(true); // it stands
   await pupil.page.keyboard.down('ArrowUp');
@@ -53,7 +53,7 @@ function keptFlash(visitor: Visitor): Promise<string> {
 }
 
 test('somebody leaves the terminal while Edit waits for a name: the page says so, asks nothing, does nothing later; Stop ends it', async () => {
-  const person = await Visitor.come(suite.browser, suite.address);
+  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
   const waits = person.doing.filter({ hasText: /^Edit waits for you in the terminal/ });
   const runs = person.doing.filter({ hasText: /^Edit runs/ });
   const said = person.page.getByRole('log', { name: 'Last message' });
@@ -87,7 +87,7 @@ test('somebody leaves the terminal while Edit waits for a name: the page says so
 });
 
 test('somebody who debugs: Edit in the terminal, a page saved, and the browser keeps it over a reload', async () => {
-  const person = await Visitor.come(suite.browser, suite.address);
+  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
   await person.untilStanding();
   await person.open('Lab');
   await person.button('Run Edit').click();
@@ -130,7 +130,7 @@ function rightArm(visitor: Visitor): Promise<number> {
 }
 
 test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by tick', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, 'dark');
+  const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark' });
   await person.untilStanding();
   const arm = await find(person, /right elbow/);
   const rest = await rightArm(person);
@@ -167,7 +167,7 @@ async function servo(visitor: Visitor, id: number): Promise<{ goal: number; posi
 }
 
 test('somebody who debugs breaks servos, lowers the battery, tilts the floor: the firmware names each, goals stand beside positions', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, 'dark');
+  const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', hasPicture: false });
   const { page } = person;
   const said = page.getByRole('log', { name: 'Last message' });
   const fault = (id: number, what: string) => page.getByLabel(`Fault of servo ${id}`, { exact: true }).selectOption(what);

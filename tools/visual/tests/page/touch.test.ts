@@ -57,7 +57,7 @@ const takeBack = async (page: Page, what: RegExp): Promise<void> => {
 const position = (page: Page) => page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton').first();
 
 test('lying: the camera by one finger and by two, joints, a hand, steps, times and way-points dragged; nothing too small, nothing scrolls', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, 'light', 1, LYING);
+  const person = await Visitor.come(suite.browser, suite.address, { screen: LYING });
   const { page } = person;
   const fingers = await Fingers.on(page);
   await person.untilStanding();
@@ -129,7 +129,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
 }, 900_000);
 
 test('on end: a hand is taught by finger, the area scrolls under it, the picture does not scroll the page', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, 'dark', 1, ON_END);
+  const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', screen: ON_END });
   const { page } = person;
   const fingers = await Fingers.on(page);
   await person.untilStanding();

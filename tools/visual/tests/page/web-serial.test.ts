@@ -98,7 +98,7 @@ async function atTheRobot(image: 'play' | 'edit', deed: (bench: Bench) => Promis
   const robot = new Robot(folder, image, hand);
   const browser = await chromium.launch({ executablePath: wrapper(folder, await robot.plugIn(), new URL(server.address).origin), headless: true, args: FLAGS });
   try {
-    const person = await Visitor.come(browser, server.address);
+    const person = await Visitor.come(browser, server.address, { hasPicture: image === 'play', hasPhysics: image === 'play' });
     await person.untilStanding();
     await new Keyboard(person).enter('Your robot …'); // the chooser would be the browser's
     await person.button('serial port').waitFor();
