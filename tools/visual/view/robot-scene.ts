@@ -8,13 +8,16 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Body } from '../model/body.ts';
 import type { Place, Vector } from '../model/space.ts';
+import { glide } from './glide.ts';
 import { PictureChange } from './picture-change.ts';
 import type { Quality } from './picture-quality.ts';
 import { RobotFigure } from './robot-figure.ts';
 
 const ROOM_RADIUS = 12;
 const TILE_M = 0.1;
-const FOLLOW = 0.08; // of the way a frame
+/** Of the way, in a 60th of a second (glide.ts). */
+const FOLLOW = 0.08;
+const DAMPING = 0.12;
 const MOST_PIXELS = 2;
 /** three's spherical coordinates have y up, the room z. */
 const TO_Y_UP = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(0, 1, 0));
@@ -57,7 +60,7 @@ export class RobotScene {
     this.camera.position.set(0.88, -0.56, 0.42);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.target.copy(this.followed);
-    Object.assign(this.controls, { minDistance: 0.3, maxDistance: 4, maxPolarAngle: Math.PI * 0.52, enableDamping: true, dampingFactor: 0.12 });
+    Object.assign(this.controls, { minDistance: 0.3, maxDistance: 4, maxPolarAngle: Math.PI * 0.52, enableDamping: true });
     this.string = new Line(new BufferGeometry().setFromPoints([new Vector3(), new Vector3()]), new LineBasicMaterial({ color: 0x2f9bff }));
     this.string.visible = false;
     this.string.frustumCulled = false;
@@ -100,9 +103,9 @@ export class RobotScene {
     object.position.setFromSpherical(from).applyQuaternion(TO_Y_UP.clone().invert()).add(target);
   }
 
-  /** The camera goes with the trunk, if it shall. */
-  look(trunk: Place, follow: boolean): void {
-    if (follow) this.follow(trunk);
+  /** The camera goes with the trunk; elapsedMs: since the last look. null: it stays. */
+  look(trunk: Place, elapsedMs: number | null): void {
+    if (elapsedMs !== null) this.follow(trunk, glide(FOLLOW, elapsedMs));
     this.light.position.set(this.followed.x + 0.5, this.followed.y - 0.7, 1.9);
     this.light.target.position.copy(this.followed);
   }
@@ -112,8 +115,9 @@ export class RobotScene {
     this.change.touch();
   }
 
-  /** Draws what is to be seen now; false: it is what was drawn last. */
-  draw(): boolean {
+  /** Draws what is to be seen now; elapsedMs: since the last call. false: it is what was drawn last. */
+  draw(elapsedMs: number): boolean {
+    this.controls.dampingFactor = glide(DAMPING, elapsedMs); // it glides on after a gesture
     this.controls.update();
     const isNew = this.change.take(this.scene, this.camera);
     if (isNew) this.renderer.render(this.scene, this.camera);
@@ -190,9 +194,9 @@ export class RobotScene {
     this.scene.add(this.room, new HemisphereLight(0xffffff, 0x8a8f98, 1.25), new AmbientLight(0xffffff, 0.35));
   }
 
-  private follow(trunk: Place): void {
+  private follow(trunk: Place, share: number): void {
     const wanted = new Vector3(trunk.pos[0], trunk.pos[1], Math.max(0.07, trunk.pos[2] * 0.47));
-    const step = wanted.sub(this.followed).multiplyScalar(FOLLOW);
+    const step = wanted.sub(this.followed).multiplyScalar(share);
     this.followed.add(step);
     this.controls.target.add(step);
     this.camera.position.add(step);

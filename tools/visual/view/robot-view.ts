@@ -32,6 +32,8 @@ const AROUND = Array.from({ length: 8 }, (_, i) => (i * Math.PI) / 4);
 
 export class RobotView extends HTMLElement {
   desk!: Desk; // set before it is connected
+  /** Nobody has touched the picture since it was last looked at, and then there was nothing new to draw: the camera has come to rest. */
+  isStill = false;
   editing = new Store<Editing>(EDITING_START);
   private pose: PoseTool | null = null;
   private scene: RobotScene | null = null;
@@ -102,22 +104,24 @@ export class RobotView extends HTMLElement {
       request = requestAnimationFrame(draw);
       if (wasNew) tookMs = nowMs - beforeMs; // the browser asks again when it is through with it
       wasNew = false;
-      if (nowMs - beforeMs < this.quality.restMs(tookMs)) return;
-      if (this.quality.take(nowMs - beforeMs)) this.resize(scene);
+      const elapsedMs = nowMs - beforeMs;
+      if (elapsedMs < this.quality.restMs(tookMs)) return;
+      if (this.quality.take(elapsedMs)) this.resize(scene);
       beforeMs = nowMs;
-      this.place(scene);
+      this.place(scene, elapsedMs);
       if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
-      wasNew = scene.draw();
+      wasNew = scene.draw(elapsedMs);
+      this.isStill = !wasNew;
       if (this.state && !isDrawn) isDrawn = performance.mark(ROBOT_DRAWN) !== null;
     };
     request = requestAnimationFrame(draw);
     this.disposals.push(() => cancelAnimationFrame(request));
   }
 
-  private place(scene: RobotScene): void {
+  private place(scene: RobotScene, elapsedMs: number): void {
     if (!this.state) return;
     this.pose?.show(this.state);
-    scene.look(this.state.trunk, this.grabbed === null && !this.pose?.isDragging);
+    scene.look(this.state.trunk, this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null);
   }
 
   private watchSize(scene: RobotScene): void {
@@ -146,6 +150,7 @@ export class RobotView extends HTMLElement {
 
   private listen(): void {
     const canvas = this.canvas;
+    for (const touch of ['pointerdown', 'pointermove', 'pointerup', 'wheel', 'keydown']) canvas.addEventListener(touch, () => (this.isStill = false), { capture: true });
     canvas.addEventListener('pointerdown', (event) => this.grab(event), { capture: true });
     canvas.addEventListener('pointermove', (event) => this.move(event));
     canvas.addEventListener('pointerup', (event) => this.lift(event, true));

@@ -20,6 +20,11 @@ function placeOf(page: Page, shape: string): Promise<Point> {
   return page.locator('robot-view').evaluate((view, name) => (view as unknown as { placeOf(name: string): Point }).placeOf(name), shape);
 }
 
+/** The camera glides on a little after a gesture: until it stands. */
+async function untilStill(page: Page): Promise<void> {
+  await expect.poll(() => page.locator('robot-view').evaluate((view) => (view as unknown as { isStill: boolean }).isStill)).toBe(true);
+}
+
 async function untilAt(page: Page, shape: string, { x, y }: Point): Promise<void> {
   await expect.poll(async () => {
     const at = await placeOf(page, shape);
@@ -83,6 +88,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
   await fingers.pinch(await placeOf(page, 'face'), await placeOf(page, 'right_thigh'), { x: 0, y: 60 }, { x: 0, y: -60 }); // both on the robot
   await expect.poll(() => size(page)).toBeLessThan(large * 0.95);
   expect(await undo(page).isDisabled()).toBe(true); // it was looked at, not changed
+  await untilStill(page);
 
   const forearm = await placeOf(page, 'right_forearm');
   await page.touchscreen.tap(forearm.x, forearm.y);
