@@ -36,12 +36,12 @@ import type { Stick } from './stick.ts';
 import type { RobotTransfer } from './transfer.ts';
 import { trialClient } from './assets.ts';
 import { MotionTrials } from './trials.ts';
+import { RobotImages } from './robot-images.ts';
 import { SimulatedSource } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
 
 /** What went wrong is to be read before the board's next line takes its place. */
 const TROUBLE_STAYS_MS = 6000;
-const READY_MS = 180_000;
 
 const ROBOT_IN_PAGE = 'robot in the page';
 
@@ -62,6 +62,7 @@ export class RobotDesk implements Desk {
   private readonly texts = new Listeners<Uint8Array>();
   private readonly simulated: SimulatedSource;
   private readonly yours: YourSource;
+  private readonly images: RobotImages;
   private readonly lastSaid = new LastSaid();
   private readonly remoteKeys = new RemoteKeys((packet) => this.sendRemote(packet));
   private readonly status: Status = new Status({ state: this.state, connection: () => this.connection, isWriting: () => this.transfer.isWriting });
@@ -83,7 +84,7 @@ export class RobotDesk implements Desk {
     this.documents = makeDocuments(this.editor, storage, () => this.say({ text: TEXTS.workNotKept, tone: 'bad' }));
     this.transfer = makeTransfer(this.editor, this.documents, {
       name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName), requests: () => this.connection.requests,
-      becomeEdit: () => (this.isSimulated ? this.becomeEdit() : this.needEdit()),
+      becomeEdit: () => (this.isSimulated ? this.images.becomeEdit() : this.needEdit()),
     });
     const events = {
       frame: (state: RobotState) => this.frames.tell(state),
@@ -98,6 +99,10 @@ export class RobotDesk implements Desk {
     };
     this.simulated = new SimulatedSource(body, events);
     this.yours = new YourSource(body, events, () => this.status.mayAsk());
+    this.images = new RobotImages({
+      state: this.state, format: parts.format, simulated: this.simulated,
+      standUp: () => this.standUp(), say: (said) => this.say(said), fail: (error) => this.fail(error),
+    });
   }
 
   /** Starts the robot in the page. */
@@ -213,7 +218,7 @@ export class RobotDesk implements Desk {
   }
 
   remote(held: ReadonlySet<RemoteButton>): void {
-    if (held.size > 0 && this.isSimulated) this.becomeDriven();
+    if (held.size > 0 && this.isSimulated) this.images.becomeDriven();
     if (held.size > 0 && this.isYoursWithEdit) this.say({ text: TEXTS.editNoRemote, tone: 'bad' });
     this.remoteKeys.hold(held);
   }
@@ -290,23 +295,11 @@ export class RobotDesk implements Desk {
   }
 
   runImage(image: ImageName): void {
-    void this.restart(image).catch((error: unknown) => this.fail(error));
+    this.images.run(image);
   }
 
-  /** Rejects with RobotError when the image cannot be had: the robot goes on as it was. */
-  private async restart(image: ImageName): Promise<void> {
-    const before = this.state.get().image;
-    this.state.set({ image });
-    try {
-      await this.simulated.restart(image);
-    } catch (cause) {
-      if (this.state.get().image === image) this.state.set({ image: before });
-      throw new RobotError('no-image', '', { cause });
-    }
-  }
-
-  async forget(): Promise<void> {
-    await this.simulated.forget(this.state.get().image).catch((cause: unknown) => this.fail(new RobotError('no-image', '', { cause })));
+  forget(): Promise<void> {
+    return this.images.forget();
   }
 
   /** Only Play can be driven. */
@@ -374,43 +367,13 @@ export class RobotDesk implements Desk {
     this.say({ text: TEXTS.robotKept, tone: 'calm' });
   }
 
-  /** Only Edit saves pages. The simulated robot starts anew with it, stands up, and stays so until somebody drives it. */
-  private async becomeEdit(): Promise<void> {
-    if (this.state.get().image !== 'edit') {
-      this.say({ text: PLAY_TEXTS.startsEdit, tone: 'calm' });
-      await this.restart('edit');
-    }
-    await this.untilReady();
-    await this.simulated.prepare();
-  }
-
-  /** Only Play hears a remote control. */
-  private becomeDriven(): void {
-    if (this.state.get().image === 'play') return this.standUp();
-    this.say({ text: PLAY_TEXTS.startsPlay, tone: 'calm' });
-    this.runImage('play');
-  }
-
-  private untilReady(): Promise<void> {
-    return new Promise((resolve, reject) => {
-      let unwatch = (): void => undefined;
-      const timer = setTimeout(() => end(() => reject(new RobotError('no-answer'))), READY_MS);
-      const end = (deed: () => void): void => {
-        clearTimeout(timer);
-        queueMicrotask(() => unwatch());
-        deed();
-      };
-      unwatch = this.state.watch(({ connection, version, image, physics }) =>
-        connection === 'ready' && version?.image === image && physics !== 'loading' && end(resolve));
-    });
-  }
-
   private get isYoursWithEdit(): boolean {
     return !this.isSimulated && this.state.get().version?.image === 'edit';
   }
 
+  /** To Edit they would be letters. */
   private sendRemote(packet: Uint8Array): void {
-    if (this.isSimulated) this.simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
-    else if (!this.isYoursWithEdit) void this.connection.write(packet).catch((error: unknown) => this.fail(error)); // letters to Edit
+    if (this.isSimulated && this.state.get().image === 'play') this.simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
+    else if (!this.isSimulated && !this.isYoursWithEdit) void this.connection.write(packet).catch((error: unknown) => this.fail(error));
   }
 }

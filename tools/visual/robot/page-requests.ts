@@ -2,6 +2,7 @@
 // Requests of PROTOCOL.md that bring pages in and tell which are there: `@crcs` in both images, the others in Edit alone.
 
 import { PAGE_COUNT } from '../model/motion.ts';
+import type { PageFormat } from '../model/page-format.ts';
 import { RobotError } from './robot-error.ts';
 import type { Requests } from './requests.ts';
 
@@ -49,4 +50,10 @@ export async function askRamCrc(requests: Ask): Promise<number> {
 /** Saves the page in RAM in that place, if its CRC is this one. */
 export async function savePage(requests: Ask, page: number, crc: number): Promise<void> {
   await requests.ask(`@save ${page} ${crc.toString(16).padStart(4, '0')}`, { timeoutMs: SAVE_MS });
+}
+
+/** Whether Edit's RAM holds what its flash holds nowhere: edits that a restart would lose. */
+export async function hasUnsavedEdits(requests: Ask, format: Pick<PageFormat, 'crc' | 'empty'>): Promise<boolean> {
+  const crc = await askRamCrc(requests);
+  return crc !== format.crc(format.empty) && !(await askPageCrcs(requests)).includes(crc);
 }

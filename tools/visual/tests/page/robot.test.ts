@@ -52,7 +52,7 @@ function keptFlash(visitor: Visitor): Promise<string> {
   }));
 }
 
-test('somebody leaves the terminal while Edit waits for a name: the page says so, asks nothing, does nothing later; Stop ends it', async () => {
+test('somebody leaves the terminal while Edit waits for a name: the page says so, asks nothing, does nothing later; Stop ends it, and a key of the remote throws nothing away', async () => {
   const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
   const waits = person.doing.filter({ hasText: /^Edit waits for you in the terminal/ });
   const runs = person.doing.filter({ hasText: /^Edit runs/ });
@@ -83,6 +83,16 @@ test('somebody leaves the terminal while Edit waits for a name: the page says so
   await runs.waitFor();
   await person.open('Terminal');
   await person.untilScreenSays('salute'); // it was a no
+  await person.open('Remote');
+  await person.page.keyboard.press('ArrowUp'); // only Play hears it, and would start with an empty RAM
+  await said.filter({ hasText: /^The page in Edit's memory has edits that are not saved/ }).waitFor();
+  await person.open('Terminal');
+  await person.untilScreenSays('salute');
+  await person.type('save\r');
+  await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
+  await person.open('Remote');
+  await person.page.keyboard.press('ArrowUp');
+  await person.doing.filter({ hasText: /^The robot stands and waits/ }).waitFor(); // in Play
   await person.leave();
 });
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Which image the robot in the page runs. Another one starts it anew: what its flash holds stays, what only its RAM holds is lost.
+
+import type { PageFormat } from '../model/page-format.ts';
+import { hasUnsavedEdits } from '../robot/page-requests.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import type { DeskState, ImageName, Notice } from '../view/desk.ts';
+import { PLAY_TEXTS } from '../view/editor/step-texts.ts';
+import type { Store } from '../view/store.ts';
+import type { SimulatedSource } from './simulated-source.ts';
+
+const READY_MS = 180_000;
+
+export interface ImageParts {
+  readonly state: Store<DeskState>;
+  readonly format: PageFormat;
+  readonly simulated: Pick<SimulatedSource, 'restart' | 'forget' | 'prepare' | 'connection'>;
+  /** It runs Play: somebody wants it to stand. */
+  standUp(): void;
+  say(said: Notice): void;
+  fail(error: unknown): void;
+}
+
+export class RobotImages {
+  private readonly parts: ImageParts;
+  private leaving: Promise<void> | null = null;
+
+  constructor(parts: ImageParts) {
+    this.parts = parts;
+  }
+
+  /** As somebody wants who presses a button for it. */
+  run(image: ImageName): void {
+    void this.restart(image).catch((error: unknown) => this.parts.fail(error));
+  }
+
+  /** A robot as the factory gives it. */
+  async forget(): Promise<void> {
+    const { simulated, fail } = this.parts;
+    await simulated.forget(this.state.image).catch((cause: unknown) => fail(new RobotError('no-image', '', { cause })));
+  }
+
+  /** Only Edit saves pages. The robot starts anew with it, stands up, and stays so until somebody drives it. */
+  async becomeEdit(): Promise<void> {
+    if (this.state.image !== 'edit') {
+      this.parts.say({ text: PLAY_TEXTS.startsEdit, tone: 'calm' });
+      await this.restart('edit');
+    }
+    await this.untilReady();
+    await this.parts.simulated.prepare();
+  }
+
+  /** Only Play hears a remote control. */
+  becomeDriven(): void {
+    if (this.state.image === 'play') return this.parts.standUp();
+    this.leaving ??= this.leaveEdit().catch((error: unknown) => this.parts.fail(error)).finally(() => (this.leaving = null));
+  }
+
+  private get state(): DeskState {
+    return this.parts.state.get();
+  }
+
+  /** A key of the remote is no word for throwing edits away: with any of them Edit goes on. Rejects with RobotError: page-unsaved, and as
+   *  a request does. */
+  private async leaveEdit(): Promise<void> {
+    if (this.state.stopped === null) { // else nothing is left in its RAM
+      await this.untilReady();
+      if (this.state.image === 'play') return; // meanwhile
+      const { connection } = this.parts.simulated;
+      if (!connection) throw new RobotError('not-connected');
+      if (await hasUnsavedEdits(connection.requests, this.parts.format)) throw new RobotError('page-unsaved');
+    }
+    this.parts.say({ text: PLAY_TEXTS.startsPlay, tone: 'calm' });
+    await this.restart('play');
+  }
+
+  /** Rejects with RobotError when the image cannot be had: the robot goes on as it was. */
+  private async restart(image: ImageName): Promise<void> {
+    const { state, simulated } = this.parts;
+    const before = state.get().image;
+    state.set({ image });
+    try {
+      await simulated.restart(image);
+    } catch (cause) {
+      if (state.get().image === image) state.set({ image: before });
+      throw new RobotError('no-image', '', { cause });
+    }
+  }
+
+  private untilReady(): Promise<void> {
+    return new Promise((resolve, reject) => {
+      let unwatch = (): void => undefined;
+      const timer = setTimeout(() => end(() => reject(new RobotError('no-answer'))), READY_MS);
+      const end = (deed: () => void): void => {
+        clearTimeout(timer);
+        queueMicrotask(() => unwatch());
+        deed();
+      };
+      unwatch = this.parts.state.watch(({ connection, version, image, physics }) =>
+        connection === 'ready' && version?.image === image && physics !== 'loading' && end(resolve));
+    });
+  }
+}
