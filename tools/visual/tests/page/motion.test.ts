@@ -7,6 +7,8 @@ import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 import { wayPoint } from './way-point.ts';
 
+/** status.ts */
+const WHERE_MS = 300;
 const PATIENT = { timeout: 240_000 };
 const LIBRARY = new URL('../../../../build/motions/motions.bin', import.meta.url).pathname;
 const suite = pageSuite();
@@ -60,8 +62,10 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
   await expect.poll(async () => Number(await position(page, /^15 /).inputValue()), PATIENT).toBe(ankle);
   await button(page, /^16 left ankle pitch/).click();
   for (const [joint, to] of [[/^15 /, '690'], [/^16 /, '334']] as const) {
-    await position(page, joint).fill(to);
+    await position(page, joint).fill('');
+    await position(page, joint).pressSequentially(to, { delay: WHERE_MS }); // as slowly as the page asks the robot where it is
     await position(page, joint).press('Enter');
+    await expect.poll(() => position(page, joint).inputValue(), PATIENT).toBe(to);
   }
   await page.getByLabel('Servos in physics').check();
   await page.getByRole('status', { name: 'Other lines' }).filter({ hasText: /behind by up to \d+° \(joint 15\)/ }).waitFor(PATIENT);

@@ -30,7 +30,8 @@ export class PoseBar extends HTMLElement {
   touches: () => readonly Touch[] = () => [];
   private readonly modes = new Map<PictureMode, HTMLButtonElement>();
   private readonly joints = make('div', { class: 'joints', role: 'group', 'aria-label': 'Chosen joints' });
-  private readonly fields = new Map<number, { input: HTMLInputElement; degrees: HTMLElement }>();
+  /** shown: the position that stands in the input, unless somebody types there. */
+  private readonly fields = new Map<number, { readonly input: HTMLInputElement; readonly degrees: HTMLElement; shown: number }>();
   private readonly balance = make('p', { class: 'balance', role: 'status', 'aria-label': 'Balance' });
   private readonly touch = make('p', { class: 'touch', role: 'status', 'aria-label': 'Limbs that meet' });
   private readonly hint = make('p', { class: 'hint' });
@@ -91,7 +92,8 @@ export class PoseBar extends HTMLElement {
       const field = this.fields.get(joint.servo);
       const position = pose[joint.servo] ?? joint.zero;
       if (!field) continue;
-      if (document.activeElement !== field.input || field.input.valueAsNumber !== position) field.input.value = String(position);
+      if (field.shown !== position) field.input.value = String(position); // else it would take away what is being typed
+      field.shown = position;
       field.degrees.textContent = `${Math.round((jointAngle(joint, position) * 180) / Math.PI)}°`;
     }
   }
@@ -100,16 +102,18 @@ export class PoseBar extends HTMLElement {
     const [low, high] = [nearestPosition(joint, joint.low), nearestPosition(joint, joint.high)].sort((a, b) => a - b);
     const input = make('input', { type: 'number', min: low ?? 0, max: high ?? 0, step: 1, onchange: () => this.set(joint, input) });
     const degrees = make('output');
-    this.fields.set(joint.servo, { input, degrees });
+    this.fields.set(joint.servo, { input, degrees, shown: NaN });
     return make('label', {}, make('span', {}, `${joint.servo} ${jointTitle(joint)}`), input, degrees);
   }
 
   private set(joint: Joint, input: HTMLInputElement): void {
+    const field = this.fields.get(joint.servo);
+    if (field) field.shown = NaN; // what comes of it is shown anew
     if (!Number.isFinite(input.valueAsNumber)) return this.render();
     const { editor } = this.desk;
     const position = nearestPosition(joint, jointAngle(joint, input.valueAsNumber));
-    input.value = String(position);
     editor.dispatch(changeStep(editor, editor.state.get().document, new Map([[joint.servo, position]]), this.robot));
+    this.render(); // a position that is the same changes nothing in the document
   }
 
   private showBalance(): void {
