@@ -61,3 +61,8 @@ class CancelledError(M512Error):
 
 class MissingError(M512Error):
     exit_code = EXIT_MISSING
+
+
+def how_to_install(package: str) -> str:
+    """What to type for a library that m512 can do without, wherever m512 itself was installed from."""
+    return f"pip install {package} (m512 by pipx: pipx inject m512 {package})"

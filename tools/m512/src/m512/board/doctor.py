@@ -9,7 +9,7 @@ import sys
 from dataclasses import asdict, dataclass
 from typing import Callable, List, Optional
 
-from m512.errors import M512Error, NoAnswerError, RefusedError
+from m512.errors import M512Error, NoAnswerError, RefusedError, how_to_install
 
 OK, WARN, BAD = "ok", "look", "bad"
 LOW_BATTERY_DV = 96       # below 9.6 V without a load a pack is nearly empty
@@ -47,7 +47,7 @@ def _libraries(add) -> None:
     from importlib.util import find_spec
 
     if not find_spec("matplotlib"):
-        add("plot", WARN, "matplotlib is not installed", "only `m512 plot` needs it: pip install \"m512[plot]\"")
+        add("plot", WARN, "matplotlib is not installed", f"only `m512 plot` needs it: {how_to_install('matplotlib')}")
     from m512.board.sim import find_cm5sim
 
     try:

@@ -9,7 +9,7 @@ import click
 from m512 import ui
 from m512.cli.layers import show_shape
 from m512.cli.robot import robot, robot_options
-from m512.errors import MissingError
+from m512.errors import MissingError, how_to_install
 
 FIELDS = ("rate", "amplitude", "blend")
 
@@ -51,7 +51,7 @@ def shape(rate, amplitude, blend, reset, **options):
 Examples:
   m512 drive walk                keys of the terminal; keep a or d pressed to steer
   m512 drive walk --layer wave_over       f lays a second page over it: it waves while it walks
-  m512 drive walk --pad          the first game pad (pip install "m512[drive]")""")
+  m512 drive walk --pad          the first game pad (needs pygame)""")
 @click.argument("page")
 @click.option("--pad", is_flag=True, help="A game pad instead of keys.")
 @click.option("--layer", "laid", metavar="PAGE", help="Key f (the pad's fifth button) lays this page over the walk.")
@@ -122,7 +122,7 @@ def _pad():
     try:
         import pygame
     except ImportError:
-        raise MissingError("a game pad needs pygame: pip install \"m512[drive]\"") from None
+        raise MissingError(f"a game pad needs pygame: {how_to_install('pygame')}") from None
     pygame.init()
     try:
         if not pygame.joystick.get_count():

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Draws joint angles and speeds over time: a page by both laws, told apart where they differ, or a recorded trace.
 
-Needs matplotlib (pip install "m512[plot]"), which is imported only here.
+Needs matplotlib, which is imported only here.
 """
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
-from m512.errors import FileError, MissingError
+from m512.errors import FileError, MissingError, how_to_install
 from m512.files import storage
 from m512.files.image import Image
 from m512.files.page import TICKS_PER_SECOND, Page
@@ -130,7 +130,7 @@ def draw(sets: Sequence[Curves], output: Path, strip: Optional[Callable[[Any, Cu
     try:
         import matplotlib
     except ImportError:
-        raise MissingError("drawing needs matplotlib: pip install \"m512[plot]\" (or pipx inject m512 matplotlib)") from None
+        raise MissingError(f"drawing needs matplotlib: {how_to_install('matplotlib')}") from None
     matplotlib.use("Agg")
     from matplotlib import pyplot
 

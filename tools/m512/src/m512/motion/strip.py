@@ -11,7 +11,7 @@ from bisect import bisect_left
 from collections import Counter
 from typing import Any, Callable, Dict, List, Tuple
 
-from m512.errors import FileError, MissingError
+from m512.errors import FileError, MissingError, how_to_install
 from m512.files.page import TICKS_PER_SECOND
 from m512.motion.plot import Curves
 from m512.places import body_sources
@@ -36,7 +36,7 @@ class Strip:
         try:
             from body import description, picture
         except ImportError as error:
-            raise MissingError(f"no pictures of the robot: {error} (pip install \"m512[plot]\")") from None
+            raise MissingError(f"no pictures of the robot: {error} ({how_to_install('matplotlib')})") from None
         try:
             self.robot = description.load(body)
         except description.BodyError as error:
