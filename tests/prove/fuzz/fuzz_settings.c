@@ -23,9 +23,11 @@ static void seal(uint8_t *record)
 /* Ranges of settings.h. */
 static void must_be_sound(const settings_t *settings)
 {
-    ASSERT(settings->law <= 1 && settings->remote_mode <= 1 && settings->approach_deg_s <= 240 && settings->fault_rule <= 2);
+    ASSERT(settings->law <= 1 && settings->remote_mode <= SETTINGS_REMOTE_DRIVE);
+    ASSERT(settings->approach_deg_s <= 240 && settings->fault_rule <= 2);
     ASSERT(settings->battery_low_dv <= 200 && settings->hot_degrees <= 100 && settings->neutral <= 1);
     ASSERT(settings->flow <= 1 && settings->fast_line <= 1 && settings->talk <= 1);
+    ASSERT(settings->centre_page <= 127 && settings->drive_ds <= 250);
     for (unsigned i = 0; i < SETTINGS_JOINTS; i++) {
         ASSERT(settings->pair[i] < SETTINGS_JOINTS || settings->pair[i] == SETTINGS_NO_PARTNER);
     }
