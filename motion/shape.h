@@ -49,7 +49,7 @@ void shape_init(shape_t *shape);
 
 /* percent: see the ranges above. joints: bit per joint; at least one. */
 MUST_CHECK shape_status_t shape_set_rate(shape_t *shape, uint16_t percent);
-MUST_CHECK shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints);
+MUST_CHECK shape_status_t shape_set_amplitude(shape_t *shape, uint16_t percent, uint32_t joints) NOINLINE;
 MUST_CHECK shape_status_t shape_set_blend(shape_t *shape, int16_t percent);
 
 /* 0..127. */
