@@ -57,17 +57,17 @@ static inline int16_t fall_way(int16_t v, uint8_t ramp)
 
 /* --- x * c / num ---------------------------------------------------------------------------------------------------- */
 
-/* c / num, 0 < c <= num <= 32767, for all joints of a tick; recip32: fix_recip32(num). */
+/* c / num, 0 < c <= num <= 32767, for all joints of a tick. */
 typedef struct {
     uint16_t c, num, share_q0_16;
 } part_t;
 
-static inline part_t part_of(uint16_t c, uint16_t num, uint32_t recip32)
+static inline part_t part_of(uint16_t c, uint16_t num)
 {
-    return (part_t){c, num, fix_part(c, recip32)};
+    return (part_t){c, num, fix_ratio(c, num)};
 }
 
-/* x * c / num, toward zero, |x| <= 32767. share_q0_16 is less than 2^-15 small, so the estimate is at most one too small.
+/* x * c / num, toward zero, |x| <= 32767. share_q0_16 is at most 2^-16 small, so the estimate is at most one too small.
  * The remainder is then below 2 * num, so 16 bits are enough to correct it. */
 ALWAYS_INLINE int16_t share_of(int16_t x, part_t part)
 {

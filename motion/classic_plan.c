@@ -15,30 +15,44 @@ static inline bool runs_on(int16_t way, int16_t to, uint16_t next_word)
     return way > 0 ? (int16_t)next_word > to : (int16_t)next_word < to;
 }
 
-/* Sets start and way of each joint. A joint starts on its last target; after a pause, and in the first step, where it is. A
- * joint that the step does not use keeps its place and target. */
-static NOINLINE void aim_joints(player_t *player, bool may_run_on)
+/* Sets the way of each joint in `now`, and the speed with which it begins. A joint starts on its last target; after a pause,
+ * and in the first step, where it is. A joint that the step does not use stays. */
+static NOINLINE void aim_joints(player_t *player)
 {
     uint32_t used = player->coming_joints;
     const uint16_t *coming = player->coming_pos, *next = player->looked_at;
     const uint8_t self = player->self;
     const classic_left_t left = classic_left(player);
     const bool from_output = player->section == SECTION_HOLD;
+    const bool may_run_on = player->look_page != 0 && player->now.hold_ticks == 0;
     for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, coming++, next++, used >>= 1) {
         if (!law_owns(self, joint)) {
             continue;
         }
         player_classic_t *classic = &joint->classic;
-        const int16_t from = from_output ? classic->out_pos : (int16_t)joint->target_pos;
         int16_t way = 0, carried = 0;
         if (((uint8_t)used & 1u) != 0) {
-            way = (int16_t)((int16_t)*coming - from);
+            way = (int16_t)((int16_t)*coming - (from_output ? classic->out_pos : (int16_t)joint->target_pos));
             carried = classic_speed_left(left, classic);
         }
         classic->carried = carried;
-        classic->through = may_run_on && runs_on(way, (int16_t)*coming, *next);
-        classic->start_pos = from;
-        classic->to_go = way;
+        classic->next_through = may_run_on && runs_on(way, (int16_t)*coming, *next);
+        classic->next_to_go = way;
+    }
+    player->aimed = true;
+    player->planned = 0;
+    law_work(player, player->own_joints / 2u + 2u);
+}
+
+/* The joints begin to go as they are aimed. */
+static NOINLINE void start_joints(player_t *player)
+{
+    const bool from_output = player->section == SECTION_HOLD;
+    FOR_OWN_JOINTS(player, joint) {
+        player_classic_t *classic = &joint->classic;
+        classic->start_pos = from_output ? classic->out_pos : (int16_t)joint->target_pos;
+        classic->to_go = classic->next_to_go;
+        classic->through = classic->next_through;
     }
 }
 
@@ -47,7 +61,7 @@ static NOINLINE uint16_t longest_way(const player_t *player)
 {
     uint16_t longest = 0;
     FOR_OWN_JOINTS(player, joint) {
-        uint16_t way = fix_size(joint->classic.to_go);
+        uint16_t way = fix_size(joint->classic.next_to_go);
         longest = way > longest ? way : longest;
     }
     return longest;
@@ -61,8 +75,8 @@ typedef struct {
 /* v = (K - w * 2A) / divisor. */
 static int16_t plan_speed(const player_classic_t *classic, const divisors_t *by)
 {
-    bool down = classic->to_go < 0;
-    uint32_t size = way_in_speed_units(fix_size(classic->to_go));
+    bool down = classic->next_to_go < 0;
+    uint32_t size = way_in_speed_units(fix_size(classic->next_to_go));
     if (classic->carried != 0) {
         uint32_t taken = mul_u16_u16(fix_size(classic->carried), by->twice_ramp);
         size = (classic->carried < 0) == down ? size - taken : size + taken;
@@ -71,34 +85,49 @@ static int16_t plan_speed(const player_classic_t *classic, const divisors_t *by)
             down = !down;
         }
     }
-    int16_t speed = divide_speed(size, classic->through ? by->through : by->stop);
+    int16_t speed = divide_speed(size, classic->next_through ? by->through : by->stop);
     return down ? (int16_t)-speed : speed;
 }
 
 /* v of a skipped step: the divisor is 1, and int16(K) may be any number. It matters if the play ends after this step. */
 static int16_t skipped_speed(const player_classic_t *classic)
 {
-    uint16_t size = (uint16_t)way_in_speed_units(fix_size(classic->to_go));
-    int16_t speed = classic->to_go < 0 ? (int16_t)(0u - size) : (int16_t)size;
+    uint16_t size = (uint16_t)way_in_speed_units(fix_size(classic->next_to_go));
+    int16_t speed = classic->next_to_go < 0 ? (int16_t)(0u - size) : (int16_t)size;
     return speed > CLASSIC_SPEED_MAX ? CLASSIC_SPEED_MAX : speed < -CLASSIC_SPEED_MAX ? -CLASSIC_SPEED_MAX : speed;
 }
 
 void classic_plan_joints(player_t *player, uint8_t most)
 {
-    uint16_t ticks = player->step_ticks;
-    uint8_t ramp = player->ramp_ticks;
+    uint16_t ticks = player->now.ticks;
+    const uint8_t ramp = step_plan_classic_ramp(player->now.accel_time, &ticks);
     divisors_t by = {(uint16_t)(4 * (ticks - ramp)), (uint16_t)(4 * ticks - 2 * ramp), (uint16_t)(2 * ramp)};
     uint8_t planned = player->planned;
     const uint8_t self = player->self;
     for (player_joint_t *joint = &player->joint[planned]; planned < PAGE_JOINTS && most != 0; planned++, joint++) {
         if (law_owns(self, joint)) {
             most--;
-            law_work(player, LAW_WORK_PLAN_JOINT);
+            law_work(player, 1u);
             player_classic_t *classic = &joint->classic;
-            classic->speed = ticks != 0 ? plan_speed(classic, &by) : skipped_speed(classic);
+            classic->next_speed = ticks != 0 ? plan_speed(classic, &by) : skipped_speed(classic);
         }
     }
     player->planned = planned;
+}
+
+/* In LAW_WORK_ units: of aim_joints, for the 15 joints that a layer leaves; of classic_plan_joints, besides its joints. */
+#define AIM_WORK 10u
+#define PLAN_WORK 4u
+
+/* The last tick but one aims in any case: the last one has more to do. */
+void classic_plan_ahead(player_t *player)
+{
+    if (!player->aimed && (player->left == 1 || player->work <= LAW_WORK_MOST - AIM_WORK)) {
+        aim_joints(player);
+    }
+    if (player->aimed && player->work < LAW_WORK_MOST - PLAN_WORK) {
+        classic_plan_joints(player, (uint8_t)((LAW_WORK_MOST - PLAN_WORK - player->work) * 3u / 4u));
+    }
 }
 
 void classic_measure(player_t *player)
@@ -114,7 +143,7 @@ void classic_measure(player_t *player)
 }
 
 /* One joint in so many is planned in the tick before its step begins. */
-#define PLANNED_AHEAD 5u
+#define PLANNED_AHEAD 3u
 
 void classic_take(player_t *player)
 {
@@ -124,7 +153,9 @@ void classic_take(player_t *player)
     if (!player->measured) {
         now->hold_ticks = step_plan_classic_hold(now, &player->carry_q5_11);
     }
-    aim_joints(player, player->look_page != 0 && now->hold_ticks == 0);
+    if (!player->aimed) {
+        aim_joints(player);
+    }
     if (!player->measured) {
         uint16_t way = player->coming_way; /* from targets: also of joints that are lent */
         if (from_output) {
@@ -138,10 +169,13 @@ void classic_take(player_t *player)
     player->hold_ticks = now->hold_ticks;
     player->step_ticks = now->ticks;
     player->ramp_ticks = step_plan_classic_ramp(now->accel_time, &player->step_ticks);
+    start_joints(player);
     const uint8_t joints = sequence_take(player);
     player->own_joints = joints;
     law_work(player, LAW_WORK_TAKE + joints / 2u);
     player->arrived = true;
-    player->planned = 0;
-    classic_plan_joints(player, joints / PLANNED_AHEAD);
+    player->aimed = false;
+    if (player->planned == 0) {
+        classic_plan_joints(player, joints / PLANNED_AHEAD);
+    }
 }

@@ -9,6 +9,9 @@
 /* Takes the coming step after the last tick of a step: plans what begins with the next call. */
 void classic_take(player_t *player) NOINLINE;
 
+/* In the last ticks before that, once the step's length is known: as much of the plan as the tick has time for. */
+void classic_plan_ahead(player_t *player) NOINLINE;
+
 /* Computes v of the next `most` joints of those that are not planned yet. */
 void classic_plan_joints(player_t *player, uint8_t most) NOINLINE;
 

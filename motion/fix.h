@@ -56,13 +56,6 @@ ALWAYS_INLINE uint32_t fix_mean(uint16_t way, uint32_t recip32)
     return mul_u32_u16_shift16(recip32, way);
 }
 
-/* part / whole as q0.16, 0 < part <= whole, by fix_recip32(whole); less than 2^-15 small. */
-uint16_t fix_part(uint16_t part, uint32_t recip32);
-ONE_COPY NOINLINE uint16_t fix_part(uint16_t part, uint32_t recip32)
-{
-    return (uint16_t)fix_mean(part, recip32);
-}
-
 /* value * share, floor; error below value * 2^-16 + 1. No overflow. */
 static inline uint32_t fix_share(uint32_t value, uint16_t share_q0_16)
 {

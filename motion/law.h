@@ -2,18 +2,20 @@
  * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence*.c), the two laws
  * (law_exact.c with exact_plan.c, law_classic.c with classic_plan.c), slowing down (brake.c). Included by these only.
  *
- * The work between two steps is spread over several ticks, so that none takes too long with 31 joints:
+ * The work between two steps is spread over several ticks, so that none takes too long with 31 joints. A tick moves the
+ * joints of both plays first; then it prepares their coming steps, as far as it has time (LAW_WORK_):
  *
- *   look     decides the link at a page's last step; reads the step behind the coming one. In the last tick but one, so that
- *            a code or a stop counts as long as it can; earlier if the play is shaped (shape.h) or a page layer. When a main
- *            play looks depends on itself alone, not on a layer
- *   shape    a share of that step's joints (shape_step.h), three times, if the play is shaped
- *   measure  lengths that only depend on the joints' targets
- *   plan     exact: a third of the joints, in the last tick but one
- *   take     in the last tick: the joints are at their targets; the coming step becomes `now`; plans more of the joints
- *   begin    in the first tick of `now`: plans the rest; the tick itself
+ *   move     begin    in the first tick of a step: plans the joints that are not planned yet
+ *            take     in the last tick: the joints are at their targets; the coming step becomes `now`; plans more joints
+ *   prepare  look     decides the link at a page's last step; finds the step behind the coming one. In the last tick but
+ *                     one, so that a code or a stop counts as long as it can; earlier if the play is shaped (shape.h) or a
+ *                     page layer. When a main play looks depends on itself alone, not on a layer
+ *            read     that step's words; with the look, if the play is not shaped
+ *            shape    a share of its joints (shape_step.h), three times, if the play is shaped
+ *            measure  lengths that only depend on the joints' targets
+ *            plan     exact: a third of the joints, in the last tick but one; classic: as many as there is time for
  *
- * A look, a share or a measure waits for a tick that has time for it, as long as there is one (LAW_WORK_).
+ * What is not prepared when the last tick comes is done by `take`.
  *
  * Functions that run once a step are NOINLINE: inlined, they would make every tick save registers. */
 #ifndef LAW_H
@@ -78,21 +80,28 @@ void sequence_look(player_t *player, link_t *link) NOINLINE;
 /* Whether the play follows the classic law. In a program without that law the constant false removes all its code. */
 #define LAW_IS_CLASSIC(player) (PLAYER_CLASSIC && (player)->law == PLAYER_LAW_CLASSIC)
 
-/* How much of this work a tick has done, in units of 256 cycles on the ATmega128, roughly. Both plays count together: the
- * layer's tick comes first, and what it has done is the main play's beginning. */
-#define LAW_WORK_LOOK 12u
+/* How much of this work a tick has done, in units of 256 cycles on the ATmega128, roughly. Both plays count together. */
+#define LAW_WORK_LOOK 8u
+#define LAW_WORK_READ 6u
 #define LAW_WORK_SHARE 12u
-#define LAW_WORK_MEASURE 17u
+#define LAW_WORK_MEASURE(player) (LAW_IS_CLASSIC(player) ? 13u : 17u)
 #define LAW_WORK_TAKE 5u
 #define LAW_WORK_PLAN_JOINT 2u
-#define LAW_WORK_MOST 30u /* with the tick itself, 15,000 cycles under the exact law */
-#define LAW_WORK_AHEAD 24u /* planning ahead leaves some of it: what it does not plan has two more ticks */
+#define LAW_WORK_FOLLOW 8u /* joints change hands (layers.h) */
+#define LAW_WORK_MOST 37u  /* with the tick itself, 15,000 cycles under the exact law */
+#define LAW_WORK_AHEAD 35u /* planning ahead leaves some of it: what it does not plan has two more ticks */
 
 static inline void law_work(player_t *player, uint8_t work)
 {
     if (PLAYER_LAYERS) {
         player->work = (uint8_t)(player->work + work);
     }
+}
+
+/* Notes how many ticks the step still has behind this one. */
+static inline void law_left(player_t *player, uint16_t ticks)
+{
+    player->left = ticks > UINT8_MAX ? UINT8_MAX : (uint8_t)ticks;
 }
 
 /* The pieces of the work for the coming step, up to its lengths, that are done at the end of a tick `left` ticks before it
@@ -120,12 +129,15 @@ uint8_t sequence_announce(player_t *player);
 /* --- the laws ----------------------------------------------------------------------------------------------------- */
 
 /* start: every joint stands on target_pos = coming_pos, `coming` is the first step.
- * tick: one tick, PLAYER_EV_ bits.
+ * tick: moves the joints by one tick, takes the coming step with the last one; PLAYER_EV_ bits.
  * freeze: leaves pos and speed of every joint in .exact, and the ticks that the step still had in step_ticks - tick.
- * step_over: at the end of a tick: looks and takes; exact ends the play with the last tick, classic one tick later. */
+ * step_over: at the end of a tick: if it was the step's last one, takes the coming step, or ends the play: exact with this
+ * tick, classic with the next one.
+ * prepare: behind the tick, if it was not the step's last one: the pieces of work for which there is time. */
 void exact_start(player_t *player, link_t *link);
 uint8_t exact_tick(player_t *player, link_t *link);
 uint8_t exact_step_over(player_t *player, link_t *link);
+void exact_prepare(player_t *player, link_t *link);
 void exact_freeze(player_t *player);
 
 /* The lengths that depend on the joints' targets only, in any tick after sequence_look. The classic law leaves them to take
@@ -140,6 +152,7 @@ void exact_plan_given(player_t *player, uint8_t joint);
 void classic_start(player_t *player, link_t *link);
 uint8_t classic_tick(player_t *player, link_t *link);
 void classic_step_over(player_t *player, link_t *link);
+void classic_prepare(player_t *player, link_t *link);
 void classic_freeze(player_t *player);
 void classic_thaw(player_t *player); /* back to the classic law after a pause, or after the rest of a step */
 

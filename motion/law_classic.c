@@ -20,9 +20,6 @@
 
 static void enter(player_t *player, uint8_t section, uint16_t ticks)
 {
-    if (ticks != player->section_ticks && ticks != 0) { /* a RISE is often as long as the FALL before it */
-        player->recip = fix_recip32(ticks);
-    }
     player->section = section;
     player->section_ticks = ticks;
     player->tick = 0;
@@ -70,34 +67,52 @@ static uint16_t calls_left(const player_t *player)
     return (uint16_t)(left + player->hold_ticks);
 }
 
-/* By itself: an ordinary tick saves no registers for it. */
-static NOINLINE void come_to_the_end(player_t *player, link_t *link, uint8_t left)
+/* Nothing is to be prepared or taken: the play ends behind this step. */
+static bool nothing_follows(const player_t *player)
 {
-    if (!player->looked && player->coming.page == 0) {
-        return;
-    }
-    if (sequence_prepare(player, link, left, player->section == SECTION_RISE && player->tick == 1) && left != 0) {
-        classic_measure(player);
-    } else if (left == 0) {
-        classic_take(player);
-    }
+    return !player->looked && player->coming.page == 0;
 }
 
 void classic_step_over(player_t *player, link_t *link)
 {
-    uint16_t left = calls_left(player);
-    if (!player->arrived && left <= SEQUENCE_AHEAD) {
-        come_to_the_end(player, link, (uint8_t)left);
+    const uint16_t left = calls_left(player);
+    law_left(player, left);
+    if (!player->arrived && left == 0 && !nothing_follows(player)) {
+        (void)sequence_prepare(player, link, 0, false);
+        classic_take(player);
+    }
+}
+
+void classic_prepare(player_t *player, link_t *link)
+{
+    const uint8_t left = player->left;
+    if (player->arrived || left == 0 || left > SEQUENCE_AHEAD || nothing_follows(player)) {
+        return;
+    }
+    if (sequence_prepare(player, link, left, player->section == SECTION_RISE && player->tick == 1)) {
+        classic_measure(player);
+    }
+    if (player->measured && player->section >= SECTION_CRUISE) {
+        classic_plan_ahead(player);
     }
 }
 
 /* --- a section begins ----------------------------------------------------------------------------------------------- */
+
+/* The speeds that were planned while the joints still needed those of the step before. */
+static void take_speeds(player_t *player)
+{
+    FOR_OWN_JOINTS(player, joint) {
+        joint->classic.speed = joint->classic.next_speed;
+    }
+}
 
 static NOINLINE uint8_t begin_step(player_t *player)
 {
     uint8_t events = sequence_announce(player);
     classic_plan_joints(player, PAGE_JOINTS);
     player->planned = 0;
+    take_speeds(player);
     enter(player, SECTION_RISE, player->ramp_ticks);
     if (player->ramp_ticks == 0) {
         FOR_OWN_GOALS(player, joint, goal) {
@@ -117,8 +132,8 @@ static NOINLINE void begin_cruise(player_t *player)
         return; /* only in a skipped step */
     }
     uint16_t ticks_on = (uint16_t)(ticks - ramp);
-    law_work(player, player->own_joints / 2u);
-    part_t part = part_of(cruise, ticks_on, fix_recip32(ticks_on));
+    law_work(player, player->own_joints / 2u + 4u);
+    part_t part = part_of(cruise, ticks_on);
     FOR_OWN_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
         classic->start_pos = classic->out_pos;
@@ -134,6 +149,7 @@ static NOINLINE void begin_cruise(player_t *player)
 static NOINLINE void begin_fall(player_t *player)
 {
     enter(player, SECTION_FALL, player->ramp_ticks);
+    law_work(player, player->own_joints / 4u);
     FOR_OWN_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
         classic->start_pos = classic->out_pos;
@@ -145,7 +161,7 @@ static NOINLINE void begin_fall(player_t *player)
 
 static NOINLINE void make_rise(player_t *player)
 {
-    part_t part = part_of(player->tick, player->section_ticks, player->recip);
+    part_t part = part_of(player->tick, player->section_ticks);
     ramp_share_t share = ramp_share((uint8_t)player->tick);
     FOR_OWN_GOALS(player, joint, goal) {
         player_classic_t *classic = &joint->classic;
@@ -157,7 +173,7 @@ static NOINLINE void make_rise(player_t *player)
 
 static NOINLINE void make_cruise(player_t *player)
 {
-    part_t part = part_of(player->tick, player->section_ticks, player->recip);
+    part_t part = part_of(player->tick, player->section_ticks);
     FOR_OWN_GOALS(player, joint, goal) {
         player_classic_t *classic = &joint->classic;
         put(classic, goal, share_of(classic->main, part));
@@ -166,7 +182,7 @@ static NOINLINE void make_cruise(player_t *player)
 
 static NOINLINE void make_fall(player_t *player)
 {
-    part_t part = part_of(player->tick, player->section_ticks, player->recip);
+    part_t part = part_of(player->tick, player->section_ticks);
     ramp_share_t share = ramp_share((uint8_t)player->tick);
     FOR_OWN_GOALS(player, joint, goal) {
         player_classic_t *classic = &joint->classic;
@@ -237,6 +253,7 @@ static bool next_section(player_t *player)
 uint8_t classic_tick(player_t *player, link_t *link)
 {
     uint8_t events = 0;
+    law_work(player, player->own_joints / 6u); /* what its tick takes beyond one of the exact law */
     if (player->arrived) {
         events = begin_step(player);
     } else if (player->tick >= player->section_ticks && !next_section(player)) {
@@ -287,7 +304,7 @@ static int32_t speed_now(const player_t *player, const player_classic_t *classic
         from = to;
         to = 0;
     }
-    return (int32_t)(from + share_of((int16_t)(to - from), part_of(player->tick, num, player->recip))) * SPEED_UNIT_Q16_16;
+    return (int32_t)(from + share_of((int16_t)(to - from), part_of(player->tick, num))) * SPEED_UNIT_Q16_16;
 }
 
 void classic_freeze(player_t *player)
@@ -299,6 +316,7 @@ void classic_freeze(player_t *player)
         joint->exact.speed_q16_16 = speed;
         joint->exact.exit_q16_16 = 0;
     }
+    player->aimed = false;
     player->step_ticks = ticks_left(player);
     if (player->arrived || player->section != SECTION_HOLD) {
         player->tick = 0;
@@ -310,7 +328,7 @@ void classic_thaw(player_t *player)
     FOR_OWN_JOINTS(player, joint) {
         int16_t pos = (int16_t)fix_pos(joint->exact.pos_q16_16);
         int16_t to_go = player->arrived ? (int16_t)((int16_t)joint->target_pos - pos) : 0;
-        joint->classic = (player_classic_t){.start_pos = pos, .out_pos = pos, .to_go = to_go};
+        joint->classic = (player_classic_t){.start_pos = pos, .out_pos = pos, .to_go = to_go, .next_to_go = to_go};
     }
     if (!player->arrived && player->section != SECTION_HOLD) {
         enter(player, SECTION_FALL, 0); /* used up */

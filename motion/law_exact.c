@@ -58,7 +58,7 @@ static NOINLINE void begin_cruise(player_t *player)
 static NOINLINE void begin_fall(player_t *player)
 {
     uint16_t recip = player->ramp_recip;
-    law_work(player, player->own_joints / 2u);
+    law_work(player, (uint8_t)(player->own_joints * 2u) / 3u);
     recip = recip == UINT16_MAX ? recip : (uint16_t)(recip + 1u); /* rather slow early than go past the target */
     FOR_OWN_JOINTS(player, joint) {
         uint32_t cruise = joint->exact.cruise_q16_16;
@@ -96,27 +96,35 @@ static void advance(player_t *player)
 
 /* --- from step to step -------------------------------------------------------------------------------------------- */
 
-/* By itself: an ordinary tick saves no registers for it. */
-static NOINLINE uint8_t come_to_the_end(player_t *player, link_t *link, uint8_t left)
+uint8_t exact_step_over(player_t *player, link_t *link)
 {
-    if (sequence_prepare(player, link, left, player->tick == 1)) {
+    const uint16_t left = (uint16_t)(player->step_ticks + player->hold_ticks - player->tick);
+    law_left(player, left);
+    if (player->arrived || left != 0) {
+        return 0;
+    }
+    if (sequence_prepare(player, link, 0, player->tick == 1)) {
         exact_measure(player);
     }
-    if (left == 0) {
-        if (!player->looked) {
-            return law_end_play(player);
-        }
-        exact_take(player);
-    } else if (PLAYER_LAYERS && left == 1 && player->measured) {
-        exact_plan_ahead(player);
+    if (!player->looked) {
+        return law_end_play(player);
     }
+    exact_take(player);
     return 0;
 }
 
-uint8_t exact_step_over(player_t *player, link_t *link)
+void exact_prepare(player_t *player, link_t *link)
 {
-    uint16_t left = (uint16_t)(player->step_ticks + player->hold_ticks - player->tick);
-    return player->arrived || left > SEQUENCE_AHEAD ? 0 : come_to_the_end(player, link, (uint8_t)left);
+    const uint8_t left = player->left;
+    if (player->arrived || left == 0 || left > SEQUENCE_AHEAD) {
+        return;
+    }
+    if (sequence_prepare(player, link, left, player->tick == 1)) {
+        exact_measure(player);
+    }
+    if (PLAYER_LAYERS && left == 1 && player->measured) {
+        exact_plan_ahead(player);
+    }
 }
 
 void exact_start(player_t *player, link_t *link)

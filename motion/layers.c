@@ -3,6 +3,7 @@
 
 #include <string.h>
 #include "approach.h"
+#include "law.h"
 
 /* --- init, bind --------------------------------------------------------------------------------------------------- */
 
@@ -84,7 +85,7 @@ layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
     init_play(layers);
     link_t link;
     link_init(&link, LINK_LATCH);
-    if (player_start(&layers->play, &link, page, (player_law_t)layers->main->law, layers->goal_pos, joints) != PLAYER_OK) {
+    if (player_start(&layers->play, &link, page, PLAYER_LAW_EXACT, layers->goal_pos, joints) != PLAYER_OK) {
         return LAYERS_ERR_PAGE; /* unreachable: the page has just been checked */
     }
     FOR_JOINTS(i, joints) { /* they belong to the layer already, and its first step is planned from where they are */
@@ -107,12 +108,20 @@ void layers_end(layers_t *layers)
 
 /* --- a tick ------------------------------------------------------------------------------------------------------- */
 
-/* The layer gets no codes and no stop, so a fresh link_t will do. */
-static uint8_t tick_layer(layers_t *layers)
+/* Prepares the play whose coming step is nearer; the other one gets what is left of the tick's time. work: done already. */
+static void prepare_both(player_t *main_play, link_t *main_link, player_t *layer, link_t *layer_link, uint8_t work)
 {
-    link_t link;
-    link_init(&link, LINK_LATCH);
-    return player_tick(&layers->play, &link);
+    if (layer->left < main_play->left) {
+        layer->work = work;
+        player_prepare(layer, layer_link);
+        main_play->work = layer->work;
+        player_prepare(main_play, main_link);
+    } else {
+        main_play->work = work;
+        player_prepare(main_play, main_link);
+        layer->work = main_play->work;
+        player_prepare(layer, layer_link);
+    }
 }
 
 /* As layers_tick, while something but the main play moves joints. */
@@ -125,10 +134,12 @@ static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *l
         if (changing) {
             memcpy(before_pos, layers->goal_pos, sizeof before_pos);
         }
-        *layer_events = tick_layer(layers);
-        layers->main->work = layers->play.work;
-        layers->play.work = 0;
-        events = player_tick(layers->main, main_link);
+        link_t link; /* the layer gets no codes and no stop, so a fresh one will do */
+        link_init(&link, LINK_LATCH);
+        *layer_events = player_move(&layers->play, &link);
+        events = player_move(layers->main, main_link);
+        const uint8_t work = (uint8_t)(layers->main->work + layers->play.work + (changing ? LAW_WORK_FOLLOW : 0u));
+        prepare_both(layers->main, main_link, &layers->play, &link, work);
         if (changing) {
             layers_follow_plays(layers, events, *layer_events, before_pos);
         }

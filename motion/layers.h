@@ -8,6 +8,8 @@
  *                                                                        from where it is, until it has caught up behind the
  *                                                                        owner's first step with it
  *
+ * A page layer plays by the exact law, whatever the main play's: the original, which the classic law equals, has no layers.
+ *
  * Pure; caller-owned; main loop only. */
 #ifndef LAYERS_H
 #define LAYERS_H
@@ -84,7 +86,7 @@ MUST_CHECK layers_status_t layers_aim(layers_t *layers, uint8_t id, uint16_t pos
 /* For callers who have to make the joint ready first: whether code may move joint `id` besides those that it moves, and
  * whether a swing stays within 0..1023, LAYERS_PERIOD_MIN_TICKS and LAYERS_SWING_SPEED_MAX. */
 bool layers_have_room(layers_t *layers, uint8_t id);
-bool layers_can_swing(uint16_t centre, uint16_t amplitude, uint16_t period_ticks);
+bool layers_can_swing(uint16_t centre, uint16_t amplitude, uint16_t period_ticks) NOINLINE;
 
 /* Joint `id` swings: centre + amplitude * sin, which has to be possible (layers_can_swing; else LAYERS_ERR_RANGE);
  * period_ticks LAYERS_PERIOD_MIN_TICKS..65535 (1/128 s), phase_deg 0..359 at the beginning. The sine is right to 1/800 of

@@ -56,6 +56,7 @@ void player_give_joint(player_t *player, uint8_t joint, uint16_t pos)
     stand(player, &player->joint[joint], pos);
     if (PLAYER_LAYERS) {
         exact_plan_given(player, joint);
+        player->aimed = false;
     }
 }
 
@@ -197,21 +198,33 @@ static uint8_t tick(player_t *player, link_t *link)
     }
 }
 
-uint8_t player_tick(player_t *player, link_t *link)
+uint8_t player_move(player_t *player, link_t *link)
 {
+    player->work = 0;
     const bool slows_behind = player->state == STATE_BRAKING && player->ahead;
     if (slows_behind) {
         player->state = STATE_PLAYING;
     }
     uint8_t events = tick(player, link);
-    if (player->self == PLAYER_OWNER_MAIN) {
-        player->work = 0;
-    }
     if (slows_behind && player->state == STATE_PLAYING) {
         slow_down(player);
         player->brake_ticks--; /* this one counts */
         events |= PLAYER_EV_OUTPUT;
     }
+    return events;
+}
+
+void player_prepare(player_t *player, link_t *link)
+{
+    if (player->state == STATE_PLAYING) {
+        LAW_IS_CLASSIC(player) ? classic_prepare(player, link) : exact_prepare(player, link);
+    }
+}
+
+uint8_t player_tick(player_t *player, link_t *link)
+{
+    const uint8_t events = player_move(player, link);
+    player_prepare(player, link);
     return events;
 }
 

@@ -68,11 +68,14 @@ typedef struct {
     int16_t start_pos;          /* output when the section began */
     int16_t out_pos;            /* last output */
     int16_t speed;              /* v */
-    int16_t carried;            /* w at the step's beginning */
+    int16_t carried;            /* w at the beginning of this step; of the next one, once it is aimed */
     int16_t acc;                /* way made in RISE */
     int16_t main;               /* way of CRUISE */
     int16_t to_go;              /* M, less the ways of the sections before this one */
     bool through;
+    bool next_through;          /* through, M and v of the next step, once it is aimed and planned */
+    int16_t next_to_go;
+    int16_t next_speed;
 } player_classic_t;
 
 /* Who moves a joint. NONE: it is not there. */
@@ -107,8 +110,9 @@ typedef struct player {
     bool looked : 1;                /* the step behind the coming one has been looked at (law.h) */
     bool measured : 1;              /* and the lengths that depend on it are known */
     bool runs_on : 1;               /* exact: a joint may keep its speed at the step's end */
-    uint8_t shares_left : 2;        /* of the joints of the step that was looked at, which are still to be shaped */
+    uint8_t shares_left : 3;        /* of the step that was looked at: pieces still to be read and shaped */
     bool ahead : 1;                 /* exact: joints may be planned for `now` before it is taken */
+    bool aimed : 1;                 /* classic: the joints are aimed for `now` before it is taken */
     bool arrived;                   /* the joints are at the end of a step; `now` is planned and begins with the next tick */
     bool breaking;
     bool resuming;                  /* while BRAKING: goes on as soon as it stands */
@@ -118,13 +122,14 @@ typedef struct player {
     uint8_t ramp_ticks, brake_ticks;
     uint8_t accel_time;             /* of the step's page, for the rest of an interrupted step */
     uint16_t ramp_recip, ramp_share_q0_16; /* exact: 1 / A; A / (N - A) */
+    uint8_t left;                   /* ticks that the step still has behind this one; 255: that or more */
     uint8_t work;                   /* between steps, done in this tick by both plays: LAW_WORK_ units (law.h) */
     uint8_t own_joints;             /* how many it moved when the step was taken */
     uint8_t planned;                /* joints below this are planned for `now` */
     uint8_t announced_events;       /* PLAYER_EV_ bits of the beginning of `now` */
     uint16_t carry_q5_11;           /* the fraction of a tick that is left over */
     uint16_t coming_way, lent_way;  /* longest way in the coming step: of any joint; of one that is lent */
-    uint32_t recip;                 /* 2^32 over the ticks: of the step (exact), of the section (classic) */
+    uint32_t recip;                 /* exact: 2^32 over the ticks of the step */
     const page_source_t *source;
     const shape_t *shape;           /* NULL: as stored */
     shape_step_t *shaping;          /* the step that was looked at, while shares_left is not 0 */
@@ -169,8 +174,13 @@ MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t 
  * have one. */
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
 
-/* One tick. Returns PLAYER_EV_ bits; 0 when idle. */
+/* One tick: player_move and player_prepare. Returns PLAYER_EV_ bits; 0 when idle. */
 uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* by itself, so that the bench can measure it */
+
+/* The two halves of a tick, for two plays at once (layers.h): makes the tick's goals; then prepares the coming step in what
+ * is left of the tick's time, of which player.work has gone already. */
+uint8_t player_move(player_t *player, link_t *link);
+void player_prepare(player_t *player, link_t *link);
 
 /* Leaves the page at once: every joint slows to a stand within ACCEL_TIME ticks (at least 8), without reversal. */
 void player_break(player_t *player);

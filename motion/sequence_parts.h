@@ -20,7 +20,7 @@ bool sequence_shapes(const shape_t *shape);
  * it. */
 void sequence_read(player_t *player);
 
-/* Shapes the next share of the step that was looked at. Only while shares_left is not 0. */
+/* Reads the step that was looked at, and with the next calls shapes its shares. Only while shares_left is not 0. */
 void sequence_shape_a_share(player_t *player);
 
 #endif

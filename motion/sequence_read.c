@@ -62,8 +62,11 @@ static NOINLINE void look_at(player_t *player, uint8_t page, uint8_t step)
 
 void sequence_shape_a_share(player_t *player)
 {
-    shape_step_share(player->shaping, player->source, player->looked_at);
-    player->shares_left--;
+    if (player->shares_left-- > SHAPE_STEP_SHARES) {
+        look_at(player, player->coming.page, player->coming.step);
+    } else {
+        shape_step_share(player->shaping, player->source, player->looked_at);
+    }
 }
 
 STATIC_ASSERT(offsetof(player_step_t, time) == offsetof(player_step_t, pause) + 1, "side by side, as in a step");
@@ -74,14 +77,15 @@ static void look_at_coming(player_t *player)
     player_step_t *coming = &player->coming;
     const shape_t *shape = player->shape;
     bool shaped = sequence_shapes(shape);
-    look_at(player, coming->page, coming->step);
     player->source->read(player->source->context, coming->page,
                          (uint16_t)(PAGE_STEP_BYTES * coming->step + PAGE_STEP_AT_PAUSE), &coming->pause, 2);
     coming->rate_percent = shaped ? shape->rate_percent : SHAPE_NORMAL;
     coming->top_speed_q4_4 = shaped ? shape->top_speed_q4_4 : 0;
     player->shares_left = 0;
     if (shaped && shape_step_begin(player->shaping, shape, player->source, coming->page, coming->step)) {
-        player->shares_left = SHAPE_STEP_SHARES;
+        player->shares_left = SHAPE_STEP_SHARES + 1u;
+    } else {
+        look_at(player, coming->page, coming->step);
     }
 }
 

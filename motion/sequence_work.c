@@ -6,11 +6,7 @@
 /* Whether a piece of work is done in this tick: if the tick has time for it, or if there are not more ticks than pieces. */
 static bool fits(player_t *player, uint8_t ticks, uint8_t pieces, uint8_t work)
 {
-    uint8_t most = LAW_WORK_MOST;
-    if (PLAYER_LAYERS && player->self == PLAYER_OWNER_LAYER) {
-        most = LAW_WORK_MOST - LAW_WORK_MOST / 3u; /* the main play comes after it */
-    }
-    if (PLAYER_LAYERS && pieces < ticks && player->work + work > most) {
+    if (PLAYER_LAYERS && pieces < ticks && player->work + work > LAW_WORK_MOST) {
         return false;
     }
     law_work(player, work);
@@ -42,10 +38,11 @@ bool sequence_prepare(player_t *player, link_t *link, uint8_t left, bool begins)
     }
     const uint8_t ticks = (uint8_t)(left + begins); /* a tick that has begun a step has little time */
     while (player->shares_left != 0) {
-        if (!fits(player, ticks, (uint8_t)(player->shares_left + 1u), LAW_WORK_SHARE)) {
+        const uint8_t work = player->shares_left > SHAPE_STEP_SHARES ? LAW_WORK_READ : LAW_WORK_SHARE;
+        if (!fits(player, ticks, (uint8_t)(player->shares_left + 1u), work)) {
             return false;
         }
         sequence_shape_a_share(player);
     }
-    return !player->measured && fits(player, ticks, 1, LAW_WORK_MEASURE);
+    return !player->measured && fits(player, ticks, 1, LAW_WORK_MEASURE(player));
 }

@@ -132,7 +132,7 @@ def judge(image, law, plain, run, joints, on, off, per_tick):
         last = run.layer_steps[-1]
         steps = [*run.layer_steps, (last[0] + step_ticks(image, *last[1:]), 0, 0)]
         wrong, free = judge_hand_over(row, steps, places, on, ended + 1, per_tick)
-        wrong = wrong or (owned(row, steps, places, free, ended + 1) if law == EXACT else None)
+        wrong = wrong or owned(row, steps, places, free, ended + 1)
         if wrong:
             return f"joint {joint}, to the layer: {wrong}"
         # A joint that the walk does not use goes back to where it stood.

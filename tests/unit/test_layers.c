@@ -158,6 +158,28 @@ static void test_layers_classic_at_every_tick_of_a_walk(void)
     at_every_tick(PLAYER_LAW_CLASSIC, PAGE_SCHEDULE_TIME);
 }
 
+/* What joint 2 is asked for by a layer that comes with the walk. */
+static void record_layer(player_law_t law, uint16_t asked[CYCLE])
+{
+    fastest = 1023;
+    layers_init(&layers, goal_pos);
+    start(law);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
+    for (uint8_t t = 0; t < CYCLE; t++) {
+        (void)tick();
+        asked[t] = player_asks(&layers.play, &joints[2]);
+    }
+}
+
+static void test_layers_play_by_the_exact_law_over_both(void)
+{
+    uint16_t over_exact[CYCLE], over_classic[CYCLE];
+    record_layer(PLAYER_LAW_EXACT, over_exact);
+    record_layer(PLAYER_LAW_CLASSIC, over_classic);
+    TEST_ASSERT_EQUAL_UINT16_ARRAY(over_exact, over_classic, CYCLE);
+    TEST_ASSERT_NOT_EQUAL_UINT16(over_exact[0], over_exact[CYCLE - 1]);
+}
+
 /* In speed base the longest way may be that of a joint that is lent. */
 static void test_layers_in_speed_base_keep_the_timing(void)
 {
@@ -389,6 +411,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_layers_exact_at_every_tick_of_a_walk);
     RUN_TEST(test_layers_classic_at_every_tick_of_a_walk);
+    RUN_TEST(test_layers_play_by_the_exact_law_over_both);
     RUN_TEST(test_layers_in_speed_base_keep_the_timing);
     RUN_TEST(test_layers_page_ends_by_itself_and_gives_its_joints_back);
     RUN_TEST(test_layers_joint_given_to_a_layer_keeps_the_approach_speed);
