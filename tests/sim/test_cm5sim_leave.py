@@ -58,11 +58,9 @@ class Seen:
 @pytest.mark.parametrize("rows, columns", [(24, 80), (40, 100)])
 def test_way_out_stands_on_the_screen_of_edit_and_in_the_title(tmp_path, rows, columns):
     with Seen(rows, columns, tmp_path) as seen:
-        seen.until(lambda: seen.shows(HINT, rows))
-        assert seen.shows("Arrows move, HELP explains, EXIT leaves", min(rows, 35))
-        assert "Ctrl-] ends it" in seen.screen.title
-        cursor = seen.screen.cursor.x, seen.screen.cursor.y
-        assert cursor == (19, 0)                         # where Edit has put it
+        seen.until(lambda: seen.shows(HINT, rows) and seen.shows("Arrows move, HELP explains, EXIT leaves", min(rows, 35))
+                   and "Ctrl-] ends it" in seen.screen.title
+                   and (seen.screen.cursor.x, seen.screen.cursor.y) == (19, 0))   # where Edit has put it
         seen.child.send("page 3\r")
         seen.until(lambda: seen.shows("wave"))
         if rows > 35:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A board on a pty, played by a thread in real time: for what is about the port itself. Limits here are minutes."""
+"""A board on a pty, played by a thread in real time: for what is about the port itself. Limits here are minutes, and the board's own
+clock stands still while this process does: a silence of 0.1 s that ends a download is one in which the PC could have written."""
 import os
 import select
 import threading
@@ -18,7 +19,7 @@ class PtyPeer(Peer):
         super().__init__()
         self.lock = threading.RLock()
         self.running = True
-        self.heard_at = time.monotonic()
+        self.clock = self.heard_at = 0.0
         self._open()
         self.thread = threading.Thread(target=self._loop, daemon=True)
         self.thread.start()
@@ -44,9 +45,8 @@ class PtyPeer(Peer):
             if fd is not None:
                 os.close(fd)
 
-    @staticmethod
-    def now():
-        return time.monotonic()
+    def now(self):
+        return self.clock
 
     @property
     def plugged(self):
@@ -78,16 +78,18 @@ class PtyPeer(Peer):
 
     def _loop(self):
         while self.running:
+            begun = time.monotonic()
             self._wait()
             with self.lock:
+                self.clock += min(time.monotonic() - begun, 5 * QUANTUM)
                 for byte in self._read():
                     byte = self._count("->", byte)
                     if self.master is None:
                         break
                     if byte is not None:
-                        self.heard_at = time.monotonic()
+                        self.heard_at = self.clock
                         self.on_byte(byte)
-                self.on_silence(time.monotonic() - self.heard_at)
+                self.on_silence(self.clock - self.heard_at)
 
     def _wait(self):
         """Until something may have come. Without the lock, so that the file number may belong to another file by now."""
