@@ -145,7 +145,6 @@ void exact_freeze(player_t *player);
 void exact_measure(player_t *player) NOINLINE;
 void classic_measure(player_t *player) NOINLINE;
 
-
 /* A joint that stands on its target and has just become the play's: plans it if it is too late for plan ahead. */
 void exact_plan_given(player_t *player, uint8_t joint);
 
