@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * classic_math.h - the arithmetic of the classic law: the original's results, bit by bit, without a division in a tick.
- * Included by law_classic.c and classic_plan.c only. Above each function is the plain expression that it equals (N, A, M, v
+ * Included by the law's files only. Above each function is the plain expression that it equals (N, A, M, v
  * as in player.md). */
 #ifndef CLASSIC_MATH_H
 #define CLASSIC_MATH_H

@@ -1,10 +1,18 @@
 /* SPDX-License-Identifier: MIT
- * classic_plan.h - the seam between the ticks of the classic law (law_classic.c) and the planning of its steps
- * (classic_plan.c). Included by these only. */
+ * classic_plan.h - the seam between the ticks of the classic law (law_classic.c), the planning of its steps (classic_plan.c)
+ * and its pauses (classic_pause.c). Included by these only. */
 #ifndef CLASSIC_PLAN_H
 #define CLASSIC_PLAN_H
 
 #include "law.h"
+
+/* Enters a section of so many ticks. */
+static inline void classic_enter(player_t *player, uint8_t section, uint16_t ticks)
+{
+    player->section = section;
+    player->section_ticks = ticks;
+    player->tick = 0;
+}
 
 /* Takes the coming step after the last tick of a step: plans what begins with the next call. */
 void classic_take(player_t *player) NOINLINE;
