@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * bus_core.h - the half-duplex engine behind bus.h, without registers: bytes and times in, states out. Below it: bus_port.h.
  * Three callers: the main loop (submit, poll, cancel), the transmit ISR (on_last, on_sent) and the receive ISR (on_byte).
- * The ISR side only moves bytes; packets are taken apart in bus_core_poll. RAM: one bus_core_t, 290 bytes.
+ * The ISR side only moves bytes; packets are taken apart in bus_core_poll. RAM: one bus_core_t (bus.h).
  *
  *        submit                    the last bytes go to the UART      transmit complete
  *  IDLE ---------> SENDING --------------------------------> TURNING -----------------> LISTENING

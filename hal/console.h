@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * console.h - the serial line to terminal, PC and remote control (UART 1, 57,600 baud 8N1), by interrupt.
- * Bytes only: knows no lines and no packets. Main loop only. RAM: 256 + 128 bytes of rings, 24 of state.
+ * Bytes only: knows no lines and no packets. Main loop only. RAM: 256 + 128 bytes of rings, 22 of state.
  * No byte is lost at full line rate as long as the main loop takes bytes every 44 ms (255 bytes; 22 ms with a ring of 128),
  * or with flow control on. Interrupts may be off for 350 us (two characters): the UART keeps that many. */
 #ifndef CONSOLE_H
