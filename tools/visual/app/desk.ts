@@ -5,18 +5,16 @@
 import type { FileFormats } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
 import { documentFrom } from '../model/document.ts';
-import { dirtyPages } from '../model/editor-state.ts';
 import type { Shape } from '../model/motion.ts';
 import type { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { aim, askList, command, free, play, setAmplitude, setBlend, setLayer, setRate, setTorque, swing } from '../robot/protocol.ts';
+import { askList, command, setTorque } from '../robot/protocol.ts';
 import type { Command } from '../robot/protocol.ts';
 import type { TerminalSize } from '../robot/edit-screen.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Beside, Desk, DeskState, Floor, Hand, ImageName, Notice, PanelButton, Tab } from '../view/desk.ts';
-import { LAYER_TEXTS, PLAY_TEXTS } from '../view/editor/step-texts.ts';
 import { refusalText } from '../view/editor/texts.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
@@ -37,6 +35,7 @@ import type { RobotTransfer } from './transfer.ts';
 import { trialClient } from './assets.ts';
 import { MotionTrials } from './trials.ts';
 import { RobotImages } from './robot-images.ts';
+import { RobotPlays } from './robot-plays.ts';
 import { SimulatedSource } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
 
@@ -63,6 +62,7 @@ export class RobotDesk implements Desk {
   private readonly simulated: SimulatedSource;
   private readonly yours: YourSource;
   private readonly images: RobotImages;
+  private readonly plays: RobotPlays;
   private readonly lastSaid = new LastSaid();
   private readonly remoteKeys = new RemoteKeys((packet) => this.sendRemote(packet));
   private readonly status: Status = new Status({ state: this.state, connection: () => this.connection, isWriting: () => this.transfer.isWriting });
@@ -99,6 +99,10 @@ export class RobotDesk implements Desk {
     };
     this.simulated = new SimulatedSource(body, events);
     this.yours = new YourSource(body, events, () => this.status.mayAsk());
+    this.plays = new RobotPlays({
+      state: this.state, editor: this.editor, transfer: this.transfer, connection: () => this.connection,
+      prepare: async () => (this.isSimulated ? this.simulated.prepare() : undefined),
+    });
     this.images = new RobotImages({
       state: this.state, format: parts.format, simulated: this.simulated,
       standUp: () => this.standUp(), say: (said) => this.say(said), fail: (error) => this.fail(error),
@@ -137,10 +141,19 @@ export class RobotDesk implements Desk {
   }
 
   play(page: number): Promise<void> {
-    return this.deed(async () => {
-      if (this.isSimulated) await this.simulated.prepare();
-      await play(this.connection.requests, page);
-    });
+    return this.deed(() => this.plays.play(page));
+  }
+
+  playEdited(page: number): Promise<void> {
+    return this.deed(() => this.plays.playEdited(page));
+  }
+
+  shape(shape: Shape): Promise<void> {
+    return this.deed(() => this.plays.shape(shape));
+  }
+
+  beside(what: Beside): Promise<void> {
+    return this.deed(() => this.plays.beside(what));
   }
 
   command(what: Command): Promise<void> {
@@ -152,61 +165,6 @@ export class RobotDesk implements Desk {
 
   setTorque(on: boolean, servos: readonly number[] = []): Promise<void> {
     return this.deed(() => setTorque(this.connection.requests, on, servos));
-  }
-
-  playEdited(page: number): Promise<void> {
-    return this.deed(async () => {
-      const { format, state } = this.editor;
-      const why = await this.bringPages(format.reach(state.get().document, page));
-      if (why !== null) return why;
-      if (this.isSimulated) await this.simulated.prepare();
-      await play(this.connection.requests, page);
-      return null;
-    });
-  }
-
-  /** Makes sure that the robot has these pages as the document has them. The robot in the page gets them; what will change in
-   *  yours is to be seen before. Why it has them not; null: it has. */
-  private async bringPages(pages: readonly number[]): Promise<string | null> {
-    const { editor, transfer } = this;
-    if (editor.state.get().robot.length === 0 && !(await transfer.read())) return transfer.state.get().trouble;
-    const dirty = dirtyPages(editor.state.get(), editor.format);
-    if (!pages.some((page) => dirty.has(page))) return null;
-    if (!this.isSimulated) return PLAY_TEXTS.writeFirst;
-    if (!(await transfer.write(pages))) return transfer.state.get().trouble;
-    this.state.set({ pages: await askList(this.connection.requests) });
-    return null;
-  }
-
-  shape({ rate, amplitude, blend }: Shape): Promise<void> {
-    return this.deed(async () => {
-      const { requests } = this.connection;
-      await setRate(requests, rate);
-      await setAmplitude(requests, amplitude);
-      await setBlend(requests, blend);
-    });
-  }
-
-  beside(what: Beside): Promise<void> {
-    return this.deed(async () => {
-      const { requests } = this.connection;
-      switch (what.kind) {
-        case 'layer': return this.layer(what.page, what.joints);
-        case 'aim': return aim(requests, what.joint, what.position, what.degreesPerSecond);
-        case 'swing': return swing(requests, what.joint, what.centre, what.amplitude, what.periodMs);
-        case 'free': return free(requests, what.joints);
-        default: return what satisfies never;
-      }
-    });
-  }
-
-  /** A layer is what the robot has in its flash: one that differs is not played. Why not; null: it plays. */
-  private async layer(page: number | null, joints: readonly number[]): Promise<string | null> {
-    const { state, format } = this.editor;
-    const dirty = dirtyPages(state.get(), format);
-    if (page !== null && format.reach(state.get().document, page).some((one) => dirty.has(one))) return this.isSimulated ? LAYER_TEXTS.otherwise : LAYER_TEXTS.otherwiseYours;
-    await setLayer(this.connection.requests, page, joints);
-    return null;
   }
 
   follow(positions: readonly (number | null)[] | null): void {
