@@ -36,6 +36,11 @@ export function keepFocus(root: Element, render: () => void): void {
   [...all].find((element) => nameOf(element) === name)?.focus({ preventScroll: true });
 }
 
+/** Writes a text, unless it stands there already: written again it would be laid out again. */
+export function setText(element: Element, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 /** A custom element of ours, made with what it works on. */
 export function define(name: string, element: CustomElementConstructor): void {
   if (!customElements.get(name)) customElements.define(name, element);

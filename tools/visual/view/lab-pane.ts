@@ -3,7 +3,7 @@
 
 import { NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Desk, DeskState, ImageName, PanelButton } from './desk.ts';
-import { define, make } from './element.ts';
+import { define, make, setText } from './element.ts';
 import { pushRobot } from './push.ts';
 import { ServoTable } from './servo-table.ts';
 import { TEXTS } from './texts.ts';
@@ -30,7 +30,7 @@ export class LabPane extends HTMLElement {
     this.replaceChildren(make('p', { class: 'only-simulated' }, TEXTS.labForYours), make('div', { class: 'sections' },
       this.timeSection(), this.powerSection(), this.roomSection(), this.imageSection(), servos));
     this.disposals.push(this.desk.state.watch((state) => this.render(state)), this.desk.onFrame((state) => {
-      this.clock.textContent = `${(state.ticks / TICKS_PER_SECOND).toFixed(1)} s${state.lateMs > 50 ? `, ${Math.round(state.lateMs)} ms late` : ''}`;
+      setText(this.clock, `${(state.ticks / TICKS_PER_SECOND).toFixed(1)} s${state.lateMs > 50 ? `, ${Math.round(state.lateMs)} ms late` : ''}`);
       this.showLeds(state.leds);
     }));
   }

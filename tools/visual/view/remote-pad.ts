@@ -66,10 +66,24 @@ export class RemotePad extends HTMLElement {
     window.addEventListener('keydown', key);
     window.addEventListener('keyup', key);
     window.addEventListener('blur', blur);
-    let frame = requestAnimationFrame(function poll(this: void) { frame = requestAnimationFrame(poll); readPad(); });
-    const readPad = (): void => this.readPad();
     this.disposals.push(() => window.removeEventListener('keydown', key), () => window.removeEventListener('keyup', key),
-      () => window.removeEventListener('blur', blur), () => cancelAnimationFrame(frame));
+      () => window.removeEventListener('blur', blur));
+    this.watchPad();
+  }
+
+  /** A game pad tells nothing by itself: as long as there is one, it is asked. */
+  private watchPad(): void {
+    let frame = 0;
+    const ask = (): void => {
+      const pad = navigator.getGamepads().find((one) => one !== null) ?? null;
+      this.readPad(pad);
+      frame = pad ? requestAnimationFrame(ask) : 0;
+    };
+    const begin = (): void => {
+      if (frame === 0) ask();
+    };
+    window.addEventListener('gamepadconnected', begin);
+    this.disposals.push(() => window.removeEventListener('gamepadconnected', begin), () => cancelAnimationFrame(frame));
   }
 
   private key(event: KeyboardEvent): void {
@@ -88,11 +102,10 @@ export class RemotePad extends HTMLElement {
     return where !== null && where.state !== 'idle' && where.state !== 'ready';
   }
 
-  private readPad(): void {
-    const pad = navigator.getGamepads().find((one) => one !== null);
-    if (!pad) return;
-    const [x = 0, y = 0] = pad.axes;
-    const now = new Set(PAD.filter(([index]) => pad.buttons[index]?.pressed).map(([, name]) => name));
+  /** null: it has gone, and holds nothing any more. */
+  private readPad(pad: Gamepad | null): void {
+    const [x = 0, y = 0] = pad?.axes ?? [];
+    const now = PAD.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);
     this.desk.drive(Math.hypot(x, y) < STICK_REST ? null : { x, y: -y });
     this.held.pad.clear();
     for (const name of now) this.held.pad.add(name);

@@ -5,7 +5,7 @@ import { jointTitle } from '../model/body.ts';
 import type { RobotState, ServoState } from '../robot/robot-state.ts';
 import type { Desk } from './desk.ts';
 import { onChoice } from './choice.ts';
-import { define, make } from './element.ts';
+import { define, make, setText } from './element.ts';
 import { ServoChart } from './servo-chart.ts';
 import { FAULT_TITLES } from './texts.ts';
 
@@ -71,10 +71,10 @@ export class ServoTable extends HTMLElement {
   private update(servo: ServoState): void {
     const row = this.rows.get(servo.id);
     if (!row) return;
-    row.goal.textContent = servo.torque && servo.goalPos !== null ? String(servo.goalPos) : '–';
-    row.position.textContent = servo.position.toFixed(0);
+    setText(row.goal, servo.torque && servo.goalPos !== null ? String(servo.goalPos) : '–');
+    setText(row.position, servo.position.toFixed(0));
     const alarms = ALARMS.filter((_, i) => (servo.alarms >> i) & 1);
-    row.state.textContent = alarms.length > 0 ? alarms.join(', ') : servo.torque ? 'holds' : 'limp';
+    setText(row.state, alarms.length > 0 ? alarms.join(', ') : servo.torque ? 'holds' : 'limp');
     row.state.classList.toggle('alarm', alarms.length > 0);
   }
 }

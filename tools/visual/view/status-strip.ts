@@ -2,7 +2,7 @@
 // The strip at the bottom: what the robot does, and what was said last, in the words that the board used.
 
 import type { Desk, DeskState, Notice } from './desk.ts';
-import { define, make } from './element.ts';
+import { define, make, setText } from './element.ts';
 import { TEXTS } from './texts.ts';
 import './status-strip.css';
 
@@ -34,16 +34,15 @@ export class StatusStrip extends HTMLElement {
     this.write(this.said, state.said);
     const where = state.where;
     const version = state.version;
-    this.facts.textContent = [
+    setText(this.facts, [
       version ? `${version.image === 'edit' ? 'Edit' : version.image === 'play' ? 'Play' : version.image} ${version.version}` : '',
       where && where.batteryVolts > 0 ? `${where.batteryVolts.toFixed(1)} V` : '',
       state.speed === 1 || state.source === 'yours' ? '' : state.speed === 0 ? 'time stands still' : `${state.speed}× time`,
-    ].filter(Boolean).join(' · ');
+    ].filter(Boolean).join(' · '));
   }
 
   private write(line: HTMLElement, notice: Notice | null): void {
-    const text = notice?.text ?? '';
-    if (line.textContent !== text) line.textContent = text;
+    setText(line, notice?.text ?? '');
     line.dataset['tone'] = notice?.tone ?? 'calm';
   }
 }

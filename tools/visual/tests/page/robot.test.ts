@@ -10,7 +10,16 @@ const LIES = /^The robot lies on the floor\. Press Get up\.$/;
 const PATIENT = { timeout: 240_000 };
 const suite = pageSuite();
 
-test('a pupil: it stands, walks while the keys light up, is pushed over, gets up; a hand puts it on its feet, too', async () => {
+/** A game pad of which this button is pressed; null: there is none any more. */
+async function gamePad(visitor: Visitor, pressed: number | null): Promise<void> {
+  await visitor.page.evaluate((held) => {
+    const pad = { axes: [0, 0], buttons: Array.from({ length: 16 }, (_, i) => ({ pressed: i === held })) };
+    navigator.getGamepads = () => [held === null ? null : pad as unknown as Gamepad];
+    window.dispatchEvent(new Event(held === null ? 'gamepaddisconnected' : 'gamepadconnected'));
+  }, pressed);
+}
+
+test('a pupil: it stands, walks while the keys light up, is pushed over, gets up; a game pad drives it, a hand puts it on its feet, too', async () => {
   const pupil = await Visitor.come(suite.browser, suite.address, { sharpness: 2 }); // sharp, for the README
   await pupil.untilStanding();
   expect(await pupil.button('Get up').isDisabled()).toBe(true); // it stands
@@ -19,6 +28,12 @@ test('a pupil: it stands, walks while the keys light up, is pushed over, gets up
   await pupil.page.keyboard.up('ArrowUp');
   await pupil.page.getByText(/walk_[rl] plays/).waitFor();
   await pupil.page.screenshot({ path: `${SHOTS}page.png`, scale: 'css' }); // stands in the README
+  await pupil.button('Stop').click();
+  await pupil.untilStanding();
+  await gamePad(pupil, 12);
+  await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+  await gamePad(pupil, null); // pulled out while it was pressed
+  await expect.poll(() => pupil.button('U: ahead').getAttribute('aria-pressed')).toBe('false');
   await pupil.button('Stop').click();
   await pupil.untilStanding();
   await pupil.open('Lab');
