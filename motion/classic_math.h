@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * classic_math.h - the arithmetic of the classic law: the original's results, bit by bit, without a division in a tick.
- * Included by the law's files only. Above each function is the plain expression that it equals (N, A, M, v
- * as in player.md). */
+ * classic_math.h - the arithmetic of the classic law: the original's results, bit by bit. A tick divides once, for
+ * all joints. Included by the law's files only. Above each function is the plain expression that it equals (N, A, M, v as in
+ * player.md). */
 #ifndef CLASSIC_MATH_H
 #define CLASSIC_MATH_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * law.h - the seams inside the player: states (player.c), the sequence of pages and steps (sequence*.c), the two laws
  * (law_exact.c with exact_plan.c, law_classic.c with classic_plan.c and classic_pause.c), slowing down (brake.c). Included
- * by these only.
+ * by these, and by layers.c for what its own work counts.
  *
  * The work between two steps is spread over several ticks, so that none takes too long with 31 joints. A tick moves the
  * joints of both plays first; then it prepares their coming steps, as far as it has time (LAW_WORK_):

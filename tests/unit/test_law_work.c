@@ -1,23 +1,13 @@
 /* SPDX-License-Identifier: MIT
  * test_law_work.c - what a play notes of the work between two of its steps, by which the pieces of both plays are spread
- * over the ticks (law.h, LAW_WORK_). Looked at in a page layer, whose note stands until layers_tick hands it to the main
- * play. */
-#include <string.h>
+ * over the ticks (law.h, LAW_WORK_). Looked at in a page layer that is ticked alone. */
 #include "law.h"
-#include "layers.h"
-#include "sparse_pages.h"
+#include "layers_stage.h"
 #include "unity.h"
 
-#define ALL 0x7FFFFFFFul
 #define WALK 1u
 #define WAVE 2u
 #define WAVE_TICKS 30u
-
-static player_t player;
-static player_joint_t joints[PAGE_JOINTS];
-static uint16_t goal_pos[PAGE_JOINTS];
-static link_t l;
-static layers_t layers;
 
 /* Two steps of 30 ticks each, round and round, without ramps: no section begins where a step ends. */
 static void make_page(uint8_t page, uint16_t one_pos, uint16_t other_pos)
@@ -33,8 +23,7 @@ void setUp(void)
     sparse_clear();
     make_page(WALK, 512, 520);
     make_page(WAVE, 600, 500);
-    memset(joints, 0, sizeof joints);
-    layers_init(&layers, goal_pos);
+    layers_stage_reset();
 }
 
 void tearDown(void)
@@ -44,14 +33,7 @@ void tearDown(void)
 /* A wave of these joints over a walk, under the exact law. */
 static void start(uint32_t wave_joints)
 {
-    uint16_t pose[PAGE_JOINTS];
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        pose[i] = 512;
-    }
-    player_init(&player, &sparse_source, joints, goal_pos);
-    layers_bind(&layers, &player);
-    link_init(&l, LINK_LATCH);
-    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, WALK, PLAYER_LAW_EXACT, pose, ALL));
+    layers_stage_start(WALK, PLAYER_LAW_EXACT);
     TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, wave_joints));
 }
 

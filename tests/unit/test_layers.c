@@ -2,11 +2,9 @@
  * test_layers.c - a second page and code-made motion over a walk: who moves a joint, how fast it changes hands, and that
  * nobody else notices (shaping.md, "Layers"). */
 #include <string.h>
-#include "layers.h"
-#include "sparse_pages.h"
+#include "layers_stage.h"
 #include "unity.h"
 
-#define ALL 0x7FFFFFFFul
 #define WALK 1u  /* page 1: four steps of 12 ticks with all four joints, round and round */
 #define WAVE 2u  /* page 2: two steps of 30 ticks with joints 2 and 3, round and round */
 #define SHORT 3u /* page 3: one step of 20 ticks, then it ends */
@@ -16,11 +14,6 @@
 /* 60 degrees/s are 1.6 units a tick. */
 #define HAND_OVER_MOST 2
 
-static player_t player;
-static player_joint_t joints[PAGE_JOINTS];
-static uint16_t goal_pos[PAGE_JOINTS];
-static link_t l;
-static layers_t layers;
 static uint8_t layer_events;
 static uint8_t alone[RUN]; /* mark() of the walk without a layer; the chip has no room for more */
 static int fastest;            /* change of a goal in a tick that any of the pages makes by itself */
@@ -48,8 +41,7 @@ static void make_pages(uint8_t schedule)
 void setUp(void)
 {
     make_pages(PAGE_SCHEDULE_TIME);
-    memset(joints, 0, sizeof joints);
-    layers_init(&layers, goal_pos);
+    layers_stage_reset();
 }
 
 void tearDown(void)
@@ -58,14 +50,7 @@ void tearDown(void)
 
 static void start(player_law_t law)
 {
-    uint16_t pose[PAGE_JOINTS];
-    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
-        pose[i] = 512;
-    }
-    player_init(&player, &sparse_source, joints, goal_pos);
-    layers_bind(&layers, &player);
-    link_init(&l, LINK_LATCH);
-    TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, WALK, law, pose, ALL));
+    layers_stage_start(WALK, law);
 }
 
 /* Of joints 0 and 1, which no layer takes; any unit more or less changes it. */
