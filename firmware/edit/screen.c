@@ -177,6 +177,16 @@ void screen_open_line(void)
     the_screen.line_column = SCREEN_LINE_COLUMN;
 }
 
+static void back_in_line(void)
+{
+    if (the_screen.line_column <= SCREEN_COLUMNS) {
+        screen_go_line();
+        ansi_put('\b');
+        the_screen.at_column--;
+    }
+    the_screen.line_column--;
+}
+
 static void put_in_line(char character)
 {
     if (character == '\r' || (uint8_t)character == '\a') {
@@ -186,13 +196,14 @@ static void put_in_line(char character)
         character = ' ';
     }
     if (character == '\b') {
-        screen_go(screen_command_row(), the_screen.line_column);
-        ansi_put('\b');
-        the_screen.line_column--;
-        the_screen.at_column = the_screen.line_column;
-    } else if (the_screen.line_column < SCREEN_COLUMNS) {
-        screen_go(screen_command_row(), the_screen.line_column);
+        back_in_line();
+        return;
+    }
+    if (the_screen.line_column < SCREEN_COLUMNS) {
+        screen_go_line();
         screen_send(character);
+    }
+    if (the_screen.line_column < UINT8_MAX) {   /* no line is so long that it would have to be rubbed out from there */
         the_screen.line_column++;
     }
 }

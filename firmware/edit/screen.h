@@ -35,7 +35,7 @@ typedef struct {
     uint8_t rows;            /* of the terminal, 24..35 */
     uint8_t top;             /* rows that are scrolled out above */
     uint8_t at_row, at_column; /* where the terminal's cursor stands; row 0 = not known */
-    uint8_t line_column;     /* where the next character of the command row goes */
+    uint8_t line_column;     /* where the next character of the command row goes; from SCREEN_COLUMNS on it is not shown */
     uint8_t sink;            /* screen_sink_t */
     bool lead;               /* a space goes before the next character of the command row */
     bool cramped;            /* the line is long: a message behind it would be cut and gets the row for itself */

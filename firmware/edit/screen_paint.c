@@ -114,7 +114,7 @@ static bool paint_next_item(uint16_t among)
 static void rest(void)
 {
     if (the_screen.sink == SCREEN_LINE) {
-        screen_go(screen_command_row(), the_screen.line_column);
+        screen_go_line();
         return;
     }
     uint8_t row = the_session.x == CELL_X_HEADER ? (uint8_t)(the_session.y + 1u) : screen_row_of(the_session.y);

@@ -41,8 +41,9 @@ bool screen_paint_row(uint8_t y);                   /* false: nothing was marked
 
 /* ---- screen_send.c ---- */
 
-/* Places the terminal's cursor; sends characters there. */
+/* Places the terminal's cursor; sends characters there. screen_go_line: at the end of the command line, or of its row. */
 void screen_go(uint8_t row, uint8_t column);
+void screen_go_line(void);
 void screen_send(char character);
 void screen_send_text(const char *text);
 void screen_send_text_P(const char *text);

@@ -46,3 +46,9 @@ void screen_go(uint8_t row, uint8_t column)
     the_screen.at_row = row;
     the_screen.at_column = column;
 }
+
+void screen_go_line(void)
+{
+    uint8_t column = the_screen.line_column;
+    screen_go(screen_command_row(), column < SCREEN_COLUMNS ? column : (uint8_t)SCREEN_COLUMNS);
+}

@@ -150,6 +150,20 @@ def test_each_line_end_ends_a_line_once(r, ending):
     assert r.message == "s 2" and r.text(2, 76, 4) == "0003" and r.cell(9, 9) == "002"
 
 
+def test_line_longer_than_the_row_is_rubbed_out_from_its_end(r):
+    """The row shows the first 77 characters of the 111 that a line may have (columns 3 to 79)."""
+    text = "".join(chr(ord("A") + k % 26) for k in range(111))
+    table = r.terminal.screen.display[:34]
+    r.keys(text)
+    for left in [*range(110, 78, -7), 78, 77, 76, 75, 40, 3, 2, 1, 0, 0]:
+        r.keys("\x7f" * (len(text) - left) or "\x7f")
+        text = text[:left]
+        assert (r.command, r.cursor) == (("] " + text[:77]).rstrip(), (35, min(3 + left, 80)))
+    assert r.terminal.screen.display[:34] == table
+    r.keys("z" * 100 + "\x15pagx\x7fe 2\r")
+    assert r.command == "] page 2" and r.text(2, 76, 4) == "0002"
+
+
 def test_control_keys_start_an_empty_line(r):
     r.keys("!")
     assert r.command == "]" and r.cursor == (35, 3)

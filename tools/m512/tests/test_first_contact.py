@@ -27,7 +27,7 @@ page 9 forever
 SEED = 20261123
 NAME, QUESTION, LINE, NOTHING = "waiting for a name", "Are you sure?", "half-typed", ""
 OPEN = [(["name\r"], NAME), (["name\r", "salu"], NAME), (["new\r"], QUESTION), (["delete 1"], LINE), (["new"], LINE), (["play 22"], LINE),
-        (["x" * 90], LINE), (["9" * 111], LINE), (["name\r", "y" * 90], LINE), (["@torque of"], NOTHING), (["@play 2"], NOTHING),
+        (["x" * 90], LINE), (["9" * 111], LINE), (["name\r", "y" * 90], NAME), (["@torque of"], NOTHING), (["@play 2"], NOTHING),
         (["help\r"], NOTHING), (["list\r"], NOTHING), (["@where\r"], NOTHING), (["page 4\r", "page 2\r"], NOTHING), ([], NOTHING)]
 
 
