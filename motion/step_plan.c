@@ -12,9 +12,9 @@ static NOINLINE uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_
 {
     length_q21_11 += *carry_q5_11;
     uint32_t ticks = length_q21_11 >> TICK_BITS;
-    if (ticks > UINT16_MAX) {
+    if (ticks > STEP_PLAN_TICKS_MAX) {
         *carry_q5_11 = 0;
-        return UINT16_MAX;
+        return STEP_PLAN_TICKS_MAX;
     }
     *carry_q5_11 = (uint16_t)(length_q21_11 & ((1u << TICK_BITS) - 1));
     return (uint16_t)ticks;
