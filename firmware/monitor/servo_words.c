@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+#include "servo_words.h"
+
+#include <stddef.h>
+#include <string.h>
+#include "bus.h"
+#include "bus_call.h"
+#include "dxl.h"
+#include "packets.h"
+#include "pgm.h"
+#include "ranges_own.h"
+#include "text.h"
+
+enum { TABLE_BYTES = 50, DUMP_ROW = 10, PARAMS_MAX = 32 };
+
+static uint8_t current;
+
+/* ---- packets ---- */
+
+static uint8_t send(uint8_t instruction, uint8_t count)
+{
+    (void)packets_exchange(current, instruction, count);
+    return SHELL_OK;
+}
+
+/* Takes all words as parameters. Returns their number; 0: one of them is no byte (SHELL_ERR_RANGE). */
+static uint8_t take_bytes(const shell_args_t *args)
+{
+    uint8_t count = (uint8_t)(args->count - 1u);
+    if (count > PARAMS_MAX) {
+        return 0;
+    }
+    for (uint8_t i = 0; i < count; i++) {
+        uint16_t byte;
+        if (!shell_take(args, (uint8_t)(i + 1u), RANGE_BYTE, &byte)) {
+            return 0;
+        }
+        packets_params()[i] = (uint8_t)byte;
+    }
+    return count;
+}
+
+static uint8_t send_bytes(const shell_args_t *args, uint8_t instruction)
+{
+    uint8_t count = take_bytes(args);
+    return count == 0 ? (uint8_t)SHELL_ERR_RANGE : send(instruction, count);
+}
+
+/* Writes the line's number to one address. */
+static bool write_number(const shell_args_t *args, uint8_t address)
+{
+    packets_params()[0] = address;
+    packets_params()[1] = (uint8_t)args->number[0];
+    return packets_exchange(current, DXL_WRITE, 2);
+}
+
+/* Refuses words that would ruin all servos at once. */
+static bool is_one_servo(void)
+{
+    if (current == DXL_BROADCAST) {
+        (void)packets_say(TEXT_P("One servo only: CID first"));
+    }
+    return current != DXL_BROADCAST;
+}
+
+/* ---- words ---- */
+
+void servo_words_init(void)
+{
+    current = 1;
+}
+
+uint8_t servo_words_current(void)
+{
+    return current;
+}
+
+WORD(servo_words_cid)
+{
+    current = (uint8_t)args->number[0];
+    return SHELL_OK;
+}
+
+WORD(servo_words_ping)
+{
+    (void)packets_exchange(args->count > 1 ? (uint8_t)args->number[0] : current, DXL_PING, 0);
+    return SHELL_OK;
+}
+
+WORD(servo_words_read)
+{
+    packets_params()[0] = (uint8_t)args->number[0];
+    packets_params()[1] = args->count > 2 ? (uint8_t)args->number[1] : 1u;
+    return is_one_servo() ? send(DXL_READ, 2) : (uint8_t)SHELL_ERR_REPORTED;
+}
+
+WORD(servo_words_write)
+{
+    return send_bytes(args, DXL_WRITE);
+}
+
+WORD(servo_words_reg_write)
+{
+    return send_bytes(args, DXL_REG_WRITE);
+}
+
+WORD(servo_words_action)
+{
+    return send(DXL_ACTION, 0);
+}
+
+WORD(servo_words_go)
+{
+    packets_params()[0] = DXL_AT_GOAL;
+    memcpy(packets_params() + 1, args->number, sizeof args->number);
+    return send(DXL_WRITE, args->count > 2 ? 5 : 3);
+}
+
+WORD(servo_words_led)
+{
+    (void)write_number(args, DXL_AT_LED);
+    return SHELL_OK;
+}
+
+WORD(servo_words_baud)
+{
+    if (is_one_servo()) {
+        (void)write_number(args, DXL_AT_BAUD);
+    }
+    return SHELL_OK;
+}
+
+/* The new ID must be free: two servos with one ID can only be told apart by unplugging one. */
+WORD(servo_words_id)
+{
+    uint8_t id = (uint8_t)args->number[0];
+    if (!is_one_servo()) {
+        return SHELL_ERR_REPORTED;
+    }
+    if (bus_call_ping(id, PACKETS_TRIES, NULL) == BUS_OK) {
+        return packets_say(TEXT_P("That ID is taken"));
+    }
+    if (write_number(args, DXL_AT_ID)) {
+        current = id;
+    }
+    return SHELL_OK;
+}
+
+WORD(servo_words_reset)
+{
+    if (!is_one_servo()) {
+        return SHELL_ERR_REPORTED;
+    }
+    return shell_word_is(args, 1, PSTR("yes")) ? send(DXL_RESET, 0) : packets_say(TEXT_P("RESET YES: factory values, ID 1"));
+}
+
+/* swr address count, then for each servo its ID and `count` bytes. */
+WORD(servo_words_sync_write)
+{
+    uint8_t count = take_bytes(args), each = packets_params()[1];
+    if (count < 4 || each == 0 || (uint16_t)(count - 2) % (uint16_t)(each + 1) != 0) {
+        return packets_say(TEXT_P("SWR address count id byte .. id byte .."));
+    }
+    (void)packets_exchange(DXL_BROADCAST, DXL_SYNC_WRITE, count);
+    return SHELL_OK;
+}
+
+WORD(servo_words_dump)
+{
+    uint8_t row[DUMP_ROW];
+    for (uint8_t at = 0; at < TABLE_BYTES && is_one_servo(); at = (uint8_t)(at + DUMP_ROW)) {
+        bus_status_t status = bus_call_read(current, at, row, DUMP_ROW, NULL);
+        if (status != BUS_OK) {
+            return packets_say_status(status);
+        }
+        text_padded(at, 3, '0');
+        packets_print_bytes(TEXT_P(":"), row, DUMP_ROW);
+        text_line_end();
+    }
+    return SHELL_OK;
+}
