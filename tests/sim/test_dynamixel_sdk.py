@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Other people's code against our servos: the real dynamixel-sdk (PyPI), protocol 1.0, on cm5sim --bus-pty."""
 import itertools
+import signal
 import time
 
 import pytest
@@ -216,3 +217,34 @@ def test_trace_and_servo_eeprom_of_the_bus(make, tmp_path):
     assert rows[0][3] == 512
     assert rows[-1][2] == 600 and abs(rows[-1][3] - 600) <= 1  # the compliance margin: there the motor rests
     assert kept.read_bytes()[24 + 3] == 5
+
+
+def test_rows_of_the_trace_are_of_their_time(make, tmp_path):
+    """Also when the bus comes late: it is stopped for a second while the servo turns, and the first thing that it finds is a packet."""
+    trace, units_a_tick = tmp_path / "trace.csv", 5 * 2.271 / 128     # SPEED 5, Dynamixel's 0.111 rpm a unit
+    bus = make("--servos", "1-2", "--trace", trace)
+    bus.packets.write2ByteTxRx(bus.port, 1, SPEED, 5)
+    end = time.monotonic() + PATIENCE_S
+    for goal in itertools.cycle((1000, 24)):
+        bus.packets.write2ByteTxRx(bus.port, 1, GOAL, goal)
+        begun = bus.read2(1, PRESENT)
+        while abs(bus.read2(1, PRESENT) - begun) < 10:      # on its way
+            time.sleep(0.05)
+        bus.sim.process.send_signal(signal.SIGSTOP)
+        time.sleep(1)
+        bus.port.writePort([0xFF, 0xFF, 1, 4, 2, PRESENT, 2, 0xD2])
+        bus.sim.process.send_signal(signal.SIGCONT)
+        answer = b""
+        while len(answer) < 8:
+            answer += bytes(bus.port.readPort(8 - len(answer)))
+        found = answer[5] | answer[6] << 8
+        if abs(goal - found) > 20:      # it was still on its way when the bus went on
+            break
+        assert time.monotonic() < end, "no look came while the servo was moving"
+        bus.until_at(1, goal)
+    assert bus.sim.stop() == 0
+    rows, way = rows_of(trace), 1 if goal > 512 else -1
+    moving = [(row[0], way * row[3]) for row in rows if row[2] == goal and 3 < abs(row[3] - begun) and 3 < abs(goal - row[3])]
+    assert moving[-1][1] - moving[0][1] > 10
+    off = [(tick, at) for tick, at in moving if abs(at - moving[0][1] - (tick - moving[0][0]) * units_a_tick) > 1.6]
+    assert not off, off[:5]

@@ -82,6 +82,16 @@ static bool is_whole(const bus_run_t *run)
     return whole;
 }
 
+/* Writes the rows of all ticks up to this cycle. Servos that have been brought up to a later moment do not go back: this
+ * comes before whatever happens on the wire at that cycle. */
+static void trace_up_to(bus_run_t *run, uint64_t now)
+{
+    for (; run->tracing && run->next_tick <= now; run->next_tick += TICK_CYCLES) {
+        servo_bus_advance(run->bus, run->next_tick);
+        trace_row(&run->trace, run->next_tick / TICK_CYCLES, run->next_tick);
+    }
+}
+
 /* Puts the gathered bytes on the wire, back to back. Servo time may run ahead of the clock by the packet's length;
  * it waits for the clock afterwards. */
 static void put_on_wire(bus_run_t *run, uint64_t now)
@@ -90,6 +100,7 @@ static void put_on_wire(bus_run_t *run, uint64_t now)
     uint64_t at = now > run->line_free ? now : run->line_free;
     for (int i = 0; i < run->gathered_count; i++) {
         at += byte_cycles;
+        trace_up_to(run, at);
         servo_bus_host_byte(run->bus, at, run->gathered[i], run->rate_bps);
     }
     run->line_free = at;
@@ -120,13 +131,6 @@ static int wait_ms(const bus_run_t *run, uint64_t now)
     return wake <= now ? 0 : (int)((wake - now + SERVO_CYCLES_PER_MS - 1) / SERVO_CYCLES_PER_MS);
 }
 
-static void trace_up_to(bus_run_t *run, uint64_t now)
-{
-    for (; run->tracing && run->next_tick <= now; run->next_tick += TICK_CYCLES) {
-        trace_row(&run->trace, run->next_tick / TICK_CYCLES, run->next_tick);
-    }
-}
-
 static void step(bus_run_t *run)
 {
     struct pollfd entry = {.fd = run->pty.master, .events = POLLIN};
@@ -140,10 +144,10 @@ static void step(bus_run_t *run)
         put_on_wire(run, now);
     }
     if (now > run->line_free) {
+        trace_up_to(run, now);
         servo_bus_advance(run->bus, now);
     }
     send_answer(run);
-    trace_up_to(run, now);
 }
 
 static const char *open_all(bus_run_t *run)
