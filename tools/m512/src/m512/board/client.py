@@ -23,14 +23,17 @@ ERR_WORD, ERR_EDITS = 1, 12
 
 class Client:
     """Play or Edit on a line. Raises NoAnswerError when nobody answers to @ver, RefusedError when Edit plays what was typed into its
-    terminal. is_met: contact.make() has been called."""
+    terminal. patience: seconds for the answer to each @ver. is_met: contact.make() has been called, or nobody can have left anything open.
+    slack: seconds that every later answer may be late, on a line that does not keep the clock."""
 
-    def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5), is_met: bool = False):
+    def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5), is_met: bool = False, slack: float = 0.0):
         self.link = link
         self.version: Dict[str, str] = {}
+        self.slack = 0.0
         if not is_met:
             contact.make(link)
         self.version = self._fields(self._ask_version(patience))
+        self.slack = slack
 
     def _ask_version(self, patience: Sequence[float]) -> str:
         for seconds in patience:
@@ -49,7 +52,7 @@ class Client:
         word = "@" + request.split()[0]
         for _ in range(tries):
             self.link.write(f"@{request}\r".encode())
-            line = self._answer(word, f"@{request}", seconds)
+            line = self._answer(word, f"@{request}", seconds + self.slack)
             if line is None:
                 continue
             if line == "OK" or line.endswith(" OK"):

@@ -9,6 +9,7 @@ import sys
 from dataclasses import asdict, dataclass
 from typing import Callable, List, Optional
 
+from m512.board.client import Client
 from m512.errors import M512Error, NoAnswerError, RefusedError, how_to_install
 
 OK, WARN, BAD = "ok", "look", "bad"
@@ -26,8 +27,9 @@ class Finding:
         return {key: value for key, value in asdict(self).items() if value}
 
 
-def examine(word: str, tell: Callable[[Finding], None]) -> List[Finding]:
-    """All findings, told as they come. `word`: the port, or empty for the only one."""
+def examine(word: str, tell: Callable[[Finding], None], meet: Callable[..., Client] = Client) -> List[Finding]:
+    """All findings, told as they come. `word`: the port, or empty for the only one. meet: makes the Client of a line (sim.meet for a simulated
+    board)."""
     out: List[Finding] = []
 
     def add(*parts: str) -> None:
@@ -37,7 +39,7 @@ def examine(word: str, tell: Callable[[Finding], None]) -> List[Finding]:
     _libraries(add)
     url = _port(word, add)
     if url:
-        _board(url, add)
+        _board(url, add, meet)
     return out
 
 
@@ -76,13 +78,12 @@ def _port(word: str, add) -> Optional[str]:
     return url
 
 
-def _board(url: str, add) -> None:
-    from m512.board.client import Client
+def _board(url: str, add, meet: Callable[..., Client]) -> None:
     from m512.board.link import Link
 
     with Link(url) as link:
         try:
-            client = Client(link)
+            client = meet(link)
         except NoAnswerError:
             _loader(link, add)
             return

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Starts the simulator (cm5sim) on a port of its own, for commands that are given --sim instead of a robot.
 
+The simulated board keeps real time while this PC has time for it. On a busy PC it is late: m512 waits for minutes before it gives up.
+
 It is looked for in $M512_CM5SIM, in the build folder of a source tree that this package lies in, beside this Python (`pip install cm5sim`
 puts it there, with firmware images and motions), and in the PATH.
 """
@@ -17,13 +19,19 @@ import time
 from pathlib import Path
 from typing import List, Optional
 
-from m512.errors import MissingError, RefusedError
+from m512 import ui
+from m512.board.client import Client
+from m512.board.link import Link
+from m512.errors import MissingError, NoAnswerError, RefusedError
 from m512.files.image import Image
 from m512.files.scale12 import HINT
 from m512.files.wording import named_pages_text
 from m512.places import build_folder, wheel_folder
 
-START_SECONDS = 60.0
+START_SECONDS = 300.0
+SOON = (0.6, 1.5, 4.0, 15.0)    # seconds for the answer to each first request: one comes before the board listens
+LATER = (60.0, 220.0)           # then with a note; together five minutes
+SLACK_SECONDS = 300.0
 
 
 def find_cm5sim() -> Path:
@@ -103,8 +111,10 @@ class Simulator:
                     return match.group(1).decode()
                 if not some:
                     break
+        ended = self.process.poll() is not None
         self.close()
-        raise MissingError("the simulator did not start: " + self.said.decode("utf-8", "replace").strip())
+        raise MissingError("the simulator did not start: " + (self.said.decode("utf-8", "replace").strip() or (
+            f"it ended with exit code {self.process.returncode}" if ended else f"it named no port for {START_SECONDS / 60:.0f} minutes")))
 
     def __enter__(self) -> "Simulator":
         return self
@@ -118,4 +128,19 @@ class Simulator:
             self.process.wait(5)
         except subprocess.TimeoutExpired:
             self.process.kill()
+            self.process.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def meet(link: Link) -> Client:
+    """The Client of a simulated board that has just been started. NoAnswerError after five minutes of silence."""
+    link.sleep(0.5)
+    try:
+        return Client(link, SOON, is_met=True, slack=SLACK_SECONDS)
+    except NoAnswerError:
+        ui.say("note: the simulated board has not answered yet; m512 waits for five minutes, Ctrl-C ends it")
+    try:
+        return Client(link, LATER, is_met=True, slack=SLACK_SECONDS)
+    except NoAnswerError:
+        raise NoAnswerError("the simulated board has not answered for 5 minutes: is the image (--image) a Play or Edit? If it is, this PC is "
+                            "too busy: end other programs, then repeat the command") from None

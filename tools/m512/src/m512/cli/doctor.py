@@ -33,10 +33,10 @@ def doctor(port, sim, as_json):
                 ui.show(f"                 -> {finding.advice}")
 
     if sim:
-        from m512.board.sim import Simulator
+        from m512.board.sim import Simulator, meet
 
         with Simulator(["play-cm5.hex"]) as simulator:
-            found = examine(simulator.url, tell)
+            found = examine(simulator.url, tell, meet)
     else:
         found = examine(port, tell)
     if as_json:

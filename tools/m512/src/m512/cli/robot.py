@@ -13,7 +13,6 @@ from m512.cli.board import json_option, port_option
 from m512.errors import NoAnswerError, RefusedError
 
 ID_MAX = 30
-SIM_PATIENCE = (0.6, 1.5, 4.0, 15.0)     # a simulator on a busy PC starts late
 
 
 def robot_options(function):
@@ -37,12 +36,11 @@ def robot(options, end=b""):
     if options["motions"] and not options["sim"]:
         raise click.UsageError("--motions is for --sim; a robot gets its motions with `m512 flash` or `put`")
     if options["sim"]:
-        from m512.board.sim import Simulator
+        from m512.board.sim import Simulator, meet
 
         with Simulator([options["image"]], options["motions"], options["servos"]) as simulator, \
                 Link(simulator.url) as link:
-            link.sleep(0.5)
-            yield Client(link, SIM_PATIENCE)
+            yield meet(link)
         return
     with Link(ports.pick(options["port"])) as link:
         try:
