@@ -214,6 +214,33 @@ static void test_layers_joint_given_to_a_layer_keeps_the_approach_speed(void)
     given_joint_keeps_the_approach_speed(PLAYER_LAW_CLASSIC);
 }
 
+/* The page goes to and fro between 300 and 700, 40 units a tick. At 10 degrees/s the joint makes 0.27, and is never near
+ * what is asked for at a tick. It goes on with the page when that passes it in a later step than the page's first: no
+ * farther in that tick than the page does, and within two steps more. */
+static void test_layers_slow_joint_goes_on_with_a_page_that_passes_it(void)
+{
+    enum { FAST = 4 };
+    sparse_step(FAST, 10, 0, 300);
+    sparse_step(FAST, 10, 0, 700);
+    sparse_pages[FAST].next = FAST;
+    start(PLAYER_LAW_EXACT);
+    layers_set_speed(&layers, 10);
+    TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, FAST, 1ul << 2));
+    for (uint8_t t = 1; t <= 60; t++) {
+        const int was_pos = goal_pos[2], was_asked = player_asks(&layers.play, &joints[2]);
+        (void)layers_tick(&layers, &l, &layer_events);
+        const int asked = player_asks(&layers.play, &joints[2]), way = size(goal_pos[2] - was_pos);
+        if (joints[2].hand_over != 0) {
+            TEST_ASSERT_LESS_OR_EQUAL(30, t);
+            TEST_ASSERT_LESS_OR_EQUAL(1, way);
+        } else {
+            TEST_ASSERT_GREATER_THAN(10, t);
+            TEST_ASSERT_EQUAL_INT(asked, goal_pos[2]);
+            TEST_ASSERT_LESS_OR_EQUAL(size(asked - was_asked), way);
+        }
+    }
+}
+
 static void test_layers_default_joints_are_those_of_the_first_step(void)
 {
     sparse_pages[SHORT].step[0].pos[0] = PAGE_POS_UNUSED;
@@ -400,6 +427,7 @@ int main(void)
     RUN_TEST(test_layers_in_speed_base_keep_the_timing);
     RUN_TEST(test_layers_page_ends_by_itself_and_gives_its_joints_back);
     RUN_TEST(test_layers_joint_given_to_a_layer_keeps_the_approach_speed);
+    RUN_TEST(test_layers_slow_joint_goes_on_with_a_page_that_passes_it);
     RUN_TEST(test_layers_default_joints_are_those_of_the_first_step);
     RUN_TEST(test_layers_refuse_and_change_nothing);
     RUN_TEST(test_layers_aim_works_while_nothing_plays);
