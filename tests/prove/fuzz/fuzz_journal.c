@@ -90,7 +90,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     memcpy(before, fake_flash_bytes(), sizeof before);
     if ((mishaps & 1) != 0) {
         const uint8_t operation = (uint8_t)(1 + fuzz_byte(&fuzz) % 6);
-        fake_flash_cut(operation, (fake_flash_phase_t)(fuzz_byte(&fuzz) % 3), fuzz_byte(&fuzz), &cut);
+        const fake_flash_phase_t phase = (fake_flash_phase_t)(fuzz_byte(&fuzz) % 3);
+        fake_flash_cut(operation, phase, fuzz_byte(&fuzz), &cut);
     }
     if ((mishaps & 2) != 0) {
         const uint16_t page = fuzz_word(&fuzz);

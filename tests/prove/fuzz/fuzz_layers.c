@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * A main play that is shaped, a page layer and code-made motion over it, on any pages, with every call of layers.h and
  * shape.h at any tick. Beside it the same play goes without layers: whatever was never lent must go the same way, bit by
- * bit, in the same time. What must hold: layers_rules.h.
+ * bit, in the same time. What must hold: layers_rules.h, and for each play step_rules.h.
  *
  * Input: options, hand-over speed, joints present; the pages (fuzz_pages.h), two of which get partners; then what happens:
  * an action, its arguments, and how many ticks go by. */
 #include "approach.h"
 #include "fuzz_pages.h"
 #include "layers_rules.h"
+#include "step_rules.h"
 #include "trap.h"
 
 #include <string.h>
@@ -17,6 +18,7 @@
 #define ALL 0x7FFFFFFFu
 
 static layers_run_t run;
+static step_rules_t rules_of_alone, rules_of_main, rules_of_layer;
 static link_mode_t mode;
 static unsigned ticks_left;
 
@@ -27,6 +29,41 @@ static void note_lent(void)
 }
 
 /* ---- time ---- */
+
+static uint8_t tick_alone(void)
+{
+    step_rules_before(&rules_of_alone, &run.alone.player);
+    const uint8_t events = player_tick(&run.alone.player, &run.alone.link);
+    step_rules_behind(&rules_of_alone, &run.alone.player, events);
+    return events;
+}
+
+static uint8_t tick_laid(uint8_t *of_layer)
+{
+    const bool is_bound = run.layers.main != NULL, is_laid = player_is_moving(&run.layers.play);
+    if (is_bound) {
+        step_rules_before(&rules_of_main, &run.laid.player);
+    }
+    if (is_laid) {
+        step_rules_before(&rules_of_layer, &run.layers.play);
+    }
+    const uint8_t events = layers_tick(&run.layers, &run.laid.link, of_layer);
+    if (is_bound) {
+        step_rules_behind(&rules_of_main, &run.laid.player, events);
+    }
+    if (is_laid) {
+        step_rules_behind(&rules_of_layer, &run.layers.play, *of_layer);
+    }
+    return events;
+}
+
+static void disturb(void)
+{
+    run.undisturbed = false;
+    step_rules_disturb(&rules_of_alone);
+    step_rules_disturb(&rules_of_main);
+    step_rules_disturb(&rules_of_layer);
+}
 
 /* The play is over: as the performer does it. */
 static void ended(void)
@@ -45,9 +82,9 @@ static void tick(void)
     ticks_left--;
     remember(&run, &before);
     const bool bound = run.layers.main != NULL;
-    const uint8_t events = layers_tick(&run.layers, &run.laid.link, &of_layer);
+    const uint8_t events = tick_laid(&of_layer);
     run.keeps_time = run.keeps_time && !may_differ(&run);
-    const uint8_t events_alone = bound && run.keeps_time ? player_tick(&run.alone.player, &run.alone.link) : events;
+    const uint8_t events_alone = bound && run.keeps_time ? tick_alone() : events;
     ASSERT(events == events_alone && (bound || events == 0));
     must_move_well(&run, &before, (of_layer & PLAYER_EV_ENDED) != 0);
     if (bound && run.keeps_time) {
@@ -95,6 +132,8 @@ static void start(uint8_t number)
     memset(run.laid.joint, 0, sizeof run.laid.joint);   /* the approach had this memory */
     const player_status_t status = start_one(&run.alone, number);
     ASSERT(start_one(&run.laid, number) == status);
+    memset(&rules_of_alone, 0, sizeof rules_of_alone);
+    memset(&rules_of_main, 0, sizeof rules_of_main);
     if (status != PLAYER_OK) {
         layers_bind(&run.layers, NULL);
         return;
@@ -121,7 +160,7 @@ static void pause(void)
     if (run.layers.main == NULL || player_is_paused(&run.laid.player) || run.laid.player.breaking) {
         return;
     }
-    run.undisturbed = false;
+    disturb();
     /* The rest of a step whose time is over takes a ramp if one of the play's own joints is off its target. */
     run.keeps_time = run.keeps_time && (run.touched & run.present) == 0;
     layers_pause(&run.layers);
@@ -141,7 +180,7 @@ static void resume(void)
 
 static void break_off(void)
 {
-    run.undisturbed = false;
+    disturb();
     layers_break(&run.layers);
     if (run.layers.main != NULL) {
         player_break(&run.laid.player);
@@ -161,6 +200,7 @@ static void lay(uint8_t page, uint32_t joints)
         ASSERT(run.layers.main != NULL && page >= 1 && page <= FUZZ_PAGES && page_check(fuzz_pages[page]) == PAGE_OK);
         ASSERT((run.layers.play.present & ~run.laid.player.present) == 0 && run.layers.play.present != 0);
         ASSERT(of_first_step || (run.layers.play.present & ~joints) == 0);
+        memset(&rules_of_layer, 0, sizeof rules_of_layer);
         return;
     }
     run.layers.play.fault = old.play.fault;
@@ -236,6 +276,12 @@ static void to_link(uint8_t code)
     run.alone.link = run.laid.link;
 }
 
+static void lay_on_joints(fuzz_t *fuzz)
+{
+    const uint8_t page = (uint8_t)(1 + fuzz_byte(fuzz) % FUZZ_PAGES);   /* first, with any compiler */
+    lay(page, mask(fuzz));
+}
+
 static void act(fuzz_t *fuzz)
 {
     switch (fuzz_byte(fuzz) & 15) {
@@ -247,7 +293,7 @@ static void act(fuzz_t *fuzz)
     case 5: drop(bit(fuzz_byte(fuzz) % PAGE_JOINTS)); break;
     case 6: start((uint8_t)(fuzz_byte(fuzz) % (FUZZ_PAGES + 2))); break;
     case 7: lay((uint8_t)(fuzz_byte(fuzz) % (FUZZ_PAGES + 3)), 0); break;
-    case 8: lay((uint8_t)(1 + fuzz_byte(fuzz) % FUZZ_PAGES), mask(fuzz)); break;
+    case 8: lay_on_joints(fuzz); break;
     case 9: layers_end(&run.layers); break;
     case 10: move_by_code(fuzz, false); break;
     case 11: move_by_code(fuzz, true); break;

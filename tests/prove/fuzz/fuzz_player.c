@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * Links and player on any pages: the plays end or loop, and no goal ever leaves 0..1023 or a joint that is not theirs.
+ * Links and player on any pages: the plays end or loop, no goal ever leaves 0..1023 or a joint that is not theirs, and the
+ * steps keep step_rules.h.
  *
  * Input: law and first page; joints present; the pages (fuzz_pages.h); then what happens: an action and its argument. */
 #include "fuzz_pages.h"
 #include "player.h"
+#include "step_rules.h"
 #include "trap.h"
 
 #include <string.h>
@@ -18,6 +20,7 @@ static unsigned ticks_left;
 static uint32_t present, dropped;
 static uint16_t pose[PAGE_JOINTS];
 static bool undisturbed;   /* no break or pause since the step began: its targets must be met */
+static step_rules_t rules;
 
 /* Behind the last tick of a step every joint that it used stands where the page wants it. */
 static void must_be_on_target(void)
@@ -48,7 +51,9 @@ static void tick(void)
     }
     ticks_left--;
     const bool moving = player_is_moving(&player);
+    step_rules_before(&rules, &player);
     const uint8_t events = player_tick(&player, &links);
+    step_rules_behind(&rules, &player, events);
     must_be_in_range();
     ASSERT(moving || events == 0);
     if ((events & PLAYER_EV_STEP) != 0) {
@@ -78,6 +83,12 @@ static void start(uint8_t number, player_law_t law)
     }
 }
 
+static void disturb(void)
+{
+    undisturbed = false;
+    step_rules_disturb(&rules);
+}
+
 static void drop(uint32_t joints)
 {
     player_drop_joints(&player, joints);
@@ -89,9 +100,9 @@ static void act(uint8_t action, uint8_t argument)
     switch (action & 7) {
     case 1: link_code(&links, argument); break;
     case 2: link_stop(&links); break;
-    case 3: player_break(&player); undisturbed = false; break;
-    case 4: player_pause(&player); undisturbed = false; break;
-    case 5: player_resume(&player); undisturbed = false; break;
+    case 3: player_break(&player); disturb(); break;
+    case 4: player_pause(&player); disturb(); break;
+    case 5: player_resume(&player); disturb(); break;
     case 6: drop((uint32_t)1 << argument % PAGE_JOINTS); break;
     case 7: link_end(&links); break;
     default: break;
@@ -105,7 +116,7 @@ static void act(uint8_t action, uint8_t argument)
 static void must_stand_after_a_break(void)
 {
     ticks_left = 300;
-    undisturbed = false;
+    disturb();
     player_break(&player);
     while (player_is_moving(&player) && ticks_left > 0) {
         tick();
@@ -123,6 +134,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         pose[joint] = (uint16_t)(joint * 33u);
     }
     dropped = 0;
+    memset(&rules, 0, sizeof rules);
     fuzz_pages_make(&fuzz);
     ticks_left = TICKS_MAX;
     player_init(&player, &fuzz_pages_source, states, goals_of_all);

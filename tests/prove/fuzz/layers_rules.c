@@ -3,6 +3,8 @@
 #include "fuzz_pages.h"
 #include "trap.h"
 
+#include <string.h>
+
 static int distance(int from, int to)
 {
     return from < to ? to - from : from - to;
@@ -39,14 +41,16 @@ static int most_of_code(const layers_run_t *run, const layers_code_t *code, bool
 
 /* A joint that changes hands goes no faster than the hand-over speed; in the tick in which it meets its owner's way, as
  * fast as that. */
-static int most_of_hand_over(const layers_run_t *run, uint8_t joint, int asked_before, bool layer_ended)
+static int most_of_hand_over(const layers_run_t *run, uint8_t joint, const before_t *before, bool layer_ended)
 {
     const player_t *owner = run->laid.joint[joint].owner == PLAYER_OWNER_LAYER ? &run->layers.play : &run->laid.player;
     const int most = run->layers.paused ? 0 : units_a_tick(run->hand_over_deg_s);
     if (run->laid.joint[joint].hand_over != 0 && !layer_ended) {
         return most;
     }
-    const int own_way = distance(player_asks(owner, &run->laid.joint[joint]), asked_before);
+    const int asked = player_asks(owner, &run->laid.joint[joint]);
+    const int way = distance(asked, before->asked_pos[0][joint]), way_of_two = distance(asked, before->asked_pos[1][joint]);
+    const int own_way = way > way_of_two ? way : way_of_two;
     return most > own_way ? most : own_way;
 }
 
@@ -102,17 +106,19 @@ void must_be_sane(const layers_run_t *run)
     }
 }
 
-void remember(const layers_run_t *run, before_t *before)
+void remember(layers_run_t *run, before_t *before)
 {
+    memcpy(before->asked_pos[1], run->asked_pos, sizeof run->asked_pos);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         const layers_code_t *code = code_of(run, joint);
         const bool of_layer = run->layers.main != NULL && run->laid.joint[joint].owner == PLAYER_OWNER_LAYER;
         before->goal_pos[joint] = run->laid.goal_pos[joint];
         const player_t *owner = of_layer ? &run->layers.play : &run->laid.player;
-        before->asked_pos[joint] = run->layers.main != NULL ? player_asks(owner, &run->laid.joint[joint]) : 0;
+        run->asked_pos[joint] = run->layers.main != NULL ? player_asks(owner, &run->laid.joint[joint]) : 0;
         before->hand_over[joint] = run->layers.main != NULL ? run->laid.joint[joint].hand_over : 0;
         before->there[joint] = code != NULL && code->there;
     }
+    memcpy(before->asked_pos[0], run->asked_pos, sizeof run->asked_pos);
 }
 
 void must_move_well(const layers_run_t *run, const before_t *before, bool layer_ended)
@@ -126,7 +132,7 @@ void must_move_well(const layers_run_t *run, const before_t *before, bool layer_
         } else if (run->layers.main == NULL || !has(run->laid.player.present, joint)) {
             ASSERT(way == 0);
         } else if (before->hand_over[joint] != 0) {
-            ASSERT(way <= most_of_hand_over(run, joint, before->asked_pos[joint], layer_ended));
+            ASSERT(way <= most_of_hand_over(run, joint, before, layer_ended));
         }
         if (run->layers.main != NULL && run->keeps_time && !has(run->touched, joint)) {
             ASSERT(run->laid.goal_pos[joint] == run->alone.goal_pos[joint]);

@@ -25,12 +25,14 @@ typedef struct {
     uint32_t present, touched;   /* touched: lent since the start, or not as in `alone` for another reason */
     uint32_t whole_step;         /* the main play's since its step began */
     bool undisturbed;            /* no break or pause since then */
+    uint16_t asked_pos[PAGE_JOINTS]; /* see remember */
     bool keeps_time;             /* `alone` still tells how long things take: see may_differ, and pause of fuzz_layers.c */
 } layers_run_t;
 
-/* What must_move_well has to know of the tick before. */
+/* What must_move_well has to know of the tick before. What the owner asks for also of the tick before that one: a joint that
+ * is planned ahead has the step's target a tick early (player_asks). */
 typedef struct {
-    uint16_t goal_pos[PAGE_JOINTS], asked_pos[PAGE_JOINTS];
+    uint16_t goal_pos[PAGE_JOINTS], asked_pos[2][PAGE_JOINTS];
     uint8_t hand_over[PAGE_JOINTS];
     bool there[PAGE_JOINTS];
 } before_t;
@@ -57,7 +59,7 @@ bool may_differ(const layers_run_t *run);
 void must_be_sane(const layers_run_t *run);
 
 /* Around each tick: no joint goes faster than who moves it allows, and one that was never lent goes as in `alone`. */
-void remember(const layers_run_t *run, before_t *before);
+void remember(layers_run_t *run, before_t *before);
 void must_move_well(const layers_run_t *run, const before_t *before, bool layer_ended);
 
 /* At the end of a step: a joint that was the main play's for a whole step ends it where it would have ended it without
