@@ -73,6 +73,21 @@ export interface Floor {
   readonly friction: number;
 }
 
+/** What a person can do to the robot in the page besides talking to it. To yours it does nothing. */
+export interface Lab {
+  /** Times the robot's own; 0: it waits. */
+  setSpeed(speed: number): void;
+  oneTick(): void;
+  setPower(on: boolean): void;
+  press(button: PanelButton, down: boolean): void;
+  setBattery(volts: number): void;
+  setFault(servo: number, fault: number, on: boolean): void;
+  /** ticks: lets go by itself after so many of the robot's time; without it, at the next pull. */
+  pull(hand: Hand | null, ticks?: number): void;
+  hold(held: boolean): void;
+  setFloor(floor: Floor): void;
+}
+
 export interface Desk {
   readonly body: Body;
   readonly state: Store<DeskState>;
@@ -81,6 +96,7 @@ export interface Desk {
   readonly documents: Documents;
   readonly transfer: Transfer;
   readonly trials: Trials;
+  readonly lab: Lab;
   /** Up to 60 times a second. */
   onFrame(listener: (state: RobotState) => void): () => void;
   /** What the board says to a terminal. */
@@ -112,20 +128,8 @@ export interface Desk {
   /** Opens the browser's chooser; call it in a click. */
   connectYours(): Promise<void>;
 
-  /** Only the simulated robot has these; with yours they do nothing. */
-  setSpeed(speed: number): void;
-  oneTick(): void;
-  setPower(on: boolean): void;
-  press(button: PanelButton, down: boolean): void;
-  setBattery(volts: number): void;
-  setFault(servo: number, fault: number, on: boolean): void;
-  turnServo(servo: number, position: number): void;
-  /** ticks: lets go by itself after so many of the robot's time; without it, at the next pull. */
-  pull(hand: Hand | null, ticks?: number): void;
-  hold(held: boolean): void;
-  setFloor(floor: Floor): void;
-  /** Starts the robot anew with that image; motions and settings stay. */
+  /** Starts the robot in the page anew with that image; motions and settings stay. */
   runImage(image: ImageName): void;
-  /** Forgets flash and EEPROM: a robot fresh from the factory. */
+  /** Forgets flash and EEPROM of the robot in the page: a robot fresh from the factory. */
   forget(): Promise<void>;
 }

@@ -58,11 +58,11 @@ export class LabPane extends HTMLElement {
 
   private timeSection(): HTMLElement {
     const row = make('div', { class: 'row' });
-    const pause = make('button', { onclick: () => this.desk.setSpeed(0) }, 'Pause');
+    const pause = make('button', { onclick: () => this.desk.lab.setSpeed(0) }, 'Pause');
     this.speeds.set(0, pause);
-    row.append(pause, make('button', { onclick: () => this.desk.oneTick() }, 'One tick'));
+    row.append(pause, make('button', { onclick: () => this.desk.lab.oneTick() }, 'One tick'));
     for (const [speed, title] of SPEEDS) {
-      const button = make('button', { onclick: () => this.desk.setSpeed(speed) }, title);
+      const button = make('button', { onclick: () => this.desk.lab.setSpeed(speed) }, title);
       this.speeds.set(speed, button);
       row.append(button);
     }
@@ -73,31 +73,31 @@ export class LabPane extends HTMLElement {
 
   private powerSection(): HTMLElement {
     const row = make('div', { class: 'row' },
-      make('button', { onclick: () => this.desk.setPower(true) }, 'Power on'), make('button', { onclick: () => this.desk.setPower(false) }, 'Power off'),
+      make('button', { onclick: () => this.desk.lab.setPower(true) }, 'Power on'), make('button', { onclick: () => this.desk.lab.setPower(false) }, 'Power off'),
       make('button', { onclick: () => void this.desk.setTorque(false) }, 'Torque off'));
     for (const [name, sign] of PANEL) row.append(this.panelButton(name, sign));
-    return this.section('Power and panel', row, this.leds, this.slider('Battery', 6, 12.6, 0.1, NOMINAL_VOLTS, ' V', (volts) => this.desk.setBattery(volts)));
+    return this.section('Power and panel', row, this.leds, this.slider('Battery', 6, 12.6, 0.1, NOMINAL_VOLTS, ' V', (volts) => this.desk.lab.setBattery(volts)));
   }
 
   private panelButton(name: PanelButton, sign: string): HTMLButtonElement {
     const button = make('button', { 'aria-label': `panel button ${name}` }, sign);
-    button.addEventListener('pointerdown', () => this.desk.press(name, true));
-    for (const end of ['pointerup', 'pointerleave'] as const) button.addEventListener(end, () => this.desk.press(name, false));
+    button.addEventListener('pointerdown', () => this.desk.lab.press(name, true));
+    for (const end of ['pointerup', 'pointerleave'] as const) button.addEventListener(end, () => this.desk.lab.press(name, false));
     const isPress = ({ key }: KeyboardEvent): boolean => key === 'Enter' || key === ' ';
-    button.addEventListener('keydown', (event) => isPress(event) && !event.repeat && this.desk.press(name, true));
-    button.addEventListener('keyup', (event) => isPress(event) && this.desk.press(name, false));
-    button.addEventListener('blur', () => this.desk.press(name, false));
+    button.addEventListener('keydown', (event) => isPress(event) && !event.repeat && this.desk.lab.press(name, true));
+    button.addEventListener('keyup', (event) => isPress(event) && this.desk.lab.press(name, false));
+    button.addEventListener('blur', () => this.desk.lab.press(name, false));
     return button;
   }
 
   private roomSection(): HTMLElement {
     const set = (change: Partial<typeof this.floor>): void => {
       Object.assign(this.floor, change);
-      this.desk.setFloor({ ...this.floor });
+      this.desk.lab.setFloor({ ...this.floor });
       this.onTilt(this.floor.tiltFront, this.floor.tiltLeft);
     };
     return this.section('Hand and floor',
-      make('div', { class: 'row' }, make('button', { onclick: () => this.desk.hold(true) }, 'Put on its feet'), make('button', { onclick: () => this.desk.hold(false) }, 'Let go'),
+      make('div', { class: 'row' }, make('button', { onclick: () => this.desk.lab.hold(true) }, 'Put on its feet'), make('button', { onclick: () => this.desk.lab.hold(false) }, 'Let go'),
         make('button', { onclick: () => pushRobot(this.desk, 1) }, 'Push ahead'), make('button', { onclick: () => pushRobot(this.desk, -1) }, 'Push back')),
       this.slider('Slope to the front', -15, 15, 1, 0, '°', (angle) => set({ tiltFront: angle * RADIANS })),
       this.slider('Slope to the left', -15, 15, 1, 0, '°', (angle) => set({ tiltLeft: angle * RADIANS })),

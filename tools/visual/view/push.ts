@@ -14,6 +14,6 @@ export function pushRobot(desk: Desk, direction: 1 | -1): void {
   const stop = desk.onFrame((state) => {
     stop();
     const [x, y, z] = state.trunk.pos;
-    desk.pull({ link: trunk, point: [0, 0, CHEST_M], target: [x + direction * REACH_M, y, z + CHEST_M] }, PUSH_TICKS);
+    desk.lab.pull({ link: trunk, point: [0, 0, CHEST_M], target: [x + direction * REACH_M, y, z + CHEST_M] }, PUSH_TICKS);
   });
 }

@@ -222,7 +222,7 @@ export class RobotView extends HTMLElement {
     if (!this.grabbed) return event.pointerType === 'touch' ? undefined : this.hover(event);
     const target = this.scene.drag(...this.at(event), this.grabbed.world);
     this.grabbed = { ...this.grabbed, target };
-    this.desk.pull({ link: this.grabbed.link, point: this.grabbed.point, target });
+    this.desk.lab.pull({ link: this.grabbed.link, point: this.grabbed.point, target });
   }
 
   /** keep: false takes back what a drag has changed. */
@@ -241,7 +241,7 @@ export class RobotView extends HTMLElement {
   private async letGo(): Promise<void> {
     const isTaught = this.taught.some((servo) => this.editing.get().taught.has(servo));
     if (isTaught) await this.desk.setTorque(true, this.taught);
-    if (!this.grabbed) this.desk.pull(null);
+    if (!this.grabbed) this.desk.lab.pull(null);
   }
 
   private hover(event: PointerEvent): void {

@@ -59,7 +59,7 @@ export class ServoTable extends HTMLElement {
   }
 
   private setFault(servo: number, fault: HTMLSelectElement): void {
-    for (let i = 0; i < fault.options.length - 1; i++) this.desk.setFault(servo, i, fault.value === String(i));
+    for (let i = 0; i < fault.options.length - 1; i++) this.desk.lab.setFault(servo, i, fault.value === String(i));
   }
 
   private take(state: RobotState): void {

@@ -72,7 +72,7 @@ export class TeachBar extends HTMLElement {
     const isTaught = group.servos.every((servo) => taught.has(servo));
     const next = new Set(isTaught ? [...taught].filter((servo) => !group.servos.includes(servo)) : [...taught, ...group.servos]);
     this.editing.set({ taught: next, mode: 'hand', follow: false });
-    if (!isTaught && this.desk.state.get().source === 'simulated') this.desk.hold((this.isCarrying = true));
+    if (!isTaught && this.desk.state.get().source === 'simulated') this.desk.lab.hold((this.isCarrying = true));
     await this.desk.setTorque(isTaught, group.servos);
     if (isTaught) this.letStand(next);
   }
@@ -86,7 +86,7 @@ export class TeachBar extends HTMLElement {
   private letStand(taught: ReadonlySet<number>): void {
     if (taught.size > 0 || !this.isCarrying) return;
     this.isCarrying = false;
-    this.desk.hold(false);
+    this.desk.lab.hold(false);
   }
 }
 

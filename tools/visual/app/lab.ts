@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What a person can do to the robot in the page besides talking to it: its time, its power, its buttons, its servos, its floor.
+
+import type { DeskState, Floor, Hand, Lab, PanelButton } from '../view/desk.ts';
+import type { Store } from '../view/store.ts';
+import type { SimulatedSource } from './simulated-source.ts';
+
+/** Behind this the image has started and answers. */
+const STARTED_MS = 1500;
+
+export class RobotLab implements Lab {
+  private readonly state: Store<DeskState>;
+  private readonly robot: Pick<SimulatedSource, 'post' | 'connection'>;
+
+  constructor(state: Store<DeskState>, robot: Pick<SimulatedSource, 'post' | 'connection'>) {
+    this.state = state;
+    this.robot = robot;
+  }
+
+  setSpeed(speed: number): void {
+    this.state.set({ speed });
+    this.robot.post({ kind: 'speed', speed });
+  }
+
+  oneTick(): void {
+    this.setSpeed(0);
+    this.robot.post({ kind: 'tick' });
+  }
+
+  setPower(on: boolean): void {
+    this.robot.post({ kind: 'power', on });
+    if (on) setTimeout(() => this.robot.connection?.askAgain(), STARTED_MS);
+  }
+
+  press(button: PanelButton, down: boolean): void {
+    this.robot.post({ kind: 'button', button, down });
+  }
+
+  setBattery(volts: number): void {
+    this.robot.post({ kind: 'battery', volts });
+  }
+
+  setFault(servo: number, fault: number, on: boolean): void {
+    this.robot.post({ kind: 'fault', servo, fault, answers: on ? -1 : 0 });
+  }
+
+  pull(hand: Hand | null, ticks = Infinity): void {
+    this.robot.post({ kind: 'grip', grip: hand, ticks });
+  }
+
+  hold(held: boolean): void {
+    this.robot.post({ kind: 'hold', held });
+  }
+
+  setFloor(floor: Floor): void {
+    this.robot.post({ kind: 'floor', floor });
+  }
+}
