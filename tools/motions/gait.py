@@ -15,9 +15,9 @@ four; the body sways like a sine, away from the foot in the air. A foot on the g
 Walking on the spot, backwards, to the side, and curves are the same cycle with other ways of the feet. The numbers are in
 gait.json, found by search.py in physics: what they are is told at `Gait`.
 """
+import argparse
 import json
 import pathlib
-import sys
 from dataclasses import dataclass, replace
 from math import cos, pi, radians, sin
 
@@ -283,5 +283,6 @@ def text(gaits):
 
 
 if __name__ == "__main__":
-    target = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "walk.m512"
-    target.write_text(text(numbers()), encoding="utf-8")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", nargs="?", type=pathlib.Path, default=HERE / "walk.m512")
+    parser.parse_args().file.write_text(text(numbers()), encoding="utf-8")
