@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "board_private.h"
 
+#define NOTE_BEFORE (NOTE_FLASH | NOTE_SLEEP | NOTE_WRONG | NOTE_PROBE | NOTE_RETURN | NOTE_STOP)
+
 void cpu_flash_changed(board_t *board, uint32_t address, uint32_t count)
 {
     const uint8_t *flash = board->avr->flash;
@@ -56,12 +58,12 @@ static bool refuse_opcode(board_t *board, uint32_t pc, uint16_t opcode)
 }
 
 /* Everything about an instruction that has a note. true: it is done or must not be executed. */
-static bool before(board_t *board, uint32_t pc, uint8_t note)
+static bool before(board_t *board, uint32_t pc, unsigned note)
 {
     const uint8_t *at = &board->avr->flash[pc];
     uint16_t opcode = (uint16_t)(at[0] | at[1] << 8);
     if (note & NOTE_STOP) {
-        board->cpu.note[pc / 2] &= (uint8_t)~NOTE_STOP;
+        board->cpu.note[pc / 2] &= (uint16_t)~NOTE_STOP;
         board->stop_at = UINT32_MAX;
         board_end_run(board, BOARD_STOP_ADDRESS);
         return true;
@@ -101,8 +103,8 @@ static void cpu_step(board_t *board)
         violation_note(board, VIOLATION_RWW_FETCH, "instruction fetch from 0x%05X while that flash is busy", pc)) {
         return;
     }
-    uint8_t note = cpu->note[pc >> 1];
-    if (note && before(board, pc, note)) {
+    unsigned note = cpu->note[pc >> 1];
+    if ((note & NOTE_BEFORE) && before(board, pc, note)) {
         return;
     }
     avr->run_cycle_count = 1; /* or avr_run_one() runs on by itself */
@@ -177,40 +179,84 @@ static void run_due_timers(board_t *board)
     }
 }
 
-/* One instruction, one interrupt response, or one skip to the next thing that can happen. */
-static inline void advance(board_t *board)
+/* Takes an interrupt, or skips to the next thing that can happen when no instruction is executed now. false: neither. */
+static inline bool stands_still(board_t *board, bool is_due)
 {
     avr_t *avr = board->avr;
     const cpu_t *cpu = &board->cpu;
-    if (avr->sreg[S_I] && cpu->enabled_before && interrupt_wanted(board) && interrupt_take(board)) {
+    if (is_due && cpu->enabled_before && interrupt_take(board)) {
         waits_disturbed(board);
-        return;
-    }
-    if (cpu->sleeping || !board->power.on || board->reset.held) {
+    } else if (cpu->sleeping || !board->power.on || board->reset.held) {
         skip_to(board, NEVER);
     } else if (cpu->halted_until > avr->cycle) {
         skip_to(board, cpu->halted_until);
-    } else if (avr->gdb) {
-        step_under_gdb(board);
     } else {
-        bool is_swept = board->sweep.is_open;
-        uint32_t pc = avr->pc;
-        cpu_step(board);
-        if (board->waits.on) {
-            waits_passed(board, pc);
-        }
-        if (is_swept) {
-            sweep_passed(board);
-        }
+        return false;
     }
+    return true;
+}
+
+static inline void execute(board_t *board)
+{
+    avr_t *avr = board->avr;
+    if (avr->gdb) {
+        step_under_gdb(board);
+        return;
+    }
+    bool is_swept = board->sweep.is_open;
+    uint32_t pc = avr->pc;
+    cpu_step(board);
+    if (board->waits.on) {
+        waits_passed(board, pc);
+    }
+    if (is_swept) {
+        sweep_passed(board);
+    }
+}
+
+/* Quick, for it is asked before most instructions: false means surely not. */
+static inline bool interrupt_is_due(const board_t *board)
+{
+    const uint8_t *data = board->avr->data;
+    return board->avr->sreg[S_I] &&
+           (board->cpu.lines || (data[M128_TIFR] & data[M128_TIMSK]) || (data[M128_ETIFR] & data[M128_ETIMSK]) ||
+            (data[M128_EIFR] & data[M128_EIMSK]) || (data[M128_ADCSRA] & ADCSRA_ADIE));
+}
+
+/* Runs instructions that only compute, up to one with a note or the next thing that can happen: nothing that cpu_run()
+ * looks at changes meanwhile. Looking costs as much as executing. false: there is none. */
+static bool run_plain(board_t *board)
+{
+    avr_t *avr = board->avr;
+    cpu_t *cpu = &board->cpu;
+    avr_cycle_timer_slot_p timer = avr->cycle_timers.timer;
+    uint64_t end = timer && timer->when < board->events.next ? timer->when : board->events.next;
+    unsigned stops = board->waits.on ? ~0u : ~(unsigned)NOTE_BACK;
+    bool any = false;
+    while (avr->cycle < end && avr->state == cpu_Running && !board->stopped) {
+        uint32_t pc = avr->pc & (M128_FLASH_BYTES - 1);
+        if ((cpu->note[pc >> 1] & stops) || pc < cpu->fetch_floor) {
+            break;
+        }
+        avr->pc = pc;
+        avr->run_cycle_count = 1;
+        avr->pc = avr_run_one(avr);
+        any = true;
+    }
+    if (any) {
+        cpu->enabled_before = avr->sreg[S_I];
+    }
+    if (avr->state != cpu_Running) {
+        crashed(board);
+    }
+    return any;
 }
 
 void cpu_run(board_t *board)
 {
-    avr_t *avr = board->avr;
     waits_disturbed(board);
     while (!board->stopped) {
-        if (board->events.next <= avr->cycle) {
+        if (board->events.next <= board->avr->cycle) {
             events_run(board);
             waits_disturbed(board);
             continue;
@@ -219,7 +265,13 @@ void cpu_run(board_t *board)
             continue;
         }
         run_due_timers(board);
-        advance(board);
+        bool is_due = interrupt_is_due(board);
+        if (stands_still(board, is_due)) {
+            continue;
+        }
+        if (is_due || board->avr->gdb || board->sweep.is_open || !run_plain(board)) {
+            execute(board);
+        }
     }
 }
 
@@ -229,7 +281,9 @@ uint32_t board_step(board_t *board)
     board->stopped = false;
     events_run(board);
     run_due_timers(board);
-    advance(board);
+    if (!stands_still(board, interrupt_is_due(board))) {
+        execute(board);
+    }
     return (uint32_t)(board->avr->cycle - from);
 }
 

@@ -40,13 +40,6 @@ void interrupt_line(board_t *board, int vector, bool level)
     board->cpu.lines = (board->cpu.lines & ~(1ull << vector)) | ((uint64_t)level << vector);
 }
 
-bool interrupt_wanted(const board_t *board)
-{
-    const uint8_t *data = board->avr->data;
-    return board->cpu.lines || (data[M128_TIFR] & data[M128_TIMSK]) || (data[M128_ETIFR] & data[M128_ETIMSK]) ||
-           (data[M128_EIFR] & data[M128_EIMSK]) || (data[M128_ADCSRA] & ADCSRA_ADIE);
-}
-
 /* Flags that the chip clears when it enters the vector. The others follow their cause. */
 static void acknowledge(board_t *board, int vector)
 {

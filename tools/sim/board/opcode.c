@@ -63,7 +63,24 @@ static bool reads_or_writes_flash(uint16_t opcode)
            ((opcode & 0xFE00u) == 0x9000u && nibble >= 4 && nibble <= 7);
 }
 
-uint8_t opcode_note(uint16_t opcode)
+static bool may_touch_device(uint16_t opcode)
+{
+    return (opcode & 0xF000u) == 0xB000u              /* IN, OUT */
+           || (opcode & 0xFC00u) == 0x9000u           /* loads, stores, PUSH, POP */
+           || (opcode & 0xFC00u) == 0x9800u           /* SBI, CBI, SBIC, SBIS */
+           || (opcode & 0xD000u) == 0x8000u           /* LDD, STD */
+           || (opcode & 0xFF0Fu) == 0x9408u           /* SEI, CLI and the other flags */
+           || (opcode & 0xFFEFu) == 0x9508u           /* RET, RETI */
+           || opcode == 0x95A8u;                      /* WDR */
+}
+
+bool opcode_jumps_back(uint16_t opcode)
+{
+    return (opcode & 0xFA00u) == 0xF200u      /* BRBS, BRBC */
+           || (opcode & 0xF800u) == 0xC800u;  /* RJMP */
+}
+
+uint16_t opcode_note(uint16_t opcode)
 {
     unsigned note = 0;
     note |= moves_stack(opcode) ? NOTE_STACK : 0u;
@@ -71,5 +88,7 @@ uint8_t opcode_note(uint16_t opcode)
     note |= opcode == 0x9588 ? NOTE_SLEEP : 0u;
     note |= opcode == 0x9518 ? NOTE_RETI : 0u;
     note |= opcode == OPCODE_BREAK || !opcode_is_legal(opcode) ? NOTE_WRONG : 0u;
-    return (uint8_t)note;
+    note |= may_touch_device(opcode) ? NOTE_DEVICE : 0u;
+    note |= opcode_jumps_back(opcode) ? NOTE_BACK : 0u;
+    return (uint16_t)note;
 }

@@ -43,12 +43,6 @@ static bool touches(uint16_t opcode, uint16_t operand)
            || (opcode & 0xFFCFu) == 0x95C8u;                  /* LPM, ELPM, SPM */
 }
 
-static bool jumps_back(uint16_t opcode)
-{
-    return (opcode & 0xFA00u) == 0xF200u      /* BRBS, BRBC */
-           || (opcode & 0xF800u) == 0xC800u;  /* RJMP */
-}
-
 static uint16_t word_at(const board_t *board, uint32_t word)
 {
     const uint8_t *at = &board->avr->flash[2 * (word % (M128_FLASH_BYTES / 2))];
@@ -63,7 +57,7 @@ void waits_flash_changed(board_t *board, uint32_t address, uint32_t count)
     /* From the word before: its operand may have changed. */
     for (uint32_t word = address < 2 ? 0 : address / 2 - 1; word < (address + count + 1) / 2; word++) {
         uint16_t opcode = word_at(board, word);
-        board->waits.kind[word] = jumps_back(opcode)                          ? KIND_JUMPS_BACK
+        board->waits.kind[word] = opcode_jumps_back(opcode)                   ? KIND_JUMPS_BACK
                                   : touches(opcode, word_at(board, word + 1)) ? KIND_TOUCHES
                                                                               : KIND_PLAIN;
     }
