@@ -19,7 +19,7 @@ AVRDUDE = shutil.which("avrdude")
 needs_avrdude = pytest.mark.skipif(not AVRDUDE, reason="avrdude is not installed (tools/dev/packages.txt)")
 
 
-BUSY_TURNS = 20     # of 2 ms: so long the board may be at work behind the last byte that passed
+BUSY_TURNS = 1500   # of 2 ms: so long the board may be at work behind the last byte that passed; a page of EEPROM takes 2.2 s
 
 
 def run_avrdude(board, *arguments, part="m128", limit=800):
