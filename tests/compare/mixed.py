@@ -63,6 +63,8 @@ def tell(seed):
         said = first_objection(case, [said[0]])
         print(f"{'classic' if case.law else 'exact'}, page {case.page}, joints {case.present:08X}, before: {case.before}")
         print("".join(f"  {deed}\n" for deed in case.deeds) + f"{said[0]}: {said[1]}")
+    else:
+        print(f"seed {seed}: no objection")
     return 1 if said else 0
 
 
