@@ -22,7 +22,6 @@ void link_call(link_t *link, uint8_t code)
     link->stopping = false;
     link->stop_is_final = false;
     link->ending = false;
-    forget_exits(link);
 }
 
 static void stop(link_t *link)
