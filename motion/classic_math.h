@@ -85,7 +85,7 @@ ALWAYS_INLINE int16_t share_of(int16_t x, part_t part)
 /* K = M * 2560 / 12 = M * 640 / 3 = 213 M + M / 3, for a way 0..1023. */
 ALWAYS_INLINE uint32_t way_in_speed_units(uint16_t size)
 {
-    return mul_u16_u16(size, 213) + mul_u16_high(size, 21846);
+    return mul_u16_u8(size, 213) + mul_u16_high(size, 21846);
 }
 
 /* size / divisor, limited to CLASSIC_SPEED_MAX, by long division of ten bits. size below 2^20, divisor not 0. A quotient

@@ -51,11 +51,10 @@ void exact_measure(player_t *player)
 /* --- joints ------------------------------------------------------------------------------------------------------- */
 
 /* Plans RISE and the speed of CRUISE of a joint at from_pos; exit is set already. mean, entry: sizes. */
-static inline void plan_joint(const player_t *player, player_exact_t *exact, uint16_t from_pos, bool down, uint32_t mean,
-                              uint32_t entry)
+static inline void plan_joint(const player_t *player, uint8_t ramp_ticks, player_exact_t *exact, uint16_t from_pos,
+                              bool down, uint32_t mean, uint32_t entry)
 {
     uint32_t cruise = mean, speed = entry, accel = 0; /* without a ramp begin_cruise sets the speed */
-    uint8_t ramp_ticks = player->ramp_ticks;
     if (ramp_ticks != 0) {
         uint32_t more = mean - ((entry + exact->exit_q16_16) >> 1);
         cruise = even(mean + (player->ramp_share_q0_16 == UINT16_MAX ? more : fix_share(more, player->ramp_share_q0_16)));
@@ -76,10 +75,10 @@ static inline void plan_joint(const player_t *player, player_exact_t *exact, uin
 
 /* Speed at at_pos, the end of a step in which a joint's mean speed is `mean`: the smaller of both steps' means, or 0 if it
  * turns round or stays. */
-static inline uint32_t exit_speed(const player_t *player, bool down, uint16_t at_pos, uint16_t next_pos, uint32_t mean,
+static inline uint32_t exit_speed(bool runs_on, bool down, uint16_t at_pos, uint16_t next_pos, uint32_t mean,
                                   uint32_t next_recip)
 {
-    if (mean == 0 || !player->runs_on || (down ? next_pos >= at_pos : next_pos <= at_pos)) {
+    if (mean == 0 || !runs_on || (down ? next_pos >= at_pos : next_pos <= at_pos)) {
         return 0;
     }
     uint32_t next_mean = even(fix_mean(way_between(at_pos, next_pos), next_recip));
@@ -91,18 +90,20 @@ static inline uint32_t exit_speed(const player_t *player, bool down, uint16_t at
 static NOINLINE void plan_joints(player_t *player, bool ahead, uint8_t most)
 {
     uint8_t planned = player->planned;
-    const uint16_t *coming = &player->coming_pos[planned];
     const uint8_t self = player->self;
     const bool is_of_one = !ahead && player->step_ticks == 1; /* no time for the multiplication in such a step */
     const uint32_t next_recip = player->looked && !ahead ? player->now.recip : player->coming.recip;
+    const uint32_t recip = player->recip;
+    const uint8_t ramp_ticks = player->ramp_ticks;
+    const bool runs_on = player->runs_on;
     uint8_t left = most;
-    for (player_joint_t *joint = &player->joint[planned]; planned < PAGE_JOINTS && left != 0; planned++, joint++, coming++) {
+    for (player_joint_t *joint = &player->joint[planned]; planned < PAGE_JOINTS && left != 0; planned++, joint++) {
         if (!law_owns(self, joint)) {
             continue;
         }
         left--;
         player_exact_t *exact = &joint->exact;
-        uint16_t from_pos = fix_pos(exact->pos_q16_16), to_pos = joint->target_pos, next_pos = *coming;
+        uint16_t from_pos = fix_pos(exact->pos_q16_16), to_pos = joint->target_pos, next_pos = player->coming_pos[planned];
         if (PLAYER_LAYERS && ahead) {
             from_pos = to_pos;
             to_pos = next_pos;
@@ -114,12 +115,12 @@ static NOINLINE void plan_joints(player_t *player, bool ahead, uint8_t most)
         OPAQUE(from_pos); /* two bytes to keep, not the four they come from: 30 cycles a joint */
         uint32_t entry = exact->exit_q16_16;
         const uint16_t way = way_between(from_pos, to_pos);
-        const uint32_t mean = even(!is_of_one ? fix_mean(way, player->recip) : way != 0 ? ((uint32_t)way << 16) - 1u : 0);
+        const uint32_t mean = even(!is_of_one ? fix_mean(way, recip) : way != 0 ? ((uint32_t)way << 16) - 1u : 0);
         bool down = to_pos < from_pos;
         joint->down = down;
-        exact->exit_q16_16 = exit_speed(player, down, to_pos, next_pos, mean, next_recip);
+        exact->exit_q16_16 = exit_speed(runs_on, down, to_pos, next_pos, mean, next_recip);
         if (!is_of_one) {
-            plan_joint(player, exact, from_pos, down, mean, entry);
+            plan_joint(player, ramp_ticks, exact, from_pos, down, mean, entry);
         }
     }
     player->planned = planned;

@@ -12,7 +12,8 @@ static uint32_t read_words(const page_source_t *source, uint8_t page, uint8_t st
 {
     /* A joint's bit leaves `joints` as the lowest one; the bit of what it uses enters as the highest. */
     source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), words, 2u * PAGE_JOINTS);
-    for (uint16_t *word = words; word < &words[PAGE_JOINTS]; word++) {
+    uint16_t *word = words;
+    for (uint8_t left = PAGE_JOINTS; left != 0; left--, word++) {
         bool is_used = ((uint8_t)joints & 1u) != 0 && page_pos_is_used(*word);
         joints >>= 1;
         if (is_used) {
@@ -132,7 +133,8 @@ void sequence_measure(player_t *player)
     }
     const uint16_t *looked_at = player->looked_at, *from = player->coming_pos;
     const uint8_t self = player->self;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++) {
+    const player_joint_t *joint = player->joint;
+    for (uint8_t left = PAGE_JOINTS; left != 0; left--, joint++) {
         uint16_t from_pos = *from++, to_pos = *looked_at++;
         if (to_pos == PAGE_POS_UNUSED) {
             continue;

@@ -64,11 +64,13 @@ static uint16_t round_to_whole(uint32_t size)
 static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, uint8_t blend)
 {
     uint32_t hundredths = mul_u16_u8(p, (uint8_t)(100u - blend)) + mul_u16_u8(q, blend);
-    uint32_t centre = mul_u16_u8(c, 100u);
-    bool down = hundredths < centre;
-    uint32_t way = down ? centre - hundredths : hundredths - centre;
+    uint32_t way = hundredths - mul_u16_u8(c, 100u);
+    const bool down = (int32_t)way < 0;
+    if (down) {
+        way = 0 - way;
+    }
     uint32_t size = mul_u16_u8((uint16_t)way, amplitude);
-    if (way >> 16 != 0) { /* it has 17 bits */
+    if ((uint8_t)(way >> 16) != 0) { /* it has 17 bits */
         size += (uint32_t)amplitude << 16;
     }
     uint16_t whole = round_to_whole(size);
@@ -96,12 +98,13 @@ void shape_step_share(shape_step_t *shaping, const page_source_t *source, uint16
     uint8_t joint = shaping->done;
     read_share(source, shaping->partner, shaping->step, joint, partner);
     read_share(source, shaping->centre, 1, joint, centre);
-    for (uint8_t i = 0; i < SHAPE_STEP_SHARE && joint < PAGE_JOINTS; i++, joint++) {
-        uint16_t p = words[joint], q = partner[i], c = centre[i];
+    uint16_t *word = &words[joint];
+    for (uint8_t i = 0; i < SHAPE_STEP_SHARE && joint < PAGE_JOINTS; i++, joint++, word++) {
+        uint16_t p = *word, q = partner[i], c = centre[i];
         bool scales = page_pos_is_used(c), blends = page_pos_is_used(q);
         if (page_pos_is_used(p) && (scales || blends)) {
             uint8_t amplitude = scales ? shaping->amplitude_percent[joint] : SHAPE_NORMAL;
-            words[joint] = shaped(p, blends ? q : p, scales ? c : p, amplitude, shaping->blend_percent);
+            *word = shaped(p, blends ? q : p, scales ? c : p, amplitude, shaping->blend_percent);
         }
     }
     shaping->done = joint;
