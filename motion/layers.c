@@ -108,40 +108,41 @@ void layers_end(layers_t *layers)
 
 /* --- a tick ------------------------------------------------------------------------------------------------------- */
 
-/* Prepares the play whose coming step is nearer; the other one gets what is left of the tick's time. work: done already. */
-static void prepare_both(player_t *main_play, link_t *main_link, player_t *layer, link_t *layer_link, uint8_t work)
+/* Prepares both plays; the second one gets what is left of the tick's time. work: done already. */
+static void prepare(player_t *first, link_t *first_link, player_t *second, link_t *second_link, uint8_t work)
 {
+    first->work = work;
+    player_prepare(first, first_link);
+    second->work = first->work;
+    player_prepare(second, second_link);
+}
+
+/* The play whose coming step is nearer comes first. */
+static void prepare_both(layers_t *layers, link_t *main_link, link_t *layer_link)
+{
+    player_t *main_play = layers->main, *layer = &layers->play;
     if (layer->left < main_play->left) {
-        layer->work = work;
-        player_prepare(layer, layer_link);
-        main_play->work = layer->work;
-        player_prepare(main_play, main_link);
+        prepare(layer, layer_link, main_play, main_link, main_play->work);
     } else {
-        main_play->work = work;
-        player_prepare(main_play, main_link);
-        layer->work = main_play->work;
-        player_prepare(layer, layer_link);
+        prepare(main_play, main_link, layer, layer_link, main_play->work);
     }
 }
 
 /* As layers_tick, while something but the main play moves joints. */
 static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *layer_events)
 {
-    uint16_t before_pos[PAGE_JOINTS];
     uint8_t events = 0;
     if (layers->main != NULL) {
         const bool changing = layers->changing;
-        if (changing) {
-            memcpy(before_pos, layers->goal_pos, sizeof before_pos);
-        }
         link_t link; /* the layer gets no codes and no stop, so a fresh one will do */
         link_init(&link, LINK_LATCH);
+        layers->play.work = changing ? LAW_WORK_FOLLOW : 0;
         *layer_events = player_move(&layers->play, &link);
+        layers->main->work = layers->play.work;
         events = player_move(layers->main, main_link);
-        const uint8_t work = (uint8_t)(layers->main->work + layers->play.work + (changing ? LAW_WORK_FOLLOW : 0u));
-        prepare_both(layers->main, main_link, &layers->play, &link, work);
+        prepare_both(layers, main_link, &link);
         if (changing) {
-            layers_follow_plays(layers, events, *layer_events, before_pos);
+            layers_follow_plays(layers, events, *layer_events);
         }
         if ((*layer_events & PLAYER_EV_ENDED) != 0) {
             layers_hand_back(layers, layers->play.present);

@@ -51,6 +51,7 @@ typedef struct {
     player_t *main;              /* NULL: see layers_bind */
     uint16_t *goal_pos;
     uint16_t speed_q8_8, allowance_q8_8; /* of the hand-over */
+    uint16_t from_pos[PAGE_JOINTS]; /* of a joint that changes hands: its last goal */
     bool paused;
     /* Read only for callers. */
     bool changing;               /* a joint is on its way to a new owner */
@@ -71,7 +72,7 @@ void layers_set_speed(layers_t *layers, uint16_t deg_s);
 void layers_bind(layers_t *layers, player_t *main_play);
 
 /* A second page on `joints` (0: those that its first step uses), of which only those of the main play's `present` that code
- * does not move are taken. Plays by the main play's law, as stored; follows its own links, code 0. A page layer that was on
+ * does not move are taken. Plays by the exact law, as stored; follows its own links, code 0. A page layer that was on
  * ends first. The page itself has to have an action. Any error: nothing changed but play.fault and .fault_page. */
 MUST_CHECK layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints);
 

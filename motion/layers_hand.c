@@ -21,6 +21,7 @@ uint8_t layers_allow(uint16_t *allowance_q8_8, uint16_t speed_q8_8)
 void layers_follow_from_here(layers_t *layers, uint8_t joint, bool too_late)
 {
     layers->main->joint[joint].hand_over = too_late ? HAND_OVER_WAITS : HAND_OVER_FRESH;
+    layers->from_pos[joint] = layers->goal_pos[joint];
     layers->changing = true;
 }
 
@@ -43,16 +44,12 @@ void layers_hand_back(layers_t *layers, uint32_t joints)
  * exactly. Nor might it ever be that near at a tick; so it has also caught up when what is asked for passes it. */
 #define CAUGHT_UP_POS 1u
 
-/* A play, for the joints that change hands to it. */
+/* A play, for the joints that change hands to it. events: of this tick. */
 typedef struct {
     const player_t *play;
-    bool moves, outputs, begins_step;
+    bool moves;
+    uint8_t events;
 } owner_t;
-
-static owner_t owner_of(const player_t *play, uint8_t events)
-{
-    return (owner_t){play, player_is_moving(play), (events & PLAYER_EV_OUTPUT) != 0, (events & PLAYER_EV_STEP) != 0};
-}
 
 /* Where a joint that changes hands goes from `from` in this tick, by `most` at most, on its way to what its owner asks
  * for: goal, if the owner has made goals in this tick. */
@@ -63,37 +60,44 @@ ALWAYS_INLINE uint16_t follow_owner(const owner_t *owner, player_joint_t *joint,
         joint->hand_over = HAND_OVER_DONE;
         return from;
     }
-    if (owner->begins_step && hand_over < HAND_OVER_CATCHES_UP) {
+    const uint8_t events = owner->events;
+    if ((events & PLAYER_EV_STEP) != 0 && hand_over < HAND_OVER_CATCHES_UP) {
         hand_over++;
     }
-    const uint16_t asked = owner->outputs ? goal : player_asks(owner->play, joint);
-    uint16_t at = layers_approach_by(from, asked, most);
-    if (hand_over >= HAND_OVER_CATCHES_UP) {
-        const uint8_t before = hand_over;
-        hand_over = asked < from ? HAND_OVER_ASKED_BELOW : HAND_OVER_ASKED_ABOVE;
-        at = before != HAND_OVER_CATCHES_UP && before != hand_over ? asked : at; /* it has passed the joint: they meet */
-        if ((uint16_t)(at - asked + CAUGHT_UP_POS) <= 2u * CAUGHT_UP_POS) {
-            hand_over = HAND_OVER_DONE;
+    const uint16_t asked = (events & PLAYER_EV_OUTPUT) != 0 ? goal : player_asks(owner->play, joint);
+    uint16_t at = asked;
+    uint8_t next = HAND_OVER_DONE; /* it is there, or what it is asked for has passed it: they meet */
+    if (asked < from) {
+        const uint16_t way = (uint16_t)(from - asked);
+        if (way > most && hand_over != HAND_OVER_ASKED_ABOVE) {
+            at = (uint16_t)(from - most);
+            next = way <= most + CAUGHT_UP_POS ? HAND_OVER_DONE : HAND_OVER_ASKED_BELOW;
+        }
+    } else {
+        const uint16_t way = (uint16_t)(asked - from);
+        if (way > most && hand_over != HAND_OVER_ASKED_BELOW) {
+            at = (uint16_t)(from + most);
+            next = way <= most + CAUGHT_UP_POS ? HAND_OVER_DONE : HAND_OVER_ASKED_ABOVE;
         }
     }
-    joint->hand_over = hand_over & 7u;
+    joint->hand_over = hand_over < HAND_OVER_CATCHES_UP ? hand_over : next;
     return at;
 }
 
-void layers_follow_plays(layers_t *layers, uint8_t main_events, uint8_t layer_events, const uint16_t *before_pos)
+void layers_follow_plays(layers_t *layers, uint8_t main_events, uint8_t layer_events)
 {
-    const owner_t main_play = owner_of(layers->main, main_events), layer = owner_of(&layers->play, layer_events);
+    const owner_t main_play = {layers->main, player_is_moving(layers->main), main_events};
+    const owner_t layer = {&layers->play, player_is_moving(&layers->play), layer_events};
     const uint8_t most = layers->paused ? 0 : layers_allow(&layers->allowance_q8_8, layers->speed_q8_8);
     player_joint_t *joint = layers->main->joint;
-    uint16_t *goal = layers->goal_pos;
-    layers->changing = false;
-    for (const uint16_t *const end = before_pos + PAGE_JOINTS; before_pos < end; before_pos++, goal++, joint++) {
+    uint16_t *goal = layers->goal_pos, *from = layers->from_pos;
+    uint8_t changing = 0;
+    for (uint8_t left = PAGE_JOINTS; left != 0; left--, joint++, goal++, from++) {
         if (joint->hand_over == HAND_OVER_DONE || joint->owner == PLAYER_OWNER_CODE) {
             continue;
         }
-        *goal = follow_owner(joint->owner == PLAYER_OWNER_MAIN ? &main_play : &layer, joint, *before_pos, *goal, most);
-        if (joint->hand_over != HAND_OVER_DONE) {
-            layers->changing = true;
-        }
+        *goal = *from = follow_owner(joint->owner == PLAYER_OWNER_MAIN ? &main_play : &layer, joint, *from, *goal, most);
+        changing |= joint->hand_over;
     }
+    layers->changing = changing != 0;
 }

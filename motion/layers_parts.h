@@ -38,8 +38,8 @@ void layers_hand_back(layers_t *layers, uint32_t joints);
 /* The joint begins to follow its new owner from where it is. too_late: for the step that begins with the next tick. */
 void layers_follow_from_here(layers_t *layers, uint8_t joint, bool too_late);
 
-/* One tick of all joints that change hands, after both plays' ticks with these events. before_pos: the goals before them. */
-void layers_follow_plays(layers_t *layers, uint8_t main_events, uint8_t layer_events, const uint16_t *before_pos) NOINLINE;
+/* One tick of all joints that change hands, after both plays' ticks with these events. */
+void layers_follow_plays(layers_t *layers, uint8_t main_events, uint8_t layer_events) NOINLINE;
 
 /* --- layers_code.c ------------------------------------------------------------------------------------------------ */
 

@@ -200,7 +200,6 @@ static uint8_t tick(player_t *player, link_t *link)
 
 uint8_t player_move(player_t *player, link_t *link)
 {
-    player->work = 0;
     const bool slows_behind = player->state == STATE_BRAKING && player->ahead;
     if (slows_behind) {
         player->state = STATE_PLAYING;
@@ -223,6 +222,7 @@ void player_prepare(player_t *player, link_t *link)
 
 uint8_t player_tick(player_t *player, link_t *link)
 {
+    player->work = 0;
     const uint8_t events = player_move(player, link);
     player_prepare(player, link);
     return events;

@@ -5,7 +5,7 @@
  *
  * A play is a player_t. What belongs to a joint is in player_joint_t and goal_pos, which two plays may share: each moves the
  * joints whose `owner` it is (layers.h).
- * RAM: player_t, link_t and 31 joints are at most 1024 bytes (tests/target/player_cycles.c holds them to that). */
+ * RAM: player_t, link_t and 31 joints are at most 1088 bytes (tests/target/player_cycles.c holds them to that). */
 #ifndef PLAYER_H
 #define PLAYER_H
 
@@ -92,9 +92,9 @@ enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE, PLAYER_OWNER_NO
 
 typedef struct {
     uint16_t target_pos;        /* where the running step ends */
-    uint8_t owner : 2;          /* PLAYER_OWNER_ */
-    uint8_t hand_over : 3;      /* layers_hand.c's; 0: nothing is under way */
-    bool down : 1;              /* exact: the step leads to a smaller position */
+    uint8_t owner;              /* PLAYER_OWNER_ */
+    uint8_t hand_over;          /* layers_hand.c's; 0: nothing is under way */
+    bool down;                  /* exact: the step leads to a smaller position */
     union {
         player_exact_t exact;
         player_classic_t classic;
@@ -178,7 +178,7 @@ uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, ui
 uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* by itself, so that the bench can measure it */
 
 /* The two halves of a tick, for two plays at once (layers.h): makes the tick's goals; then prepares the coming step in what
- * is left of the tick's time, of which player.work has gone already. */
+ * is left of the tick's time. Set player.work to what the tick has done before each of them; they add what they do. */
 uint8_t player_move(player_t *player, link_t *link);
 void player_prepare(player_t *player, link_t *link);
 

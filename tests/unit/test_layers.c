@@ -9,7 +9,7 @@
 #define WAVE 2u  /* page 2: two steps of 30 ticks with joints 2 and 3, round and round */
 #define SHORT 3u /* page 3: one step of 20 ticks, then it ends */
 #define CYCLE 48u
-#define RUN 400u
+#define RUN (6u * CYCLE)
 #define LAYER_JOINTS 0xCul
 /* 60 degrees/s are 1.6 units a tick. */
 #define HAND_OVER_MOST 2
