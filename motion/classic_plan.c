@@ -5,6 +5,11 @@
 #include "classic_plan.h"
 #include "step_plan.h"
 
+/* In LAW_WORK_ units. AIM: of aim_joints if a layer has the other joints; alone, the tick has time for more. PLAN: of
+ * classic_plan_joints, besides one a joint. */
+#define AIM_WORK 10u
+#define PLAN_WORK 4u
+
 /* Whether a joint that goes `way` keeps its speed at the end of the step. next_word: its next position word;
  * PAGE_POS_UNUSED: it stays. */
 static inline bool runs_on(int16_t way, int16_t to, uint16_t next_word)
@@ -20,23 +25,24 @@ static inline bool runs_on(int16_t way, int16_t to, uint16_t next_word)
 static NOINLINE void aim_joints(player_t *player)
 {
     uint32_t used = player->coming_joints;
-    const uint16_t *coming = player->coming_pos, *next = player->looked_at;
     const uint8_t self = player->self;
     const classic_left_t left = classic_left(player);
     const bool from_output = player->section == SECTION_HOLD;
     const bool may_run_on = player->look_page != 0 && player->now.hold_ticks == 0;
-    for (player_joint_t *joint = player->joint; joint < &player->joint[PAGE_JOINTS]; joint++, coming++, next++, used >>= 1) {
+    player_joint_t *joint = player->joint;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++, joint++, used >>= 1) {
         if (!law_owns(self, joint)) {
             continue;
         }
         player_classic_t *classic = &joint->classic;
+        const int16_t to_pos = (int16_t)player->coming_pos[i];
         int16_t way = 0, carried = 0;
         if (((uint8_t)used & 1u) != 0) {
-            way = (int16_t)((int16_t)*coming - (from_output ? classic->out_pos : (int16_t)joint->target_pos));
+            way = (int16_t)(to_pos - (from_output ? classic->out_pos : (int16_t)joint->target_pos));
             carried = classic_speed_left(left, classic);
         }
         classic->carried = carried;
-        classic->next_through = may_run_on && runs_on(way, (int16_t)*coming, *next);
+        classic->next_through = may_run_on && runs_on(way, to_pos, player->looked_at[i]);
         classic->next_to_go = way;
     }
     player->aimed = true;
@@ -72,11 +78,10 @@ typedef struct {
     uint16_t twice_ramp;    /* 2 A */
 } divisors_t;
 
-/* v = (K - w * 2A) / divisor. */
-static int16_t plan_speed(const player_classic_t *classic, const divisors_t *by)
+/* v = (K - w * 2A) / divisor. size: of K. */
+static int16_t plan_speed(const player_classic_t *classic, uint32_t size, const divisors_t *by)
 {
     bool down = classic->next_to_go < 0;
-    uint32_t size = way_in_speed_units(fix_size(classic->next_to_go));
     if (classic->carried != 0) {
         uint32_t taken = mul_u16_u16(fix_size(classic->carried), by->twice_ramp);
         size = (classic->carried < 0) == down ? size - taken : size + taken;
@@ -90,9 +95,8 @@ static int16_t plan_speed(const player_classic_t *classic, const divisors_t *by)
 }
 
 /* v of a skipped step: the divisor is 1, and int16(K) may be any number. It matters if the play ends after this step. */
-static int16_t skipped_speed(const player_classic_t *classic)
+static int16_t skipped_speed(const player_classic_t *classic, uint16_t size)
 {
-    uint16_t size = (uint16_t)way_in_speed_units(fix_size(classic->next_to_go));
     int16_t speed = classic->next_to_go < 0 ? (int16_t)(0u - size) : (int16_t)size;
     return speed > CLASSIC_SPEED_MAX ? CLASSIC_SPEED_MAX : speed < -CLASSIC_SPEED_MAX ? -CLASSIC_SPEED_MAX : speed;
 }
@@ -109,24 +113,27 @@ void classic_plan_joints(player_t *player, uint8_t most)
             most--;
             law_work(player, 1u);
             player_classic_t *classic = &joint->classic;
-            classic->next_speed = ticks != 0 ? plan_speed(classic, &by) : skipped_speed(classic);
+            const uint32_t size = way_in_speed_units(fix_size(classic->next_to_go));
+            classic->next_speed = ticks != 0 ? plan_speed(classic, size, &by) : skipped_speed(classic, (uint16_t)size);
         }
     }
     player->planned = planned;
 }
 
-/* In LAW_WORK_ units: of aim_joints, for the 15 joints that a layer leaves; of classic_plan_joints, besides its joints. */
-#define AIM_WORK 10u
-#define PLAN_WORK 4u
+/* How many joints the tick has time to plan. */
+static uint8_t room_to_plan(const player_t *player)
+{
+    const uint8_t work = player->work;
+    return work < LAW_WORK_MOST - PLAN_WORK ? (uint8_t)((LAW_WORK_MOST - PLAN_WORK - work) * 3u / 4u) : 0;
+}
 
-/* The last tick but one aims in any case: the last one has more to do. */
 void classic_plan_ahead(player_t *player)
 {
-    if (!player->aimed && (player->left == 1 || player->work <= LAW_WORK_MOST - AIM_WORK)) {
+    if (!player->aimed && player->work + AIM_WORK <= LAW_WORK_MOST) {
         aim_joints(player);
     }
-    if (player->aimed && player->work < LAW_WORK_MOST - PLAN_WORK) {
-        classic_plan_joints(player, (uint8_t)((LAW_WORK_MOST - PLAN_WORK - player->work) * 3u / 4u));
+    if (player->aimed) {
+        classic_plan_joints(player, room_to_plan(player));
     }
 }
 
@@ -141,9 +148,6 @@ void classic_measure(player_t *player)
     sequence_measure(player);
     player->measured = true;
 }
-
-/* One joint in so many is planned in the tick before its step begins. */
-#define PLANNED_AHEAD 3u
 
 void classic_take(player_t *player)
 {
@@ -172,10 +176,10 @@ void classic_take(player_t *player)
     start_joints(player);
     const uint8_t joints = sequence_take(player);
     player->own_joints = joints;
-    law_work(player, LAW_WORK_TAKE + joints / 2u);
+    law_work(player, LAW_WORK_TAKE + joints / 4u);
     player->arrived = true;
     player->aimed = false;
-    if (player->planned == 0) {
-        classic_plan_joints(player, joints / PLANNED_AHEAD);
+    if (player->planned == 0) { /* the tick that begins the step has no time for all of them */
+        classic_plan_joints(player, player->work < LAW_WORK_MOST ? joints / 3u : joints / 6u);
     }
 }

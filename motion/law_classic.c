@@ -98,6 +98,7 @@ static void take_speeds(player_t *player)
 static NOINLINE uint8_t begin_step(player_t *player)
 {
     uint8_t events = sequence_announce(player);
+    law_work(player, player->own_joints / 4u);
     classic_plan_joints(player, PAGE_JOINTS);
     player->planned = 0;
     take_speeds(player);
@@ -241,7 +242,7 @@ static bool next_section(player_t *player)
 uint8_t classic_tick(player_t *player, link_t *link)
 {
     uint8_t events = 0;
-    law_work(player, player->own_joints / 6u); /* what its tick takes beyond one of the exact law */
+    law_work(player, player->own_joints / 4u); /* what its tick takes beyond one of the exact law */
     if (player->arrived) {
         events = begin_step(player);
     } else if (player->tick >= player->section_ticks && !next_section(player)) {
