@@ -149,6 +149,16 @@ void classic_measure(player_t *player)
     player->measured = true;
 }
 
+/* How many of so many joints are planned in the last tick, if none is planned ahead: the tick that begins the step has no time
+ * for all of them. A layer beside the play has half of them. */
+static uint8_t planned_last(const player_t *player, uint8_t joints)
+{
+    if (player->work < LAW_WORK_MOST) {
+        return joints / 3u;
+    }
+    return joints > PAGE_JOINTS / 2u + 1u ? joints / 6u : 0;
+}
+
 void classic_take(player_t *player)
 {
     player_step_t *now = &player->now;
@@ -179,7 +189,7 @@ void classic_take(player_t *player)
     law_work(player, LAW_WORK_TAKE + joints / 4u);
     player->arrived = true;
     player->aimed = false;
-    if (player->planned == 0) { /* the tick that begins the step has no time for all of them */
-        classic_plan_joints(player, player->work < LAW_WORK_MOST ? joints / 3u : joints / 6u);
+    if (player->planned == 0) {
+        classic_plan_joints(player, planned_last(player, joints));
     }
 }

@@ -182,7 +182,7 @@ static uint8_t planned_last(const player_t *player, uint8_t joints, uint16_t old
         joints = (uint8_t)(joints - joints / 3u);
         short_ticks = 4;
     }
-    return player->step_ticks <= short_ticks ? (uint8_t)(joints - joints / 3u) : (uint8_t)((joints - 1u) / 2u);
+    return player->step_ticks <= short_ticks ? (uint8_t)(joints - joints / 3u) : (uint8_t)((joints + 1u) / 2u);
 }
 
 void exact_take(player_t *player)

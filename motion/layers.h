@@ -52,9 +52,9 @@ typedef struct {
     uint16_t *goal_pos;
     uint16_t speed_q8_8, allowance_q8_8; /* of the hand-over */
     uint16_t from_pos[PAGE_JOINTS]; /* of a joint that changes hands: its last goal */
-    bool paused;
+    bool paused : 1;
     /* Read only for callers. */
-    bool changing;               /* a joint is on its way to a new owner */
+    bool changing : 1;           /* a joint is on its way to a new owner */
     uint32_t code_joints;        /* moved by code */
     player_t play;               /* the page layer */
     layers_code_t code[LAYERS_CODE_JOINTS]; /* private */

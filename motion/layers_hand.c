@@ -80,7 +80,7 @@ ALWAYS_INLINE uint16_t follow_owner(const owner_t *owner, player_joint_t *joint,
             next = way <= most + CAUGHT_UP_POS ? HAND_OVER_DONE : HAND_OVER_ASKED_ABOVE;
         }
     }
-    joint->hand_over = hand_over < HAND_OVER_CATCHES_UP ? hand_over : next;
+    joint->hand_over = (hand_over < HAND_OVER_CATCHES_UP ? hand_over : next) & 7u;
     return at;
 }
 

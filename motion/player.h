@@ -93,8 +93,8 @@ enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE, PLAYER_OWNER_NO
 typedef struct {
     uint16_t target_pos;        /* where the running step ends */
     uint8_t owner;              /* PLAYER_OWNER_ */
-    uint8_t hand_over;          /* layers_hand.c's; 0: nothing is under way */
-    bool down;                  /* exact: the step leads to a smaller position */
+    uint8_t hand_over : 3;      /* layers_hand.c's; 0: nothing is under way */
+    bool down : 1;              /* exact: the step leads to a smaller position */
     union {
         player_exact_t exact;
         player_classic_t classic;
@@ -113,9 +113,9 @@ typedef struct player {
     uint8_t shares_left : 3;        /* of the step that was looked at: pieces still to be read and shaped */
     bool ahead : 1;                 /* exact: joints may be planned for `now` before it is taken */
     bool aimed : 1;                 /* classic: the joints are aimed for `now` before it is taken */
-    bool arrived;                   /* the joints are at the end of a step; `now` is planned and begins with the next tick */
-    bool breaking;
-    bool resuming;                  /* while BRAKING: goes on as soon as it stands */
+    bool arrived : 1;               /* the joints are at the end of a step; `now` is planned and begins with the next tick */
+    bool breaking : 1;
+    bool resuming : 1;              /* while BRAKING: goes on as soon as it stands */
     uint8_t section;                /* classic */
     uint16_t tick, section_ticks;   /* tick: of the section (classic), of the step with its pause (exact) */
     uint16_t step_ticks, hold_ticks;

@@ -63,10 +63,11 @@ typedef struct {
     uint8_t first_page;         /* the page that plays first: the requested one, or the one its links lead to */
     uint8_t end_reason;         /* performer_end_t to report */
     uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
-    bool leaving;               /* a break is under way, or has ended the play. Read only for callers */
-    bool pausing;               /* APPROACH: a pause is under way */
-    bool slopes_due;            /* PLAY: send the page's compliance in this tick */
-    bool battery_reported, heat_reported; /* each is reported once a play. Read only for callers */
+    bool leaving : 1;           /* a break is under way, or has ended the play. Read only for callers */
+    bool pausing : 1;           /* APPROACH: a pause is under way */
+    bool slopes_due : 1;        /* PLAY: send the page's compliance in this tick */
+    bool is_driven : 1;         /* performer_drive has set the shape */
+    bool battery_reported : 1, heat_reported : 1; /* each is reported once a play. Read only for callers */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
     uint32_t joints;            /* the joints that this play may drive */
     uint32_t ready_left;        /* READY: joints not asked yet */
@@ -77,7 +78,6 @@ typedef struct {
     layers_t *layers;           /* performer_shape.h; NULL in an image without layers */
     shape_step_t *shaping;      /* memory for the step that is being shaped; NULL in such an image */
     uint16_t drive_left_ticks;  /* time left for the next performer_drive; 0: not driven */
-    bool is_driven;             /* performer_drive has set the shape */
     uint8_t shape_voltage_dv;   /* the voltage that the shape's limit follows */
     shape_t shape;              /* of the main play. Set it with the functions of shape.h at any time */
     link_t link;                /* read only for callers */

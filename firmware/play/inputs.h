@@ -38,12 +38,12 @@ typedef struct {
     uint8_t remote_act;        /* remote_act_t of the packet before, to find presses */
     uint8_t remote_buttons;    /* its first eight buttons */
     uint8_t panel_buttons;
-    bool panel_was_free;       /* all buttons were up once: one held since power-on is no press */
     uint8_t code;              /* the last code, from any source */
     uint8_t silent_ticks;      /* since the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
     uint8_t quiet_ticks;       /* since the last byte */
-    bool pc_waits;             /* the PC has been sent XOFF */
-    bool refused;
+    bool panel_was_free : 1;   /* all buttons were up once: one held since power-on is no press */
+    bool pc_waits : 1;         /* the PC has been sent XOFF */
+    bool refused : 1;
     steer_t steer;
     inputs_refusal_t refusal;
     ring_t typed;

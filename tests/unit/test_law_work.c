@@ -61,14 +61,14 @@ static void at_the_end_of_a_step(uint8_t *last, uint8_t *first)
     *first = work;
 }
 
-/* One joint is planned in the next step's first tick: the last one has the taking alone. */
-static void test_law_work_of_the_last_tick_is_the_taking(void)
+/* One joint is planned with the taking: the next step's first tick has nothing left. */
+static void test_law_work_of_the_last_tick_is_the_taking_and_a_joint(void)
 {
     uint8_t last = 0, first = 0;
     start(4);
     at_the_end_of_a_step(&last, &first);
-    TEST_ASSERT_EQUAL_UINT8(LAW_WORK_TAKE, last);
-    TEST_ASSERT_EQUAL_UINT8(LAW_WORK_PLAN_JOINT, first);
+    TEST_ASSERT_EQUAL_UINT8(LAW_WORK_TAKE + LAW_WORK_PLAN_JOINT, last);
+    TEST_ASSERT_EQUAL_UINT8(0, first);
 }
 
 /* More joints are more work, beside what planning them costs: each is set on its target. */
@@ -86,7 +86,7 @@ static void test_law_work_of_the_taking_grows_with_the_joints(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_law_work_of_the_last_tick_is_the_taking);
+    RUN_TEST(test_law_work_of_the_last_tick_is_the_taking_and_a_joint);
     RUN_TEST(test_law_work_of_the_taking_grows_with_the_joints);
     return UNITY_END();
 }
