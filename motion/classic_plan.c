@@ -149,8 +149,8 @@ void classic_measure(player_t *player)
     player->measured = true;
 }
 
-/* How many of so many joints are planned in the last tick, if none is planned ahead: the tick that begins the step has no time
- * for all of them. A layer beside the play has half of them. */
+/* How many of so many joints are planned in the last tick, if none is planned ahead: the tick that begins the step has no
+ * time for all of them. A layer beside the play has half of them. */
 static uint8_t planned_last(const player_t *player, uint8_t joints)
 {
     if (player->work < LAW_WORK_MOST) {

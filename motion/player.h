@@ -199,8 +199,8 @@ void player_drop_joints(player_t *player, uint32_t joints);
 /* For layers.h: gives a joint that is at `pos` to this play. It moves again with the next step. */
 void player_give_joint(player_t *player, uint8_t joint, uint16_t pos);
 
-/* The position 0..1023 where the play wants `joint`, one of its own, when a tick has made no output. In a tick with output that
- * is goal_pos; a joint that is planned ahead has its step's end here already. */
+/* The position 0..1023 where the play wants `joint`, one of its own, when a tick has made no output. In a tick with output
+ * that is goal_pos; a joint that is planned ahead has its step's end here already. */
 uint16_t player_asks(const player_t *player, const player_joint_t *joint);
 
 #endif
