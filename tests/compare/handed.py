@@ -49,17 +49,17 @@ class Walk:
     def __init__(self, image, page, law, pose, joints=ROBOT):
         self.image, self.page, self.law, self.joints, self.pose = bytes(image), page, law, joints, GOALS(*pose)
 
-    def run(self, ticks, *deeds):
-        """deeds: (tick, function); it is called when so many ticks have been made."""
+    def run(self, ticks, *actions):
+        """actions: (tick, function); it is called when so many ticks have been made."""
         library.played_load(self.image)
         library.played_call(0)
         assert library.played_start(self.law, self.page, self.joints, self.pose) == 0
         goals, events, places = (ctypes.c_uint16 * (JOINTS * ticks))(), (ctypes.c_uint8 * (2 * ticks))(), (ctypes.c_uint8 * (4 * ticks))()
         made = 0
-        for until, deed in (*deeds, (ticks, lambda: None)):
+        for until, action in (*actions, (ticks, lambda: None)):
             library.played_run(made, until - made, ticks, goals, events, places)
             made = until
-            deed()
+            action()
         flat = array("H", bytes(goals))
         begins = [[(tick, places[4 * tick + 2 * which], places[4 * tick + 2 * which + 1]) for tick in range(ticks)
                    if events[2 * tick + which] & STEP] for which in (0, 1)]

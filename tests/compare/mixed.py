@@ -4,7 +4,7 @@
 1 to 40 ticks under both laws (mixed_cases.py). No model of the whole is needed: what the page of the spec calls equal is played twice.
 
     tests/compare/mixed.py [--first SEED] [--count N]      10,000 cases by default; exit code 1 when a judge objects
-    tests/compare/mixed.py --seed SEED                     this case alone, with the fewest deeds to which the same judge objects
+    tests/compare/mixed.py --seed SEED                     this case alone, with the fewest actions to which the same judge objects
 
 Judges (mixed_judges.py):
 bytes      A shaped play goes as a play of pages that hold the shaped positions (tests/oracle/shaping.py), bit by bit: goals of all joints,
@@ -40,12 +40,12 @@ def first_objection(case, judges=tuple(JUDGES)):
 
 
 def shrunk(case, judge):
-    """Leaves only deeds without which the judge objects no more."""
-    for deed in list(case.deeds):
-        deeds = case.deeds
-        case.deeds = [other for other in deeds if other is not deed]
+    """Leaves only actions without which the judge objects no more."""
+    for action in list(case.actions):
+        actions = case.actions
+        case.actions = [other for other in actions if other is not action]
         if not first_objection(case, [judge]):
-            case.deeds = deeds
+            case.actions = actions
     return case
 
 
@@ -62,7 +62,7 @@ def tell(seed):
         case = shrunk(case, said[0])
         said = first_objection(case, [said[0]])
         print(f"{'classic' if case.law else 'exact'}, page {case.page}, joints {case.present:08X}, before: {case.before}")
-        print("".join(f"  {deed}\n" for deed in case.deeds) + f"{said[0]}: {said[1]}")
+        print("".join(f"  {action}\n" for action in case.actions) + f"{said[0]}: {said[1]}")
     else:
         print(f"seed {seed}: no objection")
     return 1 if said else 0

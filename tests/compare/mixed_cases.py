@@ -2,7 +2,7 @@
 """Everything that may happen to a play, at once and by chance, for mixed.py: pages of both schedules with steps of 1 to 40 ticks, a shape
 that changes, a second page, motion made by code, pause and resume, stop, break, joints that are lost.
 
-A case is a motion area, what is set before the play, and deeds: (tick before which it is done, name, words of Player.do).
+A case is a motion area, what is set before the play, and actions: (tick before which it is done, name, words of Player.do).
 """
 import ctypes
 import random
@@ -16,9 +16,9 @@ MAIN_PAGES, LAYER_PAGES, PARTNERS = range(1, 6), range(120, 124), range(110, 114
 CENTRE_PAGE = 100
 JOINTS_USED = tuple(range(12))    # few, so that the same ones meet again and again
 TICKS = 420
-LAYER_DEEDS = ("layer", "layer_off", "aim", "swing", "free")
-SHAPE_DEEDS = ("rate", "amplitude", "blend", "centre", "voltage", "reset")
-STOP_DEEDS = ("pause", "resume", "stop", "break", "drop")
+LAYER_ACTIONS = ("layer", "layer_off", "aim", "swing", "free")
+SHAPE_ACTIONS = ("rate", "amplitude", "blend", "centre", "voltage", "reset")
+STOP_ACTIONS = ("pause", "resume", "stop", "break", "drop")
 
 library.played_layer.argtypes = (ctypes.c_int, ctypes.c_uint32, ctypes.c_int)
 library.played_free.argtypes = library.played_drop.argtypes = (ctypes.c_uint32,)
@@ -34,20 +34,20 @@ class Case:
     page: int
     present: int
     pose: list
-    before: list                  # what is set before the play, as deeds without ticks
-    deeds: list
+    before: list                  # what is set before the play, as actions without ticks
+    actions: list
     deg_s: int                    # the speed of hand-overs
     about: dict = field(default_factory=dict)
 
     def only(self, *kinds):
-        """The deeds of these kinds alone."""
-        return [deed for deed in self.deeds if deed[1] in kinds]
+        """The actions of these kinds alone."""
+        return [action for action in self.actions if action[1] in kinds]
 
 
 @dataclass
 class Run:
     """What was played, up to the end of the play. columns[joint][tick]; events and layer_events by tick; steps: (first tick, page, step)
-    of the main play; layer_steps; done: (tick, name, words, status) of the deeds."""
+    of the main play; layer_steps; done: (tick, name, words, status) of the actions."""
     columns: list
     events: list
     layer_events: list
@@ -63,12 +63,12 @@ class Run:
 
 
 def do(name, words):
-    """A deed; returns its status, 0: done."""
+    """An action; returns its status, 0: done."""
     return getattr(library, f"played_{name}")(*words) or 0
 
 
-def play(case, image=None, before=None, deeds=None, alone=False, ticks=TICKS):
-    """Plays the case, or with another image or other deeds. None: it does not start."""
+def play(case, image=None, before=None, actions=None, alone=False, ticks=TICKS):
+    """Plays the case, or with another image or other actions. None: it does not start."""
     library.played_load(case.image if image is None else image)
     for name, *words in case.before if before is None else before:
         do(name, words)
@@ -79,7 +79,7 @@ def play(case, image=None, before=None, deeds=None, alone=False, ticks=TICKS):
         library.played_alone()
     goals, events, places = (ctypes.c_uint16 * (JOINTS * ticks))(), (ctypes.c_uint8 * (2 * ticks))(), (ctypes.c_uint8 * (4 * ticks))()
     made, done = 0, []
-    for tick, name, *words in [*(case.deeds if deeds is None else deeds), (ticks, None)]:
+    for tick, name, *words in [*(case.actions if actions is None else actions), (ticks, None)]:
         if tick > made:
             library.played_run(made, min(tick, ticks) - made, ticks, goals, events, places)
             if any(events[2 * at] & ENDED for at in range(made, min(tick, ticks))):
@@ -98,7 +98,7 @@ def recorded(goals, events, places, done, ticks):
     steps = [[(tick, where[4 * tick + 2 * which], where[4 * tick + 2 * which + 1]) for tick in range(count) if of[tick] & 2]
              for which, of in ((0, main), (1, layer))]
     return Run([flat[joint * ticks:joint * ticks + count] for joint in range(JOINTS)], main[:count], layer[:count],
-               [where[4 * tick:4 * tick + 2] for tick in range(count)], *steps, [deed for deed in done if deed[0] < count], last is not None)
+               [where[4 * tick:4 * tick + 2] for tick in range(count)], *steps, [action for action in done if action[0] < count], last is not None)
 
 
 # --- pages ---
@@ -155,7 +155,7 @@ def area_by_chance(chance, style):
     return bytes(image)
 
 
-# --- deeds ---
+# --- actions ---
 
 def mask_by_chance(chance):
     return sum(1 << joint for joint in JOINTS_USED if chance.random() < chance.choice((0.15, 0.5)))
@@ -182,20 +182,20 @@ def layer_by_chance(chance, deg_s):
             "free": lambda: ("free", mask_by_chance(chance))}[kind]()
 
 
-def deeds_by_chance(chance, style, deg_s):
-    deeds = [(0, "speed", deg_s)]
+def actions_by_chance(chance, style, deg_s):
+    actions = [(0, "speed", deg_s)]
     for _ in range(style["shapes"]):
-        deeds.append((chance.randrange(TICKS), *shape_by_chance(chance, style["rates"])))
+        actions.append((chance.randrange(TICKS), *shape_by_chance(chance, style["rates"])))
     for _ in range(style["layers"]):
-        deeds.append((chance.randrange(TICKS), *layer_by_chance(chance, deg_s)))
+        actions.append((chance.randrange(TICKS), *layer_by_chance(chance, deg_s)))
     for _ in range(style["halts"]):
         begin = chance.randrange(TICKS)
-        deeds += [(begin, "pause"), (begin + chance.choice((1, 2, 5, 12, 30)), "resume")]
+        actions += [(begin, "pause"), (begin + chance.choice((1, 2, 5, 12, 30)), "resume")]
     if chance.random() < 0.3:
-        deeds.append((chance.randrange(30, TICKS), chance.choice(("stop", "stop", "break"))))
+        actions.append((chance.randrange(30, TICKS), chance.choice(("stop", "stop", "break"))))
     if chance.random() < 0.15:
-        deeds.append((chance.randrange(TICKS), "drop", mask_by_chance(chance)))
-    return sorted((deed for deed in deeds if deed[0] < TICKS), key=lambda deed: deed[0])
+        actions.append((chance.randrange(TICKS), "drop", mask_by_chance(chance)))
+    return sorted((action for action in actions if action[0] < TICKS), key=lambda action: action[0])
 
 
 TICK_STYLES = (((1, 6),), ((1, 6),), ((1, 3), (1, 6), (20, 40)), ((1, 40),), ((5, 9),), ((1, 1), (6, 7), (12, 14)))
@@ -216,7 +216,7 @@ def case_by_chance(seed):
     present = ALL if chance.random() < 0.7 else mask_by_chance(chance) | 1
     case = Case(seed, chance.choice((EXACT, EXACT, CLASSIC)), area_by_chance(chance, style), chance.choice(MAIN_PAGES), present,
                 [chance.randint(300, 700) for _ in range(JOINTS)], before, [], deg_s, style)
-    case.deeds = deeds_by_chance(chance, style, deg_s)
+    case.actions = actions_by_chance(chance, style, deg_s)
     if style.get("rate"):    # reset would set the rate too
-        case.deeds = [deed for deed in case.deeds if deed[1] != "reset"]
+        case.actions = [action for action in case.actions if action[1] != "reset"]
     return case

@@ -2,7 +2,7 @@
 """What happened in a run of a case, for the judges of mixed.py: what was in force, who had which joint, where two runs part."""
 from fractions import Fraction
 
-from mixed_cases import SHAPE_DEEDS
+from mixed_cases import SHAPE_ACTIONS
 from played import ENDED, JOINTS, OUTPUT, STANDING, STEP
 from shaped import apply
 
@@ -15,13 +15,13 @@ TIMING = STEP | ENDED | STANDING | OUTPUT
 def in_force(case, run):
     """The shapes: [0] before the play, [t + 1] in tick t."""
     shape = shaping.Shape(volts=Fraction(0))
-    for deed in case.before:
-        shape = apply(shape, *deed)
-    shapes, deeds = [shape], [deed for deed in run.done if deed[1] in SHAPE_DEEDS]
+    for action in case.before:
+        shape = apply(shape, *action)
+    shapes, actions = [shape], [action for action in run.done if action[1] in SHAPE_ACTIONS]
     for tick in range(run.ticks):
-        while deeds and deeds[0][0] <= tick:
-            shape = apply(shape, deeds[0][1], *deeds[0][2])
-            deeds.pop(0)
+        while actions and actions[0][0] <= tick:
+            shape = apply(shape, actions[0][1], *actions[0][2])
+            actions.pop(0)
         shapes.append(shape)
     return shapes
 
@@ -75,16 +75,16 @@ def first_difference(run, other, joints, ticks, events=TIMING):
 
 
 def owners(case, run):
-    """{joint: [(tick from which on, "main" | "page" | "code" | "none", the deed)]}; up to a break."""
+    """{joint: [(tick from which on, "main" | "page" | "code" | "none", the action)]}; up to a break."""
     of_page, of_code, gone, found = set(), set(), set(range(JOINTS)) - bits(case.present), {j: [(0, "main", None)] for j in range(JOINTS)}
 
-    def give(joints, tick, owner, deed=None):
+    def give(joints, tick, owner, action=None):
         for joint in joints - gone:
-            found[joint].append((tick, owner, deed))
+            found[joint].append((tick, owner, action))
         return joints - gone
 
     ends = [(tick + 1, "layer_off", (), 0) for tick in range(run.ticks) if run.layer_events[tick] & ENDED]
-    for tick, name, words, status in sorted([*run.done, *ends], key=lambda deed: (deed[0], deed[1] != "layer_off" or deed in run.done)):
+    for tick, name, words, status in sorted([*run.done, *ends], key=lambda action: (action[0], action[1] != "layer_off" or action in run.done)):
         if status != 0:
             continue
         if name in ("layer_off", "layer"):

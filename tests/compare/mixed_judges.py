@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import handed
 import mixed_cases
-from mixed_cases import LAYER_DEEDS, SHAPE_DEEDS, TICKS, play
+from mixed_cases import LAYER_ACTIONS, SHAPE_ACTIONS, TICKS, play
 from mixed_facts import bits, dropped, ends_of, first_difference, halts_of, in_force, is_broken, lent, owners, paused_ticks
 from played import CLASSIC, ENDED, EXACT, JOINTS, OUTPUT, STANDING
 from shaped import model_pose
@@ -85,14 +85,14 @@ def judge_bytes(case, run):
     poses = poses_of(case, run)
     if isinstance(poses, str):
         return poses
-    before = [deed for deed in case.before if deed[0] in ("rate", "voltage")]
-    deeds = [deed for deed in case.deeds if deed[1] not in (*SHAPE_DEEDS, "stop")]
+    before = [action for action in case.before if action[0] in ("rate", "voltage")]
+    actions = [action for action in case.actions if action[1] not in (*SHAPE_ACTIONS, "stop")]
     if math.prod(map(len, poses)) > COMBINATIONS:
         return None     # too many of them cannot be told apart by the joints that were never lent
     found = None
     for chosen in itertools.product(*poses):
         image, until = unrolled(case, run, chosen)
-        found = first_difference(run, play(case, image, before, deeds), range(JOINTS), until)
+        found = first_difference(run, play(case, image, before, actions), range(JOINTS), until)
         if found is None:
             break
     return found
@@ -114,9 +114,9 @@ def by_way(case, run):
 
 
 def judge_layers(case, run):
-    if not any(deed[1] in LAYER_DEEDS for deed in case.deeds) or may_be_longer(case, run):
+    if not any(action[1] in LAYER_ACTIONS for action in case.actions) or may_be_longer(case, run):
         return None
-    plain = play(case, deeds=[deed for deed in case.deeds if deed[1] not in LAYER_DEEDS])
+    plain = play(case, actions=[action for action in case.actions if action[1] not in LAYER_ACTIONS])
     return first_difference(run, plain, sorted(set(range(JOINTS)) - lent(case, run)), TICKS, 0xFF)
 
 
@@ -128,14 +128,14 @@ def judge_hands(case, run):
     steps = {"main": [*run.steps, (run.ticks, 0, 0)] if run.ended else run.steps, "page": sorted(run.layer_steps + layer_ends)}
     for joint, spans in owners(case, run).items():
         row = run.columns[joint]
-        for k, (tick, owner, deed) in enumerate(spans):
+        for k, (tick, owner, action) in enumerate(spans):
             end = min(spans[k + 1][0] if k + 1 < len(spans) else run.ticks, run.ticks)
             if tick == 0 or tick >= end:
                 continue
             if owner in steps:
                 wrong, _ = handed.judge_hand_over(row, steps[owner], None, tick - 1, end, per_tick)
             elif owner == "code":
-                wrong = by_code(row, deed, tick, end, per_tick, paused)
+                wrong = by_code(row, action, tick, end, per_tick, paused)
             else:
                 wrong = None if len(set(row[tick - 1:end])) == 1 or any(name == "break" for _, name, _, _ in run.done) else "moves, but is lost"
             if wrong:
@@ -143,29 +143,29 @@ def judge_hands(case, run):
     return None
 
 
-def by_code(row, deed, begin, end, per_tick, paused):
+def by_code(row, action, begin, end, per_tick, paused):
     """None, or what is wrong with a joint that code moves in ticks begin..end-1."""
     moves = [tick for tick in range(begin, end) if tick not in paused]
     if any(row[tick] != row[tick - 1] for tick in range(begin, end) if tick in paused):
         return "moves in a pause"
-    if deed[0] == "swing":
-        most = max(per_tick, 6.3 * deed[3] / deed[4]) + 2
+    if action[0] == "swing":
+        most = max(per_tick, 6.3 * action[3] / action[4]) + 2
         fast = [tick for tick in moves if abs(row[tick] - row[tick - 1]) > most]
         return f"tick {fast[0]}: a swing of {most:.1f} units a tick goes {row[fast[0] - 1]} -> {row[fast[0]]}" if fast else None
     slow = handed.bounded_until(row[:end], begin - 1, per_tick) + 1
     if slow < end:
         return f"tick {slow}: an aim is too fast, {row[slow - 1]} -> {row[slow]}"
-    most_left = max(0, abs(row[begin - 1] - deed[2]) - per_tick * len(moves) + 2)
-    return f"an aim is at {row[end - 1]} after {len(moves)} ticks" if abs(row[end - 1] - deed[2]) > most_left else None
+    most_left = max(0, abs(row[begin - 1] - action[2]) - per_tick * len(moves) + 2)
+    return f"an aim is at {row[end - 1]} after {len(moves)} ticks" if abs(row[end - 1] - action[2]) > most_left else None
 
 
 # --- nothing set ---
 
 def judge_nothing(case, run):
-    if any(deed[0] == "rate" for deed in case.before) or case.about["rates"]:
+    if any(action[0] == "rate" for action in case.before) or case.about["rates"]:
         return None
-    deeds = case.only("pause", "resume", "stop", "break", "drop")
-    return first_difference(play(case, deeds=deeds), play(case, deeds=deeds, alone=True), range(JOINTS), TICKS, 0xFF)
+    actions = case.only("pause", "resume", "stop", "break", "drop")
+    return first_difference(play(case, actions=actions), play(case, actions=actions, alone=True), range(JOINTS), TICKS, 0xFF)
 
 
 # --- lengths ---
@@ -173,12 +173,12 @@ def judge_nothing(case, run):
 def judge_lengths(case, run):
     if case.law != EXACT or is_broken(run) or case.only("drop"):
         return None
-    plain = play(case, deeds=[deed for deed in case.deeds if deed[1] not in LAYER_DEEDS]) if case.only(*LAYER_DEEDS) else run
+    plain = play(case, actions=[action for action in case.actions if action[1] not in LAYER_ACTIONS]) if case.only(*LAYER_ACTIONS) else run
     shapes, target, halts = in_force(case, plain), list(case.pose), halts_of(plain)
     present, ends, sums = bits(case.present), ends_of(plain), [Fraction(0)] * 2
     # A pause between two steps, or before the first: the one behind it begins with a stand, and is longer for it.
     next_halted = bool(halts) and halts[0] <= plain.steps[0][0]
-    exactly = not case.about["rates"] and not halts and not any(deed[0] == "voltage" and deed[1] for deed in case.before)
+    exactly = not case.about["rates"] and not halts and not any(action[0] == "voltage" and action[1] for action in case.before)
     for k, (tick, page, step) in enumerate(plain.steps[:-1]):
         since, wrong, fits = plain.steps[k - 2][0] if k >= 2 else 0, None, False
         halted = next_halted or any(tick < halt <= ends[k] for halt in halts)
@@ -230,12 +230,12 @@ def length_wrong(run, target, pose, shape, ideal, k, ends):
 def judge_pauses(case, run):
     if not case.only("pause", "break"):
         return None
-    plain = play(case, deeds=case.only("pause", "resume", "break"))
+    plain = play(case, actions=case.only("pause", "resume", "break"))
     wrong = stands_well(case, plain)
     if wrong:
         return wrong
-    deeds = case.only("pause", "resume")
-    halted, straight = play(case, deeds=deeds), play(case, deeds=[], ticks=2 * TICKS)
+    actions = case.only("pause", "resume")
+    halted, straight = play(case, actions=actions), play(case, actions=[], ticks=2 * TICKS)
     halts, ends, straight_ends = halts_of(halted), ends_of(halted), ends_of(straight)
     # A pause between two steps, in the last tick of one, or before the first: the one behind it begins with a stand, and is longer for it.
     between = bool(halts) and halts[0] <= halted.steps[0][0]

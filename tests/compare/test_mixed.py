@@ -59,10 +59,10 @@ def test_slowing_down_for_too_long_is_found(monkeypatch):
                if max(case.image[512 * page + 24] for page in mixed_cases.MAIN_PAGES) < 8)
 
 
-def test_a_case_is_shrunk_to_the_deeds_that_matter(monkeypatch):
+def test_a_case_is_shrunk_to_the_actions_that_matter(monkeypatch):
     real = mixed_facts.lent
     monkeypatch.setattr(mixed_judges, "lent", lambda case, run: set(sorted(real(case, run))[1:]))
     case = next(case for case in map(mixed_cases.case_by_chance, range(1, 80)) if mixed.first_objection(case, ["layers"]))
-    before = len(case.deeds)
+    before = len(case.actions)
     mixed.shrunk(case, "layers")
-    assert len(case.deeds) < before and mixed.first_objection(case, ["layers"])
+    assert len(case.actions) < before and mixed.first_objection(case, ["layers"])

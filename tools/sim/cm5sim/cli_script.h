@@ -28,14 +28,14 @@
 typedef enum {
     DO_SEND, DO_EXPECT, DO_EXPECT_NO, DO_WAIT, DO_PRESS, DO_RELEASE, DO_RC, DO_POWER, DO_RESET, DO_BATTERY,
     DO_FAULT, DO_CLEAR, DO_PUSH, DO_LOAD, DO_HOLD, DO_LET_GO, DO_REGISTER, DO_PANEL, DO_NOTE, DO_QUIT
-} deed_kind_t;
+} command_kind_t;
 
 typedef enum { IS_EQUAL, IS_NOT, IS_LESS, IS_MORE, IS_AT_MOST, IS_AT_LEAST } relation_t;
 
 /* One line. Which fields count depends on the kind. */
 typedef struct {
     int line;
-    deed_kind_t kind;
+    command_kind_t kind;
     bool at, after;      /* when */
     uint64_t when_cycles;
     uint64_t cycles;     /* within, for, held */
@@ -47,14 +47,14 @@ typedef struct {
     double value;
     bool on;
     servo_fault_t fault;
-} deed_t;
+} command_t;
 
 typedef struct {
     const char *path;
-    deed_t *deeds;
+    command_t *commands;
     int count;
 
-    int next;              /* the deed under way */
+    int next;              /* the command under way */
     bool begun;
     uint64_t begun_cycles; /* when it began */
     uint64_t ended_cycles; /* when the one before ended */
@@ -70,7 +70,7 @@ void script_free(script_t *script);
 uint64_t script_step(script_t *script, session_t *session);
 
 /* Does an action at once. NULL, or why it could not be done (good until the next call); expectations cannot. */
-const char *script_act(session_t *session, const deed_t *deed);
+const char *script_act(session_t *session, const command_t *command);
 
 /* Does one line that holds an action (neither `at` nor an expectation), at once; a button pressed is let go by itself.
  * NULL, or why it was not done. Changes line. */

@@ -27,13 +27,13 @@ bool take_if(rest_t *rest, const char *word)
     return true;
 }
 
-void take_text(rest_t *rest, deed_t *deed, const char *what)
+void take_text(rest_t *rest, command_t *command, const char *what)
 {
     const cli_word_t *word = take(rest, true, what);
     if (word) {
-        deed->length = word->length;
-        deed->text = malloc(word->length + 1);
-        memcpy(deed->text, word->text, word->length + 1);
+        command->length = word->length;
+        command->text = malloc(word->length + 1);
+        memcpy(command->text, word->text, word->length + 1);
     }
 }
 
@@ -86,10 +86,10 @@ void take_on_off(rest_t *rest, bool *on)
     *on = index == 1;
 }
 
-void take_within(rest_t *rest, deed_t *deed)
+void take_within(rest_t *rest, command_t *command)
 {
-    deed->cycles = DEFAULT_WITHIN;
+    command->cycles = DEFAULT_WITHIN;
     if (take_if(rest, "within")) {
-        take_duration(rest, &deed->cycles);
+        take_duration(rest, &command->cycles);
     }
 }

@@ -19,8 +19,8 @@ cli_word_t *take(rest_t *rest, bool quoted, const char *what);
 /* Takes the next word if it is this one. */
 bool take_if(rest_t *rest, const char *word);
 
-/* Takes a "text" into deed->text and length; the deed owns it. */
-void take_text(rest_t *rest, deed_t *deed, const char *what);
+/* Takes a "text" into command->text and length; the command owns it. */
+void take_text(rest_t *rest, command_t *command, const char *what);
 
 /* Takes a time, a number in low..high, one of names (by index), on or off. */
 void take_duration(rest_t *rest, uint64_t *cycles);
@@ -29,7 +29,7 @@ void take_real(rest_t *rest, double low, double high, double *value, const char 
 void take_name(rest_t *rest, const char *const *names, int count, long *index, const char *what);
 void take_on_off(rest_t *rest, bool *on);
 
-/* Takes `within T` into deed->cycles if it is there: 1 s otherwise. */
-void take_within(rest_t *rest, deed_t *deed);
+/* Takes `within T` into command->cycles if it is there: 1 s otherwise. */
+void take_within(rest_t *rest, command_t *command);
 
 #endif

@@ -159,7 +159,7 @@ static void stop(session_t *session, const script_t *script)
 {
     if (script && !session->done) {
         session_complain(session, "%s:%d: the run ended here, before the script", script->path,
-                         script->deeds[script->next].line);
+                         script->commands[script->next].line);
         session_end(session, EXIT_EXPECTATION);
     }
     session_end(session, EXIT_GOOD);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * servo_protocol.h - protocol 1.0 as one servo sees it: bytes to packets, packets to deeds and answers.
+ * servo_protocol.h - protocol 1.0 as one servo sees it: bytes to packets, packets to actions and answers.
  * Facts: dynamixel.md, "Packets". */
 #ifndef SIM_SERVO_PROTOCOL_H
 #define SIM_SERVO_PROTOCOL_H
