@@ -98,7 +98,7 @@ static void take_speeds(player_t *player)
 static NOINLINE uint8_t begin_step(player_t *player)
 {
     uint8_t events = sequence_announce(player);
-    law_work(player, player->own_joints / 4u);
+    law_work(player, player->own_joints / 4u); /* take_speeds */
     classic_plan_joints(player, PAGE_JOINTS);
     player->planned = 0;
     take_speeds(player);

@@ -147,6 +147,15 @@ static uint16_t asked_by_code(const layers_code_t *code)
     return below ? (uint16_t)(code->centre_pos - way) : (uint16_t)(code->centre_pos + way);
 }
 
+/* `from`, one tick's way nearer to `to`. */
+static uint16_t approach_by(uint16_t from, uint16_t to, uint8_t most)
+{
+    if (to > from) {
+        return to - from > most ? (uint16_t)(from + most) : to;
+    }
+    return from - to > most ? (uint16_t)(from - most) : to;
+}
+
 void layers_move_by_code(layers_t *layers)
 {
     for (layers_code_t *code = layers->code; code < &layers->code[LAYERS_CODE_JOINTS]; code++) {
@@ -157,7 +166,7 @@ void layers_move_by_code(layers_t *layers)
         if (code->there) {
             *goal = asked;
         } else {
-            *goal = layers_approach_by(*goal, asked, layers_allow(&code->allowance_q8_8, code->speed_q8_8));
+            *goal = approach_by(*goal, asked, layers_allow(&code->allowance_q8_8, code->speed_q8_8));
             code->there = *goal == asked;
         }
         code->phase += code->phase_step;

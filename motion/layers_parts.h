@@ -13,15 +13,6 @@ static inline uint16_t layers_units_per_tick_q8_8(uint16_t deg_s)
     return (uint16_t)((uint32_t)deg_s * 512u / 75u);
 }
 
-/* `from`, one tick's way nearer to `to`. */
-static inline uint16_t layers_approach_by(uint16_t from, uint16_t to, uint8_t most)
-{
-    if (to > from) {
-        return to - from > most ? (uint16_t)(from + most) : to;
-    }
-    return from - to > most ? (uint16_t)(from - most) : to;
-}
-
 /* Loops over the joints of a mask, which is empty afterwards. */
 #define FOR_JOINTS(i_, joints_)                                        \
     for (uint8_t i_ = 0; (joints_) != 0; (i_)++, (joints_) >>= 1)     \

@@ -5,7 +5,7 @@
  *
  * A play is a player_t. What belongs to a joint is in player_joint_t and goal_pos, which two plays may share: each moves the
  * joints whose `owner` it is (layers.h).
- * RAM: player_t, link_t and 31 joints are at most 1088 bytes (tests/target/player_cycles.c holds them to that). */
+ * RAM: player_t, link_t and 31 joints are at most 1024 bytes (tests/target/player_cycles.c holds them to that). */
 #ifndef PLAYER_H
 #define PLAYER_H
 

@@ -203,7 +203,7 @@ static void test_player_tick_with_all_of_shaping_in_force_keeps_its_budget(void)
     measure_all_in_force(PLAYER_LAW_CLASSIC);
 }
 
-STATIC_ASSERT(sizeof(player_t) + sizeof joints + sizeof(link_t) <= 1088, "player.h says so");
+STATIC_ASSERT(sizeof(player_t) + sizeof joints + sizeof(link_t) <= 1024, "player.h says so");
 
 int main(void)
 {
