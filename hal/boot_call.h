@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * boot_call.h - the two routines in a boot section that can write flash for an application, as C functions.
  * Portable side: firmware/common/page_service.c, which finds out which of them is present. AVR: hal/avr/boot_call.c.
- * Main loop only. Calling an absent routine runs whatever code stands at its address. No RAM but the stack. */
+ * Main loop only. Calling an absent routine runs whatever code is at its address. No RAM but the stack. */
 #ifndef BOOT_CALL_H
 #define BOOT_CALL_H
 
-#include "avr/boot_api.h"
+#include "boot_api.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -13,7 +13,7 @@
 /* Our loader's boot_write_page (boot_api.h): a BOOT_* result. */
 uint8_t boot_call_write(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode, const boot_rx_t *rx);
 
-/* The factory loader's routine at 0x1F238 (bootloader-original.md, 7b). Fills the fixed buffer with the `bytes` of
+/* The factory loader's routine at 0x1F238 (boot/ORIGINAL.md, 7b). Fills the fixed buffer with the `bytes` of
  * data and 0xFF (BOOT_MODE_PROGRAM: with old AND data, old for the rest, because this loader always erases first), then
  * writes. The RAM that the buffer covers is saved on the stack and put back: 300 bytes of stack, all above the buffer.
  * Interrupts are off for 9 ms. Of what arrives on UART1 in that time only the first three bytes survive.

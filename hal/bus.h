@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * bus.h - the servo bus as packets: one instruction out, at most one status packet back, half duplex, by interrupt.
  * One packet at a time: build it in bus_packet(), bus_submit() it, look with bus_poll() until it is not BUS_PENDING.
- * Knows nothing of servos beyond the packet format. Main loop only. RAM: 187 bytes in Edit, 229 in Play, 273 in the monitor
- * (avr-nm -S; by the rooms for packets below).
+ * Knows nothing of servos beyond the packet format. Main loop only. RAM: the rooms for packets below, and a
+ * bus_core_t without them.
  * The engine is bus_core.[ch]. hal/avr/bus.c connects it to UART 0 and the direction pins. */
 #ifndef BUS_H
 #define BUS_H
@@ -33,10 +33,11 @@ typedef enum {
     BUS_ERR_FRAMING,    /* no good answer, and bytes were lost or had no stop bit: noise, two talkers, a wrong rate */
     BUS_ERR_WRONG_ID,   /* another servo answered */
     BUS_ERR_LENGTH,     /* an answer with another number of parameters than asked for */
+    BUS_ERR_REJECTED,   /* the servo answered that it did not obey: the packet arrived damaged, or is none that it knows */
     BUS_ERR_BUSY        /* bus_submit: a packet is under way already; nothing was changed */
 } bus_status_t;
 
-/* The last answer; valid from BUS_OK until the next submit. */
+/* The last answer; valid from BUS_OK or BUS_ERR_REJECTED until the next submit. */
 typedef struct {
     uint8_t id;
     uint8_t error;          /* DXL_ERR_ bits */
@@ -54,8 +55,8 @@ typedef struct {
     uint16_t overruns;
     uint16_t wrong_ids;
     uint16_t lengths;
+    uint16_t rejected;
     uint16_t retries;
-    uint16_t cancelled;     /* by bus_cancel */
     uint16_t strays;        /* bytes heard when no answer was expected */
 } bus_counts_t;
 
@@ -66,19 +67,24 @@ void bus_init(void);
 void bus_set_rate(uint8_t divisor);
 uint8_t bus_rate(void);
 
-/* Return delay that servos may use, in microseconds (default and maximum 508: address 5 = 254): part of the time-out. */
-void bus_set_return_delay_us(uint16_t us);
-
 /* The outgoing packet's buffer, BUS_PACKET_BYTES. May be written only while the bus is not busy. Build with dxl_packet.h. */
 uint8_t *bus_packet(void);
 
 /* Whether a packet is under way. Checks the time-outs as bus_poll does. */
 bool bus_is_busy(void);
 
+/* Whether a packet that nobody answers may be sent now. The same as "not busy" where an answer comes as soon as it is on
+ * the line. Through an adapter it comes later (hal/host/bus.c): true as soon as the line itself is quiet again. */
+bool bus_is_free(void);
+
+/* Blocks until bus_is_free: 1 ms at most on a board, 3 ms through an adapter. */
+void bus_wait_free(void);
+
 /* Sends the first `size` bytes of bus_packet() (built by dxl_packet.h: the ID asked is at [2]).
  * answer_params: number of parameters of the expected status packet, or BUS_NO_ANSWER.
  * tries: 1..BUS_TRIES_MAX; after a failed answer the packet is sent again until they are used up.
- * Returns at once: BUS_PENDING, or BUS_ERR_BUSY. */
+ * Returns at once: BUS_PENDING, or BUS_ERR_BUSY. With BUS_NO_ANSWER while the bus is free but not idle: BUS_OK, and bus_poll
+ * goes on with the packet whose answer is awaited. */
 bus_status_t bus_submit(uint8_t size, uint8_t answer_params, uint8_t tries);
 
 /* The state of the packet. Also checks the time-outs, so call it every few ms while the bus is busy. The result of the
@@ -93,9 +99,8 @@ bool bus_has_news(void);
 /* Blocks until the result: at most tries * (packet + return delay + answer + 0.3 ms); 1 Mbps, 8 bytes read: 0.9 ms. */
 bus_status_t bus_wait(bus_answer_t *answer);
 
-/* Stops waiting for an answer, because a tick's goals must go out. If the packet is still being sent, waits until it has
- * left. */
-void bus_cancel(void);
+/* Whether the bus has gone as a whole since the last call: the adapter was pulled out. Never on a board. */
+bool bus_was_lost(void);
 
 /* Puts every byte heard into `ring` and nowhere else; drops it when the ring is full. NULL: no tap. For a bridge: while a
  * tap is set, submit only packets without an answer (BUS_NO_ANSWER). */

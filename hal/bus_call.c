@@ -39,22 +39,6 @@ bus_status_t bus_call_read(uint8_t id, uint8_t at, void *to, uint8_t count, uint
     return BUS_OK;
 }
 
-bus_status_t bus_call_write(uint8_t id, uint8_t at, const void *from, uint8_t count, uint8_t *error)
-{
-    bool answers = id != DXL_BROADCAST;
-    bus_answer_t answer;
-    (void)bus_wait(NULL);
-    uint8_t *params = bus_packet() + DXL_PARAMS_AT;   /* already where dxl_build will put them */
-    params[0] = at;
-    memcpy(params + 1, from, count);
-    bus_status_t status = bus_call(id, DXL_WRITE, params, (uint8_t)(count + 1u), answers ? 0 : BUS_NO_ANSWER,
-                                   answers ? BUS_CALL_TRIES : 1, &answer);
-    if (status == BUS_OK && answers && error != NULL) {
-        *error = answer.error;
-    }
-    return status;
-}
-
 bus_status_t bus_start_read(uint8_t id, uint8_t at, uint8_t count, uint8_t tries)
 {
     const uint8_t params[2] = { at, count };

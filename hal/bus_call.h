@@ -15,10 +15,6 @@ MUST_CHECK bus_status_t bus_call_ping(uint8_t id, uint8_t tries, uint8_t *error)
 /* Reads `count` (1..DXL_ANSWER_PARAMS) bytes from address `at` on. `to` is written on BUS_OK only. */
 MUST_CHECK bus_status_t bus_call_read(uint8_t id, uint8_t at, void *to, uint8_t count, uint8_t *error);
 
-/* Writes and waits for the answer. A servo whose status return level is below 2 does not answer a WRITE: then
- * BUS_ERR_TIMEOUT does not tell whether the write succeeded; read back. Broadcast: BUS_OK when it has been sent. */
-MUST_CHECK bus_status_t bus_call_write(uint8_t id, uint8_t at, const void *from, uint8_t count, uint8_t *error);
-
 /* Any instruction with any parameters (line monitor). answer_params as in bus_submit; *answer may be NULL. */
 bus_status_t bus_call(uint8_t id, uint8_t instruction, const uint8_t *params, uint8_t count, uint8_t answer_params,
                       uint8_t tries, bus_answer_t *answer);

@@ -57,7 +57,7 @@ bus_status_t bus_core_submit(bus_core_t *core, uint8_t size, uint8_t answer_para
     return BUS_PENDING;
 }
 
-void bus_core_on_sent(bus_core_t *core, uint16_t now_half_us)
+void bus_core_on_sent(bus_core_t *core, bus_time_t now_half_us)
 {
     if (core->state != BUS_TURNING) {
         return;
@@ -73,7 +73,7 @@ void bus_core_on_sent(bus_core_t *core, uint16_t now_half_us)
     }
 }
 
-/* Notes why this try failed. An error of the UART counts as the cause, whatever it led to. */
+/* Notes why this try failed. An error of the UART is taken for the cause, whatever it led to. */
 static void fail(bus_core_t *core, bus_status_t why, uint16_t *count)
 {
     uint8_t flags = core->heard_flags;
@@ -84,7 +84,7 @@ static void fail(bus_core_t *core, bus_status_t why, uint16_t *count)
         why = BUS_ERR_FRAMING;
         count = &core->counts.framing;
     }
-    core->failure = (uint8_t)why;
+    core->failure = why;
     bump(count);
 }
 
@@ -94,6 +94,8 @@ static void take_packet(bus_core_t *core)
     const uint8_t *status = core->status;
     if (status[2] != core->asked_id) {
         fail(core, BUS_ERR_WRONG_ID, &core->counts.wrong_ids);
+    } else if (status[3] == 2u && (status[4] & DXL_REJECTED) != 0) { /* data with such a bit is data all the same */
+        fail(core, BUS_ERR_REJECTED, &core->counts.rejected);
     } else if ((uint8_t)(status[3] - 2u) != core->answer_params) {
         fail(core, BUS_ERR_LENGTH, &core->counts.lengths);
     } else {
@@ -131,7 +133,7 @@ static bool take_heard(bus_core_t *core)
 }
 
 /* LISTENING, and this try has failed: tries again once the line is quiet, or ends the packet. */
-static void after_failure(bus_core_t *core, uint16_t silence)
+static void after_failure(bus_core_t *core, bus_time_t silence)
 {
     if (silence <= BUS_QUIET_HALF_US + core->byte_half_us) {
         return;
@@ -146,7 +148,7 @@ static void after_failure(bus_core_t *core, uint16_t silence)
     }
 }
 
-static void listen(bus_core_t *core, uint16_t now)
+static void listen(bus_core_t *core, bus_time_t now)
 {
     if (take_heard(core)) {
         core->since = now;
@@ -155,26 +157,26 @@ static void listen(bus_core_t *core, uint16_t now)
         return;
     }
     /* Negative when transmit complete came after `now` was read. */
-    int16_t silence = (int16_t)(uint16_t)(now - core->since);
+    bus_span_t silence = (bus_span_t)(now - core->since);
     if (silence <= 0) {
         return;
     }
-    uint16_t patience = (uint16_t)(core->return_delay_half_us + 3u * core->byte_half_us + BUS_MARGIN_HALF_US);
-    if (core->failure == BUS_OK && (uint16_t)silence > patience) {
+    bus_time_t patience = (bus_time_t)(core->return_delay_half_us + 3u * core->byte_half_us + bus_port_margin_half_us());
+    if (core->failure == BUS_OK && (bus_time_t)silence > patience) {
         fail(core, BUS_ERR_TIMEOUT, &core->counts.timeouts);
     }
     if (core->failure != BUS_OK) {
-        after_failure(core, (uint16_t)silence);
+        after_failure(core, (bus_time_t)silence);
     }
 }
 
-bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t *answer)
+bus_status_t bus_core_poll(bus_core_t *core, bus_time_t now_half_us, bus_answer_t *answer)
 {
     core->sent = false;
     if (core->state == BUS_LISTENING) {
         listen(core, now_half_us);
     }
-    if (answer != NULL && core->result == BUS_OK && core->status != NULL) {
+    if (answer != NULL && (core->result == BUS_OK || core->result == BUS_ERR_REJECTED) && core->status != NULL) {
         const uint8_t *status = core->status;
         answer->id = status[2];
         answer->count = (uint8_t)(status[3] - 2u);
@@ -187,16 +189,6 @@ bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t 
 bool bus_core_has_news(const bus_core_t *core)
 {
     return core->sent || (core->state == BUS_LISTENING && core->heard_count != core->parsed);
-}
-
-bool bus_core_cancel(bus_core_t *core)
-{
-    if (core->state == BUS_LISTENING) {
-        bump(&core->counts.cancelled);
-        core->result = BUS_ERR_TIMEOUT;
-        core->state = BUS_IDLE;
-    }
-    return core->state == BUS_IDLE;
 }
 
 void bus_core_counts(const bus_core_t *core, bus_counts_t *counts)

@@ -18,17 +18,20 @@
 
 #include "bus.h"
 #include "dxl_packet.h"
+#include "target.h"
 
 typedef enum { BUS_IDLE = 0, BUS_SENDING, BUS_TURNING, BUS_LISTENING } bus_state_t;
 
 /* Flags of a received byte. */
 enum { BUS_BYTE_FRAMING = 1 << 0, BUS_BYTE_OVERRUN = 1 << 1 };
 
-/* What one try may hear: the longest answer and ten bytes of noise before it. */
-#define BUS_HEARD_BYTES (DXL_ANSWER_PARAMS + DXL_PACKET_OVERHEAD + 10u)
+/* What one try may hear: the longest answer and four bytes of noise before it. */
+#define BUS_HEARD_BYTES (DXL_ANSWER_PARAMS + DXL_PACKET_OVERHEAD + 4u)
 
-/* Silence that ends a try: the return delay, three characters and this. */
-#define BUS_MARGIN_HALF_US 600u
+/* Half microseconds, free running. 16 bits on the board, more where an answer takes longer. */
+typedef TARGET_BUS_TIME bus_time_t;
+typedef TARGET_BUS_SPAN bus_span_t;
+
 /* Silence that a failed try waits for before the next one. */
 #define BUS_QUIET_HALF_US 200u
 
@@ -43,7 +46,7 @@ typedef struct {
     volatile uint8_t heard_flags; /* ISR: BUS_BYTE_ flags of this try */
     uint16_t byte_half_us;        /* time of one character */
     uint16_t return_delay_half_us;
-    volatile uint16_t since;      /* when the line was last active: transmit complete (ISR), then bytes seen by poll */
+    volatile bus_time_t since;     /* when the line was last active: transmit complete (ISR), then bytes seen by poll */
     ring_t *volatile tap;
     bus_counts_t counts;          /* all but strays: main loop */
     volatile uint16_t strays;     /* ISR */
@@ -56,10 +59,9 @@ typedef struct {
 void bus_core_init(bus_core_t *core);
 void bus_core_set_rate(bus_core_t *core, uint8_t divisor);
 bus_status_t bus_core_submit(bus_core_t *core, uint8_t size, uint8_t answer_params, uint8_t tries);
-bus_status_t bus_core_poll(bus_core_t *core, uint16_t now_half_us, bus_answer_t *answer);
+bus_status_t bus_core_poll(bus_core_t *core, bus_time_t now_half_us, bus_answer_t *answer);
 bool bus_core_has_news(const bus_core_t *core);
 /* Stops waiting for an answer. false: the packet is still being sent; call again. */
-bool bus_core_cancel(bus_core_t *core);
 void bus_core_counts(const bus_core_t *core, bus_counts_t *counts);
 
 /* ---- ISR side; inline, because each costs cycles at 1 Mbps (a byte comes every 160) ---- */
@@ -69,7 +71,7 @@ static inline void bus_core_on_last(bus_core_t *core)
     core->state = BUS_TURNING;
 }
 
-void bus_core_on_sent(bus_core_t *core, uint16_t now_half_us);
+void bus_core_on_sent(bus_core_t *core, bus_time_t now_half_us);
 
 /* Leaves out a byte without a stop bit: if it was a glitch before the answer, the answer is still good. */
 static inline void bus_core_on_byte(bus_core_t *core, uint8_t byte, uint8_t flags)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * console.h - the serial line to terminal, PC and remote control (UART 1, 57,600 baud 8N1), by interrupt.
- * Bytes only: knows no lines and no packets. Main loop only. RAM: 256 + 128 bytes of rings, 22 of state.
- * No byte is lost at full line rate as long as the main loop takes bytes every 44 ms (255 bytes; 22 ms with a ring of 128),
- * or with flow control on. Interrupts may be off for 350 us (two characters): the UART keeps that many. */
+ * Bytes only: knows no lines and no packets. Main loop only. RAM: the rings CONSOLE_RX_BYTES and CONSOLE_TX_BYTES, and a
+ * few bytes. No byte is lost at full line rate as long as the main loop takes bytes every 44 ms (255 bytes; 22 ms with a
+ * ring of 128), or with flow control on. Interrupts may be off for 350 us (two characters): the UART keeps that many. */
 #ifndef CONSOLE_H
 #define CONSOLE_H
 
@@ -42,6 +42,11 @@ void console_set_rate(uint8_t divisor);
 /* Input. */
 bool console_get(uint8_t *byte);     /* false: nothing there */
 uint8_t console_waiting(void);       /* bytes to get */
+
+/* How many bytes were lost just before the one that console_get returned last (overrun, framing, ring full); at most 127. A
+ * line with such a byte is not the line that was sent. If bytes were lost in several places while nobody took any, each byte
+ * that waits before the last of them counts as lossy, and the one behind it tells the number. */
+uint8_t console_lost(void);
 void console_drop_input(void);
 
 /* Output, non-blocking: false when there is no room (the byte was not taken). */

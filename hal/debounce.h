@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * debounce.h - up to eight contacts at once. A change counts when it was seen in several samples in a row.
- * Pure; caller-owned; main loop only. RAM: 3 bytes. */
+ * Pure; caller-owned; main loop only. */
 #ifndef DEBOUNCE_H
 #define DEBOUNCE_H
 

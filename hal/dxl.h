@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * dxl.h - the names of Dynamixel protocol 1.0: instructions, error bits, control table. No code, no RAM.
- * Source: dynamixel.md. */
+ * Source: DYNAMIXEL.md. */
 #ifndef DXL_H
 #define DXL_H
 
 #define DXL_BROADCAST 254u
-#define DXL_ID_MAX 253u
 #define DXL_PACKET_MAX 143u  /* bytes, header and checksum included: the AX-12's limit */
 
 enum {
@@ -28,6 +27,9 @@ enum {
     DXL_ERR_OVERLOAD = 1 << 5,
     DXL_ERR_INSTRUCTION = 1 << 6
 };
+
+/* Those that mean that the instruction was not obeyed. The others tell the state of the servo, which has obeyed. */
+#define DXL_REJECTED (DXL_ERR_RANGE | DXL_ERR_CHECKSUM | DXL_ERR_INSTRUCTION)
 
 /* Control table. Words are low byte first. */
 enum {

@@ -24,14 +24,14 @@ dxl_result_t dxl_find_status(const uint8_t *heard, uint8_t count, const uint8_t 
     if (length < 2u || length > DXL_ANSWER_PARAMS + 2u) {
         return DXL_BAD_LENGTH;
     }
-    uint8_t size = (uint8_t)(length + 4u);
+    uint8_t size = length + 4u;
     if (count < size) {
         return DXL_MORE;
     }
     uint8_t sum = 0;
     const uint8_t *end = heard + size;
     for (const uint8_t *at = heard + 2; at != end; at++) {
-        sum = (uint8_t)(sum + *at);
+        sum += *at;
     }
     if (sum != 0xFFu) {
         return DXL_BAD_CHECKSUM;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * flash.h - the program memory: read from anywhere, write by flash pages of 256 bytes.
  * Knows nothing of motions, journals or CRCs. Main loop only, never from an ISR. No RAM of its own.
- * Reading : hal/avr/flash.c (applications), firmware/boot/spm.c (loader), tests/fake/fake_flash.c (PC).
+ * Reading : hal/avr/flash.c (applications), firmware/boot/memory.c (loader), hal/host/memory.c, tests/fake/fake_flash.c.
  * Writing : firmware/common/page_service.c asks the program in the boot section; the loader does it itself.
  * A page takes about 9 ms (erase 4.5 + write 4.5) with interrupts off; programming alone half of that.
  * After a power cut a page may be old, erased or torn: check what you load. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * panel.h - lamps and buttons of the CM-5. The CM-2's are not known, so there it does nothing and reports nothing.
  * Also holds the pins that only need a safe level: charger off, ZigBee out of reset, both receive gates open.
- * Main loop only. RAM: 4 bytes. Source: board.md, "CM-5 pins". */
+ * Main loop only. Source: BOARD.md, "CM-5 pins". */
 #ifndef PANEL_H
 #define PANEL_H
 
@@ -20,7 +20,7 @@ enum {
     PANEL_LED_ALL = 0x7F
 };
 
-/* Buttons, bits of a mask; the arrows have the values of the remote's codes (remote.md). */
+/* Buttons, bits of a mask; the arrows have the values of the remote's codes (REMOTE.md). */
 enum {
     PANEL_UP = 1 << 0,
     PANEL_DOWN = 1 << 1,
@@ -33,10 +33,7 @@ enum {
 /* All lamps off but Power; pull-ups on; charger off; ZigBee running; PC and remote lines gated in. */
 void panel_init(void);
 
-/* Whether this board has a panel. */
-bool panel_is_there(void);
-
-void panel_set(uint8_t leds, bool lit);  /* other lamps stay */
+void panel_set(uint8_t leds, bool on);   /* other lamps stay */
 uint8_t panel_lit(void);
 
 /* Call once a tick: samples the buttons. A change counts when it was seen PANEL_STEADY_TICKS times in a row (23 ms). */

@@ -61,7 +61,7 @@ static void resynchronize(remote_t *remote, const uint8_t *window, uint8_t count
 
 static remote_event_t finish(remote_t *remote, const uint8_t *packet)
 {
-    remote->buttons = (uint16_t)(packet[2] | (packet[4] << 8));
+    remote->buttons = packet[2] | (packet[4] << 8);
     remote->packets++;
     remote->shared = packet[5] == HEAD1;
     remote->held[0] = HEAD1;
@@ -110,7 +110,7 @@ remote_event_t remote_quiet(remote_t *remote)
 
 remote_act_t remote_act(uint16_t buttons, uint8_t *code)
 {
-    *code = (uint8_t)(buttons & CODE_BUTTONS);
+    *code = buttons & CODE_BUTTONS;
     if ((buttons & REMOTE_BUTTON6) != 0 || *code == CODE_STOP) {
         return REMOTE_ACT_STOP;
     }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * remote.h - RC-100 packets out of a byte stream that also carries typed text.
  * Knows no UART and no page: bytes in; buttons, or the bytes that were not a packet, out. Caller-owned state, main
- * loop only. Source: remote.md ("Sources of a code").
+ * loop only. Source: REMOTE.md ("Sources of a code").
  *
  * A packet is FF 55 L ~L H ~H. Typed text never holds 0xFF, so everything outside a packet passes at once. Bytes that
  * began like a packet and turned out not to be one are searched again for the next FF 55, so that a good packet inside
- * or right behind a bad one is not lost; the bytes before it are noise: counted and dropped, never typed.
+ * or right after a bad one is not lost; the bytes before it are noise: counted and dropped, never typed.
  *
  * One case needs care: a packet that has lost its last byte is completed by the FF of the next one. So the FF that ends
- * a good packet may begin another. A 0x55 ('U') right behind it is kept back until it is clear whether it was typed. */
+ * a good packet may begin another. A 0x55 ('U') right after it is kept back until it is clear whether it was typed. */
 #ifndef REMOTE_H
 #define REMOTE_H
 
@@ -67,7 +67,7 @@ typedef enum {
     REMOTE_ACT_PAUSE     /* button 5 alone: pause or resume */
 } remote_act_t;
 
-/* The code table of remote.md. Button 5 in a chord counts as not pressed. The first eight buttons at once make 255, the
+/* The code table of REMOTE.md. Button 5 in a chord is ignored. The first eight buttons at once make 255, the
  * code of stop: a fist on the remote stops the robot. */
 remote_act_t remote_act(uint16_t buttons, uint8_t *code);
 

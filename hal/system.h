@@ -28,6 +28,11 @@ void system_kick(void);
 /* Restarts the controller through the watchdog, within 20 ms. The boot loader then decides what runs. Never returns. */
 void system_restart(void) __attribute__((noreturn));
 
+/* Whether the program is asked to end (Ctrl-C on a PC): bring the robot to a stand, then call system_end. Never on a board.
+ * */
+bool system_is_asked_to_end(void);
+void system_end(void) __attribute__((noreturn));
+
 /* Stops the CPU until an interrupt. Call with interrupts disabled, after checking that there is nothing to do. Enables them
  * and sleeps in one step, so that no interrupt is missed in between. Returns with interrupts enabled. */
 void system_sleep(void);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * tick.h - the time base of all motion: 128 ticks a second, exactly 125,000 cycles of 16 MHz each (Timer 1).
  * The main loop takes every tick once; a tick that is not taken before the next one comes is counted as missed.
- * Main loop only. RAM: 7 bytes. */
+ * Main loop only. */
 #ifndef TICK_H
 #define TICK_H
 
@@ -24,13 +24,16 @@ uint16_t tick_now16(void);
  * adds the others to tick_missed. */
 bool tick_take(void);
 
+/* How many ticks that call of tick_take had missed: how late the present tick is. */
+uint16_t tick_late(void);
+
 /* Whether tick_take would say true. */
 bool tick_is_due(void);
 
 /* Ticks since tick_init that were never taken; stops at 65535. */
 uint16_t tick_missed(void);
 
-/* Takes all ticks up to now without counting them as missed. Call it behind work that blocks on purpose while nothing moves
+/* Takes all ticks up to now without counting them as missed. Call it after work that blocks on purpose while nothing moves
  * (a search of servos, a page write). */
 void tick_forgive(void);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * memory_map.h - every address of the project, for C and (preprocessed) for the linker scripts.
- * Byte addresses, half open: [START, END). Facts: board.md (memory map), bootloader-original.md (sections 2, 3, 7).
+ * Byte addresses, half open: [START, END). Facts: BOARD.md (memory map), boot/ORIGINAL.md (sections 2, 3, 7).
  * Plain integers only: no suffix, no cast, because the linker reads them too. In C an address above 0x7FFF is a
  * long already. */
 #ifndef MEMORY_MAP_H
@@ -8,7 +8,7 @@
 
 /* Flash, 128 KiB, 512 flash pages of 256 bytes. */
 #define MEM_FLASH_PAGE_BYTES 256
-/* The journal: 10 slots of 768 bytes (journal.h); two flash pages behind them stay free. */
+/* The journal: 10 slots of 768 bytes (journal.h); the two flash pages after them stay free. */
 #define MEM_APP_START 0x00000
 #define MEM_APP_END 0x0C000
 #define MEM_JOURNAL_START 0x0C000
@@ -18,7 +18,7 @@
 #define MEM_BOOT_START 0x1E000
 #define MEM_BOOT_END 0x20000
 
-/* Length + CRC-16 of our application images, right behind the 35 four-byte vectors (see app_record.h). */
+/* Length + CRC-16 of our application images, right after the 35 four-byte vectors (see app_record.h). */
 #define MEM_APP_RECORD 0x0008C
 #define MEM_APP_RECORD_BYTES 16
 
@@ -31,6 +31,7 @@
 /* SRAM, 4 KiB. The factory loader's page-write routine takes its 256 bytes from a fixed place. */
 #define MEM_RAM_START 0x0100
 #define MEM_RAM_END 0x1100
+#define MEM_BOOT_RAM_END 0x0AC0 /* the loader's variables end below: what an application keeps over a reset lies above */
 #define MEM_FACTORY_BUFFER 0x0C61
 #define MEM_FACTORY_BUFFER_BYTES 256
 

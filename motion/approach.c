@@ -7,11 +7,11 @@
 /*  speed        ________________
  *              /                \         A ramp_ticks, N total_ticks >= 2A
  *             /                  \        RISE: speed v c / A in tick c; FALL: v (A - c) / A
- *            RISE A   cruise   FALL A     way = v (N - A)
+ *            RISE A   cruise   FALL A     distance = v (N - A)
  *
- * All joints share one plan: the part of its way that each has made, 0..1 as q0.32. step_q0_32 is v / A, truncated. So the
- * longest approach (1023 units at 1 degree/s, 38,363 ticks) is 0.3 units short before the last tick, which is set to the
- * target. */
+ * All joints share one plan: the part of its distance that each has covered, 0..1 as q0.32. step_q0_32 is v / A, truncated.
+ * So the longest approach (1023 units at 1 degree/s, 38,363 ticks) is 0.3 units short before the last tick, which is set to
+ * the target. */
 #define RAMP_TICKS_MAX 32u
 /* Servo units per tick at 1 degree/s: 1024 / 300 / 128 = 2 / 75. */
 #define LIMIT_NUMERATOR 2u
@@ -28,9 +28,9 @@ uint16_t approach_start(approach_t *approach, const uint16_t from_pos[PAGE_JOINT
     uint16_t longest = 0;
     uint32_t left = joints;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, left >>= 1) {
-        const uint16_t way = distance(from_pos[i], to_pos[i]);
-        if (((uint8_t)left & 1u) != 0 && way > longest) {
-            longest = way;
+        const uint16_t apart = distance(from_pos[i], to_pos[i]);
+        if (((uint8_t)left & 1u) != 0 && apart > longest) {
+            longest = apart;
         }
     }
     memmove(approach->target_pos, to_pos, sizeof approach->target_pos);
@@ -42,7 +42,7 @@ uint16_t approach_start(approach_t *approach, const uint16_t from_pos[PAGE_JOINT
     if (longest <= APPROACH_NEAR_POS) {
         return 0;
     }
-    /* Ticks that the longest way would take at the limit, rounded up: N - A. */
+    /* Ticks that the longest distance would take at the limit, rounded up: N - A. */
     const uint16_t limit = (uint16_t)(LIMIT_NUMERATOR * limit_deg_s);
     const uint16_t steady = (uint16_t)(((uint32_t)longest * LIMIT_DENOMINATOR + limit - 1) / limit);
     approach->ramp_ticks = (uint8_t)(steady < RAMP_TICKS_MAX ? steady : RAMP_TICKS_MAX);
@@ -72,10 +72,10 @@ bool approach_tick(approach_t *approach, uint16_t goal_pos[PAGE_JOINTS])
     uint32_t left = approach->joints;
     for (uint8_t i = 0; i < PAGE_JOINTS; i++, left >>= 1) {
         if (((uint8_t)left & 1u) != 0) {
-            /* Rounded to the nearest; the whole way of 0..1023 comes out exactly with 65535 / 65536, too. */
+            /* Rounded to the nearest; the whole distance of 0..1023 comes out exactly with 65535 / 65536, too. */
             const uint16_t from = approach->from_pos[i], to = approach->target_pos[i];
-            const uint16_t way = (uint16_t)((mul_u16_u16(distance(from, to), made_q0_16) + 0x8000u) >> 16);
-            goal_pos[i] = (uint16_t)(to > from ? from + way : from - way);
+            const uint16_t moved = (uint16_t)((mul_u16_u16(distance(from, to), made_q0_16) + 0x8000u) >> 16);
+            goal_pos[i] = (uint16_t)(to > from ? from + moved : from - moved);
         }
     }
     return !last;

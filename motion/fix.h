@@ -7,7 +7,7 @@
  *
  * With 16 fraction bits the output is the upper word of the position, which costs a tick nothing. The price: an acceleration
  * is up to 2^-16 too small, so that after a ramp of 255 ticks a joint is half a servo unit short of the ideal (after 32
- * ticks 1/128). All roundings are toward zero, on sizes, so that a joint is late but never past its target (exact_plan.c).
+ * ticks 1/128). All roundings are toward zero, on sizes, so that a joint is late but never past its target (law_exact.c).
  * Signs are applied afterwards, so that a mirrored motion is mirrored in every bit. */
 #ifndef FIX_H
 #define FIX_H
@@ -31,13 +31,6 @@ static inline int32_t fix_from_pos(uint16_t pos)
     return (int32_t)((uint32_t)pos << FIX_POS_BITS);
 }
 
-/* a * b: mul_u16_u16 by a call, for code in which 45 bytes count more than 15 cycles. */
-uint32_t fix_product(uint16_t a, uint16_t b);
-ONE_COPY NOINLINE uint32_t fix_product(uint16_t a, uint16_t b)
-{
-    return mul_u16_u16(a, b);
-}
-
 /* Added to the start, these make fix_pos round to the nearest: halves up (motions up) or halves down (motions down), so that
  * mirrored motions are rounded to mirrored positions. */
 #define FIX_ROUND_UP (FIX_POS_ONE / 2)
@@ -47,13 +40,14 @@ ONE_COPY NOINLINE uint32_t fix_product(uint16_t a, uint16_t b)
 uint32_t fix_recip32(uint16_t ticks);
 ONE_COPY NOINLINE uint32_t fix_recip32(uint16_t ticks)
 {
-    return ticks == 1 ? UINT32_MAX : UINT32_MAX / ticks; /* a step of one tick has no time for the division */
+    return UINT32_MAX / ticks;
 }
 
-/* Mean speed q16.16 of a way 0..65535 over the ticks of fix_recip32. Floor; at most 2^-16 * way + 1 units of 2^-16 small. */
-ALWAYS_INLINE uint32_t fix_mean(uint16_t way, uint32_t recip32)
+/* Mean speed q16.16 of a distance 0..65535 in the ticks of fix_recip32. Floor; at most 2^-16 * distance + 1 units of 2^-16
+ * too small. */
+ALWAYS_INLINE uint32_t fix_mean(uint16_t distance, uint32_t recip32)
 {
-    return mul_u32_u16_shift16(recip32, way);
+    return mul_u32_u16_shift16(recip32, distance);
 }
 
 /* value * share, floor; error below value * 2^-16 + 1. No overflow. */
@@ -98,33 +92,13 @@ ONE_COPY NOINLINE uint16_t fix_ramp_recip(uint8_t ticks)
 }
 
 /* speed / ticks. Exact for 1 and 2 ticks; else never too large, with an error below 2^-12 of it plus 2^-16. */
-uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks);
-ONE_COPY uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks)
+static inline uint32_t fix_by_ramp(uint32_t speed, uint16_t ramp_recip, uint8_t ticks)
 {
     if (ticks <= 2) {
         return ticks == 2 ? speed >> 1 : speed;
     }
     uint32_t quotient = mul_u32_u16_shift16(speed, ramp_recip);
     return ticks < FIX_LONG_RAMP ? quotient : quotient >> 4;
-}
-
-/* dividend / divisor and the remainder, exact, by the reciprocal of the divisor (fix_recip16): a multiplication instead of a
- * division, because the estimate is at most one too small. divisor 1..65535 */
-static inline uint16_t fix_recip16(uint16_t divisor)
-{
-    return (uint16_t)(UINT16_MAX / divisor);
-}
-
-static inline uint16_t fix_divide(uint16_t dividend, uint16_t divisor, uint16_t recip16, uint16_t *remainder)
-{
-    uint16_t quotient = mul_u16_high(dividend, recip16);
-    uint16_t rest = (uint16_t)(dividend - (uint16_t)(quotient * divisor));
-    if (rest >= divisor) {
-        rest = (uint16_t)(rest - divisor);
-        quotient++;
-    }
-    *remainder = rest;
-    return quotient;
 }
 
 static inline uint16_t fix_size(int16_t value)

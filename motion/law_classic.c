@@ -1,195 +1,265 @@
 /* SPDX-License-Identifier: MIT
- * law_classic.c - the original's law, sample by sample (player.md section 1; names M, N, A, P, K, v, w as there).
+ * law_classic.c - the law of the original, sample by sample (LAWS.md, "The classic law", has its rules; the letters are
+ * those of that page).
  *
  *   speed          ________
- *                /        \        through: v goes on into the next step
- *      w -------/          \       stop: back to 0 in FALL
+ *                /        \        a joint that runs through keeps v in FALL and carries it into the next step;
+ *      w -------/          \       one that stops falls from v to 0
  *            RISE  CRUISE   FALL  HOLD
+ *              A   N - 2A     A     P    ticks
  *
- * The original begins a step, plans it and makes its first tick in one call. Here that is spread over three calls (law.h).
- * A tick divides once, c / num for all joints (classic_math.h).
- *
- * Ranges: |M| <= 1023; |v|, |w| <= 1023; acc within +-4893; M - acc within +-5916. */
+ * Ranges: |M| <= 1023; |v|, |w|, |g| <= 1023; acc within +-4893; M - acc within +-5916. */
 #include "classic_math.h"
-#include "classic_plan.h"
+#include "law.h"
+#include "step_plan.h"
 
-ALWAYS_INLINE void put(player_classic_t *classic, uint16_t *goal, int16_t way)
+enum { SECTION_RISE, SECTION_CRUISE, SECTION_FALL, SECTION_HOLD };
+
+#define SPEED_MAX 1023
+/* The law's unit of speed, 720 / 1024 degrees/s, in q16.16 servo units a tick: 0.01875 * 2^16 = 1228.8 */
+#define SPEED_UNIT_Q16_16 1229
+
+bool classic_is_there(void)
 {
-    classic->out_pos = limit_pos((int16_t)(classic->start_pos + way));
-    *goal = (uint16_t)classic->out_pos;
+    return true;
 }
 
-/* --- from step to step -------------------------------------------------------------------------------------------- */
-
-void classic_start(player_t *player, link_t *link)
+void classic_stand(player_joint_t *joint, uint16_t pos)
 {
-    sequence_look_first(player);
-    sequence_measure(player);
-    (void)sequence_take(player);
-    classic_enter(player, SECTION_HOLD, 0);
-    player->hold_ticks = 0;
-    sequence_look(player, link);
-    classic_take(player);
-    classic_plan_joints(player, PAGE_JOINTS); /* a start is no part of a tick */
+    joint->classic = (player_classic_t){.start_pos = (int16_t)pos, .out_pos = (int16_t)pos};
 }
 
-/* Calls until the step is over. An empty section takes one: without ramps FALL, in a skipped step CRUISE too. */
-static uint16_t calls_left(const player_t *player)
+/* --- sections ----------------------------------------------------------------------------------------------------- */
+
+static void enter(player_t *player, uint8_t section, uint16_t ticks)
 {
-    uint16_t left = (uint16_t)(player->section_ticks - player->tick);
-    switch (player->section) {
-    case SECTION_RISE:
-        left = (uint16_t)(player->step_ticks - player->tick);
-        if (player->ramp_ticks == 0) {
-            left = (uint16_t)(left + (left != 0 ? 1u : 2u));
+    player->section = section;
+    player->section_ticks = ticks;
+    player->tick = 0;
+}
+
+/* Enters the section after one of the same step. The joints go on from where they are, at the speed they have reached. */
+static void begin_section(player_t *player, uint8_t section, uint16_t ticks)
+{
+    const bool has_moved = player->section_ticks != 0;
+    enter(player, section, ticks);
+    FOR_JOINTS(player, has_moved ? player->present : 0, i, joint) {
+        joint->classic.start_pos = joint->classic.out_pos;
+        joint->classic.carried = joint->classic.reached;
+    }
+}
+
+/* Enters a section that is used up. */
+static void enter_used_up(player_t *player, uint8_t section)
+{
+    enter(player, section, 0);
+    player->tick = 1;
+}
+
+/* An empty section takes a tick, in which nothing is made. */
+static bool is_used_up(const player_t *player)
+{
+    return player->tick >= (player->section_ticks != 0 ? player->section_ticks : 1u);
+}
+
+bool classic_is_over(const player_t *player)
+{
+    return is_used_up(player) &&
+           (player->section == SECTION_HOLD || (player->section == SECTION_FALL && player->hold_ticks == 0));
+}
+
+void classic_start(player_t *player)
+{
+    enter_used_up(player, SECTION_HOLD);
+}
+
+/* --- a step begins ------------------------------------------------------------------------------------------------ */
+
+void classic_finish_step(player_t *player)
+{
+    const bool was_hold = player->section == SECTION_HOLD;
+    FOR_JOINTS(player, player->present, i, joint) {
+        if (was_hold) {
+            joint->classic.reached = 0;
+        } else {
+            joint->classic.start_pos = (int16_t)joint->target_pos; /* drops what rounding has left */
         }
-        break;
-    case SECTION_CRUISE:
-        left = (uint16_t)(left + (player->ramp_ticks != 0 ? player->ramp_ticks : 1u));
-        break;
-    case SECTION_FALL:
-        break;
-    default:
-        return left;
-    }
-    return (uint16_t)(left + player->hold_ticks);
-}
-
-/* Nothing is to be prepared or taken: the play ends behind this step. */
-static bool nothing_follows(const player_t *player)
-{
-    return !player->looked && player->coming.page == 0;
-}
-
-void classic_step_over(player_t *player, link_t *link)
-{
-    const uint16_t left = calls_left(player);
-    law_left(player, left);
-    if (!player->arrived && left == 0 && !nothing_follows(player)) {
-        (void)sequence_prepare(player, link, 0, false);
-        classic_take(player);
     }
 }
 
-void classic_prepare(player_t *player, link_t *link)
+/* Rule 4 for a joint that the step uses. It begins with the speed it has reached. */
+static void aim(player_classic_t *classic, int16_t to_pos, int16_t next_pos, bool may_run_through)
 {
-    const uint8_t left = player->left;
-    if (player->arrived || left == 0 || left > SEQUENCE_AHEAD || nothing_follows(player)) {
+    const int16_t distance = (int16_t)(to_pos - classic->start_pos);
+    classic->carried = classic->reached;
+    classic->acc = 0;
+    classic->distance = distance;
+    classic->through = may_run_through && (distance > 0 ? next_pos > to_pos : distance < 0 && next_pos < to_pos);
+}
+
+/* A divisor of rule 7. */
+typedef struct {
+    uint16_t divisor;
+    uint32_t recip32;
+} divisor_t;
+
+static divisor_t divisor_of(uint16_t divisor)
+{
+    const uint16_t by = divisor != 0 ? divisor : 1;
+    return (divisor_t){by, fix_recip32(by)};
+}
+
+/* Rule 7: (K - w * 2A) / divisor. The original has the quotient in 16 bits before it limits it. */
+static int16_t speed_of(const player_classic_t *classic, uint8_t ramp, const divisor_t *by)
+{
+    const int32_t speed_units = (int32_t)speed_units_of(fix_size(classic->distance));
+    const int32_t gained = (int32_t)classic->carried * (2 * ramp);
+    const int32_t dividend = (classic->distance < 0 ? -speed_units : speed_units) - gained;
+    const uint32_t size = (uint32_t)(dividend < 0 ? -dividend : dividend);
+    const int16_t quotient = (int16_t)divide_speed(size, by->divisor, by->recip32);
+    const int16_t speed = (int16_t)(dividend < 0 ? -quotient : quotient);
+    return speed > SPEED_MAX ? SPEED_MAX : speed < -SPEED_MAX ? -SPEED_MAX : speed;
+}
+
+/* Joints that the step does not use stay where they are. */
+static void leave_joints(player_t *player, uint32_t unused)
+{
+    FOR_JOINTS(player, unused, i, joint) {
+        joint->classic = (player_classic_t){.start_pos = joint->classic.start_pos, .out_pos = joint->classic.out_pos};
+    }
+}
+
+/* Rule 4. Returns max |M|. */
+static uint16_t aim_joints(player_t *player, uint32_t used)
+{
+    const bool may_run_through = player->hold_ticks == 0;
+    uint16_t longest = 0;
+    FOR_JOINTS(player, used, i, joint) {
+        aim(&joint->classic, (int16_t)joint->target_pos, (int16_t)player->next_pos[i], may_run_through);
+        const uint16_t size = fix_size(joint->classic.distance);
+        longest = size > longest ? size : longest;
+    }
+    return longest;
+}
+
+void classic_plan(player_t *player, uint32_t used)
+{
+    const player_step_t *now = &player->now;
+    leave_joints(player, player->present & ~used);
+    player->hold_ticks = step_plan_classic_hold(now, &player->carry_q5_11);
+    player->step_ticks = step_plan_classic_ticks(now, aim_joints(player, used), &player->carry_q5_11);
+    player->ramp_ticks = step_plan_classic_ramp(now->accel_time, &player->step_ticks);
+    const uint16_t ticks = player->step_ticks;
+    const uint8_t ramp = player->ramp_ticks;
+    const divisor_t stop = divisor_of((uint16_t)(4u * (ticks - ramp)));
+    const divisor_t through = divisor_of((uint16_t)(4u * ticks - 2u * ramp));
+    enter(player, SECTION_RISE, ramp);
+    FOR_JOINTS(player, used, i, joint) {
+        joint->classic.speed = speed_of(&joint->classic, ramp, joint->classic.through ? &through : &stop);
+    }
+}
+
+/* --- the other sections begin ------------------------------------------------------------------------------------- */
+
+static void begin_cruise(player_t *player)
+{
+    const uint8_t ramp = player->ramp_ticks;
+    const uint16_t ticks = player->step_ticks, cruise = (uint16_t)(ticks - 2u * ramp);
+    begin_section(player, SECTION_CRUISE, cruise);
+    if (cruise == 0) {
+        return; /* a skipped step */
+    }
+    const part_t part = part_of(cruise, (uint16_t)(ticks - ramp));
+    FOR_JOINTS(player, player->present, i, joint) {
+        player_classic_t *classic = &joint->classic;
+        const int16_t left = (int16_t)(classic->distance - classic->acc);
+        classic->main = classic->through ? share_of(left, part) : (int16_t)(left - fall_distance(classic->speed, ramp));
+    }
+}
+
+static void begin_fall(player_t *player)
+{
+    begin_section(player, SECTION_FALL, player->ramp_ticks);
+    FOR_JOINTS(player, player->present, i, joint) {
+        player_classic_t *classic = &joint->classic;
+        classic->main = (int16_t)(classic->distance - classic->main - classic->acc);
+    }
+}
+
+/* --- a tick of a section ------------------------------------------------------------------------------------------ */
+
+ALWAYS_INLINE void put(player_classic_t *classic, int16_t distance)
+{
+    int16_t pos = (int16_t)(classic->start_pos + distance);
+    if ((uint16_t)pos > PAGE_POS_MAX) {
+        pos = pos < 0 ? 0 : (int16_t)PAGE_POS_MAX;
+    }
+    classic->out_pos = pos;
+}
+
+/* Covers distance while the speed changes by `change` from w on. Returns the distance. */
+ALWAYS_INLINE int16_t ramp_to(player_classic_t *classic, int16_t change, ramp_share_t share)
+{
+    const int16_t distance = ramp_distance((int16_t)(classic->carried + (change >> 1)), share);
+    classic->reached = (int16_t)(classic->carried + change);
+    put(classic, distance);
+    return distance;
+}
+
+static void make_rise(player_t *player)
+{
+    const part_t part = part_of(player->tick, player->section_ticks);
+    const ramp_share_t share = ramp_share((uint8_t)player->tick);
+    FOR_JOINTS(player, player->present, i, joint) {
+        player_classic_t *classic = &joint->classic;
+        classic->acc = ramp_to(classic, share_of((int16_t)(classic->speed - classic->carried), part), share);
+    }
+}
+
+static void make_cruise(player_t *player)
+{
+    const part_t part = part_of(player->tick, player->section_ticks);
+    FOR_JOINTS(player, player->present, i, joint) {
+        put(&joint->classic, share_of(joint->classic.main, part));
+        joint->classic.reached = joint->classic.speed;
+    }
+}
+
+static void make_fall(player_t *player)
+{
+    const part_t part = part_of(player->tick, player->section_ticks);
+    const ramp_share_t share = ramp_share((uint8_t)player->tick);
+    FOR_JOINTS(player, player->present, i, joint) {
+        player_classic_t *classic = &joint->classic;
+        if (classic->through) {
+            put(classic, share_of(classic->main, part));
+            classic->reached = classic->speed;
+        } else {
+            (void)ramp_to(classic, share_of((int16_t)-classic->carried, part), share);
+        }
+    }
+}
+
+void classic_plan_tick(player_t *player)
+{
+    if (!is_used_up(player)) {
         return;
     }
-    if (sequence_prepare(player, link, left, player->section == SECTION_RISE && player->tick == 1)) {
-        classic_measure(player);
-    }
-    if (player->measured && player->section >= SECTION_CRUISE) {
-        classic_plan_ahead(player);
-    }
-}
-
-/* --- a section begins ----------------------------------------------------------------------------------------------- */
-
-/* The speeds that were planned while the joints still needed those of the step before. */
-static void take_speeds(player_t *player)
-{
-    FOR_OWN_JOINTS(player, joint) {
-        joint->classic.speed = joint->classic.next_speed;
+    if (player->section == SECTION_RISE) {
+        begin_cruise(player);
+    } else if (player->section == SECTION_CRUISE) {
+        begin_fall(player);
+    } else if (player->section == SECTION_FALL && player->hold_ticks != 0) {
+        begin_section(player, SECTION_HOLD, player->hold_ticks);
     }
 }
 
-static NOINLINE uint8_t begin_step(player_t *player)
+uint8_t classic_tick(player_t *player)
 {
-    uint8_t events = sequence_announce(player);
-    law_work(player, player->own_joints / 4u); /* take_speeds */
-    classic_plan_joints(player, PAGE_JOINTS);
-    player->planned = 0;
-    take_speeds(player);
-    classic_enter(player, SECTION_RISE, player->ramp_ticks);
-    if (player->ramp_ticks == 0) {
-        FOR_OWN_GOALS(player, joint, goal) {
-            joint->classic.acc = 0;
-            put(&joint->classic, goal, 0);
-        }
-    }
-    return events;
-}
-
-static NOINLINE void begin_cruise(player_t *player)
-{
-    uint8_t ramp = player->ramp_ticks;
-    uint16_t ticks = player->step_ticks, cruise = (uint16_t)(ticks - 2u * ramp);
-    classic_enter(player, SECTION_CRUISE, cruise);
-    if (cruise == 0) {
-        return; /* only in a skipped step */
-    }
-    uint16_t ticks_on = (uint16_t)(ticks - ramp);
-    law_work(player, player->own_joints / 2u + 4u);
-    part_t part = part_of(cruise, ticks_on);
-    FOR_OWN_JOINTS(player, joint) {
-        player_classic_t *classic = &joint->classic;
-        classic->start_pos = classic->out_pos;
-        classic->to_go = (int16_t)(classic->to_go - classic->acc);
-        if (classic->through) {
-            classic->main = share_of(classic->to_go, part);
-        } else {
-            classic->main = (int16_t)(classic->to_go - fall_way(classic->speed, ramp));
-        }
-    }
-}
-
-static NOINLINE void begin_fall(player_t *player)
-{
-    classic_enter(player, SECTION_FALL, player->ramp_ticks);
-    law_work(player, player->own_joints / 4u);
-    FOR_OWN_JOINTS(player, joint) {
-        player_classic_t *classic = &joint->classic;
-        classic->start_pos = classic->out_pos;
-        classic->to_go = (int16_t)(classic->to_go - classic->main);
-    }
-}
-
-/* --- a tick of a section ------------------------------------------------------------------------------------------- */
-
-static NOINLINE void make_rise(player_t *player)
-{
-    part_t part = part_of(player->tick, player->section_ticks);
-    ramp_share_t share = ramp_share((uint8_t)player->tick);
-    FOR_OWN_GOALS(player, joint, goal) {
-        player_classic_t *classic = &joint->classic;
-        int16_t change = share_of((int16_t)(classic->speed - classic->carried), part);
-        classic->acc = ramp_way((int16_t)(classic->carried + (change >> 1)), share);
-        put(classic, goal, classic->acc);
-    }
-}
-
-static NOINLINE void make_cruise(player_t *player)
-{
-    part_t part = part_of(player->tick, player->section_ticks);
-    FOR_OWN_GOALS(player, joint, goal) {
-        player_classic_t *classic = &joint->classic;
-        put(classic, goal, share_of(classic->main, part));
-    }
-}
-
-static NOINLINE void make_fall(player_t *player)
-{
-    part_t part = part_of(player->tick, player->section_ticks);
-    ramp_share_t share = ramp_share((uint8_t)player->tick);
-    FOR_OWN_GOALS(player, joint, goal) {
-        player_classic_t *classic = &joint->classic;
-        int16_t way = share_of(classic->through ? classic->to_go : (int16_t)-classic->speed, part);
-        if (!classic->through) {
-            way = ramp_way((int16_t)(classic->speed + (way >> 1)), share);
-        }
-        put(classic, goal, way);
-    }
-}
-
-/* One tick of the running section. An empty section takes the call and makes no output. */
-static uint8_t make_tick(player_t *player)
-{
-    if (player->section_ticks == 0) {
+    player->tick++;
+    if (player->section_ticks == 0 || player->section == SECTION_HOLD) {
         return 0;
     }
-    player->tick++;
     switch (player->section) {
     case SECTION_RISE:
         make_rise(player);
@@ -197,58 +267,81 @@ static uint8_t make_tick(player_t *player)
     case SECTION_CRUISE:
         make_cruise(player);
         break;
-    case SECTION_FALL:
+    default:
         make_fall(player);
         break;
-    default:
-        return 0;
     }
     return PLAYER_EV_OUTPUT;
 }
 
-/* The tick behind the end of a play. The original begins another step before it finds out that nothing follows, and sends
- * its first tick: a RISE from the last output, with the speed of the last step and the length of the last section. The
- * traces in tests/golden end with it, 0 to 8 units off the target. */
-static NOINLINE uint8_t end_play(player_t *player)
+/* The original begins another step before it finds out that nothing follows, and sends its first tick: a RISE with the speed
+ * of the last step, as long as the section before it. */
+uint8_t classic_last_sample(player_t *player)
 {
-    uint8_t events = law_end_play(player);
     if (player->section_ticks == 0) {
-        return events;
+        return 0;
     }
-    FOR_OWN_JOINTS(player, joint) {
-        joint->classic.carried = classic_speed_left(classic_left(player), &joint->classic);
-        joint->classic.start_pos = joint->classic.out_pos;
+    const bool was_hold = player->section == SECTION_HOLD;
+    FOR_JOINTS(player, player->present, i, joint) {
+        player_classic_t *classic = &joint->classic;
+        classic->carried = was_hold ? 0 : classic->reached;
+        classic->start_pos = was_hold ? classic->start_pos : classic->out_pos;
     }
+    enter(player, SECTION_RISE, player->section_ticks);
     player->tick = 1;
     make_rise(player);
-    return (uint8_t)(events | PLAYER_EV_OUTPUT);
+    return PLAYER_EV_OUTPUT;
 }
 
-/* Begins what follows the section that has ended. false: nothing follows. */
-static bool next_section(player_t *player)
+/* --- slowing down, and back --------------------------------------------------------------------------------------- */
+
+static uint16_t ticks_left(const player_t *player)
 {
-    if (player->section == SECTION_RISE) {
-        begin_cruise(player);
-    } else if (player->section == SECTION_CRUISE) {
-        begin_fall(player);
-    } else if (player->section == SECTION_FALL && player->hold_ticks != 0) {
-        classic_enter(player, SECTION_HOLD, player->hold_ticks);
-    } else {
-        return false;
+    const uint16_t of_section = (uint16_t)(player->section_ticks - player->tick);
+    switch (player->section) {
+    case SECTION_RISE:
+        return player->step_ticks != 0 ? (uint16_t)(player->step_ticks - player->tick) : 1u;
+    case SECTION_CRUISE:
+        return (uint16_t)(of_section + player->ramp_ticks);
+    case SECTION_FALL:
+        return of_section;
+    default:
+        return 0;
     }
-    return true;
 }
 
-uint8_t classic_tick(player_t *player, link_t *link)
+/* In q16.16 servo units a tick. */
+static int32_t speed_now(const player_t *player, const player_classic_t *classic)
 {
-    uint8_t events = 0;
-    law_work(player, player->own_joints / 4u); /* what its tick takes beyond one of the exact law */
-    if (player->arrived) {
-        events = begin_step(player);
-    } else if (player->tick >= player->section_ticks && !next_section(player)) {
-        return end_play(player);
+    const uint8_t section = player->section;
+    if (section == SECTION_HOLD) {
+        return 0;
     }
-    events |= make_tick(player);
-    classic_step_over(player, link);
-    return events;
+    if (player->section_ticks != 0 && (section == SECTION_CRUISE || (section == SECTION_FALL && classic->through))) {
+        const int32_t speed = (int32_t)((uint32_t)fix_from_pos(fix_size(classic->main)) / player->section_ticks);
+        return classic->main < 0 ? -speed : speed;
+    }
+    return (int32_t)classic->reached * SPEED_UNIT_Q16_16;
+}
+
+void classic_freeze(player_t *player)
+{
+    FOR_JOINTS(player, player->present, i, joint) {
+        const int32_t speed = speed_now(player, &joint->classic);
+        const uint16_t pos = (uint16_t)joint->classic.out_pos;
+        joint->exact = (player_exact_t){.pos_q16_16 = fix_from_pos(pos) + FIX_ROUND_UP, .speed_q16_16 = speed};
+    }
+    player->rest_ticks = ticks_left(player);
+    player->moving_by = PLAYER_LAW_EXACT;
+}
+
+void classic_thaw(player_t *player)
+{
+    FOR_JOINTS(player, player->present, i, joint) {
+        classic_stand(joint, fix_pos(joint->exact.pos_q16_16));
+    }
+    if (player->section != SECTION_HOLD) {
+        enter_used_up(player, SECTION_FALL);
+    }
+    player->moving_by = PLAYER_LAW_CLASSIC;
 }

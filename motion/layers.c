@@ -1,44 +1,37 @@
 /* SPDX-License-Identifier: MIT */
-#include "layers_parts.h"
+#include "layers.h"
 
 #include <string.h>
 #include "approach.h"
 #include "law.h"
 
-/* --- init, bind --------------------------------------------------------------------------------------------------- */
+/* --- the main play, the page layer -------------------------------------------------------------------------------- */
 
 void layers_init(layers_t *layers, uint16_t goal_pos[PAGE_JOINTS])
 {
     memset(layers, 0, sizeof *layers);
     layers->goal_pos = goal_pos;
     layers_set_speed(layers, 0);
-    layers_forget_code(layers);
+    code_motion_init(&layers->code);
 }
 
 void layers_set_speed(layers_t *layers, uint16_t deg_s)
 {
-    layers->speed_q8_8 = layers_units_per_tick_q8_8(deg_s != 0 ? deg_s : APPROACH_SPEED_DEFAULT);
+    layers->mux.speed.speed_q8_8 = mux_units_per_tick_q8_8(deg_s != 0 ? deg_s : APPROACH_SPEED_DEFAULT);
 }
 
 static void init_play(layers_t *layers)
 {
-    player_init(&layers->play, layers->main->source, layers->main->joint, layers->goal_pos);
-    layers->play.self = PLAYER_OWNER_LAYER;
+    player_init(&layers->play, layers->main != NULL ? layers->main->source : NULL, layers->joint);
 }
 
 void layers_bind(layers_t *layers, player_t *main_play)
 {
     layers->main = main_play;
-    layers->changing = false;
-    layers->paused = false;
-    memset(&layers->play, 0, sizeof layers->play);
-    if (main_play != NULL) {
-        init_play(layers);
-        main_play->lent = layers->code_joints;
-    }
+    layers->holds = false;
+    mux_forget(&layers->mux, ~layers->code.joints);
+    init_play(layers);
 }
-
-/* --- page layer --------------------------------------------------------------------------------------------------- */
 
 static layers_status_t refuse(layers_t *layers, uint8_t page, uint8_t fault, layers_status_t status)
 {
@@ -51,10 +44,10 @@ static layers_status_t check_page(layers_t *layers, uint8_t page)
 {
     const page_source_t *source = layers->main->source;
     uint8_t header[PAGE_AT_STEPS + 1u];
-    if (page == 0 || page >= PAGE_COUNT) {
+    if (page == 0 || !page_is_there(page)) {
         return LAYERS_ERR_RANGE;
     }
-    uint8_t fault = source->check(source->context, page);
+    const uint8_t fault = source->check(source->context, page);
     if (fault != PAGE_OK) {
         return refuse(layers, page, fault, LAYERS_ERR_PAGE);
     }
@@ -73,136 +66,238 @@ layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
     if (layers->main == NULL || !player_is_moving(layers->main)) {
         return LAYERS_ERR_IDLE;
     }
-    layers_status_t status = check_page(layers, page);
+    const layers_status_t status = check_page(layers, page);
     if (status != LAYERS_OK) {
         return status;
     }
-    joints = (joints != 0 ? joints : joints_of_first_step(layers, page)) & layers->main->present & ~layers->code_joints;
+    joints = (joints != 0 ? joints : joints_of_first_step(layers, page)) & layers->main->present & ~layers->code.joints;
     if (joints == 0) {
         return LAYERS_ERR_JOINTS;
     }
     layers_end(layers);
-    init_play(layers);
     link_t link;
     link_init(&link, LINK_LATCH);
     if (player_start(&layers->play, &link, page, PLAYER_LAW_EXACT, layers->goal_pos, joints) != PLAYER_OK) {
         return LAYERS_ERR_PAGE; /* unreachable: the page has just been checked */
     }
-    FOR_JOINTS(i, joints) { /* they belong to the layer already, and its first step is planned from where they are */
-        layers_follow_from_here(layers, i, false);
-    }
+    layers->steps_begun = 0;
+    mux_change(&layers->mux, joints);
     if (player_is_paused(layers->main)) {
         player_pause(&layers->play);
     }
+    player_plan(&layers->play, &link);
     return LAYERS_OK;
+}
+
+/* Their source is the main play again. */
+static void hand_back(layers_t *layers, uint32_t joints)
+{
+    mux_forget(&layers->mux, joints);
+    if (layers->main != NULL && player_is_moving(layers->main)) {
+        mux_change(&layers->mux, joints & layers->main->present);
+    }
 }
 
 void layers_end(layers_t *layers)
 {
-    if (layers->main != NULL && player_is_moving(&layers->play)) {
-        uint32_t joints = layers->play.present;
+    if (player_is_moving(&layers->play)) {
+        const uint32_t joints = layers->play.present;
         init_play(layers);
-        layers_hand_back(layers, joints);
+        hand_back(layers, joints);
     }
+}
+
+/* --- code --------------------------------------------------------------------------------------------------------- */
+
+/* A slot for the joint, which from now on belongs to code. */
+static layers_status_t take_for_code(layers_t *layers, uint8_t id, code_slot_t **slot)
+{
+    const player_t *main_play = layers->main;
+    if (id >= PAGE_JOINTS) {
+        return LAYERS_ERR_JOINTS;
+    }
+    const uint32_t bit = (uint32_t)1 << id;
+    if (main_play != NULL && player_is_moving(main_play) && (main_play->present & bit) == 0) {
+        return LAYERS_ERR_JOINTS;
+    }
+    *slot = code_motion_slot(&layers->code, id);
+    if (*slot == NULL) {
+        return LAYERS_ERR_FULL;
+    }
+    player_drop_joints(&layers->play, bit);
+    mux_change(&layers->mux, bit);
+    code_motion_take(&layers->code, *slot, id, layers->mux.speed.speed_q8_8);
+    return LAYERS_OK;
+}
+
+layers_status_t layers_aim(layers_t *layers, uint8_t id, uint16_t pos, uint16_t deg_s)
+{
+    code_slot_t *slot;
+    if (pos > PAGE_POS_MAX || deg_s > LAYERS_SPEED_MAX_DEG_S) {
+        return LAYERS_ERR_RANGE;
+    }
+    const layers_status_t status = take_for_code(layers, id, &slot);
+    if (status == LAYERS_OK) {
+        slot->centre_pos = pos;
+        if (deg_s != 0) {
+            slot->speed.speed_q8_8 = mux_units_per_tick_q8_8(deg_s);
+        }
+    }
+    return status;
+}
+
+layers_status_t layers_swing(layers_t *layers, uint8_t id, uint16_t centre, uint16_t amplitude, uint16_t period_ticks,
+                             uint16_t phase_deg)
+{
+    code_slot_t *slot;
+    if (phase_deg > 359u || !code_motion_can_swing(centre, amplitude, period_ticks)) {
+        return LAYERS_ERR_RANGE;
+    }
+    const layers_status_t status = take_for_code(layers, id, &slot);
+    if (status == LAYERS_OK) {
+        code_motion_swing(slot, centre, amplitude, period_ticks, phase_deg);
+    }
+    return status;
+}
+
+void layers_free(layers_t *layers, uint32_t joints)
+{
+    joints &= layers->code.joints;
+    code_motion_free(&layers->code, joints);
+    hand_back(layers, joints);
 }
 
 /* --- a tick ------------------------------------------------------------------------------------------------------- */
 
-/* Prepares both plays; the second one gets what is left of the tick's time. work: done already. */
-static void prepare(player_t *first, link_t *first_link, player_t *second, link_t *second_link, uint8_t work)
+/* The goals of the joints that the plays move, from the play that each belongs to. of_layer: joints of the page layer. */
+static void follow_plays(layers_t *layers, uint32_t of_layer)
 {
-    first->work = work;
-    player_prepare(first, first_link);
-    second->work = first->work;
-    player_prepare(second, second_link);
-}
-
-/* The play whose coming step is nearer comes first. */
-static void prepare_both(layers_t *layers, link_t *main_link, link_t *layer_link)
-{
-    player_t *main_play = layers->main, *layer = &layers->play;
-    if (layer->left < main_play->left) {
-        prepare(layer, layer_link, main_play, main_link, main_play->work);
-    } else {
-        prepare(main_play, main_link, layer, layer_link, main_play->work);
-    }
-}
-
-/* As layers_tick, while something but the main play moves joints. */
-static NOINLINE uint8_t tick_all(layers_t *layers, link_t *main_link, uint8_t *layer_events)
-{
-    uint8_t events = 0;
-    if (layers->main != NULL) {
-        const bool changing = layers->changing;
-        link_t link; /* the layer gets no codes and no stop, so a fresh one will do */
-        link_init(&link, LINK_LATCH);
-        layers->play.work = changing ? LAW_WORK_FOLLOW : 0;
-        *layer_events = player_move(&layers->play, &link);
-        layers->main->work = layers->play.work;
-        events = player_move(layers->main, main_link);
-        prepare_both(layers, main_link, &link);
-        if (changing) {
-            layers_follow_plays(layers, events, *layer_events);
-        }
-        if ((*layer_events & PLAYER_EV_ENDED) != 0) {
-            layers_hand_back(layers, layers->play.present);
+    const uint8_t most_pos = layers->holds ? 0 : mux_allow(&layers->mux.speed);
+    const uint32_t with_source = ~layers->code.joints & ~layers->mux.seeking;
+    player_goals(layers->main, with_source & ~of_layer, layers->goal_pos);
+    player_goals(&layers->play, with_source & of_layer, layers->goal_pos);
+    uint32_t seeking = layers->mux.seeking & ~layers->code.joints;
+    for (uint8_t i = 0; seeking != 0; i++, seeking >>= 1, of_layer >>= 1) {
+        if (((uint8_t)seeking & 1u) != 0) {
+            const bool is_of_layer = ((uint8_t)of_layer & 1u) != 0;
+            const uint16_t asked_pos = player_goal(is_of_layer ? &layers->play : layers->main, i);
+            uint16_t *goal = &layers->goal_pos[i];
+            *goal = mux_goal(&layers->mux, i, *goal, asked_pos, most_pos, !is_of_layer || layers->steps_begun > 1);
         }
     }
-    if (!layers->paused) {
-        layers_move_by_code(layers);
+}
+
+static void follow_code(layers_t *layers)
+{
+    for (code_slot_t *slot = layers->code.slot; slot < &layers->code.slot[CODE_MOTION_JOINTS]; slot++) {
+        if (slot->joint != CODE_MOTION_NO_JOINT) {
+            uint16_t *goal = &layers->goal_pos[slot->joint];
+            const uint16_t asked_pos = code_motion_tick(slot);
+            *goal = mux_goal(&layers->mux, slot->joint, *goal, asked_pos, mux_allow(&slot->speed), true);
+        }
     }
-    *layer_events |= PLAYER_EV_OUTPUT;
+}
+
+/* A page layer gets no codes and no stop, so a fresh link will do each time. NOINLINE: its 23 bytes are not on the stack
+ * while the main play works. */
+static NOINLINE uint8_t tick_page(layers_t *layers)
+{
+    link_t link;
+    link_init(&link, LINK_LATCH);
+    return player_tick(&layers->play, &link);
+}
+
+static NOINLINE void plan_page(layers_t *layers)
+{
+    link_t link;
+    link_init(&link, LINK_LATCH);
+    player_plan(&layers->play, &link);
+}
+
+/* As layers_tick, while a main play is on and joints have another source or seek theirs. */
+static uint8_t tick_plays(layers_t *layers, link_t *main_link, uint8_t *layer_events)
+{
+    const uint32_t of_layer = player_is_moving(&layers->play) ? layers->play.present : 0;
+    const uint8_t events = player_tick(layers->main, main_link);
+    *layer_events = tick_page(layers);
+    if ((*layer_events & PLAYER_EV_STEP) != 0 && layers->steps_begun < 2) {
+        layers->steps_begun++;
+    }
+    follow_plays(layers, of_layer);
+    if ((*layer_events & PLAYER_EV_ENDED) != 0) {
+        hand_back(layers, of_layer);
+    }
+    if ((events & PLAYER_EV_ENDED) != 0) {
+        mux_forget(&layers->mux, ~layers->code.joints); /* nobody moves them any more */
+    }
     return events;
 }
 
 uint8_t layers_tick(layers_t *layers, link_t *main_link, uint8_t *layer_events)
 {
+    uint8_t events = 0;
     *layer_events = 0;
-    if (layers->changing || layers_joints(layers) != 0) {
-        return tick_all(layers, main_link, layer_events);
+    if (layers_joints(layers) == 0) {
+        if (layers->main != NULL) {
+            events = player_tick(layers->main, main_link);
+            if ((events & PLAYER_EV_OUTPUT) != 0) {
+                player_goals(layers->main, layers->main->present, layers->goal_pos);
+            }
+        }
+        return events;
     }
-    return layers->main != NULL ? player_tick(layers->main, main_link) : 0;
+    if (layers->main != NULL) {
+        events = tick_plays(layers, main_link, layer_events);
+    }
+    if (!layers->holds) {
+        follow_code(layers);
+    }
+    *layer_events |= PLAYER_EV_OUTPUT;
+    return events;
+}
+
+void layers_plan(layers_t *layers, link_t *main_link)
+{
+    if (layers->main != NULL) {
+        player_plan(layers->main, main_link);
+        plan_page(layers);
+    }
 }
 
 bool layers_are_moving(const layers_t *layers)
 {
-    bool moving = layers->changing || player_is_moving(&layers->play);
-    for (uint8_t i = 0; i < LAYERS_CODE_JOINTS; i++) {
-        const layers_code_t *code = &layers->code[i];
-        moving |= code->joint != LAYERS_NO_JOINT && (!code->there || code->amplitude_pos != 0);
-    }
-    return moving;
+    return layers->mux.seeking != 0 || player_is_moving(&layers->play) || code_motion_swings(&layers->code);
 }
 
 uint32_t layers_joints(const layers_t *layers)
 {
-    return layers->code_joints | (player_is_moving(&layers->play) ? layers->play.present : 0);
+    return layers->code.joints | layers->mux.seeking | (player_is_moving(&layers->play) ? layers->play.present : 0);
 }
 
-/* --- for both kinds ------------------------------------------------------------------------------------------------ */
+/* --- for all kinds ------------------------------------------------------------------------------------------------ */
 
 void layers_drop_joints(layers_t *layers, uint32_t joints)
 {
-    if (layers->main != NULL) {
-        player_drop_joints(&layers->play, joints);
-    }
+    player_drop_joints(&layers->play, joints);
     layers_free(layers, joints);
+    mux_forget(&layers->mux, joints);
 }
 
 void layers_break(layers_t *layers)
 {
     player_break(&layers->play);
-    layers_free(layers, layers->code_joints);
+    layers_free(layers, layers->code.joints);
+    layers->holds = layers->main != NULL;
 }
 
 void layers_pause(layers_t *layers)
 {
     player_pause(&layers->play);
-    layers->paused = true;
+    layers->holds = true;
 }
 
 void layers_resume(layers_t *layers)
 {
     player_resume(&layers->play);
-    layers->paused = false;
+    layers->holds = false;
 }

@@ -11,7 +11,6 @@ static void forget_exits(link_t *link)
 void link_init(link_t *link, link_mode_t mode)
 {
     link->mode = (uint8_t)mode;
-    link->held_code = LINK_CODE_NONE;
     link_call(link, LINK_CODE_NONE);
 }
 
@@ -19,6 +18,7 @@ void link_call(link_t *link, uint8_t code)
 {
     link->call_code = code;
     link->code = code;
+    link->held_code = code; /* a stop may come before the next packet of the button that called */
     link->stopping = false;
     link->stop_is_final = false;
     link->ending = false;

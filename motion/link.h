@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * link.h - which page follows: codes, calls, the four links, stop, chains of exit pages.
  * Pure: knows codes and page numbers, not their sources. One link_t per player, main loop only.
- * Source: remote.md ("What a code does"). */
+ * What a code does is described in firmware/common/REMOTE.md. */
 #ifndef LINK_H
 #define LINK_H
 
@@ -43,7 +43,7 @@ void link_call(link_t *link, uint8_t code) NOINLINE;
 void link_code(link_t *link, uint8_t code);
 
 /* A soft stop, whatever the mode; stays until the play is over or a new one is called. Of link_stop and link_end the last
- * one counts. */
+ * one takes effect. */
 void link_stop(link_t *link);
 
 /* The play ends with the repetition that is on, without the exit page: every link is 0. Stays until a new call. */

@@ -87,42 +87,6 @@ void page_set_pos(uint8_t *page, uint8_t step, uint8_t joint, uint16_t word)
     page[at + 1] = (uint8_t)(word >> 8);
 }
 
-uint16_t page_pos_mirrored(uint16_t pos, uint16_t neutral_sum)
-{
-    if (pos >= neutral_sum) {
-        return 0;
-    }
-    uint16_t mirrored = (uint16_t)(neutral_sum - pos);
-    return mirrored > PAGE_POS_MAX ? PAGE_POS_MAX : mirrored;
-}
-
-uint16_t page_part_of(uint16_t value, uint16_t mul, uint16_t div)
-{
-    return (uint16_t)(((uint32_t)value * mul + div / 2u) / div);
-}
-
-static NOINLINE uint16_t share_of(uint16_t whole, uint8_t percent)
-{
-    return page_part_of(whole, percent, 100);
-}
-
-uint16_t page_pos_between(uint16_t a, uint16_t b, uint8_t percent)
-{
-    return b > a ? (uint16_t)(a + share_of((uint16_t)(b - a), percent))
-                 : (uint16_t)(a - share_of((uint16_t)(a - b), percent));
-}
-
-uint8_t page_time_split(uint8_t *time, uint8_t percent)
-{
-    uint8_t part = (uint8_t)share_of(*time, percent);
-    if (*time == 0) {
-        return 0;
-    }
-    part = part == 0 ? 1 : part;
-    *time = *time > part ? (uint8_t)(*time - part) : 1;
-    return part;
-}
-
 uint8_t page_slope(uint8_t nibble)
 {
     if (nibble == 0 || nibble > 7) {

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT
  * page.h - the 512-byte motion page: layout, checks, field access.
  * Pure: no flash, no registers, no I/O. Callable from anywhere. No RAM of its own.
- * Source: motion512.md; PAGE_FORMAT.md beside this file is the specification with a worked hex dump. */
+ * PAGE_FORMAT.md is the specification, with a worked hex dump. */
 #ifndef PAGE_H
 #define PAGE_H
 
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
+#include "target.h"
 
 #define PAGE_BYTES 512u
-#define PAGE_COUNT 128u        /* pages 0..127; 0 holds the trim and, as a link, means "no page" */
+#define PAGE_COUNT TARGET_MOTION_PAGES /* 128 or 256; page 0 holds the trim and, as a link, means "no page" */
 #define PAGE_JOINTS 31u        /* joint = servo ID 0..30 */
 #define PAGE_STEPS 7u
 #define PAGE_STEP_BYTES 64u
@@ -38,7 +39,7 @@ enum {
     PAGE_AT_COMPLIANCE = 32,   /* + ID */
     PAGE_AT_STEP0 = 64         /* + 64 * step */
 };
-/* Byte offsets in a step. A position word stands at 2 * ID. */
+/* Byte offsets in a step. A position word is at 2 * ID. */
 enum { PAGE_STEP_AT_PAUSE = 62, PAGE_STEP_AT_SPEED = 63 };
 
 #define PAGE_SCHEDULE_SPEED 0x00u
@@ -60,7 +61,7 @@ typedef enum {
     PAGE_ERR_STEPS,      /* PAGE_STEP > 7 */
     PAGE_ERR_SCHEDULE,   /* neither 0 nor 0x0A */
     PAGE_ERR_SPEED,      /* PAGE_SPEED is 0 */
-    PAGE_ERR_LINK,       /* a place only: a link above 127 is 0 to a play (player.md), and no fault */
+    PAGE_ERR_LINK,       /* a place only: a link above 127 is 0 to a play (LAWS.md), and no fault */
     PAGE_ERR_POSITION,   /* a position of a used step is above 1023 and has neither flag (0x4000, 0x2000) */
     PAGE_EMPTY           /* valid, but without action: page_is_playable. Ends a play; page_check never returns it */
 } page_status_t;
@@ -81,10 +82,17 @@ page_status_t page_check(const uint8_t page[PAGE_BYTES]);
 /* Sets byte 31 so that the page sums to 0xFF. */
 void page_seal(uint8_t page[PAGE_BYTES]);
 
-/* The empty page of motion512.md, sealed. */
+/* The empty page of PAGE_FORMAT.md, sealed. */
 void page_clear(uint8_t page[PAGE_BYTES]);
 
-/* The little-endian word that stands at `at`: at[0] | at[1] << 8, on machines that are little-endian themselves (all of
+/* Whether there is a page of this number. The parameter is wider than a page's number, because a PC has all
+ * that a byte names. */
+static inline bool page_is_there(uint16_t page)
+{
+    return page < PAGE_COUNT;
+}
+
+/* The little-endian word at `at`: at[0] | at[1] << 8, on machines that are little-endian themselves (all of
  * ours are: tests/unit/test_page.c), because the AVR's compiler makes 12 cycles of that and 4 of this. */
 static inline uint16_t page_word(const uint8_t *at)
 {
@@ -105,21 +113,7 @@ static inline bool page_pos_is_used(uint16_t word)
     return flags == 0;
 }
 
-/* A position as the joint on the other side has it: as far from its own neutral position, the other way; limited to
- * 0..PAGE_POS_MAX. `neutral_sum`: the neutral positions of both joints together, 2 * PAGE_POS_MIDDLE unless known. */
-uint16_t page_pos_mirrored(uint16_t pos, uint16_t neutral_sum);
-
-/* value * mul / div, rounded to the nearest, halves up. div is not 0; the result has to fit 16 bits. */
-uint16_t page_part_of(uint16_t value, uint16_t mul, uint16_t div);
-
-/* A position `percent` (0..100) of the way from a to b: rounded to the nearest, halves away from a. */
-uint16_t page_pos_between(uint16_t a, uint16_t b, uint8_t percent);
-
-/* Shares the time of a step with one that is put in `percent` of the way before it: returns the new one's, rounded to the
- * nearest, halves up; `time` keeps the rest. Both are at least 1, unless there was no time. */
-uint8_t page_time_split(uint8_t *time, uint8_t percent);
-
-/* Compliance slope register value, 2^nibble, of one nibble 1..7 of the compliance byte (motion512.md). A nibble of 0
+/* Compliance slope register value, 2^nibble, of one nibble 1..7 of the compliance byte (PAGE_FORMAT.md). A nibble of 0
  * or above 7 stands for 5, the default. */
 uint8_t page_slope(uint8_t nibble);
 

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * player.h - plays pages: each tick (1/128 s) turns pages and links into goal positions.
- * Pure: knows neither bus nor flash; reads pages through page_source_t, a few bytes at a time. Caller-owned state, main
- * loop only, one call per tick. Law of motion: player.md.
- *
- * A play is a player_t. What belongs to a joint is in player_joint_t and goal_pos, which two plays may share: each moves the
- * joints whose `owner` it is (layers.h).
- * RAM: player_t, link_t and 31 joints are at most 1024 bytes (tests/target/player_cycles.c holds them to that). */
+ * Pure: knows neither bus nor flash; reads pages through page_source_t. Main loop only. Caller-owned state: a player_t and
+ * the array of its joints. The laws of motion are in LAWS.md; README.md explains how one step becomes the next.
+ * RAM: player_t, link_t and 31 joints are at most 900 bytes (tests/unit/target/player_cycles.c checks it). */
 #ifndef PLAYER_H
 #define PLAYER_H
 
@@ -16,7 +13,6 @@
 #include "page.h"
 #include "page_source.h"
 #include "shape.h"
-#include "shape_step.h"
 
 #define PLAYER_TICKS_PER_SECOND 128u
 
@@ -28,145 +24,106 @@ typedef enum {
     PLAYER_ERR_PAGE,         /* the page is damaged: page_status_t in player.fault, the page in .fault_page */
     PLAYER_ERR_EMPTY,        /* the page has no steps, or PLAY_COUNT 0 and nothing playable along its link */
     PLAYER_ERR_BUSY,         /* a play is on */
-    PLAYER_ERR_LAW           /* this program has no classic law (PLAYER_CLASSIC 0) */
+    PLAYER_ERR_LAW           /* this program has no classic law (it links law_classic_none.c) */
 } player_status_t;
 
 /* What a tick did; bits. */
 enum {
-    PLAYER_EV_OUTPUT = 1 << 0,  /* goal_pos was made anew: send it (in a pause nothing is made) */
-    PLAYER_EV_STEP = 1 << 1,    /* a step began: player.page, .step (1..7) */
-    PLAYER_EV_PAGE = 1 << 2,    /* and it is the first of a page: player.page, .repetition */
-    PLAYER_EV_LINK = 1 << 3,    /* the link after this page was decided: player.link_taken, .next_page */
-    PLAYER_EV_ENDED = 1 << 5,   /* the play is over; player.fault tells whether a bad page ended it */
-    PLAYER_EV_STANDING = 1 << 6 /* a break or a pause has brought all joints to a stand */
+    PLAYER_EV_OUTPUT = 1 << 0,  /* there are new goals: send them (in the pause after a step there are none) */
+    PLAYER_EV_STEP = 1 << 1,    /* this tick is the first of a step: player.now */
+    PLAYER_EV_PAGE = 1 << 2,    /* and of a page: player.repetition */
+    PLAYER_EV_LINK = 1 << 3,    /* and the step is the page's last: its link is decided, player.link_taken, .next_page */
+    PLAYER_EV_ENDED = 1 << 5,   /* the play is over; player.fault says whether a bad page ended it */
+    PLAYER_EV_STANDING = 1 << 6 /* a break or a pause has stopped all joints */
 };
 
-/* A step of a page, as the plan needs it. page 0: none. */
+/* A step of a page. page 0: none. */
 typedef struct {
     uint8_t page, step, steps;                /* step 1..steps */
-    uint8_t schedule, page_speed, accel_time; /* of its page */
+    uint8_t schedule, page_speed, accel_time; /* from its page's header */
     uint8_t pause, time;                      /* bytes 62 and 63 of the step */
-    uint16_t rate_percent;                    /* 100: as stored (shape.h) */
     uint8_t top_speed_q4_4;                   /* servo units a tick; 0: no limit (shape.h) */
-    uint16_t ticks, hold_ticks;               /* its length and its pause, once they are measured (law.h) */
-    uint32_t recip;                           /* exact: 2^32 over the ticks */
-    uint16_t ramp_recip, ramp_share_q0_16;    /* exact: 1 / A; A / (N - A) */
+    uint16_t rate_percent;                    /* 100: as stored (shape.h) */
+    uint16_t ticks, hold_ticks;               /* exact law: length of the step and of the pause after it */
+    uint32_t recip32;                         /* exact law: 2^32 / ticks */
 } player_step_t;
 
-/* A joint under the exact law, and under either law while it slows down and while the rest of an interrupted step is
- * played. Speeds are servo units per tick. */
+/* A joint that moves by the exact law. Speeds are in servo units a tick, with a sign. */
 typedef struct {
-    int32_t pos_q16_16;         /* with its rounding: see exact_plan.c */
-    int32_t speed_q16_16;       /* the way of the coming tick */
-    int32_t accel_q16_16;
-    uint32_t cruise_q16_16;     /* size of the speed between the ramps */
-    uint32_t exit_q16_16;       /* size of the speed at the step's end */
+    int32_t pos_q16_16;         /* includes the rounding: see law_exact.c */
+    int32_t speed_q16_16;       /* what the next tick adds to pos */
+    int32_t accel_q16_16;       /* what each tick adds to speed */
+    int32_t cruise_q16_16;      /* speed between the ramps */
+    int32_t exit_q16_16;        /* speed at the end of the step */
 } player_exact_t;
 
-/* A joint under the classic law. Speeds in its units: 0.01875 servo units per tick. Names as in player.md. */
+/* A joint that moves by the classic law; the symbols are those of LAWS.md. Speeds are in the law's unit. */
 typedef struct {
-    int16_t start_pos;          /* output when the section began */
-    int16_t out_pos;            /* last output */
-    int16_t speed;              /* v */
-    int16_t carried;            /* w at the beginning of this step; of the next one, once it is aimed */
-    int16_t acc;                /* way made in RISE */
-    int16_t main;               /* way of CRUISE */
-    int16_t to_go;              /* M, less the ways of the sections before this one */
-    bool through;
-    bool next_through;          /* through, M and v of the next step, once it is aimed and planned */
-    int16_t next_to_go;
-    int16_t next_speed;
+    int16_t start_pos;          /* where the section began */
+    int16_t out_pos;            /* last goal */
+    int16_t speed;              /* v: speed of the step */
+    int16_t carried;            /* w: speed at the beginning of the section */
+    int16_t reached;            /* g: speed after the last tick */
+    int16_t distance;           /* M: from start to target of the step */
+    int16_t acc;                /* covered in RISE */
+    int16_t main;               /* to cover in CRUISE, then in FALL */
+    bool through;               /* keeps its speed at the end of the step */
 } player_classic_t;
-
-/* Who moves a joint. NONE: it is not there. */
-enum { PLAYER_OWNER_MAIN, PLAYER_OWNER_LAYER, PLAYER_OWNER_CODE, PLAYER_OWNER_NONE };
-
-/* What a program may leave out: 0 for the classic law (law_classic.c is not linked) and for layers (every joint is the main
- * play's). */
-#ifndef PLAYER_CLASSIC
-#define PLAYER_CLASSIC 1
-#endif
-#ifndef PLAYER_LAYERS
-#define PLAYER_LAYERS 1
-#endif
 
 typedef struct {
     uint16_t target_pos;        /* where the running step ends */
-    uint8_t owner;              /* PLAYER_OWNER_ */
-    uint8_t hand_over : 3;      /* layers_hand.c's; 0: nothing is under way */
-    bool down : 1;              /* exact: the step leads to a smaller position */
-    union {
+    union {                     /* player.moving_by says which */
         player_exact_t exact;
         player_classic_t classic;
     };
 } player_joint_t;
 
-/* Small and often used fields come first: the AVR reaches the first 64 bytes with one instruction. */
-typedef struct player {
-    /* The planner's own. */
-    player_joint_t *joint;
-    uint8_t state;
-    uint8_t self : 2;               /* PLAYER_OWNER_MAIN or _LAYER */
-    bool looked : 1;                /* the step behind the coming one has been looked at (law.h) */
-    bool measured : 1;              /* and the lengths that depend on it are known */
-    bool runs_on : 1;               /* exact: a joint may keep its speed at the step's end */
-    uint8_t shares_left : 3;        /* of the step that was looked at: pieces still to be read and shaped */
-    bool ahead : 1;                 /* exact: joints may be planned for `now` before it is taken */
-    bool aimed : 1;                 /* classic: the joints are aimed for `now` before it is taken */
-    bool arrived : 1;               /* the joints are at the end of a step; `now` is planned and begins with the next tick */
-    bool breaking : 1;
-    bool resuming : 1;              /* while BRAKING: goes on as soon as it stands */
-    uint8_t section;                /* classic */
-    uint16_t tick, section_ticks;   /* tick: of the section (classic), of the step with its pause (exact) */
-    uint16_t step_ticks, hold_ticks;
-    uint8_t ramp_ticks, brake_ticks;
-    uint8_t accel_time;             /* of the step's page, for the rest of an interrupted step */
-    uint16_t ramp_recip, ramp_share_q0_16; /* exact: 1 / A; A / (N - A) */
-    uint8_t left;                   /* ticks that the step still has behind this one; 255: that or more */
-    uint8_t work;                   /* between steps, done in this tick by both plays: LAW_WORK_ units (law.h) */
-    uint8_t own_joints;             /* how many it moved when the step was taken */
-    uint8_t planned;                /* joints below this are planned for `now` */
-    uint8_t announced_events;       /* PLAYER_EV_ bits of the beginning of `now` */
-    uint16_t carry_q5_11;           /* the fraction of a tick that is left over */
-    uint16_t coming_way, lent_way;  /* longest way in the coming step: of any joint; of one that is lent */
-    uint32_t recip;                 /* exact: 2^32 over the ticks of the step */
-    const page_source_t *source;
-    const shape_t *shape;           /* NULL: as stored */
-    shape_step_t *shaping;          /* the step that was looked at, while shares_left is not 0 */
-    /* Public, read only for callers. */
-    uint16_t *goal_pos;             /* the tick's output: 31 goals 0..1023, page coordinates (no trim) */
-    uint8_t law;                    /* player_law_t */
-    uint8_t page, step;             /* playing now; step 1..7 */
-    uint8_t repetition;             /* 1.. PLAY_COUNT */
+typedef struct {
+    /* Read only for callers. */
+    player_step_t now;              /* the step that plays */
+    uint32_t present;               /* bit per joint: joints that the play moves */
+    uint32_t joints;                /* of these, the joints that a step has used since the play began: send their goals */
+    uint8_t repetition;             /* of the page: 1..PLAY_COUNT */
     uint8_t next_page, link_taken;  /* of the last PLAYER_EV_LINK */
-    uint8_t fault_page, fault;      /* page that ended the play, and why: page_status_t or PAGE_EMPTY; PAGE_OK: none */
-    uint32_t joints;                /* bit per joint: driven by this play: present, and used by a step that has begun (a
-                                     * step begins with the last tick of the one before) */
-    uint32_t present;               /* joints that may be driven, those lent to others included */
-    uint32_t lent;                  /* joints that player_start gives to no play: set it between init and start (layers.h) */
-    /* The planner's own. */
-    player_step_t now, coming;      /* the step that plays, or begins next; the one behind it */
-    uint8_t look_page;              /* classic: the page that the link named, before pages without action are passed over */
-    uint8_t count_left;             /* repetitions, 8 bits as in the original */
-    uint8_t coming_repetition;
-    uint32_t coming_joints, looked_joints; /* that these steps use */
-    uint16_t coming_pos[PAGE_JOINTS]; /* where the coming step ends, lent joints included */
-    uint16_t looked_at[PAGE_JOINTS];  /* position words of the step that was looked at; PAGE_POS_UNUSED: stays */
+    uint8_t fault_page, fault;      /* page that ends the play, and why: page_status_t or PAGE_EMPTY; PAGE_OK: none */
+    /* Private. */
+    uint8_t law;                    /* player_law_t that was asked for */
+    uint8_t moving_by;              /* player_law_t of the joints' fields: exact also while a classic play slows down, and
+                                       for the rest of a step after a pause */
+    uint8_t state;                  /* player.c has the diagram */
+    uint8_t wish;                   /* go on, pause or break */
+    bool is_planned;                /* the coming tick, by player_plan */
+    uint8_t begun_events;           /* of the running step, until its first tick returns them */
+    uint8_t section;                /* classic law: RISE, CRUISE, FALL or HOLD */
+    uint8_t ramp_ticks;             /* A: length of RISE and of FALL */
+    uint8_t brake_ticks;            /* left until all joints have stopped */
+    uint16_t tick;                  /* ticks done: of the step with its pause (exact), of the section (classic) */
+    uint16_t section_ticks;         /* classic law: length of the section */
+    uint16_t step_ticks, hold_ticks; /* N and P: length of the running step, of the pause after it */
+    uint16_t rest_ticks;            /* left of a step that was interrupted */
+    uint16_t carry_q5_11;           /* fraction of a tick that the lengths so far have left over */
+    player_step_t next;             /* the step after `now`; page 0: the play ends with `now` */
+    uint8_t named_page;             /* page that the link names; the play may pass over it, or end there */
+    uint8_t count_left;             /* repetitions of the page, 8 bits as in the original */
+    uint8_t next_repetition;
+    uint32_t next_joints;           /* joints that `next` uses */
+    uint16_t next_pos[PAGE_JOINTS]; /* where `next` ends */
+    const page_source_t *source;
+    const shape_t *shape;           /* NULL: plays as stored */
+    player_joint_t *joint;
 } player_t;
 
-/* Starts idle, as the main play. Source, joints and goals (both arrays of PAGE_JOINTS) stay the caller's. */
-void player_init(player_t *player, const page_source_t *source, player_joint_t joint[PAGE_JOINTS],
-                 uint16_t goal_pos[PAGE_JOINTS]);
+/* Makes an idle player. The source and the array of PAGE_JOINTS joints stay the caller's. */
+void player_init(player_t *player, const page_source_t *source, player_joint_t joint[PAGE_JOINTS]);
 
-/* Sets the shape that acts from the next step that is looked at; NULL: play as stored. Call it any time after player_init.
- * shaping: memory for a step that is being shaped, for this play alone; NULL in a program with shape_step_none.c. */
-void player_set_shape(player_t *player, const shape_t *shape, shape_step_t *shaping);
+/* Sets the shape, which applies from the next step that the player looks at; NULL: play as stored. Any time. */
+void player_set_shape(player_t *player, const shape_t *shape);
 
-/* Begins at step 1 of `page`. Call link_call before.
- * pose_pos : where the joints are (page coordinates; values above 1023 count as 1023); copied to goal_pos, may be goal_pos
- * present  : bit per joint that may be driven; others are never touched
- * Afterwards player.page is the page that plays first: pages with PLAY_COUNT 0 are passed over. The first output comes with
- * the next player_tick. Any error: nothing changed but .fault and .fault_page. */
+/* Starts at step 1 of `page`. Call link_call before.
+ * pose_pos : where the joints are (page coordinates; values above 1023 are taken as 1023)
+ * present  : bit per joint that the play may move
+ * Pages with PLAY_COUNT 0 are passed over: player.next.page is the page that plays first. The next player_tick makes the
+ * first goals. After an error only .fault and .fault_page have changed. */
 MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
                                         const uint16_t pose_pos[PAGE_JOINTS], uint32_t present);
 
@@ -174,33 +131,33 @@ MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t 
  * have one. */
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
 
-/* One tick: player_move and player_prepare. Returns PLAYER_EV_ bits; 0 when idle. */
-uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* by itself, so that the bench can measure it */
+/* One tick: moves all joints. Returns PLAYER_EV_ bits; 0 when idle. */
+uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* so that tools/bench can measure it */
 
-/* The two halves of a tick, for two plays at once (layers.h): makes the tick's goals; then prepares the coming step in what
- * is left of the tick's time. Set player.work to what the tick has done before each of them; they add what they do. */
-uint8_t player_move(player_t *player, link_t *link);
-void player_prepare(player_t *player, link_t *link);
+/* Plans what the coming tick needs, if anything: after the last tick of a step it begins the next one (decides the link,
+ * looks at the step after it, plans all joints); it begins a section of the step, a break or a pause, or goes on after one.
+ * player_tick calls it first. A caller that calls it as soon as the goals of a tick are on their way, and after a break,
+ * pause or resume, gets the goals of every tick equally early. */
+void player_plan(player_t *player, link_t *link) NOINLINE;
 
-/* Leaves the page at once: every joint slows to a stand within ACCEL_TIME ticks (at least 8), without reversal. */
+/* Where the play wants a joint of `present`, 0..1023. */
+uint16_t player_goal(const player_t *player, uint8_t joint);
+
+/* Copies the goals of those joints; leaves the others. */
+void player_goals(const player_t *player, uint32_t joints, uint16_t goal_pos[PAGE_JOINTS]);
+
+/* Leaves the page at once: every joint slows down within ACCEL_TIME ticks (at least 8), without turning round. */
 void player_break(player_t *player);
 
-/* pause slows all joints to a stand. resume goes on to the target of the interrupted step in the time that was left, but
- * never faster than a ramp of the length that slowing down took; while it still slows down, as soon as it stands. */
+/* Pause slows down like a break, and then waits. Resume goes on to the target of the interrupted step in the time that was
+ * left, but in no less time than slowing down took; during the slowing down it takes effect at its end. */
 void player_pause(player_t *player);
 void player_resume(player_t *player);
 
-bool player_is_moving(const player_t *player);   /* a play is on, paused or breaking included */
+bool player_is_moving(const player_t *player);   /* a play is on, also one that pauses or breaks */
 bool player_is_paused(const player_t *player);   /* after player_pause, until player_resume */
 
-/* Takes joints out of a running play (torque lost, servo silent): they keep their last goal and are not in `joints`. */
+/* Takes joints out of a play (torque lost, servo silent): it moves them no more, and their goals stay. */
 void player_drop_joints(player_t *player, uint32_t joints);
-
-/* For layers.h: gives a joint that is at `pos` to this play. It moves again with the next step. */
-void player_give_joint(player_t *player, uint8_t joint, uint16_t pos);
-
-/* The position 0..1023 where the play wants `joint`, one of its own, when a tick has made no output. In a tick with output
- * that is goal_pos; a joint that is planned ahead has its step's end here already. */
-uint16_t player_asks(const player_t *player, const player_joint_t *joint);
 
 #endif

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * sequence.c - finds the page and step that come next: repetitions, links, pages without action. */
-#include "sequence_parts.h"
+ * sequence.c - which page and step comes next: repetitions, links, pages without action; reads its positions. */
+#include "law.h"
+#include "shape_step.h"
 
 #define HEADER_BYTES 31u /* up to the checksum */
 
 /* --- which page --------------------------------------------------------------------------------------------------- */
 
-/* Reads the header from byte `from` on into its place; does not read the name. */
-static void read_header(const page_source_t *source, uint8_t page, uint8_t header[HEADER_BYTES], uint8_t from)
+static void read_header(const page_source_t *source, uint8_t page, uint8_t header[HEADER_BYTES])
 {
-    source->read(source->context, page, from, &header[from], (uint8_t)(HEADER_BYTES - from));
+    source->read(source->context, page, 0, header, HEADER_BYTES);
 }
 
 static uint8_t fail(player_t *player, uint8_t page, uint8_t fault)
@@ -19,37 +19,37 @@ static uint8_t fail(player_t *player, uint8_t page, uint8_t fault)
     return 0;
 }
 
-/* The link that is followed. A link above the last page counts as 0. */
+/* The page that the link names. A link above the last page is taken as 0. */
 static uint8_t follow(link_t *link, uint8_t page, const uint8_t header[HEADER_BYTES], link_taken_t *taken)
 {
-    uint8_t next = link_decide(link, page, header, taken);
-    return next < PAGE_COUNT ? next : 0;
+    const uint8_t named = link_decide(link, page, header, taken);
+    return page_is_there(named) ? named : 0;
 }
 
-/* Notes a page in a set of pages. false: it is there already. */
-static bool note(uint8_t set[PAGE_COUNT / 8], uint8_t page)
+/* Adds a page to a set. false: it is in the set already. */
+static bool add(uint8_t set[PAGE_COUNT / 8], uint8_t page)
 {
-    uint8_t bit = (uint8_t)(1u << (page % 8)), *byte = &set[page / 8];
-    bool fresh = (*byte & bit) == 0;
-    *byte |= bit;
-    return fresh;
+    const uint8_t bit = (uint8_t)(1u << (page % 8));
+    const bool is_new = (set[page / 8] & bit) == 0;
+    set[page / 8] |= bit;
+    return is_new;
 }
 
-/* The first page with action, from `page` on along the links of pages with PLAY_COUNT 0. 0: none, or a fault. Leaves
- * that page's header in `header`. */
+/* The first page with action, starting with `page` and passing over pages with PLAY_COUNT 0 along their own links.
+ * Leaves its header in `header`. 0: there is none, or a fault. */
 static uint8_t resolve(player_t *player, link_t *link, uint8_t page, uint8_t header[HEADER_BYTES])
 {
     uint8_t passed_over[PAGE_COUNT / 8] = {0};
     while (page != 0) {
-        uint8_t status = player->source->check(player->source->context, page);
+        const uint8_t status = player->source->check(player->source->context, page);
         if (status != PAGE_OK) {
             return fail(player, page, status);
         }
-        read_header(player->source, page, header, PAGE_AT_PLAY_COUNT);
+        read_header(player->source, page, header);
         if (page_is_playable(header)) {
             return page;
         }
-        if (header[PAGE_AT_STEPS] == 0 || !note(passed_over, page)) {
+        if (header[PAGE_AT_STEPS] == 0 || !add(passed_over, page)) {
             return fail(player, page, PAGE_EMPTY);
         }
         link_taken_t taken;
@@ -58,17 +58,17 @@ static uint8_t resolve(player_t *player, link_t *link, uint8_t page, uint8_t hea
     return 0;
 }
 
-static void take_header(player_t *player, uint8_t page, const uint8_t header[HEADER_BYTES])
+/* `next` becomes step 1 of a page. */
+static void enter_page(player_t *player, uint8_t page, const uint8_t header[HEADER_BYTES])
 {
-    player_step_t *step = &player->coming;
-    step->page = page;
-    step->step = 1;
-    step->steps = header[PAGE_AT_STEPS];
-    step->schedule = header[PAGE_AT_SCHEDULE];
-    step->page_speed = header[PAGE_AT_SPEED];
-    step->accel_time = header[PAGE_AT_ACCEL_TIME];
+    player->next = (player_step_t){.page = page,
+                                   .step = 1,
+                                   .steps = header[PAGE_AT_STEPS],
+                                   .schedule = header[PAGE_AT_SCHEDULE],
+                                   .page_speed = header[PAGE_AT_SPEED],
+                                   .accel_time = header[PAGE_AT_ACCEL_TIME]};
     player->count_left = header[PAGE_AT_PLAY_COUNT];
-    player->coming_repetition = 1;
+    player->next_repetition = 1;
 }
 
 bool sequence_start(player_t *player, link_t *link, uint8_t page)
@@ -78,63 +78,118 @@ bool sequence_start(player_t *player, link_t *link, uint8_t page)
     player->fault = PAGE_OK;
     page = resolve(player, link, page, header);
     if (page != 0) {
-        take_header(player, page, header);
+        player->named_page = page;
+        enter_page(player, page, header);
     }
     return page != 0;
 }
 
-/* At the last step of a page: the same page again, or along its link. */
-static uint8_t decide(player_t *player, link_t *link)
+/* What follows the last step of a page: the same page again, or the page at the end of its link. NOINLINE, like shape_words:
+ * else the header's 31 bytes lie on the stack while the step is read, on the deepest path of the program. */
+static NOINLINE uint8_t decide(player_t *player, link_t *link)
 {
     player->count_left--;
     if (player->count_left != 0 && !link_is_stopping(link)) {
-        player->coming.step = 1;
-        player->coming_repetition++;
+        player->next.step = 1;
+        player->next_repetition++;
         return 0;
     }
     uint8_t header[HEADER_BYTES];
     link_taken_t taken;
-    read_header(player->source, player->now.page, header, PAGE_AT_NEXT_PAGE);
-    uint8_t named = follow(link, player->now.page, header, &taken);
+    read_header(player->source, player->now.page, header);
+    const uint8_t named = follow(link, player->now.page, header, &taken);
+    player->named_page = player->next_page = named;
     player->link_taken = (uint8_t)taken;
-    player->next_page = named;
-    uint8_t page = resolve(player, link, named, header);
-    player->look_page = named;
-    player->coming.page = 0;
+    const uint8_t page = resolve(player, link, named, header);
+    player->next.page = 0;
     if (page != 0) {
-        take_header(player, page, header);
+        enter_page(player, page, header);
     }
     return PLAYER_EV_LINK;
 }
 
-/* --- which step --------------------------------------------------------------------------------------------------- */
-
-void sequence_look(player_t *player, link_t *link)
+uint8_t sequence_advance(player_t *player, link_t *link)
 {
     uint8_t events = PLAYER_EV_STEP;
-    player->now = player->coming;
-    player->look_page = player->now.page;
-    player->looked = true;
+    player->now = player->next;
+    player->named_page = player->now.page;
     if (player->now.step == 1) {
         events |= PLAYER_EV_PAGE;
-        player->repetition = player->coming_repetition;
+        player->repetition = player->next_repetition;
     }
     if (player->now.step < player->now.steps) {
-        player->coming.step++;
+        player->next.step++;
     } else {
         events |= decide(player, link);
     }
-    player->announced_events = events;
-    sequence_read(player);
+    return events;
 }
 
-uint8_t sequence_announce(player_t *player)
+/* --- what the step contains --------------------------------------------------------------------------------------- */
+
+/* Reads the position words of a step and shapes them. */
+static void read_words(const page_source_t *source, const shape_t *shape, uint8_t page, uint8_t step,
+                       uint16_t words[PAGE_JOINTS])
 {
-    if (!player->arrived) {
-        return 0;
+    source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step), words, 2u * PAGE_JOINTS);
+    if (shape != NULL) {
+        shape_step(shape, source, page, step, words);
     }
-    player->arrived = false;
-    player->page = player->now.page;
-    player->step = player->now.step;
-    return player->announced_events;
+}
+
+uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS])
+{
+    uint16_t words[PAGE_JOINTS];
+    uint32_t joints = 0;
+    read_words(source, shape, page, 1, words);
+    for (uint8_t i = PAGE_JOINTS; i-- > 0;) {
+        const bool is_used = page_pos_is_used(words[i]);
+        joints = joints << 1 | is_used;
+        pose_pos[i] = is_used ? words[i] : pose_pos[i];
+    }
+    return joints;
+}
+
+/* Page 0: no joint is used. */
+static void look_at(player_t *player, uint8_t page, uint8_t step)
+{
+    uint32_t used = 0, bit = 1;
+    if (page != 0) {
+        read_words(player->source, player->shape, page, step, player->next_pos);
+    }
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++, bit <<= 1) {
+        if (page != 0 && page_pos_is_used(player->next_pos[i])) {
+            used |= bit;
+        } else {
+            player->next_pos[i] = player->joint[i].target_pos;
+        }
+    }
+    player->next_joints = used & player->present;
+}
+
+void sequence_look(player_t *player)
+{
+    player_step_t *next = &player->next;
+    const shape_t *shape = player->shape;
+    const bool is_shaped = shape != NULL && !shape_is_neutral(shape);
+    next->rate_percent = is_shaped ? shape->rate_percent : SHAPE_NORMAL;
+    next->top_speed_q4_4 = is_shaped ? shape->top_speed_q4_4 : 0;
+    if (next->page != 0) {
+        uint8_t pause_time[2];
+        player->source->read(player->source->context, next->page,
+                             (uint16_t)(PAGE_STEP_BYTES * next->step + PAGE_STEP_AT_PAUSE), pause_time, sizeof pause_time);
+        next->pause = pause_time[0];
+        next->time = pause_time[1];
+    }
+    look_at(player, next->page, next->step);
+}
+
+bool sequence_looks_elsewhere(const player_t *player)
+{
+    return player->named_page != player->next.page;
+}
+
+void sequence_look_at_named(player_t *player)
+{
+    look_at(player, player->named_page, 1);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "shape.h"
 
-/* 90 % of 8.7 units a tick at 11.1 V (body.md): 0.9 * 8.7 / 111 * 16 = 1.1287 sixteenths of a unit for each 0.1 V. */
+/* 90 % of 8.7 units a tick at 11.1 V (SHAPING.md): 0.9 * 8.7 / 111 * 16 = 1.1287 sixteenths of a unit for each 0.1 V. */
 #define TOP_SPEED_NUMERATOR 289u
 #define TOP_SPEED_DENOMINATOR 256u
 
@@ -57,7 +57,7 @@ shape_status_t shape_set_blend(shape_t *shape, int16_t percent)
 
 shape_status_t shape_set_centre(shape_t *shape, uint8_t page)
 {
-    if (page >= PAGE_COUNT) {
+    if (!page_is_there(page)) {
         return SHAPE_ERR_RANGE;
     }
     shape->centre_page = page;

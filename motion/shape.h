@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * shape.h - how a motion is shaped while it plays: rate, amplitude, blend, limit (shaping.md).
+ * shape.h - how a motion is shaped while it plays: rate, amplitude, blend, limit (SHAPING.md).
  * A step is shaped once, when the player looks at it. So a change acts from the first step that has not been looked at, two
  * steps ahead at most. Only the main play is shaped; layers play as stored. Pure; caller-owned; main loop only.
  *
@@ -56,7 +56,7 @@ MUST_CHECK shape_status_t shape_set_blend(shape_t *shape, int16_t percent);
 MUST_CHECK shape_status_t shape_set_centre(shape_t *shape, uint8_t page);
 
 /* Sets the limit from the battery's present voltage, 0.1 V (a servo's register 42): 90 % of the top speed of an AX-12, which
- * is 8.7 units a tick at 11.1 V, in proportion to the voltage (body.md). 0: not known, no limit. */
+ * is 8.7 units a tick at 11.1 V, in proportion to the voltage (SHAPING.md). 0: not known, no limit. */
 void shape_set_voltage(shape_t *shape, uint8_t decivolts);
 
 /* true when rate, amplitude and blend are 100, 100, 0: then no limit acts either. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * shape_step.c - blend, amplitude and clamp of a step's position words (shaping.md). One rounding, at the end:
+ * shape_step.c - blend, amplitude and clamp of a step's position words (SHAPING.md). One rounding, at the end:
  *
  *   p2 = c + A (p + W (q - p) - c)        as c + d / 10000,  d = A |100 p1 - 100 c|,  100 p1 = (100 - W) p + W q in percents
  *
@@ -9,6 +9,7 @@
 #include "fix.h"
 
 #define WHOLE 10000u
+#define AT_ONCE 8u /* joints whose words are read together: 32 bytes of stack */
 
 static void read_header(const page_source_t *source, uint8_t page, uint8_t at, uint8_t *to, uint8_t count)
 {
@@ -16,10 +17,10 @@ static void read_header(const page_source_t *source, uint8_t page, uint8_t at, u
 }
 
 /* The number of steps of a page; 0 if there is no such page or it is damaged. */
-static NOINLINE uint8_t steps_of(const page_source_t *source, uint8_t page)
+static uint8_t steps_of(const page_source_t *source, uint8_t page)
 {
     uint8_t steps;
-    if (page == 0 || page >= PAGE_COUNT || source->check(source->context, page) != PAGE_OK) {
+    if (page == 0 || !page_is_there(page) || source->check(source->context, page) != PAGE_OK) {
         return 0;
     }
     read_header(source, page, PAGE_AT_STEPS, &steps, 1);
@@ -31,22 +32,17 @@ static uint8_t partner_of(const shape_t *shape, const page_source_t *source, uin
 {
     uint8_t header[PAGE_AT_STEPS + 1u - PAGE_AT_BLEND_RIGHT];
     read_header(source, page, PAGE_AT_BLEND_RIGHT, header, sizeof header);
-    uint8_t partner = header[shape->blend_percent > 0 ? 0 : PAGE_AT_BLEND_LEFT - PAGE_AT_BLEND_RIGHT];
-    if (shape->blend_percent == 0 || steps_of(source, partner) != header[sizeof header - 1u]) {
-        partner = 0;
-    }
-    return partner;
+    const uint8_t partner = header[shape->blend_percent > 0 ? 0 : PAGE_AT_BLEND_LEFT - PAGE_AT_BLEND_RIGHT];
+    return steps_of(source, partner) == header[sizeof header - 1u] ? partner : 0;
 }
 
-/* Reads the words of a share of joints from `first` on. In page 0 no joint is used. */
-static NOINLINE void read_share(const page_source_t *source, uint8_t page, uint8_t step, uint8_t first,
-                                uint16_t words[SHAPE_STEP_SHARE])
+/* Reads the words of some joints. In page 0 no joint is used. */
+static void read_some(const page_source_t *source, uint8_t page, uint8_t step, uint8_t first, uint8_t count,
+                      uint16_t words[AT_ONCE])
 {
     if (page == 0) {
-        memset(words, PAGE_POS_UNUSED >> 8, 2u * SHAPE_STEP_SHARE);
+        memset(words, PAGE_POS_UNUSED >> 8, 2u * AT_ONCE);
     } else {
-        uint8_t count = PAGE_JOINTS - first;
-        count = count < SHAPE_STEP_SHARE ? count : SHAPE_STEP_SHARE;
         source->read(source->context, page, (uint16_t)(PAGE_STEP_BYTES * step + 2u * first), words, (uint8_t)(2u * count));
     }
 }
@@ -64,13 +60,13 @@ static uint16_t round_to_whole(uint32_t size)
 static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, uint8_t blend)
 {
     uint32_t hundredths = mul_u16_u8(p, (uint8_t)(100u - blend)) + mul_u16_u8(q, blend);
-    uint32_t way = hundredths - mul_u16_u8(c, 100u);
-    const bool down = (int32_t)way < 0;
+    uint32_t distance = hundredths - mul_u16_u8(c, 100u);
+    const bool down = (int32_t)distance < 0;
     if (down) {
-        way = 0 - way;
+        distance = 0 - distance;
     }
-    uint32_t size = mul_u16_u8((uint16_t)way, amplitude);
-    if ((uint8_t)(way >> 16) != 0) { /* it has 17 bits */
+    uint32_t size = mul_u16_u8((uint16_t)distance, amplitude);
+    if ((uint8_t)(distance >> 16) != 0) { /* it has 17 bits */
         size += (uint32_t)amplitude << 16;
     }
     uint16_t whole = round_to_whole(size);
@@ -81,31 +77,41 @@ static uint16_t shaped(uint16_t p, uint16_t q, uint16_t c, uint8_t amplitude, ui
     return pos > PAGE_POS_MAX ? PAGE_POS_MAX : pos;
 }
 
-bool shape_step_begin(shape_step_t *shaping, const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step)
-{
-    shaping->partner = partner_of(shape, source, page);
-    shaping->centre = steps_of(source, shape->centre_page) != 0 ? shape->centre_page : 0;
-    shaping->step = step;
-    shaping->blend_percent = (uint8_t)(shape->blend_percent < 0 ? -shape->blend_percent : shape->blend_percent);
-    shaping->done = 0;
-    memcpy(shaping->amplitude_percent, shape->amplitude_percent, sizeof shaping->amplitude_percent);
-    return shaping->partner != 0 || shape->scales;
-}
+/* Where the words that shape a step come from. */
+typedef struct {
+    uint8_t partner, centre; /* pages; 0: none */
+    uint8_t blend;           /* 0..100, toward the partner */
+} sources_t;
 
-void shape_step_share(shape_step_t *shaping, const page_source_t *source, uint16_t words[PAGE_JOINTS])
+/* NOINLINE: see sequence.c. */
+static NOINLINE void shape_words(const shape_t *shape, const page_source_t *source, const sources_t *from, uint8_t step,
+                                 uint16_t words[PAGE_JOINTS])
 {
-    uint16_t partner[SHAPE_STEP_SHARE], centre[SHAPE_STEP_SHARE];
-    uint8_t joint = shaping->done;
-    read_share(source, shaping->partner, shaping->step, joint, partner);
-    read_share(source, shaping->centre, 1, joint, centre);
-    uint16_t *word = &words[joint];
-    for (uint8_t i = 0; i < SHAPE_STEP_SHARE && joint < PAGE_JOINTS; i++, joint++, word++) {
-        uint16_t p = *word, q = partner[i], c = centre[i];
-        bool scales = page_pos_is_used(c), blends = page_pos_is_used(q);
-        if (page_pos_is_used(p) && (scales || blends)) {
-            uint8_t amplitude = scales ? shaping->amplitude_percent[joint] : SHAPE_NORMAL;
-            *word = shaped(p, blends ? q : p, scales ? c : p, amplitude, shaping->blend_percent);
+    uint16_t of_partner[AT_ONCE], of_centre[AT_ONCE];
+    uint8_t at = AT_ONCE;
+    for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++, at++) {
+        if (at == AT_ONCE) {
+            const uint8_t left = (uint8_t)(PAGE_JOINTS - joint), count = left < AT_ONCE ? left : AT_ONCE;
+            read_some(source, from->partner, step, joint, count, of_partner);
+            read_some(source, from->centre, 1, joint, count, of_centre);
+            at = 0;
+        }
+        const uint16_t p = words[joint], q = of_partner[at], c = of_centre[at];
+        const bool blends = page_pos_is_used(q), scales = page_pos_is_used(c);
+        if (page_pos_is_used(p) && (blends || scales)) {
+            const uint8_t amplitude = scales ? shape->amplitude_percent[joint] : SHAPE_NORMAL;
+            words[joint] = shaped(p, blends ? q : p, scales ? c : p, amplitude, from->blend);
         }
     }
-    shaping->done = joint;
+}
+
+void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step, uint16_t words[PAGE_JOINTS])
+{
+    const int8_t blend = shape->blend_percent;
+    const sources_t from = {.partner = blend != 0 ? partner_of(shape, source, page) : 0,
+                            .centre = steps_of(source, shape->centre_page) != 0 ? shape->centre_page : 0,
+                            .blend = (uint8_t)(blend < 0 ? -blend : blend)};
+    if (from.partner != 0 || shape->scales) {
+        shape_words(shape, source, &from, step, words);
+    }
 }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "step_plan.h"
 
-/* Nominal: 40 units of way at speed 1 take 40 * 40 / 3 ticks (720 degrees/s = 256 speed units; 1024 units = 300 deg). */
+/* Nominal: 40 units at speed 1 take 40 * 40 / 3 ticks (720 degrees/s = 256 speed units; 1024 units = 300 deg). */
 
 /* --- rate, limit, fractions -------------------------------------------------------------------------------------- */
 
 #define TICK_BITS 11 /* lengths are in 1/2048 tick */
 
 /* length in 1/2048 tick; what is left after the whole ticks is carried on */
-static NOINLINE uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_11)
+static uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_11)
 {
     length_q21_11 += *carry_q5_11;
     uint32_t ticks = length_q21_11 >> TICK_BITS;
@@ -22,7 +22,7 @@ static NOINLINE uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_
 
 /* length / rate, floor; of a length above LENGTH_MAX that of LENGTH_MAX. */
 #define LENGTH_MAX ((uint32_t)UINT16_MAX << TICK_BITS)
-static NOINLINE uint32_t at_rate(uint32_t length, uint16_t rate_percent)
+static uint32_t at_rate(uint32_t length, uint16_t rate_percent)
 {
     if (rate_percent == SHAPE_NORMAL) {
         return length;
@@ -36,15 +36,15 @@ static NOINLINE uint32_t at_rate(uint32_t length, uint16_t rate_percent)
 }
 
 /* The least ticks in which no joint's mean speed is above the top speed; 0: no limit. */
-static uint16_t least_ticks(const player_step_t *step, uint16_t longest_way)
+static uint16_t least_ticks(const player_step_t *step, uint16_t longest_distance)
 {
     uint8_t top = step->top_speed_q4_4;
-    return (uint16_t)(top == 0 ? 0u : (16u * longest_way + top - 1u) / top);
+    return (uint16_t)(top == 0 ? 0u : (16u * longest_distance + top - 1u) / top);
 }
 
 /* --- classic ------------------------------------------------------------------------------------------------------ */
 
-static uint16_t stored_classic_ticks(const player_step_t *step, uint16_t longest_way)
+static uint16_t stored_classic_ticks(const player_step_t *step, uint16_t longest_distance)
 {
     uint16_t units = (uint16_t)((uint16_t)((uint16_t)step->time * step->page_speed) >> 5);
     if (units == 0) {
@@ -53,17 +53,17 @@ static uint16_t stored_classic_ticks(const player_step_t *step, uint16_t longest
     if (step->schedule == PAGE_SCHEDULE_TIME) {
         return units;
     }
-    uint16_t way = (uint16_t)(40u * longest_way), speed = (uint16_t)(3u * units);
-    return (uint16_t)(way / speed);
+    uint16_t distance = (uint16_t)(40u * longest_distance), speed = (uint16_t)(3u * units);
+    return (uint16_t)(distance / speed);
 }
 
 /* The shortest step that rule 6 does not skip. */
 #define CLASSIC_SHORTEST 3u
 
-uint16_t step_plan_classic_ticks(const player_step_t *step, uint16_t longest_way, uint16_t *carry_q5_11)
+uint16_t step_plan_classic_ticks(const player_step_t *step, uint16_t longest_distance, uint16_t *carry_q5_11)
 {
-    uint16_t stored = stored_classic_ticks(step, longest_way), ticks = stored;
-    uint16_t least = least_ticks(step, longest_way);
+    uint16_t stored = stored_classic_ticks(step, longest_distance), ticks = stored;
+    uint16_t least = least_ticks(step, longest_distance);
     if (step->rate_percent != SHAPE_NORMAL) {
         ticks = whole_ticks(at_rate((uint32_t)stored << TICK_BITS, step->rate_percent), carry_q5_11);
         least = least < CLASSIC_SHORTEST && stored >= CLASSIC_SHORTEST ? CLASSIC_SHORTEST : least;
@@ -104,22 +104,22 @@ uint8_t step_plan_classic_ramp(uint8_t accel_time, uint16_t *ticks)
 /* --- exact -------------------------------------------------------------------------------------------------------- */
 
 /* The ideal length in 1/2048 tick, as stored. */
-static uint32_t stored_exact_length(const player_step_t *step, uint16_t longest_way)
+static uint32_t stored_exact_length(const player_step_t *step, uint16_t longest_distance)
 {
     uint16_t product = (uint16_t)((uint16_t)step->time * step->page_speed);
     if (step->schedule == PAGE_SCHEDULE_TIME) {
         return (uint32_t)product << 6; /* / 32, * 2048 */
     }
     if (product == 0) {
-        product = step->page_speed; /* speed 0 counts as the slowest speed there is */
+        product = step->page_speed; /* speed 0 is taken as the slowest speed there is */
     }
-    return (longest_way * (uint32_t)(1280ul << TICK_BITS)) / ((uint32_t)3 * product);
+    return (longest_distance * (uint32_t)(1280ul << TICK_BITS)) / ((uint32_t)3 * product);
 }
 
-uint16_t step_plan_exact_ticks(const player_step_t *step, uint16_t longest_way, uint16_t *carry_q5_11)
+uint16_t step_plan_exact_ticks(const player_step_t *step, uint16_t longest_distance, uint16_t *carry_q5_11)
 {
-    uint32_t length = at_rate(stored_exact_length(step, longest_way), step->rate_percent);
-    uint16_t least = least_ticks(step, longest_way);
+    uint32_t length = at_rate(stored_exact_length(step, longest_distance), step->rate_percent);
+    uint16_t least = least_ticks(step, longest_distance);
     if (least == 0) {
         least = 1;
     }

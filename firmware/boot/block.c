@@ -7,7 +7,6 @@
 #include "memory.h"
 #include "start.h"
 #include "uart.h"
-#include "words.h"
 
 #define GAP_TICKS UART_TICKS(100)  /* inside a frame */
 #define IDLE_TICKS UART_TICKS(4000) /* between frames */
@@ -20,9 +19,9 @@ STATIC_ASSERT(MEM_RAM_END % 256u == 0, "RAM ends with a page");
 
 enum { HELLO = 1, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE };
 enum { OK = 0, REFUSED = MEMORY_REFUSED, BAD_FRAME = 4 };
-enum { TO_PROMPT, TO_APPLICATION, TO_RESET };
+enum { TO_PROMPT, TO_APPLICATION, TO_RESET, TO_ANY_APPLICATION };
 
-/* The bodies of all requests (PROTOCOL.md). */
+/* The bodies of all requests (BLOCK_PROTOCOL.md). */
 typedef struct {
     uint16_t page; /* READ, WRITE, SUMS: address / 256. EE_WRITE: address. RATE: UBRR. LEAVE: where to */
     union {
@@ -49,7 +48,7 @@ static void answer_begin(const uint8_t *request, uint8_t status, uint8_t detail,
     crc = CRC16_START;
     put(request[FRAME_AT_COMMAND]);
     put(request[FRAME_AT_NUMBER]);
-    put((uint8_t)(bytes / 2 + 1));
+    put(bytes / 2 + 1);
     put(status);
     put(detail);
 }
@@ -57,8 +56,8 @@ static void answer_begin(const uint8_t *request, uint8_t status, uint8_t detail,
 static void answer_end(void)
 {
     uint16_t end = crc;
-    uart_put((uint8_t)(end >> 8));
-    uart_put((uint8_t)end);
+    uart_put(end >> 8);
+    uart_put(end);
 }
 
 /* Sends CRC and plain sum of each page: two different checks, so that a changed page does not pass as equal. */
@@ -82,8 +81,9 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
     uint16_t count = body->count;
     switch (command) {
     case HELLO:
-    case LEAVE:
         return OK;
+    case LEAVE:
+        return body->page != TO_APPLICATION || memory_is_startable() ? OK : REFUSED;
     case RATE:
         return body->page == UART_UBRR_57143 || body->page == UART_UBRR_117647 ? OK : REFUSED;
     case READ:
@@ -94,7 +94,7 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
         *bytes = FLASH_PAGE_BYTES;
         return OK;
     case WRITE:
-        return request[FRAME_AT_COUNT] == FRAME_BODY_MAX / 2 ? (uint8_t)memory_commit(body->page, body->data) : REFUSED;
+        return request[FRAME_AT_COUNT] == FRAME_BODY_MAX / 2 ? memory_commit(body->page, body->data) : REFUSED;
     case SUMS:
         if (count <= SUMS_MAX) {
             *bytes = count * 4;
@@ -116,15 +116,18 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
 static bool follow_up(uint8_t command, uint16_t where)
 {
     if (command == RATE) {
-        uart_open((uint8_t)where);
+        uart_open(where);
     }
-    if (command == LEAVE && where == TO_APPLICATION) {
-        words_go(0);
+    if (command != LEAVE) {
+        return true;
     }
-    if (command == LEAVE && where == TO_RESET) {
+    if (where == TO_APPLICATION || where == TO_ANY_APPLICATION) {
+        start_jump(0);
+    }
+    if (where == TO_RESET) {
         start_reset();
     }
-    return command != LEAVE;
+    return false;
 }
 
 /* Carries out a good request and answers it. false: the session is over. */
@@ -135,7 +138,7 @@ static bool carry_out(const uint8_t *request)
     uint16_t bytes = 0;
     uint8_t status = perform(command, request, &bytes);
 
-    answer_begin(request, status, command == HELLO ? (uint8_t)memory_app() : 0, bytes);
+    answer_begin(request, status, command == HELLO ? memory_app() : 0, bytes);
     if (command == SUMS) {
         put_sums(body->page, bytes / 4);
     } else {
@@ -176,7 +179,7 @@ void block_session(void)
                 break;
             }
             noise = 0; /* still a program: if the session ended, the prompt would take the rest for typed text */
-            answer_begin(memory_work, BAD_FRAME, 0, 0); /* command and number may be damaged too (PROTOCOL.md) */
+            answer_begin(memory_work, BAD_FRAME, 0, 0); /* command and number may be damaged too (BLOCK_PROTOCOL.md) */
             answer_end();
         }
     }

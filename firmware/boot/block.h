@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * block.h - the block protocol for our own tool: PROTOCOL.md beside this file is its description. */
+ * block.h - the block protocol for our own tool: BLOCK_PROTOCOL.md describes it. */
 #ifndef BLOCK_H
 #define BLOCK_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * button.h - START, the only button that the loader uses, debounced. RAM: 3 bytes. */
+ * button.h - START, the only button that the loader uses, debounced. */
 #ifndef BUTTON_H
 #define BUTTON_H
 

@@ -67,7 +67,7 @@ static bool is_ram_good(void)
 
 static void put_app(void)
 {
-    print_nth(PSTR("none\0plain\0good\0bad"), (uint8_t)memory_app());
+    print_nth(PSTR("none\0plain\0good\0bad"), memory_app());
 }
 
 static void put_crc(uint16_t page, uint16_t end)

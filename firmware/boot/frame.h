@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * frame.h - receives one frame of the block protocol (PROTOCOL.md). Pure; tested on the PC; callable from anywhere.
+ * frame.h - receives one frame of the block protocol (BLOCK_PROTOCOL.md). Pure; tested on the PC; callable from anywhere.
  *
  *   0xA5 | command | number | n | 2 n bytes of body | CRC-16 high, low      CRC over command .. body (crc16.h)
  *

@@ -5,7 +5,7 @@
 
 #include "memory.h"
 
-/* What LOAD leaves in EEPROM from MEM_EE_LOAD_RECORD on, for VERIFY (bootloader-original.md, section 3). */
+/* What LOAD leaves in EEPROM from MEM_EE_LOAD_RECORD on, for VERIFY (ORIGINAL.md, section 3). */
 typedef struct __attribute__((packed)) {
     uint8_t last;  /* the last byte: the sum that the PC sent */
     uint32_t sum;  /* of all bytes before it */
@@ -13,7 +13,7 @@ typedef struct __attribute__((packed)) {
 } load_record_t;
 
 /* LOAD: receives raw data for flash from `addr` on, then an 8-bit sum byte, then 111 ms of silence. Writes neither the sum
- * byte nor anything behind the end of the region that addr is in. Keeps the rest of the first and the last flash page. */
+ * byte nor anything after the end of the region that addr is in. Keeps the rest of the first and the last flash page. */
 void load_flash(uint32_t addr);
 
 /* UP, EEP_UP: sends `count` raw bytes from address `addr` (memory.h) on to the PC. Waits until START was pressed and

@@ -17,6 +17,7 @@
 #include <avr/io.h>
 
 #define WINDOW_TICKS UART_TICKS(60)
+#define START_TICKS UART_TICKS(12) /* a little more than START needs to stand still (button.c) */
 #define LEDS_TICKS UART_TICKS(100)
 #define MAIL_POSTED 0xAAu
 #define MAIL_WRITTEN 0x55u
@@ -45,29 +46,30 @@ static void answer_mailbox(void)
 
 typedef enum { STAY_NO, STAY_PROMPT, STAY_STK500 } stay_t;
 
-/* Watches the line and START for 60 ms, or for as long as the application's CRC takes. Only the last byte counts, as in the
- * original; the sync of avrdude is two bytes. START counts when it is down the whole time. */
+/* Looks at START first: it counts when it is down from the beginning until it has stood still. Then listens until 60 ms
+ * have passed, or for as long as the application's CRC takes; the receiver's interrupt keeps what comes meanwhile. Only the
+ * last byte counts, as in the original; the sync of avrdude is two bytes. */
 static stay_t ask_to_stay(void)
 {
     uint8_t last = 0, byte = 0;
     uint16_t since = uart_clock();
-    bool is_held = PORTS_START_PRESSED();
-    button_t start = button_look();
-    memory_app_t app = memory_app();
+    button_t start;
     do {
         start = button_look();
+    } while (uart_since(since) < START_TICKS);
+    bool is_startable = memory_is_startable();
+    do {
         if (uart_has()) {
             last = byte;
             byte = uart_next();
         }
-    } while (uart_since(since) < WINDOW_TICKS);
+    } while (uart_has() || uart_since(since) < WINDOW_TICKS);
     if (last == PROMPT_SYNC_1 && byte == PROMPT_SYNC_2) {
         return STAY_STK500;
     }
-    bool is_startable = app == MEMORY_APP_PLAIN || app == MEMORY_APP_GOOD;
-    is_held = is_held && start == BUTTON_DOWN;
-    return byte == '#' || is_held || !is_startable || memory_ee(MEM_EE_BOOT_MODE) == START_MODE_SYSTEM ? STAY_PROMPT
-                                                                                                       : STAY_NO;
+    return byte == '#' || start == BUTTON_DOWN || !is_startable || memory_ee(MEM_EE_BOOT_MODE) == START_MODE_SYSTEM
+               ? STAY_PROMPT
+               : STAY_NO;
 }
 
 /* Our own vectors: only two of the 35 are used, and tables fill the gap between them (boot.ld.in). */

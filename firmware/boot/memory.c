@@ -174,3 +174,9 @@ memory_app_t memory_app(void)
     }
     return crc == pgm_read_word(CRC_AT) && length <= MEM_APP_END ? MEMORY_APP_GOOD : MEMORY_APP_BAD;
 }
+
+bool memory_is_startable(void)
+{
+    uint8_t app = (uint8_t)memory_app();
+    return app == MEMORY_APP_PLAIN || app == MEMORY_APP_GOOD;
+}

@@ -4,8 +4,8 @@
 #ifndef MEMORY_H
 #define MEMORY_H
 
-#include "hal/flash.h"
-#include "linker/memory_map.h"
+#include "flash.h"
+#include "memory_map.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -15,7 +15,7 @@
 extern uint8_t memory_work[MEMORY_WORK_BYTES];
 #define memory_scratch (memory_work + 1024)
 
-/* One address space for all that can be read: flash from 0, RAM (registers included) and EEPROM behind it. */
+/* One address space for all that can be read: flash from 0, RAM (registers included) and EEPROM after it. */
 #define MEMORY_RAM 0x800000ul
 #define MEMORY_EEPROM 0x810000ul
 
@@ -66,5 +66,8 @@ void memory_scan(uint16_t page);
 /* The application: none; one without a record (started as it is); its record fits; its record does not fit. */
 typedef enum { MEMORY_APP_NONE = 0, MEMORY_APP_PLAIN = 1, MEMORY_APP_GOOD = 2, MEMORY_APP_BAD = 3 } memory_app_t;
 memory_app_t memory_app(void);
+
+/* Whether it may be started: there, and not known to be damaged. */
+bool memory_is_startable(void);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * parse.h - splits a typed line into a word and hexadecimal arguments. Pure; tested on the PC.
- * Separators are space to '/' (0x20..0x2F) and TAB; several count as one. A line that begins with one that is not a
+ * Separators are space to '/' (0x20..0x2F) and TAB; several in a row are one. A line that begins with one that is not a
  * space or TAB is empty (so `####` does no harm), as in the original. */
 #ifndef PARSE_H
 #define PARSE_H
@@ -11,7 +11,7 @@
 #define PARSE_NUMBER_MAX 0xFFFFFul
 
 typedef struct {
-    const char *word;            /* in the line, upper case, NUL behind it; empty for an empty line */
+    const char *word;            /* in the line, upper case, with a NUL at its end; empty for an empty line */
     uint8_t count;               /* arguments read */
     uint32_t arg[PARSE_ARGS];    /* an address, 0 unless given, and a length, 1 unless given */
 } parse_t;

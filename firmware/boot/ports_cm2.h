@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * ports_cm2.h - the CM-2 / CM-2+. Only the bus direction pin PE2 is known (board.md), so no other pin is driven: there are
+ * ports_cm2.h - the CM-2 / CM-2+. Only the bus direction pin PE2 is known (BOARD.md), so no other pin is driven: there are
  * no LEDs and no button. PE2 low: the bus is not driven. */
 #ifndef PORTS_H
 #define PORTS_H

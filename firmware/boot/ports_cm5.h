@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * ports_cm5.h - the CM-5's pins as the loader sets them (board.md) and as an application finds them
- * (bootloader-original.md, section 5). */
+ * ports_cm5.h - the CM-5's pins as the loader sets them (BOARD.md) and as an application finds them
+ * (ORIGINAL.md, section 5). */
 #ifndef PORTS_H
 #define PORTS_H
 

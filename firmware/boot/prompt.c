@@ -70,7 +70,7 @@ static void edit_line(uint8_t byte)
         }
     } else if (length < LINE_BYTES - 1) {
         is_binary |= (byte < ' ' && byte != '\t') || byte > '~';
-        line[length++] = (char)byte;
+        line[length++] = byte;
         uart_put(byte);
     }
 }
@@ -83,7 +83,7 @@ static void watch_start(void)
         was_released = true;
     } else if (start == BUTTON_DOWN && was_released) {
         PUT("GO");
-        words_go(0);
+        words_go(0, false);
         prompt();
     }
 }

@@ -29,7 +29,7 @@ void service_poll(const boot_rx_t *rx)
         return;
     }
     rx->buffer[head & rx->mask] = byte;
-    *rx->head = (uint8_t)(head + 1);
+    *rx->head = head + 1;
 }
 
 static void wait(const boot_rx_t *rx)
@@ -58,7 +58,7 @@ static bool write_once(uint16_t addr, const uint8_t *data, uint16_t bytes, uint8
     do {
         uint16_t word = 0xFFFF;
         if (at < bytes) {
-            word = (uint16_t)(data[at] | data[at + 1] << 8);
+            word = data[at] | data[at + 1] << 8;
         }
         spm_fill(addr | at, word);
         poll_now_and_then(at, rx);
@@ -91,13 +91,13 @@ boot_write_page(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode
     eeprom_busy_wait();
     uint8_t flags = SREG, rampz = RAMPZ;
     cli();
-    RAMPZ = (uint8_t)(addr >> 16);
+    RAMPZ = addr >> 16;
     do {
-        result = write_once((uint16_t)addr, data, bytes, mode, rx) ? BOOT_OK : BOOT_ERR_VERIFY;
+        result = write_once(addr, data, bytes, mode, rx) ? BOOT_OK : BOOT_ERR_VERIFY;
     } while (result != BOOT_OK && ++failed < TRIES);
     RAMPZ = rampz;
     SREG = flags;
-    return (uint16_t)(failed << 8 | result);
+    return failed << 8 | result;
 }
 
 /* The call table; 0x940C is JMP, and the address of a function is its word address. */

@@ -31,7 +31,7 @@ static inline void spm_fill(uint16_t addr, uint16_t word)
                  : "r0", "memory");
 }
 
-/* Start to erase a page or to write the page buffer: 4.5 ms. spm_is_busy tells when it is done. */
+/* Start to erase a page or to write the page buffer: 4.5 ms. spm_is_busy says when it is done. */
 static inline void spm_erase(uint16_t addr)
 {
     spm_command(addr, 1 << PGERS | 1 << SPMEN);

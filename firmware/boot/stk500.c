@@ -5,15 +5,19 @@
 #include "print.h"
 #include "uart.h"
 
+#include <avr/boot.h>
+#include <avr/interrupt.h>
+
 #define GAP_TICKS UART_TICKS(250)   /* inside a command */
-#define IDLE_SLICES 4u              /* of 4 s between commands */
-#define SLICE_TICKS UART_TICKS(4000)
+#define IDLE_SLICES 4u              /* of 2.5 s between commands */
+#define SLICE_TICKS UART_TICKS(2500)
 #define DEVICE_CODE 0xB2            /* ATmega128 in SET_DEVICE */
 
 enum { SYNC_EOP = 0x20, INSYNC = 0x14, NOSYNC = 0x15, OK = 0x10, FAILED = 0x11, NODEVICE = 0x13 };
 enum { GET_SYNC = 0x30, SET_PARM = 0x40, GET_PARM = 0x41, SET_DEVICE = 0x42, SET_DEVICE_EXT = 0x45,
        ENTER = 0x50, LEAVE = 0x51, CHIP_ERASE = 0x52, LOAD_ADDRESS = 0x55, UNIVERSAL = 0x56, PROG_PAGE = 0x64,
        READ_PAGE = 0x74, READ_SIGN = 0x75 };
+enum { READ_FUSE = 0x50, ERASE_CHIP = 0x80 }; /* bytes of UNIVERSAL */
 
 /* A command and the number of its bytes before SYNC_EOP, not counting the data of PROG_PAGE. */
 static const uint8_t commands[] PROGMEM_GAP = {
@@ -52,7 +56,7 @@ static uint8_t arg_count(uint8_t command)
 
 static uint16_t length(void)
 {
-    return (uint16_t)(stk.args[0] << 8 | stk.args[1]);
+    return stk.args[0] << 8 | stk.args[1];
 }
 
 static bool is_flash(void)
@@ -74,7 +78,7 @@ static bool program(void)
     if (stk.address >= MEM_EEPROM_BYTES / 2) {
         return false;
     }
-    memory_ee_write((uint16_t)(stk.address << 1), memory_work, count);
+    memory_ee_write(stk.address << 1, memory_work, count);
     return true;
 }
 
@@ -86,6 +90,26 @@ static void read(void)
     }
 }
 
+/* An instruction of serial programming. 50 00, 58 00, 50 08, 58 08 read low fuse, lock bits, extended and high fuse, which
+ * have the numbers 0 to 3 here (data sheet, "Reading the Fuse and Lock Bits from Software"); AC 80 is chip erase. The rest,
+ * such as a new fuse, is refused. */
+static uint8_t universal(void)
+{
+    uint8_t first = stk.args[0], second = stk.args[1];
+    uint8_t number = 0;
+    if (first & 8) {
+        number += 1;
+    }
+    if (second & 8) {
+        number += 2;
+    }
+    cli(); /* the receiver's interrupt between its two instructions would make it read flash */
+    uint8_t value = boot_lock_fuse_bits_get(number);
+    sei();
+    uart_put(value);
+    return (first & ~8) == READ_FUSE || second == ERASE_CHIP ? OK : FAILED;
+}
+
 /* Sends the answer between INSYNC and OK; returns its last byte. */
 static uint8_t carry_out(uint8_t command)
 {
@@ -93,9 +117,8 @@ static uint8_t carry_out(uint8_t command)
     case GET_PARM: uart_put(3); break;
     case SET_DEVICE: return stk.args[0] == DEVICE_CODE ? OK : NODEVICE;
     case ENTER: stk.is_entered = true; break;
-    case LEAVE: stk.is_entered = false; break;
-    case LOAD_ADDRESS: stk.address = (uint16_t)(stk.args[0] | stk.args[1] << 8); break;
-    case UNIVERSAL: uart_put(0); break;
+    case LOAD_ADDRESS: stk.address = stk.args[0] | stk.args[1] << 8; break;
+    case UNIVERSAL: return universal();
     case PROG_PAGE: return program() ? OK : FAILED;
     case READ_PAGE: read(); break;
     case READ_SIGN: PUT("\x1E\x97\x02"); break;
@@ -104,15 +127,14 @@ static uint8_t carry_out(uint8_t command)
     return OK;
 }
 
-/* Receives arguments, data and SYNC_EOP of a command. */
-static bool take_command(uint8_t command)
+/* Receives `count` arguments, data and SYNC_EOP of a command. */
+static bool take_command(uint8_t command, uint8_t count)
 {
-    uint8_t count = arg_count(command);
     for (uint8_t i = 0; i < count; i++) {
         stk.args[i] = take();
     }
     if (command == PROG_PAGE) {
-        uint8_t at = is_flash() ? (uint8_t)(stk.address << 1) : 0;
+        uint8_t at = is_flash() ? stk.address << 1 : 0;
         memory_read_page(stk.address >> 7, memory_work);
         for (uint16_t left = length(); left > 0 && !stk.is_broken; left--) {
             memory_work[at++] = take();
@@ -136,10 +158,11 @@ void stk500_session(void)
         }
         command = uart_next();
         silent = 0;
-        if (arg_count(command) == 0xFF) {
+        uint8_t count = arg_count(command);
+        if (count == 0xFF) {
             break;
         }
-        if (take_command(command)) {
+        if (take_command(command, count)) {
             uart_put(INSYNC);
             uart_put(carry_out(command));
         } else {

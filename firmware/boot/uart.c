@@ -40,7 +40,7 @@ void uart_flush(void)
 
 uint8_t uart_has(void)
 {
-    return (uint8_t)(head - tail);
+    return head - tail;
 }
 
 uint8_t uart_peek(void)

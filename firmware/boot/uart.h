@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * uart.h - UART1 of the loader. Receives by interrupt (vectors in the boot section), and by service_poll while interrupts
  * are off for a flash page; sends by polling. Also the loader's clock, because every time limit here limits silence on the
- * line. RAM: 256-byte ring and 7 bytes. Drops and counts a byte when the ring is full. */
+ * line. RAM: a ring of 256 bytes. Drops and counts a byte when the ring is full. */
 #ifndef UART_H
 #define UART_H
 

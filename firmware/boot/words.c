@@ -16,15 +16,15 @@
 
 /* One code for each word and its aliases, in the order of `limits`. From PLAY on, a word stores a byte for an
  * application. */
-enum { HELP, FLASH, EEPROM, RAM, LOAD, UP, EEP_UP, EEP_DN, VERIFY, CLEAR, GO, RESET, APP, SYS, CHECK, ID,
+enum { HELP, FLASH, EEPROM, RAM, LOAD, UP, EEP_UP, EEP_DN, VERIFY, CLEAR, GO, FORCE, RESET, APP, SYS, CHECK, ID,
        PLAY, TOSS, MON, EDIT, DUMP, WORD_CODES, UNKNOWN = 0xFF };
 
 /* Words, each ended by 0x80 + code, in the order of HELP. */
 static const char words[] PROGMEM =
     "HELP\x80" "FLASH\x81" "F\x81" "EEPROM\x82" "EEP\x82" "E\x82" "RAM\x83" "R\x83"
     "LOAD\x84" "LD\x84" "L\x84" "DOWN\x84" "DN\x84" "UP\x85" "EEP_UP\x86" "EEP_DN\x87" "VERIFY\x88" "V\x88"
-    "CLEAR_EEPROM\x89" "GO\x8A" "G\x8A" "RESET\x8B" "APPLICATION\x8C" "APP\x8C" "SYSTEM\x8D" "SYS\x8D"
-    "CHECK\x8E" "ID\x8F" "PLAY\x90" "TOSS\x91" "MONITOR\x92" "MON\x92" "EDIT\x93" "DUMP\x94";
+    "CLEAR_EEPROM\x89" "GO\x8A" "G\x8A" "FORCE\x8B" "RESET\x8C" "APPLICATION\x8D" "APP\x8D" "SYSTEM\x8E" "SYS\x8E"
+    "CHECK\x8F" "ID\x90" "PLAY\x91" "TOSS\x92" "MONITOR\x93" "MON\x93" "EDIT\x94" "DUMP\x95";
 
 /* Numbers of arguments: the fewest in the high nibble, the most in the low one. */
 static const uint8_t limits[WORD_CODES] PROGMEM_GAP = {
@@ -34,7 +34,7 @@ static const uint8_t limits[WORD_CODES] PROGMEM_GAP = {
 /* The end of the memory that the word's address and length are about, in units of 4 KiB; 1 for words without. */
 static const uint8_t ends[WORD_CODES] PROGMEM_GAP = {
     [LOAD] = MEM_BOOT_START / 4096, [UP] = MEM_BOOT_END / 4096, [EEP_UP ... CLEAR] = MEM_EEPROM_BYTES / 4096,
-    [GO] = 0x10000 / 4096, [RESET ... DUMP] = 1};
+    [GO] = 0x10000 / 4096, [FORCE ... DUMP] = 1};
 
 /* The code of `word`, which is not empty. */
 static uint8_t find(const char *word)
@@ -123,7 +123,7 @@ static void verify(void)
 
 static void clear_eeprom(const parse_t *line)
 {
-    uint16_t at = (uint16_t)line->arg[0], count = (uint16_t)line->arg[1];
+    uint16_t at = line->arg[0], count = line->arg[1];
     if (line->count == 1) {
         return;
     }
@@ -146,22 +146,23 @@ static void clear_eeprom(const parse_t *line)
     }
 }
 
-void words_go(uint16_t word)
+void words_go(uint16_t word, bool force)
 {
+    memory_app_t app = word == 0 ? memory_app() : MEMORY_APP_PLAIN;
     SAY("Jump Address : 0x");
     print_hex32(word);
-    if (word == 0 && memory_app() == MEMORY_APP_NONE) {
-        SAY("No application.");
+    if (app == MEMORY_APP_NONE || (app == MEMORY_APP_BAD && !force)) {
+        print_line();
+        print_nth(PSTR("No application.\0Damaged: FORCE starts it."), app == MEMORY_APP_BAD);
         return;
     }
-    uart_pause(UART_TICKS(10));
     start_jump(word);
 }
 
 static void set_start(uint8_t code)
 {
     static const char names[] PROGMEM_GAP = "Play\0Toss\0Monitor\0Motion Edit\0DUMP485";
-    memory_ee_set(MEM_EE_START_WORD, (uint8_t)(0x12 + code - PLAY));
+    memory_ee_set(MEM_EE_START_WORD, 0x12 + code - PLAY);
     print_line();
     print_nth(names, code - PLAY);
     PUT(" Mode");
@@ -171,8 +172,8 @@ static void set_start(uint8_t code)
  * bits: the sum does not overflow, and as a number of pages it fits 16. */
 static bool is_in_range(uint8_t code, const parse_t *line)
 {
-    uint16_t pages = (uint16_t)((line->arg[0] + line->arg[1] + 0xFF) >> 8);
-    return code < LOAD || (pages <= (uint16_t)(print_byte(&ends[code]) * 16u) &&
+    uint16_t pages = (line->arg[0] + line->arg[1] + 0xFF) >> 8;
+    return code < LOAD || (pages <= print_byte(&ends[code]) * 16u &&
                            (code != EEP_DN || line->arg[1] <= MEMORY_WORK_BYTES));
 }
 
@@ -187,18 +188,17 @@ static void run(uint8_t code, const parse_t *line)
     case LOAD: load_flash(first); break;
     case EEP_UP: first += MEMORY_EEPROM; /* fall through */
     case UP: load_send(first, line->arg[1]); break;
-    case EEP_DN: load_eeprom((uint16_t)first, (uint16_t)line->arg[1]); break;
+    case EEP_DN: load_eeprom(first, line->arg[1]); break;
     case VERIFY: verify(); break;
     case CLEAR: clear_eeprom(line); break;
-    case GO: words_go((uint16_t)first); break;
+    case GO:
+    case FORCE: words_go(first, code == FORCE); break;
     case RESET: start_reset();
     case APP:
-        memory_ee_set(MEM_EE_BOOT_MODE, START_MODE_APPLICATION);
-        SAY("Boot to Application");
-        break;
     case SYS:
-        memory_ee_set(MEM_EE_BOOT_MODE, START_MODE_SYSTEM);
-        SAY("Boot to System");
+        memory_ee_set(MEM_EE_BOOT_MODE, code == APP ? START_MODE_APPLICATION : START_MODE_SYSTEM);
+        SAY("Boot to ");
+        print_nth(PSTR("Application\0System"), code == SYS);
         break;
     case CHECK: check_all(); break;
     case ID: check_id(); break;
@@ -210,7 +210,7 @@ static void usage(const char *word)
 {
     print_line();
     while (*word != 0) {
-        uart_put((uint8_t)*word++);
+        uart_put(*word++);
     }
     PUT(" StartAddress, Length");
 }

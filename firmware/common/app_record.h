@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * app_record.h - how an application image describes itself: 16 bytes at MEM_APP_RECORD, right behind the vectors.
+ * app_record.h - how an application image describes itself: 16 bytes at MEM_APP_RECORD, right after the vectors.
  * The image is linked with the magic and 0xFF; tools/dev/app_record fills in the rest. The boot loader starts an image
  * with a record only when length and CRC fit, and an image without the magic as it is. A magic with some bits turned to 1
- * still counts as a record, because a power cut can tear the first page; then the CRC does not fit. So a foreign program
+ * is still taken for a record, because a power cut can tear the first page; then the CRC does not fit. So a foreign program
  * must reach beyond the record, as every program with a full vector table does. */
 #ifndef APP_RECORD_H
 #define APP_RECORD_H
@@ -32,10 +32,6 @@ STATIC_ASSERT(sizeof(app_record_t) == MEM_APP_RECORD_BYTES, "the linker scripts 
 /* Offsets in layout 1, for programs that patch or check an image. */
 #define APP_RECORD_AT_LENGTH 4u
 #define APP_RECORD_AT_CRC 8u
-#define APP_RECORD_AT_BOARD 10u
-#define APP_RECORD_AT_KIND 11u
-#define APP_RECORD_AT_VERSION 12u
-#define APP_RECORD_AT_LAYOUT 15u
 
 /* In one file of each application (board.c): the record as the post-link step expects it. */
 #define APP_RECORD_UNFILLED { APP_RECORD_MAGIC, 0xFFFFFFFFul, 0xFFFFu, 0xFF, 0xFF, { 0xFF, 0xFF, 0xFF }, 0xFF }

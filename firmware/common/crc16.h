@@ -6,7 +6,7 @@
 #define CRC16_H
 
 #include <stdint.h>
-#include "hal/compiler.h"
+#include "compiler.h"
 
 #define CRC16_START 0xFFFFu
 

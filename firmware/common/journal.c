@@ -2,7 +2,8 @@
 #include "journal.h"
 
 #include "crc16.h"
-#include "linker/memory_map.h"
+#include "memory_map.h"
+#include "target.h"
 
 #include <string.h>
 
@@ -11,9 +12,8 @@
 #define STATE_PENDING 0xFFFFu
 #define STATE_DONE 0x0000u
 #define FIRST_PAGE (MEM_JOURNAL_START / FLASH_PAGE_BYTES)
-#define FIRST_TARGET (MEM_MOTION_START / FLASH_PAGE_BYTES)
+#define FIRST_TARGET (TARGET_MOTION_START / FLASH_PAGE_BYTES)
 #define TARGET_PAGES (JOURNAL_TARGET_BYTES / FLASH_PAGE_BYTES)
-#define TARGET_COUNT ((MEM_MOTION_END - MEM_MOTION_START) / JOURNAL_TARGET_BYTES)
 #define NO_SLOT 0xFFu
 
 typedef struct {
@@ -33,10 +33,15 @@ NOINLINE static uint16_t slot_page(uint8_t slot)
     return (uint16_t)(FIRST_PAGE + slot * JOURNAL_SLOT_PAGES);
 }
 
+static bool has_target(uint16_t page)   /* wider than a page's number: a PC has all that a byte can name */
+{
+    return page < TARGET_MOTION_PAGES;
+}
+
 static bool read_record(uint8_t slot, record_t *record)
 {
-    flash_read(flash_addr((uint16_t)(slot_page(slot) + TARGET_PAGES)), record, sizeof *record);
-    return record->magic == MAGIC && record->layout == LAYOUT && record->target < TARGET_COUNT &&
+    flash_read(flash_addr(slot_page(slot) + TARGET_PAGES), record, sizeof *record);
+    return record->magic == MAGIC && record->layout == LAYOUT && has_target(record->target) &&
            record->record_crc == crc16_bytes(CRC16_START, record, RECORD_CRC_BYTES);
 }
 
@@ -47,7 +52,7 @@ static uint8_t find_newest(record_t *newest)
     uint16_t sequence = 0;
     for (uint8_t slot = 0; slot < JOURNAL_SLOTS; slot++) {
         if (read_record(slot, newest) &&
-            (found == NO_SLOT || (int16_t)(uint16_t)(newest->sequence - sequence) > 0)) {
+            (found == NO_SLOT || (int16_t)(newest->sequence - sequence) > 0)) {
             sequence = newest->sequence;
             found = slot;
         }
@@ -75,12 +80,12 @@ static flash_status_t write_data(uint16_t page, const uint8_t data[JOURNAL_TARGE
 static flash_status_t mark_done(uint8_t slot, record_t *record)
 {
     record->state = STATE_DONE;
-    return flash_program((uint16_t)(slot_page(slot) + TARGET_PAGES), (const uint8_t *)record, sizeof *record);
+    return flash_program(slot_page(slot) + TARGET_PAGES, (const uint8_t *)record, sizeof *record);
 }
 
 flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARGET_BYTES])
 {
-    if (motion_page >= TARGET_COUNT) {
+    if (!has_target(motion_page)) {
         return FLASH_ERR_RANGE;
     }
     uint16_t target = (uint16_t)(FIRST_TARGET + motion_page * TARGET_PAGES);
@@ -90,8 +95,8 @@ flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARG
 
     record_t record;
     uint8_t slot = find_newest(&record);
-    uint16_t sequence = slot == NO_SLOT ? 1u : (uint16_t)(record.sequence + 1u);
-    slot = (slot == NO_SLOT || slot == JOURNAL_SLOTS - 1) ? 0 : (uint8_t)(slot + 1);
+    uint16_t sequence = slot == NO_SLOT ? 1u : record.sequence + 1u;
+    slot = (slot == NO_SLOT || slot == JOURNAL_SLOTS - 1) ? 0 : slot + 1;
     record = (record_t){.magic = MAGIC, .sequence = sequence, .target = motion_page,
                         .layout = LAYOUT, .state = STATE_PENDING};
     record.content_crc = crc16_bytes(CRC16_START, data, JOURNAL_TARGET_BYTES);
@@ -99,7 +104,7 @@ flash_status_t journal_save(uint8_t motion_page, const uint8_t data[JOURNAL_TARG
 
     flash_status_t status = write_data(slot_page(slot), data);
     if (status == FLASH_OK) {
-        status = flash_write((uint16_t)(slot_page(slot) + TARGET_PAGES), (const uint8_t *)&record, sizeof record);
+        status = flash_write(slot_page(slot) + TARGET_PAGES, (const uint8_t *)&record, sizeof record);
     }
     if (status == FLASH_OK) {
         status = write_data(target, data);

@@ -21,9 +21,9 @@
 #ifndef JOURNAL_H
 #define JOURNAL_H
 
-#include "hal/flash.h"
+#include "flash.h"
 
-#include "linker/memory_map.h"
+#include "memory_map.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -2,14 +2,15 @@
 #include "page_service.h"
 
 #include "crc16.h"
-#include "hal/boot_call.h"
-#include "hal/eeprom.h"
-#include "linker/memory_map.h"
+#include "boot_call.h"
+#include "eeprom.h"
+#include "memory_map.h"
+#include "target.h"
 
 #include <stddef.h>
 #include <string.h>
 
-/* The factory loader 1.31, bootloader-original.md section 7b. The CRCs of two ranges and a sum, because one CRC-16 is too
+/* The factory loader 1.31, boot/ORIGINAL.md section 7b. The CRCs of two ranges and a sum, because one CRC-16 is too
  * weak a proof before a jump into foreign code. The CRC-32 of the spec would need code that nothing else uses. */
 #define FACTORY_CRC_ALL 0xD53Eu
 #define FACTORY_CRC_USED 0x7406u
@@ -20,7 +21,6 @@
 #define MAIL_POSTED 0xAAu
 #define MAIL_WRITTEN 0x55u
 #define MAIL_NONE 0xFFu
-#define MOTION_PAGES 128u
 
 static struct {
     uint8_t kind;
@@ -76,7 +76,7 @@ static flash_status_t write_page(uint16_t page, const uint8_t *data, uint16_t by
 {
     uint32_t addr = (uint32_t)page * FLASH_PAGE_BYTES;
     uint8_t result;
-    if (addr >= MEM_BOOT_START || bytes < 2 || bytes > FLASH_PAGE_BYTES || (bytes & 1) != 0) {
+    if (addr >= TARGET_FLASH_END || bytes < 2 || bytes > FLASH_PAGE_BYTES || (bytes & 1) != 0) {
         return FLASH_ERR_RANGE;
     }
     if (service.kind == PAGE_SERVICE_OURS) {
@@ -99,15 +99,21 @@ flash_status_t flash_program(uint16_t page, const uint8_t *data, uint16_t bytes)
     return write_page(page, data, bytes, BOOT_MODE_PROGRAM);
 }
 
+/* NOINLINE: else its bytes would lie on the stack while a page is written. */
 static NOINLINE void set_byte(uint16_t addr, uint8_t value)
 {
     eeprom_update(addr, &value, 1);
 }
 
+static bool has_page(uint16_t page)   /* wider than a page's number: a PC has all that a byte can name */
+{
+    return page < TARGET_MOTION_PAGES;
+}
+
 /* Clears FF4 first and sets it last, so that a power cut in between leaves no half page to be written. */
 bool page_service_post(uint8_t motion_page, const uint8_t data[512])
 {
-    if (motion_page >= MOTION_PAGES) {
+    if (!has_page(motion_page)) {
         return false;
     }
     set_byte(MEM_EE_MAILBOX_STATE, MAIL_NONE);

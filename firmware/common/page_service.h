@@ -3,17 +3,17 @@
  *
  *   PAGE_SERVICE_OURS     our loader: call table at 0x1FFE0 (boot_api.h)
  *   PAGE_SERVICE_FACTORY  factory loader 1.31, known by two CRCs and the sum of its 8 KiB: its routine at 0x1F238
- *                         (bootloader-original.md, 7b)
+ *                         (boot/ORIGINAL.md, 7b)
  *   PAGE_SERVICE_MAILBOX  another loader: it may write a page left in EEPROM at the next start (7a).
  *                         flash_write returns FLASH_ERR_NO_WRITER; call page_service_post and restart
  *   PAGE_SERVICE_NONE     an empty boot section: nothing can write flash
  *
- * One file-static struct, 3 bytes of RAM. Main loop only. */
+ * Main loop only. */
 #ifndef PAGE_SERVICE_H
 #define PAGE_SERVICE_H
 
-#include "hal/boot_call.h"
-#include "hal/flash.h"
+#include "boot_call.h"
+#include "flash.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -2,15 +2,17 @@
 #include "page_store.h"
 #include "flash.h"
 #include "memory_map.h"
+#include "target.h"
 #include "system.h"
 
 #include <string.h>
 
-STATIC_ASSERT(MEM_MOTION_END - MEM_MOTION_START == (uint32_t)PAGE_BYTES * PAGE_COUNT, "128 pages of 512 bytes");
+STATIC_ASSERT(TARGET_FLASH_END - TARGET_MOTION_START == (uint32_t)PAGE_BYTES * PAGE_COUNT,
+              "the pages are the last that may be written");
 
 uint32_t page_store_addr(uint8_t page)
 {
-    return MEM_MOTION_START + (uint32_t)((uint16_t)page * PAGE_BYTES);
+    return TARGET_MOTION_START + (uint32_t)(page * PAGE_BYTES);
 }
 
 void page_store_read(uint8_t page, uint16_t offset, void *to, uint16_t count)
@@ -18,7 +20,7 @@ void page_store_read(uint8_t page, uint16_t offset, void *to, uint16_t count)
     flash_read(page_store_addr(page) + offset, to, count);
 }
 
-NOINLINE uint8_t page_store_byte(uint8_t page, uint16_t offset)
+uint8_t page_store_byte(uint8_t page, uint16_t offset)
 {
     uint8_t byte;
     page_store_read(page, offset, &byte, 1);
@@ -33,7 +35,7 @@ static void source_read(void *context, uint8_t page, uint16_t offset, void *to, 
 
 static uint8_t source_check(void *context, uint8_t page)
 {
-    return (uint8_t)page_store_check(context, page);
+    return page_store_check(context, page);
 }
 
 /* The result of page_check, without a page of RAM: reads 64 bytes at a time. */
@@ -60,11 +62,11 @@ page_status_t page_store_look(uint8_t page)
 
 void page_store_refresh(page_store_t *store, uint8_t page)
 {
-    uint8_t bit = (uint8_t)(1u << (page & 7u));
+    uint8_t bit = 1u << (page & 7u);
     if (page_store_look(page) == PAGE_OK) {
         store->good[page >> 3] |= bit;
     } else {
-        store->good[page >> 3] &= (uint8_t)~bit;
+        store->good[page >> 3] &= ~bit;
     }
 }
 
@@ -73,15 +75,15 @@ void page_store_init(page_store_t *store)
     store->source.context = store;
     store->source.read = source_read;
     store->source.check = source_check;
-    for (uint8_t page = 0; page < PAGE_COUNT; page++) {
-        page_store_refresh(store, page);
+    for (uint16_t page = 0; page < PAGE_COUNT; page++) {
+        page_store_refresh(store, (uint8_t)page);
         system_kick();
     }
 }
 
 bool page_store_is_good(const page_store_t *store, uint8_t page)
 {
-    return page < PAGE_COUNT && (store->good[page >> 3] & (1u << (page & 7u)));
+    return page_is_there(page) && (store->good[page >> 3] & (1u << (page & 7u)));
 }
 
 page_status_t page_store_check(const page_store_t *store, uint8_t page)
@@ -112,7 +114,8 @@ void page_store_name(uint8_t page, char name[PAGE_NAME_BYTES])
 uint8_t page_store_find(const page_store_t *store, const char *name, uint8_t after)
 {
     char found[PAGE_NAME_BYTES];
-    for (uint8_t page = (uint8_t)(after + 1u); page < PAGE_COUNT; page++) {
+    for (uint16_t number = after + 1u; number < PAGE_COUNT; number++) {
+        const uint8_t page = (uint8_t)number;
         if (page_store_is_good(store, page)) {
             page_store_name(page, found);
             if (strcasecmp(name, found) == 0) {
@@ -126,7 +129,8 @@ uint8_t page_store_find(const page_store_t *store, const char *name, uint8_t aft
 uint8_t page_store_find_code(const page_store_t *store, uint8_t code)
 {
     uint8_t header[PAGE_AT_PLAY_CODE + 1u];
-    for (uint8_t page = 1; page < PAGE_COUNT; page++) {
+    for (uint16_t number = 1; number < PAGE_COUNT; number++) {
+        const uint8_t page = (uint8_t)number;
         if (page_store_byte(page, PAGE_AT_PLAY_CODE) == code && page_store_is_good(store, page)) {
             page_store_read(page, 0, header, sizeof header);
             if (page_is_playable(header)) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * page_store.h - reads the 128 motion pages in flash: which are valid, their names and codes, their bytes for the player.
- * page_save.h is the writing side. Main loop only. RAM: one page_store_t, 24 bytes. */
+ * page_save.h is the writing side. Main loop only. RAM: one page_store_t. */
 #ifndef PAGE_STORE_H
 #define PAGE_STORE_H
 
@@ -50,8 +50,8 @@ uint8_t page_store_find(const page_store_t *store, const char *name, uint8_t aft
 /* The lowest good and playable page 1..127 with this play code (1..254); 0: none. */
 uint8_t page_store_find_code(const page_store_t *store, uint8_t code);
 
-/* Signed trim offsets from the third step of page 0 (motion512.md, "Offset"). A word 0x4000..0x5FFF marks an unused joint
- * and counts as 0. false: page 0 is not good; then all offsets are 0. */
+/* Signed trim offsets from the third step of page 0 (PAGE_FORMAT.md, "Offset"). A word 0x4000..0x5FFF marks an unused joint
+ * and is taken for 0. false: page 0 is not good; then all offsets are 0. */
 bool page_store_trim(const page_store_t *store, int16_t trim_pos[PAGE_JOINTS]);
 
 #endif

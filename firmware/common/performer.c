@@ -1,11 +1,26 @@
 /* SPDX-License-Identifier: MIT
- * performer.c - the work of the main loop and of the tick; from one state to the next. */
+ * performer.c - the life of a play and of a move: start, approach, tick, stop, pause, end. performer_ready.c asks the servos
+ * before it, performer_watch.c judges their faults, performer_shape.h has layers and driving by a program. */
 #include "performer.h"
 
 #include <string.h>
-#include "bound.h"
-#include "performer_parts.h"
+#include "bus.h"
+#include "performer_ready.h"
 #include "performer_shape.h"
+#include "performer_watch.h"
+#include "system.h"
+#include "tick.h"
+
+#define LATE_TICKS 13u   /* 0.1 s */
+#define SECOND_STOP_TICKS PLAYER_TICKS_PER_SECOND
+
+/* An idle player with the performer's shape. */
+static void fresh_player(performer_t *performer)
+{
+    player_t *player = &performer->engine.player;
+    player_init(player, performer->source, performer->engine.joint);
+    player_set_shape(player, &performer->shape);
+}
 
 void performer_init(performer_t *performer, const page_source_t *source, servo_link_t *servos,
                     const settings_t *settings)
@@ -20,7 +35,7 @@ void performer_init(performer_t *performer, const page_source_t *source, servo_l
 void performer_set_source(performer_t *performer, const page_source_t *source)
 {
     performer->source = source;
-    performer_fresh_player(performer);
+    fresh_player(performer);
 }
 
 /* ---- what it is doing ---- */
@@ -44,38 +59,315 @@ uint8_t *performer_spare(performer_t *performer)
     return performer_is_idle(performer) ? (uint8_t *)(&performer->engine + 1) - PAGE_BYTES : NULL;
 }
 
+/* ---- start ---- */
+
+/* Starts a fresh player at `page` from the present goals, by the law of the settings. */
+static player_status_t start_player(performer_t *performer, uint8_t page, uint32_t joints)
+{
+    const player_law_t law = performer->settings->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;
+    fresh_player(performer);
+    return player_start(&performer->engine.player, &performer->link, page, law, performer->goal_pos, joints);
+}
+
+static performer_status_t somebody_can_move(const performer_t *performer)
+{
+    if (!performer_is_idle(performer)) {
+        return PERFORMER_ERR_BUSY;
+    }
+    if (performer->servos->present == 0) {
+        return PERFORMER_ERR_NO_SERVOS;
+    }
+    return performer_usable(performer) == 0 ? PERFORMER_ERR_RELEASED : PERFORMER_OK;
+}
+
+static performer_status_t refusal(performer_t *performer, player_status_t status)
+{
+    performer->fault = performer->engine.player.fault;
+    performer->fault_page = performer->engine.player.fault_page;
+    STATIC_ASSERT((int)PERFORMER_ERR_RANGE == (int)PLAYER_ERR_RANGE && (int)PERFORMER_ERR_PAGE == (int)PLAYER_ERR_PAGE &&
+                      (int)PERFORMER_ERR_EMPTY == (int)PLAYER_ERR_EMPTY && (int)PERFORMER_ERR_BUSY == (int)PLAYER_ERR_BUSY &&
+                      (int)PERFORMER_ERR_LAW == (int)PLAYER_ERR_LAW,
+                  "the performer's errors begin with the player's");
+    return (performer_status_t)status;
+}
+
+static void call_link(performer_t *performer, uint8_t code)
+{
+    link_init(&performer->link, performer->settings->remote_mode == LINK_HOLD ? LINK_HOLD : LINK_LATCH);
+    link_call(&performer->link, code);
+}
+
+performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t code)
+{
+    performer_status_t status = somebody_can_move(performer);
+    if (status != PERFORMER_OK) {
+        return status;
+    }
+    /* Starts a player without joints, to learn whether it accepts the page. */
+    performer_shape_follow(performer);
+    call_link(performer, code);
+    status = refusal(performer, start_player(performer, page, 0));
+    performer->first_page = performer->engine.player.next.page;
+    fresh_player(performer);
+    if (status != PERFORMER_OK) {
+        return status;
+    }
+    call_link(performer, code);
+    performer->page = page;
+    performer->move_deg_s = 0;
+    performer->since_stop_ticks = UINT8_MAX;
+    performer_get_ready(performer);
+    return PERFORMER_OK;
+}
+
+performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[PAGE_JOINTS], uint32_t joints,
+                                  uint16_t deg_s)
+{
+    const performer_status_t status = somebody_can_move(performer);
+    if (status != PERFORMER_OK) {
+        return status;
+    }
+    memcpy(performer->engine.approach.target_pos, to_pos, sizeof performer->engine.approach.target_pos);
+    performer->page = 0;
+    performer->move_deg_s = deg_s;
+    performer->move_joints = joints;
+    performer->since_stop_ticks = UINT8_MAX;
+    performer_get_ready(performer);
+    return PERFORMER_OK;
+}
+
+/* ---- end ---- */
+
+/* Ends everything; reports performer_end_t. */
+static void go_idle(performer_t *performer, uint8_t reason)
+{
+    const player_t *player = &performer->engine.player;
+    const uint8_t page_fault = performer->state == PERFORMER_PLAY ? player->fault : PAGE_OK;
+    if (page_fault != PAGE_OK) {
+        performer->page = player->fault_page;
+    }
+    performer->state = PERFORMER_IDLE;
+    performer_layers_bind(performer, false);
+    if (reason != PERFORMER_END_DONE && reason != PERFORMER_END_THERE) {
+        performer_layers_break(performer);
+    }
+    performer_drive_end(performer);
+    performer_event_put(&performer->events, PERFORMER_EV_ENDED, performer->page, page_fault, reason);
+}
+
+/* ---- stop, break ---- */
+
+static void resume_if_paused(performer_t *performer)
+{
+    if (player_is_paused(&performer->engine.player)) {
+        player_resume(&performer->engine.player);
+        performer_layers_pause(performer, false);
+        performer_layers_plan(performer);
+    }
+}
+
+/* State PLAY: through the exit page; ends a pause. */
+static void stop_softly(performer_t *performer)
+{
+    link_stop(&performer->link);
+    resume_if_paused(performer);
+}
+
+void performer_break(performer_t *performer)
+{
+    performer_layers_break(performer);
+    if (performer_is_idle(performer) || performer->leaving) {
+        return;
+    }
+    performer->leaving = true;
+    if (performer->end_reason == PERFORMER_END_DONE) {
+        performer->end_reason = PERFORMER_END_BROKEN;
+    }
+    if (performer->state == PERFORMER_APPROACH) {
+        approach_break(&performer->engine.approach);
+    } else if (performer->state == PERFORMER_APPROACH_PAUSED) {
+        go_idle(performer, performer->end_reason);
+    } else if (performer->state == PERFORMER_PLAY) {
+        player_break(&performer->engine.player);
+        performer_layers_plan(performer);
+    }
+}
+
+/* Counts a stop. true: it was the second within a second, or came before the first step, and was carried out as a break. */
+static bool stop_is_break(performer_t *performer)
+{
+    const bool again = performer->since_stop_ticks < SECOND_STOP_TICKS;
+    performer->since_stop_ticks = 0;
+    if (performer->state == PERFORMER_PLAY && !again) {
+        return false;
+    }
+    performer_break(performer);
+    return true;
+}
+
+void performer_stop(performer_t *performer)
+{
+    if (!stop_is_break(performer)) {
+        stop_softly(performer);
+    }
+}
+
+/* performer_drive came too late: stops the play. */
+static void drive_lost(performer_t *performer)
+{
+    if (performer_is_idle(performer)) {
+        performer_drive_end(performer);
+        return;
+    }
+    performer_event_put(&performer->events, PERFORMER_EV_DRIVE_LOST, 0, 0, 0);
+    if (performer->state == PERFORMER_PLAY) {
+        stop_softly(performer);
+    } else {
+        performer_break(performer);
+    }
+}
+
+void performer_stop_without_exit(performer_t *performer)
+{
+    if (performer->state != PERFORMER_PLAY) {
+        performer_break(performer);
+        return;
+    }
+    link_end(&performer->link);
+    resume_if_paused(performer);
+}
+
+void performer_code(performer_t *performer, uint8_t code)
+{
+    if (performer_is_idle(performer)) {
+        return;
+    }
+    if (code == LINK_CODE_STOP && stop_is_break(performer)) {
+        return;
+    }
+    link_code(&performer->link, code);
+    if (code == LINK_CODE_STOP) {
+        resume_if_paused(performer);
+    }
+    /* A hand that lets go before the first step: there is no page yet to leave softly. */
+    if (performer->state != PERFORMER_PLAY && link_is_stopping(&performer->link)) {
+        performer_break(performer);
+    }
+}
+
+/* ---- pause ---- */
+
+bool performer_pause(performer_t *performer)
+{
+    if (performer->leaving || performer->move_deg_s != 0 || performer_is_paused(performer)) {
+        return false;
+    }
+    if (performer->state == PERFORMER_PLAY) {
+        performer_layers_pause(performer, true);
+        player_pause(&performer->engine.player);
+        performer_layers_plan(performer);
+        return true;
+    }
+    if (performer->state == PERFORMER_APPROACH && !performer->pausing) {
+        performer->pausing = true;
+        performer_layers_pause(performer, true);
+        approach_break(&performer->engine.approach);
+        return true;
+    }
+    return false;
+}
+
+bool performer_resume(performer_t *performer)
+{
+    if (performer->leaving || !performer_is_paused(performer)) {
+        return false;
+    }
+    performer_layers_pause(performer, false);
+    if (performer->state == PERFORMER_PLAY) {
+        player_resume(&performer->engine.player);
+        performer_layers_plan(performer);
+    } else {
+        performer_get_ready(performer);
+    }
+    return true;
+}
+
+/* ---- torque ---- */
+
+/* Takes joints out of the play and its layers. */
+static void drop(performer_t *performer, uint32_t joints)
+{
+    performer->joints &= ~joints;
+    performer->ready_left &= ~joints;
+    performer_layers_drop(performer, joints);
+    if (performer->state == PERFORMER_PLAY) {
+        player_drop_joints(&performer->engine.player, joints);
+    }
+}
+
+uint32_t performer_on(performer_t *performer, uint32_t joints)
+{
+    if (!performer_is_idle(performer)) {
+        return 0;
+    }
+    const uint32_t on = servo_link_torque_on(performer->servos, joints);
+    performer->released &= ~on;
+    performer->faulty &= ~on;
+    return on;
+}
+
+/* Takes joints out of the play until performer_on; a play without joints ends. */
+static void release(performer_t *performer, uint32_t joints)
+{
+    performer->released |= joints;
+    drop(performer, joints);
+    if (!performer_is_idle(performer) && (performer->joints | performer->ready_left) == 0) {
+        go_idle(performer, PERFORMER_END_BROKEN); /* no joint is left to move */
+    }
+}
+
+uint32_t performer_off(performer_t *performer, uint32_t joints)
+{
+    release(performer, joints);
+    return servo_link_torque_off(performer->servos, joints);
+}
+
 /* ---- from one state to the next ---- */
 
 /* Begins the play, or ends the move: every joint is at its place. */
 static void begin(performer_t *performer)
 {
     if (performer->move_deg_s != 0) {
-        performer_go_idle(performer, PERFORMER_END_THERE);
+        go_idle(performer, PERFORMER_END_THERE);
         return;
     }
     performer->state = PERFORMER_PLAY;
     performer->slopes_due = false;
-    performer_fresh_player(performer);
+    const player_status_t status = start_player(performer, performer->page, performer->joints);
     performer_layers_bind(performer, true);
-    if (performer_start_player(performer, performer->page, performer->joints) != PLAYER_OK) {
-        performer_go_idle(performer, PERFORMER_END_PAGE);
+    if (status != PLAYER_OK) {
+        go_idle(performer, PERFORMER_END_PAGE);
+        return;
     }
+    performer_layers_plan(performer);
 }
 
 static void poll_ready(performer_t *performer)
 {
     if (performer->leaving) {
-        performer_go_idle(performer, performer->end_reason);
+        go_idle(performer, performer->end_reason);
         return;
     }
     switch (performer_ready_poll(performer)) {
     case READY_SILENT:
-        performer_go_idle(performer, PERFORMER_END_SERVO);
+        go_idle(performer, PERFORMER_END_SERVO);
         break;
     case READY_APPROACH:
+        tick_forgive();   /* asking a servo may take long, and nothing has moved */
         performer->state = PERFORMER_APPROACH;
         break;
     case READY_THERE:
+        tick_forgive();
         begin(performer);
         break;
     default:
@@ -86,7 +378,7 @@ static void poll_ready(performer_t *performer)
 static void approach_over(performer_t *performer)
 {
     if (performer->leaving) {
-        performer_go_idle(performer, performer->end_reason);
+        go_idle(performer, performer->end_reason);
     } else if (performer->pausing) {
         performer->state = PERFORMER_APPROACH_PAUSED;
         performer_event_put(&performer->events, PERFORMER_EV_PAUSED, performer->page, 0, 0);
@@ -114,16 +406,31 @@ static uint8_t why_ended(const performer_t *performer)
 
 static void act_on(performer_t *performer, performer_verdict_t verdict, uint32_t joint)
 {
-    performer_drop(performer, joint);
+    drop(performer, joint);
     if (verdict == WATCH_LIMP) {
-        servo_link_torque_off(PERFORMER_SERVOS(performer), joint);
+        (void)servo_link_torque_off(performer->servos, joint);
         return;
     }
     performer->end_reason = PERFORMER_END_SERVO; /* used if a play is on */
     if (verdict == WATCH_EXIT) {
-        performer_stop_softly(performer);
+        stop_softly(performer);
     } else {
         performer_break(performer);
+    }
+}
+
+/* What only a computer does to a robot; on a board both answers are constants. */
+static void watch_computer(performer_t *performer)
+{
+    if (bus_was_lost()) {
+        performer_event_put(&performer->events, PERFORMER_EV_BUS_LOST, 0, 0, 0);
+        release(performer, SERVO_LINK_ALL);
+    }
+    if (system_is_asked_to_end()) {
+        performer_break(performer);
+        if (performer_is_still(performer)) {
+            system_end();
+        }
     }
 }
 
@@ -131,7 +438,8 @@ void performer_poll(performer_t *performer)
 {
     uint32_t failed;
     performer_verdict_t verdict;
-    servo_link_poll(PERFORMER_SERVOS(performer));
+    servo_link_poll(performer->servos);
+    watch_computer(performer);
     while ((verdict = performer_watch(performer, &failed)) != WATCH_GO_ON) {
         act_on(performer, verdict, failed);
     }
@@ -144,18 +452,17 @@ void performer_poll(performer_t *performer)
 
 static void send_goals(performer_t *performer, uint32_t joints)
 {
-    servo_link_goals(PERFORMER_SERVOS(performer), performer->goal_pos, joints | performer_layers_joints(performer));
+    servo_link_goals(performer->servos, performer->goal_pos, joints | performer_layers_joints(performer));
 }
 
-/* Sends the compliance bytes of the pages that play. NOINLINE: else every tick would need 31 bytes of stack for what happens
- * once a page. */
-static NOINLINE void send_slopes(performer_t *performer)
+/* Sets the compliance bytes of the pages that play. NOINLINE: else every tick needs 31 bytes of stack more. */
+static NOINLINE void set_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
-    performer->source->read(performer->source->context, performer->engine.player.page, PAGE_AT_COMPLIANCE, compliance,
+    performer->source->read(performer->source->context, performer->engine.player.now.page, PAGE_AT_COMPLIANCE, compliance,
                             sizeof compliance);
     performer_layers_slopes(performer, compliance);
-    servo_link_slopes(PERFORMER_SERVOS(performer), compliance);
+    servo_link_slopes(performer->servos, compliance);
 }
 
 static void approach_or_move_tick(performer_t *performer)
@@ -173,37 +480,34 @@ static void tell(performer_t *performer, uint8_t events)
 {
     const player_t *player = &performer->engine.player;
     if ((events & PLAYER_EV_STEP) != 0) {
-        performer->page = player->page;
-        performer_event_put(&performer->events, PERFORMER_EV_STEP, player->page, player->step, player->repetition);
+        performer->page = player->now.page;
+        performer_event_put(&performer->events, PERFORMER_EV_STEP, player->now.page, player->now.step, player->repetition);
     }
     if ((events & PLAYER_EV_LINK) != 0) {
         performer_event_put(&performer->events, PERFORMER_EV_LINK, player->next_page, player->link_taken, 0);
     }
     if ((events & PLAYER_EV_ENDED) != 0 || ((events & PLAYER_EV_STANDING) != 0 && performer->leaving)) {
-        performer_go_idle(performer, why_ended(performer));
+        go_idle(performer, why_ended(performer));
     } else if ((events & PLAYER_EV_STANDING) != 0) {
-        performer_event_put(&performer->events, PERFORMER_EV_PAUSED, player->page, 0, 0);
+        performer_event_put(&performer->events, PERFORMER_EV_PAUSED, performer->page, 0, 0);
     }
 }
 
-/* A page's slopes go out a tick or more after its first goals, because the tick in which a page begins is a long one. */
+/* What can be done after the goals are on their way is done then. So the frames of all ticks begin at the same time. */
 static void play_tick(performer_t *performer)
 {
-    const bool slopes_due = performer->slopes_due;
     const uint8_t events = performer_layers_tick(performer, true);
-    if ((events & PLAYER_EV_PAGE) != 0) {
-        performer->slopes_due = true;
-    } else if (slopes_due) {
-        performer->slopes_due = false;
-        send_slopes(performer);
-    }
     if ((events & PLAYER_EV_OUTPUT) != 0) {
         send_goals(performer, performer->engine.player.joints);
     }
-    if ((events & PLAYER_EV_STEP) != 0) {
-        servo_link_delay_slopes(PERFORMER_SERVOS(performer));
+    if ((events & PLAYER_EV_PAGE) != 0 || performer->slopes_due) {
+        performer->slopes_due = false;
+        set_slopes(performer);
     }
     tell(performer, events);
+    if (performer->state == PERFORMER_PLAY) {
+        performer_layers_plan(performer);
+    }
 }
 
 static void idle_tick(performer_t *performer)
@@ -213,14 +517,25 @@ static void idle_tick(performer_t *performer)
     }
 }
 
+/* A play whose goals paused for so long would go on with a jerk that nobody has asked for. */
+static void watch_ticks(performer_t *performer)
+{
+    const bool moves = performer->state != PERFORMER_READY && !performer_is_still(performer);
+    if (moves && tick_late() >= LATE_TICKS && !performer->leaving) {
+        performer_event_put(&performer->events, PERFORMER_EV_TICKS_LATE, 0, 0, 0);
+        performer_break(performer);
+    }
+}
+
 void performer_tick(performer_t *performer)
 {
-    servo_link_tick(PERFORMER_SERVOS(performer));
+    servo_link_tick(performer->servos);
+    watch_ticks(performer);
     if (performer->since_stop_ticks < UINT8_MAX) {
         performer->since_stop_ticks++;
     }
     if (performer_drive_is_lost(performer)) {
-        performer_drive_lost(performer);
+        drive_lost(performer);
     }
     if (performer->state == PERFORMER_APPROACH) {
         approach_or_move_tick(performer);

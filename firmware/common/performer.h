@@ -51,7 +51,7 @@ typedef enum {
     PERFORMER_PLAY
 } performer_state_t;
 
-/* Scalars first, arrays last: the AVR reaches 63 bytes behind a pointer in one instruction. */
+/* Scalars first, arrays last: the AVR reaches 63 bytes after a pointer in one instruction. */
 typedef struct {
     /* Read only for callers. */
     uint8_t state;              /* performer_state_t */
@@ -65,7 +65,7 @@ typedef struct {
     uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
     bool leaving : 1;           /* a break is under way, or has ended the play. Read only for callers */
     bool pausing : 1;           /* APPROACH: a pause is under way */
-    bool slopes_due : 1;        /* PLAY: send the page's compliance in this tick */
+    bool slopes_due : 1;        /* PLAY: set the compliance of the pages anew in this tick */
     bool is_driven : 1;         /* performer_drive has set the shape */
     bool battery_reported : 1, heat_reported : 1; /* each is reported once a play. Read only for callers */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
@@ -76,7 +76,6 @@ typedef struct {
     servo_link_t *servos;
     const settings_t *settings;
     layers_t *layers;           /* performer_shape.h; NULL in an image without layers */
-    shape_step_t *shaping;      /* memory for the step that is being shaped; NULL in such an image */
     uint16_t drive_left_ticks;  /* time left for the next performer_drive; 0: not driven */
     uint8_t shape_voltage_dv;   /* the voltage that the shape's limit follows */
     shape_t shape;              /* of the main play. Set it with the functions of shape.h at any time */
@@ -114,10 +113,10 @@ void performer_stop(performer_t *performer);
 /* Ends with the present repetition, without the exit page. A break during the approach. */
 void performer_stop_without_exit(performer_t *performer);
 
-/* A break: all joints, those moved by code too, slow down to a stand; torque stays on. */
+/* A break: all joints, those moved by code too, slow down and stop; torque stays on. */
 void performer_break(performer_t *performer);
 
-/* pause slows all joints to a stand, with torque on; resume continues. false: nothing to pause or resume (a move cannot be
+/* pause stops all joints, with torque on; resume continues. false: nothing to pause or resume (a move cannot be
  * paused). */
 bool performer_pause(performer_t *performer);
 bool performer_resume(performer_t *performer);
@@ -127,16 +126,29 @@ bool performer_resume(performer_t *performer);
 void performer_code(performer_t *performer, uint8_t code);
 
 /* Switch the torque of `joints` that are present. on blocks 3 ms a servo and returns the joints that are on now; during a
- * play it returns 0. off also takes the joints out of a play; they are not driven until switched on again. */
+ * play it returns 0. off also takes the joints out of a play; they are not driven until switched on again; returns the
+ * joints that have confirmed it. */
 uint32_t performer_on(performer_t *performer, uint32_t joints);
-void performer_off(performer_t *performer, uint32_t joints);
+uint32_t performer_off(performer_t *performer, uint32_t joints);
 
-bool performer_is_idle(const performer_t *performer);    /* no play and no move */
 bool performer_is_still(const performer_t *performer);   /* idle, and no layer moves a joint (performer_shape.h) */
-bool performer_is_paused(const performer_t *performer);
+
+static inline bool performer_is_idle(const performer_t *performer)    /* no play and no move */
+{
+    return performer->state == PERFORMER_IDLE;
+}
+
+static inline bool performer_is_paused(const performer_t *performer)
+{
+    return performer->state == PERFORMER_APPROACH_PAUSED ||
+           (performer->state == PERFORMER_PLAY && player_is_paused(&performer->engine.player));
+}
 
 /* Joints that answer the bus and were not switched off by hand. */
-uint32_t performer_usable(const performer_t *performer);
+static inline uint32_t performer_usable(const performer_t *performer)
+{
+    return performer->servos->present & ~performer->released;
+}
 
 /* PAGE_BYTES of RAM that only a play needs: use it for what may be lost at the next play. NULL unless idle. A move keeps
  * it. */

@@ -29,7 +29,7 @@ typedef enum {
     PERFORMER_EV_APPROACH,   /* a: page, b: duration in seconds, rounded up */
     PERFORMER_EV_STEP,       /* a: page, b: step 1..7, c: repetition */
     PERFORMER_EV_LINK,       /* a: the next page (0: the end), b: link_taken_t */
-    PERFORMER_EV_PAUSED,     /* all joints stand */
+    PERFORMER_EV_PAUSED,     /* all joints have stopped */
     PERFORMER_EV_ENDED,      /* a: page, b: page_status_t of a damaged page, c: performer_end_t */
     PERFORMER_EV_SILENT,     /* a: servo ID */
     PERFORMER_EV_BACK,       /* a: servo ID */
@@ -38,6 +38,8 @@ typedef enum {
     PERFORMER_EV_BATTERY,    /* a: lowest voltage of all servos, 0.1 V */
     PERFORMER_EV_HOT,        /* a: servo ID, b: degrees C */
     PERFORMER_EV_LAYER_ENDED, /* a: the page in which it ended */
+    PERFORMER_EV_TICKS_LATE, /* a tick came 0.1 s late; what played is broken off */
+    PERFORMER_EV_BUS_LOST,   /* the adapter of the bus was pulled out; all joints count as switched off by hand */
     PERFORMER_EV_DRIVE_LOST, /* the driving program is silent; the play is being stopped */
     PERFORMER_EV_LOST        /* a: number of events dropped because the queue was full */
 } performer_event_kind_t;
@@ -58,7 +60,7 @@ typedef struct {
  * waits for that, and some for all events but steps. */
 void performer_event_put(performer_events_t *events, uint8_t kind, uint8_t a, uint8_t b, uint8_t c);
 
-/* Takes the oldest event; behind the last one PERFORMER_EV_LOST when some were dropped. false: none. */
+/* Takes the oldest event; after the last one PERFORMER_EV_LOST when some were dropped. false: none. */
 bool performer_event_take(performer_events_t *events, performer_event_t *event);
 
 #endif

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * performer_ready.c - the state READY: pose, torque, the plan of the approach. */
-#include "performer_parts.h"
+#include "performer_ready.h"
 
 #include <string.h>
-#include "bound.h"
 #include "performer_shape.h"
 
 void performer_get_ready(performer_t *performer)
@@ -23,7 +22,7 @@ void performer_get_ready(performer_t *performer)
  * come a tick apart and Edit may have set a slow one. */
 static performer_ready_t ask_one_joint(performer_t *performer)
 {
-    servo_link_t *servos = PERFORMER_SERVOS(performer);
+    servo_link_t *servos = performer->servos;
     const uint8_t id = servo_link_lowest(&performer->ready_left);
     const uint32_t joint = servo_link_bit(id);
     bool is_there = (performer_layers_joints(performer) & joint) != 0; /* a layer moves it: its goal is its place */
@@ -31,8 +30,7 @@ static performer_ready_t ask_one_joint(performer_t *performer)
         if (servo_link_torque_on(servos, joint) != 0) {
             return READY_ASKING;
         }
-    } else if (!is_there && servo_link_read_pose(servos, joint) != 0) {
-        servo_link_full_speed(servos, joint);
+    } else if (!is_there && servo_link_read_pose(servos, joint) != 0 && servo_link_full_speed(servos, joint) != 0) {
         performer->goal_pos[id] = servos->present_pos[id];
         is_there = true;
     }
@@ -43,7 +41,7 @@ static performer_ready_t ask_one_joint(performer_t *performer)
     }
     servo_link_put(&performer->faulty, id, true);
     performer_event_put(&performer->events, PERFORMER_EV_SILENT, id, 0, 0);
-    return PERFORMER_SETTINGS(performer)->fault_rule == SETTINGS_FAULT_LIMP ? READY_ASKING : READY_SILENT;
+    return performer->settings->fault_rule == SETTINGS_FAULT_LIMP ? READY_ASKING : READY_SILENT;
 }
 
 /* Puts the target of the approach into engine.approach.target_pos: the positions of the first step. (The pose of a move is
@@ -62,7 +60,7 @@ static uint32_t take_first_pose(performer_t *performer)
 static performer_ready_t plan_approach(performer_t *performer)
 {
     const uint16_t limit_deg_s = performer->move_deg_s != 0 ? performer->move_deg_s
-                                                            : PERFORMER_SETTINGS(performer)->approach_deg_s;
+                                                            : performer->settings->approach_deg_s;
     if (limit_deg_s == 0) {
         return READY_THERE;
     }

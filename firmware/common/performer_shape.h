@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * performer_shape.h - shapes a play from outside: a second page on joints of its own, and driving by a program
- * (shaping.md). Rate, amplitude and blend are set directly in performer.shape (shape.h).
+ * (motion/SHAPING.md). Rate, amplitude and blend are set directly in performer.shape (shape.h).
  * Main loop only. RAM: layers_t, the image's.
  *
  * An image without layers links performer_layers_none.c, one without driving performer_drive_none.c. */
@@ -40,6 +40,9 @@ bool performer_layers_are_moving(const performer_t *performer);
 /* One tick of the layers; with_play: and of the player. Returns the player's PLAYER_EV_ bits, PLAYER_EV_OUTPUT for the
  * layers too. */
 uint8_t performer_layers_tick(performer_t *performer, bool with_play);
+
+/* player_plan of all plays: after the goals of a tick are sent. */
+void performer_layers_plan(performer_t *performer);
 
 /* Replaces the main page's compliance bytes by the layer's, for the joints that the layer moves. */
 void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS]);

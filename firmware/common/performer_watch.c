@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * performer_watch.c - faults of servos and the rule for them, battery, heat. */
-#include "performer_parts.h"
+#include "performer_watch.h"
 
-#include "bound.h"
 #include "dxl.h"
 #include "performer_shape.h"
 
@@ -28,7 +27,7 @@ static bool take_fault(performer_t *performer, const servo_fault_t *fault)
     const bool is_errors = fault->kind == SERVO_FAULT_ERRORS;
     const bool well = fault->kind == SERVO_FAULT_BACK ||
                       (is_errors && fault->errors == 0 &&
-                       servo_link_has(&PERFORMER_SERVOS(performer)->torque, fault->id));
+                       servo_link_has(&performer->servos->torque, fault->id));
     servo_link_put(&performer->faulty, fault->id, !well);
     tell(performer, (uint8_t)(PERFORMER_EV_SILENT + fault->kind - SERVO_FAULT_SILENT), fault->id,
          is_errors ? fault->errors : 0);
@@ -37,7 +36,7 @@ static bool take_fault(performer_t *performer, const servo_fault_t *fault)
 
 static performer_verdict_t rule(const performer_t *performer)
 {
-    switch (PERFORMER_SETTINGS(performer)->fault_rule) {
+    switch (performer->settings->fault_rule) {
     case SETTINGS_FAULT_LIMP:
         return WATCH_LIMP;
     case SETTINGS_FAULT_EXIT:
@@ -56,7 +55,7 @@ static bool takes_part(const performer_t *performer, uint32_t joint)
 static performer_verdict_t take_faults(performer_t *performer, uint32_t *joint)
 {
     servo_fault_t fault;
-    while (servo_link_next_fault(PERFORMER_SERVOS(performer), &fault)) {
+    while (servo_link_next_fault(performer->servos, &fault)) {
         *joint = servo_link_bit(fault.id);
         if (take_fault(performer, &fault) && takes_part(performer, *joint)) {
             return rule(performer);
@@ -69,8 +68,8 @@ static performer_verdict_t take_faults(performer_t *performer, uint32_t *joint)
 
 static void watch_battery(performer_t *performer)
 {
-    const uint8_t now_dv = PERFORMER_SERVOS(performer)->voltage_dv;
-    if (!performer->battery_reported && now_dv != 0 && now_dv < PERFORMER_SETTINGS(performer)->battery_low_dv) {
+    const uint8_t now_dv = performer->servos->voltage_dv;
+    if (!performer->battery_reported && now_dv != 0 && now_dv < performer->settings->battery_low_dv) {
         performer->battery_reported = true;
         tell(performer, PERFORMER_EV_BATTERY, now_dv, 0);
     }
@@ -78,11 +77,11 @@ static void watch_battery(performer_t *performer)
 
 static void watch_heat(performer_t *performer)
 {
-    const uint8_t limit = PERFORMER_SETTINGS(performer)->hot_degrees;
-    const uint8_t now = PERFORMER_SERVOS(performer)->hottest_degrees;
+    const uint8_t limit = performer->settings->hot_degrees;
+    const uint8_t now = performer->servos->hottest_degrees;
     if (!performer->heat_reported && limit != 0 && now >= limit) {
         performer->heat_reported = true;
-        tell(performer, PERFORMER_EV_HOT, PERFORMER_SERVOS(performer)->hottest_id, now);
+        tell(performer, PERFORMER_EV_HOT, performer->servos->hottest_id, now);
     }
 }
 

@@ -23,7 +23,7 @@ bool ranges_take_joints(const shell_args_t *args, uint8_t first, uint32_t *joint
             if (!shell_take(&last, 0, RANGE_ID, &to)) {
                 return false;
             }
-            *dash = '-';   /* shell_word finds the words behind by counting NULs */
+            *dash = '-';   /* shell_word finds the words after it by counting NULs */
         }
         servo_link_put(joints, (uint8_t)to, true);
         for (; from != to; from = from < to ? from + 1u : from - 1u) {

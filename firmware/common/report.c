@@ -2,9 +2,10 @@
 #include "report.h"
 
 #include "page_store.h"
+#include "system.h"
 #include "text.h"
 
-NOINLINE const char *report_page_fault_P(uint8_t page_status)
+const char *report_page_fault_P(uint8_t page_status)
 {
     TEXT_NAMED(nothing, "nothing");
     TEXT_NAMED(checksum, "checksum is wrong");
@@ -37,7 +38,7 @@ void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)
     case PERFORMER_OK:
         break;
     case PERFORMER_ERR_RANGE:
-        TEXT("Page must be 1..127");
+        text_P_number(TEXT_P("Page must be 1.."), PAGE_COUNT - 1u);
         break;
     case PERFORMER_ERR_PAGE:
     case PERFORMER_ERR_EMPTY:
@@ -55,6 +56,16 @@ void report_refusal(performer_status_t status, uint8_t page, uint8_t fault)
     default:
         TEXT("All servos were switched off: switch them on first");
         break;
+    }
+}
+
+void report_failed_assert(void)
+{
+    uint16_t line;
+    uint32_t address;
+    if (system_take_failed_assert(&line, &address)) {
+        text_P_number(TEXT_P("Failed at line "), line);
+        TEXT(": report it. ");
     }
 }
 

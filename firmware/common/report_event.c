@@ -52,111 +52,141 @@ void report_voltage(uint8_t dv)
     TEXT(" V");
 }
 
-/* Prints a part of the event where a sentence has one of these characters. */
-static void report_part(char part, const performer_event_t *event)
+/* ---- one function a sentence, or a group of sentences ---- */
+
+static void report_servo(uint8_t id, const char *what_P)
 {
-    switch (part) {
-    case '#':
-        text_number(event->a);
-        break;
-    case '%':
-        text_number(event->b);
-        break;
-    case '^':
-        text_number(event->c);
-        break;
-    case '@': /* the page that played */
-        if (event->a == 0) {
-            TEXT("a move");
-        } else {
-            report_page(event->a);
-        }
-        break;
-    case '$': /* the page that follows */
-        if (event->a == 0) {
-            TEXT("the end");
-        } else {
-            report_page(event->a);
-        }
-        break;
-    case '!':
-        report_bad_page(event->a, event->b);
-        break;
-    case '~':
-        report_voltage(event->a);
-        break;
-    case '*':
-        report_servo_errors(event->b);
-        break;
-    default:
-        text_put(part);
-        break;
+    text_P_number(TEXT_P("Servo "), id);
+    text_P(what_P);
+}
+
+static void report_start(uint8_t page, uint8_t seconds)
+{
+    text_P_number(page == 0 ? TEXT_P("Moving, ") : TEXT_P("Going to the first pose, "), seconds);
+    TEXT(" s");
+}
+
+static void report_step(uint8_t page, uint8_t step, uint8_t repetition)
+{
+    if (step == 1) {
+        TEXT("Playing ");
+        report_page(page);
+    } else {
+        text_P_number(TEXT_P("Page "), page);
+    }
+    text_P_number(TEXT_P(" step "), step);
+    text_P_number(TEXT_P(" repetition "), repetition);
+}
+
+static void report_link(uint8_t next_page, uint8_t link_taken)
+{
+    TEXT_NAMED(next, "Next link to ");
+    TEXT_NAMED(exit, "Exit link to ");
+    TEXT_NAMED(linked1, "Link 1 to ");
+    TEXT_NAMED(linked2, "Link 2 to ");
+    TEXT_NAMED(none, "No link to ");
+    static const char *const names[] PROGMEM = {
+        [LINK_NEXT] = next, [LINK_EXIT] = exit, [LINK_LINKED1] = linked1, [LINK_LINKED2] = linked2, [LINK_ENDED] = none,
+    };
+    if (link_taken == LINK_END_OF_EXIT_LOOP) {
+        TEXT("The exit pages lead back to themselves");
+        return;
+    }
+    text_P(pgm_read_ptr(&names[link_taken]));
+    if (next_page == 0) {
+        TEXT("the end");
+    } else {
+        report_page(next_page);
     }
 }
 
-TEXT_NAMED(approach, "Going to the first pose, % s");
-TEXT_NAMED(step, "Page # step % repetition ^");
-TEXT_NAMED(paused, "Paused");
-TEXT_NAMED(silent, "Servo # does not answer");
-TEXT_NAMED(back, "Servo # answers again");
-TEXT_NAMED(reports, "Servo # reports *");
-TEXT_NAMED(limp, "Servo # has lost its torque");
-TEXT_NAMED(battery, "Battery is low: ~");
-TEXT_NAMED(hot, "Servo # is hot: % C");
-TEXT_NAMED(layer, "The layer ended after @");
-TEXT_NAMED(driver, "Nobody drives any more: stopping");
-TEXT_NAMED(lost, "# messages were dropped");
-TEXT_NAMED(next_link, "Next link to $");
-TEXT_NAMED(exit_link, "Exit link to $");
-TEXT_NAMED(linked1, "Link 1 to $");
-TEXT_NAMED(linked2, "Link 2 to $");
-TEXT_NAMED(loop, "The exit pages lead back to themselves");
-TEXT_NAMED(no_link, "No link to $");
-TEXT_NAMED(ended_after, "Ended after @");
-TEXT_NAMED(stopped, "Stopped after @");
-TEXT_NAMED(broken, "Broken off in @");
-TEXT_NAMED(bad_page, "Ended. !");
-TEXT_NAMED(for_servo, "Ended for the fault of a servo in @");
-TEXT_NAMED(there, "The pose is reached");
-TEXT_NAMED(moving, "Moving, % s");
-TEXT_NAMED(playing, "Playing @ step % repetition ^");
-
-static const char *const of_kind[] PROGMEM = {
-    [PERFORMER_EV_APPROACH] = approach, [PERFORMER_EV_STEP] = step, [PERFORMER_EV_PAUSED] = paused,
-    [PERFORMER_EV_SILENT] = silent, [PERFORMER_EV_BACK] = back, [PERFORMER_EV_ERRORS] = reports,
-    [PERFORMER_EV_TORQUE] = limp, [PERFORMER_EV_BATTERY] = battery, [PERFORMER_EV_HOT] = hot,
-    [PERFORMER_EV_LAYER_ENDED] = layer, [PERFORMER_EV_DRIVE_LOST] = driver, [PERFORMER_EV_LOST] = lost,
-};
-static const char *const of_link[] PROGMEM = {
-    [LINK_NEXT] = next_link, [LINK_EXIT] = exit_link, [LINK_LINKED1] = linked1, [LINK_LINKED2] = linked2,
-    [LINK_END_OF_EXIT_LOOP] = loop, [LINK_ENDED] = no_link,
-};
-static const char *const of_end[] PROGMEM = {
-    [PERFORMER_END_DONE] = ended_after, [PERFORMER_END_STOPPED] = stopped, [PERFORMER_END_BROKEN] = broken,
-    [PERFORMER_END_LOOP] = stopped, [PERFORMER_END_PAGE] = bad_page, [PERFORMER_END_SERVO] = for_servo,
-    [PERFORMER_END_THERE] = there,
-};
-
-static const char *sentence_P(const performer_event_t *event)
+static void report_end(uint8_t page, uint8_t fault, uint8_t reason)
 {
-    const char *const *row = &of_kind[event->kind];
-    if (event->kind == PERFORMER_EV_LINK) {
-        row = &of_link[event->b];
-    } else if (event->kind == PERFORMER_EV_ENDED) {
-        row = &of_end[event->c];
-    } else if (event->kind == PERFORMER_EV_APPROACH && event->a == 0) {
-        return moving;
-    } else if (event->kind == PERFORMER_EV_STEP && event->b == 1) {
-        return playing;
+    switch (reason) {
+    case PERFORMER_END_PAGE:
+        TEXT("Ended. ");
+        report_bad_page(page, fault);
+        return;
+    case PERFORMER_END_THERE:
+        TEXT("The pose is reached");
+        return;
+    case PERFORMER_END_DONE:
+        TEXT("Ended after ");
+        break;
+    case PERFORMER_END_BROKEN:
+        TEXT("Broken off in ");
+        break;
+    case PERFORMER_END_SERVO:
+        TEXT("Ended for the fault of a servo in ");
+        break;
+    default:
+        TEXT("Stopped after ");
+        break;
     }
-    return pgm_read_ptr(row);
+    if (page == 0) {
+        TEXT("a move");
+    } else {
+        report_page(page);
+    }
 }
 
 void report_event(const performer_event_t *event)
 {
-    text_reader_t reader;
-    text_open_P(&reader, sentence_P(event));
-    for (char character; (character = text_next(&reader)) != '\0';) {
-        report_part(character, event);
+    const uint8_t a = event->a;
+    switch (event->kind) {
+    case PERFORMER_EV_APPROACH:
+        report_start(a, event->b);
+        break;
+    case PERFORMER_EV_STEP:
+        report_step(a, event->b, event->c);
+        break;
+    case PERFORMER_EV_LINK:
+        report_link(a, event->b);
+        break;
+    case PERFORMER_EV_PAUSED:
+        TEXT("Paused");
+        break;
+    case PERFORMER_EV_ENDED:
+        report_end(a, event->b, event->c);
+        break;
+    case PERFORMER_EV_SILENT:
+        report_servo(a, TEXT_P(" does not answer"));
+        break;
+    case PERFORMER_EV_BACK:
+        report_servo(a, TEXT_P(" answers again"));
+        break;
+    case PERFORMER_EV_ERRORS:
+        report_servo(a, TEXT_P(" reports "));
+        report_servo_errors(event->b);
+        break;
+    case PERFORMER_EV_TORQUE:
+        report_servo(a, TEXT_P(" has lost its torque"));
+        break;
+    case PERFORMER_EV_HOT:
+        report_servo(a, TEXT_P(" is hot: "));
+        text_number(event->b);
+        TEXT(" C");
+        break;
+    case PERFORMER_EV_BATTERY:
+        TEXT("Battery is low: ");
+        report_voltage(a);
+        break;
+    case PERFORMER_EV_LAYER_ENDED:
+        TEXT("The layer ended after ");
+        report_page(a);
+        break;
+    case PERFORMER_EV_TICKS_LATE:
+        TEXT("The computer came 0.1 s late: breaking off");
+        break;
+    case PERFORMER_EV_BUS_LOST:
+        TEXT("The servo adapter is gone: plug it in, then on");
+        break;
+    case PERFORMER_EV_DRIVE_LOST:
+        TEXT("Nobody drives any more: stopping");
+        break;
+    default:
+        text_number(a);
+        TEXT(" messages were dropped");
+        break;
     }
 }

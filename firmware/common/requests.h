@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * requests.h - the line protocol for programs: one request line, one answer line, the same in Play and in Edit. Lines that
  * a person types in Play go the same way.
- * Knows no screen and no prompt: takes words, prints text (text.h). Main loop only. RAM: 7 bytes.
+ * Knows no screen and no prompt: takes words, prints text (text.h). Main loop only.
  *
  * Every word of a program begins with '@', which no typed word does, and so does every answer line:
  *
@@ -13,7 +13,7 @@
  * A person types the word without '@' and gets ` OK`, or the sentence alone.
  *
  * A program reads lines and ignores those that do not begin with '@' (echo, prompt, status lines). After @watch, lines
- * that begin with @now come by themselves. firmware/edit/PROTOCOL.md is the manual, with every request. */
+ * that begin with @now come by themselves. PROTOCOL.md is the manual, with every request. */
 #ifndef REQUESTS_H
 #define REQUESTS_H
 
@@ -40,8 +40,15 @@ typedef enum {
     REQUEST_ERR_SAVE = 11,     /* the page could not be saved */
     REQUEST_ERR_UNSAVED = 12,  /* the page in RAM has edits that would be lost */
     REQUEST_ERR_FULL = 13,     /* code moves as many joints as it can */
-    REQUEST_ERR_IDLE = 14      /* nothing is playing */
+    REQUEST_ERR_IDLE = 14,     /* nothing is playing */
+    REQUEST_ERR_LINE = 15      /* bytes of the line were lost, or it is too long: nothing was done */
 } request_status_t;
+
+/* The words that an image adds. */
+typedef struct {
+    const shell_command_t *rows_P;
+    uint8_t count;
+} requests_table_t;
 
 /* What requests work on, and what the image adds. Each image defines the one instance. */
 typedef struct {
@@ -53,8 +60,7 @@ typedef struct {
     /* The image's own words, without '@'. Their handlers get `context` and return SHELL_OK, SHELL_ERR_RANGE or _MOVING, or
      * SHELL_ERR_REPORTED after requests_error. */
     void *context;
-    const shell_command_t *own_P;
-    uint8_t own_count;
+    const requests_table_t *own;
     void (*where)(void);               /* prints further fields of @where, each after a blank; or NULL */
     void (*serve)(void);               /* does what cannot wait; called between the parts of a long request */
     void (*restart)(void);             /* calls board_restart with the image's settings; does not return */
@@ -67,7 +73,10 @@ bool requests_is_request(const shell_args_t *args);
 /* Runs a program's line and prints the answer line with its CR LF. */
 void requests_run(shell_args_t *args);
 
-/* Runs a line that a person typed, with a word of requests_image.own_P or of `typed_P`, whose words programs do not have. */
+/* Says why a line was refused (SHELL_REFUSED); a program's line gets an answer. */
+void requests_refuse_line(const shell_t *shell);
+
+/* Runs a line that a person typed, with a word of requests_image.own or of `typed_P`, whose words programs do not have. */
 void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count);
 
 /* ---- @watch: a line with the state of the robot every so many milliseconds ---- */
@@ -92,7 +101,16 @@ uint8_t requests_no_answer(uint32_t joints);
 /* Turns a performer's refusal into an error with its sentence; REQUEST_OK for PERFORMER_OK. */
 uint8_t requests_refusal(performer_status_t status);
 
-/* Handlers for the tables of both images (requests_motion.c). */
+/* Notes who sent the line that is run next: a program, or a person. For requests.c only. */
+void requests_set_program(bool program);
+
+/* Handlers of requests_list.c, for requests.c: the pages in flash. */
+uint8_t request_list(void *context, const shell_args_t *args);
+uint8_t request_page(void *context, const shell_args_t *args);
+uint8_t request_dense(void *context, const shell_args_t *args);
+uint8_t request_crcs(void *context, const shell_args_t *args);
+
+/* Handlers for the images' own tables. */
 uint8_t request_play(void *context, const shell_args_t *args);      /* SHELL_BOTH(RANGE_PLAYED, RANGE_CODE) */
 uint8_t request_stop(void *context, const shell_args_t *args);
 uint8_t request_break(void *context, const shell_args_t *args);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * requests_answer.c - what handlers answer with: errors and the joints that a line names. */
-#include "requests_parts.h"
+#include "requests.h"
 
 #include "ranges.h"
 #include "report.h"
@@ -34,8 +34,7 @@ uint8_t requests_refuse(uint8_t status, const char *sentence_P)
     return reported;
 }
 
-/* NOINLINE: it would be copied twice. */
-NOINLINE uint8_t requests_no_answer(uint32_t joints)
+uint8_t requests_no_answer(uint32_t joints)
 {
     if (joints == 0) {
         return REQUEST_OK;

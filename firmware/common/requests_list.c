@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * requests_list.c - requests that read the pages in flash: list, page, dense, crcs. */
-#include "requests_parts.h"
+#include "requests.h"
 
 #include <stddef.h>
 #include "crc16.h"
@@ -23,7 +23,7 @@ static void print_list_entry(uint8_t page)
     text_put(':');
     if (!good) {
         TEXT("!:\"");
-        text_P(report_page_fault_P((uint8_t)page_store_check(requests_image.pages, page)));
+        text_P(report_page_fault_P(page_store_check(requests_image.pages, page)));
         text_put('"');
         return;
     }
@@ -40,7 +40,7 @@ static void print_list_entry(uint8_t page)
 /* The last page of a request that names none (then all) or a first and a last one. false: an error has been printed. */
 static bool take_pages(const shell_args_t *args, uint8_t *last)
 {
-    *last = args->count > 1 ? (uint8_t)args->number[1] : (uint8_t)(PAGE_COUNT - 1u);
+    *last = args->count > 1 ? (uint8_t)args->number[1] : PAGE_COUNT - 1u;
     if (args->count == 2 || *last < args->number[0]) {
         (void)requests_error(REQUEST_ERR_RANGE);
         shell_print_range(TEXT_P("Page"), (int16_t)args->number[0], PAGE_COUNT - 1, false);
@@ -56,8 +56,8 @@ uint8_t request_list(void *context, const shell_args_t *args)
     if (!take_pages(args, &last)) {
         return SHELL_ERR_REPORTED;
     }
-    for (uint8_t page = (uint8_t)args->number[0]; page <= last; page++) {
-        print_list_entry(page);
+    for (uint16_t page = args->number[0]; page <= last; page++) {
+        print_list_entry((uint8_t)page);
         requests_image.serve(); /* pages without an entry take up to 2 ms each */
     }
     return REQUEST_OK;
@@ -80,8 +80,8 @@ static struct {
 
 static void print_dense(uint8_t byte)
 {
-    text_put((char)('0' + (byte & 0x3Fu)));
-    dense.high_bits = (uint8_t)(dense.high_bits >> 2 | (byte & 0xC0u));
+    text_put('0' + (byte & 0x3Fu));
+    dense.high_bits = dense.high_bits >> 2 | (byte & 0xC0u);
     if (++dense.bytes == 3) {
         dense.bytes = 0;
         text_put((char)('0' + (dense.high_bits >> 2)));
@@ -92,7 +92,7 @@ static void print_dense(uint8_t byte)
 static uint16_t page_crc(uint8_t page, print_byte_t print)
 {
     uint16_t crc = CRC16_START;
-    for (uint16_t offset = 0; offset < PAGE_BYTES; offset = (uint16_t)(offset + CHUNK_BYTES)) {
+    for (uint16_t offset = 0; offset < PAGE_BYTES; offset += CHUNK_BYTES) {
         uint8_t bytes[CHUNK_BYTES];
         page_store_read(page, offset, bytes, sizeof bytes);
         crc = crc16_bytes(crc, bytes, sizeof bytes);
@@ -139,8 +139,8 @@ uint8_t request_crcs(void *context, const shell_args_t *args)
         return SHELL_ERR_REPORTED;
     }
     text_put(' ');
-    for (uint8_t page = (uint8_t)args->number[0]; page <= last; page++) {
-        text_hex(page_crc(page, NULL), 4);
+    for (uint16_t page = args->number[0]; page <= last; page++) {
+        text_hex(page_crc((uint8_t)page, NULL), 4);
         requests_image.serve();
     }
     return REQUEST_OK;

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT
  * servo_link.h - the robot's joints: finds the servos, sends one tick's goals as one SYNC WRITE, reads one servo's health
  * in the rest of each tick. Callers use page coordinates; servo coordinates on the wire are trim added, limited to 0..1023.
- * Knows no pages. Works over bus.h. Main loop only. RAM: one servo_link_t, 260 bytes.
- * Code: see servo_link_parts.h.
+ * Knows no pages. Works over bus.h (hal/DYNAMIXEL.md has the protocol). Main loop only. RAM: one servo_link_t.
+ *
+ *   servo_link.c         what happens in a tick
+ *   servo_link_setup.c   search, torque, poses: what blocks
+ *   servo_link_masks.c   masks of joints
  *
  * Nothing is ever written to a servo's EEPROM area.
  *
- * A tick on the bus at 1 Mbps, 31 joints (us after servo_link_goals):
+ * A tick on the bus at 1 Mbps with 31 joints (us after servo_link_goals). Slopes are sent only after they have changed:
  *
- *   0            1010                         2020                                          7812
- *   | SYNC WRITE | [slopes, if they did not fit] | [REG WRITEs to the deaf] | READ of one servo | quiet |
+ *   0            1010                  2020                                                 7812
+ *   | SYNC WRITE | [SYNC WRITE: slopes] | [REG WRITEs to the deaf] | READ of one servo | quiet |
  */
 #ifndef SERVO_LINK_H
 #define SERVO_LINK_H
@@ -20,18 +23,17 @@
 
 #define SERVO_LINK_JOINTS 31u            /* joint = servo ID 0..30 */
 #define SERVO_LINK_ALL 0x7FFFFFFFul
-#define SERVO_LINK_TRIM_MAX 300          /* a trim beyond this counts as damaged */
-#define SERVO_LINK_POLL_TRIES 3u         /* failed polls, one a tick, before a servo counts as silent */
+#define SERVO_LINK_TRIM_MAX 300          /* a trim beyond this is taken for damaged */
+#define SERVO_LINK_POLL_TRIES 3u         /* failed polls, one a tick, before a servo is taken for silent */
 #define SERVO_LINK_NO_POSE 0xFFFFu       /* present_pos of a joint that was never read */
 
 /* A joint's bit in a mask. The macro is for constants, the functions for variables: on the AVR a 32-bit shift is a loop, and
  * a 32-bit operation takes 8 to 16 bytes of code. */
 #define SERVO_LINK_BIT(id) ((uint32_t)1 << (id))
 uint32_t servo_link_bit(uint8_t id) NOINLINE;
-bool servo_link_has(const uint32_t *mask, uint8_t id) NOINLINE;
+bool servo_link_has(const uint32_t *mask, uint8_t id);
 void servo_link_put(uint32_t *mask, uint8_t id, bool on) NOINLINE;
-uint8_t servo_link_count(uint32_t mask) NOINLINE;
-uint8_t servo_link_lowest(const uint32_t *mask) NOINLINE;   /* of a mask that is not empty */
+uint8_t servo_link_lowest(const uint32_t *mask);   /* of a mask that is not empty */
 
 /* Faults of a servo, and their ends. */
 typedef enum {
@@ -48,7 +50,7 @@ typedef struct {
     uint8_t errors;
 } servo_fault_t;
 
-/* Public fields are read only for callers. Small fields first: the AVR reaches 63 bytes behind a pointer cheaply. */
+/* Public fields are read only for callers. Small fields come first: the AVR reads 64 bytes from a pointer on cheaply. */
 typedef struct {
     uint32_t present;         /* answered the last scan at 1 Mbps; a silent servo stays in here */
     uint32_t torque;          /* torque is on, as commanded or seen last */
@@ -63,19 +65,18 @@ typedef struct {
     uint8_t late;             /* ticks whose goals could not all be sent in time; stops at 255 */
     /* Private. */
     uint8_t phase;
-    uint8_t slopes_wait;                     /* ticks until slopes may have packets of their own, behind the goals */
-    uint8_t slopes_delayed;                  /* times that servo_link_delay_slopes has acted since servo_link_slopes */
     uint8_t poll_id, poll_misses;
+    bool poll_waits;                         /* for the poll's answer */
     uint8_t round_voltage_dv, round_degrees, round_degrees_id;
     const uint16_t *goals_pos;
-    uint32_t goals_joints;                   /* of this tick */
+    uint32_t goals_joints;                   /* the joints that this tick's goals are for */
     uint32_t slopes_pending;                 /* joints whose slopes must still be sent */
     uint32_t deaf_left;                      /* deaf joints whose REG WRITE must still be sent */
     uint32_t unreported[SERVO_FAULT_KINDS];  /* [kind - 1]: joints with a fault to return by servo_link_next_fault */
     /* Public again. */
-    uint8_t errors[SERVO_LINK_JOINTS];       /* last DXL_ERR_ bits heard, of the four above */
+    uint8_t errors[SERVO_LINK_JOINTS];       /* the DXL_ERR_ bits heard last: those of SERVO_FAULT_ERRORS */
     uint16_t present_pos[SERVO_LINK_JOINTS]; /* last pose read, page coordinates, or SERVO_LINK_NO_POSE */
-    int16_t trim_pos[SERVO_LINK_JOINTS];     /* in force */
+    int16_t trim_pos[SERVO_LINK_JOINTS];     /* the offset that is added to each goal */
     uint8_t slopes[SERVO_LINK_JOINTS];       /* private: the last compliance byte requested; 0 = none */
 } servo_link_t;
 
@@ -95,33 +96,17 @@ void servo_link_tick(servo_link_t *link);
 void servo_link_goals(servo_link_t *link, const uint16_t goal_pos[SERVO_LINK_JOINTS], uint32_t joints)
     NOINLINE;   /* a name of its own in the image: the bench counts its cycles */
 
-/* Sets the compliance bytes of a page (motion512.md: nibbles CW, CCW; 0 and above 7 count as 5). Those that differ from what
- * was sent last go out with the next goals in one packet, if there are up to 27 joints. With more joints they follow in
- * packets of their own for 8 joints each, behind the goals of later ticks with room, because the tick of a page change is a
- * long one. */
+/* Sets the compliance bytes of a page (motion/PAGE_FORMAT.md: nibbles CW, CCW; 0 and above 7 are taken for 5). Those that
+ * differ from what was sent last follow the next goals in a SYNC WRITE of their own. */
 void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_JOINTS]);
 
-/* Delays packets of slopes alone by a tick. Call it in a long tick (a step begins). It acts at most SERVO_LINK_SLOPES_DELAYS
- * times after a servo_link_slopes, so that slopes are sent even if every step takes one tick. */
-#define SERVO_LINK_SLOPES_DELAYS 16u
-static inline void servo_link_delay_slopes(servo_link_t *link)
-{
-    if (link->slopes_delayed < SERVO_LINK_SLOPES_DELAYS) {
-        link->slopes_delayed++;
-        link->slopes_wait |= 1u;
-    }
-}
-
 /* Call in every turn of the main loop: continues this tick's traffic. One health poll (READ 24..43) a tick, round robin over
- * `present`: 31 servos take 0.24 s. A servo that does not answer is asked again in the following ticks and counts as silent
- * after SERVO_LINK_POLL_TRIES tries: reported within 0.3 s. Silent servos stay in the round. */
+ * `present`: 31 servos take 0.24 s. A servo that does not answer is asked again in the following ticks and is
+ * reported as silent after SERVO_LINK_POLL_TRIES tries, within 0.3 s. Silent servos stay in the round. */
 void servo_link_poll(servo_link_t *link);
 
 /* Takes the next new fault, or end of one. false: none. */
 bool servo_link_next_fault(servo_link_t *link, servo_fault_t *fault);
-
-/* Whether a packet of this module is under way. */
-bool servo_link_is_busy(const servo_link_t *link);
 
 /* Waits until the bus is quiet (at most 2 ms) and keeps it quiet until the next servo_link_tick. Call it before using bus.h
  * yourself. */
@@ -131,20 +116,21 @@ void servo_link_quiet(servo_link_t *link);
 uint16_t servo_link_to_servo(const servo_link_t *link, uint8_t id, uint16_t pos);
 uint16_t servo_link_to_page(const servo_link_t *link, uint8_t id, uint16_t servo_pos);
 
-/* Sets the offsets added to each goal (page_store_trim); NULL: none. An offset beyond +-SERVO_LINK_TRIM_MAX counts as 0;
+/* Sets the offsets added to each goal (page_store_trim); NULL: none. An offset beyond +-SERVO_LINK_TRIM_MAX is taken for 0;
  * returns the joints with such an offset. Drops all poses read before. */
 uint32_t servo_link_set_trim(servo_link_t *link, const int16_t trim_pos[SERVO_LINK_JOINTS]);
 
 /* Writes `count` (1..4) bytes from address `at` on to a servo that is present; blocks 0.4..0.9 ms. Call servo_link_quiet
- * first. For the RAM area (address 24 on). false: no answer. A servo that does not answer WRITE (no_reply) is not waited
- * for: true then means only that the packet was sent. */
-MUST_CHECK bool servo_link_write(const servo_link_t *link, uint8_t id, uint8_t at, const uint8_t *from, uint8_t count);
+ * first. For the RAM area (address 24 on). false: no answer, or the servo answered that it did not obey, or, if it does not
+ * answer WRITE (no_reply), other bytes were read back (1.5 ms): in each of BUS_CALL_TRIES tries. Without any answer it
+ * counts as silent. */
+MUST_CHECK bool servo_link_write(servo_link_t *link, uint8_t id, uint8_t at, const uint8_t *from, uint8_t count);
 
-/* bus_submit's answer_params for a WRITE to this servo: depends on `no_reply`. */
+/* Returns what bus_submit takes as answer_params for a WRITE to this servo: 0, or BUS_NO_ANSWER if it is in `no_reply`. */
 uint8_t servo_link_write_answer(const servo_link_t *link, uint8_t id);
 
-/* Call when a present joint did not answer your own bus call: it counts as silent, so that servo_link_next_fault reports
- * when it answers again. The functions below do this themselves. */
+/* Call when a present joint did not answer your own bus call: it is silent from now on, so that servo_link_next_fault
+ * reports when it answers again. The functions below do this themselves. */
 static inline void servo_link_lost(servo_link_t *link, uint8_t id)
 {
     servo_link_put(&link->silent, id, true);
@@ -159,15 +145,17 @@ void servo_link_scan(servo_link_t *link);
 /* Reads the present positions of `ids` into present_pos; returns those that answered. 0.3..0.9 ms a servo. */
 uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids);
 
-/* Switches torque on where it is off: reads the pose, makes it the goal, then enables torque, so that nothing leaps. A
- * torque limit that a shutdown has cut to 0 is restored from the maximum torque (address 14). A servo whose pose cannot be
- * read stays off. 2 ms a servo. Returns those of `ids` that are on now. */
+/* Switches torque on where it is off: reads the pose, makes it the goal, reads that back, then enables torque, so that
+ * nothing leaps. A torque limit that a shutdown has cut to 0 is restored from the maximum torque (address 14). A servo whose
+ * pose or goal cannot be read stays off. 3 ms a servo. Returns those of `ids` that are on now. */
 uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids);
 
-/* Switches torque off: by SYNC WRITE, twice because it has no answer, and by a WRITE to each deaf servo. */
-void servo_link_torque_off(servo_link_t *link, uint32_t ids);
+/* Switches torque off: first of all at once by SYNC WRITE, then of each by a WRITE, which servos confirm. Returns those that
+ * did; the others count as off as well, until a poll tells otherwise. */
+uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids);
 
-/* Sets the moving speed to 0, which means full speed. Call it after moves with a speed of their own. */
-void servo_link_full_speed(servo_link_t *link, uint32_t ids);
+/* Sets the moving speed to 0, which means full speed. Call it after moves with a speed of their own. Returns those that have
+ * taken it. */
+uint32_t servo_link_full_speed(servo_link_t *link, uint32_t ids);
 
 #endif

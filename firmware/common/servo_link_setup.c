@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The half of servo_link.h that blocks: search, torque, poses, changes on request. */
+ * servo_link_setup.c - the half of servo_link.h that blocks: search, torque, poses, changes on request. */
 #include "bus_call.h"
 #include "dxl_packet.h"
 #include "servo_link.h"
@@ -18,7 +18,7 @@ STATIC_ASSERT(READ_BYTES <= DXL_ANSWER_PARAMS, "the bus takes the answer");
 
 static uint16_t word_at(const uint8_t *bytes)
 {
-    return (uint16_t)(bytes[0] | bytes[1] << 8);
+    return bytes[0] | bytes[1] << 8;
 }
 
 /* ---- one after the other ---- */
@@ -40,7 +40,7 @@ static uint32_t for_each(servo_link_t *link, uint32_t ids, servo_action_t action
 }
 
 /* Ends what the tick has begun, then does it to those of `ids` that are present. */
-static NOINLINE uint32_t for_present(servo_link_t *link, uint32_t ids, servo_action_t action)
+static uint32_t for_present(servo_link_t *link, uint32_t ids, servo_action_t action)
 {
     servo_link_quiet(link);
     return for_each(link, ids & link->present, action);
@@ -51,19 +51,43 @@ static bool read_byte(uint8_t id, uint8_t at, uint8_t *byte)
     return bus_call_read(id, at, byte, 1, NULL) == BUS_OK;
 }
 
-bool servo_link_write(const servo_link_t *link, uint8_t id, uint8_t at, const uint8_t *from, uint8_t count)
+/* For a servo that answers READ only: writes, and reads back. */
+static bool write_and_read(servo_link_t *link, uint8_t id, const uint8_t *params, uint8_t count)
 {
-    uint8_t params[1u + WRITE_BYTES_MAX] = { at };
-    memcpy(&params[1], from, count);
-    return bus_call(id, DXL_WRITE, params, (uint8_t)(count + 1u), servo_link_write_answer(link, id), BUS_CALL_TRIES, NULL)
-        == BUS_OK;
+    uint8_t read[WRITE_BYTES_MAX];
+    for (uint8_t tries = BUS_CALL_TRIES; tries > 0; tries--) {
+        (void)bus_call(id, DXL_WRITE, params, count + 1u, BUS_NO_ANSWER, 1, NULL);
+        if (bus_call_read(id, params[0], read, count, NULL) != BUS_OK) {
+            servo_link_lost(link, id);
+            return false;
+        }
+        if (memcmp(read, params + 1, count) == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
-/* Writes one or two bytes. Has no result: the caller reads the servo afterwards. NOINLINE: it would be copied five times. */
-static NOINLINE void write_one(const servo_link_t *link, uint8_t id, uint8_t at, uint16_t value, uint8_t count)
+bool servo_link_write(servo_link_t *link, uint8_t id, uint8_t at, const uint8_t *from, uint8_t count)
+{
+    const uint8_t answer = servo_link_write_answer(link, id);
+    uint8_t params[1u + WRITE_BYTES_MAX] = { at };
+    memcpy(&params[1], from, count);
+    if (answer == BUS_NO_ANSWER) {
+        return write_and_read(link, id, params, count);
+    }
+    const bus_status_t status = bus_call(id, DXL_WRITE, params, count + 1u, answer, BUS_CALL_TRIES, NULL);
+    if (status != BUS_OK && status != BUS_ERR_REJECTED) {
+        servo_link_lost(link, id);
+    }
+    return status == BUS_OK;
+}
+
+/* Writes one or two bytes. */
+static bool write_one(servo_link_t *link, uint8_t id, uint8_t at, uint16_t value, uint8_t count)
 {
     const uint8_t bytes[2] = { (uint8_t)value, (uint8_t)(value >> 8) };
-    (void)!servo_link_write(link, id, at, bytes, count);
+    return servo_link_write(link, id, at, bytes, count);
 }
 
 /* ---- search ---- */
@@ -114,7 +138,6 @@ void servo_link_scan(servo_link_t *link)
     memset(link, 0, offsetof(servo_link_t, present_pos));
     memset(link->present_pos, 0xFF, sizeof link->present_pos);
     link->slopes_pending = SERVO_LINK_ALL;
-    link->slopes_wait = 2;
     bus_set_rate(BUS_RATE_57142);
     link->slow = for_each(link, SERVO_LINK_ALL, ping);
     bus_set_rate(BUS_RATE_1M);
@@ -156,8 +179,16 @@ uint32_t servo_link_read_pose(servo_link_t *link, uint32_t ids)
     return for_present(link, ids, read_pose);
 }
 
-/* The goal comes first, so that the servo stays where it is; then the torque limit, which a shutdown may have cut; then
- * torque. */
+/* Makes the present position the goal, so that the servo stays where it is, and reads it back. */
+static bool hold_still(servo_link_t *link, uint8_t id, uint8_t table[READ_BYTES])
+{
+    const uint16_t pos = word_at(table + (DXL_AT_PRESENT - READ_FROM)) & 1023u;
+    return write_one(link, id, DXL_AT_GOAL, pos, 2) && read_table(link, id, table) &&
+           word_at(table + (DXL_AT_GOAL - READ_FROM)) == pos;
+}
+
+/* The goal comes first; then the torque limit, which a shutdown may have cut; then torque, which many servos switch on
+ * themselves with the goal. */
 static bool torque_on(servo_link_t *link, uint8_t id)
 {
     uint8_t table[READ_BYTES], maximum[2];
@@ -167,15 +198,16 @@ static bool torque_on(servo_link_t *link, uint8_t id)
     if (servo_link_has(&link->torque, id)) {
         return true;
     }
-    write_one(link, id, DXL_AT_GOAL, word_at(table + (DXL_AT_PRESENT - READ_FROM)) & 1023u, 2);
-    if (word_at(table + (DXL_AT_TORQUE_LIMIT - READ_FROM)) == 0) {
-        if (bus_call_read(id, DXL_AT_MAX_TORQUE, maximum, 2, NULL) != BUS_OK) {
-            return false;
-        }
-        write_one(link, id, DXL_AT_TORQUE_LIMIT, word_at(maximum), 2);
+    if (!hold_still(link, id, table)) {
+        return false;
     }
-    write_one(link, id, DXL_AT_TORQUE_ENABLE, 1, 1);
-    return read_table(link, id, table) && servo_link_has(&link->torque, id);
+    if (word_at(table + (DXL_AT_TORQUE_LIMIT - READ_FROM)) == 0 &&
+        (bus_call_read(id, DXL_AT_MAX_TORQUE, maximum, 2, NULL) != BUS_OK ||
+         !write_one(link, id, DXL_AT_TORQUE_LIMIT, word_at(maximum), 2))) {
+        return false;
+    }
+    return servo_link_has(&link->torque, id) || (write_one(link, id, DXL_AT_TORQUE_ENABLE, 1, 1) &&
+                                                 read_table(link, id, table) && servo_link_has(&link->torque, id));
 }
 
 uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids)
@@ -185,26 +217,25 @@ uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids)
 
 static bool torque_off(servo_link_t *link, uint8_t id)
 {
-    write_one(link, id, DXL_AT_TORQUE_ENABLE, 0, 1);
+    const bool done = write_one(link, id, DXL_AT_TORQUE_ENABLE, 0, 1);
     servo_link_put(&link->torque, id, false);
     servo_link_put(&link->unreported[SERVO_FAULT_TORQUE - 1], id, false);
-    return true;
+    return done;
 }
 
-void servo_link_torque_off(servo_link_t *link, uint32_t ids)
+uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids)
 {
     servo_link_quiet(link);
     sync_write(ids & link->present, DXL_AT_TORQUE_ENABLE, 0);
-    (void)for_present(link, ids, torque_off);
+    return for_present(link, ids, torque_off);
 }
 
 static bool full_speed(servo_link_t *link, uint8_t id)
 {
-    write_one(link, id, DXL_AT_SPEED, 0, 2);
-    return true;
+    return write_one(link, id, DXL_AT_SPEED, 0, 2);
 }
 
-void servo_link_full_speed(servo_link_t *link, uint32_t ids)
+uint32_t servo_link_full_speed(servo_link_t *link, uint32_t ids)
 {
-    (void)for_present(link, ids, full_speed);
+    return for_present(link, ids, full_speed);
 }

@@ -3,7 +3,6 @@
 #include "crc16.h"
 #include "eeprom.h"
 #include "memory_map.h"
-#include "settings_parts.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -20,7 +19,7 @@ typedef struct {
 #define COPY_BYTES 64u
 #define MAGIC 'S'
 #define LAYOUT 1u
-/* A save clears the magic, writes everything behind it, and writes the magic last. So no mixture of old and new bytes ever
+/* A save clears the magic, writes everything after it, and writes the magic last. So no mixture of old and new bytes ever
  * has the magic. */
 #define CRC_BYTES 2u
 #define BODY_BYTES_MAX (COPY_BYTES - sizeof(head_t) - CRC_BYTES)
@@ -31,34 +30,23 @@ typedef struct {
 STATIC_ASSERT(sizeof(settings_t) <= BODY_BYTES_MAX, "a record fits its place");
 STATIC_ASSERT(MEM_EE_SETTINGS + 2u * COPY_BYTES <= MEM_EE_SETTINGS_END, "two copies fit");
 
-#define ITEM(id, field, low, high) { offsetof(settings_t, field), low, high }
-const settings_range_t settings_ranges_P[SETTINGS_ITEMS] PROGMEM = {
-    ITEM(law, law, 0, 1),
-    ITEM(remote, remote_mode, 0, SETTINGS_REMOTE_DRIVE),
-    ITEM(approach, approach_deg_s, 0, 240),
-    ITEM(fault, fault_rule, 0, SETTINGS_FAULT_LIMP),
-    ITEM(low, battery_low_dv, 0, 200),
-    ITEM(hot, hot_degrees, 0, 100),
-    ITEM(neutral, neutral, 0, 1),
-    ITEM(flow, flow, 0, 1),
-    ITEM(fast, fast_line, 0, 1),
-    ITEM(talk, talk, 0, 1),
-    ITEM(centre, centre_page, 0, 127),
-    ITEM(drive, drive_ds, 0, 250),
-};
+typedef struct {
+    uint8_t offset, low, high;
+} range_t;
+#define RANGE(name, field, low, high, first, meaning) { offsetof(settings_t, field), low, high },
+static const range_t ranges_P[SETTINGS_ITEMS] PROGMEM = { SETTINGS_ROWS(RANGE) };
 
 #define NONE SETTINGS_NO_PARTNER
+#define AT_FIRST(name, field, low, high, first, meaning) .field = (first),
 static const settings_t defaults_P PROGMEM = {
-    .approach_deg_s = 60, .fault_rule = SETTINGS_FAULT_HOLD, .battery_low_dv = 90, .hot_degrees = 70, .flow = 1, .talk = 1,
+    SETTINGS_ROWS(AT_FIRST)
     .pair = {
         NONE, 2, 1, 4, 3, 6, 5, 8, 7, 10, 9, 12, 11, 14, 13, 16, 15, 18, 17,   /* IDs 0 to 18 */
         NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
     },
-    .centre_page = 1, .drive_ds = 10,
 };
 
-/* NOINLINE: it would be copied three times. */
-NOINLINE void settings_defaults(settings_t *settings)
+void settings_defaults(settings_t *settings)
 {
     memcpy_P(settings, &defaults_P, sizeof *settings);
 }
@@ -67,13 +55,13 @@ NOINLINE void settings_defaults(settings_t *settings)
 
 static uint16_t copy_addr(uint8_t copy)
 {
-    return (uint16_t)(MEM_EE_SETTINGS + copy * COPY_BYTES);
+    return MEM_EE_SETTINGS + copy * COPY_BYTES;
 }
 
 static bool is_sound(const settings_t *settings)
 {
     for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
-        const settings_range_t *range_P = &settings_ranges_P[i];
+        const range_t *range_P = &ranges_P[i];
         const uint8_t value = ((const uint8_t *)settings)[pgm_read_byte(&range_P->offset)];
         if (value < pgm_read_byte(&range_P->low) || value > pgm_read_byte(&range_P->high)) {
             return false;
@@ -99,7 +87,7 @@ static bool load_copy(uint8_t copy, uint8_t *magic, uint8_t *sequence, settings_
     if (head.magic != MAGIC || head.layout != LAYOUT || head.body_bytes > BODY_BYTES_MAX) {
         return false;
     }
-    const uint8_t crc_at = (uint8_t)(sizeof head + head.body_bytes);
+    const uint8_t crc_at = sizeof head + head.body_bytes;
     const uint16_t crc = crc16_bytes(CRC16_START, bytes, crc_at);
     settings_defaults(settings);
     memcpy(settings, bytes + sizeof head, head.body_bytes < sizeof *settings ? head.body_bytes : sizeof *settings);
@@ -117,7 +105,7 @@ settings_status_t settings_load(settings_store_t *store, settings_t *settings)
         settings_t loaded;
         uint8_t magic, sequence;
         if (load_copy(copy, &magic, &sequence, &loaded)) {
-            if (status != SETTINGS_OK || (int8_t)(uint8_t)(sequence - store->sequence) > 0) {
+            if (status != SETTINGS_OK || (int8_t)(sequence - store->sequence) > 0) {
                 *settings = loaded;
                 store->copy = copy;
                 store->sequence = sequence;
@@ -141,7 +129,7 @@ void settings_save_start(settings_store_t *store)
 /* Byte `at` of the record to write. NOINLINE: else the record would lie on the stack of the main loop for good. */
 static NOINLINE uint8_t byte_to_save(const settings_store_t *store, const settings_t *settings, uint8_t at)
 {
-    const head_t head = { MAGIC, LAYOUT, (uint8_t)(store->sequence + 1u), sizeof *settings };
+    const head_t head = { MAGIC, LAYOUT, store->sequence + 1u, sizeof *settings };
     if (at < sizeof head) {
         return ((const uint8_t *)&head)[at];
     }
@@ -154,7 +142,7 @@ static NOINLINE uint8_t byte_to_save(const settings_store_t *store, const settin
 
 bool settings_save_poll(settings_store_t *store, const settings_t *settings)
 {
-    uint8_t copy = (uint8_t)(1u - store->copy);
+    uint8_t copy = 1u - store->copy;
     if (!store->saving || eeprom_is_busy()) {
         return store->saving;
     }
@@ -165,8 +153,8 @@ bool settings_save_poll(settings_store_t *store, const settings_t *settings)
         return false;
     }
     const uint8_t at = store->at == RECORD_BYTES ? 0 : store->at;   /* the magic is written last */
-    uint8_t byte = store->at == 0 ? (uint8_t)NO_MAGIC : byte_to_save(store, settings, at);
-    if (eeprom_start((uint16_t)(copy_addr(copy) + at), byte)) {
+    uint8_t byte = store->at == 0 ? NO_MAGIC : byte_to_save(store, settings, at);
+    if (eeprom_start(copy_addr(copy) + at, byte)) {
         store->at++;
     }
     return true;
@@ -179,25 +167,48 @@ void settings_save_finish(settings_store_t *store, const settings_t *settings)
     }
 }
 
-void settings_save(settings_store_t *store, const settings_t *settings)
+/* ---- by name; a linker that finds no use for the texts drops them ---- */
+
+#define NAME(name, field, low, high, first, meaning) \
+    static const char name_of_##field[] PROGMEM = #name; \
+    static const char meaning_of_##field[] PROGMEM = meaning;
+SETTINGS_ROWS(NAME)
+
+#define TEXTS(name, field, low, high, first, meaning) { name_of_##field, meaning_of_##field },
+static const struct {
+    const char *name, *meaning;
+} texts_P[SETTINGS_ITEMS] PROGMEM = { SETTINGS_ROWS(TEXTS) };
+
+void settings_item(uint8_t index, settings_item_t *item)
 {
-    settings_save_start(store);
-    settings_save_finish(store, settings);
+    range_t range;
+    memcpy_P(&range, &ranges_P[index], sizeof range);
+    *item = (settings_item_t){ pgm_read_ptr(&texts_P[index].name), pgm_read_ptr(&texts_P[index].meaning), range.offset,
+                               range.low, range.high };
 }
 
-/* ---- by name ---- */
+const char settings_laws_P[] PROGMEM = "exact\0classic\0";
+const char settings_remotes_P[] PROGMEM = "latch\0hold\0drive\0";
+
+const char *settings_word_P(const char *words_P, uint8_t value)
+{
+    for (; value > 0; value--) {
+        words_P += strlen_P(words_P) + 1;
+    }
+    return words_P;
+}
 
 uint8_t settings_value(const settings_t *settings, const settings_item_t *item)
 {
-    return ((const uint8_t *)settings)[item->range.offset];
+    return ((const uint8_t *)settings)[item->offset];
 }
 
 bool settings_set(settings_t *settings, const settings_item_t *item, uint16_t value)
 {
-    if (value < item->range.low || value > item->range.high) {
+    if (value < item->low || value > item->high) {
         return false;
     }
-    ((uint8_t *)settings)[item->range.offset] = (uint8_t)value;
+    ((uint8_t *)settings)[item->offset] = (uint8_t)value;
     return true;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * settings.h - the user's settings, kept in EEPROM: two copies with sequence number and CRC, written in turn, so that a
  * power cut during a save leaves the old or the new settings and nothing else.
- * Main loop only. RAM: settings_t 43 bytes and settings_store_t 4 bytes; 120 of stack, both the caller's.
+ * Main loop only. RAM: one settings_t and one settings_store_t, the caller's.
  * EEPROM: MEM_EE_SETTINGS.. (two copies of 64 bytes), far from the loader's bytes. */
 #ifndef SETTINGS_H
 #define SETTINGS_H
@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include "compiler.h"
 #include "pgm.h"
+#include "target.h"
 
 #define SETTINGS_JOINTS 31u
 #define SETTINGS_NO_PARTNER 0xFFu
@@ -31,23 +32,33 @@ enum {
 /* The neutral positions of MIRROR: 512, or step 1 of page 1 if that page is valid. */
 enum { SETTINGS_NEUTRAL_512 = 0, SETTINGS_NEUTRAL_PAGE1 = 1 };
 
-/* All fields are bytes, so that the struct is the record in EEPROM. Defaults in brackets. */
+/* Every setting but the pairs is a byte, and a row here: name in the shell, field, lowest value, highest value, value at
+ * first, meaning. The rows are in the order of the record in EEPROM. New ones are added at the very end, so that older
+ * records stay readable. */
+#define SETTINGS_FIRST(ROW) \
+    ROW(law, law, 0, 1, 0, "0 exact, 1 classic") \
+    ROW(remote, remote_mode, 0, SETTINGS_REMOTE_DRIVE, SETTINGS_REMOTE_LATCH, "0 latch, 1 hold, 2 drive") \
+    ROW(approach, approach_deg_s, 0, 240, 60, "degrees/s, 0 = off") \
+    ROW(fault, fault_rule, 0, SETTINGS_FAULT_LIMP, SETTINGS_FAULT_HOLD, "0 hold, 1 exit page, 2 go on without it") \
+    ROW(low, battery_low_dv, 0, 200, 90, "battery warning, 0.1 V, 0 = off") \
+    ROW(hot, hot_degrees, 0, 100, 70, "servo warning, degrees C, 0 = off") \
+    ROW(neutral, neutral, 0, SETTINGS_NEUTRAL_PAGE1, SETTINGS_NEUTRAL_512, "MIRROR about 0: 512, 1: page 1") \
+    ROW(flow, flow, 0, 1, 1, "1 = XON/XOFF") \
+    ROW(fast, fast_line, 0, 1, 0, "1 = 117,647 baud after start") \
+    ROW(talk, talk, 0, 1, 1, "1 = status lines while playing")
+#define SETTINGS_ADDED(ROW) \
+    ROW(centre, centre_page, 0, TARGET_MOTION_PAGES - 1u, 1, "amplitude is about step 1 of this page, 0 = off") \
+    ROW(drive, drive_ds, 0, 250, 10, "0.1 s without @drive until the stop, 0 = never")
+#define SETTINGS_ROWS(ROW) SETTINGS_FIRST(ROW) SETTINGS_ADDED(ROW)
+
+/* The record in EEPROM. */
+#define SETTINGS_FIELD(name, field, low, high, first, meaning) uint8_t field;
 typedef struct {
-    uint8_t law;                 /* player_law_t [0, exact] */
-    uint8_t remote_mode;         /* SETTINGS_REMOTE_ [latch] */
-    uint8_t approach_deg_s;      /* 0..240 [60]; 0 = no approach: the first step starts where the robot stands */
-    uint8_t fault_rule;          /* SETTINGS_FAULT_ [hold] */
-    uint8_t battery_low_dv;      /* 0.1 V, 0 = no warning [90]; as the servos measure it */
-    uint8_t hot_degrees;         /* degrees C that cause a warning, 0 = no warning [70] */
-    uint8_t neutral;             /* SETTINGS_NEUTRAL_ [0] */
-    uint8_t flow;                /* 1: XON/XOFF to the PC when the input ring runs low [1] */
-    uint8_t fast_line;           /* 1: the console changes to 117,647 baud after start [0] */
-    uint8_t talk;                /* 1: status lines while playing [1] */
-    uint8_t pair[SETTINGS_JOINTS]; /* partner of each joint for MIRROR [1-2, 3-4 .. 17-18], SETTINGS_NO_PARTNER: none */
-    uint8_t centre_page;         /* its first step is the centre of `amplitude`; 0: no joint is scaled [1] */
-    uint8_t drive_ds;            /* 0.1 s without @drive that stop the play, 0 = never [10] */
-    /* Add new settings here, at the end, so that older records stay readable. */
+    SETTINGS_FIRST(SETTINGS_FIELD)
+    uint8_t pair[SETTINGS_JOINTS]; /* partner of each joint for MIRROR, or SETTINGS_NO_PARTNER; at first 1-2, 3-4 .. 17-18 */
+    SETTINGS_ADDED(SETTINGS_FIELD)
 } settings_t;
+#define SETTINGS_ITEMS (sizeof(settings_t) - SETTINGS_JOINTS)
 
 typedef enum {
     SETTINGS_OK = 0,
@@ -65,7 +76,7 @@ typedef struct {
 
 void settings_defaults(settings_t *settings);
 
-/* Loads the newer valid copy, or the defaults. A copy with a field out of range counts as damaged. */
+/* Loads the newer valid copy, or the defaults. A copy with a field out of range is damaged. */
 settings_status_t settings_load(settings_store_t *store, settings_t *settings);
 
 /* Begins to save. Then call settings_save_poll until it returns false: it writes at most one byte and never blocks; about 50
@@ -76,28 +87,19 @@ bool settings_save_poll(settings_store_t *store, const settings_t *settings);   
 /* Blocks until the save under way is done, up to 0.45 s. Not while something moves. */
 void settings_save_finish(settings_store_t *store, const settings_t *settings);
 
-/* Starts a save and blocks until it is done. */
-void settings_save(settings_store_t *store, const settings_t *settings);
-
-/* Settings by name, for the shell: all but the pairs. */
-typedef struct {
-    uint8_t offset;          /* within settings_t */
-    uint8_t low, high;       /* its range */
-} settings_range_t;
-
+/* A setting by name, for a line shell. */
 typedef struct {
     const char *name;        /* flash */
     const char *meaning;     /* flash, one line with the unit */
-    settings_range_t range;
+    uint8_t offset;          /* within settings_t */
+    uint8_t low, high;       /* its range */
 } settings_item_t;
 
-#define SETTINGS_ITEMS 12u
-
-/* Item `index` 0..SETTINGS_ITEMS-1, copied from flash. settings_names.c: linked by Play only. */
+/* Item `index` 0..SETTINGS_ITEMS-1, copied from flash. */
 void settings_item(uint8_t index, settings_item_t *item);
 
 /* The values of `law` and of `remote` as words: lists in flash of words with their NULs, an empty one at the end.
- * settings_word_P returns word `value` of such a list. settings_names.c as well. */
+ * settings_word_P returns word `value` of such a list. */
 extern const char settings_laws_P[], settings_remotes_P[];
 const char *settings_word_P(const char *words_P, uint8_t value);
 

@@ -12,7 +12,7 @@ static bool field_is(text_reader_t *reader, const char *word)
 {
     uint8_t differs = 0;
     for (char character; (character = text_next(reader)) != ' ';) {
-        const char typed = *word >= 'A' && *word <= 'Z' ? (char)(*word | 0x20) : *word;
+        const char typed = *word >= 'A' && *word <= 'Z' ? *word | 0x20 : *word;
         differs |= (uint8_t)(typed ^ character);
         word += *word != '\0';
     }
@@ -34,13 +34,13 @@ const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count,
     return NULL;
 }
 
-/* Parses the first two words behind the command, if `ranges` has ranges for them. false: out of range. */
+/* Parses the first two words after the command, if `ranges` has ranges for them. false: out of range. */
 static bool take_numbers(shell_args_t *args, uint16_t ranges)
 {
     for (uint8_t i = 0; i < ARRAY_COUNT(args->number); i++, ranges >>= 8) {
         args->number[i] = 0;
         if ((uint8_t)ranges != 0 && i + 1 < args->count &&
-            !shell_take(args, (uint8_t)(i + 1u), (uint8_t)ranges, &args->number[i])) {
+            !shell_take(args, i + 1u, (uint8_t)ranges, &args->number[i])) {
             return false;
         }
     }
@@ -58,7 +58,7 @@ uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, 
         return SHELL_ERR_UNKNOWN;
     }
     memcpy_P(&found, found_P, sizeof found);
-    const uint8_t given = (uint8_t)(args->count - 1), most = found.args & 0x0Fu;
+    const uint8_t given = args->count - 1, most = found.args & 0x0Fu;
     if (given < (found.args >> 4 & 7u) || (given > most && most != SHELL_ANY_ARGS)) {
         return SHELL_ERR_COUNT;
     }

@@ -7,7 +7,7 @@
  * Keys: BS (0x08) and DEL (0x7F) delete; CR, LF and CR LF end a line once; Ctrl-A (0x01) and arrow-up put the line
  * typed before in place of this one (again: the one before that), arrow-down goes back; Ctrl-U (0x15) empties the
  * line. Other escape sequences and control characters have no effect. Words are separated by any number of
- * space , . : ; (editor-original.md section 5). Case does not matter. */
+ * space , . : ; (edit/ORIGINAL.md section 5). Case does not matter. */
 #ifndef SHELL_H
 #define SHELL_H
 
@@ -19,7 +19,8 @@
 typedef enum {
     SHELL_TYPING = 0, /* the line is not complete */
     SHELL_LINE,       /* the line is complete: call shell_split and run it */
-    SHELL_TOO_LONG    /* the line is complete but did not fit: do not run it, call shell_clear */
+    SHELL_REFUSED     /* the line is complete but did not fit, or bytes of it were lost: do not run it; say so with
+                       * shell_print_refusal or requests_refuse_line, then call shell_clear */
 } shell_event_t;
 
 typedef struct {
@@ -28,9 +29,10 @@ typedef struct {
     uint8_t line_bytes, history_bytes;
     uint8_t length;         /* characters in `line` */
     uint8_t recalled;       /* how many lines back the recalled line is; 0 = the line being typed */
-    uint8_t escape;         /* state within an escape sequence */
-    bool after_cr;          /* the last byte was CR, so an LF now belongs to it */
-    bool too_long;          /* characters were refused */
+    uint8_t lost;           /* bytes of the line that were lost, at most 255 */
+    uint8_t escape : 2;     /* state within an escape sequence */
+    bool after_cr : 1;      /* the last byte was CR, so an LF now belongs to it */
+    bool too_long : 1;      /* characters were refused */
 } shell_t;
 
 /* Starts with an empty line and an empty history. `line_bytes` includes the NUL. `history` may be NULL with 0 bytes: no
@@ -40,6 +42,12 @@ void shell_init(shell_t *shell, char *line, uint8_t line_bytes, char *history, u
 /* Takes one byte and echoes its effect on the line; BEL for a character that does not fit. Does not echo the end of a line:
  * the image decides where its answer goes. */
 shell_event_t shell_byte(shell_t *shell, uint8_t byte);
+
+/* Tells that bytes were lost before the next one: the line that it belongs to will be SHELL_REFUSED. */
+void shell_lose(shell_t *shell, uint8_t count);
+
+/* Prints why the line was refused: "3 bytes of this line were lost: nothing was done". */
+void shell_print_refusal(const shell_t *shell);
 
 /* Drops the line without echo; the history stays. Call it after a complete line was run. */
 void shell_clear(shell_t *shell);
@@ -58,7 +66,7 @@ typedef struct {
     const char *words; /* word 0, NUL, word 1, NUL, ... */
     uint8_t count;     /* word 0 is the command */
     bool hex;          /* numbers without prefix are hexadecimal */
-    uint16_t number[2]; /* the first two words behind the command, if the table gives their ranges; int16_t if the range has
+    uint16_t number[2]; /* the first two words after the command, if the table gives their ranges; int16_t if the range has
                          * negative numbers; 0 when not given */
 } shell_args_t;
 

@@ -41,7 +41,24 @@ void shell_clear(shell_t *shell)
     shell->length = 0;
     shell->recalled = 0;
     shell->too_long = false;
+    shell->lost = 0;
     shell->line[0] = '\0';
+}
+
+void shell_lose(shell_t *shell, uint8_t count)
+{
+    shell->lost = (uint8_t)(shell->lost > UINT8_MAX - count ? UINT8_MAX : shell->lost + count);
+}
+
+void shell_print_refusal(const shell_t *shell)
+{
+    if (shell->lost != 0) {
+        text_number(shell->lost);
+        TEXT(" bytes of this line were lost");
+    } else {
+        TEXT("The line is too long");
+    }
+    TEXT(": nothing was done");
 }
 
 static void rub_out(shell_t *shell)
@@ -54,13 +71,13 @@ static void rub_out(shell_t *shell)
     }
 }
 
-/* NOINLINE: it would be copied twice. */
-static NOINLINE void empty_line(shell_t *shell)
+static void empty_line(shell_t *shell)
 {
     while (shell->length > 0) {
         rub_out(shell);
     }
     shell->too_long = false;
+    shell->lost = 0;
 }
 
 static void type(shell_t *shell, char character)
@@ -107,7 +124,7 @@ static void recall(shell_t *shell, uint8_t back)
 /* Puts the line in front of the history. A line that no longer fits whole is dropped at the end. */
 static void remember(shell_t *shell)
 {
-    const uint8_t bytes = (uint8_t)(shell->length + 1);
+    const uint8_t bytes = shell->length + 1;
     if (shell->length == 0 || bytes + 1u > shell->history_bytes) {
         return;
     }
@@ -115,7 +132,7 @@ static void remember(shell_t *shell)
     if (last != NULL && strcmp(last, shell->line) == 0) {
         return;
     }
-    memmove(shell->history + bytes, shell->history, (size_t)(shell->history_bytes - bytes));
+    memmove(shell->history + bytes, shell->history, shell->history_bytes - bytes);
     memcpy(shell->history, shell->line, bytes);
     /* Two NULs end the list. If the oldest line was cut, it is erased back to the NUL of the line before it. */
     char *end = shell->history + shell->history_bytes;
@@ -147,9 +164,9 @@ static bool swallow_escape(shell_t *shell, uint8_t byte)
         if (byte >= 0x40) {
             shell->escape = ESC_NONE;
             if (byte == 'A') {
-                recall(shell, (uint8_t)(shell->recalled + 1));
+                recall(shell, shell->recalled + 1);
             } else if (byte == 'B' && shell->recalled > 0) {
-                recall(shell, (uint8_t)(shell->recalled - 1));
+                recall(shell, shell->recalled - 1);
             }
         }
         return true;
@@ -161,7 +178,7 @@ static void control_key(shell_t *shell, uint8_t byte)
     if (byte == KEY_BS || byte == KEY_DEL) {
         rub_out(shell);
     } else if (byte == KEY_RECALL) {
-        recall(shell, (uint8_t)(shell->recalled + 1));
+        recall(shell, shell->recalled + 1);
     } else if (byte == KEY_EMPTY) {
         empty_line(shell);
     }
@@ -176,7 +193,7 @@ shell_event_t shell_byte(shell_t *shell, uint8_t byte)
     }
     if (byte == KEY_CR || byte == KEY_LF) {
         shell->line[shell->length] = '\0';
-        return shell->too_long ? SHELL_TOO_LONG : SHELL_LINE;
+        return shell->too_long || shell->lost != 0 ? SHELL_REFUSED : SHELL_LINE;
     }
     if (byte < 0x20 || byte >= KEY_DEL) {
         control_key(shell, byte);

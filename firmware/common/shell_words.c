@@ -32,7 +32,7 @@ static uint8_t digit_of(char character)
     if (character >= '0' && character <= '9') {
         return (uint8_t)(character - '0');
     }
-    const char lower = (char)(character | 0x20);
+    const char lower = character | 0x20;
     return lower >= 'a' && lower <= 'f' ? (uint8_t)(lower - 'a' + 10) : 16;
 }
 
@@ -82,8 +82,7 @@ static struct {
     bool hex;
 } checked;
 
-/* NOINLINE: it would be copied twice. */
-static NOINLINE void print_bound(int16_t number, bool hex)
+static void print_bound(int16_t number, bool hex)
 {
     if (!hex) {
         text_signed(number);
@@ -113,7 +112,7 @@ bool shell_take(const shell_args_t *args, uint8_t index, uint8_t range, uint16_t
     if (!shell_parse(word + negative, args->hex, &size) || size > INT16_MAX) {
         return false;
     }
-    const int16_t number = negative ? (int16_t)-(int16_t)size : (int16_t)size;
+    const int16_t number = negative ? -(int16_t)size : (int16_t)size;
     if (number < (int16_t)pgm_read_word(&range_P->min) || number > (int16_t)pgm_read_word(&range_P->max)) {
         return false;
     }

@@ -42,7 +42,7 @@ char text_next(text_reader_t *reader);           /* '\0' at the end; do not call
 char *text_copy_P(char *to, const char *string_P);   /* copies to RAM; returns the address of the NUL */
 
 void text_number(uint16_t number);                              /* decimal, without zeros in front */
-void text_P_number(const char *string_P, uint16_t number);       /* a text from flash and a number behind it */
+void text_P_number(const char *string_P, uint16_t number);       /* a text from flash and a number after it */
 void text_signed(int16_t number);                               /* the same, with a minus if negative */
 void text_number32(uint32_t number);
 void text_padded(uint16_t number, uint8_t width, char pad);     /* right aligned; wider numbers are not cut */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * text_pairs.h - the dictionary of packed texts, for text.c alone. This one is empty, for programs whose texts are not
- * packed (all tests). For an image tools/dev/pack_texts writes the dictionary into the build folder, beside a copy of
+ * packed (all tests). For an image tools/dev/pack_texts writes the dictionary into the build folder, next to a copy of
  * text.c, which finds it first. */
 #ifndef TEXT_PAIRS_H
 #define TEXT_PAIRS_H

@@ -36,8 +36,7 @@ static void wait_for_room(void)
     }
 }
 
-/* NOINLINE: every text ends here. */
-NOINLINE void ansi_put(char character)
+void ansi_put(char character)
 {
     wait_for_room();
     console_write(&character, 1);

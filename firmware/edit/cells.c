@@ -23,12 +23,12 @@ cell_kind_t cell_kind(uint8_t page, uint8_t x, uint8_t y)
 uint16_t cell_address(uint8_t x, uint8_t y)
 {
     if (x == CELL_X_HEADER) {
-        return (uint16_t)(HEADER_SHIFT + y);
+        return HEADER_SHIFT + y;
     }
     if (x == CELL_X_SOFTNESS) {
-        return (uint16_t)(PAGE_AT_COMPLIANCE + y);
+        return PAGE_AT_COMPLIANCE + y;
     }
-    uint16_t step = x == CELL_X_POSE ? CELLS_POSE_AT : (uint16_t)(PAGE_STEP_BYTES * x);
+    uint16_t step = x == CELL_X_POSE ? CELLS_POSE_AT : PAGE_STEP_BYTES * x;
     if (y >= CELL_Y_PAUSE) {
         return (uint16_t)(step + PAGE_STEP_AT_PAUSE + (y - CELL_Y_PAUSE));
     }
@@ -53,9 +53,9 @@ bool cell_at(uint16_t address, uint8_t *x, uint8_t *y)
         return *y < PAGE_JOINTS;
     }
     uint8_t column = (uint8_t)(address / PAGE_STEP_BYTES);
-    uint8_t place = (uint8_t)(address % PAGE_STEP_BYTES);
-    *x = address >= CELLS_POSE_AT ? (uint8_t)CELL_X_POSE : column;
-    *y = place < PAGE_STEP_AT_PAUSE ? (uint8_t)(place / 2u) : (uint8_t)(CELL_Y_PAUSE + (place - PAGE_STEP_AT_PAUSE));
+    uint8_t place = address % PAGE_STEP_BYTES;
+    *x = address >= CELLS_POSE_AT ? CELL_X_POSE : column;
+    *y = place < PAGE_STEP_AT_PAUSE ? place / 2u : (uint8_t)(CELL_Y_PAUSE + (place - PAGE_STEP_AT_PAUSE));
     return true;
 }
 
@@ -86,7 +86,7 @@ uint16_t cell_max(cell_kind_t kind, uint8_t x, uint8_t y)
     if (y == CELL_Y_STEPS) {
         return PAGE_STEPS;
     }
-    return is_link(cell_address(x, y)) ? (uint16_t)(PAGE_COUNT - 1u) : (uint16_t)UINT8_MAX;
+    return is_link(cell_address(x, y)) ? PAGE_COUNT - 1u : UINT8_MAX;
 }
 
 uint16_t cell_word(const uint8_t bytes[CELLS_BYTES], uint16_t address)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * cells.h - the table on the screen: which byte is shown at (X,Y), its range, the four characters that show it.
- * Pure; knows no terminal, no servo and no flash. Source: editor-original.md sections 1, 3 and 4.
+ * Pure; knows no terminal, no servo and no flash. Source: ORIGINAL.md sections 1, 3 and 4.
  *
- *   X 0      STP7, the work pose (bytes 512..575, behind the page)     Y 0..30  joints
+ *   X 0      STP7, the work pose (bytes 512..575, after the page)     Y 0..30  joints
  *   X 1..7   STP0..STP6                                               Y 31     pause
  *   X 8      softness, Y 0..30                                        Y 32     speed or time
  *   X 9      header bytes 14..30, Y 3..19 (Y 0..2: name, number, address: shown, never under the cursor) */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * cmd_cell.c - the cell under the cursor (editor-original.md section 4), and how the table is shown. */
+ * cmd_cell.c - the cell under the cursor (ORIGINAL.md section 4), and how the table is shown. */
 #include "commands.h"
 #include "pgm.h"
 #include "ranges_own.h"
@@ -30,7 +30,7 @@ static here_t look_here(void)
     cell_kind_t kind = cell_kind(the_session.page, the_session.x, the_session.y);
     here.address = cell_address(the_session.x, the_session.y);
     here.max = cell_max(kind, the_session.x, the_session.y);
-    here.kind = (uint8_t)kind;
+    here.kind = kind;
     here.is_pose = kind == CELL_POSITION && the_session.x == CELL_X_POSE;
     return here;
 }
@@ -45,7 +45,7 @@ static void put(const here_t *here, uint16_t value)
     session_begin();
     session_set_byte(here->address, (uint8_t)value);
     if (here->kind == CELL_POSITION) {
-        session_set_byte((uint16_t)(here->address + 1u), (uint8_t)(value >> 8));
+        session_set_byte(here->address + 1u, (uint8_t)(value >> 8));
         if (the_session.page == 0 && the_session.x < CELL_X_OFFSET) {
             session_update_trim(the_session.y);
         }
@@ -73,7 +73,7 @@ COMMAND(cmd_set)
  * ???? and a position that would leave 0..1023 keep their value. */
 static uint16_t changed(const here_t *here, uint16_t word, int8_t change)
 {
-    uint16_t value = (uint16_t)(word + (uint16_t)change);
+    uint16_t value = word + (uint16_t)change;
     if (here->kind == CELL_BYTE && here->max != PAGE_STEPS) {
         return value & here->max;
     }

@@ -10,7 +10,7 @@
 #include "system.h"
 #include "text.h"
 
-/* The links, and behind them the partners for blending. */
+/* The links, then the partners for blending. */
 static const uint8_t link_fields[] PROGMEM = { PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE, PAGE_AT_LINKED1_PAGE,
                                                PAGE_AT_LINKED2_PAGE, PAGE_AT_BLEND_RIGHT, PAGE_AT_BLEND_LEFT };
 enum { LINKS = 4, FIELDS = sizeof link_fields };
@@ -70,7 +70,8 @@ static void check_reach(uint8_t page)
     if (page_store_byte(page, PAGE_AT_PLAY_CODE) != 0) {
         return;
     }
-    for (uint8_t from = 1; from < PAGE_COUNT; from++) {
+    for (uint16_t other = 1; other < PAGE_COUNT; other++) {
+        const uint8_t from = (uint8_t)other;
         if (from != page && page_store_is_good(&the_pages, from) && leads_to(from, page)) {
             return;
         }
@@ -118,8 +119,8 @@ static void check_joint(uint8_t page, uint8_t joint)
     if (bus_call_read(joint, DXL_AT_CW_LIMIT, limits, sizeof limits, NULL) != BUS_OK) {
         return;
     }
-    uint16_t low = (uint16_t)(limits[0] | (uint16_t)limits[1] << 8);
-    uint16_t high = (uint16_t)(limits[2] | (uint16_t)limits[3] << 8);
+    uint16_t low = limits[0] | limits[1] << 8;
+    uint16_t high = limits[2] | (uint16_t)limits[3] << 8;
     for (uint8_t step = 0; step < steps; step++) {
         uint16_t pos = page_facts_word(page, step, joint);
         uint16_t goal = servo_link_to_servo(&the_servos, joint, pos & PAGE_POS_MAX);
@@ -136,7 +137,7 @@ static void check_page(uint8_t page)
     page_status_t status = page_store_check(&the_pages, page);
     if (status != PAGE_OK) {
         begin_line(page);
-        text_P(report_page_fault_P((uint8_t)status));
+        text_P(report_page_fault_P(status));
         text_line_end();
         return;
     }
@@ -153,10 +154,10 @@ static void check_page(uint8_t page)
     }
 }
 
-static bool check_item(uint8_t item)
+static bool check_item(uint16_t item)
 {
-    uint8_t page = (uint8_t)(item + the_dialog.list_first);
-    if (page > the_dialog.list_last) {
+    const uint8_t page = (uint8_t)(item + the_dialog.list_first);
+    if (item + the_dialog.list_first > the_dialog.list_last) {
         return false;
     }
     servo_link_quiet(&the_servos);
@@ -169,6 +170,6 @@ static bool check_item(uint8_t item)
 COMMAND(cmd_check)
 {
     the_dialog.list_first = args->count > 1 ? (uint8_t)args->number[0] : 1;
-    the_dialog.list_last = args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)(PAGE_COUNT - 1u);
+    the_dialog.list_last = args->count > 1 ? (uint8_t)args->number[0] : PAGE_COUNT - 1u;
     return dialog_list(check_item, TEXT_P("Checked:"));
 }

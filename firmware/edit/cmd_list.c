@@ -36,13 +36,13 @@ static void print_line_of(const char *lines_P, uint8_t line)
     text_line_end();
 }
 
-static bool help_item(uint8_t item)
+static bool help_item(uint16_t item)
 {
-    if (item >= FIRST_LINES + commands_count) {
+    if (item >= (uint16_t)(FIRST_LINES + commands_count)) {
         return false;
     }
     if (item < FIRST_LINES) {
-        print_line_of(first_wave, item);
+        print_line_of(first_wave, (uint8_t)item);
     } else {
         shell_print_help(&commands_table_P[item - FIRST_LINES]);
     }
@@ -70,11 +70,11 @@ COMMAND(cmd_mon)
 
 /* ---- LIST, FIND ---- */
 
-static void print_time(uint16_t ticks)
+static void print_time(uint32_t ticks)
 {
-    text_padded(ticks / PLAYER_TICKS_PER_SECOND, 4, ' ');
+    text_padded((uint16_t)(ticks / PLAYER_TICKS_PER_SECOND), 4, ' ');
     text_put('.');
-    text_padded((uint16_t)((ticks % PLAYER_TICKS_PER_SECOND) * 100u / PLAYER_TICKS_PER_SECOND), 2, '0');
+    text_padded((uint16_t)((uint8_t)ticks % PLAYER_TICKS_PER_SECOND * 100u / PLAYER_TICKS_PER_SECOND), 2, '0');
     TEXT(" s");
 }
 
@@ -89,7 +89,7 @@ static void print_page(uint8_t page)
     text_string_padded(name, PAGE_NAME_BYTES);
     page_status_t status = page_store_check(&the_pages, page);
     if (status != PAGE_OK) {
-        text_P(report_page_fault_P((uint8_t)status));
+        text_P(report_page_fault_P(status));
     } else {
         static const uint8_t fields[] PROGMEM = { PAGE_AT_STEPS, PAGE_AT_NEXT_PAGE, PAGE_AT_EXIT_PAGE,
             PAGE_AT_LINKED1_PAGE, PAGE_AT_LINKED1_CODE, PAGE_AT_LINKED2_PAGE, PAGE_AT_LINKED2_CODE, PAGE_AT_PLAY_CODE };
@@ -104,14 +104,14 @@ static void print_page(uint8_t page)
 
 TEXT_NAMED(list_title, "Page name         steps next exit  lnk1 code lnk2 code call   time");
 
-static bool list_page_item(uint8_t item)
+static bool list_page_item(uint16_t item)
 {
-    uint8_t page = (uint8_t)(item + the_dialog.list_first);
+    const uint16_t page = item + the_dialog.list_first;
     if (page > the_dialog.list_last) {
         return false;
     }
-    if (!session_is_empty(page)) {
-        print_page(page);
+    if (!session_is_empty((uint8_t)page)) {
+        print_page((uint8_t)page);
     }
     return true;
 }
@@ -121,13 +121,13 @@ COMMAND(cmd_list)
     the_dialog.list_first = args->count > 1 ? (uint8_t)args->number[0] : 0;
     the_dialog.list_last = args->count > 2    ? (uint8_t)args->number[1]
                         : args->count == 2 ? (uint8_t)args->number[0]
-                                           : (uint8_t)(PAGE_COUNT - 1u);
+                                           : PAGE_COUNT - 1u;
     return dialog_list(list_page_item, list_title);
 }
 
 static char lower(char character)
 {
-    return character >= 'A' && character <= 'Z' ? (char)(character - 'A' + 'a') : character;
+    return character >= 'A' && character <= 'Z' ? character - 'A' + 'a' : character;
 }
 
 static bool contains(const char *name, const char *part)
@@ -144,15 +144,16 @@ static bool contains(const char *name, const char *part)
     return false;
 }
 
-static bool find_item(uint8_t item)
+static bool find_item(uint16_t item)
 {
+    const uint8_t page = (uint8_t)item;
     char name[PAGE_NAME_BYTES];
     if (item >= PAGE_COUNT) {
         return false;
     }
-    page_store_name(item, name);
-    if (!page_store_is_erased(item) && contains(name, shell_word(&the_dialog.args, 1))) {
-        print_page(item);
+    page_store_name(page, name);
+    if (!page_store_is_erased(page) && contains(name, shell_word(&the_dialog.args, 1))) {
+        print_page(page);
     }
     return true;
 }

@@ -32,7 +32,7 @@ COMMAND(cmd_page)
 static uint8_t open_beside(bool is_there, int8_t way)
 {
     if (!is_there) {
-        return dialog_refuse(TEXT_P("Page must be 0..127"));
+        return dialog_refuse(TEXT_P("There is no such page"));
     }
     return open_asking((uint8_t)(the_session.page + way));
 }
@@ -49,7 +49,7 @@ COMMAND(cmd_before)
     return open_beside(the_session.page > 0, -1);
 }
 
-/* Play's `play wave` needs a name that only one page has, so this tells which other page has the name of stored page
+/* Play's `play wave` needs a name that only one page has, so this says which other page has the name of stored page
  * `named`. NOINLINE: else the names would lie on the stack while the page is saved. */
 static NOINLINE void tell_namesake(uint8_t named, uint8_t own)
 {
@@ -92,11 +92,11 @@ COMMAND(cmd_new)
 
 /* ---- save ---- */
 
-/* A stored page has no torque-off marks (motion512.md): such joints become joints that the step does not use. */
+/* A stored page has no torque-off marks (PAGE_FORMAT.md): such joints become joints that the step does not use. */
 static void clear_off_marks(void)
 {
     uint8_t count = 0;
-    for (uint16_t address = PAGE_AT_STEP0; address < PAGE_BYTES; address = (uint16_t)(address + 2u)) {
+    for (uint16_t address = PAGE_AT_STEP0; address < PAGE_BYTES; address += 2u) {
         if ((the_session.cells[address + 1u] & PAGE_POS_TORQUE_OFF >> 8) == 0) {
             continue;   /* nearly all words, so without calls: 0.6 ms of SAVE's 60 */
         }
@@ -110,7 +110,7 @@ static void clear_off_marks(void)
             if (count++ == 0) {
                 session_begin();
             }
-            session_set_word(address, (uint16_t)(PAGE_POS_UNUSED | (word & PAGE_POS_MAX)));
+            session_set_word(address, PAGE_POS_UNUSED | (word & PAGE_POS_MAX));
         }
     }
     if (count != 0) {
@@ -126,7 +126,7 @@ static bool page_is_sound(void)
     page_status_t fault = session_check_fields();
     if (fault != PAGE_OK) {
         TEXT("Not saved: ");
-        text_P(report_page_fault_P((uint8_t)fault));
+        text_P(report_page_fault_P(fault));
     }
     return fault == PAGE_OK;
 }
@@ -218,7 +218,7 @@ void cmd_name_done(const char *name)
     session_begin();
     for (uint8_t i = 0; i < PAGE_NAME_BYTES; i++) {
         bool is_kept = i < length && !(length == 1 && name[0] == ' ');
-        session_set_byte((uint16_t)(PAGE_AT_NAME + i), is_kept ? (uint8_t)name[i] : 0);
+        session_set_byte(PAGE_AT_NAME + i, is_kept ? (uint8_t)name[i] : 0);
     }
     (void)dialog_edited();
 }

@@ -72,7 +72,7 @@ static uint8_t state_of(uint8_t joint)
 
 /* Prints all faults of the servos as one sentence, because there is one row for several faults. Lost torque also shows as
  * ???? in the table. */
-static NOINLINE void tell_faults(void)
+static void tell_faults(void)
 {
     TEXT_NAMED(voltage, "Low voltage");
     TEXT_NAMED(angle, "Angle limit");
@@ -82,7 +82,7 @@ static NOINLINE void tell_faults(void)
     TEXT_NAMED(overload, "Overload");
     static const char *const names[] PROGMEM = { voltage, angle, heat, silent, limp, overload };   /* by bit */
     the_dialog.faults_due = false;
-    the_robot.failed = false;   /* the_servos.silent has these joints */
+    the_robot.failed &= ~the_servos.silent;   /* those are named here */
     screen_open_line();
     if (the_dialog.broken_off) {
         TEXT("Ended: a servo failed.");
@@ -153,9 +153,9 @@ static void tell_step(void)
     the_dialog.step_due = false;
     screen_open_line();
     TEXT("Page ");
-    text_number(player->page);
+    text_number(player->now.page);
     TEXT(" step ");
-    text_number((uint16_t)(player->step - 1u));
+    text_number((uint16_t)(player->now.step - 1u));
     TEXT(" repetition ");
     text_number(player->repetition);
 }

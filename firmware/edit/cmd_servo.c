@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * cmd_servo.c - commands that move servos or switch their torque: GO, MIRROR, ON, OFF; and PAIRS, the setting of MIRROR. */
 #include "commands.h"
+#include "page_edit.h"
 #include "pgm.h"
 #include "ranges_own.h"
 #include "report.h"
@@ -38,8 +39,8 @@ static uint16_t neutral_of(uint8_t joint)
         return PAGE_POS_MIDDLE;
     }
     page_store_read(1, (uint16_t)(PAGE_AT_STEP0 + 2u * joint), word, sizeof word);
-    uint16_t pos = (uint16_t)(word[0] | (uint16_t)word[1] << 8);
-    return cell_is_position(pos) ? pos : (uint16_t)PAGE_POS_MIDDLE;
+    uint16_t pos = word[0] | (uint16_t)word[1] << 8;
+    return cell_is_position(pos) ? pos : PAGE_POS_MIDDLE;
 }
 
 /* What the partner's position is for this joint. A word that is no position is copied. */
@@ -49,7 +50,7 @@ static uint16_t mirrored(uint8_t step, uint8_t joint, uint8_t partner)
     if (!cell_is_position(word)) {
         return word;
     }
-    return page_pos_mirrored(word, (uint16_t)(neutral_of(joint) + neutral_of(partner)));
+    return page_edit_mirrored(word, neutral_of(joint) + neutral_of(partner));
 }
 
 COMMAND(cmd_mirror)
@@ -84,7 +85,11 @@ static void print_pairs(const settings_t *settings)
 COMMAND(cmd_pairs)
 {
     if (args->count == 2) {
-        the_settings.neutral = shell_word_is(args, 1, PSTR("page1")) ? SETTINGS_NEUTRAL_PAGE1 : SETTINGS_NEUTRAL_512;
+        const bool page1 = shell_word_is(args, 1, PSTR("page1"));
+        if (!page1 && !shell_word_is(args, 1, PSTR("512"))) {
+            return dialog_refuse(TEXT_P("Say two IDs, 512 or page1"));
+        }
+        the_settings.neutral = page1 ? SETTINGS_NEUTRAL_PAGE1 : SETTINGS_NEUTRAL_512;
     } else if (args->count == 3) {
         uint16_t a, b;
         if (!shell_take(args, 1, RANGE_ID, &a) || !shell_take(args, 2, RANGE_ID, &b)) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * cmd_shape.c - commands that the original lacked: a step between two steps, the time of a page, steps from page to page. */
 #include "commands.h"
+#include "page_edit.h"
 #include "pgm.h"
 #include "ranges_own.h"
 #include "text.h"
@@ -15,31 +16,31 @@ static void set_between(uint8_t a, uint8_t b, uint8_t to, uint8_t percent)
         uint16_t second = session_word(b, joint);
         bool both = cell_is_position(first) && cell_is_position(second);
         session_set_word((uint16_t)(session_step_at(to) + 2u * joint),
-                         both ? page_pos_between(first, second, percent) : (uint16_t)PAGE_POS_UNUSED);
+                         both ? page_edit_between(first, second, percent) : PAGE_POS_UNUSED);
     }
 }
 
 /* value * mul / div, rounded, 1..255; notes when it does not fit. */
 static uint8_t scaled(uint8_t value, uint16_t mul, uint16_t div, bool *cut)
 {
-    uint16_t result = page_part_of(value, mul, div);
-    uint16_t kept = result > UINT8_MAX ? (uint16_t)UINT8_MAX : result == 0 && value != 0 ? 1u : result;
+    uint16_t result = page_edit_part(value, mul, div);
+    uint16_t kept = result > UINT8_MAX ? UINT8_MAX : result == 0 && value != 0 ? 1u : result;
     *cut = *cut || kept != result;
     return (uint8_t)kept;
 }
 
-/* With times, the inserted step takes its share of the time of the step behind it, so that the page takes as long as before.
+/* With times, the inserted step takes its share of the time of the step after it, so that the page takes as long as before.
  * With speeds, or at the end, it gets the speed of that step. */
 static void share_time(uint8_t to, uint8_t b, uint8_t percent)
 {
-    uint16_t at = (uint16_t)(session_step_at(b) + PAGE_STEP_AT_SPEED);
+    uint16_t at = session_step_at(b) + PAGE_STEP_AT_SPEED;
     uint8_t time = the_session.cells[at];
     if (b == to + 1u && the_session.cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME) {
         uint8_t rest = time;
-        time = page_time_split(&rest, percent);
+        time = page_edit_time_split(&rest, percent);
         session_set_byte(at, rest);
     }
-    session_set_byte((uint16_t)(session_step_at(to) + PAGE_STEP_AT_SPEED), time);
+    session_set_byte(session_step_at(to) + PAGE_STEP_AT_SPEED, time);
 }
 
 COMMAND(cmd_int)
@@ -52,13 +53,13 @@ COMMAND(cmd_int)
     if (steps >= PAGE_STEPS || a >= steps || b >= steps) {
         return dialog_refuse(steps >= PAGE_STEPS ? TEXT_P("All 7 steps are used") : TEXT_P("That step is not used"));
     }
-    uint8_t to = (uint8_t)(a + 1u);
+    uint8_t to = a + 1u;
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, to, LAST_STEP));
-    b = b >= to ? (uint8_t)(b + 1u) : b;
+    b = b >= to ? b + 1u : b;
     set_between(a, b, to, (uint8_t)percent);
-    session_set_byte((uint16_t)(session_step_at(to) + PAGE_STEP_AT_PAUSE), 0);
+    session_set_byte(session_step_at(to) + PAGE_STEP_AT_PAUSE, 0);
     share_time(to, b, (uint8_t)percent);
-    session_set_byte(PAGE_AT_STEPS, (uint8_t)(steps + 1u));
+    session_set_byte(PAGE_AT_STEPS, steps + 1u);
     return dialog_edited();
 }
 
@@ -69,7 +70,7 @@ COMMAND(cmd_scale)
     bool is_time = the_session.cells[PAGE_AT_SCHEDULE] == PAGE_SCHEDULE_TIME;
     session_begin();
     for (uint8_t step = 0; step < session_steps(); step++) {
-        uint16_t at = (uint16_t)(session_step_at(step) + PAGE_STEP_AT_PAUSE);
+        uint16_t at = session_step_at(step) + PAGE_STEP_AT_PAUSE;
         session_set_byte(at, scaled(the_session.cells[at], percent, PERCENT_WHOLE, &cut));
         at++;
         session_set_byte(at, is_time ? scaled(the_session.cells[at], percent, PERCENT_WHOLE, &cut)
@@ -126,12 +127,12 @@ COMMAND(cmd_paste)
     }
     session_begin();
     if (to + count > the_session.cells[PAGE_AT_STEPS]) {
-        session_set_byte(PAGE_AT_STEPS, (uint8_t)(to + count));
+        session_set_byte(PAGE_AT_STEPS, to + count);
     }
     /* Copies upwards or downwards, so that overlapping steps of one page are read before they are overwritten. */
     for (uint8_t i = 0; i < count; i++) {
         uint8_t k = to > the_dialog.take_first ? (uint8_t)(count - 1u - i) : i;
-        paste_step((uint8_t)(the_dialog.take_first + k), (uint8_t)(to + k));
+        paste_step(the_dialog.take_first + k, to + k);
     }
     return dialog_edited();
 }

@@ -70,7 +70,7 @@ COMMAND(cmd_write)
     }
     session_begin();
     if (args->count == 1) {
-        set_count((uint8_t)(step + 1u));
+        set_count(step + 1u);
     }
     write_pose(step);
     update_trim(step);
@@ -83,7 +83,7 @@ COMMAND(cmd_insert)
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
     if (step < steps && steps < PAGE_STEPS) {
-        set_count((uint8_t)(steps + 1u));
+        set_count(steps + 1u);
     }
     write_pose(step);
     if (steps >= PAGE_STEPS) {
@@ -93,7 +93,7 @@ COMMAND(cmd_insert)
     return dialog_edited();
 }
 
-/* The steps behind move down. The last one stays where it was, as a copy (editor-original.md section 6). */
+/* The steps after it move down. The last one stays where it was, as a copy (ORIGINAL.md section 6). */
 static uint8_t delete_step(uint8_t step)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];

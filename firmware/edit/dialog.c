@@ -51,9 +51,10 @@ void dialog_tell_joints(const char *what_P, uint32_t joints)
 
 void dialog_tell_failed(void)
 {
-    if (the_robot.failed) {
-        the_robot.failed = false;
+    if (the_robot.failed != 0) {
         dialog_tell_joints(TEXT_P("No answer"), the_servos.silent);
+        dialog_tell_joints(TEXT_P("Not obeyed"), the_robot.failed & ~the_servos.silent);
+        the_robot.failed = 0;
     }
 }
 

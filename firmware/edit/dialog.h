@@ -34,13 +34,14 @@ enum { DIALOG_TO_ASK = DIALOG_ASK, DIALOG_TO_NAME = DIALOG_NAME, DIALOG_TO_LIST 
        DIALOG_TO_PLAY = DIALOG_PLAY };
 
 /* Prints item `item` as one line, or nothing. false: there is no such item, so the list ends. */
-typedef bool (*dialog_item_t)(uint8_t item);
+typedef bool (*dialog_item_t)(uint16_t item);
 
-/* Small fields first: the AVR reaches 63 bytes behind a pointer with one instruction. */
+/* Small fields come first: the AVR reads 64 bytes from a pointer on cheaply. */
 typedef struct {
     uint8_t mode;                  /* dialog_mode_t */
     uint8_t asked, answered;       /* questions that this run has asked, and how many were answered with yes */
-    uint8_t next_item, lines;      /* of the list being shown */
+    uint16_t next_item;            /* of the list being shown */
+    uint8_t lines;                 /* of it on the screen */
     uint8_t list_first, list_last; /* pages of LIST and CHECK */
     uint8_t take_page, take_first, take_last; /* steps noted by TAKE */
     uint8_t late_ticks;            /* counts down from LATE_TICKS when a play or a list has ended */
@@ -72,13 +73,13 @@ bool dialog_ask_unsaved(void);
 uint8_t dialog_list(dialog_item_t item, const char *title_P);
 
 /* Prints why a command is refused. Returns SHELL_ERR_REPORTED. */
-uint8_t dialog_refuse(const char *sentence_P) NOINLINE;
+uint8_t dialog_refuse(const char *sentence_P);
 
 /* Ends an editing command; prints a message if it cannot be undone. Returns SHELL_OK. */
 uint8_t dialog_edited(void);
 
 /* Prints a message about these joints: "No answer: ID 5-7". Nothing if there are none. */
-void dialog_tell_joints(const char *what_P, uint32_t joints) NOINLINE;
+void dialog_tell_joints(const char *what_P, uint32_t joints);
 
 /* ---- for editor*.c ---- */
 

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "editor.h"
 
+#include <string.h>
 #include "commands.h"
 #include "console.h"
 #include "dialog.h"
-#include "editor_parts.h"
+#include "editor_keys.h"
 #include "parts.h"
+#include "report.h"
 #include "requests.h"
 #include "robot.h"
 #include "screen.h"
@@ -17,6 +19,26 @@ enum { PAINT_ROOM = CONSOLE_TX_BYTES / 2, BYTES_PER_TURN = 32 };
 
 static const char *notice;   /* in flash; NULL after it was shown */
 
+/* ---- the pages of the performer: the open one from RAM, the others from flash ---- */
+
+static void source_read(void *context __attribute__((unused)), uint8_t page, uint16_t offset, void *to, uint8_t count)
+{
+    if (page == the_session.page) {
+        memcpy(to, &the_session.cells[offset], count);
+    } else {
+        page_store_read(page, offset, to, count);
+    }
+}
+
+static uint8_t source_check(void *context __attribute__((unused)), uint8_t page)
+{
+    return page == the_session.page ? (uint8_t)session_check() : (uint8_t)page_store_check(&the_pages, page);
+}
+
+static const page_source_t source = { NULL, source_read, source_check };
+
+/* ---- start ---- */
+
 void editor_init(const char *notice_P)
 {
     notice = notice_P;
@@ -24,7 +46,7 @@ void editor_init(const char *notice_P)
     editor_keys_init();
     session_init();
     screen_init();
-    performer_set_source(&the_performer, &editor_source);
+    performer_set_source(&the_performer, &source);
     robot_init();
     screen_set_present(the_servos.present);
     screen_ask_size();
@@ -51,6 +73,7 @@ static void take_bytes(void)
 {
     uint8_t byte;
     for (uint8_t i = 0; i < BYTES_PER_TURN && may_take_bytes() && console_get(&byte); i++) {
+        shell_lose(&the_dialog.shell, console_lost());
         editor_byte(byte);
     }
     editor_quiet();
@@ -88,6 +111,7 @@ static void tell_notice(void)
 {
     if (notice != NULL && the_dialog.mode == DIALOG_TABLE) {
         dialog_message_begin();
+        report_failed_assert();
         text_P(notice);
         dialog_message_end();
         notice = NULL;

@@ -2,13 +2,12 @@
  * editor.h - the editor as a whole: start, and the work of the main loop. Everything else of Edit is below it:
  *
  *   main.c
- *     editor.c           start, a turn of the main loop, pages for the performer (editor_source.c)
- *       editor_keys.c    which key means what now
- *         editor_line.c  a line that is complete: runs it
- *           commands.c, cmd_*.c, requests_page.c    words and handlers
- *             dialog.c   questions, lists, messages
- *               robot.c, screen*.c   work pose and servos; what the terminal shows
- *                 frame.c, session*.c, undo.c, cells.c, keys.c, ansi.c
+ *     editor.c           start, a turn of the main loop, pages for the performer
+ *       editor_keys.c    which key means what now; runs complete lines
+ *         commands.c, cmd_*.c, requests_page.c    words and handlers
+ *           dialog.c     questions, lists, messages
+ *             robot.c, screen*.c   work pose and servos; what the terminal shows
+ *               frame.c, session.c, undo.c, cells.c, keys.c, ansi.c
  *
  * Each uses only files below it (tools/dev/check_circles). One instance; main loop only. editor_turn blocks no longer than
  * its slowest command. */

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: MIT
- * editor_keys.c - which key means what, mode by mode (the diagram is in dialog.h). */
+ * editor_keys.c - runs complete lines; says which key means what, mode by mode (the diagram is in dialog.h). */
+#include "editor_keys.h"
+
 #include "commands.h"
+#include "console.h"
 #include "dialog.h"
-#include "editor_parts.h"
 #include "keys.h"
 #include "parts.h"
 #include "requests.h"
 #include "robot.h"
 #include "screen.h"
+#include "session.h"
 #include "shell.h"
 #include "system.h"
 #include "text.h"
@@ -15,6 +18,7 @@
 
 enum { PAGE_ROWS = 8, ESC_QUIET_TICKS = 7 };
 enum { SWALLOW_TICKS = 60, STREAM_TICKS = 4 };   /* a person's next letter; a stream's next byte */
+enum { MESSAGE_COLUMN_MAX = 40 };   /* after a longer line a message would be cut */
 enum { BACKSLASH = '\\', FIRST_WORD_KEY = '0', LAST_WORD_KEY = 'Z', FIRST_LOWER_KEY = '^', LAST_LOWER_KEY = 'z' };
 
 static keys_t keys;
@@ -27,11 +31,79 @@ void editor_keys_init(void)
     swallow = after_cr = false;
 }
 
+/* ---- a complete line; the same again after each answered question ---- */
+
+static void print_refusal(uint8_t result)
+{
+    switch (result) {
+    case SHELL_ERR_MOVING:
+        TEXT("Something moves");
+        break;
+    case SHELL_ERR_RANGE:
+        shell_print_range_error();
+        break;
+    case SHELL_ERR_UNKNOWN:
+        TEXT("Bad Command");
+        break;
+    case SHELL_ERR_COUNT:
+        TEXT("Invalid Parameter");
+        break;
+    default:
+        break;
+    }
+}
+
+static void go_on(uint8_t result)
+{
+    STATIC_ASSERT(DIALOG_ASK > (int)SHELL_ERR_REPORTED, "what a handler returns is a mode");
+    if (result >= DIALOG_ASK && result <= DIALOG_PLAY) {
+        the_dialog.mode = result;
+        if (result == DIALOG_NAME) {
+            shell_clear(&the_dialog.shell);
+            the_screen.lead = false;
+        }
+        return;
+    }
+    print_refusal(result);
+    dialog_end_line();
+}
+
+static void run(void)
+{
+    the_dialog.asked = 0;
+    the_dialog.broken_off = the_dialog.faults_stand = false;
+    the_screen.lead = true;
+    the_screen.cramped = the_screen.line_column > MESSAGE_COLUMN_MAX;
+    the_session.spare = performer_spare(&the_performer);
+    go_on(shell_run(commands_table_P, commands_count, NULL, &the_dialog.args, !performer_is_idle(&the_performer)));
+    the_session.spare = NULL;
+}
+
+static void run_line(void)
+{
+    if (the_dialog.mode == DIALOG_NAME) {
+        cmd_name_done(the_dialog.line);
+        dialog_end_line();
+        return;
+    }
+    shell_split(&the_dialog.shell, the_session.hex, &the_dialog.args);
+    run();
+}
+
+static void run_program_line(void)
+{
+    shell_split(&the_dialog.shell, false, &the_dialog.args);
+    requests_run(&the_dialog.args);
+}
+
+/* ---- keys ---- */
+
 static void open_line(uint8_t key)
 {
     bool starts = (key >= FIRST_WORD_KEY && key <= LAST_WORD_KEY) || key == BACKSLASH ||
                   (key >= FIRST_LOWER_KEY && key <= LAST_LOWER_KEY);
     shell_clear(&the_dialog.shell);
+    shell_lose(&the_dialog.shell, console_lost());   /* before this key: the line may have begun there */
     the_dialog.mode = DIALOG_LINE;
     screen_open_line();
     if (starts) {
@@ -49,6 +121,7 @@ static void open_program_line(void)
     the_screen.sink = SCREEN_QUIET;
     the_dialog.mode = DIALOG_PROGRAM;
     shell_clear(&the_dialog.shell);
+    shell_lose(&the_dialog.shell, console_lost());
     (void)shell_byte(&the_dialog.shell, '@');
 }
 
@@ -65,8 +138,8 @@ static void take_screen_back(void)
 /* Moves the cursor: arrows by one cell, Home and End to the ends of the row, PgUp and PgDn by eight rows. */
 static void move_key(uint8_t key)
 {
-    uint8_t number = (uint8_t)(key - KEY_UP);
-    uint8_t cells = number < 4 ? 1 : number < 6 ? (uint8_t)PAGE_ROWS : (uint8_t)CELLS_COLUMNS;
+    uint8_t number = key - KEY_UP;
+    uint8_t cells = number < 4 ? 1 : number < 6 ? PAGE_ROWS : CELLS_COLUMNS;
     while (cells-- > 0) {
         screen_move((session_way_t)(SESSION_UP + (number & 3u)));
     }
@@ -105,7 +178,7 @@ static void table_key(uint8_t key)
         open_line(key);
         return;
     }
-    if (the_robot.failed) {
+    if (the_robot.failed != 0) {
         dialog_message_begin();
         dialog_tell_failed();
         dialog_message_end();
@@ -146,13 +219,13 @@ static void line_byte(uint8_t byte)
     switch (shell_byte(&the_dialog.shell, byte < 0x80 ? byte : (uint8_t)'?')) {   /* only ASCII is stored */
     case SHELL_TYPING:
         break;
-    case SHELL_TOO_LONG:
-        dialog_message_begin();   /* no room for a message behind the line */
-        TEXT("Line too long");
+    case SHELL_REFUSED:
+        dialog_message_begin();   /* no room for a message after the line */
+        shell_print_refusal(&the_dialog.shell);
         dialog_end_line();
         break;
     case SHELL_LINE:
-        editor_line();
+        run_line();
         break;
     }
 }
@@ -163,8 +236,11 @@ static void program_byte(uint8_t byte)
     if (event == SHELL_TYPING) {
         return;
     }
+    the_screen.sink = SCREEN_PLAIN;
     if (event == SHELL_LINE) {
-        editor_program_line();
+        run_program_line();
+    } else {
+        requests_refuse_line(&the_dialog.shell);
     }
     shell_clear(&the_dialog.shell);
     the_dialog.mode = DIALOG_TABLE;
@@ -178,7 +254,7 @@ static void ask_key(uint8_t key)
     }
     if (key == 'y' || key == 'Y') {
         the_dialog.answered++;
-        editor_run();
+        run();
     } else {
         swallow = key > ' ' && key < KEY_NONE && key != 'n' && key != 'N';
         TEXT(" no");
@@ -245,7 +321,7 @@ static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
 
 void editor_byte(uint8_t byte)
 {
-    uint16_t now = tick_now16(), quiet_ticks = (uint16_t)(now - the_dialog.quiet_since);
+    uint16_t now = tick_now16(), quiet_ticks = now - the_dialog.quiet_since;
     bool end_of_cr = byte == KEY_LF && after_cr;
     after_cr = byte == KEY_CR;
     the_dialog.quiet_since = now;

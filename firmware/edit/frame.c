@@ -24,7 +24,7 @@ uint8_t frame_marker_column(uint8_t steps)
 bool frame_is_marker_column(uint8_t column)
 {
     return column >= FIRST_MARKER_COLUMN && column <= FIRST_MARKER_COLUMN + STEP_WIDTH * PAGE_STEPS &&
-           (uint8_t)(column - FIRST_MARKER_COLUMN) % (uint8_t)STEP_WIDTH == 0;
+           (uint8_t)(column - FIRST_MARKER_COLUMN) % STEP_WIDTH == 0;
 }
 
 uint8_t frame_cell_column(uint8_t x, uint8_t y)
@@ -35,9 +35,9 @@ uint8_t frame_cell_column(uint8_t x, uint8_t y)
     if (x == CELL_X_SOFTNESS) {
         return SOFTNESS_COLUMN;
     }
-    uint8_t column = x == CELL_X_POSE ? (uint8_t)FRAME_POSE_COLUMN
+    uint8_t column = x == CELL_X_POSE ? FRAME_POSE_COLUMN
                                       : (uint8_t)(FIRST_STEP_COLUMN + STEP_WIDTH * (x - CELL_X_STEP0));
-    return y >= CELL_Y_PAUSE ? (uint8_t)(column + 1u) : column;
+    return y >= CELL_Y_PAUSE ? column + 1u : column;
 }
 
 void frame_cell_text(uint8_t x, uint8_t y, char text[CELLS_TEXT_BYTES])
@@ -67,7 +67,7 @@ static void joint_label(uint8_t joint, char text[FRAME_LABEL_BYTES])
     text[11] = (char)('0' + joint % 10);
     cell_digits(joint, 2, true, &text[15]);
     if (joint >= HEX_LOWER_FROM) {
-        text[16] = (char)(text[16] - 'A' + 'a');
+        text[16] = text[16] - 'A' + 'a';
     }
 }
 
@@ -101,7 +101,7 @@ uint8_t frame_header_label(uint8_t y, char label[FRAME_LABEL_BYTES])
         }
     }
     label[length] = '\0';
-    return y < CELL_Y_HEADER ? (uint8_t)TITLE_COLUMN : (uint8_t)(HEADER_LABEL_END + 1u - length);
+    return y < CELL_Y_HEADER ? TITLE_COLUMN : HEADER_LABEL_END + 1u - length;
 }
 
 static void name_text(char text[FRAME_LABEL_BYTES])

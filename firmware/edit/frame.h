@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * frame.h - the columns of the screen and the texts around the table (editor-original.md section 3).
+ * frame.h - the columns of the screen and the texts around the table (ORIGINAL.md section 3).
  * Pure: makes columns and characters from the session. No RAM. */
 #ifndef FRAME_H
 #define FRAME_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * keys.h - terminal bytes to keys: arrows, the terminal's size report, a lone ESC; everything else as it is.
- * Pure. Main loop only. RAM: 4 bytes.
+ * Pure. Main loop only.
  *
  *   GROUND --ESC--> ESCAPE --'[' or 'O'--> SEQUENCE --final byte--> GROUND (arrow, report, or swallowed)
  *                      \--other--> GROUND (swallowed)         ESCAPE --quiet--> GROUND (KEY_ESCAPE) */

@@ -6,24 +6,24 @@
 #include "shape.h"
 #include "step_plan.h"
 
-NOINLINE uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint)
+uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint)
 {
     uint8_t word[2];
     page_store_read(page, (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step + 2u * joint), word, sizeof word);
-    return (uint16_t)(word[0] | (uint16_t)word[1] << 8);
+    return word[0] | word[1] << 8;
 }
 
 static void longest_way(uint8_t page, uint8_t step, page_facts_t *facts)
 {
     uint8_t before = (uint8_t)((step > 0 ? step : page_store_byte(page, PAGE_AT_STEPS)) - 1u);
-    facts->way_pos = 0;
+    facts->distance_pos = 0;
     facts->joint = 0;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
         uint16_t to = page_facts_word(page, step, joint);
         uint16_t from = page_facts_word(page, before, joint);
-        uint16_t way = to > from ? (uint16_t)(to - from) : (uint16_t)(from - to);
-        if (to <= PAGE_POS_MAX && from <= PAGE_POS_MAX && way > facts->way_pos) {
-            facts->way_pos = way;
+        uint16_t distance = to > from ? to - from : from - to;
+        if (to <= PAGE_POS_MAX && from <= PAGE_POS_MAX && distance > facts->distance_pos) {
+            facts->distance_pos = distance;
             facts->joint = joint;
         }
     }
@@ -38,18 +38,18 @@ void page_facts_step(uint8_t page, uint8_t step, page_facts_t *facts)
     player_step_t plan = { .schedule = header[PAGE_AT_SCHEDULE], .page_speed = header[PAGE_AT_SPEED],
                            .pause = last[0], .time = last[1], .rate_percent = SHAPE_NORMAL };
     longest_way(page, step, facts);
-    facts->ticks = step_plan_exact_ticks(&plan, facts->way_pos, &carry_q5_11);
+    facts->ticks = step_plan_exact_ticks(&plan, facts->distance_pos, &carry_q5_11);
     facts->pause_ticks = step_plan_exact_hold(&plan, &carry_q5_11);
 }
 
-uint16_t page_facts_ticks(uint8_t page)
+uint32_t page_facts_ticks(uint8_t page)
 {
     page_facts_t facts;
-    uint16_t ticks = 0;
+    uint32_t ticks = 0;
     uint8_t steps = page_store_byte(page, PAGE_AT_STEPS);
     for (uint8_t step = 0; step < steps; step++) {
         page_facts_step(page, step, &facts);
-        ticks = (uint16_t)(ticks + facts.ticks + facts.pause_ticks);
+        ticks += (uint16_t)(facts.ticks + facts.pause_ticks);   /* each is STEP_PLAN_TICKS_MAX at most */
     }
     return ticks;
 }
@@ -57,5 +57,5 @@ uint16_t page_facts_ticks(uint8_t page)
 /* pos / ticks * 128 ticks/s * 300 degrees / 1024 pos = 37.5 pos / ticks. */
 uint16_t page_facts_deg_s(const page_facts_t *facts)
 {
-    return (uint16_t)((uint32_t)facts->way_pos * 75u / 2u / facts->ticks);
+    return (uint16_t)((uint32_t)facts->distance_pos * 75u / 2u / facts->ticks);
 }

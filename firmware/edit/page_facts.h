@@ -11,14 +11,14 @@
  * 9.6 V. */
 #define PAGE_FACTS_FASTEST_DEG_S(supply_dv) ((uint16_t)((supply_dv) * 59u / 20u))
 
-/* The supply while nobody has told it: a CM-5's eight cells, in 0.1 V. */
+/* The supply while it is not known: a CM-5's eight cells, in 0.1 V. */
 #define PAGE_FACTS_BATTERY_DV 96u
 
 typedef struct {
     uint16_t ticks;      /* duration without the pause; at least 1 */
     uint16_t pause_ticks;
-    uint16_t way_pos;    /* the longest way of a joint, from the step before (step 0: from the last one) */
-    uint8_t joint;       /* the joint with that way */
+    uint16_t distance_pos; /* the longest distance of a joint from the step before (step 0: from the last one) */
+    uint8_t joint;       /* the joint that moves that far */
 } page_facts_t;
 
 /* One position word. */
@@ -28,7 +28,7 @@ uint16_t page_facts_word(uint8_t page, uint8_t step, uint8_t joint);
 void page_facts_step(uint8_t page, uint8_t step, page_facts_t *facts);
 
 /* Ticks that one repetition of a good page takes. */
-uint16_t page_facts_ticks(uint8_t page);
+uint32_t page_facts_ticks(uint8_t page);
 
 /* Mean speed of that joint in the step, degrees/s. */
 uint16_t page_facts_deg_s(const page_facts_t *facts);

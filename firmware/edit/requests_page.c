@@ -99,6 +99,8 @@ static const shell_command_t own[] PROGMEM = {
     { word_resume, request_resume, SHELL_ARGS(0, 0), 0 },
 };
 
+static const requests_table_t own_words = { own, ARRAY_COUNT(own) };
+
 static void __attribute__((noreturn)) restart(void)
 {
     board_restart(&the_settings_store, &the_settings);
@@ -108,5 +110,5 @@ static const char name[] PROGMEM = "edit";
 TEXT_NAMED(can, ",open,data,save");
 const requests_image_t requests_image = {
     .name_P = name, .can_P = can, .performer = &the_performer, .servos = &the_servos, .pages = &the_pages,
-    .own_P = own, .own_count = ARRAY_COUNT(own), .serve = robot_serve, .restart = restart,
+    .own = &own_words, .serve = robot_serve, .restart = restart,
 };

@@ -9,12 +9,11 @@
 
 robot_t the_robot;
 
-enum { WAY_PER_SPEED = 4 };
+enum { DISTANCE_PER_SPEED = 4 };
 
 static void fail(uint8_t joint)
 {
-    the_robot.failed = true;
-    servo_link_lost(&the_servos, joint);
+    servo_link_put(&the_robot.failed, joint, true);
 }
 
 /* A word of the servo as a page position. */
@@ -22,10 +21,11 @@ static bool read_pos(uint8_t joint, uint8_t at, uint16_t *pos)
 {
     uint8_t bytes[2];
     if (bus_call_read(joint, at, bytes, sizeof bytes, NULL) != BUS_OK) {
+        servo_link_lost(&the_servos, joint);
         fail(joint);
         return false;
     }
-    uint16_t word = (uint16_t)(bytes[0] | (uint16_t)bytes[1] << 8);
+    uint16_t word = bytes[0] | bytes[1] << 8;
     *pos = servo_link_to_page(&the_servos, joint, word);
     return true;
 }
@@ -45,7 +45,7 @@ static void read_joint(uint8_t joint)
     uint16_t pos;
     bool held = is_held(joint);
     if (read_pos(joint, held ? DXL_AT_GOAL : DXL_AT_PRESENT, &pos)) {
-        session_set_pose(joint, held ? pos : (uint16_t)(pos | PAGE_POS_TORQUE_OFF));
+        session_set_pose(joint, held ? pos : pos | PAGE_POS_TORQUE_OFF);
     }
 }
 
@@ -64,7 +64,7 @@ void robot_follow(void)
     uint32_t off = the_servos.present & ~the_servos.torque;   /* the next joint's bit is the lowest */
     for (uint8_t joint = 0; off != 0; joint++, off >>= 1) {
         uint16_t pos = the_servos.present_pos[joint];
-        if (((uint8_t)off & 1u) != 0 && pos != SERVO_LINK_NO_POSE) {
+        if ((off & 1u) != 0 && pos != SERVO_LINK_NO_POSE) {
             session_set_pose(joint, pos | PAGE_POS_TORQUE_OFF);
         }
     }
@@ -108,14 +108,14 @@ void robot_serve(void)
 
 void robot_init(void)
 {
-    the_robot.failed = false;
+    the_robot.failed = 0;
     robot_set_trim();
 }
 
 static void write_goal(uint8_t joint, uint16_t present, uint16_t pos)
 {
-    uint16_t way = pos > present ? (uint16_t)(pos - present) : (uint16_t)(present - pos);
-    uint16_t speed = way / WAY_PER_SPEED;
+    uint16_t distance = pos > present ? pos - present : present - pos;
+    uint16_t speed = distance / DISTANCE_PER_SPEED;
     uint16_t goal = servo_link_to_servo(&the_servos, joint, pos);
     if (speed < ROBOT_SLOWEST) {
         speed = ROBOT_SLOWEST;
@@ -123,6 +123,7 @@ static void write_goal(uint8_t joint, uint16_t present, uint16_t pos)
     uint8_t bytes[4] = { (uint8_t)goal, (uint8_t)(goal >> 8), (uint8_t)speed, (uint8_t)(speed >> 8) };
     if (!servo_link_write(&the_servos, joint, DXL_AT_GOAL, bytes, sizeof bytes)) {
         fail(joint);
+        read_joint(joint);   /* its goal is still the old one */
     }
 }
 
@@ -134,8 +135,10 @@ void robot_move(uint8_t joint, uint16_t pos)
         return;
     }
     servo_link_quiet(&the_servos);
-    if (!is_held(joint)) {
-        performer_on(&the_performer, servo_link_bit(joint));
+    if (!is_held(joint) && performer_on(&the_performer, servo_link_bit(joint)) == 0) {
+        fail(joint);
+        read_joint(joint);
+        return;
     }
     if (read_pos(joint, DXL_AT_PRESENT, &present)) {
         write_goal(joint, present, pos);
@@ -146,7 +149,7 @@ uint32_t robot_send(const uint8_t step[PAGE_STEP_BYTES])
 {
     uint32_t missing = 0, off = 0;
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {
-        uint16_t word = (uint16_t)(step[2 * joint] | (uint16_t)step[2 * joint + 1] << 8);
+        uint16_t word = step[2 * joint] | step[2 * joint + 1] << 8;
         if (!robot_has(joint)) {
             session_set_pose(joint, word);
         } else if (cell_is_position(word)) {
@@ -167,13 +170,14 @@ void robot_on(uint32_t joints)
 {
     uint32_t wanted = joints & the_servos.present & ~the_servos.torque;
     servo_link_quiet(&the_servos);
-    the_robot.failed |= performer_on(&the_performer, wanted) != wanted;
+    the_robot.failed |= wanted & ~performer_on(&the_performer, wanted);
     robot_read();
 }
 
 void robot_off(uint32_t joints)
 {
     servo_link_quiet(&the_servos);
-    performer_off(&the_performer, joints & the_servos.present);
+    joints &= the_servos.present;
+    the_robot.failed |= joints & ~performer_off(&the_performer, joints);
     robot_read();
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * robot.h - the work pose and the servos: reads servos and moves them one by one while nothing plays.
  * Joint numbers are servo IDs 0..30, positions are page coordinates (trim is added here). Knows no command and no
- * screen. Main loop only; a call may block 1 to 4 ms a servo. RAM: 2 bytes. */
+ * screen. Main loop only; a call may block 1 to 4 ms a servo. */
 #ifndef ROBOT_H
 #define ROBOT_H
 
@@ -12,12 +12,12 @@
 #include "servo_link.h"
 #include "session.h"
 
-#define ROBOT_SLOWEST 8u   /* the speed of a move is the way / 4, at least this (editor-original.md section 4) */
+#define ROBOT_SLOWEST 8u   /* the speed of a move is the distance / 4, at least this (ORIGINAL.md section 4) */
 
 typedef struct {
     bool raw;             /* page 0 is open: no trim */
     uint8_t shown;        /* the joint that robot_show_play updated last */
-    bool failed;          /* a joint did not answer (see the_servos.silent); to be shown on the row */
+    uint32_t failed;      /* joints that did not obey or did not answer (the_servos.silent); to be shown on the row */
 } robot_t;
 
 extern robot_t the_robot;       /* the only one: all functions here are about it */
@@ -46,7 +46,7 @@ void robot_open_page(uint8_t page);
 /* Sets the trim again. Call when another page was opened or trim was saved: page 0 is edited without trim. */
 void robot_set_trim(void);
 
-/* Moves one joint to `pos` and switches its torque on; the speed follows from the way. A joint that is not present only
+/* Moves one joint to `pos` and switches its torque on; the speed follows from the distance. A joint that is not present only
  * shows the position. */
 void robot_move(uint8_t joint, uint16_t pos);
 

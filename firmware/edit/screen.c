@@ -1,28 +1,141 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: MIT
+ * screen.c - what has to be sent: follows the session, scrolls; the command row; characters and the terminal's cursor. */
 #include "screen.h"
 
 #include <string.h>
 #include "ansi.h"
 #include "frame.h"
 #include "parts.h"
-#include "screen_parts.h"
+#include "text.h"
+
+screen_t the_screen;
 
 enum { SHOWN_UNSAVED = 1, SHOWN_HEX = 2, SHOWN_PAGE0 = 4 };
 enum { SCROLL_STEP = 4 };
+enum { FIXED_ROWS = 4 };   /* below the table: labels, pause, speed, command */
+
+/* ---- which row of the table is in which row of the screen ---- */
+
+bool screen_is_full(void)
+{
+    return the_screen.rows >= SCREEN_ROWS_FULL;
+}
+
+uint8_t screen_table_rows(void)
+{
+    return the_screen.rows - FIXED_ROWS;
+}
+
+uint8_t screen_command_row(void)
+{
+    return the_screen.rows;
+}
+
+bool screen_has_row(uint8_t joint)
+{
+    return screen_is_full() || the_screen.present == 0 || joint >= PAGE_JOINTS || (the_screen.present >> joint & 1u) != 0;
+}
+
+uint8_t screen_rows_before(uint8_t joint)
+{
+    uint8_t count = 0;
+    for (uint8_t i = 0; i < joint; i++) {
+        count += screen_has_row(i);
+    }
+    return count;
+}
+
+uint8_t screen_row_of(uint8_t y)
+{
+    if (y >= PAGE_JOINTS) {
+        return (uint8_t)(screen_table_rows() + 1u + (y - PAGE_JOINTS));
+    }
+    if (!screen_has_row(y)) {
+        return 0;
+    }
+    uint8_t before = screen_rows_before(y);
+    if (before < the_screen.top || before >= the_screen.top + screen_table_rows()) {
+        return 0;
+    }
+    return (uint8_t)(before - the_screen.top + 1u);
+}
+
+uint8_t screen_joint_in_row(uint8_t row)
+{
+    uint8_t joint = 0;
+    for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
+        uint8_t at = screen_row_of(i);
+        if (at != 0 && at <= row) {
+            joint = i;
+        }
+    }
+    return joint;
+}
+
+/* ---- characters and the cursor, the shortest way ---- */
+
+void screen_send(char character)
+{
+    ansi_put(character);
+    the_screen.at_column++;
+    if (the_screen.at_column > SCREEN_COLUMNS) {
+        the_screen.at_row = 0;
+    }
+}
+
+void screen_send_text(const char *text)
+{
+    while (*text != '\0') {
+        screen_send(*text++);
+    }
+}
+
+void screen_send_text_P(const char *text)
+{
+    text_reader_t reader;
+    text_open_P(&reader, text);
+    for (char character; (character = text_next(&reader)) != '\0';) {
+        screen_send(character);
+    }
+}
+
+void screen_send_spaces(uint8_t count)
+{
+    while (count-- > 0) {
+        screen_send(' ');
+    }
+}
+
+void screen_go(uint8_t row, uint8_t column)
+{
+    if (the_screen.at_row == row && column > the_screen.at_column) {
+        ansi_right(column - the_screen.at_column);
+    } else if (the_screen.at_row != row || the_screen.at_column != column) {
+        ansi_goto(row, column);
+    }
+    the_screen.at_row = row;
+    the_screen.at_column = column;
+}
+
+void screen_go_line(void)
+{
+    uint8_t column = the_screen.line_column;
+    screen_go(screen_command_row(), column < SCREEN_COLUMNS ? column : SCREEN_COLUMNS);
+}
 
 /* ---- what follows from the session ---- */
 
 static uint8_t flags_of(void)
 {
-    return (uint8_t)((the_session.is_changed ? SHOWN_UNSAVED : 0) | (the_session.hex ? SHOWN_HEX : 0) |
-                     (the_session.page == 0 ? SHOWN_PAGE0 : 0));
+    return (the_session.is_changed ? SHOWN_UNSAVED : 0) | (the_session.hex ? SHOWN_HEX : 0) |
+           (the_session.page == 0 ? SHOWN_PAGE0 : 0);
 }
 
 void screen_sync(void)
 {
     uint8_t flags = flags_of();
     uint8_t turned = flags ^ the_screen.shown_flags;
-    uint8_t fault = (uint8_t)session_check();
+    uint8_t fault = session_check();
     screen_follow();
     if (the_session.x != the_screen.shown_x || the_session.y != the_screen.shown_y || (turned & SHOWN_HEX) != 0) {
         the_screen.items |= ITEM_XYA;
@@ -47,7 +160,7 @@ void screen_sync(void)
 static void mark_frame(void)
 {
     for (uint8_t y = 0; y < CELLS_ROWS; y++) {
-        the_session.marks[y] = MARK_CELLS | MARK_HEADER_LABEL | (uint16_t)MARK_STEP_NONE << MARK_STEP_SHIFT;
+        the_session.marks[y] = MARK_CELLS | MARK_HEADER_LABEL | (unsigned)MARK_STEP_NONE << MARK_STEP_SHIFT;
     }
 }
 
@@ -69,7 +182,7 @@ void screen_init(void)
 
 void screen_set_rows(uint8_t rows)
 {
-    uint8_t usable = rows < SCREEN_ROWS_MIN ? (uint8_t)SCREEN_ROWS_MIN : rows;
+    uint8_t usable = rows < SCREEN_ROWS_MIN ? SCREEN_ROWS_MIN : rows;
     if (usable > SCREEN_ROWS_FULL) {
         usable = SCREEN_ROWS_FULL;
     }
@@ -119,10 +232,10 @@ void screen_follow(void)
     uint8_t before = screen_rows_before(the_session.y);
     uint8_t top = the_screen.top;
     if (before < top) {
-        top = before > SCROLL_STEP ? (uint8_t)(before - SCROLL_STEP) : 0;
+        top = before > SCROLL_STEP ? before - SCROLL_STEP : 0;
     } else if (before >= top + screen_table_rows()) {
         uint8_t last = (uint8_t)(screen_rows_before(PAGE_JOINTS) - 1u);
-        uint8_t bottom = before + SCROLL_STEP > last ? last : (uint8_t)(before + SCROLL_STEP);
+        uint8_t bottom = before + SCROLL_STEP > last ? last : before + SCROLL_STEP;
         top = (uint8_t)(bottom + 1u - screen_table_rows());
     }
     if (top != the_screen.top) {
@@ -153,7 +266,7 @@ void screen_move(session_way_t way)
     uint8_t x = the_session.x, y = the_session.y;
     session_move(way);
     if (x == CELL_X_HEADER && the_session.x != CELL_X_HEADER) {
-        the_session.y = screen_joint_in_row((uint8_t)(the_session.y + 1u));
+        the_session.y = screen_joint_in_row(the_session.y + 1u);
     }
     while (!screen_has_row(the_session.y)) {
         uint8_t before = the_session.y;
@@ -189,7 +302,7 @@ static void back_in_line(void)
 
 static void put_in_line(char character)
 {
-    if (character == '\r' || (uint8_t)character == '\a') {
+    if (character == '\r' || character == '\a') {
         return;
     }
     if (character == '\n') {

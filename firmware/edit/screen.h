@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * screen.h - the editor's full screen on an ANSI/VT100 terminal. Sends only what has changed.
- * Knows the session and the console, no command and no servo. Main loop only. RAM: 26 bytes.
+ * Knows the session and the console, no command and no servo. Main loop only. RAM: one screen_t.
+ * screen_paint.c paints what screen.c says.
  *
  * There is no copy of the screen. A cell's text is made from the session. The session marks the cells that change, and
  * screen_paint sends marked cells, a row at a time, whenever the console has room. So input never waits for a repaint, and
- * a cell that changes twice is sent once. With 35 rows or more the frame is that of editor-original.md section 3. With
+ * a cell that changes twice is sent once. With 35 rows or more the frame is that of ORIGINAL.md section 3. With
  * 24..34 rows only present joints have a row, the joints scroll, and the last four rows stay:
  *
  *      rows 1 .. rows-4     joints          | header, rows 1..20, does not scroll
@@ -34,11 +35,11 @@ typedef struct {
     uint16_t items;          /* single items to send */
     uint8_t rows;            /* of the terminal, 24..35 */
     uint8_t top;             /* rows that are scrolled out above */
-    uint8_t at_row, at_column; /* where the terminal's cursor stands; row 0 = not known */
+    uint8_t at_row, at_column; /* where the terminal's cursor is; row 0 = not known */
     uint8_t line_column;     /* where the next character of the command row goes; from SCREEN_COLUMNS on it is not shown */
     uint8_t sink;            /* screen_sink_t */
     bool lead;               /* a space goes before the next character of the command row */
-    bool cramped;            /* the line is long: a message behind it would be cut and gets the row for itself */
+    bool cramped;            /* the line is long: a message after it would be cut and gets the row for itself */
     bool hidden;             /* something else has the screen: nothing is painted */
     uint8_t shown_x, shown_y, shown_go, shown_fault, shown_flags;
 } screen_t;
@@ -84,5 +85,36 @@ void screen_follow(void);
 
 /* Asks the terminal for its size; the answer is a cursor position report. */
 void screen_ask_size(void);
+
+/* ---- for screen_paint.c ---- */
+
+/* Single items, in the order in which they are sent. */
+enum {
+    ITEM_CLEAR = 1 << 0,
+    ITEM_LABELS = 1 << 1,
+    ITEM_XYA_FRAME = 1 << 2,
+    ITEM_XYA = 1 << 3,
+    ITEM_GO = 1 << 4,
+    ITEM_UNSAVED = 1 << 5,
+    ITEM_FAULT = 1 << 6,
+    ITEM_PROMPT = 1 << 7,
+    ITEM_ALL = (1 << 8) - 1
+};
+
+/* Rows of the screen count from 1. */
+bool screen_is_full(void);                          /* every joint has a row, nothing scrolls */
+uint8_t screen_table_rows(void);                    /* rows for joints */
+uint8_t screen_command_row(void);
+uint8_t screen_row_of(uint8_t y);                   /* of table row y; 0: it is not in sight */
+uint8_t screen_rows_before(uint8_t joint);          /* how many joints below `joint` have a row, in sight or not */
+uint8_t screen_joint_in_row(uint8_t row);           /* or the last one above it */
+
+/* Places the terminal's cursor; sends characters there. screen_go_line: at the end of the command line, or of its row. */
+void screen_go(uint8_t row, uint8_t column);
+void screen_go_line(void);
+void screen_send(char character);
+void screen_send_text(const char *text);
+void screen_send_text_P(const char *text);
+void screen_send_spaces(uint8_t count);
 
 #endif

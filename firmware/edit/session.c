@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-#include "session_parts.h"
+#include "session.h"
 
+#include <stddef.h>
 #include <string.h>
 #include "compiler.h"
+#include "crc16.h"
 #include "page_store.h"
 
 session_t the_session;
 
-/* A new page: editor-original.md section 1. */
+/* A new page: ORIGINAL.md section 1. */
 enum { NEW_PLAY_COUNT = 1, NEW_STEP_SPEED = 64, NEW_LAST_SOFTNESS_AT = 63, ERASED = 0xFF };
 
 uint8_t session_new_byte(uint16_t offset)
@@ -27,7 +29,7 @@ uint8_t session_new_byte(uint16_t offset)
     if (offset <= NEW_LAST_SOFTNESS_AT) {
         return PAGE_COMPLIANCE_DEFAULT;
     }
-    uint8_t place = (uint8_t)(offset % PAGE_STEP_BYTES);
+    uint8_t place = offset % PAGE_STEP_BYTES;
     if (place >= PAGE_STEP_AT_PAUSE) {
         return place == PAGE_STEP_AT_SPEED ? NEW_STEP_SPEED : 0;
     }
@@ -36,7 +38,7 @@ uint8_t session_new_byte(uint16_t offset)
 
 /* ---- marks ---- */
 
-NOINLINE void session_mark(uint8_t x, uint8_t y)
+void session_mark(uint8_t x, uint8_t y)
 {
     the_session.marks[y] |= (uint16_t)(1u << x);
 }
@@ -62,7 +64,7 @@ static void mark_byte(uint16_t address)
 
 /* ---- bytes ---- */
 
-void session_change_byte(uint16_t address, uint8_t bits)
+static void change_byte(uint16_t address, uint8_t bits)
 {
     the_session.cells[address] ^= bits;
     mark_byte(address);
@@ -74,13 +76,13 @@ void session_set_byte(uint16_t address, uint8_t byte)
     if (bits == 0) {
         return;
     }
-    session_change_byte(address, bits);
+    change_byte(address, bits);
     if (address < CELLS_POSE_AT) {
         undo_note(&the_session.undo, address, bits);
     }
 }
 
-NOINLINE void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count)
+void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t count)
 {
     while (count-- > 0) {
         session_set_byte(address++, *bytes++);
@@ -90,7 +92,7 @@ NOINLINE void session_set_bytes(uint16_t address, const uint8_t *bytes, uint8_t 
 void session_set_word(uint16_t address, uint16_t word)
 {
     session_set_byte(address, (uint8_t)word);
-    session_set_byte((uint16_t)(address + 1u), (uint8_t)(word >> 8));
+    session_set_byte(address + 1u, (uint8_t)(word >> 8));
 }
 
 void session_set_pose(uint8_t joint, uint16_t word)
@@ -115,7 +117,7 @@ uint16_t session_pose(uint8_t joint)
     return cell_word(the_session.cells, (uint16_t)(CELLS_POSE_AT + 2u * joint));
 }
 
-NOINLINE uint16_t session_step_at(uint8_t step)
+uint16_t session_step_at(uint8_t step)
 {
     return (uint16_t)(PAGE_AT_STEP0 + PAGE_STEP_BYTES * step);
 }
@@ -128,7 +130,7 @@ uint16_t session_word(uint8_t step, uint8_t joint)
 uint8_t session_steps(void)
 {
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
-    return steps > PAGE_STEPS ? (uint8_t)PAGE_STEPS : steps;
+    return steps > PAGE_STEPS ? PAGE_STEPS : steps;
 }
 
 void session_update_trim(uint8_t joint)
@@ -136,7 +138,7 @@ void session_update_trim(uint8_t joint)
     uint16_t master = session_word(0, joint);
     uint16_t slave = session_word(1, joint);
     if (cell_is_position(master) && cell_is_position(slave)) {
-        session_set_word(cell_address(CELL_X_OFFSET, joint), (uint16_t)(slave - master));
+        session_set_word(cell_address(CELL_X_OFFSET, joint), slave - master);
     }
 }
 
@@ -148,7 +150,7 @@ static uint8_t stored_byte(uint8_t page, bool erased, uint16_t offset)
     return erased ? session_new_byte(offset) : page_store_byte(page, offset);
 }
 
-bool session_differs_from_flash(void)
+static bool differs_from_flash(void)
 {
     bool erased = page_store_is_erased(the_session.page);
     for (uint16_t offset = 0; offset < PAGE_BYTES; offset++) {
@@ -217,7 +219,7 @@ void session_replaced(void)
 {
     undo_clear(&the_session.undo);
     session_mark_all();
-    the_session.is_changed = session_differs_from_flash();
+    the_session.is_changed = differs_from_flash();
 }
 
 /* ---- checks ---- */
@@ -275,13 +277,148 @@ void session_move(session_way_t way)
         enter_row((uint8_t)(the_session.y - 1u));
         break;
     case SESSION_DOWN:
-        enter_row((uint8_t)(the_session.y + 1u));
+        enter_row(the_session.y + 1u);
         break;
     case SESSION_RIGHT:
-        enter((uint8_t)(the_session.x + 1u), the_session.y);
+        enter(the_session.x + 1u, the_session.y);
         break;
     case SESSION_LEFT:
         enter((uint8_t)(the_session.x - 1u), the_session.y);
         break;
     }
+}
+
+/* ---- editing commands and their undo ----
+ *
+ * Small changes are noted (undo.h). A larger one is undone from the spare page, which has the page as it was, until a
+ * play needs that memory. */
+
+static void begin(uint8_t turn)
+{
+    the_session.was_changed = the_session.is_changed;
+    the_session.undo_reloads = false;
+    the_session.spare_for = SESSION_SPARE_NONE;
+    if (the_session.spare != NULL) {
+        memcpy(the_session.spare, the_session.cells, PAGE_BYTES);
+    }
+    undo_begin(&the_session.undo, turn);
+}
+
+void session_begin(void)
+{
+    begin(UNDO_TURN_NONE);
+}
+
+static uint16_t crc_of_spare(void)
+{
+    return crc16_bytes(CRC16_START, the_session.spare, PAGE_BYTES);
+}
+
+static void keep_spare(uint8_t what_for)
+{
+    if (the_session.spare != NULL) {
+        the_session.spare_for = what_for;
+        the_session.spare_crc = crc_of_spare();
+    }
+}
+
+/* Exchanges the page and the spare page, if that is intact and meant for this direction. */
+static bool exchange_spare(bool back)
+{
+    if (the_session.spare == NULL || the_session.spare_for != (back ? SESSION_SPARE_UNDO : SESSION_SPARE_REDO) ||
+        the_session.spare_crc != crc_of_spare()) {
+        return false;
+    }
+    for (uint16_t address = 0; address < PAGE_BYTES; address++) {
+        uint8_t bits = the_session.spare[address] ^ the_session.cells[address];
+        if (bits != 0) {
+            the_session.spare[address] ^= bits;
+            change_byte(address, bits);
+        }
+    }
+    keep_spare(back ? SESSION_SPARE_REDO : SESSION_SPARE_UNDO);
+    return true;
+}
+
+bool session_end(void)
+{
+    bool kept = undo_end(&the_session.undo);
+    the_session.is_changed = differs_from_flash();
+    if (kept) {
+        return true;
+    }
+    the_session.undo_reloads = !the_session.was_changed;
+    keep_spare(SESSION_SPARE_UNDO);
+    return the_session.undo_reloads || the_session.spare_for != SESSION_SPARE_NONE;
+}
+
+static void swap_steps(uint8_t a, uint8_t b)
+{
+    uint16_t at_a = session_step_at(a), at_b = session_step_at(b);
+    for (uint8_t i = 0; i < PAGE_STEP_BYTES; i++, at_a++, at_b++) {
+        uint8_t bits = the_session.cells[at_a] ^ the_session.cells[at_b];
+        if (bits != 0) {
+            change_byte(at_a, bits);
+            change_byte(at_b, bits);
+        }
+    }
+}
+
+/* Permutes steps. UP first last: first -> first+1 -> .. -> last -> first; DOWN is its inverse. Rotations are made of swaps
+ * of neighbours, which need no spare step. */
+static void turn_steps(void *context __attribute__((unused)), uint8_t turn, bool back)
+{
+    uint8_t first = (turn >> 3) & 7u;
+    uint8_t last = turn & 7u;
+    uint8_t kind = turn & 0xC0u;
+    if (kind == UNDO_TURN_SWAP) {
+        swap_steps(first, last);
+        return;
+    }
+    if (kind == UNDO_TURN_NONE) {
+        return;
+    }
+    if ((kind == UNDO_TURN_UP) != back) {
+        for (uint8_t step = last; step > first; step--) {
+            swap_steps((uint8_t)(step - 1u), step);
+        }
+    } else {
+        for (uint8_t step = first; step < last; step++) {
+            swap_steps(step, step + 1u);
+        }
+    }
+}
+
+static void flip_byte(void *context __attribute__((unused)), uint16_t address, uint8_t bits)
+{
+    change_byte(address, bits);
+}
+
+void session_begin_turn(uint8_t turn)
+{
+    begin(turn);
+    turn_steps(NULL, turn, false);
+}
+
+static bool travel(bool back)
+{
+    undo_target_t target = { NULL, flip_byte, turn_steps };
+    bool done = (back ? undo_back(&the_session.undo, &target) : undo_forth(&the_session.undo, &target)) ||
+                exchange_spare(back);
+    if (!done && back && the_session.undo_reloads) {
+        session_open(the_session.page);
+        return true;
+    }
+    the_session.is_changed = differs_from_flash();
+    return done;
+}
+
+bool session_undo(void)
+{
+    return travel(true);
+}
+
+bool session_redo(void)
+{
+    return travel(false);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * session.h - the state of editing: one page in RAM, the work pose behind it, the cursor, undo.
+ * session.h - the state of editing: one page in RAM, the work pose after it, the cursor, undo.
  * Knows neither terminal nor servo. Reads flash through page_store.h, never writes it. Every change of a byte goes
  * through here: it is noted for undo and its cell is marked for the screen. One instance; main loop only.
- * RAM: 576 bytes of cells, 384 of undo, 66 of marks, 14 more. */
+ * RAM: one session_t; most of it is the cells and the undo history. */
 #ifndef SESSION_H
 #define SESSION_H
 
@@ -19,7 +19,7 @@ enum {
     MARK_CELLS = 0x03FF,
     MARK_LABEL = 0x0400,        /* left of the work pose */
     MARK_HEADER_LABEL = 0x0800, /* left of X9 */
-    MARK_STEP_SHIFT = 12,       /* bits 12..15: the step marker as it stands on the screen now */
+    MARK_STEP_SHIFT = 12,       /* bits 12..15: the step marker as it is on the screen now */
     MARK_STEP_NONE = 8          /* no marker on the screen */
 };
 
@@ -109,7 +109,7 @@ void session_replaced(void);
 void session_mark(uint8_t x, uint8_t y);
 void session_mark_all(void);
 
-/* Moves the cursor one cell (editor-original.md section 4), unless there is none. */
+/* Moves the cursor one cell (ORIGINAL.md section 4), unless there is none. */
 typedef enum { SESSION_UP, SESSION_DOWN, SESSION_RIGHT, SESSION_LEFT } session_way_t;
 void session_move(session_way_t way);
 

@@ -35,7 +35,7 @@ static uint16_t record_at(const undo_t *undo, uint8_t index)
 {
     uint16_t at = 0;
     while (index > 0) {
-        at = (uint16_t)(at + word_at(undo, at));
+        at += word_at(undo, at);
         index--;
     }
     return at;
@@ -44,11 +44,11 @@ static uint16_t record_at(const undo_t *undo, uint8_t index)
 static void drop_oldest(undo_t *undo)
 {
     uint16_t bytes = word_at(undo, 0);
-    memmove(undo->log, &undo->log[bytes], (size_t)(undo->used - bytes));
-    undo->used = (uint16_t)(undo->used - bytes);
-    undo->open_at = (uint16_t)(undo->open_at - bytes);
+    memmove(undo->log, &undo->log[bytes], undo->used - bytes);
+    undo->used -= bytes;
+    undo->open_at -= bytes;
     if (undo->run_at != 0) {
-        undo->run_at = (uint16_t)(undo->run_at - bytes);
+        undo->run_at -= bytes;
     }
     undo->count--;
     undo->applied--;
@@ -77,7 +77,7 @@ static void open_record(undo_t *undo)
     undo->open = true;
     if (make_room(undo, RECORD_HEADER_BYTES)) {
         undo->log[undo->open_at + 2u] = undo->pending_turn;
-        undo->used = (uint16_t)(undo->used + RECORD_HEADER_BYTES);
+        undo->used += RECORD_HEADER_BYTES;
     }
 }
 
@@ -105,7 +105,7 @@ static void append_byte(undo_t *undo, uint8_t bits)
 {
     if (make_room(undo, 1)) {
         uint16_t run = undo->run_at;
-        set_run(undo, run, run_address(undo, run), (uint8_t)(run_bytes(undo, run) + 1u));
+        set_run(undo, run, run_address(undo, run), run_bytes(undo, run) + 1u);
         undo->log[undo->used++] = bits;
     }
 }
@@ -116,7 +116,7 @@ static void append_run(undo_t *undo, uint16_t address, uint8_t bits)
         undo->run_at = undo->used;
         set_run(undo, undo->run_at, address, 1);
         undo->log[undo->used + RUN_HEADER_BYTES] = bits;
-        undo->used = (uint16_t)(undo->used + RUN_HEADER_BYTES + 1u);
+        undo->used += RUN_HEADER_BYTES + 1u;
     }
 }
 
@@ -133,7 +133,7 @@ void undo_note(undo_t *undo, uint16_t address, uint8_t bits)
         return;
     }
     uint8_t bytes = run_bytes(undo, undo->run_at);
-    uint16_t end = (uint16_t)(run_address(undo, undo->run_at) + bytes);
+    uint16_t end = run_address(undo, undo->run_at) + bytes;
     /* A gap of one byte is noted as an unchanged byte, which is shorter than a new run. */
     if (address == end + 1u && bytes < RUN_MAX_BYTES - 1) {
         append_byte(undo, 0);
@@ -152,7 +152,7 @@ bool undo_end(undo_t *undo)
     if (undo->lost) {
         undo_clear(undo);
     } else if (undo->open) {
-        put_word(undo, undo->open_at, (uint16_t)(undo->used - undo->open_at));
+        put_word(undo, undo->open_at, undo->used - undo->open_at);
         undo->count++;
         undo->applied = undo->count;
         undo->open = false;
@@ -166,8 +166,8 @@ static void flip_runs(const undo_t *undo, uint16_t record, const undo_target_t *
     const uint8_t *run = &undo->log[record];
     const uint8_t *end = run + word_at(undo, record);
     for (run += RECORD_HEADER_BYTES; run < end;) {
-        uint16_t address = (uint16_t)(run[0] | (run[1] & 1u) << 8);
-        uint8_t bytes = (uint8_t)((run[1] >> 1) + 1u);
+        uint16_t address = run[0] | (run[1] & 1u) << 8;
+        uint8_t bytes = (run[1] >> 1) + 1u;
         for (run += RUN_HEADER_BYTES; bytes > 0; bytes--) {
             target->flip(target->context, address++, *run++);
         }

@@ -3,7 +3,7 @@
  * Knows bytes and addresses, nothing of pages, screens or servos. Caller-owned, main loop only.
  *
  * A record is a turn of the steps (a permutation, so it can be turned back) followed by runs of changed bits
- * (old XOR new), so that the same record undoes and redoes. Records lie one behind the other; the oldest are dropped
+ * (old XOR new), so that the same record undoes and redoes. Records lie one after the other; the oldest are dropped
  * when a new one needs the room:
  *
  *   record = size (2 bytes, all of it) turn (1) { address:9 length-1:7 (2 bytes) bits (length bytes) }*

@@ -3,6 +3,7 @@
 #include "board.h"
 #include "console.h"
 #include "monitor.h"
+#include "report.h"
 #include "system.h"
 #include "text.h"
 
@@ -23,6 +24,9 @@ static void take(uint8_t byte)
     text_line_end();
     if (event == SHELL_LINE) {
         monitor_line(&shell);
+    } else {
+        shell_print_refusal(&shell);
+        text_line_end();
     }
     shell_clear(&shell);
     monitor_prompt();
@@ -37,12 +41,14 @@ int main(void)
     shell_init(&shell, line, sizeof line, history, sizeof history);
     monitor_init();
     text_line_end();
+    report_failed_assert();
     TEXT("Motion512 Monitor. HELP lists the words, EXIT restarts.");
     text_line_end();
     monitor_prompt();
     for (;;) {
         system_kick();
         if (console_get(&byte)) {
+            shell_lose(&shell, console_lost());
             take(byte);
         } else {
             board_idle();

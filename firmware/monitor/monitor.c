@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * monitor.c - prompt, lines and table of the servo bus monitor (editor-original.md section 11), and the words for the whole
+ * monitor.c - prompt, lines and table of the servo bus monitor (edit/ORIGINAL.md section 11), and the words for the whole
  * bus. The words for one servo: servo_words.c. */
 #include "monitor.h"
 
@@ -20,7 +20,7 @@ static bool hex;    /* numbers are hexadecimal */
 
 static WORD(mon_scan)
 {
-    search_ids(args->count > 1 ? (uint8_t)args->number[0] : (uint8_t)SCAN_LAST);
+    search_ids(args->count > 1 ? (uint8_t)args->number[0] : SCAN_LAST);
     return SHELL_OK;
 }
 

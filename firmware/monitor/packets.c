@@ -30,6 +30,7 @@ uint8_t packets_say_status(bus_status_t status)
                        : status == BUS_ERR_CHECKSUM ? TEXT_P("[Err:Wrong CheckSum]")
                        : status == BUS_ERR_FRAMING  ? TEXT_P("[Err:Wrong Header]")
                        : status == BUS_ERR_WRONG_ID ? TEXT_P("[Err:TxID != RxID]")
+                       : status == BUS_ERR_REJECTED ? TEXT_P("[Err:Rejected]")
                                                     : TEXT_P("[Err:Wrong Length]"));
 }
 
@@ -44,12 +45,12 @@ bool packets_exchange(uint8_t id, uint8_t instruction, uint8_t count)
     bool silent = id == DXL_BROADCAST && instruction != DXL_PING;
     uint8_t expected = silent ? BUS_NO_ANSWER : instruction == DXL_READ ? packets_params()[1] : 0;
     bus_status_t status = bus_call(id, instruction, packets_params(), count, expected, silent ? 1 : PACKETS_TRIES, &answer);
-    packets_print_bytes(TEXT_P("->[Dynamixel]:"), bus_packet(), (uint8_t)(bus_packet()[3] + 4u));
+    packets_print_bytes(TEXT_P("->[Dynamixel]:"), bus_packet(), bus_packet()[3] + 4u);
     text_line_end();
     if (silent) {
         return false;
     }
-    if (status == BUS_OK) {
+    if (status == BUS_OK || status == BUS_ERR_REJECTED) {
         packets_print_bytes(TEXT_P("<-[Dynamixel]: ID"), &answer.id, 1);
         packets_print_bytes(TEXT_P(" error"), &answer.error, 1);
         packets_print_bytes(TEXT_P(" :"), answer.params, answer.count);

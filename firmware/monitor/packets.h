@@ -14,10 +14,10 @@ enum { PACKETS_TRIES = 2 };
 uint8_t *packets_params(void);
 
 /* Sends the first `count` parameters, prints the packet and the answer or what is wrong with it. Blocks a few ms.
- * false: no good answer; also when none can come, after a broadcast. */
+ * false: no good answer, or one that rejects the packet; also when none can come, after a broadcast. */
 bool packets_exchange(uint8_t id, uint8_t instruction, uint8_t count);
 
-/* Prints " 0A 1B" behind a text. */
+/* Prints " 0A 1B" after a text. */
 void packets_print_bytes(const char *before_P, const uint8_t *bytes, uint8_t count);
 
 /* Prints a line, or the sentence for a failed packet. Both return SHELL_ERR_REPORTED, for handlers to return. */

@@ -32,7 +32,7 @@ static uint8_t take_bytes(const shell_args_t *args)
     }
     for (uint8_t i = 0; i < count; i++) {
         uint16_t byte;
-        if (!shell_take(args, (uint8_t)(i + 1u), RANGE_BYTE, &byte)) {
+        if (!shell_take(args, i + 1u, RANGE_BYTE, &byte)) {
             return 0;
         }
         packets_params()[i] = (uint8_t)byte;
@@ -43,7 +43,7 @@ static uint8_t take_bytes(const shell_args_t *args)
 static uint8_t send_bytes(const shell_args_t *args, uint8_t instruction)
 {
     uint8_t count = take_bytes(args);
-    return count == 0 ? (uint8_t)SHELL_ERR_RANGE : send(instruction, count);
+    return count == 0 ? SHELL_ERR_RANGE : send(instruction, count);
 }
 
 /* Writes the line's number to one address. */
@@ -91,7 +91,7 @@ WORD(servo_words_read)
 {
     packets_params()[0] = (uint8_t)args->number[0];
     packets_params()[1] = args->count > 2 ? (uint8_t)args->number[1] : 1u;
-    return is_one_servo() ? send(DXL_READ, 2) : (uint8_t)SHELL_ERR_REPORTED;
+    return is_one_servo() ? send(DXL_READ, 2) : SHELL_ERR_REPORTED;
 }
 
 WORD(servo_words_write)
@@ -168,7 +168,7 @@ WORD(servo_words_sync_write)
 WORD(servo_words_dump)
 {
     uint8_t row[DUMP_ROW];
-    for (uint8_t at = 0; at < TABLE_BYTES && is_one_servo(); at = (uint8_t)(at + DUMP_ROW)) {
+    for (uint8_t at = 0; at < TABLE_BYTES && is_one_servo(); at += DUMP_ROW) {
         bus_status_t status = bus_call_read(current, at, row, DUMP_ROW, NULL);
         if (status != BUS_OK) {
             return packets_say_status(status);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * servo_words.h - the words for the current servo, which CID chooses. Each sends a packet and shows it and its answer, byte
- * by byte (DUMP: the bytes alone). Handlers of shell.h without a context. Main loop only. RAM: 1 byte. */
+ * by byte (DUMP: the bytes alone). Handlers of shell.h without a context. Main loop only. */
 #ifndef SERVO_WORDS_H
 #define SERVO_WORDS_H
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * toss.c - the bridge between PC and servos. Packets from the console go to the bus unchanged, everything heard on the bus
- * goes to the console. Three ESC outside a packet end it. */
+ * goes to the console. Silence or a lost byte ends a packet that is not whole, so that it swallows none of the next.
+ * Three ESC outside a packet end the bridge. */
 #include "monitor.h"
 
 #include <string.h>
@@ -8,12 +9,15 @@
 #include "console.h"
 #include "ring.h"
 #include "system.h"
+#include "tick.h"
 
 enum { ESC = 0x1B, ESCAPES = 3, HEADER_BYTES = 4, LENGTH_AT = 3, LENGTH_MIN = 2 };
+enum { SILENCE_TICKS = 3 };   /* 16 to 23 ms: a USB adapter holds bytes back for less, a PC waits longer for an answer */
 
 typedef struct {
     uint8_t count;     /* bytes of the packet from the PC so far */
     uint8_t escapes;   /* ESC in a row, outside a packet */
+    uint16_t since;    /* the tick of the last byte */
     uint8_t packet[BUS_PACKET_BYTES];
 } toss_t;
 
@@ -22,7 +26,7 @@ static bool collect(toss_t *toss, uint8_t byte)
 {
     if (toss->count < 2 && byte != 0xFF) {
         toss->count = 0;
-        toss->escapes = byte == ESC ? (uint8_t)(toss->escapes + 1u) : 0;
+        toss->escapes = byte == ESC ? toss->escapes + 1u : 0;
         return false;
     }
     if (toss->count == 2 && byte == 0xFF) {
@@ -36,6 +40,23 @@ static bool collect(toss_t *toss, uint8_t byte)
         toss->count = 0;
     }
     return is_whole;
+}
+
+/* Takes what the PC has sent. true: a packet is complete. */
+static bool listen(toss_t *toss)
+{
+    uint8_t byte;
+    if ((uint16_t)(tick_now16() - toss->since) >= SILENCE_TICKS) {
+        toss->count = 0;
+    }
+    if (!console_get(&byte)) {
+        return false;
+    }
+    toss->since = tick_now16();
+    if (console_lost() != 0) {
+        toss->count = 0;
+    }
+    return collect(toss, byte);
 }
 
 static void pass_on(ring_t *heard)
@@ -59,14 +80,13 @@ static void send(toss_t *toss, ring_t *heard)
 
 void toss_run(uint8_t buffer[TOSS_BUFFER_BYTES])
 {
-    toss_t toss = { 0, 0, { 0 } };
+    toss_t toss = { 0, 0, tick_now16(), { 0 } };
     ring_t heard;
-    uint8_t byte;
     ring_init(&heard, buffer, TOSS_BUFFER_BYTES);
     bus_set_tap(&heard);
     while (toss.escapes < ESCAPES) {
         system_kick();
-        if (console_get(&byte) && collect(&toss, byte)) {
+        if (listen(&toss)) {
             send(&toss, &heard);
         }
         (void)bus_poll(NULL);

@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "commands.h"
 
-#include "commands_parts.h"
+#include <string.h>
+#include "commands_motion.h"
+#include "pgm.h"
+#include "ranges_own.h"
 #include "text.h"
 #include "views.h"
+
+/* ---- what views.h prints ---- */
 
 static uint8_t do_list(void *context, const shell_args_t *args)
 {
@@ -52,6 +57,92 @@ static uint8_t do_servos(void *context, const shell_args_t *args)
     return REQUEST_OK;
 }
 
+/* ---- law, remote, settings: what EEPROM keeps ---- */
+
+static void save(play_t *play)
+{
+    settings_save_start(&play->store);
+}
+
+/* Sets 0, 1, ... by one of several words (settings_word_P). Prints the present word if the line has none. */
+static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, const char *words_P)
+{
+    const char *word_P;
+    if (args->count == 1) {
+        text_P(settings_word_P(words_P, *setting));
+        text_line_end();
+        return REQUEST_OK;
+    }
+    for (uint8_t value = 0; pgm_read_byte(word_P = settings_word_P(words_P, value)) != '\0'; value++) {
+        if (shell_word_is(args, 1, word_P)) {
+            *setting = value;
+            save(play);
+            return REQUEST_OK;
+        }
+    }
+    TEXT("Say ");
+    for (word_P = words_P; pgm_read_byte(word_P) != '\0'; word_P = settings_word_P(word_P, 1)) {
+        if (word_P != words_P) {
+            TEXT(" or ");
+        }
+        text_P(word_P);
+    }
+    return SHELL_ERR_REPORTED;
+}
+
+static uint8_t do_law(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    return choose(play, args, &play->settings.law, settings_laws_P);
+}
+
+static uint8_t do_remote(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    return choose(play, args, &play->settings.remote_mode, settings_remotes_P);
+}
+
+static uint8_t set_one(play_t *play, const shell_args_t *args)
+{
+    for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
+        settings_item_t item;
+        settings_item(i, &item);
+        if (shell_word_is(args, 1, item.name)) {
+            uint16_t value;
+            if (!shell_parse(shell_word(args, 2), false, &value) || !settings_set(&play->settings, &item, value)) {
+                shell_print_range(item.name, item.low, item.high, false);
+                return SHELL_ERR_REPORTED;
+            }
+            save(play);
+            return REQUEST_OK;
+        }
+    }
+    TEXT("No setting is named ");
+    text_string(shell_word(args, 1));
+    return SHELL_ERR_REPORTED;
+}
+
+static uint8_t do_settings(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    if (args->count == 3) {
+        return set_one(play, args);
+    }
+    if (args->count == 2) {
+        if (!shell_word_is(args, 1, PSTR("defaults"))) {
+            TEXT("Say settings, settings name value, or settings defaults");
+            return SHELL_ERR_REPORTED;
+        }
+        settings_defaults(&play->settings);
+        save(play);
+        return REQUEST_OK;
+    }
+    views_print_settings(play);
+    return REQUEST_OK;
+}
+
+/* ---- the tables, help ---- */
+
 static uint8_t do_help(void *context, const shell_args_t *args);
 
 TEXT_NAMED(word_play, "play p n|name  plays a page");
@@ -69,7 +160,7 @@ TEXT_NAMED(word_swing, "swing  id centre amplitude ms [phase]  likewise, to and 
 TEXT_NAMED(word_free, "free  [id ...]  ends aim and swing");
 TEXT_NAMED(word_shape, "shape  [reset]  what of this is in force");
 
-const shell_command_t commands_shared_P[COMMANDS_SHARED] PROGMEM = {
+static const shell_command_t shared[] PROGMEM = {
     { word_play, commands_do_play, SHELL_ARGS(1, 6), 0 },
     { word_stop, commands_do_stop, SHELL_ARGS(0, 0), 0 },
     { word_break, commands_do_break, SHELL_ARGS(0, 0), 0 },
@@ -85,6 +176,7 @@ const shell_command_t commands_shared_P[COMMANDS_SHARED] PROGMEM = {
     { word_free, commands_do_free, SHELL_ARGS(0, SHELL_ANY_ARGS), 0 },
     { word_shape, commands_do_shape, SHELL_ARGS(0, 1), 0 },
 };
+const requests_table_t commands_shared = { shared, ARRAY_COUNT(shared) };
 
 TEXT_NAMED(word_code, "code  n  a code 0..255, as from the remote");
 TEXT_NAMED(word_on, "on  [id ...]  torque on, holding the pose");
@@ -107,9 +199,9 @@ static const shell_command_t typed[] PROGMEM = {
     { word_status, do_status, SHELL_ARGS(0, 0), 0 },
     { word_servos, do_servos, SHELL_ARGS(0, 1), 0 },
     { word_faults, do_faults, SHELL_ARGS(0, 0), 0 },
-    { word_law, commands_do_law, SHELL_ARGS(0, 1), 0 },
-    { word_remote, commands_do_remote, SHELL_ARGS(0, 1), 0 },
-    { word_settings, commands_do_settings, SHELL_ARGS(0, 2), 0 },
+    { word_law, do_law, SHELL_ARGS(0, 1), 0 },
+    { word_remote, do_remote, SHELL_ARGS(0, 1), 0 },
+    { word_settings, do_settings, SHELL_ARGS(0, 2), 0 },
     { word_version, do_version, SHELL_ARGS(0, 0), 0 },
     { word_help, do_help, SHELL_ARGS(0, 1), 0 },
 };
@@ -125,7 +217,7 @@ static uint8_t do_help(void *context, const shell_args_t *args)
 {
     (void)context;
     if (args->count == 2) {
-        const shell_command_t *command = shell_find(commands_shared_P, COMMANDS_SHARED, args, 1);
+        const shell_command_t *command = shell_find(shared, ARRAY_COUNT(shared), args, 1);
         command = command != NULL ? command : shell_find(typed, ARRAY_COUNT(typed), args, 1);
         if (command == NULL) {
             return SHELL_ERR_UNKNOWN;
@@ -133,7 +225,7 @@ static uint8_t do_help(void *context, const shell_args_t *args)
         shell_print_help(command);
         return REQUEST_OK;
     }
-    print_help(commands_shared_P, COMMANDS_SHARED);
+    print_help(shared, ARRAY_COUNT(shared));
     print_help(typed, ARRAY_COUNT(typed));
     return REQUEST_OK;
 }

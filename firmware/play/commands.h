@@ -7,8 +7,7 @@
 #include "play.h"
 
 /* For persons and, with '@' in front, for programs. */
-#define COMMANDS_SHARED 14u
-extern const shell_command_t commands_shared_P[COMMANDS_SHARED];
+extern const requests_table_t commands_shared;
 
 /* Runs the shell's complete line and prints its answer with CR LF. */
 void commands_run(play_t *play);

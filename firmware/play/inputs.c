@@ -21,35 +21,44 @@ void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *p
 
 /* ---- codes ---- */
 
-static void refuse(inputs_t *inputs, const inputs_refusal_t *refusal)
-{
-    inputs->refusal = *refusal;
-    inputs->refused = true;
-}
-
-static void call(inputs_t *inputs, uint8_t code, bool held)
+static void call(inputs_t *inputs, uint8_t code)
 {
     inputs_refusal_t refusal = {.code = code};
     refusal.page = page_store_find_code(inputs->pages, code);
     refusal.no_page = refusal.page == 0;
     if (!refusal.no_page) {
-        refusal.status = (uint8_t)performer_start(inputs->performer, refusal.page, code);
+        refusal.status = performer_start(inputs->performer, refusal.page, code);
         refusal.page = inputs->performer->fault_page;
         refusal.fault = inputs->performer->fault;
     }
-    if ((refusal.no_page || refusal.status != PERFORMER_OK) && !held) {
-        refuse(inputs, &refusal);
+    if (refusal.no_page || refusal.status != PERFORMER_OK) {
+        inputs->refusal = refusal;
+        inputs->refused = true;
     }
 }
 
 void inputs_code(inputs_t *inputs, uint8_t code)
 {
-    const bool held = code == inputs->code;
-    inputs->code = code;
     if (!performer_is_idle(inputs->performer)) {
         performer_code(inputs->performer, code);
     } else if (code != LINK_CODE_NONE && code != LINK_CODE_STOP) {
-        call(inputs, code, held);
+        call(inputs, code);
+    }
+}
+
+/* `down` are the buttons that a source holds now, `code` is what they ask for. A play that runs takes every code. A play
+ * starts on a press only: other buttons than before, and one of them was not down during a play or a stop. So a held button
+ * does not start again what somebody has stopped, nor do fingers that leave a chord one after the other. */
+static void take_buttons(inputs_t *inputs, inputs_held_t *held, uint8_t down, uint8_t code)
+{
+    const bool pressed = down != held->down && (down & ~held->spent) != 0;
+    held->down = down;
+    held->spent &= down;
+    if (pressed || !performer_is_idle(inputs->performer)) {
+        inputs_code(inputs, code);
+    }
+    if (!performer_is_idle(inputs->performer)) {
+        held->spent = down;
     }
 }
 
@@ -70,26 +79,31 @@ bool inputs_next_refusal(inputs_t *inputs, inputs_refusal_t *refusal)
     return true;
 }
 
-/* Whether L and R steer, and are no part of the code. NOINLINE: it would be copied twice. */
-static NOINLINE bool steers(const inputs_t *inputs)
+/* Whether L and R steer, and are no part of the code. */
+static bool steers(const inputs_t *inputs)
 {
     return inputs->settings->remote_mode == SETTINGS_REMOTE_DRIVE && steer_is_possible(inputs->performer);
 }
 
-/* A remote repeats its packet while buttons are down. Stop and pause act once, when they are pressed. Codes act with every
- * packet, so that a lost one does not matter. */
+/* A remote repeats its packet while buttons are down. Stop and pause act once, when they are pressed. Codes reach a play
+ * with every packet, so that a lost one does not matter. */
 static void take_packet(inputs_t *inputs)
 {
     const uint16_t buttons = inputs->remote.buttons;
     uint8_t code;
     const uint8_t act_before = inputs->remote_act;
-    const uint8_t act = (uint8_t)remote_act(buttons, &code);
+    const uint8_t act = remote_act(buttons, &code);
+    const uint8_t down = (uint8_t)buttons;
     inputs->remote_act = act;
-    inputs->remote_buttons = (uint8_t)buttons;
     inputs->silent_ticks = buttons == 0 ? INPUTS_SILENCE_TICKS : 0;
     if (act == REMOTE_ACT_CODE) {
-        inputs_code(inputs, steers(inputs) ? (uint8_t)(code & ~(REMOTE_LEFT | REMOTE_RIGHT)) : code);
-    } else if (act != act_before) {
+        take_buttons(inputs, &inputs->remote_held, down,
+                     steers(inputs) ? (uint8_t)(code & ~(REMOTE_LEFT | REMOTE_RIGHT)) : code);
+        return;
+    }
+    inputs->remote_held.down = down;
+    inputs->remote_held.spent = down;
+    if (act != act_before) {
         if (act == REMOTE_ACT_STOP) {
             inputs_code(inputs, LINK_CODE_STOP);
         } else {
@@ -100,12 +114,28 @@ static void take_packet(inputs_t *inputs)
 
 /* ---- bytes ---- */
 
+static void note_hole(inputs_t *inputs, uint8_t count)
+{
+    inputs->holes = (uint8_t)(inputs->holes > INPUTS_HOLE_MAX - count ? INPUTS_HOLE_MAX : inputs->holes + count);
+}
+
+/* Keeps a typed byte, and before it how many were lost there. */
+static void keep(inputs_t *inputs, uint8_t byte)
+{
+    if (inputs->holes != 0 && ring_room(&inputs->typed) >= 2u) {
+        (void)ring_put(&inputs->typed, (uint8_t)(INPUTS_HOLE | inputs->holes));
+        inputs->holes = 0;
+    }
+    if (inputs->holes != 0 || !ring_put(&inputs->typed, byte)) {
+        note_hole(inputs, 1);
+        inputs->lost = (uint16_t)(inputs->lost + (inputs->lost < INPUTS_LOST_MAX ? 1 : 0));
+    }
+}
+
 static void keep_typed(inputs_t *inputs)
 {
     for (uint8_t i = 0; i < inputs->remote.text_count; i++) {
-        if (!ring_put(&inputs->typed, inputs->remote.text[i]) && inputs->lost < INPUTS_LOST_MAX) {
-            inputs->lost++;
-        }
+        keep(inputs, inputs->remote.text[i]);
     }
 }
 
@@ -126,6 +156,8 @@ void inputs_take(inputs_t *inputs)
     uint8_t byte;
     while (console_get(&byte)) {
         inputs->quiet_ticks = 0;
+        const uint8_t lost = console_lost();
+        note_hole(inputs, lost < INPUTS_HOLE_MAX ? lost : INPUTS_HOLE_MAX);
         switch (remote_byte(&inputs->remote, byte)) {
         case REMOTE_PACKET:
             take_packet(inputs);
@@ -156,17 +188,19 @@ static void take_panel(inputs_t *inputs)
     }
     const uint8_t changed = buttons ^ inputs->panel_buttons;
     inputs->panel_buttons = buttons;
+    const uint8_t arrows = buttons & PANEL_ARROWS;
     if ((changed & PANEL_ARROWS) != 0) {
-        inputs_code(inputs, buttons & PANEL_ARROWS);
+        take_buttons(inputs, &inputs->panel_held, arrows, arrows);
     }
     if ((changed & buttons & PANEL_START) != 0) {
+        inputs->panel_held.spent = arrows;
         inputs_code(inputs, LINK_CODE_STOP);
     }
 }
 
 static void steer(inputs_t *inputs)
 {
-    const uint8_t held = inputs->remote_buttons;
+    const uint8_t held = inputs->remote_held.down;
     const int8_t direction = (int8_t)(((held & REMOTE_RIGHT) != 0) - ((held & REMOTE_LEFT) != 0));
     steer_tick(&inputs->steer, inputs->performer, direction != 0 && steers(inputs) ? direction : 0);
 }
@@ -182,8 +216,9 @@ void inputs_tick(inputs_t *inputs)
     }
     if (inputs->silent_ticks < INPUTS_SILENCE_TICKS && ++inputs->silent_ticks == INPUTS_SILENCE_TICKS) {
         inputs->remote_act = REMOTE_ACT_CODE;
-        inputs->remote_buttons = 0;
-        if (inputs->settings->remote_mode == LINK_HOLD && inputs->code != LINK_CODE_NONE) {
+        inputs->remote_held.down = 0;
+        inputs->remote_held.spent = 0;
+        if (inputs->settings->remote_mode == LINK_HOLD) {
             inputs_code(inputs, LINK_CODE_NONE);
         }
     }

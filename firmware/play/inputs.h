@@ -2,7 +2,7 @@
  * inputs.h - the sources of codes (remote control, panel, serial port) and the typed text between them.
  * Takes the console's bytes. Hands remote packets to the performer at once and keeps typed text for the shell, so that a
  * stop on the remote never waits for a long answer. Prints nothing. Main loop only. Caller-owned;
- * RAM: sizeof(inputs_t), 192 bytes. Source: remote.md. */
+ * RAM: one inputs_t. Source: REMOTE.md. */
 #ifndef INPUTS_H
 #define INPUTS_H
 
@@ -16,7 +16,7 @@
 #include "steer.h"
 
 #define INPUTS_TYPED_BYTES 128u
-#define INPUTS_SILENCE_TICKS 64u  /* hold mode: 500 ms without a packet is a stop */
+#define INPUTS_SILENCE_TICKS 64u  /* 500 ms without a packet: nothing is held any more; in hold mode a stop */
 #define INPUTS_LOST_MAX (UINT16_MAX - UINT8_MAX)   /* so that the sum with the console's own count fits 16 bits */
 #define INPUTS_QUIET_TICKS 4u     /* an unfinished packet is dropped after 24..31 ms */
 
@@ -28,17 +28,24 @@ typedef struct {
     uint8_t page, fault;
 } inputs_refusal_t;
 
+/* The buttons of one source. */
 typedef struct {
-    uint16_t lost;          /* typed bytes dropped because the shell was too far behind; stops at INPUTS_LOST_MAX */
+    uint8_t down;           /* held now */
+    uint8_t spent;          /* down since a play or a stop: they start nothing until they were up */
+} inputs_held_t;
+
+typedef struct {
+    uint16_t lost;          /* typed bytes dropped because the shell was too slow; stops at INPUTS_LOST_MAX */
     /* Private. */
     performer_t *performer;
     const page_store_t *pages;
     const settings_t *settings;
     remote_t remote;
     uint8_t remote_act;        /* remote_act_t of the packet before, to find presses */
-    uint8_t remote_buttons;    /* its first eight buttons */
+    inputs_held_t remote_held; /* the first eight buttons */
+    inputs_held_t panel_held;  /* the arrows */
     uint8_t panel_buttons;
-    uint8_t code;              /* the last code, from any source */
+    uint8_t holes;             /* bytes lost before the next typed one */
     uint8_t silent_ticks;      /* since the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
     uint8_t quiet_ticks;       /* since the last byte */
     bool panel_was_free : 1;   /* all buttons were up once: one held since power-on is no press */
@@ -54,17 +61,19 @@ void inputs_init(inputs_t *inputs, performer_t *performer, const page_store_t *p
 
 /* These two are NOINLINE: inlined, they would compute the address of inputs_t from that of play_t each time (100 bytes). */
 
-/* Call in every turn of the main loop: takes the console's bytes. With the setting `flow` sends XOFF while the shell is
- * behind. A PC that ignores it loses typed bytes, never remote packets. */
-void inputs_take(inputs_t *inputs) NOINLINE;
+/* Call in every turn of the main loop: takes the console's bytes. With the setting `flow` sends XOFF while the shell
+ * cannot follow. A PC that ignores it loses typed bytes, never remote packets. */
+void inputs_take(inputs_t *inputs);
 
 /* Call once a tick, after panel_tick. */
-void inputs_tick(inputs_t *inputs) NOINLINE;
+void inputs_tick(inputs_t *inputs);
 
-/* The next typed byte. false: none. */
+/* The next typed byte (below 0x80), or INPUTS_HOLE + n: here n bytes were lost (at most INPUTS_HOLE_MAX). false: none. */
+#define INPUTS_HOLE 0x80u
+#define INPUTS_HOLE_MAX 127u
 bool inputs_get(inputs_t *inputs, uint8_t *byte);
 
-/* Handles a code 0..255 as if from the remote. If nothing plays, starts the lowest page that has it. */
+/* Handles a code 0..255 as if a button was pressed that has it. If nothing plays, starts the lowest page that has it. */
 void inputs_code(inputs_t *inputs, uint8_t code);
 
 /* Pauses the play, or resumes it if paused. */

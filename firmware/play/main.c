@@ -42,7 +42,7 @@ static const char name[] PROGMEM = "play";
 TEXT_NAMED(can, ",shape,aim");
 const requests_image_t requests_image = {
     .name_P = name, .can_P = can, .performer = &play.performer, .servos = &play.servos, .pages = &play.pages,
-    .context = &play, .own_P = commands_shared_P, .own_count = COMMANDS_SHARED,
+    .context = &play, .own = &commands_shared,
     .where = tell_shape,
     .serve = serve, .restart = restart,
 };
@@ -128,14 +128,17 @@ static void take_typed(void)
     if (!inputs_get(&play.inputs, &byte)) {
         return;
     }
+    if (byte >= INPUTS_HOLE) {
+        shell_lose(&play.shell, (uint8_t)(byte - INPUTS_HOLE));
+        return;
+    }
     const shell_event_t event = shell_byte(&play.shell, byte);
     if (event == SHELL_TYPING) {
         return;
     }
     text_line_end();
-    if (event == SHELL_TOO_LONG) {
-        TEXT("The line is too long: nothing was done");
-        text_line_end();
+    if (event == SHELL_REFUSED) {
+        requests_refuse_line(&play.shell);
     } else {
         commands_run(&play);
     }
@@ -146,6 +149,7 @@ static void take_typed(void)
 static void greet(settings_status_t settings)
 {
     text_line_end();
+    report_failed_assert();
     views_print_version();
     if (journal_is_pending()) { /* our loader would have completed it; Play cannot write flash */
         TEXT("A save was cut off: start Edit once, it completes the page");
@@ -159,7 +163,8 @@ static void greet(settings_status_t settings)
     prompt();
 }
 
-static void start(void)
+/* NOINLINE: else what the loading of settings needs, 100 bytes, lies on the stack below every tick. */
+static NOINLINE void start(void)
 {
     text_init(put);
     const settings_status_t status = settings_load(&play.store, &play.settings);

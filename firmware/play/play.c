@@ -16,7 +16,7 @@ typedef struct {
     uint8_t ticks_left; /* the lamp stays lit */
 } traffic_t;
 
-static NOINLINE void show_traffic(uint8_t led, uint8_t count, traffic_t *traffic)
+static void show_traffic(uint8_t led, uint8_t count, traffic_t *traffic)
 {
     if (count != traffic->count) {
         traffic->count = count;

@@ -14,7 +14,7 @@ bool steer_is_possible(const performer_t *performer)
 
 void steer_tick(steer_t *steer, performer_t *performer, int8_t direction)
 {
-    const int16_t wanted = (int16_t)(direction * STEER_FULL);
+    const int16_t wanted = direction * STEER_FULL;
     if (steer->at == wanted && wanted == 0) {
         return;
     }

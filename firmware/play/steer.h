@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * steer.h - the setting `remote drive`: L and R steer while a page with partners plays (shaping.md). It takes one second to
- * full, and one second back to straight after the button was let go. Main loop only. Caller-owned; RAM: 2 bytes. */
+ * steer.h - the setting `remote drive`: L and R steer while a page with partners plays (SHAPING.md). It takes one second to
+ * full, and one second back to straight after the button was let go. Main loop only. Caller-owned. */
 #ifndef STEER_H
 #define STEER_H
 

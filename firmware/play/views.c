@@ -44,7 +44,8 @@ static void print_page_line(uint8_t page, const uint8_t *header)
 void views_print_list(play_t *play)
 {
     uint8_t used = 0, damaged = 0;
-    for (uint8_t page = 1; page < PAGE_COUNT; page++) {
+    for (uint16_t number = 1; number < PAGE_COUNT; number++) {
+        const uint8_t page = (uint8_t)number;
         play_service(play); /* a page without a line takes up to 2 ms */
         if (page_store_is_good(&play->pages, page)) {
             uint8_t header[PAGE_AT_COMPLIANCE];
@@ -58,7 +59,7 @@ void views_print_list(play_t *play)
             damaged++;
             text_padded(page, 3, ' ');
             TEXT(" damaged: ");
-            text_P(report_page_fault_P((uint8_t)page_store_check(&play->pages, page)));
+            text_P(report_page_fault_P(page_store_check(&play->pages, page)));
             text_line_end();
         }
     }
@@ -91,7 +92,7 @@ static void print_state(const performer_t *performer)
         }
     }
     if (performer->state == PERFORMER_PLAY) {
-        text_P_number(TEXT_P(" step "), performer->engine.player.step);
+        text_P_number(TEXT_P(" step "), performer->engine.player.now.step);
         text_P_number(TEXT_P(" repetition "), performer->engine.player.repetition);
         text_P_number(TEXT_P(" code "), performer->link.code);
     }
@@ -157,7 +158,7 @@ void views_print_shape(const performer_t *performer)
     }
     text_P_number(TEXT_P(" layer="), performer_layer_page(performer));
     TEXT(" aim=");
-    text_mask(performer->layers->code_joints);
+    text_mask(performer->layers->code.joints);
 }
 
 /* ---- settings, version, refusals ---- */
@@ -170,8 +171,8 @@ void views_print_settings(const play_t *play)
         text_P(item.name);
         text_put(' ');
         text_number(settings_value(&play->settings, &item));
-        text_P_number(TEXT_P("  ("), item.range.low);
-        text_P_number(TEXT_P(".."), item.range.high);
+        text_P_number(TEXT_P("  ("), item.low);
+        text_P_number(TEXT_P(".."), item.high);
         TEXT(")  ");
         text_P(item.meaning);
         text_line_end();
@@ -207,12 +208,6 @@ void views_print_version(void)
     TEXT(", last reset: ");
     text_P(reset_text_P(system_reset_cause()));
     text_line_end();
-    uint16_t line;
-    uint32_t address;
-    if (system_take_failed_assert(&line, &address)) {
-        text_P_number(TEXT_P("The run before ended at line "), line);
-        text_line_end();
-    }
 }
 
 void views_print_refusal(const inputs_refusal_t *refusal)

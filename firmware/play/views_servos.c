@@ -8,9 +8,18 @@
 #include "text.h"
 #include "tick.h"
 
+static uint8_t count(uint32_t joints)
+{
+    uint8_t found = 0;
+    for (; joints != 0; joints &= joints - 1u) {
+        found++;
+    }
+    return found;
+}
+
 void views_print_servos_found(const play_t *play)
 {
-    text_number(servo_link_count(play->servos.present));
+    text_number(count(play->servos.present));
     TEXT(" servos: ");
     report_joints(play->servos.present);
     text_line_end();
@@ -21,7 +30,7 @@ void views_print_servos_found(const play_t *play)
     }
 }
 
-static NOINLINE bool is_in_trouble(const servo_link_t *servos, uint8_t id)
+static bool is_in_trouble(const servo_link_t *servos, uint8_t id)
 {
     return servo_link_has(&servos->silent, id) || servos->errors[id] != 0;
 }
@@ -95,13 +104,14 @@ void views_print_faults(const play_t *play)
     text_P_number(TEXT_P(" checksum "), bus.checksums);
     text_P_number(TEXT_P(" framing "), bus.framing);
     text_P_number(TEXT_P(" wrong ID "), bus.wrong_ids);
+    text_P_number(TEXT_P(" rejected "), bus.rejected);
     text_line_end();
     console_counts_t console;
     console_counts(&console);
     TEXT("Serial:");
     text_P_number(TEXT_P(" overruns "), console.overruns);
     text_P_number(TEXT_P(" framing "), console.framing);
-    text_P_number(TEXT_P(" lost "), (uint16_t)(console.ring_full + play->inputs.lost));
+    text_P_number(TEXT_P(" lost "), console.ring_full + play->inputs.lost);
     text_P_number(TEXT_P(" remote packets "), play->inputs.remote.packets);
     text_P_number(TEXT_P(" remote noise "), play->inputs.remote.dropped);
     text_line_end();

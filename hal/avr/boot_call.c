@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#include "hal/boot_call.h"
+#include "boot_call.h"
 
-#include "hal/compiler.h"
-#include "hal/flash.h"
+#include "compiler.h"
+#include "flash.h"
 
 #include <avr/eeprom.h>
 #include <avr/interrupt.h>

@@ -34,8 +34,8 @@ void clock_wait_us(uint16_t us)
     while (us > 0) {
         uint16_t part = us > 10000u ? 10000u : us;
         uint16_t since = clock_now();
-        while (!clock_is_past(clock_now(), since, (uint16_t)(part * CLOCK_PER_US))) {
+        while (!clock_is_past(clock_now(), since, part * CLOCK_PER_US)) {
         }
-        us = (uint16_t)(us - part);
+        us -= part;
     }
 }

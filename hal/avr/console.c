@@ -13,6 +13,8 @@
 #define QUIET ((1u << RXEN1) | (1u << TXEN1) | (1u << RXCIE1))
 #define TALKING (QUIET | (1u << UDRIE1))
 #define XOFF_AGAIN_BYTES 32u
+#define HOLES_MAX 0x7Fu
+#define HOLES_WIDE 0x80u
 
 static uint8_t rx_storage[CONSOLE_RX_BYTES], tx_storage[CONSOLE_TX_BYTES];
 
@@ -22,6 +24,9 @@ static struct {
     volatile uint8_t flow_byte;      /* XON or XOFF to go out first; 0: none */
     volatile uint8_t received, sent; /* ISR */
     volatile uint8_t lost;           /* the loader's page-write */
+    volatile uint8_t holes;          /* bytes lost, at most HOLES_MAX, HOLES_WIDE: in several places ... */
+    volatile uint8_t hole_at;        /* ... and the last of them before this place of rx (modulo 256) */
+    uint8_t lost_here;               /* for console_lost */
     volatile bool xoff_is_out;       /* under flow control: the PC was told to stop */
     volatile uint8_t since_xoff;     /* bytes that came after it, modulo XOFF_AGAIN_BYTES */
     volatile bool has_sent;          /* a byte was sent, so TXC is valid */
@@ -56,8 +61,8 @@ static void send_flow(uint8_t byte)
     UCSR1B = TALKING;
 }
 
-/* Lets the PC go on once nothing keeps it waiting. NOINLINE: it would be copied twice. */
-static NOINLINE void end_xoff(void)
+/* Lets the PC go on once nothing keeps it waiting. */
+static void end_xoff(void)
 {
     if (line.xoff_is_out && line.xoffs == 0 && ring_count(&line.rx) <= CONSOLE_XON_COUNT) {
         line.xoff_is_out = false;
@@ -65,13 +70,55 @@ static NOINLINE void end_xoff(void)
     }
 }
 
+/* Notes that bytes were lost before the next one that goes into the ring. ISR, or interrupts off. */
+static inline void note_hole(uint8_t count)
+{
+    const uint8_t at = line.rx.head, left = HOLES_MAX - (line.holes & HOLES_MAX);
+    const uint8_t wide = line.holes != 0 && at != line.hole_at ? HOLES_WIDE : (uint8_t)(line.holes & HOLES_WIDE);
+    line.holes = (uint8_t)(wide | ((line.holes & HOLES_MAX) + (count < left ? count : left)));
+    line.hole_at = at;
+}
+
+/* The loader only counts what it loses during a page-write: it may be missing anywhere in what waits. */
+static void take_losses_of_loader(void)
+{
+    const uint8_t lost = line.lost;
+    if (lost != 0) {
+        line.lost = 0;
+        line.counts.ring_full = (uint8_t)(line.counts.ring_full > 0xFFu - lost ? 0xFFu : line.counts.ring_full + lost);
+        note_hole(lost);
+        line.holes |= HOLES_WIDE;
+    }
+}
+
+/* The bytes lost before the place `at`, which is taken now. */
+static uint8_t take_holes(uint8_t at)
+{
+    irq_state_t state = irq_save();
+    take_losses_of_loader();
+    uint8_t lost = (uint8_t)(line.holes >> 7);
+    if (line.holes != 0 && at == line.hole_at) {
+        lost = line.holes & HOLES_MAX;
+        line.holes = 0;
+    }
+    irq_restore(state);
+    return lost;
+}
+
 bool console_get(uint8_t *byte)
 {
+    const uint8_t at = line.rx.tail;
     if (!ring_get(&line.rx, byte)) {
         return false;
     }
+    line.lost_here = take_holes(at);
     end_xoff();
     return true;
+}
+
+uint8_t console_lost(void)
+{
+    return line.lost_here;
 }
 
 uint8_t console_waiting(void)
@@ -174,9 +221,9 @@ uint8_t console_sent(void)
 void console_counts(console_counts_t *counts)
 {
     irq_state_t state = irq_save();
+    take_losses_of_loader();
     *counts = line.counts;
     irq_restore(state);
-    counts->ring_full = (uint8_t)(counts->ring_full + line.lost);
 }
 
 static inline void bump(uint8_t *count)
@@ -206,14 +253,17 @@ ISR(USART1_RX_vect)
     uint8_t byte = UDR1;
     if (status & (1u << DOR1)) {
         bump(&line.counts.overruns);
+        note_hole(1);
     }
     if (status & (1u << FE1)) {
         bump(&line.counts.framing);
+        note_hole(1);
         return;
     }
     line.received++;
     if (!ring_put(&line.rx, byte)) {
         bump(&line.counts.ring_full);
+        note_hole(1);
     }
     watch_room();
 }

@@ -16,15 +16,10 @@ void panel_init(void)
     debounce_init(&buttons, 0);
 }
 
-bool panel_is_there(void)
-{
-    return PINS_HAVE_PANEL;
-}
-
 void panel_set(uint8_t leds, bool on)
 {
     if (PINS_HAVE_PANEL) {
-        lit = (uint8_t)(on ? lit | leds : lit & (uint8_t)~leds);
+        lit = on ? lit | leds : lit & ~leds;
         pins_set_leds(lit);
     }
 }

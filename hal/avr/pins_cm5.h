@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * pins_cm5.h - what is wired to which pin of the CM-5. Chosen as BOARD_PINS_H. Source: board.md, "CM-5 pins". */
+ * pins_cm5.h - what is wired to which pin of the CM-5. Chosen as BOARD_PINS_H. Source: BOARD.md, "CM-5 pins". */
 #ifndef PINS_CM5_H
 #define PINS_CM5_H
 

@@ -46,6 +46,16 @@ void system_restart(void)
     }
 }
 
+bool system_is_asked_to_end(void)
+{
+    return false;
+}
+
+void system_end(void)
+{
+    system_restart();
+}
+
 /* SEI takes effect after the next instruction: no interrupt fits between it and SLEEP. */
 void system_sleep(void)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * trap.h - ASSERT, AVR version (host version: tests/fake/trap.h). For our own mistakes only, never for input from outside.
+ * trap.h - ASSERT, AVR version (host version: hal/host/trap.h). For our own mistakes only, never for input from outside.
  * A failed ASSERT notes its line and address in RAM that survives a reset, and restarts. The next start reports it
  * (system_take_failed_assert); avr-addr2line turns the address into a file name. RAM: 6 bytes of .noinit. */
 #ifndef TRAP_H

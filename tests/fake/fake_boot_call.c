@@ -2,7 +2,7 @@
 #include "fake_boot_call.h"
 
 #include "flash.h"
-#include "linker/memory_map.h"
+#include "memory_map.h"
 #include "trap.h"
 
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef FAKE_BOOT_CALL_H
 #define FAKE_BOOT_CALL_H
 
-#include "hal/boot_call.h"
+#include "boot_call.h"
 
 /* Erased flash, no calls, answers BOOT_OK. */
 void fake_boot_call_reset(void);

@@ -24,6 +24,9 @@ static bus_answer_t last;
 static uint8_t answer_params[FAKE_BUS_TABLE_BYTES];
 static uint8_t asked_params, tries;
 static uint8_t pending_size;
+static uint8_t pending[BUS_PACKET_BYTES];   /* the packet whose answer is awaited */
+static bool through_adapter, lost;
+static uint32_t waited;
 static bus_counts_t counters;
 static ring_t *tap;
 
@@ -37,6 +40,9 @@ void fake_bus_reset(void)
     polls_left = 0;
     result = BUS_OK;
     tap = NULL;
+    through_adapter = false;
+    lost = false;
+    pending_size = 0;
 }
 
 fake_servo_t *fake_bus_servo(uint8_t id)
@@ -45,7 +51,7 @@ fake_servo_t *fake_bus_servo(uint8_t id)
     return &servos[id];
 }
 
-/* Factory values of an AX-12 (dynamixel.md's control table; voltage 9.6 V, 30 degrees C). */
+/* Factory values of an AX-12 (DYNAMIXEL.md's control table; voltage 9.6 V, 30 degrees C). */
 fake_servo_t *fake_bus_add(uint8_t id, uint8_t servo_rate)
 {
     fake_servo_t *servo = fake_bus_servo(id);
@@ -72,6 +78,21 @@ fake_servo_t *fake_bus_add(uint8_t id, uint8_t servo_rate)
 void fake_bus_set_latency(uint8_t polls)
 {
     latency = polls;
+}
+
+void fake_bus_set_adapter(bool there)
+{
+    through_adapter = there;
+}
+
+uint32_t fake_bus_waited(void)
+{
+    return waited;
+}
+
+void fake_bus_lose(void)
+{
+    lost = true;
 }
 
 uint16_t fake_bus_word(uint8_t id, uint8_t at)
@@ -105,6 +126,7 @@ uint8_t fake_bus_packet_size(uint16_t index)
 void fake_bus_clear_log(void)
 {
     sent = 0;
+    waited = 0;
 }
 
 /* ---- what servos do ---- */
@@ -148,6 +170,12 @@ static bool execute(fake_servo_t *servo, const uint8_t *packet, uint8_t params)
 {
     uint8_t level = servo->table[DXL_AT_RETURN_LEVEL];
     last.count = 0;
+    last.error = servo->error;
+    if (servo->mishear_next > 0 && (packet[4] == DXL_WRITE || packet[4] == DXL_REG_WRITE)) {
+        servo->mishear_next--;
+        last.error |= DXL_ERR_CHECKSUM;
+        return level >= 2;
+    }
     switch (packet[4]) {
     case DXL_PING:
         return true;
@@ -206,8 +234,10 @@ static bus_status_t answer_of(fake_servo_t *servo, bool answers)
     if (servo->faults & FAKE_BUS_SHORT) {
         return BUS_ERR_LENGTH;
     }
-    last.error = servo->error;
     last.params = answer_params;
+    if (last.count == 0 && (last.error & DXL_REJECTED)) {
+        return BUS_ERR_REJECTED;
+    }
     return last.count == asked_params ? BUS_OK : BUS_ERR_LENGTH;
 }
 
@@ -237,6 +267,7 @@ static void count_result(void)
     counters.answers += result == BUS_OK && asked_params != BUS_NO_ANSWER;
     counters.timeouts = (uint16_t)(counters.timeouts + (result == BUS_ERR_TIMEOUT));
     counters.checksums = (uint16_t)(counters.checksums + (result == BUS_ERR_CHECKSUM));
+    counters.rejected = (uint16_t)(counters.rejected + (result == BUS_ERR_REJECTED));
 }
 
 static void check_packet(uint8_t size)
@@ -268,14 +299,14 @@ uint8_t bus_rate(void)
     return rate;
 }
 
-void bus_set_return_delay_us(uint16_t us)
+static bool may_send_between(void)
 {
-    ASSERT(us <= 508);
+    return through_adapter && asked_params != BUS_NO_ANSWER && tries == 1;
 }
 
 uint8_t *bus_packet(void)
 {
-    ASSERT(polls_left == 0);
+    ASSERT(polls_left == 0 || may_send_between());
     return outgoing;
 }
 
@@ -284,23 +315,55 @@ bool bus_is_busy(void)
     return bus_poll(NULL) == BUS_PENDING;
 }
 
+bool bus_is_free(void)
+{
+    return !bus_is_busy() || may_send_between();
+}
+
+void bus_wait_free(void)
+{
+    while (!bus_is_free()) {
+        waited++;
+    }
+}
+
+bool bus_was_lost(void)
+{
+    bool was_lost = lost;
+    lost = false;
+    return was_lost;
+}
+
+/* A packet without an answer leaves while one is awaited. */
+static bus_status_t send_between(uint8_t size)
+{
+    const uint8_t asked = asked_params;
+    check_packet(size);
+    asked_params = BUS_NO_ANSWER;
+    (void)send_once(size);
+    asked_params = asked;
+    return BUS_OK;
+}
+
 bus_status_t bus_submit(uint8_t size, uint8_t params, uint8_t allowed_tries)
 {
     ASSERT(allowed_tries >= 1 && allowed_tries <= BUS_TRIES_MAX);
     if (pending_size != 0) {
-        return BUS_ERR_BUSY;
+        return params == BUS_NO_ANSWER && may_send_between() ? send_between(size) : BUS_ERR_BUSY;
     }
     check_packet(size);
+    memcpy(pending, outgoing, size);
     asked_params = params;
     tries = allowed_tries;
     pending_size = size;
-    polls_left = latency;
+    polls_left = params == BUS_NO_ANSWER && through_adapter ? 0 : latency;
     result = BUS_PENDING;
     return BUS_PENDING;
 }
 
 static void finish(void)
 {
+    memcpy(outgoing, pending, pending_size);
     do {
         result = send_once(pending_size);
         counters.retries = (uint16_t)(counters.retries + (result != BUS_OK && tries > 1));
@@ -318,7 +381,7 @@ bus_status_t bus_poll(bus_answer_t *answer)
         }
         finish();
     }
-    if (answer != NULL && result == BUS_OK) {
+    if (answer != NULL && (result == BUS_OK || result == BUS_ERR_REJECTED)) {
         *answer = last;
     }
     return result;
@@ -332,21 +395,10 @@ bool bus_has_news(void)
 bus_status_t bus_wait(bus_answer_t *answer)
 {
     bus_status_t status;
-    do {
-        status = bus_poll(answer);
-    } while (status == BUS_PENDING);
-    return status;
-}
-
-void bus_cancel(void)
-{
-    if (pending_size != 0) {
-        tries = 1;
-        finish();
-        counters.cancelled++;
-        result = BUS_ERR_TIMEOUT;
-        polls_left = 0;
+    while ((status = bus_poll(answer)) == BUS_PENDING) {
+        waited++;
     }
+    return status;
 }
 
 void bus_set_tap(ring_t *ring)

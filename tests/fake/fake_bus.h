@@ -24,6 +24,7 @@ typedef struct {
     uint8_t faults;
     uint8_t error;                    /* error byte of its answers */
     uint8_t fail_next;                /* so many answers get lost first */
+    uint8_t mishear_next;             /* so many WRITEs and REG WRITEs arrive damaged: not obeyed, answered with an error */
     uint8_t registered[8];            /* REG WRITE: address, count, data */
     uint8_t table[FAKE_BUS_TABLE_BYTES];
 } fake_servo_t;
@@ -32,6 +33,11 @@ void fake_bus_reset(void);                        /* nobody there, 1 Mbps, count
 fake_servo_t *fake_bus_add(uint8_t id, uint8_t rate); /* AX-12 with factory values, standing at 512, torque off */
 fake_servo_t *fake_bus_servo(uint8_t id);
 void fake_bus_set_latency(uint8_t polls);         /* bus_poll says BUS_PENDING so often first; default 1 */
+/* As through an adapter: packets without an answer may leave while one is awaited. */
+void fake_bus_set_adapter(bool there);
+/* Polls within bus_wait and bus_wait_free since reset or clear: time that nobody else had. */
+uint32_t fake_bus_waited(void);
+void fake_bus_lose(void);                         /* the next bus_was_lost says so */
 uint16_t fake_bus_word(uint8_t id, uint8_t at);   /* a word of a servo's table */
 void fake_bus_set_word(uint8_t id, uint8_t at, uint16_t value);
 

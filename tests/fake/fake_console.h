@@ -11,6 +11,7 @@
 void fake_console_reset(void);
 void fake_console_type(const char *text);                   /* bytes arrive */
 void fake_console_type_bytes(const void *bytes, size_t count);
+void fake_console_lose(uint8_t count);       /* so many bytes are lost in front of what is typed next */
 const char *fake_console_output(void);                      /* everything since reset or clear, NUL-terminated */
 size_t fake_console_output_count(void);
 void fake_console_clear(void);                              /* forgets the output */

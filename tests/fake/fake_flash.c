@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "fake_flash.h"
 
-#include "linker/memory_map.h"
+#include "memory_map.h"
 #include "trap.h"
 
 #include <string.h>

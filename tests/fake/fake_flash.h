@@ -5,7 +5,7 @@
 #ifndef FAKE_FLASH_H
 #define FAKE_FLASH_H
 
-#include "hal/flash.h"
+#include "flash.h"
 
 #include <setjmp.h>
 #include <stdbool.h>

@@ -31,11 +31,6 @@ void panel_init(void)
     debounce_init(&buttons, panel_buttons_now());
 }
 
-bool panel_is_there(void)
-{
-    return there;
-}
-
 void panel_set(uint8_t leds, bool on)
 {
     if (there) {

@@ -6,7 +6,7 @@
 
 static uint8_t cause;
 static uint32_t kicks, sleeps;
-static bool watchdog;
+static bool watchdog, asked_to_end;
 static jmp_buf *restart_to;
 
 void fake_system_reset(void)
@@ -16,6 +16,7 @@ void fake_system_reset(void)
     sleeps = 0;
     watchdog = false;
     restart_to = NULL;
+    asked_to_end = false;
 }
 
 void fake_system_set_cause(uint8_t mask)
@@ -26,6 +27,11 @@ void fake_system_set_cause(uint8_t mask)
 void fake_system_on_restart(jmp_buf *where)
 {
     restart_to = where;
+}
+
+void fake_system_ask_to_end(void)
+{
+    asked_to_end = true;
 }
 
 uint32_t fake_system_kicks(void)
@@ -69,6 +75,16 @@ void system_restart(void)
         abort();
     }
     longjmp(*restart_to, 1);
+}
+
+bool system_is_asked_to_end(void)
+{
+    return asked_to_end;
+}
+
+void system_end(void)
+{
+    system_restart();
 }
 
 void system_sleep(void)

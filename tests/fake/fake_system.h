@@ -14,5 +14,7 @@ void fake_system_on_restart(jmp_buf *where);
 uint32_t fake_system_kicks(void);                 /* system_kick calls */
 bool fake_system_watchdog(void);                  /* whether it is on */
 uint32_t fake_system_sleeps(void);
+/* system_is_asked_to_end says so; system_end then does what system_restart does. */
+void fake_system_ask_to_end(void);
 
 #endif

@@ -7,7 +7,7 @@
 
 static uint32_t ticks, half_us_total;
 static uint32_t half_us_in_tick;
-static uint16_t taken, missed, step;
+static uint16_t taken, missed, late, step;
 
 void fake_time_reset(void)
 {
@@ -16,6 +16,7 @@ void fake_time_reset(void)
     half_us_in_tick = 0;
     taken = 0;
     missed = 0;
+    late = 0;
     step = 2;
 }
 
@@ -64,10 +65,16 @@ bool tick_take(void)
     if (waiting == 0) {
         return false;
     }
-    uint32_t sum = (uint32_t)missed + waiting - 1u;
+    late = (uint16_t)(waiting - 1u);
+    uint32_t sum = (uint32_t)missed + late;
     missed = sum > 0xFFFFu ? 0xFFFFu : (uint16_t)sum;
     taken = (uint16_t)ticks;
     return true;
+}
+
+uint16_t tick_late(void)
+{
+    return late;
 }
 
 uint16_t tick_missed(void)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the boot loader share: a board that waits at the prompt, typed lines, downloads of the original's
-kind, and a client of the block protocol written from firmware/boot/PROTOCOL.md."""
+kind, and a client of the block protocol written from firmware/boot/BLOCK_PROTOCOL.md."""
 import binascii
 import collections
 import itertools
@@ -9,8 +9,9 @@ import random
 import re
 import struct
 
-from cm5sim import Board, library
 from intelhex import IntelHex
+
+from cm5sim import Board, library
 from m512.crc16 import crc16
 
 PROMPT = "\r\n - "

@@ -7,7 +7,7 @@ without a valid command.
 import random
 from typing import NamedTuple
 
-from boot_board import PROMPT, WRITE, frame, page_body, prompt_board, say
+from tests.sim.boot_board import PROMPT, WRITE, frame, page_body, prompt_board, say
 
 CHUNK = 8192
 # What the loader says before it writes: without one of these, in this chunk or the one before, nothing may change.

@@ -19,11 +19,11 @@ import random
 import re
 from typing import NamedTuple
 
-from boot_board import factory_section
 from cm5sim import Board, Violation
 from cm5sim.board import _ADDRESS, CYCLES_PER_MS
 from m512.files.image import Image
-from made_page import page
+from tests.sim.boot_board import factory_section
+from tests.sim.made_page import page
 
 MOTION, MOTION_END, JOURNAL = 0xE000, 0x1E000, 0xC000
 XON, XOFF = 0x11, 0x13

@@ -11,7 +11,7 @@ import pyte
 
 from cm5sim import Board
 from m512.files.image import Image
-from made_page import JOINTS, page  # noqa: F401 (the tests take them from here)
+from tests.sim.made_page import JOINTS, page  # noqa: F401 (the tests take them from here)
 
 PAGES = 128
 MOTION_START = 0xE000
@@ -19,7 +19,7 @@ UNUSED = 0x4000
 
 
 def new_page():
-    """The new page of editor-original.md section 1, without checksum."""
+    """The new page of edit/ORIGINAL.md section 1, without checksum."""
     data = bytearray(512)
     data[15], data[22], data[24] = 1, 32, 32
     data[32:64] = bytes([0x55] * 32)

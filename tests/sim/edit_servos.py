@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A robot with Edit and pages to play, for the tests of what Edit does to servos: 5 a pose, open at the beginning; 6 a loop that leaves by
 7; 8 a long one; 9 and 10 leave by each other."""
-from edit_robot import page, robot
+from tests.sim.edit_robot import page, robot
 
 POSE = page("pose", [(64, {1: 400, 2: 700}), (64, {3: 612})], code=1)
 

@@ -24,8 +24,8 @@ def word(board, name, count=2):
 
 def bus_counts(board):
     """bus_counts_t as a dict."""
-    names = ("packets", "answers", "timeouts", "checksums", "framing", "overruns", "wrong_ids", "lengths", "retries",
-             "cancelled", "strays")
+    names = ("packets", "answers", "timeouts", "checksums", "framing", "overruns", "wrong_ids", "lengths", "rejected",
+             "retries", "strays")
     address = board.variable("walker_bus")
     return dict(zip(names, struct.unpack("<IIHHHHHHHHH", bytes(board.ram[address:address + 26]))))
 

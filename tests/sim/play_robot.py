@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A robot with Play on the simulated board, for test_play*.py: its motion pages, its prompt, recorded sessions.
 
-A session (tests/golden/sessions/*.txt) is what a terminal shows, with directives for what happens beside it:
+A session (tests/models/golden/sessions/*.txt) is what a terminal shows, with directives for what happens beside it:
 
     ] play 1                what is typed: everything behind the prompt
      OK                     what must appear
@@ -16,12 +16,12 @@ import re
 from cm5sim import Board
 from m512.files.image import Image
 from m512.files.page import SCHEDULE_SPEED
-from made_page import JOINTS, page  # noqa: F401 (the tests take them from here)
+from tests.sim.made_page import JOINTS, page  # noqa: F401 (the tests take them from here)
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 SHARED = pathlib.Path(os.environ.get("M512_SHARED", TOP.parent / "shared"))
-SESSIONS = TOP / "tests" / "golden" / "sessions"
-GOLDEN = TOP / "tests" / "golden"
+SESSIONS = TOP / "tests" / "models" / "golden" / "sessions"
+GOLDEN = TOP / "tests" / "models" / "golden"
 IMAGE = "play-cm5.hex"
 UP, DOWN, LEFT, RIGHT, PAUSE, STOP = 1, 2, 4, 8, 256, 512
 XON, XOFF = 0x11, 0x13

@@ -2,7 +2,7 @@
 """What looks into the simulated board: probes, stack figures, symbols, loader of images, VCD, GDB, target_runner."""
 import os
 import pathlib
-import shutil
+import pickle
 import socket
 import struct
 import subprocess
@@ -137,6 +137,19 @@ def test_guard_of_an_image_in_the_boot_section_is_its_own():
     assert board.stack_headroom == board._lib.board_stack_low(board._pointer) - end
 
 
+def test_every_instruction_of_a_function_has_its_name():
+    """Local labels of the assembler are no functions."""
+    board = Board(images=[NEGATIVE / "right-stack.hex"])
+    first = board.function("dig")
+    assert {board.function_at(address) for address in range(first, first + 40, 2)} == {"dig"}
+
+
+def test_violation_of_another_process_says_what_was_violated():
+    sent = Violation("stack", 123, 0x456, "dig", "too deep")
+    came = pickle.loads(pickle.dumps(sent))
+    assert str(came) == str(sent) and vars(came) == vars(sent)
+
+
 def test_symbols_name_functions_and_variables():
     board = Board(images=[NEGATIVE / "right-stack.hex"])
     assert board.function_at(board.function("dig") + 2) == "dig"
@@ -186,7 +199,6 @@ def test_vcd_holds_pins_and_bytes(tmp_path):
     assert text.count("b11111011 B") == 1, "the checksum of the packet on bus_tx"
 
 
-@pytest.mark.skipif(not shutil.which("avr-gdb"), reason="avr-gdb is not installed")
 def test_gdb_stops_at_a_function():
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
@@ -218,7 +230,6 @@ def own_listeners():
     return {tuple(row[1].split(":")) for row in rows if row[3] == "0A" and f"socket:[{row[9]}]" in inodes}
 
 
-@pytest.mark.skipif(not pathlib.Path("/proc/self/net/tcp").exists(), reason="needs Linux's /proc")
 def test_gdb_is_served_to_this_computer_only():
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Flash and EEPROM of the simulated chip: times, bits, lock bits, wear, power cuts. Facts: board.md, data sheet."""
+"""Flash and EEPROM of the simulated chip: times, bits, lock bits, wear, power cuts. Facts: BOARD.md, data sheet."""
 import pytest
 
 from cm5sim import PowerCut, Violation
-from lab_board import MS_IN_EIGHT_CYCLES, PAGE, Lab
+from tests.sim.lab_board import MS_IN_EIGHT_CYCLES, PAGE, Lab
 
 BOOT_PAGE = 0x1FD00  # in the boot section, not used by lab.c
 FULL = bytes(range(256))
@@ -54,6 +54,22 @@ def test_page_buffer_is_empty_after_a_write():
     lab.do("e", PAGE + 256)
     lab.do("w", PAGE + 256)
     assert lab.flash[PAGE + 256:PAGE + 258] == b"\xFF\xFF"
+
+
+@pytest.mark.parametrize("reset", ["MODE", "power"])
+def test_page_buffer_is_empty_after_a_reset(reset):
+    """Data sheet, filling the temporary buffer: it is also erased after a system reset."""
+    lab = Lab()
+    lab.do("e", PAGE)
+    lab.do("f", PAGE, 0x3412)
+    if reset == "MODE":
+        lab.reset()
+    else:
+        lab.power_off()
+        lab.power_on()
+    lab.run(ms=100)
+    lab.do("w", PAGE)
+    assert lab.flash[PAGE:PAGE + 2] == b"\xFF\xFF"
 
 
 def test_far_pages_are_reached_and_wear_is_counted():

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Resets, watchdog, panel and battery of the simulated board. Facts: data sheet, Reset Sources and Watchdog; board.md."""
+"""Resets, watchdog, panel and battery of the simulated board. Facts: data sheet, Reset Sources and Watchdog; BOARD.md."""
 import struct
 
 import pytest
 
 from cm5sim import Board, Violation
-from lab_board import Lab
+from tests.sim.lab_board import Lab
 
 POWER_ON, EXTERNAL, BROWN_OUT, WATCHDOG = 1, 2, 4, 8
 

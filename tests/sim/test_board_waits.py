@@ -3,6 +3,7 @@
 import random
 
 import pytest
+
 from cm5sim import Board
 
 

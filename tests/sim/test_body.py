@@ -7,13 +7,13 @@ import shutil
 import subprocess
 
 import pytest
-from cm5sim import Board
-from cm5sim.library import build_folder
 
 from body.description import load
 from body.hand import Hand
 from body.physics import Physics
 from body.trial import try_motion
+from cm5sim import Board
+from cm5sim.library import build_folder
 from m512.files.formats import load as load_motions
 
 TOP = pathlib.Path(__file__).resolve().parents[2]

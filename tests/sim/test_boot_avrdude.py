@@ -12,11 +12,12 @@ import subprocess
 import time
 import tty
 
+import intelhex
 import pytest
-from boot_board import BOOT_START, PLAIN_APP, PROMPT, new_board, noise, prompt_board, say
+
+from tests.sim.boot_board import BOOT_START, PLAIN_APP, PROMPT, new_board, noise, prompt_board, say
 
 AVRDUDE = shutil.which("avrdude")
-needs_avrdude = pytest.mark.skipif(not AVRDUDE, reason="avrdude is not installed (tools/dev/packages.txt)")
 
 
 BUSY_TURNS = 1500   # of 2 ms: so long the board may be at work behind the last byte that passed; a page of EEPROM takes 2.2 s
@@ -60,7 +61,6 @@ def binary(tmp_path, data, name="image.bin"):
     return path
 
 
-@needs_avrdude
 def test_application_written_verified_read_back(tmp_path):
     board = prompt_board()
     image = noise(20000, 1)
@@ -70,11 +70,8 @@ def test_application_written_verified_read_back(tmp_path):
     assert bytes(board.flash[:20000]) == image
 
 
-@needs_avrdude
 def test_play_image_written_and_started(tmp_path):
     hex_file = pathlib.Path(__file__).parents[2] / "build" / "firmware" / "play-cm5.hex"
-    if not hex_file.exists():
-        pytest.skip("play-cm5 is not built")
     board = prompt_board()
     code, text = run_avrdude(board, "-U", f"flash:w:{hex_file}:i")
     assert code == 0 and "verified" in text, text
@@ -86,12 +83,10 @@ def test_play_image_written_and_started(tmp_path):
     assert board.pc < BOOT_START
 
 
-@needs_avrdude
 def test_64_kib_of_motions_written_verified_and_all_of_the_flash_read_back(tmp_path):
     board = prompt_board()
     motions = noise(65536, 2)
     image = tmp_path / "motions.hex"
-    intelhex = pytest.importorskip("intelhex")
     contents = intelhex.IntelHex()
     contents.frombytes(motions, 0xE000)
     contents.write_hex_file(str(image))
@@ -103,7 +98,6 @@ def test_64_kib_of_motions_written_verified_and_all_of_the_flash_read_back(tmp_p
     assert bytes(board.flash[:0xE000]) == b"\xff" * 0xE000
 
 
-@needs_avrdude
 def test_eeprom_written_and_verified(tmp_path):
     board = prompt_board()
     data = noise(300, 3)
@@ -112,7 +106,6 @@ def test_eeprom_written_and_verified(tmp_path):
     assert bytes(board.eeprom[:300]) == data and board.eeprom[300] == 0xFF
 
 
-@needs_avrdude
 def test_eeprom_read(tmp_path):
     board = prompt_board()
     board.eeprom[0:0xFF0] = noise(0xFF0, 3)
@@ -123,7 +116,6 @@ def test_eeprom_read(tmp_path):
     assert data == bytes(board.eeprom)[:len(data)] and len(data) >= 0xFF0
 
 
-@needs_avrdude
 @pytest.mark.parametrize("part", ["m64", "m2560"])
 def test_wrong_part_is_refused(tmp_path, part):
     board = prompt_board()
@@ -133,11 +125,10 @@ def test_wrong_part_is_refused(tmp_path, part):
     assert bytes(board.flash) == before
 
 
-@needs_avrdude
 def test_boot_section_is_not_written(tmp_path):
     board = prompt_board()
     before = bytes(board.flash)
-    contents = pytest.importorskip("intelhex").IntelHex()
+    contents = intelhex.IntelHex()
     contents.frombytes(noise(512, 5), BOOT_START)
     contents.write_hex_file(str(tmp_path / "boot.hex"))
     code, text = run_avrdude(board, "-U", f"flash:w:{tmp_path / 'boot.hex'}:i")
@@ -145,7 +136,6 @@ def test_boot_section_is_not_written(tmp_path):
     assert bytes(board.flash[BOOT_START:]) == before[BOOT_START:]
 
 
-@needs_avrdude
 def test_prompt_is_there_again_afterwards():
     board = prompt_board()
     code, text = run_avrdude(board)
@@ -153,6 +143,29 @@ def test_prompt_is_there_again_afterwards():
     board.run(ms=50)
     board.take()
     assert say(board, "app").endswith("Application")
+
+
+FUSES = {"lfuse": 0x3F, "hfuse": 0xC2, "efuse": 0xFE, "lock": 0xEF}
+
+
+def fused(board):
+    """The board with four bytes of its fuses that differ from each other and from the simulator's own."""
+    board._lib.board_set_fuses(board._pointer, FUSES["lfuse"], FUSES["hfuse"], FUSES["efuse"])
+    board._lib.board_set_lock(board._pointer, FUSES["lock"])
+    return board
+
+
+@pytest.mark.parametrize("memory", FUSES)
+def test_fuses_and_lock_bits_are_read(tmp_path, memory):
+    out = tmp_path / "fuse.txt"
+    code, text = run_avrdude(fused(prompt_board()), "-U", f"{memory}:r:{out}:h")
+    assert code == 0, text
+    assert int(out.read_text(), 16) == FUSES[memory]
+
+
+def test_a_new_fuse_is_refused():
+    code, text = run_avrdude(fused(prompt_board()), "-U", "lfuse:w:0x1F:m")
+    assert code != 0 and "0x11" in text, text
 
 
 # STK500v1 by hand
@@ -205,9 +218,22 @@ def test_signature(stk):
     assert ask(stk, b"\x75\x20", 5) == b"\x14\x1e\x97\x02\x10"
 
 
+@pytest.mark.parametrize("instruction, memory", [("50000000", "lfuse"), ("58080000", "hfuse"), ("50080000", "efuse"), ("58000000", "lock")])
+def test_serial_instructions_that_read_fuses(stk, instruction, memory):
+    """Data sheet, table "Serial Programming Instruction Set"."""
+    fused(stk)
+    assert ask(stk, b"\x56" + bytes.fromhex(instruction) + b"\x20", 3) == bytes((0x14, FUSES[memory], 0x10))
+
+
+@pytest.mark.parametrize("instruction, end", [("AC800000", 0x10), ("ACA0003F", 0x11), ("ACE000EF", 0x11), ("38000000", 0x11)])
+def test_of_the_other_serial_instructions_only_chip_erase_is_accepted(stk, instruction, end):
+    answer = ask(stk, b"\x56" + bytes.fromhex(instruction) + b"\x20", 3)
+    assert (answer[0], answer[2]) == (0x14, end)
+
+
 @pytest.mark.parametrize("byte", [0x00, 0x01, 0x31, 0xFF])
 def test_a_byte_that_is_no_command_ends_the_session(stk, byte):
-    """0, which ends the table of commands, passed for a command (found by the harness of tests/prove/fuzz)."""
+    """0, which ends the table of commands, passed for a command (found by the harness of tests/campaigns/fuzz)."""
     stk.send(bytes([byte, 0x20]))
     stk.expect(PROMPT, ms=500)
 
@@ -263,10 +289,10 @@ def test_leave_gives_the_prompt_and_so_does_text(stk):
     stk.expect(PROMPT)
 
 
-def test_sixteen_seconds_of_silence_leave(stk):
-    stk.run(ms=15500)
+def test_ten_seconds_of_silence_leave(stk):
+    stk.run(ms=9900)
     assert stk.take() == b""
-    stk.expect(PROMPT, ms=1500)
+    stk.expect(PROMPT, ms=200)
 
 
 def test_reading_past_the_end_begins_again(stk):

@@ -1,12 +1,34 @@
 # SPDX-License-Identifier: MIT
-"""The block protocol of firmware/boot/PROTOCOL.md: every command, damage, speed."""
+"""The block protocol of firmware/boot/BLOCK_PROTOCOL.md: every command, damage, speed."""
 import random
 import struct
 
 import pytest
-from boot_board import (BAD_FRAME, BOOT_MODE, EE_WRITE, EQUAL, HELLO, LEAVE, OK, PLAIN_APP, PROMPT, RATE, READ, REFUSED,
-                        SUMS, WRITE, Blocks, crc16, frame, noise, page_body, prompt_board, say)
+
 from cm5sim import PowerCut
+from tests.sim.boot_board import (
+    BAD_FRAME,
+    BOOT_MODE,
+    EE_WRITE,
+    EQUAL,
+    HELLO,
+    LEAVE,
+    OK,
+    PLAIN_APP,
+    PROMPT,
+    RATE,
+    READ,
+    REFUSED,
+    SUMS,
+    WRITE,
+    Blocks,
+    crc16,
+    frame,
+    noise,
+    page_body,
+    prompt_board,
+    say,
+)
 
 LINE_RATE = 2_000_000 / 35 / 10
 

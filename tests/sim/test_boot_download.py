@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Downloads of the original's kind: sizes and faults of bootloader-original.md section 3, as written there or as
+"""Downloads of the original's kind: sizes and faults of boot/ORIGINAL.md section 3, as written there or as
 firmware/boot/DIFFERENCES.md says."""
 import pytest
-from boot_board import APP_END, BOOT_START, PLAIN_APP, PROMPT, begin_load, end_load, load, noise, prompt_board, say
+
+from tests.sim.boot_board import APP_END, BOOT_START, PLAIN_APP, PROMPT, begin_load, end_load, load, noise, prompt_board, say
 
 LINE_RATE = 2_000_000 / 35 / 10  # bytes a second
 

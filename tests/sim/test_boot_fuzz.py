@@ -4,7 +4,8 @@
 import os
 
 import pytest
-from boot_noise import MAKERS, fuzz
+
+from tests.sim.boot_noise import MAKERS, fuzz
 
 BYTES = int(os.environ.get("M512_FUZZ_BYTES", 120_000))
 

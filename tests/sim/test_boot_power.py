@@ -4,9 +4,24 @@ it: the loader always answers afterwards, and what the transfer did not name is 
 import struct
 
 import pytest
-from boot_board import (BOOT_MODE, BOOT_START, EE_WRITE, JOURNAL_START, PROMPT, WRITE, begin_load, crc16, frame, noise,
-                        page_body, pending_record, prompt_board, say)
+
 from cm5sim import PowerCut
+from tests.sim.boot_board import (
+    BOOT_MODE,
+    BOOT_START,
+    EE_WRITE,
+    JOURNAL_START,
+    PROMPT,
+    WRITE,
+    begin_load,
+    crc16,
+    frame,
+    noise,
+    page_body,
+    pending_record,
+    prompt_board,
+    say,
+)
 
 ENTER = b"\x50\x20"
 

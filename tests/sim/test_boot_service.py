@@ -2,8 +2,9 @@
 """What the boot section does for applications: the page-write service behind the call table, through the application of
 tests/sim/service, and the page journal with both of them, cut at every operation."""
 import pytest
-from boot_board import BOOT_MODE, BOOT_START, JOURNAL_START, factory_section, new_board, noise
+
 from cm5sim import Board, PowerCut
+from tests.sim.boot_board import BOOT_MODE, BOOT_START, JOURNAL_START, factory_section, new_board, noise
 
 SERVICE = "tests/service.hex"
 OURS, FACTORY, MAILBOX = 1, 2, 3

@@ -12,8 +12,7 @@ import pexpect
 import pytest
 import serial
 
-from sim_command import CM5SIM, ROBOT, Running, run
-
+from tests.sim.sim_command import CM5SIM, ROBOT, Running, run
 
 # --- ways in ---
 

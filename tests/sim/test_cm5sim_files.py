@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: MIT
 """What the command cm5sim keeps and writes: flash, EEPROM, traces, plots, VCD; and its port for avr-gdb."""
 import csv
-import shutil
 import socket
 import subprocess
 import time
 import xml.etree.ElementTree
 
-import pytest
-
-from sim_command import ROBOT, Running, play, run
-
+from tests.sim.sim_command import ROBOT, Running, play, run
 
 # --- what is kept, what is written ---
 
@@ -95,7 +91,6 @@ def free_port():
         return probe.getsockname()[1]
 
 
-@pytest.mark.skipif(not shutil.which("avr-gdb"), reason="needs avr-gdb (package gdb-avr)")
 def test_gdb_finds_the_chip_at_its_first_instruction_and_stops_at_a_function():
     port = free_port()
     with Running(ROBOT, f"--gdb={port}", "--time", "200ms") as robot:

@@ -9,7 +9,7 @@ import pyte
 import pytest
 
 from m512.files.image import from_bytes
-from sim_command import BUILD, CM5SIM
+from tests.sim.sim_command import BUILD, CM5SIM
 
 MOTIONS = BUILD / "motions" / "motions.bin"
 PATIENCE_S = 240

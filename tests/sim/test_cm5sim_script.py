@@ -4,8 +4,7 @@ import subprocess
 
 import pytest
 
-from sim_command import CM5SIM, ROBOT, Running, play
-
+from tests.sim.sim_command import CM5SIM, ROBOT, Running, play
 
 # --- scripts ---
 

@@ -5,10 +5,9 @@ import signal
 import time
 
 import pytest
-from dynamixel_sdk import (COMM_RX_CORRUPT, COMM_RX_TIMEOUT, COMM_SUCCESS, GroupSyncWrite, PacketHandler,
-                           PortHandler)
+from dynamixel_sdk import COMM_RX_CORRUPT, COMM_RX_TIMEOUT, COMM_SUCCESS, GroupSyncWrite, PacketHandler, PortHandler
 
-from sim_command import Running
+from tests.sim.sim_command import Running
 
 GOAL, SPEED, PRESENT, LED, ID, BAUD, TORQUE = 30, 32, 36, 25, 3, 4, 24
 AX12, DX117 = 12, 117

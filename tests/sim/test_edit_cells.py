@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Editing one cell: SET, the keys that change a value, Space, arrows; editor-original.md sections 4 and 5."""
+"""Editing one cell: SET, the keys that change a value, Space, arrows; edit/ORIGINAL.md sections 4 and 5."""
 import pytest
 
-from edit_base import BASE, bytes_of
-from edit_robot import changed, word, UNUSED
-
+from tests.sim.edit_base import BASE, bytes_of
+from tests.sim.edit_robot import UNUSED, changed, word
 
 # ---- cells ----
 

@@ -2,7 +2,7 @@
 """CHECK names what is wrong with a page, and how fast its servos would have to be (firmware/edit/DIFFERENCES.md)."""
 import pytest
 
-from edit_robot import page, robot
+from tests.sim.edit_robot import page, robot
 
 
 def test_check_knows_how_fast_a_servo_is_at_this_battery():

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Editing commands of editor-original.md sections 4 to 6: messages, questions, pages, the line, lists. The message, the screen, and the 512
+"""Editing commands of edit/ORIGINAL.md sections 4 to 6: messages, questions, pages, the line, lists. The message, the screen, and the 512
 bytes, worked out here from the specification. Intended differences: firmware/edit/DIFFERENCES.md."""
 import pytest
 
-from edit_base import BASE, OTHER, PAGES, bytes_of
-from edit_robot import new_page, robot, seal
-
+from tests.sim.edit_base import BASE, OTHER, PAGES, bytes_of
+from tests.sim.edit_robot import new_page, robot, seal
 
 # ---- messages ----
 
@@ -173,7 +172,7 @@ def test_control_keys_start_an_empty_line(r):
 
 def test_too_long_a_line_is_not_run(r):
     r.line("x" * 130)
-    assert r.command == "] Line too long"
+    assert r.command == "] The line is too long: nothing was done"
     r.line("page 2")
     assert r.text(2, 76, 4) == "0002"
 

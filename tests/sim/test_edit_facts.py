@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Facts of editor-original.md that the other test_edit_*.py do not touch, one short session each: keys, lines, steps, servos, the
+"""Facts of edit/ORIGINAL.md that the other test_edit_*.py do not touch, one short session each: keys, lines, steps, servos, the
 monitor, lists. Which test holds which fact: README.md."""
 import re
 
 import pytest
 
-from edit_base import opened
-from edit_robot import changed, new_page, page, robot, seal
+from tests.sim.edit_base import opened
+from tests.sim.edit_robot import changed, new_page, page, robot, seal
 
 BASE = page("base", [(40, {1: 480, 2: 544}, 3), (50, {3: 300}), (60, {4: 10})], code=7, next=3, exit=5, link1_page=11, link1_code=12,
             link2_page=13, link2_code=14)
@@ -130,7 +130,7 @@ def test_longest_line(r):
     r.keys("\r")
     assert r.text(2, 76, 4) == "0002"
     r.keys("page 1" + " " * 106 + "\r")
-    assert r.command == "] Line too long" and r.text(2, 76, 4) == "0002"
+    assert r.command == "] The line is too long: nothing was done" and r.text(2, 76, 4) == "0002"
 
 
 def test_ctrl_c_leaves_line_question_and_name(r):
@@ -274,6 +274,17 @@ def test_mirror_about_the_first_step_of_page_1_in_flash():
         assert r.line("pairs").startswith("pairs 1-2 3-4")
 
 
+@pytest.mark.parametrize("word", ["3", "pag1", "page12", "51"])
+def test_pairs_refuses_a_word_that_it_does_not_know(word):
+    with robot() as r:
+        r.line("pairs page1")
+        r.settle(ms=600)
+        before = bytes(r.board.eeprom)
+        assert r.line(f"pairs {word}").endswith("Say two IDs, 512 or page1")
+        r.settle(ms=600)
+        assert bytes(r.board.eeprom) == before
+
+
 def test_mirror_stays_inside_the_range(r):
     r.line("on")
     r.line("goto 1 1")
@@ -369,6 +380,16 @@ def test_list_shows_every_field(r):
     assert row.split() == ["1", "base", "3", "3", "5", "11", "12", "13", "14", "7", "1.19", "s"]
     assert "Page name" in r.show() and "steps next exit" in r.show()
     r.keys("q")
+
+
+def test_list_shows_times_above_512_s():
+    """Seven steps at the slowest speed, whose length is cut to 32,767 ticks of 1/128 s each (motion/step_plan.h)."""
+    slow = page("slow", [(1, {1: 0 if step % 2 else 1023}) for step in range(7)], schedule=0, speed=1)
+    with robot(pages={1: slow}) as r:
+        r.line("list 1")
+        row = next(row for row in r.terminal.screen.display if " slow " in row)
+        assert row.split()[-2] == f"{(6 * 32767 + 1) / 128:.2f}"
+        r.keys("q")
 
 
 def test_list_pages_by_the_screen_and_q_ends_it():

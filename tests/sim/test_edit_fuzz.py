@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from edit_noise import fuzz
+from tests.sim.edit_noise import fuzz
 
 BYTES = int(os.environ.get("M512_FUZZ_BYTES", "200000"))
 SEEDS = {"never saved": 0, "our loader": 1, "the factory loader": 2}

@@ -3,8 +3,7 @@
 
 from cm5sim import Board
 from cm5sim.board import CYCLES_PER_TICK
-
-from edit_servos import start
+from tests.sim.edit_servos import start
 
 
 def test_lost_servo_is_named_in_the_message_row_and_the_screen_stays():

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""SAVE on a loader that is not known: the page goes through the EEPROM mailbox of bootloader-original.md section 7a. The
+"""SAVE on a loader that is not known: the page goes through the EEPROM mailbox of boot/ORIGINAL.md section 7a. The
 loader is imitated (service/mailbox.c); one that knows no mailbox is the other imitation, unrecognised (service/factory.c)."""
 import pytest
-from cm5sim import PowerCut
 
-from edit_robot import MOTION_START, page, robot, seal
-from snapshot import attempt
+from cm5sim import PowerCut
+from tests.sim.edit_robot import MOTION_START, page, robot, seal
+from tests.sim.snapshot import attempt
 
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
 OTHER = page("other", [(11, {1: 900})])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A script pasted at full line rate, saves in it: every line is executed, on the UART that loses a third byte."""
-from edit_robot import MOTION_START, new_page, page, robot, seal
+from tests.sim.edit_robot import MOTION_START, new_page, page, robot, seal
 
 XON, XOFF = 0x11, 0x13
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""PLAY in Edit with its keys: editor-original.md section 8, and "nothing moves by surprise"."""
+"""PLAY in Edit with its keys: edit/ORIGINAL.md section 8, and "nothing moves by surprise"."""
 import re
 
 import pytest
-from cm5sim import Board
 
-from edit_robot import page
-from edit_servos import goals, start
+from cm5sim import Board
+from tests.sim.edit_robot import page
+from tests.sim.edit_servos import goals, start
 
 
 def test_play_ends_with_ok_and_the_work_pose_shows_where_it_stands():
@@ -57,7 +57,7 @@ def move_ticks(r, line, joint):
 
 
 def test_play_n_rate_shortens_and_stretches_steps_and_lasts_for_one_play():
-    """128 ticks as stored, shaping.md: ticks / rate."""
+    """128 ticks as stored, SHAPING.md: ticks / rate."""
     made = page("timed", [(10, {1: 300}), (128, {1: 700})], schedule=10, accel=0)
     with start(pages={20: made}) as r:
         r.line("page 20")
@@ -74,7 +74,7 @@ def test_play_n_rate_shortens_and_stretches_steps_and_lasts_for_one_play():
 
 
 def test_play_at_a_high_rate_asks_no_servo_for_more_than_its_battery_gives():
-    """400 units in 32 ticks at rate 400 are 12.5 a tick. body.md: 8.7 units a tick at 11.1 V, 90 % of it: 6.8 at 9.6 V."""
+    """400 units in 32 ticks at rate 400 are 12.5 a tick. body/README.md: 8.7 units a tick at 11.1 V, 90 % of it: 6.8 at 9.6 V."""
     made = page("timed", [(10, {1: 300}), (128, {1: 700})], schedule=10, accel=0)
     with start(pages={20: made}) as r:
         r.board.battery(9.6)

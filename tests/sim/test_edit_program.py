@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Line commands for programs in Edit (firmware/edit/PROTOCOL.md), and the full screen around them."""
+"""Line commands for programs in Edit (firmware/common/PROTOCOL.md), and the full screen around them."""
 import random
 
 import pytest
-from edit_robot import page, robot
+
 from m512.crc16 import crc16
+from tests.sim.edit_robot import page, robot
 
 PAGES = {1: page("one", [(40, {1: 480}), (255, {1: 700, 2: 300}), (255, {1: 300, 2: 700})], repeat=5), 2: page("two", [(30, {})])}
 

@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from edit_robot import page, robot
+from tests.sim.edit_robot import page, robot
 
 PAGES = {1: page("one", [(40, {1: 480, 2: 544}, 3), (50, {3: 300})], code=7, next=3),
          2: page("two", [(10 + k, {k: 100 * k}, k) for k in range(7)], joints=range(31)), 3: page("", [(64, {})], schedule=0)}

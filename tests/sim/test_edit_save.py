@@ -2,13 +2,13 @@
 """SAVE: questions, time, and the power cut at every flash operation and inside it. Afterwards the page is the old or the
 new one, all other pages are untouched, and the next save works."""
 import pytest
+
 from cm5sim import PowerCut
 from cm5sim.board import find_image
 from m512.board import memory
-
-from boot_board import APP_END, factory_section
-from edit_robot import MOTION_START, page, robot, seal
-from snapshot import attempt
+from tests.sim.boot_board import APP_END, factory_section
+from tests.sim.edit_robot import MOTION_START, page, robot, seal
+from tests.sim.snapshot import attempt
 
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
 OTHER = page("other", [(11, {1: 900})])

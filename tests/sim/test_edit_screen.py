@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Edit's screen, cell by cell, against editor-original.md section 3 and the list in firmware/edit/DIFFERENCES.md."""
+"""Edit's screen, cell by cell, against edit/ORIGINAL.md section 3 and the list in firmware/edit/DIFFERENCES.md."""
 import pytest
-from cm5sim import library
 
-from edit_robot import JOINTS, new_page, page, robot, seal
+from cm5sim import library
+from tests.sim.edit_robot import JOINTS, new_page, page, robot, seal
 
 HEADER = ["(Reserved) :", "PlayCount:", "(Reserved) :", "Blend Right:", "Blend Left:", "(Reserved) :", "Page Step:",
           "ControlCode:", "Page Speed:", "DXL Setup:", "Accel Time:", "Link to Next:", "Link to Exit:", "Linked Page1:",
@@ -27,7 +27,7 @@ def frame(data, number, pose, cursor=(0, 0), pose_tail=(0, 64), live=None):
     side = [" %-15s" % name, " PageNumber:%04d" % number, " Addr:%08X" % (0xE000 + 512 * number)]
     side += ["%13s%03d" % (label, data[14 + i]) for i, label in enumerate(HEADER)]
     for joint in range(31):
-        code = "%02X" % joint if joint < 0x1A else "%02x" % joint
+        code = f"{joint:02X}" if joint < 0x1A else f"{joint:02x}"
         inner = "0x" + code if joint not in live else "%04d" % live[joint]
         row = "Dynamixel %2d(%s)[%s]" % (joint, inner, pose.get(joint, "????" if joint in live else "----"))
         for k in range(7):

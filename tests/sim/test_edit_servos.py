@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""What Edit does to servos: GO, MIRROR, ON, OFF, SET on the work pose, the trim, EXIT, MON; editor-original.md sections 7, 8, 10 and 11, and
+"""What Edit does to servos: GO, MIRROR, ON, OFF, SET on the work pose, the trim, EXIT, MON; edit/ORIGINAL.md sections 7, 8, 10 and 11, and
 "nothing moves by surprise"."""
 
 
-from edit_robot import page, UNUSED
-from edit_servos import goals, start, writes_since
+from tests.sim.edit_robot import UNUSED, page
+from tests.sim.edit_servos import goals, start, writes_since
 
 
 def test_on_holds_the_pose_made_by_hand_and_off_lets_go():

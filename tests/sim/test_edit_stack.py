@@ -3,8 +3,8 @@
 save, PLAY with everything that happens meanwhile, UNDO, lists, programs' lines. Budget 384."""
 import pytest
 
-from boot_board import factory_section
-from edit_robot import page, robot
+from tests.sim.boot_board import factory_section
+from tests.sim.edit_robot import page, robot
 
 BUDGET = 384
 

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Editing commands that make, move, exchange and scale steps, and UNDO: the 512 bytes, worked out here from editor-original.md and
+"""Editing commands that make, move, exchange and scale steps, and UNDO: the 512 bytes, worked out here from edit/ORIGINAL.md and
 firmware/edit/DIFFERENCES.md."""
 import pytest
 
-from edit_base import BASE, FULL, bytes_of, step
-from edit_robot import changed, seal, word, UNUSED
-
+from tests.sim.edit_base import BASE, FULL, bytes_of, step
+from tests.sim.edit_robot import UNUSED, changed, seal, word
 
 # ---- steps ----
 

@@ -4,8 +4,8 @@ import random
 
 import pytest
 
-from edit_base import opened
-from edit_robot import JOINTS, page
+from tests.sim.edit_base import opened
+from tests.sim.edit_robot import JOINTS, page
 
 
 def big(seed, joints):

@@ -4,8 +4,8 @@ resets. The bus: test_hal_bus.py. The serial line: test_hal_console.py."""
 import pytest
 
 from cm5sim import Board, PowerCut
-from hal_board import pattern, walker, word, words
 from m512.crc16 import crc16
+from tests.sim.hal_board import pattern, walker, word, words
 
 TICK = 125_000
 
@@ -147,7 +147,7 @@ def test_power_cut_at_every_eeprom_write_leaves_old_or_new_settings(capsys):
 # ---- resets ----
 
 def test_application_takes_over_from_the_boot_loader():
-    """The loader hands over with both UARTs running and receive interrupts enabled (bootloader-original.md, 5)."""
+    """The loader hands over with both UARTs running and receive interrupts enabled (boot/ORIGINAL.md, 5)."""
     board = Board(images=["boot-cm5.hex", "tests/hal_walker_cm5.hex"], servos=range(1, 19))
     board.eeprom[0xFFF:0x1000] = b"\x11"   # start the application
     board.send("typed too early")

@@ -96,8 +96,8 @@ def test_clock_is_read_whole_while_a_packet_ends(before):
 # ---- bus ----
 
 def bus_counts(board):
-    names = ("packets", "answers", "timeouts", "checksums", "framing", "overruns", "wrong_ids", "lengths", "retries",
-             "cancelled", "strays")
+    names = ("packets", "answers", "timeouts", "checksums", "framing", "overruns", "wrong_ids", "lengths", "rejected",
+             "retries", "strays")
     address = board.variable("atomic_counts")
     return dict(zip(names, struct.unpack("<IIHHHHHHHHH", board.ram[address:address + 26])))
 

@@ -3,7 +3,7 @@
 import pytest
 
 from cm5sim import Board
-from hal_board import LINE_BYTES_PER_S, bus_counts, pattern, walker, word
+from tests.sim.hal_board import LINE_BYTES_PER_S, bus_counts, pattern, walker, word
 
 
 def test_bus_begins_at_1_mbps():
@@ -50,7 +50,7 @@ def test_turn_round_loses_no_answer(kind, return_delay):
 
 BUS_TURNING = 2   # bus_core.h
 INTERRUPT_INSTRUCTIONS = 80   # of the one that sends: it takes 82 cycles
-TURN_US = 20   # dynamixel.md: with a return delay of 0 an answer begins within about 20 us
+TURN_US = 20   # DYNAMIXEL.md: with a return delay of 0 an answer begins within about 20 us
 
 
 def test_turn_round_is_bounded_whatever_else_interrupts(capsys):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The serial line to the PC on the simulated board: nothing is lost at the full rate, flow control, changes of rate."""
-from hal_board import LINE_BYTES_PER_S, bus_counts, pattern, walker, word, words
 from m512.crc16 import crc16
+from tests.sim.hal_board import LINE_BYTES_PER_S, bus_counts, pattern, walker, word, words
 
 
 def test_flood_at_line_rate_beside_31_joints_loses_nothing():

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The Monitor image: words and packets as editor-original.md section 11 has them, and what it refuses."""
+"""The Monitor image: words and packets as edit/ORIGINAL.md section 11 has them, and what it refuses."""
 import pytest
 
-from monitor_robot import robot, say
+from tests.sim.monitor_robot import robot, say
 
 
 @pytest.fixture(scope="module", name="m")

@@ -3,7 +3,7 @@
 three ESC outside a packet end it. Packets are made here from the Dynamixel protocol, not with our code."""
 import pytest
 
-from monitor_robot import robot
+from tests.sim.monitor_robot import robot
 
 PING, READ, WRITE, REG_WRITE, ACTION, SYNC_WRITE = 1, 2, 3, 4, 5, 0x83
 ALL = 254
@@ -105,3 +105,33 @@ def test_requests_back_to_back_are_sent_in_order(r):
     frames = [packet(ALL, SYNC_WRITE, 30, 2, *(byte for ident in range(1, 19) for byte in (ident, n, 2))) for n in range(30)]
     assert ask(r, b"".join(frames), ms=400) == b""
     assert packets(r) == frames
+
+
+@pytest.mark.parametrize("missing", [2, 3, 5])
+def test_a_packet_that_lost_a_byte_costs_itself_only(r, missing):
+    """Its length asks for as many bytes as 22 PINGs have. (A packet whose length was lost may look whole: the servo answers that
+    its checksum is wrong.)"""
+    long = packet(1, WRITE, *[30] * 130)
+    assert ask(r, long[:missing] + long[missing + 1:40], ms=60) in (b"", status(1, error=0x10))
+    for ident in (1, 2, 3):
+        assert ask(r, packet(ident, PING)) == status(ident)
+
+
+def test_esc_ends_it_behind_a_torn_packet(r):
+    r.send(packet(1, WRITE, *[30] * 130)[:20])
+    r.run(ms=60)
+    r.send(b"\x1b\x1b\x1b")
+    r.run(ms=60)
+    assert r.take().endswith(b" [CID:001(0X01)] ")
+    r.send(b"toss\r")
+    r.run(ms=60)
+
+
+def test_a_character_without_a_stop_bit_ends_the_packet(r):
+    whole = packet(1, PING)
+    r.send(whole[:4], wait=True)
+    r.baud(38_400)
+    r.send(b"\0", wait=True)
+    r.run(ms=1)
+    r.baud(57_143)
+    assert ask(r, whole[5:] + packet(2, PING)) == status(2)

@@ -9,7 +9,7 @@ import pytest
 
 from m512.files.image import from_bytes
 from m512.motion.speed import no_load_units_per_tick
-from play_robot import DOWN, JOINTS, LEFT, RIGHT, STOP, UP, ask, robot
+from tests.sim.play_robot import DOWN, JOINTS, LEFT, RIGHT, STOP, UP, ask, robot
 
 MOTIONS = (pathlib.Path(os.environ["M512_BUILD"]) / "motions" / "motions.bin").read_bytes()
 LIBRARY = from_bytes(MOTIONS)

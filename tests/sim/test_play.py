@@ -2,8 +2,8 @@
 """Play on the simulated robot: what it does beside talking. The words are in test_play_sessions.py."""
 import pytest
 
-from play_robot import JOINTS, PAUSE, STOP, UP, ask, motions, page, paste, robot, tick_of
 from m512.files.image import Image
+from tests.sim.play_robot import JOINTS, PAUSE, STOP, UP, ask, motions, page, paste, robot, tick_of, walk_steps
 
 TORQUE, GOAL, PUNCH = 24, 30, 48
 UNITS_PER_DEGREE = 1024 / 300
@@ -357,3 +357,14 @@ def test_cm2_plays_without_a_panel():
 def test_motions_of_the_tests_are_what_they_say():
     image = motions()
     assert len(image) == 65536 and image[11 * 512:11 * 512 + 4] == b"torn"
+
+
+def test_a_name_that_two_pages_have_starts_none():
+    image = bytearray(motions())
+    image[7 * 512:8 * 512] = page("WALK", walk_steps()).data
+    board = robot(pages=bytes(image))
+    assert ask(board, "play walk") == "Say which by its number: pages 4 and 7 are named walk"
+    assert ask(board, "@play walk") == "@play ERR 3 Say which by its number: pages 4 and 7 are named walk"
+    board.run(ms=500)
+    assert "state=idle" in ask(board, "@where")
+    assert ask(board, "play turn left").endswith("OK")

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Joints moved by code, `aim`, `swing`, `free` (shaping.md), in the shipped Play image, with and without a play."""
+"""Joints moved by code, `aim`, `swing`, `free` (SHAPING.md), in the shipped Play image, with and without a play."""
 import math
 import random
 
 import pytest
 
-from play_robot import JOINTS, ask, robot
-from walking_robot import EXIT, LOOP, looping, pages, run_of_a_walk, where
+from tests.sim.play_robot import JOINTS, ask, robot
+from tests.sim.walking_robot import EXIT, LOOP, looping, pages, run_of_a_walk, where
 
 HEAD = (19, 20)
 WITH_HEAD = (*JOINTS, *HEAD)

@@ -4,7 +4,7 @@ import csv
 
 import pytest
 
-from play_robot import GOLDEN, ask, robot, tick_of
+from tests.sim.play_robot import GOLDEN, ask, robot, tick_of
 
 
 def wanted_trace(name):

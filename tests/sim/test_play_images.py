@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Real motion sets, when they are there (folder `data` beside the project, or M512_SHARED): valid pages play to their end
+"""Motion sets: that of tests/samples, and real ones where they are (../shared/data, or M512_SHARED). Valid pages play to their end
 under both laws on the shipped image, the others are refused with the reason. A sample of the pages; M512_ALL_PAGES=1
 plays every one (tests/unit plays them all on the PC in any case)."""
 import os
@@ -8,7 +8,7 @@ import pytest
 
 from m512.files.image import Image, from_bytes, is_erased
 from m512.files.page import Fault
-from play_robot import SHARED, ask, robot
+from tests.sim.play_robot import SHARED, TOP, ask, robot
 
 DATA = SHARED / "data"
 ALL = bool(os.environ.get("M512_ALL_PAGES"))
@@ -16,7 +16,7 @@ EVERY = 1 if ALL else 5
 REASONS = {Fault.CHECKSUM: "checksum is wrong", Fault.STEPS: "more than 7 steps", Fault.SCHEDULE: "unknown schedule",
            Fault.SPEED: "page speed is 0",
            Fault.POSITION: "position above 1023"}
-FILES = sorted(DATA.glob("*.bin")) if DATA.is_dir() else []
+FILES = [TOP / "tests" / "samples" / "robot_128p.bin", *sorted(DATA.glob("*.bin"))]
 PLAY_MS, END_MS = 3000, 60_000
 
 
@@ -44,10 +44,9 @@ def play_to_the_end(board, number):
     raise AssertionError(f"page {number} did not end: {text!r}")
 
 
-@pytest.mark.skipif(not FILES, reason=f"no motion sets in {DATA}")
 @pytest.mark.parametrize("law", ["exact", "classic"])
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_pages_of_a_real_set(path, law):
+def test_pages_of_a_set(path, law):
     image = read(path)
     board = robot(servos=range(1, 21), pages=image.to_bytes())
     for line in ("settings talk 0", "settings approach 240", f"law {law}"):
@@ -72,3 +71,8 @@ def test_pages_of_a_real_set(path, law):
     assert "Ticks: missed 0 goals late 0" in text
     print(f"\n{path.stem}, {law}: {played} pages played, {refused} refused")
     assert played + refused > 0
+
+
+def test_there_are_sets_of_others():
+    if len(FILES) == 1:
+        pytest.skip(f"no motion sets of others in {DATA} (M512_SHARED)")

@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from play_robot import SESSIONS, robot, run_session
+from tests.sim.play_robot import SESSIONS, robot, run_session
 
 
 @pytest.mark.parametrize("path", sorted(SESSIONS.glob("play_*.txt")), ids=lambda path: path.stem)

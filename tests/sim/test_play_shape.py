@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Shaping in the shipped Play image: rate, amplitude, blend, driving (shaping.md)."""
+"""Shaping in the shipped Play image: rate, amplitude, blend, driving (SHAPING.md)."""
 import re
 
 import pytest
 
-from play_robot import LEFT, UP, ask, robot
-from walking_robot import LOOP, looping, pages, where
-
+from tests.sim.play_robot import LEFT, UP, ask, robot
+from tests.sim.walking_robot import LOOP, looping, pages, where
 
 # --- words ---
 

@@ -3,7 +3,7 @@
 is missed, no frame is late. M512_WALK_MINUTES makes it longer or shorter; `tools/prove endurance` walks for an hour."""
 import os
 
-from play_robot import LEFT, RIGHT, UP, ask, robot
+from tests.sim.play_robot import LEFT, RIGHT, UP, ask, robot
 
 MINUTES = float(os.environ.get("M512_WALK_MINUTES", "1"))
 SLICE_MS = 10

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""How long the line commands of firmware/edit/PROTOCOL.md take on a robot of 18 servos, in the shipped Play and Edit: simulated
+"""How long the line commands of firmware/common/PROTOCOL.md take on a robot of 18 servos, in the shipped Play and Edit: simulated
 time, as a PC sees it, from the first byte of a request to the last of its answer, without the lines that come in between:
 @now, and Play's news of pages and steps, up to 36 ms of them. `pytest -s` prints the figures."""
-import edit_robot
-import play_robot
 import pytest
+
 from m512.crc16 import crc16
 from m512.files.image import Image
-from made_page import page
+from tests.sim import edit_robot, play_robot
+from tests.sim.made_page import page
 
 LOOP, PAGES = 1, 128
 CRCS, POSE, WHERE = f"@crcs 0 {PAGES - 1}", "@pose", "@where"

@@ -10,7 +10,7 @@ import sys
 
 import pytest
 
-from sim_command import BUILD, CM5SIM, TOP, run
+from tests.sim.sim_command import BUILD, CM5SIM, TOP, run
 
 README = (TOP / "tools" / "sim" / "README.md").read_text(encoding="utf-8")
 COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", README, re.S)
@@ -75,8 +75,7 @@ def test_readme_has_commands():
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_command_of_the_readme_runs(command, folder):
-    if needs(command):
-        pytest.skip(f"{', '.join(needs(command))} not built")
+    assert not needs(command), "not built; tools/dev/build makes it"
     code, errors = execute(command, folder)
     assert code == 0, errors
     for option, name in re.findall(r"--(plot|trace|vcd|flash|eeprom|servo-eeprom) (\S+)", command):
@@ -86,8 +85,6 @@ def test_command_of_the_readme_runs(command, folder):
 
 
 def test_bench_prints_its_figures():
-    if needs("play-cm5.hex"):
-        pytest.skip("play-cm5.hex not built")
     done = subprocess.run([sys.executable, TOP / "tools" / "sim" / "bench", "--seconds", "5"], capture_output=True,
                           text=True, check=False)
     print(done.stdout)

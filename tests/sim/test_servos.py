@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Servos through the Python binding, behind a whole board: what a controller sees of each fault."""
 import pytest
+
 from cm5sim import Board
 
 FINE, OVERHEATED, OVERLOADED, LOW, ANGLE = "00", "04", "20", "01", "02"

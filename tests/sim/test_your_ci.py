@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from sim_command import CM5SIM, TOP
+from tests.sim.sim_command import CM5SIM, TOP
 
 PAGE = (TOP / "tools" / "sim" / "YOUR_CI.md").read_text(encoding="utf-8")
 FILES = dict(re.findall(r"This is `([^`]+)`[^\n]*:\n\n```\w*\n(.*?)```", PAGE, re.S))
@@ -21,7 +21,7 @@ def _repository(tmp_path):
         (tmp_path / "repository" / name).write_text(text, encoding="utf-8")
     commands = tmp_path / "bin"
     commands.mkdir()
-    (commands / "m512").write_text(f"#!/bin/sh\nPYTHONPATH={TOP}/tools/m512/src exec {sys.executable} -m m512 \"$@\"\n")
+    (commands / "m512").write_text(f"#!/bin/sh\nexec {sys.executable} -m m512 \"$@\"\n")
     (commands / "m512").chmod(0o755)
     (commands / "cm5sim").symlink_to(CM5SIM)
     return tmp_path / "repository"
@@ -59,7 +59,6 @@ def test_the_page_has_all_its_files():
 
 
 def test_the_example_is_good_and_leaves_its_artefacts(repository):
-    pytest.importorskip("mujoco", reason="tools/dev/setup physics installs it")
     done = check(repository)
     assert done.returncode == 0, done.stdout + done.stderr
     assert (repository / "out" / "joints.svg").read_text().lstrip().startswith("<?xml")
@@ -69,7 +68,6 @@ def test_the_example_is_good_and_leaves_its_artefacts(repository):
 
 def test_a_motion_that_falls_is_told(repository):
     """The same bow, to the back: both checks before the body are content."""
-    pytest.importorskip("mujoco", reason="tools/dev/setup physics installs it")
     spoil(repository, "motions.m512", "11:+120 12:-120", "11:-150 12:+150")
     without_plot(repository)
     done = check(repository)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A robot with Play that walks without end and says nothing of it, for what is laid over a walk (test_play_shape, _layers, _aim)."""
 from m512.files.image import from_bytes
-from play_robot import ask, motions, page, robot, tick_of, walk_steps
+from tests.sim.play_robot import ask, motions, page, robot, tick_of, walk_steps
 
 LOOP, CURVE_R, CURVE_L, EXIT, WAVE = 30, 31, 32, 33, 34
 

@@ -2,7 +2,7 @@
  * editor_stage.h - what the tests of the editor share: the whole of it over the fakes, a page or two in flash, three servos,
  * and the terminal before it. setUp and tearDown are here.
  *
- * The terminal has rows and columns from 1, as editor-original.md counts them. */
+ * The terminal has rows and columns from 1, as edit/ORIGINAL.md counts them. */
 #ifndef EDITOR_STAGE_H
 #define EDITOR_STAGE_H
 

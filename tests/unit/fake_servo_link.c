@@ -62,9 +62,10 @@ uint32_t servo_link_torque_on(servo_link_t *link, uint32_t ids)
     return on;
 }
 
-void servo_link_torque_off(servo_link_t *link, uint32_t ids)
+uint32_t servo_link_torque_off(servo_link_t *link, uint32_t ids)
 {
     link->torque &= ~ids;
+    return ids & link->present & ~link->silent;
 }
 
 uint32_t servo_link_drivable(const servo_link_t *link)
@@ -92,11 +93,11 @@ void servo_link_slopes(servo_link_t *link, const uint8_t compliance[SERVO_LINK_J
     memcpy(fake_servo_link.compliance, compliance, sizeof fake_servo_link.compliance);
 }
 
-void servo_link_full_speed(servo_link_t *link, uint32_t ids)
+uint32_t servo_link_full_speed(servo_link_t *link, uint32_t ids)
 {
     (void)link;
-    (void)ids;
     fake_servo_link.full_speeds++;
+    return ids;
 }
 
 void servo_link_poll(servo_link_t *link)

@@ -24,11 +24,6 @@ static void note(const char *word, int a, int b)
     strncat(told, text, sizeof told - strlen(told) - 1);
 }
 
-bool performer_is_idle(const performer_t *p)
-{
-    return p->state == PERFORMER_IDLE;
-}
-
 performer_status_t performer_start(performer_t *p, uint8_t page, uint8_t code)
 {
     note("start", page, code);

@@ -10,10 +10,11 @@ foreach(test test_inputs test_steer)
         SOURCES firmware/play/inputs.c firmware/play/steer.c motion/shape.c hal/remote.c hal/debounce.c tests/unit/inputs_stage.c
                 tests/fake/fake_console.c tests/fake/fake_panel.c tests/fake/fake_time.c)
 endforeach()
-set(performer_sources performer.c performer_event.c performer_ready.c performer_start.c performer_state.c performer_stop.c
-    performer_watch.c servo_link_masks.c)
+set(performer_sources performer.c performer_event.c performer_ready.c performer_watch.c performer_drive.c performer_layers.c
+    servo_link_masks.c)
 list(TRANSFORM performer_sources PREPEND firmware/common/)
-list(APPEND performer_sources firmware/play/performer_drive.c firmware/play/performer_layers.c tests/unit/fake_servo_link.c tests/unit/performer_stage.c
+list(APPEND performer_sources tests/unit/fake_servo_link.c tests/unit/performer_stage.c
+    tests/fake/fake_bus.c tests/fake/fake_system.c tests/fake/fake_time.c
     motion/approach.c ${M512_PLAYER_FULL})
 foreach(test test_performer test_performer_drive test_performer_stop test_performer_fault)
     m512_unit_test(${test} INCLUDES firmware/common SOURCES ${performer_sources})

@@ -5,7 +5,6 @@
 
 player_t player;
 static player_joint_t joints[PAGE_JOINTS];
-static uint16_t goals_of_all[PAGE_JOINTS];
 link_t l;
 uint16_t pose[PAGE_JOINTS];
 
@@ -15,7 +14,7 @@ void setUp(void)
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         pose[i] = 512;
     }
-    player_init(&player, &sparse_source, joints, goals_of_all);
+    player_init(&player, &sparse_source, joints);
     link_init(&l, LINK_LATCH);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The way to the first pose: speed limit, ramps, equal time, exact end, break. player.md section 2, rule 6. */
+ * The way to the first pose: speed limit, ramps, equal time, exact end, break. LAWS.md section 2, rule 6. */
 #include "approach.h"
 
 #include <string.h>

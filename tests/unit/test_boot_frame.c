@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Frames of the block protocol (firmware/boot/PROTOCOL.md), byte by byte. */
+ * Frames of the block protocol (firmware/boot/BLOCK_PROTOCOL.md), byte by byte. */
 #include "firmware/boot/frame.h"
-#include "firmware/common/crc16.h"
+#include "crc16.h"
 #include "unity.h"
 
 #include <string.h>
@@ -43,7 +43,7 @@ static unsigned make(uint8_t *to, uint8_t command, uint8_t words)
     return 6 + body;
 }
 
-/* From PROTOCOL.md; the CRC is that of Python's binascii.crc_hqx(data, 0xFFFF). */
+/* From BLOCK_PROTOCOL.md; the CRC is that of Python's binascii.crc_hqx(data, 0xFFFF). */
 static void test_hello_of_the_manual(void)
 {
     const uint8_t hello[] = {0xA5, 0x01, 0x01, 0x00, 0xC8, 0x9D};

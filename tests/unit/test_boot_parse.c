@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Lines typed at the loader's prompt: words, separators, numbers (bootloader-original.md, section 2, and
+ * Lines typed at the loader's prompt: words, separators, numbers (boot/ORIGINAL.md, section 2, and
  * firmware/boot/DIFFERENCES.md). */
 #include "firmware/boot/parse.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Cells: addresses and texts of editor-original.md sections 1 and 4. */
+ * Cells: addresses and texts of edit/ORIGINAL.md sections 1 and 4. */
 #include "cells.h"
 #include "unity.h"
 

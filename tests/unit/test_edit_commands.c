@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The words of the editor: which there are, how they and their numbers are read; editor-original.md sections 5 and 6
+ * The words of the editor: which there are, how they and their numbers are read; edit/ORIGINAL.md sections 5 and 6
  * with the differences of issue 3. */
 #include "editor_stage.h"
 #include "unity.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The editor's keys and modes: questions before edits are lost, keys on the table and in a line, and what stops a play;
- * editor-original.md section 4, issue 3. */
+ * edit/ORIGINAL.md section 4. */
 #include "editor_stage.h"
 #include "unity.h"
 
@@ -296,7 +296,7 @@ static void test_line_that_is_too_long_is_not_run(void)
     }
     type("\r");
     TEST_ASSERT_EQUAL_UINT8(1, the_session.page);
-    TEST_ASSERT_EQUAL_STRING("Line too long", message());
+    TEST_ASSERT_EQUAL_STRING("The line is too long: nothing was done", message());
 }
 
 /* ---- a play ---- */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The screen as a terminal shows it: the frame of editor-original.md section 3, and that only what changed is sent, when the
+ * The screen as a terminal shows it: the frame of edit/ORIGINAL.md section 3, and that only what changed is sent, when the
  * console has room. */
 #include "editor_stage.h"
 #include "unity.h"

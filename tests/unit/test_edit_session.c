@@ -14,7 +14,7 @@ static uint8_t *flash_page(uint8_t page)
     return fake_flash_bytes() + MEM_MOTION_START + 512u * page;
 }
 
-/* A page with three steps of 18 joints, as editor-original.md describes a stored one. */
+/* A page with three steps of 18 joints, as edit/ORIGINAL.md describes a stored one. */
 static void store(uint8_t page, uint8_t seed)
 {
     uint8_t *bytes = flash_page(page);

@@ -141,11 +141,11 @@ static void test_clock_and_tick_run_together(void)
 static void test_fake_servo_reads_and_writes_its_table(void)
 {
     uint8_t bytes[2], error = 9;
-    const uint8_t goal[2] = { 0x34, 0x02 };
+    const uint8_t goal[3] = { DXL_AT_GOAL, 0x34, 0x02 };
     (void)fake_bus_add(4, BUS_RATE_1M);
     TEST_ASSERT_EQUAL(BUS_OK, bus_call_ping(4, 1, &error));
     TEST_ASSERT_EQUAL(0, error);
-    TEST_ASSERT_EQUAL(BUS_OK, bus_call_write(4, DXL_AT_GOAL, goal, 2, NULL));
+    TEST_ASSERT_EQUAL(BUS_OK, bus_call(4, DXL_WRITE, goal, sizeof goal, 0, 1, NULL));
     TEST_ASSERT_EQUAL_HEX16(0x0234, fake_bus_word(4, DXL_AT_GOAL));
     TEST_ASSERT_EQUAL(1, fake_bus_servo(4)->table[DXL_AT_TORQUE_ENABLE]);
     TEST_ASSERT_EQUAL(BUS_OK, bus_call_read(4, DXL_AT_PRESENT, bytes, 2, NULL));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Play's inputs: what remote, panel and typed text ask of the performer. */
+#include <stdio.h>
 #include <string.h>
 #include "console.h"
 #include "fake_console.h"
@@ -136,6 +137,160 @@ static void test_inputs_stop_after_a_lost_release_counts_again(void)
     TEST_ASSERT_EQUAL_STRING("code 255 0;code 255 0;", told);
 }
 
+/* ---- a play starts on a press ---- */
+
+/* What ends a play or a stop while a thumb stays on the remote. */
+static void end_play(void)
+{
+    performer.state = PERFORMER_IDLE;
+    memset(told, 0, sizeof told);
+}
+
+static void hold(uint16_t buttons, uint8_t packets)
+{
+    while (packets-- > 0) {
+        remote(buttons);
+        ticks(6);
+    }
+}
+
+static void test_inputs_held_button_does_not_start_again_what_has_ended(void)
+{
+    hold(1, 3);
+    end_play();
+    hold(1, 20);
+    TEST_ASSERT_EQUAL_STRING("", told);
+    remote(0);
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
+}
+
+static void test_inputs_play_that_fails_before_the_next_packet_is_not_started_again(void)
+{
+    hold(1, 1);
+    end_play();
+    hold(1, 20);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+static void test_inputs_silence_makes_the_same_button_a_press(void)
+{
+    const uint8_t modes[] = {LINK_LATCH, LINK_HOLD, SETTINGS_REMOTE_DRIVE};
+    for (uint8_t i = 0; i < sizeof modes; i++) {
+        setUp();
+        settings.remote_mode = modes[i];
+        hold(1, 3);
+        end_play();
+        remote(1);
+        ticks(63);
+        remote(1);
+        TEST_ASSERT_EQUAL_STRING("", told);
+        ticks(64);
+        remote(1);
+        TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
+    }
+}
+
+static void test_inputs_another_code_is_a_press(void)
+{
+    hold(1, 3);
+    end_play();
+    remote(16);
+    TEST_ASSERT_EQUAL_STRING("start 5 16;", told);
+    end_play();
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
+}
+
+static void test_inputs_start_does_not_make_a_held_button_a_press(void)
+{
+    hold(1, 3);
+    fake_panel_press(PANEL_START);
+    ticks(5);
+    end_play();
+    hold(1, 20);
+    fake_panel_press(0);
+    hold(1, 20);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+static void test_inputs_button_6_does_not_make_a_held_button_a_press(void)
+{
+    hold(1, 3);
+    remote(512 + 1);
+    end_play();
+    hold(1, 20);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+static void test_inputs_fingers_that_leave_a_fist_start_nothing(void)
+{
+    hold(1, 3);
+    remote(255);
+    end_play();
+    remote(127);
+    remote(17);
+    hold(16, 3);
+    TEST_ASSERT_EQUAL_STRING("", told);
+    remote(1);
+    TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
+}
+
+static void test_inputs_fingers_that_leave_a_chord_after_a_stop_start_nothing(void)
+{
+    hold(1, 3);
+    hold(1 + 4, 3);
+    end_play();
+    hold(1, 20);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+static void test_inputs_steering_is_no_press(void)
+{
+    settings.remote_mode = SETTINGS_REMOTE_DRIVE;
+    performer.state = PERFORMER_PLAY;
+    partner = 3;
+    hold(1 + 4, 3);   /* L steers: the play hears code 1 */
+    end_play();
+    partner = 0;
+    hold(1 + 4, 20);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+static void test_inputs_button_held_before_a_play_may_start_nothing_behind_it(void)
+{
+    hold(2, 1);       /* no page has it */
+    performer.state = PERFORMER_PLAY;   /* called by its number */
+    hold(2, 3);
+    end_play();
+    hold(2, 20);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
+static void test_inputs_typed_code_is_always_a_press(void)
+{
+    inputs_code(&inputs, 1);
+    end_play();
+    inputs_code(&inputs, 1);
+    TEST_ASSERT_EQUAL_STRING("start 2 1;", told);
+}
+
+static void test_inputs_arrow_left_of_a_chord_starts_nothing_after_start(void)
+{
+    fake_panel_press(PANEL_UP);
+    ticks(5);
+    fake_panel_press(PANEL_UP | PANEL_LEFT);
+    ticks(5);
+    fake_panel_press(PANEL_UP | PANEL_LEFT | PANEL_START);
+    ticks(5);
+    end_play();
+    fake_panel_press(PANEL_UP | PANEL_LEFT);
+    ticks(5);
+    fake_panel_press(PANEL_UP);
+    ticks(5);
+    TEST_ASSERT_EQUAL_STRING("", told);
+}
+
 /* ---- panel ---- */
 
 static void test_inputs_arrows_are_codes(void)
@@ -214,6 +369,48 @@ static void test_inputs_flood_loses_text_but_no_packet(void)
     TEST_ASSERT_EQUAL_UINT8(INPUTS_TYPED_BYTES, count);
 }
 
+/* What the shell gets: characters, and (n) where n bytes were lost. */
+static void typed_with_holes(char text[256])
+{
+    uint8_t byte;
+    text[0] = '\0';
+    while (inputs_get(&inputs, &byte)) {
+        const bool hole = byte >= INPUTS_HOLE;
+        snprintf(text + strlen(text), 8, hole ? "(%d)" : "%c", hole ? byte - INPUTS_HOLE : byte);
+    }
+}
+
+static void test_inputs_tell_where_the_line_has_lost_bytes(void)
+{
+    char text[256];
+    fake_console_type("@rc -1");
+    fake_console_lose(3);
+    fake_console_type("reset\r");
+    inputs_take(&inputs);
+    typed_with_holes(text);
+    TEST_ASSERT_EQUAL_STRING("@rc -1(3)reset\r", text);
+}
+
+static void test_inputs_tell_where_a_full_ring_has_lost_bytes(void)
+{
+    char text[256];
+    for (uint8_t i = 0; i < INPUTS_TYPED_BYTES; i++) {
+        fake_console_type("x");
+    }
+    fake_console_type("00\r@");   /* no room */
+    inputs_take(&inputs);
+    uint8_t byte;
+    TEST_ASSERT_TRUE(inputs_get(&inputs, &byte));
+    fake_console_type("r");         /* room for one: not for this and what must stand before it */
+    inputs_take(&inputs);
+    typed_with_holes(text);
+    fake_console_type("eset\r");
+    inputs_take(&inputs);
+    typed_with_holes(text);
+    TEST_ASSERT_EQUAL_STRING("(5)eset\r", text);
+    TEST_ASSERT_EQUAL_UINT16(5, inputs.lost);
+}
+
 static void test_inputs_tell_the_pc_to_wait_and_to_go_on(void)
 {
     char text[128];
@@ -255,11 +452,25 @@ int main(void)
     RUN_TEST(test_inputs_hold_mode_repeated_packets_keep_it_alive);
     RUN_TEST(test_inputs_hold_mode_never_heard_remote_is_not_missed);
     RUN_TEST(test_inputs_stop_after_a_lost_release_counts_again);
+    RUN_TEST(test_inputs_held_button_does_not_start_again_what_has_ended);
+    RUN_TEST(test_inputs_play_that_fails_before_the_next_packet_is_not_started_again);
+    RUN_TEST(test_inputs_silence_makes_the_same_button_a_press);
+    RUN_TEST(test_inputs_another_code_is_a_press);
+    RUN_TEST(test_inputs_start_does_not_make_a_held_button_a_press);
+    RUN_TEST(test_inputs_button_6_does_not_make_a_held_button_a_press);
+    RUN_TEST(test_inputs_fingers_that_leave_a_fist_start_nothing);
+    RUN_TEST(test_inputs_fingers_that_leave_a_chord_after_a_stop_start_nothing);
+    RUN_TEST(test_inputs_steering_is_no_press);
+    RUN_TEST(test_inputs_button_held_before_a_play_may_start_nothing_behind_it);
+    RUN_TEST(test_inputs_typed_code_is_always_a_press);
+    RUN_TEST(test_inputs_arrow_left_of_a_chord_starts_nothing_after_start);
     RUN_TEST(test_inputs_arrows_are_codes);
     RUN_TEST(test_inputs_start_button_stops_what_is_playing);
     RUN_TEST(test_inputs_button_held_at_power_on_is_no_press);
     RUN_TEST(test_inputs_text_and_packets_are_told_apart);
     RUN_TEST(test_inputs_flood_loses_text_but_no_packet);
+    RUN_TEST(test_inputs_tell_where_the_line_has_lost_bytes);
+    RUN_TEST(test_inputs_tell_where_a_full_ring_has_lost_bytes);
     RUN_TEST(test_inputs_tell_the_pc_to_wait_and_to_go_on);
     RUN_TEST(test_inputs_unfinished_packet_does_not_swallow_text);
     return UNITY_END();

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * The page journal on a strict fake flash: what a save leaves, and what every power cut leaves. */
 #include "fake_flash.h"
-#include "firmware/common/crc16.h"
-#include "firmware/common/journal.h"
-#include "linker/memory_map.h"
+#include "crc16.h"
+#include "journal.h"
+#include "memory_map.h"
 #include "unity.h"
 
 #include <stdio.h>

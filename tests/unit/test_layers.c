@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * test_layers.c - a second page and code-made motion over a walk: who moves a joint, how fast it changes hands, and that
- * nobody else notices (shaping.md, "Layers"). */
+ * nobody else notices (SHAPING.md, "Layers"). */
 #include <string.h>
 #include "layers_stage.h"
 #include "unity.h"
@@ -9,13 +9,21 @@
 #define WAVE 2u  /* page 2: two steps of 30 ticks with joints 2 and 3, round and round */
 #define SHORT 3u /* page 3: one step of 20 ticks, then it ends */
 #define CYCLE 48u
-#define RUN (6u * CYCLE)
+#define RECORDED 24u
+#define MARKED 4u /* ticks */
+#define RUN (5u * CYCLE)
 #define LAYER_JOINTS 0xCul
 /* 60 degrees/s are 1.6 units a tick. */
 #define HAND_OVER_MOST 2
 
 static uint8_t layer_events;
-static uint8_t alone[RUN]; /* mark() of the walk without a layer; the chip has no room for more */
+
+static bool seeks(uint8_t joint)
+{
+    return (layers.mux.seeking >> joint & 1u) != 0;
+}
+static uint16_t alone[RUN / MARKED]; /* mark() of the walk without a layer; the chip has no room for more */
+static uint16_t marked;        /* mark() up to this tick */
 static int fastest;            /* change of a goal in a tick that any of the pages makes by itself */
 
 static void make_pages(uint8_t schedule)
@@ -50,13 +58,25 @@ void tearDown(void)
 
 static void start(player_law_t law)
 {
+    marked = 0;
     layers_stage_start(WALK, law);
 }
 
-/* Of joints 0 and 1, which no layer takes; any unit more or less changes it. */
-static uint8_t mark(void)
+/* Takes in joints 0 and 1, which no layer takes. Any unit more or less changes all that follows. Returns the tick's place in
+ * `alone` if it has one, else RUN. */
+static uint16_t mark(uint16_t tick)
 {
-    return (uint8_t)(goal_pos[0] + 85u * goal_pos[1]);
+    marked = (uint16_t)(31u * marked + goal_pos[0]);
+    marked = (uint16_t)(31u * marked + goal_pos[1]);
+    return tick % MARKED == MARKED - 1u ? tick / MARKED : RUN;
+}
+
+static void expect_undisturbed(uint16_t tick)
+{
+    const uint16_t at = mark(tick);
+    if (at != RUN) {
+        TEST_ASSERT_EQUAL_UINT16_MESSAGE(alone[at], marked, "a joint of the walk is disturbed");
+    }
 }
 
 static int size(int way)
@@ -69,17 +89,17 @@ static int size(int way)
 static uint8_t tick(void)
 {
     uint16_t before[4];
-    uint8_t was_changing[4];
+    bool was_seeking[4];
     for (uint8_t i = 0; i < 4; i++) {
         before[i] = goal_pos[i];
-        was_changing[i] = joints[i].hand_over;
+        was_seeking[i] = seeks(i);
     }
     uint8_t events = layers_tick(&layers, &l, &layer_events);
     for (uint8_t i = 0; i < 4; i++) {
         int way = size((int)goal_pos[i] - (int)before[i]);
         TEST_ASSERT_LESS_OR_EQUAL(PAGE_POS_MAX, goal_pos[i]);
         /* One that meets its owner's way goes on with the owner in the same tick. */
-        int most = was_changing[i] != 0 && joints[i].hand_over != 0 ? HAND_OVER_MOST : fastest + fastest / 2;
+        const int most = was_seeking[i] && seeks(i) ? HAND_OVER_MOST : fastest + fastest / 2;
         TEST_ASSERT_LESS_OR_EQUAL_MESSAGE(most, way, "a joint leaps");
     }
     return events;
@@ -100,7 +120,10 @@ static void play_alone(player_law_t law)
             int way = size((int)goal_pos[i] - (int)before[i]);
             found = way > found ? way : found;
         }
-        alone[t] = mark();
+        const uint16_t at = mark(t);
+        if (at != RUN) {
+            alone[at] = marked;
+        }
     }
     fastest = found;
 }
@@ -118,7 +141,7 @@ static void layer_from(player_law_t law, uint16_t on)
             layers_end(&layers);
         }
         (void)tick();
-        TEST_ASSERT_EQUAL_UINT8_MESSAGE(alone[t], mark(), "a joint of the walk is disturbed");
+        expect_undisturbed(t);
     }
     TEST_ASSERT_EQUAL_HEX32(0, layers_joints(&layers));
     TEST_ASSERT_FALSE(layers_are_moving(&layers)); /* everybody has caught up */
@@ -144,25 +167,25 @@ static void test_layers_classic_at_every_tick_of_a_walk(void)
 }
 
 /* What joint 2 is asked for by a layer that comes with the walk. */
-static void record_layer(player_law_t law, uint16_t asked[CYCLE])
+static void record_layer(player_law_t law, uint16_t asked[RECORDED])
 {
     fastest = 1023;
     layers_init(&layers, goal_pos);
     start(law);
     TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, LAYER_JOINTS));
-    for (uint8_t t = 0; t < CYCLE; t++) {
+    for (uint8_t t = 0; t < RECORDED; t++) {
         (void)tick();
-        asked[t] = player_asks(&layers.play, &joints[2]);
+        asked[t] = player_goal(&layers.play, 2);
     }
 }
 
 static void test_layers_play_by_the_exact_law_over_both(void)
 {
-    uint16_t over_exact[CYCLE], over_classic[CYCLE];
+    uint16_t over_exact[RECORDED], over_classic[RECORDED];
     record_layer(PLAYER_LAW_EXACT, over_exact);
     record_layer(PLAYER_LAW_CLASSIC, over_classic);
-    TEST_ASSERT_EQUAL_UINT16_ARRAY(over_exact, over_classic, CYCLE);
-    TEST_ASSERT_NOT_EQUAL_UINT16(over_exact[0], over_exact[CYCLE - 1]);
+    TEST_ASSERT_EQUAL_UINT16_ARRAY(over_exact, over_classic, RECORDED);
+    TEST_ASSERT_NOT_EQUAL_UINT16(over_exact[0], over_exact[RECORDED - 1]);
 }
 
 /* In speed base the longest way may be that of a joint that is lent. */
@@ -170,6 +193,44 @@ static void test_layers_in_speed_base_keep_the_timing(void)
 {
     at_every_tick(PLAYER_LAW_EXACT, PAGE_SCHEDULE_SPEED);
     at_every_tick(PLAYER_LAW_CLASSIC, PAGE_SCHEDULE_SPEED);
+}
+
+/* The walk with a pause from tick `at` on; returns the ticks until it begins its sixth step. */
+static uint16_t ticks_with_a_pause(uint16_t at, bool with_layers)
+{
+    uint16_t ticks = 0;
+    uint8_t steps = 0;
+    layers_init(&layers, goal_pos);
+    start(PLAYER_LAW_CLASSIC);
+    if (with_layers) {
+        TEST_ASSERT_EQUAL(LAYERS_OK, layers_aim(&layers, 2, 1000, 360));
+        TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, WAVE, 1ul << 3));
+    }
+    while (steps < 6) {
+        if (ticks == at) {
+            player_pause(&player);
+            layers_pause(&layers);
+        } else if (ticks == at + 20u) {
+            player_resume(&player);
+            layers_resume(&layers);
+        }
+        steps = (uint8_t)(steps + ((layers_tick(&layers, &l, &layer_events) & PLAYER_EV_STEP) != 0));
+        (void)mark(ticks);
+        TEST_ASSERT_LESS_THAN(1000, ++ticks);
+    }
+    return ticks;
+}
+
+/* In speed base a step after a pause takes as long as the joints that are not at their target need; the joints that others
+ * have do not count by where they are, but by where the walk has them. */
+static void test_layers_in_speed_base_keep_the_timing_through_a_pause(void)
+{
+    make_pages(PAGE_SCHEDULE_SPEED);
+    for (uint16_t at = 1; at < 2u * CYCLE; at++) {
+        const uint16_t ticks = ticks_with_a_pause(at, false), marked_alone = marked;
+        TEST_ASSERT_EQUAL_UINT16(ticks, ticks_with_a_pause(at, true));
+        TEST_ASSERT_EQUAL_UINT16(marked_alone, marked);
+    }
 }
 
 static void test_layers_page_ends_by_itself_and_gives_its_joints_back(void)
@@ -183,14 +244,15 @@ static void test_layers_page_ends_by_itself_and_gives_its_joints_back(void)
         (void)tick();
     }
     TEST_ASSERT_BITS_HIGH(PLAYER_EV_ENDED, layer_events);
-    TEST_ASSERT_EQUAL_HEX32(0, layers_joints(&layers));
+    TEST_ASSERT_EQUAL_HEX32(LAYER_JOINTS, layers_joints(&layers)); /* on their way back */
     for (uint16_t t = 0; t < RUN; t++) {
         (void)tick();
     }
+    TEST_ASSERT_EQUAL_HEX32(0, layers_joints(&layers));
     TEST_ASSERT_FALSE(layers_are_moving(&layers));
 }
 
-/* A joint that changes hands is never faster than the approach speed (shaping.md). The wave asks for 288 units in its first
+/* A joint that changes hands is never faster than the approach speed (SHAPING.md). The wave asks for 288 units in its first
  * 30 ticks, 9.6 a tick; 1.6 are allowed, and the joints set out at once. */
 static void given_joint_keeps_the_approach_speed(player_law_t law)
 {
@@ -227,10 +289,10 @@ static void test_layers_slow_joint_goes_on_with_a_page_that_passes_it(void)
     layers_set_speed(&layers, 10);
     TEST_ASSERT_EQUAL(LAYERS_OK, layers_start(&layers, FAST, 1ul << 2));
     for (uint8_t t = 1; t <= 60; t++) {
-        const int was_pos = goal_pos[2], was_asked = player_asks(&layers.play, &joints[2]);
+        const int was_pos = goal_pos[2], was_asked = player_goal(&layers.play, 2);
         (void)layers_tick(&layers, &l, &layer_events);
-        const int asked = player_asks(&layers.play, &joints[2]), way = size(goal_pos[2] - was_pos);
-        if (joints[2].hand_over != 0) {
+        const int asked = player_goal(&layers.play, 2), way = size(goal_pos[2] - was_pos);
+        if (seeks(2)) {
             TEST_ASSERT_LESS_OR_EQUAL(30, t);
             TEST_ASSERT_LESS_OR_EQUAL(1, way);
         } else {
@@ -326,7 +388,7 @@ static void test_layers_swing_over_a_walk_and_free(void)
             layers_free(&layers, 1ul << 2);
         }
         (void)tick();
-        TEST_ASSERT_EQUAL_UINT8(alone[t], mark());
+        expect_undisturbed(t);
     }
     TEST_ASSERT_FALSE(layers_are_moving(&layers));
 }
@@ -425,6 +487,7 @@ int main(void)
     RUN_TEST(test_layers_classic_at_every_tick_of_a_walk);
     RUN_TEST(test_layers_play_by_the_exact_law_over_both);
     RUN_TEST(test_layers_in_speed_base_keep_the_timing);
+    RUN_TEST(test_layers_in_speed_base_keep_the_timing_through_a_pause);
     RUN_TEST(test_layers_page_ends_by_itself_and_gives_its_joints_back);
     RUN_TEST(test_layers_joint_given_to_a_layer_keeps_the_approach_speed);
     RUN_TEST(test_layers_slow_joint_goes_on_with_a_page_that_passes_it);

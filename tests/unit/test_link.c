@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * test_link.c - one test for each sentence of remote.md, "What a code does". */
+ * test_link.c - one test for each sentence of REMOTE.md, "What a code does". */
 #include "link.h"
 #include "unity.h"
 
@@ -226,6 +226,13 @@ static void test_link_of_stop_and_end_the_last_one_counts(void)
     expect(0, LINK_ENDED);
 }
 
+static void test_link_button_that_called_does_not_undo_a_stop_that_comes_at_once(void)
+{
+    link_code(&l, LINK_CODE_STOP);
+    link_code(&l, CODE_U);   /* the second packet of the press */
+    expect(EXIT, LINK_EXIT);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -252,5 +259,6 @@ int main(void)
     RUN_TEST(test_link_second_stop_starts_with_fresh_exits);
     RUN_TEST(test_link_end_follows_no_link_until_a_new_call);
     RUN_TEST(test_link_of_stop_and_end_the_last_one_counts);
+    RUN_TEST(test_link_button_that_called_does_not_undo_a_stop_that_comes_at_once);
     return UNITY_END();
 }

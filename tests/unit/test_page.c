@@ -13,7 +13,7 @@ void tearDown(void)
 {
 }
 
-/* The empty page of motion512.md, field by field. Its sum without byte 31: 1 + 0x0A + 32 + 32 + 31 * 0x55 +
+/* The empty page of PAGE_FORMAT.md, field by field. Its sum without byte 31: 1 + 0x0A + 32 + 32 + 31 * 0x55 +
  * 7 * 31 * 0x40 = 75 + 2635 + 13888 = 16598 = 0x40D6; so byte 31 is 0xFF - 0xD6 = 0x29. */
 static void test_page_clear_makes_the_documented_empty_page(void)
 {
@@ -127,41 +127,6 @@ static void test_page_slope_is_two_to_the_nibble(void)
     TEST_ASSERT_EQUAL_UINT8(32, page_slope(15));
 }
 
-static void test_page_mirrored_position_is_as_far_on_the_other_side_within_the_servo(void)
-{
-    TEST_ASSERT_EQUAL_UINT16(512, page_pos_mirrored(512, 1024));
-    TEST_ASSERT_EQUAL_UINT16(424, page_pos_mirrored(600, 1024));
-    TEST_ASSERT_EQUAL_UINT16(1, page_pos_mirrored(1023, 1024));
-    TEST_ASSERT_EQUAL_UINT16(1023, page_pos_mirrored(0, 1024));
-    TEST_ASSERT_EQUAL_UINT16(0, page_pos_mirrored(900, 2 * 400));
-    TEST_ASSERT_EQUAL_UINT16(1023, page_pos_mirrored(100, 2 * 700));
-}
-
-static void test_page_position_between_two_is_rounded_away_from_the_first(void)
-{
-    TEST_ASSERT_EQUAL_UINT16(513, page_pos_between(512, 513, 50));
-    TEST_ASSERT_EQUAL_UINT16(512, page_pos_between(513, 512, 50));
-    TEST_ASSERT_EQUAL_UINT16(400, page_pos_between(400, 800, 0));
-    TEST_ASSERT_EQUAL_UINT16(800, page_pos_between(400, 800, 100));
-    TEST_ASSERT_EQUAL_UINT16(256, page_pos_between(0, 1023, 25));
-    TEST_ASSERT_EQUAL_UINT16(767, page_pos_between(1023, 0, 25));
-}
-
-static void must_split(uint8_t time, uint8_t percent, uint8_t first, uint8_t rest)
-{
-    TEST_ASSERT_EQUAL_UINT8(first, page_time_split(&time, percent));
-    TEST_ASSERT_EQUAL_UINT8(rest, time);
-}
-
-static void test_page_time_is_shared_and_nothing_gets_none(void)
-{
-    must_split(31, 50, 16, 15);
-    must_split(255, 25, 64, 191);
-    must_split(1, 50, 1, 1);
-    must_split(9, 0, 1, 8);
-    must_split(0, 50, 0, 0);
-}
-
 static void test_page_is_playable_needs_steps_and_a_count(void)
 {
     page[PAGE_AT_STEPS] = 1;
@@ -181,9 +146,6 @@ int main(void)
     RUN_TEST(test_page_check_ignores_positions_of_steps_not_used);
     RUN_TEST(test_page_position_flags_release_the_joint_whatever_is_below);
     RUN_TEST(test_page_words_are_little_endian_at_documented_places);
-    RUN_TEST(test_page_mirrored_position_is_as_far_on_the_other_side_within_the_servo);
-    RUN_TEST(test_page_position_between_two_is_rounded_away_from_the_first);
-    RUN_TEST(test_page_time_is_shared_and_nothing_gets_none);
     RUN_TEST(test_page_slope_is_two_to_the_nibble);
     RUN_TEST(test_page_is_playable_needs_steps_and_a_count);
     return UNITY_END();

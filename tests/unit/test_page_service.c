@@ -2,14 +2,14 @@
  * Who can write flash here: our loader, the factory's, a mailbox, nobody; and the mailbox itself. */
 #include "fake_boot_call.h"
 #include "fake_eeprom.h"
-#include "firmware/common/crc16.h"
-#include "firmware/common/page_service.h"
-#include "linker/memory_map.h"
+#include "crc16.h"
+#include "page_service.h"
+#include "memory_map.h"
 #include "unity.h"
 
 #include <string.h>
 
-/* bootloader-original.md, section 7b: the used part 1E000-1FB8F, the rest FF. */
+/* boot/ORIGINAL.md, section 7b: the used part 1E000-1FB8F, the rest FF. */
 #define FACTORY_USED_BYTES 0x1B90u
 #define FACTORY_USED_SUM 0x000B2F60ul
 #define FACTORY_USED_CRC 0x7406u

@@ -11,7 +11,7 @@
 static page_store_t store;
 static uint8_t page[PAGE_BYTES];
 
-/* Where page n stands: 0x0E000 + 512 n (board.md). */
+/* Where page n stands: 0x0E000 + 512 n (BOARD.md). */
 static uint8_t *flash_of(uint8_t number)
 {
     return fake_flash_bytes() + 0x0E000 + 512u * number;
@@ -142,7 +142,7 @@ static void test_find_by_code_takes_the_lowest_playable_good_page(void)
     flash_of(10)[70] ^= 1;
     put(11, "No steps", 0, 4);
     put(9, "Not played", 1, 4);
-    page[PAGE_AT_PLAY_COUNT] = 0;   /* no action (motion512.md) */
+    page[PAGE_AT_PLAY_COUNT] = 0;   /* no action (PAGE_FORMAT.md) */
     page_seal(page);
     memcpy(flash_of(9), page, PAGE_BYTES);
     put(12, "This", 1, 4);

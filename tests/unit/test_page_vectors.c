@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_page_vectors.c - the C codec and the Python codec of m512 judge the same pages: tests/golden/page_vectors.json. */
+ * test_page_vectors.c - the C codec and the Python codec of m512 judge the same pages:
+ * tests/models/golden/page_vectors.json. */
 #include "page.h"
 #include "unity.h"
 

@@ -2,7 +2,12 @@
  * The performer: faults of servos, battery, heat. */
 #include "performer_stage.h"
 
+#include <setjmp.h>
 #include "dxl.h"
+#include "fake_bus.h"
+#include "fake_system.h"
+#include "fake_time.h"
+#include "tick.h"
 #include "unity.h"
 
 /* ---- faults ---- */
@@ -150,6 +155,91 @@ static void test_performer_hot_servo_is_named(void)
     TEST_ASSERT_FALSE(has_event(PERFORMER_EV_HOT));
 }
 
+/* ---- the computer ---- */
+
+/* What the main loop does in a tick that comes so many ticks late. */
+static void tick_late_by(uint16_t late)
+{
+    fake_time_ticks((uint16_t)(late + 1u));
+    TEST_ASSERT_TRUE(tick_take());
+    ticks(1);
+}
+
+static void test_performer_ticks_late_by_less_than_a_tenth_of_a_second_are_only_counted(void)
+{
+    fake_time_reset();
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    tick_late_by(12);
+    TEST_ASSERT_EQUAL(PERFORMER_PLAY, performer.state);
+    TEST_ASSERT_FALSE(performer.leaving);
+    TEST_ASSERT_EQUAL(12, tick_missed());
+}
+
+static void test_performer_tick_late_by_a_tenth_of_a_second_breaks_softly_and_says_so(void)
+{
+    fake_time_reset();
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    tick_late_by(13);
+    TEST_ASSERT_TRUE(performer.leaving);
+    TEST_ASSERT_EQUAL(PERFORMER_PLAY, performer.state);   /* it slows down */
+    fake_time_reset();
+    ticks(60);
+    TEST_ASSERT_TRUE(performer_is_idle(&performer));
+    (void)expect_event(PERFORMER_EV_TICKS_LATE);
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_BROKEN, end_reason());
+}
+
+static void test_performer_late_tick_of_a_robot_that_stands_is_nothing(void)
+{
+    performer_event_t event;
+    fake_time_reset();
+    tick_late_by(500);
+    TEST_ASSERT_FALSE(performer_next_event(&performer, &event));
+    fake_time_reset();
+}
+
+static void test_performer_bus_that_goes_ends_the_play_and_nobody_is_driven_before_on(void)
+{
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    ticks(10);
+    fake_bus_lose();
+    const uint16_t frames = fake_servo_link.frames;
+    performer_poll(&performer);
+    (void)expect_event(PERFORMER_EV_BUS_LOST);
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_BROKEN, end_reason());
+    ticks(200);
+    TEST_ASSERT_EQUAL(frames, fake_servo_link.frames);
+    TEST_ASSERT_EQUAL(PERFORMER_ERR_RELEASED, performer_start(&performer, 2, 0));
+    TEST_ASSERT_NOT_EQUAL(0, performer_on(&performer, SERVO_LINK_BIT(1)));
+    TEST_ASSERT_EQUAL(PERFORMER_OK, performer_start(&performer, 2, 0));
+}
+
+static void test_performer_asked_to_end_comes_to_a_stand_first(void)
+{
+    jmp_buf ended;
+    static uint16_t ticks_to_end;   /* static: kept across longjmp */
+    fake_system_reset();
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    ticks(10);
+    ticks_to_end = 0;
+    if (setjmp(ended) == 0) {
+        fake_system_on_restart(&ended);
+        fake_system_ask_to_end();
+        for (; ticks_to_end < 200; ticks_to_end++) {
+            ticks(1);
+        }
+        TEST_FAIL_MESSAGE("it never ended");
+    }
+    fake_system_reset();
+    TEST_ASSERT_TRUE(performer_is_idle(&performer));
+    TEST_ASSERT_TRUE(ticks_to_end > 1);
+    TEST_ASSERT_NOT_EQUAL(0, servos.torque);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -164,5 +254,10 @@ int main(void)
     RUN_TEST(test_performer_silent_servo_at_the_start_may_be_left_out);
     RUN_TEST(test_performer_low_battery_is_told_once_a_play);
     RUN_TEST(test_performer_hot_servo_is_named);
+    RUN_TEST(test_performer_ticks_late_by_less_than_a_tenth_of_a_second_are_only_counted);
+    RUN_TEST(test_performer_tick_late_by_a_tenth_of_a_second_breaks_softly_and_says_so);
+    RUN_TEST(test_performer_late_tick_of_a_robot_that_stands_is_nothing);
+    RUN_TEST(test_performer_bus_that_goes_ends_the_play_and_nobody_is_driven_before_on);
+    RUN_TEST(test_performer_asked_to_end_comes_to_a_stand_first);
     return UNITY_END();
 }

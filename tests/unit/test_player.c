@@ -11,10 +11,10 @@ static void test_player_exact_time_base_takes_time_ticks_and_ends_with_the_last_
     start(1);
     for (uint8_t tick = 1; tick < 40; tick++) {
         TEST_ASSERT_EQUAL_HEX8(PLAYER_EV_OUTPUT, player_tick(&player, &l) & (PLAYER_EV_OUTPUT | PLAYER_EV_ENDED));
-        TEST_ASSERT_LESS_OR_EQUAL_UINT16(tick < 38 ? 699 : 700, player.goal_pos[0]);
+        TEST_ASSERT_LESS_OR_EQUAL_UINT16(tick < 38 ? 699 : 700, player_goal(&player, 0));
     }
     TEST_ASSERT_EQUAL_HEX8(PLAYER_EV_OUTPUT | PLAYER_EV_ENDED, player_tick(&player, &l));
-    TEST_ASSERT_EQUAL_UINT16(700, player.goal_pos[0]);
+    TEST_ASSERT_EQUAL_UINT16(700, player_goal(&player, 0));
     TEST_ASSERT_EQUAL_HEX8(0, player_tick(&player, &l));
     TEST_ASSERT_FALSE(player_is_moving(&player));
 }
@@ -48,11 +48,11 @@ static void test_player_exact_plays_steps_of_one_and_two_ticks(void)
     sparse_step(1, 1, 0, 400);
     start(1);
     (void)player_tick(&player, &l);
-    TEST_ASSERT_EQUAL_UINT16(520, player.goal_pos[2]);
+    TEST_ASSERT_EQUAL_UINT16(520, player_goal(&player, 2));
     TEST_ASSERT_EQUAL_UINT16(2, run_until(PLAYER_EV_OUTPUT, &seen) + run_until(PLAYER_EV_OUTPUT, &seen));
-    TEST_ASSERT_EQUAL_UINT16(500, player.goal_pos[2]);
+    TEST_ASSERT_EQUAL_UINT16(500, player_goal(&player, 2));
     TEST_ASSERT_EQUAL_UINT16(1, run_to_end());
-    TEST_ASSERT_EQUAL_UINT16(400, player.goal_pos[2]);
+    TEST_ASSERT_EQUAL_UINT16(400, player_goal(&player, 2));
 }
 
 /* pause * speed / 32 in time base, pause * 32 / speed in speed base; nothing is made meanwhile. */
@@ -92,12 +92,12 @@ static void test_player_exact_runs_through_a_way_point_on_its_way(void)
     for (uint8_t tick = 1; tick < 32; tick++) {
         (void)player_tick(&player, &l);
     }
-    uint16_t before = player.goal_pos[0];
+    uint16_t before = player_goal(&player, 0);
     (void)player_tick(&player, &l);
-    TEST_ASSERT_EQUAL_UINT16(612, player.goal_pos[0]);
+    TEST_ASSERT_EQUAL_UINT16(612, player_goal(&player, 0));
     TEST_ASSERT_UINT16_WITHIN(1, 3, 612 - before); /* the mean speed of both steps: 100 / 32 */
     (void)player_tick(&player, &l);
-    TEST_ASSERT_UINT16_WITHIN(1, 3, player.goal_pos[0] - 612);
+    TEST_ASSERT_UINT16_WITHIN(1, 3, player_goal(&player, 0) - 612);
 }
 
 static void test_player_exact_stands_at_a_turning_point_a_pause_and_the_end(void)
@@ -110,9 +110,9 @@ static void test_player_exact_stands_at_a_turning_point_a_pause_and_the_end(void
         for (uint8_t tick = 1; tick < 32; tick++) {
             (void)player_tick(&player, &l);
         }
-        uint16_t before = player.goal_pos[0], target = sparse_pages[1].step[step].pos[0];
+        uint16_t before = player_goal(&player, 0), target = sparse_pages[1].step[step].pos[0];
         (void)player_tick(&player, &l);
-        TEST_ASSERT_EQUAL_UINT16(target, player.goal_pos[0]);
+        TEST_ASSERT_EQUAL_UINT16(target, player_goal(&player, 0));
         TEST_ASSERT_UINT16_WITHIN(1, target, before); /* the last of 16 decelerating ticks: 400 / 32 / 16 / 2 units */
         if (step == 1) {
             (void)player_tick(&player, &l);
@@ -130,8 +130,8 @@ static void test_player_exact_joins_repetitions_and_pages_like_steps(void)
     (void)run_until(PLAYER_EV_STEP, &seen);
     TEST_ASSERT_EQUAL_UINT16(32, run_until(PLAYER_EV_STEP, &seen));
     TEST_ASSERT_BITS(PLAYER_EV_PAGE, PLAYER_EV_PAGE, seen);
-    TEST_ASSERT_EQUAL_UINT8(2, player.page);
-    TEST_ASSERT_UINT16_WITHIN(1, 615, player.goal_pos[0]);
+    TEST_ASSERT_EQUAL_UINT8(2, player.now.page);
+    TEST_ASSERT_UINT16_WITHIN(1, 615, player_goal(&player, 0));
 }
 
 static uint16_t noise(void)
@@ -158,22 +158,22 @@ static void test_player_exact_mirrors_and_never_overshoots_whatever_the_page(voi
         start(1);
         uint16_t low = 0, high = 1023, target = 300;
         for (uint16_t tick = 0; player_is_moving(&player) && tick < 20000u; tick++) {
-            uint16_t before = player.goal_pos[0];
+            uint16_t before = player_goal(&player, 0);
             if ((player_tick(&player, &l) & PLAYER_EV_STEP) != 0) {
                 TEST_ASSERT_EQUAL_UINT16(target, before);
-                target = sparse_pages[1].step[player.step - 1].pos[0];
+                target = sparse_pages[1].step[player.now.step - 1].pos[0];
                 low = before < target ? before : target;
                 high = before < target ? target : before;
             }
-            TEST_ASSERT_TRUE(player.goal_pos[0] >= low && player.goal_pos[0] <= high);
-            TEST_ASSERT_EQUAL_UINT16(1023 - player.goal_pos[0], player.goal_pos[1]);
+            TEST_ASSERT_TRUE(player_goal(&player, 0) >= low && player_goal(&player, 0) <= high);
+            TEST_ASSERT_EQUAL_UINT16(1023 - player_goal(&player, 0), player_goal(&player, 1));
         }
         TEST_ASSERT_FALSE(player_is_moving(&player));
-        TEST_ASSERT_EQUAL_UINT16(target, player.goal_pos[0]);
+        TEST_ASSERT_EQUAL_UINT16(target, player_goal(&player, 0));
     }
 }
 
-/* player.md section 1, rules 7 and 8, where the speed wraps: 800 units in one tick without ramps are K / 4 = 170666 / 4 =
+/* LAWS.md section 1, rules 7 and 8, where the speed wraps: 800 units in one tick without ramps are K / 4 = 170666 / 4 =
  * 42666, as int16 -22870, limited to -1023; with that speed, left standing, the next page begins. */
 static void test_player_classic_speed_wraps_before_it_is_limited(void)
 {
@@ -190,7 +190,7 @@ static void test_player_classic_speed_wraps_before_it_is_limited(void)
     int32_t carried = -1023, units = (700 - 900) * 2560l / 12, speed = (units - carried * 2 * 4) / (4 * (20 - 4));
     int32_t change = (speed - carried) * 1 / 4;
     int32_t way = ((carried + (change >> 1)) * 1 * 144 / 15) >> 9;
-    TEST_ASSERT_EQUAL_UINT16(900 + way, player.goal_pos[0]);
+    TEST_ASSERT_EQUAL_UINT16(900 + way, player_goal(&player, 0));
 }
 
 int main(void)

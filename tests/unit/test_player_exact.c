@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * test_player_exact.c - the exact law against its definition (player.md section 2) computed in floating point, on random
+ * test_player_exact.c - the exact law against its definition (LAWS.md section 2) computed in floating point, on random
  * pages: every joint about one servo unit from the ideal at most, in every tick, whatever the ramps, times and turns. */
 #include <math.h>
 #include <stdlib.h>
@@ -13,7 +13,6 @@
 
 static player_t player;
 static player_joint_t joints[PAGE_JOINTS];
-static uint16_t goals_of_all[PAGE_JOINTS];
 static link_t l;
 static uint16_t pose[PAGE_JOINTS];
 
@@ -27,7 +26,7 @@ static unsigned ticks[STEPS], holds[STEPS];
 void setUp(void)
 {
     sparse_clear();
-    player_init(&player, &sparse_source, joints, goals_of_all);
+    player_init(&player, &sparse_source, joints);
     link_init(&l, LINK_LATCH);
 }
 
@@ -126,7 +125,7 @@ static void compare_step(unsigned k)
     for (unsigned tick = 1; tick <= n; tick++) {
         TEST_ASSERT_BITS(PLAYER_EV_OUTPUT, PLAYER_EV_OUTPUT, player_tick(&player, &l));
         for (unsigned i = 0; i < SPARSE_JOINTS; i++) {
-            double off = player.goal_pos[i] - ideal_pos(&ways[k][i], n, ramp, tick);
+            double off = player_goal(&player, (uint8_t)i) - ideal_pos(&ways[k][i], n, ramp, tick);
             TEST_ASSERT_TRUE_MESSAGE(fabs(off) <= (tick == n ? 1e-6 : tolerance), "away from the ideal");
         }
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_player_images.c - real motion sets of others (test data beside the repository, used when present) through both
- * laws, and the figures that player.md section 2 asks of the exact one. Prints them:
+ * test_player_images.c - the motion set of tests/samples, and real ones of others where they are (../shared/data),
+ * through both laws, and the figures that LAWS.md section 2 asks of the exact one. Prints them:
  *
  *     build/host/tests/unit/test_player_images
  *
@@ -20,8 +20,10 @@
 typedef struct {
     const char *name, *file;
     int first;               /* page of the file that becomes page 0 */
-    int speed_change_max;    /* exact, servo units per tick; player.md */
+    int speed_change_max;    /* exact, servo units per tick; LAWS.md */
 } set_t;
+
+static const set_t our_set = {"samples", "robot_128p.bin", 0, 1 << 20}; /* poses by chance leap as they like */
 
 static const set_t sets[] = {
     {"bio_gp", "bio_gp_humanoid_kr_128p.bin", 0, 62},
@@ -52,14 +54,13 @@ static image_t image;
 static page_source_t source;
 static player_t player;
 static player_joint_t joints[PAGE_JOINTS];
-static uint16_t goals_of_all[PAGE_JOINTS];
 static link_t l;
-static char data_dir[512];
+static const char *data_dir;
 
 void setUp(void)
 {
     source = image_source(&image);
-    player_init(&player, &source, joints, goals_of_all);
+    player_init(&player, &source, joints);
     link_init(&l, LINK_LATCH);
 }
 
@@ -112,13 +113,13 @@ static void watch_step_begin(watch_t *watch, uint8_t events)
     if ((events & PLAYER_EV_PAGE) != 0 && watch->page != 0) {
         watch_page_end(watch);
     }
-    watch->page = player.page;
-    watch->step = player.step;
+    watch->page = player.now.page;
+    watch->step = player.now.step;
     watch->in_pause = false;
     unsigned longest = 0;
-    const uint8_t *page = image.bytes[player.page];
+    const uint8_t *page = image.bytes[player.now.page];
     for (unsigned i = 0; i < PAGE_JOINTS; i++) {
-        uint16_t word = page_pos(page, (uint8_t)(player.step - 1), (uint8_t)i);
+        uint16_t word = page_pos(page, (uint8_t)(player.now.step - 1), (uint8_t)i);
         watch->from[i] = watch->to[i];
         if ((word & 0x6000) == 0) {
             watch->to[i] = word;
@@ -126,13 +127,13 @@ static void watch_step_begin(watch_t *watch, uint8_t events)
         unsigned way = (unsigned)abs(watch->to[i] - watch->from[i]);
         longest = way > longest ? way : longest;
     }
-    watch->ideal_ticks += ideal_step_ticks(page, player.step, longest) + ideal_pause_ticks(page, player.step);
+    watch->ideal_ticks += ideal_step_ticks(page, player.now.step, longest) + ideal_pause_ticks(page, player.now.step);
 }
 
 static void watch_output(watch_t *watch)
 {
     for (unsigned i = 0; i < PAGE_JOINTS; i++) {
-        int pos = player.goal_pos[i], from = watch->from[i], to = watch->to[i];
+        int pos = player_goal(&player, (uint8_t)i), from = watch->from[i], to = watch->to[i];
         watch->figures->overshoots += (from <= to && (pos < from || pos > to)) || (from > to && (pos > from || pos < to));
         double change = abs(pos - 2 * watch->pos[0][i] + watch->pos[1][i]);
         if (watch->outputs >= 1 && change > watch->figures->speed_change) {
@@ -187,7 +188,7 @@ static void play_page(unsigned page, player_law_t law, figures_t *figures)
         }
         uint8_t events = player_tick(&player, &l);
         for (unsigned i = 0; i < PAGE_JOINTS; i++) {
-            figures->leaps += player.goal_pos[i] > PAGE_POS_MAX;
+            figures->leaps += player_goal(&player, (uint8_t)i) > PAGE_POS_MAX;
         }
         watch_tick(&watch, events);
     }
@@ -239,36 +240,50 @@ static void print_figures(const set_t *set, const char *law, const figures_t *f)
            f->overshoots, f->missed_targets, f->worst_duration, f->speed_change);
 }
 
+static void play_by_both_laws(const set_t *set)
+{
+    figures_t classic = play_set(PLAYER_LAW_CLASSIC), exact = play_set(PLAYER_LAW_EXACT);
+    print_figures(set, "classic", &classic);
+    print_figures(set, "exact", &exact);
+    TEST_ASSERT_EQUAL(0, classic.leaps);
+    TEST_ASSERT_EQUAL(0, exact.idle);
+    TEST_ASSERT_EQUAL(0, exact.overshoots);
+    TEST_ASSERT_EQUAL(0, exact.missed_targets);
+    TEST_ASSERT_EQUAL(0, exact.long_pages);
+    TEST_ASSERT_TRUE(exact.speed_change <= set->speed_change_max);
+}
+
+static void test_player_plays_every_valid_page_of_our_set_by_both_laws(void)
+{
+    data_dir = SOURCE_DIR "/tests/samples";
+    TEST_ASSERT_TRUE_MESSAGE(load_set(&our_set), SOURCE_DIR "/tests/samples is not whole");
+    play_by_both_laws(&our_set);
+}
+
 static void test_player_plays_every_valid_page_of_real_sets_by_both_laws(void)
 {
+    static char shared_data[512];
+    const char *shared = getenv("M512_SHARED");
+    snprintf(shared_data, sizeof shared_data, "%s/data", shared != NULL ? shared : SOURCE_DIR "/../shared");
+    data_dir = shared_data;
     unsigned found = 0;
-    printf("%-20s %-8s %5s %8s %8s %6s %10s %8s %9s %8s\n", "set", "law", "plays", "refused", "ticks", "idle", "overshoot",
-           "off goal", "duration", "change");
     for (unsigned i = 0; i < sizeof sets / sizeof sets[0]; i++) {
-        if (!load_set(&sets[i])) {
-            continue;
+        if (load_set(&sets[i])) {
+            found++;
+            play_by_both_laws(&sets[i]);
         }
-        found++;
-        figures_t classic = play_set(PLAYER_LAW_CLASSIC), exact = play_set(PLAYER_LAW_EXACT);
-        print_figures(&sets[i], "classic", &classic);
-        print_figures(&sets[i], "exact", &exact);
-        TEST_ASSERT_EQUAL(0, classic.leaps);
-        TEST_ASSERT_EQUAL(0, exact.idle);
-        TEST_ASSERT_EQUAL(0, exact.overshoots);
-        TEST_ASSERT_EQUAL(0, exact.missed_targets);
-        TEST_ASSERT_EQUAL(0, exact.long_pages);
-        TEST_ASSERT_TRUE(exact.speed_change <= sets[i].speed_change_max);
     }
     if (found == 0) {
-        TEST_IGNORE_MESSAGE("no motion sets: set M512_SHARED or put them beside the repository as shared/data");
+        TEST_IGNORE_MESSAGE("no motion sets of others: M512_SHARED names the folder that has them in data");
     }
 }
 
 int main(void)
 {
-    const char *shared = getenv("M512_SHARED");
-    snprintf(data_dir, sizeof data_dir, "%s/data", shared != NULL ? shared : SOURCE_DIR "/../shared");
+    printf("%-20s %-8s %5s %8s %8s %6s %10s %8s %9s %8s\n", "set", "law", "plays", "refused", "ticks", "idle", "overshoot",
+           "off goal", "duration", "change");
     UNITY_BEGIN();
+    RUN_TEST(test_player_plays_every_valid_page_of_our_set_by_both_laws);
     RUN_TEST(test_player_plays_every_valid_page_of_real_sets_by_both_laws);
     return UNITY_END();
 }

@@ -14,15 +14,15 @@ static void unused_joint_waits(player_law_t law)
     start_law(1, law);
     for (uint8_t tick = 0; tick < 30; tick++) {
         (void)player_tick(&player, &l);
-        TEST_ASSERT_EQUAL_UINT16(512, player.goal_pos[3]);
-        TEST_ASSERT_EQUAL_UINT16(512, player.goal_pos[2]);
-        TEST_ASSERT_EQUAL_HEX32(tick < 29 ? 0x3 : 0xF, player.joints); /* from the step's beginning, when it is reached */
+        TEST_ASSERT_EQUAL_UINT16(512, player_goal(&player, 3));
+        TEST_ASSERT_EQUAL_UINT16(512, player_goal(&player, 2));
+        TEST_ASSERT_EQUAL_HEX32(0x3, player.joints);
     }
     for (uint8_t tick = 0; tick < 30; tick++) {
         (void)player_tick(&player, &l);
     }
     TEST_ASSERT_EQUAL_HEX32(0xF, player.joints);
-    TEST_ASSERT_UINT16_WITHIN(law == PLAYER_LAW_CLASSIC ? 2 : 0, 700, player.goal_pos[3]);
+    TEST_ASSERT_UINT16_WITHIN(law == PLAYER_LAW_CLASSIC ? 2 : 0, 700, player_goal(&player, 3));
 }
 
 static void test_player_unused_joint_keeps_its_target_and_starts_from_there(void)
@@ -40,23 +40,25 @@ static void test_player_absent_joint_is_never_touched_nor_timed(void)
     pose[3] = 900;
     TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_EXACT, pose, 0x7));
     TEST_ASSERT_EQUAL_UINT16(16, run_to_end());
-    TEST_ASSERT_EQUAL_UINT16(900, player.goal_pos[3]);
+    player_goals(&player, UINT32_MAX, pose);
+    TEST_ASSERT_EQUAL_UINT16(900, pose[3]);
     TEST_ASSERT_EQUAL_HEX32(0x7, player.joints);
 }
 
-/* No loop of a tick stops at a joint that is not there: 18 servos cost less than 31. The next play may find it. */
-static void test_player_absent_joint_is_nobodys(void)
+/* The next play may find it. */
+static void test_player_does_not_move_an_absent_joint(void)
 {
     sparse_step(1, 16, 0, 700);
     pose[3] = 900;
     TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_EXACT, pose, 0x7));
-    TEST_ASSERT_EQUAL_UINT8(PLAYER_OWNER_MAIN, player.joint[2].owner);
-    TEST_ASSERT_EQUAL_UINT8(PLAYER_OWNER_NONE, player.joint[3].owner);
     TEST_ASSERT_EQUAL_UINT16(16, run_to_end());
+    player_goals(&player, UINT32_MAX, pose);
+    TEST_ASSERT_EQUAL_UINT16(700, pose[2]);
+    TEST_ASSERT_EQUAL_UINT16(900, pose[3]);
+    TEST_ASSERT_EQUAL_HEX32(0x7, player.joints);
     TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, 1, PLAYER_LAW_EXACT, pose, 0xF));
-    TEST_ASSERT_EQUAL_UINT8(PLAYER_OWNER_MAIN, player.joint[3].owner);
     TEST_ASSERT_EQUAL_UINT16(16, run_to_end());
-    TEST_ASSERT_EQUAL_UINT16(700, player.goal_pos[3]);
+    TEST_ASSERT_EQUAL_UINT16(700, player_goal(&player, 3));
 }
 
 static void dropped_joint_stays(player_law_t law)
@@ -68,15 +70,15 @@ static void dropped_joint_stays(player_law_t law)
     for (uint8_t tick = 0; tick < 12; tick++) {
         (void)player_tick(&player, &l);
     }
-    uint16_t at = player.goal_pos[1];
+    uint16_t at = player_goal(&player, 1);
     TEST_ASSERT_GREATER_THAN_UINT16(520, at);
     player_drop_joints(&player, 1ul << 1);
     for (uint16_t tick = 0; player_is_moving(&player) && tick < TICKS_MAX; tick++) {
         (void)player_tick(&player, &l);
-        TEST_ASSERT_EQUAL_UINT16(at, player.goal_pos[1]);
+        TEST_ASSERT_EQUAL_UINT16(at, player_goal(&player, 1));
     }
     TEST_ASSERT_EQUAL_HEX32(0xD, player.joints);
-    TEST_ASSERT_UINT16_WITHIN(law == PLAYER_LAW_CLASSIC ? 3 : 0, 300, player.goal_pos[0]);
+    TEST_ASSERT_UINT16_WITHIN(law == PLAYER_LAW_CLASSIC ? 3 : 0, 300, player_goal(&player, 0));
 }
 
 static void test_player_dropped_joint_keeps_its_goal(void)
@@ -128,14 +130,14 @@ static void repetitions_then_link(player_law_t law)
         (void)run_until(PLAYER_EV_PAGE | PLAYER_EV_LINK, &seen);
         if ((seen & PLAYER_EV_PAGE) != 0) {
             TEST_ASSERT_EQUAL_UINT8(++repetition, player.repetition);
-            TEST_ASSERT_EQUAL_UINT8(1, player.page);
+            TEST_ASSERT_EQUAL_UINT8(1, player.now.page);
         }
     } while ((seen & PLAYER_EV_LINK) == 0);
     TEST_ASSERT_EQUAL_UINT8(3, repetition);
     TEST_ASSERT_EQUAL_UINT8(2, player.next_page);
     TEST_ASSERT_EQUAL(LINK_NEXT, player.link_taken);
     (void)run_until(PLAYER_EV_PAGE, &seen);
-    TEST_ASSERT_EQUAL_UINT8(2, player.page);
+    TEST_ASSERT_EQUAL_UINT8(2, player.now.page);
     TEST_ASSERT_EQUAL_UINT8(1, player.repetition);
     (void)run_to_end();
     TEST_ASSERT_EQUAL(PAGE_OK, player.fault);
@@ -165,7 +167,7 @@ static void test_player_stop_ends_the_repetitions_through_the_exit_page(void)
     TEST_ASSERT_EQUAL(LINK_EXIT, player.link_taken);
     TEST_ASSERT_EQUAL_UINT8(3, player.next_page);
     (void)run_to_end();
-    TEST_ASSERT_EQUAL_UINT8(3, player.page);
+    TEST_ASSERT_EQUAL_UINT8(3, player.now.page);
 }
 
 static void test_player_code_that_comes_during_the_step_before_the_last_counts(void)
@@ -199,14 +201,14 @@ static void test_player_passes_pages_with_play_count_0(void)
     start(1);
     (void)run_until(PLAYER_EV_PAGE, &seen);
     TEST_ASSERT_EQUAL_UINT16(10, run_until(PLAYER_EV_PAGE, &seen));
-    TEST_ASSERT_EQUAL_UINT8(3, player.page);
+    TEST_ASSERT_EQUAL_UINT8(3, player.now.page);
     setUp();
     sparse_step(2, 10, 0, 700);
     sparse_pages[2].count = 0;
     sparse_pages[2].next = 3;
     sparse_step(3, 10, 0, 800);
     start(2);
-    TEST_ASSERT_EQUAL_UINT8(3, player.page);
+    TEST_ASSERT_EQUAL_UINT8(3, player.next.page);
 }
 
 static void bad_next_page_ends_the_play(player_law_t law, bool damaged)
@@ -219,7 +221,7 @@ static void bad_next_page_ends_the_play(player_law_t law, bool damaged)
     (void)run_until(PLAYER_EV_ENDED, &seen);
     TEST_ASSERT_EQUAL_UINT8(2, player.fault_page);
     TEST_ASSERT_EQUAL(damaged ? PAGE_ERR_CHECKSUM : PAGE_EMPTY, player.fault);
-    TEST_ASSERT_UINT16_WITHIN(2, 600, player.goal_pos[0]);
+    TEST_ASSERT_UINT16_WITHIN(2, 600, player_goal(&player, 0));
 }
 
 static void test_player_ends_standing_before_a_page_that_cannot_be_played(void)
@@ -231,7 +233,7 @@ static void test_player_ends_standing_before_a_page_that_cannot_be_played(void)
     bad_next_page_ends_the_play(PLAYER_LAW_CLASSIC, true);
 }
 
-/* player.md: "a link above 127 counts as 0". 127 is a page; there is none in these tests, so it is a damaged one. */
+/* LAWS.md: "a link above 127 counts as 0". 127 is a page; there is none in these tests, so it is a damaged one. */
 static void link_to(player_law_t law, uint8_t named, uint8_t next_page, uint8_t fault)
 {
     sparse_clear();
@@ -259,7 +261,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_player_unused_joint_keeps_its_target_and_starts_from_there);
     RUN_TEST(test_player_absent_joint_is_never_touched_nor_timed);
-    RUN_TEST(test_player_absent_joint_is_nobodys);
+    RUN_TEST(test_player_does_not_move_an_absent_joint);
     RUN_TEST(test_player_dropped_joint_keeps_its_goal);
     RUN_TEST(test_player_first_pose_tells_the_joints_of_step_1);
     RUN_TEST(test_player_refuses_what_cannot_be_played);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * The RC-100 parser: packets of remote.md, mixed with typed text, torn and broken ones between good ones. */
+ * The RC-100 parser: packets of REMOTE.md, mixed with typed text, torn and broken ones between good ones. */
 #include "remote.h"
 
 #include <stddef.h>

@@ -114,6 +114,64 @@ static void test_full_speed_takes_back_a_speed_limit(void)
     TEST_ASSERT_EQUAL(0, fake_bus_word(1, DXL_AT_SPEED));
 }
 
+/* ---- WRITEs that the servo did not obey ---- */
+
+/* A servo at 300 whose old goal is 512. */
+static void limp_at_300(uint8_t return_level)
+{
+    fake_bus_add(1, BUS_RATE_1M);
+    fake_bus_servo(1)->table[DXL_AT_RETURN_LEVEL] = return_level;
+    servo_link_init(&servos);
+    servo_link_scan(&servos);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servos.present);
+    fake_bus_set_word(1, DXL_AT_PRESENT, 300);
+}
+
+static void test_torque_stays_off_when_the_goal_cannot_be_set(void)
+{
+    for (uint8_t level = 1; level <= 2; level++) {
+        setUp();
+        limp_at_300(level);
+        fake_bus_servo(1)->mishear_next = 3;   /* each try to set the goal; torque enable would be obeyed */
+        TEST_ASSERT_EQUAL_HEX32(0, servo_link_torque_on(&servos, SERVO_LINK_ALL));
+        TEST_ASSERT_EQUAL(0, fake_bus_servo(1)->table[DXL_AT_TORQUE_ENABLE]);
+        TEST_ASSERT_EQUAL(300, fake_bus_word(1, DXL_AT_PRESENT));
+        TEST_ASSERT_EQUAL_HEX32(0, servos.silent);   /* it answers */
+    }
+}
+
+static void test_goal_that_arrives_at_the_second_try_is_enough(void)
+{
+    for (uint8_t level = 1; level <= 2; level++) {
+        setUp();
+        limp_at_300(level);
+        fake_bus_servo(1)->mishear_next = 1;
+        TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servo_link_torque_on(&servos, SERVO_LINK_ALL));
+        TEST_ASSERT_EQUAL(300, fake_bus_word(1, DXL_AT_GOAL));
+        TEST_ASSERT_EQUAL(1, fake_bus_servo(1)->table[DXL_AT_TORQUE_ENABLE]);
+    }
+}
+
+static void test_servo_that_answers_no_write_is_read_back(void)
+{
+    const uint8_t goal[2] = { 0x58, 0x02 };
+    limp_at_300(1);
+    fake_bus_servo(1)->mishear_next = 2;
+    TEST_ASSERT_TRUE(servo_link_write(&servos, 1, DXL_AT_GOAL, goal, 2));
+    TEST_ASSERT_EQUAL(0x258, fake_bus_word(1, DXL_AT_GOAL));
+    fake_bus_servo(1)->mishear_next = 3;
+    TEST_ASSERT_FALSE(servo_link_write(&servos, 1, DXL_AT_SPEED, goal, 2));
+}
+
+static void test_torque_off_and_full_speed_name_who_did_not_obey(void)
+{
+    robot(2);
+    fake_bus_servo(2)->mishear_next = 3;
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(1), servo_link_torque_off(&servos, SERVO_LINK_ALL));
+    fake_bus_servo(1)->mishear_next = 3;
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servo_link_full_speed(&servos, SERVO_LINK_ALL));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -126,5 +184,9 @@ int main(void)
     RUN_TEST(test_servo_that_does_not_tell_its_pose_stays_off);
     RUN_TEST(test_torque_off_reaches_the_deaf_too);
     RUN_TEST(test_full_speed_takes_back_a_speed_limit);
+    RUN_TEST(test_torque_stays_off_when_the_goal_cannot_be_set);
+    RUN_TEST(test_goal_that_arrives_at_the_second_try_is_enough);
+    RUN_TEST(test_servo_that_answers_no_write_is_read_back);
+    RUN_TEST(test_torque_off_and_full_speed_name_who_did_not_obey);
     return UNITY_END();
 }

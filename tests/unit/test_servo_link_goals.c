@@ -13,7 +13,7 @@ static void test_a_tick_is_one_sync_write_of_the_joints_asked_for(void)
     const uint8_t *packet = NULL;
     robot(18);
     servo_link_slopes(&servos, (const uint8_t[SERVO_LINK_JOINTS]){ 0 });
-    tick_with_goals(SERVO_LINK_ALL);   /* the first one also carries slopes */
+    tick_with_goals(SERVO_LINK_ALL);   /* slopes follow */
     fake_bus_clear_log();
     tick_with_goals(SERVO_LINK_BIT(3) | SERVO_LINK_BIT(18) | SERVO_LINK_BIT(25));
     TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
@@ -27,9 +27,7 @@ static void test_31_joints_fit_into_one_packet_of_101_bytes(void)
     const uint8_t *packet = NULL;
     (void)fake_bus_add(0, BUS_RATE_1M);
     robot(30);
-    for (uint8_t i = 0; i < 5; i++) {
-        tick_with_goals(SERVO_LINK_ALL);   /* slopes follow */
-    }
+    tick_with_goals(SERVO_LINK_ALL);   /* slopes follow */
     fake_bus_clear_log();
     tick_with_goals(SERVO_LINK_ALL);
     TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
@@ -79,24 +77,20 @@ static void test_trim_is_added_and_limited(void)
     TEST_ASSERT_EQUAL(500, fake_bus_word(1, DXL_AT_GOAL));
 }
 
-static void test_slopes_go_with_the_goals_once(void)
+static void test_slopes_follow_the_goals_once(void)
 {
     const uint8_t *packet = NULL;
     uint8_t compliance[SERVO_LINK_JOINTS];
     memset(compliance, 0x55, sizeof compliance);
     compliance[2] = 0x17;
-    compliance[3] = 0x09;   /* neither nibble is 1..7: both count as 5 */
+    compliance[3] = 0x09;   /* neither nibble is 1..7: both are taken for 5 */
     robot(3);
     servo_link_slopes(&servos, compliance);
     tick_with_goals(SERVO_LINK_ALL);
-    TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
-    TEST_ASSERT_EQUAL(DXL_AT_CW_SLOPE, packet[5]);
-    TEST_ASSERT_EQUAL(4, packet[6]);
-    TEST_ASSERT_EQUAL(32, fake_bus_servo(1)->table[DXL_AT_CW_SLOPE]);
-    TEST_ASSERT_EQUAL(2, fake_bus_servo(2)->table[DXL_AT_CW_SLOPE]);
-    TEST_ASSERT_EQUAL(128, fake_bus_servo(2)->table[DXL_AT_CCW_SLOPE]);
-    TEST_ASSERT_EQUAL(32, fake_bus_servo(3)->table[DXL_AT_CW_SLOPE]);
-    TEST_ASSERT_EQUAL(32, fake_bus_servo(3)->table[DXL_AT_CCW_SLOPE]);
+    TEST_ASSERT_EQUAL(2, logged(DXL_SYNC_WRITE, &packet));
+    TEST_ASSERT_EQUAL(DXL_AT_GOAL, fake_bus_packet(0)[5]);
+    static const uint8_t expected[] = { 0xFF, 0xFF, 0xFE, 13, 0x83, 28, 2, 1, 32, 32, 2, 2, 128, 3, 32, 32 };
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, packet, sizeof expected);
     TEST_ASSERT_EQUAL(302, fake_bus_word(2, DXL_AT_GOAL));
     servo_link_slopes(&servos, compliance);
     fake_bus_clear_log();
@@ -105,70 +99,46 @@ static void test_slopes_go_with_the_goals_once(void)
     TEST_ASSERT_EQUAL(DXL_AT_GOAL, packet[5]);
 }
 
-static void test_slopes_of_more_than_27_joints_follow_in_packets_of_their_own(void)
+/* Servos that are not driven keep their slopes; the new ones follow the first goals that they get. */
+static void test_only_slopes_that_change_are_sent_and_only_to_joints_with_goals(void)
+{
+    const uint8_t *packet = NULL;
+    uint8_t compliance[SERVO_LINK_JOINTS];
+    memset(compliance, 0x55, sizeof compliance);
+    robot(3);
+    servo_link_slopes(&servos, compliance);
+    tick_with_goals(SERVO_LINK_ALL);
+    compliance[2] = 0x33;
+    compliance[3] = 0x33;
+    servo_link_slopes(&servos, compliance);
+    fake_bus_clear_log();
+    tick_with_goals(SERVO_LINK_BIT(1) | SERVO_LINK_BIT(2));
+    TEST_ASSERT_EQUAL(2, logged(DXL_SYNC_WRITE, &packet));
+    TEST_ASSERT_EQUAL(11, fake_bus_packet_size(1));   /* of one joint */
+    TEST_ASSERT_EQUAL(8, fake_bus_servo(2)->table[DXL_AT_CW_SLOPE]);
+    TEST_ASSERT_EQUAL(32, fake_bus_servo(3)->table[DXL_AT_CW_SLOPE]);
+    tick_with_goals(SERVO_LINK_ALL);
+    TEST_ASSERT_EQUAL(8, fake_bus_servo(3)->table[DXL_AT_CW_SLOPE]);
+}
+
+/* 31 joints: 8 bytes and 3 a joint, within the 143 that an AX-12 takes; then one servo is asked, in the same tick. */
+static void test_slopes_of_31_joints_are_one_packet_in_the_tick_of_their_goals(void)
 {
     const uint8_t *packet = NULL;
     uint8_t compliance[SERVO_LINK_JOINTS];
     memset(compliance, 0x33, sizeof compliance);
-    robot(28);
+    (void)fake_bus_add(0, BUS_RATE_1M);
+    robot(30);
     servo_link_slopes(&servos, compliance);
     tick_with_goals(SERVO_LINK_ALL);
-    TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
-    TEST_ASSERT_EQUAL(DXL_AT_GOAL, packet[5]);
-    TEST_ASSERT_EQUAL(328, fake_bus_word(28, DXL_AT_GOAL));
-    tick_with_goals(SERVO_LINK_ALL);
-    TEST_ASSERT_EQUAL(3, logged(DXL_SYNC_WRITE, &packet));
-    TEST_ASSERT_EQUAL(DXL_AT_CW_SLOPE, packet[5]);
-    TEST_ASSERT_EQUAL(2, packet[6]);
-    TEST_ASSERT_EQUAL(8, fake_bus_servo(7)->table[DXL_AT_CCW_SLOPE]);
-    TEST_ASSERT_EQUAL(32, fake_bus_servo(8)->table[DXL_AT_CCW_SLOPE]);
-    tick_with_goals(SERVO_LINK_ALL);
-    TEST_ASSERT_EQUAL(5, logged(DXL_SYNC_WRITE, &packet));
-    TEST_ASSERT_EQUAL(8, fake_bus_servo(15)->table[DXL_AT_CCW_SLOPE]);
-    TEST_ASSERT_EQUAL(32, fake_bus_servo(16)->table[DXL_AT_CCW_SLOPE]);
-    tick_with_goals(SERVO_LINK_ALL);
-    tick_with_goals(SERVO_LINK_ALL);
-    TEST_ASSERT_EQUAL(9, logged(DXL_SYNC_WRITE, &packet));
-    TEST_ASSERT_EQUAL(8, fake_bus_servo(28)->table[DXL_AT_CCW_SLOPE]);
-    fake_bus_clear_log();
-    tick_with_goals(SERVO_LINK_ALL);
-    TEST_ASSERT_EQUAL(1, logged(DXL_SYNC_WRITE, &packet));
-}
-
-static void busy_tick(void)
-{
-    servo_link_tick(&servos);
-    servo_link_goals(&servos, goals, SERVO_LINK_ALL);
-    servo_link_delay_slopes(&servos);
-    for (uint8_t i = 0; i < 6; i++) {
-        servo_link_poll(&servos);
+    TEST_ASSERT_EQUAL(2, logged(DXL_SYNC_WRITE, &packet));
+    TEST_ASSERT_EQUAL(101, fake_bus_packet_size(0));
+    TEST_ASSERT_EQUAL(101, fake_bus_packet_size(1));
+    TEST_ASSERT_EQUAL(1, logged(DXL_READ, &packet));
+    for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
+        TEST_ASSERT_EQUAL(8, fake_bus_servo(id)->table[DXL_AT_CW_SLOPE]);
+        TEST_ASSERT_EQUAL(8, fake_bus_servo(id)->table[DXL_AT_CCW_SLOPE]);
     }
-}
-
-/* A tick that has enough to do keeps packets of slopes back, but 16 of them in a row no longer. */
-static void test_slopes_of_more_than_27_joints_are_held_in_16_busy_ticks_at_most(void)
-{
-    uint8_t compliance[SERVO_LINK_JOINTS];
-    memset(compliance, 0x33, sizeof compliance);
-    robot(28);
-    servo_link_slopes(&servos, compliance);
-    tick_with_goals(SERVO_LINK_ALL);
-    for (uint8_t tick = 0; tick < 16; tick++) {
-        busy_tick();
-        TEST_ASSERT_EQUAL(32, fake_bus_servo(7)->table[DXL_AT_CCW_SLOPE]);
-    }
-    busy_tick();
-    TEST_ASSERT_EQUAL(8, fake_bus_servo(7)->table[DXL_AT_CCW_SLOPE]);
-}
-
-static void test_27_joints_with_slopes_are_within_the_servos_143_bytes(void)
-{
-    robot(27);
-    servo_link_slopes(&servos, (const uint8_t[SERVO_LINK_JOINTS]){ 0 });
-    servo_link_tick(&servos);
-    servo_link_goals(&servos, goals, SERVO_LINK_ALL);
-    rest_of_tick();
-    TEST_ASSERT_EQUAL(143, fake_bus_packet_size(0));
 }
 
 static void test_deaf_servos_get_reg_write_and_one_action(void)
@@ -213,10 +183,9 @@ int main(void)
     RUN_TEST(test_31_joints_fit_into_one_packet_of_101_bytes);
     RUN_TEST(test_joints_without_torque_or_presence_are_never_driven);
     RUN_TEST(test_trim_is_added_and_limited);
-    RUN_TEST(test_slopes_go_with_the_goals_once);
-    RUN_TEST(test_slopes_of_more_than_27_joints_follow_in_packets_of_their_own);
-    RUN_TEST(test_slopes_of_more_than_27_joints_are_held_in_16_busy_ticks_at_most);
-    RUN_TEST(test_27_joints_with_slopes_are_within_the_servos_143_bytes);
+    RUN_TEST(test_slopes_follow_the_goals_once);
+    RUN_TEST(test_only_slopes_that_change_are_sent_and_only_to_joints_with_goals);
+    RUN_TEST(test_slopes_of_31_joints_are_one_packet_in_the_tick_of_their_goals);
     RUN_TEST(test_deaf_servos_get_reg_write_and_one_action);
     RUN_TEST(test_deaf_servos_that_do_not_fit_into_a_tick_go_on_in_the_next);
     return UNITY_END();

@@ -100,6 +100,42 @@ static void test_joint_lost_while_it_is_asked_again_does_not_keep_the_others_wai
     TEST_ASSERT_TRUE(asked[1] && asked[3]);
 }
 
+/* An answer that takes longer than a tick: goals go out all the same, one servo is asked at a time, nobody is called lost.
+ * */
+static void test_late_answers_keep_neither_goals_nor_servos_back(void)
+{
+    const uint8_t *packet = NULL;
+    servo_fault_t fault;
+    robot(18);
+    tick_with_goals(SERVO_LINK_ALL);   /* and slopes */
+    fake_bus_clear_log();
+    fake_bus_set_adapter(true);
+    fake_bus_set_latency(250);   /* polls; a tick has 200 or so */
+    for (uint8_t tick = 0; tick < 100; tick++) {
+        tick_with_goals(SERVO_LINK_ALL);
+    }
+    TEST_ASSERT_EQUAL(100, logged(DXL_SYNC_WRITE, &packet));
+    TEST_ASSERT_TRUE(logged(DXL_READ, &packet) >= 30);
+    TEST_ASSERT_EQUAL(0, servos.late);
+    TEST_ASSERT_EQUAL(0, fake_bus_waited());
+    TEST_ASSERT_FALSE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL_HEX32(0, servos.silent);
+}
+
+/* The same of a servo that is really silent. */
+static void test_servo_that_is_silent_behind_late_answers_is_named(void)
+{
+    servo_fault_t fault;
+    robot(3);
+    fake_bus_set_adapter(true);
+    fake_bus_set_latency(250);
+    fake_bus_servo(2)->faults = FAKE_BUS_SILENT;
+    idle_ticks(30);
+    TEST_ASSERT_TRUE(servo_link_next_fault(&servos, &fault));
+    TEST_ASSERT_EQUAL(2, fault.id);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servos.silent);
+}
+
 /* It may have lost its power meanwhile. */
 static void test_servo_that_is_back_gets_its_slopes_again(void)
 {
@@ -211,6 +247,8 @@ int main(void)
     RUN_TEST(test_third_lost_answer_in_a_row_is_a_fault);
     RUN_TEST(test_joint_that_does_not_tell_its_pose_is_silent_until_it_is_heard);
     RUN_TEST(test_joint_lost_while_it_is_asked_again_does_not_keep_the_others_waiting);
+    RUN_TEST(test_late_answers_keep_neither_goals_nor_servos_back);
+    RUN_TEST(test_servo_that_is_silent_behind_late_answers_is_named);
     RUN_TEST(test_servo_that_is_back_gets_its_slopes_again);
     RUN_TEST(test_servo_with_wrong_checksums_counts_as_silent);
     RUN_TEST(test_errors_are_named_when_they_come_when_they_go_and_when_they_come_again);

@@ -25,6 +25,12 @@ void tearDown(void)
 {
 }
 
+static void save(settings_store_t *to, const settings_t *what)
+{
+    settings_save_start(to);
+    settings_save_finish(to, what);
+}
+
 static settings_item_t item(const char *name)
 {
     settings_item_t found;
@@ -77,7 +83,7 @@ static void test_saved_settings_come_back(void)
     (void)settings_load(&store, &loaded);
     for (uint8_t i = 0; i < 5; i++) {
         settings.approach_deg_s = (uint8_t)(10u + i);
-        settings_save(&store, &settings);
+        save(&store, &settings);
         settings_store_t again;
         TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&again, &loaded));
         TEST_ASSERT_EQUAL_MEMORY(&settings, &loaded, sizeof settings);
@@ -89,7 +95,7 @@ static void test_sequence_goes_on_over_its_wrap(void)
     (void)settings_load(&store, &loaded);
     for (uint16_t i = 0; i < 600; i++) {
         settings.battery_low_dv = (uint8_t)(i % 200u);
-        settings_save(&store, &settings);
+        save(&store, &settings);
         (void)settings_load(&store, &loaded);
         TEST_ASSERT_EQUAL(i % 200u, loaded.battery_low_dv);
     }
@@ -98,8 +104,8 @@ static void test_sequence_goes_on_over_its_wrap(void)
 static void test_only_the_settings_area_is_written(void)
 {
     (void)settings_load(&store, &loaded);
-    settings_save(&store, &settings);
-    settings_save(&store, &settings);
+    save(&store, &settings);
+    save(&store, &settings);
     for (uint16_t i = MEM_EE_SETTINGS_END; i < EEPROM_BYTES; i++) {
         TEST_ASSERT_EQUAL(0, fake_eeprom_wear(i));
     }
@@ -110,9 +116,9 @@ static void test_damaged_newer_copy_falls_back_to_the_older(void)
 {
     (void)settings_load(&store, &loaded);
     settings.law = 0;
-    settings_save(&store, &settings);
+    save(&store, &settings);
     settings.law = 1;
-    settings_save(&store, &settings);
+    save(&store, &settings);
     uint16_t newer = (uint16_t)(MEM_EE_SETTINGS + 64u * store.copy);
     fake_eeprom_bytes()[newer + 10u] ^= 1u;
     TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&store, &loaded));
@@ -123,14 +129,14 @@ static void test_field_out_of_range_is_damage(void)
 {
     (void)settings_load(&store, &loaded);
     settings.law = 9;
-    settings_save(&store, &settings);
+    save(&store, &settings);
     TEST_ASSERT_EQUAL(SETTINGS_DAMAGED, settings_load(&store, &loaded));
     TEST_ASSERT_EQUAL(0, loaded.law);
     fake_eeprom_reset();
     (void)settings_load(&store, &loaded);
     settings.law = 1;
     settings.pair[3] = SETTINGS_JOINTS;
-    settings_save(&store, &settings);
+    save(&store, &settings);
     TEST_ASSERT_EQUAL(SETTINGS_DAMAGED, settings_load(&store, &loaded));
     TEST_ASSERT_EQUAL(4, loaded.pair[3]);
 }
@@ -174,16 +180,16 @@ static bool cut_save(uint32_t operation, int torn, settings_t *old, settings_t *
     fake_eeprom_reset();
     settings_defaults(old);
     (void)settings_load(&store, &loaded);
-    settings_save(&store, old);
+    save(&store, old);
     old->approach_deg_s = 33;
-    settings_save(&store, old);
+    save(&store, old);
     *fresh = *old;
     fresh->law = 1;
     fresh->approach_deg_s = 77;
     fresh->pair[5] = SETTINGS_NO_PARTNER;
     if (setjmp(power) == 0) {
         fake_eeprom_cut(operation, torn, &power);
-        settings_save(&store, fresh);
+        save(&store, fresh);
         fake_eeprom_cut(0, 0, &power);
         return false;
     }
@@ -205,7 +211,7 @@ static void test_power_cut_at_every_write_leaves_old_or_new(void)
             cuts++;
             olds = (uint16_t)(olds + is_old);
             news = (uint16_t)(news + is_new);
-            settings_save(&again, &fresh);
+            save(&again, &fresh);
             TEST_ASSERT_EQUAL(SETTINGS_OK, settings_load(&again, &loaded));
             TEST_ASSERT_EQUAL_MEMORY(&fresh, &loaded, sizeof fresh);
         }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * test_shape.c - what is set while a motion plays: ranges, neutral, and what it makes of steps. Values by hand from
- * shaping.md; tests/compare/shaped.py compares any with a model. */
+ * SHAPING.md; tests/models/shaped.py compares any with a model. */
 #include <string.h>
 #include "player.h"
 #include "shape.h"
@@ -13,7 +13,6 @@
 #define OTHER_LENGTH 4u
 
 static shape_t shape;
-static shape_step_t shaping;
 static uint16_t pages[5][4];  /* step 1: joints 0..3 */
 static uint8_t damaged;
 
@@ -83,11 +82,7 @@ static uint16_t shaped(uint8_t joint)
 {
     uint16_t words[PAGE_JOINTS];
     read_page(NULL, PAGE, PAGE_AT_STEP0, words, sizeof words);
-    if (shape_step_begin(&shaping, &shape, &source, PAGE, 1)) {
-        for (uint8_t left = SHAPE_STEP_SHARES; left != 0; left--) {
-            shape_step_share(&shaping, &source, words);
-        }
-    }
+    shape_step(&shape, &source, PAGE, 1, words);
     return words[joint];
 }
 
@@ -108,22 +103,6 @@ static void test_shape_neutral_changes_nothing(void)
     expect(612, 413, 50, 700);
 }
 
-/* A rate, a limit and a blend with a damaged page change no position. */
-static void test_shape_only_a_changed_step_has_shares(void)
-{
-    TEST_ASSERT_FALSE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
-    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_rate(&shape, 50));
-    shape_set_voltage(&shape, 110);
-    TEST_ASSERT_FALSE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
-    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_blend(&shape, 25));
-    TEST_ASSERT_TRUE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
-    damaged = RIGHT;
-    TEST_ASSERT_FALSE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
-    TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 90, 0x1));
-    TEST_ASSERT_TRUE(shape_step_begin(&shaping, &shape, &source, PAGE, 1));
-}
-
-/* About 512, 512, 100; joint 3 is not in the centre pose. 50 % of -99 is -49.5: away from the centre. */
 static void test_shape_amplitude_scales_about_the_centre_pose(void)
 {
     TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, 50, 0x7FFFFFFF));
@@ -222,7 +201,6 @@ static void test_shape_reset_keeps_centre_and_voltage(void)
 
 static player_t player;
 static player_joint_t joints[PAGE_JOINTS];
-static uint16_t goal_pos[PAGE_JOINTS];
 static link_t l;
 
 static void start(player_law_t law)
@@ -231,8 +209,8 @@ static void start(player_law_t law)
     for (uint8_t i = 0; i < PAGE_JOINTS; i++) {
         pose[i] = 512;
     }
-    player_init(&player, &source, joints, goal_pos);
-    player_set_shape(&player, &shape, &shaping);
+    player_init(&player, &source, joints);
+    player_set_shape(&player, &shape);
     link_init(&l, LINK_LATCH);
     TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, PAGE, law, pose, 0xF));
 }
@@ -286,10 +264,10 @@ static void test_shape_rate_never_makes_classic_skip_a_step(void)
         moved |= (player_tick(&player, &l) & PLAYER_EV_OUTPUT) != 0;
     }
     TEST_ASSERT_TRUE(moved);
-    TEST_ASSERT_UINT16_WITHIN(8, 612, goal_pos[0]);
+    TEST_ASSERT_UINT16_WITHIN(8, 612, player_goal(&player, 0));
 }
 
-/* --- a step is shaped in shares: all of it by one shape -------------------------------------------------------------- */
+/* --- a step is shaped once, all of it by one shape ----------------------------------------------------------------- */
 
 #define MANY 5u       /* page of the centre: all joints on 512 */
 static uint8_t many_ticks;
@@ -326,20 +304,21 @@ static void expect_one_shape_a_step(player_law_t law, uint8_t ticks, uint8_t tol
     shape_init(&shape);
     TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_centre(&shape, MANY));
     TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, percent, 0x7FFFFFFF));
-    player_init(&player, &many_source, joints, goal_pos);
-    player_set_shape(&player, &shape, &shaping);
+    player_init(&player, &many_source, joints);
+    player_set_shape(&player, &shape);
     link_init(&l, LINK_LATCH);
     TEST_ASSERT_EQUAL(PLAYER_OK, player_start(&player, &l, MANY + 1, law, pose, 0x7FFFFFFF));
     for (uint16_t tick = 0; tick < 400; tick++) {
+        const uint16_t before_pos = player_goal(&player, 0);
         uint8_t events = player_tick(&player, &l);
         TEST_ASSERT_TRUE((events & PLAYER_EV_OUTPUT) != 0 || law == PLAYER_LAW_CLASSIC);
-        steps = (uint16_t)(steps + ((events & PLAYER_EV_STEP) != 0));
         for (uint8_t i = 1; i < PAGE_JOINTS; i++) {
-            TEST_ASSERT_EQUAL_UINT16(goal_pos[0], goal_pos[i]);
+            TEST_ASSERT_EQUAL_UINT16(player_goal(&player, 0), player_goal(&player, i));
         }
-        if (player.arrived) { /* on the way-point: 512 +- A for A in tens */
-            uint16_t way = (uint16_t)(goal_pos[0] > 512 ? goal_pos[0] - 512 : 512 - goal_pos[0]);
+        if ((events & PLAYER_EV_STEP) != 0) { /* it was on the way-point: 512 +- A for A in tens */
+            uint16_t way = (uint16_t)(before_pos > 512 ? before_pos - 512 : 512 - before_pos);
             TEST_ASSERT_UINT16_WITHIN(tolerance, (way + 5) / 10 * 10, way);
+            steps++;
         }
         percent = percent == 150 ? 10 : (uint8_t)(percent + 10);
         TEST_ASSERT_EQUAL(SHAPE_OK, shape_set_amplitude(&shape, percent, 0x7FFFFFFF));
@@ -359,7 +338,6 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_shape_neutral_changes_nothing);
-    RUN_TEST(test_shape_only_a_changed_step_has_shares);
     RUN_TEST(test_shape_amplitude_scales_about_the_centre_pose);
     RUN_TEST(test_shape_blend_goes_to_the_partner);
     RUN_TEST(test_shape_blend_and_amplitude_together);

@@ -50,7 +50,7 @@ static void test_shell_too_long_line_is_refused_not_cut(void)
 {
     keys("123456789012345678901");
     TEST_ASSERT_EQUAL_STRING("12345678901234567890\a", out);
-    TEST_ASSERT_EQUAL_UINT8(SHELL_TOO_LONG, keys("\r"));
+    TEST_ASSERT_EQUAL_UINT8(SHELL_REFUSED, keys("\r"));
     shell_clear(&shell);
     TEST_ASSERT_EQUAL_UINT8(SHELL_LINE, keys("ok\r"));
 }

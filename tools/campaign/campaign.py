@@ -8,16 +8,14 @@
 work(item) is a function of a module (or a functools.partial of one); it and the items are pickled. Results come in the order of
 the items, wherever each was made: a job must take all that it leaves to chance from its item (a seed), nothing from its place.
 
-With a scheduler, every worker needs this project, built, with the Python packages of `tools/dev/setup`: at the same path as here, or
-at the one that its environment variable M512_TOP names.
+With a scheduler, every machine needs a tree like this one, built and with Dask (`tools/dev/setup campaign`), wherever it lies: a worker is
+started by its build/venv/bin/dask.
 """
 import concurrent.futures
 import os
-import pathlib
 import pickle
 import sys
 
-TOP = pathlib.Path(__file__).resolve().parents[2]
 ANSWER_S = 10     # so long each() waits for a scheduler
 _scheduler = None
 
@@ -82,32 +80,23 @@ def _on_scheduler(work, items, address):
         from distributed import Client, as_completed
     except ModuleNotFoundError as missing:
         raise ConnectionError(f"a scheduler needs Dask ({missing}); run: tools/dev/setup campaign") from None
-    cloudpickle.register_pickle_by_value(sys.modules[__name__])       # workers need nothing of ours to begin with
+    cloudpickle.register_pickle_by_value(sys.modules[__name__])       # so that _call can say what a worker lacks
     try:
         client = Client(address, timeout=ANSWER_S)
     except OSError as error:
         raise ConnectionError(f"no Dask scheduler answers at {address} ({error})") from None
-    paths = [str(pathlib.Path(path).resolve().relative_to(TOP)) for path in sys.path
-             if path and pathlib.Path(path).resolve().is_relative_to(TOP) and "site-packages" not in path]
     with client:
-        futures = client.map(_call, [pickle.dumps((work, item)) for item in items], top=str(TOP), paths=paths, pure=False)
+        futures = client.map(_call, [pickle.dumps((work, item)) for item in items], pure=False)
         index_of = {future.key: index for index, future in enumerate(futures)}
         for future, result in as_completed(futures, with_results=True):
             yield index_of[future.key], result
 
 
-def _call(pickled, top, paths):
-    """One job on a worker: finds the project there, then calls. Sent by value, so it imports for itself."""
-    import os
-    import pathlib
+def _call(pickled):
+    """One job on a worker. Sent by value, so it imports for itself."""
     import pickle
-    import sys
-    here = pathlib.Path(os.environ.get("M512_TOP", top))
-    if not (here / "tools").is_dir():
-        raise FileNotFoundError(f"this worker has no Motion512 at {here}: set its environment variable M512_TOP")
-    os.environ.setdefault("M512_BUILD", str(here / "build"))
-    for path in reversed(paths):
-        if str(here / path) not in sys.path:
-            sys.path.insert(0, str(here / path))
-    work, item = pickle.loads(pickled)
+    try:
+        work, item = pickle.loads(pickled)
+    except ModuleNotFoundError as missing:
+        raise ModuleNotFoundError(f"{missing}: this worker lacks Motion512; start it with build/venv/bin/dask of a tree that is built") from None
     return work(item)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/env -S sh -c 'exec "${0%/*}/../dev/python" "$0" "$@"'
 # SPDX-License-Identifier: MIT
 """Makes walk.m512: every motion in which the robot goes somewhere on its feet, computed from the legs (legs.py).
 
@@ -21,7 +21,7 @@ import pathlib
 from dataclasses import dataclass, replace
 from math import cos, pi, radians, sin
 
-from legs import CENTRE, HIP_MM, Foot, reach, units
+from motions.legs import CENTRE, HIP_MM, Foot, reach, units
 
 POSES = 8
 HERE = pathlib.Path(__file__).resolve().parent

@@ -9,13 +9,10 @@ Coordinates of the body, in mm: x forward, y to the left, z down; a foot is told
 stands above the ground, with its yaw in degrees, to the left. Angles of joints are told as for the right leg. The left leg is
 the mirror image.
 """
-import pathlib
-import sys
 from dataclasses import dataclass
 from math import acos, atan2, cos, degrees, hypot, radians, sin
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "body" / "src"))
-from body.description import load  # noqa: E402  (the path comes first)
+from body.description import load
 
 LEG = load("humanoid").leg("right")
 THIGH_MM, SHANK_MM = LEG.thigh_mm, LEG.shank_mm

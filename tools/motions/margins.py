@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/env -S sh -c 'exec "${0%/*}/../dev/python" "$0" "$@"'
 # SPDX-License-Identifier: MIT
 """How sure a way of going is: the least push that fells a robot whose ankles are off, in N s.
 
@@ -11,23 +11,15 @@ degrees, and the same backwards, in two moments of its cycle; the smaller counts
 way that is harder than the nominal one. Needs `tools/dev/setup physics` and a build.
 """
 import argparse
-import os
-import pathlib
 import sys
 from dataclasses import dataclass, fields, replace
 
-HERE = pathlib.Path(__file__).resolve().parent
-VENV = HERE.parents[1] / "build" / "venv"
-if (VENV / "bin" / "python").exists() and pathlib.Path(sys.prefix).resolve() != VENV.resolve():
-    os.execv(VENV / "bin" / "python", [str(VENV / "bin" / "python"), *sys.argv])
-sys.path[:0] = [str(HERE), *(str(HERE.parent / part) for part in ("body/src", "campaign", "m512/src"))]
-
-import gait  # noqa: E402  (the paths come first)
-from body.chance import DEGREE, NOMINAL, Push, Variation  # noqa: E402
-from body.description import load  # noqa: E402
-from body.trial import STOP, try_motion  # noqa: E402
-from campaign import each  # noqa: E402
-from search import FIRST_PAGE, UP, image_of  # noqa: E402
+from body.chance import DEGREE, NOMINAL, Push, Variation
+from body.description import load
+from body.trial import STOP, try_motion
+from campaign import each
+from motions import gait
+from motions.search import FIRST_PAGE, UP, image_of
 
 LEAN = 3.0                       # degrees
 MOST_NEWTON_S = 0.9

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/env -S sh -c 'exec "${0%/*}/../dev/python" "$0" "$@"'
 # SPDX-License-Identifier: MIT
 """Finds the numbers of gait.json in physics, by CMA-ES (the library `cma`): walk, back, spin or side.
 
@@ -16,27 +16,21 @@ import json
 import math
 import pathlib
 import random
-import sys
 from dataclasses import asdict, replace
 
-HERE = pathlib.Path(__file__).resolve().parent
-VENV = HERE.parents[1] / "build" / "venv"
-if (VENV / "bin" / "python").exists() and pathlib.Path(sys.prefix).resolve() != VENV.resolve():
-    import os
-    os.execv(VENV / "bin" / "python", [str(VENV / "bin" / "python"), *sys.argv])
-sys.path[:0] = [str(HERE), *(str(HERE.parent / part) for part in ("body/src", "campaign", "m512/src"))]
+from body.chance import random_body, with_zeros_of
+from body.description import load
+from body.trial import STOP, try_motion
+from campaign import each
+from m512.files.text import read_text
+from motions import gait
 
-import gait  # noqa: E402  (the paths come first)
-from body.chance import random_body, with_zeros_of  # noqa: E402
-from body.description import load  # noqa: E402
-from body.trial import STOP, try_motion  # noqa: E402
-from campaign import each  # noqa: E402
-from m512.files.text import read_text  # noqa: E402
+HERE = pathlib.Path(__file__).resolve().parent
 
 # What may vary, and between what.
 RANGES = {
     "stride": (-50, 50), "side": (-5, 40), "turn": (-2, 20), "sway": (5, 40),
-    "sway_lead": (-0.12, 0.15), "step_lead": (-0.1, 0.1), "swing": (0.28, 0.5), "lift": (7, 35), "square": (0.2, 1.2),
+    "sway_lead": (-0.12, 0.15), "step_lead": (-0.1, 0.1), "swing": (0.28, 0.5), "lift": (6, 35), "square": (0.2, 1.2),
     "height": (104, 146), "lean": (-6, 18), "ahead": (-18, 20), "apart": (-8, 20), "spread": (-4, 16), "toes": (-8, 8), "arms": (0, 1.2)}
 FIXED = {"walk": ("side", "turn"), "back": ("side", "turn"), "spin": ("side",), "side": ("turn",)}
 FIRST_PAGE = {"walk": 20, "back": 27, "spin": 32, "side": 34}

@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: MIT
 """The least push: found where a body of the test begins to fall; and the body that leans does lean, to the side that is told."""
 import math
-import pathlib
-import sys
 import types
 
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import gait  # noqa: E402  (the path comes first)
-import margins  # noqa: E402
-from body.chance import NOMINAL  # noqa: E402
-from body.physics import Physics  # noqa: E402
+from body.chance import NOMINAL
+from body.physics import Physics
+from motions import gait, margins
 
 
 @pytest.fixture(name="felled_by")

@@ -4,7 +4,6 @@ README.md. That the shipped Play image plays it all is shown by tests/sim/test_m
 import os
 import pathlib
 import re
-import sys
 
 import numpy
 import pytest
@@ -14,12 +13,11 @@ from body.kinematics import centre_of_mass, places
 from m512.files.formats import load
 from m512.files.image import to_hex
 from m512.files.page import SCHEDULE_TIME
-from m512.pages.operations import check
 from m512.motion.player import play
+from m512.pages.operations import check
+from motions import gait
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-import gait  # noqa: E402
 
 JOINTS = range(1, 19)
 READY = gait.stand(gait.numbers()["ready"])
@@ -77,7 +75,7 @@ def body_degrees(joint, position):
     return (1 if joint % 2 else -1) * (position - 512) * 300 / 1024
 
 
-def played(names, law="exact"):
+def played(names):
     """(page, step, positions) of every tick in which something is sent, page after page from the pose `ready`."""
     positions = [512] * 31
     for joint, position in READY.items():
@@ -85,7 +83,7 @@ def played(names, law="exact"):
     for name in names:
         page = PAGES[NUMBER[name]]
         ticks = sum(page.time(k) + page.pause(k) for k in range(page.steps)) * max(1, page.repeat)
-        for tick in play(LIBRARY, NUMBER[name], law, positions, ticks):
+        for tick in play(LIBRARY, NUMBER[name], positions, ticks):
             if tick.goals:
                 yield tick.page, tick.step, {joint: tick.goals[joint] for joint in JOINTS}
                 positions = tick.goals

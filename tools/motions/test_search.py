@@ -2,15 +2,12 @@
 """The gait's search: what it writes is better than what it began with. Optimiser and physics are played by the test."""
 import argparse
 import json
-import pathlib
 import sys
 import types
 
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import gait  # noqa: E402  (the path comes first)
-import search  # noqa: E402
+from motions import gait, search
 
 STRIDE = gait.numbers()["walk"].stride
 

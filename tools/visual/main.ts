@@ -2,7 +2,7 @@
 // Starts the page.
 
 import './view/theme.css';
-import { fileFormats, motionInstance, robotBody } from './app/assets.ts';
+import { fileFormats, motionInstance, motionLibrary, robotBody } from './app/assets.ts';
 import { RobotDesk } from './app/desk.ts';
 import type { DeskStorage } from './app/document-parts.ts';
 import type { EditorParts } from './app/editor.ts';
@@ -12,12 +12,15 @@ import { PageFormat } from './model/page-format.ts';
 import { AppShell } from './view/app-shell.ts';
 import { BrowserStorage, PassingStorage } from './view/document-storage.ts';
 import { make } from './view/element.ts';
+import { TEXTS } from './view/texts.ts';
 
 async function start(): Promise<void> {
+  if (typeof WebAssembly === 'undefined') return fail(TEXTS.noWebAssembly);
   const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
   const desk = new RobotDesk(body, parts, fileFormats(), storage);
   await Promise.all([desk.start(), show(desk, parts)]); // the robot starts in its worker while the page is built
   keepOffline(desk);
+  window.addEventListener('beforeunload', (event) => desk.documents.state.get().saving === 'off' && event.preventDefault());
 }
 
 async function show(desk: RobotDesk, parts: EditorParts): Promise<void> {
@@ -30,8 +33,8 @@ async function show(desk: RobotDesk, parts: EditorParts): Promise<void> {
 
 /** The first document holds what the robot in the page has. */
 async function editorParts(): Promise<EditorParts> {
-  const [scratch, player, motions] = await Promise.all([motionInstance(), motionInstance(), simulatedMotions()]);
-  return { format: new PageFormat(scratch), player, document: documentFrom(motions, 'My motions') };
+  const [scratch, player, motions, library] = await Promise.all([motionInstance(), motionInstance(), simulatedMotions(), motionLibrary()]);
+  return { format: new PageFormat(scratch), player, document: documentFrom(motions, 'My motions'), library: documentFrom(library, '').pages };
 }
 
 async function documentStorage(): Promise<DeskStorage> {
@@ -43,17 +46,18 @@ async function documentStorage(): Promise<DeskStorage> {
 }
 
 /** Keeps the whole page in the browser, once everything it needs now has been loaded. Only the built page has a service
- *  worker; where the browser refuses it (plain http from another machine) the page works, but not offline. */
+ *  worker. */
 function keepOffline(desk: RobotDesk): void {
-  if (!import.meta.env.PROD || !('serviceWorker' in navigator)) return;
+  if (!import.meta.env.PROD) return;
   const unwatch = desk.state.watch((state) => {
     if (state.physics === 'loading') return;
     queueMicrotask(() => unwatch());
-    void navigator.serviceWorker.register('./service-worker.js').catch(() => undefined);
+    void desk.version.keep();
   });
 }
 
-start().catch((error: unknown) => {
-  const why = error instanceof Error ? error.message : String(error);
-  document.body.prepend(make('p', { role: 'alert', class: 'start-failed' }, `The page could not start: ${why}. Reload it.`));
-});
+function fail(text: string): void {
+  document.body.prepend(make('p', { role: 'alert', class: 'start-failed' }, text));
+}
+
+start().catch((error: unknown) => fail(`The page could not start: ${error instanceof Error ? error.message : String(error)}. Reload it.`));

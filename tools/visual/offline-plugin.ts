@@ -5,7 +5,7 @@ import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import type { Plugin } from 'vite';
 
-const BESIDE = ['licences.html', 'manifest.webmanifest', 'icon.svg'];
+const BESIDE = ['manifest.webmanifest', 'icon.svg'];
 
 export function offline(): Plugin {
   return {

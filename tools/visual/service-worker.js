@@ -1,22 +1,50 @@
 // SPDX-License-Identifier: MIT
 // Keeps the page in the browser, so that it works without a network from the second visit on. The build fills in the
-// version (a hash of all files) and their names. A new version is fetched whole before it takes the place of the old one.
+// version (a hash of all files) and their names.
+//
+//   a release --> installed beside the old version --waiting--> active, when no page of the old version is open any more,
+//                                                               or when a person presses "New version: reload"
+//
+// A page that is open goes on with the files that it began with: they are kept as long as another page may want them, and
+// whatever the new version does not have is looked for in the old ones.
 
 const VERSION = '__VERSION__';
 const FILES = ['__FILES__'];
-const CACHE = `motion512-${VERSION}`;
+const PREFIX = 'motion512-';
+const CACHE = `${PREFIX}${VERSION}`;
 
 self.addEventListener('install', (event) => {
-  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(FILES)).then(() => self.skipWaiting()));
+  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(FILES)));
 });
 
-self.addEventListener('activate', (event) => {
-  const isOld = (name) => name.startsWith('motion512-') && name !== CACHE;
-  event.waitUntil(caches.keys().then((names) => Promise.all(names.filter(isOld).map((name) => caches.delete(name)))).then(() => self.clients.claim()));
+self.addEventListener('message', (event) => {
+  if (event.data === 'take-over') self.skipWaiting();
 });
+
+async function ours() {
+  return (await caches.keys()).filter((name) => name.startsWith(PREFIX));
+}
+
+/** One page may be open: the one that asked for the new version, and is about to reload. */
+async function activate() {
+  const pages = await self.clients.matchAll({ type: 'window', includeUncontrolled: true });
+  const old = pages.length > 1 ? [] : (await ours()).filter((name) => name !== CACHE);
+  await Promise.all(old.map((name) => caches.delete(name)));
+  await self.clients.claim();
+}
+
+self.addEventListener('activate', (event) => event.waitUntil(activate()));
+
+async function answer(request) {
+  const others = (await ours()).filter((name) => name !== CACHE).reverse();
+  for (const name of [CACHE, ...others]) {
+    const kept = await (await caches.open(name)).match(request, { ignoreVary: true, ignoreSearch: true });
+    if (kept) return kept;
+  }
+  return fetch(request);
+}
 
 self.addEventListener('fetch', (event) => {
   if (event.request.method !== 'GET' || !event.request.url.startsWith(self.registration.scope)) return;
-  const kept = caches.open(CACHE).then((cache) => cache.match(event.request, { ignoreVary: true, ignoreSearch: true }));
-  event.respondWith(kept.then((response) => response ?? fetch(event.request)));
+  event.respondWith(answer(event.request));
 });

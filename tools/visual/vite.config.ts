@@ -3,12 +3,15 @@
 import { defineConfig } from 'vite';
 import { mujocoWithoutEval } from './mujoco-plugin.ts';
 import { pythonHandedOver } from './python-plugin.ts';
+import { licences } from './licences-plugin.ts';
 import { offline } from './offline-plugin.ts';
+
+const { bundled, page } = licences();
 
 export default defineConfig({
   base: './',
   publicDir: false,
-  plugins: [mujocoWithoutEval(), offline()],
+  plugins: [mujocoWithoutEval(), bundled(), page, offline()],
   build: { outDir: '../../build/visual', emptyOutDir: true, target: 'es2022', assetsInlineLimit: 0, modulePreload: { polyfill: false }, chunkSizeWarningLimit: 1200 },
-  worker: { format: 'es', plugins: () => [mujocoWithoutEval(), pythonHandedOver()] },
+  worker: { format: 'es', plugins: () => [mujocoWithoutEval(), pythonHandedOver(), bundled()] },
 });

@@ -68,7 +68,8 @@ static void save(uint8_t law, uint8_t approach)
 {
     settings.law = law;
     settings.approach_deg_s = approach;
-    settings_save(&store, &settings);
+    settings_save_start(&store);
+    settings_save_finish(&store, &settings);
     say_P(PSTR("saved\n"));
 }
 

@@ -4,9 +4,8 @@
 /* Four characters have come and none was read: the receiver holds three. The test sends the characters. */
 static void NOINLINE wait_for(uint8_t characters)
 {
-    uint32_t loops = characters * 700ul; /* about 2,800 cycles a character */
-    while (loops--) {
-        __asm__ volatile("");
+    while (characters--) {
+        __builtin_avr_delay_cycles(2800); /* a character at 57,143 */
     }
 }
 

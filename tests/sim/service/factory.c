@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * factory.c - imitates the factory loader's page-write routine for test_boot_service.py: starts the application at once,
- * and offers at 0x1F238 a routine with the calling convention of bootloader-original.md, section 7b. It is as rude as the
+ * and offers at 0x1F238 a routine with the calling convention of boot/ORIGINAL.md, section 7b. It is as rude as the
  * convention allows: every register that need not be kept is spoiled, and eight bytes below Y are used. */
 #include <avr/io.h>
 

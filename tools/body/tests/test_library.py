@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The library's motions stand on bodies on which earlier versions of them fell, each for a reason of its own."""
 import pathlib
-import sys
 
 import pytest
 
@@ -10,10 +9,9 @@ from body.quick import Quick
 from body.trial import first_pose
 from m512.files.formats import load as load_motions
 from m512.motion.player import play
+from motions import promises
 
 MOTIONS = pathlib.Path(__file__).resolve().parents[2] / "motions"
-sys.path.insert(0, str(MOTIONS))
-import promises  # noqa: E402  (the path comes first)
 
 LIBRARY = load_motions(MOTIONS / "motions.m512")
 IMAGE = LIBRARY.to_bytes()
@@ -59,7 +57,7 @@ def deepest_mm(number):
     floor = physics.model.geom("floor").id
     begin = first_pose(IMAGE, number, promises.ROBOT)
     physics.data.qpos[2] = 5                                         # far above the floor
-    for tick in play(LIBRARY, number, "exact", [begin.get(joint, 512) for joint in range(31)], 512):
+    for tick in play(LIBRARY, number, [begin.get(joint, 512) for joint in range(31)], 512):
         if tick.goals and tick.number % 2 == 0:
             physics.pose({servo: tick.goals[servo] for servo in promises.ROBOT.servos})
             for contact in physics.data.contact[:physics.data.ncon]:

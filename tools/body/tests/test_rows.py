@@ -2,15 +2,12 @@
 """A row of tests/proofs/ that is not run again stays there, also in a fresh clone, where build/prove/ is empty."""
 import argparse
 import pathlib
-import sys
 
 import pytest
 
+from tests.campaigns import physics, proof, shape
+
 TOP = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(TOP / place) for place in ("tests/prove", "tools/campaign", "tools/motions")]
-import physics  # noqa: E402  (the paths come first)
-import proof  # noqa: E402
-import shape  # noqa: E402
 
 
 @pytest.fixture(autouse=True)
@@ -19,6 +16,7 @@ def _fresh_clone(tmp_path, monkeypatch):
     monkeypatch.setattr(physics, "TRIED", tmp_path / "build" / "bodies.jsonl")
     monkeypatch.setattr(proof, "DETAILS", tmp_path)
     monkeypatch.setattr(proof, "commit", lambda: "0123456789")
+    monkeypatch.setattr(proof, "code", lambda part: "abcdef")
     for name in ("shape", "physics"):
         (tmp_path / f"{name}.md").write_text((TOP / "tests" / "proofs" / f"{name}.md").read_text(encoding="utf-8"), encoding="utf-8")
 
@@ -40,7 +38,7 @@ def test_a_row_of_shape_that_runs_alone_leaves_the_others(monkeypatch):
     run_shape(monkeypatch, only="cable")
     mark = "| `--only cable`, commit "
     assert [row for row in rows("shape") if mark not in row] == [row for row in before if mark not in row]
-    assert [row for row in rows("shape") if mark in row] == ["| cable holds. | `--only cable`, commit 0123456789: new | 1 of 1 | kept |"]
+    assert [row for row in rows("shape") if mark in row] == ["| cable holds. | `--only cable`, commit 0123456789, code abcdef: new | 1 of 1 | kept |"]
 
 
 def test_after_a_whole_run_of_shape_a_row_runs_alone(monkeypatch):

@@ -1,19 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""A campaign of bodies can be interrupted and done in parts (tests/prove/bodies.py): no body is lost, none is tried twice, none counts
+"""A campaign of bodies can be interrupted and done in parts (tests/campaigns/bodies.py): no body is lost, none is tried twice, none counts
 for a motion that it was not tried with."""
 import argparse
 import pathlib
-import sys
 
 import pytest
 
 from m512.files.formats import load as load_motions
+from motions import promises
+from tests.campaigns import bodies, physics
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
-sys.path[:0] = [str(TOP / place) for place in ("tests/prove", "tools/campaign", "tools/motions")]
-import bodies  # noqa: E402  (the paths come first)
-import physics  # noqa: E402
-import promises  # noqa: E402
 
 BOW = promises.Stands("bow", 4)
 
@@ -102,6 +99,15 @@ def test_a_result_counts_for_its_motion_alone(library):
     assert key() == before != by_board and key(BOW) != bow
     changed(library, number["turn_l2"])
     assert key() != before
+
+
+def test_a_result_counts_for_its_version_of_physics_alone(library, monkeypatch):
+    walk = promises.STANDS[0]
+    keys = set()
+    for version in ("1.0.0", "2.0.0"):
+        monkeypatch.setattr("mujoco.__version__", version)
+        keys.add(bodies.key_of(library, promises.number_of(library, "walk"), walk, promises.ROBOT, "player"))
+    assert len(keys) == 2
 
 
 def test_seeds_are_said_as_people_write_them():

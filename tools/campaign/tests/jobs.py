@@ -13,10 +13,6 @@ def number(seed):
     return seed, random.Random(seed).random()
 
 
-def where(_):
-    return os.getpid()
-
-
 def meet(folder, number):
     """Waits until so many processes have come here: none of them can have done the others' work. Its own number."""
     folder.joinpath(str(os.getpid())).touch()

@@ -10,14 +10,53 @@ if(M512_AVR)
 endif()
 set(M512_SANITIZE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
 
-# m512_image(<target> BOARD cm5|cm2 KIND app|boot|test SOURCES ... [DIR sub] [DEFINES ...] [OPTIONS ...])
+# m512_needs(<test> WORLD:TARGET...): what must be built before the test runs, so that `tools/test NAME` builds no more than
+# that. WORLD is host or avr. `web`: the page in the browser. A test of which nothing is noted needs everything.
+# m512_write_needs() writes build/host/test_needs.txt, a line a test.
+set(M512_NEEDS_BOARD host:cm5sim host:cm5sim_shared host:target_runner host:motion_image avr:images avr:sim_programs)
+function(m512_needs test)
+    string(REPLACE ";" " " needs "${ARGN}")
+    set_property(GLOBAL APPEND PROPERTY M512_NEEDS "${test} ${needs}\n")
+endfunction()
+function(m512_write_needs)
+    get_property(needs GLOBAL PROPERTY M512_NEEDS)
+    string(REPLACE ";" "" needs "${needs}")
+    file(WRITE ${CMAKE_BINARY_DIR}/test_needs.txt "${needs}")
+endfunction()
+
+# m512_linker_script(<source.ld.in>)
+# Preprocesses a linker script into the file that M512_LINKER_SCRIPTS/<source.ld> names; again when anything that it includes has changed.
+set(M512_LINKER_SCRIPTS ${CMAKE_BINARY_DIR}/linker)
+function(m512_linker_script source)
+    get_filename_component(name ${source} NAME_WLE)
+    set(script ${M512_LINKER_SCRIPTS}/${name})
+    add_custom_command(OUTPUT ${script}
+        COMMAND ${CMAKE_C_COMPILER} -E -P -x c -I${CMAKE_SOURCE_DIR}/linker -MD -MF ${script}.d -MT ${script}
+                ${CMAKE_CURRENT_SOURCE_DIR}/${source} -o ${script}
+        DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${source} DEPFILE ${script}.d VERBATIM)
+    add_custom_target(linker-${name} DEPENDS ${script})
+endfunction()
+
+# m512_image(<target> BOARD cm5|cm2 KIND app|boot|test SOURCES ... [DIR sub] [SCRIPT name] [DEFINES ...] [OPTIONS ...])
 # OPTIONS: compiler options of this image alone, given to the link-time compiler as well.
 # Links one AVR image and writes <target>.elf and <target>.hex below build/firmware[/sub].
 # app, boot: at the addresses of linker/memory_map.h; test: a program of its own from address 0.
+# SCRIPT: the linker script, if it is not that of the kind (m512_linker_script makes it).
+# The targets `images` and `sim_programs` build all of the former, and all of the latter but for unit tests.
 function(m512_image target)
-    cmake_parse_arguments(ARG "" "BOARD;KIND;DIR" "SOURCES;DEFINES;OPTIONS" ${ARGN})
+    cmake_parse_arguments(ARG "" "BOARD;KIND;DIR;SCRIPT" "SOURCES;DEFINES;OPTIONS" ${ARGN})
     set(out ${M512_FIRMWARE_DIR}/${ARG_DIR})
     add_executable(${target} ${ARG_SOURCES})
+    set(group images)
+    if(ARG_KIND STREQUAL "test")
+        set(group sim_programs)
+    endif()
+    if(NOT target MATCHES "^test_")
+        if(NOT TARGET ${group})
+            add_custom_target(${group})
+        endif()
+        add_dependencies(${group} ${target})
+    endif()
     target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}
         ${CMAKE_SOURCE_DIR}/hal/avr ${CMAKE_SOURCE_DIR}/hal ${CMAKE_SOURCE_DIR}/motion ${CMAKE_SOURCE_DIR}/linker)
     target_compile_definitions(${target} PRIVATE F_CPU=16000000UL ${ARG_DEFINES})
@@ -29,18 +68,12 @@ function(m512_image target)
     target_compile_options(${target} PRIVATE ${M512_WARNINGS} ${ARG_OPTIONS})
     target_link_options(${target} PRIVATE ${ARG_OPTIONS})
     set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${out} SUFFIX .elf)
-    if(NOT ARG_KIND STREQUAL "test")
-        add_custom_command(OUTPUT ${target}.ld
-            COMMAND ${CMAKE_C_COMPILER} -E -P -x c -I${CMAKE_SOURCE_DIR}/linker
-                    ${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in -o ${target}.ld
-            DEPENDS ${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in ${CMAKE_SOURCE_DIR}/linker/memory_map.h
-            VERBATIM)
-        add_custom_target(${target}_ld DEPENDS ${target}.ld)
-        add_dependencies(${target} ${target}_ld)
-        target_link_options(${target} PRIVATE -T ${CMAKE_CURRENT_BINARY_DIR}/${target}.ld)
-        set_target_properties(${target} PROPERTIES LINK_DEPENDS
-            "${CMAKE_SOURCE_DIR}/linker/${ARG_KIND}.ld.in;${CMAKE_SOURCE_DIR}/linker/memory_map.h")
+    if(NOT ARG_SCRIPT)
+        set(ARG_SCRIPT ${ARG_KIND})
     endif()
+    set(script ${M512_LINKER_SCRIPTS}/${ARG_SCRIPT}.ld)
+    target_link_options(${target} PRIVATE -T ${script})
+    set_target_properties(${target} PROPERTIES LINK_DEPENDS "${script};${CMAKE_SOURCE_DIR}/tools/dev/app_record")
     target_link_options(${target} PRIVATE -Wl,-Map=${out}/${target}.map)
     # The last step of linking: what an image says of itself (tools/dev/app_record).
     string(REGEX MATCH "^(play|edit)" kind ${target})
@@ -50,7 +83,7 @@ function(m512_image target)
     if(ARG_KIND STREQUAL "app")
         add_custom_command(TARGET ${target} POST_BUILD COMMAND ${CMAKE_SOURCE_DIR}/tools/dev/app_record app
             ${out}/${target}.elf --board ${ARG_BOARD} --kind ${kind} --version ${PROJECT_VERSION})
-    elseif(ARG_KIND STREQUAL "boot")
+    elseif(target MATCHES "^boot-")
         add_custom_command(TARGET ${target} POST_BUILD COMMAND ${CMAKE_SOURCE_DIR}/tools/dev/app_record boot ${out}/${target}.elf)
     endif()
     add_custom_command(TARGET ${target} POST_BUILD
@@ -84,7 +117,7 @@ function(m512_unity)
     target_include_directories(unity PUBLIC ${UNITY_DIR})
     target_compile_options(unity PRIVATE -w)
     if(M512_AVR)
-        target_include_directories(unity PUBLIC ${CMAKE_SOURCE_DIR}/tests/target)
+        target_include_directories(unity PUBLIC ${CMAKE_SOURCE_DIR}/tests/unit/target)
         target_compile_definitions(unity PUBLIC UNITY_INCLUDE_CONFIG_H F_CPU=16000000UL)
     else()
         target_compile_options(unity PRIVATE ${M512_SANITIZE})
@@ -94,7 +127,7 @@ endfunction()
 # m512_checked(<variable> SOURCE...)
 # Production and fake sources (paths from the top) for programs of the PC, with all warnings, ASan and UBSan. Each is
 # compiled once, whoever links it: <variable> becomes the list of their objects.
-set(M512_CHECKED_INCLUDES . tests/fake tests/unit hal motion linker firmware/common)
+set(M512_CHECKED_INCLUDES . tests/fake hal/host tests/unit hal motion linker firmware/common)
 list(TRANSFORM M512_CHECKED_INCLUDES PREPEND ${CMAKE_SOURCE_DIR}/)
 function(m512_checked variable)
     set(objects)
@@ -124,7 +157,7 @@ function(m512_unit_test name)
         if(ARG_TARGET_TOO)
             list(TRANSFORM ARG_SOURCES PREPEND ${CMAKE_SOURCE_DIR}/)
             m512_image(${name} BOARD cm5 KIND test DIR tests SOURCES ${name}.c ${ARG_SOURCES}
-                ${CMAKE_SOURCE_DIR}/tests/target/target_main.c ${CMAKE_SOURCE_DIR}/hal/avr/trap.c)
+                ${CMAKE_SOURCE_DIR}/tests/unit/target/target_main.c ${CMAKE_SOURCE_DIR}/hal/avr/trap.c)
             target_include_directories(${name} PRIVATE ${ARG_INCLUDES})
             target_link_libraries(${name} PRIVATE unity)
         endif()
@@ -137,29 +170,37 @@ function(m512_unit_test name)
     target_link_options(${name} PRIVATE ${M512_SANITIZE})
     target_link_libraries(${name} PRIVATE unity)
     add_test(NAME unit.${short} COMMAND ${name})
+    m512_needs(unit.${short} host:${name})
     if(ARG_TARGET_TOO)
         add_test(NAME target.${short} COMMAND target_runner ${M512_FIRMWARE_DIR}/tests/${name}.hex)
+        m512_needs(target.${short} host:target_runner avr:${name})
     endif()
 endfunction()
 
-# m512_pytest(<ctest name> <file or folder> [TIMEOUT s] [COST s]): a pytest file, run with the interpreter of the project's
-# virtual environment (build/venv, made by tools/dev/setup) when there is one. COST: see tests/CMakeLists.txt.
-# No plugins: no test needs one, and pytest would rewrite the whole of hypothesis for its plugin (0.6 s a file). What Python compiles
+# m512_pytest(<ctest name> <file or folder> [TIMEOUT s] [COST s] [NEEDS ...]): a pytest file, run with the interpreter of build/venv, where
+# the packages of this tree are installed (tools/dev/setup). NEEDS: as for m512_needs, or `nothing`. COST: see tests/CMakeLists.txt.
+# A file that leaves cases out is shown as skipped (tests/seen_skips.py). No other plugins: no test needs one, and pytest would rewrite the whole of hypothesis for its plugin (0.6 s a file). What Python compiles
 # is kept in build/pycache.
 function(m512_pytest name path)
-    cmake_parse_arguments(ARG "" "TIMEOUT;COST" "" ${ARGN})
+    cmake_parse_arguments(ARG "" "TIMEOUT;COST" "NEEDS" ${ARGN})
+    if(ARG_NEEDS)
+        m512_needs(${name} ${ARG_NEEDS})
+    endif()
     if(NOT ARG_TIMEOUT)
         set(ARG_TIMEOUT 600)
     endif()
     if(NOT ARG_COST)
         set(ARG_COST 3)
     endif()
-    add_test(NAME ${name} COMMAND ${M512_PYTHON} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/${path})
-    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST ${ARG_COST}
-        ENVIRONMENT "PYTHONPATH=${CMAKE_SOURCE_DIR}/tools/sim/python:${CMAKE_SOURCE_DIR}/tools/m512/src:${CMAKE_SOURCE_DIR}/tools/body/src:${CMAKE_SOURCE_DIR}/tools/campaign;PYTHONPYCACHEPREFIX=${CMAKE_SOURCE_DIR}/build/pycache;PYTEST_DISABLE_PLUGIN_AUTOLOAD=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
+    add_test(NAME ${name} COMMAND ${M512_PYTHON} -m pytest -q -rs -p no:cacheprovider -p tests.seen_skips ${CMAKE_CURRENT_SOURCE_DIR}/${path})
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} COST ${ARG_COST} SKIP_RETURN_CODE 77
+        ENVIRONMENT "PYTHONPYCACHEPREFIX=${CMAKE_SOURCE_DIR}/build/pycache;PYTEST_DISABLE_PLUGIN_AUTOLOAD=1;M512_BUILD=${CMAKE_SOURCE_DIR}/build")
 endfunction()
 
 if(NOT M512_AVR)
+    if(M512_TESTS AND NOT M512_WASM AND (IS_SYMLINK ${CMAKE_SOURCE_DIR}/build/venv OR NOT EXISTS ${CMAKE_SOURCE_DIR}/build/venv/.installed-test))
+        message(FATAL_ERROR "The packages of this tree are not in build/venv; run: tools/dev/setup --python test physics")
+    endif()
     if(EXISTS ${CMAKE_SOURCE_DIR}/build/venv/bin/python)
         set(M512_PYTHON ${CMAKE_SOURCE_DIR}/build/venv/bin/python)
     else()

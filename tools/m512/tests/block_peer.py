@@ -20,7 +20,8 @@ class BlockBoard(LoaderBoard):
         self.eeprom = bytearray(b"\xff" * 4096)
         self.board, self.frame = board, None
         self.writes, self.left = [], []
-        self.broken_pages = set()
+        self.broken_pages = set()      # the loader sees that they do not take the data
+        self.forgetful_pages = set()   # it does not
         super().__init__(state, presses_mode)
 
     def press_mode(self):
@@ -48,7 +49,7 @@ class BlockBoard(LoaderBoard):
         elif byte == 0x0D:
             line, self.line = bytes(self.line).strip(), bytearray()
             if line == b"id":
-                self.send(b"\r\n ID Motion512 boot 1.00 " + (b"CM5" if self.board == 1 else b"CM2") + b" api=1 features=007F app=none")
+                self.send(b"\r\n ID Motion512 boot 1.00 " + {1: b"CM5", 2: b"CM2", 3: b"CM510"}[self.board] + b" api=1 features=007F app=none")
             elif line.strip(b"#"):
                 self.send(b"\r\n Bad Command.('help' for instructions definition)")
             self.send(PROMPT)
@@ -91,7 +92,7 @@ class BlockBoard(LoaderBoard):
             same = self.flash[first * 256:first * 256 + 256] == body[2:]
             status = 3 if first in self.broken_pages else 1 if same else 0
             if status == 0:
-                self.flash[first * 256:first * 256 + 256] = body[2:]
+                self.flash[first * 256:first * 256 + 256] = body[2:] if first not in self.forgetful_pages else bytes(256)
                 self.writes.append(first)
         elif command == 5 and count <= 64 and first + count <= 512:
             status = 0

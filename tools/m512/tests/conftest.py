@@ -1,16 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Where the tests find things: the repository, test data of others (never committed), the build products."""
-import os
-import sys
+"""Where the tests find things: the repository, its sample files, the build products."""
 from pathlib import Path
 
 import pytest
 
 REPO = Path(__file__).resolve().parents[3]
-SHARED = Path(os.environ.get("M512_SHARED", REPO.parent / "shared"))
-sys.path.insert(0, str(Path(__file__).parent))
-sys.path.insert(0, str(REPO / "tools" / "m512" / "src"))
-sys.path.insert(0, str(REPO / "tools" / "sim" / "python"))
 
 
 def separate_runner():
@@ -28,25 +22,19 @@ def repo():
     return REPO
 
 
-def shared_file(name):
-    path = SHARED / "data" / name
-    if not path.exists():
-        pytest.skip(f"{name}: the shared data folder is absent (M512_SHARED says where it is)")
-    return path
-
-
 @pytest.fixture
-def data():
-    """data("x.bin") -> path, or a skip that says what is absent."""
-    return shared_file
+def sample():
+    """sample("x.bin") -> path of a file of tests/samples."""
+    return (REPO / "tests" / "samples").joinpath
 
 
 @pytest.fixture
 def m512(monkeypatch):
     """m512("convert", "a", "b") -> click result: runs a command in this process; peer://... is a board of virtual_peer.py."""
+    from virtual_peer import open_port
+
     from m512.board import link, motions
     from m512.cli import main
-    from virtual_peer import open_port
 
     monkeypatch.setattr(link, "Link", open_port)
     monkeypatch.setattr(motions, "Link", open_port)
@@ -64,9 +52,10 @@ def started(monkeypatch):
     """started("boot-cm5.hex", "play-cm5.hex", text=...) -> a SimulatedBoard with these images and motions, a second after its power
     came on. Needs the build's products."""
     monkeypatch.setenv("M512_BUILD", str(REPO / "build"))
+    from virtual_peer import SimulatedBoard
+
     from cm5sim import Board
     from m512.files.text import read_text
-    from virtual_peer import SimulatedBoard
 
     boards = []
 

@@ -16,7 +16,10 @@ LEDS, PROMPTED, READY, LOADING, EEPROM_DATA = range(2, 7)
 
 
 class FactoryBoard(LoaderBoard):
-    def __init__(self, flash=None, state=PROMPTED, presses_mode=True):
+    """says: the banner, which names the board."""
+
+    def __init__(self, flash=None, state=PROMPTED, presses_mode=True, says=BANNER):
+        self.says = says
         self.flash = bytearray(flash or b"\xff" * 0x20000)
         self.eeprom = bytearray(b"\xff" * 4096)
         self.eeprom[0xFFF] = 0x11
@@ -43,7 +46,7 @@ class FactoryBoard(LoaderBoard):
             self.state, self.since = (LEDS if stays else APP), now
         elif self.state == LEDS and now - self.since > LED_TIME:
             self.state = PROMPTED
-            self.send(BANNER + PROMPT)
+            self.send(self.says + PROMPT)
             typed, self.line = bytes(self.line), bytearray()
             for byte in typed:
                 self.on_byte(byte)

@@ -3,7 +3,7 @@
 """Writes page_vectors.json, the pages that the C codec and the Python codec must read alike.
 
 Made from the specification of the page alone: it builds bytes by offset and states by hand what each page means. It
-must not import m512, so that no codec checks itself. Usage: make_page_vectors.py > tests/golden/page_vectors.json
+must not import m512, so that no codec checks itself. Usage: make_page_vectors.py > tests/models/golden/page_vectors.json
 """
 import json
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Makes .mtn files as people have them, and the pages that the specification says they mean (spec/files.md, not our reader)."""
+"""Makes .mtn files as people have them, and the pages that the specification says they mean (FILES.md, not our reader)."""
 from dataclasses import dataclass, field
 
 BOM = b"\xef\xbb\xbf"

@@ -3,12 +3,13 @@
 import random
 
 import pytest
+
 from m512.errors import RefusedError
 from m512.files import formats
 from m512.files.image import Image, from_bytes
 from m512.files.page import STEPS, Page
 from m512.files.text import read_text, write_text
-from m512.motion.player import EXACT, play
+from m512.motion.player import play
 from m512.pages import difference, operations, overlay
 
 TEXT = """motion512 1
@@ -80,7 +81,7 @@ page 3 stand
 def goals(image, number, joints):
     """{tick: {joint: goal}} of a play by the exact law, with what is held."""
     out, now = {}, {}
-    for tick in play(image, number, EXACT, [512] * 31, 128 * 200):
+    for tick in play(image, number, [512] * 31, 128 * 200):
         now = {joint: tick.goals[joint] for joint in joints} if tick.goals else now
         out[tick.number + 1] = now
     return out

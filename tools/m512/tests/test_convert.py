@@ -1,59 +1,60 @@
 # SPDX-License-Identifier: MIT
 """`m512 convert` and the file formats behind it: figures with real files, losses, and what happens to bad input."""
 import json
+from fractions import Fraction
 
 import pytest
 from chance import given, settings
 from hypothesis import strategies as st
+
 from m512.errors import FileError, RefusedError
 from m512.files import formats, mtn, scale12
 from m512.files.image import Image, from_bytes, from_hex, to_hex
 from m512.files.page import EMPTY, Page
 
 
-def test_convert_mtn_to_image_equals_the_real_robot_image(m512, data, tmp_path):
+def test_convert_mtn_to_image_equals_the_image_made_from_the_description(m512, sample, tmp_path):
     out = tmp_path / "out.bin"
-    assert m512("convert", data("bio_gp_humanoid_kr.mtn"), out).exit_code == 0
-    assert out.read_bytes() == data("bio_gp_humanoid_kr_128p.bin").read_bytes()
+    assert m512("convert", sample("robot.mtn"), out).exit_code == 0
+    assert out.read_bytes() == sample("robot_128p.bin").read_bytes()
 
 
-@pytest.mark.parametrize("name", ["bio_gp_humanoid_kr_128p.bin", "hros1_10bit_256p.bin", "op3_12bit_256p.bin",
-                                  "op3_derived_10bit_256p.bin", "synthetic_edge_128p.bin"])
+@pytest.mark.parametrize("name", ["robot_128p.bin", "robot_12bit_256p.bin"])
 @pytest.mark.parametrize("suffix", [".m512", ".hex"])
-def test_convert_every_image_to_text_and_hex_and_back(m512, data, tmp_path, name, suffix):
+def test_convert_every_image_to_text_and_hex_and_back(m512, sample, tmp_path, name, suffix):
     middle, out = tmp_path / f"x{suffix}", tmp_path / "y.bin"
     bits = "12" if "12bit" in name else "10"
-    assert m512("convert", data(name), middle, "--bits", bits).exit_code == 0
+    assert m512("convert", sample(name), middle, "--bits", bits).exit_code == 0
     assert m512("convert", middle, out).exit_code == 0
-    assert out.read_bytes() == data(name).read_bytes()
+    assert out.read_bytes() == sample(name).read_bytes()
 
 
-def test_convert_mtn_to_image_and_back_loses_two_rates(m512, data, tmp_path):
+def test_convert_mtn_to_image_and_back_loses_two_rates(m512, sample, tmp_path):
     image, again = tmp_path / "x.bin", tmp_path / "y.mtn"
-    result = m512("convert", data("bio_gp_humanoid_kr.mtn"), image, "--pages", "256")
-    assert "rate 3; it becomes 32 / 10 = 3.20" in result.stderr
+    result = m512("convert", sample("robot.mtn"), image, "--pages", "256")
+    assert "rate 3; it becomes 32 / 10 = 3.20" in result.stderr and "rate 2.7; it becomes 32 / 11 = 2.91" in result.stderr
     assert m512("convert", image, again).stderr == ""
-    before, after = (path.read_bytes()[:-2].split(b"\n") for path in (data("bio_gp_humanoid_kr.mtn"), again))
+    before, after = (path.read_bytes()[:-2].split(b"\n") for path in (sample("robot.mtn"), again))
     different = [(a, b) for a, b in zip(before, after) if a != b]
     assert len(before) == len(after) and len(different) == 2
-    assert [a.replace(b"3.0", b"3.2") for a, _ in different] == [b for _, b in different]
+    assert [a.replace(b"3.0", b"3.2").replace(b"2.7", b"2.9") for a, _ in different] == [b for _, b in different]
 
 
-def test_convert_12_bit_scaled_equals_the_derived_file(data):
-    image = from_bytes(data("op3_12bit_256p.bin").read_bytes(), 12)
-    dropped = scale12.keep_joints(image, range(1, 21))
-    scaled, report = scale12.scaled(image, 10)
-    assert "joints left out (IDs 0 21" in dropped[0]
-    assert any(line.startswith("40 positions cut at the end") for line in report)  # as whoever made the derived file counted
-    derived = from_bytes(data("op3_derived_10bit_256p.bin").read_bytes())
-    compared = 0
-    for number, page in derived.items():
+def test_convert_12_bit_scaled_is_the_same_angle_within_rounding(sample):
+    """A unit of 12 bits is 360 / 4096 degrees about 2048, one of 10 bits 300 / 1024 about 512; what lies beyond the ends is cut."""
+    before = from_bytes(sample("robot_12bit_256p.bin").read_bytes(), 12)
+    scale12.keep_joints(before, range(1, 19))
+    scaled, report = scale12.scaled(before, 10)
+    cut = compared = 0
+    for number, page in before.items():
         for step in range(page.steps):
-            for joint in range(1, 21):
-                if page.word(step, joint) < 1024:
-                    assert scaled[number].word(step, joint) == page.word(step, joint), (number, step, joint)
-                    compared += 1
-    assert compared > 2000
+            for joint in range(1, 19):
+                wanted = 512 + Fraction(page.word(step, joint) - 2048) * 360 / 4096 * 1024 / 300
+                cut += not -0.5 < wanted < 1023.5
+                assert abs(scaled[number].word(step, joint) - min(max(wanted, 0), 1023)) <= 0.5, (number, step, joint)
+                compared += 1
+    assert cut and compared > 1000
+    assert any(line.startswith(f"{cut} positions cut at the end") for line in report)
 
 
 def test_convert_12_bit_there_and_back_is_within_rounding():
@@ -123,7 +124,7 @@ def test_a_12_bit_image_is_known_by_the_joints_that_move(tmp_path):
 def test_a_10_bit_image_with_a_mistake_is_no_12_bit_image(m512, tmp_path):
     formats.save(tmp_path / "x.bin", image_of(10, 5, high=3))
     result = m512("pages", tmp_path / "x.bin", "check")
-    assert "looks like" not in result.stderr and result.stdout.startswith("page 3: damaged: position beyond 1023: step 1 ID 4")
+    assert "looks like" not in result.stderr and result.stdout.startswith("page 3: damaged: position beyond 1023: step 2 ID 4")
 
 
 def test_pages_that_do_not_fit_are_refused_or_named_in_one_line(m512, tmp_path):
@@ -171,12 +172,12 @@ def test_mtn_decimal_commas_and_version_100():
     assert mtn.read(mtn_file([{"steps": ["0.080 0.400"]}], version="1.00")).to_bytes() == one.to_bytes()
 
 
-def test_mtn_page_0_comes_from_the_image_it_goes_onto(m512, data, tmp_path):
+def test_mtn_page_0_comes_from_the_image_it_goes_onto(m512, sample, tmp_path):
     trim, out = Image.empty(), tmp_path / "y.bin"
     trim[0].set_word(2, 5, 9)
     trim[0].seal()
     (tmp_path / "trim.bin").write_bytes(trim.to_bytes())
-    m512("convert", data("bio_gp_humanoid_kr.mtn"), out, "--onto", tmp_path / "trim.bin")
+    m512("convert", sample("robot.mtn"), out, "--onto", tmp_path / "trim.bin")
     assert out.read_bytes()[:512] == bytes(trim[0])
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Keys and a stick become `@drive` lines; the shape of a play from the command line."""
 import pytest
+
 from m512.board import driving
 from m512.errors import BoardError, NoAnswerError
 

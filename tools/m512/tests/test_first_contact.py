@@ -7,8 +7,10 @@ import random
 
 import pytest
 from factory_peer import FactoryPeer
-from m512.board.client import Client
 from virtual_peer import VirtualLink
+
+from m512.board import contact
+from m512.board.client import Client
 
 MOTIONS = """motion512 1
 page 1 stand
@@ -75,6 +77,21 @@ def test_what_is_open_in_edit_is_not_changed(m512, board, tmp_path):
         assert "Bad Command" not in answer and "ERR" not in answer and "[35;1H* unsaved" not in answer, (where, answer)
         assert crc(edit) == page and bytes(edit.board.flash[0xE000:0x1E000]) == flash, where
         assert not [servo for servo in range(1, 19) if edit.board.servos[servo].goal not in (None, 512)], where
+
+
+@pytest.mark.parametrize("image", ["edit-cm5.hex", "play-cm5.hex"])
+def test_a_long_line_is_not_run_either(board, image):
+    """More characters than a boot loader's knock rubs out; what is left of them would be a command."""
+    there = board(image)
+    type_(there, "x\r", "play 2" + " " * 104)
+    mark = len(said(there))
+    with VirtualLink(there.path) as link:
+        contact.make(link)
+    there.pass_time(3)
+    assert "OK" not in said(there)[mark:] and "step 0" not in said(there)[mark:]
+    with VirtualLink(there.path) as link:
+        assert Client(link).where()["state"] == "idle"
+    assert not [servo for servo in range(1, 19) if there.board.servos[servo].goal not in (None, 512)]
 
 
 def test_a_typed_play_is_left_to_its_end(m512, board, tmp_path):

@@ -12,15 +12,18 @@ from block_peer import BlockPeer, BlockPtyPeer
 from conftest import REPO
 from factory_peer import FactoryPeer, FactoryPtyPeer
 from hex_files import hex_file
-from m512.board import backup, memory
+from virtual_peer import VirtualLink
+
+from m512.board import backup, factory_flash, memory
 from m512.board.block import frame
 from m512.board.factory import FactoryLoader
-from m512.board.memory import APP, RECORD_AT, Record
+from m512.board.factory_flash import LAST_START
+from m512.board.memory import APP, BOOT, RECORD_AT, Record
 from m512.crc16 import crc16
+from m512.errors import RefusedError
 from m512.files.image import Image
 from m512.files.page import EMPTY
 from m512.files.text import read_text
-from virtual_peer import VirtualLink
 
 MOTIONS = """motion512 1
 page 1 stand
@@ -136,7 +139,7 @@ def test_backup_restore_brings_back_every_byte(m512, peer, motions, tmp_path):
     peer.eeprom[11] = 0
     result = m512("restore", tmp_path / "b", "-p", peer.path, "--yes", "--wait", "5")
     assert result.exit_code == 0, result.stderr
-    assert 'page 3 "walk", step 0, ID 3: 401 -> 400 (-1)' in result.stderr
+    assert 'page 3 "walk", step 1, ID 3: 401 -> 400 (-1)' in result.stderr
     assert bytes(peer.flash) == before and peer.eeprom[:0xFF0] == eeprom[:0xFF0]
 
 
@@ -215,6 +218,14 @@ def test_block_loader_is_not_taken_for_the_factorys_when_a_letter_is_lost(m512, 
         assert peer.eeprom == b"\xff" * 4096
 
 
+def test_block_flash_that_is_said_to_be_written_and_is_not(m512, motions):
+    """The loader's own answer is OK: only the sums of the flash, read back, show it."""
+    with BlockPeer(old_flash()) as peer:
+        peer.forgetful_pages.add(0xE600 // 256)
+        result = m512("flash", motions, "-p", peer.path)
+        assert result.exit_code == 8 and "read back wrong at 0x0E600" in result.stderr, result.stderr
+
+
 def test_block_flash_that_does_not_take_the_data(m512, motions):
     with BlockPeer(old_flash()) as peer:
         peer.broken_pages.add(0xE600 // 256)
@@ -278,6 +289,19 @@ def test_factory_dumps_begin_anywhere_and_are_asked_for_again_when_damaged(lost)
             peer.garble = lose
             assert loader.read(0x11234, 0x11333) == bytes(peer.flash[0x11234:0x11333])
             assert loader.retries == (lost is not None)
+
+
+@pytest.mark.parametrize("page", [LAST_START // 256, LAST_START // 256 + 1, 0x1DE, 0x1E0, 0x1FE])
+def test_factory_download_near_the_loader_is_refused_before_a_word_is_typed(page):
+    """However somebody got there: such pages go through the mailbox, and the loader's own not at all."""
+    with FactoryPeer(bytearray(old_flash())) as peer, VirtualLink(peer.path) as link:
+        loader, pages = FactoryLoader(link), {page: bytes(256), page + 1: bytes(256)}
+        with pytest.raises(RefusedError, match="would hurt"):
+            factory_flash.write_page(loader, page, pages)
+        if page >= BOOT[0] // 256:
+            with pytest.raises(RefusedError):
+                loader.write(pages)
+        assert not [word for word in peer.words if word.startswith(b"load")] and not peer.hurt and bytes(peer.flash) == peer.before
 
 
 def test_factory_success_is_not_believed(m512, motions):
@@ -356,7 +380,7 @@ def test_record_of_an_application():
 
 def test_restore_leaves_the_mailbox_alone():
     wanted, found = bytearray(4096), bytearray(4096)
-    wanted[0xFF3:0xFF7] = b"\1\xAA\5\2"   # FF4: a page waits; FF5: its number (bootloader-original.md, section 7)
+    wanted[0xFF3:0xFF7] = b"\1\xAA\5\2"   # FF4: a page waits; FF5: its number (boot/ORIGINAL.md, section 7)
     assert backup.eeprom_changes(bytes(wanted), bytes(found)) == {0xFF3: 1, 0xFF6: 2}
 
 

@@ -2,23 +2,19 @@
 """Flashing through a factory loader over bad lines, in simulated time: the reported cases, and whether the model of the
 loader does what the description of it measured. Thousands of schedules: `tools/prove links`."""
 import random
-import sys
 
 import pytest
-from conftest import REPO
 
-sys.path.insert(0, str(REPO / "tests" / "prove"))
-
-from badlinks import runs  # noqa: E402
-from badlinks.factory_model import Board, Loader  # noqa: E402
-from badlinks.line import CANCELLED, KILLED, Killed, Line  # noqa: E402
-from badlinks.wire import BYTE_SECONDS, Weather, Wire, wires  # noqa: E402
-from m512.board import download, loaders, typed  # noqa: E402
-from m512.board.client import Client  # noqa: E402
-from m512.board.factory import FactoryLoader  # noqa: E402
-from m512.board.factory_flash import BLIND_MOST, LAST_START  # noqa: E402
-from m512.board.memory import Plan  # noqa: E402
-from m512.errors import CancelledError, M512Error, NoAnswerError  # noqa: E402
+from m512.board import download, loaders, typed
+from m512.board.client import Client
+from m512.board.factory import FactoryLoader
+from m512.board.factory_flash import BLIND_MOST, LAST_START
+from m512.board.memory import Plan
+from m512.errors import CancelledError, M512Error, NoAnswerError
+from tests.campaigns.badlinks import runs
+from tests.campaigns.badlinks.factory_model import Board, Loader
+from tests.campaigns.badlinks.line import CANCELLED, KILLED, Killed, Line
+from tests.campaigns.badlinks.wire import BYTE_SECONDS, Weather, Wire, wires
 
 GOOD = Weather()
 

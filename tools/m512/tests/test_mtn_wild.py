@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: MIT
 """RoboPlus files as they are found on the net: what editors, version control and newer tools make of them. All files are made here."""
 import random
-import sys
+from fractions import Fraction
 
 import pytest
 from conftest import REPO
+from mtn_files import ACCIDENTS, Block, blocks_by_chance, body, checksum, commas, made, page_bytes, step
+
 from m512.errors import FileError
 from m512.files import mtn
 from m512.files.page import EMPTY
-from mtn_files import ACCIDENTS, Block, blocks_by_chance, body, checksum, commas, made, page_bytes, step
-
-sys.path.insert(0, str(REPO / "tests" / "oracle"))
-import classic_law  # noqa: E402
+from tests.models import classic_law
 
 
 def expected(blocks, full=True):
@@ -82,6 +81,16 @@ def test_a_version_that_nobody_knows_is_read_like_the_newest():
     data = made([Block(steps=[step()])]).replace(b"version=1.01", b"version=1.05")
     image = mtn.read(data)
     assert bytes(image[1]) == page_bytes(Block(steps=[step()])) and any("version 1.05 is not known" in note for note in image.notes)
+
+
+# Times: a unit is 8 ms, and what stands between two is the nearer one
+
+@pytest.mark.parametrize("seconds", ["0.012", "0.0119", "0.0121", "0.30", "0.3", "1.999", "2.04", "0.0039", "0.0041", "0.5", "1.0005"])
+def test_a_time_between_two_units_is_the_nearer_one(seconds):
+    data = body([Block(steps=[step(512, 10, 50)])], full=False).replace(b"0.080 0.400", f"{seconds} {seconds}".encode())
+    page = mtn.read(data + checksum(data))[1]
+    for units in (page.pause(0), page.time(0)):
+        assert abs(units * Fraction(8, 1000) - Fraction(seconds)) <= Fraction(4, 1000)
 
 
 # Rates
@@ -223,15 +232,14 @@ def test_combinations_by_chance(seed):
     assert not remark or happens(data) == data or any(remark in note for note in image.notes)
 
 
-# Files of others, where they are
+# Files as they lie there
 
-def test_the_real_file_is_read_without_a_remark_but_for_two_rates(data):
-    image = mtn.read(data("bio_gp_humanoid_kr.mtn").read_bytes())
-    assert image.to_bytes()[:65536] == data("bio_gp_humanoid_kr_128p.bin").read_bytes()
-    assert len(image.notes) == 1 and "rate 3; it becomes 32 / 10 = 3.20" in image.notes[0]
-
-
-@pytest.mark.parametrize("accident", list(ACCIDENTS)[::4])
-def test_the_real_file_after_every_accident(data, accident):
-    whole = data("bio_gp_humanoid_kr.mtn").read_bytes()
-    assert mtn.read(ACCIDENTS[accident][1](whole)).to_bytes() == mtn.read(whole).to_bytes()
+@pytest.mark.parametrize("path", sorted((REPO / "tests" / "samples" / "wild").iterdir()), ids=lambda path: path.stem)
+def test_a_file_in_a_wild_form_is_read_as_the_one_that_was_written(path, sample):
+    image = mtn.read(path.read_bytes(), path.name)
+    wanted = bytearray(sample("robot_128p.bin").read_bytes()[512:4 * 512])
+    if path.stem == "edited-by-hand-the-old-checksum":
+        wanted[:4], wanted[31] = b"HAND", (wanted[31] + sum(b"hand") - sum(b"HAND")) % 256
+    whole = 2 if path.stem == "fifteen-steps" else 3
+    assert image.to_bytes()[512:][:512 * whole] == wanted[:512 * whole]
+    assert whole == 3 or any('page 3 "long" has 15 steps' in note for note in image.notes)

@@ -2,84 +2,22 @@
 """Whatever comes over the line, the PC's side of each protocol ends with a result or one of our errors, in bounded time."""
 import random
 
+import pytest
 from chance import given, settings
-from hypothesis import strategies as st
-from m512.board import link as links
+from virtual_peer import VirtualLink
+
 from m512.board.block import BlockLoader, frame
 from m512.board.client import Client
-from m512.board.factory import FactoryLoader
 from m512.errors import M512Error
-from m512.files.page import EMPTY
+from m512.files.text import read_text
+from tests.campaigns.noise import TALKS, NoisyLink, pieces, survives
 
 
-class NoisyLink(links.Link):
-    """A line on which something else talks: canned bytes, then silence. Time does not pass."""
-
-    def __init__(self, data):
-        self.data, self.held, self.trace, self.url = data, b"", None, "noise"
-
-    def write(self, data, wait=True):
-        pass
-
-    def _receive(self, limit, seconds):
-        if self.held:
-            out, self.held = self.held[:limit], self.held[limit:]
-            return out
-        size = min(limit, 7)
-        out, self.data = self.data[:size], self.data[size:]
-        return out
-
-    def look_for(self, end, seconds, limit=1 << 20):
-        return super().look_for(end, 0.002, limit)
-
-
-def pieces():
-    """Noise with the words in it that the parsers look for."""
-    words = [b"\r\n - ", b"@ver ", b" OK\r\n", b" ERR 3 no\r\n", b"@ver image=play can=save OK\r\n", b"Ready..", b"Success",
-             b"Rewriting:0X0000\r\n Size:0X00000100  Checksum:00-00", b"\r\n 0000E000 : " + b"FF " * 16, b"\x5a\x01\xa0\x01\x00\x00",
-             b"@page 1 " + EMPTY.hex().encode() + b" 0000 OK\r\n", b"@pose 1:5:1 2:?:0 OK\r\n", b"@where state=idle page=x OK\r\n",
-             frame(1, 160, b"\0\0").replace(b"\xa5", b"\x5a", 1), b"\xff" * 3, b"\x1b[2;3f"]
-    return st.lists(st.one_of(st.sampled_from(words), st.binary(max_size=12)), max_size=40).map(b"".join)
-
-
-def survives(action):
-    try:
-        action()
-    except M512Error as error:
-        assert str(error)
-
-
+@pytest.mark.parametrize("talk", TALKS)
 @settings(max_examples=80)
-@given(pieces())
-def test_noise_machine(data):
-    def talk():
-        client = Client(NoisyLink(data), (0.002,))
-        for ask in (client.list_pages, client.pose, client.where, lambda: client.page(1), lambda: client.find("x")):
-            survives(ask)
-
-    survives(talk)
-
-
-@settings(max_examples=80)
-@given(pieces())
-def test_noise_factory_loader(data):
-    def talk():
-        loader = FactoryLoader(NoisyLink(data))
-        survives(lambda: loader.read(0xE000, 0xE080))
-        survives(lambda: loader.write({0xE0: bytes(256)}))
-
-    survives(talk)
-
-
-@settings(max_examples=80)
-@given(pieces())
-def test_noise_block_loader(data):
-    def talk():
-        loader = BlockLoader(NoisyLink(data), "", 1, 0.002)
-        survives(lambda: loader.read(0, 0x100))
-        survives(lambda: loader.different({3: bytes(256)}))
-
-    survives(talk)
+@given(data=pieces())
+def test_noise(talk, data):
+    talk(data)
 
 
 def test_noise_answers_of_a_block_with_every_byte_changed():
@@ -90,6 +28,35 @@ def test_noise_answers_of_a_block_with_every_byte_changed():
             if changed != answer:
                 survives(lambda data=changed: BlockLoader(NoisyLink(data), "", 1, 0.002))
     assert BlockLoader(NoisyLink(answer), "", 1, 0.002).detail == 2
+
+
+@pytest.mark.parametrize("times, gets_through", [(1, True), (2, True), (3, False)])
+def test_noise_in_a_page_of_the_robot_is_found_by_its_crc(started, times, gets_through):
+    """A digit that the line has made another digit: the answer still reads as a whole page."""
+    text = "motion512 1\npage 3 wave\n  step 50 | 1..18:500\n"
+    play = started("play-cm5.hex", text=text)
+    play.pass_time(1)
+    with VirtualLink(play.path) as link:
+        client, heard, changed = Client(link), bytearray(), []
+
+        def garble(direction, _, byte):
+            if direction == "<-":
+                heard.append(byte)
+                at = len(heard) - heard.rfind(b"@page 3 ")
+                if byte == 0x0A:
+                    heard.clear()
+                elif b"@page 3 " in heard and at == 400 and len(changed) < times:
+                    changed.append(byte)
+                    return byte ^ 1 if byte not in b"9A" else byte - 1
+            return byte
+
+        play.garble = garble
+        if gets_through:
+            assert client.page(3) == read_text(text)[3]
+        else:
+            with pytest.raises(M512Error, match="page 3 came damaged, 3 times"):
+                client.page(3)
+        assert len(changed) == times
 
 
 class PausingLink(NoisyLink):
@@ -111,3 +78,11 @@ def test_noise_answer_of_a_block_that_falls_silent_and_goes_on():
     for at in range(len(answer) + 1):
         for rest in (b"", b"\x5a", b"\0\0", b"\x5a\0", answer[at:], answer):
             survives(lambda pieces=(answer[:at], rest): BlockLoader(PausingLink(*pieces), "", 2, 0.002))
+
+
+def test_a_request_that_the_board_refuses_because_bytes_were_lost_is_sent_again():
+    """firmware/common/PROTOCOL.md, ERR 15: the board has not run it."""
+    link = NoisyLink(b"@torque ERR 15 3 bytes of this line were lost: nothing was done\r\n@torque OK\r\n")
+    link_client = Client.__new__(Client)
+    link_client.link, link_client.version, link_client.slack = link, {}, 0.0
+    assert link_client.ask("torque on") == ""

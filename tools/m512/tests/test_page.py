@@ -6,9 +6,10 @@ import pytest
 from chance import given
 from conftest import REPO
 from hypothesis import strategies as st
+
 from m512.files.page import EMPTY, Fault, Kind, Page, is_used
 
-VECTORS = json.loads((REPO / "tests" / "golden" / "page_vectors.json").read_text())["vectors"]
+VECTORS = json.loads((REPO / "tests" / "models" / "golden" / "page_vectors.json").read_text())["vectors"]
 FIELDS = {"play_count": "repeat", "play_code": "code", "accel_time": "accel", "next_page": "next", "exit_page": "exit",
           "linked1_page": "link1_page", "linked1_code": "link1_code", "linked2_page": "link2_page",
           "linked2_code": "link2_code"}
@@ -60,12 +61,12 @@ def test_page_fault_text_names_field_and_value():
     page.steps, page.next = 1, 200
     page.set_word(0, 7, 1500)
     page.speed = 0
-    assert page.seal().fault_text() == "page speed is 0; position beyond 1023: step 0 ID 7 is 0x05DC"
+    assert page.seal().fault_text() == "page speed is 0; position beyond 1023: step 1 ID 7 is 0x05DC"
     assert page.fault_text(Kind(256, 4095)) == "page speed is 0"
 
 
 def test_page_link_beyond_the_last_page_is_no_fault_but_named():
-    """player.md: a link above 127 counts as 0."""
+    """LAWS.md: a link above 127 counts as 0."""
     page = Page()
     page.steps, page.next, page.link2_page = 1, 200, 128
     assert page.seal().fault_text() == ""

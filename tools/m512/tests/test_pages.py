@@ -3,6 +3,7 @@
 import json
 
 import pytest
+
 from m512.files.image import Image, from_bytes
 from m512.files.page import EMPTY, Page
 from m512.files.text import read_text
@@ -202,12 +203,12 @@ def test_diff_says_where_and_what(m512, lib, tmp_path):
     result = m512("diff", lib, new)
     assert result.exit_code == 3
     assert result.stdout.splitlines() == [
-        'page 3 "walk": exit 5 -> 6', 'page 3 "walk": code U -> D', 'page 3 "walk", step 0, ID 2: 500 -> 530 (+30)',
-        'page 3 "walk", step 0, ID 4: 700 -> -', 'page 3 "walk", step 1: pause 20 -> 30',
+        'page 3 "walk": exit 5 -> 6', 'page 3 "walk": code U -> D', 'page 3 "walk", step 1, ID 2: 500 -> 530 (+30)',
+        'page 3 "walk", step 1, ID 4: 700 -> -', 'page 3 "walk", step 2: pause 20 -> 30',
         'page 5 "stop": 1 step -> empty', 'page 6 "stop": empty -> 1 step']
     assert m512("diff", lib, lib).exit_code == 0
     rows = json.loads(m512("diff", lib, new, "--json").stdout)
-    assert rows[2] == {"page": 3, "name": "walk", "what": "", "before": "500", "after": "530", "step": 0, "joint": 2}
+    assert rows[2] == {"page": 3, "name": "walk", "what": "", "before": "500", "after": "530", "step": 1, "joint": 2}
 
 
 def test_diff_finds_every_single_byte():
@@ -246,7 +247,7 @@ def test_check_says_once_what_holds_for_many_pages(m512, tmp_path):
 
 
 def test_a_link_above_127_is_a_note_and_no_damage(m512, tmp_path):
-    """player.md: it counts as 0. So Edit and the player take such a page, and so do we: it is listed, kept, converted and flashed."""
+    """LAWS.md: it counts as 0. So Edit and the player take such a page, and so do we: it is listed, kept, converted and flashed."""
     (tmp_path / "a.m512").write_text("motion512 1\npage 10 hop\n  next 0xC8\n  step 1s | 1:512\n")
     assert m512("convert", tmp_path / "a.m512", tmp_path / "a.bin").exit_code == 0
     checked = m512("pages", tmp_path / "a.bin", "check")

@@ -1,36 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The laws of motion: classic against the original's traces, exact against the properties that define it."""
-import csv
-
+"""The exact law against the properties that define it."""
 import pytest
 from chance import given, settings
-from conftest import REPO, SHARED
 from hypothesis import strategies as st
-from m512.files.image import Image, from_bytes
+
+from m512.files.image import Image
 from m512.files.page import Page
-from m512.motion.player import CLASSIC, EXACT, page_seconds, play
-
-SETS = ["accel_zero_then_ramps", "clamped_speed", "repeats_and_chain", "reversals_and_pauses", "speed_base_distances",
-        "time_base_through_joins", "very_short_steps", "walk_like", "pauses_behind_ramps", "pauses_speed_base", "end_in_a_pause", "corners"]
-
-
-def golden(name):
-    for folder in (REPO / "tests" / "golden", SHARED / "golden"):
-        if (folder / f"{name}.bin").exists():
-            return folder
-    pytest.skip(f"{name}: neither tests/golden nor the shared golden folder has it")
-
-
-@pytest.mark.parametrize("name", SETS)
-def test_player_classic_equals_the_original(name):
-    folder = golden(name)
-    image = from_bytes((folder / f"{name}.bin").read_bytes())
-    with open(folder / f"{name}.csv") as file:
-        rows = [[int(value) for value in row] for row in list(csv.reader(file))[1:]]
-    ticks = list(play(image, 1, CLASSIC, limit=100_000))
-    first = next(tick.number for tick in ticks if tick.goals)
-    ours = [[tick.number - first] + tick.goals[1:13] for tick in ticks if tick.goals]
-    assert ours == rows
+from m512.motion.player import page_seconds, play
 
 
 def one_page(steps, time=64, accel=32, speed=32, next_=0, repeat=1, schedule=0x0A, pauses=()):
@@ -47,8 +23,8 @@ def one_page(steps, time=64, accel=32, speed=32, next_=0, repeat=1, schedule=0x0
     return image
 
 
-def goals(image, law=EXACT, joint=1, **more):
-    return [tick.goals[joint] if tick.goals else None for tick in play(image, 1, law, **more)]
+def goals(image, joint=1, **more):
+    return [tick.goals[joint] if tick.goals else None for tick in play(image, 1, **more)]
 
 
 def test_player_exact_step_of_one_and_two_ticks():
@@ -113,7 +89,7 @@ page_recipe = st.tuples(st.lists(st.integers(0, 1023), min_size=1, max_size=7), 
 def test_player_exact_never_passes_a_way_point_and_ends_on_target(recipe):
     steps, time, accel, speed = recipe
     before, at = 512, 0
-    ticks = list(play(one_page(steps, time, accel, speed), 1, EXACT))
+    ticks = list(play(one_page(steps, time, accel, speed), 1))
     for k, target in enumerate(steps):
         part = [tick.goals[1] for tick in ticks if tick.step == k + 1]
         assert part[-1] == target

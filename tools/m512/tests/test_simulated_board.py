@@ -4,10 +4,11 @@ import json
 from types import SimpleNamespace
 
 import pytest
+from virtual_peer import VirtualLink
+
 from m512.board import doctor, driving
 from m512.board.client import Client
 from m512.files.text import read_text
-from virtual_peer import VirtualLink
 
 MOTIONS = """motion512 1
 page 1 stand
@@ -86,7 +87,7 @@ def test_board_backup_and_restore(m512, robot, motions, tmp_path):
     assert m512("flash", changed, "-p", robot.path, "--wait", "5").exit_code == 0
     result = m512("restore", folder, "--yes", "-p", robot.path, "--wait", "5", "--what", "motions,app")
     assert result.exit_code == 0, result.stderr
-    assert 'page 100 "nod", step 0, ID 1: 460 -> 560 (+100)' in result.stderr
+    assert 'page 100 "nod", step 1, ID 1: 460 -> 560 (+100)' in result.stderr
     assert "1 of 448 flash pages written" in result.stderr
     assert m512("diff", folder, motions).exit_code == 0
 
@@ -259,3 +260,14 @@ def test_drive_ends_through_the_exit_page_when_the_line_falls_silent(m512, robot
                 break
             robot.pass_time(0.05)
         assert state["state"] == "idle" and {"3", "1"} <= pages       # walk, and stand, its exit
+
+
+@pytest.mark.parametrize("amplitude, period", [("infdeg", "2s"), ("nandeg", "2s"), ("1e9deg", "2s"), ("1.5", "2s"), ("-5", "2s"), ("1_0", "2s"), ("30deg", "infs"),
+                                               ("30deg", "nans"), ("30deg", "1e400s"), ("30deg", "9" * 400 + "s"), ("30deg", "s")])
+def test_swing_takes_plain_numbers_only(m512, amplitude, period):
+    result = m512("swing", "3", "512", "-p", "peer://nobody", "--", amplitude, period)
+    assert result.exit_code == 2 and (amplitude in result.stderr or period in result.stderr)
+
+
+def test_a_page_is_timed_at_volts_that_are_a_number(m512, motions):
+    assert m512("pages", motions, "time", "walk", "--volts", "nan").exit_code == 2

@@ -4,8 +4,9 @@ Play's image; m512's clock and the board's are both simulated."""
 import json
 
 import pytest
-from m512.board import sim
 from virtual_peer import SimulatedBoard
+
+from m512.board import sim
 
 SLOW = 100
 MOTIONS = """motion512 1

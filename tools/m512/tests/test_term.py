@@ -2,12 +2,10 @@
 """`m512 term` on a terminal of its own: bytes both ways, its keys, log, files, the boot loader, a pulled cable."""
 import sys
 
+import pexpect
 import pytest
-from conftest import REPO
 from factory_peer import APP, FactoryPtyPeer
 from pty_peer import PtyPeer
-
-pexpect = pytest.importorskip("pexpect")
 
 
 class Echo(PtyPeer):
@@ -32,7 +30,7 @@ def term():
 
     def start(*args):
         child = pexpect.spawn(sys.executable, ["-m", "m512", "term", *map(str, args)], timeout=300, encoding="utf-8",
-                              env={"PYTHONPATH": str(REPO / "tools" / "m512" / "src"), "PATH": "/usr/bin:/bin", "TERM": "xterm"})
+                              env={"PATH": "/usr/bin:/bin", "TERM": "xterm"})
         running.append(child)
         return child
 

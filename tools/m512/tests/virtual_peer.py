@@ -10,9 +10,10 @@ wait of a minute costs nothing. A byte takes as long as on the real line.
 import itertools
 import math
 
+from peer import Peer
+
 from m512.board import link as real
 from m512.errors import PortError
-from peer import Peer
 
 BYTE_SECONDS = 10 / 57600
 QUANTUM = 0.005
@@ -206,6 +207,6 @@ class VirtualLink(real.Link):
 _RealLink = real.Link
 
 
-def open_port(url, trace=None):
+def open_port(url, trace=None, image="play"):
     """What m512 gets for Link(url): a line in virtual time to a board of this process, else the real thing."""
     return (VirtualLink if url.startswith("peer://") else _RealLink)(url, trace)

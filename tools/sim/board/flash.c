@@ -319,7 +319,7 @@ void flash_init(board_t *board)
 {
     flash_t *flash = &board->flash;
     flash->lock = 0xFF;
-    flash->fuses[0] = 0x1F; /* external crystal, slow start, brown-out at 4.0 V on (board.md, Fuses) */
+    flash->fuses[0] = 0x1F; /* external crystal, slow start, brown-out at 4.0 V on (BOARD.md, Fuses) */
     flash->fuses[1] = 0xC0;
     flash->fuses[2] = 0xFF;
     memset(board->avr->flash, 0xFF, M128_FLASH_BYTES);

@@ -46,6 +46,9 @@ static void add(symbols_t *symbols, symbol_t symbol)
     }
 }
 
+/* Newer assemblers leave theirs in the file: .L4, .Loc.3, L0 with a control character. */
+static bool is_local_label(const char *name) { return name[0] == '.' || strchr(name, '\001'); }
+
 static void take_symbol(symbols_t *symbols, const char *name, const GElf_Sym *raw, bool boot)
 {
     uint32_t value = (uint32_t)raw->st_value;
@@ -54,7 +57,8 @@ static void take_symbol(symbols_t *symbols, const char *name, const GElf_Sym *ra
     if (strcmp(name, "_end") == 0 && data) {
         symbols->variables_end[boot] = value - AVR_DATA_OFFSET;
     }
-    if (!name[0] || raw->st_shndx == SHN_UNDEF || raw->st_shndx == SHN_ABS || type == STT_FILE || type == STT_SECTION) {
+    if (!name[0] || is_local_label(name) || raw->st_shndx == SHN_UNDEF || raw->st_shndx == SHN_ABS || type == STT_FILE ||
+        type == STT_SECTION) {
         return;
     }
     if (data) {

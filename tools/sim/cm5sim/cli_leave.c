@@ -6,7 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#define ROBOT_ROWS 35   /* of Edit's screen, the largest (editor-original.md section 3) */
+#define ROBOT_ROWS 35   /* of Edit's screen, the largest (edit/ORIGINAL.md section 3) */
 #define SILENT_CYCLES (300u * BOARD_CYCLES_PER_MS)
 
 #define KEEP_TITLE "\x1b[22;2t"

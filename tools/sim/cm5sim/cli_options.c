@@ -38,7 +38,7 @@ static const struct argp_option descriptions[] = {
     {"motions", OPT_MOTIONS, "FILE", 0, "Motion area: 65,536 bytes (.bin) or Intel HEX; not over a --flash file that "
      "exists", 0},
     {"fault", OPT_FAULT, "ID:NAME", 0, "Faulty servo: silent, dead, duplicate, checksum, noise, late, short, "
-     "two-talkers, overload, overheating, low-voltage, angle-limit, blocked", 0},
+     "two-talkers, overload, overheating, low-voltage, angle-limit, mishears, blocked", 0},
     {"body", OPT_BODY, "NAME", 0, "A body in physics (MuJoCo): humanoid, gp, or a file; tells falls, way, heading. A hand "
      "holds it until its knees have moved and stand still", 0},
     {"view", OPT_VIEW, 0, 0, "With --body: shows it in MuJoCo's viewer (needs a display)", 0},

@@ -123,7 +123,8 @@ static void parse_battery(rest_t *rest, command_t *command)
 static void parse_servo(rest_t *rest, command_t *command)
 {
     static const char what[] = "what about the servo? push, load, clear or a fault: silent dead duplicate checksum "
-                               "noise late short two-talkers overload overheating low-voltage angle-limit blocked";
+                               "noise late short two-talkers overload overheating low-voltage angle-limit mishears "
+                               "blocked";
     take_number(rest, 0, 253, &command->number, "a servo ID 0..253 is missing here");
     const cli_word_t *word = take(rest, false, what);
     if (word == NULL) {

@@ -14,7 +14,7 @@ bool cli_duration(const char *text, uint64_t *cycles);
 /* A whole decimal or 0x number within low..high. */
 bool cli_number(const char *text, long low, long high, long *value);
 
-/* Keys of the remote joined by '+': U D L R 1..6, or 0 for none -> the word it sends (remote.md). */
+/* Keys of the remote joined by '+': U D L R 1..6, or 0 for none -> the word it sends (REMOTE.md). */
 bool cli_rc_keys(const char *text, uint16_t *word);
 
 /* The six bytes of a remote packet. */

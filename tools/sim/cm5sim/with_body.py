@@ -12,7 +12,6 @@ import time
 import warnings
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(TOP / "tools" / "body" / "src"))
 EXIT_USAGE, EXIT_FILE = 2, 4
 LOOK_EVERY = 8                   # steps of 1/1024 s
 FRAME_S = 1 / 60

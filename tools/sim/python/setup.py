@@ -17,10 +17,22 @@ SIM = "host/tools/sim"
 PROGRAMS = (f"{SIM}/cm5sim", f"{SIM}/libcm5sim.so", f"{SIM}/libcm5sim_body.so")
 DATA = [f"firmware/{kind}-{board}.hex" for kind in ("boot", "edit", "play") for board in ("cm5", "cm2")] + ["motions/motions.bin"]
 BUNDLED = ("libsimavr", "libelf")  # what the programs need and not every computer has
+# The programs link libsimavr (GPL-3) and libelf (LGPL-3 or GPL-2): their terms and their source go with them.
+LICENCES = {"LICENSE.GPL-3": "/usr/share/common-licenses/GPL-3", "LICENSE.LGPL-3": "/usr/share/common-licenses/LGPL-3"}
+OFFER = """\
+cm5sim, libcm5sim.so and libcm5sim_body.so link libsimavr and may be passed on under the GNU General Public License,
+version 3 only (LICENSE.GPL-3). Their complete source is the repository of Motion512 and the source packages of the
+distribution that they were built on, unchanged:
+
+{sources}
+Whoever passes on this wheel passes on this offer with it, and gives the source to anybody who asks.
+The firmware images, the motions and the Python files are under the MIT licence (LICENSE.MIT).
+"""
 # Of the source tree, at the same places under robot/: what --plot and --body run.
-SCRIPTS = ["tools/sim/cm5sim/plot_trace.py", "tools/sim/cm5sim/with_body.py", "tools/body/humanoid.xml", "tools/body/gp.xml"]
+SCRIPTS = ["tools/sim/cm5sim/plot_trace.py", "tools/body/humanoid.xml", "tools/body/gp.xml"]
 SCRIPTS += [str(path.relative_to(TOP)) for path in sorted((TOP / "tools/body/src/body").glob("*.py"))]
-LICENCE = pathlib.Path("/usr/share/common-licenses/GPL-3")
+# Beside the package `body`: Python looks for packages first where the script is that it runs.
+WITH_BODY = "tools/body/src/with_body.py"
 
 
 def version():
@@ -32,6 +44,8 @@ class BuildWithRobot(build_py):
 
     def run(self):
         super().run()
+        if self.editable_mode:       # the build tree itself is used
+            return
         missing = [name for name in (*PROGRAMS, *DATA) if not (BUILD / name).exists()]
         if missing:
             raise SystemExit(f"cm5sim: not built: {', '.join(missing)}. Build first: tools/dev/build")
@@ -43,11 +57,17 @@ class BuildWithRobot(build_py):
             subprocess.run(["strip", robot / name], check=True)
         for name in SCRIPTS:
             self.take(TOP / name, robot / name)
+        self.take(TOP / "tools/sim/cm5sim/with_body.py", robot / WITH_BODY)
         self.take(TOP / "LICENSE", robot / "LICENSE.MIT")
-        if LICENCE.exists():
-            self.take(LICENCE, robot / "LICENSE.GPL-3")
+        for name, path in LICENCES.items():
+            self.take(path, robot / name)
+        sources = ""
         for name, path in needed_libraries(BUILD / PROGRAMS[0]):
             self.take(path, robot / "lib" / name)
+            package, source, packaged = distribution_package(path)
+            self.take(f"/usr/share/doc/{package}/copyright", robot / "lib" / f"{name}.copyright")
+            sources += f"    lib/{name}: source package {source} {packaged}; notices in lib/{name}.copyright\n"
+        (robot / "SOURCE_OFFER.txt").write_text(OFFER.format(sources=sources), encoding="utf-8")
 
     @staticmethod
     def take(source, target, mode=0o644):
@@ -58,9 +78,20 @@ class BuildWithRobot(build_py):
 
 def needed_libraries(program):
     """[(name, path)] of the shared libraries that go into the wheel."""
-    said = subprocess.run(["ldd", program], check=True, capture_output=True, text=True).stdout
-    found = re.findall(r"(\S+) => (\S+)", said)
+    found = re.findall(r"(\S+) => (\S+)", run("ldd", program))
     return [(name, os.path.realpath(path)) for name, path in found if name.startswith(BUNDLED)]
+
+
+def distribution_package(path):
+    """(package, source package, its version) that a library of the system came with."""
+    said = run("dpkg-query", "-S", path)
+    package = said.split(": ")[0].split(",")[0]
+    source, packaged = run("dpkg-query", "-W", "-f", "${source:Package} ${source:Version}", package).split()
+    return package.split(":")[0], source, packaged
+
+
+def run(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 class ForThisKindOfComputer(bdist_wheel):

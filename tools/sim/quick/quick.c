@@ -15,10 +15,8 @@ struct quick {
     page_source_t source;
     player_t player;
     player_joint_t joint[PAGE_JOINTS];
-    uint16_t player_goal_pos[PAGE_JOINTS];
     link_t link;
     shape_t shape;
-    shape_step_t shaping;
     servo_bus_t *bus;
     uint64_t now_cycles;
     uint16_t goal_pos[PAGE_JOINTS];
@@ -54,7 +52,7 @@ quick_t *quick_new(const uint8_t *image)
         quick->status[page] = (uint8_t)page_check(quick->image + page * PAGE_BYTES);
     }
     quick->source = (page_source_t){.context = quick, .read = read_page, .check = check_page};
-    player_init(&quick->player, &quick->source, quick->joint, quick->player_goal_pos);
+    player_init(&quick->player, &quick->source, quick->joint);
     link_init(&quick->link, LINK_LATCH);
     return quick;
 }
@@ -70,8 +68,8 @@ void quick_free(quick_t *quick)
 
 servo_bus_t *quick_bus(quick_t *quick) { return quick->bus; }
 uint64_t quick_now(const quick_t *quick) { return quick->now_cycles; }
-int quick_page(const quick_t *quick) { return player_is_moving(&quick->player) ? quick->player.page : 0; }
-int quick_step(const quick_t *quick) { return player_is_moving(&quick->player) ? quick->player.step : 0; }
+int quick_page(const quick_t *quick) { return player_is_moving(&quick->player) ? quick->player.now.page : 0; }
+int quick_step(const quick_t *quick) { return player_is_moving(&quick->player) ? quick->player.now.step : 0; }
 int quick_fault(const quick_t *quick) { return quick->player.fault; }
 int quick_goal(const quick_t *quick, uint8_t joint) { return joint < PAGE_JOINTS ? quick->goal_pos[joint] : -1; }
 
@@ -90,7 +88,7 @@ static uint8_t slope(uint8_t nibble)
 /* Slopes and goal, as the firmware's frames carry them: high nibble clockwise, low nibble counterclockwise. */
 static void send_goals(quick_t *quick, uint32_t joints)
 {
-    const uint8_t *compliance = quick->image + quick->player.page * PAGE_BYTES + PAGE_AT_COMPLIANCE;
+    const uint8_t *compliance = quick->image + quick->player.now.page * PAGE_BYTES + PAGE_AT_COMPLIANCE;
     for (int i = 0; i < quick->bus->count; i++) {
         servo_t *servo = quick->bus->servos[i];
         const uint8_t joint = joint_of(servo);
@@ -143,7 +141,7 @@ int quick_start(quick_t *quick, uint8_t page, int law)
 void quick_shape(quick_t *quick, const shape_t *shape)
 {
     quick->shape = *shape;
-    player_set_shape(&quick->player, &quick->shape, &quick->shaping);
+    player_set_shape(&quick->player, &quick->shape);
 }
 
 void quick_keys(quick_t *quick, uint8_t code)
@@ -191,7 +189,7 @@ bool quick_run(quick_t *quick, uint32_t ticks)
         const uint8_t events = player_is_moving(&quick->player) ? player_tick(&quick->player, &quick->link) : 0;
         pass_step(quick);
         if (events & PLAYER_EV_OUTPUT) {
-            memcpy(quick->goal_pos, quick->player.goal_pos, sizeof quick->goal_pos);
+            player_goals(&quick->player, UINT32_MAX, quick->goal_pos);
             send_goals(quick, quick->player.joints);
             count_goals(quick);
         }

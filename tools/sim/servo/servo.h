@@ -4,7 +4,7 @@
  * (16 MHz). Position moves lazily: servo_advance() brings the servo up to a moment, in fixed steps of 1/1024 s on the
  * absolute time axis, so the result does not depend on how often anyone looks. Where all servos move one body
  * (servo_body.h), the bus makes these steps instead, for all of them together.
- * Facts: dynamixel.md; start values and ranges are those of the public AX-12 manual. */
+ * Facts: DYNAMIXEL.md; start values and ranges are those of the public AX-12 manual. */
 #ifndef SIM_SERVO_H
 #define SIM_SERVO_H
 

@@ -61,16 +61,26 @@ static void talk_over(servo_t *servo, uint64_t now_cycles, const uint8_t *packet
            servo->table[SERVO_RETURN_DELAY] * 2u + SERVO_TWIN_SKEW_US);
 }
 
+/* The "mishears" fault: the last bit of a WRITE arrives wrong. */
+static void spoil_write(servo_t *servo, servo_parser_t *parser)
+{
+    if ((parser->bytes[4] == SERVO_WRITE_DATA || parser->bytes[4] == SERVO_REG_WRITE) &&
+        servo_fault_take(servo, SERVO_FAULT_MISHEARS)) {
+        parser->bytes[parser->count - 1] ^= 0x80;
+    }
+}
+
 static void take_packet(servo_t *servo, uint64_t now_cycles)
 {
     uint8_t status[SERVO_PACKET_MAX];
-    const servo_parser_t *parser = &servo->parser;
+    servo_parser_t *parser = &servo->parser;
     const uint32_t rate_bps = servo_rate_bps(servo);
     const uint32_t delay_us = servo->table[SERVO_RETURN_DELAY] * 2u;
     servo_advance(servo, now_cycles);
     if (parser->bytes[2] != servo->table[SERVO_ID] && parser->bytes[2] != SERVO_BROADCAST) {
         talk_over(servo, now_cycles, parser->bytes);
     } else {
+        spoil_write(servo, parser);
         const uint8_t count = servo_obey(servo, parser->bytes, parser->count, status);
         if (count > 0) {
             answer(servo, now_cycles, status, count, rate_bps, delay_us);

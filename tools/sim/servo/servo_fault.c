@@ -10,7 +10,7 @@ static const char *const names[SERVO_FAULTS] = {
     [SERVO_FAULT_SHORT] = "short",             [SERVO_FAULT_TWO_TALKERS] = "two-talkers",
     [SERVO_FAULT_OVERLOAD] = "overload",       [SERVO_FAULT_OVERHEATING] = "overheating",
     [SERVO_FAULT_LOW_VOLTAGE] = "low-voltage", [SERVO_FAULT_ANGLE_LIMIT] = "angle-limit",
-    [SERVO_FAULT_BLOCKED] = "blocked",
+    [SERVO_FAULT_MISHEARS] = "mishears",       [SERVO_FAULT_BLOCKED] = "blocked",
 };
 
 _Static_assert(SERVO_FAULTS <= sizeof ((servo_t *)0)->fault_left / sizeof (uint32_t), "one counter per fault");

@@ -18,6 +18,7 @@ typedef enum {
     SERVO_FAULT_OVERHEATING, /* 85 degrees C until cleared */
     SERVO_FAULT_LOW_VOLTAGE, /* 5.5 V until cleared */
     SERVO_FAULT_ANGLE_LIMIT, /* reports the angle limit error until cleared */
+    SERVO_FAULT_MISHEARS,    /* what is written to it arrives with a wrong bit: it answers with the checksum error */
     SERVO_FAULT_BLOCKED,     /* the horn is jammed; overload follows when it has to push */
     SERVO_FAULTS
 } servo_fault_t;
@@ -25,7 +26,7 @@ typedef enum {
 #define SERVO_FAULT_ALWAYS UINT32_MAX
 
 /* "silent", "dead", "duplicate", "checksum", "noise", "late", "short", "two-talkers", "overload", "overheating",
- * "low-voltage", "angle-limit", "blocked"; '_' may stand for '-'. SERVO_FAULTS: no such name. */
+ * "low-voltage", "angle-limit", "mishears", "blocked"; '_' may stand for '-'. SERVO_FAULTS: no such name. */
 servo_fault_t servo_fault_by_name(const char *name);
 const char *servo_fault_name(servo_fault_t fault);
 

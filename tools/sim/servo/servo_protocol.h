@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * servo_protocol.h - protocol 1.0 as one servo sees it: bytes to packets, packets to actions and answers.
- * Facts: dynamixel.md, "Packets". */
+ * Facts: DYNAMIXEL.md, "Packets". */
 #ifndef SIM_SERVO_PROTOCOL_H
 #define SIM_SERVO_PROTOCOL_H
 

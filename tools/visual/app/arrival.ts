@@ -30,10 +30,11 @@ export class Arrival {
 
   connectionChanged(connection: ConnectionState): void {
     const { state, strip, status, sources, editor } = this.parts;
-    const { version, name, isInDialog } = sources.connection;
+    const { version, name, isInDialog, error } = sources.connection;
     state.set({ connection, version, portName: name, where: null, isInDialog });
     status.tell();
     status.look();
+    if (connection === 'other-board') strip.fail(error);
     if (connection !== 'ready') return;
     void askList(sources.connection.requests).then((pages) => state.set({ pages }), strip.fail);
     this.standUp();
@@ -51,7 +52,7 @@ export class Arrival {
   /** Reads what your robot has and keeps it, as soon as it is known; no question is asked for it. */
   private async learnYours(): Promise<void> {
     const { strip, editor, transfer } = this.parts;
-    if (!(await transfer.read())) return;
+    if (!(await transfer.read()).isDone) return;
     const pages = editor.state.get().robot.filter((bytes) => bytes !== null);
     await transfer.keep(pages).catch(strip.fail);
     strip.say({ text: TEXTS.robotKept, tone: 'calm' });

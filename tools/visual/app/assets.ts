@@ -15,7 +15,7 @@ import trialUrl from '../../../build/wasm/trial.wasm?url';
 import motionsUrl from '../../../build/motions/motions.bin?url';
 import bodyUrl from '../../../build/wasm/body.json?url';
 import { FormatsClient } from '../files/formats-client.ts';
-import type { FileFormats } from '../model/file-formats.ts';
+import type { FormatsWorker } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
 import { Motion } from '../model/motion.ts';
 import type { MotionExports } from '../model/motion.ts';
@@ -75,7 +75,7 @@ export async function trialClient(body: Body): Promise<TrialClient> {
 }
 
 /** Motion files; Python (5 MB) is loaded at the first one. */
-export function fileFormats(): FileFormats {
+export function fileFormats(): FormatsWorker {
   const parts = { wasmUrl: new URL(pythonWasmUrl, document.baseURI).href, libraryUrl: new URL(pythonLibraryUrl, document.baseURI).href };
   return new FormatsClient(parts, () => new Worker(new URL('../files/worker.ts', import.meta.url), { type: 'module', name: 'files' }));
 }

@@ -2,8 +2,9 @@
 // The robot on the desk: joins the simulated robot or a port with the protocol and the views. The only place that knows
 // them all.
 
-import type { FileFormats } from '../model/file-formats.ts';
+import type { FormatsWorker } from '../model/file-formats.ts';
 import type { Body } from '../model/body.ts';
+import { dirtyPages } from '../model/editor-state.ts';
 import type { Shape } from '../model/motion.ts';
 import type { Connection } from '../robot/connection.ts';
 import { command, setTorque } from '../robot/protocol.ts';
@@ -13,7 +14,7 @@ import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Beside, Desk, DeskState, ImageName, Notice, Tab } from '../view/desk.ts';
-import { refusalText } from '../view/editor/texts.ts';
+import { EDITOR_TEXTS, refusalText } from '../view/editor/texts.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
 import type { EditorParts } from './editor.ts';
@@ -32,17 +33,21 @@ import type { Stick } from './stick.ts';
 import type { RobotTransfer } from './transfer.ts';
 import { trialClient } from './assets.ts';
 import { MotionTrials } from './trials.ts';
+import { PageVersion } from './page-version.ts';
+import { MotionPreview } from './preview.ts';
 import { RobotImages } from './robot-images.ts';
 import { RobotPlays } from './robot-plays.ts';
 import type { SourceEvents } from './simulated-source.ts';
 import { RobotSources } from './sources.ts';
 import { Strip } from './strip.ts';
 
+/** A robot that has the motion already plays it before this, and nothing has to be shown in its place. */
+const SHOWN_MS = 160;
 const ROBOT_IN_PAGE = 'robot in the page';
 
 const START: DeskState = {
   source: 'simulated', connection: 'closed', portName: '', version: null, where: null, isInDialog: false, pages: [], image: 'play',
-  physics: 'loading', speed: 1, stopped: null, doing: { text: 'Starting …', tone: 'calm' }, said: null, faultNames: [], tab: 'remote',
+  physics: 'loading', speed: 1, stopped: null, doing: { text: 'Starting …', tone: 'calm' }, said: null, faultNames: [], tab: 'remote', hasNewVersion: false, shownPage: null, isPowered: true, isLate: false,
 };
 
 export class RobotDesk implements Desk {
@@ -53,9 +58,12 @@ export class RobotDesk implements Desk {
   readonly documents: KeptDocuments;
   readonly transfer: RobotTransfer;
   readonly trials: MotionTrials;
+  readonly preview: MotionPreview;
   readonly lab: RobotLab;
+  readonly version = new PageVersion(this.state);
   private readonly frames = new Listeners<RobotState>();
   private readonly texts = new Listeners<Uint8Array>();
+  private lastFrame: RobotState | null = null;
   private readonly strip = new Strip(this.state);
   private readonly sources: RobotSources;
   private readonly arrival: Arrival;
@@ -65,16 +73,24 @@ export class RobotDesk implements Desk {
   private readonly status: Status = new Status({ state: this.state, connection: () => this.connection, isWriting: () => this.transfer.isWriting });
   private readonly follower = new Follow(() => this.connection, this.strip.fail);
 
-  constructor(body: Body, parts: EditorParts, formats: FileFormats, storage: DeskStorage) {
+  constructor(body: Body, parts: EditorParts, formats: FormatsWorker, storage: DeskStorage) {
     this.body = body;
     this.editor = new DocumentEditor(body, parts, {
       changed: () => this.documents.keep(),
       opened: () => this.trials.forget(),
       refused: (refusal) => this.say({ text: refusalText(refusal), tone: 'bad' }),
     });
-    this.files = new DocumentFiles(this.editor, formats);
+    this.files = new DocumentFiles(this.editor, formats, {
+      cancel: () => formats.cancel(), create: (name, document) => this.documents.create(name, document),
+    });
+    this.preview = new MotionPreview({
+      body, editor: this.editor, state: this.state, trunk: () => this.lastFrame?.trunk ?? null, isFollowing: () => this.follower.isOn, told: () => this.status.tell(),
+      nextFrame: (call) => void requestAnimationFrame(call),
+    });
     this.trials = new MotionTrials(this.editor, () => trialClient(body));
-    this.documents = makeDocuments(this.editor, storage, () => this.say({ text: TEXTS.workNotKept, tone: 'bad' }));
+    this.documents = makeDocuments(this.editor, storage, {
+      failed: () => this.say({ text: TEXTS.workNotKept, tone: 'bad' }), copied: (name) => this.say({ text: EDITOR_TEXTS.secondTab(name), tone: 'calm' }),
+    });
     this.transfer = makeTransfer(this.editor, this.documents, {
       name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName), requests: () => this.connection.requests,
       becomeEdit: () => (this.isSimulated ? this.images.becomeEdit() : this.needEdit()),
@@ -91,7 +107,7 @@ export class RobotDesk implements Desk {
     });
     this.images = new RobotImages({
       state: this.state, format: parts.format, simulated,
-      standUp: () => this.arrival.standUp(), say: (said) => this.say(said), fail: this.strip.fail,
+      say: (said) => this.say(said), fail: this.strip.fail,
     });
     this.driving = new Driving({
       state: this.state, strip: this.strip, simulated, connection: () => this.connection, becomeDriven: () => this.images.becomeDriven(),
@@ -100,7 +116,14 @@ export class RobotDesk implements Desk {
 
   private events(): Omit<SourceEvents, 'motions'> {
     return {
-      frame: (state) => this.frames.tell(state),
+      frame: (state) => {
+        this.lastFrame = state;
+        if (state.isPowered !== this.state.get().isPowered) {
+          this.state.set({ isPowered: state.isPowered });
+          this.status.tell();
+        }
+        this.frames.tell(state);
+      },
       text: (bytes) => {
         this.texts.tell(bytes);
         this.strip.hear(bytes);
@@ -141,30 +164,42 @@ export class RobotDesk implements Desk {
   }
 
   play(page: number): Promise<void> {
-    return this.deed(() => this.plays.play(page));
+    return this.act(() => this.plays.play(page));
   }
 
   playEdited(page: number): Promise<void> {
-    return this.deed(() => this.plays.playEdited(page));
+    const { format, state } = this.editor;
+    const dirty = dirtyPages(state.get(), format);
+    const isToWrite = format.reach(state.get().document, page).some((one) => dirty.has(one));
+    const late = setTimeout(() => this.preview.start(page), isToWrite ? 0 : SHOWN_MS);
+    return this.act(async () => {
+      await this.plays.playEdited(page);
+      clearTimeout(late);
+      this.preview.showRobot();
+    });
   }
 
   shape(shape: Shape): Promise<void> {
-    return this.deed(() => this.plays.shape(shape));
+    return this.act(() => this.plays.shape(shape));
   }
 
   beside(what: Beside): Promise<void> {
-    return this.deed(() => this.plays.beside(what));
+    return this.act(() => this.plays.beside(what));
   }
 
   command(what: Command): Promise<void> {
-    return this.deed(async () => {
+    if (what === 'stop' || what === 'break') {
+      this.preview.pause();
+      this.plays.cancel();
+    }
+    return this.act(async () => {
       const isStop = what === 'stop' || what === 'break';
       if (!isStop || !(await this.connection.breakOff())) await command(this.connection.requests, what);
     });
   }
 
   setTorque(on: boolean, servos: readonly number[] = []): Promise<void> {
-    return this.deed(() => setTorque(this.connection.requests, on, servos));
+    return this.act(() => setTorque(this.connection.requests, on, servos));
   }
 
   follow(positions: readonly (number | null)[] | null): void {
@@ -185,6 +220,10 @@ export class RobotDesk implements Desk {
 
   type(bytes: Uint8Array): void {
     void this.connection.type(bytes).catch(this.strip.fail);
+  }
+
+  takeNewVersion(): void {
+    this.version.take();
   }
 
   useSimulated(): void {
@@ -211,11 +250,10 @@ export class RobotDesk implements Desk {
     return this.sources.connection;
   }
 
-  /** deed: what it resolves to, if anything, says why it was not done. */
-  private async deed(deed: () => Promise<string | null | void>): Promise<void> {
+  private async act(action: () => Promise<void>): Promise<void> {
     try {
-      const why = (await deed()) ?? null;
-      this.strip.say(why === null ? null : { text: why, tone: 'bad' });
+      await action();
+      this.strip.say(null);
       void this.status.ask();
     } catch (error) {
       this.strip.fail(error);

@@ -8,6 +8,7 @@ import type { Requests } from '../robot/requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { DocumentStorage } from '../view/document-storage.ts';
 import { KeptDocuments } from './documents.ts';
+import type { DocumentsParts } from './documents.ts';
 import type { DocumentEditor } from './editor.ts';
 import { holdDocument } from './hold-document.ts';
 import { RobotTransfer } from './transfer.ts';
@@ -28,13 +29,13 @@ export interface RobotForPages {
   becomeEdit(): Promise<void>;
 }
 
-export function makeDocuments(editor: DocumentEditor, { storage, isKept }: DeskStorage, failed: () => void): KeptDocuments {
+export function makeDocuments(editor: DocumentEditor, { storage, isKept }: DeskStorage, told: Pick<DocumentsParts, 'failed' | 'copied'>): KeptDocuments {
   const shown = {
     open: (document: MotionDocument, history: History) => editor.open(document, history), rename: (name: string) => editor.rename(name),
     edited: () => editor.state.get(),
   };
   return new KeptDocuments(shown, {
-    storage, isKept, failed, hold: holdDocument, empty: emptyDocument(editor.format, ''), nowMs: () => Date.now(), newId: () => crypto.randomUUID(),
+    storage, isKept, ...told, hold: holdDocument, empty: emptyDocument(editor.format, ''), nowMs: () => Date.now(), newId: () => crypto.randomUUID(),
   });
 }
 

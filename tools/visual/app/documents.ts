@@ -2,7 +2,7 @@
 // The documents of this browser: which there are, which is open, and the autosave: every finished edit is handed to the
 // storage at once. Only one tab may have a document open; a second tab gets a copy.
 
-import { documentFrom, imageOf } from '../model/document.ts';
+import { copyName, documentFrom, imageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { DROP_ALL, EMPTY_LOG, advance, positionOf, restored } from '../model/history-log.ts';
 import type { HistoryLog, StepsChange } from '../model/history-log.ts';
@@ -32,6 +32,8 @@ export interface DocumentsParts {
   readonly hold: Hold;
   readonly nowMs: () => number;
   readonly newId: () => string;
+  /** Another tab has the document: this one goes on with a copy of that name. */
+  readonly copied: (name: string) => void;
   /** It could not be kept. */
   readonly failed: (error: unknown) => void;
 }
@@ -129,7 +131,11 @@ export class KeptDocuments implements Documents {
   /** Opens what is kept, with its history; a copy of it when another tab has it. */
   private async take(kept: KeptDocument): Promise<void> {
     const document = documentFrom(kept.image, kept.name);
-    if (!(await this.parts.hold(kept.id))) return this.create(`${kept.name} (copy)`, document);
+    if (!(await this.parts.hold(kept.id))) {
+      const name = copyName(kept.name, this.state.get().documents.map((one) => one.name));
+      this.parts.copied(name);
+      return this.create(name, document);
+    }
     const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // then it is forgotten, and said so
     this.show(kept.id, restored(document, kept.position ?? 0, steps));
   }

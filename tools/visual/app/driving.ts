@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Driving the robot on the desk by the keys of a remote or by a stick. Only Play can be driven.
+// Driving the robot by the keys of a remote or by a stick. Only Play can be driven, and only a robot on its feet: a key that is pressed
+// before is kept, and sent when the robot can do it.
 
 import type { Connection } from '../robot/connection.ts';
+import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { DeskState } from '../view/desk.ts';
 import type { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts.ts';
-import { RemoteKeys } from './remote-keys.ts';
+import { REPEAT_MS, RemoteKeys } from './remote-keys.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 import { StickDrive } from './stick.ts';
 import type { Stick } from './stick.ts';
@@ -15,17 +17,20 @@ import type { Strip } from './strip.ts';
 export interface DrivingParts {
   readonly state: Store<DeskState>;
   readonly strip: Strip;
-  readonly simulated: Pick<SimulatedSource, 'post'>;
+  readonly simulated: Pick<SimulatedSource, 'post' | 'isHeld'>;
   /** Throws RobotError not-connected when there is none. */
   connection(): Connection;
-  /** The robot in the page runs Play, if it does not yet. */
-  becomeDriven(): void;
+  /** The robot in the page runs Play and stands on its feet, at last. Rejects with RobotError. */
+  becomeDriven(): Promise<void>;
 }
 
 export class Driving {
   private readonly parts: DrivingParts;
   private readonly keys = new RemoteKeys((packet) => this.send(packet));
   private readonly stick: StickDrive;
+  /** What was pressed last while the robot could not hear it. */
+  private wish: ReadonlySet<RemoteButton> | null = null;
+  private isBecoming = false;
 
   constructor(parts: DrivingParts) {
     this.parts = parts;
@@ -33,13 +38,38 @@ export class Driving {
   }
 
   remote(held: ReadonlySet<RemoteButton>): void {
-    if (held.size > 0 && this.isSimulated) this.parts.becomeDriven();
+    if (held.size > 0 && this.isSimulated && !this.hears) this.keep(held);
     if (held.size > 0 && this.isYoursWithEdit) this.parts.strip.say({ text: TEXTS.editNoRemote, tone: 'bad' });
     this.keys.hold(held);
   }
 
   drive(stick: Stick | null): void {
     this.stick.set(stick);
+  }
+
+  /** The robot in the page runs Play and is on its feet. */
+  private get hears(): boolean {
+    const { connection, image, version } = this.state;
+    return image === 'play' && connection === 'ready' && version?.image === 'play' && !this.parts.simulated.isHeld;
+  }
+
+  private keep(held: ReadonlySet<RemoteButton>): void {
+    this.wish = new Set(held);
+    if (this.isBecoming) return;
+    this.isBecoming = true;
+    this.parts.becomeDriven().then(() => this.carryOut(), (error: unknown) => {
+      this.wish = null;
+      this.parts.strip.fail(error);
+    }).finally(() => (this.isBecoming = false));
+  }
+
+  /** A key that is still held speaks for itself. */
+  private carryOut(): void {
+    const { wish } = this;
+    this.wish = null;
+    if (!wish || this.keys.isHeld) return;
+    this.send(remotePacket(wish));
+    setTimeout(() => !this.keys.isHeld && this.send(remotePacket([])), REPEAT_MS);
   }
 
   private walkPage(): number | null {
@@ -50,7 +80,7 @@ export class Driving {
   /** To Edit they would be letters. */
   private send(packet: Uint8Array): void {
     const { strip, simulated } = this.parts;
-    if (this.isSimulated && this.state.image === 'play') simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
+    if (this.isSimulated && this.hears) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
     else if (!this.isSimulated && !this.isYoursWithEdit) void this.parts.connection().write(packet).catch(strip.fail);
   }
 

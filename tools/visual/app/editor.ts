@@ -4,7 +4,7 @@
 import { jointPairs } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
 import type { MotionDocument } from '../model/document.ts';
-import { pageOf } from '../model/document.ts';
+import { isSamePage, pageOf } from '../model/document.ts';
 import { makeEdits } from '../model/edit.ts';
 import type { Edits } from '../model/edit.ts';
 import * as states from '../model/editor-state.ts';
@@ -12,6 +12,7 @@ import type { EditorState, Selection } from '../model/editor-state.ts';
 import type { History } from '../model/history.ts';
 import { AS_STORED, JOINTS, Motion, POSITION_MIDDLE } from '../model/motion.ts';
 import type { Curve, Shape } from '../model/motion.ts';
+import { freePage } from '../model/page-edits.ts';
 import { PageFormat } from '../model/page-format.ts';
 import { readPage } from '../model/page.ts';
 import type { PageView } from '../model/page.ts';
@@ -29,6 +30,8 @@ export interface EditorParts {
   /** For this editor alone. */
   readonly player: Motion;
   readonly document: MotionDocument;
+  /** The motions that the robot came with. */
+  readonly library?: readonly Uint8Array[];
 }
 
 export interface EditorEvents {
@@ -45,17 +48,19 @@ export class DocumentEditor implements Editor {
   readonly pairs: readonly JointPair[];
   readonly state: Store<EditorState>;
   private readonly player: Motion;
+  private readonly library: readonly Uint8Array[];
   private readonly events: EditorEvents;
   private readonly views = new WeakMap<Uint8Array, PageView>();
   /** Whose gesture is open, if one is. */
   private holder: symbol | null = null;
   private readonly loaded: (Uint8Array | null)[] = [];
 
-  constructor(body: Body, { format, player, document }: EditorParts, events: EditorEvents) {
+  constructor(body: Body, { format, player, document, library = [] }: EditorParts, events: EditorEvents) {
     this.format = format;
     this.edits = makeEdits(format);
     this.pairs = jointPairs(body);
     this.player = player;
+    this.library = library;
     this.events = events;
     this.state = new Store(states.startState(document));
   }
@@ -108,8 +113,18 @@ export class DocumentEditor implements Editor {
   /** Another document takes the place of this one, with the history that was kept of it. */
   open(document: MotionDocument, history: History): void {
     const { robot, law } = this.state.get();
-    this.show({ ...states.startState(document), history, robot, law });
+    this.show({ ...states.startState(document), history, robot, law, page: this.lastEdited(history) ?? (freePage(this.format, document) || states.FIRST_PAGE) });
     this.events.opened();
+  }
+
+  isOfLibrary(page: number): boolean {
+    const bytes = pageOf(this.state.get().document, page);
+    return page > 0 && !this.format.isEmpty(bytes) && this.library.some((one) => isSamePage(one, bytes));
+  }
+
+  private lastEdited(history: History): number | null {
+    const pages = history.done.at(-1)?.changes.map(({ page }) => page) ?? [];
+    return pages.find((page) => page > 0) ?? null;
   }
 
   rename(name: string): void {

@@ -2,17 +2,26 @@
 // Files and links: joins m512's formats with the editor's document.
 
 import { MOST_CHARACTERS, decodeMotion, encodeMotion } from '../files/motion-link.ts';
-import { imageOf, pageOf } from '../model/document.ts';
+import { documentFrom, imageOf, pageOf } from '../model/document.ts';
+import type { MotionDocument } from '../model/document.ts';
+import { MOST_BYTES } from '../model/file-formats.ts';
 import type { FileFormats, NoRoom, Opened, Refused, Suffix } from '../model/file-formats.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { readPage } from '../model/page.ts';
 import { FILE_TEXTS } from '../view/editor/file-texts.ts';
-import type { Files, FilesState, SavedFile } from '../view/files-desk.ts';
+import type { ChosenFile, Files, FilesState, SavedFile } from '../view/files-desk.ts';
 import { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
 
 const NOTHING: FilesState = { busy: null, opened: null, tooLarge: null, sent: null, trouble: null };
 const HASH = '#motion=';
+
+export interface FilesParts {
+  /** Ends what the formats open or save. */
+  cancel(): void;
+  /** Opens a document that is new. */
+  create(name: string, document: MotionDocument): Promise<void>;
+}
 
 export class DocumentFiles implements Files {
   readonly state = new Store<FilesState>(NOTHING);
@@ -20,9 +29,26 @@ export class DocumentFiles implements Files {
   readonly formats: FileFormats;
   private last: { readonly name: string; readonly bytes: Uint8Array } | null = null;
 
-  constructor(editor: DocumentEditor, formats: FileFormats) {
+  private readonly parts: FilesParts;
+  private isCancelled = false;
+
+  constructor(editor: DocumentEditor, formats: FileFormats, parts: FilesParts) {
     this.editor = editor;
     this.formats = formats;
+    this.parts = parts;
+  }
+
+  async choose(file: ChosenFile): Promise<void> {
+    if (file.size > MOST_BYTES) return this.state.set({ ...NOTHING, trouble: FILE_TEXTS.tooManyBytes(file.name) });
+    const bytes = await file.arrayBuffer().then((buffer) => new Uint8Array(buffer), () => null);
+    if (!bytes) return this.state.set({ ...NOTHING, trouble: FILE_TEXTS.unreadable(file.name) });
+    await this.open(file.name, bytes);
+  }
+
+  cancel(): void {
+    if (this.state.get().busy === null) return;
+    this.isCancelled = true;
+    this.parts.cancel();
   }
 
   open(name: string, bytes: Uint8Array): Promise<void> {
@@ -34,7 +60,23 @@ export class DocumentFiles implements Files {
     if (this.last) await this.read(this.last.name, this.last.bytes, true);
   }
 
-  takeOver(withTrim: boolean): void {
+  addOpened(): void {
+    const { opened } = this.state.get();
+    if (!opened) return;
+    const pages = new Map(Array.from({ length: PAGE_COUNT - 1 }, (_, i) => [i + 1, this.pageIn(opened.image, i + 1)] as const));
+    for (const [page, bytes] of pages) if (!this.holdsSteps(bytes) || this.editor.format.fault(bytes) !== null) pages.delete(page);
+    if (this.adopt(pages) !== 0) this.dismiss();
+  }
+
+  async createFromOpened(): Promise<void> {
+    const { opened } = this.state.get();
+    if (!opened) return;
+    const name = opened.name.replace(/\.[^.]*$/, '');
+    this.dismiss();
+    await this.parts.create(name, documentFrom(opened.image, name));
+  }
+
+  replaceAll(withTrim: boolean): void {
     const { opened } = this.state.get();
     if (!opened) return;
     const { document } = this.editor.state.get();
@@ -82,12 +124,17 @@ export class DocumentFiles implements Files {
 
   addSent(): number {
     const { sent } = this.state.get();
-    if (!sent) return 0;
-    const adopted = this.editor.edits.adoptPages(this.editor.state.get().document, sent.pages);
+    const page = sent ? this.adopt(sent.pages) : 0;
+    if (page !== 0) this.dismiss();
+    return page;
+  }
+
+  /** Into free pages; the first one is chosen. 0: there is no room, and that has been said. */
+  private adopt(pages: ReadonlyMap<number, Uint8Array>): number {
+    const adopted = this.editor.edits.adoptPages(this.editor.state.get().document, pages);
     if (!this.editor.dispatch(adopted.ok ? { ok: true, value: adopted.value.edit } : adopted) || !adopted.ok) return 0;
     const page = [...adopted.value.placed.values()][0] ?? 0;
     this.editor.select({ page });
-    this.dismiss();
     return page;
   }
 
@@ -119,10 +166,11 @@ export class DocumentFiles implements Files {
   /** One thing at a time; trouble in words, never thrown. Null: it went wrong. */
   private async busy<T>(words: string, deed: () => Promise<T>): Promise<T | null> {
     this.state.set({ ...NOTHING, busy: words });
+    this.isCancelled = false;
     try {
       return await deed();
     } catch (error) {
-      this.state.set({ trouble: FILE_TEXTS.noPython(error instanceof Error ? error.message : String(error)) });
+      if (!this.isCancelled) this.state.set({ trouble: FILE_TEXTS.noPython(error instanceof Error ? error.message : String(error)) });
       return null;
     } finally {
       this.state.set({ busy: null });

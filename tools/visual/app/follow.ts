@@ -24,6 +24,10 @@ export class Follow {
     this.clock = clock;
   }
 
+  get isOn(): boolean {
+    return this.wanted !== null;
+  }
+
   /** Servo units by ID; null: no more. The way that is on is finished. */
   set(positions: readonly (number | null)[] | null): void {
     this.wanted = positions;

@@ -4,7 +4,7 @@
 import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 
-const REPEAT_MS = 100;
+export const REPEAT_MS = 100;
 
 export class RemoteKeys {
   private readonly send: (packet: Uint8Array) => void;
@@ -13,6 +13,10 @@ export class RemoteKeys {
   constructor(send: (packet: Uint8Array) => void) {
     this.send = send;
     setInterval(() => this.held.size > 0 && this.send(remotePacket(this.held)), REPEAT_MS);
+  }
+
+  get isHeld(): boolean {
+    return this.held.size > 0;
   }
 
   hold(held: ReadonlySet<RemoteButton>): void {

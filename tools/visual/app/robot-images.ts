@@ -15,8 +15,6 @@ export interface ImageParts {
   readonly state: Store<DeskState>;
   readonly format: PageFormat;
   readonly simulated: Pick<SimulatedSource, 'restart' | 'forget' | 'prepare' | 'connection'>;
-  /** It runs Play: somebody wants it to stand. */
-  standUp(): void;
   say(said: Notice): void;
   fail(error: unknown): void;
 }
@@ -50,10 +48,14 @@ export class RobotImages {
     await this.parts.simulated.prepare();
   }
 
-  /** Only Play hears a remote control. */
-  becomeDriven(): void {
-    if (this.state.image === 'play') return this.parts.standUp();
-    this.leaving ??= this.leaveEdit().catch((error: unknown) => this.parts.fail(error)).finally(() => (this.leaving = null));
+  /** Only Play hears a remote control. Resolves when it does, and the robot is on its feet. Rejects with RobotError. */
+  async becomeDriven(): Promise<void> {
+    if (this.state.image !== 'play') {
+      this.leaving ??= this.leaveEdit().finally(() => (this.leaving = null));
+      await this.leaving;
+    }
+    await this.untilReady();
+    await this.parts.simulated.prepare();
   }
 
   private get state(): DeskState {

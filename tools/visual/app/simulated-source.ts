@@ -5,7 +5,8 @@
 import type { Body } from '../model/body.ts';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { askWhere, play } from '../robot/protocol.ts';
+import type { Where } from '../robot/protocol.ts';
+import { askWhere, command, play } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
 import type { Images } from '../sim/machine.ts';
@@ -24,6 +25,9 @@ const KEY = 'cm5';
 const READY_PAGE = 1;
 const STAND_LIMIT_MS = 8000;
 const ASK_MS = 50;
+const WHERE_MS = 3000;
+/** Of the worker, until it has heard that the hand opens. */
+const MOST_FRAMES = 60;
 
 interface Parts {
   readonly module: WebAssembly.Module;
@@ -56,7 +60,7 @@ export class SimulatedSource {
   private turn: Promise<void> = Promise.resolve();
   private isShown = true;
   private standing: Promise<void> | null = null;
-  private hasPhysics = false;
+  private isInHand = false;
   private clock = new TickClock();
   private readonly waiting: ((state: RobotState) => void)[] = [];
   connection: Connection | null = null;
@@ -125,7 +129,7 @@ export class SimulatedSource {
     this.robot = robot;
     this.events.motions(kept ? motionsIn(kept) : images.motions);
     this.standing = null;
-    this.hasPhysics = false;
+    this.isInHand = false;
     robot.post({ kind: 'start', module, body: this.body, images, kept });
     if (!this.isShown) robot.post({ kind: 'speed', speed: 0 });
     this.clock = new TickClock();
@@ -154,13 +158,17 @@ export class SimulatedSource {
     if (this.connection) this.events.connection(this.connection.state);
   }
 
+  /** A hand holds the robot: what plays moves it in the air. */
+  get isHeld(): boolean {
+    return this.isInHand;
+  }
+
   /** Does what a person does before a motion: holds the robot, lets it go to its standing pose, lets go of it. At once when
-   *  it stands already. Rejects with RobotError when the robot refuses. */
+   *  nobody holds it. Rejects with RobotError when the robot refuses; then the hand has let go, too. */
   prepare(): Promise<void> {
     if (this.standing) return this.standing;
-    const standing: Promise<void> = this.stand().catch((error: unknown) => {
+    const standing: Promise<void> = this.stand().finally(() => {
       if (this.standing === standing) this.standing = null; // another robot has its own
-      throw error;
     });
     this.standing = standing;
     return standing;
@@ -169,20 +177,27 @@ export class SimulatedSource {
   private async stand(): Promise<void> {
     const connection = this.connection;
     const now = await this.nextFrame();
-    if (!connection?.version || !now.isHeld) {
-      if (!this.hasPhysics) this.standing = null; // the hand comes with the body
-      return;
+    if (!connection?.version || !now.isHeld) return;
+    const { requests } = connection;
+    let wanted: Where | null = null;
+    try {
+      const before = await askWhere(requests, { timeoutMs: WHERE_MS });
+      if (before.state !== 'idle') await command(requests, 'break');
+      if (before.state !== 'idle' && before.state !== 'paused' && before.page !== READY_PAGE) wanted = before;
+      await this.untilIdle(connection);
+      await play(requests, READY_PAGE);
+      await this.untilIdle(connection);
+    } finally {
+      this.post({ kind: 'hold', held: false });
     }
-    await this.untilIdle(connection, Infinity); // what plays already ends in the hand
-    await play(connection.requests, READY_PAGE);
-    await this.untilIdle(connection, STAND_LIMIT_MS);
-    this.post({ kind: 'hold', held: false });
+    for (let frame = 0; frame < MOST_FRAMES && (await this.nextFrame()).isHeld; frame++); // the hand opens
+    if (wanted) await play(requests, wanted.page, wanted.code); // somebody had asked for it
   }
 
-  private async untilIdle({ requests }: Connection, limitMs: number): Promise<void> {
+  private async untilIdle({ requests }: Connection): Promise<void> {
     const { clock } = this;
-    for (const endMs = clock.now() + limitMs; clock.now() < endMs; await clock.pass(ASK_MS)) {
-      const where = await askWhere(requests, { timeoutMs: 3000 });
+    for (const endMs = clock.now() + STAND_LIMIT_MS; clock.now() < endMs; await clock.pass(ASK_MS)) {
+      const where = await askWhere(requests, { timeoutMs: WHERE_MS });
       if (where.state === 'idle') return;
     }
   }
@@ -203,12 +218,12 @@ export class SimulatedSource {
   private take(message: FromSim): void {
     switch (message.kind) {
       case 'state':
+        this.isInHand = message.state.isHeld;
         this.clock.reach(message.state.ticks);
         for (const tell of this.waiting.splice(0)) tell(message.state);
         return this.isShown ? this.events.frame(message.state) : undefined;
       case 'started': return this.events.change({ faultNames: message.faults, stopped: null });
       case 'physics':
-        this.hasPhysics = message.error === null;
         return this.events.change(message.error === null ? { physics: 'on' } : { physics: 'off', said: { text: `${TEXTS.noPhysics} (${message.error})`, tone: 'bad' } });
       case 'memories': return void this.keep(message.memories);
       case 'violation': return this.stop(violationText(message.violation, message.text));

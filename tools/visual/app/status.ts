@@ -11,6 +11,8 @@ import type { Store } from '../view/store.ts';
 import { doingText } from '../view/texts.ts';
 
 const WHERE_MS = 300;
+/** A robot in the page that starts answers long before, on a slow computer too. */
+const START_MS = 20_000;
 
 export interface StatusParts {
   readonly state: Store<DeskState>;
@@ -23,6 +25,7 @@ export interface StatusParts {
 export class Status {
   private readonly parts: StatusParts;
   private timer: ReturnType<typeof setTimeout> | undefined;
+  private lateTimer: ReturnType<typeof setTimeout> | undefined;
   private terminal: TerminalSize | null = null;
 
   constructor(parts: StatusParts) {
@@ -52,8 +55,22 @@ export class Status {
   /** The strip says what the robot does now. */
   tell(): void {
     const { stopped, connection, isInDialog, where } = this.state;
-    const tone = stopped !== null || isInDialog || connection === 'foreign' || connection === 'waiting' ? 'bad' : 'calm';
+    const tone = stopped !== null || isInDialog || connection === 'foreign' || connection === 'other-board' || connection === 'waiting' ? 'bad' : 'calm';
+    this.watchStart();
     this.parts.state.set({ doing: { text: doingText(this.state, where), tone } });
+  }
+
+  /** A robot that starts, or starts anew, is silent for a while, and nothing is wrong. */
+  private watchStart(): void {
+    const isStarting = this.state.connection !== 'ready' && this.state.isPowered;
+    if (isStarting === (this.lateTimer !== undefined)) return;
+    clearTimeout(this.lateTimer);
+    this.lateTimer = undefined;
+    if (this.state.isLate) this.parts.state.set({ isLate: false });
+    if (isStarting) this.lateTimer = setTimeout(() => {
+      this.parts.state.set({ isLate: true });
+      this.tell();
+    }, START_MS);
   }
 
   /** The terminal shows so many letters. */

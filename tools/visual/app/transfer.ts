@@ -15,7 +15,7 @@ import { PageWrite } from '../robot/page-write.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Requests } from '../robot/requests.ts';
 import { errorText } from '../view/texts.ts';
-import type { Transfer, TransferState } from '../view/transfer-desk.ts';
+import type { Transfer, TransferEnd, TransferState } from '../view/transfer-desk.ts';
 import { Store } from '../view/store.ts';
 
 export interface TransferParts {
@@ -31,6 +31,7 @@ export interface TransferParts {
   backUp(pages: readonly Uint8Array[]): Promise<void>;
 }
 
+const BUSY: TransferEnd = { isDone: false, error: new RobotError('transfer-busy') };
 const IDLE: TransferState = { phase: 'idle', done: 0, total: 0, account: new Map(), trouble: null };
 
 export class RobotTransfer implements Transfer {
@@ -38,7 +39,7 @@ export class RobotTransfer implements Transfer {
   private readonly parts: TransferParts;
   private stop = new AbortController();
   private under: PageWrite | null = null;
-  private goesOn: () => Promise<boolean> = () => this.read();
+  private goesOn: () => Promise<TransferEnd> = () => this.read();
 
   constructor(parts: TransferParts) {
     this.parts = parts;
@@ -58,18 +59,20 @@ export class RobotTransfer implements Transfer {
     return phase === 'reading' || phase === 'writing';
   }
 
-  read(): Promise<boolean> {
+  read(): Promise<TransferEnd> {
+    if (this.isBusy) return Promise.resolve(BUSY);
     this.goesOn = () => this.read();
-    return this.busy('reading', async () => {
+    return this.during('reading', async () => {
       await this.readRobot();
       this.state.set({ phase: 'idle' });
     });
   }
 
-  write(pages: readonly number[]): Promise<boolean> {
+  write(pages: readonly number[]): Promise<TransferEnd> {
+    if (this.isBusy) return Promise.resolve(BUSY);
     const document = this.parts.document();
     this.under = null;
-    this.goesOn = () => this.busy('writing', async () => {
+    this.goesOn = () => this.during('writing', async () => {
       await this.parts.becomeEdit();
       this.under ??= await this.begin(document, pages);
       await this.run(this.under);
@@ -78,8 +81,8 @@ export class RobotTransfer implements Transfer {
     return this.goesOn();
   }
 
-  tryAgain(): Promise<boolean> {
-    return this.goesOn();
+  tryAgain(): Promise<TransferEnd> {
+    return this.isBusy ? Promise.resolve(BUSY) : this.goesOn();
   }
 
   cancel(): void {
@@ -123,18 +126,17 @@ export class RobotTransfer implements Transfer {
     return pages;
   }
 
-  private async busy(phase: 'reading' | 'writing', deed: () => Promise<void>): Promise<boolean> {
-    if (this.isBusy) return false;
+  private async during(phase: 'reading' | 'writing', action: () => Promise<void>): Promise<TransferEnd> {
     this.stop = new AbortController();
     this.state.set({ phase, trouble: null, done: 0, total: 0, account: phase === 'reading' ? new Map() : this.state.get().account });
     try {
-      await deed();
-      return true;
+      await action();
+      return { isDone: true };
     } catch (error) {
       if (!(error instanceof RobotError)) this.state.set({ phase: 'stopped', trouble: String(error) });
       if (!(error instanceof RobotError)) throw error;
       this.state.set({ phase: 'stopped', trouble: errorText(error) });
-      return false;
+      return { isDone: false, error };
     }
   }
 }

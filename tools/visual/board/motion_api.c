@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "crc16.h"
+#include "page_edit.h"
 #include "player.h"
 #include "remote.h"
 #include "shape.h"
@@ -15,7 +16,6 @@ static struct {
     link_t link;
     player_t player;
     shape_t shape;
-    shape_step_t shaping;
     bool is_shaped;
     player_joint_t joint[PAGE_JOINTS];
     uint16_t goal_pos[PAGE_JOINTS];
@@ -78,17 +78,17 @@ int motion_api_crc16(int page)
 
 int motion_api_mirrored(int pos)
 {
-    return (int)page_pos_mirrored((uint16_t)pos, 2u * PAGE_POS_MIDDLE);
+    return (int)page_edit_mirrored((uint16_t)pos, 2u * PAGE_POS_MIDDLE);
 }
 
 enum { HALF = 50 };
 
-int motion_api_pos_between(int a, int b) { return page_pos_between((uint16_t)a, (uint16_t)b, HALF); }
+int motion_api_pos_between(int a, int b) { return page_edit_between((uint16_t)a, (uint16_t)b, HALF); }
 
 int motion_api_time_between(int time)
 {
     uint8_t rest = (uint8_t)time;
-    uint8_t share = page_time_split(&rest, HALF);
+    uint8_t share = page_edit_time_split(&rest, HALF);
     return share | rest << 8;
 }
 
@@ -307,8 +307,9 @@ int motion_api_start(int page, int law, int mode, int code, uint32_t present)
     if (!is_page(page)) {
         return PLAYER_ERR_RANGE;
     }
-    player_init(&api.player, &source, api.joint, api.goal_pos);
-    player_set_shape(&api.player, shape_now(), &api.shaping);
+    player_init(&api.player, &source, api.joint);
+    memcpy(api.goal_pos, api.pose, sizeof api.goal_pos);
+    player_set_shape(&api.player, shape_now());
     link_init(&api.link, mode ? LINK_HOLD : LINK_LATCH);
     link_call(&api.link, (uint8_t)code);
     return (int)player_start(&api.player, &api.link, (uint8_t)page, law ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT,
@@ -319,15 +320,22 @@ int motion_api_fault_page(void) { return api.player.fault_page; }
 
 void motion_api_code(int code) { link_code(&api.link, (uint8_t)code); }
 
-int motion_api_tick(void) { return player_tick(&api.player, &api.link); }
+int motion_api_tick(void)
+{
+    int events = player_tick(&api.player, &api.link);
+    if ((events & PLAYER_EV_OUTPUT) != 0) {
+        player_goals(&api.player, UINT32_MAX, api.goal_pos);
+    }
+    return events;
+}
 
 const uint16_t *motion_api_goals(void) { return api.goal_pos; }
 
 uint32_t motion_api_joints(void) { return api.player.joints; }
 
-int motion_api_page(void) { return api.player.page; }
+int motion_api_page(void) { return api.player.now.page; }
 
-int motion_api_step(void) { return api.player.step; }
+int motion_api_step(void) { return api.player.now.step; }
 
 int motion_api_repetition(void) { return api.player.repetition; }
 
@@ -338,9 +346,9 @@ uint32_t motion_api_curve(uint32_t ticks)
     uint32_t played = 0;
     while (played < ticks && played < MOTION_API_CURVE_TICKS && player_is_moving(&api.player)) {
         int events = motion_api_tick();
-        memcpy(api.goals[played], api.player.goal_pos, sizeof api.goals[played]);
-        api.marks[played][0] = api.player.page;
-        api.marks[played][1] = api.player.step;
+        memcpy(api.goals[played], api.goal_pos, sizeof api.goals[played]);
+        api.marks[played][0] = api.player.now.page;
+        api.marks[played][1] = api.player.now.step;
         api.marks[played][2] = (uint8_t)events;
         played++;
     }

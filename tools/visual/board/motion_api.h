@@ -31,7 +31,7 @@ int motion_api_crc16(int page);
 /* A position as the joint on the other side has it, neutral positions in the middle. */
 int motion_api_mirrored(int pos);
 
-/* The position and the time of a step that is put in half-way: page_pos_between() and page_time_split() with 50 %. */
+/* The position and the time of a step that is put in half-way: page_edit_between() and page_edit_time_split() with 50 %. */
 int motion_api_pos_between(int a, int b);
 int motion_api_time_between(int time); /* the share | the rest << 8 */
 

@@ -12,8 +12,7 @@ import pathlib
 import sys
 from math import cos, radians, sin, sqrt
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "body" / "src"))
-from body.description import UNITS_PER_RADIAN, load, numbers  # noqa: E402
+from body.description import UNITS_PER_RADIAN, load, numbers
 
 
 def multiplied(a, b):

@@ -7,7 +7,8 @@ An image is 65,536 bytes: pages 0..127 as they lie in flash. Every answer is a d
 from pathlib import Path
 
 from m512.errors import M512Error
-from m512.files import conversion, formats, image as raw, scale12
+from m512.files import conversion, formats, scale12
+from m512.files import image as raw
 from m512.files.wording import named_pages_text
 from m512.pages import difference, operations
 

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The page's end of the worker with Python. The worker starts at the first question.
 
-import type { Difference, FileFormats, Finding, NoRoom, Opened, Refused, Saved } from '../model/file-formats.ts';
+import type { Difference, FileFormats, Finding, FormatsWorker, NoRoom, Opened, Refused, Saved } from '../model/file-formats.ts';
 import type { FromFiles, PythonParts, ToFiles } from './messages.ts';
+
+/** The browser says nothing of a worker whose program it could not load. */
+const NOT_LOADED = 'its program was not loaded';
 
 type Ask = keyof FileFormats;
 
 interface Waiting {
+  readonly ask: Ask;
+  readonly message: ToFiles;
   readonly resolve: (answer: unknown) => void;
   readonly reject: (error: Error) => void;
 }
 
-export class FormatsClient implements FileFormats {
+export class FormatsClient implements FormatsWorker {
   private readonly parts: PythonParts;
   private readonly makeWorker: () => Worker;
   private worker: Worker | null = null;
@@ -39,11 +44,24 @@ export class FormatsClient implements FileFormats {
     return this.ask('differences', first, second);
   }
 
+  cancel(): void {
+    this.worker?.terminate(); // Python hears nothing while it works
+    this.worker = null;
+    for (const [id, { ask, message, reject }] of [...this.waiting]) {
+      if (ask !== 'open' && ask !== 'save') {
+        this.started().postMessage(message);
+        continue;
+      }
+      this.waiting.delete(id);
+      reject(new Error('cancelled'));
+    }
+  }
+
   private ask<K extends Ask, A>(ask: K, ...what: Parameters<FileFormats[K]>): Promise<A> {
     const id = ++this.lastId;
     const message = { kind: 'question', id, ask, what } as ToFiles; // each question's parameters fit its own name
     return new Promise<A>((resolve, reject) => {
-      this.waiting.set(id, { resolve: resolve as (answer: unknown) => void, reject });
+      this.waiting.set(id, { ask, message, resolve: resolve as (answer: unknown) => void, reject });
       this.started().postMessage(message);
     });
   }
@@ -52,7 +70,7 @@ export class FormatsClient implements FileFormats {
     if (this.worker) return this.worker;
     this.worker = this.makeWorker();
     this.worker.onmessage = ({ data }: MessageEvent<FromFiles>) => this.hear(data);
-    this.worker.onerror = (event) => this.crashed(event.message);
+    this.worker.onerror = (event) => this.crashed(event.message ?? NOT_LOADED);
     this.worker.postMessage({ kind: 'parts', parts: this.parts } satisfies ToFiles);
     return this.worker;
   }

@@ -17,7 +17,10 @@ async function through(bytes: Uint8Array, stream: CompressionStream | Decompress
   for (let read = await reader.read(); !read.done; read = await reader.read()) {
     chunks.push(read.value);
     length += read.value.length;
-    if (length > MOST_BYTES) throw new RangeError('more than 128 pages');
+    if (length > MOST_BYTES) {
+      await reader.cancel();
+      throw new RangeError('more than 128 pages');
+    }
   }
   const whole = new Uint8Array(length);
   let at = 0;

@@ -20,17 +20,21 @@ async function get(url: string): Promise<Response> {
   return response;
 }
 
-/** Pyodide fetches its .wasm by a name of its own. It gets ours, packed for hosts that do not pack what they send. */
-function handOver(wasm: Response): () => void {
+/** Pyodide fetches its .wasm by a name of its own, and its library without a word when that is missing. It gets ours. */
+function handOver(files: ReadonlyMap<string, Response>): () => void {
   const { fetch } = self;
-  self.fetch = (what, options) => (String(what).endsWith('/pyodide.asm.wasm') ? Promise.resolve(wasm) : fetch(what, options));
+  self.fetch = (what, options) => {
+    const [, file] = [...files].find(([name]) => String(what).endsWith(name)) ?? [];
+    return file ? Promise.resolve(file) : fetch(what, options);
+  };
   return () => { self.fetch = fetch; };
 }
 
 async function load({ wasmUrl, libraryUrl }: PythonParts): Promise<FileFormats> {
-  const packed = await get(wasmUrl);
+  const [packed, library] = await Promise.all([get(wasmUrl), get(libraryUrl)]);
   const stream = packed.body?.pipeThrough(new DecompressionStream('gzip'));
-  const takeBack = handOver(new Response(stream, { headers: { 'Content-Type': 'application/wasm' } }));
+  const wasm = new Response(stream, { headers: { 'Content-Type': 'application/wasm' } });
+  const takeBack = handOver(new Map([['/pyodide.asm.wasm', wasm], [libraryUrl, library]]));
   try {
     const python = await loadPyodide({ createPyodideModule, stdLibURL: libraryUrl, indexURL: new URL('./', self.location.href).href, lockFileContents: LOCK });
     return new PythonFormats(python);
@@ -48,7 +52,7 @@ async function answer(question: Question): Promise<FromFiles> {
     return { kind: 'answer', id: question.id, answer: await ask.apply(formats, question.what) };
   } catch (error) {
     loading = null;
-    return { kind: 'trouble', id: question.id, text: error instanceof Error ? error.message : String(error) };
+    return { kind: 'trouble', id: question.id, text: error instanceof Error ? error.message : JSON.stringify(error) };
   }
 }
 

@@ -88,7 +88,7 @@ export function angleIn(angles: Angles): (joint: Joint) => number {
 }
 
 /** Angles of a step or a pose: servo positions by ID; where there is none, `others`. */
-export function anglesOf(body: Body, positions: readonly (number | null)[], others: Angles): Angles {
+export function anglesOf(body: Body, positions: ArrayLike<number | null>, others: Angles): Angles {
   return new Map(body.joints.map((joint) => {
     const position = positions[joint.servo] ?? null;
     return [joint.servo, position === null ? (others.get(joint.servo) ?? 0) : jointAngle(joint, position)] as const;

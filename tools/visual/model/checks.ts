@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the page finds odd in a document besides what m512 says of it: too fast for the servos, farther than a joint turns,
-// falls as it stands, never reached, a stop that goes round. Each finding has a place to go to. Pure.
+// falls as it stands, a stop that goes round. Each finding has a place to go to. Pure.
 
 import { fastSteps } from './curve-speed.ts';
 import { centreOfMass, lowerFoot, marginInside, supportPolygon, trunkOn, ORIGIN } from './balance.ts';
@@ -15,7 +15,7 @@ import { readPage } from './page.ts';
 import type { Step } from './page.ts';
 import { rotate } from './space.ts';
 
-export type CheckKind = 'damaged' | 'too-fast' | 'out-of-reach' | 'tips-over' | 'unreachable' | 'exit-circle';
+export type CheckKind = 'damaged' | 'too-fast' | 'out-of-reach' | 'tips-over' | 'exit-circle';
 
 export interface PageFinding {
   readonly kind: CheckKind;
@@ -35,6 +35,8 @@ const REACH_SLACK = 0.01;
 const TIPS_M = 0.005;
 /** A robot whose trunk leans more than 60 degrees does not mean to stand. Cosine. */
 const UPRIGHT = 0.5;
+/** A pause up to this is part of a movement: 0.2 s, for the servos to arrive. */
+const HELD_TICKS = 26;
 
 export interface CheckOptions {
   readonly format: PageFormat;
@@ -57,10 +59,10 @@ export function checkPage(document: MotionDocument, page: number, { format, body
   if (page === 0 || !format.isPlayable(bytes)) return [];
   const played = curve(page);
   const fast = played ? fastSteps(played, topSpeed).filter((one) => one.page === page) : [];
-  const { steps } = readPage(format, bytes);
+  const { steps, next } = readPage(format, bytes);
   return [
     ...fast.map(({ step, joint, times }) => finding('too-fast', page, { step, joint, amount: times })),
-    ...steps.flatMap((step, index) => checkReach(body, page, index, step)), ...checkBalance(body, page, steps),
+    ...steps.flatMap((step, index) => checkReach(body, page, index, step)), ...checkBalance(body, page, steps, next === 0),
   ];
 }
 
@@ -72,9 +74,11 @@ function checkReach(body: Body, page: number, index: number, step: Step): PageFi
   });
 }
 
-/** The worst of the page's poses: one is enough to look there. */
-function checkBalance(body: Body, page: number, steps: readonly Step[]): PageFinding[] {
-  const out = steps.map((step) => tipsOver(body, step));
+/** The worst of the poses that the page holds: one is enough to look there. Through the others it goes without a stop, as a walk does, and
+ *  what it leans out of the soles it swings back: there physics has to say. */
+function checkBalance(body: Body, page: number, steps: readonly Step[], isEnd: boolean): PageFinding[] {
+  const isHeld = (step: Step, index: number): boolean => step.pause > HELD_TICKS || (isEnd && index === steps.length - 1);
+  const out = steps.map((step, index) => (isHeld(step, index) ? tipsOver(body, step) : 0));
   const worst = Math.max(0, ...out);
   return worst > TIPS_M ? [finding('tips-over', page, { step: out.indexOf(worst), amount: worst })] : [];
 }
@@ -94,7 +98,5 @@ function tipsOver(body: Body, step: Step): number {
 
 /** What is odd about the links of all pages; m512 tells of those that lead nowhere. */
 export function checkLinks(format: PageFormat, document: MotionDocument): PageFinding[] {
-  return linkGraph(format, document).nodes.flatMap(({ page, isUnreachable, exitsRound }) => [
-    ...(isUnreachable ? [finding('unreachable', page)] : []), ...(exitsRound ? [finding('exit-circle', page)] : []),
-  ]);
+  return linkGraph(format, document).nodes.flatMap(({ page, exitsRound }) => (exitsRound ? [finding('exit-circle', page)] : []));
 }

@@ -38,6 +38,15 @@ export function isSamePage(a: Uint8Array, b: Uint8Array): boolean {
   return a === b || (a.length === b.length && a.every((byte, i) => byte === b[i]));
 }
 
+/** The name of a copy that none of these documents has yet: "walk (copy)", "walk (copy 2)" ... */
+export function copyName(name: string, taken: readonly string[]): string {
+  const base = name.replace(/ \(copy( \d+)?\)$/, '');
+  for (let count = 1; ; count++) {
+    const copy = `${base} (copy${count === 1 ? '' : ` ${count}`})`;
+    if (!taken.includes(copy)) return copy;
+  }
+}
+
 /** The document with the pages that the changes name. Throws when one of them was not as a change expects it: our mistake. */
 export function withChanges(document: MotionDocument, changes: readonly Change[]): MotionDocument {
   const pages = [...document.pages];

@@ -33,6 +33,7 @@ export interface Edits {
   readonly clearPages: Bound<typeof pages.clearPages>;
   readonly replacePages: Bound<typeof pages.replacePages>;
   readonly adoptPages: Bound<typeof pages.adoptPages>;
+  readonly copyForEditing: Bound<typeof pages.copyForEditing>;
 }
 
 export function makeEdits(format: PageFormat): Edits {
@@ -43,6 +44,6 @@ export function makeEdits(format: PageFormat): Edits {
     interpolate: bind(format, steps.interpolate), rename: bind(format, pages.rename), setHeader: bind(format, pages.setHeader),
     setLink: bind(format, pages.setLink), copyPage: bind(format, pages.copyPage), movePage: bind(format, pages.movePage),
     swapPages: bind(format, pages.swapPages), clearPages: bind(format, pages.clearPages), replacePages: bind(format, pages.replacePages),
-    adoptPages: bind(format, pages.adoptPages),
+    adoptPages: bind(format, pages.adoptPages), copyForEditing: bind(format, pages.copyForEditing),
   };
 }

@@ -44,6 +44,9 @@ export interface Difference {
 export const SUFFIXES = { '.m512': 'text', '.bin': 'image', '.hex': 'Intel HEX', '.mtn': 'RoboPlus' } as const;
 export type Suffix = keyof typeof SUFFIXES;
 
+/** No motion file is larger: m512's own bound (files/storage.py). */
+export const MOST_BYTES = 4 << 20;
+
 /** The first call loads Python (5 MB, 2 to 4 s); later ones take 0.1 to 0.6 s. Rejects with Error when it cannot be loaded. */
 export interface FileFormats {
   /** What `m512 convert NAME image.bin` makes. leaveOut: without the pages that have no room. */
@@ -54,4 +57,10 @@ export interface FileFormats {
   check(image: Uint8Array): Promise<readonly Finding[]>;
   /** What `m512 diff` says. */
   differences(first: Uint8Array, second: Uint8Array): Promise<readonly Difference[]>;
+}
+
+/** In a worker, so that what takes long can be ended. */
+export interface FormatsWorker extends FileFormats {
+  /** Ends what is being opened or saved: those promises reject. What else was asked is answered, by a new worker. */
+  cancel(): void;
 }

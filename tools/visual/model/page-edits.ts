@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Edits of whole pages and their headers, as values.
 
-import { isSamePage, pageOf } from './document.ts';
+import { isSamePage, pageOf, withChanges } from './document.ts';
 import type { MotionDocument } from './document.ts';
 import type { PageFormat } from './page-format.ts';
+import { readPage } from './page.ts';
 import type { LinkField, PageView } from './page.ts';
 import { ok, refuse } from './result.ts';
 import type { Result } from './result.ts';
 import { changePage, editable } from './step-edits.ts';
 import { transaction } from './transaction.ts';
 import type { Change, EditName, Transaction } from './transaction.ts';
+
+/** Behind the name of a copy. */
+const COPY_SIGN = ' 2';
 
 /** What the header holds besides the name. */
 export type HeaderChange = Partial<Omit<PageView, 'name' | 'steps'>>;
@@ -49,6 +53,22 @@ export function copyPage(format: PageFormat, document: MotionDocument, from: num
   const before = pageOf(document, to);
   if (from !== to && !format.isEmpty(before) && !options.replace) return refuse('page-in-use', String(to));
   return ok(transaction('copy-page', [{ page: to, before, after: format.relinked(source.value, new Map([[from, to]])) }]));
+}
+
+/** A page of the library as one of one's own: in a free page, under a name of its own, and no key of the remote calls it. */
+export function copyForEditing(format: PageFormat, document: MotionDocument, from: number): Result<{ readonly edit: Transaction; readonly page: number }> {
+  const to = freePage(format, document);
+  if (to === 0) return refuse('no-room');
+  const copied = copyPage(format, document, from, to);
+  if (!copied.ok) return copied;
+  const { name } = readPage(format, pageOf(document, from));
+  const own = setHeader(format, withChanges(document, copied.value.changes), to, { code: 0 });
+  if (!own.ok) return own;
+  const title = `${name.slice(0, format.layout.nameBytes - COPY_SIGN.length)}${COPY_SIGN}`;
+  const named = rename(format, withChanges(withChanges(document, copied.value.changes), own.value.changes), to, title);
+  if (!named.ok) return named;
+  const [last] = named.value.changes;
+  return ok({ edit: transaction('copy-page', last ? [{ ...last, before: pageOf(document, to) }] : copied.value.changes), page: to });
 }
 
 export function movePage(format: PageFormat, document: MotionDocument, from: number, to: number, options: PageTransfer = {}): Result<Transaction> {
@@ -102,22 +122,37 @@ export function replacePages(
 }
 
 /** Where pages that come from elsewhere find room: each at its own number where that is free, else at the next free one; their links to
- *  each other follow, those to pages that did not come are cut. `placed`: number there -> number here. Refuses when there is no room. */
+ *  each other follow, those to pages that did not come are cut. What is here already, with all that it leads to, is not taken twice.
+ *  `placed`: number there -> number here. Refuses when there is no room. */
 export function adoptPages(
   format: PageFormat, document: MotionDocument, pages: ReadonlyMap<number, Uint8Array>,
 ): Result<{ readonly edit: Transaction; readonly placed: ReadonlyMap<number, number> }> {
+  const known = alreadyHere(format, document, pages);
   const placed = new Map<number, number>();
   let filled = document;
   for (const [from, bytes] of pages) {
-    const to = freePage(format, filled, from);
+    const to = known.has(from) ? from : freePage(format, filled, from);
     if (to === 0) return refuse('no-room');
     placed.set(from, to);
     filled = { ...filled, pages: filled.pages.with(to, bytes) };
   }
   const moved = new Map(Array.from(document.pages, (_, page) => [page, placed.get(page) ?? 0]));
-  const here = new Map(Array.from(pages, ([from, bytes]) => [placed.get(from) ?? from, format.relinked(bytes, moved)]));
-  const edit = replacePages(format, document, here);
+  const fresh = [...pages].filter(([from]) => !known.has(from));
+  const edit = replacePages(format, document, new Map(fresh.map(([from, bytes]) => [placed.get(from) ?? from, format.relinked(bytes, moved)])));
   return edit.ok ? ok({ edit: edit.value, placed }) : edit;
+}
+
+/** Those of the pages that stand here at their own number, and lead to nothing but such. */
+function alreadyHere(format: PageFormat, document: MotionDocument, pages: ReadonlyMap<number, Uint8Array>): ReadonlySet<number> {
+  const here = new Set([...pages].filter(([page, bytes]) => isSamePage(pageOf(document, page), bytes)).map(([page]) => page));
+  for (let before = -1; before !== here.size;) {
+    before = here.size;
+    for (const page of here) {
+      const isTorn = format.leads(pageOf(document, page)).some(({ to }) => pages.has(to) && !here.has(to));
+      if (isTorn) here.delete(page);
+    }
+  }
+  return here;
 }
 
 /** The first page 1..127 with nothing in it, from `from` on and around; 0: all are in use. */

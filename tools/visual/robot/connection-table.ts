@@ -6,6 +6,8 @@
 //     |               failed |retry       silent  foreign      lost
 //     |                  v   |                v    v             v
 //     +----stop------- waiting <---lost--- silent  foreign     waiting --gave-up--> closed
+//
+// Each open state --named-other--> other-board, which ends by stop or lost.
 
 export type ConnectionState =
   | 'closed' // nothing is open
@@ -14,18 +16,20 @@ export type ConnectionState =
   | 'ready' // a firmware that we know answers
   | 'silent' // open, and nothing that we know answers: a terminal still works; asked again from time to time
   | 'foreign' // open, and a firmware answers that speaks something else
+  | 'other-board' // open, and a boot loader has said the name of a board that is none of ours: nothing is asked there
   | 'waiting'; // the port was lost; tried again with growing pauses
 
 export type ConnectionEvent =
-  | 'connect' | 'opened' | 'open-failed' | 'known' | 'unknown' | 'no-answer' | 'ask-again' | 'lost' | 'retry' | 'gave-up' | 'stop';
+  | 'connect' | 'opened' | 'open-failed' | 'known' | 'unknown' | 'named-other' | 'no-answer' | 'ask-again' | 'lost' | 'retry' | 'gave-up' | 'stop';
 
 const table: Record<ConnectionState, Partial<Record<ConnectionEvent, ConnectionState>>> = {
   closed: { connect: 'opening' },
   opening: { opened: 'asking', 'open-failed': 'waiting', 'gave-up': 'closed', stop: 'closed' },
-  asking: { known: 'ready', unknown: 'foreign', 'no-answer': 'silent', lost: 'waiting', stop: 'closed' },
-  ready: { lost: 'waiting', 'ask-again': 'asking', stop: 'closed' },
-  silent: { 'ask-again': 'asking', lost: 'waiting', stop: 'closed' },
-  foreign: { 'ask-again': 'asking', lost: 'waiting', stop: 'closed' },
+  asking: { known: 'ready', unknown: 'foreign', 'named-other': 'other-board', 'no-answer': 'silent', lost: 'waiting', stop: 'closed' },
+  ready: { lost: 'waiting', 'ask-again': 'asking', 'named-other': 'other-board', stop: 'closed' },
+  silent: { 'ask-again': 'asking', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
+  foreign: { 'ask-again': 'asking', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
+  'other-board': { lost: 'waiting', stop: 'closed' },
   waiting: { retry: 'opening', 'gave-up': 'closed', stop: 'closed' },
 };
 

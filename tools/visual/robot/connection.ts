@@ -9,6 +9,7 @@ import { nextState } from './connection-table.ts';
 import type { ConnectionEvent, ConnectionState } from './connection-table.ts';
 import { FirstContact } from './first-contact.ts';
 import { Line } from './line.ts';
+import { LoaderBanner } from './loader-banner.ts';
 import { BAUD_RATE } from './port.ts';
 import type { Port } from './port.ts';
 import { PROTOCOL, askVersion } from './protocol.ts';
@@ -46,7 +47,7 @@ export class Connection {
   private lostAtMs = 0;
   /** What runs there; null until it is known. */
   version: Version | null = null;
-  /** Why the state is silent, foreign or waiting. */
+  /** Why the state is silent, foreign, other-board or waiting. */
   error: RobotError | null = null;
 
   constructor(port: Port, clock: Clock, events: ConnectionEvents) {
@@ -151,6 +152,7 @@ export class Connection {
       case 'silent': return this.later(ASK_AGAIN_MS, 'ask-again');
       case 'waiting': return this.wait();
       case 'closed': return this.asked?.end('not-connected');
+      case 'other-board': return this.asked?.end('not-connected');
       case 'ready': case 'foreign': return;
       default: state satisfies never;
     }
@@ -170,8 +172,10 @@ export class Connection {
       return;
     }
     if (this.current !== 'opening') return void this.shut(); // stopped meanwhile
+    const banner = new LoaderBanner();
     const line = new Line(this.port, this.clock, {
       text: (bytes) => {
+        this.meetOther(banner.heard(bytes));
         this.asked?.screen.heard();
         this.dialog.heard(bytes);
         this.contact?.heard(bytes);
@@ -200,10 +204,18 @@ export class Connection {
       this.error = version.protocol === PROTOCOL ? null : new RobotError('foreign', `protocol ${version.protocol}`);
       this.on(this.error ? 'unknown' : 'known');
     } catch (cause) {
-      if (this.asked !== asked) return; // another line is asked by now
+      if (this.asked !== asked || this.current !== 'asking') return; // another line is asked by now, or nobody
       this.error = cause instanceof RobotError ? cause : new RobotError('foreign', String(cause));
       this.on(this.error.code === 'no-answer' || this.error.code === 'edit-waits' ? 'no-answer' : 'unknown');
     }
+  }
+
+  /** name: of another board, if its boot loader has just said one. */
+  private meetOther(name: string | null): void {
+    if (name === null) return;
+    this.error = new RobotError('other-board', name);
+    this.version = null;
+    this.on('named-other');
   }
 
   private lose(cause: unknown): void {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The requests of firmware/edit/PROTOCOL.md as functions. Each rejects as Requests.ask() does, and with RobotError
+// The requests of firmware/common/PROTOCOL.md as functions. Each rejects as Requests.ask() does, and with RobotError
 // 'foreign' when an answer is not what the protocol says.
 
 import { PAGE_BYTES } from '../model/motion.ts';

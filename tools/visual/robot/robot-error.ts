@@ -9,6 +9,7 @@ export type RobotErrorCode =
   | 'no-serial' // this browser has no Web Serial
   | 'port-busy' // the port cannot be opened: another program has it, or no permission
   | 'foreign' // something else answers there
+  | 'other-board' // a boot loader has said the name of another board: it is in `words`
   | 'in-loader' // the boot loader waits at its prompt
   | 'edit-waits' // what a person typed into Edit's terminal is not done with: a question, a list, a play
   | 'no-image' // the firmware for the robot in the page could not be loaded
@@ -17,7 +18,11 @@ export type RobotErrorCode =
   | 'page-unsaved' // the page in Edit's memory has edits of somebody else
   | 'page-not-saved' // after a save the robot still has another page: its number is in `words`
   | 'no-backup' // the robot's pages could not be kept here, so nothing was written
-  | 'needs-edit'; // Play runs there, and only Edit saves pages
+  | 'needs-edit' // Play runs there, and only Edit saves pages
+  | 'transfer-busy' // pages are being read or written: one transfer at a time
+  | 'pages-differ' // the robot has these pages otherwise than the document, and they are not written without being asked
+  | 'damaged-here' // a page of the document is damaged and cannot be written: its number is in `words`
+  | 'layer-differs'; // the same, for a page that is to be laid over a play
 
 /** Every rejection of this folder. `words`: what the board said, if it said anything. */
 export class RobotError extends Error {

@@ -18,14 +18,7 @@ export class BytePort implements Port {
 
   open(): Promise<void> {
     if (this.readable) return Promise.reject(new DOMException('the port is open already', 'InvalidStateError'));
-    this.readable = new ReadableStream<Uint8Array>({
-      start: (controller) => {
-        this.source = controller;
-      },
-      cancel: () => {
-        this.source = null;
-      },
-    });
+    this.readable = this.stream();
     this.writable = new WritableStream<Uint8Array>({ write: (bytes) => this.deliver(bytes) });
     return Promise.resolve();
   }
@@ -43,6 +36,13 @@ export class BytePort implements Port {
     this.source?.enqueue(bytes);
   }
 
+  /** A byte without its stop bit: the browser ends this stream with an error, and there is another one. */
+  garble(): void {
+    const source = this.source;
+    this.readable = this.stream();
+    source?.error(new DOMException('a framing error', 'FramingError'));
+  }
+
   /** The cable is pulled: the stream ends with an error and there is no other. */
   unplug(): void {
     const source = this.source;
@@ -50,5 +50,16 @@ export class BytePort implements Port {
     this.readable = null;
     this.writable = null;
     source?.error(new DOMException('the device has been lost', 'NetworkError'));
+  }
+
+  private stream(): ReadableStream<Uint8Array> {
+    return new ReadableStream<Uint8Array>({
+      start: (controller) => {
+        this.source = controller;
+      },
+      cancel: () => {
+        this.source = null;
+      },
+    });
   }
 }

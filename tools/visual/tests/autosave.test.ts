@@ -5,13 +5,13 @@ import { expect, test } from 'vitest';
 import { KeptDocuments } from '../app/documents.ts';
 import { DocumentEditor } from '../app/editor.ts';
 import type { Body } from '../model/body.ts';
-import { emptyDocument, imageOf, pageOf } from '../model/document.ts';
+import { copyName, emptyDocument, imageOf, pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { EMPTY_LOG, advance, restored } from '../model/history-log.ts';
 import type { Transaction } from '../model/transaction.ts';
 import { PassingStorage, sortKept } from '../view/document-storage.ts';
 import type { DocumentStorage } from '../view/document-storage.ts';
-import { libraryDocument, makeFormat, makeMotion } from './motion-bench.ts';
+import { libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
 import { randomNumbers, settle } from './robot-bench.ts';
 
 const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
@@ -23,6 +23,7 @@ let ids = 0;
 /** A tab of a browser whose disk is `storage`. */
 async function openTab(storage: DocumentStorage, options: { taken?: string } = {}) {
   const failures: unknown[] = [];
+  const copies: string[] = [];
   const editor: DocumentEditor = new DocumentEditor(body, { format, player, document: library }, {
     changed: () => documents.keep(), refused: () => undefined, opened: () => undefined,
   });
@@ -30,10 +31,10 @@ async function openTab(storage: DocumentStorage, options: { taken?: string } = {
     open: (document, history) => editor.open(document, history), rename: (name) => editor.rename(name), edited: () => editor.state.get(),
   }, {
     storage, isKept: true, empty: emptyDocument(format, ''), nowMs: () => ++ids, newId: () => `id${++ids}`,
-    hold: (id) => Promise.resolve(id !== options.taken), failed: (error) => failures.push(error),
+    hold: (id) => Promise.resolve(id !== options.taken), failed: (error) => failures.push(error), copied: (name) => copies.push(name),
   });
   await documents.start(library);
-  return { editor, documents, failures };
+  return { editor, documents, failures, copies };
 }
 
 function now(editor: DocumentEditor): MotionDocument {
@@ -207,6 +208,37 @@ test('a document that another tab has opens as a copy', async () => {
   const second = await openTab(disk, { taken: documents.state.get().openId });
   expect(now(second.editor).name).toBe('My motions (copy)');
   expect(second.documents.state.get().documents).toHaveLength(2);
+  expect(second.copies).toEqual(['My motions (copy)']); // said, not only done
+});
+
+test('copies are numbered: of a document, and of a copy', () => {
+  expect(copyName('walk', ['walk'])).toBe('walk (copy)');
+  expect(copyName('walk (copy)', ['walk', 'walk (copy)'])).toBe('walk (copy 2)');
+  expect(copyName('walk', ['walk (copy)', 'walk (copy 2)'])).toBe('walk (copy 3)');
+});
+
+test('it opens where somebody worked last, over a reload too; a document in which nobody did, on a new page', async () => {
+  const disk = new PassingStorage();
+  const { editor } = await openTab(disk);
+  const { page } = editor.state.get();
+  expect(page).toBeGreaterThan(0);
+  expect(editor.page(page).steps).toEqual([]);
+  editor.dispatch(editor.edits.rename(now(editor), 12, 'mine'));
+  editor.select({ page: 40 });
+  const again = await openTab(disk);
+  expect(again.editor.state.get().page).toBe(12);
+});
+
+test('a page of the library is one until it is changed; its copy is under a name of its own, without its key, and links as it does', async () => {
+  const editor = new DocumentEditor(body, { format, player, document: library, library: library.pages }, { changed: () => undefined, refused: () => undefined, opened: () => undefined });
+  expect(editor.isOfLibrary(3)).toBe(true);
+  const copy = must(editor.edits.copyForEditing(now(editor), 3));
+  editor.dispatch({ ok: true, value: copy.edit });
+  expect(editor.page(copy.page)).toMatchObject({ name: 'wave 2', code: 0, next: editor.page(3).next });
+  expect(editor.page(copy.page).steps).toEqual(editor.page(3).steps);
+  expect([editor.isOfLibrary(3), editor.isOfLibrary(copy.page)]).toEqual([true, false]);
+  editor.undo(); // one step
+  expect(editor.page(copy.page).steps).toEqual([]);
 });
 
 test('a disk that is full is told of, and the work goes on', async () => {

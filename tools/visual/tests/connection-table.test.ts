@@ -3,15 +3,15 @@ import { expect, test } from 'vitest';
 import { nextState } from '../robot/connection-table.ts';
 import type { ConnectionEvent, ConnectionState } from '../robot/connection-table.ts';
 
-const STATES: ConnectionState[] = ['closed', 'opening', 'asking', 'ready', 'silent', 'foreign', 'waiting'];
-const EVENTS: ConnectionEvent[] = ['connect', 'opened', 'open-failed', 'known', 'unknown', 'no-answer', 'ask-again', 'lost', 'retry', 'gave-up', 'stop'];
+const STATES: ConnectionState[] = ['closed', 'opening', 'asking', 'ready', 'silent', 'foreign', 'other-board', 'waiting'];
+const EVENTS: ConnectionEvent[] = ['connect', 'opened', 'open-failed', 'known', 'unknown', 'named-other', 'no-answer', 'ask-again', 'lost', 'retry', 'gave-up', 'stop'];
 
 test('from every state but closed, stop ends it', () => {
   for (const state of STATES) expect(nextState(state, 'stop')).toBe(state === 'closed' ? null : 'closed');
 });
 
 test('every state with an open port hears that it is lost', () => {
-  for (const state of ['asking', 'ready', 'silent', 'foreign'] as const) expect(nextState(state, 'lost')).toBe('waiting');
+  for (const state of ['asking', 'ready', 'silent', 'foreign', 'other-board'] as const) expect(nextState(state, 'lost')).toBe('waiting');
 });
 
 test('every state is reached, and ready only by an answer', () => {

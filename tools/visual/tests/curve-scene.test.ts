@@ -29,7 +29,7 @@ test('as stored there is one curve, and it goes through its way-points', () => {
   for (const { tick, position } of wayPoints) expect(curve.goals[(Math.round(tick) - 1) * JOINTS + ELBOW]).toBe(position);
 });
 
-test('at half the size the way-points stay on the stored curve, and the other one is half-way to the pose of page 1 (shaping.md)', () => {
+test('at half the size the way-points stay on the stored curve, and the other one is half-way to the pose of page 1 (SHAPING.md)', () => {
   const { stored, curve, wayPoints } = sceneOf({ amplitude: 50 });
   const centre = editor.firstPose(1)[ELBOW] ?? 0;
   for (const { tick, position } of wayPoints) {

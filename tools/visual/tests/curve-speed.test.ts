@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Too fast is too fast, and shaping changes curves as shaping.md says.
+// Too fast is too fast, and shaping changes curves as SHAPING.md says.
 import { expect, test } from 'vitest';
 import { tooFast } from '../model/curve-speed.ts';
 import { AS_STORED, JOINTS } from '../model/motion.ts';
@@ -19,7 +19,7 @@ test('a ramp of 8 units a tick is too fast for 7.5, not for 8; others stand', ()
   expect(tooFast(curveOf(goals, 5), 6, 0.5)).toEqual([]);
 });
 
-test('the top speed is 90 % of 8.7 units a tick at 11.1 V, in proportion (body.md)', async () => {
+test('the top speed is 90 % of 8.7 units a tick at 11.1 V, in proportion (body/README.md)', async () => {
   const motion = await makeMotion();
   for (const volts of [8, 9.6, 11.1, 12]) expect(motion.topSpeed(volts)).toBeCloseTo((0.9 * 8.7 * volts) / 11.1, 0);
   expect(motion.topSpeed(0)).toBe(0);

@@ -43,7 +43,7 @@ async function openPage() {
   const formats = new PythonFormats(await loadPyodide({ stdLibURL: `${ROOT}build/wasm/python.zip`, lockFileContents: LOCK }));
   const parts = { format, player: await makeMotion(), document: await libraryDocument() };
   const editor = new DocumentEditor(body, parts, { changed: () => undefined, refused: () => undefined, opened: () => undefined });
-  return { editor, files: new DocumentFiles(editor, formats) };
+  return { editor, files: new DocumentFiles(editor, formats, { cancel: () => undefined, create: () => Promise.resolve() }) };
 }
 
 /** Why another file cannot be read depends on where one is: a page has no folder. */

@@ -5,7 +5,7 @@ import type { PlayState, Where } from '../robot/protocol.ts';
 import type { DeskState } from '../view/desk.ts';
 import { doingText } from '../view/texts.ts';
 
-const state = (image: string): DeskState => ({ connection: 'ready', stopped: null, pages: [{ page: 2, name: 'bow', steps: 3, fault: '' }], version: { image } }) as unknown as DeskState;
+const state = (image: string): DeskState => ({ source: 'simulated', connection: 'ready', isPowered: true, shownPage: null, stopped: null, pages: [{ page: 2, name: 'bow', steps: 3, fault: '' }], version: { image } }) as unknown as DeskState;
 const where = (now: PlayState): Where => ({ state: now, page: 2, step: 1 }) as Where;
 
 test('Edit says where its screen is, before its first answer and after it, until something plays', () => {

@@ -67,7 +67,7 @@ test.each(["say('1023');", '// 1023', '/* of 512 bytes */ const a = 3;', 'x.p102
   expect(tellingLines(line)).toEqual([]);
 });
 
-test('the numbers are those of the page of the specification', () => { // motion/PAGE_FORMAT.md, remote.md, linker/memory_map.h: by hand
+test('the numbers are those of the documents', () => { // motion/PAGE_FORMAT.md, REMOTE.md, linker/memory_map.h: by hand
   expect(facts).toMatchObject({
     PAGE_BYTES: 512, PAGE_COUNT: 128, PAGE_JOINTS: 31, PAGE_STEPS: 7, PAGE_POS_MAX: 1023, PAGE_AT_PLAY_CODE: 21, PAGE_AT_STEP0: 64,
     PLAYER_TICKS_PER_SECOND: 128, LINK_CODE_STOP: 255, REMOTE_BUTTON6: 512, MEM_MOTION_START: 0xe000, SERVO_SHAFT_FIELDS: 4,

@@ -3,10 +3,10 @@
 import { execFile } from 'node:child_process';
 import { mkdtemp, readFile, readdir, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { promisify } from 'node:util';
 import { loadPyodide } from 'pyodide';
-import { afterAll, beforeAll, expect, test } from 'vitest';
+import { afterAll, beforeAll, expect, onTestFinished, test, vi } from 'vitest';
 import { LOCK } from '../files/lock.ts';
 import { decodeMotion, encodeMotion } from '../files/motion-link.ts';
 import { PythonFormats } from '../files/python-formats.ts';
@@ -30,8 +30,7 @@ interface Told {
 
 /** m512 as it is installed here. */
 async function m512(...words: string[]): Promise<string> {
-  const env = { ...process.env, PYTHONPATH: join(ROOT, 'tools/m512/src') };
-  return (await run(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', ...words], { env, cwd: folder })).stdout;
+  return (await run(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', ...words], { cwd: folder })).stdout;
 }
 
 async function library(): Promise<Uint8Array> {
@@ -54,14 +53,17 @@ test.each(Object.keys(SUFFIXES))('our library as %s: written and read as m512 do
   expect([opened.notes, opened.losses]).toEqual([back.notes, back.losses]);
 });
 
-test('files of others, where they are there', async (context) => {
-  const data = join(process.env['M512_SHARED'] ?? join(ROOT, '../shared'), 'data');
-  const names = (await readdir(data).catch(() => [])).filter((name) => /\.(mtn|bin|hex)$/.test(name));
-  if (names.length === 0) context.skip('the shared data folder is absent (M512_SHARED says where it is)');
-  for (const name of names) {
-    const file = new Uint8Array(await readFile(join(data, name)));
+test('files as they are found, and those of others where they are there', async () => {
+  const samples = join(ROOT, 'tests/samples');
+  const folders = [samples, join(samples, 'wild'), join(process.env['M512_SHARED'] ?? join(ROOT, '../shared'), 'data')];
+  const lists = await Promise.all(folders.map(async (data) => (await readdir(data).catch(() => [])).map((name) => join(data, name))));
+  const paths = lists.flat().filter((path) => /\.(mtn|bin|hex)$/.test(path));
+  expect(paths.length).toBeGreaterThan(20);
+  for (const path of paths) {
+    const name = basename(path);
+    const file = new Uint8Array(await readFile(path));
     const opened = await formats.open(name, file);
-    const wanted = await m512('convert', join(data, name), 'wanted.bin', '--force', '--json').then((text) => JSON.parse(text) as Told, (error: Error) => error);
+    const wanted = await m512('convert', path, 'wanted.bin', '--force', '--json').then((text) => JSON.parse(text) as Told, (error: Error) => error);
     if (opened.kind === 'refused') {
       expect(wanted, name).toBeInstanceOf(Error);
     } else if (opened.kind === 'opened' && !(wanted instanceof Error) && !opened.notes.some((note) => note.includes('scaled'))) {
@@ -112,8 +114,30 @@ test('motions in an address: there and back, and nothing of one that was cut or 
 });
 
 test('a link cannot fill the memory', async () => {
+  let inflated = 0;
+  const Real = DecompressionStream;
+  vi.stubGlobal('DecompressionStream', class {
+    readonly writable: WritableStream;
+    readonly readable: ReadableStream;
+
+    constructor(format: CompressionFormat) {
+      const real = new Real(format);
+      const count = new TransformStream<Uint8Array, Uint8Array>({
+        transform(chunk, out) {
+          inflated += chunk.length;
+          out.enqueue(chunk);
+        },
+      });
+      this.writable = real.writable;
+      this.readable = real.readable.pipeThrough(count);
+    }
+  });
+  onTestFinished(() => void vi.unstubAllGlobals());
   const bomb = new Blob([new Uint8Array(50_000_000)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
   const packed = Buffer.from(await new Response(bomb).arrayBuffer()).toString('base64url');
   expect(packed.length).toBeLessThan(100_000);
   expect(await decodeMotion(packed)).toBeNull();
+  await new Promise((resolve) => setTimeout(resolve, 50)); // nor does it go on behind the answer
+  expect(inflated).toBeGreaterThan(0);
+  expect(inflated).toBeLessThan(1_000_000);
 });

@@ -40,6 +40,55 @@ function boardThatSays(bytes: Uint8Array, random: () => number): BytePort {
   return port;
 }
 
+/** A port at which a board is in its loader: a line is answered by Bad Command, `sent` is all that came to it. */
+function loaderThatSays(banner: string) {
+  const sent: string[] = [];
+  const port: BytePort = new BytePort('a loader', (bytes) => {
+    sent.push(new TextDecoder('latin1').decode(bytes));
+    if (bytes.includes(13)) port.push(new TextEncoder().encode("\r\n Bad Command.('help' for instructions definition)\r\n - "));
+  });
+  const say = (): void => [...banner].forEach((letter) => port.push(new TextEncoder().encode(letter)));
+  return { port, sent, say };
+}
+
+async function loaderIsMet(banner: string) {
+  const clock = new SimulatedClock();
+  const { port, sent, say } = loaderThatSays(banner);
+  const connection = new Connection(port, clock, { state: () => undefined, text: () => undefined });
+  const pass = async (ms: number): Promise<void> => {
+    for (let done = 0; done < ms; done += 50) {
+      clock.advance(50);
+      await settle();
+    }
+  };
+  connection.connect(true);
+  await pass(1000);
+  say(); // MODE was pressed
+  await pass(1000);
+  return { connection, sent, pass };
+}
+
+test.each(['CM510', 'CM-700', 'XY9'])('a board whose loader says that it is a %s: nothing is sent there, and the sentence names it', async (name) => {
+  const { connection, sent, pass } = await loaderIsMet(`\xff\r\n\n SYSTEM O.K. (${name} Boot loader V1.00)\r\n - `);
+  expect(connection.state).toBe('other-board');
+  expect(errorText(connection.error as RobotError)).toContain(name);
+  expect(connectionText('other-board')).not.toContain('m512 flash');
+  const count = sent.length;
+  await expect(askPose(connection.requests)).rejects.toMatchObject({ code: 'not-connected' });
+  await pass(5000);
+  expect(sent.length).toBe(count);
+  await connection.close();
+});
+
+test.each(['CM5', 'CM-2+', 'Motion512'])('a board whose loader says that it is a %s is asked again', async (name) => {
+  const { connection, sent, pass } = await loaderIsMet(`\r\n\n SYSTEM O.K. (${name} Boot loader V1.31)\r\n - `);
+  const count = sent.length;
+  await pass(5000);
+  expect(['silent', 'asking']).toContain(connection.state);
+  expect(sent.length).toBeGreaterThan(count);
+  await connection.close();
+});
+
 test('m512\'s strange boards: a state with a sentence, and every question ends', async () => {
   const random = randomNumbers(SEED);
   const clock = new SimulatedClock();
@@ -58,7 +107,7 @@ test('m512\'s strange boards: a state with a sentence, and every question ends',
     };
     connection.connect(i < talked.length); // without the '@' that comes first, and with it
     await pass(1000);
-    expect(['silent', 'foreign', 'asking', 'ready'], where).toContain(connection.state);
+    expect(['silent', 'foreign', 'other-board', 'asking', 'ready'], where).toContain(connection.state);
     const asked = QUESTIONS.map((ask) => ask(connection.requests).then(() => 'answered', (error: unknown) => error));
     let ends: unknown[] | null = null;
     void Promise.all(asked).then((all) => (ends = all));

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What m512's own tests put before m512, for the page: m512_cases.py quick|all|noise > cases.jsonl
 
-quick, all: every file that they read, and what the page has to make of it. noise: what strange boards say (test_noise.py), a line each, base64.
+quick, all: every file that they read, and what the page has to make of it. noise: what strange boards say (tests/campaigns/noise.py), a line each, base64.
 
 m512's tests run as they are; what reaches a reader of files is written down, with the test that brought it, so no case of them can be
 missing here. `quick` leaves out tests that make files by chance or in great number, and keeps one file of each kind of answer: a kind is
@@ -13,18 +13,19 @@ import hashlib
 import json
 import pathlib
 import re
+import runpy
 import sys
 import tempfile
+import types
 
 import pytest
 
-TOOLS = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(TOOLS / "m512" / "src"), str(TOOLS / "m512" / "tests"), str(TOOLS / "visual" / "files")]
+from m512.files import csvpage, formats, mtn
+from m512.files import image as raw
+from m512.files import text as text_files
 
-import bridge  # noqa: E402
-from m512.files import csvpage, formats, mtn  # noqa: E402
-from m512.files import image as raw  # noqa: E402
-from m512.files import text as text_files  # noqa: E402
+TOOLS = pathlib.Path(__file__).resolve().parents[2]
+bridge = types.SimpleNamespace(**runpy.run_path(str(TOOLS / "visual" / "files" / "bridge.py")))   # as the page's Python runs it
 
 TESTS = ("test_convert.py", "test_mtn_wild.py", "test_text.py", "test_trust.py", "test_pages.py")
 #: Made by chance, or of whole robots: of them `all` takes every file.
@@ -80,13 +81,14 @@ def told(suffix, data):
 
 
 def noise():
-    """Two hundred talks of boards that are none of ours, made by test_noise.py's own recipe; the same every time."""
-    import test_noise
+    """Two hundred talks of boards that are none of ours, made by m512's own recipe; the same every time."""
     from hypothesis import HealthCheck, given, settings
+
+    from tests.campaigns.noise import pieces
     talks = []
 
     @settings(max_examples=200, derandomize=True, database=None, deadline=None, suppress_health_check=list(HealthCheck))
-    @given(test_noise.pieces())
+    @given(pieces())
     def take(data):
         talks.append(data)
 

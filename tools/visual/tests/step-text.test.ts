@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Steps as text: the line of FORMAT.md's "A page by hand", and m512 itself reads what is written.
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { expect, test } from 'vitest';
+import { expect, onTestFinished, test } from 'vitest';
 import { JOINTS } from '../model/motion.ts';
 import { readPage } from '../model/page.ts';
 import type { Step } from '../model/page.ts';
@@ -12,7 +12,7 @@ import { stepsFromText, stepsToText } from '../model/step-text.ts';
 import { makeFormat } from './motion-bench.ts';
 import { randomNumbers } from './robot-bench.ts';
 
-const M512 = new URL('../../m512/src', import.meta.url).pathname;
+const PYTHON = new URL('../../../build/venv/bin/python', import.meta.url).pathname;
 const step = (joints: Record<number, number>, time: number, pause = 0): Step =>
   ({ positions: Array.from({ length: JOINTS }, (_, id) => joints[id] ?? null), time, pause });
 
@@ -34,8 +34,9 @@ test('m512 makes the same steps of the text', async () => {
     Math.floor(random() * 256), Math.floor(random() * 256)));
   expect(stepsFromText(stepsToText(steps))).toEqual(steps);
   const folder = mkdtempSync(join(tmpdir(), 'm512-steps-'));
+  onTestFinished(() => rmSync(folder, { recursive: true }));
   writeFileSync(join(folder, 'a.m512'), `motion512 1\npage 5 chance\n${stepsToText(steps)}`);
-  execFileSync('python3', ['-m', 'm512', 'convert', join(folder, 'a.m512'), join(folder, 'a.bin')], { env: { ...process.env, PYTHONPATH: M512 } });
+  execFileSync(PYTHON, ['-m', 'm512', 'convert', join(folder, 'a.m512'), join(folder, 'a.bin')]);
   const { format } = await makeFormat();
   expect(readPage(format, new Uint8Array(readFileSync(join(folder, 'a.bin'))).slice(5 * 512, 6 * 512)).steps).toEqual(steps);
 });

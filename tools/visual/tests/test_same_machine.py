@@ -11,6 +11,7 @@ import struct
 import subprocess
 
 import pytest
+
 from cm5sim import Board
 
 HERE = pathlib.Path(__file__).parent

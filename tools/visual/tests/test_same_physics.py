@@ -11,20 +11,18 @@ import json
 import os
 import pathlib
 import subprocess
-import sys
 
 import pytest
+
+from body.chance import Variation
+from body.description import load
+from body.physics import Physics
+from body.trial import STOP, try_motion
 from cm5sim import Board
+from m512.files.page import Page
 
 HERE = pathlib.Path(__file__).parent
 BUILD = pathlib.Path(os.environ["M512_BUILD"])
-sys.path.insert(0, str(HERE.parents[1] / "body" / "src"))
-sys.path.insert(0, str(HERE.parents[1] / "m512" / "src"))
-from body.chance import Variation  # noqa: E402
-from body.description import load  # noqa: E402
-from body.physics import Physics  # noqa: E402
-from body.trial import STOP, try_motion  # noqa: E402
-from m512.files.page import Page  # noqa: E402
 
 SERVOS = range(1, 19)
 TICK = 125000

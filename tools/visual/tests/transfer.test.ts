@@ -8,6 +8,7 @@ import { RobotTransfer } from '../app/transfer.ts';
 import { Connection } from '../robot/connection.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import { readPages } from '../robot/page-read.ts';
+import { askList } from '../robot/protocol.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import type { PageToWrite } from '../robot/page-write.ts';
 import { MOTIONS_ADDRESS } from '../sim/board.ts';
@@ -230,7 +231,7 @@ test('the page: a backup before the first write, a cable pulled in mid-write, "t
   const pages = twenty(bench);
   const { transfer, kept, robot, before } = transferOn(bench, connection, pages);
   const pull = pullAt(bench, '@save', 7);
-  expect(await bench.until(transfer.write(pages.map(({ page }) => page)), 60_000)).toBe(false);
+  expect(await bench.until(transfer.write(pages.map(({ page }) => page)), 60_000)).toMatchObject({ isDone: false, error: { code: 'port-lost' } });
   pull.restore();
   expect(kept).toEqual([before]);
   expect(transfer.state.get()).toMatchObject({ phase: 'stopped', total: 20 });
@@ -238,9 +239,9 @@ test('the page: a backup before the first write, a cable pulled in mid-write, "t
   const done = transfer.state.get().done;
   expect([6, 7]).toContain(done);
   expect(robot().filter((bytes, page) => !Buffer.from(bytes ?? []).equals(Buffer.from(before[page] ?? [])))).toHaveLength(done);
-  expect(await transfer.tryAgain()).toBe(false); // the cable is still out
+  expect(await transfer.tryAgain()).toMatchObject({ isDone: false }); // the cable is still out
   await untilReady(bench, connection);
-  expect(await bench.until(transfer.tryAgain(), 60_000)).toBe(true);
+  expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
   expect(transfer.state.get()).toMatchObject({ phase: 'written', done: 20, total: 20, trouble: null });
   for (const [page, bytes] of robot().entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
   expect(kept).toHaveLength(1);
@@ -249,8 +250,68 @@ test('the page: a backup before the first write, a cable pulled in mid-write, "t
 test('the page: Play cannot save, and a robot that cannot be kept is not written', async () => {
   const { bench, connection } = await ready('play', 48);
   const { transfer, kept } = transferOn(bench, connection, twenty(bench));
-  expect(await transfer.write([1])).toBe(false);
+  expect(await transfer.write([1])).toMatchObject({ isDone: false, error: { code: 'needs-edit' } });
   expect(transfer.state.get().trouble).toContain('m512 flash edit-cm5.hex');
   expect(kept).toEqual([]);
   expect(flashPage(bench, 1)).toEqual(pageOf(library, 1));
+});
+
+/** Lets what goes down the line be changed: a byte lost in noise, a request that never arrives. */
+function onTheLine(bench: RobotBench, change: (line: string) => string): string[] {
+  const send = bench.board.send.bind(bench.board);
+  const sent: string[] = [];
+  bench.board.send = (sender, bytes) => {
+    const line = new TextDecoder().decode(bytes);
+    sent.push(line);
+    send(sender, new TextEncoder().encode(change(line)));
+  };
+  return sent;
+}
+
+test('a digit of "@save" lost in noise: the robot says OK of another page, and the comparison at the end finds out', async () => {
+  const { bench, connection } = await ready('edit', 54);
+  const page = { page: 31, before: flashPage(bench, 31), after: another(pageOf(library, 31), bench.random) };
+  onTheLine(bench, (line) => line.replace('@save 31 ', '@save 1 '));
+  const write = new PageWrite([page], format);
+  await expect(bench.until(write.run(connection.requests), 30_000)).rejects.toMatchObject({ code: 'page-not-saved', words: '31' });
+  expect(flashPage(bench, 1)).toEqual(page.after); // the fault was one: the board did save
+  expect(write.isDone).toBe(false);
+});
+
+test('a page that came damaged from a robot is not passed on: not a byte of it goes down the line', async () => {
+  const { bench, connection } = await ready('edit', 55, spoil);
+  const { transfer, robot } = transferOn(bench, connection, [{ page: 19, before: flashPage(bench, 19), after: flashPage(bench, 19) }]);
+  bench.board.writeFlash(MOTIONS_ADDRESS + 512 * 19, pageOf(library, 19)); // repaired there meanwhile
+  const sent = onTheLine(bench, (line) => line);
+  expect(await bench.until(transfer.write([19]), 60_000)).toEqual({ isDone: true });
+  expect(sent.filter((line) => /^@(open|data|save)/.test(line))).toEqual([]);
+  expect(flashPage(bench, 19)).toEqual(pageOf(library, 19));
+  expect(robot()[19]).toEqual(pageOf(library, 19));
+});
+
+test('one transfer at a time: what is asked beside it is refused by name, and nothing of it goes down the line', async () => {
+  const { bench, connection } = await ready('edit', 56);
+  const pages = twenty(bench);
+  const { transfer, kept } = transferOn(bench, connection, pages);
+  const sent = onTheLine(bench, (line) => line);
+  const first = transfer.write(pages.map(({ page }) => page));
+  await bench.run(200);
+  const busy = { isDone: false, error: { code: 'transfer-busy' } };
+  expect(await bench.until(transfer.write([1]), 100)).toMatchObject(busy);
+  expect(await bench.until(transfer.read(), 100)).toMatchObject(busy);
+  expect(await bench.until(transfer.tryAgain(), 100)).toMatchObject(busy);
+  expect(await bench.until(first, 60_000)).toEqual({ isDone: true });
+  expect(sent.filter((line) => line.startsWith('@save'))).toHaveLength(pages.length);
+  expect(sent.filter((line) => line.startsWith('@crcs 0 127'))).toHaveLength(1);
+  expect(kept).toHaveLength(1);
+  expect(transfer.state.get()).toMatchObject({ phase: 'written', done: pages.length });
+});
+
+test('a framing error in the middle of an answer does not end the talk', async () => {
+  const { bench, connection } = await ready('edit', 57);
+  const asked = askList(connection.requests);
+  await bench.run(60); // at 57,600 baud the list takes longer than that
+  bench.port.garble();
+  expect(await bench.until(asked)).toContainEqual({ page: 2, name: 'bow', steps: expect.any(Number), fault: '' });
+  expect(connection.state).toBe('ready');
 });

@@ -2,17 +2,17 @@
 // What a person wants first: walk, wave, get up, stop. The buttons are pages of the robot, found by their names; all the
 // others are in a list.
 
-import { liesOnFace } from '../model/space.ts';
 import type { PageEntry } from '../robot/protocol.ts';
 import type { RobotState } from '../robot/robot-state.ts';
 import type { Desk, DeskState } from './desk.ts';
 import { onChoice } from './choice.ts';
 import { define, keepFocus, make } from './element.ts';
+import { GetUp } from './get-up.ts';
 import './action-bar.css';
 
-/** Names of the motion library that get a button, and what stands on it. */
-const BUTTONS: readonly (readonly [string, string])[] = [
-  ['walk', 'Walk'], ['back', 'Back'], ['left', 'Turn left'], ['right', 'Turn right'], ['wave', 'Wave'], ['bow', 'Bow'], ['dance', 'Dance'],
+/** Names of the motion library that get a button, and what stands on it; the lesser ones only where there is room. */
+const BUTTONS: readonly (readonly [string, string, 'lesser'?])[] = [
+  ['walk', 'Walk'], ['back', 'Back', 'lesser'], ['left', 'Turn left', 'lesser'], ['right', 'Turn right', 'lesser'], ['wave', 'Wave'], ['bow', 'Bow', 'lesser'], ['dance', 'Dance', 'lesser'],
 ];
 /** The page for a robot on its face, and the one for a robot on its back. */
 const GET_UP = { face: 'get_up', back: 'get_up_back' };
@@ -21,6 +21,8 @@ export class ActionBar extends HTMLElement {
   desk!: Desk; // set before it is connected
   private shown = '';
   private readonly getUp = make('button', { class: 'get-up', title: 'From its face or its back, as it lies', onclick: () => this.standUp() }, 'Get up');
+  private readonly letGo = make('button', { title: 'The hand that holds the robot lets go of it', onclick: () => this.desk.lab.hold(false) }, 'Let go');
+  private readonly gettingUp = new GetUp((motion) => this.playNamed(GET_UP[motion]));
   private frame: RobotState | null = null;
   private readonly disposals: (() => void)[] = [];
 
@@ -41,11 +43,11 @@ export class ActionBar extends HTMLElement {
     if (key === this.shown) return;
     this.shown = key;
     const byName = new Map(state.pages.map((page) => [page.name, page]));
-    const plays = (name: string, title: string): HTMLButtonElement[] => {
+    const plays = (name: string, title: string, kind = ''): HTMLButtonElement[] => {
       const page = byName.get(name);
-      return page ? [this.button(title, isReady, () => this.desk.play(page.page))] : [];
+      return page ? [this.button(title, isReady, () => this.desk.play(page.page), kind)] : [];
     };
-    keepFocus(this, () => this.replaceChildren(this.button('Stop', mayStop, () => this.desk.command('stop'), 'stop'), ...BUTTONS.flatMap(([name, title]) => plays(name, title)),
+    keepFocus(this, () => this.replaceChildren(this.button('Stop', mayStop, () => this.stop(), 'stop'), ...(state.source === 'simulated' ? [this.letGo] : []), ...BUTTONS.flatMap(([name, title, kind]) => plays(name, title, kind)),
       ...(state.source === 'simulated' ? this.oneGetUp(byName) : [...plays(GET_UP.face, 'Get up (face)'), ...plays(GET_UP.back, 'Get up (back)')]),
       this.list(state.pages, isReady)));
     this.look(this.frame);
@@ -56,16 +58,26 @@ export class ActionBar extends HTMLElement {
     return pages.has(GET_UP.face) && pages.has(GET_UP.back) ? [this.getUp] : [];
   }
 
+  private stop(): Promise<void> {
+    this.gettingUp.stop();
+    return this.desk.command('stop');
+  }
+
   private look(frame: RobotState | null): void {
     this.frame = frame;
-    const lies = frame?.hasFallen === true;
-    this.getUp.disabled = !lies || this.desk.state.get().connection !== 'ready';
-    this.getUp.classList.toggle('primary', lies);
+    const { where } = this.desk.state.get();
+    if (frame) this.gettingUp.look(where !== null && where.state !== 'idle', frame.trunk, frame.hasFallen);
+    const lies = frame?.hasFallen === true && frame.isPowered;
+    this.letGo.disabled = frame?.isHeld !== true;
+    this.getUp.disabled = !lies || this.desk.state.get().connection !== 'ready' || !frame?.isPowered;
+    this.getUp.classList.toggle('wanted', lies);
   }
 
   private standUp(): void {
-    if (!this.frame) return;
-    const wanted = liesOnFace(this.frame.trunk) ? GET_UP.face : GET_UP.back;
+    if (this.frame) this.gettingUp.start(this.frame.trunk);
+  }
+
+  private playNamed(wanted: string): void {
     const page = this.desk.state.get().pages.find(({ name }) => name === wanted);
     if (page) void this.desk.play(page.page);
   }

@@ -18,11 +18,13 @@ import { PagesPane } from './editor/pages-pane.ts';
 import { TourCard } from './editor/tour.ts';
 import { KeysDialog } from './keys-dialog.ts';
 import { LabPane } from './lab-pane.ts';
+import { MoreMenu } from './more-menu.ts';
 import { RemotePad } from './remote-pad.ts';
 import { RobotView } from './robot-view.ts';
 import { StatusStrip } from './status-strip.ts';
 import { Store } from './store.ts';
 import { TerminalPane } from './terminal-pane.ts';
+import { TEXTS } from './texts.ts';
 import './app-shell.css';
 
 const TABS: readonly (readonly [Tab, string])[] = [['remote', 'Remote'], ['steps', 'Steps'], ['curves', 'Curves'], ['pages', 'Pages'], ['links', 'Links'], ['checks', 'Checks'], ['terminal', 'Terminal'], ['lab', 'Lab']];
@@ -36,8 +38,11 @@ export class AppShell extends HTMLElement {
   private readonly panels = new Map<Tab, HTMLElement>();
   private readonly simulated = make('button', { onclick: () => this.desk.useSimulated() }, 'Robot in this page');
   private readonly yours = make('button', { onclick: () => void this.desk.connectYours() }, 'Your robot …');
+  private readonly newVersion = make('button', { class: 'wanted', hidden: true, title: TEXTS.newVersion, onclick: () => this.desk.takeNewVersion() }, 'New version: reload');
   private readonly editBar = new EditBar();
   private readonly keys = new KeysDialog();
+  private readonly areas = make('div', { class: 'areas' });
+  private readonly sheet = make('button', { class: 'sheet', 'aria-label': 'Areas', 'aria-expanded': 'true', onclick: () => this.foldSheet(!this.isFolded) });
   private startTour: () => void = () => undefined;
   private unwatch: () => void = () => undefined;
 
@@ -60,17 +65,22 @@ export class AppShell extends HTMLElement {
     this.addPanel('lab', lab);
     const tour = Object.assign(this.give(new TourCard()), { editing: this.editing, placeOf: (shape: string) => robot.placeOf(shape) });
     this.startTour = () => tour.start();
+    this.areas.append(this.sheet, this.tabList(), this.give(this.editBar), ...this.panels.values());
+    tour.onArea = () => this.foldSheet(false);
     this.replaceChildren(
       this.head(),
       make('main', {}, make('div', { class: 'stage' }, robot, poses, this.give(new ActionBar()), tour),
-        make('div', { class: 'areas' }, this.tabList(), this.give(this.editBar), ...this.panels.values())),
+        this.areas),
       this.give(new StatusStrip()), compare, this.keys.element,
     );
     this.addEventListener('click', (event) => this.giveKeysBack(event));
     const unlisten = this.keys.listen();
+    const between = (event: KeyboardEvent): void => this.goBetween(event, robot);
+    document.addEventListener('keydown', between);
     const unwatch = this.desk.state.watch((state) => this.render(state));
     this.unwatch = () => {
       unlisten();
+      document.removeEventListener('keydown', between);
       unwatch();
     };
   }
@@ -90,17 +100,27 @@ export class AppShell extends HTMLElement {
 
   private head(): HTMLElement {
     const theme = make('button', { 'aria-label': 'Light or dark', title: 'Light or dark', onclick: () => this.changeTheme() }, '◐');
-    const tour = make('button', { class: 'tour-start', title: 'Two minutes to the first motion', onclick: () => this.startTour() }, 'Tour');
     const keys = make('button', { 'aria-label': 'Keys', title: 'Keys (?)', onclick: () => this.keys.open() }, '?');
+    const sources = make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours);
+    const more = Object.assign(new MoreMenu(), { content: [sources, this.give(new FilesMenu()), make('a', { href: './licences.html' }, 'Licences'), keys, theme] });
+    const tour = make('button', { class: 'tour-start', title: 'Two minutes to the first motion', onclick: () => this.startTour() }, 'Tour');
     const skip = make('button', { class: 'skip', onclick: () => this.tabs.get(this.desk.state.get().tab)?.focus() }, 'To the areas');
-    return make('header', {}, skip, make('h1', {}, 'Motion512'),
-      make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours), this.give(new FilesMenu()), make('a', { href: './licences.html' }, 'Licences'), tour, keys, theme);
+    return make('header', {}, skip, make('h1', {}, 'Motion512'), this.newVersion, tour, more);
   }
 
   /** A button that the mouse has pressed does not keep the keys: beside the remote, the space bar is to stop and not to press it again. */
   private giveKeysBack(event: MouseEvent): void {
     const byMouse = event.detail > 0 && event.target instanceof Element;
     if (byMouse && this.desk.state.get().tab === 'remote') event.target.closest('button')?.blur();
+  }
+
+  /** F6: from the picture to the area, and back. */
+  private goBetween(event: KeyboardEvent, robot: RobotView): void {
+    if (event.key !== 'F6' || event.ctrlKey || event.altKey || document.querySelector('dialog[open]')) return;
+    event.preventDefault();
+    const { tab } = this.desk.state.get();
+    if (robot.contains(document.activeElement)) this.tabs.get(tab)?.focus();
+    else robot.querySelector('canvas')?.focus();
   }
 
   private changeTheme(): void {
@@ -112,12 +132,27 @@ export class AppShell extends HTMLElement {
   private tabList(): HTMLElement {
     const list = make('div', { role: 'tablist', 'aria-label': 'Areas' });
     for (const [name, title] of TABS) {
-      const tab = make('button', { role: 'tab', id: `tab-${name}`, 'aria-controls': `area-${name}`, onclick: () => this.desk.show(name) }, title);
+      const tab = make('button', { role: 'tab', id: `tab-${name}`, 'aria-controls': `area-${name}`, onclick: () => this.choose(name) }, title);
       tab.addEventListener('keydown', (event) => this.moveTab(event, name));
       this.tabs.set(name, tab);
       list.append(tab);
     }
     return list;
+  }
+
+  private choose(name: Tab): void {
+    this.foldSheet(false);
+    this.desk.show(name);
+  }
+
+  private get isFolded(): boolean {
+    return this.areas.classList.contains('folded');
+  }
+
+  /** On end, the areas are a sheet from below: folded, only its tabs are left, and the picture has the room. */
+  private foldSheet(folds: boolean): void {
+    this.areas.classList.toggle('folded', folds);
+    this.sheet.setAttribute('aria-expanded', String(!folds));
   }
 
   private moveTab(event: KeyboardEvent, from: Tab): void {
@@ -141,6 +176,7 @@ export class AppShell extends HTMLElement {
       if (panel) panel.hidden = name !== state.tab;
     }
     if (isLeft) this.tabs.get(state.tab)?.focus({ preventScroll: true });
+    this.newVersion.hidden = !state.hasNewVersion;
     this.simulated.setAttribute('aria-pressed', String(state.source === 'simulated'));
     this.yours.setAttribute('aria-pressed', String(state.source === 'yours'));
     this.yours.textContent = state.source === 'yours' && state.connection !== 'closed' ? state.portName : 'Your robot …';

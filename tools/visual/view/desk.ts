@@ -13,6 +13,7 @@ import type { RobotState } from '../robot/robot-state.ts';
 import type { Documents } from './documents-desk.ts';
 import type { Editor } from './editor-desk.ts';
 import type { Files } from './files-desk.ts';
+import type { Preview } from './preview-desk.ts';
 import type { Store } from './store.ts';
 import type { Transfer } from './transfer-desk.ts';
 import type { Trials } from './trial-desk.ts';
@@ -49,6 +50,13 @@ export interface DeskState {
   readonly said: Notice | null;
   readonly faultNames: readonly string[];
   readonly tab: Tab;
+  /** A newer version of this page waits for takeNewVersion(). */
+  readonly hasNewVersion: boolean;
+  /** A page that the picture shows while no robot plays it; null: none. */
+  readonly shownPage: number | null;
+  readonly isPowered: boolean;
+  /** The robot in the page has not answered for longer than a start takes. */
+  readonly isLate: boolean;
 }
 
 /** A hand at a point of a link (metres, in the link's frame), pulling towards a place in the room. */
@@ -96,6 +104,7 @@ export interface Desk {
   readonly documents: Documents;
   readonly transfer: Transfer;
   readonly trials: Trials;
+  readonly preview: Preview;
   readonly lab: Lab;
   /** Up to 60 times a second. */
   onFrame(listener: (state: RobotState) => void): () => void;
@@ -109,7 +118,7 @@ export interface Desk {
   command(command: Command): Promise<void>;
   /** Without servos: of all. */
   setTorque(on: boolean, servos?: readonly number[]): Promise<void>;
-  /** Plays a page of the document: writes it and what it leads to first, as far as the robot has it otherwise. */
+  /** Plays a page of the document: writes it and what it leads to first, as far as the robot has it otherwise. The picture shows it at once. */
   playEdited(page: number): Promise<void>;
   /** How what plays is shaped, from its next step on. Only Play can. */
   shape(shape: Shape): Promise<void>;
@@ -124,6 +133,8 @@ export interface Desk {
   drive(stick: { readonly x: number; readonly y: number } | null): void;
   type(bytes: Uint8Array): void;
 
+  /** Reloads the page as its newest version. */
+  takeNewVersion(): void;
   useSimulated(): void;
   /** Opens the browser's chooser; call it in a click. */
   connectYours(): Promise<void>;

@@ -44,6 +44,8 @@ export interface Editor {
 
   /** A page of the document as it is now, read once for each of its versions. */
   page(page: number): PageView;
+  /** The page is as the robot came with it. */
+  isOfLibrary(page: number): boolean;
   /** Does an edit that was made against `state.get().document`. false: refused; the strip says why, and nothing has changed. */
   dispatch(edit: Result<Transaction>): boolean;
   gesture(label: EditName): Gesture;

@@ -41,6 +41,25 @@ export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/** A menu that Escape and a press beside it close. The returned function ends that. */
+export function closesByItself(menu: HTMLElement & { open: boolean }): () => void {
+  const press = (event: Event): void => {
+    if (menu.open && event.target instanceof Node && !menu.contains(event.target)) menu.open = false;
+  };
+  const escape = (event: KeyboardEvent): void => {
+    if (event.key !== 'Escape' || !menu.open) return;
+    event.preventDefault();
+    menu.open = false;
+    menu.querySelector<HTMLElement>('summary, [aria-expanded]')?.focus();
+  };
+  document.addEventListener('pointerdown', press, { capture: true });
+  document.addEventListener('keydown', escape);
+  return () => {
+    document.removeEventListener('pointerdown', press, { capture: true });
+    document.removeEventListener('keydown', escape);
+  };
+}
+
 /** A custom element of ours, made with what it works on. */
 export function define(name: string, element: CustomElementConstructor): void {
   if (!customElements.get(name)) customElements.define(name, element);

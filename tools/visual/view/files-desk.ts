@@ -23,6 +23,13 @@ export interface SentMotion {
   readonly pages: ReadonlyMap<number, Uint8Array>;
 }
 
+/** A file that a person has chosen or dropped; nothing of it was read yet. */
+export interface ChosenFile {
+  readonly name: string;
+  readonly size: number;
+  arrayBuffer(): Promise<ArrayBuffer>;
+}
+
 export interface FilesState {
   /** What is being done, in words; null: nothing. */
   readonly busy: string | null;
@@ -44,11 +51,19 @@ export interface Files {
   /** m512 itself, for those who only want to know: what a file holds, how two images differ, what is wrong with one. */
   readonly formats: FileFormats;
   readonly state: Store<FilesState>;
+  /** Opens it, unless it is too large for any motion file. */
+  choose(file: ChosenFile): Promise<void>;
   open(name: string, bytes: Uint8Array): Promise<void>;
+  /** Ends what is being read or written; nothing was changed. */
+  cancel(): void;
   /** The same file, without the pages that have no room. */
   openWithoutRest(): Promise<void>;
+  /** Its whole motions go into free pages, links and all; what is there already stays. One undo step. */
+  addOpened(): void;
+  /** It becomes a document of its own, trim and all. */
+  createFromOpened(): Promise<void>;
   /** All its pages take the places of the document's: one undo step. */
-  takeOver(withTrim: boolean): void;
+  replaceAll(withTrim: boolean): void;
   /** Puts what was opened or sent away; nothing of it was taken. */
   dismiss(): void;
   /** Null: refused, `trouble` says why. */

@@ -3,6 +3,7 @@
 
 import { NOMINAL_VOLTS, TICKS_PER_SECOND } from '../model/motion.ts';
 import type { Desk, DeskState, ImageName, PanelButton } from './desk.ts';
+import { ask } from './editor/ask-dialog.ts';
 import { define, make, setText } from './element.ts';
 import { pushRobot } from './push.ts';
 import { ServoTable } from './servo-table.ts';
@@ -97,8 +98,7 @@ export class LabPane extends HTMLElement {
       this.onTilt(this.floor.tiltFront, this.floor.tiltLeft);
     };
     return this.section('Hand and floor',
-      make('div', { class: 'row' }, make('button', { onclick: () => this.desk.lab.hold(true) }, 'Put on its feet'), make('button', { onclick: () => this.desk.lab.hold(false) }, 'Let go'),
-        make('button', { onclick: () => pushRobot(this.desk, 1) }, 'Push ahead'), make('button', { onclick: () => pushRobot(this.desk, -1) }, 'Push back')),
+      make('div', { class: 'row' }, make('button', { onclick: () => this.desk.lab.hold(true) }, 'Put on its feet'), make('button', { onclick: () => pushRobot(this.desk, 1) }, 'Push ahead'), make('button', { onclick: () => pushRobot(this.desk, -1) }, 'Push back')),
       this.slider('Slope to the front', -15, 15, 1, 0, '°', (angle) => set({ tiltFront: angle * RADIANS })),
       this.slider('Slope to the left', -15, 15, 1, 0, '°', (angle) => set({ tiltLeft: angle * RADIANS })),
       this.slider('Grip of the floor', 0, 1.5, 0.05, 0.8, '', (friction) => set({ friction })));
@@ -107,7 +107,11 @@ export class LabPane extends HTMLElement {
   private imageSection(): HTMLElement {
     const image = (name: ImageName, title: string): HTMLButtonElement => make('button', { onclick: () => this.desk.runImage(name) }, title);
     return this.section('Firmware', make('div', { class: 'row' }, image('play', 'Run Play'), image('edit', 'Run Edit'),
-      make('button', { onclick: () => void this.desk.forget() }, 'Factory fresh')));
+      make('button', { onclick: () => void this.askForget() }, 'Factory fresh')));
+  }
+
+  private async askForget(): Promise<void> {
+    if ((await ask('Factory fresh?', TEXTS.factoryFresh, [['Forget everything', 'forget']])) !== null) await this.desk.forget();
   }
 
   private slider(title: string, min: number, max: number, step: number, value: number, unit: string, set: (value: number) => void): HTMLElement {

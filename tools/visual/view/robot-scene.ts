@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The room: camera, light, floor and the figure in it. Draws when it is told to; holds no state of the robot.
+// Camera and figure in the room. Draws when it is told to; holds no state of the robot.
 
 import {
-  AmbientLight, BufferGeometry, CanvasTexture, CircleGeometry, Color, DirectionalLight, Fog, Group, HemisphereLight, Line, LineBasicMaterial, Mesh,
-  MeshStandardMaterial, Object3D, PCFShadowMap, PerspectiveCamera, Quaternion, Raycaster, RepeatWrapping, SRGBColorSpace, Scene, Spherical, Vector2, Vector3, WebGLRenderer, Plane,
+  BufferGeometry, Line, LineBasicMaterial, Object3D, PCFShadowMap, PerspectiveCamera, Quaternion, Raycaster, Scene, Spherical, Vector2, Vector3, WebGLRenderer, Plane,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Body } from '../model/body.ts';
 import type { Place, Vector } from '../model/space.ts';
+import { chaseTurn, headingOf } from './chase.ts';
 import { glide } from './glide.ts';
 import { PictureChange } from './picture-change.ts';
 import type { Quality } from './picture-quality.ts';
 import { RobotFigure } from './robot-figure.ts';
+import { Room } from './room.ts';
+import type { RoomColours } from './room.ts';
 
-const ROOM_RADIUS = 12;
-const TILE_M = 0.1;
 /** Of the way, in a 60th of a second (glide.ts). */
 const FOLLOW = 0.08;
 const DAMPING = 0.12;
@@ -41,9 +41,8 @@ export class RobotScene {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(32, 1, 0.02, 60);
-  private readonly room = new Group();
-  private readonly light = new DirectionalLight(0xffffff, 2.4);
-  private readonly floor = new MeshStandardMaterial({ roughness: 1 });
+  private readonly place = new Room(this.scene);
+  private readonly room = this.place.leaning;
   private readonly string: Line;
   private readonly followed = new Vector3(0, 0, 0.14);
   private readonly raycaster = new Raycaster();
@@ -64,22 +63,18 @@ export class RobotScene {
     this.string = new Line(new BufferGeometry().setFromPoints([new Vector3(), new Vector3()]), new LineBasicMaterial({ color: 0x2f9bff }));
     this.string.visible = false;
     this.string.frustumCulled = false;
-    this.furnish();
+    this.room.add(this.figure.root, this.string);
   }
 
   /** Colours of the room, from the page's theme. */
-  paint(background: string, floor: string, lines: string): void {
-    this.scene.background = new Color(background);
-    this.scene.fog = new Fog(background, 2.5, 8);
-    this.floor.map?.dispose();
-    this.floor.map = tiles(floor, lines);
-    this.floor.needsUpdate = true;
+  paint(colours: RoomColours): void {
+    this.place.paint(colours);
     this.change.touch();
   }
 
   resize(width: number, height: number, quality: Quality): void {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXELS) * quality.pixels);
-    this.light.castShadow = quality.shadows;
+    this.place.light.castShadow = quality.shadows;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / Math.max(height, 1);
     this.camera.updateProjectionMatrix();
@@ -103,11 +98,10 @@ export class RobotScene {
     object.position.setFromSpherical(from).applyQuaternion(TO_Y_UP.clone().invert()).add(target);
   }
 
-  /** The camera goes with the trunk; elapsedMs: since the last look. null: it stays. */
-  look(trunk: Place, elapsedMs: number | null): void {
-    if (elapsedMs !== null) this.follow(trunk, glide(FOLLOW, elapsedMs));
-    this.light.position.set(this.followed.x + 0.5, this.followed.y - 0.7, 1.9);
-    this.light.target.position.copy(this.followed);
+  /** The camera goes with the trunk, and behind it if it chases; elapsedMs: since the last look. null: it stays. */
+  look(trunk: Place, elapsedMs: number | null, chases: boolean): void {
+    if (elapsedMs !== null) this.follow(trunk, glide(FOLLOW, elapsedMs), chases);
+    this.place.goWith(this.followed);
   }
 
   /** Draws the next time in any case. */
@@ -178,54 +172,25 @@ export class RobotScene {
   dispose(): void {
     this.controls.dispose();
     this.figure.dispose();
-    this.floor.map?.dispose();
+    this.place.dispose();
     this.renderer.dispose();
   }
 
-  private furnish(): void {
-    const floor = new Mesh(new CircleGeometry(ROOM_RADIUS, 64), this.floor);
-    floor.receiveShadow = true;
-    this.light.castShadow = true;
-    this.light.shadow.mapSize.set(1024, 1024);
-    this.light.shadow.radius = 4;
-    this.light.shadow.bias = -0.0004;
-    Object.assign(this.light.shadow.camera, { left: -0.6, right: 0.6, top: 0.6, bottom: -0.6, near: 0.5, far: 4 });
-    this.room.add(floor, this.figure.root, this.string, this.light, this.light.target);
-    this.scene.add(this.room, new HemisphereLight(0xffffff, 0x8a8f98, 1.25), new AmbientLight(0xffffff, 0.35));
-  }
-
-  private follow(trunk: Place, share: number): void {
+  private follow(trunk: Place, share: number, chases: boolean): void {
     const wanted = new Vector3(trunk.pos[0], trunk.pos[1], Math.max(0.07, trunk.pos[2] * 0.47));
     const step = wanted.sub(this.followed).multiplyScalar(share);
     this.followed.add(step);
     this.controls.target.add(step);
     this.camera.position.add(step);
+    const heading = chases ? headingOf(trunk) : null;
+    if (heading === null) return;
+    const from = this.camera.position.clone().sub(this.controls.target);
+    this.turn(chaseTurn(Math.atan2(from.y, from.x), heading, Math.hypot(step.x, step.y)), 0, 1);
   }
 }
 
 function clamp(value: number, least: number, most: number): number {
   return Math.min(Math.max(value, least), most);
-}
-
-/** Tiles of 10 cm, so that one sees how far it walks. */
-function tiles(floor: string, dark: string): CanvasTexture {
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = 64;
-  const context = canvas.getContext('2d');
-  if (context) {
-    context.fillStyle = floor;
-    context.fillRect(0, 0, 64, 64);
-    context.globalAlpha = 0.22;
-    context.fillStyle = dark;
-    context.fillRect(0, 0, 32, 32);
-    context.fillRect(32, 32, 32, 32);
-  }
-  const texture = new CanvasTexture(canvas);
-  texture.wrapS = texture.wrapT = RepeatWrapping;
-  texture.repeat.set(ROOM_RADIUS / TILE_M, ROOM_RADIUS / TILE_M);
-  texture.colorSpace = SRGBColorSpace;
-  texture.anisotropy = 8;
-  return texture;
 }
 
 function drawsBySoftware(): boolean {

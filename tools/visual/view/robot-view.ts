@@ -12,7 +12,7 @@ import type { Desk } from './desk.ts';
 import { EDITING_START } from './editor/editing.ts';
 import type { Editing } from './editor/editing.ts';
 import { PoseTool } from './editor/pose-tool.ts';
-import { define, make } from './element.ts';
+import { define, make, setText } from './element.ts';
 import { Fingers } from './fingers.ts';
 import { PictureQuality } from './picture-quality.ts';
 import { RobotScene } from './robot-scene.ts';
@@ -43,13 +43,16 @@ export class RobotView extends HTMLElement {
   private taught: readonly number[] = [];
   /** Pointer that has hold of the robot. */
   private holder: number | null = null;
+  /** A hand has turned the camera while the robot was driven. */
+  private isLookedRound = false;
   private readonly label = make('div', { class: 'joint-label', 'aria-hidden': 'true' });
+  private readonly spoken = make('p', { class: 'visually-hidden', role: 'status', 'aria-label': 'Chosen joint' });
   private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'The robot' });
   private readonly fingers = new Fingers(this.canvas, () => this.endDrag());
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
-    this.append(this.canvas, this.label);
+    this.append(this.canvas, this.label, this.spoken);
     try {
       this.scene = new RobotScene(this.canvas, this.desk.body);
     } catch {
@@ -75,6 +78,11 @@ export class RobotView extends HTMLElement {
   /** How far the centre of mass of the edited step is inside the ground of its soles (metres); null: not looked at. */
   get margin(): number | null {
     return this.pose?.margin ?? null;
+  }
+
+  /** Beside the figure there is a ghost of the robot or of the edited step. */
+  get hasGhost(): boolean {
+    return this.pose?.layer.hasGhost === true;
   }
 
   /** Limbs of the shown figure that are in each other; looked at while a step is edited. */
@@ -120,8 +128,16 @@ export class RobotView extends HTMLElement {
 
   private place(scene: RobotScene, elapsedMs: number): void {
     if (!this.state) return;
-    this.pose?.show(this.state);
-    scene.look(this.state.trunk, this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null);
+    this.pose?.show(this.state, this.holder !== null);
+    scene.look(this.pose?.figureTrunk ?? this.state.trunk, this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null, this.chases());
+  }
+
+  /** Behind a robot that is driven, until a hand turns the camera: then as that hand has left it. */
+  private chases(): boolean {
+    const { tab, where } = this.desk.state.get();
+    const isDriven = tab === 'remote' && where?.state === 'playing';
+    if (!isDriven) this.isLookedRound = false;
+    return isDriven && !this.isLookedRound && !matchMedia('(prefers-reduced-motion: reduce)').matches;
   }
 
   private watchSize(scene: RobotScene): void {
@@ -138,7 +154,7 @@ export class RobotView extends HTMLElement {
     const paint = (): void => {
       const style = getComputedStyle(this);
       const colour = (name: string): string => style.getPropertyValue(name).trim();
-      scene.paint(colour('--room'), colour('--room-floor'), colour('--room-lines'));
+      scene.paint({ horizon: colour('--room'), sky: colour('--room-sky'), floor: colour('--room-floor'), lines: colour('--room-lines') });
     };
     const dark = matchMedia('(prefers-color-scheme: dark)');
     const observer = new MutationObserver(paint);
@@ -151,12 +167,17 @@ export class RobotView extends HTMLElement {
   private listen(): void {
     const canvas = this.canvas;
     for (const touch of ['pointerdown', 'pointermove', 'pointerup', 'wheel', 'keydown']) canvas.addEventListener(touch, () => (this.isStill = false), { capture: true });
+    this.scene?.controls.addEventListener('start', () => (this.isLookedRound = true));
     canvas.addEventListener('pointerdown', (event) => this.grab(event), { capture: true });
     canvas.addEventListener('pointermove', (event) => this.move(event));
     canvas.addEventListener('pointerup', (event) => this.lift(event, true));
     canvas.addEventListener('pointercancel', (event) => this.lift(event, false));
+    canvas.addEventListener('pointerleave', () => this.leave());
     canvas.addEventListener('keydown', (event) => this.key(event));
-    canvas.addEventListener('keyup', () => this.pose?.keyUp());
+    canvas.addEventListener('keyup', () => {
+      this.pose?.keyUp();
+      this.speak();
+    });
     canvas.addEventListener('blur', () => this.pose?.keyUp());
     canvas.addEventListener('webglcontextrestored', () => this.scene?.redraw());
   }
@@ -192,6 +213,7 @@ export class RobotView extends HTMLElement {
 
   private grab(event: PointerEvent): void {
     if (this.fingers.isHandingOver || !this.fingers.add(event)) return;
+    if (event.button === 0 && this.pick(event) && this.state) this.pose?.showStep(this.state);
     const picked = event.button === 0 ? this.pick(event) : null;
     const isPosing = this.pose?.isPosing === true;
     if (!picked || !this.scene || (!isPosing && this.desk.state.get().source !== 'simulated')) return;
@@ -201,9 +223,15 @@ export class RobotView extends HTMLElement {
     this.scene.controls.enabled = false;
     this.canvas.setPointerCapture(event.pointerId);
     this.holder = event.pointerId;
+    this.makeRoom(event);
     if (event.pointerType === 'touch') this.showJoint(picked.link);
     if (isPosing) this.pose?.down(picked, event.shiftKey || event.ctrlKey);
     else this.take(picked);
+  }
+
+  /** Nothing over the picture covers the hand that drags: what is told of the drag goes to the other half (robot-view.css). */
+  private makeRoom(event: PointerEvent): void {
+    this.dataset['hand'] = this.at(event)[1] > 0 ? 'high' : 'low';
   }
 
   /** Your hand. A limb that is being taught becomes limp under it. */
@@ -218,6 +246,7 @@ export class RobotView extends HTMLElement {
     if (!this.scene) return;
     this.fingers.move(event);
     if (this.holder !== null && event.pointerId !== this.holder) return;
+    if (this.holder !== null) this.makeRoom(event);
     if (this.pose?.isDragging) return this.pose.move(...this.at(event));
     if (!this.grabbed) return event.pointerType === 'touch' ? undefined : this.hover(event);
     const target = this.scene.drag(...this.at(event), this.grabbed.world);
@@ -230,6 +259,7 @@ export class RobotView extends HTMLElement {
     if (!this.scene) return;
     this.scene.controls.enabled = true;
     this.holder = null;
+    delete this.dataset['hand'];
     this.pose?.up(keep);
     if (!this.grabbed) return;
     this.grabbed = null;
@@ -249,6 +279,21 @@ export class RobotView extends HTMLElement {
     this.scene?.figure.mark(link);
     this.canvas.classList.toggle('over-robot', link !== null);
     this.showJoint(link);
+  }
+
+  /** Nothing is under the mouse any more. */
+  private leave(): void {
+    this.scene?.figure.mark(null);
+    this.canvas.classList.remove('over-robot');
+    this.label.hidden = true;
+  }
+
+  /** The chosen joints, as the keys have turned them. */
+  private speak(): void {
+    const { joints } = this.desk.editor.state.get();
+    if (!this.pose?.isPosing || joints.size === 0) return;
+    const said = this.desk.body.joints.filter(({ servo }) => joints.has(servo)).map((joint) => `${jointTitle(joint)}: ${this.standOf(joint)}`);
+    setText(this.spoken, said.join(', '));
   }
 
   private showJoint(link: string | null): void {

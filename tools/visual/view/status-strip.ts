@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The strip at the bottom: what the robot does, and what was said last, in the words that the board used.
 
+import { Announcer } from './announcer.ts';
 import type { Desk, DeskState, Notice } from './desk.ts';
 import { define, make, setText } from './element.ts';
 import { TEXTS } from './texts.ts';
@@ -8,14 +9,17 @@ import './status-strip.css';
 
 export class StatusStrip extends HTMLElement {
   desk!: Desk; // set before it is connected
-  private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'polite', 'aria-label': 'What the robot does' });
-  private readonly said = make('p', { class: 'said', role: 'log', 'aria-live': 'polite', 'aria-label': 'Last message' });
+  private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'off', 'aria-label': 'What the robot does' });
+  private readonly said = make('p', { class: 'said', role: 'log', 'aria-live': 'off', 'aria-label': 'Last message' });
+  /** The only part that is read aloud. */
+  private readonly spoken = make('p', { class: 'visually-hidden', 'aria-live': 'polite', 'aria-label': 'Announcements' });
+  private readonly announcer = new Announcer({ say: (text) => setText(this.spoken, text), after: (delayMs, call) => void setTimeout(call, delayMs) });
   private readonly facts = make('p', { class: 'facts' });
   private readonly disposals: (() => void)[] = [];
   private fallen = '';
 
   connectedCallback(): void {
-    this.replaceChildren(this.doing, this.said, this.facts);
+    this.replaceChildren(this.doing, this.said, this.facts, this.spoken);
     this.disposals.push(this.desk.state.watch((state) => this.render(state)), this.desk.onFrame((state) => {
       const fallen = state.hasFallen ? TEXTS.fallen : state.isHeld ? TEXTS.held : '';
       if (fallen === this.fallen) return;
@@ -31,6 +35,7 @@ export class StatusStrip extends HTMLElement {
   private render(state: DeskState): void {
     const liesIdle = this.fallen === TEXTS.fallen && (state.doing.text === TEXTS.waits || state.doing.text === TEXTS.editRuns);
     this.write(this.doing, { ...state.doing, text: liesIdle ? TEXTS.getUp : [state.doing.text, this.fallen].filter(Boolean).join(' ') });
+    this.announcer.look(state, this.fallen);
     this.write(this.said, state.said);
     const where = state.where;
     const version = state.version;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The terminal on the robot's serial line: Edit's full screen at 80x35, Play's shell, the boot loader's prompt. Its letters
-// are as large as the pane lets 80 columns be.
+// are as large as the pane lets 80 columns be, but never too small to be read: then it scrolls, and there is the full screen.
 
 import { Terminal } from '@xterm/xterm';
 import '@xterm/xterm/css/xterm.css';
@@ -13,17 +13,21 @@ const ROWS_MOST = 35;
 const ROWS_LEAST = 24;
 /** Width and height of a letter for a font size of 1. */
 const LETTER = { width: 0.602, height: 1.17 };
-const FONT = { least: 7, most: 16 };
+const FONT = { least: 12, most: 16 };
+/** Between the button and the screen. */
+const BELOW_PX = 8;
 const LINES_KEPT = 2000;
 
 export class TerminalPane extends HTMLElement {
   desk!: Desk; // set before it is connected
   private terminal: Terminal | null = null;
+  private readonly full = make('button', { class: 'full-screen', 'aria-pressed': 'false', onclick: () => void this.fillScreen() }, 'Full screen');
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
     const screen = make('div', { class: 'screen' });
-    this.replaceChildren(screen);
+    this.replaceChildren(this.full, screen);
+    this.addEventListener('fullscreenchange', () => this.full.setAttribute('aria-pressed', String(document.fullscreenElement === this)));
     const terminal = new Terminal({
       cols: COLUMNS, rows: ROWS_MOST, scrollback: LINES_KEPT, fontFamily: '"DejaVu Sans Mono", ui-monospace, monospace', cursorBlink: false,
       screenReaderMode: false, theme: { background: '#10151a', foreground: '#d8e0e6', cursor: '#6db3f8' },
@@ -56,9 +60,16 @@ export class TerminalPane extends HTMLElement {
     return Array.from({ length: this.terminal?.rows ?? 0 }, (_, row) => buffer.getLine(buffer.baseY + row)?.translateToString(true) ?? '').join('\n');
   }
 
+  /** A browser that gives no element the screen (iPhone) gives it the whole page. */
+  private async fillScreen(): Promise<void> {
+    if (document.fullscreenElement === this) return document.exitFullscreen();
+    if (document.fullscreenEnabled) return this.requestFullscreen();
+    this.full.setAttribute('aria-pressed', String(this.classList.toggle('full')));
+  }
+
   private fit(terminal: Terminal): void {
     const width = this.clientWidth - 24;
-    const height = this.clientHeight - 24;
+    const height = this.clientHeight - 24 - this.full.offsetHeight - BELOW_PX;
     if (width <= 0 || height <= 0) return;
     const byWidth = width / (COLUMNS * LETTER.width);
     const byHeight = height / (ROWS_MOST * LETTER.height);

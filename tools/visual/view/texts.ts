@@ -12,8 +12,9 @@ const ERRORS: Record<RobotErrorCode, string> = {
   'not-connected': 'No robot is connected. Choose one at the top.',
   'port-lost': 'The cable was pulled. Plug it in again; the page reconnects by itself.',
   'port-busy': 'The port cannot be opened. Close the other program that uses it, then try again.',
-  'no-serial': 'This browser cannot reach a serial port. Use Chrome or Edge on a computer or Android; the robot in the page works here.',
+  'no-serial': 'This browser cannot reach a serial port. It needs Web Serial, which Chromium has. The robot in the page works here, too.',
   foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
+  'other-board': 'Motion512 runs on CM-2, CM-2+ and CM-5 only, and this board is another one. Nothing is sent there; choose another port. Its boot loader calls it',
   'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
   'edit-waits': 'Not done: Edit waits for you in the terminal. Finish there, or press Stop; then try again.',
   'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
@@ -23,6 +24,10 @@ const ERRORS: Record<RobotErrorCode, string> = {
   'page-not-saved': 'The robot took this page but does not have it now. Its flash may be worn out; your page is safe here. Try again: page',
   'no-backup': 'The robot\'s pages could not be kept in this browser (private window, or the disk is full), so nothing was written. Make room, then try again.',
   'needs-edit': 'The robot runs Play, and only Edit saves pages. Flash it with: m512 flash edit-cm5.hex, then try again. Motions stay.',
+  'transfer-busy': 'Not done: pages of the robot are still being read or written. Try again when that has ended.',
+  'pages-differ': 'Not played: your robot has another version of this motion. Write it first with "To the robot …", then play it.',
+  'damaged-here': 'Not played: this page is damaged in the document, and is not written. Take it from a backup or from the robot, or clear it: page',
+  'layer-differs': 'Not done: the robot has another version of this motion. Play it by itself, which writes it (your robot: write it with "To the robot …"); then lay it over.',
 };
 
 /** One sentence for an error; the board's own words are quoted behind it. */
@@ -38,6 +43,7 @@ const CONNECTIONS: Record<ConnectionState, string> = {
   ready: 'Connected.',
   silent: 'The port is open, but no Motion512 answers. Switch the robot on; if its screen shows a "-", type GO in the terminal.',
   foreign: 'This robot runs another firmware. Flash ours with: m512 flash edit-cm5.hex. The terminal works meanwhile.',
+  'other-board': 'This is no board for Motion512, says its boot loader. Nothing is sent there; the terminal works.',
   waiting: 'The cable is out. Plug it in again; the page reconnects by itself.',
 };
 
@@ -53,8 +59,14 @@ function pageTitle(state: DeskState, page: number): string {
 /** What the robot does, in one sentence. */
 export function doingText(state: DeskState, where: Where | null): string {
   if (state.stopped !== null) return state.stopped;
+  const shown = state.shownPage === null ? '' : TEXTS.shownOnly(pageTitle(state, state.shownPage));
+  return [shown, robotText(state, where)].filter(Boolean).join(' ');
+}
+
+function robotText(state: DeskState, where: Where | null): string {
+  if (state.source === 'simulated' && !state.isPowered) return TEXTS.isOff;
   if (state.isInDialog) return TEXTS.editWaits;
-  if (state.connection !== 'ready') return CONNECTIONS[state.connection];
+  if (state.connection !== 'ready') return state.source === 'simulated' && !state.isLate ? TEXTS.starts : CONNECTIONS[state.connection];
   const isEdit = state.version?.image === 'edit';
   if (!where) return isEdit ? TEXTS.editRuns : 'Ready.';
   switch (where.state) {
@@ -66,15 +78,26 @@ export function doingText(state: DeskState, where: Where | null): string {
   }
 }
 
+/** That the robot begins to move, or has ended: without its steps. */
+export function startText(state: DeskState): string {
+  const { where } = state;
+  if (where === null || where.state === 'idle' || where.state === 'ready') return robotText(state, where);
+  return where.state === 'paused' ? `Paused in ${pageTitle(state, where.page)}.` : `Plays ${pageTitle(state, where.page)}.`;
+}
+
 /** A thing that the chip would not forgive. */
 export function violationText(kind: string, text: string): string {
   return `The firmware did what no chip allows (${kind}): ${text}. Start the robot anew in the Lab.`;
 }
 
 export const TEXTS = {
-  noWebGl: 'This browser draws no 3D picture (WebGL is off). Everything else works.',
+  noWebGl: 'This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot, switch WebGL on in the settings, then reload.',
+  noWebAssembly: 'This browser runs no WebAssembly, of which the robot is made. Switch it on in the settings, or open this page in another browser.',
   noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
   waits: 'The robot stands and waits.',
+  starts: 'The robot is starting …',
+  isOff: 'The robot is switched off. Switch it on in the Lab.',
+  shownOnly: (title: string): string => `In the picture only: ${title}.`,
   /** It waits as well; this is what one has to know of it. */
   editRuns: 'Edit runs: its screen is in the terminal.',
   /** A question, a list or a play: the page cannot tell which. */
@@ -88,13 +111,15 @@ export const TEXTS = {
   notKept: 'This browser does not keep the robot\'s memory (private window, or the disk is full). What you save is gone with the page.',
   robotKept: 'All pages of your robot are read, and kept in this browser as a backup.',
   workNotKept: 'This browser could not keep your work (private window, or the disk is full). Save it as a file before you close the page.',
+  newVersion: 'A new version of this page is there. What you have made is kept.',
+  factoryFresh: 'The robot in the page forgets its motions and settings, as if it were new. Your documents here stay.',
   labForYours: 'The Lab belongs to the simulated robot. Choose it at the top.',
 } as const;
 
 export const FAULT_TITLES: Readonly<Record<string, string>> = {
   silent: 'does not answer', dead: 'unplugged', duplicate: 'its ID twice', checksum: 'wrong checksums', noise: 'noise before answers',
   late: 'answers late', short: 'answers cut off', 'two-talkers': 'answers for others', overload: 'overloaded', overheating: 'too hot',
-  'low-voltage': 'low voltage', 'angle-limit': 'angle limit', blocked: 'blocked',
+  'low-voltage': 'low voltage', 'angle-limit': 'angle limit', mishears: 'mishears', blocked: 'blocked',
 };
 
 /** The remote's list of keys. */

@@ -2,6 +2,7 @@
 // Pages between the document and a robot, as the views see it. app/transfer.ts is behind it.
 
 import type { PageAccount } from '../robot/page-write.ts';
+import type { RobotError } from '../robot/robot-error.ts';
 import type { Store } from './store.ts';
 
 export interface TransferState {
@@ -15,14 +16,17 @@ export interface TransferState {
   readonly trouble: string | null;
 }
 
+/** How a transfer ended. `trouble` of the state says the error in words, unless it is transfer-busy: then the one under way goes on. */
+export type TransferEnd = { readonly isDone: true } | { readonly isDone: false; readonly error: RobotError };
+
 export interface Transfer {
   readonly state: Store<TransferState>;
-  /** Reads what the robot has; what is known of it needs no time. false: `trouble` says why not. */
-  read(): Promise<boolean>;
-  /** Writes these pages of the document, after a backup of the robot. false: stopped, `trouble` says why. */
-  write(pages: readonly number[]): Promise<boolean>;
+  /** Reads what the robot has; what is known of it needs no time. */
+  read(): Promise<TransferEnd>;
+  /** Writes these pages of the document, after a backup of the robot. */
+  write(pages: readonly number[]): Promise<TransferEnd>;
   /** Goes on with what was stopped. */
-  tryAgain(): Promise<boolean>;
+  tryAgain(): Promise<TransferEnd>;
   /** Stops between two pages. */
   cancel(): void;
 }

@@ -36,7 +36,7 @@ class Seam(ctypes.Structure):
     _fields_ = [("mj_step", P), ("model", P), ("data", P), ("joints", ctypes.POINTER(SeamJoint)), ("count", I32)]
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def _mj_step():
     """Address of mj_step in the library that the Python package loaded."""
     folder = pathlib.Path(mujoco.__file__).parent

@@ -32,7 +32,7 @@ _FUNCTIONS = {
 }
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def library():
     """The library, declared. Built by: cmake --build build/host --target m512quick."""
     path = pathlib.Path(os.environ.get("M512_BUILD", TOP / "build")) / "host" / "tools" / "sim" / "libm512quick.so"

@@ -111,7 +111,7 @@ def try_motion(image, page, seconds, robot="humanoid", variation=NOMINAL, law="e
 
 def watch(player, physics, seconds, keys=(), falls=True):
     """The Outcome of a play that has just begun. player: run(ticks) lets time pass and says whether it still plays, keys(code)
-    holds keys of the remote, loads() tells what servos bore (quick.Quick, onboard.OnBoard)."""
+    holds keys of the remote, loads() tells what servos bore (quick.Quick, tests/campaigns/onboard.py)."""
     keys = list(keys)
     outcome, zero_s = Outcome(), physics.time_s
     frame = physics.x_mm, physics.y_mm, math.radians(physics.heading)

@@ -12,6 +12,8 @@ EXIT_BOARD = 8         # the board answered with an error
 EXIT_MISSING = 9       # an optional library or the simulator is not installed
 EXIT_CANCELLED = 130   # Ctrl-C, as shells have it
 
+WORDS_MOST = 300       # characters of a sentence that quotes what somebody wrote
+
 
 class M512Error(Exception):
     """Base of all errors that are the user's business rather than ours."""
@@ -29,6 +31,14 @@ class TextError(FileError):
     def __init__(self, message: str, where: str = "", line: int = 0):
         super().__init__(f"{where}:{line}: {message}" if line else message)
         self.line = line
+
+
+class WordError(ValueError):
+    """A word does not say what its place needs; the message is for the user. Who knows the place makes an M512Error of it."""
+
+    def __init__(self, message: str):
+        part = WORDS_MOST // 2
+        super().__init__(message if len(message) <= WORDS_MOST else f"{message[:part]} ... {message[-part:]}")
 
 
 class RefusedError(M512Error):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Callable, Iterator
+from typing import Callable
 
 import click
 
@@ -33,14 +34,8 @@ def say(text: str) -> None:
 def phase(title: str) -> Iterator[Progress]:
     """`with phase("Writing") as progress: ... progress(done, total)`. A bar on a terminal, else a line every 10 s."""
     if sys.stderr.isatty():
-        from rich.console import Console
-        from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
-        from rich.progress import Progress as Bars
-
-        with Bars(TextColumn("{task.description:12}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"),
-                  TimeRemainingColumn(), console=Console(stderr=True)) as bars:
-            task = bars.add_task(title, total=None)
-            yield lambda done, total: bars.update(task, completed=done, total=total)
+        with click.progressbar(length=1000, label=f"{title:12}", file=sys.stderr) as bar:
+            yield lambda done, total: bar.update(1000 * done // max(total, 1) - bar.pos)
         return
     last = [time.monotonic()]
 

@@ -37,6 +37,10 @@ class Violation(Exception):
         super().__init__(f"{kind} at cycle {cycle}, pc 0x{pc:05X} in {function}: {text}")
         self.kind, self.cycle, self.pc, self.function, self.text = kind, cycle, pc, function, text
 
+    def __reduce__(self):
+        """A campaign's worker sends it to the process that asked; an exception alone would be made again from its message."""
+        return type(self), (self.kind, self.cycle, self.pc, self.function, self.text)
+
 
 class PowerCut(Exception):
     """The power cut that was armed has struck; power_on() starts the board again."""

@@ -16,9 +16,9 @@ def main():
         path = [str(library.ROBOT / "lib")] + [old for old in [environment.get("LD_LIBRARY_PATH")] if old]
         environment["LD_LIBRARY_PATH"] = os.pathsep.join(path)
         environment.setdefault("M512_PYTHON", sys.executable)
-        scripts = library.ROBOT / "tools" / "sim" / "cm5sim"
-        environment.setdefault("M512_PLOT_SCRIPT", str(scripts / "plot_trace.py"))
-        environment.setdefault("M512_BODY_SCRIPT", str(scripts / "with_body.py"))
+        scripts = library.ROBOT / "tools"
+        environment.setdefault("M512_PLOT_SCRIPT", str(scripts / "sim" / "cm5sim" / "plot_trace.py"))
+        environment.setdefault("M512_BODY_SCRIPT", str(scripts / "body" / "src" / "with_body.py"))   # as setup.py puts it
     os.execve(program, ["cm5sim", *sys.argv[1:]], environment)
 
 

@@ -91,13 +91,13 @@ _FUNCTIONS = {
 }
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def load():
     """The library, declared. Built by: cmake --build build/host --target cm5sim_shared."""
     path = build_folder() / "host" / "tools" / "sim" / "libcm5sim.so"
     if not path.exists():
         raise FileNotFoundError(f"{path} is missing: build target cm5sim_shared of the host preset first")
-    for needed in sorted((ROBOT / "lib").glob("*.so*")):
+    for needed in sorted(path for path in (ROBOT / "lib").glob("*.so*") if path.suffix != ".copyright"):
         ctypes.CDLL(str(needed), mode=ctypes.RTLD_GLOBAL)
     lib = ctypes.CDLL(str(path))
     for name, (result, *arguments) in _FUNCTIONS.items():

@@ -15,7 +15,7 @@ import ctypes
 TABLE_BYTES = 50
 ALWAYS = 0xFFFFFFFF
 FAULTS = ("silent", "dead", "duplicate", "checksum", "noise", "late", "short", "two-talkers", "overload",
-          "overheating", "low-voltage", "angle-limit", "blocked")
+          "overheating", "low-voltage", "angle-limit", "mishears", "blocked")
 ERROR_NAMES = {1: "voltage", 2: "angle-limit", 4: "overheating", 8: "range", 16: "checksum", 32: "overload",
                64: "instruction"}
 COUNTERS = ("packets", "answers", "checksum_errors", "framing_errors", "gaps", "oversize", "deaf")

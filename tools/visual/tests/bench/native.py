@@ -2,14 +2,11 @@
 """How much faster than the robot the native board walks, without a body and with MuJoCo: the yardstick for the page's."""
 import os
 import pathlib
-import sys
 import time
 
+from body.description import load
+from body.physics import Physics
 from cm5sim import Board
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "body" / "src"))
-from body.description import load  # noqa: E402
-from body.physics import Physics  # noqa: E402
 
 SECONDS = 20
 motions = (pathlib.Path(os.environ["M512_BUILD"]) / "motions" / "motions.bin").read_bytes()

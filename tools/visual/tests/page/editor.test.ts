@@ -69,8 +69,6 @@ test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays
   await pupil.button('Start').click();
   await said(pupil, 'Open it.');
   await pupil.open('Steps');
-  await said(pupil, 'Press "New page"');
-  await pupil.button('New page').click();
   await said(pupil, 'Press "Right arm"');
   await pupil.button('Right arm').click();
   for (const [i, [dx, dy]] of WAVES.entries()) {

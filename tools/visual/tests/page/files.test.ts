@@ -23,8 +23,7 @@ beforeAll(() => {
 afterAll(() => rmSync(folder, { recursive: true }));
 
 function convert(from: string, to: string): Buffer {
-  const env = { ...process.env, PYTHONPATH: join(ROOT, 'tools/m512/src') };
-  execFileSync(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', 'convert', from, join(folder, to), '--force'], { env, stdio: 'ignore' });
+  execFileSync(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', 'convert', from, join(folder, to), '--force'], { stdio: 'ignore' });
   return readFileSync(join(folder, to));
 }
 
@@ -87,7 +86,7 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
   const dialog = page.getByRole('dialog', { name: 'found.mtn' });
   await dialog.getByText(/^[1-9]\d motion pages/).waitFor();
   await page.screenshot({ path: `${SHOTS}opened.png` });
-  await dialog.getByRole('button', { name: 'Take them over' }).click();
+  await dialog.getByRole('button', { name: 'Replace all pages' }).click();
   await dialog.waitFor({ state: 'hidden' });
 
   await person.open('Checks');

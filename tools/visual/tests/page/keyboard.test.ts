@@ -100,11 +100,13 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
   await keys.enter('Open …');
   await (await chooser).setFiles(LIBRARY);
   await page.getByRole('dialog', { name: 'motions.bin' }).waitFor();
-  await keys.enter('Take them over');
+  await keys.enter('Replace all pages');
   await keys.at('Open …');
 
   await keys.open('Pages');
-  await keys.to(/^page 1 ready/);
+  await keys.to(/^page \d+, empty/); // a new page is chosen
+  await keys.press('Home');
+  await keys.at(/^page 1 ready/);
   await keys.press('ArrowRight', 'F2'); // the bow
   await keys.at('Name');
   await page.keyboard.type('curtsy');

@@ -29,12 +29,12 @@ test('an old machine: no picture, no serial port, no physics', async () => {
       await page.route(PHYSICS, (route) => route.abort());
       await page.addInitScript(() => Reflect.deleteProperty(Navigator.prototype, 'serial'));
     } });
-    await person.page.getByText('This browser draws no 3D picture (WebGL is off). Everything else works.').waitFor();
+    await person.page.getByText('This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot').waitFor();
     const said = person.page.getByRole('log', { name: 'Last message' });
     await said.filter({ hasText: 'Physics could not be loaded, so the robot cannot fall.' }).waitFor();
     await person.untilStanding();
     await person.button('Your robot …').click();
-    await said.filter({ hasText: /^This browser cannot reach a serial port\. Use Chrome or Edge/ }).waitFor();
+    await said.filter({ hasText: /^This browser cannot reach a serial port\. It needs Web Serial/ }).waitFor();
     await person.button('Walk').click();
     await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
     // What was refused above is in the console as well; nothing else is.

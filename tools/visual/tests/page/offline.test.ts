@@ -3,6 +3,7 @@
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { PageServer, Visitor, startBrowser } from './page-bench.ts';
+import { ReleasedPage } from './release.ts';
 import { comesLater, weights } from './weight.ts';
 
 let browser: Browser;
@@ -43,6 +44,33 @@ test('from a sub-path, and the second visit with the server stopped', async () =
   await visitor.page.reload();
   await visitor.untilStanding();
   await visitor.leave();
+});
+
+test('a release while the page is open: it goes on with its own files, says that there is a new version, and becomes it when asked', async () => {
+  const page = await ReleasedPage.make();
+  const server = await serve(page.folder);
+  const visitor = await Visitor.come(browser, server.address, { keepsPage: true, hasPicture: false });
+  await visitor.untilStanding();
+  const caches = (): Promise<string[]> => visitor.page.evaluate(() => window.caches.keys());
+  await visitor.page.evaluate(() => navigator.serviceWorker.ready);
+  const [old] = await caches();
+  await page.release();
+  await visitor.page.evaluate(async () => (await navigator.serviceWorker.ready).update());
+  const reload = visitor.button('New version: reload');
+  await reload.waitFor();
+  await visitor.open('Steps');
+  await visitor.page.getByLabel('Motion file').setInputFiles({ name: 'mine.m512', mimeType: 'text/plain', buffer: Buffer.from('m512 1\n') });
+  const dialog = visitor.page.getByRole('dialog');
+  await dialog.waitFor();
+  expect(await dialog.textContent()).not.toMatch(/could not be loaded/); // Python, 5 MB, came from the old version
+  await visitor.page.keyboard.press('Escape');
+  await reload.click();
+  await visitor.page.waitForEvent('load');
+  await visitor.untilStanding();
+  expect(await reload.isVisible()).toBe(false);
+  expect((await caches()).filter((name) => name === old)).toEqual([]);
+  await visitor.leave();
+  await page.remove();
 });
 
 test('the policy holds: no code from text, in the page', async () => {

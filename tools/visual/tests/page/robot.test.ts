@@ -106,8 +106,8 @@ test('somebody leaves the terminal while Edit waits for a name: the page says so
   await person.type('save\r');
   await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
   await person.open('Remote');
-  await person.page.keyboard.press('ArrowUp');
-  await person.doing.filter({ hasText: /^The robot stands and waits/ }).waitFor(); // in Play
+  await person.page.keyboard.press('ArrowUp'); // it brings Play, and is carried out there
+  await person.doing.filter({ hasText: /^Playing page 2[012] \(walk/ }).waitFor();
   await person.leave();
 });
 

@@ -95,7 +95,7 @@ export class ChecksPane extends HTMLElement {
 
   private shownOf(one: PageFinding): Shown {
     const joint = this.desk.body.joints.find((other) => other.servo === one.joint);
-    const isOfLinks = one.kind === 'unreachable' || one.kind === 'exit-circle';
+    const isOfLinks = one.kind === 'exit-circle';
     const tab: Tab = isOfLinks ? 'links' : one.step === null ? 'pages' : 'steps';
     return { page: one.page, step: one.step, joint: one.joint, text: findingText(one, joint ? jointTitle(joint) : `joint ${one.joint}`), isFault: isFaulty(one), tab, isGuess: one.kind === 'tips-over' };
   }

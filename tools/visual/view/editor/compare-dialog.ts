@@ -3,11 +3,13 @@
 // Single pages are taken over into the document; the others way round, pages are written into the robot.
 
 import { documentFrom, imageOf, pageOf } from '../../model/document.ts';
+import { MOST_BYTES } from '../../model/file-formats.ts';
 import { readPage } from '../../model/page.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { TransferState } from '../transfer-desk.ts';
 import { comparables, pagesOf } from './compared.ts';
+import { FILE_TEXTS } from './file-texts.ts';
 import { ghosts } from './ghosts.ts';
 import { ACCOUNT_TEXTS, EDITOR_TEXTS, pageText, transferText } from './texts.ts';
 import './compare-dialog.css';
@@ -79,6 +81,10 @@ export class CompareDialog extends HTMLElement {
     const file = this.chooser.files?.[0];
     this.chooser.value = '';
     if (!file) return;
+    if (file.size > MOST_BYTES) {
+      this.status.textContent = FILE_TEXTS.tooManyBytes(file.name);
+      return;
+    }
     this.status.textContent = EDITOR_TEXTS.readingFile(file.name);
     const read = await this.desk.files.formats.open(file.name, new Uint8Array(await file.arrayBuffer()), true);
     if (read.kind !== 'opened') {

@@ -10,6 +10,7 @@ import { CurveCanvas } from './curve-canvas.ts';
 import type { Drawn } from './curve-canvas.ts';
 import { LayerBar } from './layer-bar.ts';
 import { PageHead } from './page-head.ts';
+import { PlayBar } from './play-bar.ts';
 import { ShapeBar } from './shape-bar.ts';
 import { CURVE_TEXTS } from './step-texts.ts';
 import { limbGroups } from './teach-bar.ts';
@@ -37,7 +38,7 @@ export class CurvesPane extends HTMLElement {
     };
     this.follow.addEventListener('change', () => canvas.setFollow(this.follow.checked));
     const shape = Object.assign(give(new ShapeBar()), { onShape: canvas.setShape.bind(canvas) });
-    this.replaceChildren(make('p', { class: 'purpose' }, CURVE_TEXTS.purpose), give(new PageHead()), this.lawRow(), canvas, this.fast, this.lines, this.jointRow(), shape, give(new LayerBar()));
+    this.replaceChildren(make('p', { class: 'purpose' }, CURVE_TEXTS.purpose), give(new PageHead()), this.lawRow(), canvas, give(new PlayBar()), this.fast, this.lines, this.jointRow(), shape, give(new LayerBar()));
     this.disposals.push(this.desk.editor.state.watch(({ joints, law }) => {
       for (const [servo, chip] of this.chips) chip.setAttribute('aria-pressed', String(joints.has(servo)));
       for (const [name, button] of this.laws) button.setAttribute('aria-pressed', String(name === law));

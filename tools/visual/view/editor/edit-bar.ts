@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Above the editor's areas: which document is open, whether it is kept, undo and redo with their names, and the way to the robot.
 
+import { copyName } from '../../model/document.ts';
 import { dirtyPages } from '../../model/editor-state.ts';
 import type { MotionDocument } from '../../model/document.ts';
 import type { EditorState } from '../../model/editor-state.ts';
@@ -26,7 +27,7 @@ export class EditBar extends HTMLElement {
   private readonly kept = make('span', { class: 'kept', role: 'status', 'aria-label': 'Autosave' });
   private readonly undo = make('button', { onclick: () => this.desk.editor.undo() }, '↶');
   private readonly redo = make('button', { onclick: () => this.desk.editor.redo() }, '↷');
-  private readonly transfer = make('button', { class: 'primary', onclick: () => this.onTransfer() }, 'To the robot …');
+  private readonly transfer = make('button', { onclick: () => this.onTransfer() }, 'To the robot …');
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
@@ -78,7 +79,7 @@ export class EditBar extends HTMLElement {
     this.documents.value = documents.state.get().openId;
     switch (value) {
       case NEW: return this.create('New document', 'My motions');
-      case COPY: return this.create('Copy of this document', `${name} (copy)`, () => editor.state.get().document);
+      case COPY: return this.create('Copy of this document', copyName(name, documents.state.get().documents.map((one) => one.name)), () => editor.state.get().document);
       case FROM_ROBOT: return this.createFromRobot();
       case RENAME: {
         const given = await askText('Rename this document', 'Name', name);
@@ -97,7 +98,7 @@ export class EditBar extends HTMLElement {
 
   private async createFromRobot(): Promise<void> {
     const { transfer, editor } = this.desk;
-    if (!(await transfer.read())) return this.onTransfer(); // which says why, and offers to try again
+    if (!(await transfer.read()).isDone) return this.onTransfer(); // which says why, and offers to try again
     const pages = editor.state.get().robot.map((bytes) => bytes ?? editor.format.empty);
     await this.create('What the robot has, as a document', 'My robot', () => ({ name: '', pages }));
   }

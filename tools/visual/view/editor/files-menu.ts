@@ -19,6 +19,7 @@ export class FilesMenu extends HTMLElement {
   private readonly chooser = make('input', { type: 'file', accept: ACCEPTED, hidden: true, 'aria-label': 'Motion file', onchange: () => this.chosen() });
   private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.desk.files.dismiss() });
   private readonly busy = make('span', { class: 'busy', role: 'status' });
+  private readonly stop = make('button', { hidden: true, onclick: () => this.desk.files.cancel() }, 'Cancel');
   private shown: Pick<FilesState, 'opened' | 'tooLarge' | 'sent' | 'trouble'> | null = null;
   private readonly ends: (() => void)[] = [];
 
@@ -31,7 +32,7 @@ export class FilesMenu extends HTMLElement {
     });
     this.replaceChildren(make('button', { onclick: () => this.chooser.click() }, 'Open …'), save,
       make('button', { title: 'A link that holds this page and those that it leads to', onclick: () => void this.send() }, 'Send as link'),
-      this.busy, this.chooser, this.dialog);
+      this.busy, this.stop, this.chooser, this.dialog);
     this.listen('dragover', (event) => this.isFile(event) && event.preventDefault());
     this.listen('drop', (event) => void this.dropped(event));
     this.ends.push(this.desk.files.state.watch((state) => this.render(state)));
@@ -64,7 +65,7 @@ export class FilesMenu extends HTMLElement {
   }
 
   private async read(file: File): Promise<void> {
-    await this.desk.files.open(file.name, new Uint8Array(await file.arrayBuffer()));
+    await this.desk.files.choose(file);
   }
 
   private async save(suffix: Suffix): Promise<void> {
@@ -88,6 +89,7 @@ export class FilesMenu extends HTMLElement {
 
   private render(state: FilesState): void {
     this.busy.textContent = state.busy ?? '';
+    this.stop.hidden = state.busy === null;
     const { opened, tooLarge, sent, trouble } = state;
     const { shown } = this;
     if (shown && shown.opened === opened && shown.tooLarge === tooLarge && shown.sent === sent && shown.trouble === trouble) return;
@@ -103,10 +105,15 @@ export class FilesMenu extends HTMLElement {
 
   private showOpened({ name, notes, losses, count, hasTrim }: NonNullable<FilesState['opened']>): void {
     const trim = make('input', { type: 'checkbox' });
-    const take = make('button', { class: 'primary', onclick: () => this.desk.files.takeOver(trim.checked) }, 'Take them over');
+    const { files } = this.desk;
+    const ways = [
+      make('button', { class: 'primary', title: FILE_TEXTS.addHint, onclick: () => files.addOpened() }, 'Add to free pages'),
+      make('button', { title: FILE_TEXTS.documentHint, onclick: () => void files.createFromOpened() }, 'As a new document'),
+      make('button', { title: FILE_TEXTS.replaceHint, onclick: () => files.replaceAll(trim.checked) }, 'Replace all pages'),
+    ];
     this.show(name, [
       make('p', {}, FILE_TEXTS.opened(count)), lines([...notes, ...losses]), hasTrim ? make('label', {}, trim, ` ${FILE_TEXTS.trim}`) : null,
-    ], [take, this.closing('Cancel')]);
+    ], [...ways, this.closing('Cancel')]);
   }
 
   private addSent(plays: boolean): void {

@@ -3,7 +3,7 @@
 
 import { Graph, layout } from '@dagrejs/dagre';
 import type { LinkGraph, PageLink, PageNode } from '../../model/links.ts';
-import { LINK_TEXTS, codeText, pageText } from './texts.ts';
+import { EDITOR_TEXTS, LINK_TEXTS, codeText, pageText } from './texts.ts';
 
 const SVG = 'http://www.w3.org/2000/svg';
 const NODE = { width: 104, height: 40 };
@@ -125,9 +125,9 @@ function smooth(points: readonly Point[]): string {
 function box(page: number, laid: Laid, node: PageNode | null, links: readonly PageLink[]): SVGElement {
   const { x, y } = laid.nodes.get(page) ?? { x: 0, y: 0 };
   const itself = links.filter((link) => link.from === page && link.to === page).map((link) => LINK_TEXTS[link.kind]);
-  const oddities = [node ? '' : 'nothing to play here', node?.isUnreachable ? 'nothing leads here' : '', node?.exitsRound ? 'exits go round' : ''].filter(Boolean);
+  const oddities = [node ? '' : 'nothing to play here', node?.exitsRound ? 'exits go round' : ''].filter(Boolean);
   const name = `${page} ${node?.name ?? ''}`.trimEnd();
-  const words = [`page ${name}`, node?.code ? `${codeText(node.code)} calls it` : '', itself.length > 0 ? `${itself.join(', ')}: itself` : '', ...oddities];
+  const words = [`page ${name}`, node?.code ? `${codeText(node.code)} calls it` : '', itself.length > 0 ? `${itself.join(', ')}: itself` : '', node?.isUnreachable ? EDITOR_TEXTS.byNumber : '', ...oddities];
   const title = words.filter(Boolean).join(', ');
   const signs = [node?.code ? codeText(node.code) : '', itself.length > 0 ? '⟲' : '', oddities.length > 0 ? '⚠' : ''].filter(Boolean).join(' ');
   return draw('g', { class: `node${node ? '' : ' dead'}${oddities.length > 0 ? ' odd' : ''}`, 'data-page': page, tabindex: -1, role: 'button', 'aria-label': title,

@@ -4,13 +4,17 @@
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
+import { EDITOR_TEXTS } from './texts.ts';
 import { STEP_TEXTS } from './step-texts.ts';
 
 export class PageHead extends HTMLElement {
   desk!: Desk; // set before it is connected
   private readonly choice = make('select', { 'aria-label': 'Page', onchange: () => this.desk.editor.select({ page: Number(this.choice.value) }) });
   private readonly name = make('input', { type: 'text', maxlength: 13, 'aria-label': 'Name of the page', placeholder: 'name', spellcheck: 'false' });
-  private readonly play = make('button', { class: 'primary', onclick: () => void this.desk.playEdited(this.desk.editor.state.get().page) }, '▶ Play');
+  private readonly play = make('button', { onclick: () => void this.desk.playEdited(this.desk.editor.state.get().page) }, '▶ Play');
+  private readonly library = make('div', { class: 'library', role: 'status' });
+  /** Pages of the library that somebody wants to edit themselves. */
+  private readonly agreed = new Set<number>();
   private shown: readonly Uint8Array[] | null = null;
   private readonly disposals: (() => void)[] = [];
 
@@ -18,7 +22,9 @@ export class PageHead extends HTMLElement {
     this.name.addEventListener('change', () => this.rename());
     this.name.addEventListener('keydown', (event) => event.key === 'Enter' && this.rename());
     this.replaceChildren(this.choice, this.name, make('button', { title: 'The first empty page', onclick: () => this.newPage() }, 'New page'),
-      make('span', { class: 'space' }), this.play, make('button', { class: 'stop', onclick: () => void this.desk.command('stop') }, 'Stop'));
+      make('span', { class: 'space' }), this.play, make('button', { class: 'stop', onclick: () => void this.desk.command('stop') }, 'Stop'), this.library);
+    this.library.append(make('span', {}, EDITOR_TEXTS.ofLibrary), make('button', { onclick: () => this.editCopy() }, EDITOR_TEXTS.editsCopy),
+      make('button', { onclick: () => this.agree() }, EDITOR_TEXTS.editsItself));
     this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(() => this.render()));
   }
 
@@ -31,8 +37,10 @@ export class PageHead extends HTMLElement {
     const { page, document: { pages } } = editor.state.get();
     if (this.shown !== pages) this.list(pages);
     this.choice.value = String(page);
+    this.library.classList.toggle('away', this.agreed.has(page) || !editor.isOfLibrary(page));
     if (document.activeElement !== this.name) this.name.value = editor.page(page).name;
-    this.play.disabled = this.desk.state.get().connection !== 'ready' || editor.page(page).steps.length === 0;
+    this.play.disabled = editor.page(page).steps.length === 0;
+    this.play.classList.toggle('primary', !this.play.disabled);
   }
 
   private list(pages: readonly Uint8Array[]): void {
@@ -44,6 +52,21 @@ export class PageHead extends HTMLElement {
     if (!same) this.choice.replaceChildren(...options.filter((option) => option !== null));
     else options.forEach((option, i) => { const old = this.choice.options[i - 1]; if (option && old && old.text !== option.text) old.text = option.text; });
     this.shown = pages;
+  }
+
+  private agree(): void {
+    this.agreed.add(this.desk.editor.state.get().page);
+    this.render();
+    this.choice.focus();
+  }
+
+  private editCopy(): void {
+    const { editor } = this.desk;
+    const { page, document } = editor.state.get();
+    const copy = editor.edits.copyForEditing(document, page);
+    if (!copy.ok) return void editor.dispatch(copy);
+    if (editor.dispatch({ ok: true, value: copy.value.edit })) editor.select({ page: copy.value.page });
+    this.name.focus();
   }
 
   private rename(): void {

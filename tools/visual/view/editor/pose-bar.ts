@@ -6,7 +6,7 @@ import type { Joint } from '../../model/body.ts';
 import type { Touch } from '../../model/trial.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Desk } from '../desk.ts';
-import { define, make } from '../element.ts';
+import { closesByItself, define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isEditing } from './editing.ts';
 import type { Editing, PictureMode } from './editing.ts';
@@ -65,7 +65,9 @@ export class PoseBar extends HTMLElement {
       const box = make('input', { type: 'checkbox', checked: this.editing.get()[name], onchange: () => this.editing.set({ [name]: box.checked }) });
       return make('label', {}, box, title);
     });
-    return make('details', { class: 'options' }, make('summary', {}, 'View'), make('div', { class: 'menu' }, ...boxes, make('label', {}, 'Stays: ', keep)));
+    const menu = make('details', { class: 'options' }, make('summary', {}, 'View'), make('div', { class: 'menu' }, ...boxes, make('label', {}, 'Stays: ', keep)));
+    this.disposals.push(closesByItself(menu));
+    return menu;
   }
 
   private render(): void {
@@ -118,9 +120,10 @@ export class PoseBar extends HTMLElement {
 
   private showBalance(): void {
     const margin = this.margin();
-    const text = margin === null ? '' : margin < 0 ? POSE_TEXTS.tips : `Balance: ${Math.round(margin * 1000)} mm inside the soles`;
+    const isInHand = this.editing.get().mode === 'hand' && this.robot?.isHeld === true;
+    const text = margin === null ? '' : isInHand ? POSE_TEXTS.held : margin < 0 ? POSE_TEXTS.tips : `Balance: ${Math.round(margin * 1000)} mm inside the soles`;
     if (this.balance.textContent !== text) this.balance.textContent = text;
-    this.balance.dataset['tone'] = margin !== null && margin < 0 ? 'bad' : 'calm';
+    this.balance.dataset['tone'] = margin !== null && margin < 0 && !isInHand ? 'bad' : 'calm';
   }
 
   private showTouches(): void {

@@ -58,6 +58,11 @@ export class PoseLayer {
     this.showBalance(null);
   }
 
+  /** A second figure is seen. */
+  get hasGhost(): boolean {
+    return this.ghosts.get('ghost')?.root.visible === true;
+  }
+
   /** Figures are made when they are first wanted. What stands as in `figure` is left out. */
   show(name: GhostName, posed: Posed | null, figure: Posed | null = null): void {
     let ghost = this.ghosts.get(name);

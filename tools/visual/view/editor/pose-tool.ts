@@ -2,9 +2,11 @@
 // The picture as an editor of the chosen step: shows it, and turns drags and keys into edits. One drag or one key held is one
 // undo step; Escape takes it back.
 
+import { anglesOf } from '../../model/body.ts';
 import type { Angles, Body } from '../../model/body.ts';
 import { dragged, grab, jointAxis } from '../../model/pose-drag.ts';
 import type { Grab } from '../../model/pose-drag.ts';
+import type { Place } from '../../model/space.ts';
 import type { Touch } from '../../model/trial.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Desk } from '../desk.ts';
@@ -39,6 +41,8 @@ export class PoseTool {
   private readonly edited: EditedPose;
   private readonly arrows: JointTurn;
   private drag: Drag | null = null;
+  /** Where the figure is: the camera goes with it. */
+  figureTrunk: Place | null = null;
   /** Of what is shown as the edited step; null: nothing is. */
   private balance: Balance | null = null;
   private readonly touchWatch: TouchWatch;
@@ -79,24 +83,34 @@ export class PoseTool {
     return this.edited.positions;
   }
 
-  /** Puts figure and ghosts where they belong; true when the figure is the edited step. */
-  show(robot: RobotState): boolean {
+  /** Puts figure and ghosts where they belong; true when the figure is the edited step. isInHand: somebody drags the robot, and no ghost covers it. */
+  show(robot: RobotState, isInHand: boolean): boolean {
     this.edited.robot = robot;
     const real: Posed = { trunk: robot.trunk, angles: robotAngles(this.body, robot) };
-    const edited = isEditing(this.desk.state.get().tab) ? this.shown() : null;
+    const { preview } = this.desk;
+    const shown = preview.pose();
+    const edited = isEditing(this.desk.state.get().tab) && preview.state.get().figure === 'step' ? this.shown() : null;
     const isPosing = edited !== null && this.isPosing;
     const alarms = new Set(robot.servos.filter((servo) => servo.alarms !== 0).map((servo) => servo.id));
-    const figure = isPosing && edited ? edited : real;
+    const figure = shown ? { trunk: shown.trunk, angles: anglesOf(this.body, shown.positions, new Map()) } : isPosing && edited ? edited : real;
+    this.figureTrunk = figure.trunk;
     this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
-    this.scene.figure.show(figure.trunk, figure.angles, isPosing ? new Set() : alarms);
+    this.scene.figure.show(figure.trunk, figure.angles, isPosing || shown ? new Set() : alarms);
     this.scene.figure.choose(isPosing ? this.chosenLinks() : new Set());
-    const other = isPosing ? real : edited;
+    const other = isInHand ? null : isPosing ? real : edited;
     this.layer.show('ghost', other && edited && !isSame(real.angles, edited.angles) ? other : null, figure);
-    this.showOnion(edited, figure);
+    this.showOnion(isInHand ? null : edited, figure);
     this.balance = edited && this.editing.get().balance ? balanceOf(this.body, edited) : null;
     this.layer.showBalance(this.balance);
     this.touchWatch.look(edited ? (isPosing ? this.shownPose : robotPose(robot)) : null);
     return isPosing;
+  }
+
+  /** The figure is the edited step from now on: what is pulled is a step, not a motion or the robot. */
+  showStep(robot: RobotState): void {
+    if (!this.isPosing || this.desk.preview.state.get().figure === 'step') return;
+    this.desk.preview.showStep();
+    this.show(robot, false);
   }
 
   /** Takes hold of what is under the mouse: picks its joints. add: beside those that are chosen. */

@@ -5,7 +5,7 @@
 import { anglesOf } from '../../model/body.ts';
 import type { Step } from '../../model/page.ts';
 import type { Desk } from '../desk.ts';
-import { define, make } from '../element.ts';
+import { define, isTyping, make } from '../element.ts';
 import { showPose } from './pose-picture.ts';
 import { STEP_TEXTS } from './step-texts.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
@@ -36,23 +36,45 @@ export class StepRow extends HTMLElement {
   connectedCallback(): void {
     const titles = make('p', { class: 'titles', 'aria-hidden': true }, make('span', {}, 'time'), make('span', {}, 'pause'));
     this.replaceChildren(titles, this.list, this.empty);
-    this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(({ where, tab }) => {
+    this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(({ tab }) => {
       if (tab === 'steps' && this.isBehind) this.render();
-      const { page } = this.desk.editor.state.get();
-      const playing = where?.state === 'playing' && where.page === page ? where.step - 1 : -1;
-      if (playing === this.playing) return;
-      this.playing = playing;
-      this.render();
-    }));
+      this.markPlaying();
+    }), this.desk.preview.state.watch(() => this.markPlaying()));
   }
 
   disconnectedCallback(): void {
     for (const dispose of this.disposals.splice(0)) dispose();
   }
 
+  /** Ctrl+A chooses all steps, wherever in Steps one is, but where one types. */
+  listenForAll(): void {
+    const all = (event: KeyboardEvent): void => {
+      if (event.key.toLowerCase() !== 'a' || !(event.ctrlKey || event.metaKey) || event.altKey || this.desk.state.get().tab !== 'steps') return;
+      if (isTyping(event) || (event.target instanceof Element && event.target.closest('dialog'))) return;
+      event.preventDefault();
+      this.desk.editor.select({ steps: new Set(this.cards.keys()) });
+    };
+    document.addEventListener('keydown', all);
+    this.disposals.push(() => document.removeEventListener('keydown', all));
+  }
+
+  /** The step that the robot plays, or that the picture shows. */
+  private markPlaying(): void {
+    const { where } = this.desk.state.get();
+    const { figure, at } = this.desk.preview.state.get();
+    const { page } = this.desk.editor.state.get();
+    const now = figure === 'shown' ? at : where?.state === 'playing' ? where : null;
+    const playing = now !== null && now.page === page ? now.step - 1 : -1;
+    if (playing === this.playing) return;
+    this.playing = playing;
+    for (const [index, card] of this.cards.entries()) card.root.classList.toggle('playing', index === playing);
+  }
+
   /** The cursor's card gets the keyboard; without a step, what is said instead of them. */
   focusCursor(): void {
-    (this.cards[this.desk.editor.state.get().step]?.pick ?? this.empty).focus();
+    const { page, step } = this.desk.editor.state.get();
+    const isEmpty = this.desk.editor.page(page).steps.length === 0;
+    ((isEmpty ? null : this.cards[step]?.pick) ?? this.empty).focus();
   }
 
   private render(): void {
@@ -61,8 +83,9 @@ export class StepRow extends HTMLElement {
     const { editor } = this.desk;
     const state = editor.state.get();
     const { steps, schedule } = editor.page(state.page);
-    while (this.cards.length > steps.length) this.cards.pop()?.root.remove();
-    while (this.cards.length < steps.length) this.addCard(this.cards.length);
+    const count = Math.max(1, steps.length); // one that is not seen keeps the room of the first step: nothing jumps when that comes
+    while (this.cards.length > count) this.cards.pop()?.root.remove();
+    while (this.cards.length < count) this.addCard(this.cards.length);
     this.empty.hidden = steps.length > 0;
     this.classList.toggle('without', steps.length === 0);
     const times = stepTimes(editor, state.page);

@@ -4,6 +4,7 @@
 export const POSE_TEXTS = {
   poseMode: 'Drag a joint, a hand, a foot or the body: the chosen step changes. The robot itself stays as it is.',
   handMode: 'Your hand pulls the robot: limp limbs follow, stiff ones resist.',
+  held: 'A hand holds the robot: balance shows when it lets go.',
   tips: 'Standing like this, the robot would tip over.',
 } as const;
 
@@ -17,6 +18,7 @@ export const STEP_TEXTS = {
 } as const;
 
 export const TEACH_TEXTS = {
+  handStays: 'The hand goes on holding the robot, whose legs were let go: press "Let go" to see whether it stands, or Play.',
   stiff: 'All joints hold. Let a limb go, move it, hold it, add a step.',
   limpSimulated: 'Drag the limb in the picture; it holds when you let go of it. Then add a step. By keyboard: Pose, where the arrows turn its joints.',
   limpYours: 'Move the limp limb by hand; the picture follows. Then hold it or add a step. Support the robot: limp legs do not carry it.',
@@ -26,16 +28,23 @@ export const FOLLOW_TEXTS = {
   offer: 'The robot follows the chosen step, slowly (60° a second)',
 } as const;
 
+export const SHOW_TEXTS = {
+  show: '▷ Show',
+  pause: '❙❙ Pause',
+  hint: 'Shows the motion in the picture; the robot does not move',
+  fromStep: 'From this step',
+  fromStepHint: 'Shows the motion from the chosen step on; the robot does not move',
+  loop: 'Loop',
+  loopHint: 'Shows it again and again',
+} as const;
+
 export const PLAY_TEXTS = {
   startsEdit: 'The robot in the page starts anew with Edit, the firmware that saves pages.',
   startsPlay: 'The robot in the page starts anew with Play, the firmware that hears the remote control.',
-  writeFirst: 'Your robot has this page otherwise. Write it first: "To the robot …". Then play it.',
 } as const;
 
 export const LAYER_TEXTS = {
   purpose: 'A second page on joints of its own while another one plays, or joints moved by code. Nothing of it is stored.',
-  otherwise: 'The robot has this page otherwise than the document. Play it by itself, which writes it; then start Play again and lay it over.',
-  otherwiseYours: 'Your robot has this page otherwise than the document. Write it first: "To the robot …".',
   needsPlay: 'Edit runs, and only Play has layers.',
   needsPlayYours: 'Your robot runs Edit, and only Play has layers. Flash it with: m512 flash play-cm5.hex',
   none: 'Nothing goes on beside the play.',

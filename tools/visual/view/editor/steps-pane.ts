@@ -7,6 +7,7 @@ import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
 import { FollowBar } from './follow-bar.ts';
 import { PageHead } from './page-head.ts';
+import { PlayBar } from './play-bar.ts';
 import { StepActions } from './step-actions.ts';
 import { StepRow } from './step-row.ts';
 import { TeachBar } from './teach-bar.ts';
@@ -24,12 +25,13 @@ export class StepsPane extends HTMLElement {
     const row = give(new StepRow());
     const teach = Object.assign(give(new TeachBar()), { editing: this.editing, add: () => actions.addFromRobot() });
     const follow = Object.assign(give(new FollowBar()), { editing: this.editing });
-    this.replaceChildren(make('p', { class: 'purpose' }, STEP_TEXTS.purpose), give(new PageHead()), row, give(new TimeLine()), actions, teach, follow);
+    this.replaceChildren(make('p', { class: 'purpose' }, STEP_TEXTS.purpose), give(new PageHead()), row, give(new TimeLine()), give(new PlayBar()), actions, teach, follow);
     row.addEventListener('keydown', (event) => {
       if (event.target instanceof HTMLInputElement || !actions.key(event)) return;
       event.preventDefault();
       row.focusCursor();
     });
+    row.listenForAll();
     for (const [name, deed] of [['copy', actions.onCopy], ['cut', actions.onCut], ['paste', actions.onPaste]] as const) {
       row.addEventListener(name, (event) => {
         if (!(event.target instanceof HTMLInputElement)) deed.call(actions, event);

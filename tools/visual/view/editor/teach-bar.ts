@@ -29,11 +29,14 @@ export class TeachBar extends HTMLElement {
   /** Takes the robot's pose as a step. */
   add: () => void = () => undefined;
   private readonly limbs = new Map<LimbGroup, HTMLButtonElement>();
+  private readonly adds = make('button', { onclick: () => this.add() }, 'Add step from the robot');
   private readonly hold = make('button', { onclick: () => void this.holdAll() }, 'Hold');
   private readonly hint = make('p', { class: 'hint', role: 'status', 'aria-label': 'Teaching' });
   private limp: readonly number[] = [];
   /** The hand that holds the body was asked for here. */
   private isCarrying = false;
+  /** Legs were let go in it. */
+  private mustCarry = false;
   private readonly disposals: (() => void)[] = [];
 
   connectedCallback(): void {
@@ -44,8 +47,8 @@ export class TeachBar extends HTMLElement {
       row.append(button);
     }
     this.replaceChildren(make('h2', {}, 'Teach by hand: let go of'), row,
-      make('div', { class: 'row' }, this.hold, make('button', { class: 'primary', onclick: () => this.add() }, 'Add step from the robot')), this.hint);
-    this.disposals.push(this.editing.watch(() => this.render()), this.desk.state.watch(() => this.render()), this.desk.onFrame(({ servos }) => {
+      make('div', { class: 'row' }, this.hold, this.adds), this.hint);
+    this.disposals.push(this.editing.watch(() => this.render()), this.desk.state.watch(() => this.render()), this.desk.editor.state.watch(() => this.render()), this.desk.onFrame(({ servos }) => {
       const limp = servos.filter((servo) => !servo.torque).map((servo) => servo.id);
       if (limp.join() === this.limp.join()) return;
       this.limp = limp;
@@ -59,6 +62,8 @@ export class TeachBar extends HTMLElement {
 
   private render(): void {
     const { taught } = this.editing.get();
+    const { editor } = this.desk;
+    this.adds.classList.toggle('primary', editor.page(editor.state.get().page).steps.length === 0); // then there is nothing to play
     for (const [group, button] of this.limbs) button.setAttribute('aria-pressed', String(group.servos.every((servo) => taught.has(servo))));
     this.hold.disabled = taught.size === 0 && this.limp.length === 0;
     const isSimulated = this.desk.state.get().source === 'simulated';
@@ -72,9 +77,14 @@ export class TeachBar extends HTMLElement {
     const isTaught = group.servos.every((servo) => taught.has(servo));
     const next = new Set(isTaught ? [...taught].filter((servo) => !group.servos.includes(servo)) : [...taught, ...group.servos]);
     this.editing.set({ taught: next, mode: 'hand', follow: false });
-    if (!isTaught && this.desk.state.get().source === 'simulated') this.desk.lab.hold((this.isCarrying = true));
+    if (!isTaught && this.desk.state.get().source === 'simulated') this.carry(group);
     await this.desk.setTorque(isTaught, group.servos);
     if (isTaught) this.letStand(next);
+  }
+
+  private carry(group: LimbGroup): void {
+    this.desk.lab.hold((this.isCarrying = true));
+    if (/leg$/.test(group.title)) this.mustCarry = true;
   }
 
   private async holdAll(): Promise<void> {
@@ -83,9 +93,14 @@ export class TeachBar extends HTMLElement {
     this.letStand(new Set());
   }
 
+  /** On legs that somebody has bent it may not stand: then the hand stays, until Play or "Let go". */
   private letStand(taught: ReadonlySet<number>): void {
     if (taught.size > 0 || !this.isCarrying) return;
     this.isCarrying = false;
+    if (this.mustCarry) {
+      this.mustCarry = false;
+      return this.desk.say({ text: TEACH_TEXTS.handStays, tone: 'calm' });
+    }
     this.desk.lab.hold(false);
   }
 }

@@ -56,6 +56,11 @@ export function keptText(saving: 'saved' | 'saving' | 'off'): string {
 }
 
 export const EDITOR_TEXTS = {
+  byNumber: 'played by its number',
+  ofLibrary: 'This motion belongs to the library that the robot came with. Edit a copy of it?',
+  editsCopy: 'Edit a copy',
+  editsItself: 'Edit it itself',
+  secondTab: (name: string): string => `Another tab has this document open, so this one has a copy: ${name}.`,
   pages: 'Pages: the 128 motions of this document. Drag one to copy or move it; double-click to edit its steps.',
   unreadable: 'cannot be read; it is kept as it is',
   forgotten: (steps: number) => `Undo: the first ${steps} steps of this document were not kept when its tab was closed.`,
@@ -115,8 +120,8 @@ const FAULTS: Record<PageFault, string> = {
   position: 'a position is above 1023',
 };
 
-/** From here on a servo cannot follow at all: the limit is 90 % of what it turns without load. */
-const HOPELESS = 1.11;
+/** Beyond this a servo cannot follow at all: the limit is 90 % of what it turns without load. */
+const HOPELESS = 1 / 0.9;
 
 /** Faults keep a page from doing what it says; the others may surprise. */
 export function isFaulty({ kind, amount }: PageFinding): boolean {
@@ -131,7 +136,6 @@ export function findingText({ kind, step, amount, fault }: PageFinding, jointTit
     case 'too-fast': return `${where}the ${jointTitle} is asked for ${amount.toFixed(2)} times the speed that suits the servo at ${NOMINAL_VOLTS} V, and lags behind. Give the step more time.`;
     case 'out-of-reach': return `${where}the ${jointTitle} is turned farther than the body lets it.`;
     case 'tips-over': return `${where}held like this it tips over: its centre of mass is ${Math.round(amount * 1000)} mm outside the soles. In a fast motion, or lying, that may be meant.`;
-    case 'unreachable': return 'No key of the remote calls it, and no page that is called leads to it. It can be played by its number only.';
     case 'exit-circle': return 'Its exit links go round in a circle, so a stop comes to no page that ends. The robot breaks the circle off where it began.';
     default: return kind satisfies never;
   }

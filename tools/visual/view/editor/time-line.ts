@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Time and pause of the steps, drawn to scale; their ends are dragged. By keyboard the fields below the pictures do the same.
 
+import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import type { Gesture } from '../editor-desk.ts';
 import { define, make } from '../element.ts';
@@ -24,6 +25,9 @@ interface Drag {
 export class TimeLine extends HTMLElement {
   desk!: Desk; // set before it is connected
   private readonly bar = make('div', { class: 'bar', role: 'img' });
+  private readonly head = make('i', { class: 'head', hidden: true });
+  private readonly frame = make('div', { class: 'frame' });
+  private isScrubbing = false;
   private readonly total = make('p', { class: 'total' });
   private drag: Drag | null = null;
   private scale = 1;
@@ -34,7 +38,8 @@ export class TimeLine extends HTMLElement {
   };
 
   connectedCallback(): void {
-    this.replaceChildren(this.bar, this.total);
+    this.frame.replaceChildren(this.bar, this.head);
+    this.replaceChildren(this.frame, this.total);
     this.bar.addEventListener('pointerdown', (event) => this.down(event));
     this.bar.addEventListener('pointermove', (event) => this.move(event));
     this.bar.addEventListener('pointerup', () => this.end(true));
@@ -42,7 +47,9 @@ export class TimeLine extends HTMLElement {
     window.addEventListener('keydown', this.escape);
     const unwatchDesk = this.desk.state.watch(({ tab }) => tab === 'steps' && this.isBehind && this.render());
     const unwatchEditor = this.desk.editor.state.watch(() => this.render());
+    const unwatchPreview = this.desk.preview.state.watch(() => this.renderHead());
     this.unwatch = () => {
+      unwatchPreview();
       unwatchDesk();
       unwatchEditor();
     };
@@ -75,13 +82,49 @@ export class TimeLine extends HTMLElement {
     this.bar.setAttribute('aria-label', `The page takes ${all.toFixed(2)} seconds`);
   }
 
+  /** Beside all ends: the picture shows the moment under the pointer. */
+  private scrub(event: PointerEvent): void {
+    event.preventDefault();
+    this.bar.setPointerCapture(event.pointerId);
+    this.isScrubbing = true;
+    this.seekTo(event);
+  }
+
+  private seekTo({ clientX }: PointerEvent): void {
+    const { editor, preview } = this.desk;
+    const { page } = editor.state.get();
+    const boxes = [...this.bar.children].map((part) => part.getBoundingClientRect());
+    const part = Math.max(0, boxes.findIndex((box) => clientX < box.right));
+    const box = boxes[clientX >= (boxes.at(-1)?.right ?? 0) ? boxes.length - 1 : part];
+    const index = Math.floor(Math.max(0, boxes.indexOf(box ?? new DOMRect())) / 2);
+    const { move = 0, pause = 0 } = stepTimes(editor, page)[index] ?? {};
+    const share = box ? Math.max(0, Math.min((clientX - box.left) / box.width, 1)) : 0;
+    const isPause = box !== undefined && boxes.indexOf(box) % 2 === 1;
+    preview.seek(page, preview.tickOf(page, index) + Math.round((isPause ? move + share * pause : share * move) * TICKS_PER_SECOND));
+  }
+
+  /** The moment that the picture shows, while it is one of this page. */
+  private renderHead(): void {
+    const { editor, preview } = this.desk;
+    const { page } = editor.state.get();
+    const { figure, ticks, at } = preview.state.get();
+    const [way, rest] = [...this.bar.children].slice(2 * (at.step - 1), 2 * at.step) as HTMLElement[];
+    const time = stepTimes(editor, page)[at.step - 1];
+    this.head.hidden = figure !== 'shown' || ticks === 0 || at.page !== page || !way || !rest || !time;
+    if (this.head.hidden || !way || !rest || !time) return;
+    const since = preview.sinceStep() / TICKS_PER_SECOND;
+    const within = (part: HTMLElement, seconds: number, all: number): number => part.offsetLeft + part.offsetWidth * (all > 0 ? Math.min(seconds / all, 1) : 0);
+    this.head.style.left = `${since < time.move ? within(way, since, time.move) : within(rest, since - time.move, time.pause)}px`;
+  }
+
   private handle(field: TimedField): HTMLElement {
     return make('i', { class: `handle ${field}`, title: field === 'time' ? 'Drag: how long the step takes' : 'Drag: how long it pauses' });
   }
 
   private down(event: PointerEvent): void {
-    const end = event.button === 0 ? this.endAt(event) : null;
-    if (!end) return;
+    if (event.button !== 0) return;
+    const end = this.endAt(event);
+    if (!end) return this.scrub(event);
     event.preventDefault();
     this.bar.setPointerCapture(event.pointerId);
     const { index, field } = end;
@@ -105,6 +148,7 @@ export class TimeLine extends HTMLElement {
   }
 
   private move(event: PointerEvent): void {
+    if (this.isScrubbing) this.seekTo(event);
     if (!this.drag) return;
     const { index, field, startX, startSeconds, secondsPerPixel, gesture } = this.drag;
     const { editor } = this.desk;
@@ -116,6 +160,7 @@ export class TimeLine extends HTMLElement {
 
   private end(keep: boolean): void {
     const { drag } = this;
+    this.isScrubbing = false;
     this.drag = null;
     if (keep) drag?.gesture.finish();
     else drag?.gesture.cancel();

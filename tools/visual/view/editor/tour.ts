@@ -20,12 +20,14 @@ export class TourCard extends HTMLElement {
   editing!: Store<Editing>;
   /** Where a shape of the robot is on the screen. */
   placeOf: (shape: string) => { readonly x: number; readonly y: number } | null = () => null;
+  /** A stop wants something in the area. */
+  onArea: () => void = () => undefined;
   private at = -1;
   private robot: RobotState | null = null;
   private armBefore: readonly number[] = [];
   private readonly heading = make('h2', {});
   private readonly text = make('p', { role: 'status', 'aria-label': 'Tour' });
-  private readonly next = make('button', { class: 'primary', onclick: () => this.go(this.at + 1) }, 'Next');
+  private readonly next = make('button', { onclick: () => this.go(this.at + 1) }, 'Next');
   private readonly ring = make('div', { class: 'tour-ring', 'aria-hidden': true });
   private readonly disposals: (() => void)[] = [];
 
@@ -34,7 +36,7 @@ export class TourCard extends HTMLElement {
     this.setAttribute('role', 'region');
     this.setAttribute('aria-label', 'Tour');
     this.replaceChildren(this.heading, this.text,
-      make('div', { class: 'row' }, make('button', { onclick: () => this.go(this.at - 1) }, 'Back'), this.next, make('span', { class: 'space' }), make('button', { onclick: () => this.end() }, 'End the tour')));
+      make('div', { class: 'row' }, make('button', { class: 'back', onclick: () => this.go(this.at - 1) }, 'Back'), this.next, make('span', { class: 'space' }), make('button', { onclick: () => this.end() }, 'End the tour')));
     this.ring.hidden = true;
     document.body.append(this.ring);
     this.disposals.push(this.desk.onFrame((robot) => {
@@ -66,7 +68,16 @@ export class TourCard extends HTMLElement {
     this.heading.textContent = `Your first wave: ${this.at + 1} of ${TOUR.length}`;
     this.text.textContent = this.stop?.text ?? '';
     this.next.textContent = this.at === TOUR.length - 1 ? 'Done' : this.at === 0 ? 'Start' : 'Next';
+    this.lead(this.stop?.target ?? '');
     this.showRing();
+  }
+
+  /** Where the picture is the matter, the card leaves it the room; what is wanted in the area comes into sight. */
+  private lead(target: string): void {
+    this.classList.toggle('low', target !== '' && !target.startsWith('#'));
+    if (!target.startsWith('#')) return;
+    this.onArea();
+    this.find(target.slice(1))?.scrollIntoView({ block: 'nearest' });
   }
 
   private get stop(): TourStop | null {
@@ -122,10 +133,13 @@ export class TourCard extends HTMLElement {
 
   /** A tab, a button or a field, by what stands on it. */
   private boxOf(name: string): { left: number; top: number; width: number; height: number } | null {
-    const all = document.querySelectorAll<HTMLElement>('[role="tab"], .area:not([hidden]) button, .area:not([hidden]) input');
-    const found = [...all].find((element) => (element.getAttribute('aria-label') ?? element.textContent) === name);
-    const box = found?.getBoundingClientRect();
+    const box = this.find(name)?.getBoundingClientRect();
     return box && box.width > 0 ? { left: box.left - 4, top: box.top - 4, width: box.width + 8, height: box.height + 8 } : null;
+  }
+
+  private find(name: string): HTMLElement | undefined {
+    const all = document.querySelectorAll<HTMLElement>('[role="tab"], .area:not([hidden]) button, .area:not([hidden]) input');
+    return [...all].find((element) => (element.getAttribute('aria-label') ?? element.textContent) === name);
   }
 
   private boxOfShape(shape: string): { left: number; top: number; width: number; height: number } | null {

@@ -7,7 +7,6 @@ import json
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
-from typing import Dict, List, Optional
 
 from m512.board.loaders import Loader
 from m512.board.memory import APP, EEPROM_BYTES, FLASH_PAGE, MOTIONS, Record
@@ -26,10 +25,10 @@ MAILBOX_CELLS = range(0xFF4, 0xFF6)
 class Backup:
     folder: Path
     manifest: dict
-    data: Dict[str, bytes]
+    data: dict[str, bytes]
 
 
-def take(loader: Loader, folder: Path, areas: List[str], phase) -> Backup:
+def take(loader: Loader, folder: Path, areas: list[str], phase) -> Backup:
     """Reads the areas of the board and writes the folder; the manifest comes last."""
     if folder.exists() and any(folder.iterdir()):
         raise FileError(f"{folder} is there already and not empty")
@@ -67,7 +66,7 @@ def load(folder: Path) -> Backup:
             raise ValueError
         files = {area: (entry["file"], int(entry["bytes"]), int(entry["crc16"], 16), entry["sha256"])
                  for area, entry in manifest["files"].items() if area in AREAS}
-    except (ValueError, KeyError, TypeError, AttributeError):
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise FileError(f"{folder / MANIFEST} is damaged") from None
     data = {}
     for area, (name, size, crc, sha) in files.items():
@@ -83,16 +82,16 @@ def load(folder: Path) -> Backup:
     return Backup(folder, manifest, data)
 
 
-def flash_pages(backup: Backup, areas: List[str]) -> Dict[int, bytes]:
+def flash_pages(backup: Backup, areas: list[str]) -> dict[int, bytes]:
     """The flash areas as page index -> bytes."""
     return {(AREAS[area][0] + at) // FLASH_PAGE: backup.data[area][at:at + FLASH_PAGE]
             for area in areas if area != "eeprom" for at in range(0, len(backup.data[area]), FLASH_PAGE)}
 
 
-def eeprom_changes(wanted: bytes, found: bytes) -> Dict[int, int]:
+def eeprom_changes(wanted: bytes, found: bytes) -> dict[int, int]:
     """The EEPROM cells to write."""
     return {at: value for at, value in enumerate(wanted) if found[at] != value and at not in MAILBOX_CELLS}
 
 
-def board_of(backup: Backup) -> Optional[str]:
+def board_of(backup: Backup) -> str | None:
     return backup.manifest.get("board")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Our boot loader's block protocol (firmware/boot/PROTOCOL.md), the PC's side.
+"""Our boot loader's block protocol (firmware/boot/BLOCK_PROTOCOL.md), the PC's side.
 
 Frames: 0xA5 command number n body[2 n] CRC-16, answers the same with 0x5A and a status first in the body. Requests that
 change nothing may be sent again at will; a write is the same page again, so it may be too. Two writes are under way at
@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from typing import Callable, Dict, Iterable, List, Optional, Tuple
+from collections.abc import Iterable
+from typing import Callable
 
 from m512.board.link import BAUD, Link
 from m512.board.memory import FLASH_PAGE
@@ -33,6 +34,7 @@ BACK_SECONDS = 4.2    # without a good frame the loader ends a session, and a ra
 # The first HELLO then has no byte that is a key of an editor, should one be listening instead of the loader.
 FIRST_NUMBER = 159
 TO_PROMPT, TO_APPLICATION, TO_RESET = range(3)
+IDENTITY = re.compile(r"ID Motion512 boot (\S+) (\S+) ")
 
 Progress = Callable[[int, int], None]
 
@@ -42,7 +44,7 @@ def frame(command: int, number: int, body: bytes) -> bytes:
     return bytes([REQUEST]) + inner + crc16(inner).to_bytes(2, "big")
 
 
-def page_sum(page: bytes) -> Tuple[int, int]:
+def page_sum(page: bytes) -> tuple[int, int]:
     """What SUMS answers for a flash page: its CRC-16 and its plain 16-bit sum."""
     return crc16(page), sum(page) & 0xFFFF
 
@@ -57,7 +59,7 @@ class BlockLoader:
         self.link, self.number, self.rate = link, FIRST_NUMBER, BAUD
         self.retries = self.detail = 0
         # What the loader says of itself, when it was asked at its prompt: "ID Motion512 boot 1.00 CM5 api=1 ..."
-        words = re.search(r"ID Motion512 boot (\S+) (\S+)", identity)
+        words = IDENTITY.search(identity)
         self.version, self.board = (words.group(1), words.group(2).lower()) if words else ("", "")
         self._ask(HELLO, b"", tries, seconds)
 
@@ -73,7 +75,7 @@ class BlockLoader:
         self.link.write(frame(command, self.number, body))
         return self.number
 
-    def _receive(self, seconds: float) -> Optional[Tuple[int, int, int, bytes]]:
+    def _receive(self, seconds: float) -> tuple[int, int, int, bytes] | None:
         """(command, number, status, data) of the next good answer; None: none came in time."""
         deadline = self.link.now() + seconds
         while True:
@@ -141,26 +143,26 @@ class BlockLoader:
 
     # Flash and EEPROM
 
-    def read(self, start: int, end: int, progress: Optional[Progress] = None) -> bytes:
+    def read(self, start: int, end: int, progress: Progress | None = None) -> bytes:
         """Memory bytes [start, end). Flash pages whose sums are those of empty ones are not sent over the line."""
         first, last = start // FLASH_PAGE, (end - 1) // FLASH_PAGE
         known = self._known(first, last) if last < EEPROM_PAGE and last > first + 4 else {}
-        out = b""
+        out = bytearray()
         for page in range(first, last + 1):
             out += known.get(page) or self._ask(READ, page.to_bytes(2, "little"))
             if progress:
                 progress(page - first + 1, last - first + 1)
-        return out[start - first * FLASH_PAGE:end - first * FLASH_PAGE]
+        return bytes(out[start - first * FLASH_PAGE:end - first * FLASH_PAGE])
 
-    def _known(self, first: int, last: int) -> Dict[int, bytes]:
+    def _known(self, first: int, last: int) -> dict[int, bytes]:
         """Pages that hold nothing: erased flash, or half of an empty motion page."""
         plain = {page_sum(piece): piece for piece in
                  (b"\xff" * FLASH_PAGE, bytes(FLASH_PAGE), EMPTY[:FLASH_PAGE], EMPTY[FLASH_PAGE:])}
         sums = self._sums(first, last - first + 1)
         return {page: plain[found] for page, found in sums.items() if found in plain}
 
-    def _sums(self, first: int, count: int, progress: Optional[Progress] = None) -> Dict[int, Tuple[int, int]]:
-        out: Dict[int, Tuple[int, int]] = {}
+    def _sums(self, first: int, count: int, progress: Progress | None = None) -> dict[int, tuple[int, int]]:
+        out: dict[int, tuple[int, int]] = {}
         for at in range(first, first + count, SUMS_MAX):
             some = min(SUMS_MAX, first + count - at)
             data = self._ask(SUMS, at.to_bytes(2, "little") + some.to_bytes(2, "little"), seconds=3)
@@ -173,18 +175,18 @@ class BlockLoader:
                 progress(at + some - first, count)
         return out
 
-    def different(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> List[int]:
+    def different(self, pages: dict[int, bytes], progress: Progress | None = None) -> list[int]:
         """Returns those of these pages that differ on the board."""
         if not pages:
             return []
         sums = self._sums(min(pages), max(pages) - min(pages) + 1, progress)
         return [number for number in sorted(pages) if sums[number] != page_sum(pages[number])]
 
-    def write(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> int:
+    def write(self, pages: dict[int, bytes], progress: Progress | None = None) -> int:
         """Writes these pages; returns how many of them were equal already. Each is read back by the loader."""
         waiting = deque(sorted(pages))
-        under_way: Dict[int, int] = {}
-        failures: Dict[int, int] = {}
+        under_way: dict[int, int] = {}
+        failures: dict[int, int] = {}
         done = equal = 0
         while waiting or under_way:
             while waiting and len(under_way) < WINDOW:
@@ -214,7 +216,7 @@ class BlockLoader:
                 progress(done, len(pages))
         return equal
 
-    def _collect(self, under_way: Dict[int, int], done: int, equal: int) -> Tuple[int, int]:
+    def _collect(self, under_way: dict[int, int], done: int, equal: int) -> tuple[int, int]:
         while True:
             answer = self._receive(0.3)
             if answer is None:
@@ -223,11 +225,11 @@ class BlockLoader:
                 under_way.pop(answer[1])
                 done, equal = done + 1, equal + (answer[2] == EQUAL)
 
-    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Optional[Progress] = None) -> bytes:
+    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Progress | None = None) -> bytes:
         base = EEPROM_PAGE * FLASH_PAGE
         return self.read(base + start, base + end, progress)
 
-    def write_eeprom(self, cells: Dict[int, int], progress: Optional[Progress] = None) -> None:
+    def write_eeprom(self, cells: dict[int, int], progress: Progress | None = None) -> None:
         """Single bytes, by address."""
         done = 0
         for at, data in _pieces(sorted(cells.items()), EE_WRITE_MAX):
@@ -247,9 +249,9 @@ class BlockLoader:
             self.rate = BAUD
 
 
-def _pieces(cells: Iterable[Tuple[int, int]], most: int) -> List[Tuple[int, bytes]]:
+def _pieces(cells: Iterable[tuple[int, int]], most: int) -> list[tuple[int, bytes]]:
     """Runs of neighbouring bytes, at most `most` long."""
-    out: List[Tuple[int, bytearray]] = []
+    out: list[tuple[int, bytearray]] = []
     for at, value in cells:
         if out and at == out[-1][0] + len(out[-1][1]) and len(out[-1][1]) < most:
             out[-1][1].append(value)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Line commands for programs of Play and Edit (firmware/edit/PROTOCOL.md), the PC's side.
+"""Line commands for programs of Play and Edit (firmware/common/PROTOCOL.md), the PC's side.
 
 A request is a line that begins with '@'; the answer is the next line that begins with the same word and ends in OK or
 in ERR, a number and a sentence. Everything else on the line (echo, prompt, screen) is passed over.
@@ -7,18 +7,19 @@ in ERR, a number and a sentence. Everything else on the line (echo, prompt, scre
 from __future__ import annotations
 
 import re
-from typing import Dict, List, Optional, Sequence, Tuple
+from collections.abc import Sequence
 
 from m512.board import contact
 from m512.board.link import Link
 from m512.crc16 import crc16
 from m512.errors import BoardError, NoAnswerError
+from m512.files import selection
 from m512.files.page import JOINTS, PAGE_BYTES, Page
 
 ANSWER_SECONDS = 3.0
 TRIES = 3
 DATA_BYTES = 32
-ERR_WORD, ERR_EDITS = 1, 12
+ERR_WORD, ERR_EDITS, ERR_LINE = 1, 12, 15
 
 
 class Client:
@@ -28,7 +29,8 @@ class Client:
 
     def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5), is_met: bool = False, slack: float = 0.0):
         self.link = link
-        self.version: Dict[str, str] = {}
+        self.version: dict[str, str] = {}
+        self._listed: dict[int, tuple[int | None, str]] | None = None       # for find(), which a command asks for each of its words
         self.slack = 0.0
         if not is_met:
             contact.make(link)
@@ -44,7 +46,7 @@ class Client:
         raise NoAnswerError("neither Play nor Edit answers")
 
     @staticmethod
-    def _fields(text: str) -> Dict[str, str]:
+    def _fields(text: str) -> dict[str, str]:
         return dict(part.split("=", 1) for part in text.split() if "=" in part)
 
     def ask(self, request: str, seconds: float = ANSWER_SECONDS, tries: int = TRIES) -> str:
@@ -59,6 +61,8 @@ class Client:
                 return line[:-2].strip()
             match = re.match(r"ERR (\d+) ?(.*)", line)
             if match:
+                if int(match.group(1)) == ERR_LINE:   # the board has not run it
+                    continue
                 raise self._error(word, int(match.group(1)), match.group(2))
         raise NoAnswerError(f"no answer to {word}")
 
@@ -68,7 +72,7 @@ class Client:
             text = f"{image} has no {word}: it takes {'Play' if image == 'edit' else 'Edit' if image == 'play' else 'another image'}"
         return BoardError(text or f"error {number}", number)
 
-    def _answer(self, word: str, request: str, seconds: float) -> Optional[str]:
+    def _answer(self, word: str, request: str, seconds: float) -> str | None:
         """Returns the text behind the word in the first whole line that answers. None: no such line came in time."""
         deadline = self.link.now() + seconds
         while True:
@@ -86,7 +90,7 @@ class Client:
 
     # Pages
 
-    def list_pages(self) -> Dict[int, Tuple[Optional[int], str]]:
+    def list_pages(self) -> dict[int, tuple[int | None, str]]:
         """page -> (steps, name), or (None, what is wrong)."""
         text = self.ask("list", 6.0)
         out = {}
@@ -96,17 +100,27 @@ class Client:
 
     def find(self, word: str) -> int:
         """A page by number or name."""
-        if word.isascii() and word.isdigit():
-            return int(word)
-        pages = {n: name for n, (steps, name) in self.list_pages().items() if steps is not None}
-        for fold in (str, str.lower):
-            hits = [n for n, name in pages.items() if fold(name) == fold(word)]
-            if len(hits) == 1:
-                return hits[0]
-            if hits:
-                raise BoardError(f"the page name {word!r} is not unique: pages " + ", ".join(map(str, hits)))
-        raise BoardError(f"no page of the board is called {word!r}; it has " +
-                         (", ".join(f"{n} {name}" for n, name in pages.items()) or "none"))
+        number = selection.page_number(word)
+        if number is not None:
+            return number
+        names = self._names()
+        has = ", ".join(f"{n} {name}" for n, name in names.items()) or "none"
+        return selection.find(word, names, lambda text: BoardError(f"{text}; it has {has}"), " of the board")
+
+    def is_named(self, word: str) -> bool:
+        return word in self._names().values()
+
+    def used(self) -> list[int]:
+        """Pages that hold something, damaged ones too."""
+        return sorted(self._list())
+
+    def _names(self) -> dict[int, str]:
+        return {number: name for number, (steps, name) in self._list().items() if steps is not None and name}
+
+    def _list(self) -> dict[int, tuple[int | None, str]]:
+        if self._listed is None:
+            self._listed = self.list_pages()
+        return self._listed
 
     def page(self, number: int) -> Page:
         for _ in range(TRIES):
@@ -118,6 +132,11 @@ class Client:
             except (ValueError, IndexError):
                 pass
         raise NoAnswerError(f"page {number} came damaged, {TRIES} times")
+
+    @property
+    def pages(self) -> int:
+        """How many pages the board has: 0..pages - 1."""
+        return int(self.version.get("pages", "128"))
 
     @property
     def can_save(self) -> bool:
@@ -136,6 +155,7 @@ class Client:
 
     def save_page(self, number: int, page: Page) -> None:
         """Saves a page in the board's flash, through its page in RAM."""
+        self._listed = None
         self.ask(f"open {number}")
         data = bytes(page)
         for at in range(0, PAGE_BYTES, DATA_BYTES):
@@ -144,25 +164,25 @@ class Client:
 
     # Robot
 
-    def pose(self) -> Dict[int, Tuple[Optional[int], bool]]:
+    def pose(self) -> dict[int, tuple[int | None, bool]]:
         """id -> (position or None when silent, torque)."""
         out = {}
         for joint, position, torque in re.findall(r"(\d+):(\d+|\?):([01])", self.ask("pose")):
             out[int(joint)] = (None if position == "?" else int(position), torque == "1")
         return out
 
-    def move(self, positions: Dict[int, int], degrees_per_second: int) -> None:
+    def move(self, positions: dict[int, int], degrees_per_second: int) -> None:
         first, last = min(positions), max(positions)
         digits = "".join(f"{positions[j]:03X}" if j in positions else "---" for j in range(first, last + 1))
         self.ask(f"move {degrees_per_second} {first} {digits}")
 
-    def torque(self, on: bool, joints: List[int]) -> None:
+    def torque(self, on: bool, joints: list[int]) -> None:
         self.ask(" ".join(["torque", "on" if on else "off"] + [str(j) for j in joints]))
 
-    def where(self) -> Dict[str, str]:
+    def where(self) -> dict[str, str]:
         return self._fields(self.ask("where"))
 
-    def shape(self) -> Dict[str, str]:
+    def shape(self) -> dict[str, str]:
         """What shapes the motion: rate, blend, amplitude ("60", or "60 3,4:120" where joints differ), layer (the second page, 0: none),
         aim (joints that code moves)."""
         found = self._fields(self.ask("shape"))

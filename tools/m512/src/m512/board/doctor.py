@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import sys
 from dataclasses import asdict, dataclass
-from typing import Callable, List, Optional
+from typing import Callable
 
 from m512.board.client import Client
-from m512.errors import M512Error, NoAnswerError, RefusedError, how_to_install
+from m512.errors import M512Error, NoAnswerError, RefusedError
 
 OK, WARN, BAD = "ok", "look", "bad"
 LOW_BATTERY_DV = 96       # below 9.6 V without a load a pack is nearly empty
@@ -27,10 +27,10 @@ class Finding:
         return {key: value for key, value in asdict(self).items() if value}
 
 
-def examine(word: str, tell: Callable[[Finding], None], meet: Callable[..., Client] = Client) -> List[Finding]:
+def examine(word: str, tell: Callable[[Finding], None], meet: Callable[..., Client] = Client) -> list[Finding]:
     """All findings, told as they come. `word`: the port, or empty for the only one. meet: makes the Client of a line (sim.meet for a simulated
     board)."""
-    out: List[Finding] = []
+    out: list[Finding] = []
 
     def add(*parts: str) -> None:
         out.append(Finding(*parts))
@@ -46,10 +46,6 @@ def examine(word: str, tell: Callable[[Finding], None], meet: Callable[..., Clie
 def _libraries(add) -> None:
     add("python", OK if sys.version_info >= (3, 9) else BAD, "Python " + sys.version.split()[0],
         "" if sys.version_info >= (3, 9) else "m512 needs Python 3.9 or later")
-    from importlib.util import find_spec
-
-    if not find_spec("matplotlib"):
-        add("plot", WARN, "matplotlib is not installed", f"only `m512 plot` needs it: {how_to_install('matplotlib')}")
     from m512.board.sim import find_cm5sim
 
     try:
@@ -58,7 +54,7 @@ def _libraries(add) -> None:
         add("simulator", WARN, "not installed; only --sim needs it", str(error).partition(": ")[2])
 
 
-def _port(word: str, add) -> Optional[str]:
+def _port(word: str, add) -> str | None:
     from m512.board import ports
 
     found = ports.available()
@@ -109,7 +105,8 @@ def _loader(link, add) -> None:
         try:
             loader = loaders.identify(link)
         except M512Error as error:
-            add("loader", BAD, str(error), "press MODE and run m512 doctor again")
+            advice = "" if isinstance(error, RefusedError) else "press MODE and run m512 doctor again"
+            add("loader", BAD, str(error), advice)
             return
         version = getattr(loader, "version", "")
         add("loader", OK, f"{loader.name} {version}".strip() + (f" on a {loader.board}" if loader.board else ""))

@@ -5,15 +5,16 @@ Because only differing pages are sent, a download that broke off goes on where i
 """
 from __future__ import annotations
 
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from typing import Callable, ContextManager, Dict, List, Optional
+from typing import Callable
 
 from m512.board.factory import FactoryLoader
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, Plan
 from m512.errors import BoardError, CancelledError, PortError, RefusedError
 
-PhaseMaker = Callable[[str], ContextManager[Callable[[int, int], None]]]
+PhaseMaker = Callable[[str], AbstractContextManager[Callable[[int, int], None]]]
 BOOT_MODE, BOOT_APPLICATION = 0xFFF, 0x11
 
 
@@ -41,7 +42,7 @@ def check_board(plan: Plan, loader: Loader) -> None:
         raise RefusedError(f"the image is {plan.record}, but this board is a {loader.board}. Nothing was written")
 
 
-def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: Optional[List[int]] = None) -> Report:
+def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: list[int] | None = None) -> Report:
     """`todo`: the pages of the plan that differ, if that is known."""
     check_board(plan, loader)
     begun = loader.link.now()
@@ -63,8 +64,8 @@ def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: Optional[List[
     return Report(len(plan.pages), len(todo), loader.link.now() - begun, loader.retries)
 
 
-def _to_factory(loader: FactoryLoader, pages: Dict[int, bytes], progress: Callable[[int, int], None],
-                around: Dict[int, bytes]) -> None:
+def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callable[[int, int], None],
+                around: dict[int, bytes]) -> None:
     """Writes. If something ends it early, the error says in which state the board is and what is safe to do."""
     try:
         loader.write(pages, progress, around)

@@ -8,7 +8,8 @@ dumps. What writes flash is in factory_flash.py and mailbox.py, which say why th
 from __future__ import annotations
 
 import re
-from typing import Callable, Dict, Iterator, List, Optional, Set, Tuple
+from collections.abc import Iterator
+from typing import Callable
 
 from m512.board import factory_flash, mailbox
 from m512.board.factory_flash import Unsure
@@ -36,15 +37,15 @@ Progress = Callable[[int, int], None]
 
 class FactoryLoader:
     name = "factory boot loader"
-    board = ""            # it does not say
+    board = ""            # cm5 or cm2, by its banner (loaders.identify)
     was_at_prompt = False # before this program came
 
     def __init__(self, link: Link):
         self.link = link
         self.retries = 0
         self.pace = 1 / 5714             # seconds a byte, there and back: measured by echoes
-        self.open_at: Optional[int] = None
-        self.mode_before: Optional[int] = None
+        self.open_at: int | None = None
+        self.mode_before: int | None = None
         self.stays = False
         self.clean()
 
@@ -101,7 +102,7 @@ class FactoryLoader:
 
     # Reading
 
-    def _dump(self, word: str, start: int, end: int, modulo: int, progress: Optional[Progress]) -> bytes:
+    def _dump(self, word: str, start: int, end: int, modulo: int, progress: Progress | None) -> bytes:
         """Reads memory by dumps of 128 bytes; asks for a few in advance while none is damaged."""
         first = start - start % DUMP_BYTES
         out, tries, ahead = bytearray(), 0, DUMP_AHEAD
@@ -139,13 +140,13 @@ class FactoryLoader:
                 raise NoAnswerError(f"the dump of 0x{here:X} came damaged")
             yield b"".join(data)
 
-    def read(self, start: int, end: int, progress: Optional[Progress] = None) -> bytes:
+    def read(self, start: int, end: int, progress: Progress | None = None) -> bytes:
         return self._dump("flash", start, end, 0x20000, progress)
 
-    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Optional[Progress] = None) -> bytes:
+    def read_eeprom(self, start: int = 0, end: int = 4096, progress: Progress | None = None) -> bytes:
         return self._dump("eeprom", start, end, 0x1000, progress)
 
-    def different(self, pages: Dict[int, bytes], progress: Optional[Progress] = None) -> List[int]:
+    def different(self, pages: dict[int, bytes], progress: Progress | None = None) -> list[int]:
         """Returns those of these pages that differ on the board."""
         out, done = [], 0
         for address, data in Plan(pages).runs(list(pages)):
@@ -158,8 +159,8 @@ class FactoryLoader:
 
     # Writing flash
 
-    def write(self, pages: Dict[int, bytes], progress: Optional[Progress] = None,
-              around: Optional[Dict[int, bytes]] = None) -> int:
+    def write(self, pages: dict[int, bytes], progress: Progress | None = None,
+              around: dict[int, bytes] | None = None) -> int:
         """Writes these pages and reads them back. `around`: pages known to be there, which may be written along."""
         if any(page * FLASH_PAGE < APP[1] for page in pages):
             self.stay()                # a program that is half there must not be started
@@ -172,7 +173,7 @@ class FactoryLoader:
                 done += len(todo)
         return 0
 
-    def _with_neighbour(self, unit: Dict[int, bytes]) -> Dict[int, bytes]:
+    def _with_neighbour(self, unit: dict[int, bytes]) -> dict[int, bytes]:
         """Half a motion page is written together with its other half, as the board holds it."""
         if len(unit) > 1:
             return unit
@@ -183,10 +184,10 @@ class FactoryLoader:
         other = page ^ 1
         return {**unit, other: self.read(other * FLASH_PAGE, (other + 1) * FLASH_PAGE)}
 
-    def _write_unit(self, unit: Dict[int, bytes], todo: Set[int], progress: Optional[Callable[[int], None]]) -> None:
+    def _write_unit(self, unit: dict[int, bytes], todo: set[int], progress: Callable[[int], None] | None) -> None:
         first, count = min(unit), len(todo)
         for _ in range(TRIES):
-            look: Set[int] = set()
+            look: set[int] = set()
             for number, page in enumerate(sorted(todo)):
                 if factory_flash.in_reserve(first):
                     mailbox.write_motion_page(self, mailbox.motion_page_of(first), unit[first] + unit[first + 1])
@@ -204,7 +205,7 @@ class FactoryLoader:
 
     # Writing EEPROM
 
-    def write_eeprom(self, cells: Dict[int, int], progress: Optional[Progress] = None) -> None:
+    def write_eeprom(self, cells: dict[int, int], progress: Progress | None = None) -> None:
         """Single bytes, by address. Not read back."""
         done = 0
         for at, data in _pieces(cells):
@@ -280,9 +281,9 @@ def _as_text(data: bytes) -> bytes:
     return bytes(byte if 0x20 <= byte <= 0x7F else 0x2E for byte in data)
 
 
-def _pieces(cells: Dict[int, int]) -> List[Tuple[int, bytes]]:
+def _pieces(cells: dict[int, int]) -> list[tuple[int, bytes]]:
     """Runs of neighbouring bytes. A byte too many would be typed text, so the end of a line stands alone."""
-    out: List[Tuple[int, bytearray]] = []
+    out: list[tuple[int, bytearray]] = []
     for at in sorted(cells):
         last = out[-1] if out else (-1, bytearray())
         if at == last[0] + len(last[1]) and len(last[1]) < EEPROM_PIECE and cells[at] not in b"\r\n" \

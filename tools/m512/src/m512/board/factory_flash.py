@@ -18,7 +18,8 @@ it. So whatever a line does to the bytes (pauses, loss, each byte twice, bytes t
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Dict, Iterator, List, Set, Tuple
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from m512.board.memory import BOOT, FLASH_PAGE
 from m512.board.typed import segments
@@ -50,7 +51,7 @@ def in_reserve(page: int) -> bool:
     return page * FLASH_PAGE >= LAST_START
 
 
-def write_page(loader: "FactoryLoader", page: int, pages: Dict[int, bytes]) -> None:
+def write_page(loader: FactoryLoader, page: int, pages: dict[int, bytes]) -> None:
     """Writes a page. `pages`: what belongs into those that may be endangered; they are to be looked at afterwards."""
     if page + 1 in pages:
         _send(loader, page, page, pages[page], segments(pages[page]))
@@ -60,12 +61,12 @@ def write_page(loader: "FactoryLoader", page: int, pages: Dict[int, bytes]) -> N
         raise RefusedError(f"page 0x{page * FLASH_PAGE:05X} alone cannot be written safely")    # our own mistake
 
 
-def endangered(page: int, pages: Dict[int, bytes]) -> Set[int]:
+def endangered(page: int, pages: dict[int, bytes]) -> set[int]:
     """The pages that may have changed when a page has been written."""
     return {page, page + 1 if page + 1 in pages else page - 1}
 
 
-def _send(loader: "FactoryLoader", scratch: int, page: int, data: bytes, pieces: List[Tuple[int, int]]) -> None:
+def _send(loader: FactoryLoader, scratch: int, page: int, data: bytes, pieces: list[tuple[int, int]]) -> None:
     """All pieces but the lowest go to `scratch`, to fill the loader's buffer; the lowest, sent last, to the page.
 
     After trouble all are sent again: the buffer may hold anything."""
@@ -83,7 +84,7 @@ def _send(loader: "FactoryLoader", scratch: int, page: int, data: bytes, pieces:
     raise BoardError(f"page 0x{page * FLASH_PAGE:05X}: {trouble}, {TRIES} times. {loader.how_it_stands()}")
 
 
-def _download(loader: "FactoryLoader", address: int, data: bytes) -> str:
+def _download(loader: FactoryLoader, address: int, data: bytes) -> str:
     """One download: what went wrong, or nothing; it is over then. Unsure: it may still be open."""
     if address % FLASH_PAGE or not 0 < len(data) <= FLASH_PAGE or not 0 <= address < LAST_START:
         raise RefusedError(f"a download to 0x{address:X} of {len(data)} bytes would hurt")      # our own mistake
@@ -121,9 +122,9 @@ def _judge(report: bytes, data: bytes) -> str:
     return ""
 
 
-def units(pages: Set[int]) -> Iterator[List[int]]:
+def units(pages: set[int]) -> Iterator[list[int]]:
     """Neighbouring pages together: the runs within which a download may go wrong. Motion pages are runs of two."""
-    run: List[int] = []
+    run: list[int] = []
     for page in sorted(pages):
         if run and (page != run[-1] + 1 or _motion(page) != _motion(run[-1])):
             yield run

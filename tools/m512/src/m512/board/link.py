@@ -6,7 +6,7 @@ Every fault of the line itself becomes a PortError that says what to check. Noth
 from __future__ import annotations
 
 import time
-from typing import Any, Callable, Optional
+from typing import Any, Callable
 
 from m512.errors import NoAnswerError, PortError
 
@@ -15,18 +15,25 @@ Trace = Callable[[str, bytes], None]
 
 
 class Link:
-    def __init__(self, url: str, trace: Optional[Trace] = None):
+    def __init__(self, url: str, trace: Trace | None = None, image: str = "play"):
+        """image: what runs behind a bus: word (bus.py)."""
         import serial
 
+        from m512.board import bus
+
         self.url, self.trace = url, trace
+        self.program, device = bus.start(url, image)
         try:
-            self.port = serial.serial_for_url(url, baudrate=BAUD, timeout=0, write_timeout=20, exclusive=True)
+            self.port = serial.serial_for_url(device, baudrate=BAUD, timeout=0, write_timeout=20, exclusive=True)
             _keep_others_out(self.port)
         except (serial.SerialException, OSError, ValueError) as error:
+            self._end_program()
             raise PortError(explain(url, error)) from None
         self.held = b""     # bytes read and given back
+        if self.program:
+            self.held = self._receive(4096, bus.START_SECONDS)      # it has found its servos, and greets
 
-    def __enter__(self) -> "Link":
+    def __enter__(self) -> Link:
         return self
 
     def __exit__(self, *_exc: object) -> None:
@@ -38,6 +45,12 @@ class Link:
             self.port.close()
         except Exception:     # a port that is gone may fail to close in many ways, and nobody can help it
             pass
+        self._end_program()
+
+    def _end_program(self) -> None:
+        if self.program:
+            self.program.close()
+            self.program = None
 
     def now(self) -> float:
         """Seconds on the clock that this line's time limits are counted by. Simulated lines have their own."""
@@ -93,13 +106,13 @@ class Link:
 
     def read_exactly(self, count: int, seconds: float, what: str) -> bytes:
         """`seconds` may pass between two bytes."""
-        out = b""
+        out = bytearray()
         while len(out) < count:
             some = self._receive(count - len(out), seconds)
             if not some:
                 raise NoAnswerError(f"no answer: {what} ({len(out)} of {count} bytes came)")
             out += some
-        return out
+        return bytes(out)
 
     def read_until(self, end: bytes, seconds: float, what: str, limit: int = 1 << 20) -> bytes:
         """Reads up to and including `end`, for at most `seconds`. Later bytes are kept for the next read."""
@@ -109,30 +122,31 @@ class Link:
             raise NoAnswerError(f"no answer: {what}" + (f" (came: {tail!r})" if tail else ""))
         return out
 
-    def look_for(self, end: bytes, seconds: float, limit: int = 1 << 20) -> "tuple[bytes, bool]":
+    def look_for(self, end: bytes, seconds: float, limit: int = 1 << 20) -> tuple[bytes, bool]:
         """Reads as read_until does. Returns (what came, whether `end` was in it)."""
-        out, deadline = b"", self.now() + seconds
+        out, searched, deadline = bytearray(), 0, self.now() + seconds
         while len(out) < limit:
-            at = out.find(end)
+            at = out.find(end, searched)
             if at >= 0:
-                self.held = out[at + len(end):] + self.held
-                return out[:at + len(end)], True
+                self.held = bytes(out[at + len(end):]) + self.held
+                return bytes(out[:at + len(end)]), True
+            searched = max(0, len(out) + 1 - len(end))
             left = deadline - self.now()
             some = self._receive(4096, min(left, 0.25)) if left > 0 else b""
             if not some and left <= 0:
                 break
             out += some
-        return out, False
+        return bytes(out), False
 
     def drain(self, quiet: float = 0.05, at_most: float = 2.0) -> bytes:
         """Reads until the line has been silent for `quiet` seconds."""
-        out, deadline = b"", self.now() + at_most
+        out, deadline = bytearray(), self.now() + at_most
         while self.now() < deadline:
             some = self._receive(4096, quiet)
             if not some:
                 break
             out += some
-        return out
+        return bytes(out)
 
 
 def _keep_others_out(port: Any) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Gets into a board's boot loader and finds out which one it is.
+"""Gets into a board's boot loader and finds out which one it is, and on which board.
 
     a play typed into Edit? --- yes --> RefusedError (contact.py)
        | no
@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from typing import Callable, Union
 
-from m512.board import contact
-from m512.board.block import BlockLoader
+from m512.board import banner, contact
+from m512.board.block import IDENTITY, BlockLoader
 from m512.board.factory import KNOCK, PROMPT, FactoryLoader
 from m512.board.link import Link
 from m512.errors import NoAnswerError, RefusedError
@@ -30,6 +30,8 @@ HASHES_MOST = 2100             # with the rest of what is sent blindly: less tha
 KNOCK_SECONDS = 1.5
 IDENTIFY_TRIES = 6
 WAIT_SECONDS = 60.0
+RESTART_SECONDS = 3.0          # behind a restart that was asked for
+BANNER_IN_FLASH = (0x1F780, 0x1F880)     # of "CM5 Boot loader V1.31", the version that is known (boot/ORIGINAL.md, 7b)
 
 
 def at_prompt(link: Link) -> bool:
@@ -50,19 +52,22 @@ def at_prompt(link: Link) -> bool:
     return False
 
 
-def identify(link: Link) -> Loader:
-    """Which loader is at its prompt. Its own words are asked first: a frame would be typed text to the factory's."""
+def identify(link: Link, started: bytes = b"", board: str = "") -> Loader:
+    """Which loader is at its prompt. Its own words are asked first: a frame would be typed text to the factory's.
+    started: what it has said since its start, if that was heard; board: what the user says that it is (banner.py)."""
     text, not_known = b"", 0
     for _ in range(IDENTIFY_TRIES):
         link.drain(0.05)
         link.write(b"id\r")
         text, ended = link.look_for(PROMPT, KNOCK_SECONDS)
-        if b"ID Motion512" in text:
-            return BlockLoader(link, text.decode("ascii", "replace"))
+        ours = IDENTITY.search(text.decode("ascii", "replace"))
+        if ours:
+            banner.board_of(ours.group(2), board)
+            return BlockLoader(link, ours.group())
         # Twice, and to the right word by its echo: our loader says this, too, of a word that the line has damaged.
         not_known += text.lstrip().startswith(b"id\r\n Bad Command")
         if not_known == 2:
-            return FactoryLoader(link)
+            return _factory(link, started, board)
         if not ended:
             break
     if not text:
@@ -70,8 +75,25 @@ def identify(link: Link) -> Loader:
     raise NoAnswerError(f"a boot loader that this program does not know answered {text[-60:]!r}")
 
 
-def call_by_hash(link: Link, seconds: float) -> bool:
-    """'#' again and again until a loader shows its banner; clears the line behind it.
+def _factory(link: Link, started: bytes, board: str) -> FactoryLoader:
+    """A factory's loader, on a board that is ours. When nobody heard its banner it is looked for where the known version keeps it; a
+    loader of another version restarts, to say it again."""
+    loader = FactoryLoader(link)
+    name = banner.name_in(started) or banner.name_in(loader.read(*BANNER_IN_FLASH))
+    if not name:
+        loader.type_line("reset")
+        link.write(b"\r")
+        said = call_by_hash(link, RESTART_SECONDS)
+        if said is None:
+            raise NoAnswerError("the boot loader was restarted to say which board it is on, and did not come back. Repeat the command, and "
+                                "press MODE when it asks")
+        name = banner.name_in(said)
+    loader.board = banner.board_of(name, board)
+    return loader
+
+
+def call_by_hash(link: Link, seconds: float) -> bytes | None:
+    """'#' again and again until a loader shows its banner; clears the line behind it. Returns what it has said, None: there is none.
 
     A loader sends 0xFF when it starts and then listens for 60 ms. When HASHES_MOST have been sent without knowing to whom,
     only that 0xFF is answered any more.
@@ -85,15 +107,15 @@ def call_by_hash(link: Link, seconds: float) -> bool:
         some = link.read_some(HASH_SECONDS)
         came = (came + some)[-4096:]
         if BANNER in came or PROMPT in came:     # a prompt without banner: a broken session of ours has ended
-            link.look_for(PROMPT, 0.3)
+            came += link.look_for(PROMPT, 0.3)[0]
             link.drain(0.1, 1.0)
             link.write(KNOCK)
-            return link.look_for(PROMPT, KNOCK_SECONDS)[1]
+            return came if link.look_for(PROMPT, KNOCK_SECONDS)[1] else None
         after_ff = after_ff + 1 if came.endswith(b"\xff") or (after_ff and not some) else 0
         if after_ff > 30:      # nothing behind the 0xFF for a while: it was something else
             after_ff = 0
             came = b""
-    return False
+    return None
 
 
 def refuse(question: str) -> None:
@@ -101,28 +123,31 @@ def refuse(question: str) -> None:
     raise RefusedError(f"{question} Nobody was asked")
 
 
-def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS, may: May = refuse) -> Loader:
+def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS, may: May = refuse, board: str = "") -> Loader:
     """The board's loader, ready for work. `say` tells the user what is waited for; `may` asks a question and raises
-    RefusedError when the answer is no."""
+    RefusedError when the answer is no; board: what the user says that it is. RefusedError, too, for a board that is none of ours."""
     contact.make(link)
     if at_prompt(link):
-        loader = identify(link)
+        loader = identify(link, board=board)
         loader.was_at_prompt = True
         return loader
-    if reset_by_application(link, say, may) and call_by_hash(link, 3.0):
-        return identify(link)
+    if reset_by_application(link, say, may):
+        said = call_by_hash(link, RESTART_SECONDS)
+        if said is not None:
+            return identify(link, said, board)
     try:
         session = BlockLoader(link, tries=1, seconds=0.4)
         session.leave()
-        return identify(link)
+        return identify(link, board=board)
     except NoAnswerError:
         pass
     say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; "
         "Ctrl-C gives up.")
-    if not call_by_hash(link, seconds):
+    said = call_by_hash(link, seconds)
+    if said is None:
         raise NoAnswerError(f"no boot loader answered within {seconds:.0f} s. Is the controller on, the cable in its PC "
                             "socket, and this the right port? (m512 doctor looks at each)")
-    return identify(link)
+    return identify(link, said, board)
 
 
 def give_back(loader: Loader) -> None:

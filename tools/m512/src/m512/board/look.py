@@ -2,8 +2,6 @@
 """What a Plan would change on a board, found out without changing anything there."""
 from __future__ import annotations
 
-from typing import List
-
 from m512.board.client import Client
 from m512.board.download import PhaseMaker, check_board
 from m512.board.link import Link
@@ -16,7 +14,7 @@ from m512.pages import difference
 NO_PAGES = b"\xff" * PAGE_BYTES
 
 
-def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> List[str]:
+def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
     """In words; the loader is at its prompt again."""
     try:
         check_board(plan, loader)
@@ -29,7 +27,7 @@ def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> List[str]:
             f"{here}: the board holds this already"]
 
 
-def through_application(link: Link, plan: Plan, phase: PhaseMaker) -> List[str]:
+def through_application(link: Link, plan: Plan, phase: PhaseMaker) -> list[str]:
     """In words, asked of a running Play or Edit, which has been met (contact.py) and goes on."""
     try:
         client = Client(link, (0.7,), is_met=True)
@@ -46,7 +44,7 @@ def through_application(link: Link, plan: Plan, phase: PhaseMaker) -> List[str]:
     return out
 
 
-def _motions(client: Client, plan: Plan, phase: PhaseMaker) -> List[str]:
+def _motions(client: Client, plan: Plan, phase: PhaseMaker) -> list[str]:
     first = {(page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES: page for page in plan.pages
              if page * FLASH_PAGE >= MOTIONS[0] and page % 2 == 0}
     listed, out = client.list_pages(), []

@@ -3,12 +3,12 @@
 
 Slow (about 6 s a page), and safe on any line: `eep_dn` takes exactly as many bytes as were announced, whenever they come;
 the EEPROM is read back before the loader is told to copy; and the loader itself knows where a motion page lies. A page
-number of 0x80 and up would be the loader's own section (bootloader-original.md, 7a): it is written first and alone, and
+number of 0x80 and up would be the loader's own section (boot/ORIGINAL.md, 7a): it is written first and alone, and
 read back, before the mark that says "please write".
 """
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Dict
+from typing import TYPE_CHECKING
 
 from m512.board.memory import FLASH_PAGE, MOTIONS
 from m512.errors import BoardError, NoAnswerError, RefusedError
@@ -22,7 +22,7 @@ PAGE_BYTES, PAGES = 512, 128
 TRIES = 3
 
 
-def write_motion_page(loader: "FactoryLoader", number: int, data: bytes) -> None:
+def write_motion_page(loader: FactoryLoader, number: int, data: bytes) -> None:
     """Writes motion page `number`. The loader restarts and is at its prompt again."""
     if not 0 <= number < PAGES or len(data) != PAGE_BYTES:
         raise RefusedError(f"no motion page {number} for the mailbox")       # our own mistake
@@ -44,7 +44,7 @@ def write_motion_page(loader: "FactoryLoader", number: int, data: bytes) -> None
     _settle(loader, STATE, NOTHING)
 
 
-def different(loader: "FactoryLoader", wanted: Dict[int, int]) -> Dict[int, int]:
+def different(loader: FactoryLoader, wanted: dict[int, int]) -> dict[int, int]:
     """Returns those of the cells that differ on the board."""
     out, cells = {}, sorted(wanted)
     for run in _runs(cells):
@@ -63,7 +63,7 @@ def _runs(cells: list) -> list:
     return out
 
 
-def _settle(loader: "FactoryLoader", cell: int, value: int) -> None:
+def _settle(loader: FactoryLoader, cell: int, value: int) -> None:
     """Writes one EEPROM cell if it differs, and reads it back."""
     for _ in range(TRIES):
         if not different(loader, {cell: value}):

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
 
 from m512.crc16 import crc16
 from m512.errors import FileError, RefusedError
@@ -15,7 +14,7 @@ from m512.files import formats, scale12
 from m512.files.image import Image, hex_segments
 from m512.files.page import EMPTY, PAGE_BYTES, Page
 
-Segments = List[Tuple[int, bytes]]       # (address, bytes)
+Segments = list[tuple[int, bytes]]       # (address, bytes)
 FLASH_PAGE = 256
 APP = (0x00000, 0x0C000)
 JOURNAL = (0x0C000, 0x0E000)
@@ -38,7 +37,7 @@ class Record:
     version: str
 
     @classmethod
-    def of(cls, app: bytes) -> Optional["Record"]:
+    def of(cls, app: bytes) -> Record | None:
         raw = app[RECORD_AT:RECORD_AT + RECORD_BYTES]
         if len(raw) < RECORD_BYTES or raw[:4] != b"M512" or raw[15] != 1:
             return None
@@ -62,15 +61,15 @@ class Record:
 class Plan:
     """Whole flash pages to write: page index -> 256 bytes. `remarks` are for the user."""
 
-    pages: Dict[int, bytes] = field(default_factory=dict)
-    record: Optional[Record] = None
+    pages: dict[int, bytes] = field(default_factory=dict)
+    record: Record | None = None
     has_app: bool = False
     has_motions: bool = False
-    remarks: List[str] = field(default_factory=list)
+    remarks: list[str] = field(default_factory=list)
 
-    def runs(self, numbers: List[int], gap: int = 0) -> List[Tuple[int, bytes]]:
+    def runs(self, numbers: list[int], gap: int = 0) -> list[tuple[int, bytes]]:
         """The pages `numbers` as (address, bytes) runs; up to `gap` pages between them are written along."""
-        out: List[List[int]] = []
+        out: list[list[int]] = []
         for number in sorted(numbers):
             if out and number - out[-1][-1] <= gap + 1 and all(n in self.pages for n in range(out[-1][-1], number)):
                 out[-1] += range(out[-1][-1] + 1, number + 1)
@@ -88,11 +87,11 @@ def _refuse_outside(start: int, end: int, what: str) -> None:
                            f"An application has {_area(APP)}")
 
 
-def _area(area: Tuple[int, int]) -> str:
+def _area(area: tuple[int, int]) -> str:
     return f"0x{area[0]:05X}..0x{area[1] - 1:05X}"
 
 
-def plan(path: Path, address: Optional[int] = None, board: Optional[str] = None, with_trim: bool = False,
+def plan(path: Path, address: int | None = None, board: str | None = None, with_trim: bool = False,
          damaged: str = "ask") -> Plan:
     """What flashing a file means. `board`: cm5 or cm2 if known, to refuse code for the other one.
     `address`: of a raw binary that is no motion image. `with_trim`: page 0 goes too although it holds no trim."""
@@ -110,7 +109,7 @@ def plan(path: Path, address: Optional[int] = None, board: Optional[str] = None,
     return out
 
 
-def _segments(path: Path, data: bytes, address: Optional[int], out: Plan, with_trim: bool, damaged: str) -> Segments:
+def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim: bool, damaged: str) -> Segments:
     is_hex = data[:200].lstrip(b"\xef\xbb\xbf \r\n").startswith(b":")
     if is_hex and address is not None:
         raise RefusedError("Intel HEX says its addresses itself; --address is for raw binaries")
@@ -171,13 +170,13 @@ def _add(out: Plan, start: int, piece: bytes) -> None:
         out.pages[at // FLASH_PAGE] = bytes(page)
 
 
-def app_bytes(pages: Dict[int, bytes]) -> bytes:
+def app_bytes(pages: dict[int, bytes]) -> bytes:
     """The application area as one piece, from the pages that there are."""
     last = max((n for n in pages if n * FLASH_PAGE < APP[1]), default=-1)
     return b"".join(pages.get(n, b"\xff" * FLASH_PAGE) for n in range(last + 1))
 
 
-def _judge_app(out: Plan, path: Path, board: Optional[str]) -> None:
+def _judge_app(out: Plan, path: Path, board: str | None) -> None:
     app = app_bytes(out.pages)
     if 0 not in out.pages or app[:2] == b"\xff\xff":
         raise RefusedError(f"{path.name} has no reset vector at 0: not a program for this board")

@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 import re
 import stat
-from typing import List, Tuple
 
 from m512.errors import PortError
 
 
 def is_port(word: str) -> bool:
-    """Whether a word means a port rather than a file: a device, COM3, or a URL such as socket://host:port."""
-    if re.match(r"(COM[0-9]+|[a-z0-9]+://.*)\Z", word, re.I) or word.startswith("\\\\.\\"):
+    """Whether a word means a port rather than a file: a device, COM3, a URL such as socket://host:port, or bus:DEVICE (bus.py)."""
+    if re.match(r"(bus:.*|COM[0-9]+|[a-z0-9]+://.*)\Z", word, re.I) or word.startswith("\\\\.\\"):
         return True
     if re.match(r"/dev/(std(in|out|err)|fd/.*|null|zero|u?random|full)\Z", word):
         return False
@@ -22,7 +21,7 @@ def is_port(word: str) -> bool:
         return word.startswith("/dev/")
 
 
-def available() -> List[Tuple[str, str]]:
+def available() -> list[tuple[str, str]]:
     """(device, description) of the serial ports of this computer, USB adapters first."""
     from serial.tools import list_ports
 

@@ -17,13 +17,11 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import List, Optional
 
 from m512 import ui
 from m512.board.client import Client
 from m512.board.link import Link
 from m512.errors import MissingError, NoAnswerError, RefusedError
-from m512.files.image import Image
 from m512.files.scale12 import HINT
 from m512.files.wording import named_pages_text
 from m512.places import build_folder, wheel_folder
@@ -64,7 +62,7 @@ def find_image(name: str) -> Path:
                        "or give its path (--image)")
 
 
-def our_motions() -> Optional[Path]:
+def our_motions() -> Path | None:
     """The motion library of the build folder or of the simulator's wheel, if there is one."""
     places = [folder / "motions" / "motions.bin" for folder in (build_folder(), wheel_folder()) if folder]
     return next((place for place in places if place.exists()), None)
@@ -73,31 +71,38 @@ def our_motions() -> Optional[Path]:
 class Simulator:
     """cm5sim with its console on a pty, and our motions unless others are given. Use as a context; `url` is the port."""
 
-    def __init__(self, images: List[str], motions: Optional[Path] = None, servos: str = "1-18", extra: Optional[List[str]] = None):
-        self.folder = Path(tempfile.mkdtemp(prefix="m512-sim-"))
+    def __init__(self, images: list[str], motions: Path | None = None, servos: str = "1-18", extra: list[str] | None = None):
         command = [str(find_cm5sim())] + [str(find_image(image)) for image in images]
-        motions = motions or our_motions()
-        if motions:
-            from m512.files import formats
-
-            image = formats.load(motions)
-            self._must_fit(image, motions)
-            (self.folder / "motions.bin").write_bytes(image.resized(128)[0].to_bytes())
-            command += ["--motions", str(self.folder / "motions.bin")]
         command += ["--servos", servos, "--pty", "--no-stdio", "--realtime"] + (extra or [])
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        motions = motions or our_motions()
+        # A file without a name: nothing is left of it, however this ends.
+        with tempfile.TemporaryFile() as area:
+            if motions:
+                area.write(self._fitting(motions))
+                area.flush()
+                command += ["--motions", f"/dev/fd/{area.fileno()}"]
+            self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                            pass_fds=(area.fileno(),))
         self.said = b""
-        self.url = self._wait_for_port()
+        try:
+            self.url = self._wait_for_port()
+        except BaseException:
+            self.close()
+            raise
 
     @staticmethod
-    def _must_fit(image: Image, motions: Path) -> None:
-        """Refuses what a board of 10 bits and 128 pages cannot play, as for a real one."""
+    def _fitting(motions: Path) -> bytes:
+        """The motion area of a file. Refuses what a board of 10 bits and 128 pages cannot play, as for a real one."""
+        from m512.files import formats
+
+        image = formats.load(motions)
         if image.bits != 10:
             raise RefusedError(f"{motions}: 12-bit positions mean nothing to this board: {HINT}")
         lost = image.beyond(128)
         if lost:
             raise RefusedError(f"{motions}: {named_pages_text(lost)}: no room among this board's 128 pages "
                                "(m512 convert --pages 128 leaves them out)")
+        return image.resized(128)[0].to_bytes()
 
     def _wait_for_port(self) -> str:
         assert self.process.stdout is not None
@@ -112,11 +117,10 @@ class Simulator:
                 if not some:
                     break
         ended = self.process.poll() is not None
-        self.close()
         raise MissingError("the simulator did not start: " + (self.said.decode("utf-8", "replace").strip() or (
             f"it ended with exit code {self.process.returncode}" if ended else f"it named no port for {START_SECONDS / 60:.0f} minutes")))
 
-    def __enter__(self) -> "Simulator":
+    def __enter__(self) -> Simulator:
         return self
 
     def __exit__(self, *_exc: object) -> None:
@@ -129,7 +133,8 @@ class Simulator:
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        if self.process.stdout:
+            self.process.stdout.close()
 
 
 def meet(link: Link) -> Client:

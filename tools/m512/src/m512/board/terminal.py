@@ -7,10 +7,11 @@ import threading
 import time
 from itertools import chain
 from pathlib import Path
-from typing import BinaryIO, Optional
+from typing import BinaryIO
 
 from m512.board.link import Link
-from m512.errors import M512Error, PortError
+from m512.errors import FileError, M512Error, PortError
+from m512.files import storage
 
 KEY = "\x1d"      # Ctrl-]
 HELP = """
@@ -26,21 +27,21 @@ HIDDEN = (XON, XOFF, 0xFF)     # flow control, and the byte that a controller se
 
 
 class Terminal:
-    def __init__(self, url: str, log: Optional[Path] = None):
-        self.link = Link(url)
-        self.log: Optional[BinaryIO] = None
+    def __init__(self, url: str, log: Path | None = None, image: str = "edit"):
+        self.log: BinaryIO | None = None
         self.running, self.held, self.trouble = True, False, ""
         self.heard_at = 0.0
         if log:
             self._open_log(log)
+        self.link = Link(url, image=image)
 
     def _open_log(self, path: Path) -> None:
         try:
             self.log = open(path, "ab")
         except OSError as error:
-            raise PortError(f"cannot write {path}: {error.strerror}") from None
+            raise FileError(f"cannot write {path}: {error.strerror}") from None
 
-    def run(self, send: Optional[Path] = None) -> None:
+    def run(self, send: Path | None = None) -> None:
         if not sys.stdin.isatty():
             self._run_plain(send)
             return
@@ -65,7 +66,7 @@ class Terminal:
         if self.trouble:
             raise PortError(self.trouble)
 
-    def _run_plain(self, send: Optional[Path]) -> None:
+    def _run_plain(self, send: Path | None) -> None:
         """Standard input is no terminal: its lines go to the board, one after another's answer, and what the board says to
         standard output."""
         try:
@@ -158,7 +159,10 @@ class Terminal:
             return
         name = self._ask(console, "log to: ")
         if name:
-            self._open_log(Path(name))
+            try:
+                self._open_log(Path(name))
+            except FileError as error:
+                self._say(str(error))
 
     def _ask(self, console, prompt: str) -> str:
         sys.stderr.write("\r\n-- " + prompt)
@@ -203,11 +207,11 @@ class Terminal:
             self.link.write(data)
             self._say(f"{path} sent, {len(data):,} bytes")
 
-    def _file(self, path: Path) -> Optional[bytes]:
+    def _file(self, path: Path) -> bytes | None:
         try:
-            return path.read_bytes()
-        except OSError as error:
-            self._say(f"cannot read {path}: {error.strerror}")
+            return storage.read(path)
+        except FileError as error:
+            self._say(str(error))
             return None
 
 

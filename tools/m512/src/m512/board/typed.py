@@ -9,7 +9,6 @@ data is sent in segments in which no line end stands behind anything that could 
 from __future__ import annotations
 
 import re
-from typing import List, Tuple
 
 LINE_ENDS = b"\r\n"
 DROPPED = b"\x00\x1b"          # the loader neither keeps nor echoes them
@@ -27,7 +26,7 @@ def is_risky(line: bytes) -> bool:
     return len(kept) >= LINE_BYTES or CTRL_A in kept or BACKSPACE in kept or _WORDS.search(kept) is not None
 
 
-def cuts(data: bytes) -> List[int]:
+def cuts(data: bytes) -> list[int]:
     """The line ends that must begin a segment of their own."""
     out, start = [], 0
     for at, byte in enumerate(data):
@@ -38,7 +37,7 @@ def cuts(data: bytes) -> List[int]:
     return out
 
 
-def segments(data: bytes, *more: int) -> List[Tuple[int, int]]:
+def segments(data: bytes, *more: int) -> list[tuple[int, int]]:
     """(start, end) of the pieces of `data` that may be sent in one download each, cut also at `more`; last piece first."""
     bounds = sorted({0, len(data), *cuts(data), *more})
     return list(zip(bounds, bounds[1:]))[::-1]

@@ -2,6 +2,7 @@
 """The command line. Commands are imported when they are called: `m512 --help` reads only this file."""
 from __future__ import annotations
 
+import signal
 import sys
 
 import click
@@ -31,7 +32,6 @@ COMMANDS = {
     "convert": ("files", "Convert motions between image, Intel HEX, .mtn, CSV and text."),
     "pages": ("pages", "List, check, edit, merge and retime pages of a file or a board."),
     "diff": ("files", "Say in words how two motion files (or boards) differ."),
-    "plot": ("plot", "Draw a page by both laws, or a recorded trace."),
 }
 
 
@@ -54,6 +54,9 @@ class LazyGroup(click.Group):
     def invoke(self, ctx):
         from m512.errors import EXIT_CANCELLED, M512Error
 
+        for name in ("SIGTERM", "SIGHUP"):       # the simulator and a robot that is driven do not outlive this program
+            if hasattr(signal, name):
+                signal.signal(getattr(signal, name), lambda number, _: sys.exit(128 + number))
         try:
             return super().invoke(ctx)
         except M512Error as error:

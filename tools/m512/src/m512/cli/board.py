@@ -13,20 +13,24 @@ from m512 import ui
 from m512.errors import M512Error, PortError, RefusedError
 
 port_option = click.option("-p", "--port", envvar="M512_PORT", default="", metavar="PORT",
-                           help="Serial port: device, part of its name, or socket://host:port. Default: the only one.")
+                           help="Serial port: device, part of its name, socket://host:port, or bus:DEVICE for servos on an "
+                                "adapter, without a board. Default: the only one.")
 wait_option = click.option("--wait", default=60.0, show_default=True, metavar="SECONDS",
                            help="How long to wait for the MODE button.")
+board_option = click.option("--board", type=click.Choice(["cm5", "cm2"]), callback=lambda _, __, value: value or "",
+                            help="Which board it is, if its boot loader does not say so (cm2: CM-2 and CM-2+).")
 json_option = click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 
 
-def connect(port, wait, yes=False):
+def connect(port, wait, yes=False, board=""):
     """(link, loader) of the board on a port. A running Play or Edit restarts by itself; edits are lost only after a yes."""
-    from m512.board import loaders, ports
+    from m512.board import bus, loaders, ports
     from m512.board.link import Link
 
+    bus.refuse(port)
     link = Link(ports.pick(port))
     try:
-        loader = loaders.enter(link, ui.say, wait, lambda question: ui.confirm(question, yes))
+        loader = loaders.enter(link, ui.say, wait, lambda question: ui.confirm(question, yes), board)
     except BaseException:
         link.close()
         raise
@@ -44,7 +48,7 @@ def number(context, parameter, value):
 
 
 def flash_options(function):
-    for option in (json_option, wait_option, port_option,
+    for option in (json_option, wait_option, board_option, port_option,
                    click.option("--dry-run", is_flag=True, help="Look at the board, say what would be written, change nothing."),
                    click.option("--yes", is_flag=True, help="Do not ask when Edit has edits that are not saved."),
                    click.option("--damaged", type=click.Choice(["ask", "keep"]), default="ask",
@@ -56,20 +60,20 @@ def flash_options(function):
     return function
 
 
-def _flash(image, address, fast, with_trim, damaged, dry_run, yes, port, wait, as_json, start):
+def _flash(image, address, fast, with_trim, damaged, dry_run, yes, port, board, wait, as_json, start):
     from m512.board import download, memory
     from m512.board.block import BlockLoader
 
-    plan = memory.plan(image, address, None, with_trim, damaged)
+    plan = memory.plan(image, address, board, with_trim, damaged)
     for remark in plan.remarks:
         ui.say(f"note: {remark}")
     first, last = min(plan.pages) * 256, max(plan.pages) * 256 + 255
     what = str(plan.record) if plan.record else "an application" if plan.has_app else "motions"
     ui.say(f"{image.name}: {what}, {len(plan.pages)} flash pages in 0x{first:05X}..0x{last:05X}")
     if dry_run:
-        _look(plan, port)
+        _look(plan, port, board)
         return
-    link, loader = connect(port, wait, yes)
+    link, loader = connect(port, wait, yes, board)
     with link:
         if fast and isinstance(loader, BlockLoader) and not loader.go_faster():
             ui.say("note: the fast rate does not work here; going on at 57,600")
@@ -85,11 +89,12 @@ def _flash(image, address, fast, with_trim, damaged, dry_run, yes, port, wait, a
             ui.show(json.dumps(dict(report.as_dict(), loader=loader.name, board=loader.board, started=start)))
 
 
-def _look(plan, port):
+def _look(plan, port, board):
     """What a plan would change on the board, which goes on with what it does."""
-    from m512.board import contact, loaders, look, ports
+    from m512.board import bus, contact, loaders, look, ports
     from m512.board.link import Link
 
+    bus.refuse(port)
     try:
         link = Link(ports.pick(port))
     except PortError as error:
@@ -100,7 +105,7 @@ def _look(plan, port):
     with link:
         contact.make(link)
         if loaders.at_prompt(link):
-            found = look.through_loader(loaders.identify(link), plan, ui.phase)
+            found = look.through_loader(loaders.identify(link, board=board), plan, ui.phase)
         else:
             found = look.through_application(link, plan, ui.phase)
     for line in found:
@@ -136,7 +141,7 @@ def run(image, **options):
         return
     from m512.board import download
 
-    link, loader = connect(options["port"], options["wait"], options["yes"])
+    link, loader = connect(options["port"], options["wait"], options["yes"], options["board"])
     with link:
         download.start(loader)
         ui.say("started")
@@ -159,16 +164,17 @@ Examples:
 @click.argument("folder", type=click.Path(path_type=Path), required=False)
 @click.option("--what", default="motions,eeprom,app", show_default=True, help="Areas to read.")
 @port_option
+@board_option
 @wait_option
 @json_option
-def backup(folder, what, port, wait, as_json):
+def backup(folder, what, port, board, wait, as_json):
     """Read motions, EEPROM and application into FOLDER, with a manifest (date, board, CRCs)."""
     from m512.board import backup as backups
     from m512.board import loaders
 
     areas = _areas(what)
     folder = folder or Path(datetime.now().strftime("backup-%Y%m%d-%H%M%S"))
-    link, loader = connect(port, wait)
+    link, loader = connect(port, wait, board=board)
     with link:
         with as_found(loader):
             made = backups.take(loader, folder, areas, ui.phase)
@@ -187,9 +193,10 @@ Examples:
 @click.option("--what", default="", help="Areas to write (default: all of the backup).")
 @click.option("--yes", is_flag=True, help="Do not ask.")
 @port_option
+@board_option
 @wait_option
 @json_option
-def restore(folder, what, yes, port, wait, as_json):
+def restore(folder, what, yes, port, board, wait, as_json):
     """Show what a backup would change on the board, ask, and write it."""
     from m512.board import backup as backups
     from m512.board import download, loaders
@@ -200,7 +207,7 @@ def restore(folder, what, yes, port, wait, as_json):
     missing = [area for area in areas if area not in saved.data]
     if missing:
         raise RefusedError(f"the backup has no {', '.join(missing)}")
-    link, loader = connect(port, wait, yes)
+    link, loader = connect(port, wait, yes, board)
     with link:
         pages = backups.flash_pages(saved, areas)
         with as_found(loader):

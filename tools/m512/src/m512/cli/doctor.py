@@ -14,15 +14,19 @@ from m512.errors import EXIT_DIFFERENT
 @click.command(epilog="""\b
 Examples:
   m512 doctor
-  m512 doctor -p /dev/ttyUSB0 --json""")
+  m512 doctor -p /dev/ttyUSB0 --json
+  m512 doctor -p bus:/dev/ttyUSB0           servos on an adapter, without a board
+  m512 doctor -p bus:/dev/ttyUSB0 --mend    moves servos that have another rate to 1 Mbps""")
 @port_option
 @click.option("--sim", is_flag=True, help="Examine the simulator.")
+@click.option("--mend", is_flag=True, help="With -p bus:...: give servos the rate, and a return delay that is too short its factory value.")
 @json_option
-def doctor(port, sim, as_json):
+def doctor(port, sim, mend, as_json):
     """Look at port, boot loader, image, servos and motions, and say what is wrong and what to do.
 
-    Nothing is written and nothing moves. Exit code 3 when something is bad.
+    Nothing is written (but with --mend) and nothing moves. Exit code 3 when something is bad.
     """
+    from m512.board.bus import is_bus
     from m512.board.doctor import BAD, examine
 
     def tell(finding):
@@ -32,7 +36,13 @@ def doctor(port, sim, as_json):
             if finding.advice:
                 ui.show(f"                 -> {finding.advice}")
 
-    if sim:
+    if mend and not is_bus(port):
+        raise click.UsageError("--mend is for -p bus:...")
+    if is_bus(port) and not sim:
+        from m512.board import bus_doctor
+
+        found = bus_doctor.examine(port, tell, mend)
+    elif sim:
         from m512.board.sim import Simulator, meet
 
         with Simulator(["play-cm5.hex"]) as simulator:

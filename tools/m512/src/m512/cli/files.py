@@ -8,13 +8,46 @@ from pathlib import Path
 import click
 
 from m512 import ui
-from m512.errors import EXIT_DIFFERENT, FileError, RefusedError
-from m512.files import conversion, formats, storage
+from m512.cli.board import board_option
+from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
+from m512.files import conversion, formats, selection, storage
+
+
+class PageNumber(click.ParamType):
+    """A page's number and nothing else: int() also takes 1_0 and digits of other scripts."""
+
+    name = "number"
+
+    def convert(self, value, param, ctx):
+        number = value if isinstance(value, int) else selection.page_number(value)
+        if number is None or number > selection.NUMBER_MOST:
+            self.fail(f"{value!r} is no page number (0..{selection.NUMBER_MOST})", param, ctx)
+        return number
+
+
+PAGE_NUMBER = PageNumber()
+
+
+def page_numbers(words, pages):
+    """The pages that arguments mean, of a file or a board (files/selection.py)."""
+    return _meant(selection.numbers, words, pages)
+
+
+def page_moves(words, pages):
+    """[(number there, number here)] of arguments such as 3, wave:40, 20..25:60, all."""
+    return _meant(selection.moves, words, pages)
+
+
+def _meant(parse, words, pages):
+    try:
+        return parse(words, pages)
+    except WordError as error:
+        raise click.UsageError(str(error)) from None
 
 
 def id_list(text):
     """IDs of an option's value."""
-    from m512.files.text.words import WordError, joints_of
+    from m512.files.text.words import joints_of
 
     try:
         return joints_of(text.replace(" ", ","), {})
@@ -29,13 +62,16 @@ Examples:
   m512 convert op3.bin op3.m512 --bits 12   12-bit image to text, as it is
   m512 convert op3.bin cm5.bin --bits 12 --scale 10 --joints 1..20
                                             scaled from 12 to 10 bits, with a report
-  m512 convert lib.bin wave.csv --page 15   one page as a table""")
+  m512 convert lib.bin wave.csv --page 15   one page as a table
+  m512 convert large.mtn small.bin --only walk --only 20..25
+                                            these pages and all that they lead to, renumbered to fit""")
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("target", type=click.Path(path_type=Path), default="-")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of SOURCE (default: what its positions look like).")
 @click.option("--scale", type=click.Choice(["10", "12"]), help="Scale positions to this resolution.")
 @click.option("--joints", help="Keep these IDs (1..20 or 1,3,5) and set all others unused.")
 @click.option("--pages", "count", type=click.Choice(["128", "256"]), help="Pages of the result (default: as SOURCE; 128 for a .mtn).")
+@click.option("--only", multiple=True, metavar="NAME|RANGE", help="Take this page, or these, and all that they lead to; again for more.")
 @click.option("--page", "number", help="The page (number or name) of a CSV.")
 @click.option("--onto", type=click.Path(path_type=Path), help="Motion file whose page 0 (trim) a .mtn takes over.")
 @click.option("--damaged", type=click.Choice(["ask", "keep", "drop"]), default="keep",
@@ -43,7 +79,7 @@ Examples:
 @click.option("--mtn-version", type=click.Choice(["1.00", "1.01"]), default="1.01", help="Version of a .mtn to write.")
 @click.option("--force", is_flag=True, help="Overwrite TARGET.")
 @click.option("--json", "as_json", is_flag=True, help="Report on stdout as JSON.")
-def convert(source, target, bits, scale, joints, count, number, onto, damaged, mtn_version, force, as_json):
+def convert(source, target, bits, scale, joints, count, only, number, onto, damaged, mtn_version, force, as_json):
     """Convert the motions in SOURCE to TARGET.
 
     Without a TARGET, or with -, the text goes to standard output; a SOURCE of - is standard input. For git:
@@ -51,12 +87,20 @@ def convert(source, target, bits, scale, joints, count, number, onto, damaged, m
 
     The suffix of TARGET decides: .bin (raw image), .hex (Intel HEX), .mtn (RoboPlus), .csv (one page), .m512 (text).
     SOURCE is recognised by its contents. All losses are listed; a conversion that loses nothing says nothing. Pages of yours
-    are left out only when an option says so.
+    are left out only when an option says so; --only says which were.
     """
     if storage.exists(target) and not force:
         raise RefusedError(f"{target} is there already (--force overwrites it)")
     image = formats.load(source, bits and int(bits), formats.load(onto) if onto else None)
     notes, losses = list(image.notes), []
+    moved, left = {}, []
+    if only:
+        from m512.pages.excerpt import excerpt
+
+        whole, wanted = image, page_numbers(only, image)
+        part = excerpt(whole, wanted, count and int(count) or conversion.fitting(whole, source, target))
+        image, moved, left = part.image, part.moved, part.left
+        notes += part.notes(whole, wanted)
     if joints:
         from m512.files.scale12 import keep_joints
 
@@ -72,7 +116,7 @@ def convert(source, target, bits, scale, joints, count, number, onto, damaged, m
     losses += formats.save(target, image, image.find(number) if number else None, mtn_version)
     if as_json:
         ui.show(json.dumps({"source": str(source), "target": str(target), "pages": len(image.pages), "bits": image.bits,
-                               "damaged": bad, "notes": notes, "losses": losses}, indent=2))
+                               "damaged": bad, "notes": notes, "losses": losses, "moved": moved, "left": left}, indent=2))
         return
     for note in notes:
         ui.say(f"note: {note}")
@@ -80,14 +124,14 @@ def convert(source, target, bits, scale, joints, count, number, onto, damaged, m
         ui.say(f"loss: {loss}")
 
 
-def _motions_of(word, bits):
+def _motions_of(word, bits, board):
     """The motions of a file, a backup's folder, or a board."""
     from m512.board.ports import is_port
 
     if is_port(word):
         from m512.board.motions import read_motions
 
-        return read_motions(word)
+        return read_motions(word, board)
     if Path(word).is_dir():
         from m512.board import backup
         from m512.files import image
@@ -107,14 +151,15 @@ Examples:
 @click.argument("first")
 @click.argument("second")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of images (default: what the positions look like).")
+@board_option
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
-def diff(first, second, bits, as_json):
+def diff(first, second, bits, board, as_json):
     """Say in words how the motions in FIRST and SECOND differ: which page, which step, which joint, from, to.
 
     Each is a motion file, the folder of a backup, or the port of a board. Exit code 0 when they are equal, 3 when they differ."""
     from m512.pages import difference
 
-    found = difference.images(_motions_of(first, bits and int(bits)), _motions_of(second, bits and int(bits)))
+    found = difference.images(*(_motions_of(word, bits and int(bits), board) for word in (first, second)))
     if as_json:
         ui.show(json.dumps([change.as_dict() for change in found], indent=2))
     else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import click
 
@@ -92,10 +93,8 @@ def free(ids, **options):
 
 def _amplitude(text):
     """Servo units of 30deg or 100."""
-    try:
-        units = round(float(text[:-3]) * 1024 / 300) if text.endswith("deg") else int(text)
-    except ValueError:
-        units = -1
+    found = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]{0,9})?)(deg)?", text)
+    units = -1 if not found or not found.group(2) and "." in text else round(float(found.group(1)) * (1024 / 300 if found.group(2) else 1))
     if not AMPLITUDES[0] <= units <= AMPLITUDES[1]:
         raise click.UsageError(f"{text}: an amplitude is {AMPLITUDES[0]}..{AMPLITUDES[1]} servo units, or degrees as 30deg")
     return units
@@ -103,10 +102,7 @@ def _amplitude(text):
 
 def _milliseconds(text):
     """Milliseconds of 2s or 1500ms."""
-    for suffix, factor in (("ms", 1), ("s", SECOND_MS)):
-        if text.endswith(suffix):
-            try:
-                return round(float(text[:-len(suffix)]) * factor)
-            except ValueError:
-                break
+    found = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]{0,9})?)(ms|s)", text)
+    if found:
+        return round(float(found.group(1)) * (1 if found.group(2) == "ms" else SECOND_MS))
     raise click.UsageError(f"{text}: a period is seconds or milliseconds, such as 2s or 1500ms")

@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 from functools import cached_property
 from pathlib import Path
-from typing import Optional
 
 import click
 
 from m512 import ui
-from m512.cli.files import id_list
-from m512.errors import EXIT_DIFFERENT, RefusedError
+from m512.cli.board import board_option
+from m512.cli.files import PAGE_NUMBER, id_list, page_moves, page_numbers
+from m512.errors import EXIT_DIFFERENT, RefusedError, WordError
 from m512.files import formats, storage
 from m512.files.page import Page
 
@@ -19,8 +19,8 @@ from m512.files.page import Page
 class Source:
     """The file or board that an action works on; read when the action first asks."""
 
-    def __init__(self, word: str, bits: Optional[int]):
-        self.word, self.bits = word, bits
+    def __init__(self, word: str, bits: int | None, which_board: str = ""):
+        self.word, self.bits, self.which_board = word, bits, which_board
 
     @cached_property
     def board(self) -> bool:
@@ -33,7 +33,7 @@ class Source:
         if self.board:
             from m512.board.motions import read_motions
 
-            image = read_motions(self.word)
+            image = read_motions(self.word, self.which_board)
             self.found = image.resized(image.end)[0]
             return image
         image = formats.load(Path(self.word), self.bits)
@@ -84,7 +84,17 @@ class Source:
             ui.say("The board holds this already.")
             return
         ui.confirm("Write this to the board?", yes)
-        write_motions(self.word, self.image)
+        write_motions(self.word, self.image, self.which_board)
+
+
+class Finite(click.FloatRange):
+    """A range that nan is not in."""
+
+    def convert(self, value, param, ctx):
+        number = super().convert(value, param, ctx)
+        if number != number:
+            self.fail(f"{value!r} is no number", param, ctx)
+        return number
 
 
 def changes(function):
@@ -107,13 +117,14 @@ Examples:
   m512 pages /dev/ttyUSB0 list --json""")
 @click.argument("source", metavar="FILE|PORT")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of an image file (default: what its positions look like).")
+@board_option
 @click.pass_context
-def pages(context, source, bits):
+def pages(context, source, bits, board):
     """List, check, edit, merge, mirror and retime the pages of a motion file, or of a board on a PORT.
 
-    Pages are given by number or name. Actions that change something want -o FILE or --in-place.
+    Pages are given by number, name or range (20..25: those of them that are not empty). Actions that change something want -o FILE or --in-place.
     """
-    context.obj = Source(source, bits and int(bits))
+    context.obj = Source(source, bits and int(bits), board)
 
 
 @pages.command("list", epilog="Example: m512 pages lib.bin list --all")
@@ -138,8 +149,7 @@ def show(source, page):
     from m512.files.text.writer import Style, is_motion, page_text, raw_text
 
     style = Style(source.image)
-    for word in page:
-        number = source.image.find(word)
+    for number in page_numbers(page, source.image):
         writer = page_text if is_motion(source.image[number], source.image) else raw_text
         ui.show(writer(source.image[number], (number, number), style))
 
@@ -183,7 +193,7 @@ def rename(source, page, name, **where):
 
 @pages.command(epilog="Example: m512 pages lib.bin copy 12 40 --in-place")
 @click.argument("page")
-@click.argument("target", type=int)
+@click.argument("target", type=PAGE_NUMBER)
 @replacing
 @changes
 def copy(source, page, target, replace, **where):
@@ -200,12 +210,12 @@ def delete(source, page, **where):
     """Make pages empty; says which pages still link to them."""
     from m512.pages import operations
 
-    source.store(operations.delete(source.image, [source.image.find(word) for word in page]), **where)
+    source.store(operations.delete(source.image, page_numbers(page, source.image)), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin renumber walk_loop 30 --in-place")
 @click.argument("page")
-@click.argument("target", type=int)
+@click.argument("target", type=PAGE_NUMBER)
 @click.option("--swap", is_flag=True, help="Exchange with a page that is there.")
 @changes
 def renumber(source, page, target, swap, **where):
@@ -220,7 +230,7 @@ def renumber(source, page, target, swap, **where):
 @changes
 def extract(source, page, **where):
     """Keep these pages only, at their numbers."""
-    numbers = {source.image.find(word) for word in page}
+    numbers = set(page_numbers(page, source.image))
     remarks = []
     for number, here in source.image.items():
         if number not in numbers:
@@ -240,24 +250,14 @@ Examples:
 @replacing
 @changes
 def merge(source, other, page, replace, **where):
-    """Take pages from OTHER: `3` to its own number, `3:20` or `wave:20` to number 20, `all` that are not empty.
+    """Take pages from OTHER: `3` or `3..9` to their own numbers, `3:20` or `wave:20` to number 20, `all` that are not empty.
 
     Links among the pages taken follow them.
     """
     from m512.pages import operations
 
     image = formats.load(other, source.bits)
-    moves = []
-    for word in page:
-        if word == "all":
-            moves += [(n, n) for n, here in image.items() if n and not here.is_empty]
-            continue
-        name, colon, target = word.rpartition(":")
-        if not colon or not target.isdigit():
-            name, target = word, ""
-        number = image.find(name)
-        moves.append((number, int(target) if target else number))
-    source.store(operations.place(source.image, image, moves, replace), **where)
+    source.store(operations.place(source.image, image, page_moves(page, image), replace), **where)
 
 
 @pages.command(epilog="""\b
@@ -265,7 +265,7 @@ Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of
 @click.argument("base")
 @click.argument("other")
 @click.argument("joints")
-@click.argument("target", type=int)
+@click.argument("target", type=PAGE_NUMBER)
 @click.option("--from", "other_file", type=click.Path(path_type=Path), help="File that holds OTHER.")
 @replacing
 @changes
@@ -284,21 +284,20 @@ def combine(source, base, other, joints, target, other_file, replace, **where):
 
 @pages.command(epilog="Example: m512 pages lib.bin mirror kick_left 41 --in-place")
 @click.argument("page")
-@click.argument("target", type=int, required=False)
+@click.argument("target", type=PAGE_NUMBER, required=False)
 @click.option("--pairs", default="1-2,3-4,5-6,7-8,9-10,11-12,13-14,15-16,17-18", show_default=True,
               help="Joints that change places; a single one is turned round.")
 @replacing
 @changes
 def mirror(source, page, target, pairs, replace, **where):
     """Left for right: paired joints change places, position p becomes 1024 - p."""
+    from m512.files.text.words import joint_pairs
     from m512.pages import operations
 
-    table = {}
-    for pair in pairs.split(","):
-        ids = [joint for part in pair.split("-") for joint in id_list(part)]
-        if len(ids) not in (1, 2) or any(joint in table for joint in ids):
-            raise click.UsageError(f"{pair}: pairs are 1-2,3-4,19; no joint twice")
-        table[ids[0]], table[ids[-1]] = ids[-1], ids[0]
+    try:
+        table = joint_pairs(pairs.split(","), {})
+    except WordError as error:
+        raise click.UsageError(str(error)) from None
     source.store(operations.mirror(source.image, source.image.find(page), table, target, replace), **where)
 
 
@@ -315,7 +314,7 @@ def retime(source, page, factor, **where):
 
 @pages.command(epilog="Example: m512 pages lib.bin time walk_start --volts 11.1")
 @click.argument("page")
-@click.option("--volts", type=click.FloatRange(6, 16), default=9.6, show_default=True, help="Supply of the servos.")
+@click.option("--volts", type=Finite(6, 16), default=9.6, show_default=True, help="Supply of the servos.")
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 @click.pass_obj
 def time(source, page, volts, as_json):

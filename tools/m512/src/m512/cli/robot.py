@@ -10,6 +10,7 @@ import click
 
 from m512 import ui
 from m512.cli.board import json_option, port_option
+from m512.cli.files import page_moves, page_numbers
 from m512.errors import NoAnswerError, RefusedError
 
 ID_MAX = 30
@@ -27,8 +28,9 @@ def robot_options(function):
 
 
 @contextmanager
-def robot(options, end=b""):
-    """The Client that the options mean; whatever was started for it ends with the command. end: a key for what plays there (contact.py)."""
+def robot(options, end=b"", image="play"):
+    """The Client that the options mean; whatever was started for it ends with the command. end: a key for what plays there (contact.py).
+    image: what to start behind -p bus:..."""
     from m512.board import contact, ports
     from m512.board.client import Client
     from m512.board.link import Link
@@ -42,15 +44,17 @@ def robot(options, end=b""):
                 Link(simulator.url) as link:
             yield meet(link)
         return
-    with Link(ports.pick(options["port"])) as link:
+    with Link(ports.pick(options["port"]), image=image) as link:
         try:
             contact.make(link, end)
             client = Client(link, is_met=True)
         except NoAnswerError as error:
-            from m512.board.loaders import at_prompt
+            from m512.board import loaders
 
-            raise NoAnswerError("the board waits in its boot loader: `m512 run` starts the application" if at_prompt(link)
-                                else f"{error} on {link.url} (m512 doctor looks why)") from None
+            if not loaders.at_prompt(link):
+                raise NoAnswerError(f"{error} on {link.url} (m512 doctor looks why)") from None
+            loaders.identify(link).leave(loaders.STAY)       # refuses a board that is none of ours
+            raise NoAnswerError("the board waits in its boot loader: `m512 run` starts the application") from None
         yield client
 
 
@@ -76,6 +80,7 @@ Examples:
 @robot_options
 def play(page, rate, amplitude, blend, key, wait, **options):
     """Play a page of the board, by number or name."""
+    from m512.board.bus import is_bus
     from m512.files.text.words import Token, WordError
     from m512.files.text.words import code as parse
 
@@ -90,7 +95,7 @@ def play(page, rate, amplitude, blend, key, wait, **options):
                 client.ask(f"{word} {value}")
         client.play(number, code)
         ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
-        if wait or options["sim"]:
+        if wait or options["sim"] or is_bus(options["port"]):      # what was started for this command ends with it
             _follow(client)
         _report(client, options["as_json"])
 
@@ -201,15 +206,15 @@ Examples:
 @click.option("--force", is_flag=True, help="Overwrite the file.")
 @robot_options
 def get(pages, output, force, **options):
-    """Read pages (numbers, names, or `all`) from a running board into a file."""
-    from m512.files import formats
+    """Read PAGES (numbers, names, ranges as 20..25, or `all`) from a running board into a file."""
+    from m512.files import formats, storage
     from m512.files.image import Image
 
-    if output.exists() and not force:
+    if storage.exists(output) and not force:
         raise RefusedError(f"{output} is there already (--force overwrites it)")
     with robot(options) as client:
-        numbers = sorted(client.list_pages()) if pages == ("all",) else [client.find(word) for word in pages]
-        image = Image.empty()
+        numbers = page_numbers(pages, client)
+        image = Image.empty(client.pages)
         with ui.phase("Reading") as progress:
             for done, number in enumerate(numbers):
                 image[number] = client.page(number)
@@ -225,12 +230,12 @@ def get(pages, output, force, **options):
 Examples:
   m512 put library.m512 walk_loop         to the same number
   m512 put library.m512 wave:40 3         wave to number 40, page 3 to 3
-  m512 put library.m512 all --image edit-cm5.hex --sim""")
+  m512 put library.m512 1..9:60           pages 1 to 9 to 60 and on""")
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("pages", nargs=-1, required=True)
 @robot_options
 def put(source, pages, **options):
-    """Save pages of a motion file to the board, one by one, while Edit runs there.
+    """Save PAGES of a motion file to the board, one by one, while Edit runs there: 3, wave, 20..25, `all`, or wave:40 to number 40.
 
     For many pages at once, or with Play, `m512 flash` is the way.
     """
@@ -239,18 +244,14 @@ def put(source, pages, **options):
     from m512.files.image import Image
     from m512.pages import operations
 
-    image, moves = formats.load(source), []
-    for word in pages:
-        if word == "all":
-            moves += [(n, n) for n, page in image.items() if n and not page.is_empty]
-            continue
-        name, colon, target = word.rpartition(":")
-        number = image.find(name if colon else word)
-        moves.append((number, int(target) if colon and target.isdigit() else number))
-    goal = Image.empty()
+    if options["sim"]:
+        raise click.UsageError("the simulator forgets what is saved in it; `m512 play PAGE --sim --motions FILE` plays a file's pages")
+    image = formats.load(source)
+    moves = page_moves(pages, image)
+    goal = Image.empty(256)     # the board says how many of them it has
     for remark in operations.place(goal, image, moves, replace=True):
         ui.say(f"note: {remark}")
-    with robot(options) as client:
+    with robot(options, image="edit") as client:
         changed = save_pages(client, goal, [target for _, target in moves])
     ui.say(f"saved: pages {' '.join(map(str, changed)) or 'none, they were there already'}")
     if options["as_json"]:

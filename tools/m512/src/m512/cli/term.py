@@ -21,7 +21,7 @@ Examples:
 @click.option("--list", "listing", is_flag=True, help="List the ports and end.")
 @click.option("--sim", is_flag=True, help="Start the simulator with Edit instead of using a port.")
 @click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind.")
-@click.option("--image", default="edit-cm5.hex", show_default=True, help="With --sim: the firmware.")
+@click.option("--image", default="edit-cm5.hex", show_default=True, help="With --sim or -p bus:...: the firmware.")
 def term(port, log, send, listing, sim, motions, image):
     """A terminal at 57,600 baud, good for Edit's full screen.
 
@@ -41,4 +41,4 @@ def term(port, log, send, listing, sim, motions, image):
         with Simulator([image], motions) as simulator:
             Terminal(simulator.url, log).run(send)
         return
-    Terminal(ports.pick(port), log).run(send)
+    Terminal(ports.pick(port), log, "play" if "play" in image else "edit").run(send)

@@ -6,7 +6,6 @@ For `m512 convert` and for the page in the browser, which must do the same.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import List, Optional, Tuple
 
 from m512.errors import RefusedError
 from m512.files import formats
@@ -17,12 +16,12 @@ from m512.files.wording import Findings, named_pages_text
 FEW = 3   # damaged pages told with what is wrong in each
 
 
-def damaged_pages(image: Image) -> List[Tuple[int, str]]:
+def damaged_pages(image: Image) -> list[tuple[int, str]]:
     """[(number, what is wrong)]."""
     return [(number, page.fault_text(image.kind)) for number, page in image.items() if page.fault(image.kind)]
 
 
-def treat_damaged(image: Image, how: str, notes: List[str]) -> List[int]:
+def treat_damaged(image: Image, how: str, notes: list[str]) -> list[int]:
     """Keeps or drops damaged pages (`how`: keep, drop), in place and with a note, or refuses to go on (ask); returns their numbers."""
     bad = damaged_pages(image)
     if bad and how == "ask":
@@ -37,20 +36,21 @@ def treat_damaged(image: Image, how: str, notes: List[str]) -> List[int]:
     return [page for page, _ in bad]
 
 
-def fitted(image: Image, count: Optional[int], source: Path, target: Path) -> Tuple[Image, List[str]]:
+def fitted(image: Image, count: int | None, source: Path, target: Path) -> tuple[Image, list[str]]:
     """The image with as many pages as the result has (`count`; None: what suits the two kinds of file), and what that loses.
     RefusedError: pages of the user's would be lost and nobody asked for that count."""
-    wanted = count or _fitting(image, source, target)
+    wanted = count or fitting(image, source, target)
     if wanted == image.end:
         return image, []
     lost = image.beyond(wanted)
     if lost and not count:
         raise RefusedError(f"{named_pages_text(lost)}: no room among the {wanted} pages of this kind of board, nothing was written. "
-                           f"--pages 256 keeps all (for a board of 256 pages), --pages {wanted} leaves {'it' if len(lost) == 1 else 'them'} out")
+                           f"--only NAME takes what you choose with all that it leads to, --pages 256 keeps all (for a board of 256 pages), "
+                           f"--pages {wanted} leaves {'it' if len(lost) == 1 else 'them'} out")
     return image.resized(wanted)
 
 
-def _fitting(image: Image, source: Path, target: Path) -> int:
+def fitting(image: Image, source: Path, target: Path) -> int:
     """As many as the source has. A .mtn always has 255, whatever the robot has: one is made from what there is, and read
     for a board of 128."""
     from_mtn, to_mtn = (formats.BY_SUFFIX.get(path.suffix.lower()) == formats.MTN for path in (source, target))

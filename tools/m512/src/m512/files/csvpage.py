@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 from io import StringIO
-from typing import List, Optional, Tuple
 
 from m512.errors import FileError
 from m512.files.image import Image
@@ -16,7 +15,7 @@ FIELDS = ("repeat", "schedule", "code", "speed", "accel", "next", "exit", "link1
 COLUMNS = ["step", "time", "pause"] + [f"id{joint}" for joint in range(JOINTS)]
 
 
-def write(image: Image, which: Optional[int]) -> Tuple[bytes, List[str]]:
+def write(image: Image, which: int | None) -> tuple[bytes, list[str]]:
     if which is None:
         used = [n for n, page in image.items() if n and not page.is_empty]
         if len(used) != 1:
@@ -97,7 +96,7 @@ def _resolution(page: Page, said: int, where: str) -> int:
     return said or (12 if highest > 1023 else 10)
 
 
-def _read_step(page: Page, row: List[str]) -> None:
+def _read_step(page: Page, row: list[str]) -> None:
     if page.steps == STEPS:
         raise WordError("a page has 7 steps")
     if len(row) != len(COLUMNS):

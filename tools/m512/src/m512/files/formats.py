@@ -6,7 +6,6 @@ load() says in Image.notes what it had to decide; save() returns what the new fo
 from __future__ import annotations
 
 from pathlib import Path
-from typing import List, Optional, Tuple
 
 from m512.errors import FileError
 from m512.files import image as raw
@@ -53,14 +52,15 @@ def _text_of(data: bytes, path: Path) -> str:
         raise FileError(f"{path}: not text (byte 0x{data[error.start]:02X} at {error.start})") from None
 
 
-def load(path: Path, bits: Optional[int] = None, base: Optional[Image] = None) -> Image:
+def load(path: Path, bits: int | None = None, base: Image | None = None) -> Image:
     """Reads any motion file. `bits`: 10 or 12; None takes what the positions look like, with a note (text says it itself).
     `base`: gives what the file cannot say (page 0 of a .mtn)."""
     return decode(read_bytes(path), path, bits, base)
 
 
-def decode(data: bytes, path: Path, bits: Optional[int] = None, base: Optional[Image] = None) -> Image:
+def decode(data: bytes, path: Path, bits: int | None = None, base: Image | None = None) -> Image:
     """An image out of a file's bytes. Every FileError names the file."""
+    storage.must_fit(len(data), path)
     try:
         return _decoded(data, path, bits, base)
     except FileError as error:
@@ -69,7 +69,7 @@ def decode(data: bytes, path: Path, bits: Optional[int] = None, base: Optional[I
         raise FileError(f"{path}: {error}") from None
 
 
-def _decoded(data: bytes, path: Path, bits: Optional[int], base: Optional[Image]) -> Image:
+def _decoded(data: bytes, path: Path, bits: int | None, base: Image | None) -> Image:
     kind = recognise(data, path)
     if kind == BINARY:
         return scale12.judged(raw.from_bytes(data, bits or 10), bits)
@@ -88,14 +88,14 @@ def _decoded(data: bytes, path: Path, bits: Optional[int], base: Optional[Image]
     return csvpage.read(_text_of(data, path), str(path))
 
 
-def save(path: Path, image: Image, number: Optional[int] = None, mtn_version: str = "1.01") -> List[str]:
+def save(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01") -> list[str]:
     """Writes an image in the format of the path's suffix; returns the losses. `number`: the page of a CSV."""
     data, losses = encode(path, image, number, mtn_version)
     write_bytes(path, data)
     return losses
 
 
-def encode(path: Path, image: Image, number: Optional[int] = None, mtn_version: str = "1.01") -> Tuple[bytes, List[str]]:
+def encode(path: Path, image: Image, number: int | None = None, mtn_version: str = "1.01") -> tuple[bytes, list[str]]:
     kind = BY_SUFFIX.get(path.suffix.lower(), TEXT if storage.is_stream(path) else None)
     if kind is None:
         raise FileError(f"{path}: the suffix decides the format: {' '.join(BY_SUFFIX)}")

@@ -11,11 +11,12 @@ Which kind a file is follows from its length; whether it is 12-bit does not, and
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from io import StringIO
-from typing import Dict, Iterator, List, Tuple
 
 from m512.errors import FileError
+from m512.files import selection
 from m512.files.page import EMPTY, PAGE_BYTES, Fault, Kind, Page
 from m512.files.wording import Findings, named_pages_text
 
@@ -28,14 +29,14 @@ TWELVE_BIT_MAX = 4095
 class Image:
     """All pages of a motion area, `first` (0 or 1) to `end` - 1. `notes` says what reading it had to decide."""
 
-    pages: List[Page]
+    pages: list[Page]
     first: int = 0
     bits: int = 10
-    notes: List[str] = field(default_factory=list)
-    joints: Dict[int, str] = field(default_factory=dict)     # names, where the file gives some
+    notes: list[str] = field(default_factory=list)
+    joints: dict[int, str] = field(default_factory=dict)     # names, where the file gives some
 
     @classmethod
-    def empty(cls, count: int = 128) -> "Image":
+    def empty(cls, count: int = 128) -> Image:
         return cls([Page() for _ in range(count)])
 
     @property
@@ -54,15 +55,15 @@ class Image:
     def __setitem__(self, number: int, page: Page) -> None:
         self[number].data[:] = page.data
 
-    def items(self) -> Iterator[Tuple[int, Page]]:
+    def items(self) -> Iterator[tuple[int, Page]]:
         return enumerate(self.pages, self.first)
 
     def to_bytes(self) -> bytes:
         return b"".join(bytes(page) for page in self.pages)
 
-    def names(self) -> Dict[bytes, List[int]]:
+    def names(self) -> dict[bytes, list[int]]:
         """Page numbers by name, nameless and untouched pages left out."""
-        found: Dict[bytes, List[int]] = {}
+        found: dict[bytes, list[int]] = {}
         for number, page in self.items():
             if page.name and number:
                 found.setdefault(page.name, []).append(number)
@@ -70,24 +71,29 @@ class Image:
 
     def find(self, word: str) -> int:
         """A page by number or name (exact, else unambiguous without regard to case)."""
-        if word.isascii() and word.isdigit():
-            self[int(word)]
-            return int(word)
-        wanted = word.encode("utf-8", "replace")
-        for fold in (lambda name: name, bytes.lower):
-            hits = [n for name, numbers in self.names().items() if fold(name) == fold(wanted) for n in numbers]
-            if len(hits) == 1:
-                return hits[0]
-            if hits:
-                raise FileError(f"page name {word!r} is not unique: pages " + ", ".join(map(str, hits)))
-        raise FileError(f"no page is called {word!r}")
+        number = selection.page_number(word)
+        if number is None:
+            return selection.find(word, self._words(), FileError)
+        self[number]
+        return number
 
-    def beyond(self, count: int) -> Dict[int, str]:
+    def is_named(self, word: str) -> bool:
+        return word in self._words().values()
+
+    def used(self) -> list[int]:
+        """Pages that hold something; page 0, the trim, among them."""
+        return [number for number, page in self.items() if not page.is_empty and not is_erased(page)]
+
+    def _words(self) -> dict[int, str]:
+        """The names as somebody types them."""
+        return {number: name.decode("utf-8", "replace") for name, numbers in self.names().items() for number in numbers}
+
+    def beyond(self, count: int) -> dict[int, str]:
         """{number: title} of the used pages that 0..count-1 have no room for."""
         return {number: page.title for number, page in self.items()
                 if number >= count and not page.is_empty and len(set(page.data)) > 1}
 
-    def resized(self, count: int) -> Tuple["Image", List[str]]:
+    def resized(self, count: int) -> tuple[Image, list[str]]:
         """The same as pages 0..count-1, with a list of what is lost. Links to pages that are no longer there become empty."""
         losses = []
         out = Image([Page() for _ in range(count)], 0, self.bits, list(self.notes), dict(self.joints))
@@ -119,7 +125,7 @@ def from_bytes(data: bytes, bits: int = 10) -> Image:
     return Image([Page(data[at:at + PAGE_BYTES]) for at in range(0, len(data), PAGE_BYTES)], first, bits)
 
 
-def hex_segments(text: str) -> List[Tuple[int, bytes]]:
+def hex_segments(text: str) -> list[tuple[int, bytes]]:
     """Intel HEX text as [(address, bytes)], ascending, adjacent pieces joined."""
     from intelhex import IntelHex, IntelHexError
 

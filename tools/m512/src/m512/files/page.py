@@ -6,9 +6,9 @@ wrong, in the order of page_status_t.
 """
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Iterator, List, Union
 
 PAGE_BYTES = 512
 JOINTS = 31
@@ -59,7 +59,7 @@ class Page:
 
     __slots__ = ("data",)
 
-    def __init__(self, data: Union[bytes, bytearray, None] = None):
+    def __init__(self, data: bytes | bytearray | None = None):
         if data is None:
             data = EMPTY
         if len(data) != PAGE_BYTES:
@@ -96,7 +96,7 @@ class Page:
     def __repr__(self) -> str:
         return f"<Page {self.title!r} {self.steps} steps>"
 
-    def copy(self) -> "Page":
+    def copy(self) -> Page:
         return Page(self.data)
 
     # Name
@@ -134,7 +134,7 @@ class Page:
         at = 64 + STEP_BYTES * step + 2 * joint
         self.data[at:at + 2] = word.to_bytes(2, "little")
 
-    def words(self, step: int) -> List[int]:
+    def words(self, step: int) -> list[int]:
         return [self.word(step, joint) for joint in range(JOINTS)]
 
     def pause(self, step: int) -> int:
@@ -159,7 +159,7 @@ class Page:
 
     # Checks
 
-    def seal(self) -> "Page":
+    def seal(self) -> Page:
         """Sets the checksum."""
         self.data[31] = 0
         self.data[31] = (0xFF - sum(self.data)) & 0xFF
@@ -197,13 +197,13 @@ class Page:
             return f"schedule is 0x{self.schedule:02X}, neither speed base (0x00) nor time base (0x0A)"
         if fault is Fault.SPEED:
             return "page speed is 0"
-        bad = [f"step {step} ID {joint} is 0x{self.word(step, joint):04X}"
+        bad = [f"step {step + 1} ID {joint} is 0x{self.word(step, joint):04X}"
                for step in range(min(self.steps, STEPS)) for joint in range(JOINTS)
                if is_used(self.word(step, joint)) and self.word(step, joint) > kind.pos_max]
         more = f" and {len(bad) - 3} more" if len(bad) > 3 else ""
         return f"position beyond {kind.pos_max}: " + ", ".join(bad[:3]) + more
 
-    def links_beyond(self, kind: Kind = Kind()) -> List[str]:
+    def links_beyond(self, kind: Kind = Kind()) -> list[str]:
         """Links beyond the last page, which a player takes for none: "next 200"."""
         return [f"{link.replace('_', ' ')} {getattr(self, link)}" for link in self.LINKS if getattr(self, link) >= kind.pages]
 

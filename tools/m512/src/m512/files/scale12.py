@@ -5,8 +5,8 @@ One 12-bit unit is exactly 0.3 10-bit units. What does not fit is cut and report
 """
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
-from typing import Dict, Iterable, List, Optional, Tuple
 
 from m512.files.image import TWELVE_BIT_MAX, Image
 from m512.files.page import JOINTS, POS_UNUSED, STEPS, Fault, Page, is_used
@@ -16,7 +16,7 @@ SHOWN = 4   # cut positions told one by one
 HINT = "m512 convert --bits 12 --scale 10 makes it fit a board of 10 bits"
 
 
-def judged(image: Image, bits: Optional[int]) -> Image:
+def judged(image: Image, bits: int | None) -> Image:
     """The image, taken as one of 12 bits when nobody said how many it has and it looks like that: more than half of the positions that whole
     pages use lie beyond 1023 (12-bit poses stand about 2048). A 0 does not count, nor what is beyond 4095: unused joints often hold such things.
     Told in one note, whatever was said."""
@@ -32,7 +32,7 @@ def judged(image: Image, bits: Optional[int]) -> Image:
     return image
 
 
-def scaled(image: Image, bits: int) -> Tuple[Image, List[str]]:
+def scaled(image: Image, bits: int) -> tuple[Image, list[str]]:
     """A copy of `image` with `bits` (10 or 12), and the report. Pages with a wrong checksum stay as they are."""
     out = Image([page.copy() for page in image.pages], image.first, bits, list(image.notes))
     work = _Work(bits)
@@ -53,9 +53,9 @@ class _Work:
         self.factor = Fraction(3, 10) if bits == 10 else Fraction(10, 3)
         self.top_in, self.centre_in, self.centre, self.top = (4095, 2048, 512, 1023) if bits == 10 else (1023, 512, 2048, 4095)
         self.count, self.worst = 0, Fraction(0)
-        self.damaged: List[int] = []
-        self.cut: List[Tuple[int, int, str]] = []            # page, joint, in words
-        self.impossible: List[Tuple[int, int]] = []          # page, joint
+        self.damaged: list[int] = []
+        self.cut: list[tuple[int, int, str]] = []            # page, joint, in words
+        self.impossible: list[tuple[int, int]] = []          # page, joint
 
     def scale_page(self, number: int, page: Page) -> None:
         for step in range(min(page.steps, STEPS)):
@@ -72,12 +72,12 @@ class _Work:
         value = self.centre + round_away(exact)
         self.count += 1
         if not 0 <= value <= self.top:
-            self.cut.append((number, joint, f"page {number} step {step} ID {joint}: {word} would be {value}"))
+            self.cut.append((number, joint, f"page {number} step {step + 1} ID {joint}: {word} would be {value}"))
             return min(max(value, 0), self.top)
         self.worst = max(self.worst, abs(value - self.centre - exact))
         return value
 
-    def report(self, bits_before: int) -> List[str]:
+    def report(self, bits_before: int) -> list[str]:
         out = [f"{pages_text(self.damaged)}: checksum wrong, not scaled"] if self.damaged else []
         if self.count:
             out.insert(0, f"{self.count} positions scaled from {bits_before} to {self.bits} bits; rounding moved none by more than "
@@ -103,10 +103,10 @@ def round_away(value: Fraction) -> int:
     return whole if value >= 0 else -whole
 
 
-def keep_joints(image: Image, joints: Iterable[int]) -> List[str]:
+def keep_joints(image: Image, joints: Iterable[int]) -> list[str]:
     """Sets all other joints unused, in place; says how many positions that drops. Pages with a wrong checksum stay."""
     kept = set(joints)
-    dropped: Dict[int, int] = {}
+    dropped: dict[int, int] = {}
     for number, page in image.items():
         if page.fault() is Fault.CHECKSUM:
             continue

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import stat
 import sys
 import tempfile
@@ -10,12 +11,19 @@ from pathlib import Path
 
 from m512.errors import FileError
 
-MOST_BYTES = 16 << 20        # no motion file, firmware or trace is larger; /dev/zero is
+MOST_BYTES = 4 << 20         # no motion file, firmware or backup is larger; /dev/zero is. Readers take time in proportion to it
+
+
+def _descriptor(path: Path) -> int | None:
+    """Of what this program was started with: 1 for "-" and /dev/stdout. It may be a file that somebody appends to, which is written on."""
+    names = {"-": 1, "/dev/stdin": 0, "/dev/stdout": 1, "/dev/stderr": 2}
+    found = re.fullmatch(r"/(?:dev|proc/self)/fd/([0-9]{1,9})", str(path))
+    return int(found.group(1)) if found else names.get(str(path))
 
 
 def is_stream(path: Path) -> bool:
-    """Whether bytes go to or come from something that is no file: "-", a pipe, a terminal."""
-    if str(path) == "-":
+    """Whether bytes go to or come from something that is no file of its own: "-", a pipe, a terminal."""
+    if _descriptor(path) is not None:
         return True
     try:
         return not (stat.S_ISREG(path.stat().st_mode) or path.is_dir())
@@ -38,17 +46,26 @@ def read(path: Path) -> bytes:
                 data = file.read(MOST_BYTES + 1)
     except OSError as error:
         raise FileError(f"cannot read {path}: {error.strerror}") from None
-    if len(data) > MOST_BYTES:
-        raise FileError(f"cannot read {path}: more than {MOST_BYTES >> 20} MiB, which is no file for this program")
+    must_fit(len(data), path)
     return data
+
+
+def must_fit(size: int, path: Path) -> None:
+    """FileError: so many bytes are no file of this program's."""
+    if size > MOST_BYTES:
+        raise FileError(f"cannot read {path}: more than {MOST_BYTES >> 20} MiB, which is no file for this program")
 
 
 def write(path: Path, data: bytes) -> None:
     """Replaces a file in one step: after a crash or a full disk the old one is still there."""
     try:
-        if str(path) == "-":
+        descriptor = _descriptor(path)
+        if descriptor == 1:
             sys.stdout.buffer.write(data)
             sys.stdout.buffer.flush()
+        elif descriptor is not None:
+            with os.fdopen(os.dup(descriptor), "wb") as stream:
+                stream.write(data)
         elif is_stream(path):
             with open(path, "wb") as stream:
                 stream.write(data)

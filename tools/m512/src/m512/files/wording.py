@@ -2,20 +2,20 @@
 """Sentences about many pages: what is the same for several pages is said once."""
 from __future__ import annotations
 
-from typing import Dict, Iterable, List, Sequence, Tuple
+from collections.abc import Iterable, Sequence
 
 SHOWN_NAMES = 6   # pages named with their names; more get numbers only
 
 
-def ranges(numbers: Iterable[int]) -> List[str]:
+def ranges(numbers: Iterable[int]) -> list[str]:
     """[1, 2, 3, 7] -> ["1..3", "7"]; two neighbours stay two."""
-    out: List[Tuple[int, int]] = []
+    out: list[tuple[int, int]] = []
     for number in sorted(set(numbers)):
         if out and out[-1][1] == number - 1:
             out[-1] = (out[-1][0], number)
         else:
             out.append((number, number))
-    texts: List[str] = []
+    texts: list[str] = []
     for low, high in out:
         texts += [str(n) for n in range(low, high + 1)] if high - low < 2 else [f"{low}..{high}"]
     return texts
@@ -32,7 +32,7 @@ def pages_text(numbers: Iterable[int]) -> str:
     return f"page {numbers[0]}" if len(numbers) == 1 else "pages " + listed(ranges(numbers))
 
 
-def named_pages_text(titles: Dict[int, str]) -> str:
+def named_pages_text(titles: dict[int, str]) -> str:
     """The same with names, as long as they are few: 'pages 3 "wave" and 7 "bow"'."""
     if len(titles) > SHOWN_NAMES:
         return pages_text(titles)
@@ -44,17 +44,17 @@ class Findings:
     """Sentences about pages, gathered page by page and told once each. A value is what differs from page to page."""
 
     def __init__(self) -> None:
-        self._pages: Dict[str, Dict[int, Tuple[str, str]]] = {}
+        self._pages: dict[str, dict[int, tuple[str, str]]] = {}
 
     def add(self, number: int, title: str, text: str, value: str = "") -> None:
         pages = self._pages.setdefault(text, {})
         before = pages[number][1] + ", " if number in pages and pages[number][1] else ""
         pages[number] = (title, before + value)
 
-    def lines(self) -> List[str]:
+    def lines(self) -> list[str]:
         return [self._line(text, found) for text, found in self._pages.items()]
 
-    def _line(self, text: str, found: Dict[int, Tuple[str, str]]) -> str:
+    def _line(self, text: str, found: dict[int, tuple[str, str]]) -> str:
         pages = named_pages_text({number: title for number, (title, _) in found.items()})
         values = [f"{number}: {value}" if len(found) > 1 else value for number, (_, value) in sorted(found.items()) if value]
         more = f" and {len(values) - SHOWN_NAMES} more" if len(values) > SHOWN_NAMES else ""

@@ -5,14 +5,13 @@ player, section 2. Told in fractions, so that nothing but the last rounding is i
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import List, Optional
 
 from m512.files.page import JOINTS
 from m512.motion.walk import Step, Walk, pause_ticks, step_ticks
 
 
 class Exact:
-    def __init__(self, walk: Walk, pose: List[int]):
+    def __init__(self, walk: Walk, pose: list[int]):
         self.walk, self.ended = walk, False
         self.target, self.start, self.move = list(pose), list(pose), [0] * JOINTS
         self.before, self.after = [Fraction(0)] * JOINTS, [Fraction(0)] * JOINTS   # speeds at the way-points
@@ -20,7 +19,7 @@ class Exact:
         self.carry = Fraction(0)
         self.count = self.length = self.ramp = self.hold = 0
 
-    def tick(self) -> Optional[List[int]]:
+    def tick(self) -> list[int] | None:
         if self.count == self.length + self.hold:
             self._begin_step()
             if self.ended:
@@ -53,7 +52,7 @@ class Exact:
         self.carry -= ticks
         return ticks
 
-    def _way_point(self, ahead: Optional[Step], pause: bool) -> List[Fraction]:
+    def _way_point(self, ahead: Step | None, pause: bool) -> list[Fraction]:
         if ahead is None or pause:
             return [Fraction(0)] * JOINTS
         onward = [ahead.target(j, self.target[j]) - self.target[j] for j in range(JOINTS)]

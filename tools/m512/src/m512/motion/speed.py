@@ -7,12 +7,12 @@ faster are not reached: the joint lags, and the motion is another one than was m
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Deque, List, Optional, Sequence
 
 from m512.files.image import Image
 from m512.files.page import JOINTS
-from m512.motion.player import EXACT, play
+from m512.motion.player import play
 
 NO_LOAD_RPM, SHEET_V = 59.0, 12.0
 BATTERY_V = 9.6                      # a CM-5's pack: 8 cells of 1.2 V
@@ -39,14 +39,13 @@ def no_load_units_per_tick(volts: float) -> float:
     return no_load_degrees_s(volts) / DEGREES_PER_UNIT / TICKS_PER_SECOND
 
 
-def too_fast(image: Image, number: int, volts: float = BATTERY_V, law: str = EXACT,
-             pose: Optional[Sequence[int]] = None, seconds: float = 60) -> List[TooFast]:
+def too_fast(image: Image, number: int, volts: float = BATTERY_V, pose: Sequence[int] | None = None, seconds: float = 60) -> list[TooFast]:
     """Steps of a play from page `number` on (along its next links) in which a joint is asked for more than an unloaded servo
     does at this supply. `pose`: where the joints stand; else in page `number`'s first step, for the robot goes there slowly."""
     limit = no_load_units_per_tick(volts)
     found: dict = {}
-    recent: Deque[List[int]] = deque(maxlen=WINDOW + 1)
-    for tick in play(image, number, law, pose or _first_pose(image, number), int(seconds * TICKS_PER_SECOND)):
+    recent: deque[list[int]] = deque(maxlen=WINDOW + 1)
+    for tick in play(image, number, pose or _first_pose(image, number), int(seconds * TICKS_PER_SECOND)):
         if tick.goals is None:
             continue
         recent.append(tick.goals)
@@ -58,6 +57,6 @@ def too_fast(image: Image, number: int, volts: float = BATTERY_V, law: str = EXA
     return list(found.values())
 
 
-def _first_pose(image: Image, number: int) -> List[int]:
+def _first_pose(image: Image, number: int) -> list[int]:
     page = image[number]
     return [page.word(0, joint) if page.steps and page.word(0, joint) <= 1023 else 512 for joint in range(JOINTS)]

@@ -2,9 +2,9 @@
 """The order in which a play goes through steps: pages, repetitions, next and exit links. Knows no law of motion."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Dict, Optional, Sequence, Tuple
 
 from m512.files.image import Image
 from m512.files.page import SCHEDULE_TIME, Page, is_used
@@ -30,9 +30,9 @@ class Walk:
     def __init__(self, image: Image, page: int):
         self.image, self.page = image, page
         self.step, self.left = 0, 0
-        self.follow: Optional[int] = None    # page after this one, decided at the beginning of its last step
+        self.follow: int | None = None    # page after this one, decided at the beginning of its last step
         self.stopping, self.ended, self.why = False, False, ""
-        self.exits: Dict[int, None] = {}
+        self.exits: dict[int, None] = {}
         self._enter(page)
 
     def _enter(self, number: int) -> None:
@@ -62,7 +62,7 @@ class Walk:
             self.exits[target] = None
         return target if self.image.first <= target < self.image.end else 0
 
-    def advance(self) -> Optional[Tuple[Step, Optional[Step]]]:
+    def advance(self) -> tuple[Step, Step | None] | None:
         """The next step and the one to look ahead to; None at the end."""
         if self.ended:
             return None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import List, Optional
 
 from m512.files.image import Image, is_erased
 from m512.files.page import EMPTY, JOINTS, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Fault, Page
@@ -18,8 +17,8 @@ class Change:
     what: str
     before: str
     after: str
-    step: Optional[int] = None
-    joint: Optional[int] = None
+    step: int | None = None   # 1..7
+    joint: int | None = None
 
     def __str__(self) -> str:
         where = f"page {self.page}" + (f" \"{self.name}\"" if self.name else "")
@@ -48,14 +47,14 @@ SCHEDULES = {SCHEDULE_TIME: "time base", SCHEDULE_SPEED: "speed base"}
 BOTH_EMPTY = "empty in both; bytes without effect differ"
 
 
-def lines(changes: List[Change]) -> List[str]:
+def lines(changes: list[Change]) -> list[str]:
     """As a person reads them: of empty pages one line, in the end."""
     empty = [change.page for change in changes if change.what == BOTH_EMPTY]
     return [str(change) for change in changes if change.what != BOTH_EMPTY] + ([f"{pages_text(empty)}: {BOTH_EMPTY}"] if empty else [])
 
 
-def images(first: Image, second: Image) -> List[Change]:
-    out: List[Change] = []
+def images(first: Image, second: Image) -> list[Change]:
+    out: list[Change] = []
     for number in range(min(first.first, second.first), max(first.end, second.end)):
         a = first[number] if first.first <= number < first.end else None
         b = second[number] if second.first <= number < second.end else None
@@ -73,17 +72,17 @@ def _both_nothing(a: Page, b: Page) -> bool:
     return is_erased(a) and bytes(b) == EMPTY or is_erased(b) and bytes(a) == EMPTY
 
 
-def pages(number: int, a: Page, b: Page, image: Optional[Image] = None) -> List[Change]:
+def pages(number: int, a: Page, b: Page, image: Image | None = None) -> list[Change]:
     """All changes between two versions of a page; never empty when their bytes differ."""
     pos_max = image.kind.pos_max if image else 1023
     whole = _whole(number, a, b)
     if whole:
         return whole
-    name, out = b.title or a.title, []   # type: str, List[Change]
+    name, out = b.title or a.title, []   # type: str, list[Change]
 
-    def add(what: str, before: object, after: object, step: Optional[int] = None, joint: Optional[int] = None) -> None:
+    def add(what: str, before: object, after: object, step: int | None = None, joint: int | None = None) -> None:
         if before != after:
-            out.append(Change(number, name, what, str(before), str(after), step, joint))
+            out.append(Change(number, name, what, str(before), str(after), None if step is None else step + 1, joint))
 
     add("name", f'"{a.title}"', f'"{b.title}"')
     if a.name == b.name and a.data[:14] != b.data[:14]:
@@ -105,7 +104,7 @@ def pages(number: int, a: Page, b: Page, image: Optional[Image] = None) -> List[
             add("", position_text(a.word(step, joint), pos_max), position_text(b.word(step, joint), pos_max), step, joint)
     unused = [step for step in range(used, STEPS) if a.step_bytes(step) != b.step_bytes(step)]
     if unused:
-        out.append(Change(number, name, f"contents of unused steps differ ({', '.join(map(str, unused))})", "", ""))
+        out.append(Change(number, name, f"contents of unused steps differ ({', '.join(str(step + 1) for step in unused)})", "", ""))
     if Fault.CHECKSUM in (a.fault(), b.fault()):
         add("checksum", f"0x{a.checksum:02X}", f"0x{b.checksum:02X}")
     return out
@@ -119,7 +118,7 @@ def _softness(page: Page, joint: int) -> str:
     return f"{page.compliance(joint) >> 4}/{page.compliance(joint) & 15}"
 
 
-def _whole(number: int, a: Page, b: Page) -> List[Change]:
+def _whole(number: int, a: Page, b: Page) -> list[Change]:
     """Pages that came, went or have nothing in common."""
     if is_erased(a) or is_erased(b):
         other = b if is_erased(a) else a

@@ -2,8 +2,6 @@
 """One line a page, for people and for programs."""
 from __future__ import annotations
 
-from typing import List
-
 from m512.files.image import Image, is_erased
 from m512.files.page import SCHEDULE_TIME, Fault, Page
 from m512.files.text.words import code_text
@@ -23,7 +21,7 @@ def describe(image: Image, number: int, page: Page) -> dict:
             "valid": good, "erased": is_erased(page), "fault": fault}
 
 
-def table(rows: List[dict]) -> str:
+def table(rows: list[dict]) -> str:
     lines = [f"{'page':>4}  {'name':13}  {'steps':>5}  {'times':>5}  {'seconds':>7}  {'code':6}  links"]
     for row in rows:
         if row["erased"]:

@@ -2,7 +2,7 @@
 """What `m512 pages` does to pages. Each function changes the image it is given and returns remarks for the user."""
 from __future__ import annotations
 
-from typing import Dict, Iterable, List, Optional, Tuple
+from collections.abc import Iterable
 
 from m512.errors import FileError, RefusedError
 from m512.files.image import Image, is_erased
@@ -12,7 +12,7 @@ from m512.motion.player import page_seconds
 NOMINAL_SPEED = 32
 
 
-def check(image: Image) -> List[Tuple[int, str]]:
+def check(image: Image) -> list[tuple[int, str]]:
     """(page, what is wrong or odd) for a whole image; page 0 is the trim and not a motion."""
     out = []
     for number, page in image.items():
@@ -36,7 +36,7 @@ def check(image: Image) -> List[Tuple[int, str]]:
     return out
 
 
-def _partner_problems(image: Image, page: Page) -> List[str]:
+def _partner_problems(image: Image, page: Page) -> list[str]:
     """Why a blend partner is not blended (the firmware then plays the page as it is)."""
     out = []
     for side in Page.PARTNERS:
@@ -52,7 +52,7 @@ def _partner_problems(image: Image, page: Page) -> List[str]:
     return out
 
 
-def remarks(image: Image) -> List[Tuple[int, str]]:
+def remarks(image: Image) -> list[tuple[int, str]]:
     """(page, what is right and may surprise)."""
     out = []
     for number, page in image.items():
@@ -80,7 +80,7 @@ def need_good(image: Image, number: int) -> Page:
     return page
 
 
-def rename(image: Image, number: int, name: str) -> List[str]:
+def rename(image: Image, number: int, name: str) -> list[str]:
     raw = name.encode("ascii", "replace")
     if len(raw) > 13 or any(not 0x20 <= b < 0x7F for b in raw):
         raise FileError(f"{name!r}: a page name has at most 13 ASCII characters")
@@ -96,7 +96,7 @@ def _must_be_free(image: Image, number: int, replace: bool) -> None:
         raise RefusedError(f"page {number} \"{page.title}\" is not empty (--replace overwrites it)")
 
 
-def copy(image: Image, source: int, target: int, replace: bool = False) -> List[str]:
+def copy(image: Image, source: int, target: int, replace: bool = False) -> list[str]:
     _must_be_free(image, target, replace)
     page = need_good(image, source).copy()
     relink(page, {source: target})             # a page that leads to itself goes on doing so
@@ -104,7 +104,7 @@ def copy(image: Image, source: int, target: int, replace: bool = False) -> List[
     return [f"the copy has the same name {page.title!r} and code {page.code}"] if page.name or page.code else []
 
 
-def delete(image: Image, numbers: Iterable[int]) -> List[str]:
+def delete(image: Image, numbers: Iterable[int]) -> list[str]:
     remarks = []
     gone = set(numbers)
     for number in gone:
@@ -116,7 +116,7 @@ def delete(image: Image, numbers: Iterable[int]) -> List[str]:
     return remarks
 
 
-def relink(page: Page, moved: Dict[int, int]) -> bool:
+def relink(page: Page, moved: dict[int, int]) -> bool:
     """Follows pages that moved, blend partners too; returns whether a link changed (the page is sealed then)."""
     changed = False
     for link in Page.LINKS + Page.PARTNERS:
@@ -129,7 +129,7 @@ def relink(page: Page, moved: Dict[int, int]) -> bool:
     return changed
 
 
-def renumber(image: Image, source: int, target: int, swap: bool = False) -> List[str]:
+def renumber(image: Image, source: int, target: int, swap: bool = False) -> list[str]:
     """Moves a page; all links in the image follow."""
     if not source or not target:
         raise RefusedError("page 0 is the trim and stays where it is")
@@ -145,7 +145,7 @@ def renumber(image: Image, source: int, target: int, swap: bool = False) -> List
     return [f"links changed in pages {', '.join(map(str, touched))}"] if touched else []
 
 
-def place(image: Image, source: Image, moves: List[Tuple[int, int]], replace: bool = False) -> List[str]:
+def place(image: Image, source: Image, moves: list[tuple[int, int]], replace: bool = False) -> list[str]:
     """Takes pages (number there, number here) from another image; links among them follow."""
     if source.bits != image.bits:
         raise RefusedError(f"the sources have {image.bits} and {source.bits} bits: scale one of them first (convert --scale)")
@@ -163,7 +163,7 @@ def place(image: Image, source: Image, moves: List[Tuple[int, int]], replace: bo
     return remarks
 
 
-def mirror(image: Image, number: int, pairs: Dict[int, int], target: Optional[int] = None, replace: bool = False) -> List[str]:
+def mirror(image: Image, number: int, pairs: dict[int, int], target: int | None = None, replace: bool = False) -> list[str]:
     """Left for right: joints of a pair exchange positions (p becomes 1024 - p) and softness."""
     target = number if target is None else target
     _must_be_free(image, target, replace or target == number)
@@ -178,13 +178,13 @@ def mirror(image: Image, number: int, pairs: Dict[int, int], target: Optional[in
                 if word > top:
                     word = top
                     if step < page.steps:
-                        remarks.append(f"step {step} ID {pair}: {top + 1} is cut to {top}")
+                        remarks.append(f"step {step + 1} ID {pair}: {top + 1} is cut to {top}")
             page.set_word(step, pair, word)
     image[target] = page.seal()
     return remarks
 
 
-def retime(image: Image, number: int, factor: float) -> List[str]:
+def retime(image: Image, number: int, factor: float) -> list[str]:
     """Makes a page take `factor` times as long: step times, pauses and ramp, rounded to ticks."""
     if not 0.01 <= factor <= 100:
         raise FileError("the factor is 0.01..100")
@@ -192,8 +192,8 @@ def retime(image: Image, number: int, factor: float) -> List[str]:
     before = page_seconds(page)
     for step in range(page.steps):
         time_based = page.schedule == SCHEDULE_TIME
-        page.set_time(step, _scaled(page.time(step), factor if time_based else 1 / factor, 1, f"step {step}"))
-        page.set_pause(step, _scaled(page.pause(step), factor, 0, f"the pause of step {step}"))
+        page.set_time(step, _scaled(page.time(step), factor if time_based else 1 / factor, 1, f"step {step + 1}"))
+        page.set_pause(step, _scaled(page.pause(step), factor, 0, f"the pause of step {step + 1}"))
     page.accel = min(max(round(page.accel * factor), 1 if page.accel else 0), 255)
     page.seal()
     return [f"page {number}: {before:.3f} s -> {page_seconds(page):.3f} s (asked for {before * factor:.3f} s)"]
@@ -206,11 +206,11 @@ def _scaled(value: int, factor: float, least: int, what: str) -> int:
     return max(scaled, least) if value else 0
 
 
-def chain(image: Image, number: int) -> Tuple[List[Tuple[int, int, float]], str]:
+def chain(image: Image, number: int) -> tuple[list[tuple[int, int, float]], str]:
     """[(page, repetitions, seconds)] along the next links, and how it ends."""
-    out: List[Tuple[int, int, float]] = []
-    pose: Optional[List[int]] = None
-    seen: Dict[int, None] = {}
+    out: list[tuple[int, int, float]] = []
+    pose: list[int] | None = None
+    seen: dict[int, None] = {}
     while True:
         if number in seen:
             return out, f"goes on with page {number} for ever"
@@ -228,7 +228,7 @@ def chain(image: Image, number: int) -> Tuple[List[Tuple[int, int, float]], str]
         number = page.next
 
 
-def end_pose(page: Page, pose: Optional[List[int]] = None) -> List[int]:
+def end_pose(page: Page, pose: list[int] | None = None) -> list[int]:
     out = list(pose or [512] * JOINTS)
     for step in range(page.steps):
         for joint in range(JOINTS):

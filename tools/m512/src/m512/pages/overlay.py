@@ -11,9 +11,9 @@ its straight line, rounded. What ends first holds its last pose, or goes round a
 """
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Dict, Iterable, List, Optional, Set, Tuple
 
 from m512.errors import RefusedError
 from m512.files.image import Image, is_erased
@@ -23,19 +23,19 @@ from m512.pages.operations import need_good
 
 STEP_TICKS = 255
 MOST_STEPS = 7 * 60
-Point = Tuple[int, int]        # (tick, position)
+Point = tuple[int, int]        # (tick, position)
 
 
 @dataclass
 class Line:
     """A motion on its time line. `points` of each joint, ascending; the first one at tick 0 is where it starts."""
 
-    points: Dict[int, List[Point]] = field(default_factory=dict)
-    ticks: Set[int] = field(default_factory=set)
+    points: dict[int, list[Point]] = field(default_factory=dict)
+    ticks: set[int] = field(default_factory=set)
     length: int = 0
     loops: bool = False
 
-    def at(self, joint: int, tick: int) -> Optional[int]:
+    def at(self, joint: int, tick: int) -> int | None:
         """Where the joint is; None: this motion does not drive it."""
         points = self.points.get(joint)
         if not points:
@@ -50,7 +50,7 @@ class Line:
             before = point
         return before[1]
 
-    def ticks_until(self, end: int) -> Set[int]:
+    def ticks_until(self, end: int) -> set[int]:
         if not self.loops or not self.length:
             return {tick for tick in self.ticks if tick <= end}
         return {tick + lap for lap in range(0, end, self.length) for tick in self.ticks if tick + lap <= end}
@@ -68,7 +68,7 @@ def _round(value: Fraction) -> int:
 def line_of(image: Image, number: int, joints: Iterable[int]) -> Line:
     """A page and what follows it, once; the robot is taken to stand in the first step's pose, to which a play leads it."""
     out, now, seen, chosen = Line(), Fraction(0), set(), list(joints)
-    pose: Dict[int, int] = {}
+    pose: dict[int, int] = {}
     while number and number not in seen:
         page = need_good(image, number)
         seen.add(number)
@@ -94,7 +94,7 @@ def line_of(image: Image, number: int, joints: Iterable[int]) -> Line:
 
 
 def combine(image: Image, base: int, other_image: Image, other: int, joints: Iterable[int], target: int,
-            replace: bool = False) -> List[str]:
+            replace: bool = False) -> list[str]:
     """From page `target` on: the motion of page `base`, with `joints` doing that of page `other` (of another image, or the
     same). Returns remarks. What `base` leads back to is gone on with when `other` is over."""
     if image.bits != other_image.bits:
@@ -116,10 +116,10 @@ def combine(image: Image, base: int, other_image: Image, other: int, joints: Ite
     return _remarks(image, pages, below, above, total)
 
 
-def _steps(below: Line, above: Line, taken: Set[int], total: int) -> List[Tuple[int, int, Dict[int, int]]]:
+def _steps(below: Line, above: Line, taken: set[int], total: int) -> list[tuple[int, int, dict[int, int]]]:
     """[(ticks, pause, {joint: position})]."""
     ticks = sorted((below.ticks_until(total) | above.ticks_until(total) | {total}) - {0})
-    out: List[Tuple[int, int, Dict[int, int]]] = []
+    out: list[tuple[int, int, dict[int, int]]] = []
     before = 0
     for tick in ticks:
         pieces = -(-(tick - before) // STEP_TICKS)
@@ -139,8 +139,8 @@ def _steps(below: Line, above: Line, taken: Set[int], total: int) -> List[Tuple[
     return out
 
 
-def _pages(image: Image, base: Page, other: Page, taken: Set[int], steps: List[Tuple[int, int, Dict[int, int]]], target: int,
-           replace: bool) -> List[Tuple[int, Page]]:
+def _pages(image: Image, base: Page, other: Page, taken: set[int], steps: list[tuple[int, int, dict[int, int]]], target: int,
+           replace: bool) -> list[tuple[int, Page]]:
     """The steps on pages that follow each other: `target` and free ones behind it."""
     count = -(-len(steps) // STEPS)
     free = [n for n in range(target + 1, image.end) if image[n].is_empty or is_erased(image[n])]
@@ -168,7 +168,7 @@ def _pages(image: Image, base: Page, other: Page, taken: Set[int], steps: List[T
     return out
 
 
-def _remarks(image: Image, pages: List[Tuple[int, Page]], below: Line, above: Line, total: int) -> List[str]:
+def _remarks(image: Image, pages: list[tuple[int, Page]], below: Line, above: Line, total: int) -> list[str]:
     out = []
     count = sum(page.steps for _, page in pages)
     if len(pages) > 1:

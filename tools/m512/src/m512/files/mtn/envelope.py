@@ -7,7 +7,8 @@ whole, and what was found is told.
 """
 from __future__ import annotations
 
-from typing import Iterator, List, Optional, Tuple
+import re
+from collections.abc import Iterator
 
 from m512.errors import FileError
 
@@ -22,7 +23,7 @@ def file_checksum(body: bytes) -> bytes:
     return (~sum(body) & 0xFFFF).to_bytes(2, "big")
 
 
-def unwrap(data: bytes, where: str) -> Tuple[str, List[str]]:
+def unwrap(data: bytes, where: str) -> tuple[str, list[str]]:
     """The text, its lines ended by LF, and remarks. Bytes that are no UTF-8 survive as surrogate escapes.
     FileError: the text is not whole."""
     at = data.rfind(LAST)
@@ -31,8 +32,7 @@ def unwrap(data: bytes, where: str) -> Tuple[str, List[str]]:
     end = at + len(LAST)
     _must_end_here(data, end, where)
     text = data[:end].replace(b"\r\n", b"\n").replace(b"\r", b"\n") + b"\n"
-    while text.startswith(BOM):
-        text = text[len(BOM):]
+    text = re.sub(rb"\A(?:\xef\xbb\xbf)+", b"", text)      # BOM, or several
     return text.decode("utf-8", "surrogateescape"), _judge(data, end)
 
 
@@ -44,7 +44,7 @@ def _must_end_here(data: bytes, end: int, where: str) -> None:
         raise FileError(f"{where}:{line}: page {page} has no end: the file breaks off, or something else stands behind page {page - 1}")
 
 
-def _judge(data: bytes, end: int) -> List[str]:
+def _judge(data: bytes, end: int) -> list[str]:
     """What the checksum says, in a sentence; nothing if all is as RoboPlus wrote it."""
     if data[:-2].endswith(LAST + b"\n") and file_checksum(data[:-2]) == data[-2:]:
         return []
@@ -63,12 +63,12 @@ def _line_end(tail: bytes) -> bytes:
     return b"\r\n" if tail.startswith(b"\r\n") else b"\n"
 
 
-def _trailer(tail: bytes) -> Optional[bytes]:
+def _trailer(tail: bytes) -> bytes | None:
     """The bytes that stand where the checksum belongs; None: nothing does."""
     return tail.strip(BLANK)[:2] or None
 
 
-def _tails(tail: bytes) -> Iterator[Tuple[List[str], bytes]]:
+def _tails(tail: bytes) -> Iterator[tuple[list[str], bytes]]:
     """Where the checksum may be: behind the line's end or without one, before white space, written again as UTF-8."""
     for line_end in (b"\n", b"\r\n", b"\r", b""):
         rest = tail[len(line_end):]
@@ -85,7 +85,7 @@ def _tails(tail: bytes) -> Iterator[Tuple[List[str], bytes]]:
                 yield ["the checksum saved as text"], again[:2]
 
 
-def _as_it_was(data: bytes, end: int) -> Iterator[Tuple[List[str], bytes, bytes]]:
+def _as_it_was(data: bytes, end: int) -> Iterator[tuple[list[str], bytes, bytes]]:
     """Bodies as they may have been when the sum was made, with what happened since."""
     text = data[:end]
     bare = text[len(BOM):] if text.startswith(BOM) else text

@@ -7,7 +7,8 @@ together; the repetitions are written out, and a stop ends them. Parts go where 
 """
 from __future__ import annotations
 
-from typing import Callable, List, Sequence
+from collections.abc import Sequence
+from typing import Callable
 
 from m512.errors import FileError
 from m512.files.image import Image
@@ -28,7 +29,7 @@ def place_long_pages(image: Image, blocks: Sequence, fill: Callable[[Page, list]
             _spread(image, number, block, free, fill, where)
 
 
-def _spread(image: Image, number: int, block, free: List[int], fill: Callable[[Page, list], None], where: str) -> None:
+def _spread(image: Image, number: int, block, free: list[int], fill: Callable[[Page, list], None], where: str) -> None:
     parts = [block.steps[at:at + STEPS] for at in range(0, len(block.steps), STEPS)]
     rounds = max(block.page.repeat, 1)
     title = f"page {number}" + (f" \"{block.page.title}\"" if block.page.name else "")

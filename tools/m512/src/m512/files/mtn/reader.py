@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The text of a .mtn as pages. Mapping of the fields: the table in spec/files.md is `_header`'s and `read`'s."""
+"""The text of a .mtn as pages. Mapping of the fields: the table in FILES.md is `_header`'s and `read`'s."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import List, Optional, Tuple
 
 from m512.errors import FileError
 from m512.files.image import Image
@@ -18,6 +17,7 @@ IDS = 26                 # the text has IDs 0..25
 PAGES = 255              # and pages 1..255
 UNITS_PER_SECOND = 125   # of pause and time: a unit is 8 ms there
 UNUSED_WORD = 0x4200
+DIGITS_MOST = 40
 VERSIONS = ("1.00", "1.01")
 TOP = {10: 1023, 12: 4095}
 
@@ -28,6 +28,7 @@ class Lines:
     def __init__(self, text: str, where: str):
         self.lines = text.split("\n")
         self.where, self.at = where, 0
+        self.end = next((n for n in range(len(self.lines), 0, -1) if self.lines[n - 1].strip()), 0)
 
     def error(self, message: str) -> FileError:
         return FileError(f"{self.where}:{self.at}: {message}")
@@ -40,7 +41,8 @@ class Lines:
 
     @property
     def more(self) -> bool:
-        return any(line.strip() for line in self.lines[self.at:])
+        """Whether anything but blank lines follows."""
+        return self.at < self.end
 
     def next_is(self, key: str) -> bool:
         return self.lines[self.at].startswith(key + "=")
@@ -52,19 +54,19 @@ class Lines:
             raise self.error(f"\"{key}=\" expected, not {ascii(line[:40])}")
         return value
 
-    def numbers(self, text: str, what: str, count: int) -> List[Fraction]:
+    def numbers(self, text: str, what: str, count: int) -> list[Fraction]:
         parts = text.replace(",", ".").split()
         if len(parts) != count:
             raise self.error(f"{what} has {len(parts)} values, not {count}")
         try:
-            # No exponents: "1e999999" would take for ever.
-            if any(set(part) - set("0123456789.-") for part in parts):
+            # No exponents, few digits: "1e999999" would take for ever.
+            if any(len(part) > DIGITS_MOST or set(part) - set("0123456789.-") for part in parts):
                 raise ValueError
             return [Fraction(int(part) if part.isdigit() else part) for part in parts]
         except (ValueError, ZeroDivisionError):
             raise self.error(f"{what}: a value is not a number") from None
 
-    def integers(self, text: str, what: str, count: int, low: int, high: int) -> List[int]:
+    def integers(self, text: str, what: str, count: int, low: int, high: int) -> list[int]:
         return [self.integer(value, what, low, high) for value in self.numbers(text, what, count)]
 
     def integer(self, value: Fraction, what: str, low: int, high: int) -> int:
@@ -81,7 +83,7 @@ class Lines:
 
 @dataclass
 class Step:
-    positions: List[int]
+    positions: list[int]
     pause: int
     time: int
     line: int
@@ -92,17 +94,17 @@ class Block:
     """One page of the text, with as many steps as it has. `page` holds all of it but the steps."""
     page: Page
     rate: Fraction
-    steps: List[Step] = field(default_factory=list)
+    steps: list[Step] = field(default_factory=list)
 
 
 @dataclass
 class _File:
-    enabled: List[bool]
-    blocks: List[Block]
-    notes: List[str]
+    enabled: list[bool]
+    blocks: list[Block]
+    notes: list[str]
 
 
-def read(data: bytes, where: str = "mtn", base: Optional[Image] = None, bits: Optional[int] = None) -> Image:
+def read(data: bytes, where: str = "mtn", base: Image | None = None, bits: int | None = None) -> Image:
     """A .mtn as a 256-page image. Page 0 comes from `base` or is the empty page. `bits`: 10 or 12; None takes what the positions
     look like. FileError: not whole, or a value that a page cannot hold."""
     text, notes = unwrap(data, where)
@@ -121,7 +123,7 @@ def read(data: bytes, where: str = "mtn", base: Optional[Image] = None, bits: Op
     return image
 
 
-def _read_file(lines: Lines, notes: List[str]) -> _File:
+def _read_file(lines: Lines, notes: list[str]) -> _File:
     if lines.value("type") != "motion":
         raise lines.error("the type is not \"motion\"")
     version = lines.value("version").replace(",", ".")
@@ -155,7 +157,7 @@ def _read_block(lines: Lines, number: int, file: _File) -> Block:
     return block
 
 
-def _header(lines: Lines, number: int, notes: List[str]) -> Block:
+def _header(lines: Lines, number: int, notes: list[str]) -> Block:
     page = Page(bytes(512))
     page.data[:14] = _name(lines.value("name"), number, notes).ljust(14, b"\0")
     for joint, level in enumerate(lines.integers(lines.value("compliance"), "compliance", IDS, 0, 15)):
@@ -170,7 +172,7 @@ def _header(lines: Lines, number: int, notes: List[str]) -> Block:
     return Block(page, rate)
 
 
-def _name(text: str, number: int, notes: List[str]) -> bytes:
+def _name(text: str, number: int, notes: list[str]) -> bytes:
     name = text.encode("utf-8", "surrogateescape").replace(b"\0", b"")
     if len(name) > 13:
         notes.append(f"page {number}: the name is longer than 13 bytes and was cut")
@@ -184,7 +186,7 @@ def _read_step(lines: Lines, text: str) -> Step:
     return Step(positions, lines.units(values[IDS], "pause"), lines.units(values[IDS + 1], "time"), lines.at)
 
 
-def fill(page: Page, steps: List[Step], enabled: List[bool]) -> None:
+def fill(page: Page, steps: list[Step], enabled: list[bool]) -> None:
     """Writes at most seven steps into a page, the unused ones as RoboPlus does, and seals it."""
     page.steps = len(steps)
     for number in range(STEPS):
@@ -197,7 +199,7 @@ def fill(page: Page, steps: List[Step], enabled: List[bool]) -> None:
     page.seal()
 
 
-def _bits_of(file: _File, bits: Optional[int], where: str) -> int:
+def _bits_of(file: _File, bits: int | None, where: str) -> int:
     """10 or 12. Most positions of a robot of 12 bits lie beyond 1023; a few in a file of 10 are mistakes."""
     used = [(step.line, joint, step.positions[joint]) for block in file.blocks for step in block.steps
             for joint in range(IDS) if file.enabled[joint]]
@@ -215,7 +217,7 @@ def _bits_of(file: _File, bits: Optional[int], where: str) -> int:
 
 def _note_rates(file: _File) -> None:
     """The pages whose rate is not 32 / page speed, to one decimal as the text has it. Only pages that move anything."""
-    uneven: List[Tuple[Fraction, int, List[int]]] = []
+    uneven: list[tuple[Fraction, int, list[int]]] = []
     for number, block in enumerate(file.blocks, 1):
         held = Fraction(32, block.page.speed)
         if not block.steps or abs(held - block.rate) <= Fraction(1, 20):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import partial
-from typing import Callable, List, Optional, Tuple
+from typing import Callable
 
 from m512.errors import RefusedError
 from m512.files.image import Image
@@ -14,7 +14,7 @@ from m512.files.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Fault, Kin
 from m512.files.wording import Findings, named_pages_text
 
 
-def rate_of(speed: int) -> Optional[Fraction]:
+def rate_of(speed: int) -> Fraction | None:
     """The rate (one decimal) that comes nearest to 32 / speed among those that read back as `speed`; None: none does."""
     exact = Fraction(32, speed) if speed else Fraction(0)
     near = int(exact * 10)
@@ -22,7 +22,7 @@ def rate_of(speed: int) -> Optional[Fraction]:
     return min(fits, key=lambda rate: abs(rate - exact), default=None)
 
 
-def write(image: Image, version: str = "1.01") -> Tuple[bytes, List[str]]:
+def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
     """The file and its losses. RefusedError: pages that the text cannot hold at all (damaged, 12-bit positions)."""
     _must_fit(image)
     losses = Findings()
@@ -63,7 +63,7 @@ def _must_fit(image: Image) -> None:
                            f"{image[one].fault_text(kind)}). convert --damaged drop leaves such pages out")
 
 
-def _enabled(image: Image) -> List[bool]:
+def _enabled(image: Image) -> list[bool]:
     """A joint is enabled when any page drives it."""
     pages = [page for number, page in image.items() if number and not _is_blank(page)]
     return [any(is_used(page.word(step, joint)) for page in pages for step in range(page.steps)) for joint in range(IDS)]
@@ -80,7 +80,7 @@ def _rate(page: Page) -> Fraction:
     return rate_of(page.speed) or max(near, Fraction(2, 10))
 
 
-def _page_lines(page: Page) -> List[str]:
+def _page_lines(page: Page) -> list[str]:
     levels = " ".join(str(min(max(page.compliance(joint) >> 4, 0), 15)) for joint in range(IDS))
     rate_text = f"{float(_rate(page)):.1f}"
     out = ["page_begin", f"name={_name_text(page)}", f"compliance={levels}",
@@ -92,7 +92,7 @@ def _page_lines(page: Page) -> List[str]:
     return out + ["page_end"]
 
 
-def _page_losses(page: Page, enabled: List[bool], lose: Callable[..., None]) -> None:
+def _page_losses(page: Page, enabled: list[bool], lose: Callable[..., None]) -> None:
     """What matters, in words: lose(sentence, value)."""
     if _name_text(page).encode("utf-8") != page.name:
         lose("the name changes", repr(_name_text(page)))
@@ -124,7 +124,7 @@ def _changes_without_effect(page: Page) -> bool:
             or any(page.word(s, j) & POS_UNUSED for s in range(page.steps) for j in range(IDS, JOINTS)))
 
 
-def _joint_losses(page: Page, enabled: List[bool], lose: Callable[..., None]) -> None:
+def _joint_losses(page: Page, enabled: list[bool], lose: Callable[..., None]) -> None:
     words = [(joint, page.word(step, joint)) for step in range(page.steps) for joint in range(JOINTS)]
     high = sorted({joint for joint, word in words if joint >= IDS and word and is_used(word)})
     driven = sorted({joint for joint, word in words if joint < IDS and enabled[joint] and not is_used(word)})

@@ -9,20 +9,20 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Dict, List, Optional
 
-from m512.errors import FileError, TextError
+from m512.errors import FileError, TextError, WordError
 from m512.files import storage
 from m512.files.image import Image
 from m512.files.page import JOINTS, PAGE_BYTES, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Page
+from m512.files.selection import number_range
 from m512.files.text.steps import Draft, JointWords, block_words, make_block
 from m512.files.text.words import (
     IDENTIFIER,
     Token,
-    WordError,
     code,
     continues,
     joint_list,
+    joint_pairs,
     joints_of,
     name_bytes,
     number,
@@ -40,21 +40,24 @@ class Reader(JointWords):
         self.first, self.end = 0, 128
         self.template = Draft()
         self.draft = self.template
-        self.pages: Dict[int, Draft] = {}
+        self.pages: dict[int, Draft] = {}
         self.where, self.line, self.folder, self.depth = "", 0, Path("."), 0
-        self.origin: Dict[int, str] = {}
+        self.origin: dict[int, str] = {}
+        self.included = 0       # bytes
 
     # Files and lines
 
     def read(self, text: str, where: str, folder: Path) -> None:
         outer = self.where, self.line, self.folder
         self.where, self.folder, self.line = where, folder, 0
-        started, held = False, ""
+        started, quoted = False, False
+        held: list[str] = []
         for self.line, line in enumerate(text.splitlines(), 1):
-            if continues(held + line):
-                held += line[:-1] + " "
+            goes_on, quoted = continues(line, quoted)
+            if goes_on:
+                held.append(line[:-1] + " ")
                 continue
-            held, line = "", held + line
+            held, line = [], "".join([*held, line])
             try:
                 for statement in tokenize(line):
                     if not started:
@@ -70,14 +73,14 @@ class Reader(JointWords):
             raise FileError(f"{where}: empty; a motion text starts with \"motion512 {VERSION}\"")
         self.where, self.line, self.folder = outer
 
-    def _version(self, statement: List[Token]) -> None:
+    def _version(self, statement: list[Token]) -> None:
         if statement[0].text != "motion512":
             raise WordError(f"a motion text starts with \"motion512 {VERSION}\"")
         if len(statement) != 2 or number(statement[1], 1, 999, "format version") != VERSION:
             raise WordError(f"this is format version {statement[1] if len(statement) > 1 else '?'}; "
                             f"this program reads version {VERSION}")
 
-    def _statement(self, tokens: List[Token]) -> None:
+    def _statement(self, tokens: list[Token]) -> None:
         word, rest = tokens[0].text, tokens[1:]
         handler = getattr(self, f"_do_{word}", None)
         if handler is None or tokens[0].quoted:
@@ -85,13 +88,13 @@ class Reader(JointWords):
         handler(rest)
 
     @staticmethod
-    def _count(rest: List[Token], low: int, high: Optional[int], usage: str) -> None:
+    def _count(rest: list[Token], low: int, high: int | None, usage: str) -> None:
         if len(rest) < low or (high is not None and len(rest) > high):
             raise WordError(f"usage: {usage}")
 
     # Statements about the file
 
-    def _do_pages(self, rest: List[Token]) -> None:
+    def _do_pages(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "pages 0..127 | 1..127 | 0..255")
         kinds = {"0..127": (0, 128), "1..127": (1, 128), "0..255": (0, 256)}
         if rest[0].text not in kinds:
@@ -100,13 +103,13 @@ class Reader(JointWords):
             raise WordError("\"pages\" comes before the first page")
         self.first, self.end = kinds[rest[0].text]
 
-    def _do_bits(self, rest: List[Token]) -> None:
+    def _do_bits(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "bits 10 | 12")
         self.bits = number(rest[0], 10, 12, "bits")
         if self.bits == 11 or self.pages or self.poses:
             raise WordError("bits are 10 or 12, said before the first pose or page")
 
-    def _do_include(self, rest: List[Token]) -> None:
+    def _do_include(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "include \"file\"")
         path = self.folder / rest[0].text
         self.draft = self.template
@@ -114,16 +117,20 @@ class Reader(JointWords):
         if self.depth > MAX_INCLUDE_DEPTH:
             raise WordError(f"include goes deeper than {MAX_INCLUDE_DEPTH} files (in a circle?)")
         try:
-            text = storage.read(path).decode("utf-8")
+            data = storage.read(path)
+            text = data.decode("utf-8")
         except FileError as error:
             raise WordError(str(error)) from None
         except (UnicodeError, ValueError):
             raise WordError(f"cannot read {path}: not UTF-8 text") from None
+        self.included += len(data)
+        if self.included > storage.MOST_BYTES:
+            raise WordError(f"what is included has more than {storage.MOST_BYTES >> 20} MiB in all, which is no motion")
         self.read(text, str(path), path.parent)
         self.depth -= 1
         self.draft = self.template
 
-    def _do_joint(self, rest: List[Token]) -> None:
+    def _do_joint(self, rest: list[Token]) -> None:
         self._count(rest, 2, 2, "joint ID name")
         joint, name = number(rest[0], 0, JOINTS - 1, "joint ID"), rest[1].text
         if not IDENTIFIER.match(name) or name in ("same", "mirror"):
@@ -132,20 +139,14 @@ class Reader(JointWords):
             raise WordError(f"{name} is joint {self.joints[name]} already")
         self.joints[name] = joint
 
-    def _do_row(self, rest: List[Token]) -> None:
+    def _do_row(self, rest: list[Token]) -> None:
         self._count(rest, 1, None, "row IDs (1..18, or a list)")
         self.row = joint_list(rest, self.joints)
 
-    def _do_pairs(self, rest: List[Token]) -> None:
-        pairs: Dict[int, int] = {}
-        for token in rest:
-            ids = [i for part in token.text.split("-") for i in joints_of(part, self.joints)]
-            if len(ids) not in (1, 2) or any(i in pairs for i in ids):
-                raise WordError(f"{token}: pairs are 1-2 3-4 ..., a single joint 19 is mirrored in place, none twice")
-            pairs[ids[0]], pairs[ids[-1]] = ids[-1], ids[0]
-        self.pairs = pairs
+    def _do_pairs(self, rest: list[Token]) -> None:
+        self.pairs = joint_pairs((token.text for token in rest), self.joints)
 
-    def _do_pose(self, rest: List[Token]) -> None:
+    def _do_pose(self, rest: list[Token]) -> None:
         self._count(rest, 3, None, "pose name | joints")
         if not IDENTIFIER.match(rest[0].text) or rest[1].text != "|":
             raise WordError("usage: pose name | joints")
@@ -153,16 +154,17 @@ class Reader(JointWords):
             raise WordError(f"pose {rest[0]} is there already")
         self.poses[rest[0].text] = self.joint_words(rest[2:], {}, None)
 
-    def _do_defaults(self, rest: List[Token]) -> None:
+    def _do_defaults(self, rest: list[Token]) -> None:
         self._count(rest, 0, 0, "defaults")
         self.draft = self.template
 
-    def _do_page(self, rest: List[Token]) -> None:
+    def _do_page(self, rest: list[Token]) -> None:
         self._count(rest, 1, 2, "page NUMBER [name]")
-        match = re.fullmatch(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}))?", rest[0].text)
-        if not match:
+        one = re.fullmatch("[0-9]{1,9}", rest[0].text)
+        span = (int(one.group()), int(one.group())) if one else number_range(rest[0].text)
+        if not span:
             raise WordError(f"page {rest[0]}: a number {self.first}..{self.end - 1} or a range 20..25")
-        low, high = int(match.group(1)), int(match.group(2) or match.group(1))
+        low, high = span
         if not self.first <= low <= high < self.end:
             raise WordError(f"page must be {self.first}..{self.end - 1}, not {rest[0]}")
         self.draft = Draft(self.template)
@@ -177,27 +179,27 @@ class Reader(JointWords):
 
     # Statements about a page (or the template)
 
-    def _byte(self, field: str, rest: List[Token], what: str) -> None:
+    def _byte(self, field: str, rest: list[Token], what: str) -> None:
         self._count(rest, 1, 1, f"{what} 0..255")
         setattr(self.draft.page, field, number(rest[0], 0, 255, what))
 
-    def _do_repeat(self, rest: List[Token]) -> None:
+    def _do_repeat(self, rest: list[Token]) -> None:
         self._byte("repeat", rest, "repeat")
 
-    def _do_speed(self, rest: List[Token]) -> None:
+    def _do_speed(self, rest: list[Token]) -> None:
         self._byte("speed", rest, "speed")
 
-    def _do_dxl_setup(self, rest: List[Token]) -> None:
+    def _do_dxl_setup(self, rest: list[Token]) -> None:
         self._byte("dxl_setup", rest, "dxl_setup")
 
-    def _do_byte63(self, rest: List[Token]) -> None:
+    def _do_byte63(self, rest: list[Token]) -> None:
         self._byte("byte63", rest, "byte63")
 
-    def _do_accel(self, rest: List[Token]) -> None:
+    def _do_accel(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "accel TIME")
         self.draft.page.accel = ticks(rest[0], "accel")
 
-    def _do_base(self, rest: List[Token]) -> None:
+    def _do_base(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "base time | speed")
         names = {"time": SCHEDULE_TIME, "speed": SCHEDULE_SPEED}
         if rest[0].text in names:
@@ -207,7 +209,7 @@ class Reader(JointWords):
         else:
             raise WordError(f"base is time or speed, not {rest[0]}")
 
-    def _do_code(self, rest: List[Token]) -> None:
+    def _do_code(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "code CODE")
         self.draft.page.code = code(rest[0])
 
@@ -215,31 +217,31 @@ class Reader(JointWords):
         self.draft.links = [link for link in self.draft.links if link[0] != field]
         self.draft.links.append((field, token, self.line))
 
-    def _do_next(self, rest: List[Token]) -> None:
+    def _do_next(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "next PAGE")
         self._link("next", rest[0])
 
-    def _do_exit(self, rest: List[Token]) -> None:
+    def _do_exit(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "exit PAGE")
         self._link("exit", rest[0])
 
-    def _do_link1(self, rest: List[Token]) -> None:
+    def _do_link1(self, rest: list[Token]) -> None:
         self._count(rest, 2, 2, "link1 CODE PAGE")
         self.draft.page.link1_code = code(rest[0])
         self._link("link1_page", rest[1])
 
-    def _do_link2(self, rest: List[Token]) -> None:
+    def _do_link2(self, rest: list[Token]) -> None:
         self._count(rest, 2, 2, "link2 CODE PAGE")
         self.draft.page.link2_code = code(rest[0])
         self._link("link2_page", rest[1])
 
-    def _do_blend(self, rest: List[Token]) -> None:
+    def _do_blend(self, rest: list[Token]) -> None:
         self._count(rest, 2, 2, "blend right PAGE | blend left PAGE")
         if rest[0].text not in ("right", "left"):
             raise WordError(f"blend right or blend left, not {rest[0]}")
         self._link(f"blend_{rest[0].text}", rest[1])
 
-    def _do_softness(self, rest: List[Token]) -> None:
+    def _do_softness(self, rest: list[Token]) -> None:
         self._count(rest, 1, None, "softness [LEVEL] joint:LEVEL ... (LEVEL 1..7, or CW/CCW)")
         for place, token in enumerate(rest):
             joints, _, level = token.text.rpartition(":")
@@ -251,17 +253,17 @@ class Reader(JointWords):
             for joint in (joints_of(joints, self.joints) if joints else range(JOINTS)):
                 self.draft.page.set_compliance(joint, parts[0] << 4 | parts[-1])
 
-    def _do_steps(self, rest: List[Token]) -> None:
+    def _do_steps(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "steps N")
         self._page_only("steps")
         self.draft.step_count = number(rest[0], 0, 255, "steps")
 
-    def _do_checksum(self, rest: List[Token]) -> None:
+    def _do_checksum(self, rest: list[Token]) -> None:
         self._count(rest, 1, 1, "checksum 0xNN")
         self._page_only("checksum")
         self.draft.checksum = number(rest[0], 0, 255, "checksum")
 
-    def _do_raw(self, rest: List[Token]) -> None:
+    def _do_raw(self, rest: list[Token]) -> None:
         self._count(rest, 2, None, "raw OFFSET hex bytes")
         offset = number(rest[0], 0, PAGE_BYTES - 1, "offset")
         try:
@@ -272,7 +274,7 @@ class Reader(JointWords):
             raise WordError(f"raw: {len(data)} bytes at {offset} go beyond the page's 512")
         self.draft.raw.append((offset, data))
 
-    def _do_erased(self, rest: List[Token]) -> None:
+    def _do_erased(self, rest: list[Token]) -> None:
         """Flash that was never written."""
         self._count(rest, 0, 0, "erased")
         self._page_only("erased")
@@ -284,19 +286,19 @@ class Reader(JointWords):
 
     # Steps
 
-    def _do_step(self, rest: List[Token]) -> None:
+    def _do_step(self, rest: list[Token]) -> None:
         self._page_only("step")
         if len(self.draft.steps) == STEPS:
             raise WordError("a page has 7 steps; go on in another page (link it with next)")
         self.draft.steps.append(self.block(self.draft, self.line, rest, "step", self.draft.steps[-1] if self.draft.steps else None))
 
-    def _do_spare(self, rest: List[Token]) -> None:
+    def _do_spare(self, rest: list[Token]) -> None:
         self._page_only("spare")
         self._count(rest, 3, None, "spare K TIME [pause TIME] | joints")
         k = number(rest[0], 0, STEPS - 1, "step")
         self.draft.spares[k] = self.block(self.draft, self.line, rest[1:], "spare K", None)
 
-    def _do_offset(self, rest: List[Token]) -> None:
+    def _do_offset(self, rest: list[Token]) -> None:
         """Page 0: step 2 holds signed offsets."""
         if self.draft is not self.pages.get(0):
             raise WordError("offset belongs into page 0, the trim")
@@ -308,7 +310,7 @@ class Reader(JointWords):
                 words[joint] = signed & 0xFFFF
         self.draft.spares[2] = make_block(words, 0, 0)
 
-    def _do_fill(self, rest: List[Token]) -> None:
+    def _do_fill(self, rest: list[Token]) -> None:
         if self.draft.steps or self.draft.spares:
             raise WordError("fill comes before the page's steps")
         base = Page().step_bytes(0)
@@ -324,7 +326,7 @@ class Reader(JointWords):
         built = {id(draft): draft for draft in self.pages.values()}
         for draft in built.values():
             self._check_units(draft)
-        names: Dict[bytes, List[int]] = {}
+        names: dict[bytes, list[int]] = {}
         for page, draft in self.pages.items():
             names.setdefault(draft.page.name, []).append(page)
         for page, draft in self.pages.items():
@@ -344,7 +346,7 @@ class Reader(JointWords):
             if draft.page.schedule == SCHEDULE_TIME and unit == "dps":
                 raise TextError("a speed in dps, but the page has time base", self.where, line)
 
-    def _resolve(self, token: Token, page: int, names: Dict[bytes, List[int]]) -> int:
+    def _resolve(self, token: Token, page: int, names: dict[bytes, list[int]]) -> int:
         if not token.quoted:
             if token.text in ("none", "self"):
                 return page if token.text == "self" else 0

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 import re
-from typing import Dict, List, Optional, Tuple
 
 from m512.files.page import JOINTS, STEPS, Page
 from m512.files.text.words import Token, WordError, joints_of, mirrored, position, step_speed, ticks
 
-Words = Dict[int, int]   # joint -> position word
+Words = dict[int, int]   # joint -> position word
 
 
 class Draft:
     """A page being written: the header as a Page, steps as words, and what is decided at the end."""
 
-    def __init__(self, template: Optional["Draft"] = None):
+    def __init__(self, template: Draft | None = None):
         self.page: Page = template.page.copy() if template else Page()
         self.fill: bytes = bytes(template.fill if template else self.page.step_bytes(0))
-        self.steps: List[bytes] = []
-        self.spares: Dict[int, bytes] = {}
-        self.step_count: Optional[int] = None
-        self.checksum: Optional[int] = None
-        self.raw: List[Tuple[int, bytes]] = list(template.raw) if template else []
-        self.links: List[Tuple[str, Token, int]] = list(template.links) if template else []
-        self.units: List[Tuple[str, int]] = []
+        self.steps: list[bytes] = []
+        self.spares: dict[int, bytes] = {}
+        self.step_count: int | None = None
+        self.checksum: int | None = None
+        self.raw: list[tuple[int, bytes]] = list(template.raw) if template else []
+        self.links: list[tuple[str, Token, int]] = list(template.links) if template else []
+        self.units: list[tuple[str, int]] = []
         self.line = 0
 
     def build(self) -> Page:
@@ -56,17 +55,17 @@ class JointWords:
 
     def __init__(self) -> None:
         self.bits = 10
-        self.joints: Dict[str, int] = {}
-        self.row: List[int] = []
+        self.joints: dict[str, int] = {}
+        self.row: list[int] = []
         self.pairs = {a: b for k in range(1, 18, 2) for a, b in ((k, k + 1), (k + 1, k))}
-        self.poses: Dict[str, Words] = {}
+        self.poses: dict[str, Words] = {}
 
     @property
     def pos_max(self) -> int:
         return (1 << self.bits) - 1
 
-    def block(self, draft: Draft, line: int, rest: List[Token], what: str, before: Optional[bytes],
-              base: Optional[bytes] = None) -> bytes:
+    def block(self, draft: Draft, line: int, rest: list[Token], what: str, before: bytes | None,
+              base: bytes | None = None) -> bytes:
         """`TIME [pause TIME] | joints` as the 64 bytes of a step. `before`: the step before it; `base`: what joints that
         are not named have, if not the page's fill."""
         bar = next((i for i, token in enumerate(rest) if token.text == "|" and not token.quoted), len(rest))
@@ -85,7 +84,7 @@ class JointWords:
         words = self.joint_words(joints, words, block_words(before) if before else None)
         return make_block(words, pause, time)
 
-    def joint_words(self, tokens: List[Token], words: Words, before: Optional[Words]) -> Words:
+    def joint_words(self, tokens: list[Token], words: Words, before: Words | None) -> Words:
         """Applies the joint part of a line, left to right, to `words`. `before`: the step before, for `same`."""
         words, at = dict(words), 0
         while at < len(tokens):
@@ -103,11 +102,11 @@ class JointWords:
                 for joint in joints_of(joints, self.joints):
                     words[joint] = position(value, words.get(joint, 0x4000), self.pos_max)
             else:
-                at += self._positional(tokens[at:], words) - 1
+                at = self._positional(tokens, at, words) - 1
             at += 1
         return words
 
-    def _source(self, text: str, before: Optional[Words]) -> Words:
+    def _source(self, text: str, before: Words | None) -> Words:
         if text == "same":
             if before is None:
                 raise WordError("same: there is no step before this one")
@@ -123,16 +122,18 @@ class JointWords:
             out[joint if pair is None else pair] = word if pair is None else mirrored(word, self.pos_max)
         return out
 
-    def _positional(self, tokens: List[Token], words: Words) -> int:
-        count = 0
-        while count < len(tokens) and not re.match(r"@|same\Z|mirror\Z|.*:", tokens[count].text):
-            count += 1
+    def _positional(self, tokens: list[Token], first: int, words: Words) -> int:
+        """Applies a row that begins there; returns where it ends."""
+        end = first
+        while end < len(tokens) and not re.match(r"@|same\Z|mirror\Z|.*:", tokens[end].text):
+            end += 1
+        count = end - first
         if not self.row:
-            raise WordError(f"{tokens[0]}: neither joint:position nor a pose; a row of positions needs a \"row\" line")
+            raise WordError(f"{tokens[first]}: neither joint:position nor a pose; a row of positions needs a \"row\" line")
         if count != len(self.row):
             raise WordError(f"{count} positions; the row has {len(self.row)} joints")
-        for joint, token in zip(self.row, tokens):
+        for joint, token in zip(self.row, tokens[first:end]):
             word = position(token.text, words.get(joint, 0x4000), self.pos_max)
             if token.text != "." or joint in words:
                 words[joint] = word
-        return count
+        return end

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import List
 
+from m512.errors import WordError
 from m512.files.page import JOINTS, POS_TORQUE_OFF, POS_UNUSED, TICKS_PER_SECOND
+from m512.files.selection import number_range
 
 KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "B1": 16, "B2": 32, "B3": 64, "B4": 128}
 CENTRE = 512
@@ -15,11 +17,8 @@ SPEED_UNITS_PER_DPS = 256 / 720   # of a step in speed base
 
 IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _TOKEN = re.compile(r'\s*(?:(?P<comment>#.*)|(?P<sep>[;|])|"(?P<quoted>(?:[^"\\]|\\.)*)"|(?P<bare>[^\s#;|"]+)|(?P<bad>"))')
+_OUTSIDE, _IN_QUOTES = re.compile(r'[^"#]*'), re.compile(r'(?:[^"\\]|\\.)*', re.S)
 _ESCAPE = re.compile(rb'\\(x[0-9A-Fa-f]{2}|.)', re.S)
-
-
-class WordError(ValueError):
-    """A word does not say what its place needs; the message is for the user."""
 
 
 @dataclass(frozen=True)
@@ -31,9 +30,9 @@ class Token:
         return f'"{self.text}"' if self.quoted else self.text
 
 
-def tokenize(line: str) -> List[List[Token]]:
+def tokenize(line: str) -> list[list[Token]]:
     """The statements of a line (`;` separates them), comments dropped. `|` is a token of its own."""
-    statements: List[List[Token]] = [[]]
+    statements: list[list[Token]] = [[]]
     at, line = 0, line.rstrip()
     while at < len(line):
         match = _TOKEN.match(line, at)
@@ -53,19 +52,20 @@ def tokenize(line: str) -> List[List[Token]]:
     return [statement for statement in statements if statement]
 
 
-def continues(line: str) -> bool:
-    """Whether a backslash at the end of a line joins the next one to it. In a comment it is a part of the comment."""
+def continues(line: str, quoted: bool = False) -> tuple[bool, bool]:
+    """Whether a backslash at the end of a line joins the next one to it (in a comment it is a part of the comment), and whether a quote is
+    open there. quoted: one is open where the line begins."""
     if not line.endswith("\\"):
-        return False
-    at = 0
+        return False, False
+    at, line = 0, line[:-1] + " "
     while at < len(line):
-        match = _TOKEN.match(line, at)
-        if not match or match.group("bad"):
-            return True
-        if match.group("comment") is not None:
-            return False
-        at = match.end()
-    return True
+        some = (_IN_QUOTES if quoted else _OUTSIDE).match(line, at)
+        at = some.end() if some else at             # both match anything, at least nothing
+        if line[at:at + 1] == "#" and not quoted:
+            return False, False
+        if at < len(line):
+            quoted, at = not quoted, at + 1
+    return True, quoted
 
 
 def name_bytes(token: Token) -> bytes:
@@ -75,7 +75,7 @@ def name_bytes(token: Token) -> bytes:
     except UnicodeEncodeError:
         raise WordError(f"{token}: a page name is ASCII; other bytes are written \"\\xNN\"") from None
 
-    def unescape(match: "re.Match[bytes]") -> bytes:
+    def unescape(match: re.Match[bytes]) -> bytes:
         what = match.group(1)
         if what.startswith(b"x") and len(what) == 3:
             return bytes([int(what[1:], 16)])
@@ -116,9 +116,9 @@ def number(token: Token, low: int, high: int, what: str) -> int:
     return value
 
 
-def joint_list(tokens: List[Token], names: dict) -> List[int]:
+def joint_list(tokens: list[Token], names: dict) -> list[int]:
     """`1..6 11 r_hand` as IDs, in order, no ID twice."""
-    out: List[int] = []
+    out: list[int] = []
     for token in tokens:
         out.extend(joints_of(token.text, names))
     if len(set(out)) != len(out):
@@ -126,16 +126,13 @@ def joint_list(tokens: List[Token], names: dict) -> List[int]:
     return out
 
 
-def joints_of(text: str, names: dict) -> List[int]:
+def joints_of(text: str, names: dict) -> list[int]:
     """`7`, `1..6`, `1,3,5`, a joint name, or any of these joined by commas."""
     out = []
     for part in text.split(","):
-        match = re.fullmatch(r"([0-9]{1,9})\.\.([0-9]{1,9})", part)
-        if match:
-            low, high = int(match.group(1)), int(match.group(2))
-            if low > high:
-                raise WordError(f"{part}: a range goes upwards")
-            part_ids = list(range(low, min(high, 999) + 1))
+        span = number_range(part)
+        if span:
+            part_ids = list(range(span[0], min(span[1], 999) + 1))
         elif re.fullmatch("[0-9]{1,9}", part):
             part_ids = [int(part)]
         elif part in names:
@@ -146,6 +143,17 @@ def joints_of(text: str, names: dict) -> List[int]:
             raise WordError(f"{part}: joints are IDs 0..{JOINTS - 1}")
         out += part_ids
     return out
+
+
+def joint_pairs(texts: Iterable[str], names: dict) -> dict[int, int]:
+    """{joint: its other} of `1-2`, `3-4` and single ones (`19`), which are turned round in place."""
+    pairs: dict[int, int] = {}
+    for text in texts:
+        ids = [joint for part in text.split("-") for joint in joints_of(part, names)]
+        if len(ids) not in (1, 2) or any(joint in pairs for joint in ids):
+            raise WordError(f"{text}: pairs are 1-2 3-4 ..., a single joint 19 is mirrored in place, none twice")
+        pairs[ids[0]], pairs[ids[-1]] = ids[-1], ids[0]
+    return pairs
 
 
 def ticks(token: Token, what: str) -> int:

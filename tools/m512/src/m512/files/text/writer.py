@@ -8,7 +8,7 @@ the words cannot say exactly is written as raw bytes.
 from __future__ import annotations
 
 from collections import Counter
-from typing import Dict, Iterable, List, Optional, Tuple
+from collections.abc import Iterable
 
 from m512.errors import TextError
 from m512.files.image import Image, is_erased
@@ -49,7 +49,7 @@ def _common(values: Iterable, standard):
     return value if 2 * count > sum(counted.values()) else standard
 
 
-def clean_fill(page: Page) -> Optional[bytes]:
+def clean_fill(page: Page) -> bytes | None:
     """The block that fills the page's unused steps, if its last one is unused and holds no pose."""
     if page.steps >= STEPS:
         return None
@@ -67,7 +67,7 @@ def is_motion(page: Page, image: Image) -> bool:
 
 def ranges(numbers: Iterable[int]) -> str:
     """`1..6 9 11..18`."""
-    out: List[List[int]] = []
+    out: list[list[int]] = []
     for n in numbers:
         if out and out[-1][1] == n - 1:
             out[-1][1] = n
@@ -76,9 +76,9 @@ def ranges(numbers: Iterable[int]) -> str:
     return " ".join(str(a) if a == b else f"{a}..{b}" for a, b in out)
 
 
-def grouped(values: Dict[int, str]) -> List[str]:
+def grouped(values: dict[int, str]) -> list[str]:
     """`0..25:~512 26..30:0` from a text per joint."""
-    out, run = [], []  # type: List[str], List[int]
+    out, run = [], []  # type: list[str], list[int]
     for joint in sorted(values):
         if run and (values[run[0]] != values[joint] or run[-1] != joint - 1):
             out.append(f"{ranges(run)}:{values[run[0]]}")
@@ -116,7 +116,7 @@ def link_text(target: int, number: int, style: Style) -> str:
     return style.names.get(target, str(target)) if target else "none"
 
 
-def _header(page: Page, number: int, style: Style) -> List[str]:
+def _header(page: Page, number: int, style: Style) -> list[str]:
     out = []
     if page.code:
         out.append(f"code {code_text(page.code)}")
@@ -154,7 +154,7 @@ def _header(page: Page, number: int, style: Style) -> List[str]:
     return out
 
 
-def _steps(page: Page, style: Style) -> List[str]:
+def _steps(page: Page, style: Style) -> list[str]:
     fill, base = style.fill_of(page), block_words(style.fill_of(page))
     count = min(page.steps, STEPS)
     table = [["step", str(page.time(k)), f"pause {page.pause(k)}" if page.pause(k) else "", "|"]
@@ -175,14 +175,14 @@ def _steps(page: Page, style: Style) -> List[str]:
     return out
 
 
-def _title(page: Page, numbers: Tuple[int, int]) -> str:
+def _title(page: Page, numbers: tuple[int, int]) -> str:
     first, last = numbers
     name = bytes(page.data[:14])
     named = any(name) and not is_erased(page)
     return f"page {first}" + (f"..{last}" if last != first else "") + (f" {quote_name(name)}" if named else "")
 
 
-def page_text(page: Page, numbers: Tuple[int, int], style: Style) -> str:
+def page_text(page: Page, numbers: tuple[int, int], style: Style) -> str:
     """One page (or a run of equal ones) in words."""
     out = [_title(page, numbers)]
     fault = page.fault_text(style.image.kind)
@@ -194,7 +194,7 @@ def page_text(page: Page, numbers: Tuple[int, int], style: Style) -> str:
     return "\n  ".join(out) + "\n"
 
 
-def raw_text(page: Page, numbers: Tuple[int, int], style: Style) -> str:
+def raw_text(page: Page, numbers: tuple[int, int], style: Style) -> str:
     """The same as bytes."""
     out = [_title(page, numbers)]
     if is_erased(page):
@@ -206,7 +206,7 @@ def raw_text(page: Page, numbers: Tuple[int, int], style: Style) -> str:
     return "\n  ".join(out) + "\n"
 
 
-def _preamble(style: Style) -> List[str]:
+def _preamble(style: Style) -> list[str]:
     image = style.image
     out = [f"motion512 {VERSION}"]
     if (image.first, image.end) != (0, 128):
@@ -244,9 +244,9 @@ def write_text(image: Image) -> str:
     return "\n".join(out)
 
 
-def _runs(image: Image) -> List[Tuple[Tuple[int, int], Page]]:
+def _runs(image: Image) -> list[tuple[tuple[int, int], Page]]:
     """Runs of equal pages; pages that are linked to or have a name of their own stand alone."""
-    out: List[Tuple[Tuple[int, int], Page]] = []
+    out: list[tuple[tuple[int, int], Page]] = []
     for number, page in image.items():
         if out and out[-1][1] == page and out[-1][0][1] == number - 1 and (page.is_empty or is_erased(page)):
             out[-1] = ((out[-1][0][0], number), page)
@@ -262,7 +262,7 @@ def _reads_as(text: str, image: Image) -> bool:
         return False
 
 
-def _reads_alone(head: str, text: str, numbers: Tuple[int, int], page: Page) -> bool:
+def _reads_alone(head: str, text: str, numbers: tuple[int, int], page: Page) -> bool:
     try:
         image = read_text(head + text)
     except TextError:

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT
+ * performer_layers_none.c - for images without layers: the functions of performer_shape.h about layers, empty. */
+#include "performer_shape.h"
+
+uint32_t performer_layers_joints(const performer_t *performer)
+{
+    (void)performer;
+    return 0;
+}
+
+bool performer_layers_are_moving(const performer_t *performer)
+{
+    (void)performer;
+    return false;
+}
+
+uint8_t performer_layers_tick(performer_t *performer, bool with_play)
+{
+    const uint8_t events = with_play ? player_tick(&performer->engine.player, &performer->link) : 0;
+    if ((events & PLAYER_EV_OUTPUT) != 0) {
+        player_goals(&performer->engine.player, UINT32_MAX, performer->goal_pos);
+    }
+    return events;
+}
+
+void performer_layers_plan(performer_t *performer)
+{
+    player_plan(&performer->engine.player, &performer->link);
+}
+
+void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS])
+{
+    (void)performer;
+    (void)compliance;
+}
+
+void performer_layers_bind(performer_t *performer, bool with_play)
+{
+    (void)performer;
+    (void)with_play;
+}
+
+void performer_layers_drop(performer_t *performer, uint32_t joints)
+{
+    (void)performer;
+    (void)joints;
+}
+
+void performer_layers_break(performer_t *performer)
+{
+    (void)performer;
+}
+
+void performer_layers_pause(performer_t *performer, bool pause)
+{
+    (void)performer;
+    (void)pause;
+}
+
+uint8_t performer_layer_page(const performer_t *performer)
+{
+    (void)performer;
+    return 0;
+}

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Play and Edit as programs of this computer."""

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: MIT */
+#include "commands_motion.h"
+
+#include "performer_shape.h"
+#include "pgm.h"
+#include "play.h"
+#include "ranges_own.h"
+#include "report.h"
+#include "text.h"
+#include "views.h"
+
+/* ---- play, stop, break, pause, resume, code ---- */
+
+/* Puts the words of a name together again with a space between: it may hold separators. */
+static void take_name(const shell_args_t *args, char name[PAGE_NAME_BYTES])
+{
+    uint8_t length = 0;
+    for (uint8_t i = 1; i < args->count; i++) {
+        for (const char *word = shell_word(args, i); *word != '\0' && length < PAGE_NAME_BYTES - 1; word++) {
+            name[length++] = *word;
+        }
+        if (i + 1u < args->count && length < PAGE_NAME_BYTES - 1) {
+            name[length++] = ' ';
+        }
+    }
+    name[length] = '\0';
+}
+
+/* The page with this name; 0: none or several, and an error has been printed. */
+static uint8_t page_of_name(const play_t *play, const shell_args_t *args)
+{
+    char name[PAGE_NAME_BYTES];
+    take_name(args, name);
+    const uint8_t page = page_store_find(&play->pages, name, 0);
+    const uint8_t other = page == 0 ? 0 : page_store_find(&play->pages, name, page);
+    if (page != 0 && other == 0) {
+        return page;
+    }
+    (void)requests_error(REQUEST_ERR_RANGE);
+    if (page == 0) {
+        TEXT("No page is named ");
+    } else {
+        text_P_number(TEXT_P("Say which by its number: pages "), page);
+        text_P_number(TEXT_P(" and "), other);
+        TEXT(" are named ");
+    }
+    text_string(name);
+    return 0;
+}
+
+/* Plays a page by its number, or by its name; a code may follow the number, as if from the remote. */
+uint8_t commands_do_play(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    uint16_t page, code = LINK_CODE_NONE;
+    const char first = shell_word(args, 1)[0];
+    if (first >= '0' && first <= '9') {
+        if (!shell_take(args, 1, RANGE_PLAYED, &page) || (args->count > 2 && !shell_take(args, 2, RANGE_CODE, &code))) {
+            return SHELL_ERR_RANGE;
+        }
+    } else if ((page = page_of_name(play, args)) == 0) {
+        return SHELL_ERR_REPORTED;
+    }
+    return requests_refusal(performer_start(&play->performer, (uint8_t)page, (uint8_t)code));
+}
+
+/* A person gets a refusal if there is nothing to do. A program gets OK and asks @where. */
+static uint8_t done(bool something, const char *nothing_P)
+{
+    return something || requests_from_program() ? REQUEST_OK : requests_refuse(REQUEST_ERR_IDLE, nothing_P);
+}
+
+static uint8_t end(play_t *play, bool at_once)
+{
+    const bool moves = !performer_is_still(&play->performer);
+    if (at_once) {
+        performer_break(&play->performer);
+    } else {
+        performer_stop(&play->performer);
+    }
+    return done(moves, TEXT_P("Nothing is playing"));
+}
+
+uint8_t commands_do_stop(void *context, const shell_args_t *args)
+{
+    (void)args;
+    return end(context, false);
+}
+
+uint8_t commands_do_break(void *context, const shell_args_t *args)
+{
+    (void)args;
+    return end(context, true);
+}
+
+uint8_t commands_do_pause(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    (void)args;
+    return done(performer_pause(&play->performer), TEXT_P("Nothing to pause"));
+}
+
+uint8_t commands_do_resume(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    (void)args;
+    return done(performer_resume(&play->performer), TEXT_P("Nothing is paused"));
+}
+
+/* Acts like the remote, for boards without a panel. */
+uint8_t commands_do_code(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    inputs_refusal_t refusal;
+    inputs_code(&play->inputs, (uint8_t)args->number[0]);
+    if (!inputs_next_refusal(&play->inputs, &refusal)) {
+        return REQUEST_OK;
+    }
+    views_print_refusal(&refusal);
+    return SHELL_ERR_REPORTED;
+}
+
+/* ---- rate, amplitude, blend, drive, shape: a motion is shaped while it plays (performer_shape.h) ---- */
+
+uint8_t commands_do_rate(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    (void)!shape_set_rate(&play->performer.shape, args->number[0]);
+    return REQUEST_OK;
+}
+
+uint8_t commands_do_amplitude(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    uint32_t joints = SERVO_LINK_ALL;
+    if (args->count > 2) {
+        const uint8_t status = requests_take_joints(args, 2, &joints);
+        if (status != REQUEST_OK) {
+            return status;
+        }
+    }
+    (void)!shape_set_amplitude(&play->performer.shape, args->number[0], joints);
+    return REQUEST_OK;
+}
+
+uint8_t commands_do_blend(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    (void)!shape_set_blend(&play->performer.shape, (int16_t)args->number[0]);
+    return REQUEST_OK;
+}
+
+/* Blend, rate and amplitude in one line, because a joystick sends it 20 times a second. */
+uint8_t commands_do_drive(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    uint16_t amplitude;
+    if (!shell_take(args, 3, RANGE_AMPLITUDE, &amplitude)) {
+        return SHELL_ERR_RANGE;
+    }
+    (void)!performer_drive(&play->performer, (int16_t)args->number[0], args->number[1], amplitude);
+    return REQUEST_OK;
+}
+
+uint8_t commands_do_shape(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    if (args->count == 1) {
+        views_print_shape(&play->performer);
+        return REQUEST_OK;
+    }
+    if (!shell_word_is(args, 1, PSTR("reset"))) {
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Say shape, or shape reset"));
+    }
+    shape_reset(&play->performer.shape);
+    return REQUEST_OK;
+}
+
+/* ---- layer, aim, swing, free: a second page over the play, and joints moved by code ---- */
+
+static uint8_t answer_of(layers_status_t status)
+{
+    switch (status) {
+    case LAYERS_OK:
+        return REQUEST_OK;
+    case LAYERS_ERR_PAGE:
+        return requests_refusal(PERFORMER_ERR_PAGE);
+    case LAYERS_ERR_EMPTY:
+        return requests_refusal(PERFORMER_ERR_EMPTY);
+    case LAYERS_ERR_JOINTS:
+        return requests_refuse(REQUEST_ERR_SERVOS, TEXT_P("None of these servos can be moved"));
+    case LAYERS_ERR_FULL:
+        return requests_refuse(REQUEST_ERR_FULL, TEXT_P("Four joints are moved already: free one"));
+    case LAYERS_ERR_BUSY:
+        return SHELL_ERR_MOVING;
+    case LAYERS_ERR_RANGE:
+        return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Too far or too fast"));
+    default:
+        return requests_refuse(REQUEST_ERR_IDLE, TEXT_P("Nothing is playing"));
+    }
+}
+
+uint8_t commands_do_layer(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    uint16_t page;
+    uint32_t joints = 0;
+    if (args->count == 2 && shell_word_is(args, 1, PSTR("off"))) {
+        performer_layer_off(&play->performer);
+        return REQUEST_OK;
+    }
+    if (!shell_take(args, 1, RANGE_PLAYED, &page)) {
+        return SHELL_ERR_RANGE;
+    }
+    if (args->count > 2) {
+        const uint8_t status = requests_take_joints(args, 2, &joints);
+        if (status != REQUEST_OK) {
+            return status;
+        }
+    }
+    return answer_of(performer_layer(&play->performer, (uint8_t)page, joints));
+}
+
+uint8_t commands_do_aim(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    const uint8_t id = (uint8_t)args->number[0];
+    uint16_t deg_s = 0;
+    if (args->count > 3 && !shell_take(args, 3, RANGE_DEG_S, &deg_s)) {
+        return SHELL_ERR_RANGE;
+    }
+    const layers_status_t status = performer_take_for_code(&play->performer, id);
+    return answer_of(status != LAYERS_OK ? status : layers_aim(&play->layers, id, args->number[1], deg_s));
+}
+
+/* id centre amplitude ms [phase] */
+uint8_t commands_do_swing(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    const uint8_t id = (uint8_t)args->number[0];
+    uint16_t amplitude, ms, phase_deg = 0;
+    if (!shell_take(args, 3, RANGE_POSITION, &amplitude) || !shell_take(args, 4, RANGE_SWING_MS, &ms) ||
+        (args->count > 5 && !shell_take(args, 5, RANGE_PHASE, &phase_deg))) {
+        return SHELL_ERR_RANGE;
+    }
+    const uint16_t ticks = (uint16_t)((uint32_t)ms * PLAYER_TICKS_PER_SECOND / 1000u);
+    layers_status_t status = LAYERS_ERR_RANGE;
+    if (code_motion_can_swing(args->number[1], amplitude, ticks)) {
+        status = performer_take_for_code(&play->performer, id);
+    }
+    return answer_of(status != LAYERS_OK ? status
+                         : layers_swing(&play->layers, id, args->number[1], amplitude, ticks, phase_deg));
+}
+
+uint8_t commands_do_free(void *context, const shell_args_t *args)
+{
+    play_t *play = context;
+    uint32_t joints;
+    const uint8_t status = requests_take_joints(args, 1, &joints);
+    if (status == REQUEST_OK) {
+        layers_free(&play->layers, joints);
+    }
+    return status;
+}

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: MIT
+ * console.c - console.h over the machine's console. It has no rate. Flow control is the machine's: bytes that find no room
+ * stay where they are, so nothing is lost and XOFF is never sent. */
+#include "console.h"
+
+#include <string.h>
+#include "host.h"
+#include "machine.h"
+
+static uint8_t rx_storage[CONSOLE_RX_BYTES];
+static ring_t rx;
+static uint8_t tx[CONSOLE_TX_BYTES];
+static uint8_t tx_count;
+static uint8_t received, sent;
+static volatile uint8_t lost;
+
+void console_init(void)
+{
+    ring_init(&rx, rx_storage, CONSOLE_RX_BYTES);
+    tx_count = 0;
+    received = 0;
+    sent = 0;
+}
+
+void console_set_rate(uint8_t divisor)
+{
+    (void)divisor;
+}
+
+void host_fetch_console(void)
+{
+    uint8_t bytes[CONSOLE_RX_BYTES];
+    const uint16_t count = machine_console_read(bytes, ring_room(&rx));
+    for (uint16_t i = 0; i < count; i++) {
+        received++;
+        (void)ring_put(&rx, bytes[i]);
+    }
+    const uint8_t gone = (uint8_t)machine_console_write(tx, tx_count);
+    tx_count = (uint8_t)(tx_count - gone);
+    sent = (uint8_t)(sent + gone);
+    memmove(tx, tx + gone, tx_count);
+}
+
+/* ---- input ---- */
+
+bool console_get(uint8_t *byte)
+{
+    return ring_get(&rx, byte);
+}
+
+uint8_t console_lost(void)
+{
+    return 0;   /* what finds no room waits in the machine */
+}
+
+uint8_t console_waiting(void)
+{
+    return ring_count(&rx);
+}
+
+void console_drop_input(void)
+{
+    ring_clear(&rx);
+}
+
+/* ---- output ---- */
+
+bool console_put(uint8_t byte)
+{
+    if (tx_count == sizeof tx) {
+        host_fetch();
+    }
+    if (tx_count == sizeof tx) {
+        return false;
+    }
+    tx[tx_count++] = byte;
+    return true;
+}
+
+uint8_t console_room(void)
+{
+    return (uint8_t)(sizeof tx - tx_count);
+}
+
+void console_write(const void *bytes, uint16_t count)
+{
+    const uint8_t *byte = bytes;
+    while (count > 0) {
+        if (console_put(*byte)) {
+            byte++;
+            count--;
+        } else {
+            host_wait(host_next_tick());
+        }
+    }
+}
+
+void console_flush(void)
+{
+    host_fetch();
+    while (tx_count > 0) {
+        host_wait(host_next_tick());
+    }
+}
+
+/* ---- flow control: none is needed ---- */
+
+void console_set_flow(bool on)
+{
+    (void)on;
+}
+
+void console_xoff(void)
+{
+}
+
+void console_xon(void)
+{
+}
+
+/* ---- counts ---- */
+
+ring_t *console_rx_ring(void)
+{
+    return &rx;
+}
+
+volatile uint8_t *console_rx_lost(void)
+{
+    return &lost;
+}
+
+uint8_t console_received(void)
+{
+    return received;
+}
+
+uint8_t console_sent(void)
+{
+    return sent;
+}
+
+void console_counts(console_counts_t *counts)
+{
+    memset(counts, 0, sizeof *counts);
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT
+ * panel.c - panel.h: buttons are keys; the lamps are remembered, and nobody sees them. */
+#include "panel.h"
+
+#include "debounce.h"
+#include "machine.h"
+
+static uint8_t lamps;
+static debounce_t buttons;
+
+void panel_init(void)
+{
+    lamps = PANEL_LED_POWER;
+    debounce_init(&buttons, 0);
+}
+
+void panel_set(uint8_t leds, bool lit)
+{
+    lamps = (uint8_t)(lit ? lamps | leds : lamps & (uint8_t)~leds);
+}
+
+uint8_t panel_lit(void)
+{
+    return lamps;
+}
+
+void panel_tick(void)
+{
+    (void)debounce_sample(&buttons, machine_buttons(), PANEL_STEADY_TICKS);
+}
+
+uint8_t panel_buttons(void)
+{
+    return buttons.steady;
+}
+
+uint8_t panel_buttons_now(void)
+{
+    return machine_buttons();
+}

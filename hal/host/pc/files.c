@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: MIT
+ * files.c - the robot's folder: pages.bin (motion pages as m512 reads them), journal.bin and eeprom.bin.
+ * A file has its whole length from the beginning, and bytes are replaced in place. So a power cut can only touch the bytes
+ * that were being written, as on the chip, and the journal and the settings' two copies make them old or new. */
+#include "machine.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "pc.h"
+
+enum { EXIT_FILE = 4, PATH_BYTES = 512 };
+
+static const char *const names[MACHINE_MEMORIES] = {"pages.bin", "journal.bin", "eeprom.bin"};
+static char folder[PATH_BYTES - 32];
+static int files[MACHINE_MEMORIES] = {-1, -1, -1};
+
+static const char *path_of(const char *name)
+{
+    static char path[PATH_BYTES];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void make_folders(void)
+{
+    for (char *at = folder + 1; (at = strchr(at, '/')) != NULL; at++) {
+        *at = '\0';
+        (void)mkdir(folder, 0777);
+        *at = '/';
+    }
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        pc_fail(EXIT_FILE, "%s: the robot's folder cannot be made: %s. --robot names another", folder, strerror(errno));
+    }
+}
+
+void files_open(void)
+{
+    const char *home = getenv("HOME"), *data = getenv("XDG_DATA_HOME");
+    if (pc_options.robot != NULL) {
+        snprintf(folder, sizeof folder, "%s", pc_options.robot);
+    } else if (data != NULL && data[0] == '/') {
+        snprintf(folder, sizeof folder, "%s/motion512", data);
+    } else if (home != NULL) {
+        snprintf(folder, sizeof folder, "%s/.local/share/motion512", home);
+    } else {
+        pc_fail(EXIT_FILE, "no home folder to keep the robot's pages in: name one with --robot");
+    }
+    make_folders();
+    const int lock = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);   /* stays open until the program ends */
+    if (lock < 0 || flock(lock, LOCK_EX | LOCK_NB) != 0) {
+        pc_fail(EXIT_FILE, "%s: in use by another program for this robot: end that first", folder);
+    }
+}
+
+/* ---- making a file ---- */
+
+static bool write_all(int file, const uint8_t *bytes, uint32_t count, off_t at)
+{
+    while (count > 0) {
+        const ssize_t written = pwrite(file, bytes, count, at);
+        if (written <= 0) {
+            return false;
+        }
+        bytes += written;
+        at += written;
+        count -= (uint32_t)written;
+    }
+    return true;
+}
+
+/* A file of `count` bytes is there as a whole or not at all. */
+static int make_file(const char *name, const uint8_t *bytes, uint32_t count)
+{
+    char temporary[PATH_BYTES + 8];
+    const char *path = path_of(name);
+    snprintf(temporary, sizeof temporary, "%s.new", path);
+    const int file = open(temporary, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const int parent = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0 || parent < 0 || !write_all(file, bytes, count, 0) || fsync(file) != 0 || rename(temporary, path) != 0
+        || fsync(parent) != 0) {
+        pc_fail(EXIT_FILE, "%s: cannot be written: %s", path, strerror(errno));
+    }
+    close(parent);
+    return file;
+}
+
+/* The motions that a new robot begins with. */
+static void read_motions(uint8_t *bytes, uint32_t count)
+{
+    FILE *file = fopen(pc_options.motions, "rb");
+    const size_t got = file != NULL ? fread(bytes, 1, count, file) : 0;
+    const bool is_whole = file != NULL && fgetc(file) == EOF;
+    if (file != NULL) {
+        fclose(file);
+    }
+    if (got == 0 || got % 512 != 0 || !is_whole) {
+        pc_fail(EXIT_FILE, "%s: not a raw motion area of at most %u pages (m512 convert makes one)", pc_options.motions,
+                (unsigned)(count / 512));
+    }
+}
+
+/* ---- machine.h ---- */
+
+bool machine_recall(machine_memory_t memory, uint8_t *bytes, uint32_t count)
+{
+    const char *path = path_of(names[memory]);
+    const int file = open(path, O_RDWR | O_CLOEXEC);
+    if (file < 0 && errno != ENOENT) {
+        pc_fail(EXIT_FILE, "%s: %s", path, strerror(errno));
+    }
+    if (file < 0) {
+        if (memory == MACHINE_PAGES && pc_options.motions != NULL) {
+            read_motions(bytes, count);
+        }
+        files[memory] = make_file(names[memory], bytes, count);
+        return false;
+    }
+    if (lseek(file, 0, SEEK_END) != (off_t)count || pread(file, bytes, count, 0) != (ssize_t)count) {
+        pc_fail(EXIT_FILE, "%s: not a file of %u bytes. Move it away, and a new one is made", path, (unsigned)count);
+    }
+    files[memory] = file;
+    return true;
+}
+
+bool machine_keep(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count, bool now)
+{
+    char sentence[PATH_BYTES + 128];
+    if (write_all(files[memory], bytes, count, (off_t)at) && (!now || fdatasync(files[memory]) == 0)) {
+        return true;
+    }
+    snprintf(sentence, sizeof sentence, "%s: not saved: %s", path_of(names[memory]), strerror(errno));
+    machine_tell(sentence);
+    return false;
+}
+
+void machine_settle(machine_memory_t memory)
+{
+    (void)fdatasync(files[memory]);
+}

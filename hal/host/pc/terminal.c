@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: MIT
+ * terminal.c - the console: this terminal (or pipe), a pty, or a socket on 127.0.0.1. On a terminal Ctrl-T is the prefix
+ * for the panel's buttons (an arrow, or s for START), and Ctrl-C or Ctrl-] ends the program; all else goes to the robot. */
+#include "machine.h"
+
+#include <arpa/inet.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "panel.h"
+#include "pc.h"
+
+enum { EXIT_PORT = 6, KEY_END = 0x03, KEY_LEAVE = 0x1D, KEY_PREFIX = 0x14, KEY_ESC = 0x1B };
+#define MS 2000u
+#define BUTTON_HELD (200u * MS)
+#define READER_GONE (1000u * MS)   /* who has read nothing for so long gets no more, as on a cable */
+
+static struct {
+    int in, out;              /* -1: nobody */
+    int listener;             /* of the socket; -1: none */
+    int pty_other;            /* keeps the pty alive while clients come and go; -1: no pty */
+    bool is_terminal;
+    struct termios before;    /* of the terminal */
+    uint8_t escape;           /* characters of Ctrl-T and an arrow so far */
+    uint8_t button;
+    uint64_t button_until, written_at;
+} console = {.in = -1, .out = -1, .listener = -1, .pty_other = -1};
+
+static const char *pty_link;   /* to remove at the end */
+
+/* ---- opening ---- */
+
+static void open_terminal(void)
+{
+    struct termios raw;
+    console.in = STDIN_FILENO;
+    console.out = STDOUT_FILENO;
+    console.is_terminal = isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &console.before) == 0;
+    if (console.is_terminal) {
+        raw = console.before;
+        cfmakeraw(&raw);
+        tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+        machine_tell("Ctrl-C ends, Ctrl-T and an arrow or s is a button of the panel");
+    }
+}
+
+static void open_pty(void)
+{
+    char path[64];
+    struct termios raw;
+    const int master = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+    if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0 || ptsname_r(master, path, sizeof path) != 0) {
+        pc_fail(EXIT_PORT, "no pty: %s", strerror(errno));
+    }
+    console.pty_other = open(path, O_RDWR | O_NOCTTY | O_CLOEXEC);
+    if (console.pty_other < 0 || tcgetattr(console.pty_other, &raw) != 0) {
+        pc_fail(EXIT_PORT, "%s: %s", path, strerror(errno));
+    }
+    cfmakeraw(&raw);
+    tcsetattr(console.pty_other, TCSANOW, &raw);
+    console.in = console.out = master;
+    if (pc_options.pty_link[0] != '\0') {
+        (void)unlink(pc_options.pty_link);
+        if (symlink(path, pc_options.pty_link) != 0) {
+            pc_fail(EXIT_PORT, "%s: %s", pc_options.pty_link, strerror(errno));
+        }
+        pty_link = pc_options.pty_link;
+    }
+    fprintf(stderr, "%s: serial port: %s\n", pc_options.name, path);
+}
+
+static void open_socket(void)
+{
+    const struct sockaddr_in address = {.sin_family = AF_INET, .sin_port = htons((uint16_t)pc_options.tcp_port),
+                                        .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
+    const int yes = 1;
+    console.listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    (void)setsockopt(console.listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    if (bind(console.listener, (const struct sockaddr *)&address, sizeof address) != 0 || listen(console.listener, 1) != 0) {
+        pc_fail(EXIT_PORT, "127.0.0.1:%d: %s", pc_options.tcp_port, strerror(errno));
+    }
+}
+
+void terminal_open(void)
+{
+    if (pc_options.pty_link != NULL) {
+        open_pty();
+    } else if (pc_options.tcp_port != 0) {
+        open_socket();
+    } else {
+        open_terminal();
+    }
+}
+
+/* ---- closing ---- */
+
+void terminal_restore(void)
+{
+    if (console.is_terminal) {
+        tcsetattr(STDIN_FILENO, TCSANOW, &console.before);
+    }
+    if (pty_link != NULL) {
+        (void)unlink(pty_link);
+        pty_link = NULL;
+    }
+}
+
+void terminal_drain(void)
+{
+    if (console.is_terminal) {
+        (void)tcdrain(STDOUT_FILENO);
+    }
+}
+
+/* ---- the client of the socket ---- */
+
+static void take_client(void)
+{
+    if (console.listener >= 0 && console.in < 0) {
+        console.in = console.out = accept4(console.listener, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
+        console.written_at = machine_now();
+    }
+}
+
+/* Nobody types any more. A pipe's end is the end; a socket waits for the next one. */
+static void lose_input(void)
+{
+    if (console.listener >= 0) {
+        close(console.in);
+        console.in = console.out = -1;
+    } else if (console.pty_other < 0) {
+        console.in = -1;
+        machine_ask_to_end();
+    }
+}
+
+int terminal_poll(struct pollfd *entries)
+{
+    take_client();
+    entries[0] = (struct pollfd){.fd = console.in, .events = POLLIN};
+    entries[1] = (struct pollfd){.fd = console.in < 0 ? console.listener : -1, .events = POLLIN};
+    return TERMINAL_FDS;
+}
+
+/* ---- keys ---- */
+
+/* Ctrl-T, then s or an arrow: ESC [ A..D. Returns whether the key is no key of the robot. */
+static bool take_panel_key(uint8_t byte)
+{
+    static const uint8_t arrows[] = {PANEL_UP, PANEL_DOWN, PANEL_RIGHT, PANEL_LEFT};
+    const uint8_t seen = console.escape;
+    console.escape = 0;
+    if (seen == 0 || (seen == 1 && byte == KEY_PREFIX)) {
+        console.escape = seen == 0 && byte == KEY_PREFIX;
+        return seen == 0 && byte == KEY_PREFIX;
+    }
+    if ((seen == 1 && byte == KEY_ESC) || (seen == 2 && (byte == '[' || byte == 'O'))) {
+        console.escape = (uint8_t)(seen + 1u);
+        return true;
+    }
+    console.button = seen == 1 && byte == 's' ? PANEL_START
+                     : seen == 3 && byte >= 'A' && byte <= 'D' ? arrows[byte - 'A'] : 0;
+    console.button_until = machine_now() + BUTTON_HELD;
+    return true;
+}
+
+static uint16_t take_keys(uint8_t *bytes, uint16_t count)
+{
+    uint16_t kept = 0;
+    for (uint16_t i = 0; i < count; i++) {
+        if (take_panel_key(bytes[i])) {
+            continue;
+        }
+        if (bytes[i] == KEY_END || bytes[i] == KEY_LEAVE) {
+            machine_ask_to_end();
+        } else {
+            bytes[kept++] = bytes[i];
+        }
+    }
+    return kept;
+}
+
+uint8_t machine_buttons(void)
+{
+    return machine_now() < console.button_until ? console.button : 0;
+}
+
+/* ---- machine.h ---- */
+
+uint16_t machine_console_read(uint8_t *to, uint16_t room)
+{
+    struct pollfd entry = {.fd = console.in, .events = POLLIN};
+    if (console.in < 0 || room == 0 || poll(&entry, 1, 0) <= 0) {
+        return 0;   /* a terminal is not set to O_NONBLOCK, because the shell shares it */
+    }
+    const ssize_t count = read(console.in, to, room);
+    if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR && errno != EIO)) {
+        lose_input();
+    }
+    const uint16_t got = count > 0 ? (uint16_t)count : 0;
+    return console.is_terminal ? take_keys(to, got) : got;
+}
+
+uint16_t machine_console_write(const uint8_t *bytes, uint16_t count)
+{
+    const uint64_t now = machine_now();
+    if (count == 0) {
+        console.written_at = now;
+        return 0;
+    }
+    struct pollfd entry = {.fd = console.out, .events = POLLOUT};
+    if (console.out < 0) {
+        return count;
+    }
+    if (poll(&entry, 1, 0) > 0) {   /* else a pipe that nobody empties would hold the program up */
+        const ssize_t written = write(console.out, bytes, count);
+        if (written > 0) {
+            console.written_at = now;
+            return (uint16_t)written;
+        }
+        if (errno != EAGAIN && errno != EINTR) {
+            return count;
+        }
+    }
+    return now - console.written_at > READER_GONE ? count : 0;
+}

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""What campaigns of bodies found so far: a line of JSON for each body, added as soon as it was tried.
+
+A campaign that is interrupted goes on where it was, and one of 1,000 bodies can be done in parts. A line counts only for what it was
+tried with: its key is made of the pages that the motion can come to, of how it is led, of the body file and of the version of MuJoCo. So a
+change of the motion begins anew by itself. What the key does not see is a change of player or servos: then delete the file.
+"""
+import hashlib
+import json
+import pathlib
+
+import mujoco
+
+PAGE_BYTES = 512
+
+
+def reachable(library, number):
+    """Numbers of the pages that a play of this one can come to."""
+    playable = {other: page for other, page in library.items() if other and page.is_playable}
+    found, waiting = set(), {number}
+    while waiting:
+        other = waiting.pop()
+        found.add(other)
+        page = playable[other]
+        waiting |= {getattr(page, name) for name in (*page.LINKS, *page.PARTNERS)} & set(playable) - found
+    return found
+
+
+def key_of(library, number, promise, robot, where):
+    """What a result belongs to, as text. where: who led the motion, "player" or "board"."""
+    image = library.to_bytes()
+    pages = b"".join(image[PAGE_BYTES * page:PAGE_BYTES * (page + 1)] for page in sorted(reachable(library, number)))
+    how = (promise.page, promise.seconds, promise.keys, promise.lie, promise.floor, where)
+    return hashlib.sha256(pages + repr((*how, mujoco.__version__)).encode() + robot.xml().encode()).hexdigest()[:16]
+
+
+class Tried:
+    """The file. Only the process that runs the campaign writes to it."""
+
+    def __init__(self, path):
+        self.path, self._found = pathlib.Path(path), {}
+        for line in self.path.read_text(encoding="utf-8").splitlines() if self.path.exists() else ():
+            try:
+                one = json.loads(line)
+                self._found.setdefault(one["key"], {})[one["seed"]] = (one["kept"], one["said"])
+            except (ValueError, KeyError):           # torn: the campaign was ended while it wrote
+                continue
+
+    def of(self, key):
+        """{seed: (kept, said)}"""
+        return dict(self._found.get(key, {}))
+
+    def add(self, key, seed, result, **about):
+        """about: what a reader of the file wants to know besides."""
+        kept, said = result
+        self._found.setdefault(key, {})[seed] = (kept, said)
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        torn = self.path.exists() and not self.path.read_bytes().endswith(b"\n")
+        with self.path.open("a", encoding="utf-8") as file:
+            file.write(("\n" if torn else "") + json.dumps({**about, "key": key, "seed": seed, "kept": bool(kept), "said": said}) + "\n")
+
+
+def seeds_said(seeds):
+    """"1000-1099, 1150": as people write them."""
+    runs = []
+    for seed in sorted(seeds):
+        if runs and seed == runs[-1][1] + 1:
+            runs[-1][1] = seed
+        else:
+            runs.append([seed, seed])
+    return ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)

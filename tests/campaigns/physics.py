@@ -1,0 +1,263 @@
+# SPDX-License-Identifier: MIT
+"""Motions in physics: the shipped player and true servos move a body in MuJoCo, in bodies by chance. First the yardstick: the
+maker's own motions for its GP robot, which walk on the real one, must walk here, and must fall when they are spoiled. A physics in
+which they do not may judge nothing. Physics is a model, and no real robot has walked our motions yet.
+
+Bodies that were tried are kept in build/prove/bodies.jsonl: an interrupted campaign goes on, and its parts are added up.
+"""
+import functools
+import os
+import pathlib
+
+import mujoco
+
+from body.chance import NOMINAL, Variation, random_body
+from body.description import load
+from body.trial import first_pose, try_motion
+from m512.files.formats import load as load_motions
+from motions import promises
+from tests.campaigns import bodies, proof
+from tests.campaigns.onboard import try_on_board
+
+TITLE = "Motions in physics"
+PROMISE = "Motions walk, turn, get up and stay on their feet on bodies as they may be."
+
+DATA = pathlib.Path(os.environ.get("M512_SHARED", proof.TOP.parent / "shared")) / "data" / "bio_gp_humanoid_kr_128p.bin"
+GP = load("gp")
+INIT, FORWARD, BACK = 1, 3, 13                   # pages of the maker's set
+AX18 = {servo: "ax18" for servo in range(9, 19)}
+MODELS = {"AX-18": AX18, "AX-12": {}}
+# mm/s, measured with another model of the same robot (README of tools/body); +-25 %
+EXPECTED = {("AX-18", FORWARD): 210, ("AX-18", BACK): -204, ("AX-12", FORWARD): 139, ("AX-12", BACK): -83}
+TOLERANCE = 0.25
+SECONDS = 10
+TRIED = proof.RESULTS / "bodies.jsonl"
+WALKS_ON_BOARD = 100
+FIRST_SEED = 1000                # those below were looked at while the motions were made
+
+
+def add_arguments(group):
+    group.add_argument("--only", metavar="PAGE", help="of our motions this one alone")
+    group.add_argument("--from", type=int, default=FIRST_SEED, metavar="SEED", dest="first",
+                       help="the first body (default: %(default)s; those below were looked at while the motions were made)")
+    group.add_argument("--bodies", type=int, metavar="N", help="bodies for each motion (default: as promises.py says); those tried before "
+                       "are not tried again")
+    group.add_argument("--add-up", action="store_true", help="no new bodies: figures and page from all that were tried so far")
+    group.add_argument("--on-board", type=int, default=WALKS_ON_BOARD, metavar="N",
+                       help="bodies that walk with the shipped image on the simulated board (default: %(default)s)")
+    group.add_argument("--seed-of", type=int, metavar="SEED", help="repeat this body alone")
+
+
+# --- the yardstick ---
+
+def spoiled(how):
+    """The maker's set with the same slope for all joints ("slope 4": 2^4), or ankles bent ("ankle 12": degrees, toes up)."""
+    library = load_motions(DATA)
+    kind, _, amount = how.partition(" ")
+    for number, page in library.items():
+        if not number or not page.is_playable or not kind:
+            continue
+        for joint in range(31):
+            if kind == "slope":
+                page.set_compliance(joint, int(amount) * 0x11)
+        for step in range(page.steps if kind == "ankle" else 0):
+            for joint, side in ((15, 1), (16, -1)):
+                word = page.word(step, joint)
+                page.set_word(step, joint, min(1023, max(0, word + side * round(float(amount) * 1024 / 300))))
+        page.seal()
+    return library.to_bytes()
+
+
+def gp_body(seed):
+    """The body of the table that the yardstick comes from: its friction, supply, and masses."""
+    if seed is None:
+        return NOMINAL
+    chance = random_body(GP, seed)
+    return Variation(seed=seed, volts=9.6 + 0.8 * (chance.volts - 9), floor_friction=0.5 + 0.75 * (chance.floor_friction - 0.4),
+                     mass={body: 1 + 2 / 3 * (factor - 1) for body, factor in chance.mass.items()})
+
+
+def yardstick(item):
+    """(how, servos, page, seed, on the board) -> Outcome."""
+    how, servos, page, seed, on_board = item
+    image = spoiled(how)
+    if on_board:
+        return try_on_board(image, page, SECONDS, INIT, robot=GP, variation=gp_body(seed), models=MODELS[servos])
+    return try_motion(image, page, SECONDS, robot=GP, variation=gp_body(seed), models=MODELS[servos],
+                      pose=first_pose(image, INIT, GP))
+
+
+def speed_figures(options):
+    items = [("", servos, page, None, True) for servos, page in EXPECTED]
+    outcomes = proof.each(yardstick, items, "yardstick, on the board", options.jobs)
+    said, kept = [], True
+    for (_, servos, page, _, _), outcome in zip(items, outcomes):
+        expected = EXPECTED[servos, page]
+        kept &= outcome.fell_s is None and outcome.on_feet and abs(outcome.forward_mm_s - expected) <= TOLERANCE * abs(expected)
+        said.append(f"{servos} {'forward' if page == FORWARD else 'back'} {outcome.forward_mm_s:.0f} mm/s (expected {expected})")
+    return proof.Figure("The maker's walks walk, as fast as they should within 25 %.", "the maker's pages, each with its own slopes, on the "
+                        f"simulated board, 11.1 V, {SECONDS} s, MuJoCo {mujoco.__version__}", "; ".join(said), kept, headline=True)
+
+
+SPOILT = {"": (1, 1), "slope 4": (0, 0.1), "slope 5": (0, 0.3), "ankle 12": (0, 0), "ankle -12": (0, 0)}     # share that may stand
+
+
+def spoilt_figures(options):
+    seeds = range(1, 4 if options.sample else 11)
+    items = [(how, "AX-18", FORWARD, seed, False) for how in SPOILT for seed in seeds]
+    outcomes = proof.each(yardstick, items, "yardstick, bodies by chance", options.jobs)
+    said, kept = [], True
+    for how, (least, most) in SPOILT.items():
+        stood = sum(outcome.fell_s is None for item, outcome in zip(items, outcomes) if item[0] == how)
+        kept &= least * len(seeds) <= stood <= most * len(seeds)
+        said.append(f"{how or 'as made'}: {stood} of {len(seeds)} stand")
+    return proof.Figure("The maker's walk stands on all bodies; with wrong slopes or bent ankles it falls.",
+                        "friction 0.5..1.1, 9.6..12 V, masses +-10 %, AX-18 legs; slopes 16 and 32 for all joints, ankles off by 12 "
+                        "degrees", "; ".join(said), kept)
+
+
+# --- our motions ---
+
+def library_image():
+    return load_motions(proof.TOP / "tools" / "motions" / "motions.m512")
+
+
+def body_stands(image, number, item):
+    promise, seed = item
+    return promises.stands(image, number, promise, seed)
+
+
+def walk_on_board(image, number, ready, item):
+    promise, seed = item
+    outcome = try_on_board(image, number, promise.seconds, ready, variation=promises.body_of(promise, seed), keys=promise.keys)
+    return outcome.fell_s is None and outcome.on_feet, outcome.said()
+
+
+def share_figure(what, how, promise, results, of):
+    """results: {seed: (kept, said)}, of at least one body. of: how many bodies a whole campaign has; with fewer the figure says so."""
+    bad = {seed: said for seed, (kept, said) in sorted(results.items()) if not kept}
+    stood = len(results) - len(bad)
+    part = f", {of} are promised" if len(results) < of else ""
+    measured = f"{stood} of {len(results)} bodies{part}; seeds {bodies.seeds_said(results)}"
+    if bad:
+        measured += f"; not {', '.join(str(seed) for seed in list(bad)[:60])}; the first: {next(iter(bad.values()))}"
+    return proof.Figure(what, how, measured, stood >= promise.share * len(results), headline=promise.page == "walk")
+
+
+def as_on_page(what, promise):
+    """[the figure as it stands on the page], with the commit it is from, or []. For bodies that were tried in another clone only."""
+    found = []
+    for figure in proof.figures_on_page("physics"):
+        if figure["promise"] == what:
+            at = "" if "commit" in figure["how"] else f", commit {proof.commit_on_page('physics')}"
+            found.append(proof.Figure(**figure | {"how": figure["how"] + at, "headline": promise.page == "walk"}))
+    return found
+
+
+class Campaign:
+    """The bodies of one run: those that were tried before, and those that it tries."""
+
+    def __init__(self, options, library):
+        self.options, self.library, self.commit = options, library, proof.commit()
+        self.tried = None if options.sample or options.seed_of else bodies.Tried(TRIED)
+
+    def results(self, work, promise, count, where="player"):
+        """{seed: (kept, said)} of a motion's bodies. work((promise, seed)) tries one."""
+        if self.options.seed_of:
+            seeds = [self.options.seed_of]
+        else:
+            seeds = range(self.options.first, self.options.first + count)
+        key = bodies.key_of(self.library, promises.number_of(self.library, promise.page), promise, promises.ROBOT, where)
+        old = self.tried.of(key) if self.tried else {}
+        if self.options.add_up:
+            return {seed: result for seed, result in old.items() if seed >= FIRST_SEED}
+        todo = [(promise, seed) for seed in seeds if seed not in old]
+        done = functools.partial(self._keep, key, where) if self.tried else None
+        new = proof.each(work, todo, f"{promise.page}, {where}", self.options.jobs, done=done)
+        old |= {seed: result for (_, seed), result in zip(todo, new)}
+        return {seed: old[seed] for seed in seeds}
+
+    def _keep(self, key, where, item, result):
+        promise, seed = item
+        self.tried.add(key, seed, result, page=promise.page, how=promise.how, where=where, commit=self.commit)
+
+
+def stand_figures(options, image, library, campaign):
+    figures = []
+    for promise in promises.STANDS:
+        if options.only not in (None, promise.page) or (options.sample and promise.page not in promises.EASY):
+            continue
+        count = promise.bodies if options.bodies is None else options.bodies
+        work = functools.partial(body_stands, image, promises.number_of(library, promise.page))
+        results = campaign.results(work, promise, 2 if options.sample else count)
+        begin = f", from its {promise.lie}, arms anyhow" if promise.lie else ""
+        how = f" {promise.how}" if promise.how else ""
+        what = f"`{promise.page}`{how}{begin}: it ends on its feet."
+        if results:
+            figures.append(share_figure(what, f"{promise.seconds:.0f} s, bodies by chance", promise, results, promise.bodies))
+        else:
+            figures += as_on_page(what, promise)
+    return figures
+
+
+def board_figures(options, image, library, campaign):
+    walk = next(promise for promise in promises.STANDS if promise.page == "walk")
+    work = functools.partial(walk_on_board, image, promises.number_of(library, "walk"), promises.number_of(library, "ready"))
+    results = campaign.results(work, walk, options.on_board, "board")
+    what = "`walk` led by the shipped image: it ends on its feet."
+    if not results:
+        return as_on_page(what, walk)
+    return [share_figure(what, "the same, on the simulated board with a remote", walk, results, WALKS_ON_BOARD)]
+
+
+def nominal_figure(image, library):
+    said, kept = [], True
+    for promise in promises.GOES:
+        missing, what = promises.goes(image, promises.number_of(library, promise.page), promise)
+        kept &= not missing
+        said.append(f"{promise.page}: {', '.join(missing) or 'as promised'} ({what})")
+    return proof.Figure("Motions go as far and turn as much as they promise.", "nominal body, AX-12, 11.1 V", "; ".join(said), kept)
+
+
+def ease_of(image, item):
+    number, promise = item
+    return promises.eases(image, number, promise)
+
+
+def eases_figure(options, image, library):
+    asked = [promise for promise in promises.STANDS if not options.sample or promise.page in promises.EASY]
+    items = [(promises.number_of(library, promise.page), promise) for promise in asked]
+    results = proof.each(functools.partial(ease_of, image), items, "torques", options.jobs)
+    bad = [f"{promise.page}: {', '.join(missing)}" for promise, (missing, _) in zip(asked, results) if missing]
+    said = ", ".join(f"{promise.page} {what}" for promise, (_, what) in zip(asked, results))
+    return proof.Figure("No motion asks a servo for more than 90 % of its speed, or for more than a third of its torque on average.",
+                        "nominal body, AX-12, 11.1 V, every motion once; goals are whole units (models.library_speeds: over four ticks)",
+                        "; ".join(bad) or said, not bad)
+
+
+def bears_figure(image, library):
+    missing, what = promises.bears(image, promises.number_of(library, "walk"))
+    return proof.Figure("Servos bear ten minutes of walking.", "nominal body, AX-12, 11.1 V; mean torque below a third of stall, heat below "
+                        "the servo's limit", "; ".join([*missing, what]), not missing)
+
+
+def run(options):
+    figures = []
+    if DATA.exists() and not options.only:
+        figures += [speed_figures(options), spoilt_figures(options)]
+    elif not DATA.exists():
+        print(f"   the maker's motions are not here ({DATA.name}): no yardstick")
+    library = library_image()
+    image = library.to_bytes()
+    campaign = Campaign(options, library)
+    figures += stand_figures(options, image, library, campaign)
+    if not options.only and options.seed_of is None:
+        figures.append(eases_figure(options, image, library))
+    if not options.sample and options.seed_of is None:
+        if options.only in (None, "walk") and options.on_board:
+            figures += board_figures(options, image, library, campaign)
+        if not options.only:
+            figures += [nominal_figure(image, library), bears_figure(image, library)]
+    if options.only or options.bodies is not None or options.seed_of:
+        options.keep = False                     # a piece of the work
+    return figures

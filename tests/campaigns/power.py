@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: MIT
+"""The power goes at every flash and EEPROM operation of whole shipped images on the strict board, before it, in its
+middle with torn contents (seven kinds), and behind it; then the same images start again. All 128 motion pages, the
+application, the loader and the EEPROM are compared byte for byte with what they may hold; the application has to answer,
+the loader to say who it is, and the next save to work. Repairs at the start are cut as well, three deep. A state is called
+scene:operation:phase; `tools/prove power --only save:7:half/2:after` repeats the one where SAVE was cut in the middle of its
+7th operation and its repair behind its 2nd.
+
+The scenes and what plays them: powercuts/.
+"""
+import collections
+import os
+import sys
+import time
+import zlib
+
+from tests.campaigns import proof
+from tests.campaigns.powercuts import lives, loads, robot, saves, settings
+from tests.campaigns.powercuts.cutter import PHASES, Cutter, path_of
+
+TITLE = "Power cuts"
+PROMISE = "Whenever the power fails, each motion page, setting and download is old or new, and the robot starts again."
+SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *settings.SCENES)}
+LIVES = {life.name: life for life in lives.LIVES}
+LIFE_COUNT = 5
+SAMPLE_STATES = 1       # of each scene
+DEEPEST = 3
+SHOWN = 12              # failures that are printed one by one
+
+
+def add_arguments(group):
+    group.add_argument("--only", metavar="STATE", help="repeat one state: scene:operation:phase[/operation:phase], or life-N:STEP")
+    group.add_argument("--scene", metavar="NAME", help="one scene alone: " + ", ".join([*SCENES, *LIVES, lives.Wear.name]))
+
+
+def chooser(scene, seed, sample, chunk):
+    """Which phases an operation is cut at: all, or one in so many, picked by the seed."""
+    every_phase = getattr(scene, "all_phases_until", 0)
+    sampled = {(2 * i + 1) * scene.about // (2 * SAMPLE_STATES) + 1 for i in range(SAMPLE_STATES)}
+
+    def number(*words):
+        return zlib.crc32(" ".join(map(str, (seed, scene.name, *words))).encode())
+
+    def wanted(path, operation):
+        depth = len(path)
+        if sample and depth == 0:
+            return [PHASES[1 + number(operation) % (len(PHASES) - 1)]] if operation in sampled else []
+        if depth == DEEPEST or (depth == 0 and operation % scene.chunks != chunk):
+            return []
+        rate = 1 if depth == 0 and operation <= every_phase else 40 if sample else scene.rates[depth]
+        phases = PHASES if operation == 1 and depth == 0 else PHASES[1:]     # else "before" is "after" the last one
+        return [phase for phase in phases if number(*path, operation, phase) % rate == 0]
+    return wanted
+
+
+def play(work):
+    """Plays one piece of work in a process of its own. Returns (scene, [(state, outcome, fault)], operations, seconds of a core)."""
+    spent = sum(os.times()[:4])
+    return (*play_one(*work), sum(os.times()[:4]) - spent)
+
+
+def play_one(name, part, seed, sample):
+    if name in LIVES:
+        life = LIVES[name](seed)
+        life.steps = 8 if sample else life.steps
+        return name, life.play(seed, part), life.board.operations
+    if name == lives.Wear.name:
+        wear = lives.Wear(seed)
+        wear.saves = 10 * robot.SLOTS if sample else wear.saves
+        return name, wear.spread(), wear.saves
+    cutter = Cutter(SCENES[name](seed), chooser(SCENES[name], seed, sample, part), seed=seed)
+    return name, cutter.play(), cutter.operations
+
+
+def repeat(state, seed):
+    """Plays a single state again."""
+    name, _, rest = state.partition(":")
+    life, _, number = name.rpartition("-")
+    if not rest or (life not in LIVES and name not in SCENES):
+        raise SystemExit(f"prove: {state} is no state of power; see --help")
+    if life in LIVES:
+        results = LIVES[life](seed).play(seed, int(number), int(rest))[-1:]
+    else:
+        name, path = path_of(state)
+        results = Cutter(SCENES[name](seed), None, only=path, seed=seed).play()
+    state, outcome, fault = results[-1]
+    if outcome == "same":
+        outcome = "the same contents as before or after the operation: counted there"
+    return [proof.Figure(f"The state {state}", "played again", fault or outcome, fault is None)]
+
+
+def pieces(names, seed, sample):
+    """Returns all pieces of work, the longest first."""
+    work = []
+    for name in names:
+        parts = 1 if sample else LIFE_COUNT if name in LIVES else SCENES[name].chunks if name in SCENES else 1
+        work += [(name, part, seed, sample) for part in range(parts)]
+    return sorted(work, key=lambda piece: -SCENES[piece[0]].about if piece[0] in SCENES else -300)
+
+
+def run(options):
+    only, one = options.only, options.scene
+    options.keep = not only and not one
+    if only:
+        return repeat(only, options.seed)
+    names = [one] if one else [*SCENES, *LIVES, lives.Wear.name]
+    begun, spent = time.monotonic(), 0
+    results, operations, wear = collections.defaultdict(list), {}, None
+    kept = proof.Kept("power", options.keep and not options.sample)
+    for name, found, count, seconds in kept.each(play, pieces(names, options.seed, options.sample), "pieces of work", options.jobs):
+        spent += seconds
+        operations[name] = max(count, operations.get(name, 0))
+        if name == lives.Wear.name:
+            wear = found, count
+        else:
+            results[name] += found
+    kept.finish()
+    figures = [figure_of(name, results[name], operations[name]) for name in names if name in results]
+    figures += [wear_figure(*wear)] if wear else []
+    return [total_figure(results, time.monotonic() - begun, spent), *figures]
+
+
+def figure_of(name, states, operations):
+    scene = SCENES.get(name) or LIVES[name]
+    states = [state for state in states if state[1] != "same"]
+    counts = collections.Counter(outcome for _, outcome, fault in states if not fault)
+    faults = [(state, fault) for state, _, fault in states if fault]
+    tell(faults)
+    deep = sum("/" in state for state, _, _ in states)
+    text = f"{len(states):,} states" + (f" ({deep} of repairs)" if deep else "") + ": " + \
+        ", ".join(f"{outcome} {count}" for outcome, count in sorted(counts.items()))
+    if faults:
+        text += f"; {len(faults)} BROKEN, such as `tools/prove power --only {faults[0][0]}`: {faults[0][1]}"
+    return proof.Figure(scene.promise, f"`{name}`: {about(scene)}" + ("" if name in LIVES else f"; {operations} operations"), text,
+                        not faults)
+
+
+def about(scene):
+    return " ".join(scene.__doc__.split()).rstrip(".")
+
+
+def tell(faults):
+    for state, fault in faults[:SHOWN]:
+        print(f"       BROKEN tools/prove power --only {state}\n              {fault}", file=sys.stderr)
+
+
+def total_figure(results, seconds, spent):
+    states = [state for found in results.values() for state in found if state[1] != "same"]
+    broken = sum(fault is not None for _, _, fault in states)
+    kinds = sum(name in SCENES for name in results)
+    return proof.Figure("After a power cut everything is old or new, the loader answers, and the robot goes on",
+                        f"{kinds} scenes and {LIFE_COUNT} lives of each kind below",
+                        f"{len(states):,} states, {broken} broken; {seconds / 60:.1f} min, {spent / 60:.1f} min of one core",
+                        broken == 0, headline=True)
+
+
+def wear_figure(found, count):
+    fewest, most, target = found
+    lasting = min(lives.ENDURANCE // -(-target // count), lives.ENDURANCE * count // most)
+    return proof.Figure("The journal wears evenly, and no faster than a page that is saved each time",
+                        f"`wear`: {count} saves of one page, erases of the journal's flash pages and of the page's",
+                        f"{fewest} to {most} erases in {robot.SLOTS} slots, page {target}: at {lives.ENDURANCE:,} erases the journal lasts "
+                        f"{lives.ENDURANCE * count // most:,} saves, a page {lives.ENDURANCE * count // target:,} of its own; "
+                        f"the first to go after {lasting:,}",
+                        most - fewest <= 1 and most <= target)

@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: MIT */
+#include "fake_machine.h"
+#include "machine.h"
+#include "trap.h"
+
+#include <string.h>
+
+#define MEMORY_BYTES (256u * 512u)
+#define UNDER_WAY 64u
+#define PACKET_BYTES 256u
+
+static uint64_t now;
+
+static struct {
+    fake_machine_servo_t *servo;
+    uint32_t latency, rate;
+    bool echoes, is_there;
+    uint16_t packets;
+    uint64_t line_free;
+    struct {
+        uint64_t at;
+        uint16_t count;
+        uint8_t bytes[PACKET_BYTES];
+    } under_way[UNDER_WAY];   /* to the program, oldest first */
+    uint8_t count;
+} bus;
+
+static struct {
+    uint8_t sure[MACHINE_MEMORIES][MEMORY_BYTES], now[MACHINE_MEMORIES][MEMORY_BYTES];
+    bool is_there[MACHINE_MEMORIES];
+    uint32_t writes, cut_at, random;
+    jmp_buf *cut_to;
+} memory;
+
+void fake_machine_reset(void)
+{
+    memset(&bus, 0, sizeof bus);
+    memset(&memory, 0, sizeof memory);
+    now = 1000000;
+    bus.is_there = true;
+}
+
+/* ---- time ---- */
+
+uint64_t machine_now(void)
+{
+    return now;
+}
+
+void fake_machine_pass(uint32_t half_us)
+{
+    now += half_us;
+}
+
+void machine_wait(uint64_t until)
+{
+    const uint64_t next = bus.count > 0 && bus.under_way[0].at < until ? bus.under_way[0].at : until;
+    now = next > now ? next : now + 2u;   /* asking takes a microsecond, so that a loop that asks in vain ends */
+}
+
+/* ---- the bus ---- */
+
+void fake_machine_set_servo(fake_machine_servo_t *servo)
+{
+    bus.servo = servo;
+}
+
+void fake_machine_set_latency(uint32_t half_us)
+{
+    bus.latency = half_us;
+}
+
+void fake_machine_set_echo(bool echoes)
+{
+    bus.echoes = echoes;
+}
+
+void fake_machine_plug(bool there)
+{
+    bus.is_there = there;
+    bus.count = 0;
+}
+
+uint16_t fake_machine_packets(void)
+{
+    return bus.packets;
+}
+
+uint32_t fake_machine_rate(void)
+{
+    return bus.rate;
+}
+
+bool machine_bus_is_there(void)
+{
+    return bus.is_there;
+}
+
+uint32_t machine_bus_first_patience(void)
+{
+    return 160000u;   /* 80 ms */
+}
+
+uint32_t machine_bus_rate(uint8_t divisor)
+{
+    bus.rate = 2000000u / (divisor + 1u);
+    return bus.rate;
+}
+
+static void bring(const uint8_t *bytes, uint16_t count)
+{
+    ASSERT(bus.count < UNDER_WAY);
+    bus.under_way[bus.count].at = bus.line_free + bus.latency;
+    bus.under_way[bus.count].count = count;
+    memcpy(bus.under_way[bus.count].bytes, bytes, count);
+    bus.count++;
+}
+
+void machine_bus_write(const uint8_t *bytes, uint16_t count)
+{
+    uint8_t answer[PACKET_BYTES];
+    ASSERT(bus.is_there && bus.rate != 0);
+    bus.packets++;
+    bus.line_free = (now > bus.line_free ? now : bus.line_free) + (uint64_t)count * 20000000u / bus.rate;
+    if (bus.echoes) {
+        bring(bytes, count);
+    }
+    const uint16_t size = bus.servo != NULL ? bus.servo(bytes, count, answer) : 0;
+    if (size > 0) {
+        bring(answer, size);
+    }
+}
+
+uint16_t machine_bus_read(uint8_t *to, uint16_t room)
+{
+    if (bus.count == 0 || bus.under_way[0].at > now) {
+        return 0;
+    }
+    const uint16_t count = bus.under_way[0].count;
+    ASSERT(count <= room);
+    memcpy(to, bus.under_way[0].bytes, count);
+    memmove(bus.under_way, bus.under_way + 1, sizeof bus.under_way - sizeof bus.under_way[0]);
+    bus.count--;
+    return count;
+}
+
+/* ---- console, panel, life: nobody is there ---- */
+
+uint16_t machine_console_read(uint8_t *to, uint16_t room)
+{
+    (void)to;
+    (void)room;
+    return 0;
+}
+
+uint16_t machine_console_write(const uint8_t *bytes, uint16_t count)
+{
+    (void)bytes;
+    return count;
+}
+
+uint8_t machine_buttons(void)
+{
+    return 0;
+}
+
+void machine_tell(const char *sentence)
+{
+    (void)sentence;
+}
+
+void machine_watch(void)
+{
+}
+
+bool machine_is_asked_to_end(void)
+{
+    return false;
+}
+
+void machine_end(void)
+{
+    abort();
+}
+
+/* ---- memory ---- */
+
+void fake_machine_cut(uint32_t write, uint32_t seed, jmp_buf *where)
+{
+    memory.writes = 0;
+    memory.cut_at = write;
+    memory.random = seed * 2654435761u + 1u;
+    memory.cut_to = where;
+}
+
+uint32_t fake_machine_writes(void)
+{
+    return memory.writes;
+}
+
+static bool by_chance(void)
+{
+    memory.random = memory.random * 1664525u + 1013904223u;
+    return (memory.random >> 31) != 0;
+}
+
+/* What was not sure is old or new, byte by byte. */
+static void cut(void)
+{
+    for (uint32_t which = 0; which < MACHINE_MEMORIES; which++) {
+        for (uint32_t i = 0; i < MEMORY_BYTES; i++) {
+            if (memory.sure[which][i] != memory.now[which][i] && by_chance()) {
+                memory.sure[which][i] = memory.now[which][i];
+            }
+        }
+        memcpy(memory.now[which], memory.sure[which], MEMORY_BYTES);
+    }
+    memory.cut_at = 0;
+    longjmp(*memory.cut_to, 1);
+}
+
+bool machine_recall(machine_memory_t which, uint8_t *bytes, uint32_t count)
+{
+    ASSERT(count <= MEMORY_BYTES);
+    if (!memory.is_there[which]) {
+        memory.is_there[which] = true;
+        memcpy(memory.now[which], bytes, count);
+        memcpy(memory.sure[which], bytes, count);
+        return false;
+    }
+    memcpy(bytes, memory.now[which], count);
+    return true;
+}
+
+bool machine_keep(machine_memory_t which, uint32_t at, const uint8_t *bytes, uint32_t count, bool sure)
+{
+    ASSERT(memory.is_there[which] && at + count <= MEMORY_BYTES);
+    memcpy(memory.now[which] + at, bytes, count);
+    if (++memory.writes == memory.cut_at) {
+        cut();
+    }
+    if (sure) {
+        memcpy(memory.sure[which], memory.now[which], MEMORY_BYTES);
+    }
+    return true;
+}
+
+void machine_settle(machine_memory_t which)
+{
+    memcpy(memory.sure[which], memory.now[which], MEMORY_BYTES);
+}

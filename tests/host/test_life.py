@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: MIT
+"""How the programs begin and end, what they keep, and whom they keep out."""
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import sys
+import termios
+
+import pytest
+
+from m512.files.image import Image
+from tests.host.pc_robot import SYNC_WRITE, program, until
+from tests.sim.made_page import page
+
+WRITE, REG_WRITE, ACTION, TORQUE, LED = 3, 4, 5, 24, 25
+EVERYBODY = 254
+
+
+@pytest.fixture
+def files(tmp_path):
+    image = Image.empty()
+    image[1] = page("stand", [(40, {})])
+    image[2] = page("swing", [(64, {1: 700, 2: 324}), (64, {1: 324, 2: 700})], next=2, exit=1)
+    path = tmp_path / "motions.bin"
+    path.write_bytes(image.to_bytes())
+    return path
+
+
+def play(robot):
+    robot.expect("] ")
+    robot.send("play 2\r")
+    robot.expect("repetition 1\r\n")
+
+
+def test_nothing_moves_and_no_torque_is_switched_before_a_person_says_so(make, files):
+    robot = make(motions=files).run()
+    robot.expect("18 servos: 1-18")
+    robot.ask("status")
+    for packet in robot.packets():
+        assert packet[4] not in (WRITE, REG_WRITE, ACTION), packet.hex()
+        assert packet[4] != SYNC_WRITE or packet[5] == LED, packet.hex()
+
+
+def steps(frames):
+    """The longest way of a joint in each frame."""
+    return [max(abs(after[joint] - before[joint]) for joint in before) for before, after in zip(frames, frames[1:])]
+
+
+@pytest.mark.parametrize("off", [False, True])
+def test_ctrl_c_slows_down_first_and_leaves_torque_as_it_was_unless_told(make, files, off):
+    robot = make(motions=files, arguments=["--off"] if off else []).run()
+    play(robot)
+    begun = len(robot.frames())
+    until(lambda: len(robot.frames()) > begun + 150, "no goals")
+    assert robot.stop() == 0
+    ways = steps(robot.frames()[begun:])
+    fastest = max(ways)
+    assert fastest > 3 and ways[-1] <= 1                                      # it moved, and stands
+    assert max(abs(after - before) for before, after in zip(ways, ways[1:])) < fastest / 2     # softly
+    switched = [packet for packet in robot.packets(WRITE) if packet[5] == TORQUE and packet[6] == 0]
+    assert [packet[2] for packet in switched] == ([EVERYBODY] * 2 if off else [])
+    assert ("is off" if off else "go on holding it") in robot.said.decode()
+
+
+def test_a_second_program_is_refused_port_and_folder(make, files, tmp_path):
+    robot = make(motions=files).run()
+    robot.expect("] ")
+    same_port = subprocess.run([program("edit"), "--robot", tmp_path / "other", robot.port], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert same_port.returncode == 6 and "in use by another program" in same_port.stderr
+    same_folder = subprocess.run([program("edit"), "--robot", tmp_path / "robot", "/dev/null"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert same_folder.returncode == 4 and "in use by another program" in same_folder.stderr
+    assert " OK" in robot.ask("status")
+
+
+def without_privilege(*command):
+    """A superuser's program may open a port that is somebody's alone, so it runs without that privilege."""
+    return (["setpriv", "--bounding-set=-sys_admin"] if os.geteuid() == 0 else []) + [str(word) for word in command]
+
+
+def test_a_foreign_master_is_refused_the_port(make, files):
+    robot = make(motions=files).run()
+    robot.expect("] ")
+    master = "import sys, dynamixel_sdk\nport = dynamixel_sdk.PortHandler(sys.argv[1])\nport.openPort()"
+    asked = subprocess.run(without_privilege(sys.executable, "-c", master, robot.port), capture_output=True, text=True, check=False)
+    assert asked.returncode != 0 and "busy" in asked.stderr.lower()
+    assert " OK" in robot.ask("status")
+
+
+def test_the_port_of_somebody_else_is_left_to_him(make, files, tmp_path):
+    from m512.board.link import Link
+    robot = make(motions=files)
+    with Link(str(robot.port)):
+        refused = subprocess.run(without_privilege(program("play"), "--robot", tmp_path / "robot", robot.port), stdin=subprocess.DEVNULL,
+                                 capture_output=True, text=True)
+    assert refused.returncode == 6 and "in use by another program" in refused.stderr
+
+
+@pytest.mark.parametrize("word, code, text", [("/dev/nowhere", 6, "no such port"), ("/dev/null", 6, "not a serial port"), (None, 2, "usage:")])
+def test_what_is_no_port_is_named(tmp_path, word, code, text):
+    asked = subprocess.run([program("play"), "--robot", tmp_path / "robot", *([word] if word else [])], stdin=subprocess.DEVNULL,
+                           capture_output=True, text=True)
+    assert asked.returncode == code and text in asked.stderr
+    assert word is None or word in asked.stderr
+
+
+def test_settings_and_pages_are_there_the_next_time(make, files):
+    robot = make(motions=files).run()
+    robot.expect("] ")
+    robot.ask("settings approach 33")
+    assert "swing" in robot.ask("list")
+    assert robot.stop() == 0
+    robot.motions = None
+    robot.run().expect("] ")
+    assert re.search(r"approach\s+33", robot.ask("settings"))
+    assert "swing" in robot.ask("list")
+
+
+def test_a_file_that_is_not_ours_is_named_and_left_alone(make, files, tmp_path):
+    (tmp_path / "robot").mkdir()
+    (tmp_path / "robot" / "pages.bin").write_bytes(b"mine")
+    asked = subprocess.run([program("play"), "--robot", tmp_path / "robot", make(motions=files).port], stdin=subprocess.DEVNULL,
+                           capture_output=True, text=True)
+    assert asked.returncode == 4 and "pages.bin: not a file of" in asked.stderr
+    assert (tmp_path / "robot" / "pages.bin").read_bytes() == b"mine"
+
+
+# On a terminal
+
+class Terminal:
+    """The program on a terminal of its own."""
+
+    def __init__(self, robot):
+        self.master, self.slave = pty.openpty()
+        self.before, self.shown = termios.tcgetattr(self.slave), b""
+        self.process = subprocess.Popen([program("play"), "--robot", robot.folder / "robot", "--motions", robot.motions, robot.port],
+                                        stdin=self.slave, stdout=self.slave, stderr=self.slave)
+
+    def expect(self, text):
+        def look():
+            if select.select([self.master], [], [], 0)[0]:
+                self.shown += os.read(self.master, 65536)
+            return text.encode() in self.shown
+        until(look, lambda: f"{text!r} did not come: {self.shown!r}")
+
+    def send(self, data):
+        os.write(self.master, data)
+
+    def ended(self):
+        def look():
+            if select.select([self.master], [], [], 0)[0]:
+                self.shown += os.read(self.master, 65536)
+            return self.process.poll() is not None
+        until(look, lambda: f"it goes on: {self.shown!r}")
+        return self.process.returncode
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+        os.close(self.master)
+        os.close(self.slave)
+
+
+@pytest.fixture
+def terminal(make, files):
+    one = Terminal(make(motions=files))
+    yield one
+    one.close()
+
+
+def test_the_terminal_is_as_before_after_ctrl_c(terminal):
+    terminal.expect("] ")
+    assert termios.tcgetattr(terminal.slave) != terminal.before
+    terminal.send(b"status\r")
+    terminal.expect("Nothing is playing")
+    terminal.send(b"\x03")
+    assert terminal.ended() == 0
+    assert termios.tcgetattr(terminal.slave) == terminal.before
+
+
+def test_the_terminal_is_as_before_after_a_crash(terminal):
+    terminal.expect("] ")
+    terminal.process.send_signal(signal.SIGSEGV)
+    assert terminal.ended() == -signal.SIGSEGV
+    assert termios.tcgetattr(terminal.slave) == terminal.before
+
+
+def test_keys_are_buttons_of_the_panel(terminal):
+    """START stops what plays; an arrow calls its code, which no page here has."""
+    terminal.expect("] ")
+    terminal.send(b"\x14\x1b[A")
+    terminal.expect("code 1")
+    terminal.send(b"play 2\r")
+    terminal.expect("repetition 1")
+    terminal.send(b"\x14s")
+    terminal.expect("Stopped after page 1")
+    terminal.send(b"\x03")
+    assert terminal.ended() == 0
+
+
+# A program that hangs
+
+HANG = """
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+int ppoll(struct pollfd *fds, nfds_t count, const struct timespec *wait, const sigset_t *mask)
+{
+    (void)wait; (void)mask;
+    while (access(HANG_FILE, F_OK) == 0) { pause(); }
+    return poll(fds, count, 1);
+}
+"""
+
+
+def test_a_program_that_hangs_is_ended_with_a_sentence(make, files, tmp_path, monkeypatch):
+    (tmp_path / "hang.c").write_text(HANG)
+    subprocess.run(["cc", "-shared", "-fPIC", f'-DHANG_FILE="{tmp_path / "hang"}"', "-o", tmp_path / "hang.so", tmp_path / "hang.c"], check=True)
+    robot = make(motions=files)
+    monkeypatch.setenv("LD_PRELOAD", str(tmp_path / "hang.so"))
+    robot.run().expect("] ")
+    monkeypatch.delenv("LD_PRELOAD")
+    (tmp_path / "hang").touch()
+    until(lambda: robot.process.poll() is not None, "it hangs")
+    assert robot.process.returncode == 70
+    assert b"hung for a second" in robot.said + robot.process.stderr.read()

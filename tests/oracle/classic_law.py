@@ -1,1 +1,0 @@
-../../tools/m512/src/m512/motion/law_classic.py

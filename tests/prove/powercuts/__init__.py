@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: MIT
-"""The scenes of the power cuts (tests/prove/power.py) and what plays them."""

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""A line in which bytes were lost on its way is not run, in any image: a sender that ignores XOFF, a character without a
+stop bit (a stray baud rate does that). The image says how many are missing."""
+import pytest
+
+from tests.sim.edit_robot import robot as edit
+from tests.sim.monitor_robot import robot as monitor
+from tests.sim.play_robot import ask, robot
+
+LOST = "1 bytes of this line were lost: nothing was done"
+TOO_LONG = "ERR 15 The line is too long: nothing was done"
+
+
+def garble(board, before, behind):
+    """One character between these two arrives without a stop bit."""
+    board.send(before, wait=True)
+    board.run(ms=2)
+    board.baud(38_400)
+    board.send(b"\0", wait=True)
+    board.run(ms=2)
+    board.baud(57_143)
+    board.send(behind, wait=True)
+    board.run(ms=400)
+
+
+def test_play_refuses_the_line():
+    board = robot()
+    board.take()
+    garble(board, "settings ta", "lk 0\r")
+    text = board.take().decode("latin-1")
+    assert LOST in text and " OK" not in text
+    assert " OK" in ask(board, "settings talk 0")   # the next one is whole
+
+
+def test_play_refuses_a_program_line_and_ctrl_u_begins_anew():
+    board = robot()
+    board.take()
+    garble(board, "@", "where 1\r")
+    assert f"\n@where ERR 15 {LOST}\r\n" in board.take().decode("latin-1")
+    garble(board, "@rc -1", "\x15@where\r")
+    text = board.take().decode("latin-1")
+    assert LOST not in text and "@where state=idle" in text
+
+
+def test_play_does_not_make_one_line_of_two():
+    """The sender ignores XOFF while a long list is printed; all it sends is harmless, and `reset` is not in it as a line."""
+    board = robot()
+    starts = len(board.console)
+    for _ in range(30):
+        board.send("@page 1\r" + "@where\r" * 9 + "@rc -100\rreset\r")
+    board.send("", wait=True)
+    board.run(ms=4000)
+    text = board.console[starts:].decode("latin-1")
+    assert "bytes of this line were lost" in text
+    assert "Motion512" not in text, "it has restarted"
+    assert "lost 0" not in ask(board, "faults")
+
+
+@pytest.mark.parametrize("before, behind", [("se", "t 700\r"), ("", "set 700\r")])
+def test_edit_refuses_the_line(before, behind):
+    with edit() as r:
+        r.line("goto 0 3")
+        garble(r.board, before, behind)
+        r.settle(300)
+        assert LOST in r.message and r.board.servos[3].goal == 512
+        r.line("set 700")
+        r.settle(1000)
+        assert r.board.servos[3].goal == 700
+
+
+def test_edit_refuses_a_program_line():
+    with edit() as r:
+        r.board.send("@where\r", wait=True)
+        r.board.run(ms=300)
+        start = len(r.board.console)
+        garble(r.board, "@mo", "ve 60 3 258\r")
+        text = r.board.console[start:].decode("latin-1")
+        assert f"@move ERR 15 {LOST}\r\n" in text and r.board.servos[3].goal == 512
+
+
+def test_a_program_hears_that_its_line_is_too_long():
+    board = robot()
+    assert f"@data {TOO_LONG}" in ask(board, "@data 0 " + "0" * 120)
+    with edit() as r:
+        start = len(r.board.console)
+        r.board.send("@data 0 " + "0" * 120 + "\r", wait=True)
+        r.board.run(ms=300)
+        assert f"@data {TOO_LONG}\r\n" in r.board.console[start:].decode("latin-1")
+
+
+def test_monitor_refuses_the_line_and_says_when_it_is_too_long():
+    board = monitor(servos=(1,))
+    garble(board, "go 2", "00\r")
+    assert LOST in board.take().decode("latin-1") and board.servos[1].goal == 512
+    board.send("write 24" + " 1" * 60 + "\r", wait=True)
+    board.run(ms=300)
+    assert "too long: nothing was done" in board.take().decode("latin-1")

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+"""WRITEs that arrive at a servo with a wrong bit: it does nothing, and says so in its answer (the fault "mishears"). Each
+image tries again, counts it, and names the servo at last; torque comes on only onto a goal that has arrived."""
+import pytest
+
+from tests.sim.edit_servos import start
+from tests.sim.monitor_robot import robot as monitor
+from tests.sim.monitor_robot import say
+from tests.sim.play_robot import ask, robot
+
+TRIES = 3
+RETURN_LEVEL = 16
+
+
+def test_edit_a_goal_that_arrives_damaged_is_sent_again():
+    with start() as r:
+        r.line("on")
+        r.board.servos[3].fault("mishears", times=TRIES - 1)
+        r.line("goto 0 3")
+        r.line("set 600")
+        r.settle(1500)
+        assert r.board.servos[3].goal == 600
+        assert "3" not in r.message
+
+
+def test_edit_names_a_servo_that_does_not_take_its_goal():
+    with start() as r:
+        r.line("on")
+        r.board.servos[3].fault("mishears")
+        r.line("goto 0 3")
+        r.line("set 600")
+        assert r.board.servos[3].goal == 512
+        assert "Not obeyed: ID 3" in r.message
+        assert r.board.servos[3].goal == 512 and "512" in r.cell(0, 3)
+
+
+@pytest.mark.parametrize("level", [1, 2])
+def test_edit_does_not_switch_torque_on_onto_an_old_goal(level):
+    """The robot was bent by hand while limp. A servo that cannot be told its place must not leap to its old goal."""
+    with start() as r:
+        servo = r.board.servos[3]
+        servo.write(RETURN_LEVEL, [level])
+        r.board.reset()
+        r.settle(2000)
+        servo.push_to(300)
+        servo.fault("mishears", times=TRIES)
+        r.line("on 3")
+        assert r.message.strip() == "on 3 Not obeyed: ID 3"
+        assert not servo.torque and abs(servo.present - 300) <= 2
+        servo.clear()
+        r.line("on 3")
+        r.settle(500)
+        assert servo.torque and abs(servo.present - 300) <= 2
+
+
+def test_edit_names_a_servo_that_does_not_let_go():
+    """The first WRITE of off is a SYNC WRITE, which has no answer; it must be lost as well."""
+    with start() as r:
+        r.line("on")
+        r.board.servos[3].fault("mishears")
+        r.line("off 3")
+        assert "Not obeyed: ID 3" in r.message
+
+
+def test_play_counts_and_goes_on():
+    board = robot()
+    board.servos[3].push_to(300)
+    board.servos[3].fault("mishears", times=TRIES - 1)
+    assert ask(board, "on") == " OK"
+    assert board.servos[3].torque and board.servos[3].goal in range(298, 303)
+    assert f"rejected {TRIES - 1}" in ask(board, "faults")
+
+
+def test_play_names_a_servo_that_does_not_take_torque():
+    board = robot()
+    board.servos[3].push_to(300)
+    board.servos[3].fault("mishears")
+    assert ask(board, "on") == "No answer from servos 3"
+    assert "@torque ERR 7 No answer from servos 3" in ask(board, "@torque on 3")
+    assert not board.servos[3].torque and abs(board.servos[3].present - 300) <= 2
+    assert "Servo 3 does not answer" in ask(board, "play 1") + board.expect("] ", ms=2000)
+
+
+def test_play_names_a_servo_that_keeps_a_slow_speed():
+    """Edit has left it a moving speed; a play needs full speed."""
+    board = robot()
+    ask(board, "on")
+    board.servos[3].write(32, [20, 0])
+    board.servos[3].fault("mishears")
+    assert "Servo 3 does not answer" in ask(board, "play 1") + board.expect("] ", ms=2000)
+
+
+def test_monitor_shows_the_rejection_and_keeps_its_id():
+    board = monitor(servos=(1,))
+    board.servos[1].fault("mishears")
+    heard = say(board, "id 5")
+    assert "<-[Dynamixel]: ID 01 error 10" in heard and "[CID:001(0X01)]" in heard
+    board.servos[1].fault("mishears", times=1)
+    assert "error 00" in say(board, "id 5")
+    assert board.servos.ids == [5]
+
+
+def test_servos_in_trouble_have_obeyed():
+    """Overload, heat, voltage, angle limit in the answer are no rejection (hal/DYNAMIXEL.md)."""
+    for fault in ("overheating", "low-voltage", "angle-limit"):
+        board = robot()
+        board.servos[3].write(18, [0])   # no alarm shuts it down
+        board.servos[3].fault(fault)
+        board.run(ms=500)
+        assert "No answer" not in ask(board, "on 3")
+        assert board.servos[3].torque
+        assert "rejected 0" in ask(board, "faults")
+
+
+def test_monitor_moves_a_slow_servo_that_hears_badly():
+    board = monitor(servos=(1,))
+    board.servos.add(7, model="dx117")   # at 57,142 bps
+    board.servos[7].fault("mishears", times=TRIES - 1)
+    board.send("fast\r")
+    board.run(ms=2500)
+    assert board.servos[7].table[4] == 1

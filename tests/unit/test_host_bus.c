@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT
+ * The bus through an adapter (hal/host/bus.c): answers that come late, echoes, a plug that is pulled. Packets by
+ * hal/DYNAMIXEL.md. */
+#include "bus.h"
+
+#include <string.h>
+#include "bus_call.h"
+#include "dxl_packet.h"
+#include "fake_machine.h"
+#include "host.h"
+#include "unity.h"
+
+#define MS 2000u
+
+static uint8_t error_bits;   /* of the servo's answers */
+static bool is_silent;
+
+/* Servo 3: answers PING, and READ with bytes that count up. */
+static uint16_t servo(const uint8_t *packet, uint16_t size, uint8_t *answer)
+{
+    (void)size;
+    if (packet[2] != 3 || is_silent) {
+        return 0;
+    }
+    const uint8_t count = packet[4] == DXL_READ ? packet[6] : 0;
+    uint8_t table[64];
+    for (uint8_t i = 0; i < count; i++) {
+        table[i] = (uint8_t)(packet[5] + i);
+    }
+    return dxl_build(answer, 3, error_bits, table, count);   /* a status packet has the error where an instruction stands */
+}
+
+void setUp(void)
+{
+    fake_machine_reset();
+    fake_machine_set_servo(servo);
+    error_bits = 0;
+    is_silent = false;
+}
+
+void tearDown(void)
+{
+}
+
+static void start(uint32_t latency, bool echoes)
+{
+    fake_machine_set_latency(latency);
+    fake_machine_set_echo(echoes);
+    bus_init();
+}
+
+static void test_answers_are_waited_for_however_late_they_come(void)
+{
+    static const uint8_t latencies_ms[] = {1, 4, 16, 32, 48};
+    for (uint8_t i = 0; i < sizeof latencies_ms; i++) {
+        uint8_t read[2];
+        bus_counts_t counts;
+        setUp();
+        start(latencies_ms[i] * MS, false);
+        for (uint8_t time = 0; time < 20; time++) {
+            TEST_ASSERT_EQUAL(BUS_OK, bus_call_read(3, DXL_AT_PRESENT, read, 2, NULL));
+            TEST_ASSERT_EQUAL(DXL_AT_PRESENT, read[0]);
+            fake_machine_set_latency((latencies_ms[i] + time % 5u) * MS);   /* and some more */
+        }
+        bus_counts(&counts);
+        TEST_ASSERT_EQUAL(0, counts.timeouts);
+        TEST_ASSERT_EQUAL(20, counts.answers);
+    }
+}
+
+static void test_silent_servo_costs_what_the_port_has_been_seen_to_take(void)
+{
+    uint8_t read[2];
+    start(1 * MS, false);
+    TEST_ASSERT_EQUAL(BUS_OK, bus_call_read(3, DXL_AT_PRESENT, read, 2, NULL));
+    const uint64_t before = host_next_tick();
+    TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, bus_call_ping(4, 1, NULL));
+    const uint64_t fast = host_next_tick() - before;
+    TEST_ASSERT_TRUE(fast < 140 * MS);   /* a packet that is sent once: 0.1 s and 20 ms */
+    TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, bus_call_ping(4, 2, NULL));
+    TEST_ASSERT_TRUE(host_next_tick() - before - fast < 60 * MS);
+}
+
+/* The limit was too short once: an answer that comes after all makes it longer. */
+static void test_answer_after_the_limit_makes_the_limit_longer(void)
+{
+    uint8_t read[2];
+    start(1 * MS, false);
+    TEST_ASSERT_EQUAL(BUS_OK, bus_call_read(3, DXL_AT_PRESENT, read, 2, NULL));
+    fake_machine_set_latency(70 * MS);
+    TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, bus_call_ping(3, 2, NULL));
+    fake_machine_pass(100 * MS);
+    host_fetch();
+    fake_machine_pass(100 * MS);
+    TEST_ASSERT_EQUAL(BUS_OK, bus_call_ping(3, 2, NULL));
+}
+
+static void test_goals_leave_while_an_answer_is_awaited(void)
+{
+    bus_answer_t answer;
+    start(30 * MS, false);
+    TEST_ASSERT_EQUAL(BUS_PENDING, bus_start_read(3, DXL_AT_PRESENT, 2, 1));
+    TEST_ASSERT_FALSE(bus_is_free());   /* the answer may be on the line now */
+    bus_wait_free();
+    TEST_ASSERT_EQUAL(BUS_PENDING, bus_poll(&answer));
+    for (uint8_t i = 0; i < 3; i++) {
+        const uint8_t params[] = {DXL_AT_GOAL, 2, 3, 0, 2};
+        const uint16_t before = fake_machine_packets();
+        const uint8_t size = dxl_build(bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE, params, sizeof params);
+        TEST_ASSERT_EQUAL(BUS_OK, bus_submit(size, BUS_NO_ANSWER, 1));
+        TEST_ASSERT_EQUAL(before + 1, fake_machine_packets());
+        fake_machine_pass(8 * MS);
+    }
+    TEST_ASSERT_TRUE(host_is_moving());
+    TEST_ASSERT_EQUAL(BUS_OK, bus_wait(&answer));
+    TEST_ASSERT_EQUAL(3, answer.id);
+    TEST_ASSERT_EQUAL(2, answer.count);
+    TEST_ASSERT_EQUAL(DXL_AT_PRESENT, answer.params[0]);
+}
+
+/* A PING and the status "voltage error" of the same servo are the same bytes. */
+static void test_voltage_error_is_no_echo(void)
+{
+    uint8_t error = 0;
+    error_bits = DXL_ERR_VOLTAGE;
+    start(1 * MS, false);
+    TEST_ASSERT_EQUAL(BUS_OK, bus_call_ping(3, 1, &error));
+    TEST_ASSERT_EQUAL(DXL_ERR_VOLTAGE, error);
+}
+
+static void test_echo_is_found_out_and_dropped(void)
+{
+    static const uint8_t latencies_ms[] = {0, 4, 16};
+    for (uint8_t i = 0; i < sizeof latencies_ms; i++) {
+        uint8_t error = 0, read[20];
+        bus_counts_t counts;
+        setUp();
+        error_bits = DXL_ERR_VOLTAGE;
+        start(latencies_ms[i] * MS, true);
+        for (uint8_t time = 0; time < 10; time++) {
+            TEST_ASSERT_EQUAL(BUS_OK, bus_call_ping(3, 1, &error));
+            TEST_ASSERT_EQUAL(DXL_ERR_VOLTAGE, error);
+            TEST_ASSERT_EQUAL(BUS_OK, bus_call_read(3, DXL_AT_TORQUE_ENABLE, read, sizeof read, NULL));
+        }
+        is_silent = true;
+        TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, bus_call_ping(3, 1, &error));   /* its own echo is no answer */
+        bus_counts(&counts);
+        TEST_ASSERT_EQUAL(20, counts.answers);
+        TEST_ASSERT_EQUAL(1, counts.timeouts);
+    }
+}
+
+static void test_port_that_goes_fails_at_once_and_says_so_once(void)
+{
+    start(16 * MS, false);
+    TEST_ASSERT_FALSE(bus_was_lost());
+    TEST_ASSERT_EQUAL(BUS_PENDING, bus_start_read(3, DXL_AT_PRESENT, 2, 1));
+    fake_machine_plug(false);
+    const uint64_t before = host_next_tick();
+    TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, bus_wait(NULL));
+    TEST_ASSERT_EQUAL(BUS_ERR_TIMEOUT, bus_call_ping(3, 3, NULL));
+    TEST_ASSERT_TRUE(host_next_tick() - before < 20 * MS);
+    TEST_ASSERT_TRUE(bus_was_lost());
+    TEST_ASSERT_FALSE(bus_was_lost());
+    fake_machine_plug(true);
+    TEST_ASSERT_EQUAL(BUS_OK, bus_call_ping(3, 3, NULL));
+    TEST_ASSERT_FALSE(bus_was_lost());
+}
+
+static void test_rates_are_those_of_the_divisors(void)
+{
+    start(0, false);
+    TEST_ASSERT_EQUAL(1000000, fake_machine_rate());
+    bus_set_rate(BUS_RATE_57142);
+    TEST_ASSERT_EQUAL(57142, fake_machine_rate());
+    TEST_ASSERT_EQUAL(BUS_RATE_57142, bus_rate());
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_answers_are_waited_for_however_late_they_come);
+    RUN_TEST(test_silent_servo_costs_what_the_port_has_been_seen_to_take);
+    RUN_TEST(test_answer_after_the_limit_makes_the_limit_longer);
+    RUN_TEST(test_goals_leave_while_an_answer_is_awaited);
+    RUN_TEST(test_voltage_error_is_no_echo);
+    RUN_TEST(test_echo_is_found_out_and_dropped);
+    RUN_TEST(test_port_that_goes_fails_at_once_and_says_so_once);
+    RUN_TEST(test_rates_are_those_of_the_divisors);
+    return UNITY_END();
+}

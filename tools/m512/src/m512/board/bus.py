@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: MIT
+"""`-p bus:/dev/ttyUSB0`: servos on a USB adapter of this computer, without a board. Play or Edit runs here as a program (hal/host), and its
+console is talked to as if it were a board's line.
+
+The programs are looked for in $M512_PROGRAMS, in the build folder of a source tree, beside this Python (`pip install motion512`), and in
+the PATH. What the robot keeps is in its own folder: $M512_ROBOT, or the programs' default.
+"""
+from __future__ import annotations
+
+import os
+import re
+import select
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import IO
+
+from m512 import ui
+from m512.errors import EXIT_BAD_FILE, FileError, M512Error, MissingError, PortError, RefusedError
+from m512.places import build_folder
+
+PREFIX = "bus:"
+START_SECONDS = 120.0      # the search for servos takes up to ten; a busy computer needs more
+END_SECONDS = 30.0
+NO_LOADER = ("servos on an adapter have no board with a boot loader. Motions go there with `m512 put FILE all -p bus:...`; "
+             "what the robot keeps are the files of its folder (hal/host/README.md)")
+
+
+def is_bus(word: str) -> bool:
+    return word.startswith(PREFIX)
+
+
+def refuse(word: str) -> None:
+    """For commands that need a boot loader."""
+    if is_bus(word):
+        raise RefusedError(f"{word}: {NO_LOADER}")
+
+
+def parts(word: str) -> tuple[str, int]:
+    """(device, rate) of bus:DEVICE or bus:DEVICE@RATE."""
+    match = re.fullmatch(r"bus:(?P<device>[^@]+)(@(?P<rate>\d+))?", word)
+    if not match:
+        raise PortError(f"{word}: say bus:DEVICE or bus:DEVICE@RATE, such as bus:/dev/ttyUSB0")
+    return match["device"], int(match["rate"] or 1_000_000)
+
+
+def find_program(image: str) -> Path:
+    name = f"motion512-{image}"
+    given, build, found = os.environ.get("M512_PROGRAMS"), build_folder(), shutil.which(name)
+    places = [Path(given) / name] if given else []
+    places += [build / "host" / "firmware" / image / name] if build else []
+    places += [Path(sys.executable).with_name(name)] + ([Path(found)] if found else [])
+    for place in places:
+        if place.exists():
+            return place
+    raise MissingError(f"the program {name} is not here: install the wheel motion512 of a release (Linux), build it from the sources "
+                       "(cmake --preset host), or name its folder in M512_PROGRAMS")
+
+
+class Program:
+    """Play or Edit over an adapter. `console` is the port to talk to. What the program says beside its console comes as notes."""
+
+    def __init__(self, word: str, image: str):
+        device, rate = parts(word)
+        command = [str(find_program(image)), "--pty", "--rate", str(rate)]
+        if os.environ.get("M512_ROBOT"):
+            command += ["--robot", os.environ["M512_ROBOT"]]
+        self.word = word
+        # A group of its own: Ctrl-C is for m512, which ends the program when it has said its last word.
+        self.process = subprocess.Popen(command + [device], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                        start_new_session=True)
+        assert self.process.stderr is not None
+        self.errors: IO[bytes] = self.process.stderr
+        self.said = ""
+        self.console = self._wait_for_console()
+        self.reader = threading.Thread(target=self._tell, daemon=True)
+        self.reader.start()
+
+    def _wait_for_console(self) -> str:
+        deadline = time.monotonic() + START_SECONDS
+        while time.monotonic() < deadline:
+            if select.select([self.errors], [], [], 0.1)[0]:
+                some = os.read(self.errors.fileno(), 4096).decode("utf-8", "replace")
+                self.said += some
+                match = re.search(r"[^\n]*serial port: (\S+)\s", self.said)
+                if match:
+                    self.said = self.said.replace(match[0], "")
+                    return match[1]
+                if not some:
+                    break
+        raise self._refusal()
+
+    def _refusal(self) -> M512Error:
+        """Why the program has ended instead."""
+        self.close()
+        text = re.sub(r"^motion512-\w+: ", "", self.said.strip().splitlines()[-1]) if self.said.strip() else "the program did not start"
+        return FileError(text) if self.process.returncode == EXIT_BAD_FILE else PortError(text)
+
+    def _tell(self) -> None:
+        """Passes on what the program says, line by line, until it ends."""
+        rest = self.said
+        while True:
+            *lines, rest = rest.replace("\r", "\n").split("\n")
+            for line in lines:
+                text = re.sub(r"^motion512-\w+: ", "", line.strip())
+                if text:
+                    ui.say(f"note: {text}")
+            some = os.read(self.errors.fileno(), 4096).decode("utf-8", "replace")
+            if not some:
+                return
+            rest += some
+
+    def close(self) -> None:
+        """Ends the program: it brings the robot to a stand first."""
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+            try:
+                self.process.wait(END_SECONDS)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                self.process.wait()
+        if hasattr(self, "reader"):
+            self.reader.join(END_SECONDS)
+        self.errors.close()
+
+
+def start(url: str, image: str) -> tuple[Program | None, str]:
+    """(the program of a bus: word, its console), or (None, url) of any other port."""
+    if not is_bus(url):
+        return None, url
+    program = Program(url, image)
+    return program, program.console

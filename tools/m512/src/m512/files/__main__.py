@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""python -m m512.files SOURCE TARGET: as `m512 convert`, with nothing but Python's own library.
+
+So the first build of the motion library needs no Python package. Exits 1 with one sentence when the source is wrong.
+"""
+import sys
+from pathlib import Path
+
+from m512.errors import M512Error
+from m512.files import formats
+
+if __name__ == "__main__":
+    try:
+        formats.save(Path(sys.argv[2]), formats.load(Path(sys.argv[1])))
+    except M512Error as error:
+        sys.exit(f"m512: {error}")

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""Which pages somebody means, for every command, of a file and of a board:
+
+    12  wave       one page, by number or name (exact, else unambiguous without regard to case)
+    20..25         those of them that hold something
+    all            all that hold something, but for page 0, the robot's trim
+    wave:40        page `wave` to number 40; 20..25:60 goes to 60..65
+
+A name goes before all but numbers: a page may be called "a:b" or "1..2". WordError: what somebody typed means nothing.
+"""
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Callable, Protocol
+
+from m512.errors import M512Error, WordError
+
+NUMBER_MOST = 255        # of a page, anywhere
+
+
+class Pages(Protocol):
+    """A file's pages, or a board's."""
+
+    def find(self, word: str) -> int:
+        """The page that a number or a name means. M512Error: there is none, or more than one of that name."""
+
+    def is_named(self, word: str) -> bool:
+        """Whether a page has exactly this name."""
+
+    def used(self) -> list[int]:
+        """Pages that hold something."""
+
+
+def find(word: str, names: Mapping[int, str], error: Callable[[str], M512Error], whose: str = "") -> int:
+    """The number of the page of that name."""
+    for fold in (str, str.lower):
+        hits = [number for number, name in names.items() if fold(name) == fold(word)]
+        if len(hits) == 1:
+            return hits[0]
+        if hits:
+            raise error(f"page name {word!r} is not unique: pages " + ", ".join(map(str, hits)))
+    raise error(f"no page{whose} is called {word!r}")
+
+
+def page_number(text: str) -> int | None:
+    """The number that digits are; None: they are none, or too many."""
+    return int(text) if re.fullmatch("[0-9]{1,9}", text) else None
+
+
+def number_range(text: str) -> tuple[int, int] | None:
+    """(1, 6) of `1..6`; None: it is no range."""
+    match = re.fullmatch(r"([0-9]{1,9})\.\.([0-9]{1,9})", text)
+    if not match:
+        return None
+    low, high = int(match.group(1)), int(match.group(2))
+    if low > high:
+        raise WordError(f"{text}: a range goes upwards")
+    return low, high
+
+
+def numbers(words: Iterable[str], pages: Pages) -> list[int]:
+    """The pages that the words mean, each once, in the words' order."""
+    return list(dict.fromkeys(number for word in words for number in _meant(word, pages)))
+
+
+def moves(words: Iterable[str], pages: Pages) -> list[tuple[int, int]]:
+    """[(number there, number here)]. No two go to the same place."""
+    out = [move for word in words for move in _moves(word, pages)]
+    taken: dict[int, int] = {}
+    for there, here in dict.fromkeys(out):
+        if here in taken:
+            raise WordError(f"pages {taken[here]} and {there} would both become page {here}")
+        taken[here] = there
+    return list(dict.fromkeys(out))
+
+
+def _moves(word: str, pages: Pages) -> list[tuple[int, int]]:
+    name, colon, target = ("", "", "") if pages.is_named(word) else word.rpartition(":")
+    if not colon:
+        return [(number, number) for number in _meant(word, pages)]
+    first = page_number(target)
+    if first is None or first > NUMBER_MOST:
+        raise WordError(f"{word}: behind the colon stands the number of the page that it becomes, 0..{NUMBER_MOST}, and not {target!r}")
+    if name == "all":
+        raise WordError(f"{word}: all pages keep their numbers; say 1..127:{first} to move them")
+    span = None if pages.is_named(name) else number_range(name)
+    meant = _meant(name, pages)
+    low = span[0] if span else meant[0]
+    return [(number, number - low + first) for number in meant]
+
+
+def _meant(word: str, pages: Pages) -> list[int]:
+    if pages.is_named(word):
+        return [pages.find(word)]
+    span = number_range(word)
+    if word != "all" and not span:
+        return [pages.find(word)]
+    low, high = span or (1, NUMBER_MOST)
+    found = [number for number in pages.used() if low <= number <= high]
+    if not found:
+        raise WordError(f"{word}: none of these pages holds anything")
+    return found

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+"""Some pages of an image with all that they lead to, as an image that has room for them.
+
+A page keeps its number where that exists in the new image; the others go to its free numbers, in their order. Links, blend partners and the
+codes that choose them follow; a page's own remote code is in it. A link to a page that holds nothing, at which a play ends, becomes none:
+another page may stand there now.
+"""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from m512.errors import RefusedError
+from m512.files.image import TWELVE_BIT_MAX, Image
+from m512.files.page import Kind, Page
+from m512.files.wording import named_pages_text, pages_text
+
+LINKS = Page.LINKS + Page.PARTNERS
+
+
+@dataclass
+class Excerpt:
+    image: Image
+    moved: dict[int, int] = field(default_factory=dict)      # old number -> new one, of all that were taken
+    left: list[int] = field(default_factory=list)            # pages that hold something and were not
+
+    def notes(self, whole: Image, wanted: Iterable[int]) -> list[str]:
+        """What was taken, renumbered and left out, in words."""
+        more = sorted(set(self.moved) - set(wanted))
+        out = [f"{_named(whole, more)}: taken too, because what was asked for leads there"] if more else []
+        out += [f"renumbered: {', '.join(_runs({old: new for old, new in self.moved.items() if old != new}))}"] \
+            if any(old != new for old, new in self.moved.items()) else []
+        return out + ([f"{_named(whole, self.left)}: left out"] if self.left else [])
+
+
+def excerpt(image: Image, wanted: Iterable[int], count: int) -> Excerpt:
+    """The pages `wanted` and all that they lead to, in an image of `count` pages. RefusedError: they are more than that."""
+    used = set(image.used())
+    taken = _reached(image, set(wanted) & used, used) - {0}
+    room = range(1, count)
+    if len(taken) > len(room):
+        raise RefusedError(f"with all that they lead to these are {len(taken)} pages, and there is room for {len(room)}. Ask for fewer")
+    kept = {number: number for number in taken if number in room}
+    free = iter(sorted(set(room) - set(kept)))
+    moved = {**kept, **{number: next(free) for number in sorted(taken - set(kept))}}
+    out = Image([Page() for _ in range(count)], 0, image.bits, list(image.notes), dict(image.joints))
+    if image.first == 0:
+        out[0] = image[0]
+    for old, new in moved.items():
+        out[new] = image[old]
+        if not _is_damaged(image[old]):
+            _follow(out[new], moved)
+    return Excerpt(out, moved, sorted(used - taken - {0}))
+
+
+def _is_damaged(page: Page) -> bool:
+    return bool(page.fault(Kind(256, TWELVE_BIT_MAX)))
+
+
+def _reached(image: Image, start: set[int], used: set[int]) -> set[int]:
+    found, todo = set(start), list(start)
+    while todo:
+        page = image[todo.pop()]
+        links = set() if _is_damaged(page) else {getattr(page, link) for link in LINKS} & used - found
+        found |= links
+        todo += links
+    return found
+
+
+def _follow(page: Page, moved: dict[int, int]) -> None:
+    for link in LINKS:
+        setattr(page, link, moved.get(getattr(page, link), 0))
+    page.seal()
+
+
+def _named(image: Image, numbers: list[int]) -> str:
+    return named_pages_text({number: image[number].title for number in numbers})
+
+
+def _runs(moved: dict[int, int]) -> list[str]:
+    """["page 200 becomes 5", "pages 130..140 become 6..16"]."""
+    runs: list[list[int]] = []
+    for old in sorted(moved):
+        if runs and old == runs[-1][-1] + 1 and moved[old] == moved[old - 1] + 1:
+            runs[-1].append(old)
+        else:
+            runs.append([old])
+    return [f"{pages_text(run)} become{'s' if len(run) == 1 else ''} {pages_text(moved[old] for old in run).split(' ', 1)[1]}" for run in runs]
+

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""Every example of m512 in a --help or in a README of the project does what it says: with the files that it names, a robot that answers at
+every port, and a person who says yes and presses Space."""
+import re
+import shlex
+import shutil
+import subprocess
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+import pytest
+from conftest import REPO
+from mtn_files import Block, made, step
+from virtual_peer import open_port
+
+from m512.board import driving, link, motions, ports, terminal
+from m512.cli import main, shape
+from m512.files import formats
+from m512.files.image import Image
+from m512.files.text import read_text
+
+NAMES = ["stand", "walk", "wave", "wave_over", "walk_start", "walk_loop", "walk_end", "bow", "kick_left"]
+LIBRARY = "motion512 1\n" + "".join(f"page {n} {name}\n  exit stand\n  step 0.5s | 1..18:500\n  step 0.5s | 1..18:{510 + n}\n"
+                                    for n, name in enumerate(NAMES, 1)) + """
+page 12 chosen
+  step 0.5s | 1:500
+page 15 table
+  step 0.5s | 1:500
+page 16 old_wave
+  step 0.5s | 1:500
+page 20 round
+  next round; exit stand
+  step 0.5s | 1..18:490
+  step 0.5s | 1..18:530
+"""
+LAID_OVER = {"layer", "aim", "swing", "free"}          # beside a play
+THROUGH_EDIT = {"put"}
+FOUND_SOMETHING = {"diff", "doctor"}                   # 3 is a result too
+RUN_ELSEWHERE = "## Without a robot"                   # test_readme.py, line by line
+
+
+def of_help(command, path):
+    """The examples of a command and of those below it."""
+    text = (command.epilog or "") + (command.help if path == "m512" else "")
+    for line in text.splitlines():
+        if re.match(r"\s*(Example: |With(out)? a robot: +)?m512 \S", line):
+            yield from ((path, found) for found in re.findall(r"m512 \S.*?(?=\s{2,}|$)", line))
+    if isinstance(command, click.Group):
+        for name in command.list_commands(click.Context(command)):
+            yield from of_help(command.get_command(None, name), f"{path} {name}")
+
+
+def of_texts():
+    files = subprocess.run(["git", "ls-files", "*.md"], cwd=REPO, capture_output=True, text=True, check=True).stdout.split()
+    for file in files:
+        text = (REPO / file).read_text()
+        text = re.sub(rf"^{RUN_ELSEWHERE}$.*?^## ", "", text, flags=re.S | re.M)
+        for block in re.findall(r"^```\w*\n(.*?)^```", text, re.S | re.M):
+            yield from ((file, line.strip()) for line in block.splitlines() if line.strip().startswith("m512 "))
+        plain = re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
+        yield from ((file, " ".join(span.split())) for span in re.findall(r"`(m512 [^`]+)`", plain))
+        yield from ((file, line) for line in re.findall(r"^ {4}(m512 \S.*?)(?=\s{2,}|$)", plain, re.M))
+
+
+EXAMPLES = sorted({line: where for where, line in [*of_help(main, "m512"), *of_texts()]}.items())
+
+
+def is_a_name(words):
+    """Whether it only names a command that wants more, as "m512 pages check" does."""
+    command, wants = main, False
+    for word in words:
+        command = command.get_command(None, word) if isinstance(command, click.Group) else None
+        if command is None:
+            return False
+        wants |= any(isinstance(parameter, click.Argument) and parameter.required for parameter in command.params)
+    return wants
+
+
+@pytest.fixture
+def world(tmp_path, monkeypatch, started):
+    """A folder with what the examples name; world(command) -> a robot is at every port."""
+    text = read_text(LIBRARY)
+    for name in ("library.m512", "lib.m512", "walk.m512", "wave.m512", "motions.m512"):
+        (tmp_path / name).write_text(LIBRARY)
+    (tmp_path / "out").mkdir()
+    (tmp_path / "build" / "motions").mkdir(parents=True)
+    for name in ("lib.bin", "walk.bin", "old.bin", "new.bin", "other.bin", "out/motions.bin", "build/motions/motions.bin"):
+        (tmp_path / name).write_bytes(text.to_bytes())
+    blocks = [Block("walk" if n == 201 else f"m{n}", steps=[step()]) for n in range(1, 242)]
+    (tmp_path / "large.mtn").write_bytes(made(blocks))
+    (tmp_path / "robot.mtn").write_bytes(made(blocks[:100], full=False))
+    (tmp_path / "other.mtn").write_bytes(made(blocks[29:36], full=False))
+    formats.save(tmp_path / "op3.bin", read_text("motion512 1\npages 0..255\nbits 12\npage 1 high\n  step 50 | 1..18:2048\n"))
+    (tmp_path / "build" / "firmware").mkdir()
+    for image in ("play-cm5.hex", "edit-cm5.hex"):
+        shutil.copy(REPO / "build" / "firmware" / image, tmp_path / image)
+        shutil.copy(REPO / "build" / "firmware" / image, tmp_path / "build" / "firmware" / image)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("m512.ui.confirm", lambda question, yes: None)
+
+    def at_every_port(command):
+        robot = started("boot-cm5.hex", "edit-cm5.hex" if command in THROUGH_EDIT else "play-cm5.hex", text=LIBRARY, servos=range(1, 21))
+
+        def open_any(url, trace=None):
+            return open_port(url if url.startswith(("peer://", "/dev/pts")) else robot.path, trace)
+
+        for module in (link, motions, terminal):
+            monkeypatch.setattr(module, "Link", open_any)
+        monkeypatch.setattr(ports, "available", lambda: [("/dev/ttyUSB0", "USB serial")])
+        return robot
+
+    return at_every_port
+
+
+def before(m512, command, words, robot):
+    """What the example takes for granted."""
+    if command not in ("flash", "run", "backup", "restore", "term", "doctor"):
+        assert m512("run").exit_code == 0
+        robot.pass_time(2)
+    if command == "restore":
+        assert m512("backup", words[1], "--what", "motions").exit_code == 0
+    if command == "diff" and "backup-20260101-120000" in words:
+        assert m512("backup", words[2], "--what", "motions").exit_code == 0
+    if "merge" in words:                                # into free pages
+        formats.save(Path(words[1]), Image.empty())
+    if command in LAID_OVER:
+        assert m512("play", "round").exit_code == 0
+        robot.pass_time(3)
+    if words[0] == "shape" and len(words) > 1:
+        assert m512("play", "round").exit_code == 0
+
+
+@contextmanager
+def space_is_pressed():
+    keys = driving.Keys()
+    keys.press(" ")
+    yield keys
+
+
+@pytest.mark.parametrize("line, where", EXAMPLES, ids=[line for line, _ in EXAMPLES])
+def test_an_example_does_what_it_says(m512, world, tmp_path, monkeypatch, line, where):
+    words = shlex.split(line.partition(" || ")[0], comments=True)[1:]
+    if words == ["--help"] or is_a_name(words):
+        assert m512(*words[:1], "--help").exit_code == 0
+        return
+    command = words[0]
+    robot = world(command) if "--sim" not in words else None
+    if robot:
+        before(m512, command, words, robot)
+    outputs = [words[words.index("-o") + 1]] if "-o" in words else words[2:3] if command == "convert" and "--force" not in words else []
+    for output in outputs:
+        (tmp_path / output).unlink(missing_ok=True)
+    monkeypatch.setattr(shape, "_keys", space_is_pressed)
+    monkeypatch.setattr(shape, "_pad", space_is_pressed)        # pygame may be absent
+    monkeypatch.setenv("M512_BUILD", str(REPO / "build"))
+    result = m512(*words, input="")
+    allowed = (0, 3) if command in FOUND_SOMETHING or "check" in words else (0,)
+    assert result.exit_code in allowed, (where, line, result.stdout, result.stderr)
+    for output in outputs:
+        assert (tmp_path / output).stat().st_size > 0
+
+
+def test_there_are_examples_of_every_command():
+    lines = [line for line, _ in EXAMPLES]
+    for name in main.list_commands(None):
+        assert any(line.split()[1] == name for line in lines), name
+    assert len(lines) > 80

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""`m512 convert --only`: whoever follows links and codes from a page that was asked for meets the same pages as before, wherever they stand."""
+import json
+import random
+
+import pytest
+from mtn_files import Block, made, step
+
+from m512.errors import RefusedError
+from m512.files.image import Image
+from m512.files.page import Page
+from m512.pages.excerpt import excerpt
+
+LABELS = ("next", "exit", "link1_page", "link2_page", "blend_right", "blend_left")
+SEED = 20261125
+
+
+def by_chance(chance, pages=256, used=230, links=1.0):
+    """Pages with names of their own, at random places, with links to anywhere: to each other, to nothing, beyond the end."""
+    image = Image.empty(pages)
+    for number in chance.sample(range(1, pages), used):
+        page = Page()
+        page.name, page.steps, page.code = f"p{number}".encode(), chance.randint(1, 7), chance.randrange(256)
+        page.link1_code, page.link2_code = chance.randrange(256), chance.randrange(256)
+        for joint in range(1, 19):
+            page.set_word(0, joint, chance.randrange(1024))
+        for label in LABELS:
+            if chance.random() < links:
+                setattr(page, label, chance.choice((0, number, chance.randrange(256))))
+        image[number] = page.seal()
+    return image
+
+
+def walk(image, number, labels):
+    """The names that somebody meets who follows these links; ends where nothing is."""
+    out = []
+    for label in labels:
+        page = image[number] if 0 < number < image.end else Page()
+        if not page.steps:
+            return out
+        out.append((page.name, page.code, page.link1_code, page.link2_code, bytes(page.data[32:])))
+        number = getattr(page, label)
+    return out
+
+
+@pytest.mark.parametrize("seed", range(SEED, SEED + 30))
+def test_every_walk_meets_the_same_pages(seed):
+    chance = random.Random(seed)
+    image = by_chance(chance, used=chance.choice((60, 120, 230)), links=chance.choice((0.05, 0.1, 0.2)))
+    wanted = chance.sample(image.used(), chance.randint(1, 50))
+    part = excerpt(image, wanted, 128)
+    assert part.image.end == 128 and all(not page.fault() for _, page in part.image.items())
+    for _ in range(300):
+        start, labels = chance.choice(wanted), chance.choices(LABELS, k=12)
+        assert walk(part.image, part.moved[start], labels) == walk(image, start, labels), (seed, start, labels)
+    assert all(part.moved[n] == n for n in part.moved if n < 128)              # what had room stays
+    assert sorted(part.left) == sorted(set(image.used()) - set(part.moved))
+    assert len(part.image.used()) == len(part.moved)
+
+
+def test_what_leads_everywhere_is_refused_with_the_figures():
+    with pytest.raises(RefusedError, match=r"these are 200 pages, and there is room for 127"):
+        image = by_chance(random.Random(SEED), used=200, links=0)
+        numbers = image.used()
+        for here, there in zip(numbers, numbers[1:]):
+            image[here].next = there
+            image[here].seal()
+        excerpt(image, numbers[:1], 128)
+
+
+def test_a_damaged_page_stays_byte_for_byte_and_its_links_are_not_followed():
+    image = by_chance(random.Random(SEED), used=0)
+    image[200].steps, image[200].next = 1, 201
+    image[201].steps = 1
+    image[201].seal()
+    part = excerpt(image, [200], 128)
+    assert part.moved == {200: 1} and part.image[1] == image[200] and part.left == [201]
+
+
+def test_a_roboplus_file_of_240_pages(m512, tmp_path):
+    blocks = [Block(f"m{n}", next=(n + 1 if n % 4 else 0), exit=250 if n in (1, 201) else 0, steps=[step()]) for n in range(1, 242)]
+    (tmp_path / "x.mtn").write_bytes(made(blocks))
+    refused = m512("convert", tmp_path / "x.mtn", tmp_path / "y.bin")
+    assert refused.exit_code == 5 and "--only NAME" in refused.stderr
+    result = m512("convert", tmp_path / "x.mtn", tmp_path / "y.bin", "--only", "m201", "--only", "9..10")
+    assert result.exit_code == 0, result.stderr
+    assert result.stderr.splitlines() == [
+        'note: pages 11 "m11", 12 "m12", 202 "m202", 203 "m203" and 204 "m204": taken too, because what was asked for leads there',
+        "note: renumbered: pages 201..204 become 1..4", "note: pages 1..8, 13..200 and 205..241: left out"]
+    listed = json.loads(m512("pages", tmp_path / "y.bin", "list", "--json").stdout)
+    assert [row["page"] for row in listed] == [1, 2, 3, 4, 9, 10, 11, 12]
+    report = json.loads(m512("convert", tmp_path / "x.mtn", tmp_path / "z.m512", "--only", "m201", "--json").stdout)
+    assert report["moved"] == {"201": 1, "202": 2, "203": 3, "204": 4} and len(report["left"]) == 237
+    assert m512("pages", tmp_path / "y.bin", "check").exit_code == 0
+    for word in ("m9999", "300..310", "9..8"):
+        bad = m512("convert", tmp_path / "x.mtn", tmp_path / "no.bin", "--only", word)
+        assert bad.exit_code in (2, 4) and word in bad.stderr and not (tmp_path / "no.bin").exists()
