@@ -5,6 +5,7 @@ A campaign that is interrupted goes on where it was, and one of 1,000 bodies can
 tried with: its key is made of the pages that the motion can come to, of how it is led, of the body file and of the version of MuJoCo. So a
 change of the motion begins anew by itself. What the key does not see is a change of player or servos: then delete the file.
 """
+
 import hashlib
 import json
 import pathlib
@@ -29,7 +30,7 @@ def reachable(library, number):
 def key_of(library, number, promise, robot, where):
     """What a result belongs to, as text. where: who led the motion, "player" or "board"."""
     image = library.to_bytes()
-    pages = b"".join(image[PAGE_BYTES * page:PAGE_BYTES * (page + 1)] for page in sorted(reachable(library, number)))
+    pages = b"".join(image[PAGE_BYTES * page : PAGE_BYTES * (page + 1)] for page in sorted(reachable(library, number)))
     how = (promise.page, promise.seconds, promise.keys, promise.lie, promise.floor, where)
     return hashlib.sha256(pages + repr((*how, mujoco.__version__)).encode() + robot.xml().encode()).hexdigest()[:16]
 
@@ -43,7 +44,7 @@ class Tried:
             try:
                 one = json.loads(line)
                 self._found.setdefault(one["key"], {})[one["seed"]] = (one["kept"], one["said"])
-            except (ValueError, KeyError):           # torn: the campaign was ended while it wrote
+            except (ValueError, KeyError):  # torn: the campaign was ended while it wrote
                 continue
 
     def of(self, key):
@@ -61,7 +62,7 @@ class Tried:
 
 
 def seeds_said(seeds):
-    """"1000-1099, 1150": as people write them."""
+    """ "1000-1099, 1150": as people write them."""
     runs = []
     for seed in sorted(seeds):
         if runs and seed == runs[-1][1] + 1:

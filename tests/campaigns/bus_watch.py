@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Judges the traffic on the servo bus: every tick has a frame, no goal leaps, and no joint is driven that must not be."""
+
 from cm5sim.board import CYCLES_PER_TICK, sync_goals
 
 WRITE, REG_WRITE, SYNC_WRITE = 3, 4, 0x83
@@ -53,6 +54,8 @@ def last_step(frames, failed):
 
 def written(packets, address, value=None):
     """Returns the IDs of the servos that a WRITE or REG WRITE to this address reached (with this value, if one is given)."""
-    return {packet[2] for _, packet in packets if packet[4] in (WRITE, REG_WRITE)
-            and packet[5] <= address < packet[5] + len(packet) - 7
-            and value in (None, packet[6 + address - packet[5]])}
+    return {
+        packet[2]
+        for _, packet in packets
+        if packet[4] in (WRITE, REG_WRITE) and packet[5] <= address < packet[5] + len(packet) - 7 and value in (None, packet[6 + address - packet[5]])
+    }

@@ -6,6 +6,7 @@
 hand(look) is asked twenty times a second for (blend, rate, amplitude) in percent, for a line to type, or for None: it is silent, as
 when the cable is pulled. It sees what a person sees: where the robot is and where it looks.
 """
+
 import math
 from dataclasses import dataclass, field
 
@@ -15,19 +16,19 @@ from body.physics import Physics
 from body.trial import FALLEN, look, stands
 from tests.campaigns.onboard import OnBoard
 
-TICKS_A_LINE = 6                 # 47 ms: a joystick's twenty lines a second
-AFTER_TICKS = 96                 # it stands for 0.75 s before its feet are looked at
+TICKS_A_LINE = 6  # 47 ms: a joystick's twenty lines a second
+AFTER_TICKS = 96  # it stands for 0.75 s before its feet are looked at
 
 
 @dataclass
 class Driven:
     """What came of it."""
 
-    fell_s: float = None         # when; None: it did not
-    ended: bool = False          # the play came to its end
+    fell_s: float = None  # when; None: it did not
+    ended: bool = False  # the play came to its end
     on_feet: bool = False
-    track: list = field(default_factory=list)        # a trial.Look for each time that the hand was asked
-    goals: list = field(default_factory=list)        # {servo: goal} of each frame on the bus, if asked for
+    track: list = field(default_factory=list)  # a trial.Look for each time that the hand was asked
+    goals: list = field(default_factory=list)  # {servo: goal} of each frame on the bus, if asked for
 
     def said(self):
         how = f"fell after {self.fell_s:.1f} s" if self.fell_s is not None else "on its feet" if self.on_feet else "not on its feet"
@@ -71,7 +72,7 @@ def drive(image, page, ready, seconds, hand, robot="humanoid", variation=NOMINAL
 class Stick:
     """A stick that a hand moves: it goes 50 % in a second, from where it is towards what is wished."""
 
-    A_LINE = 2.5                 # percent
+    A_LINE = 2.5  # percent
 
     def __init__(self, blend=0.0, rate=100.0, amplitude=100.0):
         self.at = (blend, rate, amplitude)
@@ -90,14 +91,14 @@ class Eight:
     the board's watchdog stops the walk.
     """
 
-    FULL = 1 / 240               # curve (1 / radius in mm) at blend 100, as the library's curves are on the nominal body
-    CYCLE_LINES = 9              # of the walk: 56 ticks
+    FULL = 1 / 240  # curve (1 / radius in mm) at blend 100, as the library's curves are on the nominal body
+    CYCLE_LINES = 9  # of the walk: 56 ticks
     LATE_S = 0.5
-    BACK_MM = 130.0              # within about this way it is back on the path
+    BACK_MM = 130.0  # within about this way it is back on the path
 
     def __init__(self, length_mm=1000.0):
         self.radius = length_mm / 4
-        self.turns = 0.0                         # of two, along the path: the first to the left, the second to the right
+        self.turns = 0.0  # of two, along the path: the first to the left, the second to the right
         self.farthest_mm, self._seen = 0.0, []
 
     @property
@@ -111,15 +112,15 @@ class Eight:
         return self.radius * math.sin(around) * side, side * self.radius * (1 - math.cos(around)), around, side / self.radius
 
     def __call__(self, seen):
-        self._seen = [*self._seen[-self.CYCLE_LINES:], seen]
+        self._seen = [*self._seen[-self.CYCLE_LINES :], seen]
         if self.done:
             return None
         x, y, looks = self._soon()
         self.turns = self._nearest(x, y)
         px, py, along, curve = self.path(self.turns)
-        beside = (y - py) * math.cos(along) - (x - px) * math.sin(along)                       # to the left of the path
+        beside = (y - py) * math.cos(along) - (x - px) * math.sin(along)  # to the left of the path
         turned = (looks - along + math.pi) % (2 * math.pi) - math.pi
-        wish = curve - 2 * turned / self.BACK_MM - beside / self.BACK_MM ** 2
+        wish = curve - 2 * turned / self.BACK_MM - beside / self.BACK_MM**2
         self.farthest_mm = max(self.farthest_mm, abs(beside))
         return max(-100, min(100, -100 * wish / self.FULL)), 100, 100
 

@@ -5,6 +5,7 @@ of times. Nothing may be lost, late, or other at the end than at the start.
 
 The hour is one run of one robot. Everything is drawn from --seed.
 """
+
 import random
 import traceback
 
@@ -21,16 +22,16 @@ TITLE = "Endurance"
 PROMISE = "Hours of walking and thousands of saves lose no tick, no character and no page."
 
 TICK_CYCLES, CYCLES_PER_US = 125_000, 16
-ENTRY_CYCLES = 200              # between a tick and its interrupt's first instruction, other interrupts included
-MEASURE_MINUTES = 10            # the yardstick is laid on so often
-FLASH_CYCLES, EEPROM_CYCLES = 10_000, 100_000   # what the data sheet promises
+ENTRY_CYCLES = 200  # between a tick and its interrupt's first instruction, other interrupts included
+MEASURE_MINUTES = 10  # the yardstick is laid on so often
+FLASH_CYCLES, EEPROM_CYCLES = 10_000, 100_000  # what the data sheet promises
 PLAY_HEADROOM, EDIT_HEADROOM = 512, 384
 FLASH_PAGE = MAP["MEM_FLASH_PAGE_BYTES"]
 SLOT_PAGES = SLOT_BYTES // FLASH_PAGE
-JOURNAL = MAP["MEM_JOURNAL_START"], MAP["MEM_JOURNAL_START"] + SLOTS * SLOT_BYTES   # two flash pages behind it are no slot
+JOURNAL = MAP["MEM_JOURNAL_START"], MAP["MEM_JOURNAL_START"] + SLOTS * SLOT_BYTES  # two flash pages behind it are no slot
 ALL_JOINTS = range(31)
 BOW = 2
-WAVE_OVER, CROWDED_LAYER = 60, 9      # pages that are laid over a driven walk
+WAVE_OVER, CROWDED_LAYER = 60, 9  # pages that are laid over a driven walk
 
 
 def add_arguments(group):
@@ -39,6 +40,7 @@ def add_arguments(group):
 
 
 # ---- walking ----
+
 
 def library():
     return (proof.BUILD / "motions" / "motions.bin").read_bytes()
@@ -50,14 +52,25 @@ def crowded(seed):
 
     def steps(count, ticks):
         return [(ticks, {joint: chance.randrange(412, 612) for joint in ALL_JOINTS}) for _ in range(count)]
+
     image = Image.empty()
     image[BOW] = page("yardstick", steps(7, 64), joints=ALL_JOINTS)
     for number, code in ((4, UP), (5, DOWN), (6, LEFT), (7, RIGHT)):
-        image[number] = page(f"code {code}", steps(4, 64), joints=ALL_JOINTS, code=code, next=number, exit=8,
-                             link1_code=LEFT, link1_page=6, link2_code=UP, link2_page=4)
+        image[number] = page(
+            f"code {code}",
+            steps(4, 64),
+            joints=ALL_JOINTS,
+            code=code,
+            next=number,
+            exit=8,
+            link1_code=LEFT,
+            link1_page=6,
+            link2_code=UP,
+            link2_page=4,
+        )
     image[8] = page("stop", steps(1, 96), joints=ALL_JOINTS)
     image[CROWDED_LAYER] = page("layer", [(48, {joint: 600 for joint in range(15)}), (48, {})], joints=range(15), next=CROWDED_LAYER)
-    image[4].data[17], image[4].data[18] = 7, 6   # partners for blending, of as many steps
+    image[4].data[17], image[4].data[18] = 7, 6  # partners for blending, of as many steps
     image[4].seal()
     return image.to_bytes()
 
@@ -76,15 +89,25 @@ def walk(seed, joints, motions, minutes, layer):
     counts = walker.statistics()
     board.run_to("__vector_12")
     return {
-        "minutes": board.now_ms / 60_000, "done": walker.done, "complaints": walker.complaints, "measured": same,
-        "yardstick": len(first), "bus": vars(walker.bus), "counts": counts, "resets": board.resets - walker.resets,
-        "overruns": board.uart(0).overruns + board.uart(1).overruns, "framing": board.uart(1).framing,
+        "minutes": board.now_ms / 60_000,
+        "done": walker.done,
+        "complaints": walker.complaints,
+        "measured": same,
+        "yardstick": len(first),
+        "bus": vars(walker.bus),
+        "counts": counts,
+        "resets": board.resets - walker.resets,
+        "overruns": board.uart(0).overruns + board.uart(1).overruns,
+        "framing": board.uart(1).framing,
         "phase": (board.now_cycles - walker.bus.phase + ENTRY_CYCLES) % TICK_CYCLES - ENTRY_CYCLES,
-        "headroom": board.stack_headroom, "flash wear": max(board.wear(number) for number in range(512)),
-        "eeprom wear": max(board.eeprom_wear(at) for at in range(4096))}
+        "headroom": board.stack_headroom,
+        "flash wear": max(board.wear(number) for number in range(512)),
+        "eeprom wear": max(board.eeprom_wear(at) for at in range(4096)),
+    }
 
 
 # ---- editing ----
+
 
 def edit(seed, saves):
     editor = Editor(seed)
@@ -95,21 +118,29 @@ def edit(seed, saves):
     slots = [at // FLASH_PAGE for at in range(*JOURNAL, FLASH_PAGE)]
     saved = {MOTION_START // FLASH_PAGE + 2 * number + half for number in range(FIRST, LAST + 1) for half in (0, 1)}
     return {
-        "saves": editor.saves, "done": editor.done, "complaints": editor.complaints, "bus": vars(editor.bus),
-        "resets": board.resets - editor.resets, "overruns": board.uart(0).overruns + board.uart(1).overruns,
-        "headroom": board.stack_headroom, "journal": [board.wear(number) for number in slots],
+        "saves": editor.saves,
+        "done": editor.done,
+        "complaints": editor.complaints,
+        "bus": vars(editor.bus),
+        "resets": board.resets - editor.resets,
+        "overruns": board.uart(0).overruns + board.uart(1).overruns,
+        "headroom": board.stack_headroom,
+        "journal": [board.wear(number) for number in slots],
         "motions": [board.wear(number) for number in saved],
         "other wear": max(board.wear(number) for number in set(range(512)) - set(slots) - saved),
-        "eeprom wear": max(board.eeprom_wear(at) for at in range(4096)), "minutes": board.now_ms / 60_000}
+        "eeprom wear": max(board.eeprom_wear(at) for at in range(4096)),
+        "minutes": board.now_ms / 60_000,
+    }
 
 
 def wears_evenly(journal):
     """A slot's record (SLOT_PAGES - 1 pages behind its beginning) is written anew in each save, by turns; its data unless they are there already."""
-    records = journal[SLOT_PAGES - 1::SLOT_PAGES]
+    records = journal[SLOT_PAGES - 1 :: SLOT_PAGES]
     return max(records) - min(records) <= 1 and all(wear <= records[number // SLOT_PAGES] for number, wear in enumerate(journal))
 
 
 # ---- all of it ----
+
 
 def work(item):
     """Runs one robot to the end of its time. A violation or a missing answer ends the run."""
@@ -127,29 +158,47 @@ def work(item):
 def walked(result, joints):
     """Returns the figures of one walk."""
     bus, counts, done = result["bus"], result["counts"], result["done"]
-    how = (f"Play with {joints} servos, {result['minutes']:.1f} simulated minutes in one run: {done['packets']} packets of the remote, "
-           f"{done['plays']} pages called, {done['stops']} stops, {done['breaks']} breaks, {done['pauses']} pauses, "
-           f"{done['commands']} commands, {done['faults']} faults of servos, "
-           f"{done['driven']} lines of @drive with pages laid over the walk")
+    how = (
+        f"Play with {joints} servos, {result['minutes']:.1f} simulated minutes in one run: {done['packets']} packets of the remote, "
+        f"{done['plays']} pages called, {done['stops']} stops, {done['breaks']} breaks, {done['pauses']} pauses, "
+        f"{done['commands']} commands, {done['faults']} faults of servos, "
+        f"{done['driven']} lines of @drive with pages laid over the walk"
+    )
     for complaint in result["complaints"]:
         print(f"   {complaint}")
     return [
-        proof.Figure("No tick is missed, none has two frames, no goal is late.", how,
-                     f"{bus['frames']} frames, {bus['missed']} ticks without, {bus['doubled']} with two; Play counts {counts['missed']} "
-                     f"missed, {counts['late']} late; {result['resets']} resets",
-                     not (bus["missed"] or bus["doubled"] or counts["missed"] or counts["late"] or result["resets"]), headline=True),
-        proof.Figure("Nothing drifts.", "the tick's phase at the end against the start; a page's goals tick by tick, in the first minute "
-                     f"and every {MEASURE_MINUTES} minutes up to the last; where the joints stand behind it",
-                     f"phase off by {result['phase']} cycles; {result['measured']} times the same {result['yardstick']} frames; frames go out "
-                     f"{bus['offset_min'] / CYCLES_PER_US / 1000:.2f}..{bus['offset_max'] / CYCLES_PER_US / 1000:.2f} ms behind the tick; "
-                     f"{len(result['complaints'])} complaints", abs(result["phase"]) < ENTRY_CYCLES and not result["complaints"]),
-        proof.Figure("Nothing is lost on the lines.", "the same run; the serial line full in both directions for minutes",
-                     f"{result['overruns']} overruns, {result['framing']} framing errors, {counts['lost']} characters lost, "
-                     f"{counts['packets']} of {done['packets']} packets of the remote heard",
-                     not (result["overruns"] or result["framing"] or counts["lost"]) and counts["packets"] == done["packets"]),
-        proof.Figure(f"The stack keeps {PLAY_HEADROOM} bytes free; nothing wears.", "deepest stack, erases and EEPROM writes of the same run",
-                     f"{result['headroom']} bytes; {result['flash wear']} erases; {result['eeprom wear']} writes of the busiest EEPROM byte "
-                     f"({EEPROM_CYCLES} allowed)", result["headroom"] >= PLAY_HEADROOM and result["flash wear"] == 0)]
+        proof.Figure(
+            "No tick is missed, none has two frames, no goal is late.",
+            how,
+            f"{bus['frames']} frames, {bus['missed']} ticks without, {bus['doubled']} with two; Play counts {counts['missed']} "
+            f"missed, {counts['late']} late; {result['resets']} resets",
+            not (bus["missed"] or bus["doubled"] or counts["missed"] or counts["late"] or result["resets"]),
+            headline=True,
+        ),
+        proof.Figure(
+            "Nothing drifts.",
+            "the tick's phase at the end against the start; a page's goals tick by tick, in the first minute "
+            f"and every {MEASURE_MINUTES} minutes up to the last; where the joints stand behind it",
+            f"phase off by {result['phase']} cycles; {result['measured']} times the same {result['yardstick']} frames; frames go out "
+            f"{bus['offset_min'] / CYCLES_PER_US / 1000:.2f}..{bus['offset_max'] / CYCLES_PER_US / 1000:.2f} ms behind the tick; "
+            f"{len(result['complaints'])} complaints",
+            abs(result["phase"]) < ENTRY_CYCLES and not result["complaints"],
+        ),
+        proof.Figure(
+            "Nothing is lost on the lines.",
+            "the same run; the serial line full in both directions for minutes",
+            f"{result['overruns']} overruns, {result['framing']} framing errors, {counts['lost']} characters lost, "
+            f"{counts['packets']} of {done['packets']} packets of the remote heard",
+            not (result["overruns"] or result["framing"] or counts["lost"]) and counts["packets"] == done["packets"],
+        ),
+        proof.Figure(
+            f"The stack keeps {PLAY_HEADROOM} bytes free; nothing wears.",
+            "deepest stack, erases and EEPROM writes of the same run",
+            f"{result['headroom']} bytes; {result['flash wear']} erases; {result['eeprom wear']} writes of the busiest EEPROM byte "
+            f"({EEPROM_CYCLES} allowed)",
+            result["headroom"] >= PLAY_HEADROOM and result["flash wear"] == 0,
+        ),
+    ]
 
 
 def edited(results):
@@ -167,17 +216,24 @@ def edited(results):
     target = max(max(result["motions"]) for result in results)
     plays, edits = (sum(result["done"][what] for result in results) for what in ("plays", "edits"))
     return [
-        proof.Figure("What was saved is what the flash holds, and nothing else changes.",
-                     f"Edit in {len(results)} runs of {max(result['minutes'] for result in results):.0f} simulated minutes: {edits} edits with "
-                     f"undo, saves by key and by program, {plays} plays", f"{saves} saves, {len(complaints)} complaints, {resets} resets, "
-                     f"{missed} ticks missed in plays, {overruns} overruns; stack headroom {headroom} bytes (at least {EDIT_HEADROOM})",
-                     not (complaints or resets or missed or overruns) and headroom >= EDIT_HEADROOM, headline=True),
-        proof.Figure("The journal wears evenly, and lasts.", "erases of each of its flash pages in the same runs, extrapolated to the "
-                     f"{FLASH_CYCLES} that the data sheet allows",
-                     f"{low}..{high} erases a journal page ({worst['saves']} saves a run): {lasts} saves until {FLASH_CYCLES}; a motion page "
-                     f"saved every time lasts {FLASH_CYCLES}; busiest motion page here {target}; other flash "
-                     f"{max(result['other wear'] for result in results)}, EEPROM {max(result['eeprom wear'] for result in results)}",
-                     even and not max(result["other wear"] for result in results))]
+        proof.Figure(
+            "What was saved is what the flash holds, and nothing else changes.",
+            f"Edit in {len(results)} runs of {max(result['minutes'] for result in results):.0f} simulated minutes: {edits} edits with "
+            f"undo, saves by key and by program, {plays} plays",
+            f"{saves} saves, {len(complaints)} complaints, {resets} resets, "
+            f"{missed} ticks missed in plays, {overruns} overruns; stack headroom {headroom} bytes (at least {EDIT_HEADROOM})",
+            not (complaints or resets or missed or overruns) and headroom >= EDIT_HEADROOM,
+            headline=True,
+        ),
+        proof.Figure(
+            "The journal wears evenly, and lasts.",
+            f"erases of each of its flash pages in the same runs, extrapolated to the {FLASH_CYCLES} that the data sheet allows",
+            f"{low}..{high} erases a journal page ({worst['saves']} saves a run): {lasts} saves until {FLASH_CYCLES}; a motion page "
+            f"saved every time lasts {FLASH_CYCLES}; busiest motion page here {target}; other flash "
+            f"{max(result['other wear'] for result in results)}, EEPROM {max(result['eeprom wear'] for result in results)}",
+            even and not max(result["other wear"] for result in results),
+        ),
+    ]
 
 
 def run(options):
@@ -186,16 +242,26 @@ def run(options):
     if options.sample:
         items = [("walk", options.seed, 1.5), ("crowd", options.seed, 0.3), ("edit", options.seed, 40)]
     else:
-        items = [("walk", options.seed, minutes), ("crowd", options.seed, minutes / 6),
-                 ("edit", options.seed, saves // 2), ("edit", options.seed + 1, saves - saves // 2)]
+        items = [
+            ("walk", options.seed, minutes),
+            ("crowd", options.seed, minutes / 6),
+            ("edit", options.seed, saves // 2),
+            ("edit", options.seed + 1, saves - saves // 2),
+        ]
     kept = proof.Kept("endurance", options.keep and not options.sample)
     results = kept.each(work, items, "lives", options.jobs)
     kept.finish()
     died = [result["died"] for result in results if "died" in result]
     for text in died:
         print(f"   tools/prove endurance --seed {options.seed}: {text}")
-    figures = [proof.Figure("Every robot lives to the end of its run.", "whole images on the strict board; the first violation ends a run",
-                            f"{len(items) - len(died)} of {len(items)}" + "".join(f"; {text.splitlines()[0]}" for text in died), not died)]
+    figures = [
+        proof.Figure(
+            "Every robot lives to the end of its run.",
+            "whole images on the strict board; the first violation ends a run",
+            f"{len(items) - len(died)} of {len(items)}" + "".join(f"; {text.splitlines()[0]}" for text in died),
+            not died,
+        )
+    ]
     lives = [(item[0], result) for item, result in zip(items, results) if "died" not in result]
     for what, result in lives:
         if what != "edit":

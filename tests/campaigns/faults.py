@@ -5,6 +5,7 @@ a leap, and when the fault is over the servo must be usable again. No reset, no 
 
 What must be named, and what the retries hide and the statistics count, is the table in servofaults/README.md (model.py as code).
 """
+
 import collections
 import itertools
 import random
@@ -19,20 +20,25 @@ from tests.sim import snapshot
 TITLE = "Servo faults"
 PROMISE = "Every fault of a servo is named within a second, and the rest of the robot does not leap."
 
-NAMED_MS = 1000         # the promise
-PUSHED_MS = 2600        # a jammed servo notices after a second of pushing
-RULE_MS = {"hold": 1000, "exit": 3500, "limp": 1500}   # until the rule has done its work; exit: the page is played to its end
-STEP_MAX, CHANGE_MAX = 9, 4     # pos a tick: 200 pos in 64 ticks with ramps of 32, braked in 8 at least
+NAMED_MS = 1000  # the promise
+PUSHED_MS = 2600  # a jammed servo notices after a second of pushing
+RULE_MS = {"hold": 1000, "exit": 3500, "limp": 1500}  # until the rule has done its work; exit: the page is played to its end
+STEP_MAX, CHANGE_MAX = 9, 4  # pos a tick: 200 pos in 64 ticks with ramps of 32, braked in 8 at least
 TALKS_INTO_FRAMES = {"late", "late-2"}  # such an answer may spoil a frame on the wire: that tick's goals are lost
-LAST_STEP_MAX = 2       # before it stands
+LAST_STEP_MAX = 2  # before it stands
 POSE_ERROR_MAX = 4
-OUT_MS = 50             # between the sentence and the last goal that may still have been on its way
-SAMPLE = 30             # states, when only a sample is asked for
-PASSING = {"blink", "late", "late-2"}   # a servo with one of these may answer again by itself
-SITUATIONS = {f"{image}.{state}": (robot, words) for image, robot, states in (
-    ("play", PlayRobot, ("rest", "walk.hold", "walk.exit", "walk.limp", "off", "pause.hold", "pause.limp", "layer.hold", "layer.exit")),
-    ("edit", EditRobot, ("rest", "teach", "walk.hold", "walk.exit", "walk.limp")))
-    for state in states for words in [state.split(".")]}
+OUT_MS = 50  # between the sentence and the last goal that may still have been on its way
+SAMPLE = 30  # states, when only a sample is asked for
+PASSING = {"blink", "late", "late-2"}  # a servo with one of these may answer again by itself
+SITUATIONS = {
+    f"{image}.{state}": (robot, words)
+    for image, robot, states in (
+        ("play", PlayRobot, ("rest", "walk.hold", "walk.exit", "walk.limp", "off", "pause.hold", "pause.limp", "layer.hold", "layer.exit")),
+        ("edit", EditRobot, ("rest", "teach", "walk.hold", "walk.exit", "walk.limp")),
+    )
+    for state in states
+    for words in [state.split(".")]
+}
 IN_PAIRS = [name for name in SITUATIONS if name not in ("play.off", "play.pause.hold", "play.pause.limp", "play.layer.hold", "play.layer.exit")]
 ALONE_ON = (1, 5, 15, MARKED_OFF, RELEASED, UNUSED[-1])
 
@@ -42,6 +48,7 @@ def add_arguments(group):
 
 
 # ---- the states ----
+
 
 def name_of(situation, faults):
     return f"{situation}/" + "+".join(f"{fault}@{joint}" for fault, joint in faults)
@@ -69,6 +76,7 @@ def all_states(seed):
 
 
 # ---- one state ----
+
 
 class Trial:
     """Plays one state: the fault, what the robot does, the repair, and the next play."""
@@ -100,8 +108,7 @@ class Trial:
         jammed = any("blocked" in faults for faults in self.by_joint.values())
         wanted = [{told} for told in sorted(self.expected.must)] + self.expected.either
         began = [robot.since_ms] * len(wanted)
-        while (any(not told & set(robot.told) for told in wanted)
-               and robot.since_ms < (PUSHED_MS if jammed else NAMED_MS)):
+        while any(not told & set(robot.told) for told in wanted) and robot.since_ms < (PUSHED_MS if jammed else NAMED_MS):
             robot.run(20)
             for index, told in enumerate(wanted):
                 if any(self.is_pushing_still(*one) for one in told):
@@ -125,7 +132,7 @@ class Trial:
         robot = self.robot
         robot.run(max(0, NAMED_MS - robot.since_ms))
         if not self.rule_acts() or robot.rule == "limp":
-            robot.run(500)      # meanwhile a late talker may still fall silent
+            robot.run(500)  # meanwhile a late talker may still fall silent
         acts = self.rule_acts()
         over = acts and robot.rule != "limp"
         if over:
@@ -167,8 +174,7 @@ class Trial:
         for (joint, kind), ms in robot.told.items() if acts else ():
             if kind in GRAVE:
                 lost[joint] = min(ms, lost.get(joint, ms))
-        still = {joint for cycle, goals in frames for joint in goals
-                 if cycle / 16000 - robot.started_ms > lost.get(joint, 1e9) + OUT_MS}
+        still = {joint for cycle, goals in frames for joint in goals if cycle / 16000 - robot.started_ms > lost.get(joint, 1e9) + OUT_MS}
         if still:
             self.complain(f"still driven: {sorted(still)}")
         last = {joint for cycle, goals in frames if cycle / 16000 > self.board.now_ms - 100 for joint in goals}
@@ -215,8 +221,7 @@ class Trial:
         far = [joint for joint in SWINGING if abs(self.board.servos[joint].present - 540) > POSE_ERROR_MAX]
         if far:
             self.complain(f"the pose was not reached by {far}")
-        moved = [joint for joint, goal in self.other_goals.items() if self.board.servos[joint].goal != goal
-                 and joint not in self.by_joint]
+        moved = [joint for joint, goal in self.other_goals.items() if self.board.servos[joint].goal != goal and joint not in self.by_joint]
         if moved:
             self.complain(f"not in the page, but driven: {moved}")
 
@@ -267,6 +272,7 @@ def work(name):
 
 # ---- all of them ----
 
+
 def run(options):
     only = options.only
     options.keep = not only
@@ -285,17 +291,27 @@ def run(options):
         for complaint in found:
             print(f"      {complaint}")
     kinds = collections.Counter(len(parse(name)[1]) == 1 for name in names)
-    figures = [proof.Figure(
-        "Every fault of a servo is named on the screen with the joint's number within a second; the rest of the robot does what "
-        "the setting says, without a leap; when the fault is over the servo is reported, switched on again and plays.",
-        "whole images on the strict board; each fault in each situation, alone, in pairs on one servo and on two, and cables",
-        f"{len(names)} states ({kinds[True]} of one fault, {kinds[False]} of more), {len(broken)} broken"
-        + "".join(f"; tools/prove faults --only {name}" for name in list(broken)[:3]), not broken, headline=True)]
+    figures = [
+        proof.Figure(
+            "Every fault of a servo is named on the screen with the joint's number within a second; the rest of the robot does what "
+            "the setting says, without a leap; when the fault is over the servo is reported, switched on again and plays.",
+            "whole images on the strict board; each fault in each situation, alone, in pairs on one servo and on two, and cables",
+            f"{len(names)} states ({kinds[True]} of one fault, {kinds[False]} of more), {len(broken)} broken"
+            + "".join(f"; tools/prove faults --only {name}" for name in list(broken)[:3]),
+            not broken,
+            headline=True,
+        )
+    ]
     for image, what in (("play", "on Play's console"), ("edit", "in Edit's message row")):
         chosen = [result for name, result in results.items() if name.startswith(image)]
         if chosen:
             named, headroom = max(ms for _, ms, _ in chosen), min(left for _, _, left in chosen)
-            figures.append(proof.Figure(
-                f"A second is enough: the slowest fault {what}.", "from the moment the servo could tell it to the whole sentence",
-                f"{named:.0f} ms; {len(chosen)} states; least stack headroom {headroom} bytes", named <= NAMED_MS))
+            figures.append(
+                proof.Figure(
+                    f"A second is enough: the slowest fault {what}.",
+                    "from the moment the servo could tell it to the whole sentence",
+                    f"{named:.0f} ms; {len(chosen)} states; least stack headroom {headroom} bytes",
+                    named <= NAMED_MS,
+                )
+            )
     return figures

@@ -4,6 +4,7 @@ for the portable modules and both applications as programs of the PC, guided by 
 m512 reads.
 
 Nothing may hang, restart, write where nobody asked it to, or send a servo what it must not get."""
+
 import dataclasses
 import time
 
@@ -15,16 +16,17 @@ PROMISE = "Whatever bytes arrive on a line or in a file, nothing hangs, restarts
 BYTES = 10_000_000
 SAMPLE_BYTES = {"loader": 24_000}
 SAMPLE_BYTES_ELSE = 12_000
-SECONDS = 30          # of libFuzzer a harness
-SAMPLE_RUNS = 1000      # of each harness, beside its corpus; by their number, so that CI runs the same inputs every time
+SECONDS = 30  # of libFuzzer a harness
+SAMPLE_RUNS = 1000  # of each harness, beside its corpus; by their number, so that CI runs the same inputs every time
 SHRINK_TRIALS = 12
-SHRINKS = 3           # findings of one input that are made smaller
+SHRINKS = 3  # findings of one input that are made smaller
 
 
 def add_arguments(group):
     """The options of this part."""
-    group.add_argument("--only", metavar="INPUT:SEED[:PIECES]",
-                       help=f"one session again ({', '.join(fuzz_board.INPUTS)}), whole or some of its pieces: 0-3,9")
+    group.add_argument(
+        "--only", metavar="INPUT:SEED[:PIECES]", help=f"one session again ({', '.join(fuzz_board.INPUTS)}), whole or some of its pieces: 0-3,9"
+    )
     group.add_argument("--bytes", type=int, default=BYTES, help="for each input of the images (default: 10^7)")
     group.add_argument("--seconds", type=int, default=SECONDS, help="of libFuzzer for each harness (default: %(default)s)")
     group.add_argument("--keep-corpus", action="store_true", help="adds to tests/campaigns/fuzz/corpus what libFuzzer has found")
@@ -33,9 +35,11 @@ def add_arguments(group):
 
 # ---- whole images ----
 
+
 @dataclasses.dataclass
 class Result:
     """One session."""
+
     sent: int = 0
     seconds: float = 0.0
     slowest_ms: float = 0.0
@@ -84,7 +88,7 @@ def shrink(name, seed, size):
     while trials and part:
         start = 0
         while start < len(chosen) and trials:
-            rest = chosen[:start] + chosen[start + part:]
+            rest = chosen[:start] + chosen[start + part :]
             trials -= 1
             if fails(name, seed, size, rest):
                 chosen = rest
@@ -150,8 +154,10 @@ def image_figure(name, done, options):
     """Returns the figure of one input."""
     kind = fuzz_board.INPUTS[name]
     faults = [(task, result) for task, result in done if result.fault]
-    measured = (f"{sum(r.sent for _, r in done):,} bytes in {len(done)} sessions, {sum(r.seconds for _, r in done):,.0f} simulated s, "
-                f"{len(faults)} faults; stack never closer than {min(r.headroom for _, r in done)} bytes")
+    measured = (
+        f"{sum(r.sent for _, r in done):,} bytes in {len(done)} sessions, {sum(r.seconds for _, r in done):,.0f} simulated s, "
+        f"{len(faults)} faults; stack never closer than {min(r.headroom for _, r in done)} bytes"
+    )
     slowest = max(r.slowest_ms for _, r in done)
     if slowest:
         measured += f"; slowest answer afterwards {slowest / 1000:.1f} s"
@@ -164,12 +170,14 @@ def image_figure(name, done, options):
 
 # ---- modules on the PC ----
 
+
 def modules(options, names):
     """The harnesses. A sample does without libFuzzer, whose programs take longer to build than it has."""
     if options.sample or not fuzz_host.build():
         runs = proof.each(fuzz_host.replay, [(name, SAMPLE_RUNS, options.seed) for name in names], "harnesses", options.jobs)
-        how = (f"the corpora of tests/campaigns/fuzz under ASan and UBSan, and {SAMPLE_RUNS} inputs a harness that chance made from them"
-               + ("" if options.sample else "; clang with libFuzzer is not here, so nothing was searched"))
+        how = f"the corpora of tests/campaigns/fuzz under ASan and UBSan, and {SAMPLE_RUNS} inputs a harness that chance made from them" + (
+            "" if options.sample else "; clang with libFuzzer is not here, so nothing was searched"
+        )
         edges = ", ".join(f"{run.name} {run.executions}" for run in runs)
     else:
         tasks = [(name, f"-max_total_time={options.seconds}", options.seed, options.keep_corpus) for name in names]
@@ -178,8 +186,12 @@ def modules(options, names):
         edges = ", ".join(f"{run.name} {run.executions:,} ({run.edges} edges, corpus {run.corpus})" for run in runs)
     findings = [run.finding for run in runs if run.finding]
     measured = f"{sum(run.executions for run in runs):,} executions, {len(findings)} findings: {edges}"
-    return Figure("Page codec, packets, bus engine, remote, settings, journal, player, loader, Play and Edit keep their contracts "
-                  "whatever they are given", how, "; ".join([measured, *findings]), not findings)
+    return Figure(
+        "Page codec, packets, bus engine, remote, settings, journal, player, loader, Play and Edit keep their contracts whatever they are given",
+        how,
+        "; ".join([measured, *findings]),
+        not findings,
+    )
 
 
 def run(options):

@@ -10,6 +10,7 @@ What is looked at in every session of an application, besides what the input its
   * goals go to servos that are there and lie within 0..1023
   * flash is untouched; EEPROM is untouched outside of the settings
 """
+
 import random
 
 from cm5sim import Board
@@ -23,8 +24,8 @@ from tests.sim.play_robot import motions
 XON, XOFF = 0x11, 0x13
 SETTINGS_END = 0x100
 HEADROOM_MIN = 64
-ANSWER_TRIES = 40     # of 3 s each
-WALK, TURN_LEFT, TURN_RIGHT = 4, 6, 7     # of play_robot.motions()
+ANSWER_TRIES = 40  # of 3 s each
+WALK, TURN_LEFT, TURN_RIGHT = 4, 6, 7  # of play_robot.motions()
 SYNC_WRITE, REG_WRITE, WRITE, READ = 0x83, 4, 3, 2
 EEPROM_REGISTERS = 24
 
@@ -42,8 +43,8 @@ class Session:
 
     name = promise = how = ""
     image = "play-cm5.hex"
-    size = 160_000         # bytes of one session: start and end take 3 s
-    obeys_flow = 0.5       # share of sessions whose sender obeys XOFF
+    size = 160_000  # bytes of one session: start and end take 3 s
+    obeys_flow = 0.5  # share of sessions whose sender obeys XOFF
 
     def __init__(self, seed, size=None):
         self.seed, self.size = seed, size or self.size
@@ -53,7 +54,7 @@ class Session:
         self.sent = 0
         self.slowest_ms = 0.0
         self.board = None
-        self.who = {}      # the servos by the ID they started with
+        self.who = {}  # the servos by the ID they started with
 
     # what an input is made of
 
@@ -81,7 +82,7 @@ class Session:
             at = len(data)
         while at < len(data) or board.waiting:
             if may_send and board.waiting < 16 and at < len(data):
-                board.send(data[at:at + 16])
+                board.send(data[at : at + 16])
                 at += 16
             board.run(ms=2 if self.flow else 50)
             if self.flow:
@@ -125,7 +126,7 @@ class Session:
         raise AssertionError(f"no answer to @where; the console says {self.board.console[-200:]!r}")
 
     def look_at_packets(self):
-        ids = set(self.servos) | set(self.board.servos.ids)   # noise may have given a servo another ID
+        ids = set(self.servos) | set(self.board.servos.ids)  # noise may have given a servo another ID
         for _, packet in self.board.packets:
             instruction, address = packet[4], packet[5] if len(packet) > 6 else 255
             if instruction == SYNC_WRITE:
@@ -164,20 +165,26 @@ class Session:
 
 # ---- the shell ----
 
-WORDS = ("play stop break pause resume code on off list status servos faults law remote settings version help p s b ? "
-         "rate amplitude blend drive layer aim swing free shape @rate @amplitude @blend @drive @layer @aim @swing @free @shape @watch "
-         "@ver @list @page @dense @pose @move @torque @play @stop @break @pause @resume @where @open @data @crc @save @ @nothing").split()
-ARGUMENTS = ("0 1 2 3 4 8 9 11 13 14 15 16 17 18 19 20 21 22 30 31 32 64 126 127 128 200 240 255 256 1023 1024 65535 65536 99999999999 "
-             "0x0 0x1F 0x200 0xFFFF 0x10000 0xfg -1 1.5 x ready bow walk thrice 4 5 6 slow loop find defaults exact classic latch hold on off "
-             "-100 -40 50 100 150 151 400 401 512 700 reset drive centre approach fault low hot neutral flow fast talk law remote 200 200200 --- 1ff---200 3ff400 0g0 \xff").split()
+WORDS = (
+    "play stop break pause resume code on off list status servos faults law remote settings version help p s b ? "
+    "rate amplitude blend drive layer aim swing free shape @rate @amplitude @blend @drive @layer @aim @swing @free @shape @watch "
+    "@ver @list @page @dense @pose @move @torque @play @stop @break @pause @resume @where @open @data @crc @save @ @nothing"
+).split()
+ARGUMENTS = (
+    "0 1 2 3 4 8 9 11 13 14 15 16 17 18 19 20 21 22 30 31 32 64 126 127 128 200 240 255 256 1023 1024 65535 65536 99999999999 "
+    "0x0 0x1F 0x200 0xFFFF 0x10000 0xfg -1 1.5 x ready bow walk thrice 4 5 6 slow loop find defaults exact classic latch hold on off "
+    "-100 -40 50 100 150 151 400 401 512 700 reset drive centre approach fault low hot neutral flow fast talk law remote 200 200200 --- 1ff---200 3ff400 0g0 \xff"
+).split()
 KEYS = (b"\x08", b"\x7f" * 5, b"\x01", b"\x15", b"\x1b[A", b"\x1b[B", b"\x1b[", b"\x1b", b"\x1b[12;3R", b"\0", b"\x11", b"\x13", b"\t", b";")
 
 
 class PlayConsole(Session):
     name = "play-console"
     promise = "Play stands whatever is typed"
-    how = ("words of its shell and of programs with good and bad numbers, keys, broken pieces of them and bytes without sense; half of the "
-           "senders do not stop at XOFF")
+    how = (
+        "words of its shell and of programs with good and bad numbers, keys, broken pieces of them and bytes without sense; half of the "
+        "senders do not stop at XOFF"
+    )
 
     def line(self):
         rng = self.rng
@@ -188,7 +195,7 @@ class PlayConsole(Session):
         made = bytearray(text.encode("latin-1"))
         if rng.random() < 0.15:
             at = rng.randrange(len(made))
-            made[at:at + 1] = rng.choice((b"", made[at:at + 1] * 2, rng.randbytes(1), rng.choice(KEYS)))
+            made[at : at + 1] = rng.choice((b"", made[at : at + 1] * 2, rng.randbytes(1), rng.choice(KEYS)))
         return bytes(made) + rng.choice((b"\r", b"\r", b"\r", b"\n", b"\r\n", b"\r\r"))
 
     def noise(self, count):
@@ -207,6 +214,7 @@ class PlayConsole(Session):
 
 
 # ---- the remote ----
+
 
 def packet_of(buttons):
     low, high = buttons & 0xFF, buttons >> 8
@@ -232,7 +240,7 @@ class Remote(Session):
                 made += packet * rng.choice((1, 1, 1, 2, 5))
             elif kind < 0.8:
                 at = rng.randrange(6)
-                packet[at:at + 1] = rng.choice((b"", packet[at:at + 1] * 2, rng.randbytes(1), packet_of(self.buttons())))
+                packet[at : at + 1] = rng.choice((b"", packet[at : at + 1] * 2, rng.randbytes(1), packet_of(self.buttons())))
                 made += packet
             elif kind < 0.9:
                 made += rng.choice((b"version\r", b"status\r", b"U", b"\xff", b"\x55", b"\xff\x55", b"@where\r", b"stop\r", b"help\r"))
@@ -256,8 +264,22 @@ class Remote(Session):
 
 # ---- the servo bus ----
 
-FAULTS = ("silent", "silent", "silent", "checksum", "noise", "late", "short", "two-talkers", "overload", "overheating", "low-voltage",
-          "angle-limit", "duplicate", "blocked")
+FAULTS = (
+    "silent",
+    "silent",
+    "silent",
+    "checksum",
+    "noise",
+    "late",
+    "short",
+    "two-talkers",
+    "overload",
+    "overheating",
+    "low-voltage",
+    "angle-limit",
+    "duplicate",
+    "blocked",
+)
 
 
 class Bus(Session):
@@ -265,7 +287,7 @@ class Bus(Session):
     themselves fail and recover meanwhile."""
 
     size = 150_000
-    waking = b""           # typed again and again, so that it rests, plays and teaches
+    waking = b""  # typed again and again, so that it rests, plays and teaches
 
     def __init__(self, seed, size=None):
         super().__init__(seed, size)
@@ -281,7 +303,7 @@ class Bus(Session):
         packet = bytearray(b"\xff\xff" + bytes(body) + bytes([~sum(body) & 0xFF]))
         if rng.random() < 0.5:
             at = rng.randrange(len(packet))
-            packet[at:at + 1] = rng.choice((b"", packet[at:at + 1] * 2, rng.randbytes(1), b"\xff"))
+            packet[at : at + 1] = rng.choice((b"", packet[at : at + 1] * 2, rng.randbytes(1), b"\xff"))
         return bytes(packet)
 
     def burst(self):
@@ -333,7 +355,7 @@ class Bus(Session):
             servo.write(3, [servo_id, 1, 250])
             servo.write(16, [2])
             servo.clear()
-        for twin in list(self.board.servos)[len(self.who):]:   # of duplicate IDs, which may be other ones by now
+        for twin in list(self.board.servos)[len(self.who) :]:  # of duplicate IDs, which may be other ones by now
             twin.fault("dead")
         self.board.run(ms=3000)
         self.next_look_ms = 0
@@ -342,10 +364,28 @@ class Bus(Session):
 class PlayBus(Bus):
     name = "play-bus"
     promise = "Play stands whatever is on the servo bus; afterwards every servo is found again"
-    how = ("good, changed and foreign status packets and noise where the answers belong, with thirteen kinds of servo faults, at rest and "
-           "while playing")
-    waking = (b"play ready\r", b"play walk start\r", b"play 13\r", b"on\r", b"off\r", b"stop\r", b"servos\r", b"faults\r", b"break\r", b"pause\r",
-              b"resume\r", b"servos find\r", b"@move 60 1 200200\r", b"@pose\r", b"play 8\r", b"law classic\r", b"law exact\r")
+    how = (
+        "good, changed and foreign status packets and noise where the answers belong, with thirteen kinds of servo faults, at rest and while playing"
+    )
+    waking = (
+        b"play ready\r",
+        b"play walk start\r",
+        b"play 13\r",
+        b"on\r",
+        b"off\r",
+        b"stop\r",
+        b"servos\r",
+        b"faults\r",
+        b"break\r",
+        b"pause\r",
+        b"resume\r",
+        b"servos find\r",
+        b"@move 60 1 200200\r",
+        b"@pose\r",
+        b"play 8\r",
+        b"law classic\r",
+        b"law exact\r",
+    )
 
     def look(self):
         super().look()
@@ -365,8 +405,27 @@ class EditBus(Bus):
     promise = "Edit stands whatever is on the servo bus"
     how = "the same at Edit's table, while teaching (OFF, poses by hand, ON, WRITE) and playing"
     image = "edit-cm5.hex"
-    waking = (b"page 1\r", b"on\r", b"off\r", b"write\r", b"go 0\r", b"play\r", b"\r", b" ", b"\x03", b"step 1\r", b"goto 1 3\r", b"set 400\r", b"]",
-              b"}", b"re\r", b"@where\r", b"@pose\r", b"check\r", b"\x1b")
+    waking = (
+        b"page 1\r",
+        b"on\r",
+        b"off\r",
+        b"write\r",
+        b"go 0\r",
+        b"play\r",
+        b"\r",
+        b" ",
+        b"\x03",
+        b"step 1\r",
+        b"goto 1 3\r",
+        b"set 400\r",
+        b"]",
+        b"}",
+        b"re\r",
+        b"@where\r",
+        b"@pose\r",
+        b"check\r",
+        b"\x1b",
+    )
 
     def start(self):
         self.board = Board(images=["boot-cm5.hex", self.image], motions=pages(), servos=self.servos, seed=self.seed % 65536 + 1)
@@ -397,13 +456,16 @@ class EditBus(Bus):
 
 # ---- those that have noise of their own ----
 
+
 class EditConsole:
     """tests/sim/edit_noise.py. Three sessions in four do not obey XOFF: the others hear every byte, and take as long."""
 
     name = "edit-console"
     promise = "Edit stands whatever is typed, and flash is what SAVE wrote"
-    how = ("its grammar, answers, keys, lines of programs, saves, restarts, broken pieces of them and bytes "
-           "without sense; three senders in four do not stop at XOFF, and most of theirs is lost, as it would be")
+    how = (
+        "its grammar, answers, keys, lines of programs, saves, restarts, broken pieces of them and bytes "
+        "without sense; three senders in four do not stop at XOFF, and most of theirs is lost, as it would be"
+    )
     size = 100_000
     slow_size = 4_000
 
@@ -422,7 +484,7 @@ class Loader:
     name = "loader"
     promise = "The boot loader stands whatever comes, and writes nothing without a valid command"
     how = "noise at the prompt, its words, STK500 sessions and block frames, broken in every way"
-    size = 1_250_000       # 17 s of silence follow
+    size = 1_250_000  # 17 s of silence follow
 
     def __init__(self, seed, size=None):
         self.seed, self.size = seed, size or self.size

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The harnesses of tests/campaigns/fuzz: libFuzzer, or inputs that are made blindly. Used by fuzz.py."""
+
 import dataclasses
 import pathlib
 import re
@@ -12,10 +13,20 @@ from tests.campaigns import proof
 HERE = proof.TOP / "tests" / "campaigns" / "fuzz"
 FUZZERS = proof.BUILD / "fuzz"
 REPLAYS = proof.BUILD / "host" / "tests" / "campaigns" / "fuzz"
-CORPUS = REPLAYS / "corpus"     # unpacked by the build from the archives in fuzz/corpus
-NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem not in ("fuzz_image", "fuzz_pages"))   # no harnesses
-LONGEST = {"page": 513, "bus": 400, "remote": 200, "settings": 160, "journal": 140, "player": 500, "layers": 700, "loader": 1200, "play": 1000,
-           "edit": 1000}
+CORPUS = REPLAYS / "corpus"  # unpacked by the build from the archives in fuzz/corpus
+NAMES = sorted(path.stem[5:] for path in HERE.glob("fuzz_*.c") if path.stem not in ("fuzz_image", "fuzz_pages"))  # no harnesses
+LONGEST = {
+    "page": 513,
+    "bus": 400,
+    "remote": 200,
+    "settings": 160,
+    "journal": 140,
+    "player": 500,
+    "layers": 700,
+    "loader": 1200,
+    "play": 1000,
+    "edit": 1000,
+}
 # libFuzzer goes by the clock of the wall: on a busy machine 10 s for one input, its limit for a slow one, mean nothing.
 PATIENCE = ["-timeout=1200", "-report_slow_units=1200"]
 ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0:handle_abort=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
@@ -24,18 +35,20 @@ ENVIRONMENT = {"ASAN_OPTIONS": "detect_leaks=0:handle_abort=1", "UBSAN_OPTIONS":
 @dataclasses.dataclass(frozen=True)
 class Run:
     """The result of one harness."""
+
     name: str
     executions: int
     edges: int
     corpus: int
-    finding: str    # "" or how to see it again
+    finding: str  # "" or how to see it again
 
 
 def build():
     """Builds the libFuzzer programs; false: there is no clang, or it has no libFuzzer."""
     host = proof.BUILD / "host"
-    targets = subprocess.run(["cmake", "--build", str(host), "--target", "fuzzers", *(f"fuzz_{name}" for name in NAMES)],
-                             capture_output=True, text=True, check=False)
+    targets = subprocess.run(
+        ["cmake", "--build", str(host), "--target", "fuzzers", *(f"fuzz_{name}" for name in NAMES)], capture_output=True, text=True, check=False
+    )
     if targets.returncode:
         raise RuntimeError(f"the harnesses do not build:\n{(targets.stdout + targets.stderr)[-3000:]}")
     return all((FUZZERS / f"fuzz_{name}").exists() for name in NAMES)
@@ -47,9 +60,13 @@ def replay(task):
     work = proof.RESULTS / "fuzz" / name
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
-    done = subprocess.run([REPLAYS / f"fuzz_{name}", f"-runs={runs}", f"-seed={seed}", f"-max_len={LONGEST[name]}",
-                           f"-artifact_prefix={work}/", CORPUS / name],
-                          capture_output=True, text=True, errors="replace", check=False)
+    done = subprocess.run(
+        [REPLAYS / f"fuzz_{name}", f"-runs={runs}", f"-seed={seed}", f"-max_len={LONGEST[name]}", f"-artifact_prefix={work}/", CORPUS / name],
+        capture_output=True,
+        text=True,
+        errors="replace",
+        check=False,
+    )
     counted = re.search(r"^(\d+) inputs$", done.stdout, re.M)
     finding = ""
     if done.returncode or not counted:
@@ -71,12 +88,20 @@ def search(task):
     work = proof.RESULTS / "fuzz" / name
     shutil.rmtree(work, ignore_errors=True)
     (work / "found").mkdir(parents=True)
-    command = [FUZZERS / f"fuzz_{name}", limit, f"-seed={seed}", f"-max_len={LONGEST[name]}", *PATIENCE,
-               "-len_control=0", "-print_final_stats=1", "-verbosity=1", f"-artifact_prefix={work}/"]
+    command = [
+        FUZZERS / f"fuzz_{name}",
+        limit,
+        f"-seed={seed}",
+        f"-max_len={LONGEST[name]}",
+        *PATIENCE,
+        "-len_control=0",
+        "-print_final_stats=1",
+        "-verbosity=1",
+        f"-artifact_prefix={work}/",
+    ]
     words = HERE / f"{name}.dict"
     command += [f"-dict={words}"] if words.exists() else []
-    done = subprocess.run([*command, work / "found", CORPUS / name], capture_output=True, text=True, errors="replace", check=False,
-                          env=ENVIRONMENT)
+    done = subprocess.run([*command, work / "found", CORPUS / name], capture_output=True, text=True, errors="replace", check=False, env=ENVIRONMENT)
     executions = re.findall(r"number_of_executed_units:\s*(\d+)", done.stderr)
     edges = re.findall(r"cov: (\d+)", done.stderr)
     artifacts = [path for path in work.iterdir() if path.is_file()]
@@ -85,8 +110,7 @@ def search(task):
         finding = describe(name, artifacts, done.stderr)
     if keep:
         merge(name, work)
-    return Run(name, int(executions[-1]) if executions else 0, int(edges[-1]) if edges else 0,
-               len(list((CORPUS / name).iterdir())), finding)
+    return Run(name, int(executions[-1]) if executions else 0, int(edges[-1]) if edges else 0, len(list((CORPUS / name).iterdir())), finding)
 
 
 def describe(name, artifacts, output):
@@ -94,8 +118,12 @@ def describe(name, artifacts, output):
     where = pathlib.Path(artifacts[0]) if artifacts else None
     if where:
         small = where.with_name("smallest")
-        subprocess.run([FUZZERS / f"fuzz_{name}", "-minimize_crash=1", "-runs=20000", "-max_total_time=20",
-                        f"-exact_artifact_path={small}", where], capture_output=True, check=False, env=ENVIRONMENT)
+        subprocess.run(
+            [FUZZERS / f"fuzz_{name}", "-minimize_crash=1", "-runs=20000", "-max_total_time=20", f"-exact_artifact_path={small}", where],
+            capture_output=True,
+            check=False,
+            env=ENVIRONMENT,
+        )
         where = small if small.exists() else where
     return f"{name}: {what_was_said(output)}: {(REPLAYS / f'fuzz_{name}').relative_to(proof.TOP)} {where.relative_to(proof.TOP) if where else ''}"
 
@@ -104,8 +132,12 @@ def merge(name, work):
     """Keeps the fewest inputs, old and new, that reach the same code."""
     small = work / "small"
     small.mkdir()
-    subprocess.run([FUZZERS / f"fuzz_{name}", "-set_cover_merge=1", "-use_counters=0", f"-max_len={LONGEST[name]}", small,
-                    CORPUS / name, work / "found"], capture_output=True, check=False, env=ENVIRONMENT)
+    subprocess.run(
+        [FUZZERS / f"fuzz_{name}", "-set_cover_merge=1", "-use_counters=0", f"-max_len={LONGEST[name]}", small, CORPUS / name, work / "found"],
+        capture_output=True,
+        check=False,
+        env=ENVIRONMENT,
+    )
     if any(small.iterdir()):
         shutil.rmtree(CORPUS / name)
         (CORPUS / name).mkdir()

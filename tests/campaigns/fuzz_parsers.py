@@ -3,6 +3,7 @@
 
 A file is read or refused with a sentence of m512's own; what is read comes back from every format that keeps everything.
 Answers of a board are the noise of noise.py, at scale."""
+
 import binascii
 import dataclasses
 import pathlib
@@ -17,21 +18,90 @@ from tests.campaigns.proof import Figure
 FILES = 10_000
 ANSWERS = 6_000
 COMMANDS = 600
-SAMPLE = 40             # the sample is so many times smaller
+SAMPLE = 40  # the sample is so many times smaller
 TASK = 250
-LIMIT_S = 10.0          # of CPU, one file
+LIMIT_S = 10.0  # of CPU, one file
 KINDS = (".m512", ".mtn", ".hex", ".csv", ".bin")
-NUMBERS = (b"0", b"-1", b"1", b"7", b"30", b"31", b"127", b"128", b"255", b"256", b"1023", b"1024", b"65535", b"65536", b"0x1F", b"1e9",
-           b"99999999999999999999", b"nan", b"inf", b".5", b"1/0", b"0.0078", b"\xd9\xa3")
-WORDS = (b"page", b"step", b"spare", b"fill", b"raw", b"link1", b"next", b"exit", b"self", b"none", b"include \"a.m512\"", b"pose", b"@a",
-         b"mirror", b"same", b"row", b"pairs", b"bits 12", b"defaults", b"offset", b"erased", b"checksum", b"code", b"|", b";", b"\"", b"#",
-         b"..", b":", b",", b".", b"\r", b"\0", b"\xff", b"\xef\xbb\xbf", b"page_begin", b"page_end", b"play_param=", b"step=", b"name=",
-         b":00000001FF\n", b":020000040001F9\n", b"720dps", b"3s", b"200ms", b"\\x41", b"\\")
+NUMBERS = (
+    b"0",
+    b"-1",
+    b"1",
+    b"7",
+    b"30",
+    b"31",
+    b"127",
+    b"128",
+    b"255",
+    b"256",
+    b"1023",
+    b"1024",
+    b"65535",
+    b"65536",
+    b"0x1F",
+    b"1e9",
+    b"99999999999999999999",
+    b"nan",
+    b"inf",
+    b".5",
+    b"1/0",
+    b"0.0078",
+    b"\xd9\xa3",
+)
+WORDS = (
+    b"page",
+    b"step",
+    b"spare",
+    b"fill",
+    b"raw",
+    b"link1",
+    b"next",
+    b"exit",
+    b"self",
+    b"none",
+    b'include "a.m512"',
+    b"pose",
+    b"@a",
+    b"mirror",
+    b"same",
+    b"row",
+    b"pairs",
+    b"bits 12",
+    b"defaults",
+    b"offset",
+    b"erased",
+    b"checksum",
+    b"code",
+    b"|",
+    b";",
+    b'"',
+    b"#",
+    b"..",
+    b":",
+    b",",
+    b".",
+    b"\r",
+    b"\0",
+    b"\xff",
+    b"\xef\xbb\xbf",
+    b"page_begin",
+    b"page_end",
+    b"play_param=",
+    b"step=",
+    b"name=",
+    b":00000001FF\n",
+    b":020000040001F9\n",
+    b"720dps",
+    b"3s",
+    b"200ms",
+    b"\\x41",
+    b"\\",
+)
 
 
 @dataclasses.dataclass
 class Outcome:
     """The result of many inputs."""
+
     done: int = 0
     read: int = 0
     findings: list = dataclasses.field(default_factory=list)
@@ -42,6 +112,7 @@ def seeds():
     from m512.files import formats
     from m512.files.image import Image
     from m512.files.page import Page
+
     rng = random.Random("seeds")
     image = Image.empty()
     for number in (1, 2, 5):
@@ -54,7 +125,7 @@ def seeds():
             page.set_time(step, rng.randrange(256))
             page.set_pause(step, rng.choice((0, 30)))
         image[number] = page.seal()
-    out = {".mtn": [formats.encode(pathlib.Path("x.mtn"), image)[0]]}     # a .mtn cannot say a damaged page
+    out = {".mtn": [formats.encode(pathlib.Path("x.mtn"), image)[0]]}  # a .mtn cannot say a damaged page
     image[7].data[33] ^= 1
     out |= {suffix: [formats.encode(pathlib.Path("x" + suffix), image, 1)[0]] for suffix in KINDS if suffix != ".mtn"}
     out[".m512"] += [path.read_bytes() for path in sorted((proof.TOP / "tools" / "motions").glob("*.m512"))]
@@ -70,16 +141,16 @@ def mutate(rng, data, others):
         if kind == 0 and at < len(data):
             data[at] ^= 1 << rng.randrange(8)
         elif kind == 1:
-            del data[at:at + rng.choice((1, 2, 10, 100, 2000))]
+            del data[at : at + rng.choice((1, 2, 10, 100, 2000))]
         elif kind == 2:
-            data[at:at] = data[at:at + rng.choice((1, 5, 40, 400))]
+            data[at:at] = data[at : at + rng.choice((1, 5, 40, 400))]
         elif kind == 3:
             data[at:at] = rng.choice(WORDS)
         elif kind == 4:
             numbers = list(re.finditer(rb"\d+", bytes(data)))
             if numbers:
                 number = rng.choice(numbers)
-                data[number.start():number.end()] = rng.choice((*NUMBERS, *[b"%d" % rng.randrange(130)] * 12))
+                data[number.start() : number.end()] = rng.choice((*NUMBERS, *[b"%d" % rng.randrange(130)] * 12))
         elif kind == 5:
             lines = bytes(data).split(b"\n")
             i, j = rng.randrange(len(lines)), rng.randrange(len(lines))
@@ -88,9 +159,9 @@ def mutate(rng, data, others):
         elif kind == 6:
             other = rng.choice(others)
             start = rng.randrange(len(other))
-            data[at:at + rng.randrange(60)] = other[start:start + rng.randrange(200)]
+            data[at : at + rng.randrange(60)] = other[start : start + rng.randrange(200)]
         elif kind == 7:
-            data[at:at + rng.randrange(4)] = rng.randbytes(rng.randrange(1, 5))
+            data[at : at + rng.randrange(4)] = rng.randbytes(rng.randrange(1, 5))
         else:
             words = re.findall(rb"[A-Za-z_=]+", bytes(data)) or [b"x"]
             data[at:at] = b" " + rng.choice(words) + b" "
@@ -117,6 +188,7 @@ def judge(data, suffix, folder):
     """Returns whether the file was read. Raises an exception for what must not happen."""
     from m512.errors import M512Error
     from m512.files import formats
+
     began = time.process_time()
     try:
         image = formats.decode(data, folder / f"x{suffix}")
@@ -164,11 +236,13 @@ def keep(name, data, fault):
 def answers(task):
     """Lets m512 talk to something that is no board. task: (seed, number of conversations)."""
     from hypothesis import HealthCheck, given, seed, settings
+
     number, count = task
     outcome = Outcome()
     for talk in noise.TALKS:
         run = settings(max_examples=count // 3, deadline=None, database=None, suppress_health_check=list(HealthCheck))(
-            seed(number)(given(noise.pieces())(talk)))
+            seed(number)(given(noise.pieces())(talk))
+        )
         outcome.done += count // 3
         try:
             run()
@@ -182,6 +256,7 @@ def commands(task):
     from click.testing import CliRunner
 
     from m512.cli import main
+
     seed, count = task
     rng, outcome, originals = random.Random(f"commands {seed}"), Outcome(), seeds()
     others = [data for group in originals.values() for data in group]
@@ -191,8 +266,16 @@ def commands(task):
             data = mend(suffix, mutate(rng, rng.choice(originals[suffix]), others))
             path = pathlib.Path(folder) / f"x{suffix}"
             path.write_bytes(data)
-            words = rng.choice([["pages", path, "check"], ["pages", path, "list"], ["pages", path, "show", "1"], ["pages", path, "time", "1"],
-                                 ["convert", path, path.with_name("y.m512"), "--force"], ["diff", path, path]])
+            words = rng.choice(
+                [
+                    ["pages", path, "check"],
+                    ["pages", path, "list"],
+                    ["pages", path, "show", "1"],
+                    ["pages", path, "time", "1"],
+                    ["convert", path, path.with_name("y.m512"), "--force"],
+                    ["diff", path, path],
+                ]
+            )
             words = [str(word) for word in words]
             result = CliRunner().invoke(main, words)
             outcome.done += 1
@@ -204,14 +287,32 @@ def commands(task):
 
 def figures(options):
     """The rows of m512."""
-    return [row(options, *what) for what in (
-        (files, FILES, "m512 reads a file or refuses it in a sentence of its own, and gives back what it has read",
-         "damaged .m512, .mtn, Intel HEX, CSV and image files, with right checksums in most, through all formats that keep everything",
-         "files"),
-        (commands, COMMANDS, "m512's commands end with an exit code of theirs and no traceback, whatever the file",
-         "pages check, list, show and time, convert and diff on such files", "command lines"),
-        (answers, ANSWERS, "m512 ends every conversation with a result or an error of its own, whatever answers",
-         "the three protocols against noise with the words in it that they look for (hypothesis)", "conversations"))]
+    return [
+        row(options, *what)
+        for what in (
+            (
+                files,
+                FILES,
+                "m512 reads a file or refuses it in a sentence of its own, and gives back what it has read",
+                "damaged .m512, .mtn, Intel HEX, CSV and image files, with right checksums in most, through all formats that keep everything",
+                "files",
+            ),
+            (
+                commands,
+                COMMANDS,
+                "m512's commands end with an exit code of theirs and no traceback, whatever the file",
+                "pages check, list, show and time, convert and diff on such files",
+                "command lines",
+            ),
+            (
+                answers,
+                ANSWERS,
+                "m512 ends every conversation with a result or an error of its own, whatever answers",
+                "the three protocols against noise with the words in it that they look for (hypothesis)",
+                "conversations",
+            ),
+        )
+    ]
 
 
 def row(options, work, count, promise, how, what):

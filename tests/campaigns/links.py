@@ -8,6 +8,7 @@ The same with our own loader: the shipped image on the simulated board, at the e
 
 The line, the loaders and the schedules: badlinks/.
 """
+
 import collections
 
 from tests.campaigns import proof
@@ -17,15 +18,19 @@ TITLE = "Bad lines to a boot loader"
 PROMISE = "No byte outside the pages that m512 names ever changes, whatever the line does."
 SCHEDULES = 4000
 SAMPLE = 150
-OUR_SCHEDULES, OUR_SAMPLE = 2000, 10     # our own loader runs instruction by instruction: 0.4 s each
+OUR_SCHEDULES, OUR_SAMPLE = 2000, 10  # our own loader runs instruction by instruction: 0.4 s each
 CHUNK = 25
 SHOWN = 12
 
 
-FACTORYS = ("No byte outside the pages that a command names ever changes; no loader is hurt or crashed",
-            "m512 says that all is there only when it is")
-OURS = ("With our own loader, the shipped image on the simulated board, no byte of flash or EEPROM outside them changes",
-        "m512 says so with our own loader only when it is")
+FACTORYS = (
+    "No byte outside the pages that a command names ever changes; no loader is hurt or crashed",
+    "m512 says that all is there only when it is",
+)
+OURS = (
+    "With our own loader, the shipped image on the simulated board, no byte of flash or EEPROM outside them changes",
+    "m512 says so with our own loader only when it is",
+)
 
 
 def add_arguments(group):
@@ -73,11 +78,17 @@ def play_all(options, play, count, sample, schedule, at_once, words):
     hours = sum(outcome.seconds for outcome in outcomes) / 3600
     shown = ", ".join(f"{count} {end}" for end, count in ends.most_common())
     return [
-        proof.Figure(words[0],
-                     f"flash compared byte for byte after each of {len(outcomes):,} schedules on {kinds} kinds of lines",
-                     f"{sum(ends.values()):,} calls of m512 ({shown}), {pages[0]:,} page writes, {pages[1]:,} by the "
-                     f"mailbox, {hours:.0f} simulated hours, {len(broken)} schedules broken", not broken),
-        proof.Figure(words[1], "the last call of each schedule",
-                     f"{sum(outcome.ends[-1] == runs.DONE for outcome in outcomes):,} that ended well",
-                     not any("says that all" in fault for outcome in outcomes for fault in outcome.faults)),
+        proof.Figure(
+            words[0],
+            f"flash compared byte for byte after each of {len(outcomes):,} schedules on {kinds} kinds of lines",
+            f"{sum(ends.values()):,} calls of m512 ({shown}), {pages[0]:,} page writes, {pages[1]:,} by the "
+            f"mailbox, {hours:.0f} simulated hours, {len(broken)} schedules broken",
+            not broken,
+        ),
+        proof.Figure(
+            words[1],
+            "the last call of each schedule",
+            f"{sum(outcome.ends[-1] == runs.DONE for outcome in outcomes):,} that ended well",
+            not any("says that all" in fault for outcome in outcomes for fault in outcome.faults),
+        ),
     ]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Boards that are none of ours: what comes over the line by chance, and m512's talks with that. Each ends with a result or one of m512's errors."""
+
 from hypothesis import strategies as st
 
 from m512.board import link as links
@@ -33,10 +34,24 @@ class NoisyLink(links.Link):
 
 def pieces():
     """Noise with the words in it that the parsers look for."""
-    words = [b"\r\n - ", b"@ver ", b" OK\r\n", b" ERR 3 no\r\n", b"@ver image=play can=save OK\r\n", b"Ready..", b"Success",
-             b"Rewriting:0X0000\r\n Size:0X00000100  Checksum:00-00", b"\r\n 0000E000 : " + b"FF " * 16, b"\x5a\x01\xa0\x01\x00\x00",
-             b"@page 1 " + EMPTY.hex().encode() + b" 0000 OK\r\n", b"@pose 1:5:1 2:?:0 OK\r\n", b"@where state=idle page=x OK\r\n",
-             frame(1, 160, b"\0\0").replace(b"\xa5", b"\x5a", 1), b"\xff" * 3, b"\x1b[2;3f"]
+    words = [
+        b"\r\n - ",
+        b"@ver ",
+        b" OK\r\n",
+        b" ERR 3 no\r\n",
+        b"@ver image=play can=save OK\r\n",
+        b"Ready..",
+        b"Success",
+        b"Rewriting:0X0000\r\n Size:0X00000100  Checksum:00-00",
+        b"\r\n 0000E000 : " + b"FF " * 16,
+        b"\x5a\x01\xa0\x01\x00\x00",
+        b"@page 1 " + EMPTY.hex().encode() + b" 0000 OK\r\n",
+        b"@pose 1:5:1 2:?:0 OK\r\n",
+        b"@where state=idle page=x OK\r\n",
+        frame(1, 160, b"\0\0").replace(b"\xa5", b"\x5a", 1),
+        b"\xff" * 3,
+        b"\x1b[2;3f",
+    ]
     return st.lists(st.one_of(st.sampled_from(words), st.binary(max_size=12)), max_size=40).map(b"".join)
 
 
@@ -49,6 +64,7 @@ def survives(action):
 
 def machine(data):
     """An image of ours is asked for everything."""
+
     def talk():
         client = Client(NoisyLink(data), (0.002,))
         for ask in (client.list_pages, client.pose, client.where, lambda: client.page(1), lambda: client.find("x")):

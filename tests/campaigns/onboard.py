@@ -5,6 +5,7 @@
 
 The robot plays `ready` in a hand, is put on its soles, then plays. About eight times as fast as the robot.
 """
+
 from body.chance import NOMINAL
 from body.description import Description, load
 from body.hand import Hand
@@ -13,7 +14,7 @@ from body.trial import STOP, watch
 from cm5sim import Board
 
 BOOT_MS, HAND_TICKS, APPROACH_MS = 4000, 128 * 12, 12000
-KEYS_EVERY_TICKS = 4             # a remote repeats its packet while keys are held
+KEYS_EVERY_TICKS = 4  # a remote repeats its packet while keys are held
 
 
 class OnBoard:
@@ -59,7 +60,7 @@ class OnBoard:
         for _ in range(0, ticks, KEYS_EVERY_TICKS):
             if self._code is not None:
                 self.board.rc(self._code)
-                self._code = self._code or None      # let go is said once
+                self._code = self._code or None  # let go is said once
             self.board.run(ticks=min(ticks, KEYS_EVERY_TICKS))
         said = self.board.take()
         self._playing = self._playing and b"Ended after" not in said and b"Stopped after" not in said

@@ -5,6 +5,7 @@ which they do not may judge nothing. Physics is a model, and no real robot has w
 
 Bodies that were tried are kept in build/prove/bodies.jsonl: an interrupted campaign goes on, and its parts are added up.
 """
+
 import functools
 import os
 import pathlib
@@ -24,7 +25,7 @@ PROMISE = "Motions walk, turn, get up and stay on their feet on bodies as they m
 
 DATA = pathlib.Path(os.environ.get("M512_SHARED", proof.TOP.parent / "shared")) / "data" / "bio_gp_humanoid_kr_128p.bin"
 GP = load("gp")
-INIT, FORWARD, BACK = 1, 3, 13                   # pages of the maker's set
+INIT, FORWARD, BACK = 1, 3, 13  # pages of the maker's set
 AX18 = {servo: "ax18" for servo in range(9, 19)}
 MODELS = {"AX-18": AX18, "AX-12": {}}
 # mm/s, measured with another model of the same robot (README of tools/body); +-25 %
@@ -33,22 +34,35 @@ TOLERANCE = 0.25
 SECONDS = 10
 TRIED = proof.RESULTS / "bodies.jsonl"
 WALKS_ON_BOARD = 100
-FIRST_SEED = 1000                # those below were looked at while the motions were made
+FIRST_SEED = 1000  # those below were looked at while the motions were made
 
 
 def add_arguments(group):
     group.add_argument("--only", metavar="PAGE", help="of our motions this one alone")
-    group.add_argument("--from", type=int, default=FIRST_SEED, metavar="SEED", dest="first",
-                       help="the first body (default: %(default)s; those below were looked at while the motions were made)")
-    group.add_argument("--bodies", type=int, metavar="N", help="bodies for each motion (default: as promises.py says); those tried before "
-                       "are not tried again")
+    group.add_argument(
+        "--from",
+        type=int,
+        default=FIRST_SEED,
+        metavar="SEED",
+        dest="first",
+        help="the first body (default: %(default)s; those below were looked at while the motions were made)",
+    )
+    group.add_argument(
+        "--bodies", type=int, metavar="N", help="bodies for each motion (default: as promises.py says); those tried before are not tried again"
+    )
     group.add_argument("--add-up", action="store_true", help="no new bodies: figures and page from all that were tried so far")
-    group.add_argument("--on-board", type=int, default=WALKS_ON_BOARD, metavar="N",
-                       help="bodies that walk with the shipped image on the simulated board (default: %(default)s)")
+    group.add_argument(
+        "--on-board",
+        type=int,
+        default=WALKS_ON_BOARD,
+        metavar="N",
+        help="bodies that walk with the shipped image on the simulated board (default: %(default)s)",
+    )
     group.add_argument("--seed-of", type=int, metavar="SEED", help="repeat this body alone")
 
 
 # --- the yardstick ---
+
 
 def spoiled(how):
     """The maker's set with the same slope for all joints ("slope 4": 2^4), or ankles bent ("ankle 12": degrees, toes up)."""
@@ -73,8 +87,12 @@ def gp_body(seed):
     if seed is None:
         return NOMINAL
     chance = random_body(GP, seed)
-    return Variation(seed=seed, volts=9.6 + 0.8 * (chance.volts - 9), floor_friction=0.5 + 0.75 * (chance.floor_friction - 0.4),
-                     mass={body: 1 + 2 / 3 * (factor - 1) for body, factor in chance.mass.items()})
+    return Variation(
+        seed=seed,
+        volts=9.6 + 0.8 * (chance.volts - 9),
+        floor_friction=0.5 + 0.75 * (chance.floor_friction - 0.4),
+        mass={body: 1 + 2 / 3 * (factor - 1) for body, factor in chance.mass.items()},
+    )
 
 
 def yardstick(item):
@@ -83,8 +101,7 @@ def yardstick(item):
     image = spoiled(how)
     if on_board:
         return try_on_board(image, page, SECONDS, INIT, robot=GP, variation=gp_body(seed), models=MODELS[servos])
-    return try_motion(image, page, SECONDS, robot=GP, variation=gp_body(seed), models=MODELS[servos],
-                      pose=first_pose(image, INIT, GP))
+    return try_motion(image, page, SECONDS, robot=GP, variation=gp_body(seed), models=MODELS[servos], pose=first_pose(image, INIT, GP))
 
 
 def speed_figures(options):
@@ -95,11 +112,16 @@ def speed_figures(options):
         expected = EXPECTED[servos, page]
         kept &= outcome.fell_s is None and outcome.on_feet and abs(outcome.forward_mm_s - expected) <= TOLERANCE * abs(expected)
         said.append(f"{servos} {'forward' if page == FORWARD else 'back'} {outcome.forward_mm_s:.0f} mm/s (expected {expected})")
-    return proof.Figure("The maker's walks walk, as fast as they should within 25 %.", "the maker's pages, each with its own slopes, on the "
-                        f"simulated board, 11.1 V, {SECONDS} s, MuJoCo {mujoco.__version__}", "; ".join(said), kept, headline=True)
+    return proof.Figure(
+        "The maker's walks walk, as fast as they should within 25 %.",
+        f"the maker's pages, each with its own slopes, on the simulated board, 11.1 V, {SECONDS} s, MuJoCo {mujoco.__version__}",
+        "; ".join(said),
+        kept,
+        headline=True,
+    )
 
 
-SPOILT = {"": (1, 1), "slope 4": (0, 0.1), "slope 5": (0, 0.3), "ankle 12": (0, 0), "ankle -12": (0, 0)}     # share that may stand
+SPOILT = {"": (1, 1), "slope 4": (0, 0.1), "slope 5": (0, 0.3), "ankle 12": (0, 0), "ankle -12": (0, 0)}  # share that may stand
 
 
 def spoilt_figures(options):
@@ -111,12 +133,16 @@ def spoilt_figures(options):
         stood = sum(outcome.fell_s is None for item, outcome in zip(items, outcomes) if item[0] == how)
         kept &= least * len(seeds) <= stood <= most * len(seeds)
         said.append(f"{how or 'as made'}: {stood} of {len(seeds)} stand")
-    return proof.Figure("The maker's walk stands on all bodies; with wrong slopes or bent ankles it falls.",
-                        "friction 0.5..1.1, 9.6..12 V, masses +-10 %, AX-18 legs; slopes 16 and 32 for all joints, ankles off by 12 "
-                        "degrees", "; ".join(said), kept)
+    return proof.Figure(
+        "The maker's walk stands on all bodies; with wrong slopes or bent ankles it falls.",
+        "friction 0.5..1.1, 9.6..12 V, masses +-10 %, AX-18 legs; slopes 16 and 32 for all joints, ankles off by 12 degrees",
+        "; ".join(said),
+        kept,
+    )
 
 
 # --- our motions ---
+
 
 def library_image():
     return load_motions(proof.TOP / "tools" / "motions" / "motions.m512")
@@ -230,15 +256,22 @@ def eases_figure(options, image, library):
     results = proof.each(functools.partial(ease_of, image), items, "torques", options.jobs)
     bad = [f"{promise.page}: {', '.join(missing)}" for promise, (missing, _) in zip(asked, results) if missing]
     said = ", ".join(f"{promise.page} {what}" for promise, (_, what) in zip(asked, results))
-    return proof.Figure("No motion asks a servo for more than 90 % of its speed, or for more than a third of its torque on average.",
-                        "nominal body, AX-12, 11.1 V, every motion once; goals are whole units (models.library_speeds: over four ticks)",
-                        "; ".join(bad) or said, not bad)
+    return proof.Figure(
+        "No motion asks a servo for more than 90 % of its speed, or for more than a third of its torque on average.",
+        "nominal body, AX-12, 11.1 V, every motion once; goals are whole units (models.library_speeds: over four ticks)",
+        "; ".join(bad) or said,
+        not bad,
+    )
 
 
 def bears_figure(image, library):
     missing, what = promises.bears(image, promises.number_of(library, "walk"))
-    return proof.Figure("Servos bear ten minutes of walking.", "nominal body, AX-12, 11.1 V; mean torque below a third of stall, heat below "
-                        "the servo's limit", "; ".join([*missing, what]), not missing)
+    return proof.Figure(
+        "Servos bear ten minutes of walking.",
+        "nominal body, AX-12, 11.1 V; mean torque below a third of stall, heat below the servo's limit",
+        "; ".join([*missing, what]),
+        not missing,
+    )
 
 
 def run(options):
@@ -259,5 +292,5 @@ def run(options):
         if not options.only:
             figures += [nominal_figure(image, library), bears_figure(image, library)]
     if options.only or options.bodies is not None or options.seed_of:
-        options.keep = False                     # a piece of the work
+        options.keep = False  # a piece of the work
     return figures

@@ -8,6 +8,7 @@ scene:operation:phase; `tools/prove power --only save:7:half/2:after` repeats th
 
 The scenes and what plays them: powercuts/.
 """
+
 import collections
 import os
 import sys
@@ -23,9 +24,9 @@ PROMISE = "Whenever the power fails, each motion page, setting and download is o
 SCENES = {scene.name: scene for scene in (*saves.SCENES, *loads.SCENES, *settings.SCENES)}
 LIVES = {life.name: life for life in lives.LIVES}
 LIFE_COUNT = 5
-SAMPLE_STATES = 1       # of each scene
+SAMPLE_STATES = 1  # of each scene
 DEEPEST = 3
-SHOWN = 12              # failures that are printed one by one
+SHOWN = 12  # failures that are printed one by one
 
 
 def add_arguments(group):
@@ -48,8 +49,9 @@ def chooser(scene, seed, sample, chunk):
         if depth == DEEPEST or (depth == 0 and operation % scene.chunks != chunk):
             return []
         rate = 1 if depth == 0 and operation <= every_phase else 40 if sample else scene.rates[depth]
-        phases = PHASES if operation == 1 and depth == 0 else PHASES[1:]     # else "before" is "after" the last one
+        phases = PHASES if operation == 1 and depth == 0 else PHASES[1:]  # else "before" is "after" the last one
         return [phase for phase in phases if number(*path, operation, phase) % rate == 0]
+
     return wanted
 
 
@@ -127,12 +129,15 @@ def figure_of(name, states, operations):
     faults = [(state, fault) for state, _, fault in states if fault]
     tell(faults)
     deep = sum("/" in state for state, _, _ in states)
-    text = f"{len(states):,} states" + (f" ({deep} of repairs)" if deep else "") + ": " + \
-        ", ".join(f"{outcome} {count}" for outcome, count in sorted(counts.items()))
+    text = (
+        f"{len(states):,} states"
+        + (f" ({deep} of repairs)" if deep else "")
+        + ": "
+        + ", ".join(f"{outcome} {count}" for outcome, count in sorted(counts.items()))
+    )
     if faults:
         text += f"; {len(faults)} BROKEN, such as `tools/prove power --only {faults[0][0]}`: {faults[0][1]}"
-    return proof.Figure(scene.promise, f"`{name}`: {about(scene)}" + ("" if name in LIVES else f"; {operations} operations"), text,
-                        not faults)
+    return proof.Figure(scene.promise, f"`{name}`: {about(scene)}" + ("" if name in LIVES else f"; {operations} operations"), text, not faults)
 
 
 def about(scene):
@@ -148,18 +153,23 @@ def total_figure(results, seconds, spent):
     states = [state for found in results.values() for state in found if state[1] != "same"]
     broken = sum(fault is not None for _, _, fault in states)
     kinds = sum(name in SCENES for name in results)
-    return proof.Figure("After a power cut everything is old or new, the loader answers, and the robot goes on",
-                        f"{kinds} scenes and {LIFE_COUNT} lives of each kind below",
-                        f"{len(states):,} states, {broken} broken; {seconds / 60:.1f} min, {spent / 60:.1f} min of one core",
-                        broken == 0, headline=True)
+    return proof.Figure(
+        "After a power cut everything is old or new, the loader answers, and the robot goes on",
+        f"{kinds} scenes and {LIFE_COUNT} lives of each kind below",
+        f"{len(states):,} states, {broken} broken; {seconds / 60:.1f} min, {spent / 60:.1f} min of one core",
+        broken == 0,
+        headline=True,
+    )
 
 
 def wear_figure(found, count):
     fewest, most, target = found
     lasting = min(lives.ENDURANCE // -(-target // count), lives.ENDURANCE * count // most)
-    return proof.Figure("The journal wears evenly, and no faster than a page that is saved each time",
-                        f"`wear`: {count} saves of one page, erases of the journal's flash pages and of the page's",
-                        f"{fewest} to {most} erases in {robot.SLOTS} slots, page {target}: at {lives.ENDURANCE:,} erases the journal lasts "
-                        f"{lives.ENDURANCE * count // most:,} saves, a page {lives.ENDURANCE * count // target:,} of its own; "
-                        f"the first to go after {lasting:,}",
-                        most - fewest <= 1 and most <= target)
+    return proof.Figure(
+        "The journal wears evenly, and no faster than a page that is saved each time",
+        f"`wear`: {count} saves of one page, erases of the journal's flash pages and of the page's",
+        f"{fewest} to {most} erases in {robot.SLOTS} slots, page {target}: at {lives.ENDURANCE:,} erases the journal lasts "
+        f"{lives.ENDURANCE * count // most:,} saves, a page {lives.ENDURANCE * count // target:,} of its own; "
+        f"the first to go after {lasting:,}",
+        most - fewest <= 1 and most <= target,
+    )

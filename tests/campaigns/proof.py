@@ -14,6 +14,7 @@ tools/prove runs them and writes two kinds of pages: tests/PROOFS.md, a row a pa
 figure. A proof never stops at the first fault: it counts all, and says of each how
 to see it again.
 """
+
 import dataclasses
 import hashlib
 import json
@@ -33,9 +34,16 @@ DETAILS = TOP / "tests" / "proofs"
 
 IMAGES = ("firmware", "hal", "linker", "motion")
 MOTIONS = ("motion", "tools/body/src", "tools/body/humanoid.xml", "tools/motions", "tools/sim/servo")
-JUDGED = {      # the code of which a part's figures speak
-    "power": IMAGES, "fuzz": (*IMAGES, "tools/m512/src"), "faults": IMAGES, "links": ("firmware/boot", "firmware/common", "hal", "tools/m512/src"),
-    "endurance": IMAGES, "static": IMAGES, "physics": MOTIONS, "shape": (*IMAGES, *MOTIONS)}
+JUDGED = {  # the code of which a part's figures speak
+    "power": IMAGES,
+    "fuzz": (*IMAGES, "tools/m512/src"),
+    "faults": IMAGES,
+    "links": ("firmware/boot", "firmware/common", "hal", "tools/m512/src"),
+    "endurance": IMAGES,
+    "static": IMAGES,
+    "physics": MOTIONS,
+    "shape": (*IMAGES, *MOTIONS),
+}
 CODE = (".c", ".h", ".in", ".py", ".m512", ".xml", ".json")
 
 
@@ -52,8 +60,10 @@ class Figure:
 
 def commit():
     """The commit of the tree, marked when the tree differs from it; the page itself does not count."""
+
     def git(*words):
         return subprocess.run(["git", "-C", str(TOP), *words], capture_output=True, text=True, check=False).stdout.strip()
+
     if not shutil.which("git"):
         return "no commit"
     changed = [line for line in git("status", "--porcelain").splitlines() if PAGE.name not in line and f"{DETAILS.name}/" not in line]
@@ -114,8 +124,15 @@ def keep(name, module, figures, command):
     """Writes the result of a whole part: build/prove/NAME.json, and its page."""
     RESULTS.mkdir(parents=True, exist_ok=True)
     about = " ".join((module.__doc__ or "").split("\n\n")[0].split())
-    part = {"title": module.TITLE, "promise": module.PROMISE, "about": about, "command": command, "commit": commit(), "code": code(name),
-            "figures": [dataclasses.asdict(figure) for figure in figures]}
+    part = {
+        "title": module.TITLE,
+        "promise": module.PROMISE,
+        "about": about,
+        "command": command,
+        "commit": commit(),
+        "code": code(name),
+        "figures": [dataclasses.asdict(figure) for figure in figures],
+    }
     (RESULTS / f"{name}.json").write_text(json.dumps(part, indent=1), encoding="utf-8")
     write_details(name, part)
 
@@ -172,10 +189,10 @@ def note_sample(name, figures):
     text = path.read_text(encoding="utf-8")
     before = pattern(AGAIN).search(text)
     if before:
-        text = text[:before.start()].rstrip() + text[before.end():]
+        text = text[: before.start()].rstrip() + text[before.end() :]
     found = pattern(FOUND).search(text)
     note = AGAIN.format(commit=commit(), found=headline([dataclasses.asdict(figure) for figure in figures]))
-    path.write_text(f"{text[:found.end()]}\n\n{note}{text[found.end():]}", encoding="utf-8")
+    path.write_text(f"{text[: found.end()]}\n\n{note}{text[found.end() :]}", encoding="utf-8")
 
 
 def is_current(name):
@@ -201,8 +218,19 @@ def row_of(name):
 def write_page(names):
     """tests/PROOFS.md: a row for each part that has a page in tests/proofs/, in the order of `names`."""
     rows = [row_of(name) for name in names if (DETAILS / f"{name}.md").exists()]
-    PAGE.write_text("\n".join([
-        "# Proofs", "", "What Motion512 promises, and what machines found when they tried to break it. `tools/prove` makes this page; "
-        "do not edit it. A row is older than the code when the code that it judges has changed since.", "",
-        "| | promise | found | command | at commit | |", "| --- | --- | --- | --- | --- | --- |", *rows]) + "\n",
-        encoding="utf-8")
+    PAGE.write_text(
+        "\n".join(
+            [
+                "# Proofs",
+                "",
+                "What Motion512 promises, and what machines found when they tried to break it. `tools/prove` makes this page; "
+                "do not edit it. A row is older than the code when the code that it judges has changed since.",
+                "",
+                "| | promise | found | command | at commit | |",
+                "| --- | --- | --- | --- | --- | --- |",
+                *rows,
+            ]
+        )
+        + "\n",
+        encoding="utf-8",
+    )

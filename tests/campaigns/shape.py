@@ -4,6 +4,7 @@ by `@drive` as a joystick would. Bodies by chance (friction 0.5..1.1, 9.6..12 V,
 to 2 degrees, servo friction and rotor varied; with --hard those of the part physics, whose servo zeros are off by a degree as well). Physics
 is a model, and no real robot has walked our motions yet.
 """
+
 import dataclasses
 import functools
 import pathlib
@@ -22,12 +23,12 @@ TITLE = "Driven motions in physics"
 PROMISE = "A walk stays a walk while its speed, size and direction change, while a second page plays over it, and when the cable is pulled."
 
 HEAD = load("humanoid", head=True)
-CYCLE_S = 56 / 128               # of the walk at rate 100: walk_r and walk_l
-SEGMENT_S, SETTLES_S = 12, 5     # a value is held so long; its figures are those behind the first seconds
+CYCLE_S = 56 / 128  # of the walk at rate 100: walk_r and walk_l
+SEGMENT_S, SETTLES_S = 12, 5  # a value is held so long; its figures are those behind the first seconds
 VALUES = {"rate": (50, 75, 100, 125, 150), "amplitude": (0, 30, 60, 90, 120), "blend": (-100, -50, 0, 50, 100)}
 STRAIGHT = {"blend": 0, "rate": 100, "amplitude": 100}
 BODIES = 20
-TOO_LONG_S = 20                  # behind the last line: a second of the watchdog, the exit page, and more
+TOO_LONG_S = 20  # behind the last line: a second of the watchdog, the exit page, and more
 
 
 def add_arguments(group):
@@ -55,6 +56,7 @@ class Walk:
 
 
 # --- a value after the other ---
+
 
 def order_by_chance(kind, seed):
     """The values, in the order in which this body gets them."""
@@ -91,15 +93,23 @@ def sweep_figures(walk, kind, seeds, options):
     fallen = [(seed, said) for seed, (said, _) in zip(seeds, results) if said]
     which, unit, sign = LOOKS_AT[kind]
     means = [sum(figures[value][which] for _, figures in results) / len(results) for value in VALUES[kind]]
-    steady = [all(sign * low[which] < sign * high[which] for low, high in zip(row, row[1:]))
-              for row in ([figures[value] for value in VALUES[kind]] for _, figures in results)]
+    steady = [
+        all(sign * low[which] < sign * high[which] for low, high in zip(row, row[1:]))
+        for row in ([figures[value] for value in VALUES[kind]] for _, figures in results)
+    ]
     lowest, highest = VALUES[kind][0], VALUES[kind][-1]
     how = f"60 s on the nominal body and {len(seeds) - 1} by chance, a value for {SEGMENT_S} s, in any order; the stick goes 50 % a second"
     values = ", ".join(f"{value}: {mean:.0f}" for value, mean in zip(VALUES[kind], means))
-    return [proof.Figure(f"{kind} {lowest}..{highest} %: no fall.", how, f"{len(fallen)} of {len(seeds)} fall" + told(fallen), not fallen),
-            proof.Figure(f"More {kind}, more {unit}.", how, f"mean {unit} at {values}; rises without a break on {sum(steady)} of {len(seeds)} "
-                         "bodies, on the nominal one too" + ("" if steady[0] else ": NO"),
-                         steady[0] and all(sign * a < sign * b for a, b in zip(means, means[1:])))]
+    return [
+        proof.Figure(f"{kind} {lowest}..{highest} %: no fall.", how, f"{len(fallen)} of {len(seeds)} fall" + told(fallen), not fallen),
+        proof.Figure(
+            f"More {kind}, more {unit}.",
+            how,
+            f"mean {unit} at {values}; rises without a break on {sum(steady)} of {len(seeds)} "
+            "bodies, on the nominal one too" + ("" if steady[0] else ": NO"),
+            steady[0] and all(sign * a < sign * b for a, b in zip(means, means[1:])),
+        ),
+    ]
 
 
 def told(bad):
@@ -108,6 +118,7 @@ def told(bad):
 
 
 # --- all at once, and the cable ---
+
 
 def joyridden(walk, seed):
     """All three change at any moment; then the cable is pulled."""
@@ -129,12 +140,18 @@ def joyridden(walk, seed):
 def cable_figures(walk, seeds, options):
     results = proof.each(functools.partial(joyridden, walk), seeds, "cable", options.jobs)
     bad = [(seed, said) for seed, (kept, said) in zip(seeds, results) if not kept]
-    return [proof.Figure("The cable is pulled while the robot is driven: it ends its walk on its feet.", f"{len(results)} bodies by chance; blend, "
-                         "rate 50..150 and amplitude 0..120 change together for 6 to 14 s, then nothing comes any more",
-                         f"{len(results) - len(bad)} of {len(results)}" + told(bad), not bad)]
+    return [
+        proof.Figure(
+            "The cable is pulled while the robot is driven: it ends its walk on its feet.",
+            f"{len(results)} bodies by chance; blend, rate 50..150 and amplitude 0..120 change together for 6 to 14 s, then nothing comes any more",
+            f"{len(results) - len(bad)} of {len(results)}" + told(bad),
+            not bad,
+        )
+    ]
 
 
 # --- the figure of eight ---
+
 
 def rode_eight(walk, seed):
     hand = Eight()
@@ -151,15 +168,21 @@ def eight_figures(walk, seeds, options):
     beside = sorted(farthest for _, _, farthest, _ in results)
     if options.picture:
         draw_eights(options.picture, [track for _, _, _, track in results])
-    return [proof.Figure("A figure of eight of 1 m by `@drive` alone, without a fall.", f"{len(results)} bodies by chance; who steers sees where "
-                         "the robot is; once round the middle of each circle",
-                         f"{len(results) - len(bad)} of {len(results)}; half of them stay within {beside[(len(beside) - 1) // 2]:.0f} mm of the "
-                         f"path, the worst within {beside[-1]:.0f}" + told(bad), not bad)]
+    return [
+        proof.Figure(
+            "A figure of eight of 1 m by `@drive` alone, without a fall.",
+            f"{len(results)} bodies by chance; who steers sees where the robot is; once round the middle of each circle",
+            f"{len(results) - len(bad)} of {len(results)}; half of them stay within {beside[(len(beside) - 1) // 2]:.0f} mm of the "
+            f"path, the worst within {beside[-1]:.0f}" + told(bad),
+            not bad,
+        )
+    ]
 
 
 def draw_eights(path, tracks):
     """Seen from above: the path in black, a way of the trunk for each body."""
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
@@ -189,13 +212,15 @@ def laid_over(walk, numbers, item):
 
     def walked(first, second):
         lines = [(on_s, first), (off_s, second), (WALK_S - 2, "stop")]
-        return walk.driven(seed, WALK_S + TOO_LONG_S, lambda seen: lines.pop(0)[1] if lines and seen.time_s >= lines[0][0] else None,
-                           robot=robot, keep_goals=True)
+        return walk.driven(
+            seed, WALK_S + TOO_LONG_S, lambda seen: lines.pop(0)[1] if lines and seen.time_s >= lines[0][0] else None, robot=robot, keep_goals=True
+        )
 
     plain, laid = walked("version", "version"), walked(f"layer {numbers[name]}", "layer off")
     own = LAYERS[name]
-    same = [{joint: goal for joint, goal in goals.items() if joint not in own} for goals in plain.goals] == \
-        [{joint: goal for joint, goal in goals.items() if joint not in own} for goals in laid.goals]
+    same = [{joint: goal for joint, goal in goals.items() if joint not in own} for goals in plain.goals] == [
+        {joint: goal for joint, goal in goals.items() if joint not in own} for goals in laid.goals
+    ]
     moved = any(len({goals.get(joint) for goals in laid.goals} - {None}) > 20 for joint in own)
     kept = laid.ended and laid.on_feet and laid.fell_s is None and same and moved
     return kept, laid.said() + ("" if same else ", other joints went otherwise") + ("" if moved else ", its own joints did not move")
@@ -205,9 +230,15 @@ def layer_figures(walk, seeds, options, name):
     numbers = {page: promises.number_of(library(), page) for page in LAYERS}
     results = proof.each(functools.partial(laid_over, walk, numbers), [(name, seed) for seed in seeds], name, options.jobs)
     bad = [(seed, said) for seed, (kept, said) in zip(seeds, results) if not kept]
-    return [proof.Figure(f"Walking and `{name}`: no fall, and the goals of all joints but {', '.join(map(str, LAYERS[name]))} are those of the walk alone, "
-                         "bit by bit.", f"{len(results)} bodies by chance; the page comes and goes at any moment",
-                         f"{len(results) - len(bad)} of {len(results)}" + told(bad), not bad)]
+    return [
+        proof.Figure(
+            f"Walking and `{name}`: no fall, and the goals of all joints but {', '.join(map(str, LAYERS[name]))} are those of the walk alone, "
+            "bit by bit.",
+            f"{len(results)} bodies by chance; the page comes and goes at any moment",
+            f"{len(results) - len(bad)} of {len(results)}" + told(bad),
+            not bad,
+        )
+    ]
 
 
 def library():
@@ -248,11 +279,21 @@ def write_rows(kept):
     figures = [figure for row in ROWS for figure in kept.get(row, ())]
     commits = dict.fromkeys(re.search(r"commit (\w+)", figure["how"])[1] for figure in figures)
     codes = {re.search(r"commit \w+(?:, code (\w+))?", figure["how"])[1] for figure in figures}
-    proof.write_details("shape", {"title": TITLE, "promise": PROMISE, "about": " ".join(__doc__.split()), "command": "tools/prove shape",
-                                  "commit": ", ".join(commits), "code": codes.pop() if len(codes) == 1 and None not in codes else "of several states", "figures": figures})
+    proof.write_details(
+        "shape",
+        {
+            "title": TITLE,
+            "promise": PROMISE,
+            "about": " ".join(__doc__.split()),
+            "command": "tools/prove shape",
+            "commit": ", ".join(commits),
+            "code": codes.pop() if len(codes) == 1 and None not in codes else "of several states",
+            "figures": figures,
+        },
+    )
 
 
-SAMPLE = {"player": 1, "layer": 1, "cable": 1, "eight": 1, "look": 1}                  # rows of a sample, and how many bodies
+SAMPLE = {"player": 1, "layer": 1, "cable": 1, "eight": 1, "look": 1}  # rows of a sample, and how many bodies
 
 
 def run(options):
@@ -267,5 +308,5 @@ def run(options):
         figures += found
         if not (options.sample or options.bodies or options.seed_of is not None or options.hard):
             keep_row(row, found)
-    options.keep = False                         # keep_row has written the page
+    options.keep = False  # keep_row has written the page
     return figures

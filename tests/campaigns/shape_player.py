@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The rows of the part shape that need no body: the player on the PC against the models of the spec (tests/models, tests/models)."""
+
 import functools
 
 from tests.campaigns import proof
@@ -28,15 +29,27 @@ def law_figures(options):
     wrong = [said for found in proof.each(changed, firsts, "set at any tick", options.jobs) for said in found]
     jumped = {what: jumps.broken(what, steps, options.seed) for what in jumps.WHATS}
     bad = {what: said for what, (said, _) in jumped.items() if said}
-    return [proof.Figure("Nothing set: every goal as the original's.", "classic law, motion areas by chance, every call of every joint against the "
-                         "model of the page of the spec (which gives the twelve recordings of the original); exact law: unit.player_golden",
-                         f"{len(plain)} of {cases} plays differ" + (f"; the first: {plain[0]}" if plain else ""), not plain),
-            proof.Figure("Rate, amplitude, blend and centre change at any tick: every way-point, length and way as the page of the spec says.",
-                         "exact law, motion areas by chance", f"{len(wrong)} of {cases} plays differ" + (f"; the first: {wrong[0]}" if wrong else ""),
-                         not wrong),
-            proof.Figure("They jump in every step of a walk: nothing passes a shaped way-point, no tick is idle, no change of speed above the law's own.",
-                         "our walk; rate 50 <-> 200, amplitude 0 <-> 120, blend -100 <-> 100, all, and each by chance",
-                         "; ".join(f"{what}: {said}" for what, said in bad.items()) or jumped["all"][1], not bad)]
+    return [
+        proof.Figure(
+            "Nothing set: every goal as the original's.",
+            "classic law, motion areas by chance, every call of every joint against the "
+            "model of the page of the spec (which gives the twelve recordings of the original); exact law: unit.player_golden",
+            f"{len(plain)} of {cases} plays differ" + (f"; the first: {plain[0]}" if plain else ""),
+            not plain,
+        ),
+        proof.Figure(
+            "Rate, amplitude, blend and centre change at any tick: every way-point, length and way as the page of the spec says.",
+            "exact law, motion areas by chance",
+            f"{len(wrong)} of {cases} plays differ" + (f"; the first: {wrong[0]}" if wrong else ""),
+            not wrong,
+        ),
+        proof.Figure(
+            "They jump in every step of a walk: nothing passes a shaped way-point, no tick is idle, no change of speed above the law's own.",
+            "our walk; rate 50 <-> 200, amplitude 0 <-> 120, blend -100 <-> 100, all, and each by chance",
+            "; ".join(f"{what}: {said}" for what, said in bad.items()) or jumped["all"][1],
+            not bad,
+        ),
+    ]
 
 
 # --- a layer that comes and goes at every tick ---
@@ -60,8 +73,18 @@ def hand_over_figures(options):
     strange = [said for said in proof.each(handed.by_chance, seeds, "pages by chance", options.jobs) if said]
     walks = sum(count for count, _ in results)
     how = "the player on the PC against the page of the spec; a joint that changes hands: 60 degrees/s, however many ticks one looks at"
-    return [proof.Figure("A layer comes at every tick of a walk and goes at every tick: who changes hands keeps to the approach speed and does not leap, the "
-                         "others go on bit by bit.", f"{how}; `wave_over` and `look` over our walk, both laws", f"{len(bad)} of {walks} walks wrong"
-                         + (f"; the first: {bad[0]}" if bad else ""), not bad),
-            proof.Figure("The same with pages, joints, moments and speeds by chance.", how, f"{len(strange)} of {chances} walks wrong"
-                         + (f"; the first: {strange[0]}" if strange else ""), not strange)]
+    return [
+        proof.Figure(
+            "A layer comes at every tick of a walk and goes at every tick: who changes hands keeps to the approach speed and does not leap, the "
+            "others go on bit by bit.",
+            f"{how}; `wave_over` and `look` over our walk, both laws",
+            f"{len(bad)} of {walks} walks wrong" + (f"; the first: {bad[0]}" if bad else ""),
+            not bad,
+        ),
+        proof.Figure(
+            "The same with pages, joints, moments and speeds by chance.",
+            how,
+            f"{len(strange)} of {chances} walks wrong" + (f"; the first: {strange[0]}" if strange else ""),
+            not strange,
+        ),
+    ]

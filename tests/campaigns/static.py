@@ -4,6 +4,7 @@
 Every check is a command of its own (tools/dev/lint, check_layers, check_spm, check_symbols, size_report), a ctest by its name,
 and has tests in tools/dev/tests that show that it bites.
 """
+
 import importlib.machinery
 import importlib.util
 import json
@@ -36,7 +37,7 @@ def module_of(name, file):
 
 def tool(name):
     """A command of tools/dev as a module."""
-    sys.modules.setdefault("avr_elf", module_of("avr_elf", "avr_elf.py"))   # a command finds it beside itself
+    sys.modules.setdefault("avr_elf", module_of("avr_elf", "avr_elf.py"))  # a command finds it beside itself
     return module_of(name, name)
 
 
@@ -64,38 +65,53 @@ def lint_figure():
     passed = len([path for path in sources(*FIRMWARE) if path.suffix == ".c"])
     escapes = sum(bool(ESCAPES.search(path.read_text(encoding="utf-8"))) for path in sources(*FIRMWARE, "tools/sim"))
     return proof.Figure(
-        "clang-tidy and cppcheck find nothing", "tools/dev/lint --deep: mistakes, not style: bugprone, clang's analyzer (null, memory, "
+        "clang-tidy and cppcheck find nothing",
+        "tools/dev/lint --deep: mistakes, not style: bugprone, clang's analyzer (null, memory, "
         "dead stores, unreachable states), performance, redundant or misleading code, functions above 60 lines (.clang-tidy); "
         "cppcheck for an 8-bit machine (warnings, performance, portability)",
         f"{tidied[1] if tidied else 0} files against {rules} rules of clang-tidy, {passed} files of the images by cppcheck; "
-        f"{escapes} files switch a rule off" + ("" if kept else f". Found: {last_lines(text)}"), kept and rules > 0)
+        f"{escapes} files switch a rule off" + ("" if kept else f". Found: {last_lines(text)}"),
+        kept and rules > 0,
+    )
 
 
 def layer_figure():
     """Includes point down only."""
     kept, text = command(TOOLS / "check_layers")
-    return proof.Figure("No part knows what lies above it, and registers are named in hal/avr and the loader only",
-                        "tools/dev/check_layers: every include of motion, hal, firmware and the fakes", last_lines(text), kept)
+    return proof.Figure(
+        "No part knows what lies above it, and registers are named in hal/avr and the loader only",
+        "tools/dev/check_layers: every include of motion, hal, firmware and the fakes",
+        last_lines(text),
+        kept,
+    )
 
 
 def circle_figure():
     """No two files of an image use each other."""
     kept, text = command(TOOLS / "check_circles")
-    return proof.Figure("No two files of an image use each other, directly or through others",
-                        "tools/dev/check_circles: functions and variables of all files that are linked together",
-                        last_lines(text), kept)
+    return proof.Figure(
+        "No two files of an image use each other, directly or through others",
+        "tools/dev/check_circles: functions and variables of all files that are linked together",
+        last_lines(text),
+        kept,
+    )
 
 
 def spm_figure():
     """Only the loader can write flash."""
-    tests = [path for path in sorted((proof.BUILD / "firmware" / "tests").glob("*.elf"))
-             if path.stem not in ("factory", "mailbox")]
+    tests = [path for path in sorted((proof.BUILD / "firmware" / "tests").glob("*.elf")) if path.stem not in ("factory", "mailbox")]
     kept, text = command(TOOLS / "check_spm", *IMAGES, *tests)
     count = {name: int(number) for name, number in re.findall(r"(boot-\w+)\.elf: (\d+) SPM", text)}
-    return proof.Figure("Only the boot loader can write flash, in one function",
-                        "tools/dev/check_spm: every SPM instruction in the disassembly of every image",
-                        f"{len(IMAGES) + len(tests)} images; " + ", ".join(f"{name}: {n}" for name, n in count.items())
-                        + " SPM, all in boot_write_page; none elsewhere" if kept else last_lines(text), kept)
+    return proof.Figure(
+        "Only the boot loader can write flash, in one function",
+        "tools/dev/check_spm: every SPM instruction in the disassembly of every image",
+        f"{len(IMAGES) + len(tests)} images; "
+        + ", ".join(f"{name}: {n}" for name, n in count.items())
+        + " SPM, all in boot_write_page; none elsewhere"
+        if kept
+        else last_lines(text),
+        kept,
+    )
 
 
 def symbol_figure():
@@ -105,7 +121,9 @@ def symbol_figure():
     return proof.Figure(
         "No image has dynamic memory, floating point, formats, jumps out of functions, or string functions without a bound",
         "tools/dev/check_symbols: the symbols of the linked images (malloc, __addsf3, printf, longjmp, strcpy, ...)",
-        f"{len(IMAGES)} images, {total} symbols: none" if kept else last_lines(text), kept)
+        f"{len(IMAGES)} images, {total} symbols: none" if kept else last_lines(text),
+        kept,
+    )
 
 
 def stack_figures():
@@ -118,16 +136,25 @@ def stack_figures():
     flash = {report.name: report.flash_budget - report.flash for report in reports}
     over = [fault for report in reports for fault in report.broken if "flash" in fault]
     return [
-        proof.Figure("No function calls itself, directly or by others", "tools/dev/size_report: the graph of calls of the "
-                     "disassembly, calls by pointer included", f"{calls} functions" + (f"; {', '.join(recursive)}" if recursive
-                                                                                    else ": none"), not recursive),
-        proof.Figure("Variables, the deepest stack and an interrupt on top of it fit into the 4 KiB",
-                     "tools/dev/size_report: the frames and pushes that the compiler emitted, along the deepest path of calls; "
-                     "interrupts do not nest", "bytes free: " + ", ".join(f"{name} {n}" for name, n in free.items()),
-                     min(free.values()) > 0),
-        proof.Figure("Every image fits into the part of the flash that linker/memory_map.h gives it",
-                     "tools/dev/size_report, against budgets of 48 KiB for an application, 8 KiB for the loader",
-                     "bytes left of the budget: " + ", ".join(f"{name} {n}" for name, n in flash.items()), not over)]
+        proof.Figure(
+            "No function calls itself, directly or by others",
+            "tools/dev/size_report: the graph of calls of the disassembly, calls by pointer included",
+            f"{calls} functions" + (f"; {', '.join(recursive)}" if recursive else ": none"),
+            not recursive,
+        ),
+        proof.Figure(
+            "Variables, the deepest stack and an interrupt on top of it fit into the 4 KiB",
+            "tools/dev/size_report: the frames and pushes that the compiler emitted, along the deepest path of calls; interrupts do not nest",
+            "bytes free: " + ", ".join(f"{name} {n}" for name, n in free.items()),
+            min(free.values()) > 0,
+        ),
+        proof.Figure(
+            "Every image fits into the part of the flash that linker/memory_map.h gives it",
+            "tools/dev/size_report, against budgets of 48 KiB for an application, 8 KiB for the loader",
+            "bytes left of the budget: " + ", ".join(f"{name} {n}" for name, n in flash.items()),
+            not over,
+        ),
+    ]
 
 
 def compiler_figure():
@@ -136,11 +163,12 @@ def compiler_figure():
     wanted = re.search(r"set\(M512_WARNINGS (.*?)\)", flags, re.S)[1].split()
     files = len(sources(*FIRMWARE, "tools/sim"))
     asked = [flag for flag in ("-Wall", "-Wextra", "-Werror", "-Wconversion", "-Wshadow") if flag not in wanted]
-    return proof.Figure("Every warning is an error, in both worlds",
-                        "the compilers' options (tools/dev/cmake/m512.cmake): avr-gcc for the images, gcc for the PC, which has "
-                        "the useful half of -Wconversion",
-                        f"{files} C files, {len(wanted) - 1} warnings" + (f"; not asked for: {' '.join(asked)}" if asked else ""),
-                        not asked)
+    return proof.Figure(
+        "Every warning is an error, in both worlds",
+        "the compilers' options (tools/dev/cmake/m512.cmake): avr-gcc for the images, gcc for the PC, which has the useful half of -Wconversion",
+        f"{files} C files, {len(wanted) - 1} warnings" + (f"; not asked for: {' '.join(asked)}" if asked else ""),
+        not asked,
+    )
 
 
 def array_figure():
@@ -152,12 +180,15 @@ def array_figure():
     found = []
     for entry in of.values():
         words = shlex.split(entry["command"])
-        words = words[:words.index("-o")] + ["-fsyntax-only", "-Werror=vla"] + words[words.index("-o") + 2:]
+        words = words[: words.index("-o")] + ["-fsyntax-only", "-Werror=vla"] + words[words.index("-o") + 2 :]
         done = subprocess.run(words, cwd=entry["directory"], capture_output=True, text=True, check=False)
         found += [line for line in done.stderr.splitlines() if "error:" in line]
-    return proof.Figure("No array has a length that is only known while the program runs",
-                        "the compiler of the images, once more over every file, with -Werror=vla",
-                        f"{len(of)} files" + (f": {'; '.join(found[:3])}" if found else ": none"), not found and bool(of))
+    return proof.Figure(
+        "No array has a length that is only known while the program runs",
+        "the compiler of the images, once more over every file, with -Werror=vla",
+        f"{len(of)} files" + (f": {'; '.join(found[:3])}" if found else ": none"),
+        not found and bool(of),
+    )
 
 
 def run(options):

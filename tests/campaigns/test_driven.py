@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The hand that steers a figure of eight: on a point that walks as it is steered, late and with a sway, and on one that is deaf."""
+
 import math
 
 import pytest

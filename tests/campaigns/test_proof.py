@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the parts of tools/prove share. Its pages: the short one is made of the heads of the others, and nobody edits it by hand. Its whole
 runs: one that was interrupted goes on."""
+
 import pathlib
 import re
 
@@ -10,7 +11,7 @@ from tests.campaigns import proof
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
-PARTS = re.search(r'PARTS = \[name for name in \((.*?)\)', (TOP / "tools" / "prove").read_text(encoding="utf-8"))[1].replace('"', "").split(", ")
+PARTS = re.search(r"PARTS = \[name for name in \((.*?)\)", (TOP / "tools" / "prove").read_text(encoding="utf-8"))[1].replace('"', "").split(", ")
 
 
 @pytest.fixture
@@ -19,8 +20,14 @@ def pages(tmp_path, monkeypatch):
     monkeypatch.setattr(proof, "DETAILS", tmp_path / "proofs")
     monkeypatch.setattr(proof, "PAGE", tmp_path / "PROOFS.md")
     monkeypatch.setattr(proof, "commit", lambda: "0123456789")
-    return {"title": "Cuts", "promise": "Nothing is lost.", "about": "How, at `length`; by hand.", "command": "tools/prove cuts", "commit": "abc",
-            "code": proof.code("cuts")}
+    return {
+        "title": "Cuts",
+        "promise": "Nothing is lost.",
+        "about": "How, at `length`; by hand.",
+        "command": "tools/prove cuts",
+        "commit": "abc",
+        "code": proof.code("cuts"),
+    }
 
 
 def figures(*measured, kept=True):
@@ -35,7 +42,8 @@ def test_a_row_is_the_head_of_its_page(pages):
     put(pages, "7 states, 0 broken; 3 min")
     proof.write_page(["other", "cuts"])
     assert proof.PAGE.read_text().splitlines()[-1] == (
-        "| [Cuts](proofs/cuts.md) | Nothing is lost. | 7 states, 0 broken | `tools/prove cuts` | abc |  |")
+        "| [Cuts](proofs/cuts.md) | Nothing is lost. | 7 states, 0 broken | `tools/prove cuts` | abc |  |"
+    )
 
 
 def test_a_row_says_that_the_code_has_changed_since(pages):
@@ -109,6 +117,7 @@ def calls(tmp_path, monkeypatch):
             if made == [1, 2, 3]:
                 raise KeyboardInterrupt
             done(item, work(item))
+
     monkeypatch.setattr(proof, "RESULTS", tmp_path)
     monkeypatch.setattr(proof, "commit", lambda: "0123456789")
     monkeypatch.setattr(proof, "each", each)

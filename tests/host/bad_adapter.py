@@ -7,6 +7,7 @@ are repeated, or lose or change a byte, by chance. What is sent has at most 1 ms
 hears, not what it sends. (Otherwise the servo's answer and the next packet would meet on the line.) On SIGUSR1 the plug is pulled, on SIGUSR2 it is put back. --log takes a line
 for each packet that the program sent, "> HEX", each piece that it is given, "< HEX", and "pulled" and "back".
 """
+
 import argparse
 import collections
 import fcntl
@@ -20,7 +21,7 @@ import tty
 
 EVERYBODY = 254
 TCGETS2, TCSETS2 = 0x802C542A, 0x402C542B
-TERMIOS2 = "4I20B2I"      # flags, line and characters, the rates
+TERMIOS2 = "4I20B2I"  # flags, line and characters, the rates
 CBAUD, BOTHER = 0x100F, 0x1000
 
 
@@ -35,7 +36,7 @@ def set_rate(port, rate):
         fcntl.ioctl(port, TCSETS2, struct.pack(TERMIOS2, *fields))
 
 
-ANSWER_S = 0.02     # a packet waits so long for the answer to the one before: this program and the servos' may be held up, the line was not
+ANSWER_S = 0.02  # a packet waits so long for the answer to the one before: this program and the servos' may be held up, the line was not
 
 
 class Way:
@@ -49,10 +50,10 @@ class Way:
     def put(self, data, rate=0):
         if self.chance.random() < self.asked.drop:
             at = self.chance.randrange(len(data))
-            data = data[:at] + data[at + 1:]
+            data = data[:at] + data[at + 1 :]
         if data and self.chance.random() < self.asked.flip:
             at = self.chance.randrange(len(data))
-            data = data[:at] + bytes([data[at] ^ 1 << self.chance.randrange(8)]) + data[at + 1:]
+            data = data[:at] + bytes([data[at] ^ 1 << self.chance.randrange(8)]) + data[at + 1 :]
         delay = self.asked.latency + self.chance.uniform(-self.jitter, self.jitter)
         self.last = max(self.last, time.monotonic() + max(0, delay) / 1000)
         self.waiting.append((self.last, data, rate))
@@ -122,7 +123,7 @@ class Adapter:
     def from_program(self):
         try:
             data = os.read(self.master, 4096)
-        except OSError:      # nobody has it open now
+        except OSError:  # nobody has it open now
             time.sleep(0.005)
             return
         found, self.begun = packets(self.begun + data)

@@ -3,6 +3,7 @@
 
 Processes that take their time: whoever waits here waits for a text or a state, and gives up after minutes only.
 """
+
 import os
 import pathlib
 import re
@@ -49,7 +50,7 @@ class Robot:
     def start(*command):
         process = subprocess.Popen([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         try:
-            os.sched_setscheduler(process.pid, os.SCHED_RR, os.sched_param(2))   # as punctual as hardware, where this is allowed
+            os.sched_setscheduler(process.pid, os.SCHED_RR, os.sched_param(2))  # as punctual as hardware, where this is allowed
         except PermissionError:
             pass
         return process
@@ -66,10 +67,12 @@ class Robot:
 
     def told(self, pattern):
         """Waits until the program has told this on its standard error; returns the first group."""
+
         def look():
             if select.select([self.process.stderr], [], [], 0)[0]:
                 self.said += os.read(self.process.stderr.fileno(), 65536)
             return re.search(pattern, self.said.decode())
+
         found = until(look, lambda: f"{pattern!r} was not told: {self.said!r}")
         return found[1] if found.re.groups else found[0]
 
@@ -84,10 +87,12 @@ class Robot:
 
     def expect(self, text, start=0):
         """Waits for a text behind `start`; returns the place behind it."""
+
         def look():
             self.take()
             at = self.console.find(text.encode(), start)
             return at >= 0 and at + len(text.encode())
+
         return until(look, lambda: f"{text!r} did not come: {self.console[start:]!r}")
 
     def ask(self, line):
@@ -120,9 +125,11 @@ class Robot:
     def stop(self, number=signal.SIGINT):
         """Ends the program as Ctrl-C does; returns its exit code."""
         self.process.send_signal(number)
+
         def ended():
             self.take()
             return self.process.poll() is not None
+
         until(ended, lambda: f"the program goes on: {self.console!r}")
         self.said += self.process.stderr.read()
         os.close(self.end)

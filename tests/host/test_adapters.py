@@ -3,6 +3,7 @@
 
 The verdicts are counts and states. What must come is the same as on the board: its frames are those of play-cm5.hex.
 """
+
 import itertools
 
 import pytest
@@ -58,11 +59,21 @@ def play(robot):
         at = robot.expect("\r\n] ", robot.expect("Ended", at))
 
 
-LATE = "The computer came 0.1 s late"   # on a busy machine; the play is then broken off, as it should
+LATE = "The computer came 0.1 s late"  # on a busy machine; the play is then broken off, as it should
 
 
-@pytest.mark.parametrize("adapter", [(), ("--latency", 1, "--jitter", 1), ("--latency", 4, "--jitter", 2), ("--latency", 16, "--jitter", 4),
-                                     ("--latency", 1, "--echo"), ("--latency", 16, "--jitter", 4, "--echo")], ids=lambda words: "_".join(map(str, words)).replace("--", "") or "good")
+@pytest.mark.parametrize(
+    "adapter",
+    [
+        (),
+        ("--latency", 1, "--jitter", 1),
+        ("--latency", 4, "--jitter", 2),
+        ("--latency", 16, "--jitter", 4),
+        ("--latency", 1, "--echo"),
+        ("--latency", 16, "--jitter", 4, "--echo"),
+    ],
+    ids=lambda words: "_".join(map(str, words)).replace("--", "") or "good",
+)
 def test_frames_are_those_of_the_board_and_no_servo_is_lost(make, files, of_the_board, adapter):
     robot = make(motions=files, adapter=adapter).run()
     play(robot)

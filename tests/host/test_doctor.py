@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """m512 doctor -p bus:...: first contact with servos that nobody knows. Facts of registers and rates: hal/DYNAMIXEL.md."""
+
 import json
 import os
 import subprocess
@@ -10,8 +11,14 @@ TORQUE, GOAL, BAUD, DELAY = 24, 30, 4, 5
 
 
 def doctor(robot, *words, code=0):
-    done = subprocess.run([sys.executable, "-m", "m512", "doctor", "-p", f"bus:{robot.port}", "--json", *words], stdin=subprocess.DEVNULL,
-                          capture_output=True, text=True, check=False, env=dict(os.environ))
+    done = subprocess.run(
+        [sys.executable, "-m", "m512", "doctor", "-p", f"bus:{robot.port}", "--json", *words],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+        env=dict(os.environ),
+    )
     assert done.returncode == code, done.stdout + done.stderr
     return json.loads(done.stdout)
 

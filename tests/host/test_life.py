@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """How the programs begin and end, what they keep, and whom they keep out."""
+
 import os
 import pty
 import re
@@ -58,8 +59,8 @@ def test_ctrl_c_slows_down_first_and_leaves_torque_as_it_was_unless_told(make, f
     assert robot.stop() == 0
     ways = steps(robot.frames()[begun:])
     fastest = max(ways)
-    assert fastest > 3 and ways[-1] <= 1                                      # it moved, and stands
-    assert max(abs(after - before) for before, after in zip(ways, ways[1:])) < fastest / 2     # softly
+    assert fastest > 3 and ways[-1] <= 1  # it moved, and stands
+    assert max(abs(after - before) for before, after in zip(ways, ways[1:])) < fastest / 2  # softly
     switched = [packet for packet in robot.packets(WRITE) if packet[5] == TORQUE and packet[6] == 0]
     assert [packet[2] for packet in switched] == ([EVERYBODY] * 2 if off else [])
     assert ("is off" if off else "go on holding it") in robot.said.decode()
@@ -70,7 +71,9 @@ def test_a_second_program_is_refused_port_and_folder(make, files, tmp_path):
     robot.expect("] ")
     same_port = subprocess.run([program("edit"), "--robot", tmp_path / "other", robot.port], stdin=subprocess.DEVNULL, capture_output=True, text=True)
     assert same_port.returncode == 6 and "in use by another program" in same_port.stderr
-    same_folder = subprocess.run([program("edit"), "--robot", tmp_path / "robot", "/dev/null"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    same_folder = subprocess.run(
+        [program("edit"), "--robot", tmp_path / "robot", "/dev/null"], stdin=subprocess.DEVNULL, capture_output=True, text=True
+    )
     assert same_folder.returncode == 4 and "in use by another program" in same_folder.stderr
     assert " OK" in robot.ask("status")
 
@@ -91,17 +94,20 @@ def test_a_foreign_master_is_refused_the_port(make, files):
 
 def test_the_port_of_somebody_else_is_left_to_him(make, files, tmp_path):
     from m512.board.link import Link
+
     robot = make(motions=files)
     with Link(str(robot.port)):
-        refused = subprocess.run(without_privilege(program("play"), "--robot", tmp_path / "robot", robot.port), stdin=subprocess.DEVNULL,
-                                 capture_output=True, text=True)
+        refused = subprocess.run(
+            without_privilege(program("play"), "--robot", tmp_path / "robot", robot.port), stdin=subprocess.DEVNULL, capture_output=True, text=True
+        )
     assert refused.returncode == 6 and "in use by another program" in refused.stderr
 
 
 @pytest.mark.parametrize("word, code, text", [("/dev/nowhere", 6, "no such port"), ("/dev/null", 6, "not a serial port"), (None, 2, "usage:")])
 def test_what_is_no_port_is_named(tmp_path, word, code, text):
-    asked = subprocess.run([program("play"), "--robot", tmp_path / "robot", *([word] if word else [])], stdin=subprocess.DEVNULL,
-                           capture_output=True, text=True)
+    asked = subprocess.run(
+        [program("play"), "--robot", tmp_path / "robot", *([word] if word else [])], stdin=subprocess.DEVNULL, capture_output=True, text=True
+    )
     assert asked.returncode == code and text in asked.stderr
     assert word is None or word in asked.stderr
 
@@ -121,13 +127,15 @@ def test_settings_and_pages_are_there_the_next_time(make, files):
 def test_a_file_that_is_not_ours_is_named_and_left_alone(make, files, tmp_path):
     (tmp_path / "robot").mkdir()
     (tmp_path / "robot" / "pages.bin").write_bytes(b"mine")
-    asked = subprocess.run([program("play"), "--robot", tmp_path / "robot", make(motions=files).port], stdin=subprocess.DEVNULL,
-                           capture_output=True, text=True)
+    asked = subprocess.run(
+        [program("play"), "--robot", tmp_path / "robot", make(motions=files).port], stdin=subprocess.DEVNULL, capture_output=True, text=True
+    )
     assert asked.returncode == 4 and "pages.bin: not a file of" in asked.stderr
     assert (tmp_path / "robot" / "pages.bin").read_bytes() == b"mine"
 
 
 # On a terminal
+
 
 class Terminal:
     """The program on a terminal of its own."""
@@ -135,14 +143,19 @@ class Terminal:
     def __init__(self, robot):
         self.master, self.slave = pty.openpty()
         self.before, self.shown = termios.tcgetattr(self.slave), b""
-        self.process = subprocess.Popen([program("play"), "--robot", robot.folder / "robot", "--motions", robot.motions, robot.port],
-                                        stdin=self.slave, stdout=self.slave, stderr=self.slave)
+        self.process = subprocess.Popen(
+            [program("play"), "--robot", robot.folder / "robot", "--motions", robot.motions, robot.port],
+            stdin=self.slave,
+            stdout=self.slave,
+            stderr=self.slave,
+        )
 
     def expect(self, text):
         def look():
             if select.select([self.master], [], [], 0)[0]:
                 self.shown += os.read(self.master, 65536)
             return text.encode() in self.shown
+
         until(look, lambda: f"{text!r} did not come: {self.shown!r}")
 
     def send(self, data):
@@ -153,6 +166,7 @@ class Terminal:
             if select.select([self.master], [], [], 0)[0]:
                 self.shown += os.read(self.master, 65536)
             return self.process.poll() is not None
+
         until(look, lambda: f"it goes on: {self.shown!r}")
         return self.process.returncode
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """m512 -p bus:...: the commands of m512 with a program of this PC where a board would be."""
+
 import os
 import subprocess
 import sys
@@ -28,10 +29,16 @@ def m512(make, tmp_path):
     environment = dict(os.environ, M512_ROBOT=str(tmp_path / "robot"))
 
     def run(*words, code=0, bus=f"bus:{robot.port}"):
-        done = subprocess.run([sys.executable, "-m", "m512", *(str(word).replace("BUS", bus) for word in words)], stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True, env=environment)
+        done = subprocess.run(
+            [sys.executable, "-m", "m512", *(str(word).replace("BUS", bus) for word in words)],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            env=environment,
+        )
         assert done.returncode == code, done.stdout + done.stderr
         return done.stdout + done.stderr
+
     run.robot = robot
     return run
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """256 pages, all that a link can name: the loops over them end, the last one plays and is linked to, and who has fewer says what does not fit."""
+
 import os
 import subprocess
 import sys
@@ -59,8 +60,15 @@ def test_m512_takes_all_of_them_and_a_board_says_what_does_not_fit(make, files, 
     robot, back = make(), tmp_path / "back.bin"
 
     def m512(*words):
-        return subprocess.run([sys.executable, "-m", "m512", *map(str, words)], stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                              check=False, env=dict(os.environ, M512_ROBOT=str(tmp_path / "kept")))
+        return subprocess.run(
+            [sys.executable, "-m", "m512", *map(str, words)],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            check=False,
+            env=dict(os.environ, M512_ROBOT=str(tmp_path / "kept")),
+        )
+
     done = m512("put", files, "all", "-p", f"bus:{robot.port}")
     assert done.returncode == 0 and "saved: pages 1 200 255" in done.stdout + done.stderr, done
     assert m512("get", "all", "-o", back, "-p", f"bus:{robot.port}").returncode == 0

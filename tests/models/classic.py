@@ -7,6 +7,7 @@
 Equal means: the same calls have output, every goal of every joint is the same, the play ends in the same call. Where the page leaves two
 readings open (tests/models/README.md) a case that is equal under ours counts as equal and is told apart.
 """
+
 import argparse
 import pathlib
 import sys
@@ -21,11 +22,15 @@ from tests.models.played import CLASSIC, ENDED, OUTPUT, Played
 READING = "reading"
 # What the player takes where the page can be read in two ways (readings 4, 5 and 6 of tests/models/README.md): the page that is left by its exit
 # link counts as gone through, a linked page of the call's code goes before NEXT_PAGE, and pages are passed over by the code that decided the link.
-OURS = (("            if link in self.exit_pages:", "            self.exit_pages.add(page.number)\n            if link in self.exit_pages:"),
-        ("elif self.code and self.code != self.call:", "elif self.code:"),
-        ("        self.repeat = self.repetitions > 0\n", "        self.repeat, self.decided_by = self.repetitions > 0, self.code\n"),
-        ("            number = self.follow(page)\n", "            code, self.code = self.code, getattr(self, 'decided_by', self.code)\n"
-                                                  "            number, self.code = self.follow(page), code\n"))
+OURS = (
+    ("            if link in self.exit_pages:", "            self.exit_pages.add(page.number)\n            if link in self.exit_pages:"),
+    ("elif self.code and self.code != self.call:", "elif self.code:"),
+    ("        self.repeat = self.repetitions > 0\n", "        self.repeat, self.decided_by = self.repetitions > 0, self.code\n"),
+    (
+        "            number = self.follow(page)\n",
+        "            code, self.code = self.code, getattr(self, 'decided_by', self.code)\n            number, self.code = self.follow(page), code\n",
+    ),
+)
 
 
 def model_with_our_readings():
@@ -90,8 +95,10 @@ def main():
     readings, different = compare(asked.first, asked.count)
     for seed, what in different[:20]:
         print(f"seed {seed}: {what}")
-    print(f"{asked.count} motion areas by chance from seed {asked.first}: {len(different)} differ, "
-          f"{readings} are equal under our readings of what the page leaves open")
+    print(
+        f"{asked.count} motion areas by chance from seed {asked.first}: {len(different)} differ, "
+        f"{readings} are equal under our readings of what the page leaves open"
+    )
     return 1 if different else 0
 
 

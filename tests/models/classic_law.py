@@ -12,6 +12,7 @@ not driven, and a page that cannot be right is refused.
 Readings: where the page leaves two readings open, the one taken here is marked with READING and a number, listed in
 tests/models/README.md.
 """
+
 from dataclasses import dataclass
 
 PAGE_BYTES, STEP_BYTES, JOINTS, LAST_PAGE = 512, 64, 31, 127
@@ -46,7 +47,7 @@ class Page:
     """One motion page of an image, read only. Steps count from 1, as in the page of the spec."""
 
     def __init__(self, image, number):
-        self.raw = image[PAGE_BYTES * number:PAGE_BYTES * (number + 1)]
+        self.raw = image[PAGE_BYTES * number : PAGE_BYTES * (number + 1)]
         self.number = number
         self.play_count, self.schedule, self.steps = self.raw[15], self.raw[16], self.raw[20]
         self.speed, self.accel_time = self.raw[22], self.raw[24]
@@ -66,16 +67,22 @@ class Page:
 
     def refused(self):
         """READING 2: positions are looked at in the used steps, for all 31 joints."""
-        return (sum(self.raw) % 256 != 0xFF or self.speed == 0 or self.schedule not in (SPEED_BASE, TIME_BASE)
-                or not 1 <= self.steps <= 7
-                or any(1023 < self.word(step, joint) and not self.word(step, joint) & FLAGGED
-                       for step in range(1, self.steps + 1) for joint in range(JOINTS)))
+        return (
+            sum(self.raw) % 256 != 0xFF
+            or self.speed == 0
+            or self.schedule not in (SPEED_BASE, TIME_BASE)
+            or not 1 <= self.steps <= 7
+            or any(
+                1023 < self.word(step, joint) and not self.word(step, joint) & FLAGGED for step in range(1, self.steps + 1) for joint in range(JOINTS)
+            )
+        )
 
 
 @dataclass
 class Joint:
     """A joint that is there. start: output at the last section change; w: speed carried into the section, v: the step's
     speed, g: the speed reached; M: the step's way, acc: the way of RISE, main: that of CRUISE, then of FALL."""
+
     id: int
     start: int
     target: int

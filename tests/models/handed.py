@@ -12,6 +12,7 @@ Shown, by the page of the spec alone ("Layers", and the exact law's rules 2 and 
 * when the layer is over it goes back at that speed until it meets the walk, and has its goals from then on, bit by bit.
 --offs: of every tick after the first of the layer (default: all). --chance: besides, so many walks with pages, joints and moments by chance.
 """
+
 import argparse
 import bisect
 import ctypes
@@ -25,16 +26,17 @@ from tests.models.played import CLASSIC, ENDED, EXACT, GOALS, JOINTS, STEP, TOP,
 
 ROBOT = sum(1 << joint for joint in (*range(1, 21),))
 LAWS = {"exact": EXACT, "classic": CLASSIC}
-UNITS_A_TICK = 1024 / 300 / 128       # of a degree a second
+UNITS_A_TICK = 1024 / 300 / 128  # of a degree a second
 APPROACH_DEG_S = 60
-WARM_UP, CYCLE = 40, 64               # ticks: the start of the walk, and its two loops
-DEPTH = 160                           # the layer goes so many ticks after it has come, at the latest: two of its steps and more
-SETTLES = 460                         # from the farthest place back, and what the joint's next steps take
+WARM_UP, CYCLE = 40, 64  # ticks: the start of the walk, and its two loops
+DEPTH = 160  # the layer goes so many ticks after it has come, at the latest: two of its steps and more
+SETTLES = 460  # from the farthest place back, and what the joint's next steps take
 
 
 @dataclass
 class Run:
     """What was sent: columns[joint][tick]; the steps of both plays as (first tick, page, step); the layer's last tick, None: it was cut off."""
+
     columns: list
     steps: list
     layer_steps: list
@@ -59,10 +61,12 @@ class Walk:
             made = until
             action()
         flat = array("H", bytes(goals))
-        begins = [[(tick, places[4 * tick + 2 * which], places[4 * tick + 2 * which + 1]) for tick in range(ticks)
-                   if events[2 * tick + which] & STEP] for which in (0, 1)]
+        begins = [
+            [(tick, places[4 * tick + 2 * which], places[4 * tick + 2 * which + 1]) for tick in range(ticks) if events[2 * tick + which] & STEP]
+            for which in (0, 1)
+        ]
         ended = next((tick for tick in range(ticks) if events[2 * tick + 1] & ENDED), None)
-        return Run([flat[joint * ticks:(joint + 1) * ticks] for joint in range(JOINTS)], *begins, ended)
+        return Run([flat[joint * ticks : (joint + 1) * ticks] for joint in range(JOINTS)], *begins, ended)
 
 
 def word(image, page, step, joint):
@@ -94,7 +98,7 @@ def owned(row, steps, way_points, begin, end):
         k = bisect.bisect_right(firsts, tick) - 1
         if k < 1 or k + 1 >= len(steps):
             continue
-        low, high = sorted(way_points[k - 1:k + 1])
+        low, high = sorted(way_points[k - 1 : k + 1])
         ticks = firsts[k + 1] - firsts[k]
         if not low <= row[tick] <= high:
             return f"tick {tick}: at {row[tick]}, beside its owner's way {low}..{high}"
@@ -150,13 +154,14 @@ def judge(image, law, plain, run, joints, on, off, per_tick):
         wrong = judge_return(row, plain.columns[joint], ended, len(row), per_tick)
         if wrong:
             return f"joint {joint}, back to the walk: {wrong}"
-        if row[-CYCLE // 2:] != plain.columns[joint][-CYCLE // 2:]:
+        if row[-CYCLE // 2 :] != plain.columns[joint][-CYCLE // 2 :]:
             return f"joint {joint} does not come back to the walk"
     return None
 
 
 def lay(walk, plain, page, joints, on, off, deg_s=APPROACH_DEG_S):
     """One walk with a layer; None, or what is wrong."""
+
     def come():
         mask = sum(1 << joint for joint in joints)
         assert library.played_layer(page, mask, deg_s) == 0
@@ -189,6 +194,7 @@ def every_tick(law, name, ons=range(CYCLE), offs=range(1, DEPTH)):
 
 # --- pages by chance ---
 
+
 def sealed(page):
     page[31] = (0xFF - sum(page)) % 256
     return page
@@ -200,7 +206,7 @@ def page_by_chance(chance, steps, next_page, ticks, joints, spread):
     for step in range(1, 8):
         for joint in range(31):
             place = max(0, min(1023, 512 + chance.randint(-spread, spread))) if joint in joints else 0x4000
-            page[64 * step + 2 * joint:64 * step + 2 * joint + 2] = place.to_bytes(2, "little")
+            page[64 * step + 2 * joint : 64 * step + 2 * joint + 2] = place.to_bytes(2, "little")
         page[64 * step + 63] = chance.randint(*ticks)
     return sealed(page)
 

@@ -8,6 +8,7 @@ Shown: every step ends on the way-points of the model (tests/models/shaping.py),
 speed in a tick by more than the law does for these shaped steps. That bound is worked out here from the page of the spec (exact law, rule 2),
 with the lengths that the steps had; 2 units are what rounding three positions to whole units can add. Exit code 1 when one is broken.
 """
+
 import argparse
 import itertools
 import random
@@ -23,7 +24,7 @@ WALK = "walk"
 ROBOT = sum(1 << joint for joint in range(1, 19))
 ROUNDING = 2
 VOLTS_DV = 111
-TICKS_A_STEP = 14          # about
+TICKS_A_STEP = 14  # about
 JUMPS = {"rate": (50, 200), "amplitude": (0, 120), "blend": (-100, 100)}
 
 
@@ -37,8 +38,11 @@ def jumps_of(what, seed):
     chance = random.Random(f"jumps {what} {seed}")
     kinds = list(JUMPS) if what in ("all", "chance") else [what]
     for k in itertools.count(1):
-        yield [jump(kind, chance.choice((*JUMPS[kind], (JUMPS[kind][0] + JUMPS[kind][1]) // 2)) if what == "chance" else JUMPS[kind][k % 2])
-               for kind in kinds if what != "chance" or chance.random() < 0.6]
+        yield [
+            jump(kind, chance.choice((*JUMPS[kind], (JUMPS[kind][0] + JUMPS[kind][1]) // 2)) if what == "chance" else JUMPS[kind][k % 2])
+            for kind in kinds
+            if what != "chance" or chance.random() < 0.6
+        ]
 
 
 def way_point_speeds(way, ticks, after_way, after_ticks):
@@ -68,7 +72,7 @@ def speed_changes(judge, accel):
         bounds = [bound_of(way, count, accel, before, after) for way, count, before, after in zip(ways, ticks, ends, ends[1:])]
         row = [steps[0][1][joint]] * 2 + [goals[joint] for goals in judge.ticks]
         for k, bound in enumerate(bounds):
-            beside = max(bounds[max(0, k - 1):k + 1])                # its first tick joins the step before
+            beside = max(bounds[max(0, k - 1) : k + 1])  # its first tick joins the step before
             for tick in range(steps[k][0], steps[k + 1][0]):
                 change = abs(row[tick + 2] - 2 * row[tick + 1] + row[tick])
                 largest = max(largest, change)
@@ -89,8 +93,10 @@ def broken(what, steps, seed=1):
     if wrong or idle:
         return wrong or f"{idle} idle ticks", ""
     largest, excess = speed_changes(judge, library[page].accel)
-    said = f"{len(judge.steps)} steps: 0 past a way-point, 0 idle ticks, largest change of speed {largest} units a tick, " \
+    said = (
+        f"{len(judge.steps)} steps: 0 past a way-point, 0 idle ticks, largest change of speed {largest} units a tick, "
         f"{float(ROUNDING - excess):.2f} below the bound"
+    )
     return (None if excess < ROUNDING else f"a change of speed is {float(excess):.2f} above the law's own"), said
 
 

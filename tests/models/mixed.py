@@ -19,6 +19,7 @@ lengths    Exact law: each step ends on the model's positions, with the model's 
 pauses     A pause changes the step it comes in and no other. It stands in time, nothing turns round on the way and nothing moves in it. So
            does a break.
 """
+
 import argparse
 import collections
 import sys

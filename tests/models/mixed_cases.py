@@ -4,6 +4,7 @@ that changes, a second page, motion made by code, pause and resume, stop, break,
 
 A case is a motion area, what is set before the play, and actions: (tick before which it is done, name, words of Player.do).
 """
+
 import ctypes
 import random
 from array import array
@@ -14,7 +15,7 @@ from tests.models.played import CLASSIC, ENDED, EXACT, GOALS, JOINTS, library
 ALL = 0x7FFFFFFF
 MAIN_PAGES, LAYER_PAGES, PARTNERS = range(1, 6), range(120, 124), range(110, 114)
 CENTRE_PAGE = 100
-JOINTS_USED = tuple(range(12))    # few, so that the same ones meet again and again
+JOINTS_USED = tuple(range(12))  # few, so that the same ones meet again and again
 TICKS = 420
 LAYER_ACTIONS = ("layer", "layer_off", "aim", "swing", "free")
 SHAPE_ACTIONS = ("rate", "amplitude", "blend", "centre", "voltage", "reset")
@@ -34,9 +35,9 @@ class Case:
     page: int
     present: int
     pose: list
-    before: list                  # what is set before the play, as actions without ticks
+    before: list  # what is set before the play, as actions without ticks
     actions: list
-    deg_s: int                    # the speed of hand-overs
+    deg_s: int  # the speed of hand-overs
     about: dict = field(default_factory=dict)
 
     def only(self, *kinds):
@@ -48,6 +49,7 @@ class Case:
 class Run:
     """What was played, up to the end of the play. columns[joint][tick]; events and layer_events by tick; steps: (first tick, page, step)
     of the main play; layer_steps; done: (tick, name, words, status) of the actions."""
+
     columns: list
     events: list
     layer_events: list
@@ -95,13 +97,23 @@ def recorded(goals, events, places, done, ticks):
     last = next((tick for tick in range(ticks) if main[tick] & ENDED), None)
     count = ticks if last is None else last + 1
     flat, where = array("H", bytes(goals)), bytes(places)
-    steps = [[(tick, where[4 * tick + 2 * which], where[4 * tick + 2 * which + 1]) for tick in range(count) if of[tick] & 2]
-             for which, of in ((0, main), (1, layer))]
-    return Run([flat[joint * ticks:joint * ticks + count] for joint in range(JOINTS)], main[:count], layer[:count],
-               [where[4 * tick:4 * tick + 2] for tick in range(count)], *steps, [action for action in done if action[0] < count], last is not None)
+    steps = [
+        [(tick, where[4 * tick + 2 * which], where[4 * tick + 2 * which + 1]) for tick in range(count) if of[tick] & 2]
+        for which, of in ((0, main), (1, layer))
+    ]
+    return Run(
+        [flat[joint * ticks : joint * ticks + count] for joint in range(JOINTS)],
+        main[:count],
+        layer[:count],
+        [where[4 * tick : 4 * tick + 2] for tick in range(count)],
+        *steps,
+        [action for action in done if action[0] < count],
+        last is not None,
+    )
 
 
 # --- pages ---
+
 
 def sealed(page):
     page[31] = 0
@@ -127,7 +139,7 @@ def page_by_chance(chance, style, steps, following, leaving):
         for joint in range(JOINTS):
             used = joint in JOINTS_USED and chance.random() > 0.15
             word = max(0, min(1023, 512 + chance.randint(-spread, spread))) if used else 0x4000
-            page[64 * step + 2 * joint:64 * step + 2 * joint + 2] = word.to_bytes(2, "little")
+            page[64 * step + 2 * joint : 64 * step + 2 * joint + 2] = word.to_bytes(2, "little")
         low, high = chance.choice(style["ticks"])
         page[64 * step + 62] = chance.choice((0, 0, 0, 0, 1, 2, 9)) if style["pauses"] else 0
         page[64 * step + 63] = time_byte(chance, chance.randint(low, high), page, spread)
@@ -141,7 +153,7 @@ def area_by_chance(chance, style):
     def put(number, steps, following, leaving, partners=(0, 0)):
         page = page_by_chance(chance, style, steps, following, leaving)
         page[17], page[18] = partners
-        image[512 * number:512 * number + 512] = sealed(page)
+        image[512 * number : 512 * number + 512] = sealed(page)
 
     for number in MAIN_PAGES:
         steps = chance.randint(1, 7)
@@ -157,29 +169,37 @@ def area_by_chance(chance, style):
 
 # --- actions ---
 
+
 def mask_by_chance(chance):
     return sum(1 << joint for joint in JOINTS_USED if chance.random() < chance.choice((0.15, 0.5)))
 
 
 def shape_by_chance(chance, rates):
-    kind = chance.choice(("rate", "amplitude", "amplitude", "blend", "blend", "centre", "voltage", "reset") if rates else
-                         ("amplitude", "amplitude", "amplitude", "blend", "blend", "blend", "centre", "reset"))
-    return {"rate": lambda: ("rate", chance.choice((10, 50, 75, 100, 130, 200, 400))),
-            "amplitude": lambda: ("amplitude", chance.choice((0, 1, 60, 100, 120, 150)), chance.choice((ALL, mask_by_chance(chance) | 1))),
-            "blend": lambda: ("blend", chance.choice((-100, -37, 0, 1, 50, 100))),
-            "centre": lambda: ("centre", chance.choice((CENTRE_PAGE, *MAIN_PAGES, 0))),
-            "voltage": lambda: ("voltage", chance.choice((0, 96, 111, 120))),
-            "reset": lambda: ("reset",)}[kind]()
+    kind = chance.choice(
+        ("rate", "amplitude", "amplitude", "blend", "blend", "centre", "voltage", "reset")
+        if rates
+        else ("amplitude", "amplitude", "amplitude", "blend", "blend", "blend", "centre", "reset")
+    )
+    return {
+        "rate": lambda: ("rate", chance.choice((10, 50, 75, 100, 130, 200, 400))),
+        "amplitude": lambda: ("amplitude", chance.choice((0, 1, 60, 100, 120, 150)), chance.choice((ALL, mask_by_chance(chance) | 1))),
+        "blend": lambda: ("blend", chance.choice((-100, -37, 0, 1, 50, 100))),
+        "centre": lambda: ("centre", chance.choice((CENTRE_PAGE, *MAIN_PAGES, 0))),
+        "voltage": lambda: ("voltage", chance.choice((0, 96, 111, 120))),
+        "reset": lambda: ("reset",),
+    }[kind]()
 
 
 def layer_by_chance(chance, deg_s):
     kind = chance.choice(("layer", "layer", "layer", "layer_off", "aim", "swing", "free"))
     joint = chance.choice(JOINTS_USED)
-    return {"layer": lambda: ("layer", chance.choice(LAYER_PAGES), chance.choice((0, mask_by_chance(chance) | 1)), deg_s),
-            "layer_off": lambda: ("layer_off",),
-            "aim": lambda: ("aim", joint, chance.randrange(1024), 0),
-            "swing": lambda: ("swing", joint, 512, chance.randint(1, 60), chance.randint(60, 300), chance.randrange(360)),
-            "free": lambda: ("free", mask_by_chance(chance))}[kind]()
+    return {
+        "layer": lambda: ("layer", chance.choice(LAYER_PAGES), chance.choice((0, mask_by_chance(chance) | 1)), deg_s),
+        "layer_off": lambda: ("layer_off",),
+        "aim": lambda: ("aim", joint, chance.randrange(1024), 0),
+        "swing": lambda: ("swing", joint, 512, chance.randint(1, 60), chance.randint(60, 300), chance.randrange(360)),
+        "free": lambda: ("free", mask_by_chance(chance)),
+    }[kind]()
 
 
 def actions_by_chance(chance, style, deg_s):
@@ -203,9 +223,15 @@ TICK_STYLES = (((1, 6),), ((1, 6),), ((1, 3), (1, 6), (20, 40)), ((1, 40),), ((5
 
 def case_by_chance(seed):
     chance = random.Random(f"mixed {seed}")
-    style = {"ticks": chance.choice(TICK_STYLES), "schedules": chance.choice(((0x0A,), (0x0A,), (0x0A, 0), (0,))), "pauses": chance.random() < 0.3,
-             "shapes": chance.choice((0, 0, 2, 8, 30)), "layers": chance.choice((0, 1, 3, 9)), "halts": chance.choice((0, 0, 1, 4)),
-             "rates": chance.random() < 0.4}
+    style = {
+        "ticks": chance.choice(TICK_STYLES),
+        "schedules": chance.choice(((0x0A,), (0x0A,), (0x0A, 0), (0,))),
+        "pauses": chance.random() < 0.3,
+        "shapes": chance.choice((0, 0, 2, 8, 30)),
+        "layers": chance.choice((0, 1, 3, 9)),
+        "halts": chance.choice((0, 0, 1, 4)),
+        "rates": chance.random() < 0.4,
+    }
     deg_s = chance.choice((20, 60, 120, 360))
     before = [("centre", CENTRE_PAGE)]
     if style["rates"]:
@@ -214,9 +240,19 @@ def case_by_chance(seed):
         before += [("rate", chance.choice((50, 130, 200))), ("voltage", chance.choice((0, 96, 111)))]
         style["rate"] = True
     present = ALL if chance.random() < 0.7 else mask_by_chance(chance) | 1
-    case = Case(seed, chance.choice((EXACT, EXACT, CLASSIC)), area_by_chance(chance, style), chance.choice(MAIN_PAGES), present,
-                [chance.randint(300, 700) for _ in range(JOINTS)], before, [], deg_s, style)
+    case = Case(
+        seed,
+        chance.choice((EXACT, EXACT, CLASSIC)),
+        area_by_chance(chance, style),
+        chance.choice(MAIN_PAGES),
+        present,
+        [chance.randint(300, 700) for _ in range(JOINTS)],
+        before,
+        [],
+        deg_s,
+        style,
+    )
     case.actions = actions_by_chance(chance, style, deg_s)
-    if style.get("rate"):    # reset would set the rate too
+    if style.get("rate"):  # reset would set the rate too
         case.actions = [action for action in case.actions if action[1] != "reset"]
     return case

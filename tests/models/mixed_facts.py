@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What happened in a run of a case, for the judges of mixed.py: what was in force, who had which joint, where two runs part."""
+
 from fractions import Fraction
 
 from tests.models import (
@@ -62,8 +63,9 @@ def ends_of(run):
 def first_difference(run, other, joints, ticks, events=TIMING):
     """None, or where two runs are different within the first ticks."""
     ticks = min(ticks, max(run.ticks, other.ticks))
-    if any(a[:ticks] != b[:ticks] for a, b in ((run.columns[j], other.columns[j]) for j in joints)) or \
-            [e & events for e in run.events[:ticks]] != [e & events for e in other.events[:ticks]]:
+    if any(a[:ticks] != b[:ticks] for a, b in ((run.columns[j], other.columns[j]) for j in joints)) or [e & events for e in run.events[:ticks]] != [
+        e & events for e in other.events[:ticks]
+    ]:
         for tick in range(ticks):
             if tick >= run.ticks or tick >= other.ticks:
                 return f"tick {tick}: {run.ticks} ticks, other {other.ticks}"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The judges of mixed.py: each compares two plays that the page of the spec calls equal, or asks a bound. A judge takes a Case and the Run
 that was made of it, and returns None or what is wrong."""
+
 import itertools
 import math
 from fractions import Fraction
@@ -16,13 +17,14 @@ from tests.models.mixed_facts import bits, dropped, ends_of, first_difference, h
 from tests.models.played import CLASSIC, ENDED, EXACT, JOINTS, OUTPUT, STANDING
 from tests.models.shaped import model_pose
 
-BYTES_PAGE, UNROLLED = 512, 109      # pages that an unrolled play may have
+BYTES_PAGE, UNROLLED = 512, 109  # pages that an unrolled play may have
 COMBINATIONS = 64
 BRAKES_TICKS = 8
-BESIDE_TARGET = 3 * JOINTS          # of all joints: the classic law ends a step a little beside its target
+BESIDE_TARGET = 3 * JOINTS  # of all joints: the classic law ends a step a little beside its target
 
 
 # --- bytes ---
+
 
 def poses_of(case, run):
     """For each step the poses it may have: of what was in force in the two steps before it and in its first tick, the likeliest first.
@@ -47,7 +49,7 @@ def poses_of(case, run):
                     return f"page {page} step {step} ends in tick {ends[k]}: no shape that was in force makes these goals"
                 poses = [pose for pose, by in zip(poses, off) if by == 0]
             else:
-                played = any(run.events[at] & OUTPUT for at in range(tick, ends[k] + 1))     # else it is skipped, and ends anywhere
+                played = any(run.events[at] & OUTPUT for at in range(tick, ends[k] + 1))  # else it is skipped, and ends anywhere
                 most = min(off) + BESIDE_TARGET if played and min(off) <= BESIDE_TARGET else max(off)
                 poses = [pose for by, pose in sorted(zip(off, poses), key=lambda pair: pair[0]) if by <= most]
         found.append(poses)
@@ -64,16 +66,16 @@ def unrolled(case, run, poses):
                 until = min(until, run.steps[k - 1][0])
                 break
             number += 1
-            image[BYTES_PAGE * number:BYTES_PAGE * (number + 1)] = case.image[BYTES_PAGE * page:BYTES_PAGE * (page + 1)]
-            made = memoryview(image)[BYTES_PAGE * number:BYTES_PAGE * (number + 1)]
+            image[BYTES_PAGE * number : BYTES_PAGE * (number + 1)] = case.image[BYTES_PAGE * page : BYTES_PAGE * (page + 1)]
+            made = memoryview(image)[BYTES_PAGE * number : BYTES_PAGE * (number + 1)]
             made[15], made[17], made[18], made[25], made[26] = 1, 0, 0, number + 1, 0
         for joint, place in pose.items():
-            made[64 * step + 2 * joint:64 * step + 2 * joint + 2] = place.to_bytes(2, "little")
-    last = image[BYTES_PAGE * number:BYTES_PAGE * (number + 1)]
+            made[64 * step + 2 * joint : 64 * step + 2 * joint + 2] = place.to_bytes(2, "little")
+    last = image[BYTES_PAGE * number : BYTES_PAGE * (number + 1)]
     last[25] = 0
-    image[BYTES_PAGE * number:BYTES_PAGE * (number + 1)] = last
+    image[BYTES_PAGE * number : BYTES_PAGE * (number + 1)] = last
     for page in range(1, number + 1):
-        made = memoryview(image)[BYTES_PAGE * page:BYTES_PAGE * (page + 1)]
+        made = memoryview(image)[BYTES_PAGE * page : BYTES_PAGE * (page + 1)]
         mixed_cases.sealed(made)
     return bytes(image), until
 
@@ -82,14 +84,14 @@ def judge_bytes(case, run):
     if case.about["rates"] or not run.steps:
         return None
     if dropped(run) and by_way(case, run):
-        return None     # lost behind the look, a joint counts for the length of that step; a shaped step is looked at earlier
+        return None  # lost behind the look, a joint counts for the length of that step; a shaped step is looked at earlier
     poses = poses_of(case, run)
     if isinstance(poses, str):
         return poses
     before = [action for action in case.before if action[0] in ("rate", "voltage")]
     actions = [action for action in case.actions if action[1] not in (*SHAPE_ACTIONS, "stop")]
     if math.prod(map(len, poses)) > COMBINATIONS:
-        return None     # too many of them cannot be told apart by the joints that were never lent
+        return None  # too many of them cannot be told apart by the joints that were never lent
     found = None
     for chosen in itertools.product(*poses):
         image, until = unrolled(case, run, chosen)
@@ -100,6 +102,7 @@ def judge_bytes(case, run):
 
 
 # --- layers ---
+
 
 def by_way(case, run):
     """Whether the length of some step comes from the way of its joints."""
@@ -115,6 +118,7 @@ def judge_layers(case, run):
 
 
 # --- hands, and motion by code ---
+
 
 def judge_hands(case, run):
     per_tick, paused = case.deg_s * handed.UNITS_A_TICK, paused_ticks(run)
@@ -134,7 +138,7 @@ def judge_hands(case, run):
             elif owner == "code":
                 wrong = by_code(row, action, tick, end, per_tick, paused)
             else:
-                wrong = None if len(set(row[tick - 1:end])) == 1 or any(name == "break" for _, name, _, _ in run.done) else "moves, but is lost"
+                wrong = None if len(set(row[tick - 1 : end])) == 1 or any(name == "break" for _, name, _, _ in run.done) else "moves, but is lost"
             if wrong:
                 return f"joint {joint}, to {owner} in tick {tick}: {wrong}"
     return None
@@ -158,6 +162,7 @@ def by_code(row, action, begin, end, per_tick, paused):
 
 # --- nothing set ---
 
+
 def judge_nothing(case, run):
     if any(action[0] == "rate" for action in case.before) or case.about["rates"]:
         return None
@@ -166,6 +171,7 @@ def judge_nothing(case, run):
 
 
 # --- lengths ---
+
 
 def judge_lengths(case, run):
     if case.law != EXACT or is_broken(run) or case.only("drop"):
@@ -205,7 +211,7 @@ def ideal_of(case, page, step, target, pose, shape):
     longest = max((abs(to - target[j]) for j, to in pose.items()), default=0)
     unlimited = shaping.Shape(rate=shape.rate) if shape.volts == 0 else shape
     if shape.volts == 0:
-        unlimited.volts = Fraction(10 ** 6)
+        unlimited.volts = Fraction(10**6)
     return max(shaping.ideal_step(of, step, longest, unlimited), Fraction(1)) + shaping.ideal_pause(of, step, shape)
 
 
@@ -223,6 +229,7 @@ def length_wrong(run, target, pose, shape, ideal, k, ends):
 
 
 # --- pauses and breaks ---
+
 
 def judge_pauses(case, run):
     if not case.only("pause", "break"):
@@ -242,13 +249,15 @@ def judge_pauses(case, run):
         inside = [halt for halt in halts if tick < halt <= ends[k]]
         was_between, between = between, len(inside) > 1 or any(halt - tick >= straight_ends[k] - begun for halt in inside)
         if was_between or inside or (case.law == CLASSIC and by_way(case, halted)):
-            continue    # under the classic law a joint may be a little beside its target behind a step, but not behind a pause
+            continue  # under the classic law a joint may be a little beside its target behind a step, but not behind a pause
         if ends[k] - tick != straight_ends[k] - begun:
             return f"step {k} from tick {tick} on has {ends[k] - tick + 1} ticks, without a pause {straight_ends[k] - begun + 1}"
         wrong = [j for j in range(JOINTS) if halted.columns[j][ends[k]] != straight.columns[j][straight_ends[k]]]
         if wrong and case.law == EXACT:
-            return f"step {k} ends with joint {wrong[0]} at {halted.columns[wrong[0]][ends[k]]}, without a pause at " \
+            return (
+                f"step {k} ends with joint {wrong[0]} at {halted.columns[wrong[0]][ends[k]]}, without a pause at "
                 f"{straight.columns[wrong[0]][straight_ends[k]]}"
+            )
     return None
 
 
@@ -260,7 +269,7 @@ def stands_well(case, run):
     for k, (tick, name) in enumerate(halts):
         until = halts[k + 1][0] if k + 1 < len(halts) else run.ticks
         was, halted = halted, name != "resume"
-        taken_back = k > 1 and halts[k - 1] == (tick, "resume") and halts[k - 2][1] == "pause"    # a resume that no tick has seen
+        taken_back = k > 1 and halts[k - 1] == (tick, "resume") and halts[k - 2][1] == "pause"  # a resume that no tick has seen
         if name == "resume" or was or until <= tick or taken_back:
             continue
         stand = next((at for at in range(tick, until) if run.events[at] & (STANDING | ENDED)), until - 1)
@@ -270,10 +279,16 @@ def stands_well(case, run):
             ways = [run.columns[joint][at] - run.columns[joint][at - 1] for at in range(max(tick, 1), until)]
             if any(way > 0 for way in ways) and any(way < 0 for way in ways):
                 return f"a {name} in front of tick {tick}: joint {joint} turns round"
-            if any(ways[stand + 1 - max(tick, 1):]):
+            if any(ways[stand + 1 - max(tick, 1) :]):
                 return f"a {name} in front of tick {tick}: joint {joint} moves after tick {stand}"
     return None
 
 
-JUDGES = {"bytes": judge_bytes, "layers": judge_layers, "hands": judge_hands, "nothing": judge_nothing, "lengths": judge_lengths,
-          "pauses": judge_pauses}
+JUDGES = {
+    "bytes": judge_bytes,
+    "layers": judge_layers,
+    "hands": judge_hands,
+    "nothing": judge_nothing,
+    "lengths": judge_lengths,
+    "pauses": judge_pauses,
+}

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The C player in Python: one play at a time, tick by tick (played.c)."""
+
 import ctypes
 import os
 import pathlib

@@ -9,6 +9,7 @@
 (mask in hex), position ID POS, code TICK CODE, limit TICKS. SEED.csv holds "call,goals in the order of the IDs" for each call with
 output and ends with "end,CALL,REASON" (REASON "limit" when the play goes on).
 """
+
 import argparse
 import pathlib
 import random
@@ -86,12 +87,13 @@ def page_by_chance(chance, links):
     for joint in range(law.JOINTS):
         for step, at in enumerate(positions_by_chance(chance, 7), 1):
             word = flag(chance) if chance.random() < flags or step > steps else at
-            page[64 * step + 2 * joint:64 * step + 2 * joint + 2] = word.to_bytes(2, "little")
+            page[64 * step + 2 * joint : 64 * step + 2 * joint + 2] = word.to_bytes(2, "little")
     short = chance.random() < 0.3
     for step in range(1, 8):
         page[64 * step + 62] = one_of(chance, 0, 0, 0, 0, 1, 2, lambda: chance.randrange(32))
-        page[64 * step + 63] = one_of(chance, *((0, 1, 2, 3) if short else ()), lambda: chance.randrange(10 if short else 60),
-                                      lambda: chance.randrange(10 if short else 256))
+        page[64 * step + 63] = one_of(
+            chance, *((0, 1, 2, 3) if short else ()), lambda: chance.randrange(10 if short else 60), lambda: chance.randrange(10 if short else 256)
+        )
     return checksummed(page)
 
 
@@ -108,7 +110,7 @@ def damaged(chance, page, joint):
         page[20] = chance.choice((0, 0, 8, 255))
     else:
         at = 64 * chance.randint(1, page[20]) + 2 * joint
-        page[at:at + 2] = chance.choice((1024, 4095, 0x1FFF)).to_bytes(2, "little")
+        page[at : at + 2] = chance.choice((1024, 4095, 0x1FFF)).to_bytes(2, "little")
     return checksummed(page)
 
 
@@ -122,7 +124,9 @@ def case(seed, limit=1500):
     image = bytearray(IMAGE_BYTES)
     for number in pages:
         page = page_by_chance(chance, links)
-        image[512 * number:512 * number + 512] = damaged(chance, page, there[0]) if chance.random() < (0.15 if number != pages[0] else 0.05) else page
+        image[512 * number : 512 * number + 512] = (
+            damaged(chance, page, there[0]) if chance.random() < (0.15 if number != pages[0] else 0.05) else page
+        )
     positions = {i: one_of(chance, 512, lambda: chance.randrange(1024), lambda: chance.choice(CORNERS)) for i in there}
     made = Case(seed, bytes(image), pages[0], sum(1 << i for i in there), positions, limit=limit)
     if chance.random() < 0.4:
@@ -170,6 +174,7 @@ def main():
             write(case(seed), asked.folder)
         return
     from tests.models import rules
+
     rules.print_measure([case(seed, limit=600) for seed in seeds])
 
 

@@ -5,6 +5,7 @@ A broken model is classic_law.py with one piece of text replaced. A set of cases
 different with the sentence broken; the number of such cases is the measure. READINGS are the other readings of sentences that the page leaves open:
 a case that one of them decides does not convict a player.
 """
+
 import pathlib
 import sys
 import types
@@ -13,10 +14,17 @@ from tests.models import random_pages
 
 # (sentence of the page, text of the model, text in its place)
 RULES = (
-    ("the next section's first tick is made in the call that sets it up", "if self.ended:\n                return self.end_sample()",
-     "return self.end_sample() if self.ended else None"),
-    ("an empty section uses up a call", "        if self.num == 0:  #", "        for _ in range(3):\n"
-     "            if self.num == 0 and not self.ended:\n                self.section_change()\n        if self.ended:\n            return None\n        if self.num == 0:  #"),
+    (
+        "the next section's first tick is made in the call that sets it up",
+        "if self.ended:\n                return self.end_sample()",
+        "return self.end_sample() if self.ended else None",
+    ),
+    (
+        "an empty section uses up a call",
+        "        if self.num == 0:  #",
+        "        for _ in range(3):\n"
+        "            if self.num == 0 and not self.ended:\n                self.section_change()\n        if self.ended:\n            return None\n        if self.num == 0:  #",
+    ),
     ("section change: start = last output", "joint.start, joint.w = joint.output, joint.g", "joint.w = joint.g"),
     ("section change: w = speed reached", "joint.start, joint.w = joint.output, joint.g", "joint.start = joint.output"),
     ("CRUISE of a through joint", "int16(div((joint.M - joint.acc) * (N - 2 * A), N - A))", "int16(joint.M - 2 * joint.acc)"),
@@ -29,13 +37,22 @@ RULES = (
     ("behind HOLD a joint goes on from its output", "if self.section == FALL:  # the", "if self.section in (FALL, HOLD):  # the"),
     ("repetitions are counted down", "(self.repetitions - 1) % 256", "0"),
     ("a stop request ends the repetitions", "            self.repetitions = 0", "            pass"),
-    ("link 0: the step is final, all joints stop", "return self.step == self.page.steps and self.next == 0",
-     "return self.step == self.page.steps and self.next == 0 and False"),
+    (
+        "link 0: the step is final, all joints stop",
+        "return self.step == self.page.steps and self.next == 0",
+        "return self.step == self.page.steps and self.next == 0 and False",
+    ),
     ("PLAY_COUNT 0 is passed over", "if page.play_count != 0:", "if True:"),
-    ("look-ahead takes the page that the link names", "return Page(self.image, self.next).word(1, joint.id)",
-     "return Page(self.image, self.next).word(1, joint.id) if Page(self.image, self.next).play_count else 0x4000"),
-    ("look-ahead takes the first step of a refused page as stored", "return Page(self.image, self.next).word(1, joint.id)",
-     "return 0x4000 if Page(self.image, self.next).refused() else Page(self.image, self.next).word(1, joint.id)"),
+    (
+        "look-ahead takes the page that the link names",
+        "return Page(self.image, self.next).word(1, joint.id)",
+        "return Page(self.image, self.next).word(1, joint.id) if Page(self.image, self.next).play_count else 0x4000",
+    ),
+    (
+        "look-ahead takes the first step of a refused page as stored",
+        "return Page(self.image, self.next).word(1, joint.id)",
+        "return 0x4000 if Page(self.image, self.next).refused() else Page(self.image, self.next).word(1, joint.id)",
+    ),
     ("P = (pause << 5) / PAGE_SPEED", "div(page.pause(step) << 5, page.speed)", "page.pause(step)"),
     ("u = (time * PAGE_SPEED) >> 5", "uint16(page.time(step) * page.speed) >> 5", "page.time(step)"),
     ("u is at least 1", "max(1, uint16(page.time(step) * page.speed) >> 5)", "(page.time(step) * page.speed >> 5) or 2"),
@@ -60,22 +77,40 @@ RULES = (
     ("v: divisor 0 counts as 1", "divisor or 1", "divisor or 10 ** 9"),
     ("v: the carried speed", "K - joint.w * 2 * A", "K"),
     ("v is truncated", "int16(div(K - joint.w * 2 * A, divisor or 1))", "int16((K - joint.w * 2 * A) // (divisor or 1))"),
-    ("v wraps before it is limited", "limited(int16(div(K - joint.w * 2 * A, divisor or 1)), -1023, 1023)",
-     "limited(div(K - joint.w * 2 * A, divisor or 1), -1023, 1023)"),
+    (
+        "v wraps before it is limited",
+        "limited(int16(div(K - joint.w * 2 * A, divisor or 1)), -1023, 1023)",
+        "limited(div(K - joint.w * 2 * A, divisor or 1), -1023, 1023)",
+    ),
     ("v is limited to +-1023", "divisor or 1)), -1023, 1023)", "divisor or 1)), -32768, 32767)"),
     ("the play's end makes one sample", "return self.output_of(Joint.rise, 1, self.num)", "return None"),
-    ("the end's sample: num of the section used up", "return self.output_of(Joint.rise, 1, self.num)",
-     "return self.output_of(Joint.rise, 1, max(1, self.A))"),
-    ("the end's sample: no sample if num is 0", "if self.num == 0:\n            return None\n        return",
-     "self.num = self.num or 1\n        return"),
+    (
+        "the end's sample: num of the section used up",
+        "return self.output_of(Joint.rise, 1, self.num)",
+        "return self.output_of(Joint.rise, 1, max(1, self.A))",
+    ),
+    (
+        "the end's sample: no sample if num is 0",
+        "if self.num == 0:\n            return None\n        return",
+        "self.num = self.num or 1\n        return",
+    ),
     ("RISE is truncated", "d = int16(div((self.v - self.w) * c, num))", "d = int16((self.v - self.w) * c // num)"),
-    ("RISE: d >> 1 floors", "int16(div((self.w + (d >> 1)) * c * 144, 15) >> 9)\n        self.output = limited(self.start + self.acc",
-     "int16(div((self.w + div(d, 2)) * c * 144, 15) >> 9)\n        self.output = limited(self.start + self.acc"),
-    ("RISE: * 144 / 15 >> 9, from left to right", "self.acc = int16(div((self.w + (d >> 1)) * c * 144, 15) >> 9)",
-     "self.acc = int16(div((self.w + (d >> 1)) * c * 144 >> 9, 15))"),
+    (
+        "RISE: d >> 1 floors",
+        "int16(div((self.w + (d >> 1)) * c * 144, 15) >> 9)\n        self.output = limited(self.start + self.acc",
+        "int16(div((self.w + div(d, 2)) * c * 144, 15) >> 9)\n        self.output = limited(self.start + self.acc",
+    ),
+    (
+        "RISE: * 144 / 15 >> 9, from left to right",
+        "self.acc = int16(div((self.w + (d >> 1)) * c * 144, 15) >> 9)",
+        "self.acc = int16(div((self.w + (d >> 1)) * c * 144 >> 9, 15))",
+    ),
     ("the output is limited to 0..1023", "return max(lowest, min(highest, value))", "return max(lowest, min(highest, value)) if lowest else value"),
-    ("acc is not limited", "self.output = limited(self.start + self.acc, 0, 1023)",
-     "self.output = limited(self.start + self.acc, 0, 1023); self.acc = self.output - self.start"),
+    (
+        "acc is not limited",
+        "self.output = limited(self.start + self.acc, 0, 1023)",
+        "self.output = limited(self.start + self.acc, 0, 1023); self.acc = self.output - self.start",
+    ),
     ("CRUISE: main * c / num is truncated", "div(self.main * c, num)), 0, 1023)", "self.main * c // num), 0, 1023)"),
     ("a CRUISE that is not empty sets g = v", "        self.g = self.v\n", ""),
     ("FALL of a stop joint", "d = int16(div(-self.w * c, num))", "d = int16(-(self.w * c // num))"),
@@ -93,22 +128,39 @@ RULES = (
     ("exit pages in a circle end", "if link in self.exit_pages:", "if False:"),
     ("a linked page by its code", "            for code, linked in page.linked:", "            for code, linked in ():"),
     ("the followed code is the new call", "link, self.call = linked, code", "link = linked"),
-    ("the last non-zero code stays in force", "            if code:\n                self.code = code", "            if True:\n                self.code = code"),
-    ("the link is decided when the last step begins", "        if self.step == self.page.steps:\n            self.decide_link()",
-     "        if self.step == 1:\n            self.decide_link()"),
+    (
+        "the last non-zero code stays in force",
+        "            if code:\n                self.code = code",
+        "            if True:\n                self.code = code",
+    ),
+    (
+        "the link is decided when the last step begins",
+        "        if self.step == self.page.steps:\n            self.decide_link()",
+        "        if self.step == 1:\n            self.decide_link()",
+    ),
 )
 
 READINGS = (
-    ("1: a word above 0x7FFF is negative in the look-ahead", "return self.raw[at] | self.raw[at + 1] << 8",
-     "return int16(self.raw[at] | self.raw[at + 1] << 8)"),
+    (
+        "1: a word above 0x7FFF is negative in the look-ahead",
+        "return self.raw[at] | self.raw[at + 1] << 8",
+        "return int16(self.raw[at] | self.raw[at + 1] << 8)",
+    ),
     ("2: positions of unused steps are looked at as well", "range(1, self.steps + 1) for joint", "range(1, 8) for joint"),
     ("3: a stop stays in force over later codes", "            if code:\n", "            if code and self.code != STOP:\n"),
-    ("4: the page that closes a circle of exit pages is found at the join", "            if link in self.exit_pages:\n"
-     "                self.reason = EXIT_CIRCLE\n                return 0\n            self.exit_pages.add(link)\n", "            self.exit_link = link\n"),
+    (
+        "4: the page that closes a circle of exit pages is found at the join",
+        "            if link in self.exit_pages:\n"
+        "                self.reason = EXIT_CIRCLE\n                return 0\n            self.exit_pages.add(link)\n",
+        "            self.exit_link = link\n",
+    ),
     ("5: a linked page of the call's code goes before NEXT_PAGE", "elif self.code and self.code != self.call:", "elif self.code:"),
     ("6: pages are passed over along NEXT_PAGE", "number = self.follow(page)", "number = page.next_page"),
-    ("7: a flagged joint is set on its target", "joint.M = joint.w = joint.g = 0\n            joint.through",
-     "joint.start = joint.target\n            joint.M = joint.w = joint.g = 0\n            joint.through"),
+    (
+        "7: a flagged joint is set on its target",
+        "joint.M = joint.w = joint.g = 0\n            joint.through",
+        "joint.start = joint.target\n            joint.M = joint.w = joint.g = 0\n            joint.through",
+    ),
 )
 
 
@@ -133,6 +185,7 @@ def outcome(case, model):
 
 def print_measure(cases):
     from tests.models import classic_law
+
     whole = [outcome(case, classic_law) for case in cases]
     ends = {}
     for _, _, reason in whole:

@@ -8,6 +8,7 @@ What is set changes at any tick. The model says for every step where each joint 
 says when it looked at the step, so the model is asked with what was in force then. Equal means: at a step's last tick every joint of the step stands
 on the model's position, every step has its length to one tick, no joint leaves the way between two way-points, no tick is idle.
 """
+
 import argparse
 import random
 import sys
@@ -33,7 +34,7 @@ def page_by_chance(chance, steps, pages):
     for step in range(1, steps + 1):
         for joint in range(31):
             word = 0x4000 if chance.random() < 0.1 else chance.randrange(1024) if chance.random() < 0.3 else 512 + chance.randint(-90, 90)
-            page[64 * step + 2 * joint:64 * step + 2 * joint + 2] = word.to_bytes(2, "little")
+            page[64 * step + 2 * joint : 64 * step + 2 * joint + 2] = word.to_bytes(2, "little")
         page[64 * step + 62], page[64 * step + 63] = chance.choice((0, 0, 0, 3, 17)), chance.randint(6, 60)
     page[31] = (0xFF - sum(page)) % 256
     return page
@@ -43,7 +44,7 @@ def area_by_chance(chance):
     image, pages = bytearray(65536), chance.sample(range(1, 128), 4)
     steps = chance.randint(1, 7)
     for number in pages:
-        image[512 * number:512 * number + 512] = page_by_chance(chance, steps if chance.random() < 0.8 else chance.randint(1, 7), pages)
+        image[512 * number : 512 * number + 512] = page_by_chance(chance, steps if chance.random() < 0.8 else chance.randint(1, 7), pages)
     if chance.random() < 0.1:
         image[512 * pages[-1] + 100] ^= 1  # damaged: no partner, and a play ends there
     return bytes(image), pages
@@ -71,8 +72,11 @@ def apply(shape, kind, *values):
     elif kind == "reset":
         made.blend, made.amplitude, made.rate = 0, {}, 100
     else:
-        setattr(made, {"rate": "rate", "blend": "blend", "centre": "centre_page", "voltage": "volts"}[kind],
-                Fraction(values[0], 10) if kind == "voltage" else values[0])
+        setattr(
+            made,
+            {"rate": "rate", "blend": "blend", "centre": "centre_page", "voltage": "volts"}[kind],
+            Fraction(values[0], 10) if kind == "voltage" else values[0],
+        )
     return made
 
 
@@ -82,10 +86,17 @@ def model_pose(image, place, shape):
         scaled = shaping.Shape(shape.blend, {}, shape.rate, place[0], shape.volts)
         page = classic_law.Page(image, place[0])
         other = shaping.partner(image, page, shape.blend)
-        return {j: shaping.shaped_position(page.word(place[1], j),
-                                           None if other is None or not shaping.used(other.word(place[1], j)) else other.word(place[1], j),
-                                           None, scaled.blend, 100)
-                for j in range(JOINTS) if shaping.used(page.word(place[1], j))}
+        return {
+            j: shaping.shaped_position(
+                page.word(place[1], j),
+                None if other is None or not shaping.used(other.word(place[1], j)) else other.word(place[1], j),
+                None,
+                scaled.blend,
+                100,
+            )
+            for j in range(JOINTS)
+            if shaping.used(page.word(place[1], j))
+        }
     return shaping.shaped_pose(image, place[0], place[1], shape)
 
 
@@ -94,16 +105,16 @@ class Judge:
 
     def __init__(self, image, pose):
         self.image, self.target = image, list(pose)
-        self.steps = []       # (page and step, tick in which it begins, goals before it)
-        self.ticks = []       # goals of all ticks; None: a tick without output
-        self.shapes = []      # what was in force at each tick
+        self.steps = []  # (page and step, tick in which it begins, goals before it)
+        self.ticks = []  # goals of all ticks; None: a tick without output
+        self.shapes = []  # what was in force at each tick
         self.before = list(pose)
-        self.trace = []       # goals of the running step, tick by tick; None: a tick without output
+        self.trace = []  # goals of the running step, tick by tick; None: a tick without output
 
     def candidates(self, tick, begun_at):
         """The shapes of which one was in force when the step was looked at: since the beginning of the step before the one before."""
         seen = []
-        for shape in self.shapes[max(0, begun_at):tick + 1]:
+        for shape in self.shapes[max(0, begun_at) : tick + 1]:
             if shape not in seen:
                 seen.append(shape)
         return seen
@@ -127,8 +138,13 @@ class Judge:
 
     def on_the_way(self, pose, ideal):
         """No joint passes the way-points on either side of the step; no tick of it is idle."""
-        wrong = [f"joint {j} passes its way-point: {row[j]}" for row in self.trace if row for j, to in pose.items()
-                 if not min(self.target[j], to) <= row[j] <= max(self.target[j], to)]
+        wrong = [
+            f"joint {j} passes its way-point: {row[j]}"
+            for row in self.trace
+            if row
+            for j, to in pose.items()
+            if not min(self.target[j], to) <= row[j] <= max(self.target[j], to)
+        ]
         if sum(row is not None for row in self.trace) < int(ideal) - 1:
             wrong.append(f"idle ticks: {sum(row is None for row in self.trace)}")
         return wrong

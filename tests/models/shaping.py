@@ -4,6 +4,7 @@
 Written from that page alone, by someone who had not read motion/. Everything is exact (fractions) until the one place where the page rounds. Speeds are
 in servo units per tick, lengths in ticks. READING marks a sentence with a second reading; README.md lists them.
 """
+
 import math
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -19,6 +20,7 @@ PARTNER_RIGHT, PARTNER_LEFT = 17, 18  # bytes of the page's header
 @dataclass
 class Shape:
     """What is in force. blend -100..100 %, right is positive; amplitude {joint: 0..150 %}, 100 where none is given; rate 10..400 %."""
+
     blend: int = 0
     amplitude: dict = field(default_factory=dict)
     rate: int = 100

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A sample of what classic.py compares at scale: C player and model of the classic law, on motion areas by chance."""
+
 import dataclasses
 
 from tests.models import classic
@@ -14,6 +15,9 @@ def test_classic_law_equals_the_model_of_the_page():
 def test_a_player_that_errs_is_found(monkeypatch):
     """The comparison can fail: codes that arrive a tenth of a second late change what follows somewhere."""
     real = classic.play_in_c
-    monkeypatch.setattr(classic, "play_in_c", lambda case: real(
-        dataclasses.replace(case, schedule={tick + 13 if tick else 0: code for tick, code in case.schedule.items()})))
+    monkeypatch.setattr(
+        classic,
+        "play_in_c",
+        lambda case: real(dataclasses.replace(case, schedule={tick + 13 if tick else 0: code for tick, code in case.schedule.items()})),
+    )
     assert classic.compare(1, 120)[1]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The model of the classic law against what the original firmware sent (../golden), and the random cases against the model's sentences."""
+
 import csv
 import functools
 import pathlib

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A sample of what handed.py asks at every tick: a layer that comes and goes over a walk, and joints that change hands."""
+
 import pytest
 
 from tests.models import handed
@@ -25,7 +26,9 @@ def test_a_joint_much_slower_than_its_owners_page_meets_it_all_the_same(seed):
 @pytest.mark.parametrize("law", handed.LAWS)
 def test_a_hand_over_that_is_too_fast_is_found(monkeypatch, law):
     monkeypatch.setattr(handed, "UNITS_A_TICK", 0.97 * handed.UNITS_A_TICK)
-    assert all("faster than the approach" in said or "beside its owner's way" in said for said in handed.every_tick(law, "wave_over", [3], [40, 140])[1])
+    assert all(
+        "faster than the approach" in said or "beside its owner's way" in said for said in handed.every_tick(law, "wave_over", [3], [40, 140])[1]
+    )
     assert handed.every_tick(law, "wave_over", [3], [40, 140])[1]
 
 

@@ -4,6 +4,7 @@ remote, and walks blended with their curves.
 
 The bound is worked out here from the maker's sheet: an AX-12 turns 59 rpm without load at 12 V, in proportion at less, 1024 units are 300
 degrees, a tick is 1/128 s. A goal is a whole unit, so speeds are those of four ticks."""
+
 import pytest
 
 from m512.files.formats import load
@@ -64,8 +65,17 @@ def test_pages_keep_to_what_a_servo_can(name):
     assert fastest(LIBRARY, NUMBER[name]) <= MOST
 
 
-@pytest.mark.parametrize("name, keys", [("walk", (UP, RIGHT, LEFT, UP, DOWN)), ("back", (DOWN, UP)), ("right", (RIGHT, LEFT, UP)),
-                                        ("left", (LEFT, RIGHT, UP)), ("side_r", (RIGHT + 16, LEFT + 16, UP)), ("dance", (64, 128))])
+@pytest.mark.parametrize(
+    "name, keys",
+    [
+        ("walk", (UP, RIGHT, LEFT, UP, DOWN)),
+        ("back", (DOWN, UP)),
+        ("right", (RIGHT, LEFT, UP)),
+        ("left", (LEFT, RIGHT, UP)),
+        ("side_r", (RIGHT + 16, LEFT + 16, UP)),
+        ("dance", (64, 128)),
+    ],
+)
 def test_ways_led_by_a_remote_keep_to_it(name, keys):
     codes = {307 * (k + 1): code for k, code in enumerate((*keys, *keys[::-1]))}
     assert fastest(LIBRARY, NUMBER[name], 4000, codes | {307 * (len(codes) + 1): STOP}) <= MOST
@@ -82,5 +92,5 @@ def test_m512_tells_what_a_weaker_battery_cannot_do(name):
     """It names a page exactly when the C player asks for more than this battery's servos do."""
     asked = fastest(LIBRARY, NUMBER[name], 400)
     for volts in (9.6, 8.0):
-        if abs(asked - units_per_tick(volts)) > 1 / WINDOW:              # else rounding decides
+        if abs(asked - units_per_tick(volts)) > 1 / WINDOW:  # else rounding decides
             assert bool(too_fast(LIBRARY, NUMBER[name], volts, seconds=400 / 128)) == (asked > units_per_tick(volts)), (volts, asked)

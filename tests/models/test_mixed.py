@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A sample of what mixed.py asks at scale, and that each of its judges can object."""
+
 from tests.models import handed, mixed, mixed_cases, mixed_facts, mixed_judges, shaping
 from tests.models.played import EXACT
 
@@ -34,6 +35,7 @@ def test_a_hand_over_that_is_too_fast_is_found(monkeypatch):
 
 def test_a_play_without_layers_that_goes_otherwise_is_found(monkeypatch):
     """One whose partner is faster."""
+
     def faster_alone(case, alone=False, **how):
         return mixed_cases.play(case, before=[("rate", 130)], **how) if alone else mixed_cases.play(case, **how)
 
@@ -50,8 +52,7 @@ def test_a_step_that_is_too_long_is_found(monkeypatch):
 def test_slowing_down_for_too_long_is_found(monkeypatch):
     monkeypatch.setattr(mixed_judges, "BRAKES_TICKS", 5)
     cases = [case for case in map(mixed_cases.case_by_chance, range(1, 400)) if case.law == EXACT]
-    assert any(mixed.first_objection(case, ["pauses"]) for case in cases
-               if max(case.image[512 * page + 24] for page in mixed_cases.MAIN_PAGES) < 8)
+    assert any(mixed.first_objection(case, ["pauses"]) for case in cases if max(case.image[512 * page + 24] for page in mixed_cases.MAIN_PAGES) < 8)
 
 
 def test_a_case_is_shrunk_to_the_actions_that_matter(monkeypatch):

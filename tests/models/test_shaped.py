@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A sample of what shaped.py and jumps.py compare at scale: shaped plays of the C player and the model of the page."""
+
 import pytest
 
 from tests.models import jumps, shaped

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the boot loader share: a board that waits at the prompt, typed lines, downloads of the original's
 kind, and a client of the block protocol written from firmware/boot/BLOCK_PROTOCOL.md."""
+
 import binascii
 import collections
 import itertools
@@ -44,7 +45,7 @@ def say(board, line, ms=3000):
     """Types a line; all that comes up to the next prompt, echo and prompt cut off."""
     board.send(line + "\r")
     text = board.expect(PROMPT, ms=ms)
-    return text[len(line):-len(PROMPT)]
+    return text[len(line) : -len(PROMPT)]
 
 
 def load(board, address, data, sum_byte=None, ms=30000):
@@ -61,8 +62,11 @@ def begin_load(board, address):
 
 def end_load(board, ms=30000):
     text = board.expect(PROMPT, ms=ms)
-    match = re.fullmatch(r"(Success|Error)\r\n Rewriting:0X([0-9A-F]{4})\r\n Size:0X([0-9A-F]{8})  Checksum:"
-                         r"([0-9A-F]{2})-([0-9A-F]{2})\r\n - ", text)
+    match = re.fullmatch(
+        r"(Success|Error)\r\n Rewriting:0X([0-9A-F]{4})\r\n Size:0X([0-9A-F]{8})  Checksum:"
+        r"([0-9A-F]{2})-([0-9A-F]{2})\r\n - ",
+        text,
+    )
     assert match, text
     return match[1], int(match[2], 16), int(match[3], 16), int(match[4], 16), int(match[5], 16)
 
@@ -71,8 +75,8 @@ def pending_record(board, page, data):
     """A journal slot whose save was cut right after its record (firmware/common/journal.h)."""
     record = struct.pack("<2sHBBH", b"MJ", 5, page, 1, crc16(data))
     record += crc16(record).to_bytes(2, "little") + b"\xff\xff"
-    board.flash[JOURNAL_START:JOURNAL_START + 512] = data
-    board.flash[JOURNAL_START + 512:JOURNAL_START + 512 + len(record)] = record
+    board.flash[JOURNAL_START : JOURNAL_START + 512] = data
+    board.flash[JOURNAL_START + 512 : JOURNAL_START + 512 + len(record)] = record
 
 
 FACTORY_USED, FACTORY_SUM, FACTORY_CRC = 0x1B90, 0x000B2F60, 0x7406
@@ -88,12 +92,12 @@ def factory_section():
     for place, i in enumerate(free):
         section[i] = left // (len(free) - place)
         left -= section[i]
-    head = binascii.crc_hqx(bytes(section[:FACTORY_USED - 6]), 0xFFFF)
-    tail = bytes(section[FACTORY_USED - 6:FACTORY_USED])
+    head = binascii.crc_hqx(bytes(section[: FACTORY_USED - 6]), 0xFFFF)
+    tail = bytes(section[FACTORY_USED - 6 : FACTORY_USED])
     for x, y, z in itertools.product(range(-40, 41), repeat=3):
         changed = bytes(byte + step for byte, step in zip(tail, (x, -x, y, -y, z, -z)))
         if binascii.crc_hqx(changed, head) == FACTORY_CRC:
-            section[FACTORY_USED - 6:FACTORY_USED] = changed
+            section[FACTORY_USED - 6 : FACTORY_USED] = changed
             return bytes(section)
     raise AssertionError("no filling found")
 
@@ -104,7 +108,7 @@ OK, EQUAL, REFUSED, BROKEN, BAD_FRAME = range(5)
 
 def frame(command, number, body=b""):
     content = bytes([command, number, len(body) // 2]) + body
-    return b"\xA5" + content + crc16(content).to_bytes(2, "big")
+    return b"\xa5" + content + crc16(content).to_bytes(2, "big")
 
 
 def page_body(page, data=b""):
@@ -127,11 +131,11 @@ class Blocks:
         end = self.board.now_ms + ms
         while self.board.now_ms < end:
             self.heard += self.board.take()
-            start = self.heard.find(b"\x5A")
+            start = self.heard.find(b"\x5a")
             if start >= 0 and len(self.heard) >= start + 4:
                 size = 4 + 2 * self.heard[start + 3] + 2
                 if len(self.heard) >= start + size:
-                    whole, self.heard = self.heard[start + 1:start + size], self.heard[start + size:]
+                    whole, self.heard = self.heard[start + 1 : start + size], self.heard[start + size :]
                     assert crc16(whole) == 0, whole.hex()
                     return whole[0], whole[1], whole[3], whole[4], whole[5:-2]
             self.board.run(ms=0.5)
@@ -152,7 +156,7 @@ class Blocks:
     def update(self, first, data, window=2, pages_a_sum=4):
         """Makes flash from page `first` on hold `data`, sending only pages that differ. Requests for the sums of the
         next pages go between the WRITEs, so that the line never rests. The number of pages written."""
-        pages = [data[i:i + 256] for i in range(0, len(data), 256)]
+        pages = [data[i : i + 256] for i in range(0, len(data), 256)]
         chunks = collections.deque(range(0, len(pages), pages_a_sum))
 
         def next_sums():

@@ -4,6 +4,7 @@ without a valid command.
 
     figures = fuzz(make, seed, count)     make: one of MAKERS; raises AssertionError or Violation
 """
+
 import random
 from typing import NamedTuple
 
@@ -19,8 +20,7 @@ def shell_noise(rng, count):
     return rng.randbytes(count)
 
 
-WORDS = (b"help f flash e eep r ram verify v check id up eep_up clear_eeprom x # 0x 0 1 e000 ffffffff 12345678 zz , / \t - * "
-         b"up0 100").split(b" ")
+WORDS = (b"help f flash e eep r ram verify v check id up eep_up clear_eeprom x # 0x 0 1 e000 ffffffff 12345678 zz , / \t - * up0 100").split(b" ")
 
 
 def shell_words(rng, count):
@@ -56,7 +56,7 @@ def block_noise(rng, count):
         body = page_body(rng.randrange(0x1E0), rng.randbytes(256)) if rng.random() < 0.3 else rng.randbytes(2 * rng.randrange(8))
         good = bytearray(frame(WRITE if len(body) == 258 else rng.randrange(10), rng.randrange(256), body))
         where = rng.sample(range(1, len(good)), min(3, len(good) - 1))
-        for i in where[:rng.randrange(1, 4)]:
+        for i in where[: rng.randrange(1, 4)]:
             good[i] ^= 1 << rng.randrange(8)
         data += good
         if rng.random() < 0.1:
@@ -84,9 +84,9 @@ MAKERS = (shell_noise, shell_words, stk_noise, block_noise)
 
 class Figures(NamedTuple):
     sent: int
-    licensed: int     # chunks with a valid writing command by chance
+    licensed: int  # chunks with a valid writing command by chance
     resets: int
-    seconds: float    # simulated
+    seconds: float  # simulated
     headroom: int
 
 

@@ -9,6 +9,7 @@ def shared(request):
     """One robot with Edit for all tests of a file."""
     from tests.sim import edit_base
     from tests.sim.edit_robot import robot
+
     with robot(pages=getattr(request.module, "PAGES", edit_base.PAGES)) as one:
         yield one
 
@@ -17,4 +18,5 @@ def shared(request):
 def r(shared):
     """The file's robot with page 1 as it is in flash, at X1 Y0."""
     from tests.sim.edit_base import opened
+
     return opened(shared)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Three pages for tests of Edit's commands that leave the flash as it was, and the way back to page 1. The robot itself: conftest.py."""
+
 from tests.sim.edit_robot import page
 
 BASE = page("base", [(40, {1: 480, 2: 544}, 3), (50, {3: 300}), (60, {4: 10})], code=7, next=3)
@@ -27,4 +28,4 @@ def bytes_of(r):
 
 
 def step(data, k):
-    return bytes(data[64 + 64 * k:128 + 64 * k])
+    return bytes(data[64 + 64 * k : 128 + 64 * k])

@@ -15,6 +15,7 @@ What is looked at, after every piece of 2 to 4 KB:
 Who types obeys XOFF, so that every command is carried out: some hundred bytes a second. loud=True: who types does not, and
 most of it is lost: thirty times as much in the same time, in other mixtures, and never on the factory loader.
 """
+
 import random
 import re
 from typing import NamedTuple
@@ -27,21 +28,84 @@ from tests.sim.made_page import page
 
 MOTION, MOTION_END, JOURNAL = 0xE000, 0x1E000, 0xC000
 XON, XOFF = 0x11, 0x13
-BYTES_A_BOARD = 60000       # then another robot: settings, servo IDs and rates are fresh again
-LINE_BUFFER = 24            # bytes that still come behind an XOFF: a USB adapter's
+BYTES_A_BOARD = 60000  # then another robot: settings, servo IDs and rates are fresh again
+LINE_BUFFER = 24  # bytes that still come behind an XOFF: a USB adapter's
 HOME_TRIES = 10
-RESTARTS = ("system_restart", "board_restart")   # the linker may make one function of both
+RESTARTS = ("system_restart", "board_restart")  # the linker may make one function of both
 
-WORDS = ("page next before copy new name step go write insert delete move mirror set goto on off play time speed re hex dec undo "
-         "redo list find take paste int scale swap pairs help mon monitor rows p n b s g w i d m u ?").split()
-SELDOM = ["check", "search", "scan"]      # seconds each
-NUMBERS = ("0 1 2 3 4 5 6 7 9 10 30 31 32 36 49 50 64 100 127 128 254 255 256 512 1000 1023 1024 65535 65536 0x1f 0X3FF 1f -1 x "
-           "yes no base 99999999 0x page1").split()
-REQUESTS = ("@ver", "@list", "@list 1 3", "@page 1", "@dense 1", "@page 300", "@pose", "@torque on", "@torque off 3", "@torque on 1 2 3", "@play 1",
-           "@play 2 30", "@stop", "@break", "@pause", "@resume", "@where", "@crc", "@open 2", "@open 5", "@move 90 1 200200---", "@", "@ @",
-           "@data", "@data 511 00", "@data 512 00", "@data 0 zz", "@frobnicate 1 2 3", "@move 1 1 fff", "@open 999", "@save 1")
-KEYS = (b"\x1b[A", b"\x1b[B", b"\x1b[C", b"\x1b[D", b"\x1bOA", b"\x1b[", b"\x1b", b"\x1b[24;80R", b"\x1b[40;80R", b"\x1b[999;9R", b"\x1b[5~",
-        b"]", b"[", b"}", b"{", b" ", b"\x01", b"\x15", b"\x03", b"\x7f", b"\b", b"\r", b"\n", b"\0", b"\x11", b"\x13", b"y", b"n", b"q")
+WORDS = (
+    "page next before copy new name step go write insert delete move mirror set goto on off play time speed re hex dec undo "
+    "redo list find take paste int scale swap pairs help mon monitor rows p n b s g w i d m u ?"
+).split()
+SELDOM = ["check", "search", "scan"]  # seconds each
+NUMBERS = (
+    "0 1 2 3 4 5 6 7 9 10 30 31 32 36 49 50 64 100 127 128 254 255 256 512 1000 1023 1024 65535 65536 0x1f 0X3FF 1f -1 x "
+    "yes no base 99999999 0x page1"
+).split()
+REQUESTS = (
+    "@ver",
+    "@list",
+    "@list 1 3",
+    "@page 1",
+    "@dense 1",
+    "@page 300",
+    "@pose",
+    "@torque on",
+    "@torque off 3",
+    "@torque on 1 2 3",
+    "@play 1",
+    "@play 2 30",
+    "@stop",
+    "@break",
+    "@pause",
+    "@resume",
+    "@where",
+    "@crc",
+    "@open 2",
+    "@open 5",
+    "@move 90 1 200200---",
+    "@",
+    "@ @",
+    "@data",
+    "@data 511 00",
+    "@data 512 00",
+    "@data 0 zz",
+    "@frobnicate 1 2 3",
+    "@move 1 1 fff",
+    "@open 999",
+    "@save 1",
+)
+KEYS = (
+    b"\x1b[A",
+    b"\x1b[B",
+    b"\x1b[C",
+    b"\x1b[D",
+    b"\x1bOA",
+    b"\x1b[",
+    b"\x1b",
+    b"\x1b[24;80R",
+    b"\x1b[40;80R",
+    b"\x1b[999;9R",
+    b"\x1b[5~",
+    b"]",
+    b"[",
+    b"}",
+    b"{",
+    b" ",
+    b"\x01",
+    b"\x15",
+    b"\x03",
+    b"\x7f",
+    b"\b",
+    b"\r",
+    b"\n",
+    b"\0",
+    b"\x11",
+    b"\x13",
+    b"y",
+    b"n",
+    b"q",
+)
 
 
 class Figures(NamedTuple):
@@ -72,14 +136,26 @@ class Grammar:
         return text.encode()
 
     def save(self):
-        return self.rng.choice(("save", "SAV", "save", f"save {self.rng.randrange(130)}")).encode() + b"\r" + \
-            self.rng.choice((b"", b"y", b"y", b"yy", b"n"))
+        return (
+            self.rng.choice(("save", "SAV", "save", f"save {self.rng.randrange(130)}")).encode()
+            + b"\r"
+            + self.rng.choice((b"", b"y", b"y", b"yy", b"n"))
+        )
 
     def edits(self):
         """Steps that make a page worth saving."""
         rng = self.rng
-        lines = (f"page {rng.randrange(8)}", f"goto {rng.randrange(10)} {rng.randrange(33)}", f"set {rng.randrange(1100)}",
-                 f"step {rng.randrange(8)}", f"copy {rng.randrange(4)}", "new", f"write {rng.randrange(7)}", "undo", "redo")
+        lines = (
+            f"page {rng.randrange(8)}",
+            f"goto {rng.randrange(10)} {rng.randrange(33)}",
+            f"set {rng.randrange(1100)}",
+            f"step {rng.randrange(8)}",
+            f"copy {rng.randrange(4)}",
+            "new",
+            f"write {rng.randrange(7)}",
+            "undo",
+            "redo",
+        )
         return "".join(rng.choice(lines) + "\r" + rng.choice(("", "y")) for _ in range(rng.randrange(1, 5))).encode()
 
     def request(self):
@@ -88,7 +164,7 @@ class Grammar:
         if kind == 0:
             offset, count = rng.randrange(0, 530), rng.randrange(0, 40)
             return f"@data {offset} {rng.randbytes(count).hex()}\r".encode()
-        if kind == 1 and self.saves:   # the sum as Edit last told it
+        if kind == 1 and self.saves:  # the sum as Edit last told it
             return f"@crc\r@save {rng.randrange(130)} 0x{self.crc:04X}\r".encode()
         return rng.choice(REQUESTS).encode() + b"\r"
 
@@ -100,7 +176,7 @@ class Grammar:
         text = bytearray(self.rng.choice((self.command, self.request, self.edits))())
         for _ in range(self.rng.randrange(1, 4)):
             at = self.rng.randrange(len(text))
-            text[at:at + 1] = self.rng.choice((b"", bytes(text[at:at + 1]) * 2, self.rng.randbytes(1)))
+            text[at : at + 1] = self.rng.choice((b"", bytes(text[at : at + 1]) * 2, self.rng.randbytes(1)))
             if not text:
                 return b"\r"
         return bytes(text)
@@ -110,9 +186,19 @@ class Grammar:
 
     def phrase(self):
         made = self.rng.choices(
-            (self.command, self.save if self.saves else self.command, self.edits, self.request, self.keys, self.broken,
-             self.leave, lambda: self.rng.randbytes(self.rng.randrange(1, 60)), lambda: b"x" * self.rng.randrange(70, 300) + b"\r"),
-            (40, 9, 15, 12, 15, 10, 0.3, 6, 2))[0]()
+            (
+                self.command,
+                self.save if self.saves else self.command,
+                self.edits,
+                self.request,
+                self.keys,
+                self.broken,
+                self.leave,
+                lambda: self.rng.randbytes(self.rng.randrange(1, 60)),
+                lambda: b"x" * self.rng.randrange(70, 300) + b"\r",
+            ),
+            (40, 9, 15, 12, 15, 10, 0.3, 6, 2),
+        )[0]()
         if not self.saves:
             made = made.replace(b"sa", b"se").replace(b"SA", b"SE").replace(b"sA", b"sE").replace(b"Sa", b"Se")
         return made
@@ -129,26 +215,30 @@ class Noise:
         self.heard = bytearray()
         self.may_send = True
         image = Image.empty()
-        for n, made in {1: page("one", [(40, {1: 480}), (30, {2: 400}, 5)], exit=2), 2: page("two", [(30, {})], next=2),
-                        3: page("full", [(20 + k, {k: 300 + k}) for k in range(7)], joints=range(31))}.items():
+        for n, made in {
+            1: page("one", [(40, {1: 480}), (30, {2: 400}, 5)], exit=2),
+            2: page("two", [(30, {})], next=2),
+            3: page("full", [(20 + k, {k: 300 + k}) for k in range(7)], joints=range(31)),
+        }.items():
             image[n] = made
         torn = page("torn", [(30, {})])
         torn.data[100] ^= 1
         image[4] = torn
         images = ["edit-cm5.hex"] if self.factory else ["boot-cm5.hex", "edit-cm5.hex"]
-        board = self.board = Board(images=images, motions=image.to_bytes(), servos=range(1, 19), seed=seed,
-                                   **({"bootrst": True} if self.factory else {}))
+        board = self.board = Board(
+            images=images, motions=image.to_bytes(), servos=range(1, 19), seed=seed, **({"bootrst": True} if self.factory else {})
+        )
         if self.factory:
             board.flash[0x1E000:0x20000] = factory_section()
         board.eeprom[0xFFF] = 0x11
         board.forbid("unexpected-reset")
-        if self.factory:   # its routine hears nothing for 9 ms, and a USB adapter obeys an XOFF later than that
+        if self.factory:  # its routine hears nothing for 9 ms, and a USB adapter obeys an XOFF later than that
             board.allow("uart-overrun")
         self.save_entry, self.pending = board.function("cmd_page_save"), None
         self.watch()
         self.model = bytearray(board.flash[:])
         self.run(2500)
-        self.page_at = 0x100 + bytes(board.ram[0x100:0x1100]).find(image[1].data[:31])   # page 1 is open after the start
+        self.page_at = 0x100 + bytes(board.ram[0x100:0x1100]).find(image[1].data[:31])  # page 1 is open after the start
         assert self.page_at >= 0x100
 
     # ---- time, with an eye on saves and restarts ----
@@ -168,7 +258,7 @@ class Noise:
             except Violation as bite:
                 if bite.kind not in ("unexpected-reset", "uart-overrun") or bite.function.split(".")[0] not in RESTARTS:
                     raise
-                board.clear_violation()   # an overrun: nobody reads what is typed into a restart
+                board.clear_violation()  # an overrun: nobody reads what is typed into a restart
                 board.flush()
                 if bite.kind == "unexpected-reset":
                     self.restarts += 1
@@ -183,13 +273,13 @@ class Noise:
     def save_begins(self):
         """cmd_page_save(page), typed or @save: the number is in r24, the bytes are those being edited."""
         page_number = self.board.ram[24]
-        data = bytearray(self.board.ram[self.page_at:self.page_at + 512])
+        data = bytearray(self.board.ram[self.page_at : self.page_at + 512])
         data[31] = 0
         data[31] = (0xFF - sum(data)) & 0xFF
         self.check_flash()
         assert self.grammar.saves, "nobody typed SAVE"
         assert page_number < 128
-        self.model[MOTION + 512 * page_number:MOTION + 512 * (page_number + 1)] = data
+        self.model[MOTION + 512 * page_number : MOTION + 512 * (page_number + 1)] = data
         self.saves += 1
 
     def check_flash(self):
@@ -208,7 +298,7 @@ class Noise:
             sent = len(data)
         while sent < len(data) or self.board.waiting:
             if self.may_send and self.board.waiting < LINE_BUFFER and sent < len(data):
-                self.board.send(data[sent:sent + LINE_BUFFER])
+                self.board.send(data[sent : sent + LINE_BUFFER])
                 sent += LINE_BUFFER
             self.run(20 if self.loud else 2)
 
@@ -220,7 +310,7 @@ class Noise:
             self.type(b"\x03\x03")
             self.run(20)
             self.heard.clear()
-            self.type(b"\x15zz%d\r" % attempt)   # an answer to nothing that was typed before
+            self.type(b"\x15zz%d\r" % attempt)  # an answer to nothing that was typed before
             for _ in range(100):
                 self.run(15)
                 answer = re.search(rb"zz%d(\r\n)? Bad Command" % attempt, self.heard)
@@ -243,7 +333,7 @@ class Noise:
             told = self.heard.rfind(b"@crc ")
             if told >= 0 and told + 9 <= len(self.heard):
                 try:
-                    self.grammar.crc = int(self.heard[told + 5:told + 9], 16)
+                    self.grammar.crc = int(self.heard[told + 5 : told + 9], 16)
                 except ValueError:
                     pass
             self.come_home()

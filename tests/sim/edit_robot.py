@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 """A robot with Edit on the simulated board and a real terminal emulator (pyte) before it, for test_edit*.py.
 
-    with robot(pages={5: page(...)}) as r:
-        r.line("page 5")            types a line and waits until the terminal is quiet
-        r.text(2, 76, 4)            what stands in row 2 from column 76 on
-        r.cell(1, 3)                the cell X1 Y3;  r.cells(5, steps=...)
-        r.flash_page(5)             512 bytes
+with robot(pages={5: page(...)}) as r:
+    r.line("page 5")            types a line and waits until the terminal is quiet
+    r.text(2, 76, 4)            what stands in row 2 from column 76 on
+    r.cell(1, 3)                the cell X1 Y3;  r.cells(5, steps=...)
+    r.flash_page(5)             512 bytes
 """
+
 import pyte
 
 from cm5sim import Board
@@ -25,7 +26,7 @@ def new_page():
     data[32:64] = bytes([0x55] * 32)
     for step in range(7):
         at = 64 + 64 * step
-        data[at:at + 62] = bytes([0x00, 0x40] * 31)
+        data[at : at + 62] = bytes([0x00, 0x40] * 31)
         data[at + 63] = 64
     return data
 
@@ -68,8 +69,7 @@ class Terminal:
 
 
 class Robot:
-    def __init__(self, pages=None, servos=JOINTS, rows=36, images=("boot-cm5.hex", "edit-cm5.hex"), loader=None,
-                 eeprom=b"", **board):
+    def __init__(self, pages=None, servos=JOINTS, rows=36, images=("boot-cm5.hex", "edit-cm5.hex"), loader=None, eeprom=b"", **board):
         image = Image.empty()
         for number, made in (pages or {}).items():
             image[number] = made
@@ -77,8 +77,8 @@ class Robot:
         self.board = Board(images=list(images), motions=motions, servos=servos, **board)
         if loader is not None:
             self.board.flash[0x1E000:0x20000] = loader
-        self.board.eeprom[0:len(eeprom)] = eeprom
-        self.board.eeprom[0xFFF] = 0x11   # the loader starts the application
+        self.board.eeprom[0 : len(eeprom)] = eeprom
+        self.board.eeprom[0xFFF] = 0x11  # the loader starts the application
         self.terminal = Terminal(rows)
         self.page_at = None
         self.settle(ms=1500)
@@ -87,7 +87,7 @@ class Robot:
         return self
 
     def __exit__(self, kind, *_):
-        if kind is None:   # a failed test's report still looks at the board
+        if kind is None:  # a failed test's report still looks at the board
             self.board.close()
 
     # ---- typing ----
@@ -140,7 +140,7 @@ class Robot:
         return self.command[2:]
 
     def text(self, row, column, count):
-        return self.terminal.row(row)[column - 1:column - 1 + count]
+        return self.terminal.row(row)[column - 1 : column - 1 + count]
 
     @property
     def cursor(self):
@@ -174,7 +174,7 @@ class Robot:
 
     def flash_page(self, number):
         at = MOTION_START + 512 * number
-        return bytes(self.board.flash[at:at + 512])
+        return bytes(self.board.flash[at : at + 512])
 
     def page_address(self):
         """Where the page being edited lies in RAM: found by its bytes, right after a page was opened."""
@@ -188,7 +188,7 @@ class Robot:
     def ram_page(self):
         """The page being edited, sealed as SAVE would."""
         at = self.page_address()
-        return seal(self.board.ram[at:at + 512])
+        return seal(self.board.ram[at : at + 512])
 
 
 def robot(**options):

@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: MIT
 """A robot with Edit and pages to play, for the tests of what Edit does to servos: 5 a pose, open at the beginning; 6 a loop that leaves by
 7; 8 a long one; 9 and 10 leave by each other."""
+
 from tests.sim.edit_robot import page, robot
 
 POSE = page("pose", [(64, {1: 400, 2: 700}), (64, {3: 612})], code=1)
 
 
 def start(**options):
-    pages = {1: page("neutral", [(40, {})]), 5: POSE,
-             6: page("loop", [(40, {1: 560}), (40, {1: 464})], next=6, exit=7), 7: page("end", [(30, {})]),
-             8: page("long", [(255, {1: 800}), (255, {1: 200})], repeat=20, exit=7, speed=64),
-             9: page("la", [(30, {})], next=9, exit=10), 10: page("lb", [(30, {})], exit=9)}
+    pages = {
+        1: page("neutral", [(40, {})]),
+        5: POSE,
+        6: page("loop", [(40, {1: 560}), (40, {1: 464})], next=6, exit=7),
+        7: page("end", [(30, {})]),
+        8: page("long", [(255, {1: 800}), (255, {1: 200})], repeat=20, exit=7, speed=64),
+        9: page("la", [(30, {})], next=9, exit=10),
+        10: page("lb", [(30, {})], exit=9),
+    }
     pages.update(options.pop("pages", {}))
     r = robot(pages=pages, **options)
     r.line("page 5")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The programs of hal/ on the simulated board, for test_hal*.py: hal_walker.c (31 joints for ever) and hal_words.c (does what a
 byte says)."""
+
 import struct
 
 from cm5sim import Board
@@ -19,15 +20,14 @@ def pattern(count, seed=1):
 
 def word(board, name, count=2):
     address = board.variable(name)
-    return int.from_bytes(bytes(board.ram[address:address + count]), "little")
+    return int.from_bytes(bytes(board.ram[address : address + count]), "little")
 
 
 def bus_counts(board):
     """bus_counts_t as a dict."""
-    names = ("packets", "answers", "timeouts", "checksums", "framing", "overruns", "wrong_ids", "lengths", "rejected",
-             "retries", "strays")
+    names = ("packets", "answers", "timeouts", "checksums", "framing", "overruns", "wrong_ids", "lengths", "rejected", "retries", "strays")
     address = board.variable("walker_bus")
-    return dict(zip(names, struct.unpack("<IIHHHHHHHHH", bytes(board.ram[address:address + 26]))))
+    return dict(zip(names, struct.unpack("<IIHHHHHHHHH", bytes(board.ram[address : address + 26]))))
 
 
 def walker(kind="cm5", servos=range(31), deaf=(), table=()):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A board with the program lab/lab.c, which does single things to the chip on demand."""
+
 import struct
 
 from cm5sim import Board

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Motion pages for tests, made from a few words."""
+
 from m512.files.page import Page
 
 JOINTS = range(1, 19)

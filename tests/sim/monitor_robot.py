@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A robot with the Monitor image on the simulated board, for test_monitor*.py."""
+
 from cm5sim import Board
 
 

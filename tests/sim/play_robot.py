@@ -9,6 +9,7 @@ A session (tests/models/golden/sessions/*.txt) is what a terminal shows, with di
     # fault 3 silent        a servo fails     # clear 3          ... and is well again
     # press START, # release START            # note ...         a remark
 """
+
 import os
 import pathlib
 import re
@@ -64,7 +65,7 @@ def motions():
     image[21] = page("speed base", [(64, {1: 700}), (64, {1: 512})], schedule=SCHEDULE_SPEED)
     image[22] = page("some", [(30, {1: 560, 3: 0x4000 | 700, 5: 0x2000 | 700})], code=32)
     data = bytearray(image.to_bytes())
-    data[100 * 512:] = b"\xFF" * (28 * 512)
+    data[100 * 512 :] = b"\xff" * (28 * 512)
     return bytes(data)
 
 
@@ -91,7 +92,7 @@ def paste(board, text, behind_xoff=16):
     data, sent, may_send, heard = text.encode("latin-1"), 0, True, bytearray()
     while sent < len(data) or board.waiting:
         if may_send and board.waiting < behind_xoff and sent < len(data):
-            board.send(data[sent:sent + behind_xoff])
+            board.send(data[sent : sent + behind_xoff])
             sent += behind_xoff
         board.run(ms=1)
         new = board.take()
@@ -120,7 +121,7 @@ def shown(raw):
             elif character == "\b":
                 column = max(0, column - 1)
             elif character >= " ":
-                cells[column:column + 1] = [character]
+                cells[column : column + 1] = [character]
                 column += 1
         lines.append("".join(cells).rstrip(" ") if cells[:2] != ["]", " "] else "".join(cells))
     return "\n".join(lines)
@@ -166,8 +167,7 @@ def run_session(board, text):
         raw = board.console[told:]
         told += len(raw)
         cut = (pending + raw).rfind(b"\n") + 1
-        done.extend(re.sub(r"\d+", "n", line) if line.startswith("Bus:") else line
-                    for line in shown((pending + raw)[:cut]).splitlines())
+        done.extend(re.sub(r"\d+", "n", line) if line.startswith("Bus:") else line for line in shown((pending + raw)[:cut]).splitlines())
         pending = (pending + raw)[cut:]
 
     since = told

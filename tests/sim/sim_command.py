@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Starts the command cm5sim for tests, and talks to it."""
+
 import os
 import pathlib
 import re
@@ -16,16 +17,14 @@ ROBOT = BUILD / "firmware" / "tests" / "robot.hex"  # tests/sim/robot/robot.c
 
 def run(*arguments, stdin=b"", timeout=300):
     """One run to its end: CompletedProcess with bytes."""
-    return subprocess.run([CM5SIM, *map(str, arguments)], input=stdin, capture_output=True, timeout=timeout,
-                          check=False)
+    return subprocess.run([CM5SIM, *map(str, arguments)], input=stdin, capture_output=True, timeout=timeout, check=False)
 
 
 class Running:
     """A run that goes on until it is stopped; its messages say where its ports are."""
 
     def __init__(self, *arguments):
-        self.process = subprocess.Popen([CM5SIM, *map(str, arguments)], stdin=subprocess.DEVNULL,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.process = subprocess.Popen([CM5SIM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.messages = b""
 
     def message(self, pattern, seconds=300):

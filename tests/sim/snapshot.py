@@ -3,6 +3,7 @@
 
 So a thousand experiments begin in exactly the same cycle of the same play, and any one of them can be repeated alone.
 """
+
 import os
 import pickle
 import traceback

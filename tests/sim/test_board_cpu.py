@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The simulated CPU against the ATmega128's data sheet: cycles of the instructions, interrupts, timers, reset."""
+
 import struct
 
 import pytest
@@ -9,29 +10,76 @@ from cm5sim import Board, Violation
 # Cycles by the Instruction Set Summary of the data sheet (2467, ch. "Instruction Set Summary"), 16-bit program counter.
 # The words stand at 0x100; r30:r31 point to 0x0200, SP to 0x1000, all flags clear.
 CYCLES = {
-    "nop": ([0x0000], 1), "add r0,r1": ([0x0C01], 1), "adiw r24,1": ([0x9601], 2), "sbiw r24,1": ([0x9701], 2),
-    "mul r16,r17": ([0x9F01], 2), "muls r16,r17": ([0x0201], 2), "mulsu r16,r17": ([0x0301], 2),
-    "fmul r16,r17": ([0x0309], 2), "fmuls r16,r17": ([0x0381], 2), "fmulsu r16,r17": ([0x0389], 2),
-    "movw r0,r2": ([0x0101], 1), "ldi r16,1": ([0xE001], 1), "com r0": ([0x9400], 1), "swap r0": ([0x9402], 1),
-    "rjmp +0": ([0xC000], 2), "jmp 0x110": ([0x940C, 0x0088], 3), "ijmp": ([0x9409], 2),
-    "rcall +0": ([0xD000], 3), "call 0x110": ([0x940E, 0x0088], 4), "icall": ([0x9509], 3),
-    "ret": ([0x9508], 4), "reti": ([0x9518], 4),
-    "cpse equal, skips one word": ([0x1000, 0x0000], 2), "cpse equal, skips two words": ([0x1000, 0x940C, 0], 3),
+    "nop": ([0x0000], 1),
+    "add r0,r1": ([0x0C01], 1),
+    "adiw r24,1": ([0x9601], 2),
+    "sbiw r24,1": ([0x9701], 2),
+    "mul r16,r17": ([0x9F01], 2),
+    "muls r16,r17": ([0x0201], 2),
+    "mulsu r16,r17": ([0x0301], 2),
+    "fmul r16,r17": ([0x0309], 2),
+    "fmuls r16,r17": ([0x0381], 2),
+    "fmulsu r16,r17": ([0x0389], 2),
+    "movw r0,r2": ([0x0101], 1),
+    "ldi r16,1": ([0xE001], 1),
+    "com r0": ([0x9400], 1),
+    "swap r0": ([0x9402], 1),
+    "rjmp +0": ([0xC000], 2),
+    "jmp 0x110": ([0x940C, 0x0088], 3),
+    "ijmp": ([0x9409], 2),
+    "rcall +0": ([0xD000], 3),
+    "call 0x110": ([0x940E, 0x0088], 4),
+    "icall": ([0x9509], 3),
+    "ret": ([0x9508], 4),
+    "reti": ([0x9518], 4),
+    "cpse equal, skips one word": ([0x1000, 0x0000], 2),
+    "cpse equal, skips two words": ([0x1000, 0x940C, 0], 3),
     "cpse different": ([0x1001, 0x0000], 1),
-    "sbrc skips": ([0xFC00, 0x0000], 2), "sbrs stays": ([0xFE00, 0x0000], 1), "sbrc skips two": ([0xFC00, 0x940C, 0], 3),
-    "sbic stays": ([0x9930, 0x0000], 2), "sbis skips": ([0x9B30, 0x0000], 1),
-    "brne taken": ([0xF409], 2), "breq not taken": ([0xF009], 1),
-    "ld r0,X": ([0x900C], 2), "ld r0,X+": ([0x900D], 2), "ld r0,-X": ([0x900E], 2),
-    "ld r0,Y": ([0x8008], 2), "ld r0,Y+": ([0x9009], 2), "ld r0,-Y": ([0x900A], 2), "ldd r0,Y+1": ([0x8009], 2),
-    "ld r0,Z": ([0x8000], 2), "ld r0,Z+": ([0x9001], 2), "ld r0,-Z": ([0x9002], 2), "ldd r0,Z+1": ([0x8001], 2),
-    "lds r0": ([0x9000, 0x0200], 2), "sts r0": ([0x9200, 0x0200], 2),
-    "st X,r0": ([0x920C], 2), "st X+,r0": ([0x920D], 2), "st -X,r0": ([0x920E], 2), "st Z+,r0": ([0x9201], 2),
-    "std Z+1,r0": ([0x8201], 2), "st -Y,r0": ([0x920A], 2),
-    "lpm": ([0x95C8], 3), "lpm r0,Z": ([0x9004], 3), "lpm r0,Z+": ([0x9005], 3), "elpm": ([0x95D8], 3),
-    "elpm r0,Z": ([0x9006], 3), "elpm r0,Z+": ([0x9007], 3),
-    "in r0": ([0xB600], 1), "out": ([0xBA0B], 1), "push r0": ([0x920F], 2), "pop r0": ([0x900F], 2),
-    "sbi": ([0x9AD8], 2), "cbi": ([0x98D8], 2), "bset": ([0x9408], 1), "bst": ([0xFA00], 1), "bld": ([0xF800], 1),
-    "lsr": ([0x9406], 1), "asr": ([0x9405], 1), "ror": ([0x9407], 1), "wdr": ([0x95A8], 1),
+    "sbrc skips": ([0xFC00, 0x0000], 2),
+    "sbrs stays": ([0xFE00, 0x0000], 1),
+    "sbrc skips two": ([0xFC00, 0x940C, 0], 3),
+    "sbic stays": ([0x9930, 0x0000], 2),
+    "sbis skips": ([0x9B30, 0x0000], 1),
+    "brne taken": ([0xF409], 2),
+    "breq not taken": ([0xF009], 1),
+    "ld r0,X": ([0x900C], 2),
+    "ld r0,X+": ([0x900D], 2),
+    "ld r0,-X": ([0x900E], 2),
+    "ld r0,Y": ([0x8008], 2),
+    "ld r0,Y+": ([0x9009], 2),
+    "ld r0,-Y": ([0x900A], 2),
+    "ldd r0,Y+1": ([0x8009], 2),
+    "ld r0,Z": ([0x8000], 2),
+    "ld r0,Z+": ([0x9001], 2),
+    "ld r0,-Z": ([0x9002], 2),
+    "ldd r0,Z+1": ([0x8001], 2),
+    "lds r0": ([0x9000, 0x0200], 2),
+    "sts r0": ([0x9200, 0x0200], 2),
+    "st X,r0": ([0x920C], 2),
+    "st X+,r0": ([0x920D], 2),
+    "st -X,r0": ([0x920E], 2),
+    "st Z+,r0": ([0x9201], 2),
+    "std Z+1,r0": ([0x8201], 2),
+    "st -Y,r0": ([0x920A], 2),
+    "lpm": ([0x95C8], 3),
+    "lpm r0,Z": ([0x9004], 3),
+    "lpm r0,Z+": ([0x9005], 3),
+    "elpm": ([0x95D8], 3),
+    "elpm r0,Z": ([0x9006], 3),
+    "elpm r0,Z+": ([0x9007], 3),
+    "in r0": ([0xB600], 1),
+    "out": ([0xBA0B], 1),
+    "push r0": ([0x920F], 2),
+    "pop r0": ([0x900F], 2),
+    "sbi": ([0x9AD8], 2),
+    "cbi": ([0x98D8], 2),
+    "bset": ([0x9408], 1),
+    "bst": ([0xFA00], 1),
+    "bld": ([0xF800], 1),
+    "lsr": ([0x9406], 1),
+    "asr": ([0x9405], 1),
+    "ror": ([0x9407], 1),
+    "wdr": ([0x95A8], 1),
 }
 RJMP_SELF = 0xCFFF
 
@@ -43,17 +91,40 @@ def words(*values):
 def bare(program, at=0):
     """A board with these words and nothing else, just out of reset."""
     board = Board(seed=7)
-    board.flash[at:at + 2 * len(program)] = words(*program)
+    board.flash[at : at + 2 * len(program)] = words(*program)
     board.power_on()
     return board
 
 
 def ready(program):
     """The same, behind a few instructions that set the pointers: SP = 0x1000, X = Y = Z = 0x0200, r0 = 0, r1 = 1."""
-    setup = [0xE100, 0xBF0E, 0xE000, 0xBF0D,  # ldi r16,0x10; out SPH; ldi r16,0; out SPL
-             0xE0B2, 0xE0A0, 0xE0D2, 0xE0C0, 0xE0F2, 0xE0E0,  # X, Y, Z
-             0x2400, 0x2411, 0x9413, 0xE001, 0xE012, 0x2422, 0x2433,  # r0, r1 = 1, r16, r17, r2, r3
-             0x94F8, 0x9488, 0x9498, 0x94A8, 0x94B8, 0x94C8, 0x94D8, 0x94E8]  # flags
+    setup = [
+        0xE100,
+        0xBF0E,
+        0xE000,
+        0xBF0D,  # ldi r16,0x10; out SPH; ldi r16,0; out SPL
+        0xE0B2,
+        0xE0A0,
+        0xE0D2,
+        0xE0C0,
+        0xE0F2,
+        0xE0E0,  # X, Y, Z
+        0x2400,
+        0x2411,
+        0x9413,
+        0xE001,
+        0xE012,
+        0x2422,
+        0x2433,  # r0, r1 = 1, r16, r17, r2, r3
+        0x94F8,
+        0x9488,
+        0x9498,
+        0x94A8,
+        0x94B8,
+        0x94C8,
+        0x94D8,
+        0x94E8,
+    ]  # flags
     board = bare(setup + [0] * (128 - len(setup)) + list(program) + [0] * 8)
     for _ in range(128):
         board.step()
@@ -70,7 +141,7 @@ def test_instruction_takes_the_cycles_of_the_data_sheet(name):
 def test_far_reads_cross_the_64_kib_line():
     board = ready([0xE001, 0xBF0B, 0xEFFF, 0xEFEF, 0x94F8, 0xE000, 0xBF0B, 0x9007, 0x9017])
     # RAMPZ = 1 then 0; Z = 0xFFFF; elpm r0,Z+ ; elpm r1,Z+
-    board.flash[0xFFFF:0x10001] = b"\xA5\x5A"
+    board.flash[0xFFFF:0x10001] = b"\xa5\x5a"
     for _ in range(9):
         board.step()
     assert (board.ram[0], board.ram[1]) == (0xA5, 0x5A)
@@ -115,22 +186,27 @@ def test_sram_survives_a_reset_but_not_a_power_cut():
 @pytest.mark.parametrize("top, select, period", [(15624, 2, 125000), (1249, 3, 80000), (999, 1, 1000), (61, 5, 63488)])
 @pytest.mark.parametrize("timer", [1, 3])
 def test_ctc_timers_keep_their_period_to_the_cycle(timer, top, select, period):
-    ocr_high, ocr_low, control, mask, flag, vector = (
-        (0x4B, 0x4A, 0x4E, 0x57, 0x10, 12) if timer == 1 else (0x87, 0x86, 0x8A, 0x7D, 0x10, 26))
+    ocr_high, ocr_low, control, mask, flag, vector = (0x4B, 0x4A, 0x4E, 0x57, 0x10, 12) if timer == 1 else (0x87, 0x86, 0x8A, 0x7D, 0x10, 26)
     sts = lambda address, value: [0xE000 | (value >> 4) << 8 | (value & 15), 0x9300, address]  # noqa: E731
-    main = ([0xE100, 0xBF0E, 0xEF0F, 0xBF0D] + sts(ocr_high, top >> 8) + sts(ocr_low, top & 0xFF)
-            + sts(control, 0x08 | select) + sts(mask, flag) + [0x9478, RJMP_SELF])
+    main = (
+        [0xE100, 0xBF0E, 0xEF0F, 0xBF0D]
+        + sts(ocr_high, top >> 8)
+        + sts(ocr_low, top & 0xFF)
+        + sts(control, 0x08 | select)
+        + sts(mask, flag)
+        + [0x9478, RJMP_SELF]
+    )
     board = Board(seed=1)
     board.flash[0:4] = words(0x940C, 0x0080)
-    board.flash[4 * vector:4 * vector + 2] = words(0x9518)
-    board.flash[0x100:0x100 + 2 * len(main)] = words(*main)
+    board.flash[4 * vector : 4 * vector + 2] = words(0x9518)
+    board.flash[0x100 : 0x100 + 2 * len(main)] = words(*main)
     times = []
     for _ in range(20):
         board.run_to(4 * vector)
         times.append(board.now_cycles)
         board.step()
     assert times[-1] - times[0] == pytest.approx(19 * period, abs=2), "RJMP takes two cycles: jitter of one"
-    if select >= 3: # the prescaler's first edge comes behind the 22 cycles of the program before: the phase is known too
+    if select >= 3:  # the prescaler's first edge comes behind the 22 cycles of the program before: the phase is known too
         assert times[0] == pytest.approx(period, abs=12), "the flag is set when the count returns to 0"
     assert max(abs(b - a - period) for a, b in zip(times, times[1:])) <= 2
 
@@ -158,7 +234,7 @@ def test_interrupt_comes_one_instruction_after_sei_and_takes_four_cycles():
 def test_interrupt_mask_set_late_is_not_forgotten_and_reti_lets_one_instruction_pass():
     program = START_TIMER + [0] * 300 + ENABLE_OVERFLOW + [0x9478, 0x0000, 0x0000]
     board = ready(program)
-    board.flash[OVERFLOW_VECTOR:OVERFLOW_VECTOR + 2] = words(0x9518)
+    board.flash[OVERFLOW_VECTOR : OVERFLOW_VECTOR + 2] = words(0x9518)
     steps(board, 6 + 300 + 2 + 2 + 1)
     assert board.step() == 4, "RETI"
     assert board.pc == 0x100 + 2 * (len(program) - 1), "behind the NOP that followed SEI"
@@ -188,11 +264,11 @@ def test_timer_counts_can_be_read():
 
 def test_running_off_the_code_is_seen_or_allowed():
     board = ready([])
-    board.flash[0x100:0x2000] = b"\xFF" * 0x1F00
+    board.flash[0x100:0x2000] = b"\xff" * 0x1F00
     with pytest.raises(Violation, match="erased"):
         board.run(ms=1)
     free = ready([])
-    free.flash[0x100:0x2000] = b"\xFF" * 0x1F00
+    free.flash[0x100:0x2000] = b"\xff" * 0x1F00
     free.allow("erased")
     free.run(ms=1)
     assert free.violations("erased") > 100
@@ -206,9 +282,34 @@ def test_execution_wraps_from_the_last_word_to_the_first():
     assert board.pc & 0x1FFFF == 0
 
 
-@pytest.mark.parametrize("opcode", [0x0001, 0x00FF, 0x9003, 0x9008, 0x900B, 0x9203, 0x9204, 0x9205, 0x9206, 0x9207, 0x9208,
-                                    0x920B, 0x9404, 0x940B, 0x9419, 0x9519, 0x9528, 0x95B8, 0x95F8, 0xF808, 0xFA08, 0xFC08,
-                                    0xFE0F])
+@pytest.mark.parametrize(
+    "opcode",
+    [
+        0x0001,
+        0x00FF,
+        0x9003,
+        0x9008,
+        0x900B,
+        0x9203,
+        0x9204,
+        0x9205,
+        0x9206,
+        0x9207,
+        0x9208,
+        0x920B,
+        0x9404,
+        0x940B,
+        0x9419,
+        0x9519,
+        0x9528,
+        0x95B8,
+        0x95F8,
+        0xF808,
+        0xFA08,
+        0xFC08,
+        0xFE0F,
+    ],
+)
 def test_opcodes_of_other_avrs_are_refused(opcode):
     board = ready([opcode])
     board.step()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What looks into the simulated board: probes, stack figures, symbols, loader of images, VCD, GDB, target_runner."""
+
 import os
 import pathlib
 import pickle
@@ -22,8 +23,7 @@ def words(*values):
 
 
 # SP = 0x10FF; timer 1 compare A every 1,000 cycles in CTC; then call 0x200 for ever. ISR at 0x600: 10 NOPs, RETI.
-MAIN = [0xE100, 0xBF0E, 0xEF0F, 0xBF0D, 0xE003, 0x9300, 0x4B, 0xEE07, 0x9300, 0x4A, 0xE009, 0x9300, 0x4E,
-        0xE100, 0x9300, 0x57]
+MAIN = [0xE100, 0xBF0E, 0xEF0F, 0xBF0D, 0xE003, 0x9300, 0x4B, 0xEE07, 0x9300, 0x4A, 0xE009, 0x9300, 0x4E, 0xE100, 0x9300, 0x57]
 SEI, NOP, RET, RETI = 0x9478, 0x0000, 0x9508, 0x9518
 CALL_200_FOR_EVER = [0x940E, 0x0100, 0xCFFD]
 
@@ -33,9 +33,9 @@ def probed(interrupts):
     main = MAIN + ([SEI] if interrupts else [NOP]) + CALL_200_FOR_EVER
     board.flash[0:4] = words(0x940C, 0x0080)
     board.flash[0x30:0x34] = words(0x940C, 0x0300)  # compare A
-    board.flash[0x100:0x100 + 2 * len(main)] = words(*main)
-    board.flash[0x200:0x200 + 402] = words(*[NOP] * 200, RET)
-    board.flash[0x600:0x600 + 22] = words(*[NOP] * 10, RETI)
+    board.flash[0x100 : 0x100 + 2 * len(main)] = words(*main)
+    board.flash[0x200 : 0x200 + 402] = words(*[NOP] * 200, RET)
+    board.flash[0x600 : 0x600 + 22] = words(*[NOP] * 10, RETI)
     board.probe("0x200")
     return board
 
@@ -61,12 +61,12 @@ def test_probe_takes_interrupts_out_of_the_own_time():
 def swept(mask=0x10, off=False):
     """A loop that calls 0x200 (four NOPs, RET; with `off` CLI before and SEI behind the second and third) for ever."""
     board = Board()
-    main = MAIN[:4] + [0xE000 | mask >> 4 << 8 | mask & 15, 0x9300, 0x57, SEI] + CALL_200_FOR_EVER   # r16 = TIMSK
+    main = MAIN[:4] + [0xE000 | mask >> 4 << 8 | mask & 15, 0x9300, 0x57, SEI] + CALL_200_FOR_EVER  # r16 = TIMSK
     body = [NOP, 0x94F8, NOP, SEI, NOP, RET] if off else [NOP] * 4 + [RET]
     board.flash[0:4] = words(0x940C, 0x0080)
     board.flash[0x30:0x34] = words(0x940C, 0x0300)
-    board.flash[0x100:0x100 + 2 * len(main)] = words(*main)
-    board.flash[0x200:0x200 + 2 * len(body)] = words(*body)
+    board.flash[0x100 : 0x100 + 2 * len(main)] = words(*main)
+    board.flash[0x200 : 0x200 + 2 * len(body)] = words(*body)
     board.flash[0x600:0x602] = words(RETI)
     board.sweep("0x200", "tick")
     return board
@@ -86,7 +86,7 @@ def interrupted_at(board, calls):
 def test_sweep_interrupts_before_each_instruction_once():
     board = swept()
     assert interrupted_at(board, 5) == [0x200, 0x202, 0x204, 0x206, 0x208]
-    board.run_to(0x600)   # the round is over when a call ends before its place
+    board.run_to(0x600)  # the round is over when a call ends before its place
     done = board.swept("0x200")
     assert (done.rounds, done.calls, done.taken, done.place) == (1, 6, 5, 0)
     assert interrupted_at(board, 1) == [0x200]
@@ -109,7 +109,7 @@ def test_sweep_of_nothing_is_refused():
     with pytest.raises(KeyError):
         board.sweep("no_such_function", "tick")
     with pytest.raises(KeyError):
-        board.sweep("0x200", 22)   # EEPROM ready: cannot be raised
+        board.sweep("0x200", 22)  # EEPROM ready: cannot be raised
     with pytest.raises(ValueError):
         board.interrupt(34)
 
@@ -163,9 +163,17 @@ def test_elf_and_hex_load_the_same():
     assert bytes(one.flash) == bytes(other.flash)
 
 
-@pytest.mark.parametrize("text, why", [
-    (":00000001FE", "checksum"), (":0100000000FE", "checksum"), ("hello", "not an image"), (":0100000000FF", "no end"),
-    (":02000004000AF0\n:0100000000FF\n:00000001FF", "beyond"), (":0200000600F7\n:00000001FF", "not an image")])
+@pytest.mark.parametrize(
+    "text, why",
+    [
+        (":00000001FE", "checksum"),
+        (":0100000000FE", "checksum"),
+        ("hello", "not an image"),
+        (":0100000000FF", "no end"),
+        (":02000004000AF0\n:0100000000FF\n:00000001FF", "beyond"),
+        (":0200000600F7\n:00000001FF", "not an image"),
+    ],
+)
 def test_bad_hex_files_are_refused(tmp_path, text, why):
     path = tmp_path / "bad.hex"
     path.write_text(text + "\n")
@@ -178,13 +186,14 @@ def test_two_runs_with_the_same_seed_are_the_same():
         board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1], seed=5)
         board.expect("right")
         return board.now_cycles, bytes(board.ram[0x100:0x1100]), board.packets
+
     assert run() == run()
 
 
 def test_trace_keeps_instruction_packets():
     board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
     board.expect("right")
-    assert [packet for _, packet in board.packets] == [b"\xFF\xFF\x01\x02\x01\xFB"]
+    assert [packet for _, packet in board.packets] == [b"\xff\xff\x01\x02\x01\xfb"]
 
 
 def test_vcd_holds_pins_and_bytes(tmp_path):
@@ -209,9 +218,33 @@ def test_gdb_stops_at_a_function():
     runner = threading.Thread(target=lambda: board.run(ms=100))
     runner.start()
     result = subprocess.run(
-        ["avr-gdb", "-nx", "-batch", "-ex", "set remotetimeout 300", "-ex", f"target remote 127.0.0.1:{port}", "-ex", "break ping", "-ex", "continue",
-         "-ex", "backtrace", "-ex", "stepi", "-ex", "delete", "-ex", "detach", NEGATIVE / "right-bus_overrun.elf"],
-        capture_output=True, text=True, timeout=300, check=False)
+        [
+            "avr-gdb",
+            "-nx",
+            "-batch",
+            "-ex",
+            "set remotetimeout 300",
+            "-ex",
+            f"target remote 127.0.0.1:{port}",
+            "-ex",
+            "break ping",
+            "-ex",
+            "continue",
+            "-ex",
+            "backtrace",
+            "-ex",
+            "stepi",
+            "-ex",
+            "delete",
+            "-ex",
+            "detach",
+            NEGATIVE / "right-bus_overrun.elf",
+        ],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
     runner.join(timeout=300)
     assert "Breakpoint 1, ping ()" in result.stdout and "in main ()" in result.stdout, result.stdout + result.stderr
     assert not runner.is_alive()
@@ -252,7 +285,7 @@ def test_gdb_on_a_port_in_use_is_an_error():
         board = Board(images=[NEGATIVE / "right-bus_overrun.hex"], servos=[1])
         board.power_on()
         assert not board._lib.board_gdb(board._pointer, port, True)
-        board.expect("right")   # and the board runs on without GDB
+        board.expect("right")  # and the board runs on without GDB
 
 
 def test_target_runner_wants_the_done_line(tmp_path):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Flash and EEPROM of the simulated chip: times, bits, lock bits, wear, power cuts. Facts: BOARD.md, data sheet."""
+
 import pytest
 
 from cm5sim import PowerCut, Violation
@@ -34,17 +35,17 @@ def test_rww_part_is_busy_until_it_is_enabled():
 
 def test_erase_sets_the_whole_page_that_z_points_into_and_no_other():
     lab = Lab()
-    lab.flash[PAGE - 256:PAGE + 512] = bytes(768)
+    lab.flash[PAGE - 256 : PAGE + 512] = bytes(768)
     lab.do("e", PAGE + 0x37)
-    assert lab.flash[PAGE - 256:PAGE + 512] == bytes(256) + b"\xFF" * 256 + bytes(256)
+    assert lab.flash[PAGE - 256 : PAGE + 512] == bytes(256) + b"\xff" * 256 + bytes(256)
 
 
 def test_programming_only_clears_bits_and_leaves_unfilled_words():
     lab = Lab()
     lab.allow("flash-unerased")
-    lab.flash[PAGE:PAGE + 4] = b"\x0F\x0F\x55\xAA"
-    lab.write_page(PAGE, b"\x3C\xF0")
-    assert lab.flash[PAGE:PAGE + 4] == b"\x0C\x00\x55\xAA"
+    lab.flash[PAGE : PAGE + 4] = b"\x0f\x0f\x55\xaa"
+    lab.write_page(PAGE, b"\x3c\xf0")
+    assert lab.flash[PAGE : PAGE + 4] == b"\x0c\x00\x55\xaa"
 
 
 def test_page_buffer_is_empty_after_a_write():
@@ -53,7 +54,7 @@ def test_page_buffer_is_empty_after_a_write():
     lab.write_page(PAGE, b"\x12\x34")
     lab.do("e", PAGE + 256)
     lab.do("w", PAGE + 256)
-    assert lab.flash[PAGE + 256:PAGE + 258] == b"\xFF\xFF"
+    assert lab.flash[PAGE + 256 : PAGE + 258] == b"\xff\xff"
 
 
 @pytest.mark.parametrize("reset", ["MODE", "power"])
@@ -69,7 +70,7 @@ def test_page_buffer_is_empty_after_a_reset(reset):
         lab.power_on()
     lab.run(ms=100)
     lab.do("w", PAGE)
-    assert lab.flash[PAGE:PAGE + 2] == b"\xFF\xFF"
+    assert lab.flash[PAGE : PAGE + 2] == b"\xff\xff"
 
 
 def test_far_pages_are_reached_and_wear_is_counted():
@@ -83,12 +84,12 @@ def test_far_pages_are_reached_and_wear_is_counted():
 
 def test_lock_bits_stop_spm_in_silence_and_are_never_set_back():
     lab = Lab()
-    lab.flash[BOOT_PAGE:BOOT_PAGE + 2] = b"\x12\x34"
+    lab.flash[BOOT_PAGE : BOOT_PAGE + 2] = b"\x12\x34"
     assert lab.do("k", 1)[0] == 0xFF
     lab.do("l", 0, 0xEF)  # BLB11: no SPM into the boot section
     assert lab.do("k", 1)[0] == 0xEF
     time, turns = lab.do("e", BOOT_PAGE)
-    assert time < 10 and lab.flash[BOOT_PAGE:BOOT_PAGE + 2] == b"\x12\x34"
+    assert time < 10 and lab.flash[BOOT_PAGE : BOOT_PAGE + 2] == b"\x12\x34"
     lab.do("l", 0, 0xFF)
     assert lab.do("k", 1)[0] == 0xEF
     lab.do("e", PAGE)
@@ -97,7 +98,7 @@ def test_lock_bits_stop_spm_in_silence_and_are_never_set_back():
 
 def test_lock_bits_stop_lpm_across_the_sections():
     lab = Lab()
-    lab.flash[PAGE:PAGE + 1] = b"\x42"
+    lab.flash[PAGE : PAGE + 1] = b"\x42"
     assert lab.do("g", PAGE)[0] == 0x42
     lab.lock(0xF7)  # BLB02: no LPM from the boot section into the application
     assert lab.do("g", PAGE)[0] == 0xFF
@@ -118,10 +119,10 @@ def test_eeprom_byte_takes_8_5_ms():
 def cut(letter, phase, tear=0, seed=1, address=PAGE, value=0):
     """Page PAGE holds FULL; command letter is cut. Returns the board without power."""
     lab = Lab(seed=seed)
-    lab.flash[PAGE:PAGE + 256] = FULL
+    lab.flash[PAGE : PAGE + 256] = FULL
     lab.eeprom[0x123] = 0x5A
     if letter == "w":
-        lab.flash[PAGE:PAGE + 256] = b"\xFF" * 256
+        lab.flash[PAGE : PAGE + 256] = b"\xff" * 256
         for offset in range(0, 256, 2):
             lab.do("f", PAGE + offset, FULL[offset] | FULL[offset + 1] << 8)
     lab.cut_power(1, phase, tear)
@@ -132,21 +133,21 @@ def cut(letter, phase, tear=0, seed=1, address=PAGE, value=0):
 
 
 def test_power_cut_before_and_after_an_operation_leaves_old_and_new():
-    assert cut("e", "before").flash[PAGE:PAGE + 256] == FULL
-    assert cut("e", "after").flash[PAGE:PAGE + 256] == b"\xFF" * 256
-    assert cut("w", "before").flash[PAGE:PAGE + 256] == b"\xFF" * 256
-    assert cut("w", "after").flash[PAGE:PAGE + 256] == FULL
+    assert cut("e", "before").flash[PAGE : PAGE + 256] == FULL
+    assert cut("e", "after").flash[PAGE : PAGE + 256] == b"\xff" * 256
+    assert cut("w", "before").flash[PAGE : PAGE + 256] == b"\xff" * 256
+    assert cut("w", "after").flash[PAGE : PAGE + 256] == FULL
     assert cut("m", "before", address=0x123, value=7).eeprom[0x123] == 0x5A
     assert cut("m", "after", address=0x123, value=7).eeprom[0x123] == 7
 
 
 @pytest.mark.parametrize("tear", range(4))
 def test_power_cut_during_an_operation_tears_the_page(tear):
-    erased = cut("e", "during", tear + 400).flash[PAGE:PAGE + 256]
-    assert erased != FULL and erased != b"\xFF" * 256
+    erased = cut("e", "during", tear + 400).flash[PAGE : PAGE + 256]
+    assert erased != FULL and erased != b"\xff" * 256
     assert all(new & old == old for new, old in zip(erased, FULL)), "an erase sets bits"
-    written = cut("w", "during", tear + 400).flash[PAGE:PAGE + 256]
-    assert written != FULL and written != b"\xFF" * 256
+    written = cut("w", "during", tear + 400).flash[PAGE : PAGE + 256]
+    assert written != FULL and written != b"\xff" * 256
     assert all(new & wanted == wanted for new, wanted in zip(written, FULL)), "a write clears no other bits"
 
 
@@ -157,10 +158,10 @@ def test_torn_operations_wear_too():
 
 
 def test_torn_contents_depend_on_seed_and_tear_only():
-    first = cut("e", "during", 1).flash[PAGE:PAGE + 256]
-    assert cut("e", "during", 1).flash[PAGE:PAGE + 256] == first
-    assert cut("e", "during", 1, seed=2).flash[PAGE:PAGE + 256] != first
-    assert cut("e", "during", 2).flash[PAGE:PAGE + 256] != first
+    first = cut("e", "during", 1).flash[PAGE : PAGE + 256]
+    assert cut("e", "during", 1).flash[PAGE : PAGE + 256] == first
+    assert cut("e", "during", 1, seed=2).flash[PAGE : PAGE + 256] != first
+    assert cut("e", "during", 2).flash[PAGE : PAGE + 256] != first
 
 
 def test_torn_eeprom_byte_is_neither_always_old_nor_new():
@@ -185,11 +186,11 @@ def test_power_can_be_cut_at_any_time():
 
 def test_reset_tears_a_page_but_not_an_eeprom_byte():
     lab = Lab()
-    lab.flash[PAGE:PAGE + 256] = FULL
+    lab.flash[PAGE : PAGE + 256] = FULL
     with pytest.raises(AssertionError):
         lab.do("e", PAGE, ms=2)
     lab.reset()
-    assert lab.flash[PAGE:PAGE + 256] not in (FULL, b"\xFF" * 256)
+    assert lab.flash[PAGE : PAGE + 256] not in (FULL, b"\xff" * 256)
     lab.run(ms=1)
     with pytest.raises(AssertionError):
         lab.do("m", 0x123, 0x45, ms=3)
@@ -201,6 +202,6 @@ def test_reset_tears_a_page_but_not_an_eeprom_byte():
 
 def test_unerased_write_is_a_violation_unless_allowed():
     lab = Lab()
-    lab.flash[PAGE:PAGE + 2] = b"\0\0"
+    lab.flash[PAGE : PAGE + 2] = b"\0\0"
     with pytest.raises(Violation, match="flash-unerased"):
         lab.write_page(PAGE, b"\x12\x34")

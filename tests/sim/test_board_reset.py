@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Resets, watchdog, panel and battery of the simulated board. Facts: data sheet, Reset Sources and Watchdog; BOARD.md."""
+
 import struct
 
 import pytest
@@ -75,8 +76,7 @@ def test_buttons_pull_their_pin_to_ground():
     lab = Lab()
     lab.do("p", 0x23, 0xF0)  # PORTE: pull-ups
     lab.do("p", 0x32, 0x61)  # PORTD
-    for button, register, bit in (("UP", 0x21, 4), ("DOWN", 0x21, 5), ("LEFT", 0x21, 6), ("RIGHT", 0x21, 7),
-                                  ("START", 0x30, 0)):
+    for button, register, bit in (("UP", 0x21, 4), ("DOWN", 0x21, 5), ("LEFT", 0x21, 6), ("RIGHT", 0x21, 7), ("START", 0x30, 0)):
         assert lab.do("q", register)[0] >> bit & 1
         lab.press(button)
         lab.run(ms=5)
@@ -99,7 +99,7 @@ def edges(board, act, ms):
 
 def counting_board():
     board = Board()
-    board.flash[0:2 * len(COUNT_EDGES)] = struct.pack(f"<{len(COUNT_EDGES)}H", *COUNT_EDGES)
+    board.flash[0 : 2 * len(COUNT_EDGES)] = struct.pack(f"<{len(COUNT_EDGES)}H", *COUNT_EDGES)
     board.ram[0x200] = 0
     board.run(ms=20)
     board.ram[0x200] = 0
@@ -122,7 +122,6 @@ def test_bounce_can_be_switched_off_and_made_short():
     board.bounce(0.3)
     assert edges(board, board.release, 0.31) in (1, 3)
     assert edges(board, lambda _: None, 10) == 0
-
 
 
 def test_battery_is_read_through_the_divider():

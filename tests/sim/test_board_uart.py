@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """UARTs of the simulated chip: times, flags, overrun, wrong rates, gates. Facts: data sheet, USART; BOARD.md."""
+
 import struct
 
 import pytest
@@ -70,14 +71,14 @@ def test_rates_within_three_percent_are_understood(rate):
 @pytest.mark.parametrize("rate", [38_400, 54_000, 55_200, 59_100, 61_000, 115_200])
 def test_other_rates_give_framing_errors(rate):
     lab = Lab()
-    flags = received(rate, b"\x00\xFF\x00\xFF" if rate > 100_000 else b"\x00\xFF", lab)
+    flags = received(rate, b"\x00\xff\x00\xff" if rate > 100_000 else b"\x00\xff", lab)
     assert flags[0][0] & FE
     assert lab.uart(1).framing > 0
 
 
 def test_half_rate_shows_each_bit_twice():
     """0xFE at 28,571: start and bit 0 are low for four receiver bits: start, 0, 0, 0, then ones."""
-    assert received(28_571, b"\xFE\xFE")[0][1] == 0b11111000
+    assert received(28_571, b"\xfe\xfe")[0][1] == 0b11111000
 
 
 def test_overrun_keeps_the_two_oldest_and_the_newest():
@@ -97,11 +98,13 @@ def test_overrun_keeps_the_two_oldest_and_the_newest():
 def test_third_character_is_lost_at_the_start_bit_of_the_fourth(begins, lost):
     """Three characters wait while an EEPROM byte is written; the answer's second byte is heard as the first of them is
     read. A fourth that has begun by then, though it ends later, has cost one."""
+
     def lab_with_three():
         lab = Lab()
         lab.allow("uart-overrun")
         lab.send(b"m" + struct.pack("<I", 0x10)[:3] + b"\x01\x00" + b"abc")
         return lab
+
     lab = lab_with_three()
     lab.run(ms=8)
     while len(lab.console) < 2:

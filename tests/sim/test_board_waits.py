@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """skip_waits(): a board that counts the rounds of waiting loops does the same, to the cycle, as one that executes them."""
+
 import random
 
 import pytest
@@ -36,7 +37,21 @@ class Pair:
 @pytest.mark.parametrize("seed", range(6))
 def test_loader_with_bytes_buttons_and_frames_by_chance(seed):
     chance, pair = random.Random(seed), Pair("boot-cm5.hex")
-    words = [b"id\r", b"flash 0\r", b"#", b"app\r", b"sys\r", b"load 2000\r" + bytes(range(200)), b"eep_dn 10 3\rabc", b"\x08\r", b"load e000\r", bytes(300), b"\xa5\x01\x01\x00\xc8\x9d", b"l 1dfff\r", b"reset\r"]
+    words = [
+        b"id\r",
+        b"flash 0\r",
+        b"#",
+        b"app\r",
+        b"sys\r",
+        b"load 2000\r" + bytes(range(200)),
+        b"eep_dn 10 3\rabc",
+        b"\x08\r",
+        b"load e000\r",
+        bytes(300),
+        b"\xa5\x01\x01\x00\xc8\x9d",
+        b"l 1dfff\r",
+        b"reset\r",
+    ]
     for _ in range(100):
         what = chance.randrange(8)
         if what < 5:
@@ -58,4 +73,3 @@ def test_applications_behind_the_loader(image):
     pair.both(lambda board: board.send("help\r"))
     pair.run(16000 * 500)
     pair.same_memories()
-

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The shipped image on the simulated board, its servos in a physical body: in lock step, and what comes of it."""
+
 import os
 import pathlib
 import re
@@ -59,12 +60,12 @@ def test_registers_show_what_the_body_does():
     board, physics, _ = robot_on_its_feet()
     knee = board.servos[13]
     assert knee.present == pytest.approx(physics.robot.position(13, physics.joint(13)), abs=1)
-    assert 1 < abs(knee.present - knee.goal) < 25 and knee.load != 0          # it carries: it droops
+    assert 1 < abs(knee.present - knee.goal) < 25 and knee.load != 0  # it carries: it droops
     assert board.servos[7].load == pytest.approx(0, abs=0.08)
     for servo in board.servos:
         servo.write(24, [0])
     board.run(ms=700)
-    assert abs(knee.present - knee.goal) > 60                                 # limp: it collapses
+    assert abs(knee.present - knee.goal) > 60  # limp: it collapses
     assert physics.z_mm < 270
 
 
@@ -93,7 +94,7 @@ def test_command_tells_falls_way_and_heading(tmp_path):
     run = cm5sim(*how, script=begin + "quit\n", tmp_path=tmp_path)
     assert run.returncode == 0, run.stderr
     assert "put down on its soles" in run.stderr and re.search(r"0 falls; -?\d+ mm forward, .* heading -?\d degrees .*; stands", run.stderr)
-    toes_up = "servo 15 load 1\nservo 16 load -1\nwait 2s\nquit\n"           # shanks forward: onto its face
+    toes_up = "servo 15 load 1\nservo 16 load -1\nwait 2s\nquit\n"  # shanks forward: onto its face
     run = cm5sim(*how, script=begin + toes_up, tmp_path=tmp_path)
     assert "s: fell" in run.stderr and re.search(r"1 falls; \d+ mm forward, .*; lies", run.stderr), run.stderr
 
@@ -101,10 +102,12 @@ def test_command_tells_falls_way_and_heading(tmp_path):
 def test_command_says_what_is_wrong_with_a_body(monkeypatch):
     for display in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(display, raising=False)
-    for words, code, says in ((["play-cm5.hex", "--body", "robocop"], 4, "known here: gp, humanoid"),
-                              (["play-cm5.hex", "--view"], 2, "--view shows the --body"),
-                              (["play-cm5.hex", "--body", "gp", "--view"], 4, "--view needs a display, and none answers here"),
-                              (["--body", "humanoid", "--bus-pty"], 2, "--body needs a board")):
+    for words, code, says in (
+        (["play-cm5.hex", "--body", "robocop"], 4, "known here: gp, humanoid"),
+        (["play-cm5.hex", "--view"], 2, "--view shows the --body"),
+        (["play-cm5.hex", "--body", "gp", "--view"], 4, "--view needs a display, and none answers here"),
+        (["--body", "humanoid", "--bus-pty"], 2, "--body needs a board"),
+    ):
         run = cm5sim("--time", "10ms", "--fast", *words)
         assert run.returncode == code and says in run.stderr, run.stderr
         assert "Traceback" not in run.stderr and "GLFW" not in run.stderr
@@ -129,10 +132,12 @@ def _demo(tmp_path):
 
     def run(words, display=None):
         environment = {"PATH": os.environ["PATH"]} | ({"DISPLAY": display} if display else {})
-        done = subprocess.run([tmp_path / "tools" / "demo", *words], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                              check=True)
+        done = subprocess.run(
+            [tmp_path / "tools" / "demo", *words], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True
+        )
         said = done.stdout.splitlines()
         return "\n".join(said[:-1]), said[-1].split()
+
     return run
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Stock avrdude against the loader on the simulated board, over a pseudo terminal; and STK500v1 by hand where avrdude is
 too polite to misbehave."""
+
 import fcntl
 import os
 import pathlib
@@ -20,7 +21,7 @@ from tests.sim.boot_board import BOOT_START, PLAIN_APP, PROMPT, new_board, noise
 AVRDUDE = shutil.which("avrdude")
 
 
-BUSY_TURNS = 1500   # of 2 ms: so long the board may be at work behind the last byte that passed; a page of EEPROM takes 2.2 s
+BUSY_TURNS = 1500  # of 2 ms: so long the board may be at work behind the last byte that passed; a page of EEPROM takes 2.2 s
 
 
 def run_avrdude(board, *arguments, part="m128", limit=800):
@@ -94,7 +95,7 @@ def test_64_kib_of_motions_written_verified_and_all_of_the_flash_read_back(tmp_p
     code, text = run_avrdude(board, "-U", f"flash:w:{image}:i", "-U", f"flash:r:{back}:r")
     assert code == 0 and "65536 bytes of flash verified" in text, text
     assert bytes(board.flash[0xE000:0x1E000]) == motions
-    assert back.read_bytes() == bytes(board.flash)   # the loader's own section too
+    assert back.read_bytes() == bytes(board.flash)  # the loader's own section too
     assert bytes(board.flash[:0xE000]) == b"\xff" * 0xE000
 
 
@@ -113,7 +114,7 @@ def test_eeprom_read(tmp_path):
     code, text = run_avrdude(board, "-U", f"eeprom:r:{path}:r")
     assert code == 0, text
     data = path.read_bytes()
-    assert data == bytes(board.eeprom)[:len(data)] and len(data) >= 0xFF0
+    assert data == bytes(board.eeprom)[: len(data)] and len(data) >= 0xFF0
 
 
 @pytest.mark.parametrize("part", ["m64", "m2560"])
@@ -193,13 +194,12 @@ def stk():
 
 
 def page(address, data, kind=b"F"):
-    return (b"\x55" + (address // 2).to_bytes(2, "little") + b"\x20",
-            b"\x64" + len(data).to_bytes(2, "big") + kind + data + b"\x20")
+    return (b"\x55" + (address // 2).to_bytes(2, "little") + b"\x20", b"\x64" + len(data).to_bytes(2, "big") + kind + data + b"\x20")
 
 
 def test_sync_in_the_window_stays_without_a_banner():
     board = new_board()
-    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
+    board.flash[0 : len(PLAIN_APP)] = PLAIN_APP
     board.eeprom[0xFFF] = 0x11
     board.run(ms=30)
     board.send(SYNC)

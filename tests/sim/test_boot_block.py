@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The block protocol of firmware/boot/BLOCK_PROTOCOL.md: every command, damage, speed."""
+
 import random
 import struct
 
@@ -44,7 +45,7 @@ def blocks(board):
 
 
 def test_frames_of_the_manual(board):
-    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
+    board.flash[0 : len(PLAIN_APP)] = PLAIN_APP
     board.send(bytes.fromhex("A5010100C89D"))
     board.run(ms=20)
     assert board.take() == bytes.fromhex("5A0101010001EAF8")
@@ -52,14 +53,14 @@ def test_frames_of_the_manual(board):
 
 def test_hello_says_whether_there_is_an_application(board, blocks):
     assert blocks.ask(HELLO) == (OK, 0, b"")
-    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
+    board.flash[0 : len(PLAIN_APP)] = PLAIN_APP
     assert blocks.ask(HELLO) == (OK, 1, b"")
 
 
 @pytest.mark.parametrize("page", [0, 0xDF, 0x1E0, 0x1FF])
 def test_read_flash(board, blocks, page):
     board.flash[0x0000:0x0100] = noise(256)
-    assert blocks.ask(READ, page_body(page)) == (OK, 0, bytes(board.flash[256 * page:256 * page + 256]))
+    assert blocks.ask(READ, page_body(page)) == (OK, 0, bytes(board.flash[256 * page : 256 * page + 256]))
 
 
 def test_read_eeprom_and_call_table(board, blocks):
@@ -99,15 +100,26 @@ def test_write_that_does_not_stick_is_reported(board, blocks):
 
 def test_sums(board, blocks):
     data = noise(64 * 256)
-    board.flash[0xE000:0xE000 + len(data)] = data
+    board.flash[0xE000 : 0xE000 + len(data)] = data
     for i, (crc, total) in enumerate(blocks.sums(0xE0, 64)):
-        page = data[256 * i:256 * i + 256]
+        page = data[256 * i : 256 * i + 256]
         assert (crc, total) == (crc16(page), sum(page) & 0xFFFF)
 
 
-@pytest.mark.parametrize("command, body", [(SUMS, struct.pack("<HH", 0, 65)), (EE_WRITE, struct.pack("<HH", 0, 33) + bytes(34)),
-                                           (RATE, page_body(8)), (RATE, page_body(0)), (WRITE, page_body(0x70, bytes(254))),
-                                           (READ, page_body(0x8011)), (READ, page_body(0x80FF)), (99, b""), (0, b"")])
+@pytest.mark.parametrize(
+    "command, body",
+    [
+        (SUMS, struct.pack("<HH", 0, 65)),
+        (EE_WRITE, struct.pack("<HH", 0, 33) + bytes(34)),
+        (RATE, page_body(8)),
+        (RATE, page_body(0)),
+        (WRITE, page_body(0x70, bytes(254))),
+        (READ, page_body(0x8011)),
+        (READ, page_body(0x80FF)),
+        (99, b""),
+        (0, b""),
+    ],
+)
 def test_bad_requests_are_refused(board, blocks, command, body):
     before = bytes(board.flash), bytes(board.eeprom)
     assert blocks.ask(command, body)[0] == REFUSED
@@ -140,7 +152,7 @@ def test_leave_to_the_prompt(board, blocks):
 
 
 def test_leave_to_the_application(board, blocks):
-    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
+    board.flash[0 : len(PLAIN_APP)] = PLAIN_APP
     assert blocks.ask(LEAVE, page_body(1))[0] == OK
     board.run(ms=100)
     assert board.pc < 0x100
@@ -176,7 +188,7 @@ def test_a_damaged_frame_writes_nothing_and_the_next_one_works(board, blocks, sp
     assert bytes(board.flash) == before
     blocks.heard = b""
     said = board.take()
-    assert said[:1] == b"\x5A" and said[4] == BAD_FRAME
+    assert said[:1] == b"\x5a" and said[4] == BAD_FRAME
     assert blocks.ask(HELLO)[0] == OK
 
 
@@ -221,7 +233,7 @@ def test_noise_on_the_line_costs_time_but_no_page(board, blocks):
     todo = set(range(16))
     for _ in range(20):
         for page in sorted(todo):
-            raw = bytearray(frame(WRITE, page, page_body(0xE0 + page, data[256 * page:256 * page + 256])))
+            raw = bytearray(frame(WRITE, page, page_body(0xE0 + page, data[256 * page : 256 * page + 256])))
             for i in range(len(raw)):
                 if rng.random() < 1 / 2000:
                     raw[i] ^= 1 << rng.randrange(8)
@@ -232,13 +244,13 @@ def test_noise_on_the_line_costs_time_but_no_page(board, blocks):
         if not todo:
             break
     assert not todo
-    assert bytes(board.flash[0xE000:0xE000 + len(data)]) == data
+    assert bytes(board.flash[0xE000 : 0xE000 + len(data)]) == data
 
 
 def answers(page):
     for status in (0, 1):
         content = bytes([WRITE, page, 1, status, 0])
-        yield b"\x5A" + content + crc16(content).to_bytes(2, "big")
+        yield b"\x5a" + content + crc16(content).to_bytes(2, "big")
 
 
 @pytest.mark.parametrize("operation", [1, 2, 7, 20, 31])
@@ -252,7 +264,7 @@ def test_a_transfer_is_resumed_after_a_power_cut(operation):
     board.power_on()
     board.expect(PROMPT, ms=600)
     written = Blocks(board).update(0xE0, data)
-    assert bytes(board.flash[0xE000:0xE000 + len(data)]) == data
+    assert bytes(board.flash[0xE000 : 0xE000 + len(data)]) == data
     assert written <= 16 - (operation - 1) // 2
     assert all(board.wear(0xE0 + i) == 1 for i in range((operation - 1) // 2)), "what was done is not done again"
 
@@ -279,8 +291,10 @@ def test_speed():
     fresh, written = transfer(board, data, 57600)
     same, unwritten = transfer(board, data, 57600)
     fast, _ = transfer(prompt_board(), data, 117647)
-    print(f"64 KiB: {fresh:.2f} s at 57,600 ({fresh / line - 1:+.1%} of the line's {line:.2f} s), unchanged {same:.2f} s "
-          f"({same / fresh:.1%}), {fast:.2f} s at 117,647")
+    print(
+        f"64 KiB: {fresh:.2f} s at 57,600 ({fresh / line - 1:+.1%} of the line's {line:.2f} s), unchanged {same:.2f} s "
+        f"({same / fresh:.1%}), {fast:.2f} s at 117,647"
+    )
     assert (written, unwritten) == (256, 0)
     assert fresh < line * 1.05
     assert same < fresh * 0.10

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Downloads of the original's kind: sizes and faults of boot/ORIGINAL.md section 3, as written there or as
 firmware/boot/DIFFERENCES.md says."""
+
 import pytest
 
 from tests.sim.boot_board import APP_END, BOOT_START, PLAIN_APP, PROMPT, begin_load, end_load, load, noise, prompt_board, say
@@ -16,9 +17,9 @@ def board():
 def check_flash(board, before, address, data):
     """Exactly `data` at `address`, everything else as before."""
     after = bytes(board.flash)
-    assert after[address:address + len(data)] == data
+    assert after[address : address + len(data)] == data
     assert after[:address] == before[:address]
-    assert after[address + len(data):] == before[address + len(data):]
+    assert after[address + len(data) :] == before[address + len(data) :]
 
 
 @pytest.mark.parametrize("count", [1, 254, 255, 256, 257, 512, 1000])
@@ -61,7 +62,7 @@ def test_type_ahead_needs_no_ready(board):
     data = noise(600, 2)
     board.send(b"load e000\r" + data + bytes([sum(data) & 0xFF]))
     board.expect("Success", ms=2000)
-    assert bytes(board.flash[0xE000:0xE000 + 600]) == data
+    assert bytes(board.flash[0xE000 : 0xE000 + 600]) == data
 
 
 def test_equal_pages_are_not_worn(board):
@@ -76,7 +77,7 @@ def test_equal_pages_are_not_worn(board):
 @pytest.mark.parametrize("address, count", [(0x2080, 17), (0x20FF, 301), (0x2001, 257), (0x20FF, 1), (0xE123, 700)])
 def test_unaligned_starts(board, address, count):
     start = address & ~0xFF
-    board.flash[start - 256:start + 0x500] = noise(0x600, 3)
+    board.flash[start - 256 : start + 0x500] = noise(0x600, 3)
     before, data = bytes(board.flash), noise(count, 6)
     assert load(board, address, data)[0] == "Success"
     check_flash(board, before, address, data)
@@ -101,14 +102,15 @@ def test_65536_without_a_sum_byte_touch_nothing_behind(board):
     assert after[0xE000:0x1DFFF] == data[:-1] and after[BOOT_START:] == before[BOOT_START:]
 
 
-@pytest.mark.parametrize("address, count, end", [(APP_END - 256, 300, APP_END), (0xDF80, 200, 0xE000), (0x1DF00, 300, 0x1E000),
-                                                 (0x1DFFF, 2, 0x1E000)])
+@pytest.mark.parametrize(
+    "address, count, end", [(APP_END - 256, 300, APP_END), (0xDF80, 200, 0xE000), (0x1DF00, 300, 0x1E000), (0x1DFFF, 2, 0x1E000)]
+)
 def test_no_byte_goes_past_the_region(board, address, count, end):
     before, data = bytes(board.flash), noise(count, 5)
     result = load(board, address, data)
     assert result[0] == "Error" and result[2] == count + 1
     after = bytes(board.flash)
-    assert after[address:end] == data[:end - address] and after[end:] == before[end:]
+    assert after[address:end] == data[: end - address] and after[end:] == before[end:]
 
 
 @pytest.mark.parametrize("gap, whole", [(100, True), (110, True), (112, False), (130, False)])
@@ -148,7 +150,7 @@ def test_esc_leaves_ready_and_data_may_begin_with_esc(board):
 
 
 def test_start_leaves_ready_without_starting(board):
-    board.flash[0:len(PLAIN_APP)] = PLAIN_APP
+    board.flash[0 : len(PLAIN_APP)] = PLAIN_APP
     board.send("load 2000\r")
     board.expect("Ready..")
     board.press("START")

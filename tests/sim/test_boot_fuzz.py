@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Noise at the prompt, in STK500 sessions and in block sessions (boot_noise.py). M512_FUZZ_BYTES says how many bytes in all
 (default 120,000; tools/prove fuzz sends 10,000,000)."""
+
 import os
 
 import pytest

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The power is cut at every flash and EEPROM operation of every kind of download, before, during (torn contents) and after
 it: the loader always answers afterwards, and what the transfer did not name is untouched."""
+
 import struct
 
 import pytest
@@ -27,17 +28,18 @@ ENTER = b"\x50\x20"
 
 
 def stk_page(address, data, kind=b"F"):
-    return (b"\x55" + (address // 2).to_bytes(2, "little") + b"\x20\x64" + len(data).to_bytes(2, "big") + kind + data
-            + b"\x20")
+    return b"\x55" + (address // 2).to_bytes(2, "little") + b"\x20\x64" + len(data).to_bytes(2, "big") + kind + data + b"\x20"
 
 
 def raw(line, data):
     """A word whose data follow it; the pause lets the loader say that it is ready."""
+
     def send(board):
         board.send(line)
         if data:
             board.pause(100)
             board.send(data)
+
     return send
 
 
@@ -50,18 +52,22 @@ LOAD_RECORD = range(0xFF6, 0xFFF)
 TRANSFERS = {
     "load, unaligned, three pages": (raw("load e080\r", sum_byte(noise(600, 1))), [(0xE000, 0xE300)], LOAD_RECORD),
     "load of an application": (raw("load 0\r", sum_byte(noise(512, 2))), [(0, 0x200)], LOAD_RECORD),
-    "load over a pending journal page": (raw("load e200\r", sum_byte(noise(256, 3))), [(JOURNAL_START, JOURNAL_START + 0x300), (0xE000, 0xE300)],
-                                         LOAD_RECORD),
+    "load over a pending journal page": (
+        raw("load e200\r", sum_byte(noise(256, 3))),
+        [(JOURNAL_START, JOURNAL_START + 0x300), (0xE000, 0xE300)],
+        LOAD_RECORD,
+    ),
     "eep_dn": (raw("eep_dn 100 6\r", noise(6, 4)), [], range(0x100, 0x106)),
     "clear_eeprom": (raw("clear_eeprom 200 6\r", b""), [], range(0x200, 0x206)),
     "app": (raw("app\r", b""), [], [0xFFF]),
-    "STK500 flash": (raw("0 ", ENTER + stk_page(0xE000, noise(256, 5)) + stk_page(0xE100, noise(128, 6))),
-                     [(0xE000, 0xE200)], []),
+    "STK500 flash": (raw("0 ", ENTER + stk_page(0xE000, noise(256, 5)) + stk_page(0xE100, noise(128, 6))), [(0xE000, 0xE200)], []),
     "STK500 EEPROM": (raw("0 ", ENTER + stk_page(0x300, noise(6, 7), b"E")), [], range(0x300, 0x306)),
-    "blocks": (raw(frame(1, 1), frame(WRITE, 2, page_body(0xE0, noise(256, 8))) + frame(WRITE, 3, page_body(0xE1, noise(256, 9)))),
-               [(0xE000, 0xE200)], []),
-    "blocks, EEPROM": (raw(frame(1, 1), frame(EE_WRITE, 2, struct.pack("<HH", 0x400, 6) + noise(6, 10))), [],
-                       range(0x400, 0x406)),
+    "blocks": (
+        raw(frame(1, 1), frame(WRITE, 2, page_body(0xE0, noise(256, 8))) + frame(WRITE, 3, page_body(0xE1, noise(256, 9)))),
+        [(0xE000, 0xE200)],
+        [],
+    ),
+    "blocks, EEPROM": (raw(frame(1, 1), frame(EE_WRITE, 2, struct.pack("<HH", 0x400, 6) + noise(6, 10))), [], range(0x400, 0x406)),
 }
 
 
@@ -118,7 +124,7 @@ def test_cut_at_every_operation(name):
 
 def recorded(seed):
     """1 KiB that says of itself what our applications do (firmware/common/app_record.h)."""
-    image = b"\x0C\x94\x46\x00" + noise(0x88, seed) + b"M512\x00\x04\x00\x00\xff\xff" + noise(0x36A, seed + 1)
+    image = b"\x0c\x94\x46\x00" + noise(0x88, seed) + b"M512\x00\x04\x00\x00\xff\xff" + noise(0x36A, seed + 1)
     return image[:0x94] + crc16(image).to_bytes(2, "little") + image[0x96:]
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the boot section does for applications: the page-write service behind the call table, through the application of
 tests/sim/service, and the page journal with both of them, cut at every operation."""
+
 import pytest
 
 from cm5sim import Board, PowerCut
@@ -55,8 +56,8 @@ def test_write(board, page):
     data, before = noise(256, page), bytes(board.flash)
     assert ask(board, b"W" + at(page) + data) == bytes([OK])
     after = bytes(board.flash)
-    assert after[256 * page:256 * page + 256] == data
-    assert after[:256 * page] == before[:256 * page] and after[256 * page + 256:] == before[256 * page + 256:]
+    assert after[256 * page : 256 * page + 256] == data
+    assert after[: 256 * page] == before[: 256 * page] and after[256 * page + 256 :] == before[256 * page + 256 :]
 
 
 def test_write_waits_for_the_eeprom(board):
@@ -234,6 +235,7 @@ def test_an_unknown_loader_means_the_mailbox():
 
 
 # The factory loader's routine, imitated by tests/sim/service/factory.c
+
 
 @pytest.fixture(scope="module")
 def factory():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the loader does from reset on: stay or start, the state it hands over, the mailbox, the application's record."""
+
 import pathlib
 import struct
 import subprocess
@@ -30,19 +31,21 @@ from tests.sim.boot_board import (
 APPLICATION = 0x11
 
 
-SHIPPED_BYTES = 46 * 1024   # Edit and Play: the loader's CRC of them takes longer than its window
+SHIPPED_BYTES = 46 * 1024  # Edit and Play: the loader's CRC of them takes longer than its window
 
 
 def application(length=SHIPPED_BYTES, record=True, good=True):
     """A program that leaves SREG, UCSR0A and UCSR1A at 0x200 and ends in a loop; with a record of ours where asked for."""
     image = bytearray(length)
-    image[0:4] = b"\x0c\x94\x60\x00"        # jmp 0xC0
-    program = ("0fb7 0093 0002"    # in r16, SREG; sts 0x200, r16
-               "0bb1 0093 0102"    # in r16, UCSR0A; sts 0x201, r16
-               "0091 9b00 0093 0202"  # lds r16, UCSR1A; sts 0x202, r16
-               "ffcf")             # rjmp to itself
+    image[0:4] = b"\x0c\x94\x60\x00"  # jmp 0xC0
+    program = (
+        "0fb7 0093 0002"  # in r16, SREG; sts 0x200, r16
+        "0bb1 0093 0102"  # in r16, UCSR0A; sts 0x201, r16
+        "0091 9b00 0093 0202"  # lds r16, UCSR1A; sts 0x202, r16
+        "ffcf"
+    )  # rjmp to itself
     program = bytes.fromhex(program.replace(" ", ""))
-    image[0xC0:0xC0 + len(program)] = program
+    image[0xC0 : 0xC0 + len(program)] = program
     image[0x100:] = noise(length - 0x100, 3)
     if record:
         image[0x8C:0x9C] = struct.pack("<4sIHBB3sB", b"M512", length, 0xFFFF, 1, 255, b"\1\0\0", 1)
@@ -53,7 +56,7 @@ def application(length=SHIPPED_BYTES, record=True, good=True):
 def board_with(image=None, mode=APPLICATION, **options):
     board = new_board(**options)
     if image:
-        board.flash[0:len(image)] = image
+        board.flash[0 : len(image)] = image
     board.eeprom[BOOT_MODE] = mode
     return board
 
@@ -150,7 +153,7 @@ def test_start_held_stays_and_its_release_does_nothing():
         board.release("START")
         board.run(ms=200)
         assert not started(board)
-        board.run(ms=0.7)   # other chatter each time
+        board.run(ms=0.7)  # other chatter each time
     board.press("START")
     board.run(ms=200)
     assert started(board)
@@ -179,9 +182,17 @@ def test_start_pressed_late_does_not_stay(length):
     assert started(board)
 
 
-@pytest.mark.parametrize("image, stays, word", [
-    (None, True, "none"), (application(record=False), False, "plain"), (application(), False, "good"),
-    (application(good=False), True, "bad"), (application(APP_END), False, "good"), (application(APP_END + 2), True, "bad")])
+@pytest.mark.parametrize(
+    "image, stays, word",
+    [
+        (None, True, "none"),
+        (application(record=False), False, "plain"),
+        (application(), False, "good"),
+        (application(good=False), True, "bad"),
+        (application(APP_END), False, "good"),
+        (application(APP_END + 2), True, "bad"),
+    ],
+)
 def test_validity_of_the_application(image, stays, word):
     board = board_with(image)
     board.run(ms=600)
@@ -232,7 +243,7 @@ def test_the_block_protocol_refuses_a_damaged_application():
     board.expect(PROMPT, ms=600)
     blocks = Blocks(board)
     assert blocks.ask(LEAVE, page_body(1))[0] == REFUSED
-    assert blocks.ask(HELLO)[:2] == (OK, 3)   # the session goes on
+    assert blocks.ask(HELLO)[:2] == (OK, 3)  # the session goes on
     assert blocks.ask(LEAVE, page_body(3))[0] == OK
     board.run(ms=50)
     assert started(board)
@@ -252,8 +263,9 @@ def test_a_combined_image_starts(tmp_path):
     firmware = root / "build" / "firmware"
     motions, whole = tmp_path / "motions.bin", tmp_path / "first.hex"
     motions.write_bytes(noise(65536, 12))
-    subprocess.run([sys.executable, root / "tools" / "combine", whole, firmware / "boot-cm5.hex", firmware / "play-cm5.hex",
-                    "--motions", motions], check=True)
+    subprocess.run(
+        [sys.executable, root / "tools" / "combine", whole, firmware / "boot-cm5.hex", firmware / "play-cm5.hex", "--motions", motions], check=True
+    )
     board = Board(images=[str(whole)])
     assert bytes(board.flash[0xE000:0x1E000]) == noise(65536, 12)
     board.expect(PROMPT, ms=600)
@@ -269,14 +281,46 @@ def test_state_handed_over():
     assert run_to_application(board)
     board.run(ms=1)
     registers = bytes(board.ram[0:0x100])
-    io = {name: registers[address] for name, address in {
-        "DDRC": 0x34, "PORTC": 0x35, "DDRD": 0x31, "PORTD": 0x32, "DDRB": 0x37, "PORTB": 0x38, "DDRE": 0x22, "PORTE": 0x23,
-        "UCSR1B": 0x9A, "UBRR1L": 0x99, "UCSR0B": 0x2A, "UBRR0L": 0x29, "TCCR1B": 0x4E, "TCCR0": 0x53, "WDTCR": 0x41,
-        "MCUCR": 0x55}.items()}
+    io = {
+        name: registers[address]
+        for name, address in {
+            "DDRC": 0x34,
+            "PORTC": 0x35,
+            "DDRD": 0x31,
+            "PORTD": 0x32,
+            "DDRB": 0x37,
+            "PORTB": 0x38,
+            "DDRE": 0x22,
+            "PORTE": 0x23,
+            "UCSR1B": 0x9A,
+            "UBRR1L": 0x99,
+            "UCSR0B": 0x2A,
+            "UBRR0L": 0x29,
+            "TCCR1B": 0x4E,
+            "TCCR0": 0x53,
+            "WDTCR": 0x41,
+            "MCUCR": 0x55,
+        }.items()
+    }
     assert board.ram[0x200] & 0x80 == 0, "interrupts are off"
-    assert io == {"DDRC": 0x77, "PORTC": 0x7E, "DDRD": 0x70, "PORTD": 0x51, "DDRB": 0x20, "PORTB": 0x20, "DDRE": 0x0C,
-                  "PORTE": 0x00, "UCSR1B": 0x98, "UBRR1L": 34, "UCSR0B": 0x18, "UBRR0L": 0, "TCCR1B": 0, "TCCR0": 0,
-                  "WDTCR": 0, "MCUCR": 0}
+    assert io == {
+        "DDRC": 0x77,
+        "PORTC": 0x7E,
+        "DDRD": 0x70,
+        "PORTD": 0x51,
+        "DDRB": 0x20,
+        "PORTB": 0x20,
+        "DDRE": 0x0C,
+        "PORTE": 0x00,
+        "UCSR1B": 0x98,
+        "UBRR1L": 34,
+        "UCSR0B": 0x18,
+        "UBRR0L": 0,
+        "TCCR1B": 0,
+        "TCCR0": 0,
+        "WDTCR": 0,
+        "MCUCR": 0,
+    }
     assert board.ram[0x201] & 0x02 and board.ram[0x202] & 0x02, "both UARTs at double speed"
 
 
@@ -312,9 +356,9 @@ def test_mailbox_is_answered_whatever_the_mode(page):
     assert run_to_application(board)
     address = 0xE000 + 512 * page
     assert board.take().startswith(b"\xff Writing ")
-    assert bytes(board.flash[address:address + 512]) == data
+    assert bytes(board.flash[address : address + 512]) == data
     assert bytes(board.flash[:address]) == before[:address]
-    assert bytes(board.flash[address + 512:]) == before[address + 512:]
+    assert bytes(board.flash[address + 512 :]) == before[address + 512 :]
     assert board.eeprom[0xFF4] == 0x55
 
 
@@ -344,7 +388,7 @@ def test_a_pending_page_of_the_journal_is_finished_first():
     assert board.take() == b"\xff"
     assert bytes(board.flash[0xF200:0xF400]) == page
     board.run(ms=10)
-    assert bytes(board.flash[JOURNAL_START + 522:JOURNAL_START + 524]) == b"\0\0"
+    assert bytes(board.flash[JOURNAL_START + 522 : JOURNAL_START + 524]) == b"\0\0"
 
 
 def test_a_download_drops_a_pending_page():

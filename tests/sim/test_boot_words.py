@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Every word of the boot loader's prompt, against boot/ORIGINAL.md section 2 and firmware/boot/DIFFERENCES.md."""
+
 import re
 
 import pytest
@@ -17,8 +18,11 @@ def dump_lines(memory, address, size):
     for row in range(8):
         start = (address + 16 * row) % size
         row_bytes = bytes(memory[(start + i) % size] for i in range(16))
-        text += (f"\r\n {start:08X} : " + "".join(f"{byte:02X} " for byte in row_bytes)
-                 + "".join(chr(byte) if 0x20 <= byte < 0x80 else "." for byte in row_bytes))
+        text += (
+            f"\r\n {start:08X} : "
+            + "".join(f"{byte:02X} " for byte in row_bytes)
+            + "".join(chr(byte) if 0x20 <= byte < 0x80 else "." for byte in row_bytes)
+        )
     return text + "\r\n"
 
 
@@ -46,8 +50,9 @@ def test_three_leds_light_for_100_ms_before_the_banner():
 
 def test_help_lists_every_word(board):
     text = say(board, "help")
-    for word in ("HELP FLASH EEP RAM LOAD LD L DOWN DN UP EEP_UP EEP_DN VERIFY CLEAR_EEPROM GO RESET APP SYS EDIT PLAY "
-                 "MON TOSS DUMP CHECK ID").split():
+    for word in (
+        "HELP FLASH EEP RAM LOAD LD L DOWN DN UP EEP_UP EEP_DN VERIFY CLEAR_EEPROM GO RESET APP SYS EDIT PLAY MON TOSS DUMP CHECK ID"
+    ).split():
         assert f" {word} " in text
 
 
@@ -91,16 +96,31 @@ def test_dumps_can_be_typed_ahead(board):
     assert board.take().count(b"\r\n - ") == 3
 
 
-@pytest.mark.parametrize("line", ["f xyz", "f g", "f 1g", "f 0x", "f -1 2", "f 123456789", "load 1 2", "load e000,20", "help 1",
-                                  "go 1 2", "app 1", "f 1 2 3", "verify 1"])
+@pytest.mark.parametrize(
+    "line", ["f xyz", "f g", "f 1g", "f 0x", "f -1 2", "f 123456789", "load 1 2", "load e000,20", "help 1", "go 1 2", "app 1", "f 1 2 3", "verify 1"]
+)
 def test_bad_numbers_and_extra_arguments_are_refused(board, line):
     before = bytes(board.flash), bytes(board.eeprom)
     assert say(board, line) == BAD_ARGUMENT
     assert (bytes(board.flash), bytes(board.eeprom)) == before
 
 
-@pytest.mark.parametrize("line", ["load 1e000", "load 0x1ffff", "load 20000", "load fffff", "up 1ffff 2", "up 20000 1",
-                                  "eep_up fff 2", "eep_up 1000 1", "eep_dn fff 2", "eep_dn 0 801", "go 10000"])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "load 1e000",
+        "load 0x1ffff",
+        "load 20000",
+        "load fffff",
+        "up 1ffff 2",
+        "up 20000 1",
+        "eep_up fff 2",
+        "eep_up 1000 1",
+        "eep_dn fff 2",
+        "eep_dn 0 801",
+        "go 10000",
+    ],
+)
 def test_bad_addresses_are_refused(board, line):
     assert say(board, line) == BAD_ADDRESS
 
@@ -159,12 +179,21 @@ def test_type_ahead_beyond_the_ring_loses_the_new_bytes_only(board):
     assert board.eeprom[BOOT_MODE] == 0x11
 
 
-@pytest.mark.parametrize("word, text, address, value", [
-    ("app", " Boot to Application", 0xFFF, 0x11), ("application", " Boot to Application", 0xFFF, 0x11),
-    ("sys", " Boot to System", 0xFFF, 0xFF), ("system", " Boot to System", 0xFFF, 0xFF),
-    ("play", " Play Mode", 0xFF3, 0x12), ("toss", " Toss Mode", 0xFF3, 0x13), ("mon", " Monitor Mode", 0xFF3, 0x14),
-    ("monitor", " Monitor Mode", 0xFF3, 0x14), ("edit", " Motion Edit Mode", 0xFF3, 0x15),
-    ("dump", " DUMP485 Mode", 0xFF3, 0x16)])
+@pytest.mark.parametrize(
+    "word, text, address, value",
+    [
+        ("app", " Boot to Application", 0xFFF, 0x11),
+        ("application", " Boot to Application", 0xFFF, 0x11),
+        ("sys", " Boot to System", 0xFFF, 0xFF),
+        ("system", " Boot to System", 0xFFF, 0xFF),
+        ("play", " Play Mode", 0xFF3, 0x12),
+        ("toss", " Toss Mode", 0xFF3, 0x13),
+        ("mon", " Monitor Mode", 0xFF3, 0x14),
+        ("monitor", " Monitor Mode", 0xFF3, 0x14),
+        ("edit", " Motion Edit Mode", 0xFF3, 0x15),
+        ("dump", " DUMP485 Mode", 0xFF3, 0x16),
+    ],
+)
 def test_words_that_store_a_byte(board, word, text, address, value):
     board.eeprom[address] = 0x77
     assert say(board, word) == "\r\n" + text
@@ -181,7 +210,7 @@ def test_usage_of_the_transfers(board, word):
 @pytest.mark.parametrize("word, memory", [("up", "flash"), ("eep_up", "eeprom")])
 def test_up_by_a_key(board, word, memory):
     data = noise(300, 5)
-    getattr(board, memory)[0x200:0x200 + 300] = data
+    getattr(board, memory)[0x200 : 0x200 + 300] = data
     board.send(f"{word} 200 12c\r")
     board.expect("\r\n Push button when ready...")
     board.run(ms=500)
@@ -259,8 +288,9 @@ def test_verify_sums_the_last_download(board):
     board.eeprom[0xFF7:0xFFB] = sum(data).to_bytes(4, "little")
     board.eeprom[0xFFB:0xFFF] = (1001).to_bytes(4, "little")
     for word in ("verify", "v"):
-        assert say(board, word) == ("\r\n Program Length : 0x000003E9\r\n Verified Checksum : "
-                                    f"{sum(data) & 0xFF:02X}-{sum(data):08X}-{sum(data):08X}")
+        assert say(board, word) == (
+            f"\r\n Program Length : 0x000003E9\r\n Verified Checksum : {sum(data) & 0xFF:02X}-{sum(data):08X}-{sum(data):08X}"
+        )
 
 
 def test_verify_without_a_download_ends(board):
@@ -318,14 +348,13 @@ def test_check_tells_every_page_and_repeats_it_as_one_line():
     empty[20], empty[31] = 0, empty[31] + 1
     bad = bytearray(good)
     bad[100] ^= 1
-    board.flash[0xE000:0xE000 + 2048] = bytes(good + empty + bad + good)
+    board.flash[0xE000 : 0xE000 + 2048] = bytes(good + empty + bad + good)
     board.flash[0x100:0x110] = noise(16)
     text = say(board, "check", ms=5000)
     lines = text.split("\r\n ")
     rows = lines[2:6]
     assert rows[0].startswith("+.X+....") and [len(row) for row in rows] == [32] * 4
-    match = re.fullmatch(r"CHECK app=(\w+),([0-9A-F]{4}) motion=([0-9A-F]{4}),02,7D,01 boot=0000 ram=good ee=([0-9A-F]{10})",
-                         lines[6])
+    match = re.fullmatch(r"CHECK app=(\w+),([0-9A-F]{4}) motion=([0-9A-F]{4}),02,7D,01 boot=0000 ram=good ee=([0-9A-F]{10})", lines[6])
     assert match, lines[6]
     assert match[1] == "none"
     assert int(match[2], 16) == crc16(board.flash[0:APP_END])

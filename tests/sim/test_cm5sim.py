@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The command cm5sim with a small robot (robot/robot.c): its ways in, exit codes, wrong usage."""
+
 import io
 import os
 import pathlib
@@ -15,6 +16,7 @@ import serial
 from tests.sim.sim_command import CM5SIM, ROBOT, Running, run
 
 # --- ways in ---
+
 
 def test_pipe_is_answered_and_the_run_ends_by_itself():
     done = run(ROBOT, stdin=b"hop")
@@ -56,7 +58,7 @@ def test_pty_at_a_wrong_rate_is_garbage_as_on_a_cable():
         path = robot.message(r"serial port: (/dev/pts/\d+)")
         with serial.Serial(path, 115200, timeout=1) as port:
             port.write(b"ho")
-            assert robot.message(r"rate was set to (\d+) bps") == "115200"   # it has taken them
+            assert robot.message(r"rate was set to (\d+) bps") == "115200"  # it has taken them
             assert b"ho" not in port.read(20)
         with serial.Serial(path, 57600, timeout=60) as port:
             port.write(b"ho")
@@ -172,18 +174,26 @@ def test_terminal_words_for_the_user_leave_the_robots_screen_alone(terminal):
 
 
 def test_terminal_hand_pushes_holds_and_lets_go(terminal):
-    terminal.send("m")   # servo 3 goes to 600
+    terminal.send("m")  # servo 3 goes to 600
     terminal.expect("moving")
     terminal.send("\x14hpush 3 400\r\x14v")
     terminal.expect("3 +600 +400  on +0x.. +held")
     terminal.send("x\x14hlet go\r\x14v")
-    while terminal.expect(["3 +600 +(599|600|601)  on", "3 +600 +[0-9]+  on"]):   # still on its way: look again
+    while terminal.expect(["3 +600 +(599|600|601)  on", "3 +600 +[0-9]+  on"]):  # still on its way: look again
         terminal.send("x\x14v")
 
 
-@pytest.mark.parametrize("line, says", [
-    ("push 40 600", "there is no servo 40"), ("push 3", "position 0..1023 is missing"), ("let it", "let go"),
-    ("expect \"x\"", "only scripts"), ("at 5s reset", "no `at`"), ("dance", "unknown action")])
+@pytest.mark.parametrize(
+    "line, says",
+    [
+        ("push 40 600", "there is no servo 40"),
+        ("push 3", "position 0..1023 is missing"),
+        ("let it", "let go"),
+        ('expect "x"', "only scripts"),
+        ("at 5s reset", "no `at`"),
+        ("dance", "unknown action"),
+    ],
+)
 def test_terminal_hand_says_what_is_wrong_and_asks_again(terminal, line, says):
     terminal.send(f"\x14hx\x7f{line}\r")
     terminal.expect_exact(says)
@@ -210,6 +220,7 @@ def test_terminal_keys_as_remote(terminal):
 
 # --- violations and wrong usage ---
 
+
 def test_sweep_is_told_in_the_summary():
     done = run(ROBOT, "--sweep", "no_such_thing:12", "--time", "100ms", "--fast", "--summary")
     assert done.returncode == 4 and b"no such function" in done.stderr
@@ -232,27 +243,37 @@ def test_allowed_violation_passes():
     assert run(ROBOT, "--allow", "bus-undriven", stdin=b"sh").returncode == 0
 
 
-@pytest.mark.parametrize("arguments, says", [
-    ([], "no image given"),
-    (["robot.hex", "--board", "cm7"], "cm5 or cm2"),
-    (["robot.hex", "--servos", "1-999"], "IDs are 0..253"),
-    (["robot.hex", "--servos", "3:mx28"], "models are ax12, ax18 and dx117"),
-    (["robot.hex", "--time", "5"], "a time like 10s"),
-    (["robot.hex", "--fault", "3:tired"], "no such fault"),
-    (["robot.hex", "--allow", "fun"], "no such violation"),
-    (["robot.hex", "--tcp=99999"], "ports are"),
-    (["robot.hex", "--bus-pty"], "servos alone"),
-    (["robot.hex", "--no-stdio"], "run for ever"),
-])
+@pytest.mark.parametrize(
+    "arguments, says",
+    [
+        ([], "no image given"),
+        (["robot.hex", "--board", "cm7"], "cm5 or cm2"),
+        (["robot.hex", "--servos", "1-999"], "IDs are 0..253"),
+        (["robot.hex", "--servos", "3:mx28"], "models are ax12, ax18 and dx117"),
+        (["robot.hex", "--time", "5"], "a time like 10s"),
+        (["robot.hex", "--fault", "3:tired"], "no such fault"),
+        (["robot.hex", "--allow", "fun"], "no such violation"),
+        (["robot.hex", "--tcp=99999"], "ports are"),
+        (["robot.hex", "--bus-pty"], "servos alone"),
+        (["robot.hex", "--no-stdio"], "run for ever"),
+    ],
+)
 def test_wrong_usage_is_explained(arguments, says):
     done = run(*arguments)
     assert done.returncode == 2
     assert says in done.stderr.decode()
 
 
-@pytest.mark.parametrize("arguments", [
-    ["missing.hex"], [ROBOT, "--motions", "missing.bin"], [ROBOT, "--motions", ROBOT.with_suffix(".map")],
-    [ROBOT, "--fault", "99:silent"], [ROBOT, "--trace", "/nowhere/trace.csv"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["missing.hex"],
+        [ROBOT, "--motions", "missing.bin"],
+        [ROBOT, "--motions", ROBOT.with_suffix(".map")],
+        [ROBOT, "--fault", "99:silent"],
+        [ROBOT, "--trace", "/nowhere/trace.csv"],
+    ],
+)
 def test_unusable_files_are_named(arguments):
     done = run(*arguments)
     assert done.returncode == 4

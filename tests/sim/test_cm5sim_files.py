@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the command cm5sim keeps and writes: flash, EEPROM, traces, plots, VCD; and its port for avr-gdb."""
+
 import csv
 import socket
 import subprocess
@@ -9,6 +10,7 @@ import xml.etree.ElementTree
 from tests.sim.sim_command import ROBOT, Running, play, run
 
 # --- what is kept, what is written ---
+
 
 def test_flash_and_eeprom_are_kept(tmp_path):
     kept = ["--flash", tmp_path / "robot.bin", "--eeprom", tmp_path / "robot.eep"]
@@ -70,7 +72,7 @@ def test_plot_is_a_picture(tmp_path):
 
 
 def test_plot_without_matplotlib_says_so(tmp_path, monkeypatch):
-    (tmp_path / "python").write_text("#!/bin/sh\nexec python3 -I -S \"$@\"\n")  # no site-packages
+    (tmp_path / "python").write_text('#!/bin/sh\nexec python3 -I -S "$@"\n')  # no site-packages
     (tmp_path / "python").chmod(0o755)
     monkeypatch.setenv("M512_PYTHON", str(tmp_path / "python"))
     done = play(tmp_path, MOVE, "--plot", tmp_path / "move.svg")
@@ -97,9 +99,32 @@ def test_gdb_finds_the_chip_at_its_first_instruction_and_stops_at_a_function():
         robot.message("(waiting for avr-gdb)")
         time.sleep(0.5)
         gdb = subprocess.run(
-            ["avr-gdb", "-batch", "-ex", "set remotetimeout 300", "-ex", f"target remote :{port}", "-ex", "info registers pc", "-ex", "break say",
-             "-ex", "continue", "-ex", "backtrace", "-ex", "delete", "-ex", "detach", ROBOT.with_suffix(".elf")],
-            capture_output=True, text=True, timeout=300, check=False)
+            [
+                "avr-gdb",
+                "-batch",
+                "-ex",
+                "set remotetimeout 300",
+                "-ex",
+                f"target remote :{port}",
+                "-ex",
+                "info registers pc",
+                "-ex",
+                "break say",
+                "-ex",
+                "continue",
+                "-ex",
+                "backtrace",
+                "-ex",
+                "delete",
+                "-ex",
+                "detach",
+                ROBOT.with_suffix(".elf"),
+            ],
+            capture_output=True,
+            text=True,
+            timeout=300,
+            check=False,
+        )
         assert "pc             0x0 " in gdb.stdout
         assert "Breakpoint 1, say (" in gdb.stdout and "in main ()" in gdb.stdout
         assert robot.process.wait(300) == 0

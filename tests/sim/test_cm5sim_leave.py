@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What a person sees of the way out when the robot fills the terminal: cm5sim with Edit before a terminal emulator (pyte)."""
+
 import os
 import re
 import time
@@ -24,9 +25,14 @@ class Seen:
         self.stream, self.raw = pyte.ByteStream(self.screen), b""
         self.screen.write_process_input = lambda answer: self.child.send(answer)
         eeprom = tmp_path / "robot.eep"
-        eeprom.write_bytes(b"\xff" * 4095 + b"\x11")   # the loader starts the application
-        self.child = pexpect.spawn(str(CM5SIM), ["boot-cm5.hex", "edit-cm5.hex", "--motions", str(MOTIONS), "--eeprom", str(eeprom)],
-                                   dimensions=(rows, columns), timeout=PATIENCE_S, env={**os.environ, "TERM": term})
+        eeprom.write_bytes(b"\xff" * 4095 + b"\x11")  # the loader starts the application
+        self.child = pexpect.spawn(
+            str(CM5SIM),
+            ["boot-cm5.hex", "edit-cm5.hex", "--motions", str(MOTIONS), "--eeprom", str(eeprom)],
+            dimensions=(rows, columns),
+            timeout=PATIENCE_S,
+            env={**os.environ, "TERM": term},
+        )
 
     def __enter__(self):
         return self
@@ -58,19 +64,24 @@ class Seen:
 @pytest.mark.parametrize("rows, columns", [(24, 80), (40, 100)])
 def test_way_out_stands_on_the_screen_of_edit_and_in_the_title(tmp_path, rows, columns):
     with Seen(rows, columns, tmp_path) as seen:
-        seen.until(lambda: seen.shows(HINT, rows) and seen.shows("Arrows move, HELP explains, EXIT leaves", min(rows, 35))
-                   and "Ctrl-] ends it" in seen.screen.title
-                   and (seen.screen.cursor.x, seen.screen.cursor.y) == (19, 0))   # where Edit has put it
+        seen.until(
+            lambda: (
+                seen.shows(HINT, rows)
+                and seen.shows("Arrows move, HELP explains, EXIT leaves", min(rows, 35))
+                and "Ctrl-] ends it" in seen.screen.title
+                and (seen.screen.cursor.x, seen.screen.cursor.y) == (19, 0)
+            )
+        )  # where Edit has put it
         seen.child.send("page 3\r")
         seen.until(lambda: seen.shows("wave"))
         if rows > 35:
-            assert seen.shows(HINT, rows)                # below Edit's screen it stays
+            assert seen.shows(HINT, rows)  # below Edit's screen it stays
         else:
-            assert not seen.shows(HINT)                  # Edit has written there
-            seen.child.send("exit\r")                    # who tries to leave that way sees it again
+            assert not seen.shows(HINT)  # Edit has written there
+            seen.child.send("exit\r")  # who tries to leave that way sees it again
             seen.until(lambda: seen.shows(HINT, rows))
         seen.leave()
-        assert seen.raw.count(b"\x1b[22;2t") == 1 and seen.raw.count(b"\x1b[23;2t") == 1   # the title before is back
+        assert seen.raw.count(b"\x1b[22;2t") == 1 and seen.raw.count(b"\x1b[23;2t") == 1  # the title before is back
 
 
 def test_way_out_is_told_to_who_presses_ctrl_c_once(tmp_path):
@@ -78,7 +89,7 @@ def test_way_out_is_told_to_who_presses_ctrl_c_once(tmp_path):
         seen.until(lambda: seen.shows("HELP explains"))
         seen.child.send("\x03")
         seen.until(lambda: seen.shows("Ctrl-C goes to the robot. Ctrl-] ends the simulator"))
-        seen.until(lambda: b"\x1b[?1049l" in seen.raw)    # it goes by itself, and the robot's screen is back
+        seen.until(lambda: b"\x1b[?1049l" in seen.raw)  # it goes by itself, and the robot's screen is back
         seen.child.send("\x03page 3\r")
         seen.until(lambda: seen.shows("wave"))
         assert seen.raw.count(b"Ctrl-C goes to the robot") == 1

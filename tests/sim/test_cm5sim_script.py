@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Scripts of the command cm5sim, with a small robot (robot/robot.c): what they do, and how failures and mistakes are named."""
+
 import subprocess
 
 import pytest
@@ -85,13 +86,16 @@ def test_script_of_everything_passes(tmp_path):
     assert done.returncode == 0
 
 
-@pytest.mark.parametrize("line, says", [
-    ('expect "hello" within 20ms', "\"hello\" did not come within 0.020 s"),
-    ("goal 3 == 600 within 10ms", "it is 512 after 0.010 s"),
-    ("present 99 == 1", "there is no servo 99"),
-    ("panel PLAY on within 1ms", "the LED is not lit"),
-    ('expect no "ready" for 1s', "\"ready\" came, and should not have"),
-])
+@pytest.mark.parametrize(
+    "line, says",
+    [
+        ('expect "hello" within 20ms', '"hello" did not come within 0.020 s'),
+        ("goal 3 == 600 within 10ms", "it is 512 after 0.010 s"),
+        ("present 99 == 1", "there is no servo 99"),
+        ("panel PLAY on within 1ms", "the LED is not lit"),
+        ('expect no "ready" for 1s', '"ready" came, and should not have'),
+    ],
+)
 def test_script_failure_names_line_and_time(tmp_path, line, says):
     done = play(tmp_path, f"# a comment\n\n{line}\n")
     assert done.returncode == 1
@@ -99,8 +103,9 @@ def test_script_failure_names_line_and_time(tmp_path, line, says):
     assert says in done.stderr.decode()
 
 
-@pytest.mark.parametrize("relation, right, wrong", [
-    ("==", 512, 511), ("!=", 511, 512), ("<", 513, 512), (">", 511, 512), ("<=", 512, 511), (">=", 512, 513)])
+@pytest.mark.parametrize(
+    "relation, right, wrong", [("==", 512, 511), ("!=", 511, 512), ("<", 513, 512), (">", 511, 512), ("<=", 512, 511), (">=", 512, 513)]
+)
 def test_script_relations_hold_and_fail(tmp_path, relation, right, wrong):
     assert play(tmp_path, f"present 3 {relation} {right} within 1ms\n").returncode == 0
     assert play(tmp_path, f"present 3 {relation} {wrong} within 1ms\n").returncode == 1
@@ -117,28 +122,31 @@ def test_script_failure_shows_what_the_robot_said(tmp_path):
     assert 'the robot said: "dy\\r\\n"' in done.stderr.decode()
 
 
-@pytest.mark.parametrize("line, says", [
-    ("send p", 'a "text" to send is missing here'),
-    ('send "p', 'a closing " is missing'),
-    ('send "\\q"', "unknown escape"),
-    ("jump 3", "unknown action"),
-    ("wait", "a time like 500ms"),
-    ("wait 5", "a time like 500ms"),
-    ("at 5x send \"p\"", "a time like 500ms"),
-    ("goal 3 = 5", "a comparison is missing"),
-    ("goal 300 == 5", "a servo ID 0..253"),
-    ("goal 3 == 5 within", "a time like 500ms"),
-    ("press FIRE", "buttons are UP DOWN"),
-    ("rc U+7", "keys are U D L R 1..6"),
-    ("servo 3 tired", "what about the servo?"),
-    ("servo 3 silent 2", "\"times\" is missing"),
-    ("servo 3 push 2000", "a position 0..1023"),
-    ("panel NOSE on", "LEDs are POWER"),
-    ("power maybe", "on or off"),
-    ("quit now", "too many words"),
-    ('expect ""', "an empty text"),
-    ('expect no "x"', "for how long?"),
-])
+@pytest.mark.parametrize(
+    "line, says",
+    [
+        ("send p", 'a "text" to send is missing here'),
+        ('send "p', 'a closing " is missing'),
+        ('send "\\q"', "unknown escape"),
+        ("jump 3", "unknown action"),
+        ("wait", "a time like 500ms"),
+        ("wait 5", "a time like 500ms"),
+        ('at 5x send "p"', "a time like 500ms"),
+        ("goal 3 = 5", "a comparison is missing"),
+        ("goal 300 == 5", "a servo ID 0..253"),
+        ("goal 3 == 5 within", "a time like 500ms"),
+        ("press FIRE", "buttons are UP DOWN"),
+        ("rc U+7", "keys are U D L R 1..6"),
+        ("servo 3 tired", "what about the servo?"),
+        ("servo 3 silent 2", '"times" is missing'),
+        ("servo 3 push 2000", "a position 0..1023"),
+        ("panel NOSE on", "LEDs are POWER"),
+        ("power maybe", "on or off"),
+        ("quit now", "too many words"),
+        ('expect ""', "an empty text"),
+        ('expect no "x"', "for how long?"),
+    ],
+)
 def test_script_mistakes_are_named_with_their_line(tmp_path, line, says):
     done = play(tmp_path, f'expect "ready"\n{line}\n')
     assert done.returncode == 2
@@ -158,8 +166,9 @@ def test_script_cut_short_has_not_passed(tmp_path):
 
 def test_script_goes_on_when_nobody_reads(tmp_path):
     (tmp_path / "s.txt").write_text('expect "ready"\nwait 100ms\nsend "p"\nexpect "00"\n')
-    done = subprocess.run(f"({CM5SIM} {ROBOT} --script s.txt --realtime; echo code $? >&2) | true", shell=True,
-                          cwd=tmp_path, stderr=subprocess.PIPE, check=False)
+    done = subprocess.run(
+        f"({CM5SIM} {ROBOT} --script s.txt --realtime; echo code $? >&2) | true", shell=True, cwd=tmp_path, stderr=subprocess.PIPE, check=False
+    )
     assert done.stderr.endswith(b"code 0\n")
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Other people's code against our servos: the real dynamixel-sdk (PyPI), protocol 1.0, on cm5sim --bus-pty."""
+
 import itertools
 import signal
 import time
@@ -77,6 +78,7 @@ def _make():
     def make(*arguments, **options):
         buses.append(Bus(*arguments, **options))
         return buses[-1]
+
     yield make
     for bus in buses:
         bus.close()
@@ -220,14 +222,14 @@ def test_trace_and_servo_eeprom_of_the_bus(make, tmp_path):
 
 def test_rows_of_the_trace_are_of_their_time(make, tmp_path):
     """Also when the bus comes late: it is stopped for a second while the servo turns, and the first thing that it finds is a packet."""
-    trace, units_a_tick = tmp_path / "trace.csv", 5 * 2.271 / 128     # SPEED 5, Dynamixel's 0.111 rpm a unit
+    trace, units_a_tick = tmp_path / "trace.csv", 5 * 2.271 / 128  # SPEED 5, Dynamixel's 0.111 rpm a unit
     bus = make("--servos", "1-2", "--trace", trace)
     bus.packets.write2ByteTxRx(bus.port, 1, SPEED, 5)
     end = time.monotonic() + PATIENCE_S
     for goal in itertools.cycle((1000, 24)):
         bus.packets.write2ByteTxRx(bus.port, 1, GOAL, goal)
         begun = bus.read2(1, PRESENT)
-        while abs(bus.read2(1, PRESENT) - begun) < 10:      # on its way
+        while abs(bus.read2(1, PRESENT) - begun) < 10:  # on its way
             time.sleep(0.05)
         bus.sim.process.send_signal(signal.SIGSTOP)
         time.sleep(1)
@@ -237,7 +239,7 @@ def test_rows_of_the_trace_are_of_their_time(make, tmp_path):
         while len(answer) < 8:
             answer += bytes(bus.port.readPort(8 - len(answer)))
         found = answer[5] | answer[6] << 8
-        if abs(goal - found) > 20:      # it was still on its way when the bus went on
+        if abs(goal - found) > 20:  # it was still on its way when the bus went on
             break
         assert time.monotonic() < end, "no look came while the servo was moving"
         bus.until_at(1, goal)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Editing one cell: SET, the keys that change a value, Space, arrows; edit/ORIGINAL.md sections 4 and 5."""
+
 import pytest
 
 from tests.sim.edit_base import BASE, bytes_of
@@ -7,10 +8,25 @@ from tests.sim.edit_robot import UNUSED, changed, word
 
 # ---- cells ----
 
-@pytest.mark.parametrize("x, y, value, address", [
-    (1, 5, 1023, 64 + 10), (7, 30, 0, 64 * 7 + 60), (4, 31, 255, 64 * 4 + 62), (4, 32, 1, 64 * 4 + 63), (8, 0, 0x77, 32),
-    (8, 30, 0x11, 62), (9, 3, 9, 14), (9, 4, 0, 15), (9, 9, 7, 20), (9, 10, 255, 21), (9, 11, 64, 22), (9, 14, 127, 25),
-    (9, 19, 200, 30)])
+
+@pytest.mark.parametrize(
+    "x, y, value, address",
+    [
+        (1, 5, 1023, 64 + 10),
+        (7, 30, 0, 64 * 7 + 60),
+        (4, 31, 255, 64 * 4 + 62),
+        (4, 32, 1, 64 * 4 + 63),
+        (8, 0, 0x77, 32),
+        (8, 30, 0x11, 62),
+        (9, 3, 9, 14),
+        (9, 4, 0, 15),
+        (9, 9, 7, 20),
+        (9, 10, 255, 21),
+        (9, 11, 64, 22),
+        (9, 14, 127, 25),
+        (9, 19, 200, 30),
+    ],
+)
 def test_set_writes_the_cell(r, x, y, value, address):
     r.line(f"goto {x} {y}")
     assert r.xya == (f"{x:02d}", f"{y:02d}", f"{address:04d}")
@@ -22,9 +38,16 @@ def test_set_writes_the_cell(r, x, y, value, address):
     assert int(r.cell(x, y)) == value
 
 
-@pytest.mark.parametrize("x, y, wrong, message", [
-    (4, 31, 256, "Value must be 0..255"), (8, 0, 1023, "Value must be 0..255"), (9, 9, 8, "Page Step must be 0..7"),
-    (9, 14, 128, "Link must be 0..127"), (9, 16, 200, "Link must be 0..127")])
+@pytest.mark.parametrize(
+    "x, y, wrong, message",
+    [
+        (4, 31, 256, "Value must be 0..255"),
+        (8, 0, 1023, "Value must be 0..255"),
+        (9, 9, 8, "Page Step must be 0..7"),
+        (9, 14, 128, "Link must be 0..127"),
+        (9, 16, 200, "Link must be 0..127"),
+    ],
+)
 def test_set_refuses_what_the_cell_cannot_hold(r, x, y, wrong, message):
     r.line(f"goto {x} {y}")
     assert r.line(f"set {wrong}") == f"set {wrong} {message}"
@@ -89,8 +112,14 @@ def test_torque_off_marks_are_saved_as_unused(r):
 
 def test_arrows_move_as_the_original_does(r):
     r.line("goto 9 3")
-    for keys, xy in (("\x1b[A", ("08", "02")), ("\x1b[C", ("08", "02")), ("\x1b[B", ("08", "03")), ("\x1b[C", ("09", "03")),
-                     ("\x1b[D", ("08", "03")), ("\x1bOB", ("08", "04"))):
+    for keys, xy in (
+        ("\x1b[A", ("08", "02")),
+        ("\x1b[C", ("08", "02")),
+        ("\x1b[B", ("08", "03")),
+        ("\x1b[C", ("09", "03")),
+        ("\x1b[D", ("08", "03")),
+        ("\x1bOB", ("08", "04")),
+    ):
         r.keys(keys)
         assert r.xya[:2] == xy
     r.line("goto 8 30")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """CHECK names what is wrong with a page, and how fast its servos would have to be (firmware/edit/DIFFERENCES.md)."""
+
 import pytest
 
 from tests.sim.edit_robot import page, robot
@@ -28,8 +29,12 @@ def test_check_counts_units_as_the_servo_does(units, said):
 def test_check_names_what_is_wrong():
     torn = page("torn", [(30, {})])
     torn.data[100] ^= 1
-    pages = {1: page("a", [(30, {})], next=2, code=1), 2: torn, 3: page("alone", [(30, {}), (2, {5: 1000})]),
-             4: page("b", [(30, {})], next=9, code=2)}
+    pages = {
+        1: page("a", [(30, {})], next=2, code=1),
+        2: torn,
+        3: page("alone", [(30, {}), (2, {5: 1000})]),
+        4: page("b", [(30, {})], next=9, code=2),
+    }
     with robot(pages=pages) as r:
         r.line("check", ms=3000)
         shown = r.show()
@@ -45,14 +50,24 @@ def test_check_names_partners_that_cannot_be_blended():
     two = [(30, {}), (30, {})]
     torn = page("torn", two)
     torn.data[100] ^= 1
-    pages = {1: page("walk", two, code=1, blend_right=2, blend_left=3), 2: page("right", two), 3: page("left", two + two),
-             4: page("x", two, code=2, blend_right=5, blend_left=9), 5: torn, 6: page("y", two, code=3, blend_left=200)}
+    pages = {
+        1: page("walk", two, code=1, blend_right=2, blend_left=3),
+        2: page("right", two),
+        3: page("left", two + two),
+        4: page("x", two, code=2, blend_right=5, blend_left=9),
+        5: torn,
+        6: page("y", two, code=3, blend_left=200),
+    }
     with robot(pages=pages) as r:
         r.line("check", ms=4000)
         lines = [line.strip() for line in r.show().splitlines() if line.startswith("Page ")]
-        assert lines == ["Page   1: blends with page 3, which has another number of steps",
-                         "Page   4: blends with page 5, which is not valid", "Page   4: blends with page 9, which has no steps",
-                         "Page   5: checksum is wrong", "Page   6: blends with page 200, which is not valid"]
+        assert lines == [
+            "Page   1: blends with page 3, which has another number of steps",
+            "Page   4: blends with page 5, which is not valid",
+            "Page   4: blends with page 9, which has no steps",
+            "Page   5: checksum is wrong",
+            "Page   6: blends with page 200, which is not valid",
+        ]
 
 
 def test_check_of_a_page_that_fills_many_lines_is_no_hang():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Editing commands of edit/ORIGINAL.md sections 4 to 6: messages, questions, pages, the line, lists. The message, the screen, and the 512
 bytes, worked out here from the specification. Intended differences: firmware/edit/DIFFERENCES.md."""
+
 import pytest
 
 from tests.sim.edit_base import BASE, OTHER, PAGES, bytes_of
@@ -8,24 +9,61 @@ from tests.sim.edit_robot import new_page, robot, seal
 
 # ---- messages ----
 
-@pytest.mark.parametrize("line, message", [
-    ("foo", "Bad Command"), ("pag 1", "Bad Command"), ("dump", "Bad Command"), ("led 1", "Bad Command"),
-    ("page", "Invalid Parameter"), ("page 1 2", "Invalid Parameter"), ("p", "Invalid Parameter"),
-    ("page 128", "Page must be 0..127"), ("page -5", "Page must be 0..127"), ("page x", "Page must be 0..127"),
-    ("page 65536", "Page must be 0..127"), ("page 0b1", "Page must be 0..127"), ("copy", "Invalid Parameter"),
-    ("copy 200", "Page must be 0..127"), ("step", "Invalid Parameter"), ("s 8", "Step must be 0..7"),
-    ("go 7", "Step must be 0..6"), ("go", "Invalid Parameter"), ("write 7", "Step must be 0..6"),
-    ("insert", "Invalid Parameter"), ("i 7", "Step must be 0..6"), ("delete 7", "Step must be 0..6"),
-    ("move 1", "Invalid Parameter"), ("move 8 1", "Step must be 0..7"), ("mirror 7", "Step must be 0..6"),
-    ("mirror", "Invalid Parameter"), ("swap 1 7", "Step must be 0..6"), ("set", "Invalid Parameter"),
-    ("set 1024", "Position must be 0..1023"), ("set a", "Position must be 0..1023"), ("goto 1", "Invalid Parameter"),
-    ("goto 10 0", "X must be 0..9"), ("goto 0 33", "Y must be 0..32"), ("goto 9 0", "There is no cell"),
-    ("goto 8 31", "There is no cell"), ("on 31", "ID must be 0..30"), ("off 254", "ID must be 0..30"),
-    ("on 25", "Not there: ID 25"), ("play 0", "Page must be 1..127"), ("play 200", "Page must be 1..127"),
-    ("save 128", "Page must be 0..127"), ("undo", "Nothing to undo"), ("redo", "Nothing to redo"),
-    ("scale 5", "Percent must be 10..1000"), ("int 0 6", "That step is not used"), ("paste", "Nothing noted: TAKE first"),
-    ("help foo", "No such command: HELP"), ("take 3 1", "The first step comes first"), ("rows 10", "Rows must be 24..255"),
-])
+
+@pytest.mark.parametrize(
+    "line, message",
+    [
+        ("foo", "Bad Command"),
+        ("pag 1", "Bad Command"),
+        ("dump", "Bad Command"),
+        ("led 1", "Bad Command"),
+        ("page", "Invalid Parameter"),
+        ("page 1 2", "Invalid Parameter"),
+        ("p", "Invalid Parameter"),
+        ("page 128", "Page must be 0..127"),
+        ("page -5", "Page must be 0..127"),
+        ("page x", "Page must be 0..127"),
+        ("page 65536", "Page must be 0..127"),
+        ("page 0b1", "Page must be 0..127"),
+        ("copy", "Invalid Parameter"),
+        ("copy 200", "Page must be 0..127"),
+        ("step", "Invalid Parameter"),
+        ("s 8", "Step must be 0..7"),
+        ("go 7", "Step must be 0..6"),
+        ("go", "Invalid Parameter"),
+        ("write 7", "Step must be 0..6"),
+        ("insert", "Invalid Parameter"),
+        ("i 7", "Step must be 0..6"),
+        ("delete 7", "Step must be 0..6"),
+        ("move 1", "Invalid Parameter"),
+        ("move 8 1", "Step must be 0..7"),
+        ("mirror 7", "Step must be 0..6"),
+        ("mirror", "Invalid Parameter"),
+        ("swap 1 7", "Step must be 0..6"),
+        ("set", "Invalid Parameter"),
+        ("set 1024", "Position must be 0..1023"),
+        ("set a", "Position must be 0..1023"),
+        ("goto 1", "Invalid Parameter"),
+        ("goto 10 0", "X must be 0..9"),
+        ("goto 0 33", "Y must be 0..32"),
+        ("goto 9 0", "There is no cell"),
+        ("goto 8 31", "There is no cell"),
+        ("on 31", "ID must be 0..30"),
+        ("off 254", "ID must be 0..30"),
+        ("on 25", "Not there: ID 25"),
+        ("play 0", "Page must be 1..127"),
+        ("play 200", "Page must be 1..127"),
+        ("save 128", "Page must be 0..127"),
+        ("undo", "Nothing to undo"),
+        ("redo", "Nothing to redo"),
+        ("scale 5", "Percent must be 10..1000"),
+        ("int 0 6", "That step is not used"),
+        ("paste", "Nothing noted: TAKE first"),
+        ("help foo", "No such command: HELP"),
+        ("take 3 1", "The first step comes first"),
+        ("rows 10", "Rows must be 24..255"),
+    ],
+)
 def test_errors_say_what_is_wrong(r, line, message):
     assert r.line(line) == f"{line} {message}"
     assert bytes_of(r) == bytes(BASE.data)
@@ -38,6 +76,7 @@ def test_case_separators_and_abbreviation(r, line):
 
 
 # ---- pages ----
+
 
 def test_next_and_before(r):
     r.line("next")
@@ -79,7 +118,7 @@ def test_two_pages_of_one_name_are_told():
         assert r.line("save 5") == "save 5 OK Page 1 has this name too"
         assert r.line("copy 1") == "copy 1 Page 5 has this name too"
         r.line("name")
-        r.line(" ")   # no name at all
+        r.line(" ")  # no name at all
         assert r.line("save") == "save OK" and r.line("save 6") == "save 6 OK"
 
 
@@ -127,6 +166,7 @@ def test_time_and_speed_count_as_edits_and_change_the_label(r):
 
 
 # ---- the line ----
+
 
 def test_line_editing(r):
     r.keys("pagx")
@@ -184,6 +224,7 @@ def test_goto_set_keeps_the_cursor_over_a_page_change(r):
 
 
 # ---- lists ----
+
 
 def test_help_list_find_show_and_give_the_screen_back(r):
     assert r.line("help go") == "help go go      g   n  moves the robot to step n"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Facts of edit/ORIGINAL.md that the other test_edit_*.py do not touch, one short session each: keys, lines, steps, servos, the
 monitor, lists. Which test holds which fact: README.md."""
+
 import re
 
 import pytest
@@ -8,8 +9,17 @@ import pytest
 from tests.sim.edit_base import opened
 from tests.sim.edit_robot import changed, new_page, page, robot, seal
 
-BASE = page("base", [(40, {1: 480, 2: 544}, 3), (50, {3: 300}), (60, {4: 10})], code=7, next=3, exit=5, link1_page=11, link1_code=12,
-            link2_page=13, link2_code=14)
+BASE = page(
+    "base",
+    [(40, {1: 480, 2: 544}, 3), (50, {3: 300}), (60, {4: 10})],
+    code=7,
+    next=3,
+    exit=5,
+    link1_page=11,
+    link1_code=12,
+    link2_page=13,
+    link2_code=14,
+)
 NEUTRAL = page("neutral", [(40, {1: 300, 2: 700, 3: 20, 4: 1000})])
 PAGES = {1: BASE, 2: page("other", [(11, {1: 900}), (22, {2: 100})]), 8: NEUTRAL}
 
@@ -38,7 +48,8 @@ def goals(r):
 
 # ---- section 4: keys and lines ----
 
-@pytest.mark.parametrize("key", ["!", "\"", "/", "|", "~", "\x7f", "\t", "\b", "\r", "\n", "\x05", "\xe4"])
+
+@pytest.mark.parametrize("key", ["!", '"', "/", "|", "~", "\x7f", "\t", "\b", "\r", "\n", "\x05", "\xe4"])
 def test_other_keys_start_an_empty_line(r, key):
     r.keys(key.encode("latin-1"))
     assert r.command in ("]", "] _", "]  ") or key in "\r\n\xe4"
@@ -97,7 +108,7 @@ def test_first_wave_of_help_can_be_typed_as_it_stands():
         rows = [r.terminal.row(number).rstrip() for number in range(1, 36)]
         first = rows.index("A first wave:")
         assert first <= 1 and rows[first + 8].startswith("Keys: ") and rows[first + 9] == "Commands:"
-        lines = [row.split("  ")[0] for row in rows[first + 1:first + 8]]
+        lines = [row.split("  ")[0] for row in rows[first + 1 : first + 8]]
         assert lines == ["page 99", "off", "on", "write", "name hi", "play", "save"]
         r.keys("q")
         for line in lines[:4]:
@@ -110,7 +121,7 @@ def test_first_wave_of_help_can_be_typed_as_it_stands():
 
 
 def test_letter_that_is_not_ascii_is_seen_to_be_none(r):
-    r.line("name gr\u00fcn")   # two bytes in UTF-8
+    r.line("name gr\u00fcn")  # two bytes in UTF-8
     assert r.message == "name gr??n" and r.text(1, 65, 6) == "gr??n "
     r.line("undo")
 
@@ -126,7 +137,7 @@ def test_name_that_is_too_long_is_refused(r):
 
 
 def test_longest_line(r):
-    r.keys("page 2" + " " * 105)   # 111 characters
+    r.keys("page 2" + " " * 105)  # 111 characters
     r.keys("\r")
     assert r.text(2, 76, 4) == "0002"
     r.keys("page 1" + " " * 106 + "\r")
@@ -146,7 +157,7 @@ def test_ctrl_c_leaves_line_question_and_name(r):
 def test_a_recalled_command_in_the_name(r):
     r.line("step 3")
     r.keys("name\r\x01\r")
-    assert r.ram_page()[:14] == b"name".ljust(14, b"\0")   # the line before this one
+    assert r.ram_page()[:14] == b"name".ljust(14, b"\0")  # the line before this one
 
 
 def test_name_on_the_line_and_same_name_is_no_edit(r):
@@ -157,6 +168,7 @@ def test_name_on_the_line_and_same_name_is_no_edit(r):
 
 
 # ---- sections 4 and 5: cells and numbers ----
+
 
 def test_work_pose_of_absent_joints_and_its_pause_and_speed(r):
     r.line("goto 0 25")
@@ -173,9 +185,9 @@ def test_work_pose_of_absent_joints_and_its_pause_and_speed(r):
     assert r.xya == ("00", "32", "0575")
     r.line("set 70")
     assert r.cell(0, 31) == "009" and r.cell(0, 32) == "070" and not r.unsaved
-    assert sent(r) == []   # nothing was written to a servo
+    assert sent(r) == []  # nothing was written to a servo
     r.line("write 5")
-    assert r.ram_page()[64 * 6 + 62:64 * 6 + 64] == bytes([9, 70])
+    assert r.ram_page()[64 * 6 + 62 : 64 * 6 + 64] == bytes([9, 70])
 
 
 def test_time_mode_is_byte_16_and_its_own_cell(r):
@@ -214,6 +226,7 @@ def test_run_and_monitor_words_are_no_commands(r):
 
 # ---- section 6: steps ----
 
+
 def test_copy_of_the_own_number_takes_the_edits_back(r):
     r.line("set 77")
     r.line("copy 1", "y")
@@ -221,7 +234,7 @@ def test_copy_of_the_own_number_takes_the_edits_back(r):
 
 
 def test_copy_of_an_erased_page_gives_a_new_one(r):
-    r.board.flash[0xE000 + 512 * 40:0xE000 + 512 * 41] = b"\xff" * 512
+    r.board.flash[0xE000 + 512 * 40 : 0xE000 + 512 * 41] = b"\xff" * 512
     r.line("copy 40")
     assert r.ram_page() == seal(new_page())
 
@@ -230,8 +243,8 @@ def test_insert_behind_the_last_step_does_not_count(r):
     r.line("on")
     r.line("insert 5")
     data = r.ram_page()
-    assert data[20] == 3 and data[64:64 + 64 * 5] == bytes(BASE.data[64:64 + 64 * 5])
-    assert data[64 * 6:64 * 6 + 62] != bytes(BASE.data[64 * 6:64 * 6 + 62])
+    assert data[20] == 3 and data[64 : 64 + 64 * 5] == bytes(BASE.data[64 : 64 + 64 * 5])
+    assert data[64 * 6 : 64 * 6 + 62] != bytes(BASE.data[64 * 6 : 64 * 6 + 62])
 
 
 def test_move_takes_the_work_pose_too(r):
@@ -246,29 +259,30 @@ def test_write_with_joints_let_go_says_so_and_keeps_the_position(r):
     assert r.line("write 4").endswith("Off: 1-18")
     assert r.cell(5, 3) == "????"
     at = 64 * 5 + 6
-    assert r.ram_page()[at:at + 2] == (0x2000 | 512).to_bytes(2, "little")
+    assert r.ram_page()[at : at + 2] == (0x2000 | 512).to_bytes(2, "little")
 
 
 # ---- sections 7 and 8: servos ----
+
 
 def test_mirror_about_the_first_step_of_page_1_in_flash():
     with robot(pages={1: NEUTRAL, 5: page("pose", [(40, {1: 350, 2: 712, 3: 900, 4: 990}, 9)])}) as r:
         r.line("pairs page1")
         r.line("goto 1 1")
-        r.line("set 1000")   # page 1 in RAM: not the one that counts
+        r.line("set 1000")  # page 1 in RAM: not the one that counts
         r.line("page 5", "y")
         r.line("on")
         r.line("mirror 0")
         shown = goals(r)
         assert shown[1] == 300 - (712 - 700) and shown[2] == 700 - (350 - 300)
-        assert shown[3] == 30 and shown[4] == 120   # 20 + 1000 - 990, 1000 + 20 - 900
-        assert r.cell(0, 31) == "009" and r.text(34, 72, 3).strip() == ""   # the pause too; Go Step is GO's
+        assert shown[3] == 30 and shown[4] == 120  # 20 + 1000 - 990, 1000 + 20 - 900
+        assert r.cell(0, 31) == "009" and r.text(34, 72, 3).strip() == ""  # the pause too; Go Step is GO's
         r.line("pairs 512")
         r.line("mirror 0")
         shown = goals(r)
         assert shown[1] == 1024 - 712 and shown[3] == 1024 - 990 and shown[4] == 124
         r.settle(ms=600)
-        r.board.reset()   # the setting is kept
+        r.board.reset()  # the setting is kept
         r.terminal.screen.reset()
         r.settle(ms=1500)
         assert r.line("pairs").startswith("pairs 1-2 3-4")
@@ -292,7 +306,7 @@ def test_mirror_stays_inside_the_range(r):
     r.line("goto 1 2")
     r.line("set 1023")
     r.line("mirror 0")
-    assert goals(r)[1] == 1 and goals(r)[2] == 1023   # 1024 - 1023, and 1024 - 0 kept inside
+    assert goals(r)[1] == 1 and goals(r)[2] == 1023  # 1024 - 1023, and 1024 - 0 kept inside
 
 
 def test_on_does_not_touch_joints_that_hold(r):
@@ -309,7 +323,7 @@ def test_off_lets_go_with_one_packet_before_it_asks_each_servo(r):
     r.line("on")
     r.board.clear_trace()
     r.line("off 2 5 9")
-    writes = [packet for packet in sent(r) if packet[4] != 2]   # and the poses are read
+    writes = [packet for packet in sent(r) if packet[4] != 2]  # and the poses are read
     assert writes[0][4:13] == bytes([0x83, 24, 1, 2, 0, 5, 0, 9, 0])
     assert [(packet[2], packet[4:7]) for packet in writes[1:]] == [(j, bytes([3, 24, 0])) for j in (2, 5, 9)]
     assert [r.board.servos[j].torque for j in (2, 5, 9, 1)] == [False, False, False, True]
@@ -326,6 +340,7 @@ def test_ids_outside_the_table_are_left_alone():
 
 
 # ---- section 10: PLAY ----
+
 
 def test_play_ignores_other_keys_and_the_last_of_stop_and_exit_counts():
     """A repetition takes 3.1 s: all keys come before its end."""
@@ -360,7 +375,7 @@ def test_a_break_slows_down_and_stands_within_a_quarter_of_a_second():
         assert steps[0] > 2, "it did not move when the key came"
         moving = [step for step in steps if step > 0]
         assert all(b <= a + 1 for a, b in zip(moving, moving[1:])) and moving[-1] <= moving[0] / 2
-        assert len(moving) <= 32   # ticks of 7.8 ms
+        assert len(moving) <= 32  # ticks of 7.8 ms
 
 
 def test_play_ends_at_a_damaged_page():
@@ -373,6 +388,7 @@ def test_play_ends_at_a_damaged_page():
 
 
 # ---- lists ----
+
 
 def test_list_shows_every_field(r):
     r.line("list 1")
@@ -411,7 +427,7 @@ def test_links_are_checked_not_cut(r):
     r.line("goto 9 14")
     r.line("set 127")
     r.keys("]")
-    assert r.cell(9, 14) == "000"   # keys wrap at 127
+    assert r.cell(9, 14) == "000"  # keys wrap at 127
     r.keys("[")
     assert r.cell(9, 14) == "127" and r.ram_page()[25] == 127
 
@@ -421,7 +437,7 @@ def test_setting_answered_ok_outlives_a_restart_at_once(restart):
     with robot() as r:
         r.keys("pairs 1 5\r")
         r.board.send(restart + "\r", wait=True)
-        r.board.run(ms=1000)   # through the loader
+        r.board.run(ms=1000)  # through the loader
         r.terminal.screen.reset()
         r.settle(ms=1500)
         assert "1-5" in r.line("pairs")

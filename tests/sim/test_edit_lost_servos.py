@@ -64,7 +64,7 @@ def test_play_that_goes_on_without_a_servo_keeps_its_ticks():
         r.line("on")
         r.keys("play 6\r", ms=2200)
         r.board.clear_trace()
-        for joint in range(2, 19):      # each is told at another time within a tick
+        for joint in range(2, 19):  # each is told at another time within a tick
             r.board.servos[joint].fault("silent")
             r.board.run(ms=300 + joint % 8)
         r.pump()

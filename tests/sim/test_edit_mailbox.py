@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """SAVE on a loader that is not known: the page goes through the EEPROM mailbox of boot/ORIGINAL.md section 7a. The
 loader is imitated (service/mailbox.c); one that knows no mailbox is the other imitation, unrecognised (service/factory.c)."""
+
 import pytest
 
 from cm5sim import PowerCut
@@ -10,7 +11,7 @@ from tests.sim.snapshot import attempt
 OLD = page("old", [(40, {1: 480}), (50, {3: 300})])
 OTHER = page("other", [(11, {1: 900})])
 STATE, NUMBER, BOOT_MODE, DATA = 0xFF4, 0xFF5, 0xFFF, 0x800
-RESTART_MS = 6500   # at most: 520 EEPROM bytes of 8.5 ms, and a start
+RESTART_MS = 6500  # at most: 520 EEPROM bytes of 8.5 ms, and a start
 IMAGES = {"images": ("tests/mailbox.hex", "edit-cm5.hex"), "bootrst": True}
 
 
@@ -24,8 +25,8 @@ def mailbox_robot(fresh=False, **options):
     """`fresh`: nothing was ever saved; else the mailbox still holds page 1, so that only what differs is written."""
     r = robot(pages={1: OLD, 2: OTHER}, **{**IMAGES, **options})
     if not fresh:
-        r.board.eeprom[DATA:DATA + 512] = bytes(OLD.data)
-        r.board.eeprom[STATE:STATE + 2] = b"\xff\x01"
+        r.board.eeprom[DATA : DATA + 512] = bytes(OLD.data)
+        r.board.eeprom[STATE : STATE + 2] = b"\xff\x01"
     return r
 
 
@@ -63,14 +64,14 @@ def test_start_and_save_say_that_the_controller_restarts():
 @pytest.mark.parametrize("fresh", [True, False])
 def test_page_goes_through_the_mailbox(fresh):
     with mailbox_robot(fresh) as r:
-        others = bytes(r.board.flash[MOTION_START + 1024:])
+        others = bytes(r.board.flash[MOTION_START + 1024 :])
         edit(r)
         r.line("save")
         start = r.board.now_ms
         r.keys("y", ms=RESTART_MS)
         assert r.board.resets == 2 and r.board.reset_cause == "watchdog"
-        assert r.flash_page(1) == new_bytes() and bytes(r.board.flash[MOTION_START + 1024:]) == others
-        assert bytes(r.board.eeprom[DATA:DATA + 512]) == new_bytes()
+        assert r.flash_page(1) == new_bytes() and bytes(r.board.flash[MOTION_START + 1024 :]) == others
+        assert bytes(r.board.eeprom[DATA : DATA + 512]) == new_bytes()
         assert r.board.eeprom[STATE] == 0xFF and r.board.eeprom[NUMBER] == 1 and r.board.eeprom[BOOT_MODE] == 0x11
         assert r.command.endswith("Saved") and r.cell(1, 3) == "0700" and not r.unsaved
         assert r.board.stack_headroom >= 384
@@ -104,7 +105,7 @@ def test_a_loader_that_knows_no_mailbox_is_told_of():
 def save_cut(r, operation, phase, tear):
     """The save of a robot that has asked whether it may restart, with the power cut there. The page after the restart and what was cut,
     or None when it ended before."""
-    others = bytes(r.board.flash[MOTION_START + 1024:])
+    others = bytes(r.board.flash[MOTION_START + 1024 :])
     r.board.cut_power(operation, phase, tear)
     try:
         confirm(r)
@@ -112,11 +113,11 @@ def save_cut(r, operation, phase, tear):
     except PowerCut:
         pass
     restarted(r)
-    assert bytes(r.board.flash[MOTION_START + 1024:]) == others
+    assert bytes(r.board.flash[MOTION_START + 1024 :]) == others
     state = r.flash_page(1)
     assert state in (bytes(OLD.data), new_bytes()), (operation, phase, tear)
     assert r.fault == "" and r.text(1, 65, 3) == "old" and r.board.eeprom[STATE] == 0xFF
-    if state == bytes(OLD.data):   # and the next one works
+    if state == bytes(OLD.data):  # and the next one works
         edit(r)
         r.line("save")
         confirm(r)
@@ -149,9 +150,8 @@ def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page(about_to_sa
         if state is None:
             break
         operation += 1
-    print(f"power cuts in a save through the mailbox: {sum(states.values())} ({operation - 1} operations), old {states['old']}, "
-          f"new {states['new']}")
-    assert operation - 1 == 9   # two bytes, FF4, four of flash, FF4 by the loader, FF4 by Edit
+    print(f"power cuts in a save through the mailbox: {sum(states.values())} ({operation - 1} operations), old {states['old']}, new {states['new']}")
+    assert operation - 1 == 9  # two bytes, FF4, four of flash, FF4 by the loader, FF4 by Edit
     assert states["old"] >= 9 and states["new"] >= 9
 
 

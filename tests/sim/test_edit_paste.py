@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A script pasted at full line rate, saves in it: every line is executed, on the UART that loses a third byte."""
+
 from tests.sim.edit_robot import MOTION_START, new_page, page, robot, seal
 
 XON, XOFF = 0x11, 0x13
@@ -11,7 +12,7 @@ def paste(r, text):
     output = bytearray()
     while sent < len(data) or r.board.waiting:
         if may_send and r.board.waiting < 16 and sent < len(data):
-            r.board.send(data[sent:sent + 16])
+            r.board.send(data[sent : sent + 16])
             sent += 16
         r.board.run(ms=1)
         new = r.board.take()
@@ -34,7 +35,7 @@ def script():
         for k in range(6):
             joint, value = 1 + k, 100 * k + number
             lines += [f"goto {k + 1} {joint}", f"set {value}"]
-            data[64 + 64 * k + 2 * joint:66 + 64 * k + 2 * joint] = value.to_bytes(2, "little")
+            data[64 + 64 * k + 2 * joint : 66 + 64 * k + 2 * joint] = value.to_bytes(2, "little")
         lines += ["step 6", "time", "save", "# a remark"]
         data[16], data[20] = 10, 6
         pages[number] = seal(data)
@@ -46,9 +47,9 @@ def test_200_lines_with_saves_at_line_rate_lose_nothing():
     assert len(lines) >= 200
     with robot(pages={1: page("one", [(40, {})])}) as r:
         for number in pages:
-            r.board.flash[MOTION_START + 512 * number:MOTION_START + 512 * (number + 1)] = b"\xff" * 512
+            r.board.flash[MOTION_START + 512 * number : MOTION_START + 512 * (number + 1)] = b"\xff" * 512
         start = r.board.now_ms
-        text = "\r".join(lines) + "\r"   # no question among them: what was typed ahead answers none
+        text = "\r".join(lines) + "\r"  # no question among them: what was typed ahead answers none
         paste(r, text)
         print(f"paste: {len(lines)} lines, {len(text)} bytes in {r.board.now_ms - start:.0f} ms, 10 saves")
         for number, data in pages.items():

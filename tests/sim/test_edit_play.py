@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """PLAY in Edit with its keys: edit/ORIGINAL.md section 8, and "nothing moves by surprise"."""
+
 import re
 
 import pytest
@@ -31,7 +32,7 @@ def test_while_it_plays_the_screen_shows_goals_and_where_the_servos_are():
     """Joint 1 moves 100 units a second: what stands there is at most a round of 31 ticks old."""
     made = page("slow", [(5, {1: 300}), (255, {1: 700})], schedule=10, speed=64)
     with start(pages={20: made}) as r:
-        r.line("go 0", ms=2500)   # near step 0 of page 20: joint 1 stands at 400
+        r.line("go 0", ms=2500)  # near step 0 of page 20: joint 1 stands at 400
         r.board.send("play 20\r")
         r.board.run(ms=1500)
         seen = []
@@ -89,7 +90,7 @@ def test_play_begins_with_the_approach():
         r.keys("play\r", ms=3000)
         trace = [frame for frame in r.board.trace if 1 in frame[2]]
         steps = [abs(b[2][1] - a[2][1]) for a, b in zip(trace, trace[1:])]
-        assert max(steps[:100]) <= 4   # 60 degrees/s = 1.6 units a tick
+        assert max(steps[:100]) <= 4  # 60 degrees/s = 1.6 units a tick
         r.keys(" ")
 
 
@@ -158,7 +159,7 @@ def test_play_ends_in_a_loop_of_exit_links():
 
 
 def test_play_says_that_the_classic_law_is_not_here():
-    with Board(images=["boot-cm5.hex", "play-cm5.hex"], servos=range(1, 19)) as other:   # the setting is made with Play
+    with Board(images=["boot-cm5.hex", "play-cm5.hex"], servos=range(1, 19)) as other:  # the setting is made with Play
         other.eeprom[0xFFF] = 0x11
         other.run(ms=2500)
         other.send("law classic\r")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Line commands for programs in Edit (firmware/common/PROTOCOL.md), and the full screen around them."""
+
 import random
 
 import pytest
@@ -14,7 +15,9 @@ def ask(r, line, ms=120):
     r.board.take()
     r.board.send(line.encode() + b"\r")
     r.board.run(ms=ms)
-    answers = [text for text in r.board.take().translate(None, b"\x11\x13").decode().split("\r\n") if text.startswith("@") and not text.startswith("@now")]
+    answers = [
+        text for text in r.board.take().translate(None, b"\x11\x13").decode().split("\r\n") if text.startswith("@") and not text.startswith("@now")
+    ]
     assert len(answers) == 1, answers
     return answers[0]
 
@@ -24,7 +27,7 @@ def test_a_page_goes_in_and_comes_out():
     with robot(pages=PAGES) as r:
         assert ask(r, "@open 9") == "@open OK"
         for offset in range(0, 512, 32):
-            assert ask(r, f"@data {offset} {data[offset:offset + 32].hex()}") == "@data OK"
+            assert ask(r, f"@data {offset} {data[offset : offset + 32].hex()}") == "@data OK"
         assert ask(r, "@crc") == f"@crc {crc16(bytes(data)):04X} OK"
         assert ask(r, "@save 9 0x1").startswith("@save ERR 9 ")
         assert ask(r, f"@save 9 0x{crc16(bytes(data)):04X}", ms=250) == "@save OK"
@@ -42,9 +45,9 @@ def dense_page(text):
     assert all(0 <= six <= 63 for six in sixes)
     made = []
     assert sixes[2] & 3 == 0
-    for group in [sixes[:3]] + [sixes[at:at + 4] for at in range(3, len(sixes), 4)]:
+    for group in [sixes[:3]] + [sixes[at : at + 4] for at in range(3, len(sixes), 4)]:
         *low, high = group
-        newest_first = [(high << shift) & 0xC0 for shift in (2, 4, 6)][:len(low)]
+        newest_first = [(high << shift) & 0xC0 for shift in (2, 4, 6)][: len(low)]
         made += [six | top for six, top in zip(low, reversed(newest_first), strict=True)]
     return bytes(made)
 
@@ -53,7 +56,7 @@ def test_a_dense_page_is_the_page(rng=random.Random(512)):
     chosen = {n: bytes(rng.randrange(256) for _ in range(512)) for n in (3, 127)}
     with robot(pages=PAGES) as r:
         for n, data in chosen.items():
-            r.board.flash[0xE000 + 512 * n:0xE200 + 512 * n] = data
+            r.board.flash[0xE000 + 512 * n : 0xE200 + 512 * n] = data
         for n in (1, 3, 2, 127, 40):
             answer = ask(r, f"@dense {n}", ms=300).split()
             assert (answer[0], answer[1], len(answer[2]), answer[-1]) == ("@dense", str(n), 683, "OK")
@@ -148,9 +151,9 @@ def test_nothing_is_saved_and_nothing_drawn_while_something_plays():
     with robot(pages=PAGES) as r:
         assert ask(r, "@play 1") == "@play OK"
         r.board.run(ms=1500)
-        operations, missed = r.board.operations, fields(ask(r, "@where"))["missed"]   # some while the servos are got ready
+        operations, missed = r.board.operations, fields(ask(r, "@where"))["missed"]  # some while the servos are got ready
         assert ask(r, f"@save 9 0x{crc16(bytes(PAGES[1].data)):04X}").startswith("@save ERR 4 ")
-        r.keys("save,9\r")   # keys wait until it stands; a blank would be the break
+        r.keys("save,9\r")  # keys wait until it stands; a blank would be the break
         assert r.board.operations == operations and fields(ask(r, "@where"))["missed"] == missed
 
 
@@ -162,10 +165,32 @@ def test_reset_restarts_the_controller():
         assert r.board.resets == resets + 1
 
 
-MOVING_REFUSED = ("@open 0", "@open 2", "@data 64 0002", f"@save 1 0x{crc16(bytes(PAGES[1].data)):04X}", "@play 2", "@move 60 1 200",
-                  "@torque on", "@reset")
-MOVING_ALLOWED = ("@ver", "@list 0 3", "@page 1", "@dense 1", "@crcs 0 3", "@pose", "@where", "@crc", "@watch 0", "@torque off 18", "@pause",
-                  "@resume", "@stop", "@break")
+MOVING_REFUSED = (
+    "@open 0",
+    "@open 2",
+    "@data 64 0002",
+    f"@save 1 0x{crc16(bytes(PAGES[1].data)):04X}",
+    "@play 2",
+    "@move 60 1 200",
+    "@torque on",
+    "@reset",
+)
+MOVING_ALLOWED = (
+    "@ver",
+    "@list 0 3",
+    "@page 1",
+    "@dense 1",
+    "@crcs 0 3",
+    "@pose",
+    "@where",
+    "@crc",
+    "@watch 0",
+    "@torque off 18",
+    "@pause",
+    "@resume",
+    "@stop",
+    "@break",
+)
 
 
 def test_what_must_not_be_while_something_moves_is_refused_and_the_rest_is_not():
@@ -190,7 +215,7 @@ def test_save_of_page_0_puts_the_trim_in_force_typed_or_not(typed):
         ask(r, "@torque on", ms=300)
         assert ask(r, "@open 0") == "@open OK"
         for offset in range(0, 512, 32):
-            ask(r, f"@data {offset} {data[offset:offset + 32].hex()}", ms=40)
+            ask(r, f"@data {offset} {data[offset : offset + 32].hex()}", ms=40)
         if typed:
             r.line("save", ms=1000)
             assert r.message.endswith("OK")
@@ -211,7 +236,7 @@ def test_crcs_of_all_pages():
         while not heard.endswith(b"OK\r\n"):
             r.board.run(ms=5)
             heard += r.board.take().translate(None, b"\x11\x13")
-        assert r.board.now_ms - start < 1000   # 20 s are allowed
+        assert r.board.now_ms - start < 1000  # 20 s are allowed
         sums = heard.split()[-2].decode()
         assert sums == "".join(f"{crc16(r.flash_page(number)):04X}" for number in range(128))
         assert ask(r, "@crcs 1 2") == f"@crcs {sums[4:12]} OK"
@@ -222,8 +247,7 @@ def watched(r, ms):
     """(ms between, words) of the @now lines of a time."""
     r.board.take()
     r.board.run(ms=ms)
-    return [line.split() for line in r.board.take().translate(None, b"\x11\x13").decode().split("\r\n")[1:-1]
-            if line.startswith("@now")]
+    return [line.split() for line in r.board.take().translate(None, b"\x11\x13").decode().split("\r\n")[1:-1] if line.startswith("@now")]
 
 
 def test_watch_streams_goals_and_positions_and_costs_no_tick():
@@ -233,14 +257,14 @@ def test_watch_streams_goals_and_positions_and_costs_no_tick():
         assert 19 <= len(idle) <= 21
         assert idle[-1][1:4] == ["0", "0", "0007FFFE"] and idle[-1][4] == "---200" * 18
         r.board.expect("@now", ms=100)
-        r.board.expect("\r\n", ms=100)   # 26 ms are free until the next line
+        r.board.expect("\r\n", ms=100)  # 26 ms are free until the next line
         assert ask(r, "@play 1", ms=20) == "@play OK"
         r.board.run(ms=1500)
         missed = fields(ask(r, "@where", ms=100))["missed"]
         lines = watched(r, 2000)
         assert 36 <= len(lines) <= 42 and {line[1] for line in lines} == {"1"}
-        assert len({line[4][0:3] for line in lines}) > 15   # joint 1 is on its way
-        assert len({line[4][3:6] for line in lines}) > 8    # heard once in 18 ticks
+        assert len({line[4][0:3] for line in lines}) > 15  # joint 1 is on its way
+        assert len({line[4][3:6] for line in lines}) > 8  # heard once in 18 ticks
         assert fields(ask(r, "@where", ms=100))["missed"] == missed
         assert ask(r, "@watch 0") == "@watch OK"
         assert watched(r, 300) == []

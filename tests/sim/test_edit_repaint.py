@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: MIT
 """What the terminal shows after any edits, sent cell by cell as they changed, is what a complete redraw shows."""
+
 import random
 
 import pytest
 
 from tests.sim.edit_robot import page, robot
 
-PAGES = {1: page("one", [(40, {1: 480, 2: 544}, 3), (50, {3: 300})], code=7, next=3),
-         2: page("two", [(10 + k, {k: 100 * k}, k) for k in range(7)], joints=range(31)), 3: page("", [(64, {})], schedule=0)}
+PAGES = {
+    1: page("one", [(40, {1: 480, 2: 544}, 3), (50, {3: 300})], code=7, next=3),
+    2: page("two", [(10 + k, {k: 100 * k}, k) for k in range(7)], joints=range(31)),
+    3: page("", [(64, {})], schedule=0),
+}
 TORN = page("torn", [(30, {})])
 TORN.data[100] ^= 1
 PAGES[4] = TORN
@@ -18,12 +22,47 @@ def action(rng):
     kind = rng.randrange(10)
     if kind < 3:
         return rng.choice(("]", "[", "}", "{", " ", "\x1b[A", "\x1b[B", "\x1b[C", "\x1b[D")) * rng.randrange(1, 5), False
-    line = rng.choice((f"page {rng.randrange(6)}", "next", "before", f"copy {rng.randrange(5)}", "new", "undo", "undo", "redo", "hex", "dec",
-                       f"goto {rng.randrange(10)} {rng.randrange(33)}", f"set {rng.randrange(128)}", f"step {rng.randrange(8)}", "write",
-                       f"write {rng.randrange(7)}", f"insert {rng.randrange(7)}", f"delete {rng.randrange(7)}", "time", "speed",
-                       f"move {rng.randrange(8)} {rng.randrange(8)}", f"swap {rng.randrange(7)} {rng.randrange(7)}", "int 0 1",
-                       f"scale {rng.randrange(50, 200)}", f"go {rng.randrange(7)}", f"mirror {rng.randrange(7)}", "on", "off", "on 3 4",
-                       "off 5", "name", "name xyz", "save 9", "foo", "list 1 2", "help", "mon", "find o"))
+    line = rng.choice(
+        (
+            f"page {rng.randrange(6)}",
+            "next",
+            "before",
+            f"copy {rng.randrange(5)}",
+            "new",
+            "undo",
+            "undo",
+            "redo",
+            "hex",
+            "dec",
+            f"goto {rng.randrange(10)} {rng.randrange(33)}",
+            f"set {rng.randrange(128)}",
+            f"step {rng.randrange(8)}",
+            "write",
+            f"write {rng.randrange(7)}",
+            f"insert {rng.randrange(7)}",
+            f"delete {rng.randrange(7)}",
+            "time",
+            "speed",
+            f"move {rng.randrange(8)} {rng.randrange(8)}",
+            f"swap {rng.randrange(7)} {rng.randrange(7)}",
+            "int 0 1",
+            f"scale {rng.randrange(50, 200)}",
+            f"go {rng.randrange(7)}",
+            f"mirror {rng.randrange(7)}",
+            "on",
+            "off",
+            "on 3 4",
+            "off 5",
+            "name",
+            "name xyz",
+            "save 9",
+            "foo",
+            "list 1 2",
+            "help",
+            "mon",
+            "find o",
+        )
+    )
     return line, True
 
 
@@ -43,7 +82,7 @@ def act(r, text, is_line):
 
 def table(r):
     """The rows above the command row, without the live positions (a servo still moves after GO)."""
-    return [row[:14] + "    " + row[18:] if row.startswith("Dynamixel") else row for row in r.terminal.screen.display[:r.rows - 1]]
+    return [row[:14] + "    " + row[18:] if row.startswith("Dynamixel") else row for row in r.terminal.screen.display[: r.rows - 1]]
 
 
 @pytest.mark.parametrize("rows, seed", [(36, 1), (24, 2), (28, 3)])

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """SAVE: questions, time, and the power cut at every flash operation and inside it. Afterwards the page is the old or the
 new one, all other pages are untouched, and the next save works."""
+
 import pytest
 
 from cm5sim import PowerCut
@@ -41,7 +42,7 @@ def test_save_takes_less_than_60_ms_and_keeps_everything(phase_ms):
         seen = len(r.board.console)
         r.board.send(b"\r")
         while b"OK" not in r.board.console[seen:] and r.board.now_ms < start + 200:
-            r.board.run(ms=0.1)   # expect() looks every 20 ms only
+            r.board.run(ms=0.1)  # expect() looks every 20 ms only
         took = r.board.now_ms - start
         save_ms = r.board.cycles("cmd_page_save").total_max / 16000
         print(f"save: {save_ms:.1f} ms, both halves changed; {took:.1f} ms from Enter to OK on the terminal (original: 2100)")
@@ -49,7 +50,7 @@ def test_save_takes_less_than_60_ms_and_keeps_everything(phase_ms):
         r.settle()
         assert r.flash_page(1) == new_bytes() and not r.unsaved
         assert r.xya[:2] == ("07", "31")
-        assert bytes(r.board.flash[MOTION_START + 1024:]) == before[1024:]
+        assert bytes(r.board.flash[MOTION_START + 1024 :]) == before[1024:]
         assert r.board.resets == 1 or r.board.resets == 0
 
 
@@ -106,7 +107,7 @@ FACTORY = {"images": ("edit-cm5.hex",), "loader": factory_section(), "bootrst": 
 
 def save_cut(r, operation, phase, tear):
     """The save of an edited page with the power cut there. Returns the page after the restart, or None when the save ended before."""
-    others = bytes(r.board.flash[MOTION_START + 1024:])
+    others = bytes(r.board.flash[MOTION_START + 1024 :])
     r.board.cut_power(operation, phase, tear)
     try:
         r.line("save")
@@ -117,7 +118,7 @@ def save_cut(r, operation, phase, tear):
     r.terminal.screen.reset()
     r.board.take()
     r.settle(ms=1500)
-    assert bytes(r.board.flash[MOTION_START + 1024:]) == others
+    assert bytes(r.board.flash[MOTION_START + 1024 :]) == others
     state = r.flash_page(1)
     assert r.fault == "" and r.text(1, 65, 3) == "old"
     edit(r)
@@ -127,9 +128,13 @@ def save_cut(r, operation, phase, tear):
     return state
 
 
-@pytest.mark.parametrize("name, options, cuts", [
-    ("our loader", OURS, (("before", 0), ("during", 3), ("during", 8), ("after", 0))),
-    ("the factory loader", FACTORY, (("before", 0), ("during", 5)))])
+@pytest.mark.parametrize(
+    "name, options, cuts",
+    [
+        ("our loader", OURS, (("before", 0), ("during", 3), ("during", 8), ("after", 0))),
+        ("the factory loader", FACTORY, (("before", 0), ("during", 5))),
+    ],
+)
 def test_power_cut_at_every_operation_leaves_the_old_or_the_new_page(name, options, cuts):
     states = {"old": 0, "new": 0}
     operation = 1
@@ -153,7 +158,7 @@ def application(name):
     """An image as the flash below the journal."""
     flash = bytearray(b"\xff" * APP_END)
     for number, data in memory.plan(find_image(name)).pages.items():
-        flash[256 * number:256 * (number + 1)] = data
+        flash[256 * number : 256 * (number + 1)] = data
     return flash
 
 

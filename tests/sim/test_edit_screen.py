@@ -1,13 +1,30 @@
 # SPDX-License-Identifier: MIT
 """Edit's screen, cell by cell, against edit/ORIGINAL.md section 3 and the list in firmware/edit/DIFFERENCES.md."""
+
 import pytest
 
 from cm5sim import library
 from tests.sim.edit_robot import JOINTS, new_page, page, robot, seal
 
-HEADER = ["(Reserved) :", "PlayCount:", "(Reserved) :", "Blend Right:", "Blend Left:", "(Reserved) :", "Page Step:",
-          "ControlCode:", "Page Speed:", "DXL Setup:", "Accel Time:", "Link to Next:", "Link to Exit:", "Linked Page1:",
-          "Page1Remocon:", "Linked Page2:", "Page2Remocon:"]
+HEADER = [
+    "(Reserved) :",
+    "PlayCount:",
+    "(Reserved) :",
+    "Blend Right:",
+    "Blend Left:",
+    "(Reserved) :",
+    "Page Step:",
+    "ControlCode:",
+    "Page Speed:",
+    "DXL Setup:",
+    "Accel Time:",
+    "Link to Next:",
+    "Link to Exit:",
+    "Linked Page1:",
+    "Page1Remocon:",
+    "Linked Page2:",
+    "Page2Remocon:",
+]
 
 
 def word_text(word):
@@ -34,8 +51,7 @@ def frame(data, number, pose, cursor=(0, 0), pose_tail=(0, 64), live=None):
             row += ("|" if k == steps else " ") + word_text(data[64 + 64 * k + 2 * joint] | data[65 + 64 * k + 2 * joint] << 8)
         row += ("|" if steps == 7 else " ") + "%03d" % data[32 + joint]
         rows.append((row + (side[joint] if joint < len(side) else "")).ljust(80))
-    for label, place in (("   PauseTime       [", 62),
-                         ("   Time( x 7.8mSec)[" if data[16] == 10 else "   Speed           [", 63)):
+    for label, place in (("   PauseTime       [", 62), ("   Time( x 7.8mSec)[" if data[16] == 10 else "   Speed           [", 63)):
         row = label + "%03d]" % pose_tail[place - 62]
         for k in range(7):
             row += "  %03d" % data[64 + 64 * k + place] if k else "  %03d" % data[64 + place]
@@ -53,16 +69,18 @@ def assert_frame(r, expected):
         assert got == want, f"row {number}:\n{got!r}\n{want!r}"
 
 
-READY = page("ready", [(40, {1: 480, 2: 544}, 3), (50, {3: 300})], code=7, next=3, exit=4, link1_page=5, link1_code=6,
-             link2_page=7, link2_code=8)
+READY = page("ready", [(40, {1: 480, 2: 544}, 3), (50, {3: 300})], code=7, next=3, exit=4, link1_page=5, link1_code=6, link2_page=7, link2_code=8)
 
 
-@pytest.mark.parametrize("number, made", [
-    (1, READY),
-    (1, page("speed base", [(64, {1: 0}), (1, {1: 1023})] * 3 + [(9, {})], schedule=0)),
-    (1, page("", [], joints=())),
-    (1, page("123456789012345"[:13], [(255, {}, 255)] * 7, joints=range(31))),
-])
+@pytest.mark.parametrize(
+    "number, made",
+    [
+        (1, READY),
+        (1, page("speed base", [(64, {1: 0}), (1, {1: 1023})] * 3 + [(9, {})], schedule=0)),
+        (1, page("", [], joints=())),
+        (1, page("123456789012345"[:13], [(255, {}, 255)] * 7, joints=range(31))),
+    ],
+)
 def test_frame_after_start_is_that_of_the_original(number, made):
     with robot(pages={number: made}) as r:
         live = {joint: 512 for joint in JOINTS}
@@ -87,7 +105,7 @@ def test_frame_shows_goals_of_servos_that_hold():
 
 def test_erased_page_shows_a_new_one():
     with robot() as r:
-        r.board.flash[0xE000 + 512 * 9:0xE000 + 512 * 10] = b"\xff" * 512
+        r.board.flash[0xE000 + 512 * 9 : 0xE000 + 512 * 10] = b"\xff" * 512
         r.line("page 9")
         live = {joint: 512 for joint in JOINTS}
         expected = frame(new_page(), 9, {}, live=live)
@@ -151,11 +169,14 @@ def test_damaged_pages_are_shown_as_what_they_are():
     nine = page("nine", [(30, {})])
     nine.steps = 9
     nine.seal()
-    cases = {2: (torn, "checksum is wrong"), 3: (nine, "more than 7 steps"),
-             4: (page("s", [(30, {})], schedule=5), "unknown schedule"),
-             5: (page("p", [(30, {})], speed=0), "page speed is 0"),
-             6: (page("l", [(30, {})], next=200), ""),   # counts as 0; CHECK tells it
-             7: (page("w", [(30, {3: 1500})]), "position above 1023")}
+    cases = {
+        2: (torn, "checksum is wrong"),
+        3: (nine, "more than 7 steps"),
+        4: (page("s", [(30, {})], schedule=5), "unknown schedule"),
+        5: (page("p", [(30, {})], speed=0), "page speed is 0"),
+        6: (page("l", [(30, {})], next=200), ""),  # counts as 0; CHECK tells it
+        7: (page("w", [(30, {3: 1500})]), "position above 1023"),
+    }
     with robot(pages={1: READY, **{n: made for n, (made, _) in cases.items()}}) as r:
         for number, (made, text) in cases.items():
             r.line(f"page {number}")
@@ -220,7 +241,7 @@ def test_page_changes_send_a_quarter_of_the_originals_bytes_at_most():
     """Over real pages: our library, every fourth."""
     image = (library.build_folder() / "motions" / "motions.bin").read_bytes()
     with robot(motions=image) as r:
-        used = [n for n in range(1, 128) if image[512 * n + 20] in range(1, 8) and sum(image[512 * n:512 * n + 512]) & 0xFF == 0xFF]
+        used = [n for n in range(1, 128) if image[512 * n + 20] in range(1, 8) and sum(image[512 * n : 512 * n + 512]) & 0xFF == 0xFF]
         sent = []
         for number in used[::4]:
             start = len(r.board.console)

@@ -2,7 +2,6 @@
 """What Edit does to servos: GO, MIRROR, ON, OFF, SET on the work pose, the trim, EXIT, MON; edit/ORIGINAL.md sections 7, 8, 10 and 11, and
 "nothing moves by surprise"."""
 
-
 from tests.sim.edit_robot import UNUSED, page
 from tests.sim.edit_servos import goals, start, writes_since
 
@@ -28,7 +27,7 @@ def test_off_and_on_take_ranges_of_servos():
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1, 2, 3, 7]
         r.line("on 2-7")
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1]
-        r.line("off 6-4")   # the other way round
+        r.line("off 6-4")  # the other way round
         assert [joint for joint in range(1, 19) if not r.board.servos[joint].torque] == [1, 4, 5, 6]
         r.line("on 4-6")
         for wrong in ("off 3-", "off -3", "off 1-31", "off 1-x"):
@@ -39,7 +38,7 @@ def test_off_and_on_take_ranges_of_servos():
 def test_servos_that_answer_read_only_are_driven_and_not_called_dead():
     with start() as r:
         for joint in range(1, 19):
-            r.board.servos[joint].write(16, [1])   # status return level; Edit looks at it when it starts
+            r.board.servos[joint].write(16, [1])  # status return level; Edit looks at it when it starts
         r.board.reset()
         r.terminal.screen.reset()
         r.settle(ms=1500)
@@ -49,7 +48,7 @@ def test_servos_that_answer_read_only_are_driven_and_not_called_dead():
         r.line("go 0", ms=2000)
         assert "ervo" not in r.message
         assert goals(r)[1] == 400 and r.board.servos[1].table[32] == (512 - 400) // 4
-        assert len([packet for packet in writes_since(r, mark) if packet[2] == 1]) == 1   # not asked again
+        assert len([packet for packet in writes_since(r, mark) if packet[2] == 1]) == 1  # not asked again
 
 
 def test_teaching_off_pose_on_write():
@@ -61,7 +60,7 @@ def test_teaching_off_pose_on_write():
         assert r.cell(3, 7) == "0650" and r.cell(9, 9) == "003"
         r.line("save")
         assert r.message.endswith("OK")
-        assert int.from_bytes(r.flash_page(5)[64 + 128 + 14:64 + 128 + 16], "little") == 650
+        assert int.from_bytes(r.flash_page(5)[64 + 128 + 14 : 64 + 128 + 16], "little") == 650
 
 
 def test_go_moves_every_joint_in_about_the_same_time():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Stack: bytes between the highest variable and the lowest stack ever, measured after the deepest things Edit does: every way to
 save, PLAY with everything that happens meanwhile, UNDO, lists, programs' lines. Budget 384."""
+
 import pytest
 
 from tests.sim.boot_board import factory_section
@@ -8,12 +9,16 @@ from tests.sim.edit_robot import page, robot
 
 BUDGET = 384
 
-PAGES = {1: page("one", [(40, {1: 480}), (60, {1: 700, 2: 300}), (60, {1: 300, 2: 700})], repeat=3, exit=2),
-         2: page("two", [(10 + k, {k: 300 + k}) for k in range(7)], joints=range(31))}
+PAGES = {
+    1: page("one", [(40, {1: 480}), (60, {1: 700, 2: 300}), (60, {1: 300, 2: 700})], repeat=3, exit=2),
+    2: page("two", [(10 + k, {k: 300 + k}) for k in range(7)], joints=range(31)),
+}
 # The factory loader's routine takes its data from a fixed place in RAM; the 256 bytes there are kept on the stack meanwhile.
-LOADERS = {"ours": {},
-           "factory": {"images": ("edit-cm5.hex",), "loader": factory_section(), "bootrst": True},
-           "mailbox": {"images": ("tests/mailbox.hex", "edit-cm5.hex"), "bootrst": True}}
+LOADERS = {
+    "ours": {},
+    "factory": {"images": ("edit-cm5.hex",), "loader": factory_section(), "bootrst": True},
+    "mailbox": {"images": ("tests/mailbox.hex", "edit-cm5.hex"), "bootrst": True},
+}
 
 
 def act(r, line, ms=0):
@@ -35,8 +40,27 @@ def test_headroom_after_everything_deep(loader):
         def note(what):
             seen[what] = r.board.stack_headroom
 
-        for line in ("on", "go 0", "write", "insert 0", "int 0 1", "scale 120", "swap 0 1", "take 0 6", "paste 0", "mirror 0", "undo",
-                     "redo", "undo", "copy 2", "undo", "new", "undo", "off 5", "pairs 1 2"):
+        for line in (
+            "on",
+            "go 0",
+            "write",
+            "insert 0",
+            "int 0 1",
+            "scale 120",
+            "swap 0 1",
+            "take 0 6",
+            "paste 0",
+            "mirror 0",
+            "undo",
+            "redo",
+            "undo",
+            "copy 2",
+            "undo",
+            "new",
+            "undo",
+            "off 5",
+            "pairs 1 2",
+        ):
             act(r, line)
         note("edits")
         for line, key in (("check 2", "q"), ("check", "q"), ("list 1 9", "q"), ("find o", "q"), ("help", "q")):
@@ -49,8 +73,20 @@ def test_headroom_after_everything_deep(loader):
             r.keys(key, ms=1500)
         r.board.servos[7].clear()
         note("play")
-        for line in ("@where", "@list", "@page 1", "@pose", "@torque on", "@move 60 1 200200200", "@play 1", "@where", "@break", "@open 2",
-                     "@crc", "@data 64 " + "00" * 32):
+        for line in (
+            "@where",
+            "@list",
+            "@page 1",
+            "@pose",
+            "@torque on",
+            "@move 60 1 200200200",
+            "@play 1",
+            "@where",
+            "@break",
+            "@open 2",
+            "@crc",
+            "@data 64 " + "00" * 32,
+        ):
             ask(r, line)
         r.board.run(ms=1500)
         note("programs")

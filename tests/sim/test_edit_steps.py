@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Editing commands that make, move, exchange and scale steps, and UNDO: the 512 bytes, worked out here from edit/ORIGINAL.md and
 firmware/edit/DIFFERENCES.md."""
+
 import pytest
 
 from tests.sim.edit_base import BASE, FULL, bytes_of, step
 from tests.sim.edit_robot import UNUSED, changed, seal, word
 
 # ---- steps ----
+
 
 def test_step_sets_the_count(r):
     r.line("step 5")
@@ -32,7 +34,7 @@ def pose_step(r):
 def stored(data, changes):
     data = bytearray(data)
     for k, content in changes.items():
-        data[64 + 64 * k:128 + 64 * k] = content
+        data[64 + 64 * k : 128 + 64 * k] = content
     return data
 
 
@@ -85,7 +87,7 @@ def test_insert_moves_up_and_the_last_step_falls_out(r):
     assert r.line("insert 2").startswith("insert 2 Step 6 fell out")
     full = FULL.data
     assert bytes_of(r) == seal(stored(full, {2: pose, **{k: step(full, k - 1) for k in range(3, 7)}}))
-    r.line("undo")   # what SAVE made of ????
+    r.line("undo")  # what SAVE made of ????
     r.line("undo")
     assert bytes_of(r) == bytes(full)
     r.line("page 1")
@@ -133,7 +135,7 @@ def between(made, a, b, percent):
     for joint in range(1, 19):
         first, second = made.word(a, joint), made.word(b, joint)
         value = first + int(abs(second - first) * percent / 100 + 0.5) * (1 if second > first else -1)
-        data[2 * joint:2 * joint + 2] = value.to_bytes(2, "little")
+        data[2 * joint : 2 * joint + 2] = value.to_bytes(2, "little")
     data[62:64] = b"\0\0"
     return data
 
@@ -141,7 +143,7 @@ def between(made, a, b, percent):
 def test_int_makes_a_step_between_two_and_the_page_takes_as_long_as_before(r):
     r.line("int 0 1 34")
     data = stored(BASE.data, {1: between(BASE, 0, 1, 34), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
-    data[20], data[64 + 64 + 63], data[64 + 128 + 63] = 4, 17, 33   # of 50: a third of the way, a third of the time
+    data[20], data[64 + 64 + 63], data[64 + 128 + 63] = 4, 17, 33  # of 50: a third of the way, a third of the time
     assert bytes_of(r) == seal(data)
     r.line("undo")
     assert bytes_of(r) == bytes(BASE.data)
@@ -153,7 +155,7 @@ def test_int_between_steps_that_do_not_follow_each_other_takes_the_time_of_the_s
     data[20], data[64 + 64 + 63] = 4, 60
     assert bytes_of(r) == seal(data)
     r.line("undo")
-    r.line("speed")   # a speed is the same on both halves of a way
+    r.line("speed")  # a speed is the same on both halves of a way
     r.line("int 0 1")
     data = stored(BASE.data, {1: between(BASE, 0, 1, 50), **{k: step(BASE.data, k - 1) for k in range(2, 7)}})
     data[16], data[20], data[64 + 64 + 63] = 0, 4, 50
@@ -192,6 +194,7 @@ def test_paste_within_a_page_reads_before_it_writes(r):
 
 
 # ---- undo ----
+
 
 def test_eight_commands_are_undone_and_redone(r):
     states = [bytes_of(r)]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """UNDO and REDO: at least the last eight editing commands; commands that change the whole page among them."""
+
 import random
 
 import pytest
@@ -10,12 +11,17 @@ from tests.sim.edit_robot import JOINTS, page
 
 def big(seed, joints):
     rng = random.Random(seed)
-    return page(f"big {seed}", [(rng.randrange(1, 256), {joint: rng.randrange(1024) for joint in joints}, rng.randrange(256))
-                                for _ in range(7)], joints=joints, code=seed, repeat=seed, speed=30 + seed)
+    return page(
+        f"big {seed}",
+        [(rng.randrange(1, 256), {joint: rng.randrange(1024) for joint in joints}, rng.randrange(256)) for _ in range(7)],
+        joints=joints,
+        code=seed,
+        repeat=seed,
+        speed=30 + seed,
+    )
 
 
-PAGES = {1: big(1, range(31)), 2: big(2, range(31)), 3: page("three", [(40, {1: 480}), (50, {2: 300})]), 4: big(4, JOINTS),
-         5: big(5, JOINTS)}
+PAGES = {1: big(1, range(31)), 2: big(2, range(31)), 3: page("three", [(40, {1: 480}), (50, {2: 300})]), 4: big(4, JOINTS), 5: big(5, JOINTS)}
 
 
 @pytest.fixture
@@ -28,7 +34,7 @@ def r(shared):
 def ram_page(r):
     """The 512 bytes in RAM, byte 31 left out: SAVE makes it."""
     at = r.page_address()
-    data = bytearray(r.board.ram[at:at + 512])
+    data = bytearray(r.board.ram[at : at + 512])
     data[31] = 0
     return bytes(data)
 
@@ -108,7 +114,7 @@ def test_the_last_eight_commands_come_back_one_by_one(r):
         undone += 1
         assert ram_page(r) == states[-1 - undone]
     assert undone >= 8
-    for state in states[len(states) - undone:]:
+    for state in states[len(states) - undone :]:
         r.line("redo")
         assert ram_page(r) == state
     assert r.line("redo").endswith("Nothing to redo")
@@ -129,7 +135,7 @@ def test_failed_commands_and_page_changes(r):
     edit(r, "undo")
     assert not r.unsaved
     edit(r, "set 5", "page 2")
-    assert r.line("undo").endswith("Nothing to undo")   # the history is the open page's
+    assert r.line("undo").endswith("Nothing to undo")  # the history is the open page's
 
 
 def test_undo_keeps_cursor_and_work_pose(r):

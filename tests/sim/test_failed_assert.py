@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """A failed ASSERT restarts the board through the loader; the image that starts then says where it failed, once."""
+
 import pytest
 
 from cm5sim import Board
 
-MAGIC = 0x7A9D   # hal/avr/trap.h: an ASSERT has noted its line and its word address
+MAGIC = 0x7A9D  # hal/avr/trap.h: an ASSERT has noted its line and its word address
 
 
 def noted_at(image):
@@ -15,10 +16,10 @@ def noted_at(image):
 def restarted(image, marker):
     """What the image prints up to `marker` after a failed ASSERT in line 321."""
     board = Board(images=["boot-cm5.hex", f"{image}-cm5.hex"], servos=(1,))
-    board.eeprom[0xFFF] = 0x11   # the loader starts the application
+    board.eeprom[0xFFF] = 0x11  # the loader starts the application
     board.expect(marker, ms=3000)
     at = noted_at(image)
-    board.ram[at:at + 6] = b"".join(value.to_bytes(2, "little") for value in (MAGIC, 321, 0x1234))
+    board.ram[at : at + 6] = b"".join(value.to_bytes(2, "little") for value in (MAGIC, 321, 0x1234))
     board.reset()
     first = board.expect(marker, ms=3000)
     board.reset()

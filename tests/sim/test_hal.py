@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The rest of the hal, and the common half of the firmware, on the simulated board: time, panel, flash, settings in the EEPROM,
 resets. The bus: test_hal_bus.py. The serial line: test_hal_console.py."""
+
 import pytest
 
 from cm5sim import Board, PowerCut
@@ -11,6 +12,7 @@ TICK = 125_000
 
 
 # ---- time ----
+
 
 def test_tick_is_exact_over_a_minute_and_none_is_missed():
     board = walker(servos=range(1, 19))
@@ -25,6 +27,7 @@ def test_tick_is_exact_over_a_minute_and_none_is_missed():
 
 
 # ---- panel ----
+
 
 def test_buttons_count_after_three_ticks():
     board = walker(servos=[1])
@@ -42,8 +45,8 @@ def test_buttons_count_after_three_ticks():
 def test_pins_are_safe_from_the_start():
     board = walker(servos=[1])
     assert board.leds == {"power"}
-    assert board.pin("B5") == 1   # charger off
-    assert board.pin("D4") == 1   # ZigBee out of reset
+    assert board.pin("B5") == 1  # charger off
+    assert board.pin("D4") == 1  # ZigBee out of reset
     assert (board.pin("D5"), board.pin("D6")) == (1, 1)
 
 
@@ -57,11 +60,12 @@ def test_adc_reads_the_battery_pin():
 
 # ---- flash ----
 
+
 def test_far_reads_cross_64_kib():
     board = words()
     data = pattern(512)
     board.flash[0x0FF20:0x10120] = data
-    backwards = b"".join(data[at:at + 64] for at in range(448, -1, -64))   # one block lies across the border
+    backwards = b"".join(data[at : at + 64] for at in range(448, -1, -64))  # one block lies across the border
     board.send("f")
     board.expect(f"flash {crc16(backwards):08X}")
 
@@ -72,7 +76,7 @@ def test_all_pages_are_checked_in_under_200_ms(capsys):
     page[22], page[20] = 32, 1
     page[31] = 0xFF - sum(page) & 0xFF
     for number in (0, 15, 16, 127):
-        board.flash[0xE000 + 512 * number:0xE200 + 512 * number] = page
+        board.flash[0xE000 + 512 * number : 0xE200 + 512 * number] = page
     start = board.now_ms
     board.send("p")
     board.expect(f"pages {4:08X}")
@@ -83,6 +87,7 @@ def test_all_pages_are_checked_in_under_200_ms(capsys):
 
 
 # ---- settings ----
+
 
 def loaded(board):
     board.send("l")
@@ -146,10 +151,11 @@ def test_power_cut_at_every_eeprom_write_leaves_old_or_new_settings(capsys):
 
 # ---- resets ----
 
+
 def test_application_takes_over_from_the_boot_loader():
     """The loader hands over with both UARTs running and receive interrupts enabled (boot/ORIGINAL.md, 5)."""
     board = Board(images=["boot-cm5.hex", "tests/hal_walker_cm5.hex"], servos=range(1, 19))
-    board.eeprom[0xFFF:0x1000] = b"\x11"   # start the application
+    board.eeprom[0xFFF:0x1000] = b"\x11"  # start the application
     board.send("typed too early")
     board.expect("walking", ms=3000)
     board.run(ms=500)

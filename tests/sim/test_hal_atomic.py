@@ -1,15 +1,34 @@
 # SPDX-License-Identifier: MIT
 """What main loop and interrupts share, with an interrupt at every place: before the first instruction, behind the first,
 the second, and so on to the last (board_sweep in tools/sim/board/board_debug.h). Program: hal/hal_atomic.c."""
+
 import struct
 
 import pytest
 
 from cm5sim import Board
 
-JOBS = ("", "tick", "clock", "counts", "tap", "eeprom", "idle", "get", "put", "flush", "retry", "flow on", "hold",
-        "resume", "submit", "stars", "drain", "packet")
-TAP_BYTES, TAPS = 21, 14   # a ring and its 16 bytes; the first and the last tap differ in both bytes of their address
+JOBS = (
+    "",
+    "tick",
+    "clock",
+    "counts",
+    "tap",
+    "eeprom",
+    "idle",
+    "get",
+    "put",
+    "flush",
+    "retry",
+    "flow on",
+    "hold",
+    "resume",
+    "submit",
+    "stars",
+    "drain",
+    "packet",
+)
+TAP_BYTES, TAPS = 21, 14  # a ring and its 16 bytes; the first and the last tap differ in both bytes of their address
 XON, XOFF = 0x11, 0x13
 
 
@@ -26,11 +45,11 @@ class Atomic(Board):
 
     def peek(self, name, count=1):
         address = self.variable(name)
-        return int.from_bytes(self.ram[address:address + count], "little")
+        return int.from_bytes(self.ram[address : address + count], "little")
 
     def poke(self, name, value, count=1):
         address = self.variable(name)
-        self.ram[address:address + count] = value.to_bytes(count, "little")
+        self.ram[address : address + count] = value.to_bytes(count, "little")
 
     @property
     def unread(self):
@@ -52,6 +71,7 @@ class Atomic(Board):
 
 
 # ---- time ----
+
 
 @pytest.mark.parametrize("ticks", [0xFF, 0xFFFF, 0xFFFFFF])
 def test_ticks_are_read_whole(ticks):
@@ -95,18 +115,18 @@ def test_clock_is_read_whole_while_a_packet_ends(before):
 
 # ---- bus ----
 
+
 def bus_counts(board):
-    names = ("packets", "answers", "timeouts", "checksums", "framing", "overruns", "wrong_ids", "lengths", "rejected",
-             "retries", "strays")
+    names = ("packets", "answers", "timeouts", "checksums", "framing", "overruns", "wrong_ids", "lengths", "rejected", "retries", "strays")
     address = board.variable("atomic_counts")
-    return dict(zip(names, struct.unpack("<IIHHHHHHHHH", board.ram[address:address + 26])))
+    return dict(zip(names, struct.unpack("<IIHHHHHHHHH", board.ram[address : address + 26])))
 
 
 def test_counts_are_read_whole():
     board = Atomic()
     strays = board.variable("core") + board.peek("atomic_strays_at", 2)
     for place in board.places("try_bus_counts", "bus byte"):
-        board.ram[strays:strays + 2] = b"\xFF\x00"
+        board.ram[strays : strays + 2] = b"\xff\x00"
         board.do("counts")
         assert bus_counts(board)["strays"] in (0xFF, 0x100), place
 
@@ -143,13 +163,13 @@ def test_noise_in_the_moment_of_sending_spoils_nothing():
 def numbered_packet(size):
     """As hal_atomic.c builds it."""
     body = bytes([254, size - 4, 0x55, *range(1, size - 5)])
-    return b"\xFF\xFF" + body + bytes([~sum(body) & 0xFF])
+    return b"\xff\xff" + body + bytes([~sum(body) & 0xFF])
 
 
 def test_packets_of_every_length_leave_whole():
     """Two bytes at a time: an odd one begins alone."""
     board = Atomic(servos=[1])
-    for size in range(6, 144):   # servos take 143 at most
+    for size in range(6, 144):  # servos take 143 at most
         board.clear_trace()
         board.poke("atomic_byte", size)
         board.do("packet")
@@ -169,7 +189,7 @@ def test_packets_leave_whole_whatever_interrupts_their_first_bytes(size):
         board.run_to("try_bus_send", ms=100)
         for _ in range(place):
             board.step()
-        inside += board.ram[board.variable("core")] == 0     # IDLE: not submitted yet
+        inside += board.ram[board.variable("core")] == 0  # IDLE: not submitted yet
         board.interrupt("console byte", 0x55)
         board.interrupt("tick")
         board.run_to("atomic_done", ms=100)
@@ -180,6 +200,7 @@ def test_packets_leave_whole_whatever_interrupts_their_first_bytes(size):
 
 
 # ---- EEPROM ----
+
 
 @pytest.mark.parametrize("vector", ["tick", "console byte", "bus byte"])
 def test_eeprom_write_begins_at_once_or_not_at_all(vector):
@@ -193,6 +214,7 @@ def test_eeprom_write_begins_at_once_or_not_at_all(vector):
 
 # ---- sleep ----
 
+
 @pytest.mark.parametrize("vector", ["tick", "console byte"])
 def test_nothing_slips_in_between_looking_and_sleeping(vector):
     """What comes while board_idle() looks for work must not wait for the next tick."""
@@ -203,6 +225,7 @@ def test_nothing_slips_in_between_looking_and_sleeping(vector):
 
 
 # ---- console ----
+
 
 def test_bytes_come_once_and_in_order():
     board = Atomic()
@@ -227,7 +250,7 @@ def test_bytes_leave_once_and_in_order():
     board.take()
     put = bytearray()
     for place in board.places("try_console_put", "console room"):
-        board.do("stars")   # one leaves, one waits, one is in the ring
+        board.do("stars")  # one leaves, one waits, one is in the ring
         board.poke("atomic_byte", place & 0x7F)
         board.do("put")
         assert board.peek("atomic_got") == 1
@@ -257,7 +280,7 @@ def test_a_sender_is_never_left_waiting(job, function):
         board.send(bytes(count), wait=True)
         board.run(ms=1)
         if job == "get":
-            board.do("resume")   # not yet: 33 wait
+            board.do("resume")  # not yet: 33 wait
         board.do(job)
         board.do("drain")
         board.run(ms=2)

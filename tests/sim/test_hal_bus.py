@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The bus on the simulated board: what a frame costs, half duplex, pauses in packets, servos that fail, servos of other kinds."""
+
 import pytest
 
 from cm5sim import Board
@@ -29,8 +30,7 @@ def test_frame_of_31_joints_is_one_packet_a_tick_in_under_10000_cycles(capsys):
     assert board.cycles("__vector_20").count / len(frames) == pytest.approx(51 + 4, abs=0.6)
     total = build + 51 * sent
     with capsys.disabled():
-        print(f"\nhal: frame of 31 joints: build {build}, send 51 x {sent:.1f}, in all {total:.0f} cycles;"
-              f" a byte heard {heard:.0f}")
+        print(f"\nhal: frame of 31 joints: build {build}, send 51 x {sent:.1f}, in all {total:.0f} cycles; a byte heard {heard:.0f}")
     assert total <= 10_000
     assert heard < 160
 
@@ -48,9 +48,9 @@ def test_turn_round_loses_no_answer(kind, return_delay):
     assert counts["timeouts"] == before["timeouts"]
 
 
-BUS_TURNING = 2   # bus_core.h
-INTERRUPT_INSTRUCTIONS = 80   # of the one that sends: it takes 82 cycles
-TURN_US = 20   # DYNAMIXEL.md: with a return delay of 0 an answer begins within about 20 us
+BUS_TURNING = 2  # bus_core.h
+INTERRUPT_INSTRUCTIONS = 80  # of the one that sends: it takes 82 cycles
+TURN_US = 20  # DYNAMIXEL.md: with a return delay of 0 an answer begins within about 20 us
 
 
 def test_turn_round_is_bounded_whatever_else_interrupts(capsys):
@@ -64,14 +64,14 @@ def test_turn_round_is_bounded_whatever_else_interrupts(capsys):
     longest = 0
     state = board.variable("core")
     for place in range(0, 480, 3):
-        while board.ram[state] != BUS_TURNING:       # a packet is being sent, up to its last two bytes
+        while board.ram[state] != BUS_TURNING:  # a packet is being sent, up to its last two bytes
             board.run_to("__vector_20", ms=20)
             for _ in range(INTERRUPT_INSTRUCTIONS):
                 if board.ram[state] != BUS_TURNING:
                     board.step()
         board.run(cycles=480 - place)
         board.interrupt("console byte", 0x55)
-        board.run(cycles=20)                         # its interrupt has begun: the tick's comes before that of the bus
+        board.run(cycles=20)  # its interrupt has begun: the tick's comes before that of the bus
         board.interrupt("tick")
         board.run(ms=3)
         longest = max(longest, board.bus_turn_us(forget=True))
@@ -86,9 +86,9 @@ def pauses_us(path):
     for line in path.read_text().splitlines():
         if line.startswith("#"):
             now = int(line[1:])
-        elif line in ("0h", "1h"):              # bus_drive
+        elif line in ("0h", "1h"):  # bus_drive
             driven, ended = line == "1h", None
-        elif line == "bzzzzzzzz B":             # bus_tx
+        elif line == "bzzzzzzzz B":  # bus_tx
             ended = now
         elif line.startswith("b") and line.endswith(" B") and driven and ended is not None:
             pauses.append((now - ended) / 1000)

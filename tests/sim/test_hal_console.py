@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The serial line to the PC on the simulated board: nothing is lost at the full rate, flow control, changes of rate."""
+
 from m512.crc16 import crc16
 from tests.sim.hal_board import LINE_BYTES_PER_S, bus_counts, pattern, walker, word, words
 
@@ -38,9 +39,9 @@ def test_flow_control_stops_a_sender_in_time():
             elif byte == 0x11:
                 stopped_at = None
         if stopped_at is None or at < stopped_at + 64:
-            board.send(data[at:at + 6])
+            board.send(data[at : at + 6])
             at += 6
-    assert board.take().replace(b"\x11", b"").replace(b"\x13", b"") == b" 00000000\n"   # the end of "start"
+    assert board.take().replace(b"\x11", b"").replace(b"\x13", b"") == b" 00000000\n"  # the end of "start"
     board.expect("took ", ms=3000)
     assert board.expect("\n") == f"{6000:08X} {crc16(data):08X}\n"
     assert stops > 3

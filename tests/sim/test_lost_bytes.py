@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A line in which bytes were lost on its way is not run, in any image: a sender that ignores XOFF, a character without a
 stop bit (a stray baud rate does that). The image says how many are missing."""
+
 import pytest
 
 from tests.sim.edit_robot import robot as edit
@@ -29,7 +30,7 @@ def test_play_refuses_the_line():
     garble(board, "settings ta", "lk 0\r")
     text = board.take().decode("latin-1")
     assert LOST in text and " OK" not in text
-    assert " OK" in ask(board, "settings talk 0")   # the next one is whole
+    assert " OK" in ask(board, "settings talk 0")  # the next one is whole
 
 
 def test_play_refuses_a_program_line_and_ctrl_u_begins_anew():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The Monitor image: words and packets as edit/ORIGINAL.md section 11 has them, and what it refuses."""
+
 import pytest
 
 from tests.sim.monitor_robot import robot, say
@@ -15,14 +16,35 @@ def _m():
 def sent(board):
     return [bytes(made) for _, made in board.packets]
 
-@pytest.mark.parametrize("line, answer", [
-    ("cid", "Invalid Parameter"), ("cid 255", "ID must be 0..254"), ("id", "Invalid Parameter"), ("id 254", "ID must be 0..253"),
-    ("read", "Invalid Parameter"), ("read 50", "Address must be 0..49"), ("read 0 51", "Count must be 1..50"),
-    ("write 24", "Invalid Parameter"), ("write 24 256", "Value must be 0..255"), ("reg_wr 30", "Invalid Parameter"),
-    ("go 1024", "Position must be 0..1023"), ("go 5 1024", "Speed must be 0..1023"), ("led", "Invalid Parameter"),
-    ("led 2", "Value must be 0..1"), ("baud 255", "Value must be 0..254"), ("swr 30 2 1 0", "SWR address count"),
-    ("swr 30 0 1 1", "SWR address count"), ("reset no", "RESET YES"), ("action 1", "Invalid Parameter"), ("ping 255", "ID must be 0..254"),
-    ("scan 254", "ID must be 0..253"), ("page 1", "Bad Command"), ("save", "Bad Command")])
+
+@pytest.mark.parametrize(
+    "line, answer",
+    [
+        ("cid", "Invalid Parameter"),
+        ("cid 255", "ID must be 0..254"),
+        ("id", "Invalid Parameter"),
+        ("id 254", "ID must be 0..253"),
+        ("read", "Invalid Parameter"),
+        ("read 50", "Address must be 0..49"),
+        ("read 0 51", "Count must be 1..50"),
+        ("write 24", "Invalid Parameter"),
+        ("write 24 256", "Value must be 0..255"),
+        ("reg_wr 30", "Invalid Parameter"),
+        ("go 1024", "Position must be 0..1023"),
+        ("go 5 1024", "Speed must be 0..1023"),
+        ("led", "Invalid Parameter"),
+        ("led 2", "Value must be 0..1"),
+        ("baud 255", "Value must be 0..254"),
+        ("swr 30 2 1 0", "SWR address count"),
+        ("swr 30 0 1 1", "SWR address count"),
+        ("reset no", "RESET YES"),
+        ("action 1", "Invalid Parameter"),
+        ("ping 255", "ID must be 0..254"),
+        ("scan 254", "ID must be 0..253"),
+        ("page 1", "Bad Command"),
+        ("save", "Bad Command"),
+    ],
+)
 def test_monitor_checks_arguments_and_sends_nothing_then(m, line, answer):
     m.clear_trace()
     assert answer in say(m, line)
@@ -77,11 +99,24 @@ def test_monitor_makes_slow_servos_fast():
 
 def test_monitor_shows_packets_word_by_word():
     board = robot()
-    for line, expected in (("cid 3", ""), ("ping", "<-[Dynamixel]: ID 03 error 00"), ("read 36 2", "00 02"),
-                           ("write 25 1", "->[Dynamixel]: FF FF 03 04 03 19 01"), ("read 99", "Address must be 0..49"),
-                           ("foo", "Bad Command"), ("go 600 50", "58 02 32 00"), ("cid 99", ""), ("ping", "[Err:RxD Timeout]"),
-                           ("cid 4", ""), ("id 5", "That ID is taken"), ("id 40", "04 03 03 28"), ("scan", "018 Dynamixels"),
-                           ("reset", "RESET YES"), ("swr 30 2 1 0 2", "83 1E 02 01 00 02"), ("dump", "040:")):
+    for line, expected in (
+        ("cid 3", ""),
+        ("ping", "<-[Dynamixel]: ID 03 error 00"),
+        ("read 36 2", "00 02"),
+        ("write 25 1", "->[Dynamixel]: FF FF 03 04 03 19 01"),
+        ("read 99", "Address must be 0..49"),
+        ("foo", "Bad Command"),
+        ("go 600 50", "58 02 32 00"),
+        ("cid 99", ""),
+        ("ping", "[Err:RxD Timeout]"),
+        ("cid 4", ""),
+        ("id 5", "That ID is taken"),
+        ("id 40", "04 03 03 28"),
+        ("scan", "018 Dynamixels"),
+        ("reset", "RESET YES"),
+        ("swr 30 2 1 0 2", "83 1E 02 01 00 02"),
+        ("dump", "040:"),
+    ):
         assert expected in say(board, line), line
     assert board.servos[3].table[25] == 1
     board.close()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """TOSS, the bridge of Monitor: what the PC sends is a packet on the servo bus, what a servo answers is bytes on the console, and
 three ESC outside a packet end it. Packets are made here from the Dynamixel protocol, not with our code."""
+
 import pytest
 
 from tests.sim.monitor_robot import robot
@@ -60,7 +61,7 @@ def test_every_servo_answers_through_the_bridge_and_nothing_is_added(r):
 
 
 def test_whole_tables_pass_again_and_again(r):
-    r.run(ms=200)   # nothing moves
+    r.run(ms=200)  # nothing moves
     for _ in range(20):
         answer = ask(r, packet(7, READ, 0, 50))
         assert len(answer) == 56 and answer == status(7, *answer[5:55])
@@ -112,7 +113,7 @@ def test_a_packet_that_lost_a_byte_costs_itself_only(r, missing):
     """Its length asks for as many bytes as 22 PINGs have. (A packet whose length was lost may look whole: the servo answers that
     its checksum is wrong.)"""
     long = packet(1, WRITE, *[30] * 130)
-    assert ask(r, long[:missing] + long[missing + 1:40], ms=60) in (b"", status(1, error=0x10))
+    assert ask(r, long[:missing] + long[missing + 1 : 40], ms=60) in (b"", status(1, error=0x10))
     for ident in (1, 2, 3):
         assert ask(r, packet(ident, PING)) == status(ident)
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The motion library (tools/motions) on the shipped Play image: every page to its end, and a walk driven by the remote.
 What the pages promise by themselves is checked in tools/motions/test_motions.py."""
+
 import os
 import pathlib
 import re
@@ -93,10 +94,10 @@ def test_remote_drives_a_walk():
     board.clear_trace()
     assert drive(board, UP, "walk_l") == ["(walk)", "(walk_r)", "(walk_l)"]
     assert drive(board, LEFT, "turn_l") == ["(walk_r)", "(turn_l)"]
-    assert drive(board, LEFT, "turn_l") == ["(turn_l2)", "(turn_l)"]   # goes on turning
+    assert drive(board, LEFT, "turn_l") == ["(turn_l2)", "(turn_l)"]  # goes on turning
     assert drive(board, UP, "walk_l") == ["(walk_r)", "(walk_l)"]
     assert drive(board, RIGHT, "turn_r") == ["(turn_r)"]
-    assert drive(board, LEFT, "turn_l") == ["(walk_l)", "(walk_r)", "(turn_l)"]    # by the walk
+    assert drive(board, LEFT, "turn_l") == ["(walk_l)", "(walk_r)", "(turn_l)"]  # by the walk
     assert drive(board, UP, "walk_r") == ["(walk_r)"]
     board.rc(STOP)
     board.expect("Stopped after page 26 (end_l)", ms=5000)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Each strictness of the board catches its wrong program, and lets the right twin pass (sources: negative/)."""
+
 import pathlib
 
 import pytest

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Play on the simulated robot: what it does beside talking. The words are in test_play_sessions.py."""
+
 import pytest
 
 from m512.files.image import Image
@@ -37,6 +38,7 @@ def walking(**options):
 
 # --- power-on ---
 
+
 @pytest.mark.parametrize("button", [None, "UP", "START"])
 def test_nothing_moves_at_power_on(button):
     board = robot()
@@ -61,6 +63,7 @@ def test_reset_while_playing_moves_nothing_more():
 
 
 # --- who is driven ---
+
 
 def test_absent_unused_and_torque_off_joints_are_never_driven():
     board = robot(servos=[1, 2, 3, 5, 19])
@@ -100,6 +103,7 @@ def test_trim_of_page_0_is_added():
 
 # --- the approach ---
 
+
 def test_approach_starts_at_the_pose_and_keeps_to_60_degrees_a_second():
     board = robot()
     for joint in JOINTS:
@@ -113,7 +117,7 @@ def test_approach_starts_at_the_pose_and_keeps_to_60_degrees_a_second():
         assert abs(goals[0] - (200 + 30 * joint)) <= 2
         steps = [abs(b - a) for a, b in zip(goals, goals[1:])]
         assert max(steps) <= 60 * UNITS_PER_DEGREE / 128 + 1  # whole units
-        assert sum(steps) == abs(goals[-1] - goals[0])        # straight there
+        assert sum(steps) == abs(goals[-1] - goals[0])  # straight there
 
 
 def test_approach_off_begins_the_page_where_the_robot_stands():
@@ -123,6 +127,7 @@ def test_approach_off_begins_the_page_where_the_robot_stands():
 
 
 # --- pause, break, stop ---
+
 
 def goals_of(board, joint):
     return [frame.goals[joint] for frame in board.trace if joint in frame.goals and len(frame.goals) > 1]
@@ -196,9 +201,14 @@ def test_stop_held_down_is_one_stop():
 
 # --- faults ---
 
-FAULTS = [("silent", "Servo 11 does not answer"), ("overload", "Servo 11 reports overload"),
-          ("overheating", "Servo 11 reports overheating"), ("angle-limit", "Servo 11 reports angle limit"),
-          ("low-voltage", "Servo 11 reports voltage"), ("dead", "Servo 11 does not answer")]
+FAULTS = [
+    ("silent", "Servo 11 does not answer"),
+    ("overload", "Servo 11 reports overload"),
+    ("overheating", "Servo 11 reports overheating"),
+    ("angle-limit", "Servo 11 reports angle limit"),
+    ("low-voltage", "Servo 11 reports voltage"),
+    ("dead", "Servo 11 does not answer"),
+]
 
 
 @pytest.mark.parametrize("fault, named", FAULTS)
@@ -237,6 +247,7 @@ def test_wrong_answers_are_retried_and_end_nothing():
 
 # --- lamps ---
 
+
 def test_lamps():
     board = robot()
     board.run(ms=200)
@@ -262,6 +273,7 @@ def test_lamps():
 
 
 # --- nothing waits for text ---
+
 
 def test_long_answers_while_walking_make_no_tick_late():
     board = walking()
@@ -325,6 +337,7 @@ def test_search_in_a_pasted_script_loses_nothing_of_it():
 
 # --- settings, boards ---
 
+
 def test_setting_answered_ok_outlives_a_reset_at_once():
     board = robot()
     assert ask(board, "settings approach 77").endswith("OK")
@@ -356,12 +369,12 @@ def test_cm2_plays_without_a_panel():
 
 def test_motions_of_the_tests_are_what_they_say():
     image = motions()
-    assert len(image) == 65536 and image[11 * 512:11 * 512 + 4] == b"torn"
+    assert len(image) == 65536 and image[11 * 512 : 11 * 512 + 4] == b"torn"
 
 
 def test_a_name_that_two_pages_have_starts_none():
     image = bytearray(motions())
-    image[7 * 512:8 * 512] = page("WALK", walk_steps()).data
+    image[7 * 512 : 8 * 512] = page("WALK", walk_steps()).data
     board = robot(pages=bytes(image))
     assert ask(board, "play walk") == "Say which by its number: pages 4 and 7 are named walk"
     assert ask(board, "@play walk") == "@play ERR 3 Say which by its number: pages 4 and 7 are named walk"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Joints moved by code, `aim`, `swing`, `free` (SHAPING.md), in the shipped Play image, with and without a play."""
+
 import math
 import random
 
@@ -10,7 +11,7 @@ from tests.sim.walking_robot import EXIT, LOOP, looping, pages, run_of_a_walk, w
 
 HEAD = (19, 20)
 WITH_HEAD = (*JOINTS, *HEAD)
-HAND_OVER = 2   # 60 degrees/s are 1.6 units a tick
+HAND_OVER = 2  # 60 degrees/s are 1.6 units a tick
 
 
 def row_of(board, joint):
@@ -35,14 +36,14 @@ def test_aim_while_nothing_plays_moves_this_joint_only_and_slowly():
     board.clear_trace()
     assert ask(board, "@aim 19 500 240") == "@aim OK"
     board.run(ms=500)
-    assert row_of(board, 19)[-1] == 500 and max(map(abs, speeds(row_of(board, 19)))) == 7   # 6.4 units a tick
+    assert row_of(board, 19)[-1] == 500 and max(map(abs, speeds(row_of(board, 19)))) == 7  # 6.4 units a tick
     assert ask(board, "free") == " OK"
     assert where(board)["aim"] == "00000000" and board.servos[19].torque
 
 
 def test_swing_is_a_sine_of_its_period():
     board = robot(servos=WITH_HEAD, pages=pages())
-    assert ask(board, "swing 20 512 100 2000 90") == " OK"   # 256 ticks, from its upper end
+    assert ask(board, "swing 20 512 100 2000 90") == " OK"  # 256 ticks, from its upper end
     board.run(ms=1500)
     board.clear_trace()
     board.run(ms=4000)
@@ -52,7 +53,7 @@ def test_swing_is_a_sine_of_its_period():
     last = next(at for at in range(first, 300) if row[at + 1] < 612)
     for at in range(first, first + 200):
         wanted = 512 + 100 * math.cos(2 * math.pi * (at - (first + last) / 2) / 256)
-        assert abs(row[at] - wanted) <= 1.3, at   # whole units; the top is known to half a tick
+        assert abs(row[at] - wanted) <= 1.3, at  # whole units; the top is known to half a tick
     assert row[:200] == row[256:456]
 
 
@@ -67,18 +68,25 @@ def test_a_joint_that_swings_in_a_walk_leaves_the_others_as_they_are_and_comes_b
     assert any(moved[at][11] != plain[at][11] for at in ticks)
     assert [moved[at][11] for at in ticks[-50:]] == [plain[at][11] for at in ticks[-50:]]
     fastest = max(map(abs, speeds([plain[at][11] for at in ticks])))
-    assert max(map(abs, speeds([moved[at][11] for at in ticks]))) <= max(fastest, 4)   # its swing: 2 pi 60 / 128 = 2.9
+    assert max(map(abs, speeds([moved[at][11] for at in ticks]))) <= max(fastest, 4)  # its swing: 2 pi 60 / 128 = 2.9
 
 
 def test_refused_words_say_one_sentence_and_change_nothing():
     board = robot(servos=WITH_HEAD, pages=pages())
     board.clear_trace()
-    for line, said in (("aim 25 512", "None of these servos can be moved"), ("aim 31 512", "ID must be 0..30"),
-                       ("aim 19 1024", "Position must be 0..1023"), ("aim 19 512 0", "Degrees/s must be 1..360"),
-                       ("aim 19 512 361", "Degrees/s must be 1..360"), ("swing 19 512 100 124", "Milliseconds must be 125..30000"),
-                       ("swing 19 512 100 1000 360", "Phase must be 0..359"), ("free 31", "ID must be 0..30"),
-                       ("swing 19 50 100 1000", "Too far or too fast"), ("swing 19 512 200 500", "Too far or too fast"),
-                       ("aim 19", "Too few or too many words")):
+    for line, said in (
+        ("aim 25 512", "None of these servos can be moved"),
+        ("aim 31 512", "ID must be 0..30"),
+        ("aim 19 1024", "Position must be 0..1023"),
+        ("aim 19 512 0", "Degrees/s must be 1..360"),
+        ("aim 19 512 361", "Degrees/s must be 1..360"),
+        ("swing 19 512 100 124", "Milliseconds must be 125..30000"),
+        ("swing 19 512 100 1000 360", "Phase must be 0..359"),
+        ("free 31", "ID must be 0..30"),
+        ("swing 19 50 100 1000", "Too far or too fast"),
+        ("swing 19 512 200 500", "Too far or too fast"),
+        ("aim 19", "Too few or too many words"),
+    ):
         assert ask(board, line).removesuffix(": try help") == said
         answer = ask(board, "@" + line)
         assert answer.startswith(f"@{line.split()[0]} ERR ") and answer.endswith(said), answer
@@ -86,12 +94,12 @@ def test_refused_words_say_one_sentence_and_change_nothing():
     for joint in (1, 2, 19, 20):
         assert ask(board, f"aim {joint} 520") == " OK"
     assert ask(board, "aim 3 520") == "Four joints are moved already: free one"
-    assert ask(board, "aim 20 530") == " OK"   # one of them again
+    assert ask(board, "aim 20 530") == " OK"  # one of them again
     ask(board, "off 5")
     ask(board, "free 1")
-    assert ask(board, "aim 5 520") == "None of these servos can be moved"   # switched off by hand
+    assert ask(board, "aim 5 520") == "None of these servos can be moved"  # switched off by hand
     assert ask(board, f"play {LOOP}") == " OK"
-    assert ask(board, "aim 4 520") == "Busy: stop what is playing first"    # on its way to the first pose
+    assert ask(board, "aim 4 520") == "Busy: stop what is playing first"  # on its way to the first pose
     assert not board.servos[5].torque
 
 

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The bench of the shipped Play image: it runs, and every figure is within its budget. (tools/bench --strict is the judge.)"""
+
 import pathlib
 import subprocess
 
 BENCH = pathlib.Path(__file__).resolve().parents[2] / "tools" / "bench"
-KINDS, LENGTHS = 5, 9     # of plays with nothing set; of steps with everything in force
+KINDS, LENGTHS = 5, 9  # of plays with nothing set; of steps with everything in force
 
 
 def test_bench_prints_its_table_and_every_budget_holds():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The golden traces of the classic law, from the shipped Play image: goals on the servo bus, tick by tick, approach off."""
+
 import csv
 
 import pytest

@@ -2,6 +2,7 @@
 """Motion sets: that of tests/samples, and real ones where they are (../shared/data, or M512_SHARED). Valid pages play to their end
 under both laws on the shipped image, the others are refused with the reason. A sample of the pages; M512_ALL_PAGES=1
 plays every one (tests/unit plays them all on the PC in any case)."""
+
 import os
 
 import pytest
@@ -13,16 +14,20 @@ from tests.sim.play_robot import SHARED, TOP, ask, robot
 DATA = SHARED / "data"
 ALL = bool(os.environ.get("M512_ALL_PAGES"))
 EVERY = 1 if ALL else 5
-REASONS = {Fault.CHECKSUM: "checksum is wrong", Fault.STEPS: "more than 7 steps", Fault.SCHEDULE: "unknown schedule",
-           Fault.SPEED: "page speed is 0",
-           Fault.POSITION: "position above 1023"}
+REASONS = {
+    Fault.CHECKSUM: "checksum is wrong",
+    Fault.STEPS: "more than 7 steps",
+    Fault.SCHEDULE: "unknown schedule",
+    Fault.SPEED: "page speed is 0",
+    Fault.POSITION: "position above 1023",
+}
 FILES = [TOP / "tests" / "samples" / "robot_128p.bin", *sorted(DATA.glob("*.bin"))]
 PLAY_MS, END_MS = 3000, 60_000
 
 
 def read(path):
     """The first 128 pages of a file, judged as this board judges them: 10 bits."""
-    return Image(from_bytes(path.read_bytes()[:128 * 512]).pages)
+    return Image(from_bytes(path.read_bytes()[: 128 * 512]).pages)
 
 
 def play_to_the_end(board, number):
@@ -55,7 +60,7 @@ def test_pages_of_a_set(path, law):
     played = refused = 0
     for number, page in list(image.items())[1::EVERY]:
         text = play_to_the_end(board, number)
-        fault = next((fault for fault in page.faults() if fault is not Fault.LINK), Fault.OK)   # such a link counts as 0
+        fault = next((fault for fault in page.faults() if fault is not Fault.LINK), Fault.OK)  # such a link counts as 0
         if is_erased(page) or (fault is Fault.OK and page.steps == 0):
             assert f"Page {number} is empty" in text
         elif fault is not Fault.OK:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A second page over a play (SHAPING.md), in the shipped Play image."""
+
 import random
 
 from m512.files.image import from_bytes
@@ -10,7 +11,7 @@ from tests.sim.walking_robot import LOOP, WAVE, looping, pages, run_of_a_walk, w
 def test_layer_in_a_walk_leaves_the_other_joints_goals_as_they_are():
     plain = run_of_a_walk([(0, "version"), (4000, "version")])
     assert len(plain) > 700
-    for seed in (1, 7):   # 1: off in the tick between two steps, when the next is planned already
+    for seed in (1, 7):  # 1: off in the tick between two steps, when the next is planned already
         chance = random.Random(seed)
         layer_in_a_walk(plain, on_ms=chance.randrange(1000), off_ms=3000 + chance.randrange(1000))
 
@@ -43,16 +44,21 @@ def test_layer_that_ends_by_itself_is_told_and_its_joints_come_back():
     board = robot(pages=pages())
     ask(board, f"play {LOOP}")
     board.run(ms=3000)
-    assert ask(board, "layer 1 3") == " OK"   # a page of one step, without a link
+    assert ask(board, "layer 1 3") == " OK"  # a page of one step, without a link
     board.expect("The layer ended after page 1 (ready)", ms=3000)
     assert where(board)["layer"] == "0" and where(board)["state"] == "playing"
 
 
 def test_refused_layers_say_one_sentence_and_change_nothing():
     board = looping()
-    for line, said in (("layer 0", "Page must be 1..127"), ("layer 128", "Page must be 1..127"),
-                       ("layer 34 25", "No answer from servos 25"), ("layer 34 31", "ID must be 0..30"),
-                       ("layer 11", "Page 11 is damaged: checksum is wrong"), ("layer 10", "Page 10 is empty")):
+    for line, said in (
+        ("layer 0", "Page must be 1..127"),
+        ("layer 128", "Page must be 1..127"),
+        ("layer 34 25", "No answer from servos 25"),
+        ("layer 34 31", "ID must be 0..30"),
+        ("layer 11", "Page 11 is damaged: checksum is wrong"),
+        ("layer 10", "Page 10 is empty"),
+    ):
         assert ask(board, line) == said
         assert where(board)["layer"] == "0"
         answer = ask(board, "@" + line)
@@ -68,7 +74,7 @@ def test_break_pause_and_a_silent_servo_hold_both_plays():
         assert ask(board, "layer 34") == " OK"
         board.run(ms=1500)
         if how == "fault":
-            board.servos[3].fault("silent")   # a joint of the layer
+            board.servos[3].fault("silent")  # a joint of the layer
         else:
             ask(board, how)
         board.run(ms=1500)
@@ -116,7 +122,7 @@ def test_a_layer_brings_the_slopes_of_its_own_page_and_takes_them_away_again():
     assert ask(board, f"layer {WAVE}") == " OK"
     board.run(ms=300)
     assert slopes(board, 3) == slopes(board, 5) == (8, 8) and slopes(board, 1) == (64, 64)
-    board.run(ms=3000)   # the main page has begun anew
+    board.run(ms=3000)  # the main page has begun anew
     assert slopes(board, 3) == (8, 8) and slopes(board, 1) == (64, 64)
     assert ask(board, "layer off") == " OK"
     board.run(ms=300)

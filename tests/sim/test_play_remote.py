@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """A thumb that stays on the remote: a play starts on a press only. The remote repeats its packet every 50 ms."""
+
 import pytest
 
 from tests.sim.play_robot import JOINTS, LEFT, STOP, UP, ask, robot
 
-BUTTON_1 = 16   # bow
+BUTTON_1 = 16  # bow
 REPEAT_MS = 50
 
 
@@ -42,6 +43,7 @@ def by_start(board):
 def by_word(word):
     def say(board):
         board.send(word + "\r")
+
     return say
 
 

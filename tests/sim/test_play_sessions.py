@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Every word of Play with good and bad arguments, as recorded sessions: what the terminal shows, line by line.
 With M512_RECORD=1 the sessions are written anew (read them before you keep them)."""
+
 import os
 
 import pytest

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Shaping in the shipped Play image: rate, amplitude, blend, driving (SHAPING.md)."""
+
 import re
 
 import pytest
@@ -9,12 +10,21 @@ from tests.sim.walking_robot import LOOP, looping, pages, where
 
 # --- words ---
 
-WRONG = [("rate 9", "Rate must be 10..400"), ("rate 401", "Rate must be 10..400"), ("rate fast", "Rate must be 10..400"),
-         ("amplitude 151", "Amplitude must be 0..150"), ("amplitude 60 31", "ID must be 0..30"),
-         ("amplitude 60 25", "No answer from servos 25"), ("blend 101", "Blend must be -100..100"),
-         ("blend -101", "Blend must be -100..100"), ("blend --5", "Blend must be -100..100"),
-         ("drive 0 100 151", "Amplitude must be 0..150"), ("drive 0 9 100", "Rate must be 10..400"),
-         ("drive -101 100 100", "Blend must be -100..100"), ("shape off", "Say shape, or shape reset")]
+WRONG = [
+    ("rate 9", "Rate must be 10..400"),
+    ("rate 401", "Rate must be 10..400"),
+    ("rate fast", "Rate must be 10..400"),
+    ("amplitude 151", "Amplitude must be 0..150"),
+    ("amplitude 60 31", "ID must be 0..30"),
+    ("amplitude 60 25", "No answer from servos 25"),
+    ("blend 101", "Blend must be -100..100"),
+    ("blend -101", "Blend must be -100..100"),
+    ("blend --5", "Blend must be -100..100"),
+    ("drive 0 100 151", "Amplitude must be 0..150"),
+    ("drive 0 9 100", "Rate must be 10..400"),
+    ("drive -101 100 100", "Blend must be -100..100"),
+    ("shape off", "Say shape, or shape reset"),
+]
 
 
 @pytest.fixture(scope="module", name="standing")
@@ -40,7 +50,7 @@ def test_words_and_requests_do_the_same():
     for word in ("rate 150", "blend -40", "amplitude 60", "amplitude 120 3 4"):
         assert ask(board, word) == " OK"
     typed = ask(board, "shape"), where(board)
-    amplitudes = "3C" * 3 + "78" * 2 + "3C" * 26   # joints 3 and 4: 120
+    amplitudes = "3C" * 3 + "78" * 2 + "3C" * 26  # joints 3 and 4: 120
     assert typed[0] == f" rate=150 blend=-40 amplitude={amplitudes} layer=0 aim=00000000 OK"
     assert (typed[1]["rate"], typed[1]["blend"], typed[1]["amplitude"]) == ("150", "-40", amplitudes)
     assert ask(board, "shape reset") == " OK"
@@ -53,13 +63,14 @@ def test_words_and_requests_do_the_same():
 
 # --- rate, amplitude, blend ---
 
+
 def test_rate_changes_the_speed_of_a_walk_from_the_next_step_on():
     board = looping()
     ask(board, "settings talk 1")
     times = {}
     for rate in (100, 200, 50):
         ask(board, f"rate {rate}")
-        board.run(ms=2500)   # what was looked at before is played
+        board.run(ms=2500)  # what was looked at before is played
         board.take()
         board.expect("Page 30 step 2", ms=5000)
         begin = board.now_ms
@@ -78,8 +89,8 @@ def test_amplitude_makes_a_walk_smaller_about_the_centre_page():
     board.clear_trace()
     board.run(ms=2000)
     reached = {frame.goals[11] for frame in board.trace if 11 in frame.goals}
-    assert (min(reached), max(reached)) == (488, 536)   # page 1 has 512; the walk 464 and 560
-    assert {frame.goals[1] for frame in board.trace if 1 in frame.goals} == {496}   # page 1 has 480, the walk 512
+    assert (min(reached), max(reached)) == (488, 536)  # page 1 has 512; the walk 464 and 560
+    assert {frame.goals[1] for frame in board.trace if 1 in frame.goals} == {496}  # page 1 has 480, the walk 512
 
 
 @pytest.mark.parametrize("blend, high", [(100, 600 - 80), (-100, 600), (50, 540), (0, 560)])
@@ -94,6 +105,7 @@ def test_blend_goes_towards_the_partner(blend, high):
 
 # --- driving ---
 
+
 def test_drive_at_20_hz_keeps_a_walk_going_and_a_pulled_cable_ends_it_on_its_exit_page():
     board = looping()
     for _ in range(60):
@@ -102,7 +114,7 @@ def test_drive_at_20_hz_keeps_a_walk_going_and_a_pulled_cable_ends_it_on_its_exi
     fields = where(board)
     assert (fields["state"], fields["rate"], fields["blend"], fields["amplitude"]) == ("playing", "120", "30", "80")
     board.take()
-    text = board.expect("Stopped after page 33 (stand)", ms=6000)   # the cable is pulled: nothing comes any more
+    text = board.expect("Stopped after page 33 (stand)", ms=6000)  # the cable is pulled: nothing comes any more
     assert "Nobody drives any more: stopping" in text
     board.run(ms=100)
     # With an amplitude of 80 % about page 1 (480 and 544) the stand of the exit page is 506 and 518 for the arms.

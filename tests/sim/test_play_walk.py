@@ -1,16 +1,33 @@
 # SPDX-License-Identifier: MIT
 """A minute of walking, with packets of the remote and typed commands filling the serial line: nothing is lost, no tick
 is missed, no frame is late. M512_WALK_MINUTES makes it longer or shorter; `tools/prove endurance` walks for an hour."""
+
 import os
 
 from tests.sim.play_robot import LEFT, RIGHT, UP, ask, robot
 
 MINUTES = float(os.environ.get("M512_WALK_MINUTES", "1"))
 SLICE_MS = 10
-BYTES_A_SLICE = 58          # what the line carries in that time: it never falls idle
+BYTES_A_SLICE = 58  # what the line carries in that time: it never falls idle
 XON, XOFF = 0x11, 0x13
-COMMANDS = ["status", "servos", "@where", "faults", "list", "@pose", "law", "help", "@list", "remote", "nonsense",
-            "play 200", "settings", "@page 4", "code 3000", "version"]
+COMMANDS = [
+    "status",
+    "servos",
+    "@where",
+    "faults",
+    "list",
+    "@pose",
+    "law",
+    "help",
+    "@list",
+    "remote",
+    "nonsense",
+    "play 200",
+    "settings",
+    "@page 4",
+    "code 3000",
+    "version",
+]
 TICK_CYCLES = 125_000
 
 

@@ -2,6 +2,7 @@
 """How long the line commands of firmware/common/PROTOCOL.md take on a robot of 18 servos, in the shipped Play and Edit: simulated
 time, as a PC sees it, from the first byte of a request to the last of its answer, without the lines that come in between:
 @now, and Play's news of pages and steps, up to 36 ms of them. `pytest -s` prints the figures."""
+
 import pytest
 
 from m512.crc16 import crc16
@@ -12,7 +13,7 @@ from tests.sim.made_page import page
 LOOP, PAGES = 1, 128
 CRCS, POSE, WHERE = f"@crcs 0 {PAGES - 1}", "@pose", "@where"
 OWN_MS = {CRCS: 290, POSE: 32, WHERE: 30}
-BYTE_MS = 10 / 57.6   # 57,600 bit/s, 10 bits a byte
+BYTE_MS = 10 / 57.6  # 57,600 bit/s, 10 bits a byte
 LEAST_LINES_A_SECOND, WATCH_SECONDS = 20, 5
 TICK_HZ = 128
 
@@ -55,7 +56,7 @@ def timed(board, request, most_ms=3000):
 def start_loop(board):
     """The robot plays; returns a function that gives the ticks with a frame of goals from now on."""
     assert timed(board, f"@play {LOOP}")[1] == ["@play", "OK"]
-    board.run(ms=3000)   # torque on, and the way to the first pose
+    board.run(ms=3000)  # torque on, and the way to the first pose
     tick = play_robot.tick_of(board)
     board.clear_trace()
     return lambda: [tick(frame.cycle) for frame in board.trace if len(frame.goals) > 1]
@@ -77,7 +78,7 @@ def check_times(board, when, image):
         assert request != POSE or len(words) == 18 + 2
         if request == CRCS:
             data = motions()
-            assert words[1] == "".join(f"{crc16(data[512 * n:512 * n + 512]):04X}" for n in range(PAGES))
+            assert words[1] == "".join(f"{crc16(data[512 * n : 512 * n + 512]):04X}" for n in range(PAGES))
 
 
 def test_answers_come_in_time_and_cost_no_tick(board, request):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Every command line of the simulator's README, executed; and every option of cm5sim must occur there."""
+
 import os
 import re
 import select
@@ -13,8 +14,7 @@ import pytest
 from tests.sim.sim_command import BUILD, CM5SIM, TOP, run
 
 README = (TOP / "tools" / "sim" / "README.md").read_text(encoding="utf-8")
-COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", README, re.S)
-            for line in block.splitlines() if "cm5sim" in line]
+COMMANDS = [line.split("  #")[0].strip() for block in re.findall(r"```sh\n(.*?)```", README, re.S) for line in block.splitlines() if "cm5sim" in line]
 SHOWN_S = 0.5  # so long a command without an end of its own is left running once it has said something
 BEGUN_S = 120
 
@@ -39,8 +39,7 @@ def _folder(tmp_path):
     script = re.search(r"This is `walk.txt`:\n\n```\n(.*?)```", README, re.S)[1]
     (tmp_path / "walk.txt").write_text(script)
     (tmp_path / "walk.m512").write_text(WALK)
-    subprocess.run([sys.executable, "-m", "m512", "convert", "walk.m512", "walk.bin"], cwd=tmp_path, check=True,
-                   stdout=subprocess.DEVNULL)
+    subprocess.run([sys.executable, "-m", "m512", "convert", "walk.m512", "walk.bin"], cwd=tmp_path, check=True, stdout=subprocess.DEVNULL)
     return tmp_path
 
 
@@ -52,9 +51,15 @@ def execute(command, folder):
             command = command.replace(f"={port}", f"={probe.getsockname()[1]}")
     ends = any(word in command for word in ("--script", "--time", "|"))
     line = command if "|" in command else f"exec {command}"
-    process = subprocess.Popen(["sh", "-c", line], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, start_new_session=True,
-                               env={**os.environ, "PATH": f"{CM5SIM.parent}:{os.environ['PATH']}"})
+    process = subprocess.Popen(
+        ["sh", "-c", line],
+        cwd=folder,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        env={**os.environ, "PATH": f"{CM5SIM.parent}:{os.environ['PATH']}"},
+    )
     try:
         if not ends:
             select.select([process.stdout, process.stderr], [], [], BEGUN_S)
@@ -85,8 +90,7 @@ def test_command_of_the_readme_runs(command, folder):
 
 
 def test_bench_prints_its_figures():
-    done = subprocess.run([sys.executable, TOP / "tools" / "sim" / "bench", "--seconds", "5"], capture_output=True,
-                          text=True, check=False)
+    done = subprocess.run([sys.executable, TOP / "tools" / "sim" / "bench", "--seconds", "5"], capture_output=True, text=True, check=False)
     print(done.stdout)
     # Whether this PC is quick enough now is for who runs the bench.
     assert re.search(r"^18 joints moving +[\d.]+ % +[\d.]+$", done.stdout, re.M), done.stdout + done.stderr

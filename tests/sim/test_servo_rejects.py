@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """WRITEs that arrive at a servo with a wrong bit: it does nothing, and says so in its answer (the fault "mishears"). Each
 image tries again, counts it, and names the servo at last; torque comes on only onto a goal that has arrived."""
+
 import pytest
 
 from tests.sim.edit_servos import start
@@ -104,7 +105,7 @@ def test_servos_in_trouble_have_obeyed():
     """Overload, heat, voltage, angle limit in the answer are no rejection (hal/DYNAMIXEL.md)."""
     for fault in ("overheating", "low-voltage", "angle-limit"):
         board = robot()
-        board.servos[3].write(18, [0])   # no alarm shuts it down
+        board.servos[3].write(18, [0])  # no alarm shuts it down
         board.servos[3].fault(fault)
         board.run(ms=500)
         assert "No answer" not in ask(board, "on 3")
@@ -114,7 +115,7 @@ def test_servos_in_trouble_have_obeyed():
 
 def test_monitor_moves_a_slow_servo_that_hears_badly():
     board = monitor(servos=(1,))
-    board.servos.add(7, model="dx117")   # at 57,142 bps
+    board.servos.add(7, model="dx117")  # at 57,142 bps
     board.servos[7].fault("mishears", times=TRIES - 1)
     board.send("fast\r")
     board.run(ms=2500)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Servos through the Python binding, behind a whole board: what a controller sees of each fault."""
+
 import pytest
 
 from cm5sim import Board
@@ -37,10 +38,22 @@ def test_goals_reach_the_servos_and_motion_follows(robot):
     assert robot.servos[4].goal == 512 and not robot.servos[4].torque
 
 
-@pytest.mark.parametrize("name, says", [
-    ("silent", "silent"), ("dead", "silent"), ("late", "silent"), ("checksum", "garbled"), ("short", "garbled"),
-    ("noise", "garbled"), ("duplicate", "garbled"), ("overload", OVERLOADED), ("overheating", OVERHEATED),
-    ("low-voltage", LOW), ("angle-limit", ANGLE)])
+@pytest.mark.parametrize(
+    "name, says",
+    [
+        ("silent", "silent"),
+        ("dead", "silent"),
+        ("late", "silent"),
+        ("checksum", "garbled"),
+        ("short", "garbled"),
+        ("noise", "garbled"),
+        ("duplicate", "garbled"),
+        ("overload", OVERLOADED),
+        ("overheating", OVERHEATED),
+        ("low-voltage", LOW),
+        ("angle-limit", ANGLE),
+    ],
+)
 def test_fault_is_seen_and_goes_when_cleared(robot, name, says):
     robot.servos[3].fault(name)
     assert ping(robot) == says
@@ -106,7 +119,7 @@ def test_weak_battery_is_reported_by_the_servo(robot):
 
 def test_servos_keep_eeprom_without_power_and_lose_ram(robot):
     servo = robot.servos[4]
-    servo.write(5, [0])    # return delay
+    servo.write(5, [0])  # return delay
     servo.write(28, [64])  # slope
     robot.power_off()
     robot.run(ms=50)

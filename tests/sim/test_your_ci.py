@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The example of tools/sim/YOUR_CI.md, executed: its files make a repository, its script checks it; and it fails where it must."""
+
 import os
 import re
 import subprocess
@@ -21,7 +22,7 @@ def _repository(tmp_path):
         (tmp_path / "repository" / name).write_text(text, encoding="utf-8")
     commands = tmp_path / "bin"
     commands.mkdir()
-    (commands / "m512").write_text(f"#!/bin/sh\nexec {sys.executable} -m m512 \"$@\"\n")
+    (commands / "m512").write_text(f'#!/bin/sh\nexec {sys.executable} -m m512 "$@"\n')
     (commands / "m512").chmod(0o755)
     (commands / "cm5sim").symlink_to(CM5SIM)
     return tmp_path / "repository"
@@ -39,8 +40,15 @@ def check(repository, steps=None):
         (repository / "check.sh").write_text("\n".join(kept) + "\n")
     lines = re.findall(r"- run: (.*)", FILES[".github/workflows/motions.yml"])
     assert lines[0].startswith("pip install wheels/") and len(lines) == 2
-    return subprocess.run(["sh", "-c", lines[1]], check=False, cwd=repository, capture_output=True, text=True, timeout=300,
-                          env={**os.environ, "PATH": f"{repository.parent}/bin:{os.environ['PATH']}"})
+    return subprocess.run(
+        ["sh", "-c", lines[1]],
+        check=False,
+        cwd=repository,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        env={**os.environ, "PATH": f"{repository.parent}/bin:{os.environ['PATH']}"},
+    )
 
 
 def spoil(repository, name, before, after):
@@ -74,12 +82,15 @@ def test_a_motion_that_falls_is_told(repository):
     assert done.returncode == 1 and "the robot falls" in done.stderr and "fell" in done.stdout
 
 
-@pytest.mark.parametrize("name, before, after, steps, code, says", [
-    ("motions.m512", "step 1s | @ready", "step 1s | @redy", 1, 4, "motions.m512:"),
-    ("motions.m512", "exit ready", "exit 77", 2, 3, "exit leads to page 77"),
-    ("play.txt", "present 13 <= 328", "present 13 <= 300", 3, 1, "play.txt:7"),
-    ("play.txt", "play bow", "play wave", 3, 1, "No page is named wave"),
-])
+@pytest.mark.parametrize(
+    "name, before, after, steps, code, says",
+    [
+        ("motions.m512", "step 1s | @ready", "step 1s | @redy", 1, 4, "motions.m512:"),
+        ("motions.m512", "exit ready", "exit 77", 2, 3, "exit leads to page 77"),
+        ("play.txt", "present 13 <= 328", "present 13 <= 300", 3, 1, "play.txt:7"),
+        ("play.txt", "play bow", "play wave", 3, 1, "No page is named wave"),
+    ],
+)
 def test_what_is_wrong_is_told_where_it_is(repository, name, before, after, steps, code, says):
     spoil(repository, name, before, after)
     without_plot(repository)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A robot with Play that walks without end and says nothing of it, for what is laid over a walk (test_play_shape, _layers, _aim)."""
+
 from m512.files.image import from_bytes
 from tests.sim.play_robot import ask, motions, page, robot, tick_of, walk_steps
 

@@ -11,12 +11,13 @@ the items, wherever each was made: a job must take all that it leaves to chance 
 With a scheduler, every machine needs a tree like this one, built and with Dask (`tools/dev/setup campaign`), wherever it lies: a worker is
 started by its build/venv/bin/dask.
 """
+
 import concurrent.futures
 import os
 import pickle
 import sys
 
-ANSWER_S = 10     # so long each() waits for a scheduler
+ANSWER_S = 10  # so long each() waits for a scheduler
 _scheduler = None
 
 
@@ -80,7 +81,7 @@ def _on_scheduler(work, items, address):
         from distributed import Client, as_completed
     except ModuleNotFoundError as missing:
         raise ConnectionError(f"a scheduler needs Dask ({missing}); run: tools/dev/setup campaign") from None
-    cloudpickle.register_pickle_by_value(sys.modules[__name__])       # so that _call can say what a worker lacks
+    cloudpickle.register_pickle_by_value(sys.modules[__name__])  # so that _call can say what a worker lacks
     try:
         client = Client(address, timeout=ANSWER_S)
     except OSError as error:
@@ -95,6 +96,7 @@ def _on_scheduler(work, items, address):
 def _call(pickled):
     """One job on a worker. Sent by value, so it imports for itself."""
     import pickle
+
     try:
         work, item = pickle.loads(pickled)
     except ModuleNotFoundError as missing:

@@ -4,6 +4,7 @@
 An assembler may keep its local labels (.L.., .Loc.3, L0 with a control character) among the symbols: they are no functions. Who cannot make
 sense of a file raises Unreadable, so that nobody passes it for having found nothing.
 """
+
 import re
 import subprocess
 from dataclasses import dataclass
@@ -24,7 +25,7 @@ class Symbol:
     name: str
     address: int
     size: int
-    kind: str       # FUNC, OBJECT, NOTYPE
+    kind: str  # FUNC, OBJECT, NOTYPE
 
 
 @dataclass
@@ -34,8 +35,8 @@ class Instruction:
     mnemonic: str
     operands: str
     comment: str
-    function: int   # address of the function that it is in; None in a table
-    source: str     # the file of its line; "" if not known
+    function: int  # address of the function that it is in; None in a table
+    source: str  # the file of its line; "" if not known
 
 
 def tool(*arguments):

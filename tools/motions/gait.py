@@ -15,6 +15,7 @@ four; the body sways like a sine, away from the foot in the air. A foot on the g
 Walking on the spot, backwards, to the side, and curves are the same cycle with other ways of the feet. The numbers are in
 gait.json, found by search.py in physics: what they are is told at `Gait`.
 """
+
 import argparse
 import json
 import pathlib
@@ -31,43 +32,49 @@ HERE = pathlib.Path(__file__).resolve().parent
 class Gait:
     """One way of going. mm and degrees; ticks of 1/128 s."""
 
-    ticks: int = 10           # from pose to pose
-    accel: int = 3            # ACCEL_TIME of its pages
-    slope: int = 5            # compliance of the legs
-    hip_slope: int = 5        # of the hips' pitch, on which the trunk stands: stiff
-    ankle_slope: int = 5      # of the ankles' pitch: soft, soles find the floor where zeros are wrong
-    roll_slope: int = 5       # of hips and ankles to the side: stiff where the robot stands on one foot for long
-    stride: float = 0.0       # a foot is this far before and behind its middle
-    side: float = 0.0         # the same to the right
-    turn: float = 0.0         # the same as an angle: the body turns to the right
-    sway: float = 20.0        # of the body, to either side
-    sway_lead: float = 0.0    # cycles that the sway is ahead of the feet
-    step_lead: float = 0.0    # cycles that the feet's way is ahead of the middle of the four poses
-    swing: float = 0.4        # part of the cycle that a foot is in the air
+    ticks: int = 10  # from pose to pose
+    accel: int = 3  # ACCEL_TIME of its pages
+    slope: int = 5  # compliance of the legs
+    hip_slope: int = 5  # of the hips' pitch, on which the trunk stands: stiff
+    ankle_slope: int = 5  # of the ankles' pitch: soft, soles find the floor where zeros are wrong
+    roll_slope: int = 5  # of hips and ankles to the side: stiff where the robot stands on one foot for long
+    stride: float = 0.0  # a foot is this far before and behind its middle
+    side: float = 0.0  # the same to the right
+    turn: float = 0.0  # the same as an angle: the body turns to the right
+    sway: float = 20.0  # of the body, to either side
+    sway_lead: float = 0.0  # cycles that the sway is ahead of the feet
+    step_lead: float = 0.0  # cycles that the feet's way is ahead of the middle of the four poses
+    swing: float = 0.4  # part of the cycle that a foot is in the air
     lift: float = 15.0
-    square: float = 0.7       # shape of the lift: 0 a plateau, 1 a sine's square
-    height: float = 138.0     # hip above ankle
-    lean: float = 0.0         # of the body, to the front
-    ahead: float = 0.0        # of the feet before the hips
-    apart: float = 0.0        # of the feet, beyond the hips' distance
-    spread: float = 5.0       # of the standing leg's hip while it stands alone
-    toes: float = 0.0         # up, in the air
-    arms: float = 0.4         # degrees of an arm for each mm of the other side's foot
-    brace: float = 0.5        # of the stride: at a stop the feet stand this much further on
-    crouch: int = 0           # ticks in which a start first comes down to the gait's height; 0: on the way into the first step
+    square: float = 0.7  # shape of the lift: 0 a plateau, 1 a sine's square
+    height: float = 138.0  # hip above ankle
+    lean: float = 0.0  # of the body, to the front
+    ahead: float = 0.0  # of the feet before the hips
+    apart: float = 0.0  # of the feet, beyond the hips' distance
+    spread: float = 5.0  # of the standing leg's hip while it stands alone
+    toes: float = 0.0  # up, in the air
+    arms: float = 0.4  # degrees of an arm for each mm of the other side's foot
+    brace: float = 0.5  # of the stride: at a stop the feet stand this much further on
+    crouch: int = 0  # ticks in which a start first comes down to the gait's height; 0: on the way into the first step
 
     @property
     def slopes(self):
         """{joints, as the text format names them: compliance}."""
-        return {"7..8": self.slope, "9..10": self.roll_slope, "11..12": self.hip_slope, "13..14": self.slope, "15..16": self.ankle_slope,
-                "17..18": self.roll_slope}
+        return {
+            "7..8": self.slope,
+            "9..10": self.roll_slope,
+            "11..12": self.hip_slope,
+            "13..14": self.slope,
+            "15..16": self.ankle_slope,
+            "17..18": self.roll_slope,
+        }
 
 
 READY_ARM = {1: 12.0, 3: 12.0, 5: -20.0}  # shoulder swing, lift, elbow
-KICK_SWAY = 39.0                          # on one leg for long: the body right above the foot
-KICK_LAND = 20.0                          # the foot comes down further inward, where the body is on its way to
-KICK_SPREAD = 6.0                         # what the hip of that leg gives way under the load
-KICK_ARMS_OUT = 15.0                      # degrees: hands pass beside hips and knees
+KICK_SWAY = 39.0  # on one leg for long: the body right above the foot
+KICK_LAND = 20.0  # the foot comes down further inward, where the body is on its way to
+KICK_SPREAD = 6.0  # what the hip of that leg gives way under the load
+KICK_ARMS_OUT = 15.0  # degrees: hands pass beside hips and knees
 
 
 def numbers():
@@ -107,10 +114,16 @@ def foot(gait, side, phase, sway):
     """One foot at a phase of its own cycle."""
     ahead, up = way(gait, phase + gait.step_lead)
     other_up = way(gait, phase + gait.step_lead + 0.5)[1]
-    yaw = -gait.turn * ahead                               # to the left, of the foot below the turning body
-    curve = side * HIP_MM * sin(radians(yaw))              # the outer foot goes further
-    return Foot(gait.ahead + gait.stride * ahead + curve, -side * gait.apart / 2 - gait.side * ahead - sway, yaw,
-                gait.height - gait.lift * up, gait.toes * up, gait.spread * other_up)
+    yaw = -gait.turn * ahead  # to the left, of the foot below the turning body
+    curve = side * HIP_MM * sin(radians(yaw))  # the outer foot goes further
+    return Foot(
+        gait.ahead + gait.stride * ahead + curve,
+        -side * gait.apart / 2 - gait.side * ahead - sway,
+        yaw,
+        gait.height - gait.lift * up,
+        gait.toes * up,
+        gait.spread * other_up,
+    )
 
 
 def cycle(gait):
@@ -137,8 +150,14 @@ def start(gait, ready, first=-1):
     whole, part = cycle(gait), cycle(half(gait))
     at = 0 if first > 0 else 4
     down = [(gait.crouch, stand(gait))] if gait.crouch else []
-    return [(32, ready), *down, (round(1.6 * gait.ticks), stand(gait, first * 0.7 * gait.sway)),
-            (gait.ticks, part[at + 1]), (gait.ticks, part[at + 2]), (round(1.5 * gait.ticks), whole[at + 3])]
+    return [
+        (32, ready),
+        *down,
+        (round(1.6 * gait.ticks), stand(gait, first * 0.7 * gait.sway)),
+        (gait.ticks, part[at + 1]),
+        (gait.ticks, part[at + 2]),
+        (round(1.5 * gait.ticks), whole[at + 3]),
+    ]
 
 
 def end(gait, ready):
@@ -146,19 +165,39 @@ def end(gait, ready):
     so hold up what is still on its way; then it comes up to ready."""
     whole, braced = cycle(gait), replace(gait, ahead=gait.ahead + gait.brace * gait.stride)
     part = cycle(half(braced))
-    return [(gait.ticks, whole[0]), (round(1.5 * gait.ticks), part[1]), (gait.ticks, part[2]), (gait.ticks, stand(braced, 0.35 * gait.sway)),
-            (40, ready)]
+    return [
+        (gait.ticks, whole[0]),
+        (round(1.5 * gait.ticks), part[1]),
+        (gait.ticks, part[2]),
+        (gait.ticks, stand(braced, 0.35 * gait.sway)),
+        (40, ready),
+    ]
 
 
 def kick(ready_gait):
     """With the right foot: weight onto the left one, back, forward fast, and down again. Most falls were to the left, and began to
     the right: the hip gave way, the right foot met the floor too early and pushed the body over the other one."""
+
     def leg(x, lift):
-        return stand(ready_gait, KICK_SWAY, right={"x": ready_gait.ahead + x, "height": ready_gait.height - lift},
-                     left={"spread": KICK_SPREAD}, arms=(-0.5 * x, 0.5 * x), arms_out=KICK_ARMS_OUT)
+        return stand(
+            ready_gait,
+            KICK_SWAY,
+            right={"x": ready_gait.ahead + x, "height": ready_gait.height - lift},
+            left={"spread": KICK_SPREAD},
+            arms=(-0.5 * x, 0.5 * x),
+            arms_out=KICK_ARMS_OUT,
+        )
+
     ready = stand(ready_gait)
-    return [(32, ready), (72, stand(ready_gait, KICK_SWAY, arms_out=KICK_ARMS_OUT)), (40, leg(-30, 18)), (28, leg(40, 18)),
-            (32, leg(0, 14)), (32, stand(ready_gait, KICK_LAND, arms_out=KICK_ARMS_OUT)), (64, ready)]
+    return [
+        (32, ready),
+        (72, stand(ready_gait, KICK_SWAY, arms_out=KICK_ARMS_OUT)),
+        (40, leg(-30, 18)),
+        (28, leg(40, 18)),
+        (32, leg(0, 14)),
+        (32, stand(ready_gait, KICK_LAND, arms_out=KICK_ARMS_OUT)),
+        (64, ready),
+    ]
 
 
 @dataclass(frozen=True)
@@ -174,8 +213,7 @@ class Sheet:
 
     def other(self, number, name, words, remark):
         """The page whose steps are the mirror image of this one's."""
-        return replace(self, number=number, name=name, words=words, remark=remark,
-                       steps=tuple((ticks, mirrored(row)) for ticks, row in self.steps))
+        return replace(self, number=number, name=name, words=words, remark=remark, steps=tuple((ticks, mirrored(row)) for ticks, row in self.steps))
 
 
 def beats(gait, rows):
@@ -185,48 +223,88 @@ def beats(gait, rows):
 def walking(gait, turn, ready):
     """The walk, and its curves: partners of its two pages, and pages of their own."""
     loop, curve = cycle(gait), cycle(replace(gait, turn=turn, stride=0.94 * gait.stride))  # the outer foot's way is longer
-    right = Sheet(21, "walk_r", "next walk_l; exit end_l; link1 L turn_l; link2 D end_l; blend right turn_r; blend left turn_l2",
-                  "The loop: right foot ...", beats(gait, loop[:4]), gait)
-    out = Sheet(23, "turn_r", "next turn_r2; exit end_l; link1 U walk_l; link2 L walk_l",
-                "Walking on in a curve to the right: right foot out ...", beats(gait, curve[:4]), gait)
-    after = Sheet(38, "turn_r2", "next turn_r; exit end_r; link1 U walk_r; link2 L walk_r", "... left foot after it.",
-                  beats(gait, curve[4:]), gait)
+    right = Sheet(
+        21,
+        "walk_r",
+        "next walk_l; exit end_l; link1 L turn_l; link2 D end_l; blend right turn_r; blend left turn_l2",
+        "The loop: right foot ...",
+        beats(gait, loop[:4]),
+        gait,
+    )
+    out = Sheet(
+        23,
+        "turn_r",
+        "next turn_r2; exit end_l; link1 U walk_l; link2 L walk_l",
+        "Walking on in a curve to the right: right foot out ...",
+        beats(gait, curve[:4]),
+        gait,
+    )
+    after = Sheet(38, "turn_r2", "next turn_r; exit end_r; link1 U walk_r; link2 L walk_r", "... left foot after it.", beats(gait, curve[4:]), gait)
     close = Sheet(25, "end_r", "", "The right foot closes up.", tuple(end(gait, ready)), gait)
-    return [Sheet(20, "walk", "code U; next walk_r; exit end_r; link1 R turn_r",
-                  "From ready onto the right foot; the left one goes ahead.", tuple(start(gait, ready)), gait),
-            right, right.other(22, "walk_l", "next walk_r; exit end_r; link1 R turn_r; link2 D end_r; blend right turn_r2; blend left turn_l",
-                               "... and left foot."),
-            out, out.other(24, "turn_l", "next turn_l2; exit end_r; link1 U walk_r; link2 R walk_r",
-                           "The same to the left, begun by the left foot."),
-            close, close.other(26, "end_l", "", "The left foot closes up."),
-            after, after.other(39, "turn_l2", "next turn_l; exit end_l; link1 U walk_l; link2 R walk_l", "... right foot after it.")]
+    return [
+        Sheet(
+            20,
+            "walk",
+            "code U; next walk_r; exit end_r; link1 R turn_r",
+            "From ready onto the right foot; the left one goes ahead.",
+            tuple(start(gait, ready)),
+            gait,
+        ),
+        right,
+        right.other(
+            22, "walk_l", "next walk_r; exit end_r; link1 R turn_r; link2 D end_r; blend right turn_r2; blend left turn_l", "... and left foot."
+        ),
+        out,
+        out.other(24, "turn_l", "next turn_l2; exit end_r; link1 U walk_r; link2 R walk_r", "The same to the left, begun by the left foot."),
+        close,
+        close.other(26, "end_l", "", "The left foot closes up."),
+        after,
+        after.other(39, "turn_l2", "next turn_l; exit end_l; link1 U walk_l; link2 R walk_l", "... right foot after it."),
+    ]
 
 
 def backing(gait, ready):
     loop = cycle(gait)
     right = Sheet(28, "back_r", "next back_l; exit back_end_l; link1 U back_end_l", "The loop: right foot ...", beats(gait, loop[:4]), gait)
     close = Sheet(30, "back_end_r", "", "The right foot closes up.", tuple(end(gait, ready)), gait)
-    return [Sheet(27, "back", "code D; next back_r; exit back_end_r; link1 U back_end_r", "As walk, backwards.",
-                  tuple(start(gait, ready)), gait),
-            right, right.other(29, "back_l", "next back_r; exit back_end_r; link1 U back_end_r", "... and left foot."),
-            close, close.other(31, "back_end_l", "", "The left foot closes up.")]
+    return [
+        Sheet(27, "back", "code D; next back_r; exit back_end_r; link1 U back_end_r", "As walk, backwards.", tuple(start(gait, ready)), gait),
+        right,
+        right.other(29, "back_l", "next back_r; exit back_end_r; link1 U back_end_r", "... and left foot."),
+        close,
+        close.other(31, "back_end_l", "", "The left foot closes up."),
+    ]
 
 
 def aside(gait, ready, numbers_of, names, keys, remark):
     """A way that has a right and a left: start, loop of two pages, end, and the same mirrored. Begun by the foot on its side.
     numbers_of, names, keys: (right, left); the pages are name, name_a, name_b, name_end."""
     loop = cycle(gait)
-    steps = [start(gait, ready, 1), beats(gait, loop[4:]), beats(gait, loop[:4]),
-             [(ticks, mirrored(row)) for ticks, row in end(replace(gait, side=-gait.side, turn=-gait.turn), ready)]]
+    steps = [
+        start(gait, ready, 1),
+        beats(gait, loop[4:]),
+        beats(gait, loop[:4]),
+        [(ticks, mirrored(row)) for ticks, row in end(replace(gait, side=-gait.side, turn=-gait.turn), ready)],
+    ]
     pages = []
     for numbers_here, name, other, key, other_key in zip(numbers_of, names, names[::-1], keys, keys[::-1]):
         end_name, away = f"{name}_end", f"link1 {other_key} {name}_end; link2 U {name}_end"
-        words = [f"code {key}; next {name}_a; exit {end_name}", f"next {name}_b; exit {name}_b",
-                 f"next {name}_a; exit {end_name}; {away}", f"link1 {other_key} {other}; link2 U walk"]
-        remarks = [remark if name == names[0] else "The same to the other side.", "The loop: one foot ...", "... and the other.",
-                   "The feet close up."]
-        pages += [Sheet(number, name + part, word, text, tuple(rows), gait) for number, part, word, text, rows in
-                  zip(numbers_here, ("", "_a", "_b", "_end"), words, remarks, steps)]
+        words = [
+            f"code {key}; next {name}_a; exit {end_name}",
+            f"next {name}_b; exit {name}_b",
+            f"next {name}_a; exit {end_name}; {away}",
+            f"link1 {other_key} {other}; link2 U walk",
+        ]
+        remarks = [
+            remark if name == names[0] else "The same to the other side.",
+            "The loop: one foot ...",
+            "... and the other.",
+            "The feet close up.",
+        ]
+        pages += [
+            Sheet(number, name + part, word, text, tuple(rows), gait)
+            for number, part, word, text, rows in zip(numbers_here, ("", "_a", "_b", "_end"), words, remarks, steps)
+        ]
         steps = [[(ticks, mirrored(row)) for ticks, row in rows] for rows in steps]
     return pages
 
@@ -234,13 +312,25 @@ def aside(gait, ready, numbers_of, names, keys, remark):
 def sheets(gaits):
     """All pages, by number."""
     ready = stand(gaits["ready"])
-    kick_r = Sheet(36, "kick_r", "code R+B4", "Kicks with the right foot, standing on the left.", tuple(kick(gaits["ready"])),
-                   replace(gaits["ready"], accel=6, roll_slope=4))
-    return sorted([
-        *walking(gaits["walk"], gaits["turn"].turn, ready), *backing(gaits["back"], ready),
-        *aside(gaits["spin"], ready, ((32, 40, 41, 42), (33, 43, 44, 45)), ("right", "left"), ("R", "L"), "Turns right on the spot."),
-        *aside(gaits["side"], ready, ((34, 46, 47, 48), (35, 49, 50, 51)), ("side_r", "side_l"), ("R+B1", "L+B1"), "Steps to the right."),
-        kick_r, kick_r.other(37, "kick_l", "code L+B4", "Kicks with the left foot.")], key=lambda sheet: sheet.number)
+    kick_r = Sheet(
+        36,
+        "kick_r",
+        "code R+B4",
+        "Kicks with the right foot, standing on the left.",
+        tuple(kick(gaits["ready"])),
+        replace(gaits["ready"], accel=6, roll_slope=4),
+    )
+    return sorted(
+        [
+            *walking(gaits["walk"], gaits["turn"].turn, ready),
+            *backing(gaits["back"], ready),
+            *aside(gaits["spin"], ready, ((32, 40, 41, 42), (33, 43, 44, 45)), ("right", "left"), ("R", "L"), "Turns right on the spot."),
+            *aside(gaits["side"], ready, ((34, 46, 47, 48), (35, 49, 50, 51)), ("side_r", "side_l"), ("R+B1", "L+B1"), "Steps to the right."),
+            kick_r,
+            kick_r.other(37, "kick_l", "code L+B4", "Kicks with the left foot."),
+        ],
+        key=lambda sheet: sheet.number,
+    )
 
 
 HEADER = """\
@@ -257,12 +347,15 @@ pose ready | """
 
 def poses(gait):
     """Poses of the legs that the hand-written motions use."""
-    low, deep, seat = (Gait(height=height) for height in (120.0, 115.0, 101.5))   # upright, feet below the hips
+    low, deep, seat = (Gait(height=height) for height in (120.0, 115.0, 101.5))  # upright, feet below the hips
     return [
         ("left", stand(gait, 26.0), "the body swayed to the left, feet where they are; `mirror @left` is the other side"),
         ("leaned", stand(replace(gait, lean=40.0, ahead=gait.ahead + 24.0)), "the body leans, the hips go back"),
-        ("low", stand(low), "knees bent"), ("low_left", stand(low, 26.0), "both"),
-        ("deep", stand(deep), "knees bent a lot"), ("seat", stand(seat), "down on the heels")]
+        ("low", stand(low), "knees bent"),
+        ("low_left", stand(low, 26.0), "both"),
+        ("deep", stand(deep), "knees bent a lot"),
+        ("seat", stand(seat), "down on the heels"),
+    ]
 
 
 def line(row):

@@ -9,6 +9,7 @@ Coordinates of the body, in mm: x forward, y to the left, z down; a foot is told
 stands above the ground, with its yaw in degrees, to the left. Angles of joints are told as for the right leg. The left leg is
 the mirror image.
 """
+
 from dataclasses import dataclass
 from math import acos, atan2, cos, degrees, hypot, radians, sin
 
@@ -16,8 +17,8 @@ from body.description import load
 
 LEG = load("humanoid").leg("right")
 THIGH_MM, SHANK_MM = LEG.thigh_mm, LEG.shank_mm
-HIP_MM = LEG.hip_to_side                                       # from the middle of the body to the hip
-SET = degrees(atan2(LEG.thigh_back, LEG.thigh_down))           # of the thigh; the shank's has the same size
+HIP_MM = LEG.hip_to_side  # from the middle of the body to the hip
+SET = degrees(atan2(LEG.thigh_back, LEG.thigh_down))  # of the thigh; the shank's has the same size
 UNITS_PER_DEGREE = 1024 / 300
 CENTRE = 512
 
@@ -56,11 +57,17 @@ def reach(foot: Foot, side: int, lean: float = 0.0):
     length = hypot(forward, down)
     if length > THIGH_MM + SHANK_MM:
         raise ValueError(f"{foot} is out of reach")
-    bend = degrees(acos(length / (THIGH_MM + SHANK_MM)))       # thigh and shank are equal: half the angle between them
-    line = degrees(atan2(forward, down))                       # of the line from hip to ankle
+    bend = degrees(acos(length / (THIGH_MM + SHANK_MM)))  # thigh and shank are equal: half the angle between them
+    line = degrees(atan2(forward, down))  # of the line from hip to ankle
     thigh, shank = units(line + bend + SET), units(line - bend - SET)
-    angles = {YAW: -side * units(foot.yaw), ROLL: units(roll + foot.spread), HIP: thigh + units(lean), KNEE: shank - thigh,
-              ANKLE: units(foot.toes) - shank, ANKLE_ROLL: -units(roll)}
+    angles = {
+        YAW: -side * units(foot.yaw),
+        ROLL: units(roll + foot.spread),
+        HIP: thigh + units(lean),
+        KNEE: shank - thigh,
+        ANKLE: units(foot.toes) - shank,
+        ANKLE_ROLL: -units(roll),
+    }
     return {joint + (side < 0): CENTRE + side * angle for joint, angle in angles.items()}
 
 
@@ -74,5 +81,10 @@ def foot_of(position, side: int) -> Foot:
     down = THIGH_MM * cos(thigh) + SHANK_MM * cos(shank)
     left = -side * down * sin(radians(angle[ROLL]))
     turn = radians(-side * angle[YAW])
-    return Foot(forward * cos(turn) - left * sin(turn), left * cos(turn) + forward * sin(turn), degrees(turn),
-                down * cos(radians(angle[ROLL])), angle[HIP] + angle[KNEE] + angle[ANKLE])
+    return Foot(
+        forward * cos(turn) - left * sin(turn),
+        left * cos(turn) + forward * sin(turn),
+        degrees(turn),
+        down * cos(radians(angle[ROLL])),
+        angle[HIP] + angle[KNEE] + angle[ANKLE],
+    )

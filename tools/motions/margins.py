@@ -10,6 +10,7 @@ to one side through its zeros and is pushed to that side. A cell is forward / ba
 degrees, and the same backwards, in two moments of its cycle; the smaller counts. 0: it falls without a push. A column is a body or a
 way that is harder than the nominal one. Needs `tools/dev/setup physics` and a build.
 """
+
 import argparse
 import sys
 from dataclasses import dataclass, fields, replace
@@ -21,13 +22,13 @@ from campaign import each
 from motions import gait
 from motions.search import FIRST_PAGE, UP, image_of
 
-LEAN = 3.0                       # degrees
+LEAN = 3.0  # degrees
 MOST_NEWTON_S = 0.9
-HALVINGS = 5                     # of 0..MOST_NEWTON_S: to 0.03 N s
+HALVINGS = 5  # of 0..MOST_NEWTON_S: to 0.03 N s
 MOMENTS_S = (3.0, 3.2)
 FALLS_WITHIN_S = 2.3
 LEFT = 4
-FORWARD, BACKWARDS = 0, 180      # towards, in degrees
+FORWARD, BACKWARDS = 0, 180  # towards, in degrees
 
 
 @dataclass(frozen=True)
@@ -41,8 +42,13 @@ class Case:
     keys: tuple = ()
 
 
-CASES = [Case("nominal"), Case("heavy rotors", replace(NOMINAL, rotor_kgm2=0.009)), Case("9.2 V", replace(NOMINAL, volts=9.2)),
-         Case("legs differ", differ=5.0), Case("stop", keys=((2.6, STOP),))]
+CASES = [
+    Case("nominal"),
+    Case("heavy rotors", replace(NOMINAL, rotor_kgm2=0.009)),
+    Case("9.2 V", replace(NOMINAL, volts=9.2)),
+    Case("legs differ", differ=5.0),
+    Case("stop", keys=((2.6, STOP),)),
+]
 OF_THE_WALK = [Case("curve", keys=((1.0, LEFT),))]
 
 
@@ -81,8 +87,11 @@ def items_of(kind, gaits):
     image, page = image_of(gaits), FIRST_PAGE[kind]
     first = ((0, UP),) if kind == "walk" else ()
     asked = [(case, towards) for case in CASES + (OF_THE_WALK if kind == "walk" else []) for towards in (FORWARD, BACKWARDS)]
-    return asked, [(image, page, leaning(case.body, LEAN if towards == FORWARD else -LEAN, case.differ), (*first, *case.keys), at_s, towards)
-                   for case, towards in asked for at_s in MOMENTS_S]
+    return asked, [
+        (image, page, leaning(case.body, LEAN if towards == FORWARD else -LEAN, case.differ), (*first, *case.keys), at_s, towards)
+        for case, towards in asked
+        for at_s in MOMENTS_S
+    ]
 
 
 def margins(kind, gaits, jobs=None, scheduler=None):
@@ -91,12 +100,12 @@ def margins(kind, gaits, jobs=None, scheduler=None):
     found = each(least_push, items, "pushes", jobs, scheduler)
     result = {}
     for k, (case, towards) in enumerate(asked):
-        result.setdefault(case.name, {})[towards] = min(found[k * len(MOMENTS_S):(k + 1) * len(MOMENTS_S)])
+        result.setdefault(case.name, {})[towards] = min(found[k * len(MOMENTS_S) : (k + 1) * len(MOMENTS_S)])
     return result
 
 
 def change_of(text):
-    """"height=118,lift=12" -> {"height": 118.0, "lift": 12.0}"""
+    """ "height=118,lift=12" -> {"height": 118.0, "lift": 12.0}"""
     kinds = {field.name: field.type for field in fields(gait.Gait)}
     change = {}
     for part in text.split(","):

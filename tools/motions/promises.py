@@ -4,6 +4,7 @@
 `tools/prove physics` asks them all; a search for better motions asks those that it works on (`bodies()`, `nominal()`).
 The bodies of `walk` are pushed, tilted, slippery, off their zeros (../body/src/body/chance.py); so are all others.
 """
+
 import itertools
 import math
 import pathlib
@@ -23,7 +24,7 @@ PUSHES_PER_S = 1 / 12
 ARMS = range(1, 7)
 LYING_DEGREES = 45
 READY = first_pose(load_motions(pathlib.Path(__file__).with_name("motions.m512")).to_bytes(), 1, ROBOT)
-NOTHING = bytes(IMAGE_BYTES)     # an image without motions
+NOTHING = bytes(IMAGE_BYTES)  # an image without motions
 
 
 @dataclass(frozen=True)
@@ -32,12 +33,12 @@ class Stands:
 
     page: str
     seconds: float
-    keys: tuple = ()             # of the remote: (second, code)
-    how: str = ""                # what tells it from another promise of the same page
-    lie: str = None              # begins on its "face" or "back", arms by chance
-    floor: bool = False          # goes to the floor on the way
+    keys: tuple = ()  # of the remote: (second, code)
+    how: str = ""  # what tells it from another promise of the same page
+    lie: str = None  # begins on its "face" or "back", arms by chance
+    floor: bool = False  # goes to the floor on the way
     share: float = 0.99
-    bodies: int = 200            # in a whole campaign
+    bodies: int = 200  # in a whole campaign
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Goes:
     keys: tuple = ()
     forward_mm_s: tuple = (None, None)
     turn_deg_s: tuple = (None, None)
-    degrees_per_metre: float = None      # heading, at most
+    degrees_per_metre: float = None  # heading, at most
     drift_mm_a_turn: float = None
     sideways_mm_s: tuple = (None, None)  # to the left
 
@@ -71,15 +72,27 @@ def a_minute(page, code, bodies):
 STANDS = [
     Stands("walk", 60, round_trip(UP, (RIGHT, LEFT), 60), bodies=1000),
     a_minute("back", DOWN, 200),
-    a_minute("right", RIGHT, 100), a_minute("left", LEFT, 100),
-    a_minute("side_r", RIGHT + 16, 100), a_minute("side_l", LEFT + 16, 100),
-    a_minute("turn_r", RIGHT, 100), a_minute("turn_l", LEFT, 100),
+    a_minute("right", RIGHT, 100),
+    a_minute("left", LEFT, 100),
+    a_minute("side_r", RIGHT + 16, 100),
+    a_minute("side_l", LEFT + 16, 100),
+    a_minute("turn_r", RIGHT, 100),
+    a_minute("turn_l", LEFT, 100),
     Stands("right", 40, ((0, RIGHT), (8, LEFT), (16, UP), (22, RIGHT), (26, LEFT), (30, UP), (36, STOP)), "from way to way"),
     Stands("side_r", 40, ((0, RIGHT + 16), (8, LEFT + 16), (16, UP), (22, LEFT), (28, UP), (34, DOWN), (36, STOP)), "from way to way"),
-    Stands("ready", 3), Stands("bow", 6), Stands("wave", 6), Stands("clap", 6), Stands("cheer", 6), Stands("sit", 6),
-    Stands("stand", 6), Stands("dance", 24, ((14, STOP),)), Stands("kick_r", 8), Stands("kick_l", 8),
+    Stands("ready", 3),
+    Stands("bow", 6),
+    Stands("wave", 6),
+    Stands("clap", 6),
+    Stands("cheer", 6),
+    Stands("sit", 6),
+    Stands("stand", 6),
+    Stands("dance", 24, ((14, STOP),)),
+    Stands("kick_r", 8),
+    Stands("kick_l", 8),
     Stands("pushups", 40, ((6, STOP),), floor=True),
-    Stands("get_up", 20, lie="face", floor=True), Stands("get_up_back", 20, lie="back", floor=True),
+    Stands("get_up", 20, lie="face", floor=True),
+    Stands("get_up_back", 20, lie="back", floor=True),
 ]
 GOES = [
     Goes("walk", 12, ((0, UP),), forward_mm_s=(150, None), degrees_per_metre=5),
@@ -92,11 +105,11 @@ GOES = [
     Goes("turn_r", 12, turn_deg_s=(None, -46)),
     Goes("turn_l", 12, turn_deg_s=(46, None)),
 ]
-BEARS_S = 600                    # of walking
-BEARS_NM = 1.5 * 11.1 / 12 / 3   # mean torque of a servo: a third of what stalls it at 11.1 V
-EASES_UNITS_PER_TICK = 0.9 * 59 * 11.1 / 12 * 6 / 128 * 1024 / 300 + 1   # 90 % of an AX-12's speed; goals are whole units
-BEARS_DEGREES_C = 70             # the limit in an AX-12's address 11
-EASY = ("ready", "bow", "wave", "clap", "cheer", "sit", "stand")     # a sample of these must never fail
+BEARS_S = 600  # of walking
+BEARS_NM = 1.5 * 11.1 / 12 / 3  # mean torque of a servo: a third of what stalls it at 11.1 V
+EASES_UNITS_PER_TICK = 0.9 * 59 * 11.1 / 12 * 6 / 128 * 1024 / 300 + 1  # 90 % of an AX-12's speed; goals are whole units
+BEARS_DEGREES_C = 70  # the limit in an AX-12's address 11
+EASY = ("ready", "bow", "wave", "clap", "cheer", "sit", "stand")  # a sample of these must never fail
 
 
 def number_of(library, page):
@@ -144,8 +157,7 @@ def _arms_and_legs(chance):
 def _through_itself(physics):
     """Whether links of the robot are more than 2 mm inside each other; the floor does not count."""
     floor = physics.model.geom("floor").id
-    return any(contact.dist < -0.002 and floor not in (contact.geom1, contact.geom2)
-               for contact in physics.data.contact[:physics.data.ncon])
+    return any(contact.dist < -0.002 and floor not in (contact.geom1, contact.geom2) for contact in physics.data.contact[: physics.data.ncon])
 
 
 def _lies(physics, side):
@@ -156,8 +168,17 @@ def _lies(physics, side):
 
 def stands(image, number, promise, seed):
     """One body: (kept, what happened)."""
-    outcome = try_motion(image, number, promise.seconds, robot=ROBOT, variation=body_of(promise, seed), keys=promise.keys,
-                         lie=promise.lie, pose=lying_by_chance(promise, seed) if promise.lie else None, falls=not promise.floor)
+    outcome = try_motion(
+        image,
+        number,
+        promise.seconds,
+        robot=ROBOT,
+        variation=body_of(promise, seed),
+        keys=promise.keys,
+        lie=promise.lie,
+        pose=lying_by_chance(promise, seed) if promise.lie else None,
+        falls=not promise.floor,
+    )
     return outcome.fell_s is None and outcome.on_feet, outcome.said()
 
 
@@ -175,7 +196,7 @@ def goes(image, number, promise):
         if off > promise.degrees_per_metre:
             missing.append(f"{off:.1f} degrees a metre, promised {promise.degrees_per_metre}")
     if promise.drift_mm_a_turn is not None and abs(outcome.heading) > 30:
-        drift = (outcome.x_mm ** 2 + outcome.y_mm ** 2) ** 0.5 / (abs(outcome.heading) / 360)
+        drift = (outcome.x_mm**2 + outcome.y_mm**2) ** 0.5 / (abs(outcome.heading) / 360)
         if drift > promise.drift_mm_a_turn:
             missing.append(f"drifts {drift:.0f} mm a turn, promised {promise.drift_mm_a_turn}")
     return missing, outcome.said()

@@ -11,6 +11,7 @@ from a better one. What counts is falls, then how far the body tilts; less speed
 too much torque cost too. Every few generations the bodies change; those on which the best set fell stay. Needs
 `tools/dev/setup physics search` and a build. The slopes (`slope`, `hip_slope`) stay as they are: try them one by one.
 """
+
 import argparse
 import json
 import math
@@ -29,21 +30,35 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 # What may vary, and between what.
 RANGES = {
-    "stride": (-50, 50), "side": (-5, 40), "turn": (-2, 20), "sway": (5, 40),
-    "sway_lead": (-0.12, 0.15), "step_lead": (-0.1, 0.1), "swing": (0.28, 0.5), "lift": (6, 35), "square": (0.2, 1.2),
-    "height": (104, 146), "lean": (-6, 18), "ahead": (-18, 20), "apart": (-8, 20), "spread": (-4, 16), "toes": (-8, 8), "arms": (0, 1.2)}
+    "stride": (-50, 50),
+    "side": (-5, 40),
+    "turn": (-2, 20),
+    "sway": (5, 40),
+    "sway_lead": (-0.12, 0.15),
+    "step_lead": (-0.1, 0.1),
+    "swing": (0.28, 0.5),
+    "lift": (6, 35),
+    "square": (0.2, 1.2),
+    "height": (104, 146),
+    "lean": (-6, 18),
+    "ahead": (-18, 20),
+    "apart": (-8, 20),
+    "spread": (-4, 16),
+    "toes": (-8, 8),
+    "arms": (0, 1.2),
+}
 FIXED = {"walk": ("side", "turn"), "back": ("side", "turn"), "spin": ("side",), "side": ("turn",)}
 FIRST_PAGE = {"walk": 20, "back": 27, "spin": 32, "side": 34}
-TARGETS = {"walk": 165.0, "back": 80.0, "spin": 36.0, "side": 60.0}   # mm/s, degrees/s
+TARGETS = {"walk": 165.0, "back": 80.0, "spin": 36.0, "side": 60.0}  # mm/s, degrees/s
 SECONDS, STOP_S, NOMINAL_S = 8.0, 5.8, 6.0
 PUSHES = 2
-ZEROS = 1.7                         # times as wrong as on a body by chance
-FALL = 100.0                        # what a fall at once costs, in degrees of tilt
-TILT_RANK = 0.97                    # of the tilts of a trial, the one that counts
-MOST_UNITS_PER_TICK = 8             # of a single goal, in whole units; the mean is 90 % of what an AX-12 does at 11.1 V
+ZEROS = 1.7  # times as wrong as on a body by chance
+FALL = 100.0  # what a fall at once costs, in degrees of tilt
+TILT_RANK = 0.97  # of the tilts of a trial, the one that counts
+MOST_UNITS_PER_TICK = 8  # of a single goal, in whole units; the mean is 90 % of what an AX-12 does at 11.1 V
 MOST_NM = 0.4
 UP, RIGHT = 1, 8
-KEYS = {"walk": ((0, UP), (3, RIGHT), (5.2, UP))}                    # the others go on by themselves
+KEYS = {"walk": ((0, UP), (3, RIGHT), (5.2, UP))}  # the others go on by themselves
 
 
 def image_of(gaits):
@@ -54,11 +69,18 @@ def image_of(gaits):
 def short_of(kind, outcome, target):
     """What the nominal body lacks, in degrees of tilt that weigh as much."""
     ways = {"walk": outcome.forward_mm_s, "back": -outcome.forward_mm_s, "spin": -outcome.turn_deg_s, "side": -outcome.sideways_mm_s}
-    astray = {"walk": 3 * abs(outcome.turn_deg_s), "back": 3 * abs(outcome.turn_deg_s),
-              "side": 3 * abs(outcome.turn_deg_s) + abs(outcome.forward_mm_s),
-              "spin": math.hypot(outcome.forward_mm_s, outcome.sideways_mm_s)}
-    return (max(0.0, 1 - ways[kind] / target) * 120 + max(0.0, astray[kind] - 1) + max(0.0, outcome.most_torque_nm - MOST_NM) * 100
-            + max(0.0, outcome.most_units_per_tick - MOST_UNITS_PER_TICK) * 10)
+    astray = {
+        "walk": 3 * abs(outcome.turn_deg_s),
+        "back": 3 * abs(outcome.turn_deg_s),
+        "side": 3 * abs(outcome.turn_deg_s) + abs(outcome.forward_mm_s),
+        "spin": math.hypot(outcome.forward_mm_s, outcome.sideways_mm_s),
+    }
+    return (
+        max(0.0, 1 - ways[kind] / target) * 120
+        + max(0.0, astray[kind] - 1)
+        + max(0.0, outcome.most_torque_nm - MOST_NM) * 100
+        + max(0.0, outcome.most_units_per_tick - MOST_UNITS_PER_TICK) * 10
+    )
 
 
 def shaken(outcome):
@@ -80,10 +102,10 @@ def trial(work):
     robot = load("humanoid")
     try:
         image = image_of(gaits)
-    except ValueError:                       # a foot is out of reach
+    except ValueError:  # a foot is out of reach
         return 4 * FALL, ()
     outcome = try_motion(image, FIRST_PAGE[kind], NOMINAL_S, robot)
-    if outcome.fell_s is not None:           # not worth the others
+    if outcome.fell_s is not None:  # not worth the others
         return 3 * FALL, ()
     total, fell = 0.0, []
     for seed in seeds:
@@ -102,8 +124,7 @@ class Numbers:
         self.names = [name for name in RANGES if name not in FIXED[kind]]
 
     def of(self, vector):
-        values = {name: RANGES[name][0] + (RANGES[name][1] - RANGES[name][0]) / (1 + math.exp(-x))
-                  for name, x in zip(self.names, vector)}
+        values = {name: RANGES[name][0] + (RANGES[name][1] - RANGES[name][0]) / (1 + math.exp(-x)) for name, x in zip(self.names, vector)}
         return replace(self.start, **{name: round(value, 3) for name, value in values.items()})
 
     def vector(self):
@@ -127,19 +148,19 @@ def search(options):
     for generation in range(options.generations):
         fresh = generation % options.keep == 0
         if fresh:
-            seeds = (hard + [chance.randrange(1 << 30) for _ in range(options.bodies)])[:options.bodies]
+            seeds = (hard + [chance.randrange(1 << 30) for _ in range(options.bodies)])[: options.bodies]
         vectors = strategy.ask()
         tried = [space.of(vector) for vector in vectors] + ([best] if fresh else [])
         work = [(options.kind, gaits | {options.kind: one}, options.target, seeds) for one in tried]
         found = each(trial, work, f"generation {generation + 1}", options.jobs, options.scheduler)
-        strategy.tell(vectors, [cost for cost, _ in found[:len(vectors)]])
+        strategy.tell(vectors, [cost for cost, _ in found[: len(vectors)]])
         if fresh:
             least, hard = found[-1][0], list(found[-1][1])
-        cost, fell = min(found[:len(vectors)])
+        cost, fell = min(found[: len(vectors)])
         if cost < least:
             least, hard, best = cost, list(fell), tried[[of_one for of_one, _ in found].index(cost)]
             write(gaits | {options.kind: best}, options.output)
-        hard = hard[:options.bodies // 2]
+        hard = hard[: options.bodies // 2]
         print(f"generation {generation + 1}: cost {cost:.1f}, {len(fell)} of {len(seeds)} bodies fall; the best so far {least:.1f}", flush=True)
     return best
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The least push: found where a body of the test begins to fall; and the body that leans does lean, to the side that is told."""
+
 import math
 import types
 
@@ -13,6 +14,7 @@ from motions import gait, margins
 @pytest.fixture(name="felled_by")
 def _felled_by(monkeypatch):
     """Bodies that fall by a push of this size, 0: without one. Returns what was tried, as it is tried."""
+
     def set_up(newton_s):
         tried = []
 
@@ -20,8 +22,10 @@ def _felled_by(monkeypatch):
             tried.append((seconds, body.pushes, keys))
             fell = sum(push.newton_s for push in body.pushes) >= newton_s
             return types.SimpleNamespace(fell_s=seconds if fell else None)
+
         monkeypatch.setattr(margins, "try_motion", try_motion)
         return tried
+
     return set_up
 
 
@@ -47,6 +51,7 @@ def test_ankles_that_are_off_make_it_lean(degrees):
         physics.stand(ready)
         trunk = physics.data.xmat[physics.root].reshape(3, 3)
         return math.degrees(math.atan2(trunk[0, 2], trunk[2, 2]))
+
     assert lean(margins.leaning(NOMINAL, degrees)) - lean(NOMINAL) == pytest.approx(degrees, abs=0.3)
 
 
@@ -57,8 +62,10 @@ def test_the_smaller_of_both_moments_counts_forward_and_backwards(monkeypatch):
     found = margins.margins("walk", gait.numbers())
     assert set(found) == {"nominal", "heavy rotors", "9.2 V", "legs differ", "stop", "curve"}
     for both in found.values():
-        assert both == {margins.FORWARD: pytest.approx(0.4 + min(margins.MOMENTS_S) / 100),
-                        margins.BACKWARDS: pytest.approx(0.5 - max(margins.MOMENTS_S) / 100)}
+        assert both == {
+            margins.FORWARD: pytest.approx(0.4 + min(margins.MOMENTS_S) / 100),
+            margins.BACKWARDS: pytest.approx(0.5 - max(margins.MOMENTS_S) / 100),
+        }
 
 
 def test_a_number_that_is_none_is_told():

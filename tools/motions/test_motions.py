@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The motion library is sound: as pages, as poses of a body, and as movements that servos can follow. Bounds are told in
 README.md. That the shipped Play image plays it all is shown by tests/sim/test_motions.py."""
+
 import os
 import pathlib
 import re
@@ -32,16 +33,33 @@ SECONDS = 128
 SERVO_UNITS_PER_TICK = 59 * 11.1 / 12 * 360 / 60 / SECONDS * 1024 / 300  # an AX-12 at 11.1 V, unloaded: 8.73
 MOST_UNITS_PER_TICK = 0.9 * SERVO_UNITS_PER_TICK
 BODY = {  # degrees of the right side, see README.md; the left side is its mirror image
-    1: (-145, 145), 3: (-20, 130), 5: (-90, 50), 7: (-30, 30), 9: (-25, 25), 11: (-30, 120), 13: (-140, 0), 15: (-30, 65),
-    17: (-25, 25), 19: (-90, 90)}
+    1: (-145, 145),
+    3: (-20, 130),
+    5: (-90, 50),
+    7: (-30, 30),
+    9: (-25, 25),
+    11: (-30, 120),
+    13: (-140, 0),
+    15: (-30, 65),
+    17: (-25, 25),
+    19: (-90, 90),
+}
 HEAD_TILT = -40, 40
 KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "1": 16, "2": 32, "3": 64, "4": 128}
 ON_THE_FLOOR = {"pushups", "pushups_do", "pushups_up", "get_up", "up_on_arms", "get_up_back", "up_on_elbows", "up_to_seat", "up_from_seat"}
-LEFT_ALONE = {("get_up", 0): {1, 2}, ("get_up_back", 0): {1, 2, 5, 6}}     # joints that a step does not use: they stay where they are
+LEFT_ALONE = {("get_up", 0): {1, 2}, ("get_up_back", 0): {1, 2, 5, 6}}  # joints that a step does not use: they stay where they are
 LEANING = {"bow", "dance_end", "sit"} | ON_THE_FLOOR
-CHAINS = ["walk walk_r walk_l walk_r walk_l end_r", "walk walk_r turn_l turn_l2 turn_l walk_r walk_l turn_r turn_r2 end_r",
-          "back back_r back_l back_r back_end_l", "right right_a right_b right_a right_b right_end", "left left_a left_b left_end",
-          "side_r side_r_a side_r_b side_r_a side_r_b side_r_end", "side_l side_l_a side_l_b side_l_end", "kick_r", "kick_l"]
+CHAINS = [
+    "walk walk_r walk_l walk_r walk_l end_r",
+    "walk walk_r turn_l turn_l2 turn_l walk_r walk_l turn_r turn_r2 end_r",
+    "back back_r back_l back_r back_end_l",
+    "right right_a right_b right_a right_b right_end",
+    "left left_a left_b left_end",
+    "side_r side_r_a side_r_b side_r_a side_r_b side_r_end",
+    "side_l side_l_a side_l_b side_l_end",
+    "kick_r",
+    "kick_l",
+]
 
 
 def left_of(name):
@@ -90,6 +108,7 @@ def played(names):
 
 
 # --- as pages ---
+
 
 def test_all_pages_are_good():
     assert check(LIBRARY) == []
@@ -168,6 +187,7 @@ def test_table_of_the_readme_is_true():
 
 # --- as poses ---
 
+
 @pytest.mark.parametrize("name", NUMBER)
 def test_poses_keep_within_servo_and_body(name):
     page = PAGES[NUMBER[name]]
@@ -242,11 +262,30 @@ def test_the_weight_is_above_the_feet_before_the_hands_leave_the_floor(name, fir
 
 # --- as movements ---
 
+
 def test_loops_close():
     for name, after in (("walk_l", "walk"), ("back_l", "back"), ("right_b", "right"), ("side_l_b", "side_l")):
         assert last(PAGES[NUMBER[name]]) == last(PAGES[NUMBER[after]])
-    for name in ("right_end", "left_end", "side_r_end", "side_l_end", "kick_r", "kick_l", "bow", "wave", "clap", "cheer", "stand",
-                 "pushups_up", "up_from_seat", "dance_end", "end_r", "end_l", "back_end_r", "back_end_l"):
+    for name in (
+        "right_end",
+        "left_end",
+        "side_r_end",
+        "side_l_end",
+        "kick_r",
+        "kick_l",
+        "bow",
+        "wave",
+        "clap",
+        "cheer",
+        "stand",
+        "pushups_up",
+        "up_from_seat",
+        "dance_end",
+        "end_r",
+        "end_l",
+        "back_end_r",
+        "back_end_l",
+    ):
         assert last(PAGES[NUMBER[name]]) == READY, name
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The gait's search: what it writes is better than what it began with. Optimiser and physics are played by the test."""
+
 import argparse
 import json
 import sys
@@ -37,9 +38,23 @@ def _run(monkeypatch, tmp_path):
         Strategy.strides = strides
         monkeypatch.setattr(search, "each", lambda _, items, *rest: [cost(one["walk"].stride, seeds) for _, one, _, seeds in items])
         output = tmp_path / "gait.json"
-        search.search(argparse.Namespace(kind="walk", seed=1, sigma=0.3, population=2, generations=len(strides) // 2, keep=keep, bodies=4,
-                                         target=165.0, jobs=1, scheduler=None, output=output))
+        search.search(
+            argparse.Namespace(
+                kind="walk",
+                seed=1,
+                sigma=0.3,
+                population=2,
+                generations=len(strides) // 2,
+                keep=keep,
+                bodies=4,
+                target=165.0,
+                jobs=1,
+                scheduler=None,
+                output=output,
+            )
+        )
         return json.loads(output.read_text())["walk"]["stride"] if output.exists() else None
+
     return run
 
 
@@ -59,6 +74,7 @@ def test_luck_on_easy_bodies_does_not_count_on_the_next(run):
         first[:] = first or seeds
         best = 20 if seeds == first else 25
         return abs(stride - best), ()
+
     assert run([20.0, 30.0, 25.0, 40.0], cost) == 25.0
 
 
@@ -68,6 +84,7 @@ def test_bodies_that_fell_stay_up_to_half(run):
     def cost(stride, seeds):
         seen.append(seeds)
         return abs(stride - STRIDE), tuple(seeds[-3:])
+
     run([20.0, 30.0, 20.0, 30.0], cost)
     before, after = seen[0], seen[-1]
     assert before != after and after[:2] == before[-3:][:2] and not set(after[2:]) & set(before)

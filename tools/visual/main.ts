@@ -15,49 +15,59 @@ import { make } from './view/element.ts';
 import { TEXTS } from './view/texts.ts';
 
 async function start(): Promise<void> {
-  if (typeof WebAssembly === 'undefined') return fail(TEXTS.noWebAssembly);
-  const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
-  const desk = new RobotDesk(body, parts, fileFormats(), storage);
-  await Promise.all([desk.start(), show(desk, parts)]); // the robot starts in its worker while the page is built
-  keepOffline(desk);
-  window.addEventListener('beforeunload', (event) => desk.documents.state.get().saving === 'off' && event.preventDefault());
+    if (typeof WebAssembly === 'undefined') return fail(TEXTS.noWebAssembly);
+    const [body, parts, storage] = await Promise.all([robotBody(), editorParts(), documentStorage()]);
+    const desk = new RobotDesk(body, parts, fileFormats(), storage);
+    await Promise.all([desk.start(), show(desk, parts)]); // the robot starts in its worker while the page is built
+    keepOffline(desk);
+    window.addEventListener('beforeunload', event => desk.documents.state.get().saving === 'off' && event.preventDefault());
 }
 
 async function show(desk: RobotDesk, parts: EditorParts): Promise<void> {
-  await desk.documents.start(parts.document);
-  const shell = new AppShell();
-  shell.desk = desk;
-  document.body.append(shell);
-  void desk.files.readAddress(window.location.hash);
+    await desk.documents.start(parts.document);
+    const shell = new AppShell();
+    shell.desk = desk;
+    document.body.append(shell);
+    void desk.files.readAddress(window.location.hash);
 }
 
 /** The first document holds what the robot in the page has. */
 async function editorParts(): Promise<EditorParts> {
-  const [scratch, player, motions, library] = await Promise.all([motionInstance(), motionInstance(), simulatedMotions(), motionLibrary()]);
-  return { format: new PageFormat(scratch), player, document: documentFrom(motions, 'My motions'), library: documentFrom(library, '').pages };
+    const [scratch, player, motions, library] = await Promise.all([
+        motionInstance(),
+        motionInstance(),
+        simulatedMotions(),
+        motionLibrary(),
+    ]);
+    return {
+        format: new PageFormat(scratch),
+        player,
+        document: documentFrom(motions, 'My motions'),
+        library: documentFrom(library, '').pages,
+    };
 }
 
 async function documentStorage(): Promise<DeskStorage> {
-  try {
-    return { storage: await BrowserStorage.open(), isKept: true };
-  } catch {
-    return { storage: new PassingStorage(), isKept: false };
-  }
+    try {
+        return { storage: await BrowserStorage.open(), isKept: true };
+    } catch {
+        return { storage: new PassingStorage(), isKept: false };
+    }
 }
 
 /** Keeps the whole page in the browser, once everything it needs now has been loaded. Only the built page has a service
  *  worker. */
 function keepOffline(desk: RobotDesk): void {
-  if (!import.meta.env.PROD) return;
-  const unwatch = desk.state.watch((state) => {
-    if (state.physics === 'loading') return;
-    queueMicrotask(() => unwatch());
-    void desk.version.keep();
-  });
+    if (!import.meta.env.PROD) return;
+    const unwatch = desk.state.watch(state => {
+        if (state.physics === 'loading') return;
+        queueMicrotask(() => unwatch());
+        void desk.version.keep();
+    });
 }
 
 function fail(text: string): void {
-  document.body.prepend(make('p', { role: 'alert', class: 'start-failed' }, text));
+    document.body.prepend(make('p', { role: 'alert', class: 'start-failed' }, text));
 }
 
 start().catch((error: unknown) => fail(`The page could not start: ${error instanceof Error ? error.message : String(error)}. Reload it.`));

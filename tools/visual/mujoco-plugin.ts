@@ -33,24 +33,24 @@ const CALLER = `function (obj, func, destructorsRef, args) {
 }`;
 
 const REPLACED: readonly (readonly [string, string])[] = [
-  ['let [args, invokerFnBody] = createJsInvoker(argTypes, isClassMethodFunc, returns, isAsync);', ''],
-  ['var invokerFn = new Function(...args, invokerFnBody)(...closureArgs);', `var invokerFn = ${INVOKER};`],
-  ['var invokerFunction = new Function(...params, functionBody)(...args);', `var invokerFunction = ${CALLER};`],
-  ["return new URL('mujoco.wasm', import.meta.url).href;", "return 'mujoco.wasm'; // not fetched: it is handed in"],
+    ['let [args, invokerFnBody] = createJsInvoker(argTypes, isClassMethodFunc, returns, isAsync);', ''],
+    ['var invokerFn = new Function(...args, invokerFnBody)(...closureArgs);', `var invokerFn = ${INVOKER};`],
+    ['var invokerFunction = new Function(...params, functionBody)(...args);', `var invokerFunction = ${CALLER};`],
+    ["return new URL('mujoco.wasm', import.meta.url).href;", "return 'mujoco.wasm'; // not fetched: it is handed in"],
 ];
 
 export function mujocoWithoutEval(): Plugin {
-  return {
-    name: 'mujoco-without-eval',
-    enforce: 'pre',
-    transform(code, id) {
-      if (!/@mujoco[\\/]mujoco[\\/]mujoco\.js/.test(id)) return null;
-      const result = REPLACED.reduce((text, [from, to]) => {
-        if (text.split(from).length !== 2) this.error(`MuJoCo's JavaScript has changed: "${from}" is not there once`);
-        return text.replace(from, () => to);
-      }, code);
-      if (/\beval\(|new Function/.test(result)) this.error('MuJoCo\'s JavaScript still makes code from text');
-      return { code: result, map: null };
-    },
-  };
+    return {
+        name: 'mujoco-without-eval',
+        enforce: 'pre',
+        transform(code, id) {
+            if (!/@mujoco[\\/]mujoco[\\/]mujoco\.js/.test(id)) return null;
+            const result = REPLACED.reduce((text, [from, to]) => {
+                if (text.split(from).length !== 2) this.error(`MuJoCo's JavaScript has changed: "${from}" is not there once`);
+                return text.replace(from, () => to);
+            }, code);
+            if (/\beval\(|new Function/.test(result)) this.error("MuJoCo's JavaScript still makes code from text");
+            return { code: result, map: null };
+        },
+    };
 }

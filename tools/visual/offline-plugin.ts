@@ -8,21 +8,25 @@ import type { Plugin } from 'vite';
 const BESIDE = ['manifest.webmanifest', 'icon.svg'];
 
 export function offline(): Plugin {
-  return {
-    name: 'offline',
-    apply: 'build',
-    generateBundle(_options, bundle) {
-      for (const name of BESIDE) this.emitFile({ type: 'asset', fileName: name, source: readFileSync(new URL(`beside/${name}`, import.meta.url)) });
-      const hash = createHash('sha256');
-      const names = Object.keys(bundle).filter((name) => name !== 'index.html').sort();
-      for (const name of names) {
-        const file = bundle[name];
-        hash.update(name).update(file?.type === 'chunk' ? file.code : (file?.source ?? ''));
-      }
-      const files = ['./', ...names, ...BESIDE].map((name) => `'${name}'`).join(', ');
-      const source = readFileSync(new URL('service-worker.js', import.meta.url), 'utf8')
-        .replace('__VERSION__', hash.digest('hex').slice(0, 16)).replace("'__FILES__'", files);
-      this.emitFile({ type: 'asset', fileName: 'service-worker.js', source });
-    },
-  };
+    return {
+        name: 'offline',
+        apply: 'build',
+        generateBundle(_options, bundle) {
+            for (const name of BESIDE)
+                this.emitFile({ type: 'asset', fileName: name, source: readFileSync(new URL(`beside/${name}`, import.meta.url)) });
+            const hash = createHash('sha256');
+            const names = Object.keys(bundle)
+                .filter(name => name !== 'index.html')
+                .sort();
+            for (const name of names) {
+                const file = bundle[name];
+                hash.update(name).update(file?.type === 'chunk' ? file.code : (file?.source ?? ''));
+            }
+            const files = ['./', ...names, ...BESIDE].map(name => `'${name}'`).join(', ');
+            const source = readFileSync(new URL('service-worker.js', import.meta.url), 'utf8')
+                .replace('__VERSION__', hash.digest('hex').slice(0, 16))
+                .replace("'__FILES__'", files);
+            this.emitFile({ type: 'asset', fileName: 'service-worker.js', source });
+        },
+    };
 }

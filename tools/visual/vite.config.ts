@@ -9,9 +9,16 @@ import { offline } from './offline-plugin.ts';
 const { bundled, page } = licences();
 
 export default defineConfig({
-  base: './',
-  publicDir: false,
-  plugins: [mujocoWithoutEval(), bundled(), page, offline()],
-  build: { outDir: '../../build/visual', emptyOutDir: true, target: 'es2022', assetsInlineLimit: 0, modulePreload: { polyfill: false }, chunkSizeWarningLimit: 1200 },
-  worker: { format: 'es', plugins: () => [mujocoWithoutEval(), pythonHandedOver(), bundled()] },
+    base: './',
+    publicDir: false,
+    plugins: [mujocoWithoutEval(), bundled(), page, offline()],
+    build: {
+        outDir: '../../build/visual',
+        emptyOutDir: true,
+        target: 'es2022',
+        assetsInlineLimit: 0,
+        modulePreload: { polyfill: false },
+        chunkSizeWarningLimit: 1200,
+    },
+    worker: { format: 'es', plugins: () => [mujocoWithoutEval(), pythonHandedOver(), bundled()] },
 });

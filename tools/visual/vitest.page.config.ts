@@ -4,8 +4,13 @@
 import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
-  test: {
-    include: ['tests/page/*.test.ts'], testTimeout: 400_000, hookTimeout: 120_000, maxWorkers: 2, isolate: false, retry: 1,
-    expect: { poll: { timeout: Number(process.env['WAIT_MS'] ?? 240_000) } }, // as long as every other wait (page-bench.ts)
-  },
+    test: {
+        include: ['tests/page/*.test.ts'],
+        testTimeout: 400_000,
+        hookTimeout: 120_000,
+        maxWorkers: 2,
+        isolate: false,
+        retry: 1,
+        expect: { poll: { timeout: Number(process.env['WAIT_MS'] ?? 240_000) } }, // as long as every other wait (page-bench.ts)
+    },
 });

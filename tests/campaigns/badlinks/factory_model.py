@@ -8,6 +8,7 @@ buffer, a ring of 256 bytes that empties when it overflows, a line of 80 charact
 The loader is a process: a generator that yields what it waits for, ("byte", seconds or None) or ("busy", seconds). A Board
 runs it against the two wires of a line.
 """
+
 from __future__ import annotations
 
 from collections import deque
@@ -24,8 +25,21 @@ PROMPT = b"\r\n - "
 BANNER = b"\r\n\n SYSTEM O.K. (CM5 Boot loader V1.31)"
 BANNER_AT = 0x1F7E9
 FOREVER = float("inf")
-SHORT = {"flash": "f", "eep": "e", "eeprom": "e", "ram": "r", "l": "load", "ld": "load", "dn": "load", "down": "load",
-         "v": "verify", "g": "go", "application": "app", "system": "sys", "monitor": "mon"}
+SHORT = {
+    "flash": "f",
+    "eep": "e",
+    "eeprom": "e",
+    "ram": "r",
+    "l": "load",
+    "ld": "load",
+    "dn": "load",
+    "down": "load",
+    "v": "verify",
+    "g": "go",
+    "application": "app",
+    "system": "sys",
+    "monitor": "mon",
+}
 MODES = {"play": 0x12, "toss": 0x13, "mon": 0x14, "edit": 0x15, "dump": 0x16}
 
 
@@ -75,7 +89,7 @@ class Loader:
 
     def say(self, text: bytes):
         for at in range(0, len(text), 16):
-            piece = text[at:at + 16]
+            piece = text[at : at + 16]
             yield "busy", BYTE_SECONDS * len(piece)
             self.board.to_pc.send(self.board.now, piece)
 
@@ -97,16 +111,16 @@ class Loader:
     def write_page(self, address: int, data: bytes, how: str):
         page = address % FLASH_BYTES // PAGE
         self.written.append((self.board.now, page, how))
-        self.hears = page < BOOT // PAGE        # the chip stands still while its own section is written
+        self.hears = page < BOOT // PAGE  # the chip stands still while its own section is written
         yield "busy", PAGE_WRITE
         self.hears = True
-        self.flash[page * PAGE:(page + 1) * PAGE] = data
+        self.flash[page * PAGE : (page + 1) * PAGE] = data
 
     def mailbox(self):
         yield from self.say(b" Writing ")
         base = 0xE000 + 0x200 * self.eeprom[MAIL_PAGE]
         for half in (0, PAGE):
-            data = bytes(self.eeprom[MAILBOX + half:MAILBOX + half + PAGE])
+            data = bytes(self.eeprom[MAILBOX + half : MAILBOX + half + PAGE])
             yield from self.write_page(base + half, data, "mailbox")
         yield "busy", EEPROM_WRITE
         self.eeprom[MAIL_STATE] = MAIL_DONE
@@ -293,7 +307,7 @@ class Board:
 
     def __init__(self, loader: Loader, to_board: Wire, to_pc: Wire):
         self.now, self.loader, self.to_board, self.to_pc = 0.0, loader, to_board, to_pc
-        self.errands: list = []          # (when, what): somebody presses MODE, pulls the cable
+        self.errands: list = []  # (when, what): somebody presses MODE, pulls the cable
         loader.board = self
         self.reset()
 
@@ -315,7 +329,7 @@ class Board:
     def _step(self, value):
         process = self.process
         wants = next(process) if self.fresh else process.send(value)
-        if process is not self.process:      # it has reset itself
+        if process is not self.process:  # it has reset itself
             return
         self.fresh, self.wants = False, wants
         self.wake = FOREVER if wants[1] is None else self.now + wants[1]

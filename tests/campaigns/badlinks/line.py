@@ -4,6 +4,7 @@
 A Line takes whatever runs a board: an object with `now` and advance(until) (factory_model.Board is one), and the wires to
 and from it. No clock of the wall is asked, so that thousands of schedules run in seconds.
 """
+
 from __future__ import annotations
 
 import random
@@ -61,8 +62,8 @@ class Line(Link):
 
     def write(self, data, wait=True):
         due = self.board.now + 0.002 >= self.end_at
-        if due:      # in the middle of it: the operating system has taken a part
-            data = data[:self.chance.randrange(len(data) + 1)] if data else data
+        if due:  # in the middle of it: the operating system has taken a part
+            data = data[: self.chance.randrange(len(data) + 1)] if data else data
         self._check()
         self.to_board.send(self.board.now, data)
         self.sent += len(data)

@@ -4,6 +4,7 @@
 `ShippedBoard` is to a Line what factory_model.Board is: it has `now`, advance(until), later() and reset(), and runs between two
 wires. The chip is as strict as ever: what it would not do ends the schedule as a fault.
 """
+
 from __future__ import annotations
 
 import random
@@ -16,9 +17,9 @@ from .runs import APP_END, DONE, MOTION_START, MOTIONS, Outcome, Schedule, conte
 from .wire import weather, wires
 
 HZ = 16_000_000
-SLICE = 0.002                 # how long the board runs before its words are looked for
-SETTLE, WAIT = 6.0, 8.0       # a session ends after 4 s of silence
-APPLICATION = b"\xff\xcf" + bytes(0x8E)   # `rjmp .`, and no record where ours have one: starts, and does nothing
+SLICE = 0.002  # how long the board runs before its words are looked for
+SETTLE, WAIT = 6.0, 8.0  # a session ends after 4 s of silence
+APPLICATION = b"\xff\xcf" + bytes(0x8E)  # `rjmp .`, and no record where ours have one: starts, and does nothing
 EEPROM_BYTES, BOOT_MODE = 0x1000, 0xFFF
 
 
@@ -30,10 +31,10 @@ class ShippedBoard:
         self.sim.skip_waits()
         self.sim.flash[0:BOOT] = flash[:BOOT]
         self.sim.eeprom[0:EEPROM_BYTES] = eeprom
-        self.sim.allow("uart-overrun")         # of an application that does not listen
+        self.sim.allow("uart-overrun")  # of an application that does not listen
         self.sim.power_on()
         self.to_board, self.to_pc, self.errands, self.violation = to_board, to_pc, [], ""
-        self.ahead = 0.0                       # time that passed after a violation
+        self.ahead = 0.0  # time that passed after a violation
 
     @property
     def now(self):
@@ -98,7 +99,7 @@ def plan(chance: random.Random, flash: bytes) -> Plan:
         pages = {page: contents(chance, PAGE) for page in range(start, start + count)}
     for page in list(pages):
         if chance.random() < 0.25:
-            pages[page] = flash[page * PAGE:(page + 1) * PAGE]
+            pages[page] = flash[page * PAGE : (page + 1) * PAGE]
     return Plan(pages)
 
 
@@ -129,14 +130,14 @@ class OurSchedule(Schedule):
         flash, eeprom = bytes(self.board.sim.flash), bytes(self.board.sim.eeprom)
         before = self.before + self.section
         for at in range(0, len(flash), PAGE):
-            if at // PAGE not in self.named and flash[at:at + PAGE] != before[at:at + PAGE]:
+            if at // PAGE not in self.named and flash[at : at + PAGE] != before[at : at + PAGE]:
                 self.faults.append(f"0x{at:05X} has changed" + (": THE LOADER" if at >= BOOT else ""))
         odd = [at for at in range(EEPROM_BYTES) if eeprom[at] != self.eeprom[at]]
         if odd:
             self.faults.append(f"EEPROM 0x{odd[0]:03X} has changed ({len(odd)} bytes)")
         if self.board.violation:
             self.faults.append(self.board.violation)
-        if last == DONE and any(flash[page * PAGE:(page + 1) * PAGE] != data for page, data in self.plan.pages.items()):
+        if last == DONE and any(flash[page * PAGE : (page + 1) * PAGE] != data for page, data in self.plan.pages.items()):
             self.faults.append("m512 says that all is there, and it is not")
         written = sum(self.board.sim.wear(page) for page in range(BOOT // PAGE))
         self.loads, self.mails = written, 0

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Schedules: m512 flashes a board with a loader of the factory's kind over a bad line, is stopped at some moment or not,
 and is called again. Everything that happens in one follows from its number."""
+
 from __future__ import annotations
 
 import contextlib
@@ -17,24 +18,40 @@ from .line import BROKEN, CANCELLED, KILLED, Killed, Line
 from .wire import Weather, weather, wires
 
 APP_END, MOTION_START, MOTIONS = 0xC000, 0xE000, 128
-WAIT = 20.0                  # how long m512 waits for the button
+WAIT = 20.0  # how long m512 waits for the button
 DONE, GAVE_UP = "done", "gave up"
 # What would do harm if the loader took it for typed text.
-NASTY = (b"\rl\r", b"\rload 1e000\r", b"\x01\r", b"\x01 1e000\r", b"\ndn\n", b"\rclear_eeprom\ry", b"\reep_dn 0 100\r",
-         b"\x08\x08l\r", b"x" * 90 + b"\r", b"\r", b"\n", b"l 1dfff\r", b"\x00l\x00\r", b"\rg f000\r", b"Ready..", b"\r\n - ",
-         b"Success")
+NASTY = (
+    b"\rl\r",
+    b"\rload 1e000\r",
+    b"\x01\r",
+    b"\x01 1e000\r",
+    b"\ndn\n",
+    b"\rclear_eeprom\ry",
+    b"\reep_dn 0 100\r",
+    b"\x08\x08l\r",
+    b"x" * 90 + b"\r",
+    b"\r",
+    b"\n",
+    b"l 1dfff\r",
+    b"\x00l\x00\r",
+    b"\rg f000\r",
+    b"Ready..",
+    b"\r\n - ",
+    b"Success",
+)
 
 
 @dataclasses.dataclass
 class Outcome:
     number: int
-    kind: str                  # of the weather
-    ends: list                 # what became of each process
-    faults: list               # promises broken, in words
-    errors: list               # what m512 said when it gave up
-    seconds: float             # simulated
-    loads: int                 # flash pages written by downloads
-    mails: int                 # ... and through the mailbox
+    kind: str  # of the weather
+    ends: list  # what became of each process
+    faults: list  # promises broken, in words
+    errors: list  # what m512 said when it gave up
+    seconds: float  # simulated
+    loads: int  # flash pages written by downloads
+    mails: int  # ... and through the mailbox
 
 
 def contents(chance: random.Random, count: int) -> bytes:
@@ -66,7 +83,7 @@ def plan(chance: random.Random, flash: bytes) -> Plan:
         pages = {page: contents(chance, PAGE) for page in range(start, start + count)}
     for page in list(pages):
         if chance.random() < 0.25:
-            pages[page] = flash[page * PAGE:(page + 1) * PAGE]
+            pages[page] = flash[page * PAGE : (page + 1) * PAGE]
     return Plan(pages)
 
 
@@ -81,8 +98,8 @@ class Schedule:
         self.chance = chance = random.Random(number)
         self.weather = weather(chance)
         self.before = chance.randbytes(0x20000)
-        if chance.random() < 0.7:                     # as the known version has it; others restart to say their banner
-            self.before = self.before[:BANNER_AT] + BANNER + self.before[BANNER_AT + len(BANNER):]
+        if chance.random() < 0.7:  # as the known version has it; others restart to say their banner
+            self.before = self.before[:BANNER_AT] + BANNER + self.before[BANNER_AT + len(BANNER) :]
         eeprom = bytearray(chance.randbytes(0x1000))
         eeprom[0xFF4], eeprom[0xFFF] = 0xFF, chance.choice((0xFF, 0x11))
         self.loader = Loader(self.before, eeprom)
@@ -96,11 +113,11 @@ class Schedule:
     def play(self) -> Outcome:
         chance = self.chance
         self.board.advance_by(chance.choice((0.0, 1.0)))
-        if chance.random() < 0.2:                     # a user's finger, at any time
+        if chance.random() < 0.2:  # a user's finger, at any time
             self.board.later(10 ** chance.uniform(-1, 1.7), self.board.reset)
         ends = []
         for _ in range(chance.choice((1, 2, 2, 3))):
-            if ends and chance.random() < 0.2:        # not the same command again
+            if ends and chance.random() < 0.2:  # not the same command again
                 self.plan = self.new_plan()
             ends.append(self.process())
             self.board.advance_by(chance.choice((0.0, 0.05, 0.3, 2.0)))
@@ -125,7 +142,7 @@ class Schedule:
         ends = (10 ** chance.uniform(-1, 1.5), chance.choice((KILLED, CANCELLED, BROKEN))) if chance.random() < 0.6 else None
         line = Line(self.board, *self.wires, ends, seed=chance.randrange(1 << 30))
         self.wires[0].broken = self.wires[1].broken = False
-        self.wires[1].waiting.clear()                 # opening a port empties what has come before
+        self.wires[1].waiting.clear()  # opening a port empties what has come before
         self.named |= self.names()
         try:
             loader = loaders.enter(line, self.told, self.wait_seconds)
@@ -141,7 +158,7 @@ class Schedule:
             if "press MODE before anything else" in str(error):
                 self.board.reset()
             return CANCELLED if line.ended == CANCELLED else BROKEN if line.ended == BROKEN else GAVE_UP
-        except Exception as error:                    # whatever comes over the line, m512 says in words what is wrong
+        except Exception as error:  # whatever comes over the line, m512 says in words what is wrong
             self.faults.append(f"m512 crashed: {error!r}")
             return GAVE_UP
 
@@ -153,13 +170,13 @@ class Schedule:
         flash = bytes(self.loader.flash)
         for page in range(len(flash) // PAGE):
             at = page * PAGE
-            if page not in self.named and flash[at:at + PAGE] != self.before[at:at + PAGE]:
+            if page not in self.named and flash[at : at + PAGE] != self.before[at : at + PAGE]:
                 self.faults.append(f"0x{at:05X} has changed" + (": THE LOADER" if at >= BOOT else ""))
         touched = {page for _, page, _ in self.loader.written} - self.named
         if touched and not self.faults:
             self.faults.append("written, and right again: " + " ".join(f"0x{page * PAGE:05X}" for page in sorted(touched)))
         self.faults += [f"crashed: {why}" for _, why in self.loader.crashes]
-        if last == DONE and any(flash[page * PAGE:(page + 1) * PAGE] != data for page, data in self.plan.pages.items()):
+        if last == DONE and any(flash[page * PAGE : (page + 1) * PAGE] != data for page, data in self.plan.pages.items()):
             self.faults.append("m512 says that all is there, and it is not")
         how = [how for _, _, how in self.loader.written]
         self.loads, self.mails = how.count("load"), how.count("mailbox")

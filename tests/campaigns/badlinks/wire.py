@@ -9,14 +9,15 @@ bridge's memory outlive a program.
     to_board.send(now, b"load e000\\r")
     board.hear(to_board.arrived(now))        # whenever time has passed
 """
+
 from __future__ import annotations
 
 import dataclasses
 import random
 from collections import deque
 
-BYTE_SECONDS = 10 / 57143          # the UART at the board's end (UBRR 34 at 16 MHz): bytes never come closer than this
-OUTAGE_MOST = 3.0                  # seconds; the longest hole that weather() makes
+BYTE_SECONDS = 10 / 57143  # the UART at the board's end (UBRR 34 at 16 MHz): bytes never come closer than this
+OUTAGE_MOST = 3.0  # seconds; the longest hole that weather() makes
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,20 +25,21 @@ class Weather:
     """The faults of a line. Chances are per byte, times in seconds."""
 
     kind: str = "good"
-    speed: float = 1.0             # of the line rate: 0.05 .. 1
-    late: float = 0.001            # each byte arrives that much later
-    lump: float = 0.0              # bytes are collected for so long and then handed over together
-    hole_every: float = 0.0        # mean time between two holes in which nothing passes; 0: none
-    hole: float = 0.0              # the longest hole; what was sent into it comes behind it
+    speed: float = 1.0  # of the line rate: 0.05 .. 1
+    late: float = 0.001  # each byte arrives that much later
+    lump: float = 0.0  # bytes are collected for so long and then handed over together
+    hole_every: float = 0.0  # mean time between two holes in which nothing passes; 0: none
+    hole: float = 0.0  # the longest hole; what was sent into it comes behind it
     lose: float = 0.0
     double: float = 0.0
-    change: float = 0.0            # one bit of a byte is turned
-    packet_double: float = 0.0     # a bridge sends a packet of up to 64 bytes again
-    hiccup: float = 0.0            # ... or pauses for 0.12 to 0.6 s somewhere in it
+    change: float = 0.0  # one bit of a byte is turned
+    packet_double: float = 0.0  # a bridge sends a packet of up to 64 bytes again
+    hiccup: float = 0.0  # ... or pauses for 0.12 to 0.6 s somewhere in it
 
     def __str__(self):
-        shown = [f"{field.name}={getattr(self, field.name):.4g}" for field in dataclasses.fields(self)[1:]
-                 if getattr(self, field.name) != field.default]
+        shown = [
+            f"{field.name}={getattr(self, field.name):.4g}" for field in dataclasses.fields(self)[1:] if getattr(self, field.name) != field.default
+        ]
         return " ".join([self.kind, *shown])
 
 
@@ -52,12 +54,25 @@ def weather(chance: random.Random) -> Weather:
     packets = dict(packet_double=10 ** chance.uniform(-3, -0.5))
     hiccups = dict(hiccup=10 ** chance.uniform(-2, -0.5))
     changing = dict(change=10 ** chance.uniform(-5, -2.5))
-    kinds = {"good": {}, "slow": slow, "late": late, "lumpy": lumpy, "holes": holes, "lossy": lossy, "doubling": doubling,
-             "packets": packets, "changing": changing, "hiccups": hiccups,
-             "hiccups and doubling": {**hiccups, **doubling}, "slow and late": {**slow, **late},
-             "slow with holes": {**slow, **holes}, "late and lossy": {**late, **lossy},
-             "holes and doubling": {**holes, **doubling}, "holes and loss": {**holes, **lossy},
-             "everything": {**slow, **late, **lumpy, **holes, **lossy, **changing, "double": 10 ** chance.uniform(-4, -1.5)}}
+    kinds = {
+        "good": {},
+        "slow": slow,
+        "late": late,
+        "lumpy": lumpy,
+        "holes": holes,
+        "lossy": lossy,
+        "doubling": doubling,
+        "packets": packets,
+        "changing": changing,
+        "hiccups": hiccups,
+        "hiccups and doubling": {**hiccups, **doubling},
+        "slow and late": {**slow, **late},
+        "slow with holes": {**slow, **holes},
+        "late and lossy": {**late, **lossy},
+        "holes and doubling": {**holes, **doubling},
+        "holes and loss": {**holes, **lossy},
+        "everything": {**slow, **late, **lumpy, **holes, **lossy, **changing, "double": 10 ** chance.uniform(-4, -1.5)},
+    }
     kind = chance.choice(list(kinds))
     return Weather(kind, **kinds[kind])
 
@@ -69,7 +84,7 @@ class Wire:
 
     def __init__(self, weather: Weather, seed: int):
         self.weather, self.chance = weather, random.Random(seed)
-        self.waiting: deque[tuple[float, int]] = deque()     # (when, byte) on their way
+        self.waiting: deque[tuple[float, int]] = deque()  # (when, byte) on their way
         self.sent_until = self.arrived_until = float("-inf")
         self.hole = (float("inf"), float("inf"))
         self.first = True
@@ -88,7 +103,7 @@ class Wire:
             self.first = False
             self._next_hole(now)
         for at in range(0, len(data), self.PACKET):
-            packet = data[at:at + self.PACKET]
+            packet = data[at : at + self.PACKET]
             again = self.weather.packet_double and self.chance.random() < self.weather.packet_double
             packet += packet if again else b""
             pause = self.chance.randrange(len(packet)) if self.weather.hiccup and self.chance.random() < self.weather.hiccup else -1

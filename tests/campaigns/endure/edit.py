@@ -3,6 +3,7 @@
 
 There is no terminal emulator before it, only a line: what Edit paints is read away, as a fast terminal does.
 """
+
 import random
 
 from cm5sim import Board
@@ -25,7 +26,7 @@ class Editor:
         for number in range(FIRST, LAST + 1):
             self.pages[number] = page(f"page {number}", [(32, {joint: 480 + number for joint in JOINTS})] * STEPS)
         self.board = Board(images=["boot-cm5.hex", "edit-cm5.hex"], motions=self.pages.to_bytes(), servos=JOINTS, seed=seed)
-        self.board.eeprom[0xFFF] = 0x11     # the loader starts the application
+        self.board.eeprom[0xFFF] = 0x11  # the loader starts the application
         self.board.run(ms=2500)
         self.board.run_to("__vector_12")
         self.bus = Bus(self.board.now_cycles)
@@ -96,7 +97,7 @@ class Editor:
         data = bytes(self.pages[number])
         self.program(f"@open {number}")
         for at in range(0, PAGE_BYTES, 32):
-            self.program(f"@data {at} {data[at:at + 32].hex()}")
+            self.program(f"@data {at} {data[at : at + 32].hex()}")
         crc = self.program("@crc").split()[0]
         self.program(f"@save {number} {crc}")
         self.done["program saves"] += 1
@@ -105,11 +106,11 @@ class Editor:
         self.line("re")
 
     def play(self):
-        self.board.send(f"play {self.open}\r")     # while it plays the screen does not come to rest
+        self.board.send(f"play {self.open}\r")  # while it plays the screen does not come to rest
         self.board.run(ms=self.chance.randrange(200, 2500))
         if self.chance.random() < 0.5:
-            self.board.send("\x03")     # a blank would change a cell, should the play have ended just now
-            self.board.run(ms=1500)     # until it stands; a line typed before that is none
+            self.board.send("\x03")  # a blank would change a cell, should the play have ended just now
+            self.board.run(ms=1500)  # until it stands; a line typed before that is none
             self.settle()
             self.done["breaks"] += 1
         else:
@@ -119,7 +120,7 @@ class Editor:
 
     def check(self, number):
         at = MOTION_START + PAGE_BYTES * number
-        if bytes(self.board.flash[at:at + PAGE_BYTES]) != bytes(self.pages[number]):
+        if bytes(self.board.flash[at : at + PAGE_BYTES]) != bytes(self.pages[number]):
             self.complaints.append(f"page {number} is not as it was saved, save {self.saves}")
 
     @property

@@ -4,6 +4,7 @@
 All of it is drawn from one seed. Time passes in slices; the packets on the servo bus are judged as they come, so the trace
 of an hour (a million packets) never stands in memory.
 """
+
 import random
 import re
 
@@ -13,13 +14,29 @@ from tests.sim import play_robot
 
 UP, DOWN, LEFT, RIGHT, STOP = 1, 2, 4, 8, 512
 SLICE_MS = 10
-PACKET_MS = 100         # a hand on the remote: so often it sends
+PACKET_MS = 100  # a hand on the remote: so often it sends
 LINE_BYTES_A_MS = 5.76
 XON, XOFF = 0x11, 0x13
-REST_TICKS = 5          # between two plays READY alone takes longer; a shorter gap in the frames is a missed tick
-FIRST_FRAME_ERROR = 2   # pos: the pose is read, and the first goal is one tick's way from it
-QUERIES = ["status", "servos", "@where", "faults", "list", "@pose", "law", "help", "@list", "nonsense", "play 200", "settings",
-           "@page 4", "code 3000", "version", "@ver"]
+REST_TICKS = 5  # between two plays READY alone takes longer; a shorter gap in the frames is a missed tick
+FIRST_FRAME_ERROR = 2  # pos: the pose is read, and the first goal is one tick's way from it
+QUERIES = [
+    "status",
+    "servos",
+    "@where",
+    "faults",
+    "list",
+    "@pose",
+    "law",
+    "help",
+    "@list",
+    "nonsense",
+    "play 200",
+    "settings",
+    "@page 4",
+    "code 3000",
+    "version",
+    "@ver",
+]
 PASSING = ("silent", "checksum", "short", "noise", "late")
 LASTING = ("silent", "dead", "checksum", "overload", "angle-limit", "overheating", "low-voltage")
 QUIET = "nothing to do"
@@ -32,8 +49,8 @@ class Bus:
         self.phase = phase
         self.frames = self.missed = self.doubled = 0
         self.offset_min, self.offset_max = CYCLES_PER_TICK, 0
-        self.last = None        # tick of the last frame
-        self.recording = None   # [(tick, goals)] while a reference is played
+        self.last = None  # tick of the last frame
+        self.recording = None  # [(tick, goals)] while a reference is played
 
     def take(self, packets):
         for cycle, packet in packets:
@@ -267,13 +284,26 @@ class Walker:
             self.complaints.append(f"servo {servo.id} stayed limp after its fault, at {self.board.now_ms:.0f} ms")
 
     def set_something(self):
-        self.say(self.chance.choice(("settings hot 65", "settings hot 70", "settings approach 60", "settings approach 90",
-                                     "remote latch", "remote hold", "law classic", "law exact")))
+        self.say(
+            self.chance.choice(
+                (
+                    "settings hot 65",
+                    "settings hot 70",
+                    "settings approach 60",
+                    "settings approach 90",
+                    "remote latch",
+                    "remote hold",
+                    "law classic",
+                    "law exact",
+                )
+            )
+        )
         self.run(600)
 
     def episode(self):
-        chosen = self.chance.choices((self.walk, self.call, self.flood, self.passing_faults, self.lasting_fault,
-                                      self.set_something, self.driven), (30, 30, 6, 8, 4, 2, 8))[0]
+        chosen = self.chance.choices(
+            (self.walk, self.call, self.flood, self.passing_faults, self.lasting_fault, self.set_something, self.driven), (30, 30, 6, 8, 4, 2, 8)
+        )[0]
         chosen()
         self.stand()
 

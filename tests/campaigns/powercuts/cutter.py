@@ -10,6 +10,7 @@
 A state is named scene:operation:phase, nested ones with a slash: save:7:half/2:after is a SAVE cut in the middle of its
 7th operation, whose repair at the next start was cut right behind its 2nd one.
 """
+
 import json
 import os
 import random
@@ -52,8 +53,7 @@ def torn_flash(old, new, phase, chance):
     if phase in ("head", "tail"):
         edge = chance.randrange(1, len(old))
         return new[:edge] + old[edge:] if phase == "head" else old[:edge] + new[edge:]
-    count = {"one": 1, "few": len(changing) // 8, "half": len(changing) // 2, "most": len(changing) * 7 // 8,
-             "rest": len(changing) - 1}[phase]
+    count = {"one": 1, "few": len(changing) // 8, "half": len(changing) // 2, "most": len(changing) * 7 // 8, "rest": len(changing) - 1}[phase]
     page = bytearray(old)
     for at, bit in chance.sample(changing, max(0, min(count, len(changing)))):
         page[at] ^= bit
@@ -64,8 +64,7 @@ def torn_byte(old, new, phase, chance):
     """An EEPROM byte that was being erased, then programmed."""
     bits = chance.randrange(256)
     one = 1 << chance.randrange(8)
-    return {"one": old | one, "few": old | bits, "half": 0xFF, "most": new | bits, "rest": new | one,
-            "head": old & bits, "tail": bits}[phase]
+    return {"one": old | one, "few": old | bits, "half": 0xFF, "most": new | bits, "rest": new | one, "head": old & bits, "tail": bits}[phase]
 
 
 class Cutter:
@@ -111,7 +110,7 @@ class Cutter:
             if depth == 0:
                 self.operations = self.board.operations - self.first
             return True
-        if self.board.powered:      # the operation did not come
+        if self.board.powered:  # the operation did not come
             return False
         if not self._tear():
             self._add("same", None)
@@ -148,7 +147,7 @@ class Cutter:
     def _phases(self, path, operation):
         if self.only is None:
             return self.wanted(path, operation)
-        cuts = self.only[len(path):]
+        cuts = self.only[len(path) :]
         return [cuts[0].phase] if cuts and cuts[0].operation == operation else []
 
     def _fork(self):
@@ -185,7 +184,7 @@ class Cutter:
             torn = torn_byte(old, new, phase, chance)
             board.eeprom[address] = torn
         else:
-            old, new = self.old[0][address:address + 256], bytes(board.flash[address:address + 256])
+            old, new = self.old[0][address : address + 256], bytes(board.flash[address : address + 256])
             torn = torn_flash(old, new, phase, chance)
-            board.flash[address:address + 256] = torn
+            board.flash[address : address + 256] = torn
         return torn not in (old, new)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Long runs: one board that is cut at random in save after save, and in the repairs; and one that is never cut, for the
 wear."""
+
 import random
 
 from cm5sim import PowerCut
@@ -10,7 +11,7 @@ from . import robot, saves, settings
 from .robot import SLOT_BYTES, SLOTS
 
 SLOT_PAGES = SLOT_BYTES // 256
-ENDURANCE = 10_000      # erases of a flash page of the ATmega128
+ENDURANCE = 10_000  # erases of a flash page of the ATmega128
 PAGES = (0, 5, 6, 40, robot.ERASED, 127)
 
 
@@ -27,7 +28,7 @@ class Life(saves.Save):
             name = f"{self.name}-{number}:{step}"
             try:
                 results += [(name, outcome, None) for outcome in self.step(step, chance)]
-            except Exception as error:      # the rest of this life would only repeat it
+            except Exception as error:  # the rest of this life would only repeat it
                 return [*results, (name, None, f"{type(error).__name__}: {error}")]
         return results
 
@@ -51,11 +52,11 @@ class Life(saves.Save):
         class Armed:
             def __enter__(self):
                 if chance.random() < likely:
-                    board.cut_power(chance.randint(1, operations), chance.choice(("before", "during", "during", "after")),
-                                    chance.randrange(4096))
+                    board.cut_power(chance.randint(1, operations), chance.choice(("before", "during", "during", "after")), chance.randrange(4096))
 
             def __exit__(self, *_):
                 board.cut_power(0)
+
         return Armed()
 
     def starts(self, chance):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Scenes of the boot loader: downloads of applications and motions by each of its protocols, EEPROM, and the mailbox."""
+
 import contextlib
 import functools
 import zlib
@@ -31,7 +32,7 @@ def overlaid(area, pages):
     """An area with some of its pages replaced."""
     area = bytearray(area)
     for number, data in pages.items():
-        area[FLASH_PAGE * number:FLASH_PAGE * (number + 1)] = data
+        area[FLASH_PAGE * number : FLASH_PAGE * (number + 1)] = data
     return bytes(area)
 
 
@@ -39,15 +40,16 @@ def new_motions():
     """The motions of the board with nine pages changed."""
     data = bytearray(robot.motions())
     for number in (1, 2, 3, 40, 41, robot.ERASED, 90, 126, 127):
-        data[PAGE_BYTES * number:PAGE_BYTES * (number + 1)] = robot.made(number, 5)
+        data[PAGE_BYTES * number : PAGE_BYTES * (number + 1)] = robot.made(number, 5)
     return bytes(data)
 
 
 def flash_pages(data, start):
-    return {(start + at) // FLASH_PAGE: data[at:at + FLASH_PAGE] for at in range(0, len(data), FLASH_PAGE)}
+    return {(start + at) // FLASH_PAGE: data[at : at + FLASH_PAGE] for at in range(0, len(data), FLASH_PAGE)}
 
 
 # The protocols: each brings `pages` (flash page -> bytes) to a board whose loader is at its prompt.
+
 
 def by_blocks(board, pages, fast=False):
     """m512's own client."""
@@ -75,9 +77,11 @@ def by_load(board, pages):
 
 def by_stk500(board, pages):
     """What avrdude -c arduino says: sync, enter, then address and page, and so on."""
+
     def ask(request, answer=b"\x14\x10"):
         board.send(request)
         board.expect(answer, ms=1500)
+
     ask(b"0 ")
     ask(b"P ")
     for number in sorted(pages):
@@ -93,7 +97,7 @@ class Download:
     promise = "A download of code that was cut is started only when it is whole; the loader says what is wrong and takes it again"
     what = "app"
     rates, chunks, about = (8, 1, 1), 6, 400
-    all_phases_until = 6    # the first pages, with vectors and record, are cut in every way
+    all_phases_until = 6  # the first pages, with vectors and record, are cut in every way
     finish_one_in = 6
     kind = "cm5"
 
@@ -115,7 +119,7 @@ class Download:
         self.protocol(self.board, self.pages)
 
     def now(self):
-        return bytes(self.board.flash[self.start:self.start + len(self.old)])
+        return bytes(self.board.flash[self.start : self.start + len(self.old)])
 
     def restart(self):
         robot.power_on(self.board)
@@ -148,8 +152,11 @@ class Download:
     def neither(self):
         """Flash pages that hold neither what they held nor what they were to hold."""
         now = self.now()
-        return [at // FLASH_PAGE for at in range(0, len(now), FLASH_PAGE)
-                if now[at:at + FLASH_PAGE] not in (self.old[at:at + FLASH_PAGE], self.new[at:at + FLASH_PAGE])]
+        return [
+            at // FLASH_PAGE
+            for at in range(0, len(now), FLASH_PAGE)
+            if now[at : at + FLASH_PAGE] not in (self.old[at : at + FLASH_PAGE], self.new[at : at + FLASH_PAGE])
+        ]
 
     def finish(self):
         """The user repeats the command: only what is missing goes over the line."""
@@ -180,7 +187,7 @@ class Motions(Download):
         assert len(torn) <= 1, f"flash pages {torn} are neither old nor new"
         now = self.now()
         for number in range(PAGES):
-            page = now[PAGE_BYTES * number:PAGE_BYTES * (number + 1)]
+            page = now[PAGE_BYTES * number : PAGE_BYTES * (number + 1)]
             self.memories.pages[number] = [page]
         self.memories.check()
         assert cut or now == self.new, "nothing was cut, and the motions are not the new ones"
@@ -197,7 +204,7 @@ class Motions(Download):
 
 def sound_pages(area):
     """(valid, damaged) of a motion area: erased ones and those without an action are neither."""
-    pages = [area[at:at + PAGE_BYTES] for at in range(0, len(area), PAGE_BYTES)]
+    pages = [area[at : at + PAGE_BYTES] for at in range(0, len(area), PAGE_BYTES)]
     whole = [page for page in pages if page != b"\xff" * PAGE_BYTES]
     sound = [page for page in whole if sum(page) & 0xFF == 0xFF]
     return sum(1 for page in sound if page[15] and page[20]), len(whole) - len(sound)
@@ -219,7 +226,7 @@ class Words:
 
     def wrote(self, at, data):
         eeprom = bytearray(self.states[-1])
-        eeprom[at:at + len(data)] = data
+        eeprom[at : at + len(data)] = data
         self.states.append(bytes(eeprom))
 
     def act(self):
@@ -275,7 +282,7 @@ class Taken:
         self.board = robot.new_board("boot-cm5.hex", "play-cm5.hex", seed=seed)
         new = robot.made(9, 1)
         eeprom = self.board.eeprom
-        eeprom[MAP["MEM_EE_MAILBOX"]:MAP["MEM_EE_MAILBOX"] + PAGE_BYTES] = new
+        eeprom[MAP["MEM_EE_MAILBOX"] : MAP["MEM_EE_MAILBOX"] + PAGE_BYTES] = new
         eeprom[MAIL_PAGE], eeprom[MAIL_STATE] = 9, 0xAA
         self.memories = Memories(self.board)
         self.memories.free_eeprom |= MAILBOX - {BOOT_MODE}
@@ -297,10 +304,11 @@ class Taken:
 
 def download_scene(base, scene_name, protocol, **options):
     """A class of scenes that knows its name and protocol."""
+
     def start(self, seed):
         base.__init__(self, scene_name, protocol, seed)
-    return type(scene_name, (base,), {"__init__": start, "__doc__": f"{base.__doc__} {protocol.__doc__ or ''}", "name": scene_name,
-                                      **options})
+
+    return type(scene_name, (base,), {"__init__": start, "__doc__": f"{base.__doc__} {protocol.__doc__ or ''}", "name": scene_name, **options})
 
 
 SCENES = (
@@ -311,4 +319,6 @@ SCENES = (
     download_scene(Motions, "motions-blocks", by_fast_blocks),
     download_scene(Motions, "motions-load", by_load),
     download_scene(Motions, "motions-stk500", by_stk500),
-    Words, Taken)
+    Words,
+    Taken,
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the scenes share: m512's own clients on a simulated board, what its memories may hold, and how it starts again."""
+
 import functools
 import random
 import struct
@@ -14,8 +15,8 @@ MOTIONS = MAP["MEM_MOTION_START"]
 PAGE_BYTES, PAGES = 512, 128
 SLOT_BYTES = 768
 SLOTS = (MOTIONS - JOURNAL_START) // SLOT_BYTES
-APPLICATION = 0x11          # EEPROM FFF: the loader starts the application
-ERASED, DAMAGED = 90, 91    # motion pages to be saved over
+APPLICATION = 0x11  # EEPROM FFF: the loader starts the application
+ERASED, DAMAGED = 90, 91  # motion pages to be saved over
 
 
 class SimLink(Link):
@@ -56,8 +57,8 @@ class SimLink(Link):
         at = out.find(end)
         if at < 0:
             return out, False
-        self.held = out[at + len(end):] + self.held
-        return out[:at + len(end)], True
+        self.held = out[at + len(end) :] + self.held
+        return out[: at + len(end)], True
 
     def drain(self, quiet=0.05, at_most=2.0):
         out = b""
@@ -72,19 +73,19 @@ def motions(seed=1):
     chance = random.Random(seed)
     image = Image.empty()
     for number in range(PAGES):
-        image[number] = page(f"page {number}", [(chance.randrange(20, 200), {j: chance.randrange(1024) for j in range(1, 19)})
-                                                for _ in range(1 + number % 7)])
+        image[number] = page(
+            f"page {number}", [(chance.randrange(20, 200), {j: chance.randrange(1024) for j in range(1, 19)}) for _ in range(1 + number % 7)]
+        )
     image[DAMAGED].data[31] ^= 0x04
     data = bytearray(image.to_bytes())
-    data[ERASED * PAGE_BYTES:(ERASED + 1) * PAGE_BYTES] = b"\xff" * PAGE_BYTES
+    data[ERASED * PAGE_BYTES : (ERASED + 1) * PAGE_BYTES] = b"\xff" * PAGE_BYTES
     return bytes(data)
 
 
 def made(number, version):
     """A page to be saved: both halves differ from those of other versions."""
     chance = random.Random(1000 * number + version)
-    return bytes(page(f"{number} v{version}", [(50 + version % 100, {j: chance.randrange(1024) for j in range(1, 19)})
-                                               for _ in range(7)]).data)
+    return bytes(page(f"{number} v{version}", [(50 + version % 100, {j: chance.randrange(1024) for j in range(1, 19)}) for _ in range(7)]).data)
 
 
 def new_board(*images, seed=1, kind="cm5", **options):
@@ -101,8 +102,8 @@ class Memories:
     def __init__(self, board):
         self.board = board
         self.flash, self.eeprom = bytes(board.flash), bytes(board.eeprom)
-        self.pages = {}              # motion page -> the contents that it may have now
-        self.free_eeprom = set()     # addresses judged elsewhere
+        self.pages = {}  # motion page -> the contents that it may have now
+        self.free_eeprom = set()  # addresses judged elsewhere
         self.app_is_free = False
 
     def saving(self, number, new):
@@ -115,7 +116,7 @@ class Memories:
 
     def page(self, number):
         at = MOTIONS + PAGE_BYTES * number
-        return self.flash[at:at + PAGE_BYTES]
+        return self.flash[at : at + PAGE_BYTES]
 
     def check(self):
         """Raises AssertionError where something is neither old nor new. {page: index of what it holds now}."""
@@ -123,7 +124,7 @@ class Memories:
         found = {}
         for number in range(PAGES):
             at = MOTIONS + PAGE_BYTES * number
-            now, allowed = flash[at:at + PAGE_BYTES], self.pages.get(number, [self.page(number)])
+            now, allowed = flash[at : at + PAGE_BYTES], self.pages.get(number, [self.page(number)])
             assert now in allowed, f"motion page {number} is neither old nor new, from byte {differs(now, allowed[-1])} on"
             found[number] = allowed.index(now)
         assert self.app_is_free or flash[:APP_END] == self.flash[:APP_END], "the application has changed"
@@ -148,7 +149,7 @@ def pending(flash):
     """Whether the newest record of the journal is one that waits (firmware/common/journal.h)."""
     newest = None
     for slot in range(SLOTS):
-        record = flash[JOURNAL_START + SLOT_BYTES * slot + 512:][:12]
+        record = flash[JOURNAL_START + SLOT_BYTES * slot + 512 :][:12]
         magic, sequence, target, layout, _, crc, state = struct.unpack("<2sHBBHHH", record)
         if magic == b"MJ" and layout == 1 and target < PAGES and crc == crc16(record[:8]):
             if newest is None or (sequence - newest[0] & 0xFFFF) < 0x8000:
@@ -202,7 +203,7 @@ def ask(board, request, wanted="OK", ms=1500):
     board.send(request + "\r")
     word = request.split()[0]
     if word == request:
-        board.expect(f"{word} ", ms=ms)     # its echo goes by
+        board.expect(f"{word} ", ms=ms)  # its echo goes by
     answer = board.expect("\r\n", ms=ms)
     assert wanted in answer, f"{request}: {answer!r}"
     return answer

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Scenes in which Edit saves motion pages: through our loader, the factory kind of routine, and a loader's mailbox."""
+
 import struct
 
 from cm5sim.board import find_image
@@ -21,9 +22,9 @@ class Save:
 
     name = "save"
     promise = "SAVE in Edit leaves the old page or the new one"
-    rates = (1, 24, 200)    # of all cuts at this depth, one in so many is made
+    rates = (1, 24, 200)  # of all cuts at this depth, one in so many is made
     chunks = 1
-    about = 11          # operations, roughly: a sample is spread by it
+    about = 11  # operations, roughly: a sample is spread by it
     kind = "cm5"
     servos = ()
 
@@ -54,7 +55,7 @@ class Save:
         self.board.send(line + "\r")
         if sure:
             self.board.expect("[y/N]", ms=1000)
-            self.board.run(ms=300)      # what is typed ahead answers no question
+            self.board.run(ms=300)  # what is typed ahead answers no question
             self.board.send("y")
         self.board.expect("OK", ms=1000)
         self.memories.saved(number)
@@ -64,7 +65,7 @@ class Save:
         """Opens a page and changes a cell in each half; what it becomes."""
         data = bytearray(self.memories.page(number))
         self.type(f"page {number}", "goto 1 3", "set 700", "goto 7 31", "set 9")
-        data[64 + 6:64 + 8] = struct.pack("<H", 700)
+        data[64 + 6 : 64 + 8] = struct.pack("<H", 700)
         data[64 + 64 * 6 + 62] = 9
         return seal(data)
 
@@ -77,7 +78,7 @@ class Save:
     def restart(self):
         """Half of the states look at the loader first."""
         robot.power_on(self.board)
-        if crc16(self.board.flash[JOURNAL_START:MOTIONS + 0x2000]) % 2:
+        if crc16(self.board.flash[JOURNAL_START : MOTIONS + 0x2000]) % 2:
             robot.to_loader(self.board)
             self.board.send("go\r")
         robot.application_answers(self.board, "edit")
@@ -196,8 +197,8 @@ class SaveWrap(Saves):
             data = robot.made(3, slot)
             record = struct.pack("<2sHBBH", b"MJ", 0xFFFE - (SLOTS - 1 - slot), 3, 1, crc16(data))
             record += struct.pack("<HH", crc16(record), 0)
-            self.board.flash[at:at + PAGE_BYTES] = data
-            self.board.flash[at + PAGE_BYTES:at + PAGE_BYTES + len(record)] = record
+            self.board.flash[at : at + PAGE_BYTES] = data
+            self.board.flash[at + PAGE_BYTES : at + PAGE_BYTES + len(record)] = record
 
     def act(self):
         for turn in range(3):
@@ -233,7 +234,7 @@ class SaveFactory(Save):
 
     def make(self, seed):
         board = robot.new_board("edit-cm5.hex", seed=seed, bootrst=True)
-        board.flash[BOOT_START:BOOT_START + 0x2000] = factory_section()
+        board.flash[BOOT_START : BOOT_START + 0x2000] = factory_section()
         return board
 
     def restart(self):
@@ -261,7 +262,7 @@ class SavePlay(SaveFactory):
     def restart(self):
         board = self.board
         for number, data in memory.plan(find_image("play-cm5.hex")).pages.items():
-            board.flash[256 * number:256 * (number + 1)] = data
+            board.flash[256 * number : 256 * (number + 1)] = data
         waits, before = robot.pending(bytes(board.flash)), bytes(board.flash)
         robot.power_on(board)
         said = "A save was cut off" in board.expect("] ", ms=2500)
@@ -281,8 +282,8 @@ class Mailbox(Save):
 
     def prepare(self):
         """The call table is gone, and the page before in the mailbox was an older version of the same one."""
-        self.board.flash[MAP["MEM_BOOT_API"]:MAP["MEM_BOOT_END"]] = b"\xff" * 32
-        self.board.eeprom[MAP["MEM_EE_MAILBOX"]:MAP["MEM_EE_MAILBOX"] + PAGE_BYTES] = robot.made(OPENED, 3)
+        self.board.flash[MAP["MEM_BOOT_API"] : MAP["MEM_BOOT_END"]] = b"\xff" * 32
+        self.board.eeprom[MAP["MEM_EE_MAILBOX"] : MAP["MEM_EE_MAILBOX"] + PAGE_BYTES] = robot.made(OPENED, 3)
         self.board.eeprom[MAIL_PAGE] = OPENED
 
     def act(self):
@@ -306,5 +307,19 @@ class Mailbox(Save):
         return outcome
 
 
-SCENES = (Save, SaveHalf, SaveUndo, SaveErased, SaveDamaged, SaveOther, SaveCm2, Saves, SaveWrap, Repair, SaveFactory,
-          RepairFactory, SavePlay, Mailbox)
+SCENES = (
+    Save,
+    SaveHalf,
+    SaveUndo,
+    SaveErased,
+    SaveDamaged,
+    SaveOther,
+    SaveCm2,
+    Saves,
+    SaveWrap,
+    Repair,
+    SaveFactory,
+    RepairFactory,
+    SavePlay,
+    Mailbox,
+)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Scenes in which Play and Edit keep settings in EEPROM."""
+
 import re
 
 from m512.board.client import DATA_BYTES, Client
@@ -14,7 +15,7 @@ AREA = range(MAP["MEM_EE_SETTINGS"], MAP["MEM_EE_SETTINGS_END"])
 COPY_BYTES = 64
 FIELDS = ("law", "remote", "approach", "fault", "low", "hot", "neutral", "flow", "fast", "talk")
 JOINTS = 31
-LAST = ("centre", "drive")                # behind the partners of the joints
+LAST = ("centre", "drive")  # behind the partners of the joints
 BODY_BYTES = len(FIELDS) + JOINTS + len(LAST)
 PLACES = {field: at for at, field in enumerate(FIELDS)} | {field: len(FIELDS) + JOINTS + at for at, field in enumerate(LAST)}
 
@@ -34,7 +35,7 @@ def kept(eeprom):
     """(body, whether it is damaged) that a start must find: the newer good copy, else the defaults."""
     good, dirty = None, False
     for copy in range(2):
-        data = eeprom[AREA.start + COPY_BYTES * copy:][:BODY_BYTES + 6]
+        data = eeprom[AREA.start + COPY_BYTES * copy :][: BODY_BYTES + 6]
         if data[0] == ord("S") and data[1] == 1 and data[3] == BODY_BYTES and data == record(data[4:-2], data[2]):
             if good is None or 0 < (data[2] - good[1] & 0xFF) < 0x80:
                 good = data[4:-2], data[2]
@@ -45,14 +46,14 @@ def kept(eeprom):
 
 def paired(body, one, other):
     """The settings with two joints made partners (one with itself: none); their former partners lose theirs."""
-    pair = bytearray(body[len(FIELDS):-len(LAST)])
+    pair = bytearray(body[len(FIELDS) : -len(LAST)])
     for joint in (one, other):
         if pair[joint] < JOINTS:
             pair[pair[joint]] = 0xFF
         pair[joint] = 0xFF
     if one != other:
         pair[one], pair[other] = other, one
-    return body[:len(FIELDS)] + bytes(pair) + body[-len(LAST):]
+    return body[: len(FIELDS)] + bytes(pair) + body[-len(LAST) :]
 
 
 class Settings:
@@ -70,7 +71,7 @@ class Settings:
         self.board = robot.new_board("boot-cm5.hex", f"{self.app}-cm5.hex", seed=seed, servos=self.servos)
         for copy, data in enumerate(self.copies):
             at = AREA.start + COPY_BYTES * copy
-            self.board.eeprom[at:at + len(data)] = data
+            self.board.eeprom[at : at + len(data)] = data
         robot.application_answers(self.board, self.app)
         self.memories = Memories(self.board)
         self.memories.free_eeprom |= set(AREA)
@@ -169,7 +170,7 @@ class Pairs(Settings):
 
     def shown(self, body, damaged, greeting):
         """Edit tells nothing of damage; the pairs are those kept."""
-        pair = body[len(FIELDS):]
+        pair = body[len(FIELDS) :]
         self.board.send("pairs\r", wait=True)
         text = robot.quiet(self.board).decode("latin-1")
         shown = {(int(a), int(b)) for a, b in re.findall(r"\b(\d+)-(\d+) ", text)}
@@ -189,7 +190,7 @@ class PairsAndSave(Pairs):
         client = Client(robot.SimLink(self.board), (2.0,))
         client.ask("open 5")
         for at in range(0, len(new), DATA_BYTES):
-            client.ask(f"data {at} {new[at:at + DATA_BYTES].hex()}")
+            client.ask(f"data {at} {new[at : at + DATA_BYTES].hex()}")
         self.allowed.append(paired(self.allowed[-1], 1, 3))
         self.memories.saving(5, new)
         self.board.send(f"pairs 1 3\r@save 5 0x{crc16(new):04X}\r")
@@ -212,7 +213,7 @@ class SettingsDriven(Settings):
         for number, joints, way in ((self.LOOP, range(1, 19), 40), (self.LAYER, self.OWN, 150)):
             looping = page("loop", [(40, {joint: 512 + way for joint in joints}), (40, {})], joints=joints, next=number)
             at = robot.MOTIONS + robot.PAGE_BYTES * number
-            self.board.flash[at:at + robot.PAGE_BYTES] = bytes(looping.data)
+            self.board.flash[at : at + robot.PAGE_BYTES] = bytes(looping.data)
         self.memories = Memories(self.board)
         self.memories.free_eeprom |= set(AREA)
         self.say("on", f"play {self.LOOP}")

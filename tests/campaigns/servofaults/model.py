@@ -6,6 +6,7 @@ a fault shows as *silence* (three polls in a row without one clean answer), as *
 that is off although it was switched on. `expected` works out which, from who talks when a joint is asked; it knows nothing
 of the firmware.
 """
+
 import dataclasses
 import typing
 
@@ -14,7 +15,7 @@ GRAVE = {SILENT, ANGLE, HEAT, OVERLOAD, TORQUE}  # what the rule hold / exit / l
 ALARMS = {"overload": OVERLOAD, "overheating": HEAT, "low-voltage": VOLTAGE, "angle-limit": ANGLE}
 SLOW_BAUD = 34  # address 4 of a servo at 57,142 bps
 JAMMED_POS = 150
-CABLE = 3       # so many servos hang on the cable that breaks
+CABLE = 3  # so many servos hang on the cable that breaks
 
 
 @dataclasses.dataclass(frozen=True)
@@ -133,8 +134,7 @@ def expected(faults, joints, driven, held, cut=frozenset()):
     told = Expected(set(), [], set())
     for joint in joints:
         own = faults.get(joint, frozenset())
-        others = [other for other, names in faults.items()
-                  if other != joint and "two-talkers" in names and _answers(names)]
+        others = [other for other, names in faults.items() if other != joint and "two-talkers" in names and _answers(names)]
         must, may, either = set(), set(), set()
         if others or (_answers(own) and "duplicate" in own):
             must = {SILENT}

@@ -4,6 +4,7 @@
 Of twenty servos 1..15 and 17 have positions in the pages, but 17 was switched off by hand; 16 has the torque-off mark in the
 pages, 18..20 are there and no page uses them.
 """
+
 import re
 
 from cm5sim import Board
@@ -15,23 +16,27 @@ from tests.sim.made_page import page
 from .model import ANGLE, HEAT, OVERLOAD, SILENT, TORQUE, VOLTAGE
 
 THERE = range(1, 21)
-SWINGING = range(1, 16)        # joints with positions in the pages
+SWINGING = range(1, 16)  # joints with positions in the pages
 MARKED_OFF, RELEASED = 16, 17  # by the page, by hand
 UNUSED = (18, 19, 20)
 TORQUE_OFF_MARK, UNUSED_MARK = 0x2000, 0x4000
 WALK, EXIT, POSE, LAYER = 4, 5, 6, 7
-LAID_OVER = (1, 2, 3)          # joints of the layer
-BY_CODE = ("swing 5 512 40 1500", "aim 15 540")   # and of motion made by code
+LAID_OVER = (1, 2, 3)  # joints of the layer
+BY_CODE = ("swing 5 512 40 1500", "aim 15 540")  # and of motion made by code
 LOW, HIGH, MIDDLE = 412, 612, 512
-RULES = ("hold", "exit", "limp")   # settings fault 0, 1, 2
+RULES = ("hold", "exit", "limp")  # settings fault 0, 1, 2
 SLICE_MS = 10
 BACK = "back"
-PLAY_SAYS = ((r"Servo (\d+) does not answer", SILENT), (r"Servo (\d+) answers again", BACK),
-             (r"Servo (\d+) reports [a-z, ]*voltage", VOLTAGE), (r"Servo (\d+) reports [a-z, ]*angle limit", ANGLE),
-             (r"Servo (\d+) reports [a-z, ]*overheating", HEAT), (r"Servo (\d+) reports [a-z, ]*overload", OVERLOAD),
-             (r"Servo (\d+) has lost its torque", TORQUE))
-EDIT_SAYS = {"No answer": SILENT, "Low voltage": VOLTAGE, "Angle limit": ANGLE, "Hot": HEAT, "Overload": OVERLOAD,
-             "Lost torque": TORQUE}
+PLAY_SAYS = (
+    (r"Servo (\d+) does not answer", SILENT),
+    (r"Servo (\d+) answers again", BACK),
+    (r"Servo (\d+) reports [a-z, ]*voltage", VOLTAGE),
+    (r"Servo (\d+) reports [a-z, ]*angle limit", ANGLE),
+    (r"Servo (\d+) reports [a-z, ]*overheating", HEAT),
+    (r"Servo (\d+) reports [a-z, ]*overload", OVERLOAD),
+    (r"Servo (\d+) has lost its torque", TORQUE),
+)
+EDIT_SAYS = {"No answer": SILENT, "Low voltage": VOLTAGE, "Angle limit": ANGLE, "Hot": HEAT, "Overload": OVERLOAD, "Lost torque": TORQUE}
 
 
 def motions():
@@ -40,6 +45,7 @@ def motions():
 
     def swing(number):
         return {joint: (LOW, HIGH)[(joint + number) % 2] for joint in placed}
+
     image = Image.empty()
     image[WALK] = page("walk", [(64, swing(0)), (64, swing(1))], joints=placed, next=WALK, exit=EXIT)
     image[EXIT] = page("exit", [(40, {})], joints=placed)
@@ -58,7 +64,7 @@ class Watched:
     """What both images have in common: the clock, what was told and when, the way into a situation."""
 
     rule, playing = "hold", False
-    shown, shown_row, heard = frozenset(), "", 0   # what the row of Edit said last; bytes until then
+    shown, shown_row, heard = frozenset(), "", 0  # what the row of Edit said last; bytes until then
 
     def watch(self):
         """Forgets what was told; from now on `told` is {(joint, kind): ms after this}."""
@@ -195,7 +201,7 @@ class EditRobot(Watched):
             self.line("off")
             self.board.servos[3].push_to(300)
         elif state == "walk":
-            self.board.send(f"play {WALK}\r")      # the screen does not come to rest while it plays
+            self.board.send(f"play {WALK}\r")  # the screen does not come to rest while it plays
             self.board.run(ms=2200)
             self.robot.pump()
         self.resets = self.board.resets
@@ -256,7 +262,7 @@ class EditRobot(Watched):
             self.robot.keys(" ", ms=500)
 
     def remember_screen(self):
-        self.screen = [row[25:] for row in self.robot.terminal.screen.display[:self.robot.rows - 1]]
+        self.screen = [row[25:] for row in self.robot.terminal.screen.display[: self.robot.rows - 1]]
         self.at = self.robot.cursor
 
     def screen_faults(self):
@@ -264,12 +270,10 @@ class EditRobot(Watched):
         self.robot.settle()
         rows = self.robot.rows - 1
         now = self.robot.terminal.screen.display[:rows]
-        found = [f"row {number + 1} was {was!r}, is {row[25:]!r}"
-                 for number, (was, row) in enumerate(zip(self.screen, now)) if was != row[25:]]
+        found = [f"row {number + 1} was {was!r}, is {row[25:]!r}" for number, (was, row) in enumerate(zip(self.screen, now)) if was != row[25:]]
         self.line("re")
         anew = self.robot.terminal.screen.display[:rows]
-        found += [f"row {number + 1} drawn anew is {after!r}, was {row!r}"
-                  for number, (row, after) in enumerate(zip(now, anew)) if row != after]
+        found += [f"row {number + 1} drawn anew is {after!r}, was {row!r}" for number, (row, after) in enumerate(zip(now, anew)) if row != after]
         return found
 
 

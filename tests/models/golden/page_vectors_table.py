@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Turns page_vectors.json into a C table for test_page_vectors.c:  page_vectors_table.py page_vectors.json out.h"""
+
 import json
 import sys
 
@@ -14,8 +15,7 @@ def rows(vectors):
     yield "static const page_vector_t page_vectors[] = {"
     for number, vector in enumerate(vectors):
         name = vector["name"].replace('"', "'")
-        yield (f'    {{"{name}", page_{number}, {vector["fault_number"]}, {int(vector["playable"])}, '
-               f'words_{number}, {len(vector["words"])}}},')
+        yield (f'    {{"{name}", page_{number}, {vector["fault_number"]}, {int(vector["playable"])}, words_{number}, {len(vector["words"])}}},')
     yield "};"
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A robot on the packaged simavr (stock.h), for test_stock.py. Nothing of tools/sim is in it."""
+
 import ctypes
 import os
 import pathlib
@@ -18,11 +19,15 @@ def _library():
     found = ctypes.CDLL(str(BUILD / "host" / "tests" / "sim" / "stock" / "libstock.so"))
     robot, size = ctypes.c_void_p, ctypes.c_size_t
     for name, result, *arguments in (
-            ("new", robot, ctypes.POINTER(ctypes.c_char_p), size, ctypes.c_char_p, ctypes.c_uint32), ("free", None, robot),
-            ("run", ctypes.c_bool, robot, ctypes.c_uint64), ("type", None, robot, ctypes.c_char_p, size),
-            ("console", size, robot, ctypes.POINTER(ctypes.POINTER(ctypes.c_uint8))),
-            ("frames", size, robot, ctypes.POINTER(ctypes.POINTER(Frame))),
-            ("flash", ctypes.POINTER(ctypes.c_uint8), robot), ("answers", ctypes.c_uint32, robot)):
+        ("new", robot, ctypes.POINTER(ctypes.c_char_p), size, ctypes.c_char_p, ctypes.c_uint32),
+        ("free", None, robot),
+        ("run", ctypes.c_bool, robot, ctypes.c_uint64),
+        ("type", None, robot, ctypes.c_char_p, size),
+        ("console", size, robot, ctypes.POINTER(ctypes.POINTER(ctypes.c_uint8))),
+        ("frames", size, robot, ctypes.POINTER(ctypes.POINTER(Frame))),
+        ("flash", ctypes.POINTER(ctypes.c_uint8), robot),
+        ("answers", ctypes.c_uint32, robot),
+    ):
         function = getattr(found, f"stock_{name}")
         function.restype, function.argtypes = result, arguments
     return found
@@ -78,7 +83,7 @@ class StockRobot:
                 self._seen = at + len(text)
                 return
             self.run(ms=10)
-        raise AssertionError(f"{text!r} did not come within {ms} ms, but {self.console[self._seen:]!r}")
+        raise AssertionError(f"{text!r} did not come within {ms} ms, but {self.console[self._seen :]!r}")
 
     def type(self, text):
         self._c.stock_type(self._robot, text, len(text))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The body files say what is known of the robots. Expected values are those of public descriptions (README.md), worked out by
 hand where a pose is asked for."""
+
 import math
 
 import mujoco
@@ -10,8 +11,17 @@ import pytest
 from body.description import BodyError, load
 
 HUMANOID, GP = load("humanoid"), load("gp")
-RIGHT = {"shoulder_swing": 1, "shoulder_lift": 3, "elbow": 5, "hip_yaw": 7, "hip_roll": 9, "hip_pitch": 11, "knee": 13,
-         "ankle_pitch": 15, "ankle_roll": 17}
+RIGHT = {
+    "shoulder_swing": 1,
+    "shoulder_lift": 3,
+    "elbow": 5,
+    "hip_yaw": 7,
+    "hip_roll": 9,
+    "hip_pitch": 11,
+    "knee": 13,
+    "ankle_pitch": 15,
+    "ankle_roll": 17,
+}
 
 
 def at(robot, body, positions, root="trunk"):
@@ -70,7 +80,7 @@ def test_lengths_and_masses_of_the_gp_robot():
     assert at(GP, "right_foot", {}, "right_ankle")[0] == pytest.approx((0, -12.1, 0))
     assert at(GP, "right_upper_arm", {})[0] == pytest.approx((4, -79, -18))
     assert at(GP, "right_forearm", {}, "right_upper_arm")[0] == pytest.approx((18, 0, -57))
-    outside = GP.leg("right").sole                               # seen from the ankle's middle; the roll axis is 12.1 further out
+    outside = GP.leg("right").sole  # seen from the ankle's middle; the roll axis is 12.1 further out
     assert (outside[1], outside[0], outside[2] - 12.1, outside[3] - 12.1) == pytest.approx((50.3, -46.7, -25, 36))
     masses = {"trunk": 430, "hip": 66, "thigh": 131, "shank": 21, "ankle": 127, "foot": 30, "shoulder": 12, "upper_arm": 130, "forearm": 30}
     for link, grams in masses.items():
@@ -89,9 +99,17 @@ def test_it_stands_on_its_soles_at_512_and_touches_nothing_else(robot, soles):
     assert touching <= {"floor", "right_sole", "left_sole"}
 
 
-@pytest.mark.parametrize("servo, above_512", [
-    (1, lambda way: way[0] > 20), (3, lambda way: way[1] < -20), (5, lambda way: way[1] < -20), (9, lambda way: way[1] < -10),
-    (11, lambda way: way[0] > 20), (13, lambda way: way[0] > 20)])
+@pytest.mark.parametrize(
+    "servo, above_512",
+    [
+        (1, lambda way: way[0] > 20),
+        (3, lambda way: way[1] < -20),
+        (5, lambda way: way[1] < -20),
+        (9, lambda way: way[1] < -10),
+        (11, lambda way: way[0] > 20),
+        (13, lambda way: way[0] > 20),
+    ],
+)
 def test_right_side_goes_the_way_the_table_says_above_512(servo, above_512):
     """Table "Joints" of the motions' README, right side, for what moves a foot or a hand."""
     end = "right_hand" if servo < 7 else "right_foot"
@@ -112,11 +130,12 @@ def test_yaw_and_ankles_go_the_way_the_table_says():
     def toes(servo):
         _, data = at(HUMANOID, "trunk", {servo: 512 + 60})
         return data.body("right_foot").xmat.reshape(3, 3)
+
     angle = math.radians(60 * 300 / 1024)
-    assert toes(7)[:, 0] == pytest.approx((math.cos(angle), -math.sin(angle), 0))     # toes outward: to the right
-    assert toes(15)[:, 0] == pytest.approx((math.cos(angle), 0, math.sin(angle)))     # toes up
+    assert toes(7)[:, 0] == pytest.approx((math.cos(angle), -math.sin(angle), 0))  # toes outward: to the right
+    assert toes(15)[:, 0] == pytest.approx((math.cos(angle), 0, math.sin(angle)))  # toes up
     hip, ankle = toes(9), toes(17)
-    assert hip == pytest.approx(ankle)                                               # the same way round as the hip's
+    assert hip == pytest.approx(ankle)  # the same way round as the hip's
 
 
 @pytest.mark.parametrize("robot", [HUMANOID, GP])
@@ -162,7 +181,7 @@ def test_an_arm_can_turn_through_its_whole_range_beside_the_body():
 def test_servo_units():
     assert HUMANOID.angle(13, 512) == 0 and HUMANOID.angle(13, 0) == pytest.approx(math.radians(-150))
     assert HUMANOID.angle(14, 0) == pytest.approx(math.radians(150))
-    assert GP.angle(13, 857) == pytest.approx(math.radians(-345 * 300 / 1024))       # its knees turn the other way round
+    assert GP.angle(13, 857) == pytest.approx(math.radians(-345 * 300 / 1024))  # its knees turn the other way round
     assert all(HUMANOID.position(servo, HUMANOID.angle(servo, 300)) == pytest.approx(300) for servo in HUMANOID.servos)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The library's motions stand on bodies on which earlier versions of them fell, each for a reason of its own."""
+
 import pathlib
 
 import pytest
@@ -15,22 +16,30 @@ MOTIONS = pathlib.Path(__file__).resolve().parents[2] / "motions"
 
 LIBRARY = load_motions(MOTIONS / "motions.m512")
 IMAGE = LIBRARY.to_bytes()
-THROUGH_MM = 10                  # goals so deep in another link only press a hand against a hip
-AIRBORNE_TICKS = 72              # a kick holds its foot up for longer than this
+THROUGH_MM = 10  # goals so deep in another link only press a hand against a hip
+AIRBORNE_TICKS = 72  # a kick holds its foot up for longer than this
 
 
 def promise_of(page):
     return next(promise for promise in promises.STANDS if promise.page == page)
 
 
-@pytest.mark.parametrize("page, seed", [
-    ("kick_r", 30), ("kick_r", 52),      # fell while it stood on two feet still, too far to the side
-    ("kick_r", 189), ("kick_r", 206),    # its hip gave way, the foot met the floor too early and pushed the body over the other one
-    ("cheer", 13),                       # was pushed forward as its arms came down
-    ("get_up", 39),                      # could not draw its feet to its hands: 9.2 V, a rough floor
-    ("get_up", 130), ("get_up", 1095),   # rolled onto its back as an arm came out from below
-    ("get_up", 1070),                    # a hand caught below the belly, until its servo was overloaded
-    ("get_up_back", 31), ("get_up_back", 1081)])     # rolled onto its face
+@pytest.mark.parametrize(
+    "page, seed",
+    [
+        ("kick_r", 30),
+        ("kick_r", 52),  # fell while it stood on two feet still, too far to the side
+        ("kick_r", 189),
+        ("kick_r", 206),  # its hip gave way, the foot met the floor too early and pushed the body over the other one
+        ("cheer", 13),  # was pushed forward as its arms came down
+        ("get_up", 39),  # could not draw its feet to its hands: 9.2 V, a rough floor
+        ("get_up", 130),
+        ("get_up", 1095),  # rolled onto its back as an arm came out from below
+        ("get_up", 1070),  # a hand caught below the belly, until its servo was overloaded
+        ("get_up_back", 31),
+        ("get_up_back", 1081),
+    ],
+)  # rolled onto its face
 def test_stands_on_a_body_on_which_it_fell(page, seed):
     kept, said = promises.stands(IMAGE, promises.number_of(LIBRARY, page), promise_of(page), seed)
     assert kept, said
@@ -56,11 +65,11 @@ def deepest_mm(number):
     physics, deepest = Physics(promises.ROBOT), (0.0, ())
     floor = physics.model.geom("floor").id
     begin = first_pose(IMAGE, number, promises.ROBOT)
-    physics.data.qpos[2] = 5                                         # far above the floor
+    physics.data.qpos[2] = 5  # far above the floor
     for tick in play(LIBRARY, number, [begin.get(joint, 512) for joint in range(31)], 512):
         if tick.goals and tick.number % 2 == 0:
             physics.pose({servo: tick.goals[servo] for servo in promises.ROBOT.servos})
-            for contact in physics.data.contact[:physics.data.ncon]:
+            for contact in physics.data.contact[: physics.data.ncon]:
                 geoms = contact.geom1, contact.geom2
                 if floor not in geoms and -1000 * contact.dist > deepest[0]:
                     deepest = -1000 * contact.dist, tuple(physics.model.geom(geom).name for geom in geoms)

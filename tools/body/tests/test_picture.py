@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Pictures: links stand where MuJoCo has them, the robot stands on the floor, and a command makes a file without a display."""
+
 import pathlib
 import subprocess
 import sys
@@ -51,7 +52,7 @@ def test_shapes_are_as_large_as_their_geoms():
     sole = numpy.concatenate([face.corners for face in faces if face.colour == (0.10, 0.10, 0.11)])
     right = sole[sole[:, 1] < 0]
     assert numpy.ptp(right, axis=0) == pytest.approx((100, 60, 6))
-    assert corners[:, 2].max() > 297.5 + 36                          # the head is above the shoulders
+    assert corners[:, 2].max() > 297.5 + 36  # the head is above the shoulders
     hand = numpy.concatenate([face.corners for face in faces if face.colour == (0.16, 0.42, 0.68) and abs(face.corners[:, 1]).min() > 60])
     assert hand[:, 2].min() == pytest.approx(297.5 - 14 - 67.5 - 110, abs=1)
 
@@ -61,9 +62,11 @@ def test_the_nearest_is_drawn_last_and_backs_are_left_out():
     faces = scene(robot, {})
     from_front, from_behind = flat(faces, (0, 0)), flat(faces, (180, 0))
     eyes = (0.98, 0.78, 0.20)
+
     def first_eye(parts):
         hues = [numpy.array(colour) / max(colour) for _, colour in parts]
         return min(k for k, hue in enumerate(hues) if numpy.allclose(hue, numpy.array(eyes) / eyes[0])) / len(parts)
+
     assert first_eye(from_front) > 0.5 > first_eye(from_behind)
     assert len(from_front) < len(faces)
 
@@ -75,8 +78,9 @@ def test_command_makes_a_file_without_a_display(tmp_path, ending, begins):
     assert path.read_bytes().startswith(begins)
 
 
-@pytest.mark.parametrize("words, says", [(["nix"], "no page is called 'nix'"), (["bow:9"], "has steps 1.."),
-                                         (["bow", "--body", "x"], "known here: gp, humanoid")])
+@pytest.mark.parametrize(
+    "words, says", [(["nix"], "no page is called 'nix'"), (["bow:9"], "has steps 1.."), (["bow", "--body", "x"], "known here: gp, humanoid")]
+)
 def test_command_says_what_is_wrong(tmp_path, words, says):
     run = subprocess.run([sys.executable, str(PICTURE), *words, "-o", str(tmp_path / "a.png")], capture_output=True, text=True, check=False)
     assert run.returncode == 1 and says in run.stderr

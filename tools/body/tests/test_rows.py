@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A row of tests/proofs/ that is not run again stays there, also in a fresh clone, where build/prove/ is empty."""
+
 import argparse
 import pathlib
 
@@ -54,6 +55,6 @@ def test_bodies_of_another_clone_stay_on_the_page():
     campaign, before = physics.Campaign(options, library), proof.commit_on_page("physics")
     found = physics.stand_figures(options, b"", library, campaign) + physics.board_figures(options, b"", library, campaign)
     made = proof.table([vars(figure) for figure in found])[2:]
-    assert sum(figure.headline for figure in found) == 2          # the walk, on the PC and on the board
+    assert sum(figure.headline for figure in found) == 2  # the walk, on the PC and on the board
     assert [row.replace(f", commit {before}", "") for row in made] == [row for row in rows("physics") if ": it ends on its feet. |" in row]
     assert all(f", commit {before} | " in row for row in made)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Trials: the player in them is the firmware's law, the body obeys what is plain in physics, and results can be had again."""
+
 import pathlib
 
 import pytest
@@ -105,14 +106,19 @@ def test_the_same_trial_has_the_same_outcome():
 
 def test_random_bodies_keep_to_their_ranges():
     bodies = [random_body(HUMANOID, seed, seconds=10, pushes=2) for seed in range(300)]
-    for pick, low, high in (("floor_friction", 0.4, 1.2), ("volts", 9, 12), ("tilt", 0, 2), ("gear_friction_nm", 0.03, 0.1),
-                            ("rotor_kgm2", 0.001, 0.01)):
+    for pick, low, high in (
+        ("floor_friction", 0.4, 1.2),
+        ("volts", 9, 12),
+        ("tilt", 0, 2),
+        ("gear_friction_nm", 0.03, 0.1),
+        ("rotor_kgm2", 0.001, 0.01),
+    ):
         values = [getattr(body, pick) for body in bodies]
         assert low <= min(values) < low + 0.1 * (high - low) and high - 0.1 * (high - low) < max(values) <= high, pick
     assert all(0.85 <= factor <= 1.155 for body in bodies for factor in body.mass.values())
     zeros = [zero for body in bodies for zero in body.zero_units.values()]
     spread = (sum(zero * zero for zero in zeros) / len(zeros)) ** 0.5
-    assert spread == pytest.approx((3.413 ** 2 + 2 * 2 / 3) ** 0.5, rel=0.05)       # 1 degree sigma, and +-2 units
+    assert spread == pytest.approx((3.413**2 + 2 * 2 / 3) ** 0.5, rel=0.05)  # 1 degree sigma, and +-2 units
     assert all(0 <= push.at_s <= 10 and 0 <= push.newton_s <= 0.3 for body in bodies for push in body.pushes)
     assert random_body(HUMANOID, 5) == random_body(HUMANOID, 5) != random_body(HUMANOID, 6)
 

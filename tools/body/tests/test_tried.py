@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A campaign of bodies can be interrupted and done in parts (tests/campaigns/bodies.py): no body is lost, none is tried twice, none counts
 for a motion that it was not tried with."""
+
 import argparse
 import pathlib
 
@@ -94,6 +95,7 @@ def test_a_result_counts_for_its_motion_alone(library):
 
     def key(promise=walk, where="player"):
         return bodies.key_of(library, number[promise.page], promise, promises.ROBOT, where)
+
     before, by_board, bow = key(), key(where="board"), key(BOW)
     changed(library, number["bow"])
     assert key() == before != by_board and key(BOW) != bow

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Jobs for test_campaign.py: functions of a module, as each() wants them."""
+
 import os
 import random
 import time

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Campaigns on this machine: the results in the order of the items, however many processes; faults are told."""
+
 import functools
 import sys
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Campaigns on a Dask scheduler with two workers: the same results as here. Needs Dask: tools/dev/setup campaign."""
+
 import functools
 import os
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Each kind of circle is found and named: small trees, with one circle or none."""
+
 import importlib.machinery
 import importlib.util
 import pathlib
@@ -32,19 +33,38 @@ def test_a_tree_without_circles_passes(tmp_path):
     assert check(tmp_path, GOOD) == ([], 5)
 
 
-@pytest.mark.parametrize("name,added,circle,closing", [
-    ("firmware/edit/cells.c", "int cell_go(void)\n{\n    return screen_draw();\n}\n",
-     "edit: circle of cells.c, screen.c", "cells.c uses screen_draw of screen.c"),
-    ("firmware/common/text.c", "int text_go(void)\n{\n    return screen_draw();\n}\n",
-     "edit: circle of screen.c, text.c", "text.c uses screen_draw of screen.c"),
-    # round three corners
-    ("firmware/common/text.c", "int text_x(void)\n{\n    return main();\n}\n",
-     "edit: circle of main.c, screen.c, text.c", "text.c uses main of main.c"),
-    # a variable closes it as well, and a function whose head has an attribute or several lines
-    ("firmware/edit/screen.c", "uint8_t the_rows[3];\nint cell_rows(void)\n{\n    return 0;\n}\n", None, None),
-    ("firmware/edit/cells.c", "const screen_t *cell_of(int a,\n                        int b) NOINLINE\n{\n    return screen_draw;\n}\n",
-     "edit: circle of cells.c, screen.c", "cells.c uses screen_draw of screen.c"),
-])
+@pytest.mark.parametrize(
+    "name,added,circle,closing",
+    [
+        (
+            "firmware/edit/cells.c",
+            "int cell_go(void)\n{\n    return screen_draw();\n}\n",
+            "edit: circle of cells.c, screen.c",
+            "cells.c uses screen_draw of screen.c",
+        ),
+        (
+            "firmware/common/text.c",
+            "int text_go(void)\n{\n    return screen_draw();\n}\n",
+            "edit: circle of screen.c, text.c",
+            "text.c uses screen_draw of screen.c",
+        ),
+        # round three corners
+        (
+            "firmware/common/text.c",
+            "int text_x(void)\n{\n    return main();\n}\n",
+            "edit: circle of main.c, screen.c, text.c",
+            "text.c uses main of main.c",
+        ),
+        # a variable closes it as well, and a function whose head has an attribute or several lines
+        ("firmware/edit/screen.c", "uint8_t the_rows[3];\nint cell_rows(void)\n{\n    return 0;\n}\n", None, None),
+        (
+            "firmware/edit/cells.c",
+            "const screen_t *cell_of(int a,\n                        int b) NOINLINE\n{\n    return screen_draw;\n}\n",
+            "edit: circle of cells.c, screen.c",
+            "cells.c uses screen_draw of screen.c",
+        ),
+    ],
+)
 def test_a_circle_is_named_with_what_closes_it(tmp_path, name, added, circle, closing):
     files = dict(GOOD)
     files[name] += "\n" + added
@@ -60,10 +80,16 @@ def test_headers_that_include_each_other_are_a_circle(tmp_path):
     assert "hal: circle of bus.h, dxl.h" in found
 
 
-@pytest.mark.parametrize("harmless", [
-    "/* as in screen_draw */\n", "// screen_draw\n", 'static const char *name = "screen_draw";\n',
-    "/* one\n * screen_draw */\n", "int my_screen_draw_too;\n",
-])
+@pytest.mark.parametrize(
+    "harmless",
+    [
+        "/* as in screen_draw */\n",
+        "// screen_draw\n",
+        'static const char *name = "screen_draw";\n',
+        "/* one\n * screen_draw */\n",
+        "int my_screen_draw_too;\n",
+    ],
+)
 def test_a_name_in_a_comment_or_text_is_no_use(tmp_path, harmless):
     files = dict(GOOD)
     files["firmware/edit/cells.c"] += harmless

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """tools/dev/check_documents finds references that a reader cannot follow, and only those."""
+
 import pathlib
 import subprocess
 
@@ -18,16 +19,19 @@ def check(root, files):
     return done.returncode, done.stdout
 
 
-@pytest.mark.parametrize("name, text", [
-    ("motion/law.c", "/* The law (player.md section 1). */\n"),
-    ("motion/law.c", "int a; // player.md\n"),
-    ("tools/x.py", '"""As player.md says."""\n'),
-    ("tools/x.py", "A = 1   # player.md\n"),
-    ("tools/run", "#!/bin/sh\n# player.md\n"),
-    ("README.md", "See `player.md`.\n"),
-    ("README.md", "See [the player](motion/player.md).\n"),
-    ("hal/README.md", "See hal/LAWS.md.\n"),                # it is elsewhere
-])
+@pytest.mark.parametrize(
+    "name, text",
+    [
+        ("motion/law.c", "/* The law (player.md section 1). */\n"),
+        ("motion/law.c", "int a; // player.md\n"),
+        ("tools/x.py", '"""As player.md says."""\n'),
+        ("tools/x.py", "A = 1   # player.md\n"),
+        ("tools/run", "#!/bin/sh\n# player.md\n"),
+        ("README.md", "See `player.md`.\n"),
+        ("README.md", "See [the player](motion/player.md).\n"),
+        ("hal/README.md", "See hal/LAWS.md.\n"),  # it is elsewhere
+    ],
+)
 def test_a_document_that_is_not_there_is_named_with_its_place(tmp_path, name, text):
     code, printed = check(tmp_path, {"motion/LAWS.md": "", name: text})
     line = 2 if text.startswith("#!") else 1
@@ -40,15 +44,18 @@ def test_one_of_two_documents_is_meant_by_its_path_only(tmp_path):
     assert check(tmp_path, {"tests/test.c": "/* edit/ORIGINAL.md */\n"})[0] == 0
 
 
-@pytest.mark.parametrize("name, text", [
-    ("motion/law.c", "/* LAWS.md section 1 */\n"),
-    ("motion/law.c", 'const char *name = "player.md";\n'),      # no comment
-    ("tests/unit/test_law.c", "/* LAWS.md */\n"),               # the only one of this name
-    ("motion/deep/law.c", "/* LAWS.md */\n"),                   # in a folder above
-    ("hal/README.md", "[laws](../motion/LAWS.md)\n"),
-    ("hal/README.md", "<https://example.org/player.md>\n"),
-    ("hal/README.md", "every `*.md`, and tests/NAME.md\n"),
-    ("tools/x.py", 'PATH = "player.md"\n'),
-])
+@pytest.mark.parametrize(
+    "name, text",
+    [
+        ("motion/law.c", "/* LAWS.md section 1 */\n"),
+        ("motion/law.c", 'const char *name = "player.md";\n'),  # no comment
+        ("tests/unit/test_law.c", "/* LAWS.md */\n"),  # the only one of this name
+        ("motion/deep/law.c", "/* LAWS.md */\n"),  # in a folder above
+        ("hal/README.md", "[laws](../motion/LAWS.md)\n"),
+        ("hal/README.md", "<https://example.org/player.md>\n"),
+        ("hal/README.md", "every `*.md`, and tests/NAME.md\n"),
+        ("tools/x.py", 'PATH = "player.md"\n'),
+    ],
+)
 def test_what_a_reader_can_follow_and_what_is_no_reference_passes(tmp_path, name, text):
     assert check(tmp_path, {"motion/LAWS.md": "", name: text})[0] == 0

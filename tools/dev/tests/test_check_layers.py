@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Each rule of the layers bites: one small tree per rule, with one broken line."""
+
 import pathlib
 import subprocess
 
@@ -32,16 +33,19 @@ def test_good_tree_passes(tmp_path):
     assert "6 files" in done.stdout
 
 
-@pytest.mark.parametrize("name,line,reason", [
-    ("motion/page.c", '#include "flash.h"', "motion may not include flash.h"),
-    ("motion/page.c", "#include <avr/io.h>", "belongs in"),
-    ("motion/page.c", "#include <stdio.h>", "not among the headers"),
-    ("hal/flash.c", '#include "page.h"', "hal may not include page.h"),
-    ("hal/flash.c", '#include "store.h"', "(of nowhere)"),
-    ("firmware/common/store.c", "#include <util/delay.h>", "belongs in"),
-    ("firmware/common/store.c", "#ifdef __AVR__", "which machine"),
-    ("firmware/play/main.c", '#include "fake_flash.h"', "firmware/play may not include fake_flash.h"),
-])
+@pytest.mark.parametrize(
+    "name,line,reason",
+    [
+        ("motion/page.c", '#include "flash.h"', "motion may not include flash.h"),
+        ("motion/page.c", "#include <avr/io.h>", "belongs in"),
+        ("motion/page.c", "#include <stdio.h>", "not among the headers"),
+        ("hal/flash.c", '#include "page.h"', "hal may not include page.h"),
+        ("hal/flash.c", '#include "store.h"', "(of nowhere)"),
+        ("firmware/common/store.c", "#include <util/delay.h>", "belongs in"),
+        ("firmware/common/store.c", "#ifdef __AVR__", "which machine"),
+        ("firmware/play/main.c", '#include "fake_flash.h"', "firmware/play may not include fake_flash.h"),
+    ],
+)
 def test_broken_rule_is_named_with_file_and_line(tmp_path, name, line, reason):
     files = dict(GOOD)
     files["tests/fake/fake_flash.h"] = ""

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """tools/dev/check_spm sees an SPM where it may not be, and misses none where it must be."""
+
 import pathlib
 import subprocess
 

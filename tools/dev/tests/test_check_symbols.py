@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """tools/dev/check_symbols finds each thing that no image may hold, and nothing in a program without them."""
+
 import pathlib
 import subprocess
 
@@ -28,24 +29,41 @@ def check(tmp_path, statement, *options):
     return subprocess.run([TOOL, elf], capture_output=True, text=True)
 
 
-@pytest.mark.parametrize("statement", [
-    "memcpy(buffer, (const void *)v, 10)", "memmove(buffer + v, buffer, strlen(buffer))", "v = strcmp(buffer, buffer + v)",
-    "v = (int)(0.75 * 1024)", "v = (long)v * 3 / v"])
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "memcpy(buffer, (const void *)v, 10)",
+        "memmove(buffer + v, buffer, strlen(buffer))",
+        "v = strcmp(buffer, buffer + v)",
+        "v = (int)(0.75 * 1024)",
+        "v = (long)v * 3 / v",
+    ],
+)
 def test_what_is_bounded_and_whole_passes(tmp_path, statement):
     done = check(tmp_path, statement)
     assert done.returncode == 0, done.stdout
     assert "symbols\n" in done.stdout
 
 
-@pytest.mark.parametrize("what, statement", [
-    ("dynamic memory: ", "*(char *volatile *)buffer = malloc(v)"), ("dynamic memory: ", "free((void *)v)"),
-    ("dynamic memory: ", "v = *(char *)calloc(v, 2)"),
-    ("floating point: ", "v = v * 1.5"), ("floating point: ", "v = (float)v / 3 > 2"), ("floating point: ", "v = (long)((double)v / v)"),
-    ("formats: ", "printf(\"%d\", v)"), ("formats: ", "snprintf(buffer, 9, \"%d\", v)"), ("formats: ", "sscanf(buffer, \"%d\", &v)"),
-    ("formats: ", "v = atoi(buffer)"),
-    ("unbounded strings: ", "strcpy(buffer, (const char *)v)"), ("unbounded strings: ", "strcpy_P(buffer, (const char *)v)"),
-    ("unbounded strings: ", "strcat(buffer, (const char *)v)"),
-    ("long jumps: ", "jmp_buf j; if (setjmp(j)) longjmp(j, 1)")])
+@pytest.mark.parametrize(
+    "what, statement",
+    [
+        ("dynamic memory: ", "*(char *volatile *)buffer = malloc(v)"),
+        ("dynamic memory: ", "free((void *)v)"),
+        ("dynamic memory: ", "v = *(char *)calloc(v, 2)"),
+        ("floating point: ", "v = v * 1.5"),
+        ("floating point: ", "v = (float)v / 3 > 2"),
+        ("floating point: ", "v = (long)((double)v / v)"),
+        ("formats: ", 'printf("%d", v)'),
+        ("formats: ", 'snprintf(buffer, 9, "%d", v)'),
+        ("formats: ", 'sscanf(buffer, "%d", &v)'),
+        ("formats: ", "v = atoi(buffer)"),
+        ("unbounded strings: ", "strcpy(buffer, (const char *)v)"),
+        ("unbounded strings: ", "strcpy_P(buffer, (const char *)v)"),
+        ("unbounded strings: ", "strcat(buffer, (const char *)v)"),
+        ("long jumps: ", "jmp_buf j; if (setjmp(j)) longjmp(j, 1)"),
+    ],
+)
 def test_what_is_not_allowed_is_named(tmp_path, what, statement):
     done = check(tmp_path, statement)
     assert done.returncode == 1, done.stdout

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """tools/combine: one image of loader, application and motions; and tools/dev/app_record on what goes into it."""
+
 import pathlib
 import subprocess
 import sys
@@ -60,13 +61,16 @@ def record(crc=None, length=0x200):
     image = bytearray(range(256)) * 2
     image[0x8C:0x9C] = b"M512" + length.to_bytes(4, "little") + b"\xff\xff" + bytes([1, 1, 1, 2, 3, 1])
     import binascii
+
     crc = binascii.crc_hqx(bytes(image), 0xFFFF) if crc is None else crc
     image[0x94:0x96] = crc.to_bytes(2, "little")
     return bytes(image)
 
 
-@pytest.mark.parametrize("arguments, missing", [(["app", "--board", "cm5", "--kind", "play", "--version", "1.2.3"], "no record at 0x8C"),
-                                                (["boot"], "no table for applications at 0x1FFE0")])
+@pytest.mark.parametrize(
+    "arguments, missing",
+    [(["app", "--board", "cm5", "--kind", "play", "--version", "1.2.3"], "no record at 0x8C"), (["boot"], "no table for applications at 0x1FFE0")],
+)
 def test_an_image_that_has_nothing_to_fill_in_is_refused(tmp_path, arguments, missing):
     (tmp_path / "t.c").write_text("int main(void) { for (;;) { } }")
     elf = tmp_path / "t.elf"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Our linker scripts (linker/, m512_image of tools/dev/cmake): a section that no script names is an error for each kind of image, and an edit of
 a file that a script includes links again. Tried in a small project of its own with the same toolchain file."""
+
 import os
 import pathlib
 import shlex
@@ -26,7 +27,7 @@ foreach(kind app boot test)
 endforeach()
 """
 # app_record: what tools/dev/app_record fills in; dropped where the linker script does not ask for it.
-GOOD = '__attribute__((section(".app_record"), used)) const char app_record[16] = "M512";\n' "int main(void)\n{\n    for (;;) {\n    }\n}\n"
+GOOD = '__attribute__((section(".app_record"), used)) const char app_record[16] = "M512";\nint main(void)\n{\n    for (;;) {\n    }\n}\n'
 STRAY = """extern volatile unsigned char sink;
 volatile unsigned char sink;
 extern const char stray[];
@@ -53,8 +54,21 @@ def project(tmp_path_factory):
     shutil.copy(TOP / "tools/dev/app_record", folder / "tools/dev")
     for name, text in (("CMakeLists.txt", PROJECT), ("good.c", GOOD), ("stray.c", STRAY)):
         (folder / name).write_text(text)
-    subprocess.run(["cmake", "-G", "Ninja", "-S", folder, "-B", folder / "build", "--log-level=WARNING",
-                    f"-DCMAKE_TOOLCHAIN_FILE={folder}/tools/dev/cmake/avr_toolchain.cmake"], check=True, capture_output=True)
+    subprocess.run(
+        [
+            "cmake",
+            "-G",
+            "Ninja",
+            "-S",
+            folder,
+            "-B",
+            folder / "build",
+            "--log-level=WARNING",
+            f"-DCMAKE_TOOLCHAIN_FILE={folder}/tools/dev/cmake/avr_toolchain.cmake",
+        ],
+        check=True,
+        capture_output=True,
+    )
     done = build(folder, *(f"good-{kind}" for kind in KINDS))
     assert done.returncode == 0, done.stdout
     return folder
@@ -67,13 +81,21 @@ def test_section_without_a_place_is_an_error(project, kind):
     assert not (project / "made" / f"stray-{kind}.hex").exists()
 
 
-@pytest.mark.parametrize("kind, edited", [(kind, name) for kind, names in {
-    "app": ("app.ld.in", "text.ld.in", "data.ld.in", "debug.ld.in", "memory_map.h"),
-    "boot": ("boot.ld.in", "data.ld.in", "debug.ld.in", "memory_map.h"),
-    "test": ("test.ld.in", "text.ld.in", "data.ld.in", "debug.ld.in", "memory_map.h")}.items() for name in names])
+@pytest.mark.parametrize(
+    "kind, edited",
+    [
+        (kind, name)
+        for kind, names in {
+            "app": ("app.ld.in", "text.ld.in", "data.ld.in", "debug.ld.in", "memory_map.h"),
+            "boot": ("boot.ld.in", "data.ld.in", "debug.ld.in", "memory_map.h"),
+            "test": ("test.ld.in", "text.ld.in", "data.ld.in", "debug.ld.in", "memory_map.h"),
+        }.items()
+        for name in names
+    ],
+)
 def test_edit_of_a_script_links_again(project, kind, edited):
     image = project / "made" / f"good-{kind}.elf"
-    build(project, f"good-{kind}")   # another kind's edit
+    build(project, f"good-{kind}")  # another kind's edit
     assert "no work to do" in build(project, f"good-{kind}").stdout
     linked = image.stat().st_mtime_ns
     with open(project / "linker" / edited, "a") as file:
@@ -85,8 +107,9 @@ def test_edit_of_a_script_links_again(project, kind, edited):
 def test_every_image_is_linked_with_a_script_of_ours_and_strictly():
     images = sorted((BUILD / "firmware").rglob("*.elf"))
     assert len(images) > 80
-    commands = subprocess.run(["ninja", "-C", BUILD / "avr", "-t", "commands", *map(str, images)], check=True, capture_output=True,
-                              text=True).stdout.splitlines()
+    commands = subprocess.run(
+        ["ninja", "-C", BUILD / "avr", "-t", "commands", *map(str, images)], check=True, capture_output=True, text=True
+    ).stdout.splitlines()
     links = [words for words in map(shlex.split, commands) if any(word.endswith(".elf") for word in words) and "-c" not in words]
     assert len(links) == len(images)
     for words in links:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """tools/dev/pack_texts: what it reads, what it packs, what it refuses; and the texts of the images it was used for."""
+
 import ast
 import importlib.util
 import os
@@ -31,6 +32,7 @@ def texts_of(source):
 
 
 # ---- the code ----
+
 
 def decode(codes, pairs):
     """The code as the tool's own words describe it, written anew: recursive, no stack."""
@@ -66,10 +68,15 @@ def test_a_pair_that_does_not_pay_is_not_made():
 
 # ---- what is read ----
 
+
 def test_marks_are_found_with_their_kind_and_name():
     source = 'TEXT("a");\ntext_P(x ? TEXT_P("b") : TEXT_P("c"));\nTEXT_NAMED(help_x, "d");\n'
     assert [(mark.kind, mark.name, mark.text) for mark in tool.find_marks(source)] == [
-        ("TEXT", None, b"a"), ("TEXT_P", None, b"b"), ("TEXT_P", None, b"c"), ("TEXT_NAMED", "help_x", b"d")]
+        ("TEXT", None, b"a"),
+        ("TEXT_P", None, b"b"),
+        ("TEXT_P", None, b"c"),
+        ("TEXT_NAMED", "help_x", b"d"),
+    ]
 
 
 def test_adjacent_literals_and_comments_between_are_one_text():
@@ -84,34 +91,38 @@ def test_comments_strings_and_the_preprocessor_are_left_alone():
 def test_literals_mean_what_the_compiler_says(tmp_path):
     literals = [r'"plain, ????"', r'"\"\\\'\?"', r'"\101[999;999H\0501\40"', r'"\x5B" "[2J"']
     program = "#include <stdio.h>\nint main(void)\n{\n" + "".join(
-        f"    for (const char *c = {literal}; *c; c++) printf(\"%02x\", *c);\n    puts(\"\");\n" for literal in literals)
+        f'    for (const char *c = {literal}; *c; c++) printf("%02x", *c);\n    puts("");\n' for literal in literals
+    )
     (tmp_path / "p.c").write_text(program + "    return 0;\n}\n")
     subprocess.run(["cc", "-o", tmp_path / "p", tmp_path / "p.c"], check=True)
     said = subprocess.run([tmp_path / "p"], capture_output=True, text=True, check=True).stdout.split()
     assert [text.hex() for literal in literals for text in texts_of(f"TEXT({literal});")] == said
 
 
-@pytest.mark.parametrize("line, complaint", [
-    ("TEXT(name);", "string literals only"),
-    ('TEXT(a ? "x" : "y");', "string literals only"),
-    ('TEXT("x" NAME "y");', "string literals only"),
-    ('TEXT("\\q");', "unknown escape"),
-    ('TEXT("a\\0b");', "characters 0x20..0x7F"),
-    ('TEXT("a\\r\\n");', "characters 0x20..0x7F"),
-    ('TEXT("\\200");', "characters 0x20..0x7F"),
-    ('TEXT_NAMED("x");', "needs a name"),
-    ('TEXT_NAMED(x, "y"), z;', "semicolon"),
-])
+@pytest.mark.parametrize(
+    "line, complaint",
+    [
+        ("TEXT(name);", "string literals only"),
+        ('TEXT(a ? "x" : "y");', "string literals only"),
+        ('TEXT("x" NAME "y");', "string literals only"),
+        ('TEXT("\\q");', "unknown escape"),
+        ('TEXT("a\\0b");', "characters 0x20..0x7F"),
+        ('TEXT("a\\r\\n");', "characters 0x20..0x7F"),
+        ('TEXT("\\200");', "characters 0x20..0x7F"),
+        ('TEXT_NAMED("x");', "needs a name"),
+        ('TEXT_NAMED(x, "y"), z;', "semicolon"),
+    ],
+)
 def test_what_it_cannot_read_is_an_error_with_file_and_line(tmp_path, line, complaint):
     (tmp_path / "odd.c").write_text("int x;\n\n" + line + "\n")
-    run = subprocess.run([ROOT / "tools/dev/pack_texts", "--out", tmp_path / "out", tmp_path / "odd.c"],
-                         capture_output=True, text=True)
+    run = subprocess.run([ROOT / "tools/dev/pack_texts", "--out", tmp_path / "out", tmp_path / "odd.c"], capture_output=True, text=True)
     assert run.returncode == 1
     assert "odd.c:3: " in run.stderr and complaint in run.stderr
     assert not (tmp_path / "out").exists()
 
 
 # ---- what is written ----
+
 
 def pack_files(folder, **sources):
     paths = []
@@ -146,6 +157,7 @@ def test_what_does_not_change_is_not_written_again(tmp_path):
 
 # ---- the images ----
 
+
 def image_symbols(elf):
     """{name without the compiler's suffix: [(address, bytes)]} of what lies in flash."""
     flash = elf.with_suffix(".elf.bin")
@@ -156,7 +168,7 @@ def image_symbols(elf):
     for line in subprocess.run(["avr-nm", "-S", elf], capture_output=True, text=True, check=True).stdout.splitlines():
         if found := re.match(r"([0-9a-f]{8}) ([0-9a-f]{8}) [tT] (\w+)", line):
             at, size = int(found[1], 16), int(found[2], 16)
-            symbols.setdefault(found[3], []).append(data[at:at + size])
+            symbols.setdefault(found[3], []).append(data[at : at + size])
     return symbols
 
 

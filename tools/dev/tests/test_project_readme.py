@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The READMEs are true: the session of the first screen is part of a tour that a test runs, links and commands exist, and
 tools/README.md has a line for everything in tools/."""
+
 import pathlib
 import re
 import subprocess
@@ -31,19 +32,53 @@ def test_commands_named_exist():
 
 def entries(folder):
     """Names in a folder, without what speaks for itself and what tools leave behind."""
-    return {path.name for path in (TOP / folder).iterdir() if not path.name.startswith((".", "__"))} - {
-        "CMakeLists.txt", "README.md"}
+    return {path.name for path in (TOP / folder).iterdir() if not path.name.startswith((".", "__"))} - {"CMakeLists.txt", "README.md"}
 
 
-@pytest.mark.parametrize("tool", ["demo", "test", "bench", "prove", "combine", "release", "sim/bench", "body/try", "body/picture",
-                                  "dev/size_report", "dev/bench_edit", "dev/pack_texts", "dev/app_record", "dev/lint", "dev/build", "dev/cleanroom",
-                                  "dev/setup", "dev/get_unity", "dev/check_layers", "dev/check_circles", "dev/check_spm",
-                                  "dev/check_symbols", "motions/gait.py", "visual/bench", "visual/build", "visual/serve", "visual/test",
-                                  "visual/board/get_simavr"])
+@pytest.mark.parametrize(
+    "tool",
+    [
+        "demo",
+        "test",
+        "bench",
+        "prove",
+        "combine",
+        "release",
+        "sim/bench",
+        "body/try",
+        "body/picture",
+        "dev/size_report",
+        "dev/bench_edit",
+        "dev/pack_texts",
+        "dev/app_record",
+        "dev/lint",
+        "dev/build",
+        "dev/cleanroom",
+        "dev/setup",
+        "dev/get_unity",
+        "dev/check_layers",
+        "dev/check_circles",
+        "dev/check_spm",
+        "dev/check_symbols",
+        "motions/gait.py",
+        "visual/bench",
+        "visual/build",
+        "visual/serve",
+        "visual/test",
+        "visual/board/get_simavr",
+    ],
+)
 def test_tool_says_by_itself_what_it_does(tool, tmp_path):
     """Called as a person calls it, without the project's Python; nothing is built, installed or written for that."""
-    done = subprocess.run([TOP / "tools" / tool, "--help"], capture_output=True, text=True, timeout=300, cwd=tmp_path,
-                          env={"PATH": "/usr/local/bin:/usr/bin:/bin"}, check=False)
+    done = subprocess.run(
+        [TOP / "tools" / tool, "--help"],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        cwd=tmp_path,
+        env={"PATH": "/usr/local/bin:/usr/bin:/bin"},
+        check=False,
+    )
     assert tool.rpartition("/")[2] in done.stdout and "==" not in done.stdout, done.stdout
     assert (done.returncode, done.stderr, list(tmp_path.iterdir())) == (0, "", [])
 
@@ -51,7 +86,7 @@ def test_tool_says_by_itself_what_it_does(tool, tmp_path):
 @pytest.mark.parametrize("folder,heading", [("tools/", "people run"), ("tools/dev/", "`dev/`")])
 def test_tools_readme_has_one_row_for_everything(folder, heading):
     text = (TOP / "tools/README.md").read_text(encoding="utf-8")
-    table = text[text.index(f"| {heading} |"):].split("\n\n")[0]
+    table = text[text.index(f"| {heading} |") :].split("\n\n")[0]
     rows = re.findall(r"^\| \[?`([\w.]+)/?`", table, re.M)
     assert len(rows) == len(set(rows))
     assert set(rows) - {"dev"} == entries(folder) - {"dev"}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """tools/release: the same sources give the same bytes, the sums are right, and what it makes works where there is nothing else.
 The programs come from the build folder here; that a second build, in another folder, gives the same bytes too is shown by tools/release --twice."""
+
 import filecmp
 import os
 import pathlib
@@ -17,16 +18,25 @@ BUILD = TOP / "build"
 
 
 def release(*arguments, umask=0o022, cwd=TOP, **environment):
-    return subprocess.run([sys.executable, TOP / "tools" / "release", *map(str, arguments)], check=False, text=True, capture_output=True,
-                          cwd=cwd, umask=umask, env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000", **environment})
+    return subprocess.run(
+        [sys.executable, TOP / "tools" / "release", *map(str, arguments)],
+        check=False,
+        text=True,
+        capture_output=True,
+        cwd=cwd,
+        umask=umask,
+        env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000", **environment},
+    )
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     """The same release twice: at another place, with other modes, time zone, language and hash seed."""
     one, other = (tmp_path_factory.mktemp(name) for name in ("one", "a longer name for the other"))
-    for done in (release("--from", BUILD, one / "robot"),
-                 release("--from", BUILD, other / "robot", umask=0o077, cwd="/", TZ="Asia/Seoul", LC_ALL="C", PYTHONHASHSEED="7")):
+    for done in (
+        release("--from", BUILD, one / "robot"),
+        release("--from", BUILD, other / "robot", umask=0o077, cwd="/", TZ="Asia/Seoul", LC_ALL="C", PYTHONHASHSEED="7"),
+    ):
         assert done.returncode == 0, done.stderr
     return one, other
 
@@ -59,8 +69,11 @@ def test_release_names_only_files_that_it_has(made):
     text = (folder / "README.md").read_text(encoding="utf-8")
     assert "@" not in text
     words = {word.strip("`,;:()[]") for word in text.replace("`", " ").replace("(", " ").replace(")", " ").split()}
-    named = {word.split(":")[-2] if word.startswith("flash:w:") else word for word in words
-             if word.startswith(("firmware/", "motions/", "python/", "flash:w:"))}
+    named = {
+        word.split(":")[-2] if word.startswith("flash:w:") else word
+        for word in words
+        if word.startswith(("firmware/", "motions/", "python/", "flash:w:"))
+    }
     assert len(named) > 20 and [name for name in named if not (folder / name).exists()] == []
 
 
@@ -84,26 +97,53 @@ def installed(made, tmp_path_factory):
     """A fresh virtual environment with the two wheels; what they need from PyPI comes from this one."""
     venv = tmp_path_factory.mktemp("user") / "venv"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", venv], check=True)
-    site = pathlib.Path(subprocess.run([venv / "bin" / "python", "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"],
-                                       check=True, capture_output=True, text=True).stdout.strip())
+    site = pathlib.Path(
+        subprocess.run(
+            [venv / "bin" / "python", "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"], check=True, capture_output=True, text=True
+        ).stdout.strip()
+    )
     (site / "needs.pth").write_text(sysconfig.get_path("purelib") + "\n")
     wheels = sorted((made[0] / "robot" / "python").glob("*.whl"))
-    subprocess.run([sys.executable, "-m", "pip", "-q", "--disable-pip-version-check", "--python", venv / "bin" / "python", "install",
-                    "--no-index", "--no-deps", *wheels], check=True)
+    subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "pip",
+            "-q",
+            "--disable-pip-version-check",
+            "--python",
+            venv / "bin" / "python",
+            "install",
+            "--no-index",
+            "--no-deps",
+            *wheels,
+        ],
+        check=True,
+    )
     return venv / "bin"
 
 
 def as_a_user(program, *arguments, cwd):
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("M512", "PYTHON", "LD_"))}
-    return subprocess.run([program, *arguments], check=False, capture_output=True, text=True, cwd=cwd, timeout=800,
-                          env={**environment, "PATH": "/usr/bin:/bin"}, stdin=subprocess.DEVNULL)
+    return subprocess.run(
+        [program, *arguments],
+        check=False,
+        capture_output=True,
+        text=True,
+        cwd=cwd,
+        timeout=800,
+        env={**environment, "PATH": "/usr/bin:/bin"},
+        stdin=subprocess.DEVNULL,
+    )
 
 
 def test_release_brings_the_terms_of_what_the_simulator_links(made):
-    wheel, = (made[0] / "robot" / "python").glob("cm5sim-*.whl")
+    (wheel,) = (made[0] / "robot" / "python").glob("cm5sim-*.whl")
     with zipfile.ZipFile(wheel) as files:
+
         def text(name):
             return files.read(f"cm5sim/robot/{name}").decode()
+
         assert "GNU GENERAL PUBLIC LICENSE" in text("LICENSE.GPL-3") and "GNU LESSER" in text("LICENSE.LGPL-3")
         libraries = [name.rpartition("/")[2] for name in files.namelist() if ".so." in name and not name.endswith(".copyright")]
         assert len(libraries) == 2
@@ -126,7 +166,7 @@ def test_release_drives_servos_on_an_adapter(installed, tmp_path):
     bus = tmp_path / "bus"
     servos = subprocess.Popen([installed / "cm5sim", f"--bus-pty={bus}", "--servos", "1-3"], stderr=subprocess.PIPE, text=True)
     try:
-        servos.stderr.readline()      # it names its port when it is there
+        servos.stderr.readline()  # it names its port when it is there
         done = as_a_user("/usr/bin/env", f"M512_ROBOT={tmp_path / 'robot'}", installed / "m512", "pose", "-p", f"bus:{bus}", cwd=tmp_path)
     finally:
         servos.terminate()

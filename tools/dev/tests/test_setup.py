@@ -3,6 +3,7 @@
 
 apt is played by small scripts; Python's part is real, with packages made here in place of a network. The real thing: tools/dev/cleanroom.
 """
+
 import importlib.metadata
 import json
 import os
@@ -23,7 +24,7 @@ MACHINE = {
     "apt-cache": "echo Package: $3",
     "df": 'echo "Filesystem 1M-blocks Used Available"; echo "/dev/x 9000 8500 500"',
     "apt-get": 'case "$*" in *--assume-no*) echo "Need to get 41.5 MB of archives."; '
-               'echo "After this operation, 1,158 kB of additional disk space will be used.";; *install*) echo "$@" >> installed;; esac',
+    'echo "After this operation, 1,158 kB of additional disk space will be used.";; *install*) echo "$@" >> installed;; esac',
 }
 
 
@@ -107,8 +108,14 @@ def test_an_installation_that_fails_says_why(tree):
 
 def python(tree, wheels):
     """setup --python job, with the packages of a folder as all that there is."""
-    return subprocess.run(["tools/dev/setup", "--python", "job"], cwd=tree, capture_output=True, text=True, check=False,
-                          env={"PATH": os.environ["PATH"], "PIP_NO_INDEX": "1", "PIP_FIND_LINKS": str(wheels)})
+    return subprocess.run(
+        ["tools/dev/setup", "--python", "job"],
+        cwd=tree,
+        capture_output=True,
+        text=True,
+        check=False,
+        env={"PATH": os.environ["PATH"], "PIP_NO_INDEX": "1", "PIP_FIND_LINKS": str(wheels)},
+    )
 
 
 @pytest.fixture
@@ -127,8 +134,12 @@ def wheels(tmp_path):
 
 def imported(tree):
     """The version of `thing` that the tree's Python has, and where from."""
-    said = subprocess.run([tree / "build" / "venv" / "bin" / "python", "-c", "import thing; print(thing.version, thing.__file__)"],
-                          capture_output=True, text=True, check=True)
+    said = subprocess.run(
+        [tree / "build" / "venv" / "bin" / "python", "-c", "import thing; print(thing.version, thing.__file__)"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     version, file = said.stdout.split()
     assert file.startswith(str(tree.resolve() / "build" / "venv"))
     return version
@@ -172,8 +183,11 @@ def build_editable(folder, config=None, metadata=None): return _wheel(folder)
 def test_a_package_of_the_tree_is_used_where_it_lies(tree, wheels):
     """And installed again when what it asks for has changed. setuptools is there already, or comes as any package."""
     with zipfile.ZipFile(wheels / "setuptools-99-py3-none-any.whl", "w") as wheel:
-        for name, text in (("METADATA", "Metadata-Version: 2.1\nName: setuptools\nVersion: 99\n"), ("RECORD", ""),
-                           ("WHEEL", "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n")):
+        for name, text in (
+            ("METADATA", "Metadata-Version: 2.1\nName: setuptools\nVersion: 99\n"),
+            ("RECORD", ""),
+            ("WHEEL", "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n"),
+        ):
             wheel.writestr(f"setuptools-99.dist-info/{name}", text)
     ours = tree / "ours"
     ours.mkdir()
@@ -203,7 +217,9 @@ def test_another_trees_python_is_not_used(tree, wheels, tmp_path):
 
 def test_a_program_says_what_it_does_before_anything_is_installed(tree):
     shutil.copy(DEV / "python", tree / "tools/dev")
-    (tree / "tool").write_text("#!/usr/bin/env -S sh -c 'exec \"${0%/*}/tools/dev/python\" \"$0\" \"$@\"'\n\"\"\"Does this.\"\"\"\nimport nothing_that_is_here\n")
+    (tree / "tool").write_text(
+        '#!/usr/bin/env -S sh -c \'exec "${0%/*}/tools/dev/python" "$0" "$@"\'\n"""Does this."""\nimport nothing_that_is_here\n'
+    )
     (tree / "tool").chmod(0o755)
     assert subprocess.run([tree / "tool", "--help"], capture_output=True, text=True, check=True).stdout == "Does this.\n"
     assert refusal_of(subprocess.run([tree / "tool", "word"], capture_output=True, text=True, check=False)).endswith("run: tools/dev/build")

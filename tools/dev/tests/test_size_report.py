@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The size report's stack figures, against frames whose size is known from the source."""
+
 import pathlib
 import subprocess
 
@@ -73,7 +74,7 @@ int main(void) { for (;;) down(v); }
 
 
 @pytest.mark.parametrize("way_back, is_fault", [("if (count) down(count);", True), ("", False)])
-@pytest.mark.parametrize("options", [(), ("-g",)], ids=["", "-g"])   # -g: a newer assembler leaves a label before each line
+@pytest.mark.parametrize("options", [(), ("-g",)], ids=["", "-g"])  # -g: a newer assembler leaves a label before each line
 def test_recursion_is_a_fault(tmp_path, way_back, is_fault, options):
     source, elf = tmp_path / "t.c", tmp_path / "play-x.elf"
     source.write_text(RECURSION % way_back)
@@ -117,11 +118,14 @@ def test_an_image_without_symbols_is_refused(tmp_path):
 
 
 def test_a_stack_that_is_made_in_an_unknown_way_is_refused(tmp_path):
-    done = built(tmp_path, """
+    done = built(
+        tmp_path,
+        """
 #include <avr/io.h>
 static void __attribute__((noinline)) odd(void) { SP = SP - 100; PORTB = SPL; SP = SP + 100; }
 int main(void) { for (;;) odd(); }
-""")
+""",
+    )
     assert done.returncode == 1 and "odd moves the stack pointer in a way that this report does not know" in done.stderr
 
 
@@ -134,12 +138,16 @@ def test_a_call_to_nowhere_is_refused(tmp_path):
 @pytest.mark.parametrize("options", [(), ("-mcall-prologues",), ("-mcall-prologues", "-mrelax", "-g")], ids=" ".join)
 @pytest.mark.parametrize("size", [1, 2, 5, 40, 63, 64, 300])
 def test_frames_of_every_size_are_counted(tmp_path, size, options):
-    done = built(tmp_path, f"""
+    done = built(
+        tmp_path,
+        f"""
 #include <avr/io.h>
 volatile char v;
 static void __attribute__((noinline)) framed(void) {{ volatile char b[{size}]; for (uint8_t i = 0; i < sizeof b; i++) b[i] = v; PORTB = b[0]; }}
 int main(void) {{ for (;;) framed(); }}
-""", *options)
+""",
+        *options,
+    )
     assert done.returncode == 0, done.stderr
     fields = done.stdout.splitlines()[1].split()
     # Y is saved where there is a frame; the call from main; main's own return address.

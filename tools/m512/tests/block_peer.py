@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Our loader's line shell and block protocol, made from its description, with a line that can be disturbed."""
+
 import binascii
 
 from peer import APP, RESET, LoaderBoard
@@ -20,8 +21,8 @@ class BlockBoard(LoaderBoard):
         self.eeprom = bytearray(b"\xff" * 4096)
         self.board, self.frame = board, None
         self.writes, self.left = [], []
-        self.broken_pages = set()      # the loader sees that they do not take the data
-        self.forgetful_pages = set()   # it does not
+        self.broken_pages = set()  # the loader sees that they do not take the data
+        self.forgetful_pages = set()  # it does not
         super().__init__(state, presses_mode)
 
     def press_mode(self):
@@ -87,21 +88,21 @@ class BlockBoard(LoaderBoard):
             status = 0
         elif command == 3:
             memory, at = (self.eeprom, first - 0x8100) if first >= 0x8100 else (self.flash, first)
-            status, data = 0, bytes(memory[at * 256:at * 256 + 256])
+            status, data = 0, bytes(memory[at * 256 : at * 256 + 256])
         elif command == 4 and first < 0x1E0 and len(body) == 258:
-            same = self.flash[first * 256:first * 256 + 256] == body[2:]
+            same = self.flash[first * 256 : first * 256 + 256] == body[2:]
             status = 3 if first in self.broken_pages else 1 if same else 0
             if status == 0:
-                self.flash[first * 256:first * 256 + 256] = body[2:] if first not in self.forgetful_pages else bytes(256)
+                self.flash[first * 256 : first * 256 + 256] = body[2:] if first not in self.forgetful_pages else bytes(256)
                 self.writes.append(first)
         elif command == 5 and count <= 64 and first + count <= 512:
             status = 0
             for page in range(first, first + count):
-                piece = bytes(self.flash[page * 256:page * 256 + 256])
+                piece = bytes(self.flash[page * 256 : page * 256 + 256])
                 data += crc16(piece).to_bytes(2, "little") + (sum(piece) & 0xFFFF).to_bytes(2, "little")
         elif command == 6 and count <= 32 and len(body) >= 4 + count:
             status = 0
-            self.eeprom[first:first + count] = body[4:4 + count]
+            self.eeprom[first : first + count] = body[4 : 4 + count]
         elif command == 7:
             status = 0
             self.left.append(first)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Where the tests find things: the repository, its sample files, the build products."""
+
 from pathlib import Path
 
 import pytest

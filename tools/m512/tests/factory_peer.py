@@ -4,6 +4,7 @@
 What a careless PC tool would break is broken here too, and noted in `hurt`: its own section overwritten, a line of 80
 characters ended by CR, the type-ahead ring overrun.
 """
+
 from peer import APP, RESET, LoaderBoard
 from pty_peer import PtyPeer
 from virtual_peer import VirtualPeer
@@ -26,16 +27,16 @@ class FactoryBoard(LoaderBoard):
         self.before = bytes(self.flash)
         self.hurt, self.downloads, self.words, self.mails = [], [], [], []
         self.dump_at, self.page = 0, bytearray(256)
-        self.dead_pages = set()        # flash that does not take the data
+        self.dead_pages = set()  # flash that does not take the data
         super().__init__(state, presses_mode)
 
     # Start
 
     def press_mode(self):
         super().press_mode()
-        if self.eeprom[0xFF4] == 0xAA:       # the mailbox
+        if self.eeprom[0xFF4] == 0xAA:  # the mailbox
             at = 0xE000 + 512 * self.eeprom[0xFF5]
-            self.flash[at:at + 512] = self.eeprom[0x800:0xA00]
+            self.flash[at : at + 512] = self.eeprom[0x800:0xA00]
             self.mails.append(self.eeprom[0xFF5])
             self.eeprom[0xFF4] = 0x55
 
@@ -100,9 +101,24 @@ class FactoryBoard(LoaderBoard):
             return
         self.words.append(line)
         name, args = words[0].decode("latin-1").lower(), words[1:]
-        handler = getattr(self, "_do_" + {"flash": "f", "eep": "e", "eeprom": "e", "l": "load", "ld": "load", "dn": "load",
-                                          "down": "load", "g": "go", "application": "app", "system": "sys",
-                                          "v": "verify"}.get(name, name), None)
+        handler = getattr(
+            self,
+            "_do_"
+            + {
+                "flash": "f",
+                "eep": "e",
+                "eeprom": "e",
+                "l": "load",
+                "ld": "load",
+                "dn": "load",
+                "down": "load",
+                "g": "go",
+                "application": "app",
+                "system": "sys",
+                "v": "verify",
+            }.get(name, name),
+            None,
+        )
         if handler is None:
             self.send(b"\r\n Bad Command.('help' for instructions definition)")
         else:
@@ -169,7 +185,7 @@ class FactoryBoard(LoaderBoard):
         if base >= 0x1E000:
             self.hurt.append(f"own section at {base:X}")
         if base not in self.dead_pages:
-            self.flash[base:base + 256] = self.page
+            self.flash[base : base + 256] = self.page
 
     def _download_ends(self):
         size, total, last = len(self.received), sum(self.received[:-1]) & 0xFFFFFFFF, self.received[-1]
@@ -180,8 +196,12 @@ class FactoryBoard(LoaderBoard):
         self.eeprom[0xFF7:0xFFB] = total.to_bytes(4, "little")
         self.eeprom[0xFFB:0xFFF] = size.to_bytes(4, "little")
         self.state = PROMPTED
-        self.send((b"Success" if total & 0xFF == last else b"Error") + b"\r\n Rewriting:0X0000"
-                  + f"\r\n Size:0X{size:08X}  Checksum:{total & 0xFF:02X}-{last:02X}".encode() + PROMPT)
+        self.send(
+            (b"Success" if total & 0xFF == last else b"Error")
+            + b"\r\n Rewriting:0X0000"
+            + f"\r\n Size:0X{size:08X}  Checksum:{total & 0xFF:02X}-{last:02X}".encode()
+            + PROMPT
+        )
 
     # EEPROM
 

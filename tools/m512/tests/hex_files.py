@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Intel HEX files for the tests, written by a library that is not ours."""
+
 from intelhex import IntelHex
 
 

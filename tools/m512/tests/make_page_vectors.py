@@ -5,6 +5,7 @@
 Made from the specification of the page alone: it builds bytes by offset and states by hand what each page means. It
 must not import m512, so that no codec checks itself. Usage: make_page_vectors.py > tests/models/golden/page_vectors.json
 """
+
 import json
 
 ORDER = ["OK", "CHECKSUM", "STEPS", "SCHEDULE", "SPEED", "LINK", "POSITION"]
@@ -37,14 +38,34 @@ def vector(name, page, fault, playable, checksum=None, words=(), **fields):
         page[31] = (255 - sum(page) % 256) % 256
     else:
         page[31] = checksum
-    vectors.append({"name": name, "fault": fault, "fault_number": ORDER.index(fault), "playable": playable,
-                    "fields": dict(fields, checksum=page[31]),
-                    "words": [{"step": s, "joint": j, "word": w, "used": u} for s, j, w, u in words],
-                    "hex": bytes(page).hex()})
+    vectors.append(
+        {
+            "name": name,
+            "fault": fault,
+            "fault_number": ORDER.index(fault),
+            "playable": playable,
+            "fields": dict(fields, checksum=page[31]),
+            "words": [{"step": s, "joint": j, "word": w, "used": u} for s, j, w, u in words],
+            "hex": bytes(page).hex(),
+        }
+    )
 
 
-DEFAULTS = dict(play_count=1, schedule=0x0A, steps=0, play_code=0, speed=32, dxl_setup=0, accel_time=32, next_page=0,
-                exit_page=0, linked1_page=0, linked1_code=0, linked2_page=0, linked2_code=0)
+DEFAULTS = dict(
+    play_count=1,
+    schedule=0x0A,
+    steps=0,
+    play_code=0,
+    speed=32,
+    dxl_setup=0,
+    accel_time=32,
+    next_page=0,
+    exit_page=0,
+    linked1_page=0,
+    linked1_code=0,
+    linked2_page=0,
+    linked2_code=0,
+)
 
 
 def pose(steps=1, **changes):
@@ -83,10 +104,27 @@ def build():
     put(page, 1, 30, 258)
     page[64 + 62], page[64 + 63] = 128, 255
     page[128 + 62], page[128 + 63] = 0, 1
-    vector("every field", page, "OK", True, None,
-           [(0, 0, 0, True), (0, 3, 1023, True), (1, 3, 0x4258, False), (1, 30, 0x0102, True), (1, 0, 0x4000, False)],
-           play_count=2, schedule=0, steps=2, play_code=0x11, speed=64, dxl_setup=7, accel_time=16, next_page=12,
-           exit_page=13, linked1_page=14, linked1_code=0x15, linked2_page=15, linked2_code=0x16)
+    vector(
+        "every field",
+        page,
+        "OK",
+        True,
+        None,
+        [(0, 0, 0, True), (0, 3, 1023, True), (1, 3, 0x4258, False), (1, 30, 0x0102, True), (1, 0, 0x4000, False)],
+        play_count=2,
+        schedule=0,
+        steps=2,
+        play_code=0x11,
+        speed=64,
+        dxl_setup=7,
+        accel_time=16,
+        next_page=12,
+        exit_page=13,
+        linked1_page=14,
+        linked1_code=0x15,
+        linked2_page=15,
+        linked2_code=0x16,
+    )
     vectors[-1].update(title="wave", compliance={"2": 0x55, "3": 0x37}, pauses=[128, 0], times=[255, 1])
 
     page = pose()
@@ -141,5 +179,9 @@ def build():
 
 if __name__ == "__main__":
     build()
-    print(json.dumps({"note": "pages for the C and the Python codec; made by tools/m512/tests/make_page_vectors.py",
-                      "faults": ORDER, "vectors": vectors}, indent=1))
+    print(
+        json.dumps(
+            {"note": "pages for the C and the Python codec; made by tools/m512/tests/make_page_vectors.py", "faults": ORDER, "vectors": vectors},
+            indent=1,
+        )
+    )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Makes .mtn files as people have them, and the pages that the specification says they mean (FILES.md, not our reader)."""
+
 from dataclasses import dataclass, field
 
 BOM = b"\xef\xbb\xbf"
@@ -8,6 +9,7 @@ BOM = b"\xef\xbb\xbf"
 @dataclass
 class Block:
     """One page of the text. steps: (26 positions, pause, time), pause and time in units of 8 ms."""
+
     name: str = ""
     next: int = 0
     exit: int = 0
@@ -28,8 +30,12 @@ def body(blocks, enable=range(1, 19), version="1.01", full=True):
     if version == "1.01":
         lines.append("motor_type=" + " ".join("0" * 26))
     for block in list(blocks) + [Block()] * (255 - len(blocks) if full else 0):
-        lines += ["page_begin", f"name={block.name}", "compliance=" + " ".join([str(block.level)] * 26),
-                  f"play_param={block.next} {block.exit} {block.repeat} {block.rate} {block.inertia}"]
+        lines += [
+            "page_begin",
+            f"name={block.name}",
+            "compliance=" + " ".join([str(block.level)] * 26),
+            f"play_param={block.next} {block.exit} {block.repeat} {block.rate} {block.inertia}",
+        ]
         lines += [f"step={' '.join(map(str, at))} {pause * 0.008:.3f} {time * 0.008:.3f}" for at, pause, time in block.steps]
         lines.append("page_end")
     return BOM + ("\n".join(lines) + "\n").encode()
@@ -62,7 +68,7 @@ def page_bytes(block, enable=range(1, 19)):
             if k < len(block.steps):
                 word = block.steps[k][0][joint] | (0 if joint in enable else 0x4000)
             at = 64 + 64 * k + 2 * joint
-            page[at:at + 2] = bytes([word & 255, word >> 8])
+            page[at : at + 2] = bytes([word & 255, word >> 8])
         if k < len(block.steps):
             page[64 + 64 * k + 62], page[64 + 64 * k + 63] = block.steps[k][1:]
     page[31] = (0xFF - sum(page)) % 256
@@ -71,6 +77,7 @@ def page_bytes(block, enable=range(1, 19)):
 
 # What happens to files: (words of the remark that must be told, what is done to the file)
 # Each takes the whole file as bytes; what it makes must be read as if nothing had happened.
+
 
 def _crlf(data):
     return data[:-2].replace(b"\n", b"\r\n") + data[-2:]
@@ -113,9 +120,20 @@ def blocks_by_chance(chance, count=5, most_steps=7):
     """Pages as they come; the first is named "hand" for the accident that renames it."""
     out = []
     for number in range(count):
-        steps = [step([chance.randrange(1024) for _ in range(26)], chance.randrange(256), chance.randrange(256))
-                 for _ in range(chance.randint(0, most_steps))]
-        out.append(Block("hand" if not number else chance.choice(("", "wave", "a b", "Größe", "x" * 13, "näher")), chance.randrange(256),
-                         chance.randrange(256), chance.choice((0, 1, 1, 1, 2)), chance.choice(("1.0", "0.5", "1.6", "2.0", "0.2", "3.2")),
-                         chance.randrange(256), chance.randint(1, 7), steps))
+        steps = [
+            step([chance.randrange(1024) for _ in range(26)], chance.randrange(256), chance.randrange(256))
+            for _ in range(chance.randint(0, most_steps))
+        ]
+        out.append(
+            Block(
+                "hand" if not number else chance.choice(("", "wave", "a b", "Größe", "x" * 13, "näher")),
+                chance.randrange(256),
+                chance.randrange(256),
+                chance.choice((0, 1, 1, 1, 2)),
+                chance.choice(("1.0", "0.5", "1.6", "2.0", "0.2", "3.2")),
+                chance.randrange(256),
+                chance.randint(1, 7),
+                steps,
+            )
+        )
     return out

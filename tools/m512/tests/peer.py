@@ -10,8 +10,8 @@ class Peer:
     """`path` names the port. The ends have pull(), plug(), `plugged`, now() in seconds, and _to_pc(data)."""
 
     def __init__(self):
-        self.cut_after = None          # bytes, both ways together, until the cable is pulled
-        self.garble = None             # function(direction, index, byte) -> byte or None (lost)
+        self.cut_after = None  # bytes, both ways together, until the cable is pulled
+        self.garble = None  # function(direction, index, byte) -> byte or None (lost)
         self.moved = 0
 
     def _count(self, direction, byte):
@@ -50,7 +50,7 @@ class LoaderBoard:
 
     def __init__(self, state, presses_mode):
         self.state, self.presses_mode = state, presses_mode
-        self.since, self.last = 0.0, 0       # of the reset; the last byte behind it
+        self.since, self.last = 0.0, 0  # of the reset; the last byte behind it
         self.line, self.app_heard = bytearray(), bytearray()
         super().__init__()
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A board on a pty, played by a thread in real time: for what is about the port itself. Limits here are minutes, and the board's own
 clock stands still while this process does: a silence of 0.1 s that ends a download is one in which the PC could have written."""
+
 import os
 import select
 import threading
@@ -72,7 +73,7 @@ class PtyPeer(Peer):
         """Waits while the PC's end is full, as long as it takes a busy PC to read it."""
         while data and self.running:
             try:
-                data = data[os.write(self.master, data):]
+                data = data[os.write(self.master, data) :]
             except BlockingIOError:
                 time.sleep(QUANTUM)
 
@@ -95,12 +96,12 @@ class PtyPeer(Peer):
         """Until something may have come. Without the lock, so that the file number may belong to another file by now."""
         try:
             select.select([self.master], [], [], QUANTUM)
-        except (OSError, TypeError, ValueError):     # the cable is off
+        except (OSError, TypeError, ValueError):  # the cable is off
             time.sleep(QUANTUM)
 
     def _read(self):
         """What has come; under the lock, so that it comes from this cable and not from a file that has its number now."""
         try:
             return os.read(self.master, 4096)
-        except (OSError, TypeError):                 # nothing, or the cable is off
+        except (OSError, TypeError):  # nothing, or the cable is off
             return b""

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Blend partners (bytes 17 and 18) in text, list, check, diff and conversions; two motions merged by joints."""
+
 import random
 
 import pytest
@@ -93,8 +94,8 @@ def test_combine_interleaves_the_steps_of_both():
     said = overlay.combine(image, 1, image, 2, [1], 20)
     page = image[20]
     assert [(page.time(k), page.pause(k)) for k in range(page.steps)] == [(40, 20), (40, 0), (20, 0), (80, 0)]
-    assert [page.word(k, 1) for k in range(4)] == [300, 433, 500, 500]           # 40 of 60 ticks from 300 to 500
-    assert [page.word(k, 11) for k in range(4)] == [600, 600, 580, 500]          # 20 of 100 ticks from 600 to 500
+    assert [page.word(k, 1) for k in range(4)] == [300, 433, 500, 500]  # 40 of 60 ticks from 300 to 500
+    assert [page.word(k, 11) for k in range(4)] == [600, 600, 580, 500]  # 20 of 100 ticks from 600 to 500
     assert page.exit == 3 and page.next == 0 and page.name == b"step"
     assert said == ["the other ends after 0.938 s of 1.562 s and holds its last pose"]
 
@@ -109,7 +110,7 @@ def test_combine_goes_on_with_a_base_that_goes_round():
     while number != 1:
         total += sum(longer[number].time(k) + longer[number].pause(k) for k in range(longer[number].steps))
         number = longer[number].next
-    assert total == 400        # two rounds of 200 ticks, for 260 of the arms
+    assert total == 400  # two rounds of 200 ticks, for 260 of the arms
 
 
 @pytest.mark.parametrize("seed", range(20))

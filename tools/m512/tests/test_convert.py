@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 convert` and the file formats behind it: figures with real files, losses, and what happens to bad input."""
+
 import json
 from fractions import Fraction
 
@@ -65,7 +66,7 @@ def test_convert_12_bit_there_and_back_is_within_rounding():
     image[1].seal()
     up, _ = scale12.scaled(image, 12)
     down, _ = scale12.scaled(up, 10)
-    assert down.to_bytes() == image.to_bytes() and up[1].word(0, 0) == 341   # 2048 - 512 / 0.3
+    assert down.to_bytes() == image.to_bytes() and up[1].word(0, 0) == 341  # 2048 - 512 / 0.3
 
 
 def image_of(bits, pages, high=None):
@@ -135,18 +136,19 @@ def test_pages_that_do_not_fit_are_refused_or_named_in_one_line(m512, tmp_path):
     result = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", "--pages", "128")
     assert result.exit_code == 0 and result.stderr.splitlines() == [
         "loss: pages 128..240: no room among 128 pages, left out",
-        "loss: page 5: links to pages that are left out are now empty (exit 239)"]
+        "loss: page 5: links to pages that are left out are now empty (exit 239)",
+    ]
 
 
 # .mtn by hand
+
 
 def mtn_file(pages, version="1.01", enable=range(1, 19), comma=False, trailer=None):
     lines = ["type=motion", f"version={version}", "enable=" + " ".join(str(int(j in enable)) for j in range(26))]
     if version.endswith("1"):
         lines.append("motor_type=" + " ".join("0" * 26))
     for page in pages:
-        lines += ["page_begin", f"name={page.get('name', '')}", "compliance=" + " ".join("5" * 26),
-                  f"play_param={page.get('param', '0 0 1 1.0 32')}"]
+        lines += ["page_begin", f"name={page.get('name', '')}", "compliance=" + " ".join("5" * 26), f"play_param={page.get('param', '0 0 1 1.0 32')}"]
         lines += ["step=" + " ".join(["512"] * 26) + f" {step}" for step in page.get("steps", [])]
         lines += ["page_end"]
     body = "\n".join(lines) + "\n"
@@ -181,15 +183,18 @@ def test_mtn_page_0_comes_from_the_image_it_goes_onto(m512, sample, tmp_path):
     assert out.read_bytes()[:512] == bytes(trim[0])
 
 
-@pytest.mark.parametrize("change, says", [
-    (lambda p: p.update(param="0 0 1 0 32"), "rate 0 gives no page speed"),
-    (lambda p: p.update(param="0 0 1 1.0"), "play_param has 4 values, not 5"),
-    (lambda p: p.update(param="0 0 256 1.0 32"), "repeat 256 is not a number 0..255"),
-    (lambda p: p.update(steps=["0 2.5"]), "time 2.5 s is not 0..2.04 s"),
-    (lambda p: p.update(steps=["0"]), "step has 27 values, not 28"),
-    (lambda p: p.update(steps=["0 x"]), "a value is not a number"),
-    (lambda p: p.update(steps=["0 1", "0 1\nhallo"]), '"step=" or "page_end" expected'),
-])
+@pytest.mark.parametrize(
+    "change, says",
+    [
+        (lambda p: p.update(param="0 0 1 0 32"), "rate 0 gives no page speed"),
+        (lambda p: p.update(param="0 0 1 1.0"), "play_param has 4 values, not 5"),
+        (lambda p: p.update(param="0 0 256 1.0 32"), "repeat 256 is not a number 0..255"),
+        (lambda p: p.update(steps=["0 2.5"]), "time 2.5 s is not 0..2.04 s"),
+        (lambda p: p.update(steps=["0"]), "step has 27 values, not 28"),
+        (lambda p: p.update(steps=["0 x"]), "a value is not a number"),
+        (lambda p: p.update(steps=["0 1", "0 1\nhallo"]), '"step=" or "page_end" expected'),
+    ],
+)
 def test_mtn_error_names_the_line(change, says):
     page = {"steps": ["0 1"]}
     change(page)
@@ -211,12 +216,20 @@ def test_mtn_losses_are_named():
     image[6].set_word(0, 2, 1)
     image[6].seal()
     losses = mtn.write(image)[1]
-    for text in ("the name changes ('ab')", "speed base is not known there", "play codes are left out (3)",
-                 "links by code are left out (page 7 on code 4)", "positions of joints above ID 25 are left out (IDs 28)",
-                 "the page speed is no rate of one decimal (48 becomes 45)", "the clockwise one is taken (IDs 2)"):
+    for text in (
+        "the name changes ('ab')",
+        "speed base is not known there",
+        "play codes are left out (3)",
+        "links by code are left out (page 7 on code 4)",
+        "positions of joints above ID 25 are left out (IDs 28)",
+        "the page speed is no rate of one decimal (48 becomes 45)",
+        "the clockwise one is taken (IDs 2)",
+    ):
         assert any(loss.startswith('page 5 "a\\x0ab": ') and text in loss for loss in losses), text
-    assert any(loss.startswith("pages 5 ") and "and 6: joints that some steps leave alone would be driven there" in loss
-               and "6: IDs 1" in loss for loss in losses)
+    assert any(
+        loss.startswith("pages 5 ") and "and 6: joints that some steps leave alone would be driven there" in loss and "6: IDs 1" in loss
+        for loss in losses
+    )
     assert "no effect on playing" in losses[-1]
 
 
@@ -254,6 +267,7 @@ def test_mtn_every_page_speed_reads_back_or_is_a_loss():
 
 
 # CSV and Intel HEX
+
 
 def test_csv_of_a_page_and_back(m512, tmp_path):
     image = Image.empty()
@@ -298,14 +312,19 @@ def test_hex_of_a_few_pages_and_of_other_things():
 
 # Bad input: always a sentence and exit code 4, never a traceback (the fixture fails on other exceptions)
 
+
 def files_of_every_kind(data_of):
     image = Image.empty()
     image[1].steps = 1
     image[1].set_word(0, 1, 5)
     image[1].seal()
-    return {".bin": image.to_bytes(), ".hex": to_hex(image).encode(), ".mtn": mtn_file([{"steps": ["0 1"]}] * 3),
-            ".m512": b"motion512 1\npage 1 a\nstep 5 | 1:5\n",
-            ".csv": formats.encode(data_of / "x.csv", image)[0]}
+    return {
+        ".bin": image.to_bytes(),
+        ".hex": to_hex(image).encode(),
+        ".mtn": mtn_file([{"steps": ["0 1"]}] * 3),
+        ".m512": b"motion512 1\npage 1 a\nstep 5 | 1:5\n",
+        ".csv": formats.encode(data_of / "x.csv", image)[0],
+    }
 
 
 def test_csv_with_any_line_ends(tmp_path):
@@ -317,7 +336,7 @@ def test_csv_with_any_line_ends(tmp_path):
     for end in (b"\r", b"\r\n", b"\n"):
         assert formats.decode(data.replace(b"\n", end), tmp_path / "p.csv")[3] == image[3]
     with pytest.raises(FileError):
-        formats.decode(b"page,1\n\"" + b"x" * 200_000, tmp_path / "p.csv")
+        formats.decode(b'page,1\n"' + b"x" * 200_000, tmp_path / "p.csv")
 
 
 @pytest.mark.parametrize("suffix", [".bin", ".hex", ".mtn", ".m512", ".csv"])
@@ -332,12 +351,11 @@ def test_bad_input_truncated_anywhere(tmp_path, suffix):
 
 
 @settings(max_examples=200)
-@given(st.sampled_from([".hex", ".mtn", ".m512", ".csv"]), st.integers(0, 10**6), st.integers(0, 255), st.booleans(),
-       st.booleans())
+@given(st.sampled_from([".hex", ".mtn", ".m512", ".csv"]), st.integers(0, 10**6), st.integers(0, 255), st.booleans(), st.booleans())
 def test_bad_input_any_byte_changed(tmp_path, suffix, at, value, insert, repaired):
     whole = bytearray(files_of_every_kind(tmp_path)[suffix])
     at %= len(whole)
-    whole[at:at + (0 if insert else 1)] = bytes([value])
+    whole[at : at + (0 if insert else 1)] = bytes([value])
     if suffix == ".mtn" and repaired:
         whole[-2:] = mtn.file_checksum(bytes(whole[:-2]))
     try:
@@ -347,8 +365,11 @@ def test_bad_input_any_byte_changed(tmp_path, suffix, at, value, insert, repaire
 
 
 @settings(max_examples=100)
-@given(st.binary(max_size=600), st.sampled_from(["", ":", "type=motion\n", "motion512 1\n", "page,1\n"]),
-       st.sampled_from([".bin", ".hex", ".mtn", ".m512", ".csv", ".xyz"]))
+@given(
+    st.binary(max_size=600),
+    st.sampled_from(["", ":", "type=motion\n", "motion512 1\n", "page,1\n"]),
+    st.sampled_from([".bin", ".hex", ".mtn", ".m512", ".csv", ".xyz"]),
+)
 def test_bad_input_any_bytes(tmp_path, data, start, suffix):
     try:
         formats.decode(start.encode() + data, tmp_path / f"x{suffix}")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Keys and a stick become `@drive` lines; the shape of a play from the command line."""
+
 import pytest
 
 from m512.board import driving
@@ -63,8 +64,8 @@ def test_drive_sends_twenty_lines_a_second_and_stops_softly():
 
 def test_drive_steers_while_a_key_repeats_and_goes_straight_when_it_ends():
     asked = dict(play([(0.0, "d"), (0.05, "d"), (0.1, "d"), (0.15, "d"), (0.2, "d"), (0.3, "w"), (3.0, "x")]))
-    assert asked[0.2] == "drive 100 100 100"          # 5 x 25, at most 100
-    assert asked[0.4] == "drive 88 110 100"           # back by 60 percent a second, from 0.2 s on
+    assert asked[0.2] == "drive 100 100 100"  # 5 x 25, at most 100
+    assert asked[0.4] == "drive 88 110 100"  # back by 60 percent a second, from 0.2 s on
     assert asked[2.9] == "drive 0 110 100"
     assert play([(0.1, "x")])[-1][1] == "break"
 

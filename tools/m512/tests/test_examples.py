@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Every example of m512 in a --help or in a README of the project does what it says: with the files that it names, a robot that answers at
 every port, and a person who says yes and presses Space."""
+
 import re
 import shlex
 import shutil
@@ -21,8 +22,10 @@ from m512.files.image import Image
 from m512.files.text import read_text
 
 NAMES = ["stand", "walk", "wave", "wave_over", "walk_start", "walk_loop", "walk_end", "bow", "kick_left"]
-LIBRARY = "motion512 1\n" + "".join(f"page {n} {name}\n  exit stand\n  step 0.5s | 1..18:500\n  step 0.5s | 1..18:{510 + n}\n"
-                                    for n, name in enumerate(NAMES, 1)) + """
+LIBRARY = (
+    "motion512 1\n"
+    + "".join(f"page {n} {name}\n  exit stand\n  step 0.5s | 1..18:500\n  step 0.5s | 1..18:{510 + n}\n" for n, name in enumerate(NAMES, 1))
+    + """
 page 12 chosen
   step 0.5s | 1:500
 page 15 table
@@ -34,10 +37,11 @@ page 20 round
   step 0.5s | 1..18:490
   step 0.5s | 1..18:530
 """
-LAID_OVER = {"layer", "aim", "swing", "free"}          # beside a play
+)
+LAID_OVER = {"layer", "aim", "swing", "free"}  # beside a play
 THROUGH_EDIT = {"put"}
-FOUND_SOMETHING = {"diff", "doctor"}                   # 3 is a result too
-RUN_ELSEWHERE = "## Without a robot"                   # test_readme.py, line by line
+FOUND_SOMETHING = {"diff", "doctor"}  # 3 is a result too
+RUN_ELSEWHERE = "## Without a robot"  # test_readme.py, line by line
 
 
 def of_help(command, path):
@@ -122,7 +126,7 @@ def before(m512, command, words, robot):
         assert m512("backup", words[1], "--what", "motions").exit_code == 0
     if command == "diff" and "backup-20260101-120000" in words:
         assert m512("backup", words[2], "--what", "motions").exit_code == 0
-    if "merge" in words:                                # into free pages
+    if "merge" in words:  # into free pages
         formats.save(Path(words[1]), Image.empty())
     if command in LAID_OVER:
         assert m512("play", "round").exit_code == 0
@@ -152,7 +156,7 @@ def test_an_example_does_what_it_says(m512, world, tmp_path, monkeypatch, line, 
     for output in outputs:
         (tmp_path / output).unlink(missing_ok=True)
     monkeypatch.setattr(shape, "_keys", space_is_pressed)
-    monkeypatch.setattr(shape, "_pad", space_is_pressed)        # pygame may be absent
+    monkeypatch.setattr(shape, "_pad", space_is_pressed)  # pygame may be absent
     monkeypatch.setenv("M512_BUILD", str(REPO / "build"))
     result = m512(*words, input="")
     allowed = (0, 3) if command in FOUND_SOMETHING or "check" in words else (0,)

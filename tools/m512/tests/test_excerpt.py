@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 convert --only`: whoever follows links and codes from a page that was asked for meets the same pages as before, wherever they stand."""
+
 import json
 import random
 
@@ -53,7 +54,7 @@ def test_every_walk_meets_the_same_pages(seed):
     for _ in range(300):
         start, labels = chance.choice(wanted), chance.choices(LABELS, k=12)
         assert walk(part.image, part.moved[start], labels) == walk(image, start, labels), (seed, start, labels)
-    assert all(part.moved[n] == n for n in part.moved if n < 128)              # what had room stays
+    assert all(part.moved[n] == n for n in part.moved if n < 128)  # what had room stays
     assert sorted(part.left) == sorted(set(image.used()) - set(part.moved))
     assert len(part.image.used()) == len(part.moved)
 
@@ -86,7 +87,9 @@ def test_a_roboplus_file_of_240_pages(m512, tmp_path):
     assert result.exit_code == 0, result.stderr
     assert result.stderr.splitlines() == [
         'note: pages 11 "m11", 12 "m12", 202 "m202", 203 "m203" and 204 "m204": taken too, because what was asked for leads there',
-        "note: renumbered: pages 201..204 become 1..4", "note: pages 1..8, 13..200 and 205..241: left out"]
+        "note: renumbered: pages 201..204 become 1..4",
+        "note: pages 1..8, 13..200 and 205..241: left out",
+    ]
     listed = json.loads(m512("pages", tmp_path / "y.bin", "list", "--json").stdout)
     assert [row["page"] for row in listed] == [1, 2, 3, 4, 9, 10, 11, 12]
     report = json.loads(m512("convert", tmp_path / "x.mtn", tmp_path / "z.m512", "--only", "m201", "--json").stdout)

@@ -2,6 +2,7 @@
 """What somebody has left open in a board's terminal when m512 comes (a name, a question, a list, a half-typed line, a play): nothing of it
 is changed, done or stopped by that, and m512 says what it was. Against the simulated board, in simulated time. What Edit has in RAM is told
 by its own `@crc`."""
+
 import json
 import random
 
@@ -28,9 +29,24 @@ page 9 forever
 """
 SEED = 20261123
 NAME, QUESTION, LINE, NOTHING = "waiting for a name", "Are you sure?", "half-typed", ""
-OPEN = [(["name\r"], NAME), (["name\r", "salu"], NAME), (["new\r"], QUESTION), (["delete 1"], LINE), (["new"], LINE), (["play 22"], LINE),
-        (["x" * 90], LINE), (["9" * 111], LINE), (["name\r", "y" * 90], NAME), (["@torque of"], NOTHING), (["@play 2"], NOTHING),
-        (["help\r"], NOTHING), (["list\r"], NOTHING), (["@where\r"], NOTHING), (["page 4\r", "page 2\r"], NOTHING), ([], NOTHING)]
+OPEN = [
+    (["name\r"], NAME),
+    (["name\r", "salu"], NAME),
+    (["new\r"], QUESTION),
+    (["delete 1"], LINE),
+    (["new"], LINE),
+    (["play 22"], LINE),
+    (["x" * 90], LINE),
+    (["9" * 111], LINE),
+    (["name\r", "y" * 90], NAME),
+    (["@torque of"], NOTHING),
+    (["@play 2"], NOTHING),
+    (["help\r"], NOTHING),
+    (["list\r"], NOTHING),
+    (["@where\r"], NOTHING),
+    (["page 4\r", "page 2\r"], NOTHING),
+    ([], NOTHING),
+]
 
 
 @pytest.fixture
@@ -68,7 +84,7 @@ def test_what_is_open_in_edit_is_not_changed(m512, board, tmp_path):
     page, flash = crc(edit), bytes(edit.board.flash[0xE000:0x1E000])
     for keys, told in chance.sample(OPEN, len(OPEN)):
         where = f"{keys}, seed {SEED}"
-        type_(edit, "x\r", *keys)            # brings the screen back first
+        type_(edit, "x\r", *keys)  # brings the screen back first
         mark = len(said(edit))
         result = m512(*chance.choice(looks), "-p", edit.path)
         assert result.exit_code == 0, (where, result.stderr)
@@ -98,8 +114,14 @@ def test_a_typed_play_is_left_to_its_end(m512, board, tmp_path):
     motions, edit = tmp_path / "lib.m512", board("edit-cm5.hex")
     motions.write_text(MOTIONS)
     type_(edit, "play 2\r", rest=3.0)
-    for words in (("pose",), ("get", "all", "-o", tmp_path / "got.bin"), ("flash", motions), ("flash", motions, "--dry-run"),
-                  ("pages", edit.path, "list"), ("backup", tmp_path / "folder")):
+    for words in (
+        ("pose",),
+        ("get", "all", "-o", tmp_path / "got.bin"),
+        ("flash", motions),
+        ("flash", motions, "--dry-run"),
+        ("pages", edit.path, "list"),
+        ("backup", tmp_path / "folder"),
+    ):
         result = m512(*words, *([] if words[0] == "pages" else ["-p", edit.path]))
         assert result.exit_code == 5 and "m512 stop" in result.stderr and "MODE" not in result.stderr, (words, result.stderr)
         edit.pass_time(0.3)
@@ -114,7 +136,7 @@ def test_a_typed_play_is_left_to_its_end(m512, board, tmp_path):
 def test_a_play_of_one_joint_in_its_pause_is_no_silence(m512, board):
     """It draws least of all: every 0.24 s, as each tick has its joint of 31."""
     edit = board("edit-cm5.hex", servos=[7])
-    type_(edit, "play 4 10\r", rest=14.0)         # ten times as slow: its pause lasts 19.5 s
+    type_(edit, "play 4 10\r", rest=14.0)  # ten times as slow: its pause lasts 19.5 s
     for _ in range(5):
         assert m512("pose", "-p", edit.path).exit_code == 5
         edit.pass_time(0.61)

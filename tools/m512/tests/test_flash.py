@@ -3,6 +3,7 @@
 
 The cable is pulled at many points; afterwards nothing outside the transfer has changed and a repetition ends it.
 """
+
 import json
 import random
 import re
@@ -82,6 +83,7 @@ def peer(request):
 
 # Either loader
 
+
 def test_flash_motions_and_leave_everything_else(m512, peer, motions):
     result = m512("flash", motions, "-p", peer.path, "--json")
     assert result.exit_code == 0, result.stderr
@@ -135,7 +137,7 @@ def test_backup_restore_brings_back_every_byte(m512, peer, motions, tmp_path):
     manifest = json.loads((tmp_path / "b" / "manifest.json").read_text())
     assert manifest["files"]["motions"]["crc16"] == f"{crc16(before[0xE000:0x1E000]):04X}" and manifest["date"]
     peer.flash[0xE000 + 512 * 3 + 70] ^= 1
-    peer.flash[0xE000 + 512 * 50:0xE000 + 512 * 51] = bytes(512)
+    peer.flash[0xE000 + 512 * 50 : 0xE000 + 512 * 51] = bytes(512)
     peer.eeprom[11] = 0
     result = m512("restore", tmp_path / "b", "-p", peer.path, "--yes", "--wait", "5")
     assert result.exit_code == 0, result.stderr
@@ -158,11 +160,13 @@ def pull_cable(peer, when):
     elif when % 2:
         peer.cut_after = 100 + when * 300
     else:
+
         def pull(direction, _, byte):
             if direction == "->" and peer.state == 5 and len(peer.received) >= when % 250:
                 peer.pull()
                 return None
             return byte
+
         peer.garble = pull
 
 
@@ -173,7 +177,7 @@ def test_cable_pulled_during_flash(m512, peer, motions, when):
     assert not peer.plugged, ("the cable was not pulled", result.exit_code, result.stderr)
     assert result.exit_code in (6, 7) and result.stderr.strip()
     assert not changed_outside(peer, peer.before, 0xE200, 0x1E000)
-    peer.pass_time(0.5)                        # the factory loader notices the silence
+    peer.pass_time(0.5)  # the factory loader notices the silence
     peer.garble = None
     peer.plug()
     result = m512("flash", motions, "-p", peer.path, "--wait", "5")
@@ -185,6 +189,7 @@ def test_cable_pulled_during_flash(m512, peer, motions, when):
 
 # Ours
 
+
 def test_crc16_known_answer_and_frame_of_the_description():
     assert crc16(b"123456789") == 0x29B1
     assert frame(1, 1, b"") == bytes.fromhex("a5010100c89d") and frame(3, 2, b"\xff\x01") == bytes.fromhex("a5030201ff013658")
@@ -193,8 +198,7 @@ def test_crc16_known_answer_and_frame_of_the_description():
 def test_block_line_with_noise_repeats_and_arrives(m512, motions):
     noise = random.Random(3)
     with BlockPeer(old_flash()) as peer:
-        peer.garble = lambda _, index, byte: byte if index < 60 or noise.random() > 0.0002 else \
-            noise.choice([None, byte ^ 0x10])
+        peer.garble = lambda _, index, byte: byte if index < 60 or noise.random() > 0.0002 else noise.choice([None, byte ^ 0x10])
         result = m512("flash", motions, "-p", peer.path)
         assert result.exit_code == 0, result.stderr
         assert peer.flash[0xE200:0x1E000] == motion_area()[512:] and "repetitions" in result.stderr
@@ -241,6 +245,7 @@ def test_block_wrong_board_is_refused_before_anything_is_written(m512, tmp_path)
 
 
 # The factory's
+
 
 def test_factory_downloads_are_single_pages_below_the_reserve_and_the_rest_goes_through_the_mailbox(m512, tmp_path):
     text = MOTIONS + "page 116 low\n  step 50 | 1..18:1\npage 127 last\n  step 50 | 1..18:2\n"
@@ -333,13 +338,17 @@ def test_factory_full_line_does_not_hurt_when_work_begins():
 
 # Refusals, without a board
 
-@pytest.mark.parametrize("pieces, says", [
-    ([(0x1E000, bytes(100))], "into the boot loader"),
-    ([(0, bytes(APP[1] + 1))], "where saved pages are kept"),
-    ([(0x1DF00, bytes(0x200))], "into the boot loader"),
-    ([(0x20000, bytes(512))], "beyond this board's flash"),
-    ([(0x100, bytes(100))], "no reset vector at 0"),
-])
+
+@pytest.mark.parametrize(
+    "pieces, says",
+    [
+        ([(0x1E000, bytes(100))], "into the boot loader"),
+        ([(0, bytes(APP[1] + 1))], "where saved pages are kept"),
+        ([(0x1DF00, bytes(0x200))], "into the boot loader"),
+        ([(0x20000, bytes(512))], "beyond this board's flash"),
+        ([(0x100, bytes(100))], "no reset vector at 0"),
+    ],
+)
 def test_flash_refuses_what_would_hurt(m512, tmp_path, pieces, says):
     result = m512("flash", hex_file(tmp_path / "x.hex", *pieces), "--dry-run")
     assert result.exit_code == 5 and says in result.stderr
@@ -380,7 +389,7 @@ def test_record_of_an_application():
 
 def test_restore_leaves_the_mailbox_alone():
     wanted, found = bytearray(4096), bytearray(4096)
-    wanted[0xFF3:0xFF7] = b"\1\xAA\5\2"   # FF4: a page waits; FF5: its number (boot/ORIGINAL.md, section 7)
+    wanted[0xFF3:0xFF7] = b"\1\xaa\5\2"  # FF4: a page waits; FF5: its number (boot/ORIGINAL.md, section 7)
     assert backup.eeprom_changes(bytes(wanted), bytes(found)) == {0xFF3: 1, 0xFF6: 2}
 
 
@@ -388,9 +397,11 @@ def test_backup_that_was_changed_is_not_restored(m512, tmp_path):
     folder = tmp_path / "b"
     folder.mkdir()
     (folder / "motions.bin").write_bytes(EMPTY * 128)
-    (folder / "manifest.json").write_text(json.dumps({
-        "format": "m512-backup", "version": 1,
-        "files": {"motions": {"file": "motions.bin", "bytes": 65536, "crc16": "0000", "sha256": ""}}}))
+    (folder / "manifest.json").write_text(
+        json.dumps(
+            {"format": "m512-backup", "version": 1, "files": {"motions": {"file": "motions.bin", "bytes": 65536, "crc16": "0000", "sha256": ""}}}
+        )
+    )
     result = m512("restore", folder)
     assert result.exit_code == 4 and "not what the manifest says" in result.stderr
     (folder / "manifest.json").write_text("{")

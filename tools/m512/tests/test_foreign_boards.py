@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Boards that are none of ours, and loaders that do not say which board they are on: nothing is written there, whatever command comes first.
 The banner's shape and the words of the loader: boot/ORIGINAL.md, 1 and 2."""
+
 import random
 
 import pytest
@@ -35,10 +36,21 @@ def commands(m512, tmp_path):
     with FactoryPeer(full_flash()) as ours:
         assert m512("backup", tmp_path / "saved", "-p", ours.path, "--what", "motions,eeprom").exit_code == 0
     lib = tmp_path / "lib.m512"
-    return {"flash": ("flash", lib), "flash code": ("flash", app), "dry": ("flash", lib, "--dry-run"), "run": ("run",),
-            "run code": ("run", app), "backup": ("backup", tmp_path / "new"), "restore": ("restore", tmp_path / "saved", "--yes"),
-            "put": ("put", lib, "walk"), "get": ("get", "all", "-o", tmp_path / "got.bin"), "play": ("play", "1"),
-            "pages": ("pages", None, "delete", "3", "--yes"), "diff": ("diff", None, lib), "doctor": ("doctor",)}
+    return {
+        "flash": ("flash", lib),
+        "flash code": ("flash", app),
+        "dry": ("flash", lib, "--dry-run"),
+        "run": ("run",),
+        "run code": ("run", app),
+        "backup": ("backup", tmp_path / "new"),
+        "restore": ("restore", tmp_path / "saved", "--yes"),
+        "put": ("put", lib, "walk"),
+        "get": ("get", "all", "-o", tmp_path / "got.bin"),
+        "play": ("play", "1"),
+        "pages": ("pages", None, "delete", "3", "--yes"),
+        "diff": ("diff", None, lib),
+        "doctor": ("doctor",),
+    }
 
 
 def call(m512, words, path, *more):
@@ -56,7 +68,7 @@ def is_as_it_was(peer, eeprom=None):
 def test_a_board_that_is_none_of_ours_is_refused_by_its_name(m512, commands, name, state):
     for command, words in commands.items():
         if state == APP and words[0] in ("put", "get", "play", "doctor") or command == "dry" and state == APP:
-            continue              # these press no button; nobody answers them
+            continue  # these press no button; nobody answers them
         with FactoryPeer(full_flash(), state, says=banner_of(name)) as peer:
             eeprom = bytes(peer.eeprom)
             result, told = call(m512, words, peer.path)
@@ -103,7 +115,7 @@ def test_boards_of_ours_are_known_by_their_names(m512, commands, name, board):
 def test_the_known_loader_at_its_prompt_is_not_restarted(m512, commands):
     """Its banner stands in its flash (boot/ORIGINAL.md, 7b)."""
     flash = full_flash()
-    flash[0x1F7E9:0x1F7E9 + 40] = b" SYSTEM O.K. (CM5 Boot loader V1.31)".ljust(40, b"\0")
+    flash[0x1F7E9 : 0x1F7E9 + 40] = b" SYSTEM O.K. (CM5 Boot loader V1.31)".ljust(40, b"\0")
     with FactoryPeer(flash, says=b"") as peer:
         assert call(m512, commands["doctor"], peer.path)[0].exit_code in (0, 3)
         assert call(m512, commands["dry"], peer.path)[0].exit_code == 0
@@ -126,9 +138,17 @@ def test_our_own_loader_on_another_board(m512, commands):
         assert result.exit_code == 5 and "--board says cm5" in told and not peer.writes
 
 
-@pytest.mark.parametrize("text, name", [
-    (b"\xff\r\n\n SYSTEM O.K. (CM5 Boot loader V1.31)\r\n - ", "CM5"), (b"SYSTEM O.K. (Some Thing Bootloader)", "Some Thing"),
-    (b"SYSTEM O.K. (CM5 Boot lo", ""), (b"SYSTEM O.K. ()", ""), (b"", ""), (b"SYSTEM O.K. (\x1b[2J Boot loader)", "")])
+@pytest.mark.parametrize(
+    "text, name",
+    [
+        (b"\xff\r\n\n SYSTEM O.K. (CM5 Boot loader V1.31)\r\n - ", "CM5"),
+        (b"SYSTEM O.K. (Some Thing Bootloader)", "Some Thing"),
+        (b"SYSTEM O.K. (CM5 Boot lo", ""),
+        (b"SYSTEM O.K. ()", ""),
+        (b"", ""),
+        (b"SYSTEM O.K. (\x1b[2J Boot loader)", ""),
+    ],
+)
 def test_the_name_in_a_banner(text, name):
     assert banner.name_in(text) == name
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Readers take time in proportion to what they read, whatever it is, and there is a most: eight times as much of it takes about eight times
 the time of this process (a quadratic reader: 64 times). No clock of the wall is asked."""
+
 import time
 from pathlib import Path
 
@@ -12,9 +13,9 @@ from m512.errors import FileError, M512Error
 from m512.files import formats, storage
 
 TIMES, MOST = 8, 24
-LEAST_SECONDS = 0.02          # of the larger one: less is too little to compare
+LEAST_SECONDS = 0.02  # of the larger one: less is too little to compare
 PAGES = body([Block(name="x")], full=False)
-HEAD, PAGE = PAGES[:PAGES.index(b"page_begin")], PAGES[PAGES.index(b"page_begin"):]
+HEAD, PAGE = PAGES[: PAGES.index(b"page_begin")], PAGES[PAGES.index(b"page_begin") :]
 STEP = body([Block(steps=[step()])], full=False).split(b"\n")[-3] + b"\n"
 TEXT = b"motion512 1\n"
 ONE_STEP = TEXT + b"row 1\npose a | 1:5\npage 1\n  step 5 | "
@@ -26,7 +27,7 @@ def hex_lines(count):
     for k in range(count):
         if k % 4096 == 0:
             lines.append(_record(0, (k // 4096).to_bytes(2, "big"), 4))
-        lines.append(_record(16 * k & 0xFFFF, b"12345678"))        # with holes between them
+        lines.append(_record(16 * k & 0xFFFF, b"12345678"))  # with holes between them
     return out.join(lines) + b":00000001FF\n"
 
 
@@ -35,7 +36,7 @@ def _record(address, data, kind=0):
     return b":" + line.hex().encode() + b"%02X\n" % (-sum(line) & 255)
 
 
-FILES = {                     # what is read, by how much of it; and how much to begin with
+FILES = {  # what is read, by how much of it; and how much to begin with
     "steps of one page.mtn": (lambda n: HEAD + PAGE.replace(b"page_end", STEP * n + b"page_end"), 800),
     "pages.mtn": (lambda n: HEAD + PAGE.replace(b"name=x", b"name=") * n, 600),
     "blank lines.mtn": (lambda n: PAGES + b"\n" * n, 100_000),
@@ -44,7 +45,7 @@ FILES = {                     # what is read, by how much of it; and how much to
     "digits.mtn": (lambda n: PAGES.replace(b" 1.0 ", b" 1." + b"0" * n + b" "), 400_000),
     "continued lines.m512": (lambda n: TEXT + b"\\\n" * n + b"page 1\n", 5_000),
     "a continued statement.m512": (lambda n: ONE_STEP + b"1:5 \\\n" * n + b"\n", 2_000),
-    "a continued quote.m512": (lambda n: TEXT + b"page 1 \"" + b"\\\n" * n + b"\"\n", 10_000),
+    "a continued quote.m512": (lambda n: TEXT + b'page 1 "' + b"\\\n" * n + b'"\n', 10_000),
     "poses and rows.m512": (lambda n: ONE_STEP + b"@a 5 " * n + b"\n", 3_000),
     "joints.m512": (lambda n: ONE_STEP + b"1," * n + b"1:5\n", 10_000),
     "statements of a line.m512": (lambda n: TEXT + b"page 1\n" + b"speed 5;" * n + b"\n", 5_000),
@@ -52,7 +53,8 @@ FILES = {                     # what is read, by how much of it; and how much to
     "links.m512": (lambda n: TEXT + b"page 1\n" + b"next 1\n" * n, 6_000),
     "quotes.m512": (lambda n: TEXT + b"page 1 " + b'"a" ' * n, 10_000),
     "rows.csv": (lambda n: b"page,1\n" + b"repeat,1\n" * n, 10_000),
-    "records.hex": (hex_lines, 1_500)}
+    "records.hex": (hex_lines, 1_500),
+}
 
 
 def seconds(read, data):
@@ -80,7 +82,7 @@ def grows(read, make, count):
 @pytest.mark.parametrize("name", FILES)
 def test_a_reader_is_linear(name):
     def read(data):
-        formats._decoded(data, Path(name), None, None)      # without the bound on its size
+        formats._decoded(data, Path(name), None, None)  # without the bound on its size
 
     assert grows(read, *FILES[name]) < MOST
 
@@ -99,13 +101,15 @@ class TricklingLink(Link):
         return b"a" if self.left >= 0 else b""
 
 
-@pytest.mark.parametrize("read", [lambda link: link.look_for(b"ab", 1.0), lambda link: link.drain(1, 1.0),
-                                  lambda link: link.read_exactly(link.left, 1.0, "it")])
+@pytest.mark.parametrize(
+    "read", [lambda link: link.look_for(b"ab", 1.0), lambda link: link.drain(1, 1.0), lambda link: link.read_exactly(link.left, 1.0, "it")]
+)
 def test_a_line_is_read_linearly(read):
     assert grows(lambda count: read(TricklingLink(count)), lambda count: count, 20_000) < MOST
 
 
 # The most
+
 
 def test_a_file_that_is_too_large_is_refused_before_it_is_read_as_anything(m512, tmp_path):
     (tmp_path / "x.mtn").write_bytes(PAGES + b"\n" * (storage.MOST_BYTES - len(PAGES)))
@@ -136,7 +140,9 @@ def test_an_endless_file_for_the_terminal_is_refused(m512, tmp_path):
         assert "more than 4 MiB" in result.stderr
 
 
-@pytest.mark.parametrize("text", ["speed " + "9" * 100_000, "next " + "x" * 100_000, 'page 2 "' + "\\x41" * 30_000 + '"', "step 1 | 1:" + "7" * 100_000])
+@pytest.mark.parametrize(
+    "text", ["speed " + "9" * 100_000, "next " + "x" * 100_000, 'page 2 "' + "\\x41" * 30_000 + '"', "step 1 | 1:" + "7" * 100_000]
+)
 def test_a_sentence_does_not_quote_a_whole_file(tmp_path, text):
     (tmp_path / "x.m512").write_text("motion512 1\npage 1\n" + text + "\n")
     with pytest.raises(FileError) as caught:

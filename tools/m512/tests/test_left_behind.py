@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Nothing is left behind by a command with --sim, however it ends: no file in the folder for temporary ones, no simulator that runs on."""
+
 import os
 import signal
 import subprocess
@@ -34,9 +35,10 @@ def world(tmp_path):
     (tmp_path / "high.bin").write_bytes(bytes(512) + bytes(high.seal()) + bytes(Page()) * 126)
 
     def start(*words, **environment):
-        env = {"M512_BUILD": str(REPO / "build"), "HOME": str(tmp_path), "PATH": "/usr/bin:/bin",
-               "TMPDIR": str(world.temporary), **environment}
-        return subprocess.Popen([sys.executable, "-m", "m512", *words], env=env, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        env = {"M512_BUILD": str(REPO / "build"), "HOME": str(tmp_path), "PATH": "/usr/bin:/bin", "TMPDIR": str(world.temporary), **environment}
+        return subprocess.Popen(
+            [sys.executable, "-m", "m512", *words], env=env, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
 
     world.start = start
     return world
@@ -46,12 +48,21 @@ def children(pid):
     return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
 
 
-@pytest.mark.parametrize("words, environment, says", [
-    (["play", "1", "--sim", "--motions", "high.bin"], {}, "12-bit"), (["play", "1", "--sim", "--motions", "large.bin"], {}, "no room"),
-    (["play", "1", "--sim", "--motions", "no.bin"], {}, "cannot read"), (["play", "1", "--sim", "--image", "no.hex"], {}, "no.hex"),
-    (["play", "1", "--sim", "--servos", "nonsense"], {}, "did not start"), (["play", "1", "--sim"], {"M512_CM5SIM": "/bin/false"}, "did not start"),
-    (["doctor", "--sim"], {"M512_CM5SIM": "/bin/false"}, "did not start"), (["term", "--sim", "--motions", "high.bin"], {}, "12-bit"),
-    (["play", "nothing", "--sim", "--motions", "wave.m512"], {}, "nothing"), (["pose", "--sim", "--motions", "wave.m512"], {}, "")])
+@pytest.mark.parametrize(
+    "words, environment, says",
+    [
+        (["play", "1", "--sim", "--motions", "high.bin"], {}, "12-bit"),
+        (["play", "1", "--sim", "--motions", "large.bin"], {}, "no room"),
+        (["play", "1", "--sim", "--motions", "no.bin"], {}, "cannot read"),
+        (["play", "1", "--sim", "--image", "no.hex"], {}, "no.hex"),
+        (["play", "1", "--sim", "--servos", "nonsense"], {}, "did not start"),
+        (["play", "1", "--sim"], {"M512_CM5SIM": "/bin/false"}, "did not start"),
+        (["doctor", "--sim"], {"M512_CM5SIM": "/bin/false"}, "did not start"),
+        (["term", "--sim", "--motions", "high.bin"], {}, "12-bit"),
+        (["play", "nothing", "--sim", "--motions", "wave.m512"], {}, "nothing"),
+        (["pose", "--sim", "--motions", "wave.m512"], {}, ""),
+    ],
+)
 def test_no_file_is_left(world, words, environment, says):
     process = world.start(*words, **environment)
     _, stderr = process.communicate(timeout=600)
@@ -64,7 +75,7 @@ def test_no_file_is_left(world, words, environment, says):
 @pytest.mark.parametrize("when", ["starting", "playing"])
 def test_a_signal_ends_the_simulator_too(world, number, when):
     mute = world.folder / "mute"
-    mute.write_text("#!/bin/sh\nexec sleep 600\n")       # a simulator that names no port
+    mute.write_text("#!/bin/sh\nexec sleep 600\n")  # a simulator that names no port
     mute.chmod(0o755)
     environment = {"M512_CM5SIM": str(mute), "M512_BUILD": str(REPO / "build")} if when == "starting" else {}
     process = world.start("play", "wave", "--sim", "--motions", "wave.m512", "--wait", **environment)
@@ -77,7 +88,7 @@ def test_a_signal_ends_the_simulator_too(world, number, when):
             time.sleep(0.05)
     simulators = children(process.pid)
     assert len(simulators) == 1
-    for _ in range(3):                                    # Ctrl-C stops softly, then at once, then ends
+    for _ in range(3):  # Ctrl-C stops softly, then at once, then ends
         process.send_signal(number)
         try:
             process.wait(3 if number == signal.SIGINT else 600)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Flashing through a factory loader over bad lines, in simulated time: the reported cases, and whether the model of the
 loader does what the description of it measured. Thousands of schedules: `tools/prove links`."""
+
 import random
 
 import pytest
@@ -44,6 +45,7 @@ class Bench:
 
 # The model, by the table of the description (section 3): address 2000, n data bytes and a checksum byte
 
+
 @pytest.mark.parametrize("n, pages", [(1, 1), (254, 1), (255, 1), (256, 2), (257, 2), (512, 3), (1000, 4)])
 def test_model_writes_as_many_pages_as_were_measured(n, pages):
     bench, data = Bench(), random.Random(n).randbytes(n)
@@ -52,17 +54,26 @@ def test_model_writes_as_many_pages_as_were_measured(n, pages):
     answer = bench.say(data, 0.6)
     assert answer.startswith(b"Success") and b"Size:0X%08X" % len(data) in answer
     assert bench.changed() == list(range(0x20, 0x20 + pages))
-    assert bench.loader.flash[0x2000:0x2000 + len(data)] == data
+    assert bench.loader.flash[0x2000 : 0x2000 + len(data)] == data
     rest = len(data) % 256
-    if rest:      # left-overs of the page before, 00 when there was none
+    if rest:  # left-overs of the page before, 00 when there was none
         last = 0x2000 + len(data) - rest
-        expected = bench.loader.flash[last - 256 + rest:last] if n > 255 else bytes(256 - rest)
-        assert bench.loader.flash[last + rest:last + 256] == expected
+        expected = bench.loader.flash[last - 256 + rest : last] if n > 255 else bytes(256 - rest)
+        assert bench.loader.flash[last + rest : last + 256] == expected
 
 
-@pytest.mark.parametrize("address, count, pages", [
-    ("2080", 17, [0x20]), ("20ff", 301, [0x21, 0x22]), ("2001", 257, [0x21]), ("1e000", 20, [0x1E0]), ("1ff00", 400, [0, 0x1FF]),
-    ("e000 10", 5, [0]), ("0xe000", 5, [0x1E0])])
+@pytest.mark.parametrize(
+    "address, count, pages",
+    [
+        ("2080", 17, [0x20]),
+        ("20ff", 301, [0x21, 0x22]),
+        ("2001", 257, [0x21]),
+        ("1e000", 20, [0x1E0]),
+        ("1ff00", 400, [0, 0x1FF]),
+        ("e000 10", 5, [0]),
+        ("0xe000", 5, [0x1E0]),
+    ],
+)
 def test_model_takes_every_address(address, count, pages):
     bench = Bench()
     bench.say(b"load " + address.encode() + b"\r", 0.1)
@@ -86,7 +97,7 @@ def test_model_crashes_at_80_characters_and_empties_a_full_ring():
     bench.say(b"x" * 80 + b"\r")
     assert bench.loader.crashes
     bench = Bench()
-    bench.say(b"f 0\r" + b"a" * 256, 0.5)       # typed ahead while it is busy
+    bench.say(b"f 0\r" + b"a" * 256, 0.5)  # typed ahead while it is busy
     assert len(bench.loader.line) < 256 - 80
 
 
@@ -101,6 +112,7 @@ def test_model_copies_the_mailbox_and_brings_lines_back():
 
 # The wire
 
+
 def test_wire_keeps_the_order_and_the_rate_and_outlives_the_sender():
     wire = Wire(Weather(speed=0.5, late=0.2), 1)
     wire.send(10.0, bytes(range(100)))
@@ -109,6 +121,7 @@ def test_wire_keeps_the_order_and_the_rate_and_outlives_the_sender():
 
 
 # m512
+
 
 def motion_pages(*numbers):
     chance = random.Random(5)
@@ -121,7 +134,7 @@ def test_slow_line_as_reported(speed):
     loader = FactoryLoader(bench.line)
     loader.write(pages)
     assert bench.changed() == sorted(pages) and not bench.loader.crashes
-    assert all(bench.loader.flash[256 * page:][:256] == data for page, data in pages.items())
+    assert all(bench.loader.flash[256 * page :][:256] == data for page, data in pages.items())
 
 
 def test_nothing_but_announced_bytes_while_a_download_may_be_open():
@@ -139,7 +152,7 @@ def test_nothing_but_announced_bytes_while_a_download_may_be_open():
     bench.line.write = deaf
     with pytest.raises(M512Error, match="may still wait.*Type nothing into a terminal.*unharmed"):
         loader.write(pages)
-    behind = b"".join(sent[sent.index(b"load e600") + 2:])
+    behind = b"".join(sent[sent.index(b"load e600") + 2 :])
     data = pages[0xE6]
     assert len(behind) <= 256 and behind.lstrip(b"\0") in data
 
@@ -161,9 +174,21 @@ def test_page_below_the_reserve_takes_255_bytes_too_many():
     assert set(bench.changed()) <= set(pages)
 
 
-@pytest.mark.parametrize("text, expected", [
-    (b"abc\rdef", []), (b"l\r", [1]), (b"xyz l 5\r", [7]), (b"a\x01b\n", [3]), (b"x" * 80 + b"\r", [80]), (b"\0" * 200 + b"\r", []),
-    (b"\0l\0\r", [3]), (b"DOWN,5\rx", [6]), (b"lx\rld\r", [5]), (b"lo\x08\r", [3])])
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        (b"abc\rdef", []),
+        (b"l\r", [1]),
+        (b"xyz l 5\r", [7]),
+        (b"a\x01b\n", [3]),
+        (b"x" * 80 + b"\r", [80]),
+        (b"\0" * 200 + b"\r", []),
+        (b"\0l\0\r", [3]),
+        (b"DOWN,5\rx", [6]),
+        (b"lx\rld\r", [5]),
+        (b"lo\x08\r", [3]),
+    ],
+)
 def test_typed_text_is_cut_before_the_line_end_that_would_do_harm(text, expected):
     assert typed.cuts(text) == expected
 

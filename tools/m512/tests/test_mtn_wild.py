@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """RoboPlus files as they are found on the net: what editors, version control and newer tools make of them. All files are made here."""
+
 import random
 from fractions import Fraction
 
@@ -22,6 +23,7 @@ def pages_of(image):
 
 
 # The outside
+
 
 @pytest.mark.parametrize("accident", ACCIDENTS)
 @pytest.mark.parametrize("with_commas", [False, True])
@@ -60,7 +62,7 @@ def test_a_file_that_breaks_off_is_refused_with_the_place(where):
     data = made([Block(name="one", steps=[step()]), Block(name="twotwotwo", steps=[step()])], full=False)
     at = {"in a step": data.rindex(b"step=") + 30, "behind page_begin": data.rindex(b"page_begin") + 11, "in a name": data.index(b"twotwo") + 3}
     with pytest.raises(FileError, match=r"x\.mtn:\d+: page 2 has no end"):
-        mtn.read(data[:at[where]], "x.mtn")
+        mtn.read(data[: at[where]], "x.mtn")
     with pytest.raises(FileError, match="no page ends in it"):
         mtn.read(data[:60], "x.mtn")
 
@@ -85,6 +87,7 @@ def test_a_version_that_nobody_knows_is_read_like_the_newest():
 
 # Times: a unit is 8 ms, and what stands between two is the nearer one
 
+
 @pytest.mark.parametrize("seconds", ["0.012", "0.0119", "0.0121", "0.30", "0.3", "1.999", "2.04", "0.0039", "0.0041", "0.5", "1.0005"])
 def test_a_time_between_two_units_is_the_nearer_one(seconds):
     data = body([Block(steps=[step(512, 10, 50)])], full=False).replace(b"0.080 0.400", f"{seconds} {seconds}".encode())
@@ -95,8 +98,18 @@ def test_a_time_between_two_units_is_the_nearer_one(seconds):
 
 # Rates
 
-@pytest.mark.parametrize("rate, words", [("2.7", "rate 2.7; it becomes 32 / 11 = 2.91"), ("3.0", "rate 3; it becomes 32 / 10 = 3.20"),
-                                         ("1.0", None), ("1.5", None), ("2.9", None), ("0.5", None)])
+
+@pytest.mark.parametrize(
+    "rate, words",
+    [
+        ("2.7", "rate 2.7; it becomes 32 / 11 = 2.91"),
+        ("3.0", "rate 3; it becomes 32 / 10 = 3.20"),
+        ("1.0", None),
+        ("1.5", None),
+        ("2.9", None),
+        ("0.5", None),
+    ],
+)
 def test_a_rate_that_a_page_cannot_hold_is_told_with_both_numbers(rate, words):
     notes = mtn.read(made([Block(rate=rate, steps=[step()]), Block(rate=rate), Block(rate=rate, steps=[step()])])).notes
     assert [words in note and note.startswith("pages 1 and 3: ") for note in notes] == ([True] if words else [])
@@ -104,12 +117,13 @@ def test_a_rate_that_a_page_cannot_hold_is_told_with_both_numbers(rate, words):
 
 # 12 bits
 
+
 def test_a_file_of_a_12_bit_robot_says_so_once(m512, tmp_path):
     (tmp_path / "x.mtn").write_bytes(made([Block(steps=[step(2048)])] * 60))
     result = m512("pages", tmp_path / "x.mtn", "check")
     assert result.stderr.count("looks like 12 bit") == 1 and "damaged" not in result.stdout
     result = m512("convert", tmp_path / "x.mtn", tmp_path / "x.bin", "--scale", "10")
-    assert result.exit_code == 0 and (tmp_path / "x.bin").read_bytes()[512 + 64 + 2:][:2] == b"\x00\x02"
+    assert result.exit_code == 0 and (tmp_path / "x.bin").read_bytes()[512 + 64 + 2 :][:2] == b"\x00\x02"
     assert "looks like 12 bit: --bits 12 --scale 10" in m512("convert", tmp_path / "x.mtn", tmp_path / "y.bin", "--bits", "10").stderr
 
 
@@ -119,6 +133,7 @@ def test_one_position_beyond_the_range_names_its_line():
 
 
 # More than seven steps
+
 
 class LongPage(classic_law.Page):
     """A page with as many steps as it likes, for the model of the law: what RoboPlus would play."""
@@ -151,8 +166,10 @@ def test_a_long_page_plays_as_one_page_would(monkeypatch, seed, repeat):
     blocks = blocks_by_chance(chance, 4, 7)
     for number, block in enumerate(blocks):
         block.next, block.exit, block.repeat = chance.choice((0, 1, 2, 3)), chance.choice((0, 4)), chance.choice((1, 2))
-        block.steps = [step([chance.randrange(1024) for _ in range(26)], chance.choice((0, 0, 3)), chance.randint(1, 20))
-                       for _ in range(chance.randint(1, 7) if number else chance.randint(8, 23))]
+        block.steps = [
+            step([chance.randrange(1024) for _ in range(26)], chance.choice((0, 0, 3)), chance.randint(1, 20))
+            for _ in range(chance.randint(1, 7) if number else chance.randint(8, 23))
+        ]
     blocks[0].repeat = repeat
     image = mtn.read(made(blocks)).to_bytes()
     for stop in [None] + [chance.randrange(800) for _ in range(6)]:
@@ -166,19 +183,24 @@ def test_a_long_page_is_told_in_words_and_keeps_all_steps():
     image = mtn.read(made(blocks))
     assert image.notes == ['page 1 "walk" has 15 steps, a page holds 7: continued in pages 4 and 5']
     assert [(image[n].next, image[n].exit, image[n].title, image[n].steps) for n in (1, 4, 5)] == [
-        (4, 4, "walk", 7), (5, 5, "walk/2", 7), (2, 3, "walk/3", 1)]
+        (4, 4, "walk", 7),
+        (5, 5, "walk/2", 7),
+        (2, 3, "walk/3", 1),
+    ]
     assert [image[n].word(k, 1) for n in (1, 4, 5) for k in range(image[n].steps)] == [500 + k for k in range(15)]
 
 
 def test_a_long_page_takes_no_page_that_is_used_or_linked_to():
     full = [Block("long", 200, 0, steps=[step()] * 8)] + [Block(f"p{n}", n + 1, n + 2, steps=[step()]) for n in range(2, 126)]
     image = mtn.read(made(full))
-    assert image[1].next == 128 and image[128].next == 200      # 126 and 127 are led to; nothing is there
+    assert image[1].next == 128 and image[128].next == 200  # 126 and 127 are led to; nothing is there
     assert image[128].word(0, 1) == 512 and not image[126].steps
 
 
 def test_a_long_page_without_room_is_refused_with_the_reason():
-    with pytest.raises(FileError, match=r'page 1 "long" has 15 steps and is played 100 times\. A page holds 7; as linked pages it needs 299 more, and 254 are free'):
+    with pytest.raises(
+        FileError, match=r'page 1 "long" has 15 steps and is played 100 times\. A page holds 7; as linked pages it needs 299 more, and 254 are free'
+    ):
         mtn.read(made([Block("long", repeat=100, steps=[step()] * 15)]))
 
 
@@ -189,6 +211,7 @@ def test_a_long_page_that_is_never_played_keeps_its_links():
 
 
 # Pages beyond the board
+
 
 def test_pages_beyond_the_board_are_named_with_the_option_that_keeps_them(m512, tmp_path):
     blocks = [Block(f"m{n}" if n > 140 else "", 250 if n == 1 else 0, steps=[step()] if n in (1, 200, 250) else []) for n in range(1, 256)]
@@ -201,11 +224,13 @@ def test_pages_beyond_the_board_are_named_with_the_option_that_keeps_them(m512, 
     result = m512("convert", tmp_path / "x.mtn", tmp_path / "z.bin", "--pages", "128")
     assert result.exit_code == 0 and result.stderr.splitlines() == [
         "loss: pages 141..255: no room among 128 pages, left out",
-        "loss: page 1: links to pages that are left out are now empty (next 250)"]
+        "loss: page 1: links to pages that are left out are now empty (next 250)",
+    ]
     assert "all good" in m512("pages", tmp_path / "z.bin", "check").stdout
 
 
 # Everything at once
+
 
 @pytest.mark.parametrize("seed", range(40))
 def test_combinations_by_chance(seed):
@@ -234,12 +259,13 @@ def test_combinations_by_chance(seed):
 
 # Files as they lie there
 
+
 @pytest.mark.parametrize("path", sorted((REPO / "tests" / "samples" / "wild").iterdir()), ids=lambda path: path.stem)
 def test_a_file_in_a_wild_form_is_read_as_the_one_that_was_written(path, sample):
     image = mtn.read(path.read_bytes(), path.name)
-    wanted = bytearray(sample("robot_128p.bin").read_bytes()[512:4 * 512])
+    wanted = bytearray(sample("robot_128p.bin").read_bytes()[512 : 4 * 512])
     if path.stem == "edited-by-hand-the-old-checksum":
         wanted[:4], wanted[31] = b"HAND", (wanted[31] + sum(b"hand") - sum(b"HAND")) % 256
     whole = 2 if path.stem == "fifteen-steps" else 3
-    assert image.to_bytes()[512:][:512 * whole] == wanted[:512 * whole]
+    assert image.to_bytes()[512:][: 512 * whole] == wanted[: 512 * whole]
     assert whole == 3 or any('page 3 "long" has 15 steps' in note for note in image.notes)

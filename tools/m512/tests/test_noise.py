@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Whatever comes over the line, the PC's side of each protocol ends with a result or one of our errors, in bounded time."""
+
 import random
 
 import pytest
@@ -24,7 +25,7 @@ def test_noise_answers_of_a_block_with_every_byte_changed():
     answer = b"\x5a" + frame(1, 160, b"\0\2")[1:]
     for at in range(len(answer)):
         for value in random.Random(at).sample(range(256), 20):
-            changed = answer[:at] + bytes([value]) + answer[at + 1:]
+            changed = answer[:at] + bytes([value]) + answer[at + 1 :]
             if changed != answer:
                 survives(lambda data=changed: BlockLoader(NoisyLink(data), "", 1, 0.002))
     assert BlockLoader(NoisyLink(answer), "", 1, 0.002).detail == 2

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The page codec against page_vectors.json (which the C codec passes too) and against facts of the specification."""
+
 import json
 
 import pytest
@@ -10,9 +11,17 @@ from hypothesis import strategies as st
 from m512.files.page import EMPTY, Fault, Kind, Page, is_used
 
 VECTORS = json.loads((REPO / "tests" / "models" / "golden" / "page_vectors.json").read_text())["vectors"]
-FIELDS = {"play_count": "repeat", "play_code": "code", "accel_time": "accel", "next_page": "next", "exit_page": "exit",
-          "linked1_page": "link1_page", "linked1_code": "link1_code", "linked2_page": "link2_page",
-          "linked2_code": "link2_code"}
+FIELDS = {
+    "play_count": "repeat",
+    "play_code": "code",
+    "accel_time": "accel",
+    "next_page": "next",
+    "exit_page": "exit",
+    "linked1_page": "link1_page",
+    "linked1_code": "link1_code",
+    "linked2_page": "link2_page",
+    "linked2_code": "link2_code",
+}
 
 
 @pytest.mark.parametrize("vector", VECTORS, ids=lambda v: v["name"])

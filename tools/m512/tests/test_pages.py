@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 pages` and `m512 diff`: what actions do to bytes, what they refuse, what they say."""
+
 import json
 
 import pytest
@@ -96,8 +97,7 @@ def test_pages_renumber_takes_all_links_along(m512, lib):
 
 
 def test_pages_extract_and_merge_with_links(m512, lib, tmp_path):
-    assert m512("pages", lib, "extract", "walk", "left", "-o", tmp_path / "two.m512").stderr == \
-        'note: page 3 "walk": exit 5 is left behind\n'
+    assert m512("pages", lib, "extract", "walk", "left", "-o", tmp_path / "two.m512").stderr == 'note: page 3 "walk": exit 5 is left behind\n'
     (tmp_path / "new.bin").write_bytes(EMPTY * 128)
     result = m512("pages", tmp_path / "new.bin", "merge", tmp_path / "two.m512", "walk:40", "left:41", "--in-place")
     now = image(tmp_path / "new.bin")
@@ -160,8 +160,9 @@ def test_pages_time_says_where_a_servo_cannot_follow(m512, tmp_path):
     path = tmp_path / "fast.bin"
     path.write_bytes(read_text(FAST).to_bytes())
     said = m512("pages", path, "time", "fast").stdout.splitlines()
-    assert said[-2:] == [f"page   1 step {step}: too fast at 9.6 V: joint 1 is asked for 300 degrees/s, an unloaded AX-12 does 283"
-                         for step in (2, 3)]
+    assert said[-2:] == [
+        f"page   1 step {step}: too fast at 9.6 V: joint 1 is asked for 300 degrees/s, an unloaded AX-12 does 283" for step in (2, 3)
+    ]
     assert len(said) == 4
     assert not json.loads(m512("pages", path, "time", "fast", "--volts", "11.1", "--json").stdout)["too_fast"]
     assert m512("pages", path, "time", "fast", "--volts", "2").exit_code == 2
@@ -196,16 +197,27 @@ def test_pages_help_of_every_action_has_an_example(m512):
 
 # diff
 
+
 def test_diff_says_where_and_what(m512, lib, tmp_path):
     new = tmp_path / "new.m512"
-    new.write_text(TEXT.replace("400 500 600 700", "400 530 600 -").replace("pause 20", "pause 30")
-                   .replace("page 5 stop", "page 6 stop").replace("code U", "code D").replace("exit 5", "exit 6"))
+    new.write_text(
+        TEXT.replace("400 500 600 700", "400 530 600 -")
+        .replace("pause 20", "pause 30")
+        .replace("page 5 stop", "page 6 stop")
+        .replace("code U", "code D")
+        .replace("exit 5", "exit 6")
+    )
     result = m512("diff", lib, new)
     assert result.exit_code == 3
     assert result.stdout.splitlines() == [
-        'page 3 "walk": exit 5 -> 6', 'page 3 "walk": code U -> D', 'page 3 "walk", step 1, ID 2: 500 -> 530 (+30)',
-        'page 3 "walk", step 1, ID 4: 700 -> -', 'page 3 "walk", step 2: pause 20 -> 30',
-        'page 5 "stop": 1 step -> empty', 'page 6 "stop": empty -> 1 step']
+        'page 3 "walk": exit 5 -> 6',
+        'page 3 "walk": code U -> D',
+        'page 3 "walk", step 1, ID 2: 500 -> 530 (+30)',
+        'page 3 "walk", step 1, ID 4: 700 -> -',
+        'page 3 "walk", step 2: pause 20 -> 30',
+        'page 5 "stop": 1 step -> empty',
+        'page 6 "stop": empty -> 1 step',
+    ]
     assert m512("diff", lib, lib).exit_code == 0
     rows = json.loads(m512("diff", lib, new, "--json").stdout)
     assert rows[2] == {"page": 3, "name": "walk", "what": "", "before": "500", "after": "530", "step": 1, "joint": 2}
@@ -227,7 +239,8 @@ def test_diff_says_once_what_empty_pages_have_that_has_no_effect(m512, tmp_path)
     said = found.stdout.splitlines()
     assert found.exit_code == 3
     assert [line for line in said if not line.startswith(("page 1 ", "page 3 "))] == [
-        "pages 2 and 4..127: empty in both; bytes without effect differ"]
+        "pages 2 and 4..127: empty in both; bytes without effect differ"
+    ]
     assert len([line for line in said if "unused step" in line]) == 2
 
 

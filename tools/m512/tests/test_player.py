@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The exact law against the properties that define it."""
+
 import pytest
 from chance import given, settings
 from hypothesis import strategies as st
@@ -12,12 +13,11 @@ from m512.motion.player import page_seconds, play
 def one_page(steps, time=64, accel=32, speed=32, next_=0, repeat=1, schedule=0x0A, pauses=()):
     image = Image.empty()
     page = image[1]
-    page.steps, page.accel, page.speed, page.next, page.repeat, page.schedule = (len(steps), accel, speed, next_, repeat,
-                                                                                 schedule)
+    page.steps, page.accel, page.speed, page.next, page.repeat, page.schedule = (len(steps), accel, speed, next_, repeat, schedule)
     for k, target in enumerate(steps):
         page.set_time(k, time if isinstance(time, int) else time[k])
         page.set_pause(k, pauses[k] if k < len(pauses) else 0)
-        for joint, word in (target.items() if isinstance(target, dict) else {1: target}.items()):
+        for joint, word in target.items() if isinstance(target, dict) else {1: target}.items():
             page.set_word(k, joint, word)
     page.seal()
     return image
@@ -30,7 +30,7 @@ def goals(image, joint=1, **more):
 def test_player_exact_step_of_one_and_two_ticks():
     assert goals(one_page([600], time=1)) == [600]
     assert goals(one_page([612], time=2)) == [562, 612]
-    assert goals(one_page([613], time=2)) == [563, 613] and goals(one_page([411], time=2)) == [461, 411]   # 50.5 away
+    assert goals(one_page([613], time=2)) == [563, 613] and goals(one_page([411], time=2)) == [461, 411]  # 50.5 away
 
 
 def test_player_exact_carries_fractions_of_a_tick():
@@ -80,8 +80,7 @@ def test_player_damaged_page_ends_the_play():
     assert len(goals(image)) == 4
 
 
-page_recipe = st.tuples(st.lists(st.integers(0, 1023), min_size=1, max_size=7), st.integers(1, 80), st.integers(0, 60),
-                        st.integers(8, 90))
+page_recipe = st.tuples(st.lists(st.integers(0, 1023), min_size=1, max_size=7), st.integers(1, 80), st.integers(0, 60), st.integers(8, 90))
 
 
 @settings(max_examples=120)

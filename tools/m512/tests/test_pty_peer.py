@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The peer on a pty itself: a cable that is pulled and plugged while its thread is between two of its own steps."""
+
 import os
 import time
 
@@ -17,9 +18,9 @@ class Replugged(PtyPeer):
     def _wait(self):
         super()._wait()
         if self.spare is not None:
-            os.close(self.spare)         # a lower number becomes free, so that the new files have other numbers
+            os.close(self.spare)  # a lower number becomes free, so that the new files have other numbers
             self.plug()
-            self.spare = None            # whoever waits for this finds the new path
+            self.spare = None  # whoever waits for this finds the new path
 
 
 def test_peer_hears_the_cable_that_was_plugged_while_it_read():

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """README.md is executed: the motion in it, each command of "Without a robot", and the examples' command lines."""
+
 import re
 import shlex
 import subprocess
@@ -24,8 +25,13 @@ def blocks(text):
 def run_line(line, folder):
     words = shlex.split(line.replace("|| true", ""), comments=True)
     assert words[0] == "m512"
-    return subprocess.run([sys.executable, "-m", "m512"] + words[1:], cwd=folder, capture_output=True, text=True,
-                          env={"PATH": "", "HOME": str(folder), "M512_BUILD": str(REPO / "build")})
+    return subprocess.run(
+        [sys.executable, "-m", "m512"] + words[1:],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        env={"PATH": "", "HOME": str(folder), "M512_BUILD": str(REPO / "build")},
+    )
 
 
 def test_readme_without_a_robot(tmp_path):
@@ -47,8 +53,7 @@ def test_help_of_every_command_has_an_example(m512, name):
 
 
 def test_help_lists_every_command():
-    result = subprocess.run([sys.executable, "-m", "m512", "--help"], env={"PATH": ""},
-                            capture_output=True, text=True)
+    result = subprocess.run([sys.executable, "-m", "m512", "--help"], env={"PATH": ""}, capture_output=True, text=True)
     assert result.returncode == 0 and all(name in result.stdout for name in COMMANDS)
 
 
@@ -59,6 +64,5 @@ def test_table_of_commands_is_complete():
 
 def test_help_does_not_import_what_it_does_not_need():
     code = "import sys; from m512.cli import main; main(['--help'], standalone_mode=False); print(sorted(sys.modules))"
-    out = subprocess.run([sys.executable, "-c", code], env={"PATH": ""}, capture_output=True,
-                         text=True).stdout
+    out = subprocess.run([sys.executable, "-c", code], env={"PATH": ""}, capture_output=True, text=True).stdout
     assert not re.search(r"'(serial|matplotlib|intelhex|numpy)'", out)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Motion sets of others, where they are (../shared/data, or M512_SHARED): they may not be copied into the project. tests/samples stands in
 for them elsewhere."""
+
 import os
 import pathlib
 
@@ -16,8 +17,9 @@ pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason=f"no motion sets of ot
 ROBOPLUS, ROBOT = DATA / "bio_gp_humanoid_kr.mtn", DATA / "bio_gp_humanoid_kr_128p.bin"
 
 
-@pytest.mark.parametrize("name", ["bio_gp_humanoid_kr_128p.bin", "hros1_10bit_256p.bin", "op3_12bit_256p.bin",
-                                  "op3_derived_10bit_256p.bin", "synthetic_edge_128p.bin"])
+@pytest.mark.parametrize(
+    "name", ["bio_gp_humanoid_kr_128p.bin", "hros1_10bit_256p.bin", "op3_12bit_256p.bin", "op3_derived_10bit_256p.bin", "synthetic_edge_128p.bin"]
+)
 @pytest.mark.parametrize("suffix", [".m512", ".hex"])
 def test_every_image_to_text_and_hex_and_back(m512, tmp_path, name, suffix):
     middle, out = tmp_path / f"x{suffix}", tmp_path / "y.bin"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Which pages an argument means: one parser for every command, of files and of boards, and one error."""
+
 import pytest
 
 from m512.errors import FileError, WordError
@@ -26,19 +27,51 @@ page 30 ; erased
 IMAGE = read_text(TEXT)
 
 
-@pytest.mark.parametrize("words, expected", [
-    (["wave"], [(3, 3)]), (["WAVE"], [(3, 3)]), (["3:40"], [(3, 40)]), (["wave:0"], [(3, 0)]), (["a:b"], [(4, 4)]), (["a:b:9"], [(4, 9)]),
-    (["1..2"], [(5, 5)]), (["1..2:60"], [(5, 60)]), (["12"], [(12, 12)]), (["3..5"], [(3, 3), (4, 4), (5, 5)]),
-    (["2..7:60"], [(3, 61), (4, 62), (5, 63), (7, 65)]), (["all"], [(3, 3), (4, 4), (5, 5), (7, 7), (20, 20), (21, 21)]),
-    (["wave", "3"], [(3, 3)]), (["wave:40", "20:41"], [(3, 40), (20, 41)]), (["1..127:1"], [(n, n) for n in (3, 4, 5, 7, 20, 21)])])
+@pytest.mark.parametrize(
+    "words, expected",
+    [
+        (["wave"], [(3, 3)]),
+        (["WAVE"], [(3, 3)]),
+        (["3:40"], [(3, 40)]),
+        (["wave:0"], [(3, 0)]),
+        (["a:b"], [(4, 4)]),
+        (["a:b:9"], [(4, 9)]),
+        (["1..2"], [(5, 5)]),
+        (["1..2:60"], [(5, 60)]),
+        (["12"], [(12, 12)]),
+        (["3..5"], [(3, 3), (4, 4), (5, 5)]),
+        (["2..7:60"], [(3, 61), (4, 62), (5, 63), (7, 65)]),
+        (["all"], [(3, 3), (4, 4), (5, 5), (7, 7), (20, 20), (21, 21)]),
+        (["wave", "3"], [(3, 3)]),
+        (["wave:40", "20:41"], [(3, 40), (20, 41)]),
+        (["1..127:1"], [(n, n) for n in (3, 4, 5, 7, 20, 21)]),
+    ],
+)
 def test_what_arguments_mean(words, expected):
     assert selection.moves(words, IMAGE) == expected
     if all(there == here for there, here in expected) and words != ["1..127:1"]:
         assert selection.numbers(words, IMAGE) == [there for there, _ in expected]
 
 
-@pytest.mark.parametrize("word", ["wave:4o", "wave:", "wave:-1", "wave:+5", "wave:1_0", "wave: 4", "wave:\uff14", "3:256", "3:99999999999", "all:4",
-                                  "3..5:x", "9..4", "8..11", "wave:4:o"])
+@pytest.mark.parametrize(
+    "word",
+    [
+        "wave:4o",
+        "wave:",
+        "wave:-1",
+        "wave:+5",
+        "wave:1_0",
+        "wave: 4",
+        "wave:\uff14",
+        "3:256",
+        "3:99999999999",
+        "all:4",
+        "3..5:x",
+        "9..4",
+        "8..11",
+        "wave:4:o",
+    ],
+)
 def test_what_means_nothing_is_an_error_that_names_the_word(word):
     with pytest.raises(WordError) as caught:
         selection.moves([word], IMAGE)
@@ -78,19 +111,19 @@ def test_every_command_refuses_it_with_the_same_sentence(m512, started, lib, wor
 
 
 def test_ranges_of_a_board_and_of_a_file(m512, started, lib):
-    edit = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT)         # the loader is what saves
+    edit = started("boot-cm5.hex", "edit-cm5.hex", text=TEXT)  # the loader is what saves
     assert m512("run", "-p", edit.path).exit_code == 0
     edit.pass_time(2)
     got = lib.with_name("got.bin")
     assert m512("get", "2..6", "bow", "-o", got, "-p", edit.path).exit_code == 0
     assert read_text(TEXT)[3] == selection_image(got)[3] and selection_image(got).used() == [3, 4, 5, 20]
     assert m512("get", "all", "--force", "-o", got, "-p", edit.path).exit_code == 0
-    assert selection_image(got)[21] == IMAGE[21] and selection_image(got).used() == [3, 4, 5, 7, 20, 21]     # a damaged page byte for byte
+    assert selection_image(got)[21] == IMAGE[21] and selection_image(got).used() == [3, 4, 5, 7, 20, 21]  # a damaged page byte for byte
     put = m512("put", lib, "3..5:60", "-p", edit.path)
     assert put.exit_code == 0, put.stderr
     area = bytes(edit.board.flash[0xE000:0x1E000])
     assert [area[512 * n + 66] + 256 * area[512 * n + 67] for n in (60, 61, 62)] == [500, 510, 520]
-    assert area[512 * 62 + 25] == 60                   # its link followed
+    assert area[512 * 62 + 25] == 60  # its link followed
     shown = m512("pages", lib, "show", "3..5").stdout
     assert [shown.count(f"page {n}") for n in (3, 4, 5, 7)] == [1, 1, 1, 0]
     assert m512("pages", lib, "delete", "3..21", "-o", lib.with_name("less.bin")).exit_code == 0

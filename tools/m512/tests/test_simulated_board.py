@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """m512 against the simulated board with our real loader, Play and Edit, in simulated time. Needs the build's products."""
+
 import json
 from types import SimpleNamespace
 
@@ -109,7 +110,7 @@ def test_board_cable_pulled(m512, robot, motions, cut):
 
 
 def test_board_put_through_edit(m512, started, motions, tmp_path):
-    edit = started("boot-cm5.hex", "edit-cm5.hex")         # without a loader nobody can save
+    edit = started("boot-cm5.hex", "edit-cm5.hex")  # without a loader nobody can save
     assert "waits in its boot loader" in m512("pose", "-p", edit.path).stderr
     start(m512, edit)
     result = m512("put", motions, "walk:30", "stand", "-p", edit.path, "--json")
@@ -154,7 +155,7 @@ def test_doctor_takes_edits_drawing_for_no_missed_motion(m512, started):
     for _ in range(3):
         with VirtualLink(edit.path) as link:
             missed = int(Client(link).where()["missed"])
-        edit.put(b"x\r")                     # brings the screen back
+        edit.put(b"x\r")  # brings the screen back
         edit.pass_time(0.7)
     assert missed > 100
     result = m512("doctor", "-p", edit.path)
@@ -218,7 +219,7 @@ def test_joints_are_moved_by_code_and_given_back(m512, robot):
     for _ in range(40):
         robot.pass_time(0.05)
         seen.add(robot.board.servos[3].goal)
-    assert min(seen) in range(440, 450) and max(seen) in range(575, 585)       # 20 degrees are 68 units
+    assert min(seen) in range(440, 450) and max(seen) in range(575, 585)  # 20 degrees are 68 units
     assert "aim 1,3" in run("free", "2").stdout and "aim none" in run("free").stdout
     assert "None of these servos" in run("aim", "25:512", code=8).stderr
     assert "amplitude is 0..511" in run("swing", "3", "512", "600", "2s", code=2).stderr
@@ -259,11 +260,25 @@ def test_drive_ends_through_the_exit_page_when_the_line_falls_silent(m512, robot
             if state["state"] == "idle":
                 break
             robot.pass_time(0.05)
-        assert state["state"] == "idle" and {"3", "1"} <= pages       # walk, and stand, its exit
+        assert state["state"] == "idle" and {"3", "1"} <= pages  # walk, and stand, its exit
 
 
-@pytest.mark.parametrize("amplitude, period", [("infdeg", "2s"), ("nandeg", "2s"), ("1e9deg", "2s"), ("1.5", "2s"), ("-5", "2s"), ("1_0", "2s"), ("30deg", "infs"),
-                                               ("30deg", "nans"), ("30deg", "1e400s"), ("30deg", "9" * 400 + "s"), ("30deg", "s")])
+@pytest.mark.parametrize(
+    "amplitude, period",
+    [
+        ("infdeg", "2s"),
+        ("nandeg", "2s"),
+        ("1e9deg", "2s"),
+        ("1.5", "2s"),
+        ("-5", "2s"),
+        ("1_0", "2s"),
+        ("30deg", "infs"),
+        ("30deg", "nans"),
+        ("30deg", "1e400s"),
+        ("30deg", "9" * 400 + "s"),
+        ("30deg", "s"),
+    ],
+)
 def test_swing_takes_plain_numbers_only(m512, amplitude, period):
     result = m512("swing", "3", "512", "-p", "peer://nobody", "--", amplitude, period)
     assert result.exit_code == 2 and (amplitude in result.stderr or period in result.stderr)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Commands with --sim on a PC that is so busy that the simulated board takes a hundred times as long as a real one, from its power-on. It is
 Play's image; m512's clock and the board's are both simulated."""
+
 import json
 
 import pytest
@@ -43,14 +44,15 @@ def slow(monkeypatch, repo):
     from m512.files.text import read_text
 
     with Board(images=["play-cm5.hex"], motions=read_text(MOTIONS).to_bytes(), servos=range(1, 19)) as chip, SlowBoard(chip) as board:
+
         class Started:
             url = board.path
 
             def __init__(self, *_):
                 pass
 
-            __enter__ = lambda self: self               # noqa: E731
-            __exit__ = lambda self, *_: None            # noqa: E731
+            __enter__ = lambda self: self  # noqa: E731
+            __exit__ = lambda self, *_: None  # noqa: E731
 
         monkeypatch.setattr(sim, "Simulator", Started)
         yield board

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 term` on a terminal of its own: bytes both ways, its keys, log, files, the boot loader, a pulled cable."""
+
 import sys
 
 import pexpect
@@ -29,8 +30,9 @@ def term():
     running = []
 
     def start(*args):
-        child = pexpect.spawn(sys.executable, ["-m", "m512", "term", *map(str, args)], timeout=300, encoding="utf-8",
-                              env={"PATH": "/usr/bin:/bin", "TERM": "xterm"})
+        child = pexpect.spawn(
+            sys.executable, ["-m", "m512", "term", *map(str, args)], timeout=300, encoding="utf-8", env={"PATH": "/usr/bin:/bin", "TERM": "xterm"}
+        )
         running.append(child)
         return child
 
@@ -45,7 +47,7 @@ def test_term_passes_bytes_both_ways_and_quits(term, tmp_path):
         child.expect("Ctrl-] q to quit")
         child.send("list\r")
         child.expect("<list>")
-        child.send("\x1b[A\x03x\r")       # an arrow and Ctrl-C go to the board
+        child.send("\x1b[A\x03x\r")  # an arrow and Ctrl-C go to the board
         child.expect("x>")
         assert board.lines == [b"list", b"\x1b[A\x03x"]
         child.send("\x1dh")
@@ -77,7 +79,7 @@ def test_term_sends_a_file_line_by_line(term, tmp_path):
 
 
 def test_term_calls_the_boot_loader(term, monkeypatch):
-    monkeypatch.setattr("factory_peer.WINDOW", 0.2)      # a busy PC may pause for longer than the board's 60 ms; the line ends 0.35 s later
+    monkeypatch.setattr("factory_peer.WINDOW", 0.2)  # a busy PC may pause for longer than the board's 60 ms; the line ends 0.35 s later
     with FactoryPtyPeer(state=APP) as board:
         child = term("-p", board.path)
         child.expect("to quit")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The text format: its words by example, its errors by line, and its byte-exact round trip by property."""
+
 import re
 
 import pytest
@@ -31,6 +32,7 @@ def error(text):
 
 # Meaning
 
+
 def test_text_page_without_statements_is_the_empty_page():
     assert bytes(page_of("page 1")) == EMPTY
 
@@ -52,7 +54,7 @@ page 1 wave
 
 def test_text_step_words_stand_where_the_specification_says():
     page = page_of("page 1\nstep 64 pause 9 | 1 2 3 1023\n")
-    assert page.data[64 + 2:64 + 10] == bytes([1, 0, 2, 0, 3, 0, 0xFF, 0x03])
+    assert page.data[64 + 2 : 64 + 10] == bytes([1, 0, 2, 0, 3, 0, 0xFF, 0x03])
     assert [page.data[64 + 62], page.data[64 + 63], page.data[20]] == [9, 64, 1]
     assert page.word(0, 0) == page.word(0, 30) == 0x4000
 
@@ -69,11 +71,11 @@ def test_text_times_in_seconds_and_milliseconds_are_ticks_of_a_128th():
 
 
 def test_text_speed_in_degrees_per_second():
-    assert page_of("page 1\nbase speed\nstep 360dps | 1:1").time(0) == 128   # 256 = 720 degrees/s
+    assert page_of("page 1\nbase speed\nstep 360dps | 1:1").time(0) == 128  # 256 = 720 degrees/s
 
 
 def test_text_degrees_count_from_the_centre():
-    page = page_of("page 1\nstep 1 | 1:30deg 2:-30deg 3:0deg")   # 300 degrees = 1024 units, 512 = centre
+    page = page_of("page 1\nstep 1 | 1:30deg 2:-30deg 3:0deg")  # 300 degrees = 1024 units, 512 = centre
     assert positions(page, 0)[:3] == [614, 410, 512]
 
 
@@ -156,53 +158,57 @@ def test_text_include(tmp_path):
 
 
 def test_text_continued_line_and_comments():
-    page = page_of("page 1 \"a#b\"   # c\nstep 1 | 1 2 \\\n 3 4 # d")
+    page = page_of('page 1 "a#b"   # c\nstep 1 | 1 2 \\\n 3 4 # d')
     assert page.name == b"a#b" and positions(page, 0) == [1, 2, 3, 4]
 
 
 # Errors name file, line and what to do
 
-@pytest.mark.parametrize("line, says", [
-    ("page 128", "page must be 0..127"),
-    ("pag 1", "unknown word pag"),
-    ('page 1 "x', "a quote is opened and not closed"),
-    ("page 1 abcdefghijklmn", "at most 13 characters, not 14"),
-    ("page 1 \u00e9", "ASCII"),
-    ("page 1; speed 256", "speed must be 0..255, not 256"),
-    ("page 1; speed fast", "speed is a number 0..255, not fast"),
-    ("page 1; next nowhere", "no page is called nowhere"),
-    ("page 1; next 128", "a link must be 0..127"),
-    ("page 1 a; page 2 a; next a", "name of pages 1, 2"),
-    ("page 1; page 1", "page 1 is there already (text:3)"),
-    ("page 1; step 3s | 1:1", "3s is 384 ticks"),
-    ("page 1; step 1ms | 1:1", "less than half a tick"),
-    ("page 1; step 1 | 1:1024", "a position must be 0..1023, not 1024"),
-    ("page 1; step 1 | 31:1", "joints are IDs 0..30"),
-    ("page 1; step 1 | 5", "1 positions; the row has 4 joints"),
-    ("page 1; step 1 | 1:+5", "there is no position to change"),
-    ("page 1; step 1 | same", "no step before"),
-    ("page 1; step 1 | @x", "no pose is called x"),
-    ("page 1; step 1 | mirror", "mirror @pose or mirror same"),
-    ("page 1; step 1 | 1:0; step 1 | mirror same", "mirror image of position 0"),
-    ("page 1" + "; step 1 | 1:1" * 8, "a page has 7 steps"),
-    ("step 1 | 1:1", "step belongs into a page"),
-    ("page 1; step 90dps | 1:1", "the page has time base"),
-    ("page 1; base speed; step 1s | 1:1", "the page has speed base"),
-    ("page 1; base fast", "base is time or speed"),
-    ("page 1; code X", "keys of U D L R"),
-    ("page 1; step 1 | 1:", "a position is a number"),
-    ("page 1; step 99999999999999999999s | 1:1", "time is a number 0..255"),
-    ("page " + "9" * 5000, "a number 0..127 or a range"),
-    ("page 1; step 1 | " + "9" * 5000 + ":1", "no joint is called"),
-    ("page 1; speed " + "9" * 5000, "speed is a number"),
-    ("page 1; raw 510 00 00 00", "beyond the page's 512"),
-    ("page 1; raw 0 0g", "pairs of hex digits"),
-    ("joint 1 a; joint 2 a", "a is joint 1 already"),
-    ("pose p | 1:1; pose p | 1:2", "pose p is there already"),
-    ('include "nowhere.m512"', "cannot read nowhere.m512"),
-    ("bits 11", "bits are 10 or 12"),
-    ("page 5; offset 1:2", "offset belongs into page 0"),
-])
+
+@pytest.mark.parametrize(
+    "line, says",
+    [
+        ("page 128", "page must be 0..127"),
+        ("pag 1", "unknown word pag"),
+        ('page 1 "x', "a quote is opened and not closed"),
+        ("page 1 abcdefghijklmn", "at most 13 characters, not 14"),
+        ("page 1 \u00e9", "ASCII"),
+        ("page 1; speed 256", "speed must be 0..255, not 256"),
+        ("page 1; speed fast", "speed is a number 0..255, not fast"),
+        ("page 1; next nowhere", "no page is called nowhere"),
+        ("page 1; next 128", "a link must be 0..127"),
+        ("page 1 a; page 2 a; next a", "name of pages 1, 2"),
+        ("page 1; page 1", "page 1 is there already (text:3)"),
+        ("page 1; step 3s | 1:1", "3s is 384 ticks"),
+        ("page 1; step 1ms | 1:1", "less than half a tick"),
+        ("page 1; step 1 | 1:1024", "a position must be 0..1023, not 1024"),
+        ("page 1; step 1 | 31:1", "joints are IDs 0..30"),
+        ("page 1; step 1 | 5", "1 positions; the row has 4 joints"),
+        ("page 1; step 1 | 1:+5", "there is no position to change"),
+        ("page 1; step 1 | same", "no step before"),
+        ("page 1; step 1 | @x", "no pose is called x"),
+        ("page 1; step 1 | mirror", "mirror @pose or mirror same"),
+        ("page 1; step 1 | 1:0; step 1 | mirror same", "mirror image of position 0"),
+        ("page 1" + "; step 1 | 1:1" * 8, "a page has 7 steps"),
+        ("step 1 | 1:1", "step belongs into a page"),
+        ("page 1; step 90dps | 1:1", "the page has time base"),
+        ("page 1; base speed; step 1s | 1:1", "the page has speed base"),
+        ("page 1; base fast", "base is time or speed"),
+        ("page 1; code X", "keys of U D L R"),
+        ("page 1; step 1 | 1:", "a position is a number"),
+        ("page 1; step 99999999999999999999s | 1:1", "time is a number 0..255"),
+        ("page " + "9" * 5000, "a number 0..127 or a range"),
+        ("page 1; step 1 | " + "9" * 5000 + ":1", "no joint is called"),
+        ("page 1; speed " + "9" * 5000, "speed is a number"),
+        ("page 1; raw 510 00 00 00", "beyond the page's 512"),
+        ("page 1; raw 0 0g", "pairs of hex digits"),
+        ("joint 1 a; joint 2 a", "a is joint 1 already"),
+        ("pose p | 1:1; pose p | 1:2", "pose p is there already"),
+        ('include "nowhere.m512"', "cannot read nowhere.m512"),
+        ("bits 11", "bits are 10 or 12"),
+        ("page 5; offset 1:2", "offset belongs into page 0"),
+    ],
+)
 def test_text_error(line, says):
     message = error("motion512 1\nrow 1..4\n" + line)
     assert says in message and message.startswith("text:3: ")
@@ -223,6 +229,7 @@ def test_text_include_in_a_circle(tmp_path):
 
 
 # Round trip
+
 
 def round_trip(image):
     text = write_text(image)
@@ -247,8 +254,9 @@ def test_text_round_trip_of_erased_flash_is_short():
 
 def test_text_round_trip_of_names_that_look_like_words():
     image = Image.empty()
-    for number, name in enumerate([b"self", b"none", b"12", b'a"b\\c', b" lead", b"#x", b"14 characters!", b"a\0b", b"\0b",
-                                   b"\xff\x01", b"tab\t", b"14 characters\\"], 1):
+    for number, name in enumerate(
+        [b"self", b"none", b"12", b'a"b\\c', b" lead", b"#x", b"14 characters!", b"a\0b", b"\0b", b"\xff\x01", b"tab\t", b"14 characters\\"], 1
+    ):
         image[number].data[:14] = name.ljust(14, b"\0")
         image[number].next = number % 12 + 1
         image[number].seal()
@@ -308,6 +316,7 @@ def test_text_any_characters_give_an_image_or_a_clear_error(text):
 
 
 # FORMAT.md tells the truth
+
 
 def format_md_blocks():
     text = (REPO / "tools" / "m512" / "FORMAT.md").read_text()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Nothing of a user's is lost in silence: files that are there, hand-written texts, boards, motions in HEX files, terminals."""
+
 import json
 import os
 import re
@@ -46,6 +47,7 @@ def run(*args, **options):
 
 # Motions in Intel HEX: the rules of every motion file
 
+
 def test_hex_of_motions_leaves_the_trim_alone(tmp_path):
     (tmp_path / "x.hex").write_text(to_hex(read_text(TEXT)))
     found = plan(tmp_path / "x.hex")
@@ -81,6 +83,7 @@ def test_hex_with_some_motion_pages_changes_only_those(tmp_path):
 
 # Files that are there
 
+
 def test_in_place_does_not_make_numbers_of_a_hand_written_text(m512, files):
     result = m512("pages", files / "hand.m512", "rename", "3", "new", "--in-place")
     assert result.exit_code == 5 and "somebody's text" in result.stderr and "-o" in result.stderr
@@ -114,6 +117,7 @@ def test_files_are_replaced_whole_or_not_at_all(files, monkeypatch):
 
 # Boards
 
+
 def full_flash():
     flash = bytearray(b"\xff" * 0x20000)
     flash[0xE000:0x1E000] = read_text(TEXT).to_bytes()
@@ -138,7 +142,7 @@ def test_changing_a_board_shows_the_change_and_asks(m512, board):
     result = m512("pages", board.path, "delete", "3")
     assert result.exit_code == 5 and "walk" in result.stderr and "--yes" in result.stderr and bytes(board.flash) == before
     assert m512("pages", board.path, "delete", "3", "--yes").exit_code == 0
-    assert board.flash[0xE000 + 3 * 512:][:512] == EMPTY
+    assert board.flash[0xE000 + 3 * 512 :][:512] == EMPTY
 
 
 @pytest.mark.parametrize("at_prompt, left", [(True, 0), (False, 2)])
@@ -185,6 +189,7 @@ def test_what_a_board_or_a_file_says_does_not_steer_the_terminal(m512, files):
 
 # Text
 
+
 def test_backslash_at_the_end_of_the_file_or_of_a_comment_swallows_nothing():
     with pytest.raises(TextError, match="backslash"):
         read_text(TEXT + "  step 1s | 1..18:9 \\")
@@ -226,11 +231,21 @@ def test_csv_of_12_bits_stays_12_bits(m512, tmp_path):
 
 # Pipes
 
+
 def test_convert_is_a_textconv_of_git(files):
     result = run("convert", files / "x.bin")
     assert result.returncode == 0 and read_text(result.stdout.decode()).to_bytes() == (files / "x.bin").read_bytes()
-    git = ["git", "-c", "user.name=a", "-c", "user.email=a@b", "-c", "core.attributesFile=" + str(files / "attributes"), "-c",
-           f"diff.motions.textconv={sys.executable} -m m512 convert"]
+    git = [
+        "git",
+        "-c",
+        "user.name=a",
+        "-c",
+        "user.email=a@b",
+        "-c",
+        "core.attributesFile=" + str(files / "attributes"),
+        "-c",
+        f"diff.motions.textconv={sys.executable} -m m512 convert",
+    ]
     (files / "attributes").write_text("*.bin diff=motions\n")
     subprocess.run(["git", "init", "-q"], cwd=files, check=True)
     subprocess.run([*git, "add", "x.bin"], cwd=files, check=True)
@@ -274,6 +289,7 @@ def test_process_substitution(files):
 
 # No tracebacks
 
+
 def test_page_number_of_superscript_digits(m512, files):
     result = m512("pages", files / "x.bin", "show", "\u00b3")
     assert result.exit_code == 4 and "no page is called" in result.stderr
@@ -302,6 +318,7 @@ def test_ctrl_c_has_an_exit_code_of_its_own(m512, files, monkeypatch):
 
 # The package
 
+
 def test_version_is_that_of_the_project():
     text = (REPO / "CMakeLists.txt").read_text()
     assert __version__ == re.search(r"project\(motion512 VERSION ([0-9.]+)", text).group(1)
@@ -314,6 +331,7 @@ def test_package_says_that_it_is_typed_and_its_licence():
 
 
 # What a new user meets
+
 
 def test_dry_run_looks_at_the_board_and_changes_nothing(m512, files, board):
     before = bytes(board.flash)

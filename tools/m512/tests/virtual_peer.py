@@ -7,6 +7,7 @@ wait of a minute costs nothing. A byte takes as long as on the real line.
     with BlockPeer() as board:                    # a VirtualPeer
         m512("flash", image, "-p", board.path)    # the fixture m512 opens peer://... by open_port()
 """
+
 import itertools
 import math
 
@@ -18,7 +19,7 @@ from m512.errors import PortError
 BYTE_SECONDS = 10 / 57600
 QUANTUM = 0.005
 _names = itertools.count(1)
-_there = {}                            # path -> the End that is plugged in there
+_there = {}  # path -> the End that is plugged in there
 
 
 class End(Peer):
@@ -64,7 +65,7 @@ class VirtualPeer(End):
 
     def __init__(self):
         self.clock = self.heard_at = self.sent_until = 0.0
-        self.sent = bytearray()        # to the PC; the last of it arrives at sent_until
+        self.sent = bytearray()  # to the PC; the last of it arrives at sent_until
         super().__init__()
 
     def now(self):

@@ -6,6 +6,7 @@
 
 One small diagram for each joint that moved or had a goal; the others are listed below. Needs matplotlib.
 """
+
 import argparse
 import csv
 import pathlib
@@ -28,7 +29,7 @@ def read_trace(path):
         for row in rows:
             times.append(float(row[1]) / 1000)
             for index, number in enumerate(ids):
-                goal, present = row[2 + 2 * index:4 + 2 * index]
+                goal, present = row[2 + 2 * index : 4 + 2 * index]
                 joints[number][0].append(float(goal) if goal else None)
                 joints[number][1].append(float(present))
     return times, joints
@@ -40,19 +41,19 @@ def is_active(goals, presents):
 
 def draw(times, joints, title, out):
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
+
     active = [number for number in joints if times and is_active(*joints[number])]
     still = [number for number in joints if number not in active]
     columns = min(COLUMNS, max(1, len(active)))
     rows = max(1, -(-len(active) // columns))
-    figure, axes = pyplot.subplots(rows, columns, figsize=(4.2 * columns, 1.7 * rows + 0.9), sharex=True,
-                                   squeeze=False, layout="constrained")
+    figure, axes = pyplot.subplots(rows, columns, figsize=(4.2 * columns, 1.7 * rows + 0.9), sharex=True, squeeze=False, layout="constrained")
     cells = list(axes.flat)
     for axis, number in zip(cells, active):
         goals, presents = joints[number]
-        axis.plot(times, [float("nan") if goal is None else goal for goal in goals], color="#d95f02", linewidth=0.9,
-                  label="goal")
+        axis.plot(times, [float("nan") if goal is None else goal for goal in goals], color="#d95f02", linewidth=0.9, label="goal")
         axis.plot(times, presents, color="#1b6ca8", linewidth=1.3, label="present")
         shown = presents + [goal for goal in goals if goal is not None]
         low, high = min(shown), max(shown)
@@ -61,12 +62,13 @@ def draw(times, joints, title, out):
         axis.set_title(f"joint {number}", fontsize=8, loc="left", pad=2)
         axis.tick_params(labelsize=7)
         axis.grid(linewidth=0.3)
-        degrees = axis.secondary_yaxis("right", functions=(lambda unit: (unit - 512) * DEGREES_PER_UNIT,
-                                                           lambda degree: degree / DEGREES_PER_UNIT + 512))
+        degrees = axis.secondary_yaxis(
+            "right", functions=(lambda unit: (unit - 512) * DEGREES_PER_UNIT, lambda degree: degree / DEGREES_PER_UNIT + 512)
+        )
         degrees.tick_params(labelsize=6, colors="#777777")
-    for axis in cells[len(active):]:
+    for axis in cells[len(active) :]:
         axis.set_visible(False)
-    for axis in cells[max(0, len(active) - columns):len(active)]:
+    for axis in cells[max(0, len(active) - columns) : len(active)]:
         axis.set_xlabel("s", fontsize=8)
     if active:
         cells[0].legend(fontsize=6, loc="best")

@@ -4,6 +4,7 @@
     with_body.py BODY view|tell ARGUMENT...        the arguments are those of cm5sim, as they were typed
 
 Tells on standard error when the robot is put down, when it falls, and at the end where it went and how it stands."""
+
 import ctypes
 import os
 import pathlib
@@ -13,7 +14,7 @@ import warnings
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
 EXIT_USAGE, EXIT_FILE = 2, 4
-LOOK_EVERY = 8                   # steps of 1/1024 s
+LOOK_EVERY = 8  # steps of 1/1024 s
 FRAME_S = 1 / 60
 
 try:
@@ -46,7 +47,7 @@ class Watch:
         self.physics, self.hand, self.view, self._lib = physics, Hand(physics), view, lib
         inner = lib.servo_mujoco_body(ctypes.addressof(physics.seam))
         self._inner_step = STEP(inner.step)
-        self._step = STEP(self.step)                 # kept alive as long as the board runs
+        self._step = STEP(self.step)  # kept alive as long as the board runs
         self.body = Body(inner.context, inner.look, ctypes.cast(self._step, ctypes.c_void_p))
         self._count, self._shown = 0, 0.0
 
@@ -73,12 +74,16 @@ class Watch:
     def report(self):
         physics = self.physics
         if self.hand.put_down_s is None:
-            say("the hand held it to the end: it puts the robot down when its knees have been driven and all joints stand still. Play "
-                "`ready` and let it end")
+            say(
+                "the hand held it to the end: it puts the robot down when its knees have been driven and all joints stand still. Play "
+                "`ready` and let it end"
+            )
             return
         how = "stands" if stands(physics) else "lies" if physics.upright < 0.5 else "does not stand on its soles alone"
-        say(f"{self.hand.falls} falls; {physics.x_mm:.0f} mm forward, {physics.y_mm:.0f} to the left, heading "
-            f"{physics.heading:.0f} degrees in {physics.time_s - self.hand.put_down_s:.1f} s; {how}")
+        say(
+            f"{self.hand.falls} falls; {physics.x_mm:.0f} mm forward, {physics.y_mm:.0f} to the left, heading "
+            f"{physics.heading:.0f} degrees in {physics.time_s - self.hand.put_down_s:.1f} s; {how}"
+        )
 
 
 def say(text, end="\n"):
@@ -89,11 +94,14 @@ def open_view(physics):
     """MuJoCo's viewer. OSError: there is no display (the viewer itself would end the process without a word of ours)."""
     import glfw
     import mujoco.viewer
+
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         if not glfw.init():
-            raise OSError("--view needs a display, and none answers here (DISPLAY, WAYLAND_DISPLAY). Without --view falls, way and heading "
-                          "are told all the same")
+            raise OSError(
+                "--view needs a display, and none answers here (DISPLAY, WAYLAND_DISPLAY). Without --view falls, way and heading "
+                "are told all the same"
+            )
     return mujoco.viewer.launch_passive(physics.model, physics.data, show_left_ui=False, show_right_ui=False)
 
 

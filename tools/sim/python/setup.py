@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Takes the compiled parts of the wheel from the build tree (environment M512_BUILD, else ../../../build)."""
+
 import os
 import pathlib
 import re
@@ -44,7 +45,7 @@ class BuildWithRobot(build_py):
 
     def run(self):
         super().run()
-        if self.editable_mode:       # the build tree itself is used
+        if self.editable_mode:  # the build tree itself is used
             return
         missing = [name for name in (*PROGRAMS, *DATA) if not (BUILD / name).exists()]
         if missing:

@@ -13,48 +13,48 @@ import type { Strip } from './strip.ts';
 import type { RobotTransfer } from './transfer.ts';
 
 export interface ArrivalParts {
-  readonly state: Store<DeskState>;
-  readonly strip: Strip;
-  readonly status: Status;
-  readonly sources: RobotSources;
-  readonly editor: DocumentEditor;
-  readonly transfer: RobotTransfer;
+    readonly state: Store<DeskState>;
+    readonly strip: Strip;
+    readonly status: Status;
+    readonly sources: RobotSources;
+    readonly editor: DocumentEditor;
+    readonly transfer: RobotTransfer;
 }
 
 export class Arrival {
-  private readonly parts: ArrivalParts;
+    private readonly parts: ArrivalParts;
 
-  constructor(parts: ArrivalParts) {
-    this.parts = parts;
-  }
+    constructor(parts: ArrivalParts) {
+        this.parts = parts;
+    }
 
-  connectionChanged(connection: ConnectionState): void {
-    const { state, strip, status, sources, editor } = this.parts;
-    const { version, name, isInDialog, error } = sources.connection;
-    state.set({ connection, version, portName: name, where: null, isInDialog });
-    status.tell();
-    status.look();
-    if (connection === 'other-board') strip.fail(error);
-    if (connection !== 'ready') return;
-    void askList(sources.connection.requests).then((pages) => state.set({ pages }), strip.fail);
-    this.standUp();
-    void status.ask();
-    if (!sources.isSimulated && editor.state.get().robot.length === 0) void this.learnYours();
-  }
+    connectionChanged(connection: ConnectionState): void {
+        const { state, strip, status, sources, editor } = this.parts;
+        const { version, name, isInDialog, error } = sources.connection;
+        state.set({ connection, version, portName: name, where: null, isInDialog });
+        status.tell();
+        status.look();
+        if (connection === 'other-board') strip.fail(error);
+        if (connection !== 'ready') return;
+        void askList(sources.connection.requests).then(pages => state.set({ pages }), strip.fail);
+        this.standUp();
+        void status.ask();
+        if (!sources.isSimulated && editor.state.get().robot.length === 0) void this.learnYours();
+    }
 
-  /** The robot in the page stands up by itself as soon as it answers and has a body, whichever comes last. */
-  standUp(): void {
-    const { state, strip, sources } = this.parts;
-    const { connection, version } = state.get();
-    if (sources.isSimulated && connection === 'ready' && version?.image === 'play') void sources.simulated.prepare().catch(strip.fail);
-  }
+    /** The robot in the page stands up by itself as soon as it answers and has a body, whichever comes last. */
+    standUp(): void {
+        const { state, strip, sources } = this.parts;
+        const { connection, version } = state.get();
+        if (sources.isSimulated && connection === 'ready' && version?.image === 'play') void sources.simulated.prepare().catch(strip.fail);
+    }
 
-  /** Reads what your robot has and keeps it, as soon as it is known; no question is asked for it. */
-  private async learnYours(): Promise<void> {
-    const { strip, editor, transfer } = this.parts;
-    if (!(await transfer.read()).isDone) return;
-    const pages = editor.state.get().robot.filter((bytes) => bytes !== null);
-    await transfer.keep(pages).catch(strip.fail);
-    strip.say({ text: TEXTS.robotKept, tone: 'calm' });
-  }
+    /** Reads what your robot has and keeps it, as soon as it is known; no question is asked for it. */
+    private async learnYours(): Promise<void> {
+        const { strip, editor, transfer } = this.parts;
+        if (!(await transfer.read()).isDone) return;
+        const pages = editor.state.get().robot.filter(bytes => bytes !== null);
+        await transfer.keep(pages).catch(strip.fail);
+        strip.say({ text: TEXTS.robotKept, tone: 'calm' });
+    }
 }

@@ -26,56 +26,63 @@ import { TrialClient } from '../sim/trial-client.ts';
 const FIRMWARE_MS = 120_000;
 
 async function get(url: string, signal: AbortSignal | null = null): Promise<Response> {
-  const response = await fetch(url, { signal });
-  if (!response.ok) throw new Error(`${url.split('/').at(-1)} could not be loaded (${response.status})`);
-  return response;
+    const response = await fetch(url, { signal });
+    if (!response.ok) throw new Error(`${url.split('/').at(-1)} could not be loaded (${response.status})`);
+    return response;
 }
 
 export async function robotBody(): Promise<Body> {
-  const body: unknown = await (await get(bodyUrl)).json();
-  return body as Body; // made by body_files.py; tests/body.test.ts checks its shape
+    const body: unknown = await (await get(bodyUrl)).json();
+    return body as Body; // made by body_files.py; tests/body.test.ts checks its shape
 }
 
 export async function boardModule(): Promise<WebAssembly.Module> {
-  return WebAssembly.compile(await (await get(boardUrl)).arrayBuffer());
+    return WebAssembly.compile(await (await get(boardUrl)).arrayBuffer());
 }
 
 /** An instance of motion.wasm for one owner. */
 export async function motionInstance(): Promise<Motion> {
-  const { instance } = await WebAssembly.instantiate(await (await get(motionUrl)).arrayBuffer());
-  return new Motion(instance.exports as unknown as MotionExports); // made by board/motion_api.c; tests/editor-model.test.ts uses all of it
+    const { instance } = await WebAssembly.instantiate(await (await get(motionUrl)).arrayBuffer());
+    return new Motion(instance.exports as unknown as MotionExports); // made by board/motion_api.c; tests/editor-model.test.ts uses all of it
 }
 
 /** The motion library: what a robot fresh from the factory has, 65,536 bytes. */
 export async function motionLibrary(): Promise<Uint8Array> {
-  return new Uint8Array(await (await get(motionsUrl)).arrayBuffer());
+    return new Uint8Array(await (await get(motionsUrl)).arrayBuffer());
 }
 
 /** Rejects when a file does not come within two minutes. */
 export async function robotImages(image: 'play' | 'edit'): Promise<Images> {
-  const signal = AbortSignal.timeout(FIRMWARE_MS);
-  const [boot, application, motions] = await Promise.all([
-    get(bootUrl, signal).then((r) => r.text()), get(image === 'play' ? playUrl : editUrl, signal).then((r) => r.text()), get(motionsUrl, signal).then((r) => r.arrayBuffer()),
-  ]);
-  return { boot, application, motions: new Uint8Array(motions) };
+    const signal = AbortSignal.timeout(FIRMWARE_MS);
+    const [boot, application, motions] = await Promise.all([
+        get(bootUrl, signal).then(r => r.text()),
+        get(image === 'play' ? playUrl : editUrl, signal).then(r => r.text()),
+        get(motionsUrl, signal).then(r => r.arrayBuffer()),
+    ]);
+    return { boot, application, motions: new Uint8Array(motions) };
 }
 
 /** 2.5 MB, packed here rather than by the host, which may not pack at all. */
 export async function physics(): Promise<{ bodyXml: string; wasm: ArrayBuffer }> {
-  const [bodyXml, packed] = await Promise.all([get(bodyXmlUrl).then((r) => r.text()), get(mujocoUrl)]);
-  const stream = packed.body?.pipeThrough(new DecompressionStream('gzip'));
-  return { bodyXml, wasm: await new Response(stream).arrayBuffer() };
+    const [bodyXml, packed] = await Promise.all([get(bodyXmlUrl).then(r => r.text()), get(mujocoUrl)]);
+    const stream = packed.body?.pipeThrough(new DecompressionStream('gzip'));
+    return { bodyXml, wasm: await new Response(stream).arrayBuffer() };
 }
 
 /** A worker for trials, with a MuJoCo of its own. */
 export async function trialClient(body: Body): Promise<TrialClient> {
-  const [{ bodyXml, wasm }, module] = await Promise.all([physics(), get(trialUrl).then((r) => r.arrayBuffer()).then((bytes) => WebAssembly.compile(bytes))]);
-  const worker = new Worker(new URL('../sim/trial-worker.ts', import.meta.url), { type: 'module', name: 'trials' });
-  return new TrialClient(worker, { module, wasm, bodyXml, body });
+    const [{ bodyXml, wasm }, module] = await Promise.all([
+        physics(),
+        get(trialUrl)
+            .then(r => r.arrayBuffer())
+            .then(bytes => WebAssembly.compile(bytes)),
+    ]);
+    const worker = new Worker(new URL('../sim/trial-worker.ts', import.meta.url), { type: 'module', name: 'trials' });
+    return new TrialClient(worker, { module, wasm, bodyXml, body });
 }
 
 /** Motion files; Python (5 MB) is loaded at the first one. */
 export function fileFormats(): FormatsWorker {
-  const parts = { wasmUrl: new URL(pythonWasmUrl, document.baseURI).href, libraryUrl: new URL(pythonLibraryUrl, document.baseURI).href };
-  return new FormatsClient(parts, () => new Worker(new URL('../files/worker.ts', import.meta.url), { type: 'module', name: 'files' }));
+    const parts = { wasmUrl: new URL(pythonWasmUrl, document.baseURI).href, libraryUrl: new URL(pythonLibraryUrl, document.baseURI).href };
+    return new FormatsClient(parts, () => new Worker(new URL('../files/worker.ts', import.meta.url), { type: 'module', name: 'files' }));
 }

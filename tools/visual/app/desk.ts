@@ -46,217 +46,267 @@ const SHOWN_MS = 160;
 const ROBOT_IN_PAGE = 'robot in the page';
 
 const START: DeskState = {
-  source: 'simulated', connection: 'closed', portName: '', version: null, where: null, isInDialog: false, pages: [], image: 'play',
-  physics: 'loading', speed: 1, stopped: null, doing: { text: 'Starting …', tone: 'calm' }, said: null, faultNames: [], tab: 'remote', hasNewVersion: false, shownPage: null, isPowered: true, isLate: false,
+    source: 'simulated',
+    connection: 'closed',
+    portName: '',
+    version: null,
+    where: null,
+    isInDialog: false,
+    pages: [],
+    image: 'play',
+    physics: 'loading',
+    speed: 1,
+    stopped: null,
+    doing: { text: 'Starting …', tone: 'calm' },
+    said: null,
+    faultNames: [],
+    tab: 'remote',
+    hasNewVersion: false,
+    shownPage: null,
+    isPowered: true,
+    isLate: false,
 };
 
 export class RobotDesk implements Desk {
-  readonly body: Body;
-  readonly state = new Store<DeskState>(START);
-  readonly editor: DocumentEditor;
-  readonly files: DocumentFiles;
-  readonly documents: KeptDocuments;
-  readonly transfer: RobotTransfer;
-  readonly trials: MotionTrials;
-  readonly preview: MotionPreview;
-  readonly lab: RobotLab;
-  readonly version = new PageVersion(this.state);
-  private readonly frames = new Listeners<RobotState>();
-  private readonly texts = new Listeners<Uint8Array>();
-  private lastFrame: RobotState | null = null;
-  private readonly strip = new Strip(this.state);
-  private readonly sources: RobotSources;
-  private readonly arrival: Arrival;
-  private readonly driving: Driving;
-  private readonly images: RobotImages;
-  private readonly plays: RobotPlays;
-  private readonly status: Status = new Status({ state: this.state, connection: () => this.connection, isWriting: () => this.transfer.isWriting });
-  private readonly follower = new Follow(() => this.connection, this.strip.fail);
+    readonly body: Body;
+    readonly state = new Store<DeskState>(START);
+    readonly editor: DocumentEditor;
+    readonly files: DocumentFiles;
+    readonly documents: KeptDocuments;
+    readonly transfer: RobotTransfer;
+    readonly trials: MotionTrials;
+    readonly preview: MotionPreview;
+    readonly lab: RobotLab;
+    readonly version = new PageVersion(this.state);
+    private readonly frames = new Listeners<RobotState>();
+    private readonly texts = new Listeners<Uint8Array>();
+    private lastFrame: RobotState | null = null;
+    private readonly strip = new Strip(this.state);
+    private readonly sources: RobotSources;
+    private readonly arrival: Arrival;
+    private readonly driving: Driving;
+    private readonly images: RobotImages;
+    private readonly plays: RobotPlays;
+    private readonly status: Status = new Status({
+        state: this.state,
+        connection: () => this.connection,
+        isWriting: () => this.transfer.isWriting,
+    });
+    private readonly follower = new Follow(() => this.connection, this.strip.fail);
 
-  constructor(body: Body, parts: EditorParts, formats: FormatsWorker, storage: DeskStorage) {
-    this.body = body;
-    this.editor = new DocumentEditor(body, parts, {
-      changed: () => this.documents.keep(),
-      opened: () => this.trials.forget(),
-      refused: (refusal) => this.say({ text: refusalText(refusal), tone: 'bad' }),
-    });
-    this.files = new DocumentFiles(this.editor, formats, {
-      cancel: () => formats.cancel(), create: (name, document) => this.documents.create(name, document),
-    });
-    this.preview = new MotionPreview({
-      body, editor: this.editor, state: this.state, trunk: () => this.lastFrame?.trunk ?? null, isFollowing: () => this.follower.isOn, told: () => this.status.tell(),
-      nextFrame: (call) => void requestAnimationFrame(call),
-    });
-    this.trials = new MotionTrials(this.editor, () => trialClient(body));
-    this.documents = makeDocuments(this.editor, storage, {
-      failed: () => this.say({ text: TEXTS.workNotKept, tone: 'bad' }), copied: (name) => this.say({ text: EDITOR_TEXTS.secondTab(name), tone: 'calm' }),
-    });
-    this.transfer = makeTransfer(this.editor, this.documents, {
-      name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName), requests: () => this.connection.requests,
-      becomeEdit: () => (this.isSimulated ? this.images.becomeEdit() : this.needEdit()),
-    });
-    this.sources = new RobotSources(body, { state: this.state, editor: this.editor, events: this.events(), mayAsk: () => this.status.mayAsk(), fail: this.strip.fail });
-    const { simulated } = this.sources;
-    this.arrival = new Arrival({
-      state: this.state, strip: this.strip, status: this.status, sources: this.sources, editor: this.editor, transfer: this.transfer,
-    });
-    this.lab = new RobotLab(this.state, simulated);
-    this.plays = new RobotPlays({
-      state: this.state, editor: this.editor, transfer: this.transfer, connection: () => this.connection,
-      prepare: async () => (this.isSimulated ? simulated.prepare() : undefined),
-    });
-    this.images = new RobotImages({
-      state: this.state, format: parts.format, simulated,
-      say: (said) => this.say(said), fail: this.strip.fail,
-    });
-    this.driving = new Driving({
-      state: this.state, strip: this.strip, simulated, connection: () => this.connection, becomeDriven: () => this.images.becomeDriven(),
-    });
-  }
+    constructor(body: Body, parts: EditorParts, formats: FormatsWorker, storage: DeskStorage) {
+        this.body = body;
+        this.editor = new DocumentEditor(body, parts, {
+            changed: () => this.documents.keep(),
+            opened: () => this.trials.forget(),
+            refused: refusal => this.say({ text: refusalText(refusal), tone: 'bad' }),
+        });
+        this.files = new DocumentFiles(this.editor, formats, {
+            cancel: () => formats.cancel(),
+            create: (name, document) => this.documents.create(name, document),
+        });
+        this.preview = new MotionPreview({
+            body,
+            editor: this.editor,
+            state: this.state,
+            trunk: () => this.lastFrame?.trunk ?? null,
+            isFollowing: () => this.follower.isOn,
+            told: () => this.status.tell(),
+            nextFrame: call => void requestAnimationFrame(call),
+        });
+        this.trials = new MotionTrials(this.editor, () => trialClient(body));
+        this.documents = makeDocuments(this.editor, storage, {
+            failed: () => this.say({ text: TEXTS.workNotKept, tone: 'bad' }),
+            copied: name => this.say({ text: EDITOR_TEXTS.secondTab(name), tone: 'calm' }),
+        });
+        this.transfer = makeTransfer(this.editor, this.documents, {
+            name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName),
+            requests: () => this.connection.requests,
+            becomeEdit: () => (this.isSimulated ? this.images.becomeEdit() : this.needEdit()),
+        });
+        this.sources = new RobotSources(body, {
+            state: this.state,
+            editor: this.editor,
+            events: this.events(),
+            mayAsk: () => this.status.mayAsk(),
+            fail: this.strip.fail,
+        });
+        const { simulated } = this.sources;
+        this.arrival = new Arrival({
+            state: this.state,
+            strip: this.strip,
+            status: this.status,
+            sources: this.sources,
+            editor: this.editor,
+            transfer: this.transfer,
+        });
+        this.lab = new RobotLab(this.state, simulated);
+        this.plays = new RobotPlays({
+            state: this.state,
+            editor: this.editor,
+            transfer: this.transfer,
+            connection: () => this.connection,
+            prepare: async () => (this.isSimulated ? simulated.prepare() : undefined),
+        });
+        this.images = new RobotImages({
+            state: this.state,
+            format: parts.format,
+            simulated,
+            say: said => this.say(said),
+            fail: this.strip.fail,
+        });
+        this.driving = new Driving({
+            state: this.state,
+            strip: this.strip,
+            simulated,
+            connection: () => this.connection,
+            becomeDriven: () => this.images.becomeDriven(),
+        });
+    }
 
-  private events(): Omit<SourceEvents, 'motions'> {
-    return {
-      frame: (state) => {
-        this.lastFrame = state;
-        if (state.isPowered !== this.state.get().isPowered) {
-          this.state.set({ isPowered: state.isPowered });
-          this.status.tell();
+    private events(): Omit<SourceEvents, 'motions'> {
+        return {
+            frame: state => {
+                this.lastFrame = state;
+                if (state.isPowered !== this.state.get().isPowered) {
+                    this.state.set({ isPowered: state.isPowered });
+                    this.status.tell();
+                }
+                this.frames.tell(state);
+            },
+            text: bytes => {
+                this.texts.tell(bytes);
+                this.strip.hear(bytes);
+            },
+            connection: state => this.arrival.connectionChanged(state),
+            change: change => {
+                this.state.set(change);
+                if (change.physics === 'on') this.arrival.standUp();
+                if (change.isInDialog !== undefined) this.status.tell();
+            },
+        };
+    }
+
+    /** Starts the robot in the page. */
+    start(): Promise<void> {
+        return this.sources.simulated.start(this.state.get().image);
+    }
+
+    private async needEdit(): Promise<void> {
+        if (!this.state.get().version?.can.has('save')) throw new RobotError('needs-edit');
+    }
+
+    onFrame(listener: (state: RobotState) => void): () => void {
+        return this.frames.add(listener);
+    }
+
+    onText(listener: (bytes: Uint8Array) => void): () => void {
+        return this.texts.add(listener);
+    }
+
+    show(tab: Tab): void {
+        this.state.set({ tab });
+        this.status.look();
+    }
+
+    terminalSize(size: TerminalSize): void {
+        this.status.terminalSize(size);
+    }
+
+    play(page: number): Promise<void> {
+        return this.act(() => this.plays.play(page));
+    }
+
+    playEdited(page: number): Promise<void> {
+        const { format, state } = this.editor;
+        const dirty = dirtyPages(state.get(), format);
+        const isToWrite = format.reach(state.get().document, page).some(one => dirty.has(one));
+        const late = setTimeout(() => this.preview.start(page), isToWrite ? 0 : SHOWN_MS);
+        return this.act(async () => {
+            await this.plays.playEdited(page);
+            clearTimeout(late);
+            this.preview.showRobot();
+        });
+    }
+
+    shape(shape: Shape): Promise<void> {
+        return this.act(() => this.plays.shape(shape));
+    }
+
+    beside(what: Beside): Promise<void> {
+        return this.act(() => this.plays.beside(what));
+    }
+
+    command(what: Command): Promise<void> {
+        if (what === 'stop' || what === 'break') {
+            this.preview.pause();
+            this.plays.cancel();
         }
-        this.frames.tell(state);
-      },
-      text: (bytes) => {
-        this.texts.tell(bytes);
-        this.strip.hear(bytes);
-      },
-      connection: (state) => this.arrival.connectionChanged(state),
-      change: (change) => {
-        this.state.set(change);
-        if (change.physics === 'on') this.arrival.standUp();
-        if (change.isInDialog !== undefined) this.status.tell();
-      },
-    };
-  }
-
-  /** Starts the robot in the page. */
-  start(): Promise<void> {
-    return this.sources.simulated.start(this.state.get().image);
-  }
-
-  private async needEdit(): Promise<void> {
-    if (!this.state.get().version?.can.has('save')) throw new RobotError('needs-edit');
-  }
-
-  onFrame(listener: (state: RobotState) => void): () => void {
-    return this.frames.add(listener);
-  }
-
-  onText(listener: (bytes: Uint8Array) => void): () => void {
-    return this.texts.add(listener);
-  }
-
-  show(tab: Tab): void {
-    this.state.set({ tab });
-    this.status.look();
-  }
-
-  terminalSize(size: TerminalSize): void {
-    this.status.terminalSize(size);
-  }
-
-  play(page: number): Promise<void> {
-    return this.act(() => this.plays.play(page));
-  }
-
-  playEdited(page: number): Promise<void> {
-    const { format, state } = this.editor;
-    const dirty = dirtyPages(state.get(), format);
-    const isToWrite = format.reach(state.get().document, page).some((one) => dirty.has(one));
-    const late = setTimeout(() => this.preview.start(page), isToWrite ? 0 : SHOWN_MS);
-    return this.act(async () => {
-      await this.plays.playEdited(page);
-      clearTimeout(late);
-      this.preview.showRobot();
-    });
-  }
-
-  shape(shape: Shape): Promise<void> {
-    return this.act(() => this.plays.shape(shape));
-  }
-
-  beside(what: Beside): Promise<void> {
-    return this.act(() => this.plays.beside(what));
-  }
-
-  command(what: Command): Promise<void> {
-    if (what === 'stop' || what === 'break') {
-      this.preview.pause();
-      this.plays.cancel();
+        return this.act(async () => {
+            const isStop = what === 'stop' || what === 'break';
+            if (!isStop || !(await this.connection.breakOff())) await command(this.connection.requests, what);
+        });
     }
-    return this.act(async () => {
-      const isStop = what === 'stop' || what === 'break';
-      if (!isStop || !(await this.connection.breakOff())) await command(this.connection.requests, what);
-    });
-  }
 
-  setTorque(on: boolean, servos: readonly number[] = []): Promise<void> {
-    return this.act(() => setTorque(this.connection.requests, on, servos));
-  }
-
-  follow(positions: readonly (number | null)[] | null): void {
-    this.follower.set(positions);
-  }
-
-  say(said: Notice): void {
-    this.strip.say(said);
-  }
-
-  remote(held: ReadonlySet<RemoteButton>): void {
-    this.driving.remote(held);
-  }
-
-  drive(stick: Stick | null): void {
-    this.driving.drive(stick);
-  }
-
-  type(bytes: Uint8Array): void {
-    void this.connection.type(bytes).catch(this.strip.fail);
-  }
-
-  takeNewVersion(): void {
-    this.version.take();
-  }
-
-  useSimulated(): void {
-    this.sources.useSimulated();
-  }
-
-  connectYours(): Promise<void> {
-    return this.sources.connectYours();
-  }
-
-  runImage(image: ImageName): void {
-    this.images.run(image);
-  }
-
-  forget(): Promise<void> {
-    return this.images.forget();
-  }
-
-  private get isSimulated(): boolean {
-    return this.sources.isSimulated;
-  }
-
-  private get connection(): Connection {
-    return this.sources.connection;
-  }
-
-  private async act(action: () => Promise<void>): Promise<void> {
-    try {
-      await action();
-      this.strip.say(null);
-      void this.status.ask();
-    } catch (error) {
-      this.strip.fail(error);
+    setTorque(on: boolean, servos: readonly number[] = []): Promise<void> {
+        return this.act(() => setTorque(this.connection.requests, on, servos));
     }
-  }
+
+    follow(positions: readonly (number | null)[] | null): void {
+        this.follower.set(positions);
+    }
+
+    say(said: Notice): void {
+        this.strip.say(said);
+    }
+
+    remote(held: ReadonlySet<RemoteButton>): void {
+        this.driving.remote(held);
+    }
+
+    drive(stick: Stick | null): void {
+        this.driving.drive(stick);
+    }
+
+    type(bytes: Uint8Array): void {
+        void this.connection.type(bytes).catch(this.strip.fail);
+    }
+
+    takeNewVersion(): void {
+        this.version.take();
+    }
+
+    useSimulated(): void {
+        this.sources.useSimulated();
+    }
+
+    connectYours(): Promise<void> {
+        return this.sources.connectYours();
+    }
+
+    runImage(image: ImageName): void {
+        this.images.run(image);
+    }
+
+    forget(): Promise<void> {
+        return this.images.forget();
+    }
+
+    private get isSimulated(): boolean {
+        return this.sources.isSimulated;
+    }
+
+    private get connection(): Connection {
+        return this.sources.connection;
+    }
+
+    private async act(action: () => Promise<void>): Promise<void> {
+        try {
+            await action();
+            this.strip.say(null);
+            void this.status.ask();
+        } catch (error) {
+            this.strip.fail(error);
+        }
+    }
 }

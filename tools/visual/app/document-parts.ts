@@ -15,36 +15,52 @@ import { RobotTransfer } from './transfer.ts';
 
 /** Where documents are kept; isKept false: only as long as the page is open. */
 export interface DeskStorage {
-  readonly storage: DocumentStorage;
-  readonly isKept: boolean;
+    readonly storage: DocumentStorage;
+    readonly isKept: boolean;
 }
 
 /** The robot on the desk, as far as pages go there. */
 export interface RobotForPages {
-  /** By which its backups are told apart. */
-  name(): string;
-  /** Throws RobotError when no line is open. */
-  requests(): Requests;
-  /** Rejects with RobotError when Edit cannot be had. */
-  becomeEdit(): Promise<void>;
+    /** By which its backups are told apart. */
+    name(): string;
+    /** Throws RobotError when no line is open. */
+    requests(): Requests;
+    /** Rejects with RobotError when Edit cannot be had. */
+    becomeEdit(): Promise<void>;
 }
 
-export function makeDocuments(editor: DocumentEditor, { storage, isKept }: DeskStorage, told: Pick<DocumentsParts, 'failed' | 'copied'>): KeptDocuments {
-  const shown = {
-    open: (document: MotionDocument, history: History) => editor.open(document, history), rename: (name: string) => editor.rename(name),
-    edited: () => editor.state.get(),
-  };
-  return new KeptDocuments(shown, {
-    storage, isKept, ...told, hold: holdDocument, empty: emptyDocument(editor.format, ''), nowMs: () => Date.now(), newId: () => crypto.randomUUID(),
-  });
+export function makeDocuments(
+    editor: DocumentEditor,
+    { storage, isKept }: DeskStorage,
+    told: Pick<DocumentsParts, 'failed' | 'copied'>,
+): KeptDocuments {
+    const shown = {
+        open: (document: MotionDocument, history: History) => editor.open(document, history),
+        rename: (name: string) => editor.rename(name),
+        edited: () => editor.state.get(),
+    };
+    return new KeptDocuments(shown, {
+        storage,
+        isKept,
+        ...told,
+        hold: holdDocument,
+        empty: emptyDocument(editor.format, ''),
+        nowMs: () => Date.now(),
+        newId: () => crypto.randomUUID(),
+    });
 }
 
 export function makeTransfer(editor: DocumentEditor, documents: KeptDocuments, robot: RobotForPages): RobotTransfer {
-  return new RobotTransfer({
-    format: editor.format, document: () => editor.state.get().document, robot: () => editor.state.get().robot, setRobot: (pages) => editor.setRobot(pages),
-    requests: () => robot.requests(), becomeEdit: () => robot.becomeEdit(),
-    backUp: (pages) => documents.backUp(robot.name(), pages).catch((cause: unknown) => {
-      throw new RobotError('no-backup', '', { cause });
-    }),
-  });
+    return new RobotTransfer({
+        format: editor.format,
+        document: () => editor.state.get().document,
+        robot: () => editor.state.get().robot,
+        setRobot: pages => editor.setRobot(pages),
+        requests: () => robot.requests(),
+        becomeEdit: () => robot.becomeEdit(),
+        backUp: pages =>
+            documents.backUp(robot.name(), pages).catch((cause: unknown) => {
+                throw new RobotError('no-backup', '', { cause });
+            }),
+    });
 }

@@ -14,166 +14,172 @@ import { Store } from '../view/store.ts';
 
 /** Where a document is shown. */
 export interface Shown {
-  open(document: MotionDocument, history: History): void;
-  /** The same document under another name. */
-  rename(name: string): void;
-  edited(): Edited;
+    open(document: MotionDocument, history: History): void;
+    /** The same document under another name. */
+    rename(name: string): void;
+    edited(): Edited;
 }
 
 /** Takes a document for this tab, or says that another tab has it. The last one taken is given back. */
 export type Hold = (id: string) => Promise<boolean>;
 
 export interface DocumentsParts {
-  readonly storage: DocumentStorage;
-  /** false: this browser keeps nothing, and the storage ends with the page. */
-  readonly isKept: boolean;
-  /** Opens as a document with nothing in it. */
-  readonly empty: MotionDocument;
-  readonly hold: Hold;
-  readonly nowMs: () => number;
-  readonly newId: () => string;
-  /** Another tab has the document: this one goes on with a copy of that name. */
-  readonly copied: (name: string) => void;
-  /** It could not be kept. */
-  readonly failed: (error: unknown) => void;
+    readonly storage: DocumentStorage;
+    /** false: this browser keeps nothing, and the storage ends with the page. */
+    readonly isKept: boolean;
+    /** Opens as a document with nothing in it. */
+    readonly empty: MotionDocument;
+    readonly hold: Hold;
+    readonly nowMs: () => number;
+    readonly newId: () => string;
+    /** Another tab has the document: this one goes on with a copy of that name. */
+    readonly copied: (name: string) => void;
+    /** It could not be kept. */
+    readonly failed: (error: unknown) => void;
 }
 
 const NEWEST_FIRST = (a: { savedMs: number }, b: { savedMs: number }): number => b.savedMs - a.savedMs;
 
 export class KeptDocuments implements Documents {
-  readonly state = new Store<DocumentsState>({ documents: [], openId: '', backups: [], unreadable: [], forgotten: 0, saving: 'saved' });
-  private readonly parts: DocumentsParts;
-  private readonly shown: Shown;
-  private underWay = 0;
-  private log: HistoryLog = EMPTY_LOG;
+    readonly state = new Store<DocumentsState>({ documents: [], openId: '', backups: [], unreadable: [], forgotten: 0, saving: 'saved' });
+    private readonly parts: DocumentsParts;
+    private readonly shown: Shown;
+    private underWay = 0;
+    private log: HistoryLog = EMPTY_LOG;
 
-  constructor(shown: Shown, parts: DocumentsParts) {
-    this.shown = shown;
-    this.parts = parts;
-    if (!parts.isKept) this.state.set({ saving: 'off' });
-  }
-
-  /** Opens what was edited last; `first` when there is nothing, or when it cannot be read. */
-  async start(first: MotionDocument): Promise<void> {
-    const kept = await this.load();
-    this.state.set({ backups: [...kept.backups].sort((a, b) => b.takenMs - a.takenMs), unreadable: kept.unreadable });
-    const [newest] = [...kept.documents].sort(NEWEST_FIRST);
-    this.state.set({ documents: kept.documents.map(entryOf) });
-    if (!newest) return this.create(first.name, first);
-    await this.take(newest);
-  }
-
-  /** It is open when this returns: the next edit is one of the new document. What is resolved is only that this tab has it. */
-  async create(name: string, from?: MotionDocument): Promise<void> {
-    const id = this.parts.newId();
-    const document = { ...(from ?? this.parts.empty), name };
-    this.state.set({ documents: [...this.state.get().documents, { id, name, savedMs: this.parts.nowMs() }] });
-    this.show(id, { document, history: NO_HISTORY, log: EMPTY_LOG });
-    this.keep();
-    await this.parts.hold(id); // nobody else knows it yet
-  }
-
-  async open(id: string): Promise<void> {
-    if (id === this.state.get().openId) return;
-    const kept = await this.find(id);
-    if (kept) await this.take(kept);
-  }
-
-  rename(name: string): void {
-    this.shown.rename(name);
-    this.keep();
-  }
-
-  async remove(): Promise<void> {
-    const { openId, documents } = this.state.get();
-    const left = documents.filter((entry) => entry.id !== openId);
-    this.state.set({ documents: left });
-    const [next] = [...left].sort(NEWEST_FIRST);
-    if (next) await this.open(next.id);
-    else await this.create('My motions');
-    await this.parts.storage.removeDocument(openId).catch((error: unknown) => this.parts.failed(error));
-  }
-
-  async read(id: string): Promise<MotionDocument | null> {
-    const kept = await this.find(id);
-    return kept ? documentFrom(kept.image, kept.name) : null;
-  }
-
-  /** A finished edit: it is in the storage's hands when this returns. */
-  keep(): void {
-    const { document, history } = this.shown.edited();
-    const { openId, documents } = this.state.get();
-    const entry = { id: openId, name: document.name, savedMs: this.parts.nowMs() };
-    this.state.set({ documents: documents.map((one) => (one.id === openId ? entry : one)) });
-    if (openId === '') return;
-    const { log, change } = advance(this.log, history);
-    this.log = log;
-    this.follow(this.put({ ...entry, image: imageOf(document), position: positionOf(log, history) }, change));
-  }
-
-  /** The document comes before its history: where there is no room for both, the history goes. */
-  private put(document: KeptDocument, change: StepsChange): Promise<void> {
-    const { storage } = this.parts;
-    return storage.putDocument(document, change).catch(() => storage.putDocument(document, DROP_ALL));
-  }
-
-  /** Keeps a robot's pages, unless the newest backup of that robot is the same. */
-  async backUp(robot: string, pages: readonly Uint8Array[]): Promise<void> {
-    const image = imageOf({ name: robot, pages });
-    const { backups } = this.state.get();
-    const last = backups.find((backup) => backup.robot === robot);
-    if (last?.image.every((byte, i) => byte === image[i])) return;
-    const backup: Backup = { id: this.parts.newId(), robot, image, takenMs: this.parts.nowMs() };
-    this.state.set({ backups: [backup, ...backups] });
-    await this.parts.storage.putBackup(backup);
-  }
-
-  /** Opens what is kept, with its history; a copy of it when another tab has it. */
-  private async take(kept: KeptDocument): Promise<void> {
-    const document = documentFrom(kept.image, kept.name);
-    if (!(await this.parts.hold(kept.id))) {
-      const name = copyName(kept.name, this.state.get().documents.map((one) => one.name));
-      this.parts.copied(name);
-      return this.create(name, document);
+    constructor(shown: Shown, parts: DocumentsParts) {
+        this.shown = shown;
+        this.parts = parts;
+        if (!parts.isKept) this.state.set({ saving: 'off' });
     }
-    const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // then it is forgotten, and said so
-    this.show(kept.id, restored(document, kept.position ?? 0, steps));
-  }
 
-  private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }): void {
-    this.log = log;
-    this.state.set({ openId: id, forgotten: log.base });
-    this.shown.open(document, history);
-  }
-
-  private async load(): ReturnType<DocumentStorage['load']> {
-    const nothing = { documents: [], backups: [], unreadable: [] };
-    try {
-      return await this.parts.storage.load();
-    } catch (error) {
-      this.parts.failed(error);
-      return nothing;
+    /** Opens what was edited last; `first` when there is nothing, or when it cannot be read. */
+    async start(first: MotionDocument): Promise<void> {
+        const kept = await this.load();
+        this.state.set({ backups: [...kept.backups].sort((a, b) => b.takenMs - a.takenMs), unreadable: kept.unreadable });
+        const [newest] = [...kept.documents].sort(NEWEST_FIRST);
+        this.state.set({ documents: kept.documents.map(entryOf) });
+        if (!newest) return this.create(first.name, first);
+        await this.take(newest);
     }
-  }
 
-  private async find(id: string): Promise<KeptDocument | undefined> {
-    return (await this.load()).documents.find((kept) => kept.id === id);
-  }
+    /** It is open when this returns: the next edit is one of the new document. What is resolved is only that this tab has it. */
+    async create(name: string, from?: MotionDocument): Promise<void> {
+        const id = this.parts.newId();
+        const document = { ...(from ?? this.parts.empty), name };
+        this.state.set({ documents: [...this.state.get().documents, { id, name, savedMs: this.parts.nowMs() }] });
+        this.show(id, { document, history: NO_HISTORY, log: EMPTY_LOG });
+        this.keep();
+        await this.parts.hold(id); // nobody else knows it yet
+    }
 
-  private follow(put: Promise<void>): void {
-    this.underWay++;
-    if (this.parts.isKept) this.state.set({ saving: 'saving' });
-    put.then(() => this.ended(null), (error: unknown) => this.ended(error));
-  }
+    async open(id: string): Promise<void> {
+        if (id === this.state.get().openId) return;
+        const kept = await this.find(id);
+        if (kept) await this.take(kept);
+    }
 
-  private ended(error: unknown): void {
-    this.underWay--;
-    if (error !== null) this.parts.failed(error);
-    const saving = error !== null || !this.parts.isKept ? 'off' : this.underWay === 0 ? 'saved' : 'saving';
-    this.state.set({ saving });
-  }
+    rename(name: string): void {
+        this.shown.rename(name);
+        this.keep();
+    }
+
+    async remove(): Promise<void> {
+        const { openId, documents } = this.state.get();
+        const left = documents.filter(entry => entry.id !== openId);
+        this.state.set({ documents: left });
+        const [next] = [...left].sort(NEWEST_FIRST);
+        if (next) await this.open(next.id);
+        else await this.create('My motions');
+        await this.parts.storage.removeDocument(openId).catch((error: unknown) => this.parts.failed(error));
+    }
+
+    async read(id: string): Promise<MotionDocument | null> {
+        const kept = await this.find(id);
+        return kept ? documentFrom(kept.image, kept.name) : null;
+    }
+
+    /** A finished edit: it is in the storage's hands when this returns. */
+    keep(): void {
+        const { document, history } = this.shown.edited();
+        const { openId, documents } = this.state.get();
+        const entry = { id: openId, name: document.name, savedMs: this.parts.nowMs() };
+        this.state.set({ documents: documents.map(one => (one.id === openId ? entry : one)) });
+        if (openId === '') return;
+        const { log, change } = advance(this.log, history);
+        this.log = log;
+        this.follow(this.put({ ...entry, image: imageOf(document), position: positionOf(log, history) }, change));
+    }
+
+    /** The document comes before its history: where there is no room for both, the history goes. */
+    private put(document: KeptDocument, change: StepsChange): Promise<void> {
+        const { storage } = this.parts;
+        return storage.putDocument(document, change).catch(() => storage.putDocument(document, DROP_ALL));
+    }
+
+    /** Keeps a robot's pages, unless the newest backup of that robot is the same. */
+    async backUp(robot: string, pages: readonly Uint8Array[]): Promise<void> {
+        const image = imageOf({ name: robot, pages });
+        const { backups } = this.state.get();
+        const last = backups.find(backup => backup.robot === robot);
+        if (last?.image.every((byte, i) => byte === image[i])) return;
+        const backup: Backup = { id: this.parts.newId(), robot, image, takenMs: this.parts.nowMs() };
+        this.state.set({ backups: [backup, ...backups] });
+        await this.parts.storage.putBackup(backup);
+    }
+
+    /** Opens what is kept, with its history; a copy of it when another tab has it. */
+    private async take(kept: KeptDocument): Promise<void> {
+        const document = documentFrom(kept.image, kept.name);
+        if (!(await this.parts.hold(kept.id))) {
+            const name = copyName(
+                kept.name,
+                this.state.get().documents.map(one => one.name),
+            );
+            this.parts.copied(name);
+            return this.create(name, document);
+        }
+        const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // then it is forgotten, and said so
+        this.show(kept.id, restored(document, kept.position ?? 0, steps));
+    }
+
+    private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }): void {
+        this.log = log;
+        this.state.set({ openId: id, forgotten: log.base });
+        this.shown.open(document, history);
+    }
+
+    private async load(): ReturnType<DocumentStorage['load']> {
+        const nothing = { documents: [], backups: [], unreadable: [] };
+        try {
+            return await this.parts.storage.load();
+        } catch (error) {
+            this.parts.failed(error);
+            return nothing;
+        }
+    }
+
+    private async find(id: string): Promise<KeptDocument | undefined> {
+        return (await this.load()).documents.find(kept => kept.id === id);
+    }
+
+    private follow(put: Promise<void>): void {
+        this.underWay++;
+        if (this.parts.isKept) this.state.set({ saving: 'saving' });
+        put.then(
+            () => this.ended(null),
+            (error: unknown) => this.ended(error),
+        );
+    }
+
+    private ended(error: unknown): void {
+        this.underWay--;
+        if (error !== null) this.parts.failed(error);
+        const saving = error !== null || !this.parts.isKept ? 'off' : this.underWay === 0 ? 'saved' : 'saving';
+        this.state.set({ saving });
+    }
 }
 
 function entryOf({ id, name, savedMs }: KeptDocument): { id: string; name: string; savedMs: number } {
-  return { id, name, savedMs };
+    return { id, name, savedMs };
 }

@@ -15,84 +15,90 @@ import type { Stick } from './stick.ts';
 import type { Strip } from './strip.ts';
 
 export interface DrivingParts {
-  readonly state: Store<DeskState>;
-  readonly strip: Strip;
-  readonly simulated: Pick<SimulatedSource, 'post' | 'isHeld'>;
-  /** Throws RobotError not-connected when there is none. */
-  connection(): Connection;
-  /** The robot in the page runs Play and stands on its feet, at last. Rejects with RobotError. */
-  becomeDriven(): Promise<void>;
+    readonly state: Store<DeskState>;
+    readonly strip: Strip;
+    readonly simulated: Pick<SimulatedSource, 'post' | 'isHeld'>;
+    /** Throws RobotError not-connected when there is none. */
+    connection(): Connection;
+    /** The robot in the page runs Play and stands on its feet, at last. Rejects with RobotError. */
+    becomeDriven(): Promise<void>;
 }
 
 export class Driving {
-  private readonly parts: DrivingParts;
-  private readonly keys = new RemoteKeys((packet) => this.send(packet));
-  private readonly stick: StickDrive;
-  /** What was pressed last while the robot could not hear it. */
-  private wish: ReadonlySet<RemoteButton> | null = null;
-  private isBecoming = false;
+    private readonly parts: DrivingParts;
+    private readonly keys = new RemoteKeys(packet => this.send(packet));
+    private readonly stick: StickDrive;
+    /** What was pressed last while the robot could not hear it. */
+    private wish: ReadonlySet<RemoteButton> | null = null;
+    private isBecoming = false;
 
-  constructor(parts: DrivingParts) {
-    this.parts = parts;
-    this.stick = new StickDrive(parts.connection, () => this.walkPage(), parts.strip.fail);
-  }
+    constructor(parts: DrivingParts) {
+        this.parts = parts;
+        this.stick = new StickDrive(parts.connection, () => this.walkPage(), parts.strip.fail);
+    }
 
-  remote(held: ReadonlySet<RemoteButton>): void {
-    if (held.size > 0 && this.isSimulated && !this.hears) this.keep(held);
-    if (held.size > 0 && this.isYoursWithEdit) this.parts.strip.say({ text: TEXTS.editNoRemote, tone: 'bad' });
-    this.keys.hold(held);
-  }
+    remote(held: ReadonlySet<RemoteButton>): void {
+        if (held.size > 0 && this.isSimulated && !this.hears) this.keep(held);
+        if (held.size > 0 && this.isYoursWithEdit) this.parts.strip.say({ text: TEXTS.editNoRemote, tone: 'bad' });
+        this.keys.hold(held);
+    }
 
-  drive(stick: Stick | null): void {
-    this.stick.set(stick);
-  }
+    drive(stick: Stick | null): void {
+        this.stick.set(stick);
+    }
 
-  /** The robot in the page runs Play and is on its feet. */
-  private get hears(): boolean {
-    const { connection, image, version } = this.state;
-    return image === 'play' && connection === 'ready' && version?.image === 'play' && !this.parts.simulated.isHeld;
-  }
+    /** The robot in the page runs Play and is on its feet. */
+    private get hears(): boolean {
+        const { connection, image, version } = this.state;
+        return image === 'play' && connection === 'ready' && version?.image === 'play' && !this.parts.simulated.isHeld;
+    }
 
-  private keep(held: ReadonlySet<RemoteButton>): void {
-    this.wish = new Set(held);
-    if (this.isBecoming) return;
-    this.isBecoming = true;
-    this.parts.becomeDriven().then(() => this.carryOut(), (error: unknown) => {
-      this.wish = null;
-      this.parts.strip.fail(error);
-    }).finally(() => (this.isBecoming = false));
-  }
+    private keep(held: ReadonlySet<RemoteButton>): void {
+        this.wish = new Set(held);
+        if (this.isBecoming) return;
+        this.isBecoming = true;
+        this.parts
+            .becomeDriven()
+            .then(
+                () => this.carryOut(),
+                (error: unknown) => {
+                    this.wish = null;
+                    this.parts.strip.fail(error);
+                },
+            )
+            .finally(() => (this.isBecoming = false));
+    }
 
-  /** A key that is still held speaks for itself. */
-  private carryOut(): void {
-    const { wish } = this;
-    this.wish = null;
-    if (!wish || this.keys.isHeld) return;
-    this.send(remotePacket(wish));
-    setTimeout(() => !this.keys.isHeld && this.send(remotePacket([])), REPEAT_MS);
-  }
+    /** A key that is still held speaks for itself. */
+    private carryOut(): void {
+        const { wish } = this;
+        this.wish = null;
+        if (!wish || this.keys.isHeld) return;
+        this.send(remotePacket(wish));
+        setTimeout(() => !this.keys.isHeld && this.send(remotePacket([])), REPEAT_MS);
+    }
 
-  private walkPage(): number | null {
-    const { version, pages } = this.state;
-    return version?.image === 'play' ? (pages.find((page) => page.name === 'walk')?.page ?? null) : null;
-  }
+    private walkPage(): number | null {
+        const { version, pages } = this.state;
+        return version?.image === 'play' ? (pages.find(page => page.name === 'walk')?.page ?? null) : null;
+    }
 
-  /** To Edit they would be letters. */
-  private send(packet: Uint8Array): void {
-    const { strip, simulated } = this.parts;
-    if (this.isSimulated && this.hears) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
-    else if (!this.isSimulated && !this.isYoursWithEdit) void this.parts.connection().write(packet).catch(strip.fail);
-  }
+    /** To Edit they would be letters. */
+    private send(packet: Uint8Array): void {
+        const { strip, simulated } = this.parts;
+        if (this.isSimulated && this.hears) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
+        else if (!this.isSimulated && !this.isYoursWithEdit) void this.parts.connection().write(packet).catch(strip.fail);
+    }
 
-  private get isYoursWithEdit(): boolean {
-    return !this.isSimulated && this.state.version?.image === 'edit';
-  }
+    private get isYoursWithEdit(): boolean {
+        return !this.isSimulated && this.state.version?.image === 'edit';
+    }
 
-  private get isSimulated(): boolean {
-    return this.state.source === 'simulated';
-  }
+    private get isSimulated(): boolean {
+        return this.state.source === 'simulated';
+    }
 
-  private get state(): DeskState {
-    return this.parts.state.get();
-  }
+    private get state(): DeskState {
+        return this.parts.state.get();
+    }
 }

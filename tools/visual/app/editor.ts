@@ -26,166 +26,172 @@ const CURVE_TICKS = 4096;
 
 /** What an editor begins with. */
 export interface EditorParts {
-  readonly format: PageFormat;
-  /** For this editor alone. */
-  readonly player: Motion;
-  readonly document: MotionDocument;
-  /** The motions that the robot came with. */
-  readonly library?: readonly Uint8Array[];
+    readonly format: PageFormat;
+    /** For this editor alone. */
+    readonly player: Motion;
+    readonly document: MotionDocument;
+    /** The motions that the robot came with. */
+    readonly library?: readonly Uint8Array[];
 }
 
 export interface EditorEvents {
-  /** A finished edit, undo or redo has made another document. */
-  changed(document: MotionDocument): void;
-  refused(refusal: Refusal): void;
-  /** Another document has taken the place of the one before. */
-  opened(): void;
+    /** A finished edit, undo or redo has made another document. */
+    changed(document: MotionDocument): void;
+    refused(refusal: Refusal): void;
+    /** Another document has taken the place of the one before. */
+    opened(): void;
 }
 
 export class DocumentEditor implements Editor {
-  readonly format: PageFormat;
-  readonly edits: Edits;
-  readonly pairs: readonly JointPair[];
-  readonly state: Store<EditorState>;
-  private readonly player: Motion;
-  private readonly library: readonly Uint8Array[];
-  private readonly events: EditorEvents;
-  private readonly views = new WeakMap<Uint8Array, PageView>();
-  /** Whose gesture is open, if one is. */
-  private holder: symbol | null = null;
-  private readonly loaded: (Uint8Array | null)[] = [];
+    readonly format: PageFormat;
+    readonly edits: Edits;
+    readonly pairs: readonly JointPair[];
+    readonly state: Store<EditorState>;
+    private readonly player: Motion;
+    private readonly library: readonly Uint8Array[];
+    private readonly events: EditorEvents;
+    private readonly views = new WeakMap<Uint8Array, PageView>();
+    /** Whose gesture is open, if one is. */
+    private holder: symbol | null = null;
+    private readonly loaded: (Uint8Array | null)[] = [];
 
-  constructor(body: Body, { format, player, document, library = [] }: EditorParts, events: EditorEvents) {
-    this.format = format;
-    this.edits = makeEdits(format);
-    this.pairs = jointPairs(body);
-    this.player = player;
-    this.library = library;
-    this.events = events;
-    this.state = new Store(states.startState(document));
-  }
-
-  page(page: number): PageView {
-    const bytes = pageOf(this.state.get().document, page);
-    const view = this.views.get(bytes) ?? readPage(this.format, bytes);
-    this.views.set(bytes, view);
-    return view;
-  }
-
-  dispatch(edit: Result<Transaction>): boolean {
-    if (!edit.ok) return this.refuse(edit.refusal);
-    this.become(states.dispatch(this.state.get(), edit.value));
-    return true;
-  }
-
-  gesture(label: EditName): Gesture {
-    this.become(states.beginGesture(this.state.get(), label));
-    const open = this.state.get().gesture;
-    if (!open) throw new Error('a gesture did not begin');
-    const mine = Symbol(label);
-    this.holder = mine;
-    const isOpen = (): boolean => this.holder === mine && this.state.get().gesture !== null;
-    return {
-      start: open.start,
-      change: (edit) => {
-        if (!edit.ok) return this.refuse(edit.refusal);
-        if (isOpen()) this.show(states.changeGesture(this.state.get(), edit.value));
-        return isOpen();
-      },
-      finish: () => isOpen() && this.become(states.finishGesture(this.state.get())),
-      cancel: () => isOpen() && this.show(states.cancelGesture(this.state.get())),
-    };
-  }
-
-  undo(): void {
-    this.become(states.undoOne(this.state.get()));
-  }
-
-  redo(): void {
-    this.become(states.redoOne(this.state.get()));
-  }
-
-  select(change: Partial<Selection>): void {
-    const state = { ...this.state.get(), ...change };
-    this.show(change.page === undefined || change.step !== undefined ? state : { ...state, step: 0, steps: new Set([0]) });
-  }
-
-  /** Another document takes the place of this one, with the history that was kept of it. */
-  open(document: MotionDocument, history: History): void {
-    const { robot, law } = this.state.get();
-    this.show({ ...states.startState(document), history, robot, law, page: this.lastEdited(history) ?? (freePage(this.format, document) || states.FIRST_PAGE) });
-    this.events.opened();
-  }
-
-  isOfLibrary(page: number): boolean {
-    const bytes = pageOf(this.state.get().document, page);
-    return page > 0 && !this.format.isEmpty(bytes) && this.library.some((one) => isSamePage(one, bytes));
-  }
-
-  private lastEdited(history: History): number | null {
-    const pages = history.done.at(-1)?.changes.map(({ page }) => page) ?? [];
-    return pages.find((page) => page > 0) ?? null;
-  }
-
-  rename(name: string): void {
-    const { document } = this.state.get();
-    this.state.set({ document: { ...document, name } });
-  }
-
-  /** What is known of the robot's pages. */
-  setRobot(robot: readonly (Uint8Array | null)[]): void {
-    this.state.set({ robot });
-  }
-
-  curve(page: number, options: CurveOptions = {}): Curve | null {
-    this.load();
-    const law = options.law ?? this.state.get().law;
-    this.player.setShape(options.shape ?? AS_STORED);
-    const from = options.from ?? this.firstPose(page, options.shape);
-    return this.player.start(page, from, { law, code: options.code ?? 0 }) ? this.player.curve(options.ticks ?? CURVE_TICKS) : null;
-  }
-
-  topSpeed(volts: number): number {
-    return this.player.topSpeed(volts);
-  }
-
-  firstPose(page: number, shape: Shape = AS_STORED): Uint16Array {
-    this.load();
-    this.player.setShape(shape);
-    return this.player.firstPose(page, new Uint16Array(JOINTS).fill(POSITION_MIDDLE));
-  }
-
-  poseAfter(page: number, step: number): number[] {
-    this.load();
-    this.player.setShape(AS_STORED);
-    return Array.from(this.player.poseAfter(page, step, new Uint16Array(JOINTS).fill(POSITION_MIDDLE)));
-  }
-
-  /** The player has the document's pages; only those that changed are copied. */
-  private load(): void {
-    for (const [page, bytes] of this.state.get().document.pages.entries()) {
-      if (this.loaded[page] === bytes) continue;
-      this.player.setPage(page, bytes);
-      this.loaded[page] = bytes;
+    constructor(body: Body, { format, player, document, library = [] }: EditorParts, events: EditorEvents) {
+        this.format = format;
+        this.edits = makeEdits(format);
+        this.pairs = jointPairs(body);
+        this.player = player;
+        this.library = library;
+        this.events = events;
+        this.state = new Store(states.startState(document));
     }
-  }
 
-  private refuse(refusal: Refusal): false {
-    this.events.refused(refusal);
-    return false;
-  }
+    page(page: number): PageView {
+        const bytes = pageOf(this.state.get().document, page);
+        const view = this.views.get(bytes) ?? readPage(this.format, bytes);
+        this.views.set(bytes, view);
+        return view;
+    }
 
-  private become(next: EditorState): void {
-    const before = this.state.get();
-    this.show(next);
-    if (next.history !== before.history) this.events.changed(next.document);
-  }
+    dispatch(edit: Result<Transaction>): boolean {
+        if (!edit.ok) return this.refuse(edit.refusal);
+        this.become(states.dispatch(this.state.get(), edit.value));
+        return true;
+    }
 
-  /** The cursor stays on a step that is there. */
-  private show(next: EditorState): void {
-    const count = readPage(this.format, pageOf(next.document, next.page)).steps.length;
-    const step = Math.max(0, Math.min(next.step, count - 1));
-    const steps = [...next.steps].every((index) => index < count) ? next.steps : new Set([step]);
-    this.state.set({ ...next, step, steps });
-  }
+    gesture(label: EditName): Gesture {
+        this.become(states.beginGesture(this.state.get(), label));
+        const open = this.state.get().gesture;
+        if (!open) throw new Error('a gesture did not begin');
+        const mine = Symbol(label);
+        this.holder = mine;
+        const isOpen = (): boolean => this.holder === mine && this.state.get().gesture !== null;
+        return {
+            start: open.start,
+            change: edit => {
+                if (!edit.ok) return this.refuse(edit.refusal);
+                if (isOpen()) this.show(states.changeGesture(this.state.get(), edit.value));
+                return isOpen();
+            },
+            finish: () => isOpen() && this.become(states.finishGesture(this.state.get())),
+            cancel: () => isOpen() && this.show(states.cancelGesture(this.state.get())),
+        };
+    }
+
+    undo(): void {
+        this.become(states.undoOne(this.state.get()));
+    }
+
+    redo(): void {
+        this.become(states.redoOne(this.state.get()));
+    }
+
+    select(change: Partial<Selection>): void {
+        const state = { ...this.state.get(), ...change };
+        this.show(change.page === undefined || change.step !== undefined ? state : { ...state, step: 0, steps: new Set([0]) });
+    }
+
+    /** Another document takes the place of this one, with the history that was kept of it. */
+    open(document: MotionDocument, history: History): void {
+        const { robot, law } = this.state.get();
+        this.show({
+            ...states.startState(document),
+            history,
+            robot,
+            law,
+            page: this.lastEdited(history) ?? (freePage(this.format, document) || states.FIRST_PAGE),
+        });
+        this.events.opened();
+    }
+
+    isOfLibrary(page: number): boolean {
+        const bytes = pageOf(this.state.get().document, page);
+        return page > 0 && !this.format.isEmpty(bytes) && this.library.some(one => isSamePage(one, bytes));
+    }
+
+    private lastEdited(history: History): number | null {
+        const pages = history.done.at(-1)?.changes.map(({ page }) => page) ?? [];
+        return pages.find(page => page > 0) ?? null;
+    }
+
+    rename(name: string): void {
+        const { document } = this.state.get();
+        this.state.set({ document: { ...document, name } });
+    }
+
+    /** What is known of the robot's pages. */
+    setRobot(robot: readonly (Uint8Array | null)[]): void {
+        this.state.set({ robot });
+    }
+
+    curve(page: number, options: CurveOptions = {}): Curve | null {
+        this.load();
+        const law = options.law ?? this.state.get().law;
+        this.player.setShape(options.shape ?? AS_STORED);
+        const from = options.from ?? this.firstPose(page, options.shape);
+        return this.player.start(page, from, { law, code: options.code ?? 0 }) ? this.player.curve(options.ticks ?? CURVE_TICKS) : null;
+    }
+
+    topSpeed(volts: number): number {
+        return this.player.topSpeed(volts);
+    }
+
+    firstPose(page: number, shape: Shape = AS_STORED): Uint16Array {
+        this.load();
+        this.player.setShape(shape);
+        return this.player.firstPose(page, new Uint16Array(JOINTS).fill(POSITION_MIDDLE));
+    }
+
+    poseAfter(page: number, step: number): number[] {
+        this.load();
+        this.player.setShape(AS_STORED);
+        return Array.from(this.player.poseAfter(page, step, new Uint16Array(JOINTS).fill(POSITION_MIDDLE)));
+    }
+
+    /** The player has the document's pages; only those that changed are copied. */
+    private load(): void {
+        for (const [page, bytes] of this.state.get().document.pages.entries()) {
+            if (this.loaded[page] === bytes) continue;
+            this.player.setPage(page, bytes);
+            this.loaded[page] = bytes;
+        }
+    }
+
+    private refuse(refusal: Refusal): false {
+        this.events.refused(refusal);
+        return false;
+    }
+
+    private become(next: EditorState): void {
+        const before = this.state.get();
+        this.show(next);
+        if (next.history !== before.history) this.events.changed(next.document);
+    }
+
+    /** The cursor stays on a step that is there. */
+    private show(next: EditorState): void {
+        const count = readPage(this.format, pageOf(next.document, next.page)).steps.length;
+        const step = Math.max(0, Math.min(next.step, count - 1));
+        const steps = [...next.steps].every(index => index < count) ? next.steps : new Set([step]);
+        this.state.set({ ...next, step, steps });
+    }
 }

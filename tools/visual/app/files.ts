@@ -17,176 +17,184 @@ const NOTHING: FilesState = { busy: null, opened: null, tooLarge: null, sent: nu
 const HASH = '#motion=';
 
 export interface FilesParts {
-  /** Ends what the formats open or save. */
-  cancel(): void;
-  /** Opens a document that is new. */
-  create(name: string, document: MotionDocument): Promise<void>;
+    /** Ends what the formats open or save. */
+    cancel(): void;
+    /** Opens a document that is new. */
+    create(name: string, document: MotionDocument): Promise<void>;
 }
 
 export class DocumentFiles implements Files {
-  readonly state = new Store<FilesState>(NOTHING);
-  private readonly editor: DocumentEditor;
-  readonly formats: FileFormats;
-  private last: { readonly name: string; readonly bytes: Uint8Array } | null = null;
+    readonly state = new Store<FilesState>(NOTHING);
+    private readonly editor: DocumentEditor;
+    readonly formats: FileFormats;
+    private last: { readonly name: string; readonly bytes: Uint8Array } | null = null;
 
-  private readonly parts: FilesParts;
-  private isCancelled = false;
+    private readonly parts: FilesParts;
+    private isCancelled = false;
 
-  constructor(editor: DocumentEditor, formats: FileFormats, parts: FilesParts) {
-    this.editor = editor;
-    this.formats = formats;
-    this.parts = parts;
-  }
-
-  async choose(file: ChosenFile): Promise<void> {
-    if (file.size > MOST_BYTES) return this.state.set({ ...NOTHING, trouble: FILE_TEXTS.tooManyBytes(file.name) });
-    const bytes = await file.arrayBuffer().then((buffer) => new Uint8Array(buffer), () => null);
-    if (!bytes) return this.state.set({ ...NOTHING, trouble: FILE_TEXTS.unreadable(file.name) });
-    await this.open(file.name, bytes);
-  }
-
-  cancel(): void {
-    if (this.state.get().busy === null) return;
-    this.isCancelled = true;
-    this.parts.cancel();
-  }
-
-  open(name: string, bytes: Uint8Array): Promise<void> {
-    this.last = { name, bytes };
-    return this.read(name, bytes, false);
-  }
-
-  async openWithoutRest(): Promise<void> {
-    if (this.last) await this.read(this.last.name, this.last.bytes, true);
-  }
-
-  addOpened(): void {
-    const { opened } = this.state.get();
-    if (!opened) return;
-    const pages = new Map(Array.from({ length: PAGE_COUNT - 1 }, (_, i) => [i + 1, this.pageIn(opened.image, i + 1)] as const));
-    for (const [page, bytes] of pages) if (!this.holdsSteps(bytes) || this.editor.format.fault(bytes) !== null) pages.delete(page);
-    if (this.adopt(pages) !== 0) this.dismiss();
-  }
-
-  async createFromOpened(): Promise<void> {
-    const { opened } = this.state.get();
-    if (!opened) return;
-    const name = opened.name.replace(/\.[^.]*$/, '');
-    this.dismiss();
-    await this.parts.create(name, documentFrom(opened.image, name));
-  }
-
-  replaceAll(withTrim: boolean): void {
-    const { opened } = this.state.get();
-    if (!opened) return;
-    const { document } = this.editor.state.get();
-    const pages = new Map(Array.from({ length: PAGE_COUNT }, (_, page) => [page, this.pageIn(opened.image, page)]));
-    if (!withTrim) pages.delete(0);
-    if (this.editor.dispatch(this.editor.edits.replacePages(document, pages))) this.dismiss();
-  }
-
-  dismiss(): void {
-    this.state.set(NOTHING);
-  }
-
-  async save(suffix: Suffix): Promise<SavedFile | null> {
-    const { document } = this.editor.state.get();
-    const name = `${document.name.replaceAll(/[^\p{L}\p{N} _-]/gu, '_')}${suffix}`;
-    const saved = await this.busy(FILE_TEXTS.writing(name), () => this.formats.save(name, imageOf(document)));
-    if (saved?.kind === 'refused') this.state.set({ trouble: saved.text });
-    return saved?.kind === 'saved' ? { name, bytes: saved.file, losses: saved.losses } : null;
-  }
-
-  async link(): Promise<string | null> {
-    const pages = this.reached(this.editor.state.get().page);
-    if (pages.size === 0) {
-      this.state.set({ trouble: FILE_TEXTS.nothingToSend });
-      return null;
+    constructor(editor: DocumentEditor, formats: FileFormats, parts: FilesParts) {
+        this.editor = editor;
+        this.formats = formats;
+        this.parts = parts;
     }
-    const text = HASH + (await encodeMotion(pages));
-    const isTooLong = text.length > MOST_CHARACTERS;
-    this.state.set({ trouble: isTooLong ? FILE_TEXTS.linkTooLong : null });
-    return isTooLong ? null : text;
-  }
 
-  /** What stands in the address of the page; nothing when it holds no motion. */
-  async readAddress(hash: string): Promise<void> {
-    if (!hash.startsWith(HASH)) return;
-    const pages = await decodeMotion(hash.slice(HASH.length));
-    const { format } = this.editor;
-    const first = pages && [...pages.values()][0];
-    if (!pages || !first || [...pages.values()].some((bytes) => format.fault(bytes) !== null)) {
-      this.state.set({ trouble: FILE_TEXTS.badLink });
-      return;
+    async choose(file: ChosenFile): Promise<void> {
+        if (file.size > MOST_BYTES) return this.state.set({ ...NOTHING, trouble: FILE_TEXTS.tooManyBytes(file.name) });
+        const bytes = await file.arrayBuffer().then(
+            buffer => new Uint8Array(buffer),
+            () => null,
+        );
+        if (!bytes) return this.state.set({ ...NOTHING, trouble: FILE_TEXTS.unreadable(file.name) });
+        await this.open(file.name, bytes);
     }
-    this.state.set({ sent: { name: readPage(format, first).name || FILE_TEXTS.nameless, pages } });
-  }
 
-  addSent(): number {
-    const { sent } = this.state.get();
-    const page = sent ? this.adopt(sent.pages) : 0;
-    if (page !== 0) this.dismiss();
-    return page;
-  }
+    cancel(): void {
+        if (this.state.get().busy === null) return;
+        this.isCancelled = true;
+        this.parts.cancel();
+    }
 
-  /** Into free pages; the first one is chosen. 0: there is no room, and that has been said. */
-  private adopt(pages: ReadonlyMap<number, Uint8Array>): number {
-    const adopted = this.editor.edits.adoptPages(this.editor.state.get().document, pages);
-    if (!this.editor.dispatch(adopted.ok ? { ok: true, value: adopted.value.edit } : adopted) || !adopted.ok) return 0;
-    const page = [...adopted.value.placed.values()][0] ?? 0;
-    this.editor.select({ page });
-    return page;
-  }
+    open(name: string, bytes: Uint8Array): Promise<void> {
+        this.last = { name, bytes };
+        return this.read(name, bytes, false);
+    }
 
-  private async read(name: string, bytes: Uint8Array, leaveOut: boolean): Promise<void> {
-    const answer = await this.busy(FILE_TEXTS.reading(name), () => this.formats.open(name, bytes, leaveOut));
-    if (answer) this.state.set(this.judged(name, answer));
-  }
+    async openWithoutRest(): Promise<void> {
+        if (this.last) await this.read(this.last.name, this.last.bytes, true);
+    }
 
-  private judged(name: string, answer: Opened | NoRoom | Refused): Partial<FilesState> {
-    switch (answer.kind) {
-      case 'refused': return { trouble: answer.text };
-      case 'no-room': return { tooLarge: { name, pages: answer.pages } };
-      case 'opened': {
+    addOpened(): void {
+        const { opened } = this.state.get();
+        if (!opened) return;
+        const pages = new Map(Array.from({ length: PAGE_COUNT - 1 }, (_, i) => [i + 1, this.pageIn(opened.image, i + 1)] as const));
+        for (const [page, bytes] of pages) if (!this.holdsSteps(bytes) || this.editor.format.fault(bytes) !== null) pages.delete(page);
+        if (this.adopt(pages) !== 0) this.dismiss();
+    }
+
+    async createFromOpened(): Promise<void> {
+        const { opened } = this.state.get();
+        if (!opened) return;
+        const name = opened.name.replace(/\.[^.]*$/, '');
+        this.dismiss();
+        await this.parts.create(name, documentFrom(opened.image, name));
+    }
+
+    replaceAll(withTrim: boolean): void {
+        const { opened } = this.state.get();
+        if (!opened) return;
+        const { document } = this.editor.state.get();
+        const pages = new Map(Array.from({ length: PAGE_COUNT }, (_, page) => [page, this.pageIn(opened.image, page)]));
+        if (!withTrim) pages.delete(0);
+        if (this.editor.dispatch(this.editor.edits.replacePages(document, pages))) this.dismiss();
+    }
+
+    dismiss(): void {
+        this.state.set(NOTHING);
+    }
+
+    async save(suffix: Suffix): Promise<SavedFile | null> {
+        const { document } = this.editor.state.get();
+        const name = `${document.name.replaceAll(/[^\p{L}\p{N} _-]/gu, '_')}${suffix}`;
+        const saved = await this.busy(FILE_TEXTS.writing(name), () => this.formats.save(name, imageOf(document)));
+        if (saved?.kind === 'refused') this.state.set({ trouble: saved.text });
+        return saved?.kind === 'saved' ? { name, bytes: saved.file, losses: saved.losses } : null;
+    }
+
+    async link(): Promise<string | null> {
+        const pages = this.reached(this.editor.state.get().page);
+        if (pages.size === 0) {
+            this.state.set({ trouble: FILE_TEXTS.nothingToSend });
+            return null;
+        }
+        const text = HASH + (await encodeMotion(pages));
+        const isTooLong = text.length > MOST_CHARACTERS;
+        this.state.set({ trouble: isTooLong ? FILE_TEXTS.linkTooLong : null });
+        return isTooLong ? null : text;
+    }
+
+    /** What stands in the address of the page; nothing when it holds no motion. */
+    async readAddress(hash: string): Promise<void> {
+        if (!hash.startsWith(HASH)) return;
+        const pages = await decodeMotion(hash.slice(HASH.length));
         const { format } = this.editor;
-        const { image, notes, losses } = answer;
-        const count = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => this.pageIn(image, i + 1)).filter((bytes) => this.holdsSteps(bytes)).length;
-        return { tooLarge: null, opened: { name, image, notes, losses, count, hasTrim: !format.isEmpty(this.pageIn(image, 0)) } };
-      }
-      default: return answer satisfies never;
+        const first = pages && [...pages.values()][0];
+        if (!pages || !first || [...pages.values()].some(bytes => format.fault(bytes) !== null)) {
+            this.state.set({ trouble: FILE_TEXTS.badLink });
+            return;
+        }
+        this.state.set({ sent: { name: readPage(format, first).name || FILE_TEXTS.nameless, pages } });
     }
-  }
 
-  /** Steps, or something damaged that may have been some. */
-  private holdsSteps(bytes: Uint8Array): boolean {
-    const { format } = this.editor;
-    return !format.isErased(bytes) && (format.fault(bytes) !== null || readPage(format, bytes).steps.length > 0);
-  }
-
-  /** One thing at a time; trouble in words, never thrown. Null: it went wrong. */
-  private async busy<T>(words: string, deed: () => Promise<T>): Promise<T | null> {
-    this.state.set({ ...NOTHING, busy: words });
-    this.isCancelled = false;
-    try {
-      return await deed();
-    } catch (error) {
-      if (!this.isCancelled) this.state.set({ trouble: FILE_TEXTS.noPython(error instanceof Error ? error.message : String(error)) });
-      return null;
-    } finally {
-      this.state.set({ busy: null });
+    addSent(): number {
+        const { sent } = this.state.get();
+        const page = sent ? this.adopt(sent.pages) : 0;
+        if (page !== 0) this.dismiss();
+        return page;
     }
-  }
 
-  private pageIn(image: Uint8Array, page: number): Uint8Array {
-    return image.subarray(page * PAGE_BYTES, (page + 1) * PAGE_BYTES);
-  }
+    /** Into free pages; the first one is chosen. 0: there is no room, and that has been said. */
+    private adopt(pages: ReadonlyMap<number, Uint8Array>): number {
+        const adopted = this.editor.edits.adoptPages(this.editor.state.get().document, pages);
+        if (!this.editor.dispatch(adopted.ok ? { ok: true, value: adopted.value.edit } : adopted) || !adopted.ok) return 0;
+        const page = [...adopted.value.placed.values()][0] ?? 0;
+        this.editor.select({ page });
+        return page;
+    }
 
-  /** The page itself first, then all that it leads to, as far as they hold something whole. */
-  private reached(start: number): Map<number, Uint8Array> {
-    const { document } = this.editor.state.get();
-    const { format } = this.editor;
-    const others = format.reach(document, start).filter((page) => page !== start);
-    const pages = [start, ...others].map((page): [number, Uint8Array] => [page, pageOf(document, page)]);
-    return new Map(pages.filter(([page, bytes]) => page > 0 && !format.isEmpty(bytes) && format.fault(bytes) === null));
-  }
+    private async read(name: string, bytes: Uint8Array, leaveOut: boolean): Promise<void> {
+        const answer = await this.busy(FILE_TEXTS.reading(name), () => this.formats.open(name, bytes, leaveOut));
+        if (answer) this.state.set(this.judged(name, answer));
+    }
+
+    private judged(name: string, answer: Opened | NoRoom | Refused): Partial<FilesState> {
+        switch (answer.kind) {
+            case 'refused':
+                return { trouble: answer.text };
+            case 'no-room':
+                return { tooLarge: { name, pages: answer.pages } };
+            case 'opened': {
+                const { format } = this.editor;
+                const { image, notes, losses } = answer;
+                const count = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => this.pageIn(image, i + 1)).filter(bytes =>
+                    this.holdsSteps(bytes),
+                ).length;
+                return { tooLarge: null, opened: { name, image, notes, losses, count, hasTrim: !format.isEmpty(this.pageIn(image, 0)) } };
+            }
+            default:
+                return answer satisfies never;
+        }
+    }
+
+    /** Steps, or something damaged that may have been some. */
+    private holdsSteps(bytes: Uint8Array): boolean {
+        const { format } = this.editor;
+        return !format.isErased(bytes) && (format.fault(bytes) !== null || readPage(format, bytes).steps.length > 0);
+    }
+
+    /** One thing at a time; trouble in words, never thrown. Null: it went wrong. */
+    private async busy<T>(words: string, deed: () => Promise<T>): Promise<T | null> {
+        this.state.set({ ...NOTHING, busy: words });
+        this.isCancelled = false;
+        try {
+            return await deed();
+        } catch (error) {
+            if (!this.isCancelled) this.state.set({ trouble: FILE_TEXTS.noPython(error instanceof Error ? error.message : String(error)) });
+            return null;
+        } finally {
+            this.state.set({ busy: null });
+        }
+    }
+
+    private pageIn(image: Uint8Array, page: number): Uint8Array {
+        return image.subarray(page * PAGE_BYTES, (page + 1) * PAGE_BYTES);
+    }
+
+    /** The page itself first, then all that it leads to, as far as they hold something whole. */
+    private reached(start: number): Map<number, Uint8Array> {
+        const { document } = this.editor.state.get();
+        const { format } = this.editor;
+        const others = format.reach(document, start).filter(page => page !== start);
+        const pages = [start, ...others].map((page): [number, Uint8Array] => [page, pageOf(document, page)]);
+        return new Map(pages.filter(([page, bytes]) => page > 0 && !format.isEmpty(bytes) && format.fault(bytes) === null));
+    }
 }

@@ -12,53 +12,53 @@ export const FOLLOW_DEGREES_PER_SECOND = 60;
 const AGAIN_MS = 60;
 
 export class Follow {
-  private readonly connection: () => Pick<Connection, 'requests'>;
-  private readonly clock: Clock;
-  private readonly fail: (error: unknown) => void;
-  private wanted: readonly (number | null)[] | null = null;
-  private isRunning = false;
+    private readonly connection: () => Pick<Connection, 'requests'>;
+    private readonly clock: Clock;
+    private readonly fail: (error: unknown) => void;
+    private wanted: readonly (number | null)[] | null = null;
+    private isRunning = false;
 
-  constructor(connection: () => Pick<Connection, 'requests'>, fail: (error: unknown) => void, clock: Clock = wallClock) {
-    this.connection = connection;
-    this.fail = fail;
-    this.clock = clock;
-  }
-
-  get isOn(): boolean {
-    return this.wanted !== null;
-  }
-
-  /** Servo units by ID; null: no more. The way that is on is finished. */
-  set(positions: readonly (number | null)[] | null): void {
-    this.wanted = positions;
-    if (positions && !this.isRunning) void this.run();
-  }
-
-  private async run(): Promise<void> {
-    this.isRunning = true;
-    let sent = '';
-    try {
-      while (this.wanted) {
-        const pose = this.wanted;
-        if (pose.join() !== sent && (await this.move(pose))) sent = pose.join();
-        else await new Promise<void>((resolve) => this.clock.after(AGAIN_MS, resolve));
-      }
-    } catch (error) {
-      this.wanted = null;
-      this.fail(error);
-    } finally {
-      this.isRunning = false;
+    constructor(connection: () => Pick<Connection, 'requests'>, fail: (error: unknown) => void, clock: Clock = wallClock) {
+        this.connection = connection;
+        this.fail = fail;
+        this.clock = clock;
     }
-  }
 
-  /** false: it moves still. */
-  private async move(pose: readonly (number | null)[]): Promise<boolean> {
-    try {
-      await movePose(this.connection().requests, FOLLOW_DEGREES_PER_SECOND, pose);
-      return true;
-    } catch (error) {
-      if (error instanceof RobotError && error.number === REFUSED.busy) return false;
-      throw error;
+    get isOn(): boolean {
+        return this.wanted !== null;
     }
-  }
+
+    /** Servo units by ID; null: no more. The way that is on is finished. */
+    set(positions: readonly (number | null)[] | null): void {
+        this.wanted = positions;
+        if (positions && !this.isRunning) void this.run();
+    }
+
+    private async run(): Promise<void> {
+        this.isRunning = true;
+        let sent = '';
+        try {
+            while (this.wanted) {
+                const pose = this.wanted;
+                if (pose.join() !== sent && (await this.move(pose))) sent = pose.join();
+                else await new Promise<void>(resolve => this.clock.after(AGAIN_MS, resolve));
+            }
+        } catch (error) {
+            this.wanted = null;
+            this.fail(error);
+        } finally {
+            this.isRunning = false;
+        }
+    }
+
+    /** false: it moves still. */
+    private async move(pose: readonly (number | null)[]): Promise<boolean> {
+        try {
+            await movePose(this.connection().requests, FOLLOW_DEGREES_PER_SECOND, pose);
+            return true;
+        } catch (error) {
+            if (error instanceof RobotError && error.number === REFUSED.busy) return false;
+            throw error;
+        }
+    }
 }

@@ -9,50 +9,50 @@ import type { SimulatedSource } from './simulated-source.ts';
 const STARTED_MS = 1500;
 
 export class RobotLab implements Lab {
-  private readonly state: Store<DeskState>;
-  private readonly robot: Pick<SimulatedSource, 'post' | 'connection'>;
+    private readonly state: Store<DeskState>;
+    private readonly robot: Pick<SimulatedSource, 'post' | 'connection'>;
 
-  constructor(state: Store<DeskState>, robot: Pick<SimulatedSource, 'post' | 'connection'>) {
-    this.state = state;
-    this.robot = robot;
-  }
+    constructor(state: Store<DeskState>, robot: Pick<SimulatedSource, 'post' | 'connection'>) {
+        this.state = state;
+        this.robot = robot;
+    }
 
-  setSpeed(speed: number): void {
-    this.state.set({ speed });
-    this.robot.post({ kind: 'speed', speed });
-  }
+    setSpeed(speed: number): void {
+        this.state.set({ speed });
+        this.robot.post({ kind: 'speed', speed });
+    }
 
-  oneTick(): void {
-    this.setSpeed(0);
-    this.robot.post({ kind: 'tick' });
-  }
+    oneTick(): void {
+        this.setSpeed(0);
+        this.robot.post({ kind: 'tick' });
+    }
 
-  setPower(on: boolean): void {
-    this.robot.post({ kind: 'power', on });
-    if (on) setTimeout(() => this.robot.connection?.askAgain(), STARTED_MS);
-  }
+    setPower(on: boolean): void {
+        this.robot.post({ kind: 'power', on });
+        if (on) setTimeout(() => this.robot.connection?.askAgain(), STARTED_MS);
+    }
 
-  press(button: PanelButton, down: boolean): void {
-    this.robot.post({ kind: 'button', button, down });
-  }
+    press(button: PanelButton, down: boolean): void {
+        this.robot.post({ kind: 'button', button, down });
+    }
 
-  setBattery(volts: number): void {
-    this.robot.post({ kind: 'battery', volts });
-  }
+    setBattery(volts: number): void {
+        this.robot.post({ kind: 'battery', volts });
+    }
 
-  setFault(servo: number, fault: number, on: boolean): void {
-    this.robot.post({ kind: 'fault', servo, fault, answers: on ? -1 : 0 });
-  }
+    setFault(servo: number, fault: number, on: boolean): void {
+        this.robot.post({ kind: 'fault', servo, fault, answers: on ? -1 : 0 });
+    }
 
-  pull(hand: Hand | null, ticks = Infinity): void {
-    this.robot.post({ kind: 'grip', grip: hand, ticks });
-  }
+    pull(hand: Hand | null, ticks = Infinity): void {
+        this.robot.post({ kind: 'grip', grip: hand, ticks });
+    }
 
-  hold(held: boolean): void {
-    this.robot.post({ kind: 'hold', held });
-  }
+    hold(held: boolean): void {
+        this.robot.post({ kind: 'hold', held });
+    }
 
-  setFloor(floor: Floor): void {
-    this.robot.post({ kind: 'floor', floor });
-  }
+    setFloor(floor: Floor): void {
+        this.robot.post({ kind: 'floor', floor });
+    }
 }

@@ -6,37 +6,37 @@ import type { DeskState } from '../view/desk.ts';
 import type { Store } from '../view/store.ts';
 
 export class PageVersion {
-  private readonly state: Store<DeskState>;
-  private registration: ServiceWorkerRegistration | null = null;
+    private readonly state: Store<DeskState>;
+    private registration: ServiceWorkerRegistration | null = null;
 
-  constructor(state: Store<DeskState>) {
-    this.state = state;
-  }
+    constructor(state: Store<DeskState>) {
+        this.state = state;
+    }
 
-  /** Keeps the whole page in the browser. Where that refuses (plain http from another machine) the page works, but not offline. */
-  async keep(): Promise<void> {
-    if (!('serviceWorker' in navigator)) return;
-    const registration = await navigator.serviceWorker.register('./service-worker.js').catch(() => null);
-    if (!registration) return;
-    this.registration = registration;
-    registration.addEventListener('updatefound', () => this.follow(registration.installing));
-    this.follow(registration.waiting ?? registration.installing);
-    document.addEventListener('visibilitychange', () => {
-      if (!document.hidden) void registration.update().catch(() => undefined); // without a network there is none
-    });
-  }
+    /** Keeps the whole page in the browser. Where that refuses (plain http from another machine) the page works, but not offline. */
+    async keep(): Promise<void> {
+        if (!('serviceWorker' in navigator)) return;
+        const registration = await navigator.serviceWorker.register('./service-worker.js').catch(() => null);
+        if (!registration) return;
+        this.registration = registration;
+        registration.addEventListener('updatefound', () => this.follow(registration.installing));
+        this.follow(registration.waiting ?? registration.installing);
+        document.addEventListener('visibilitychange', () => {
+            if (!document.hidden) void registration.update().catch(() => undefined); // without a network there is none
+        });
+    }
 
-  /** The newer version takes the place of this page. */
-  take(): void {
-    navigator.serviceWorker.addEventListener('controllerchange', () => window.location.reload());
-    this.registration?.waiting?.postMessage('take-over');
-  }
+    /** The newer version takes the place of this page. */
+    take(): void {
+        navigator.serviceWorker.addEventListener('controllerchange', () => window.location.reload());
+        this.registration?.waiting?.postMessage('take-over');
+    }
 
-  private follow(worker: ServiceWorker | null): void {
-    const look = (): void => {
-      if (worker?.state === 'installed' && navigator.serviceWorker.controller) this.state.set({ hasNewVersion: true });
-    };
-    worker?.addEventListener('statechange', look);
-    look();
-  }
+    private follow(worker: ServiceWorker | null): void {
+        const look = (): void => {
+            if (worker?.state === 'installed' && navigator.serviceWorker.controller) this.state.set({ hasNewVersion: true });
+        };
+        worker?.addEventListener('statechange', look);
+        look();
+    }
 }

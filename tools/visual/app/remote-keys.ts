@@ -7,20 +7,20 @@ import type { RemoteButton } from '../robot/remote.ts';
 export const REPEAT_MS = 100;
 
 export class RemoteKeys {
-  private readonly send: (packet: Uint8Array) => void;
-  private held: ReadonlySet<RemoteButton> = new Set();
+    private readonly send: (packet: Uint8Array) => void;
+    private held: ReadonlySet<RemoteButton> = new Set();
 
-  constructor(send: (packet: Uint8Array) => void) {
-    this.send = send;
-    setInterval(() => this.held.size > 0 && this.send(remotePacket(this.held)), REPEAT_MS);
-  }
+    constructor(send: (packet: Uint8Array) => void) {
+        this.send = send;
+        setInterval(() => this.held.size > 0 && this.send(remotePacket(this.held)), REPEAT_MS);
+    }
 
-  get isHeld(): boolean {
-    return this.held.size > 0;
-  }
+    get isHeld(): boolean {
+        return this.held.size > 0;
+    }
 
-  hold(held: ReadonlySet<RemoteButton>): void {
-    this.held = held;
-    this.send(remotePacket(held));
-  }
+    hold(held: ReadonlySet<RemoteButton>): void {
+        this.held = held;
+        this.send(remotePacket(held));
+    }
 }

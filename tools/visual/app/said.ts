@@ -9,41 +9,42 @@ const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|fau
 const ENDED_BY_SERVO = /^Ended for the fault of a servo/;
 
 export interface Said {
-  readonly text: string;
-  readonly isTrouble: boolean;
+    readonly text: string;
+    readonly isTrouble: boolean;
 }
 
 export class LastSaid {
-  private line = '';
-  private isScreen = false;
-  private trouble = '';
+    private line = '';
+    private isScreen = false;
+    private trouble = '';
 
-  /** The newest message among these bytes, or null. */
-  take(bytes: Uint8Array): Said | null {
-    let newest: Said | null = null;
-    for (const byte of bytes) {
-      if (byte === 0x1b) this.isScreen = true; // a screen is being drawn until the next line begins
-      if (byte === 0x0a || byte === 0x0d) {
-        newest = this.end() ?? newest;
-      } else if (this.line.length < LINE_MAX) {
-        this.line += String.fromCharCode(byte);
-      }
+    /** The newest message among these bytes, or null. */
+    take(bytes: Uint8Array): Said | null {
+        let newest: Said | null = null;
+        for (const byte of bytes) {
+            if (byte === 0x1b) this.isScreen = true; // a screen is being drawn until the next line begins
+            if (byte === 0x0a || byte === 0x0d) {
+                newest = this.end() ?? newest;
+            } else if (this.line.length < LINE_MAX) {
+                this.line += String.fromCharCode(byte);
+            }
+        }
+        return newest;
     }
-    return newest;
-  }
 
-  private end(): Said | null {
-    const text = this.line.trim();
-    const isMessage = !this.isScreen && text.length > 3 && !text.startsWith('] ') && !text.startsWith('@') && /^[\x20-\x7e]+$/.test(text);
-    this.line = '';
-    this.isScreen = false;
-    return isMessage ? this.told(text) : null;
-  }
+    private end(): Said | null {
+        const text = this.line.trim();
+        const isMessage =
+            !this.isScreen && text.length > 3 && !text.startsWith('] ') && !text.startsWith('@') && /^[\x20-\x7e]+$/.test(text);
+        this.line = '';
+        this.isScreen = false;
+        return isMessage ? this.told(text) : null;
+    }
 
-  private told(text: string): Said {
-    const isTrouble = TELLS_TROUBLE.test(text);
-    const said = ENDED_BY_SERVO.test(text) && this.trouble !== '' ? `${this.trouble}. ${text}` : text;
-    this.trouble = isTrouble && !ENDED_BY_SERVO.test(text) ? text : '';
-    return { text: said, isTrouble };
-  }
+    private told(text: string): Said {
+        const isTrouble = TELLS_TROUBLE.test(text);
+        const said = ENDED_BY_SERVO.test(text) && this.trouble !== '' ? `${this.trouble}. ${text}` : text;
+        this.trouble = isTrouble && !ENDED_BY_SERVO.test(text) ? text : '';
+        return { text: said, isTrouble };
+    }
 }

@@ -30,237 +30,247 @@ const WHERE_MS = 3000;
 const MOST_FRAMES = 60;
 
 interface Parts {
-  readonly module: WebAssembly.Module;
-  readonly images: Images;
+    readonly module: WebAssembly.Module;
+    readonly images: Images;
 }
 
 export interface SourceEvents {
-  frame(state: RobotState): void;
-  text(bytes: Uint8Array): void;
-  connection(state: ConnectionState): void;
-  change(change: Partial<DeskState>): void;
-  /** What the robot in the page has in its flash: the 65,536 bytes of its motion pages. */
-  motions(image: Uint8Array): void;
+    frame(state: RobotState): void;
+    text(bytes: Uint8Array): void;
+    connection(state: ConnectionState): void;
+    change(change: Partial<DeskState>): void;
+    /** What the robot in the page has in its flash: the 65,536 bytes of its motion pages. */
+    motions(image: Uint8Array): void;
 }
 
 function motionsIn({ flash }: KeptRobot): Uint8Array {
-  return flash.slice(MOTIONS_ADDRESS, MOTIONS_ADDRESS + PAGE_BYTES * PAGE_COUNT);
+    return flash.slice(MOTIONS_ADDRESS, MOTIONS_ADDRESS + PAGE_BYTES * PAGE_COUNT);
 }
 
 /** What the robot in the page has when the page starts: what it kept, or what the factory gives it. */
 export async function simulatedMotions(): Promise<Uint8Array> {
-  const kept = await loadRobot(KEY).catch(() => null);
-  return kept ? motionsIn(kept) : motionLibrary();
+    const kept = await loadRobot(KEY).catch(() => null);
+    return kept ? motionsIn(kept) : motionLibrary();
 }
 
 export class SimulatedSource {
-  private readonly body: Body;
-  private readonly events: SourceEvents;
-  private robot: SimulatedRobot | null = null;
-  private turn: Promise<void> = Promise.resolve();
-  private isShown = true;
-  private standing: Promise<void> | null = null;
-  private isInHand = false;
-  private clock = new TickClock();
-  private readonly waiting: ((state: RobotState) => void)[] = [];
-  connection: Connection | null = null;
+    private readonly body: Body;
+    private readonly events: SourceEvents;
+    private robot: SimulatedRobot | null = null;
+    private turn: Promise<void> = Promise.resolve();
+    private isShown = true;
+    private standing: Promise<void> | null = null;
+    private isInHand = false;
+    private clock = new TickClock();
+    private readonly waiting: ((state: RobotState) => void)[] = [];
+    connection: Connection | null = null;
 
-  constructor(body: Body, events: SourceEvents) {
-    this.body = body;
-    this.events = events;
-  }
-
-  /** Starts the first robot. */
-  start(image: ImageName): Promise<void> {
-    return this.inTurn(async () => {
-      const [parts, kept] = await Promise.all([this.parts(image), this.load()]);
-      this.begin(parts, kept);
-    });
-  }
-
-  /** Starts the robot anew with this image; what is in its memories stays. Rejects when the image cannot be had: then the robot
-   *  goes on as it was. */
-  restart(image: ImageName): Promise<void> {
-    return this.inTurn(async () => {
-      const parts = await this.parts(image);
-      const kept = await this.memories();
-      await this.end();
-      this.begin(parts, kept);
-    });
-  }
-
-  /** Starts a robot as the factory gives it. Rejects as restart() does. */
-  forget(image: ImageName): Promise<void> {
-    return this.inTurn(async () => {
-      const parts = await this.parts(image);
-      await this.end();
-      await forgetRobot(KEY).catch(() => this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } }));
-      this.begin(parts, null);
-    });
-  }
-
-  /** One robot at a time: who presses twice gets the second one when the first is there. */
-  private inTurn(deed: () => Promise<void>): Promise<void> {
-    const done = this.turn.then(deed);
-    this.turn = done.catch(() => undefined); // its caller hears of it
-    return done;
-  }
-
-  private async parts(image: ImageName): Promise<Parts> {
-    const [module, images] = await Promise.all([boardModule(), robotImages(image)]);
-    return { module, images };
-  }
-
-  /** What the robot has now; when it has crashed, what was kept of it last. */
-  private async memories(): Promise<KeptRobot | null> {
-    try {
-      const memories = await this.robot?.memories();
-      if (!memories) return await this.load();
-      await this.keep(memories);
-      return memories;
-    } catch {
-      return this.load();
+    constructor(body: Body, events: SourceEvents) {
+        this.body = body;
+        this.events = events;
     }
-  }
 
-  private begin({ module, images }: Parts, kept: KeptRobot | null): void {
-    const worker = new Worker(new URL('../sim/worker.ts', import.meta.url), { type: 'module' });
-    const robot: SimulatedRobot = new SimulatedRobot(worker, { message: (message) => this.robot === robot && this.take(message) });
-    this.robot = robot;
-    this.events.motions(kept ? motionsIn(kept) : images.motions);
-    this.standing = null;
-    this.isInHand = false;
-    robot.post({ kind: 'start', module, body: this.body, images, kept });
-    if (!this.isShown) robot.post({ kind: 'speed', speed: 0 });
-    this.clock = new TickClock();
-    this.connection = new Connection(robot.port, this.clock, {
-      state: (state) => this.isShown && this.events.connection(state),
-      text: (bytes) => this.isShown && this.events.text(bytes),
-      dialog: (isInDialog) => this.isShown && this.events.change({ isInDialog }),
-    });
-    this.connection.connect(true);
-    void this.addPhysics(robot);
-  }
-
-  post(message: ToSim): void {
-    this.robot?.post(message);
-  }
-
-  pause(): void {
-    this.isShown = false;
-    this.post({ kind: 'speed', speed: 0 });
-  }
-
-  resume(): void {
-    this.isShown = true;
-    this.post({ kind: 'speed', speed: 1 });
-    this.events.change({ speed: 1, version: this.connection?.version ?? null, where: null });
-    if (this.connection) this.events.connection(this.connection.state);
-  }
-
-  /** A hand holds the robot: what plays moves it in the air. */
-  get isHeld(): boolean {
-    return this.isInHand;
-  }
-
-  /** Does what a person does before a motion: holds the robot, lets it go to its standing pose, lets go of it. At once when
-   *  nobody holds it. Rejects with RobotError when the robot refuses; then the hand has let go, too. */
-  prepare(): Promise<void> {
-    if (this.standing) return this.standing;
-    const standing: Promise<void> = this.stand().finally(() => {
-      if (this.standing === standing) this.standing = null; // another robot has its own
-    });
-    this.standing = standing;
-    return standing;
-  }
-
-  private async stand(): Promise<void> {
-    const connection = this.connection;
-    const now = await this.nextFrame();
-    if (!connection?.version || !now.isHeld) return;
-    const { requests } = connection;
-    let wanted: Where | null = null;
-    try {
-      const before = await askWhere(requests, { timeoutMs: WHERE_MS });
-      if (before.state !== 'idle') await command(requests, 'break');
-      if (before.state !== 'idle' && before.state !== 'paused' && before.page !== READY_PAGE) wanted = before;
-      await this.untilIdle(connection);
-      await play(requests, READY_PAGE);
-      await this.untilIdle(connection);
-    } finally {
-      this.post({ kind: 'hold', held: false });
+    /** Starts the first robot. */
+    start(image: ImageName): Promise<void> {
+        return this.inTurn(async () => {
+            const [parts, kept] = await Promise.all([this.parts(image), this.load()]);
+            this.begin(parts, kept);
+        });
     }
-    for (let frame = 0; frame < MOST_FRAMES && (await this.nextFrame()).isHeld; frame++); // the hand opens
-    if (wanted) await play(requests, wanted.page, wanted.code); // somebody had asked for it
-  }
 
-  private async untilIdle({ requests }: Connection): Promise<void> {
-    const { clock } = this;
-    for (const endMs = clock.now() + STAND_LIMIT_MS; clock.now() < endMs; await clock.pass(ASK_MS)) {
-      const where = await askWhere(requests, { timeoutMs: WHERE_MS });
-      if (where.state === 'idle') return;
+    /** Starts the robot anew with this image; what is in its memories stays. Rejects when the image cannot be had: then the robot
+     *  goes on as it was. */
+    restart(image: ImageName): Promise<void> {
+        return this.inTurn(async () => {
+            const parts = await this.parts(image);
+            const kept = await this.memories();
+            await this.end();
+            this.begin(parts, kept);
+        });
     }
-  }
 
-  private nextFrame(): Promise<RobotState> {
-    return new Promise((resolve) => this.waiting.push(resolve));
-  }
-
-  private async addPhysics(robot: SimulatedRobot): Promise<void> {
-    try {
-      const { bodyXml, wasm } = await physics();
-      robot.post({ kind: 'physics', bodyXml, wasm }, [wasm]);
-    } catch {
-      this.events.change({ physics: 'off', said: { text: TEXTS.noPhysics, tone: 'bad' } });
+    /** Starts a robot as the factory gives it. Rejects as restart() does. */
+    forget(image: ImageName): Promise<void> {
+        return this.inTurn(async () => {
+            const parts = await this.parts(image);
+            await this.end();
+            await forgetRobot(KEY).catch(() => this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } }));
+            this.begin(parts, null);
+        });
     }
-  }
 
-  private take(message: FromSim): void {
-    switch (message.kind) {
-      case 'state':
-        this.isInHand = message.state.isHeld;
-        this.clock.reach(message.state.ticks);
-        for (const tell of this.waiting.splice(0)) tell(message.state);
-        return this.isShown ? this.events.frame(message.state) : undefined;
-      case 'started': return this.events.change({ faultNames: message.faults, stopped: null });
-      case 'physics':
-        return this.events.change(message.error === null ? { physics: 'on' } : { physics: 'off', said: { text: `${TEXTS.noPhysics} (${message.error})`, tone: 'bad' } });
-      case 'memories': return void this.keep(message.memories);
-      case 'violation': return this.stop(violationText(message.violation, message.text));
-      case 'crashed': return this.stop(TEXTS.crashed);
-      case 'bytes': return; // the port has them
-      default: message satisfies never;
+    /** One robot at a time: who presses twice gets the second one when the first is there. */
+    private inTurn(deed: () => Promise<void>): Promise<void> {
+        const done = this.turn.then(deed);
+        this.turn = done.catch(() => undefined); // its caller hears of it
+        return done;
     }
-  }
 
-  private stop(why: string): void {
-    this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
-  }
-
-  private async end(): Promise<void> {
-    const robot = this.robot;
-    this.robot = null;
-    await this.connection?.close();
-    this.connection = null;
-    robot?.dispose();
-    this.events.change({ physics: 'loading', speed: 1, version: null, where: null, said: null });
-  }
-
-  private async load(): Promise<KeptRobot | null> {
-    try {
-      return await loadRobot(KEY);
-    } catch {
-      this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } });
-      return null;
+    private async parts(image: ImageName): Promise<Parts> {
+        const [module, images] = await Promise.all([boardModule(), robotImages(image)]);
+        return { module, images };
     }
-  }
 
-  private async keep(memories: KeptRobot): Promise<void> {
-    this.events.motions(motionsIn(memories));
-    try {
-      await saveRobot(KEY, memories);
-    } catch {
-      this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } });
+    /** What the robot has now; when it has crashed, what was kept of it last. */
+    private async memories(): Promise<KeptRobot | null> {
+        try {
+            const memories = await this.robot?.memories();
+            if (!memories) return await this.load();
+            await this.keep(memories);
+            return memories;
+        } catch {
+            return this.load();
+        }
     }
-  }
+
+    private begin({ module, images }: Parts, kept: KeptRobot | null): void {
+        const worker = new Worker(new URL('../sim/worker.ts', import.meta.url), { type: 'module' });
+        const robot: SimulatedRobot = new SimulatedRobot(worker, { message: message => this.robot === robot && this.take(message) });
+        this.robot = robot;
+        this.events.motions(kept ? motionsIn(kept) : images.motions);
+        this.standing = null;
+        this.isInHand = false;
+        robot.post({ kind: 'start', module, body: this.body, images, kept });
+        if (!this.isShown) robot.post({ kind: 'speed', speed: 0 });
+        this.clock = new TickClock();
+        this.connection = new Connection(robot.port, this.clock, {
+            state: state => this.isShown && this.events.connection(state),
+            text: bytes => this.isShown && this.events.text(bytes),
+            dialog: isInDialog => this.isShown && this.events.change({ isInDialog }),
+        });
+        this.connection.connect(true);
+        void this.addPhysics(robot);
+    }
+
+    post(message: ToSim): void {
+        this.robot?.post(message);
+    }
+
+    pause(): void {
+        this.isShown = false;
+        this.post({ kind: 'speed', speed: 0 });
+    }
+
+    resume(): void {
+        this.isShown = true;
+        this.post({ kind: 'speed', speed: 1 });
+        this.events.change({ speed: 1, version: this.connection?.version ?? null, where: null });
+        if (this.connection) this.events.connection(this.connection.state);
+    }
+
+    /** A hand holds the robot: what plays moves it in the air. */
+    get isHeld(): boolean {
+        return this.isInHand;
+    }
+
+    /** Does what a person does before a motion: holds the robot, lets it go to its standing pose, lets go of it. At once when
+     *  nobody holds it. Rejects with RobotError when the robot refuses; then the hand has let go, too. */
+    prepare(): Promise<void> {
+        if (this.standing) return this.standing;
+        const standing: Promise<void> = this.stand().finally(() => {
+            if (this.standing === standing) this.standing = null; // another robot has its own
+        });
+        this.standing = standing;
+        return standing;
+    }
+
+    private async stand(): Promise<void> {
+        const connection = this.connection;
+        const now = await this.nextFrame();
+        if (!connection?.version || !now.isHeld) return;
+        const { requests } = connection;
+        let wanted: Where | null = null;
+        try {
+            const before = await askWhere(requests, { timeoutMs: WHERE_MS });
+            if (before.state !== 'idle') await command(requests, 'break');
+            if (before.state !== 'idle' && before.state !== 'paused' && before.page !== READY_PAGE) wanted = before;
+            await this.untilIdle(connection);
+            await play(requests, READY_PAGE);
+            await this.untilIdle(connection);
+        } finally {
+            this.post({ kind: 'hold', held: false });
+        }
+        for (let frame = 0; frame < MOST_FRAMES && (await this.nextFrame()).isHeld; frame++); // the hand opens
+        if (wanted) await play(requests, wanted.page, wanted.code); // somebody had asked for it
+    }
+
+    private async untilIdle({ requests }: Connection): Promise<void> {
+        const { clock } = this;
+        for (const endMs = clock.now() + STAND_LIMIT_MS; clock.now() < endMs; await clock.pass(ASK_MS)) {
+            const where = await askWhere(requests, { timeoutMs: WHERE_MS });
+            if (where.state === 'idle') return;
+        }
+    }
+
+    private nextFrame(): Promise<RobotState> {
+        return new Promise(resolve => this.waiting.push(resolve));
+    }
+
+    private async addPhysics(robot: SimulatedRobot): Promise<void> {
+        try {
+            const { bodyXml, wasm } = await physics();
+            robot.post({ kind: 'physics', bodyXml, wasm }, [wasm]);
+        } catch {
+            this.events.change({ physics: 'off', said: { text: TEXTS.noPhysics, tone: 'bad' } });
+        }
+    }
+
+    private take(message: FromSim): void {
+        switch (message.kind) {
+            case 'state':
+                this.isInHand = message.state.isHeld;
+                this.clock.reach(message.state.ticks);
+                for (const tell of this.waiting.splice(0)) tell(message.state);
+                return this.isShown ? this.events.frame(message.state) : undefined;
+            case 'started':
+                return this.events.change({ faultNames: message.faults, stopped: null });
+            case 'physics':
+                return this.events.change(
+                    message.error === null
+                        ? { physics: 'on' }
+                        : { physics: 'off', said: { text: `${TEXTS.noPhysics} (${message.error})`, tone: 'bad' } },
+                );
+            case 'memories':
+                return void this.keep(message.memories);
+            case 'violation':
+                return this.stop(violationText(message.violation, message.text));
+            case 'crashed':
+                return this.stop(TEXTS.crashed);
+            case 'bytes':
+                return; // the port has them
+            default:
+                message satisfies never;
+        }
+    }
+
+    private stop(why: string): void {
+        this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
+    }
+
+    private async end(): Promise<void> {
+        const robot = this.robot;
+        this.robot = null;
+        await this.connection?.close();
+        this.connection = null;
+        robot?.dispose();
+        this.events.change({ physics: 'loading', speed: 1, version: null, where: null, said: null });
+    }
+
+    private async load(): Promise<KeptRobot | null> {
+        try {
+            return await loadRobot(KEY);
+        } catch {
+            this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } });
+            return null;
+        }
+    }
+
+    private async keep(memories: KeptRobot): Promise<void> {
+        this.events.motions(motionsIn(memories));
+        try {
+            await saveRobot(KEY, memories);
+        } catch {
+            this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } });
+        }
+    }
 }

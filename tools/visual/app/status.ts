@@ -15,80 +15,84 @@ const WHERE_MS = 300;
 const START_MS = 20_000;
 
 export interface StatusParts {
-  readonly state: Store<DeskState>;
-  /** Throws RobotError not-connected when there is none. */
-  connection(): Connection;
-  /** Pages are being written: a question in between would only cost time. */
-  isWriting(): boolean;
+    readonly state: Store<DeskState>;
+    /** Throws RobotError not-connected when there is none. */
+    connection(): Connection;
+    /** Pages are being written: a question in between would only cost time. */
+    isWriting(): boolean;
 }
 
 export class Status {
-  private readonly parts: StatusParts;
-  private timer: ReturnType<typeof setTimeout> | undefined;
-  private lateTimer: ReturnType<typeof setTimeout> | undefined;
-  private terminal: TerminalSize | null = null;
+    private readonly parts: StatusParts;
+    private timer: ReturnType<typeof setTimeout> | undefined;
+    private lateTimer: ReturnType<typeof setTimeout> | undefined;
+    private terminal: TerminalSize | null = null;
 
-  constructor(parts: StatusParts) {
-    this.parts = parts;
-  }
-
-  /** A program's question would spoil a line that somebody types, and puts Edit's screen away. */
-  mayAsk(): boolean {
-    return this.state.connection === 'ready' && !this.parts.connection().isHeldOff && !this.isEditOnScreen && !this.parts.isWriting();
-  }
-
-  /** Asks now, and then again and again. */
-  async ask(): Promise<void> {
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => void this.ask(), WHERE_MS);
-    if (!this.mayAsk() || this.state.speed === 0) return;
-    const connection = this.parts.connection();
-    try {
-      const where = await askWhere(connection.requests, { timeoutMs: 3000 });
-      this.parts.state.set({ where });
-      this.tell();
-    } catch (error) {
-      if (error instanceof RobotError && error.code === 'no-answer') connection.askAgain();
+    constructor(parts: StatusParts) {
+        this.parts = parts;
     }
-  }
 
-  /** The strip says what the robot does now. */
-  tell(): void {
-    const { stopped, connection, isInDialog, where } = this.state;
-    const tone = stopped !== null || isInDialog || connection === 'foreign' || connection === 'other-board' || connection === 'waiting' ? 'bad' : 'calm';
-    this.watchStart();
-    this.parts.state.set({ doing: { text: doingText(this.state, where), tone } });
-  }
+    /** A program's question would spoil a line that somebody types, and puts Edit's screen away. */
+    mayAsk(): boolean {
+        return this.state.connection === 'ready' && !this.parts.connection().isHeldOff && !this.isEditOnScreen && !this.parts.isWriting();
+    }
 
-  /** A robot that starts, or starts anew, is silent for a while, and nothing is wrong. */
-  private watchStart(): void {
-    const isStarting = this.state.connection !== 'ready' && this.state.isPowered;
-    if (isStarting === (this.lateTimer !== undefined)) return;
-    clearTimeout(this.lateTimer);
-    this.lateTimer = undefined;
-    if (this.state.isLate) this.parts.state.set({ isLate: false });
-    if (isStarting) this.lateTimer = setTimeout(() => {
-      this.parts.state.set({ isLate: true });
-      this.tell();
-    }, START_MS);
-  }
+    /** Asks now, and then again and again. */
+    async ask(): Promise<void> {
+        clearTimeout(this.timer);
+        this.timer = setTimeout(() => void this.ask(), WHERE_MS);
+        if (!this.mayAsk() || this.state.speed === 0) return;
+        const connection = this.parts.connection();
+        try {
+            const where = await askWhere(connection.requests, { timeoutMs: 3000 });
+            this.parts.state.set({ where });
+            this.tell();
+        } catch (error) {
+            if (error instanceof RobotError && error.code === 'no-answer') connection.askAgain();
+        }
+    }
 
-  /** The terminal shows so many letters. */
-  terminalSize(size: TerminalSize): void {
-    this.terminal = size;
-    this.look();
-  }
+    /** The strip says what the robot does now. */
+    tell(): void {
+        const { stopped, connection, isInDialog, where } = this.state;
+        const tone =
+            stopped !== null || isInDialog || connection === 'foreign' || connection === 'other-board' || connection === 'waiting'
+                ? 'bad'
+                : 'calm';
+        this.watchStart();
+        this.parts.state.set({ doing: { text: doingText(this.state, where), tone } });
+    }
 
-  /** Somebody looks at Edit's screen now, or does no more. */
-  look(): void {
-    if (this.state.connection === 'ready') this.parts.connection().look(this.isEditOnScreen ? this.terminal : null);
-  }
+    /** A robot that starts, or starts anew, is silent for a while, and nothing is wrong. */
+    private watchStart(): void {
+        const isStarting = this.state.connection !== 'ready' && this.state.isPowered;
+        if (isStarting === (this.lateTimer !== undefined)) return;
+        clearTimeout(this.lateTimer);
+        this.lateTimer = undefined;
+        if (this.state.isLate) this.parts.state.set({ isLate: false });
+        if (isStarting)
+            this.lateTimer = setTimeout(() => {
+                this.parts.state.set({ isLate: true });
+                this.tell();
+            }, START_MS);
+    }
 
-  private get state(): DeskState {
-    return this.parts.state.get();
-  }
+    /** The terminal shows so many letters. */
+    terminalSize(size: TerminalSize): void {
+        this.terminal = size;
+        this.look();
+    }
 
-  private get isEditOnScreen(): boolean {
-    return this.state.version?.image === 'edit' && this.state.tab === 'terminal';
-  }
+    /** Somebody looks at Edit's screen now, or does no more. */
+    look(): void {
+        if (this.state.connection === 'ready') this.parts.connection().look(this.isEditOnScreen ? this.terminal : null);
+    }
+
+    private get state(): DeskState {
+        return this.parts.state.get();
+    }
+
+    private get isEditOnScreen(): boolean {
+        return this.state.version?.image === 'edit' && this.state.tab === 'terminal';
+    }
 }

@@ -9,56 +9,56 @@ const EVERY_MS = 100;
 const AMPLITUDE = { least: 40, most: 120 };
 
 export interface Stick {
-  readonly x: number;
-  readonly y: number;
+    readonly x: number;
+    readonly y: number;
 }
 
 /** What the stick asks for: PROTOCOL.md, `@drive`. */
 export function shapeOf(stick: Stick): { blend: number; rate: number; amplitude: number } {
-  const push = Math.min(1, Math.hypot(stick.x, stick.y));
-  return {
-    blend: Math.round(Math.max(-1, Math.min(1, stick.x)) * 100),
-    rate: 100,
-    amplitude: Math.round(AMPLITUDE.least + (AMPLITUDE.most - AMPLITUDE.least) * push),
-  };
+    const push = Math.min(1, Math.hypot(stick.x, stick.y));
+    return {
+        blend: Math.round(Math.max(-1, Math.min(1, stick.x)) * 100),
+        rate: 100,
+        amplitude: Math.round(AMPLITUDE.least + (AMPLITUDE.most - AMPLITUDE.least) * push),
+    };
 }
 
 export class StickDrive {
-  private readonly connection: () => Connection;
-  private readonly walkPage: () => number | null;
-  private readonly fail: (error: unknown) => void;
-  private stick: Stick | null = null;
-  private isRunning = false;
+    private readonly connection: () => Connection;
+    private readonly walkPage: () => number | null;
+    private readonly fail: (error: unknown) => void;
+    private stick: Stick | null = null;
+    private isRunning = false;
 
-  constructor(connection: () => Connection, walkPage: () => number | null, fail: (error: unknown) => void) {
-    this.connection = connection;
-    this.walkPage = walkPage;
-    this.fail = fail;
-  }
-
-  set(stick: Stick | null): void {
-    this.stick = stick;
-    if (stick && !this.isRunning) void this.run();
-  }
-
-  private async run(): Promise<void> {
-    const page = this.walkPage();
-    if (page === null) return;
-    this.isRunning = true;
-    try {
-      const { requests } = this.connection();
-      await play(requests, page);
-      while (this.stick) {
-        const { blend, rate, amplitude } = shapeOf(this.stick);
-        await drive(requests, blend, rate, amplitude);
-        await new Promise((resolve) => setTimeout(resolve, EVERY_MS));
-      }
-      await command(requests, 'stop');
-    } catch (error) {
-      this.stick = null;
-      this.fail(error);
-    } finally {
-      this.isRunning = false;
+    constructor(connection: () => Connection, walkPage: () => number | null, fail: (error: unknown) => void) {
+        this.connection = connection;
+        this.walkPage = walkPage;
+        this.fail = fail;
     }
-  }
+
+    set(stick: Stick | null): void {
+        this.stick = stick;
+        if (stick && !this.isRunning) void this.run();
+    }
+
+    private async run(): Promise<void> {
+        const page = this.walkPage();
+        if (page === null) return;
+        this.isRunning = true;
+        try {
+            const { requests } = this.connection();
+            await play(requests, page);
+            while (this.stick) {
+                const { blend, rate, amplitude } = shapeOf(this.stick);
+                await drive(requests, blend, rate, amplitude);
+                await new Promise(resolve => setTimeout(resolve, EVERY_MS));
+            }
+            await command(requests, 'stop');
+        } catch (error) {
+            this.stick = null;
+            this.fail(error);
+        } finally {
+            this.isRunning = false;
+        }
+    }
 }

@@ -10,34 +10,34 @@ import type { Clock } from '../robot/clock.ts';
 const MOST_STEP_MS = 100;
 
 export class TickClock implements Clock {
-  private ms = 0;
-  private reachedMs = 0;
-  private nextId = 1;
-  private readonly timers = new Map<number, { readonly atMs: number; readonly call: () => void }>();
+    private ms = 0;
+    private reachedMs = 0;
+    private nextId = 1;
+    private readonly timers = new Map<number, { readonly atMs: number; readonly call: () => void }>();
 
-  now(): number {
-    return this.ms;
-  }
-
-  after(delayMs: number, call: () => void): () => void {
-    const id = this.nextId++;
-    this.timers.set(id, { atMs: this.ms + delayMs, call });
-    return () => this.timers.delete(id);
-  }
-
-  /** Resolves when so much of the robot's time has passed. */
-  pass(delayMs: number): Promise<void> {
-    return new Promise((resolve) => this.after(delayMs, resolve));
-  }
-
-  /** The robot has come so far. */
-  reach(ticks: number): void {
-    const robotMs = (1000 * ticks) / TICKS_PER_SECOND;
-    this.ms += Math.min(robotMs - this.reachedMs, MOST_STEP_MS);
-    this.reachedMs = robotMs;
-    for (const [id, timer] of [...this.timers]) {
-      if (timer.atMs > this.ms || !this.timers.delete(id)) continue;
-      timer.call();
+    now(): number {
+        return this.ms;
     }
-  }
+
+    after(delayMs: number, call: () => void): () => void {
+        const id = this.nextId++;
+        this.timers.set(id, { atMs: this.ms + delayMs, call });
+        return () => this.timers.delete(id);
+    }
+
+    /** Resolves when so much of the robot's time has passed. */
+    pass(delayMs: number): Promise<void> {
+        return new Promise(resolve => this.after(delayMs, resolve));
+    }
+
+    /** The robot has come so far. */
+    reach(ticks: number): void {
+        const robotMs = (1000 * ticks) / TICKS_PER_SECOND;
+        this.ms += Math.min(robotMs - this.reachedMs, MOST_STEP_MS);
+        this.reachedMs = robotMs;
+        for (const [id, timer] of [...this.timers]) {
+            if (timer.atMs > this.ms || !this.timers.delete(id)) continue;
+            timer.call();
+        }
+    }
 }

@@ -17,138 +17,152 @@ const CURVE_TICKS = 6000;
 
 /** What a trial held for. */
 interface Tried {
-  readonly law: Law;
-  readonly pages: ReadonlyMap<number, Uint8Array>;
+    readonly law: Law;
+    readonly pages: ReadonlyMap<number, Uint8Array>;
 }
 
 const NOTHING: TrialsState = { phase: 'idle', page: null, done: 0, total: 0, trials: new Map(), trouble: null };
 
 export class MotionTrials implements Trials {
-  readonly state = new Store<TrialsState>(NOTHING);
-  private readonly editor: DocumentEditor;
-  private readonly makeClient: () => Promise<TrialClient>;
-  private client: Promise<TrialClient> | null = null;
-  private readonly tried = new Map<number, Tried>();
-  private hasFailed = false;
-  private stop = new AbortController();
-  /** One motion at a time is in the worker. */
-  private last: Promise<unknown> = Promise.resolve();
+    readonly state = new Store<TrialsState>(NOTHING);
+    private readonly editor: DocumentEditor;
+    private readonly makeClient: () => Promise<TrialClient>;
+    private client: Promise<TrialClient> | null = null;
+    private readonly tried = new Map<number, Tried>();
+    private hasFailed = false;
+    private stop = new AbortController();
+    /** One motion at a time is in the worker. */
+    private last: Promise<unknown> = Promise.resolve();
 
-  constructor(editor: DocumentEditor, makeClient: () => Promise<TrialClient>) {
-    this.editor = editor;
-    this.makeClient = makeClient;
-  }
+    constructor(editor: DocumentEditor, makeClient: () => Promise<TrialClient>) {
+        this.editor = editor;
+        this.makeClient = makeClient;
+    }
 
-  async run(pages: readonly number[]): Promise<void> {
-    const { phase } = this.state.get();
-    const due = pages.filter((page) => this.isPlayable(page) && !this.isFresh(page));
-    if (phase === 'loading' || phase === 'trying' || due.length === 0) return;
-    this.stop = new AbortController();
-    this.hasFailed = false;
-    const { signal } = this.stop;
-    this.state.set({ phase: 'loading', done: 0, total: due.length, trouble: null });
-    try {
-      const client = await this.ready();
-      for (const [done, page] of due.entries()) {
+    async run(pages: readonly number[]): Promise<void> {
+        const { phase } = this.state.get();
+        const due = pages.filter(page => this.isPlayable(page) && !this.isFresh(page));
+        if (phase === 'loading' || phase === 'trying' || due.length === 0) return;
+        this.stop = new AbortController();
+        this.hasFailed = false;
+        const { signal } = this.stop;
+        this.state.set({ phase: 'loading', done: 0, total: due.length, trouble: null });
+        try {
+            const client = await this.ready();
+            for (const [done, page] of due.entries()) {
+                signal.throwIfAborted();
+                this.state.set({ phase: 'trying', page, done });
+                if (this.isPlayable(page)) await this.tryPage(client, page, signal);
+            }
+            this.state.set({ phase: 'idle', page: null, done: due.length });
+        } catch (error) {
+            const isStopped = signal.aborted;
+            if (!isStopped) this.giveUp();
+            this.state.set({ phase: isStopped ? 'idle' : 'failed', page: null, trouble: isStopped ? null : wordsOf(error) });
+        }
+    }
+
+    cancel(): void {
+        this.stop.abort();
+    }
+
+    /** Nothing is known any more: it is another document. */
+    forget(): void {
+        this.cancel();
+        this.tried.clear();
+        this.state.set({ trials: new Map() });
+    }
+
+    isFresh(page: number): boolean {
+        const { document, law } = this.editor.state.get();
+        const tried = this.tried.get(page);
+        return tried !== undefined && tried.law === law && [...tried.pages].every(([one, bytes]) => pageOf(document, one) === bytes);
+    }
+
+    async follow(page: number, ticks: number, shape: Shape, signal: AbortSignal): Promise<Float32Array | null> {
+        if (!this.isPlayable(page) || this.hasFailed) return null;
+        const request = { ...this.request(page, shape, ticks), toTheEnd: false };
+        try {
+            const record = await this.play(await this.ready(), request, signal);
+            return record.stood ? record.positions : null;
+        } catch (error) {
+            if (signal.aborted) throw error;
+            this.giveUp();
+            return null;
+        }
+    }
+
+    async touching(pose: ArrayLike<number>): Promise<readonly Touch[]> {
+        if (this.hasFailed) return [];
+        try {
+            const [touches] = await (await this.ready()).touching(Uint16Array.from(pose));
+            return touches ?? [];
+        } catch {
+            this.giveUp();
+            return []; // Checks says why, when somebody asks there
+        }
+    }
+
+    private async tryPage(client: TrialClient, page: number, signal: AbortSignal): Promise<void> {
+        const { document, law } = this.editor.state.get();
+        const reached = new Map(this.editor.format.reach(document, page).map(one => [one, pageOf(document, one)]));
+        const request = this.request(page, AS_STORED, TICKS);
+        const touches = await this.touchesOf(client, page);
+        const record = await this.play(client, request, signal);
         signal.throwIfAborted();
-        this.state.set({ phase: 'trying', page, done });
-        if (this.isPlayable(page)) await this.tryPage(client, page, signal);
-      }
-      this.state.set({ phase: 'idle', page: null, done: due.length });
-    } catch (error) {
-      const isStopped = signal.aborted;
-      if (!isStopped) this.giveUp();
-      this.state.set({ phase: isStopped ? 'idle' : 'failed', page: null, trouble: isStopped ? null : wordsOf(error) });
+        this.tried.set(page, { law, pages: reached });
+        this.state.set({
+            trials: new Map([...this.state.get().trials, [page, { verdict: verdictOf(record), pages: record.pages, touches }]]),
+        });
     }
-  }
 
-  cancel(): void {
-    this.stop.abort();
-  }
-
-  /** Nothing is known any more: it is another document. */
-  forget(): void {
-    this.cancel();
-    this.tried.clear();
-    this.state.set({ trials: new Map() });
-  }
-
-  isFresh(page: number): boolean {
-    const { document, law } = this.editor.state.get();
-    const tried = this.tried.get(page);
-    return tried !== undefined && tried.law === law && [...tried.pages].every(([one, bytes]) => pageOf(document, one) === bytes);
-  }
-
-  async follow(page: number, ticks: number, shape: Shape, signal: AbortSignal): Promise<Float32Array | null> {
-    if (!this.isPlayable(page) || this.hasFailed) return null;
-    const request = { ...this.request(page, shape, ticks), toTheEnd: false };
-    try {
-      const record = await this.play(await this.ready(), request, signal);
-      return record.stood ? record.positions : null;
-    } catch (error) {
-      if (signal.aborted) throw error;
-      this.giveUp();
-      return null;
+    private async touchesOf(client: TrialClient, page: number): Promise<StepTouch[]> {
+        const curve = this.editor.curve(page, { ticks: CURVE_TICKS });
+        if (!curve) return [];
+        const { poses, steps } = posesOf(curve, page);
+        return deepestTouches(steps, await client.touching(poses));
     }
-  }
 
-  async touching(pose: ArrayLike<number>): Promise<readonly Touch[]> {
-    if (this.hasFailed) return [];
-    try {
-      const [touches] = await (await this.ready()).touching(Uint16Array.from(pose));
-      return touches ?? [];
-    } catch {
-      this.giveUp();
-      return []; // Checks says why, when somebody asks there
+    private play(client: TrialClient, request: TrialRequest, signal: AbortSignal): Promise<TrialRecord> {
+        const mine = this.last.then(() => client.play(request, signal));
+        this.last = mine.catch(() => undefined);
+        return mine;
     }
-  }
 
-  private async tryPage(client: TrialClient, page: number, signal: AbortSignal): Promise<void> {
-    const { document, law } = this.editor.state.get();
-    const reached = new Map(this.editor.format.reach(document, page).map((one) => [one, pageOf(document, one)]));
-    const request = this.request(page, AS_STORED, TICKS);
-    const touches = await this.touchesOf(client, page);
-    const record = await this.play(client, request, signal);
-    signal.throwIfAborted();
-    this.tried.set(page, { law, pages: reached });
-    this.state.set({ trials: new Map([...this.state.get().trials, [page, { verdict: verdictOf(record), pages: record.pages, touches }]]) });
-  }
+    private request(page: number, shape: Shape, ticks: number): TrialRequest {
+        const { document, law } = this.editor.state.get();
+        return {
+            image: imageOf(document),
+            page,
+            law,
+            shape,
+            pose: this.editor.firstPose(page, shape),
+            ticks,
+            toTheEnd: true,
+            volts: NOMINAL_VOLTS,
+        };
+    }
 
-  private async touchesOf(client: TrialClient, page: number): Promise<StepTouch[]> {
-    const curve = this.editor.curve(page, { ticks: CURVE_TICKS });
-    if (!curve) return [];
-    const { poses, steps } = posesOf(curve, page);
-    return deepestTouches(steps, await client.touching(poses));
-  }
+    private isPlayable(page: number): boolean {
+        return page > 0 && this.editor.format.isPlayable(pageOf(this.editor.state.get().document, page));
+    }
 
-  private play(client: TrialClient, request: TrialRequest, signal: AbortSignal): Promise<TrialRecord> {
-    const mine = this.last.then(() => client.play(request, signal));
-    this.last = mine.catch(() => undefined);
-    return mine;
-  }
+    private ready(): Promise<TrialClient> {
+        this.client ??= this.makeClient();
+        return this.client;
+    }
 
-  private request(page: number, shape: Shape, ticks: number): TrialRequest {
-    const { document, law } = this.editor.state.get();
-    return { image: imageOf(document), page, law, shape, pose: this.editor.firstPose(page, shape), ticks, toTheEnd: true, volts: NOMINAL_VOLTS };
-  }
-
-  private isPlayable(page: number): boolean {
-    return page > 0 && this.editor.format.isPlayable(pageOf(this.editor.state.get().document, page));
-  }
-
-  private ready(): Promise<TrialClient> {
-    this.client ??= this.makeClient();
-    return this.client;
-  }
-
-  /** Physics does not work: nothing asks for it again until a person does. */
-  private giveUp(): void {
-    this.hasFailed = true;
-    void this.client?.then((client) => client.dispose(), () => undefined);
-    this.client = null;
-  }
+    /** Physics does not work: nothing asks for it again until a person does. */
+    private giveUp(): void {
+        this.hasFailed = true;
+        void this.client?.then(
+            client => client.dispose(),
+            () => undefined,
+        );
+        this.client = null;
+    }
 }
 
 function wordsOf(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
+    return error instanceof Error ? error.message : String(error);
 }

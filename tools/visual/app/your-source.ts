@@ -16,65 +16,81 @@ import { Standing } from '../sim/standing.ts';
 import type { SourceEvents } from './simulated-source.ts';
 
 export class YourSource {
-  private readonly events: SourceEvents;
-  private readonly mayAsk: () => boolean;
-  private readonly standing: Standing;
-  private port: SerialPort | null = null;
-  private startedMs = 0;
-  private follower: PoseFollower | null = null;
-  connection: Connection | null = null;
+    private readonly events: SourceEvents;
+    private readonly mayAsk: () => boolean;
+    private readonly standing: Standing;
+    private port: SerialPort | null = null;
+    private startedMs = 0;
+    private follower: PoseFollower | null = null;
+    connection: Connection | null = null;
 
-  constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
-    this.events = events;
-    this.mayAsk = mayAsk;
-    this.standing = new Standing(body);
-    if ('serial' in navigator) navigator.serial.addEventListener('connect', () => this.connection?.retryNow());
-  }
-
-  /** Lets the person choose a port, unless one was allowed before. false: the chooser was closed. */
-  async choose(): Promise<boolean> {
-    if (!('serial' in navigator)) throw new RobotError('no-serial');
-    try {
-      const [known] = await navigator.serial.getPorts();
-      this.port = known ?? (await navigator.serial.requestPort());
-      return true;
-    } catch (error) {
-      if (error instanceof DOMException && error.name === 'NotFoundError') return false;
-      throw new RobotError('port-busy', error instanceof Error ? error.message : '', { cause: error });
+    constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
+        this.events = events;
+        this.mayAsk = mayAsk;
+        this.standing = new Standing(body);
+        if ('serial' in navigator) navigator.serial.addEventListener('connect', () => this.connection?.retryNow());
     }
-  }
 
-  connect(): void {
-    if (!this.port) return;
-    this.follower?.stop();
-    this.standing.begin();
-    this.startedMs = performance.now();
-    // What an old connection still says when it is closed concerns nobody.
-    const connection: Connection = new Connection(new WebSerialPort(this.port), wallClock, {
-      state: (state) => this.connection === connection && this.events.connection(state),
-      text: (bytes) => this.connection === connection && this.events.text(bytes),
-      dialog: (isInDialog) => this.connection === connection && this.events.change({ isInDialog }),
-    });
-    this.connection = connection;
-    connection.connect();
-    this.follower = new PoseFollower(connection, wallClock, this.mayAsk, (pose) => this.show(pose));
-    this.follower.start();
-  }
+    /** Lets the person choose a port, unless one was allowed before. false: the chooser was closed. */
+    async choose(): Promise<boolean> {
+        if (!('serial' in navigator)) throw new RobotError('no-serial');
+        try {
+            const [known] = await navigator.serial.getPorts();
+            this.port = known ?? (await navigator.serial.requestPort());
+            return true;
+        } catch (error) {
+            if (error instanceof DOMException && error.name === 'NotFoundError') return false;
+            throw new RobotError('port-busy', error instanceof Error ? error.message : '', { cause: error });
+        }
+    }
 
-  async close(): Promise<void> {
-    const connection = this.connection;
-    this.connection = null;
-    this.follower?.stop();
-    await connection?.close();
-  }
+    connect(): void {
+        if (!this.port) return;
+        this.follower?.stop();
+        this.standing.begin();
+        this.startedMs = performance.now();
+        // What an old connection still says when it is closed concerns nobody.
+        const connection: Connection = new Connection(new WebSerialPort(this.port), wallClock, {
+            state: state => this.connection === connection && this.events.connection(state),
+            text: bytes => this.connection === connection && this.events.text(bytes),
+            dialog: isInDialog => this.connection === connection && this.events.change({ isInDialog }),
+        });
+        this.connection = connection;
+        connection.connect();
+        this.follower = new PoseFollower(connection, wallClock, this.mayAsk, pose => this.show(pose));
+        this.follower.start();
+    }
 
-  private show(pose: readonly JointPose[]): void {
-    const positions = new Map(pose.map((joint) => [joint.id, joint.position]));
-    const servos: ServoState[] = pose.map(({ id, position, torque }) => ({
-      id, goalPos: null, position: position ?? POSITION_MIDDLE, torque, alarms: 0, celsius: 0, faults: 0,
-    }));
-    const trunk = this.standing.move((joint) => jointAngle(joint, positions.get(joint.servo) ?? joint.zero));
-    const ticks = Math.floor(((performance.now() - this.startedMs) / 1000) * TICKS_PER_SECOND);
-    this.events.frame({ ticks, servos, trunk, leds: 0, isPowered: true, isHeld: false, hasFallen: false, lateMs: 0, trace: new Float32Array(0) });
-  }
+    async close(): Promise<void> {
+        const connection = this.connection;
+        this.connection = null;
+        this.follower?.stop();
+        await connection?.close();
+    }
+
+    private show(pose: readonly JointPose[]): void {
+        const positions = new Map(pose.map(joint => [joint.id, joint.position]));
+        const servos: ServoState[] = pose.map(({ id, position, torque }) => ({
+            id,
+            goalPos: null,
+            position: position ?? POSITION_MIDDLE,
+            torque,
+            alarms: 0,
+            celsius: 0,
+            faults: 0,
+        }));
+        const trunk = this.standing.move(joint => jointAngle(joint, positions.get(joint.servo) ?? joint.zero));
+        const ticks = Math.floor(((performance.now() - this.startedMs) / 1000) * TICKS_PER_SECOND);
+        this.events.frame({
+            ticks,
+            servos,
+            trunk,
+            leds: 0,
+            isPowered: true,
+            isHeld: false,
+            hasFallen: false,
+            lateMs: 0,
+            trace: new Float32Array(0),
+        });
+    }
 }

@@ -7,6 +7,7 @@ FOLDER/body.json  the same as numbers, for the picture and for kinematics: links
                   shapes with their colours and masses. Metres, kilograms, radians, quaternions as w x y z. There is no number here that is not in
                   the body file.
 """
+
 import json
 import pathlib
 import sys
@@ -17,8 +18,12 @@ from body.description import UNITS_PER_RADIAN, load, numbers
 
 def multiplied(a, b):
     (aw, ax, ay, az), (bw, bx, by, bz) = a, b
-    return (aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw)
+    return (
+        aw * bw - ax * bx - ay * by - az * bz,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+    )
 
 
 def quaternion(element):
@@ -49,20 +54,41 @@ def shape(geom, body):
     if geom.get("fromto"):
         place, half, turn = from_to(numbers(geom.get("fromto")))
         size.append(half)
-    return {"name": geom.get("name"), "body": body, "type": kind, "size": size, "pos": place, "quat": turn,
-            "material": geom.get("material", "bracket"), "mass": float(geom.get("mass", "0"))}
+    return {
+        "name": geom.get("name"),
+        "body": body,
+        "type": kind,
+        "size": size,
+        "pos": place,
+        "quat": turn,
+        "material": geom.get("material", "bracket"),
+        "mass": float(geom.get("mass", "0")),
+    }
 
 
 def described(body):
     root = body.root
     links, shapes = [], []
     for name, element in body.bodies.items():
-        links.append({"name": name, "parent": body.parent[name], "pos": list(numbers(element.get("pos", "0 0 0"))),
-                      "quat": list(quaternion(element))})
+        links.append(
+            {"name": name, "parent": body.parent[name], "pos": list(numbers(element.get("pos", "0 0 0"))), "quat": list(quaternion(element))}
+        )
         shapes += [shape(geom, name) for geom in element.findall("geom")]
     axes = {joint.get("name"): list(numbers(joint.get("axis", "0 0 1"))) for joint in root.iter("joint")}
-    joints = [{"servo": j.servo, "name": j.name, "body": j.body, "direction": j.direction, "zero": j.zero,
-               "radiansPerUnit": 1 / UNITS_PER_RADIAN, "low": j.low, "high": j.high, "axis": axes[j.name]} for j in body.joints.values()]
+    joints = [
+        {
+            "servo": j.servo,
+            "name": j.name,
+            "body": j.body,
+            "direction": j.direction,
+            "zero": j.zero,
+            "radiansPerUnit": 1 / UNITS_PER_RADIAN,
+            "low": j.low,
+            "high": j.high,
+            "axis": axes[j.name],
+        }
+        for j in body.joints.values()
+    ]
     materials = {m.get("name"): list(numbers(m.get("rgba"))) for m in root.iter("material")}
     return {"name": body.name, "links": links, "joints": joints, "shapes": shapes, "materials": materials}
 

@@ -4,6 +4,7 @@
 An image is 65,536 bytes: pages 0..127 as they lie in flash. Every answer is a dict of plain values; an error of m512's is
 {"error": its sentence}. Other exceptions are mistakes of ours and pass.
 """
+
 from pathlib import Path
 
 from m512.errors import M512Error
@@ -25,6 +26,7 @@ def _told(function):
             return function(*arguments)
         except M512Error as error:
             return {"error": short(str(error))}
+
     return told
 
 
@@ -62,11 +64,20 @@ def saved(name, data):
 def checked(data):
     """What `m512 pages check` says: {"found": [{"page", "text", "is_fault"}]}; is_fault is false for what may only surprise."""
     image = raw.from_bytes(bytes(data))
-    return {"found": [{"page": page, "text": text, "is_fault": is_fault}
-                      for found, is_fault in ((operations.check(image), True), (operations.remarks(image), False)) for page, text in found]}
+    return {
+        "found": [
+            {"page": page, "text": text, "is_fault": is_fault}
+            for found, is_fault in ((operations.check(image), True), (operations.remarks(image), False))
+            for page, text in found
+        ]
+    }
 
 
 @_told
 def differences(first, second):
     """What `m512 diff` says: {"changes": [{"page", "text"}]}."""
-    return {"changes": [{"page": change.page, "text": str(change)} for change in difference.images(raw.from_bytes(bytes(first)), raw.from_bytes(bytes(second)))]}
+    return {
+        "changes": [
+            {"page": change.page, "text": str(change)} for change in difference.images(raw.from_bytes(bytes(first)), raw.from_bytes(bytes(second)))
+        ]
+    }

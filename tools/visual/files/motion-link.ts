@@ -11,55 +11,61 @@ export const MOST_CHARACTERS = 8000;
 const MOST_BYTES = 1 + PAGE_COUNT * ENTRY;
 
 async function through(bytes: Uint8Array, stream: CompressionStream | DecompressionStream): Promise<Uint8Array> {
-  const chunks: Uint8Array[] = [];
-  let length = 0;
-  const reader = new Blob([bytes as Uint8Array<ArrayBuffer>]).stream().pipeThrough(stream as ReadableWritablePair<Uint8Array, BufferSource>).getReader();
-  for (let read = await reader.read(); !read.done; read = await reader.read()) {
-    chunks.push(read.value);
-    length += read.value.length;
-    if (length > MOST_BYTES) {
-      await reader.cancel();
-      throw new RangeError('more than 128 pages');
+    const chunks: Uint8Array[] = [];
+    let length = 0;
+    const reader = new Blob([bytes as Uint8Array<ArrayBuffer>])
+        .stream()
+        .pipeThrough(stream as ReadableWritablePair<Uint8Array, BufferSource>)
+        .getReader();
+    for (let read = await reader.read(); !read.done; read = await reader.read()) {
+        chunks.push(read.value);
+        length += read.value.length;
+        if (length > MOST_BYTES) {
+            await reader.cancel();
+            throw new RangeError('more than 128 pages');
+        }
     }
-  }
-  const whole = new Uint8Array(length);
-  let at = 0;
-  for (const chunk of chunks) {
-    whole.set(chunk, at);
-    at += chunk.length;
-  }
-  return whole;
+    const whole = new Uint8Array(length);
+    let at = 0;
+    for (const chunk of chunks) {
+        whole.set(chunk, at);
+        at += chunk.length;
+    }
+    return whole;
 }
 
 /** Pages by their numbers, 1..127, as text for an address. */
 export async function encodeMotion(pages: ReadonlyMap<number, Uint8Array>): Promise<string> {
-  const bytes = new Uint8Array(1 + pages.size * ENTRY);
-  bytes[0] = VERSION;
-  [...pages].forEach(([page, contents], i) => {
-    bytes[1 + i * ENTRY] = page;
-    bytes.set(contents, 2 + i * ENTRY);
-  });
-  const packed = await through(bytes, new CompressionStream('deflate-raw'));
-  return btoa(String.fromCharCode(...packed)).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+    const bytes = new Uint8Array(1 + pages.size * ENTRY);
+    bytes[0] = VERSION;
+    [...pages].forEach(([page, contents], i) => {
+        bytes[1 + i * ENTRY] = page;
+        bytes.set(contents, 2 + i * ENTRY);
+    });
+    const packed = await through(bytes, new CompressionStream('deflate-raw'));
+    return btoa(String.fromCharCode(...packed))
+        .replaceAll('+', '-')
+        .replaceAll('/', '_')
+        .replaceAll('=', '');
 }
 
 /** Null: the text is no motion, or was cut on its way. */
 export async function decodeMotion(text: string): Promise<Map<number, Uint8Array> | null> {
-  try {
-    const packed = Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), (letter) => letter.charCodeAt(0));
-    return entries(await through(packed, new DecompressionStream('deflate-raw')));
-  } catch {
-    return null; // whatever was wrong with it: there is one sentence for a bad link
-  }
+    try {
+        const packed = Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), letter => letter.charCodeAt(0));
+        return entries(await through(packed, new DecompressionStream('deflate-raw')));
+    } catch {
+        return null; // whatever was wrong with it: there is one sentence for a bad link
+    }
 }
 
 function entries(bytes: Uint8Array): Map<number, Uint8Array> | null {
-  if (bytes[0] !== VERSION || bytes.length === 1 || (bytes.length - 1) % ENTRY !== 0) return null;
-  const pages = new Map<number, Uint8Array>();
-  for (let at = 1; at < bytes.length; at += ENTRY) {
-    const page = bytes[at] ?? 0;
-    if (page === 0 || page >= PAGE_COUNT || pages.has(page)) return null;
-    pages.set(page, bytes.slice(at + 1, at + ENTRY));
-  }
-  return pages;
+    if (bytes[0] !== VERSION || bytes.length === 1 || (bytes.length - 1) % ENTRY !== 0) return null;
+    const pages = new Map<number, Uint8Array>();
+    for (let at = 1; at < bytes.length; at += ENTRY) {
+        const page = bytes[at] ?? 0;
+        if (page === 0 || page >= PAGE_COUNT || pages.has(page)) return null;
+        pages.set(page, bytes.slice(at + 1, at + ENTRY));
+    }
+    return pages;
 }

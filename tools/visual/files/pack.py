@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Run by pack.mjs inside Pyodide: packs the modules in use into /python.zip. Sources lie in /pack and the standard library."""
+
 import importlib._bootstrap_external as external
 import sys
 import zipfile
@@ -18,7 +19,7 @@ def use_everything():
     for name in ("a.bin", "a.hex", "a.m512", "a.mtn"):
         file = bridge.saved(name, empty)["file"]
         bridge.opened(name, file)
-        bridge.opened(name, file[:-2] + "\ufffd".encode())   # a checksum that an editor spoiled: encodings of its own
+        bridge.opened(name, file[:-2] + "\ufffd".encode())  # a checksum that an editor spoiled: encodings of its own
     assert "error" in bridge.opened("a.csv", b"page,") and "error" in bridge.opened("a.txt", b"?")
     bridge.checked(empty)
     bridge.differences(empty, empty)
@@ -32,16 +33,16 @@ def modules():
     for module in list(sys.modules.values()):
         file = getattr(module, "__file__", None) or ""
         if file.startswith(STANDARD + "/"):
-            found[file[len(STANDARD) + 1:]] = library.get_data(file)
+            found[file[len(STANDARD) + 1 :]] = library.get_data(file)
         elif file.startswith("/pack/"):
             with open(file, "rb") as source:
-                found[file[len("/pack/"):]] = source.read()
+                found[file[len("/pack/") :]] = source.read()
     return found
 
 
 def compiled(name, source):
     code = compile(source, name, "exec", dont_inherit=True)
-    return external._code_to_hash_pyc(code, bytes(8), False)   # never looked at: there is no source beside it
+    return external._code_to_hash_pyc(code, bytes(8), False)  # never looked at: there is no source beside it
 
 
 use_everything()

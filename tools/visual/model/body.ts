@@ -7,75 +7,75 @@ import { within, turn } from './space.ts';
 import type { Place, Quaternion, Vector } from './space.ts';
 
 export interface Link {
-  readonly name: string;
-  /** null: the trunk, which nothing carries. Parents stand before their children. */
-  readonly parent: string | null;
-  readonly pos: Vector;
-  readonly quat: Quaternion;
+    readonly name: string;
+    /** null: the trunk, which nothing carries. Parents stand before their children. */
+    readonly parent: string | null;
+    readonly pos: Vector;
+    readonly quat: Quaternion;
 }
 
 export interface Joint {
-  readonly servo: number;
-  readonly name: string;
-  /** The link that it turns. */
-  readonly body: string;
-  readonly direction: 1 | -1;
-  /** Servo position of angle 0. */
-  readonly zero: number;
-  /** Of its servo: what a unit of position turns. */
-  readonly radiansPerUnit: number;
-  /** Radians. */
-  readonly low: number;
-  readonly high: number;
-  readonly axis: Vector;
+    readonly servo: number;
+    readonly name: string;
+    /** The link that it turns. */
+    readonly body: string;
+    readonly direction: 1 | -1;
+    /** Servo position of angle 0. */
+    readonly zero: number;
+    /** Of its servo: what a unit of position turns. */
+    readonly radiansPerUnit: number;
+    /** Radians. */
+    readonly low: number;
+    readonly high: number;
+    readonly axis: Vector;
 }
 
 export interface Shape {
-  readonly name: string | null;
-  readonly body: string;
-  readonly type: 'box' | 'capsule' | 'sphere' | 'cylinder';
-  /** box: half edges; sphere: radius; capsule and cylinder: radius and half length along its z. */
-  readonly size: readonly number[];
-  readonly pos: Vector;
-  readonly quat: Quaternion;
-  readonly material: string;
-  /** Kilograms; 0: only to be seen. */
-  readonly mass: number;
+    readonly name: string | null;
+    readonly body: string;
+    readonly type: 'box' | 'capsule' | 'sphere' | 'cylinder';
+    /** box: half edges; sphere: radius; capsule and cylinder: radius and half length along its z. */
+    readonly size: readonly number[];
+    readonly pos: Vector;
+    readonly quat: Quaternion;
+    readonly material: string;
+    /** Kilograms; 0: only to be seen. */
+    readonly mass: number;
 }
 
 export interface Body {
-  readonly name: string;
-  readonly links: readonly Link[];
-  readonly joints: readonly Joint[];
-  readonly shapes: readonly Shape[];
-  readonly materials: Readonly<Record<string, readonly [number, number, number, number]>>;
+    readonly name: string;
+    readonly links: readonly Link[];
+    readonly joints: readonly Joint[];
+    readonly shapes: readonly Shape[];
+    readonly materials: Readonly<Record<string, readonly [number, number, number, number]>>;
 }
 
 export function jointAngle(joint: Joint, position: number): number {
-  return joint.direction * (position - joint.zero) * joint.radiansPerUnit;
+    return joint.direction * (position - joint.zero) * joint.radiansPerUnit;
 }
 
 export function servoPosition(joint: Joint, angleRad: number): number {
-  return joint.zero + (joint.direction * angleRad) / joint.radiansPerUnit;
+    return joint.zero + (joint.direction * angleRad) / joint.radiansPerUnit;
 }
 
 /** So many units of position, in degrees. */
 export function degreesOf(joint: Joint, units: number): number {
-  return (units * joint.radiansPerUnit * 180) / Math.PI;
+    return (units * joint.radiansPerUnit * 180) / Math.PI;
 }
 
 /** Servo IDs of the joints that mirror each other, right and left: their names differ only in their side. */
 export function jointPairs(body: Body): (readonly [right: number, left: number])[] {
-  const servos = new Map(body.joints.map((joint) => [joint.name, joint.servo]));
-  return body.joints.flatMap((joint) => {
-    const left = joint.name.startsWith('right_') ? servos.get(joint.name.replace('right_', 'left_')) : undefined;
-    return left === undefined ? [] : [[joint.servo, left] as const];
-  });
+    const servos = new Map(body.joints.map(joint => [joint.name, joint.servo]));
+    return body.joints.flatMap(joint => {
+        const left = joint.name.startsWith('right_') ? servos.get(joint.name.replace('right_', 'left_')) : undefined;
+        return left === undefined ? [] : [[joint.servo, left] as const];
+    });
 }
 
 /** "right_hip_pitch" as people read it. */
 export function jointTitle(joint: Joint): string {
-  return joint.name.replaceAll('_', ' ');
+    return joint.name.replaceAll('_', ' ');
 }
 
 export type Side = 'right' | 'left';
@@ -84,45 +84,52 @@ export type Side = 'right' | 'left';
 export type Angles = ReadonlyMap<number, number>;
 
 export function angleIn(angles: Angles): (joint: Joint) => number {
-  return (joint) => angles.get(joint.servo) ?? 0;
+    return joint => angles.get(joint.servo) ?? 0;
 }
 
 /** Angles of a step or a pose: servo positions by ID; where there is none, `others`. */
 export function anglesOf(body: Body, positions: ArrayLike<number | null>, others: Angles): Angles {
-  return new Map(body.joints.map((joint) => {
-    const position = positions[joint.servo] ?? null;
-    return [joint.servo, position === null ? (others.get(joint.servo) ?? 0) : jointAngle(joint, position)] as const;
-  }));
+    return new Map(
+        body.joints.map(joint => {
+            const position = positions[joint.servo] ?? null;
+            return [joint.servo, position === null ? (others.get(joint.servo) ?? 0) : jointAngle(joint, position)] as const;
+        }),
+    );
 }
 
 /** The whole servo position nearest to an angle that joint and servo can have. */
 export function nearestPosition(joint: Joint, angleRad: number): number {
-  const angle = Math.min(Math.max(angleRad, joint.low), joint.high);
-  return Math.min(Math.max(Math.round(servoPosition(joint, angle)), 0), POSITION_MAX);
+    const angle = Math.min(Math.max(angleRad, joint.low), joint.high);
+    return Math.min(Math.max(Math.round(servoPosition(joint, angle)), 0), POSITION_MAX);
 }
 
 /** Places of all links. angleOf: radians of the joint that turns this link, 0 for a link without one. */
 export function placeLinks(body: Body, trunk: Place, angleOf: (joint: Joint) => number): Map<string, Place> {
-  const joints = new Map(body.joints.map((joint) => [joint.body, joint]));
-  const places = new Map<string, Place>();
-  for (const link of body.links) {
-    const carrier = link.parent === null ? null : places.get(link.parent);
-    if (!carrier) {
-      places.set(link.name, trunk);
-      continue;
+    const joints = new Map(body.joints.map(joint => [joint.body, joint]));
+    const places = new Map<string, Place>();
+    for (const link of body.links) {
+        const carrier = link.parent === null ? null : places.get(link.parent);
+        if (!carrier) {
+            places.set(link.name, trunk);
+            continue;
+        }
+        const joint = joints.get(link.name);
+        const still = within(carrier, link);
+        const turned = joint ? { pos: [0, 0, 0] as const, quat: turn(joint.axis, angleOf(joint)) } : null;
+        places.set(link.name, turned ? within(still, turned) : still);
     }
-    const joint = joints.get(link.name);
-    const still = within(carrier, link);
-    const turned = joint ? { pos: [0, 0, 0] as const, quat: turn(joint.axis, angleOf(joint)) } : null;
-    places.set(link.name, turned ? within(still, turned) : still);
-  }
-  return places;
+    return places;
 }
 
 /** The four lower corners of a sole, in the frame of its link. */
 export function soleCorners(body: Body, name: string): Vector[] {
-  const sole = body.shapes.find((shape) => shape.name === name);
-  if (!sole) return [];
-  const [x = 0, y = 0, z = 0] = sole.size;
-  return [[x, y], [x, -y], [-x, y], [-x, -y]].map(([dx = 0, dy = 0]) => [sole.pos[0] + dx, sole.pos[1] + dy, sole.pos[2] - z]);
+    const sole = body.shapes.find(shape => shape.name === name);
+    if (!sole) return [];
+    const [x = 0, y = 0, z = 0] = sole.size;
+    return [
+        [x, y],
+        [x, -y],
+        [-x, y],
+        [-x, -y],
+    ].map(([dx = 0, dy = 0]) => [sole.pos[0] + dx, sole.pos[1] + dy, sole.pos[2] - z]);
 }

@@ -18,15 +18,15 @@ import { rotate } from './space.ts';
 export type CheckKind = 'damaged' | 'too-fast' | 'out-of-reach' | 'tips-over' | 'exit-circle';
 
 export interface PageFinding {
-  readonly kind: CheckKind;
-  readonly page: number;
-  /** 0..6; null: the page as a whole. */
-  readonly step: number | null;
-  /** Servo ID; null: none in particular. */
-  readonly joint: number | null;
-  /** too-fast: times the top speed; tips-over: metres outside the soles; else 0. */
-  readonly amount: number;
-  readonly fault: PageFault | null;
+    readonly kind: CheckKind;
+    readonly page: number;
+    /** 0..6; null: the page as a whole. */
+    readonly step: number | null;
+    /** Servo ID; null: none in particular. */
+    readonly joint: number | null;
+    /** too-fast: times the top speed; tips-over: metres outside the soles; else 0. */
+    readonly amount: number;
+    readonly fault: PageFault | null;
 }
 
 /** Joints may be set so far beyond what the body allows before it is told: rounding. Radians. */
@@ -39,64 +39,67 @@ const UPRIGHT = 0.5;
 const HELD_TICKS = 26;
 
 export interface CheckOptions {
-  readonly format: PageFormat;
-  readonly body: Body;
-  /** Servo units a tick that a servo should be asked for at most (Motion.topSpeed). */
-  readonly topSpeed: number;
-  /** What the player makes of one page; null: nothing. */
-  readonly curve: (page: number) => Curve | null;
+    readonly format: PageFormat;
+    readonly body: Body;
+    /** Servo units a tick that a servo should be asked for at most (Motion.topSpeed). */
+    readonly topSpeed: number;
+    /** What the player makes of one page; null: nothing. */
+    readonly curve: (page: number) => Curve | null;
 }
 
 function finding(kind: CheckKind, page: number, more: Partial<PageFinding> = {}): PageFinding {
-  return { kind, page, step: null, joint: null, amount: 0, fault: null, ...more };
+    return { kind, page, step: null, joint: null, amount: 0, fault: null, ...more };
 }
 
 /** All findings of one page that do not depend on other pages. */
 export function checkPage(document: MotionDocument, page: number, { format, body, topSpeed, curve }: CheckOptions): PageFinding[] {
-  const bytes = pageOf(document, page);
-  const fault = format.fault(bytes);
-  if (fault !== null) return [finding('damaged', page, { fault })];
-  if (page === 0 || !format.isPlayable(bytes)) return [];
-  const played = curve(page);
-  const fast = played ? fastSteps(played, topSpeed).filter((one) => one.page === page) : [];
-  const { steps, next } = readPage(format, bytes);
-  return [
-    ...fast.map(({ step, joint, times }) => finding('too-fast', page, { step, joint, amount: times })),
-    ...steps.flatMap((step, index) => checkReach(body, page, index, step)), ...checkBalance(body, page, steps, next === 0),
-  ];
+    const bytes = pageOf(document, page);
+    const fault = format.fault(bytes);
+    if (fault !== null) return [finding('damaged', page, { fault })];
+    if (page === 0 || !format.isPlayable(bytes)) return [];
+    const played = curve(page);
+    const fast = played ? fastSteps(played, topSpeed).filter(one => one.page === page) : [];
+    const { steps, next } = readPage(format, bytes);
+    return [
+        ...fast.map(({ step, joint, times }) => finding('too-fast', page, { step, joint, amount: times })),
+        ...steps.flatMap((step, index) => checkReach(body, page, index, step)),
+        ...checkBalance(body, page, steps, next === 0),
+    ];
 }
 
 function checkReach(body: Body, page: number, index: number, step: Step): PageFinding[] {
-  return body.joints.flatMap((joint) => {
-    const position = step.positions[joint.servo] ?? null;
-    const angle = position === null ? 0 : jointAngle(joint, position);
-    return angle < joint.low - REACH_SLACK || angle > joint.high + REACH_SLACK ? [finding('out-of-reach', page, { step: index, joint: joint.servo })] : [];
-  });
+    return body.joints.flatMap(joint => {
+        const position = step.positions[joint.servo] ?? null;
+        const angle = position === null ? 0 : jointAngle(joint, position);
+        return angle < joint.low - REACH_SLACK || angle > joint.high + REACH_SLACK
+            ? [finding('out-of-reach', page, { step: index, joint: joint.servo })]
+            : [];
+    });
 }
 
 /** The worst of the poses that the page holds: one is enough to look there. Through the others it goes without a stop, as a walk does, and
  *  what it leans out of the soles it swings back: there physics has to say. */
 function checkBalance(body: Body, page: number, steps: readonly Step[], isEnd: boolean): PageFinding[] {
-  const isHeld = (step: Step, index: number): boolean => step.pause > HELD_TICKS || (isEnd && index === steps.length - 1);
-  const out = steps.map((step, index) => (isHeld(step, index) ? tipsOver(body, step) : 0));
-  const worst = Math.max(0, ...out);
-  return worst > TIPS_M ? [finding('tips-over', page, { step: out.indexOf(worst), amount: worst })] : [];
+    const isHeld = (step: Step, index: number): boolean => step.pause > HELD_TICKS || (isEnd && index === steps.length - 1);
+    const out = steps.map((step, index) => (isHeld(step, index) ? tipsOver(body, step) : 0));
+    const worst = Math.max(0, ...out);
+    return worst > TIPS_M ? [finding('tips-over', page, { step: out.indexOf(worst), amount: worst })] : [];
 }
 
 /** Metres by which the centre of mass lies outside the soles while the pose is held; 0: it stands, lies or leans on its hands, or
  *  does not use the legs. */
 function tipsOver(body: Body, step: Step): number {
-  if (body.joints.some((joint) => joint.name.includes('hip') && (step.positions[joint.servo] ?? null) === null)) return 0;
-  const angles = anglesOf(body, step.positions, new Map());
-  const trunk = trunkOn(body, lowerFoot(body, angles), angles, ORIGIN);
-  if (rotate(trunk.quat, [0, 0, 1])[2] < UPRIGHT) return 0;
-  const places = placeLinks(body, trunk, angleIn(angles));
-  const [x, y] = centreOfMass(body, places);
-  const margin = marginInside(supportPolygon(body, places), [x, y]);
-  return margin < 0 && Number.isFinite(margin) ? -margin : 0;
+    if (body.joints.some(joint => joint.name.includes('hip') && (step.positions[joint.servo] ?? null) === null)) return 0;
+    const angles = anglesOf(body, step.positions, new Map());
+    const trunk = trunkOn(body, lowerFoot(body, angles), angles, ORIGIN);
+    if (rotate(trunk.quat, [0, 0, 1])[2] < UPRIGHT) return 0;
+    const places = placeLinks(body, trunk, angleIn(angles));
+    const [x, y] = centreOfMass(body, places);
+    const margin = marginInside(supportPolygon(body, places), [x, y]);
+    return margin < 0 && Number.isFinite(margin) ? -margin : 0;
 }
 
 /** What is odd about the links of all pages; m512 tells of those that lead nowhere. */
 export function checkLinks(format: PageFormat, document: MotionDocument): PageFinding[] {
-  return linkGraph(format, document).nodes.flatMap(({ page, exitsRound }) => (exitsRound ? [finding('exit-circle', page)] : []));
+    return linkGraph(format, document).nodes.flatMap(({ page, exitsRound }) => (exitsRound ? [finding('exit-circle', page)] : []));
 }

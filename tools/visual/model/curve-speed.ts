@@ -10,42 +10,42 @@ export type TickSpan = readonly [from: number, to: number];
 /** Where a joint is asked to go faster than `unitsPerTick`: the spans between whose ticks it hurries. A goal is a whole number:
  *  speeds are taken over four ticks, so that rounding does not count. */
 export function tooFast(curve: Curve, joint: number, unitsPerTick: number): TickSpan[] {
-  const goal = (tick: number): number => curve.goals[tick * JOINTS + joint] ?? 0;
-  const spans: [number, number][] = [];
-  for (let tick = OVER_TICKS; tick < curve.ticks; tick++) {
-    if (Math.abs(goal(tick) - goal(tick - OVER_TICKS)) <= unitsPerTick * OVER_TICKS + 1) continue;
-    const last = spans.at(-1);
-    if (last && last[1] >= tick - OVER_TICKS) last[1] = tick + 1;
-    else spans.push([tick - OVER_TICKS, tick + 1]);
-  }
-  return spans;
+    const goal = (tick: number): number => curve.goals[tick * JOINTS + joint] ?? 0;
+    const spans: [number, number][] = [];
+    for (let tick = OVER_TICKS; tick < curve.ticks; tick++) {
+        if (Math.abs(goal(tick) - goal(tick - OVER_TICKS)) <= unitsPerTick * OVER_TICKS + 1) continue;
+        const last = spans.at(-1);
+        if (last && last[1] >= tick - OVER_TICKS) last[1] = tick + 1;
+        else spans.push([tick - OVER_TICKS, tick + 1]);
+    }
+    return spans;
 }
 
 const OVER_TICKS = 4;
 
 export interface FastStep {
-  readonly page: number;
-  /** 0..6 */
-  readonly step: number;
-  /** The joint that is asked for most, by ID. */
-  readonly joint: number;
-  /** How many times `unitsPerTick`. */
-  readonly times: number;
+    readonly page: number;
+    /** 0..6 */
+    readonly step: number;
+    /** The joint that is asked for most, by ID. */
+    readonly joint: number;
+    /** How many times `unitsPerTick`. */
+    readonly times: number;
 }
 
 /** Steps in which a joint is asked to go faster than `unitsPerTick`: the worst joint of each. */
 export function fastSteps(curve: Curve, unitsPerTick: number): FastStep[] {
-  const worst = new Map<number, FastStep>();
-  for (let joint = 0; joint < JOINTS; joint++) {
-    for (const [from, to] of tooFast(curve, joint, unitsPerTick)) {
-      for (let tick = from + OVER_TICKS; tick < to; tick++) {
-        const [page = 0, step = 0] = curve.marks.subarray(MARK_BYTES * tick);
-        const way = Math.abs((curve.goals[tick * JOINTS + joint] ?? 0) - (curve.goals[(tick - OVER_TICKS) * JOINTS + joint] ?? 0));
-        const times = way / OVER_TICKS / unitsPerTick;
-        const key = (page << 3) | step;
-        if (times > Math.max(1, worst.get(key)?.times ?? 0)) worst.set(key, { page, step: step - 1, joint, times });
-      }
+    const worst = new Map<number, FastStep>();
+    for (let joint = 0; joint < JOINTS; joint++) {
+        for (const [from, to] of tooFast(curve, joint, unitsPerTick)) {
+            for (let tick = from + OVER_TICKS; tick < to; tick++) {
+                const [page = 0, step = 0] = curve.marks.subarray(MARK_BYTES * tick);
+                const way = Math.abs((curve.goals[tick * JOINTS + joint] ?? 0) - (curve.goals[(tick - OVER_TICKS) * JOINTS + joint] ?? 0));
+                const times = way / OVER_TICKS / unitsPerTick;
+                const key = (page << 3) | step;
+                if (times > Math.max(1, worst.get(key)?.times ?? 0)) worst.set(key, { page, step: step - 1, joint, times });
+            }
+        }
     }
-  }
-  return [...worst.values()];
+    return [...worst.values()];
 }

@@ -7,58 +7,58 @@ import type { PageFormat } from './page-format.ts';
 import type { Change } from './transaction.ts';
 
 export interface MotionDocument {
-  readonly name: string;
-  readonly pages: readonly Uint8Array[];
+    readonly name: string;
+    readonly pages: readonly Uint8Array[];
 }
 
 export function emptyDocument(format: PageFormat, name: string): MotionDocument {
-  return { name, pages: Array.from({ length: PAGE_COUNT }, () => format.empty) };
+    return { name, pages: Array.from({ length: PAGE_COUNT }, () => format.empty) };
 }
 
 /** From the 65,536 bytes of a motion area. Throws RangeError on another length. */
 export function documentFrom(image: Uint8Array, name: string): MotionDocument {
-  if (image.length !== PAGE_BYTES * PAGE_COUNT) throw new RangeError(`a motion area has 65,536 bytes, not ${image.length}`);
-  return { name, pages: Array.from({ length: PAGE_COUNT }, (_, page) => image.slice(page * PAGE_BYTES, (page + 1) * PAGE_BYTES)) };
+    if (image.length !== PAGE_BYTES * PAGE_COUNT) throw new RangeError(`a motion area has 65,536 bytes, not ${image.length}`);
+    return { name, pages: Array.from({ length: PAGE_COUNT }, (_, page) => image.slice(page * PAGE_BYTES, (page + 1) * PAGE_BYTES)) };
 }
 
 export function imageOf(document: MotionDocument): Uint8Array {
-  const image = new Uint8Array(PAGE_BYTES * PAGE_COUNT);
-  for (const [page, bytes] of document.pages.entries()) image.set(bytes, page * PAGE_BYTES);
-  return image;
+    const image = new Uint8Array(PAGE_BYTES * PAGE_COUNT);
+    for (const [page, bytes] of document.pages.entries()) image.set(bytes, page * PAGE_BYTES);
+    return image;
 }
 
 /** Page 0..127. Throws RangeError on another number. */
 export function pageOf(document: MotionDocument, page: number): Uint8Array {
-  const bytes = document.pages[page];
-  if (!bytes) throw new RangeError(`no page ${page}`);
-  return bytes;
+    const bytes = document.pages[page];
+    if (!bytes) throw new RangeError(`no page ${page}`);
+    return bytes;
 }
 
 export function isSamePage(a: Uint8Array, b: Uint8Array): boolean {
-  return a === b || (a.length === b.length && a.every((byte, i) => byte === b[i]));
+    return a === b || (a.length === b.length && a.every((byte, i) => byte === b[i]));
 }
 
 /** The name of a copy that none of these documents has yet: "walk (copy)", "walk (copy 2)" ... */
 export function copyName(name: string, taken: readonly string[]): string {
-  const base = name.replace(/ \(copy( \d+)?\)$/, '');
-  for (let count = 1; ; count++) {
-    const copy = `${base} (copy${count === 1 ? '' : ` ${count}`})`;
-    if (!taken.includes(copy)) return copy;
-  }
+    const base = name.replace(/ \(copy( \d+)?\)$/, '');
+    for (let count = 1; ; count++) {
+        const copy = `${base} (copy${count === 1 ? '' : ` ${count}`})`;
+        if (!taken.includes(copy)) return copy;
+    }
 }
 
 /** The document with the pages that the changes name. Throws when one of them was not as a change expects it: our mistake. */
 export function withChanges(document: MotionDocument, changes: readonly Change[]): MotionDocument {
-  const pages = [...document.pages];
-  for (const { page, before, after } of changes) {
-    const now = pages[page];
-    if (!now || !isSamePage(now, before)) throw new Error(`page ${page} is not what this change began with`);
-    pages[page] = after;
-  }
-  return { ...document, pages };
+    const pages = [...document.pages];
+    for (const { page, before, after } of changes) {
+        const now = pages[page];
+        if (!now || !isSamePage(now, before)) throw new Error(`page ${page} is not what this change began with`);
+        pages[page] = after;
+    }
+    return { ...document, pages };
 }
 
 /** Numbers of the pages that differ. */
 export function differentPages(a: MotionDocument, b: MotionDocument): number[] {
-  return a.pages.flatMap((bytes, page) => (isSamePage(bytes, pageOf(b, page)) ? [] : [page]));
+    return a.pages.flatMap((bytes, page) => (isSamePage(bytes, pageOf(b, page)) ? [] : [page]));
 }

@@ -19,98 +19,102 @@ export const HISTORY_BYTES_MOST = 8 << 20;
 const STEP_BYTES = 100; // besides its pages
 
 export interface NumberedStep extends Transaction {
-  readonly number: number;
+    readonly number: number;
 }
 
 /** What is to be done to the steps that are kept. */
 export interface StepsChange {
-  /** Steps with smaller numbers go. */
-  readonly dropBefore: number;
-  /** Steps from this number on go. */
-  readonly dropFrom: number;
-  /** Numbered from dropFrom on. */
-  readonly add: readonly NumberedStep[];
+    /** Steps with smaller numbers go. */
+    readonly dropBefore: number;
+    /** Steps from this number on go. */
+    readonly dropFrom: number;
+    /** Numbered from dropFrom on. */
+    readonly add: readonly NumberedStep[];
 }
 
 export const DROP_ALL: StepsChange = { dropBefore: 0, dropFrom: 0, add: [] };
 
 /** What is kept now. */
 export interface HistoryLog {
-  /** Number of the oldest step of this tab's history. */
-  readonly base: number;
-  /** All steps of this tab's history, oldest first. */
-  readonly steps: readonly Transaction[];
+    /** Number of the oldest step of this tab's history. */
+    readonly base: number;
+    /** All steps of this tab's history, oldest first. */
+    readonly steps: readonly Transaction[];
 }
 
 export const EMPTY_LOG: HistoryLog = { base: 0, steps: [] };
 
 function stepsOf({ done, undone }: History): Transaction[] {
-  return [...done, ...[...undone].reverse()];
+    return [...done, ...[...undone].reverse()];
 }
 
 /** How many steps of the document are done. */
 export function positionOf(log: HistoryLog, history: History): number {
-  return log.base + history.done.length;
+    return log.base + history.done.length;
 }
 
 /** What an edit, undo or redo changes about what is kept. Steps stay the same objects, so equal ends mean equal beginnings. */
-export function advance(log: HistoryLog, history: History, most = HISTORY_BYTES_MOST): { readonly log: HistoryLog; readonly change: StepsChange } {
-  const steps = stepsOf(history);
-  let same = Math.min(steps.length, log.steps.length);
-  while (same > 0 && steps[same - 1] !== log.steps[same - 1]) same--;
-  const number = (index: number): number => log.base + index;
-  const first = firstWithin(steps, most);
-  const add = steps.slice(Math.max(same, first)).map((step, i) => ({ ...step, number: number(Math.max(same, first) + i) }));
-  return { log: { base: log.base, steps }, change: { dropBefore: number(first), dropFrom: number(same), add } };
+export function advance(
+    log: HistoryLog,
+    history: History,
+    most = HISTORY_BYTES_MOST,
+): { readonly log: HistoryLog; readonly change: StepsChange } {
+    const steps = stepsOf(history);
+    let same = Math.min(steps.length, log.steps.length);
+    while (same > 0 && steps[same - 1] !== log.steps[same - 1]) same--;
+    const number = (index: number): number => log.base + index;
+    const first = firstWithin(steps, most);
+    const add = steps.slice(Math.max(same, first)).map((step, i) => ({ ...step, number: number(Math.max(same, first) + i) }));
+    return { log: { base: log.base, steps }, change: { dropBefore: number(first), dropFrom: number(same), add } };
 }
 
 /** Index of the oldest step that still fits beside the newer ones. */
 function firstWithin(steps: readonly Transaction[], most: number): number {
-  let bytes = 0;
-  for (let index = steps.length - 1; index >= 0; index--) {
-    bytes += STEP_BYTES + 2 * PAGE_BYTES * (steps[index]?.changes.length ?? 0);
-    if (bytes > most) return index + 1;
-  }
-  return 0;
+    let bytes = 0;
+    for (let index = steps.length - 1; index >= 0; index--) {
+        bytes += STEP_BYTES + 2 * PAGE_BYTES * (steps[index]?.changes.length ?? 0);
+        if (bytes > most) return index + 1;
+    }
+    return 0;
 }
 
 function isPage(value: unknown): value is Uint8Array {
-  return value instanceof Uint8Array && value.length === PAGE_BYTES;
+    return value instanceof Uint8Array && value.length === PAGE_BYTES;
 }
 
 function isChange(value: unknown): value is Change {
-  const { page, before, after } = (value ?? {}) as Partial<Change>;
-  return Number.isInteger(page) && Number(page) >= 0 && Number(page) < PAGE_COUNT && isPage(before) && isPage(after);
+    const { page, before, after } = (value ?? {}) as Partial<Change>;
+    return Number.isInteger(page) && Number(page) >= 0 && Number(page) < PAGE_COUNT && isPage(before) && isPage(after);
 }
 
 function isStep(value: unknown): value is NumberedStep {
-  const { number, label, changes } = (value ?? {}) as Partial<NumberedStep>;
-  return Number.isInteger(number) && EDIT_NAMES.some((name) => name === label) && Array.isArray(changes) && changes.every(isChange);
+    const { number, label, changes } = (value ?? {}) as Partial<NumberedStep>;
+    return Number.isInteger(number) && EDIT_NAMES.some(name => name === label) && Array.isArray(changes) && changes.every(isChange);
 }
 
 /** The document after a step, or before it; null: the step does not fit it. */
 function stepped(document: MotionDocument, { changes }: Transaction): MotionDocument | null {
-  try {
-    return withChanges(document, changes);
-  } catch {
-    return null;
-  }
+    try {
+        return withChanges(document, changes);
+    } catch {
+        return null;
+    }
 }
 
 /** The history of a document of which `position` steps are done, from what was kept of it; log.base: how many steps are forgotten. */
 export function restored(document: MotionDocument, position: number, kept: readonly unknown[]): Edited & { readonly log: HistoryLog } {
-  const byNumber = new Map(kept.filter(isStep).map(({ number, label, changes }) => [number, { label, changes }]));
-  const run = (from: number, by: 1 | -1, turn: (step: Transaction) => Transaction): Transaction[] => {
-    const found: Transaction[] = [];
-    let now: MotionDocument | null = document;
-    for (let number = from; now; number += by) {
-      const step = byNumber.get(number);
-      now = step ? stepped(now, turn(step)) : null;
-      if (step && now) found.push(step);
-    }
-    return found.reverse();
-  };
-  const done = run(position - 1, -1, inverse);
-  const history: History = { done, undone: run(position, 1, (step) => step) };
-  return { document, history, log: { base: position - done.length, steps: stepsOf(history) } };
+    const byNumber = new Map(kept.filter(isStep).map(({ number, label, changes }) => [number, { label, changes }]));
+    const run = (from: number, by: 1 | -1, turn: (step: Transaction) => Transaction): Transaction[] => {
+        const found: Transaction[] = [];
+        let now: MotionDocument | null = document;
+        for (let number = from; now; number += by) {
+            const step = byNumber.get(number);
+            now = step ? stepped(now, turn(step)) : null;
+            if (step && now) found.push(step);
+        }
+        return found.reverse();
+    };
+    const done = run(position - 1, -1, inverse);
+    const history: History = { done, undone: run(position, 1, step => step) };
+    return { document, history, log: { base: position - done.length, steps: stepsOf(history) } };
 }

@@ -9,34 +9,46 @@ import type { PageFormat } from './page-format.ts';
 import { readPage } from './page.ts';
 
 export interface PageLink extends Lead {
-  readonly from: number;
-  /** There is nothing to play where it leads. */
-  readonly isDead: boolean;
+    readonly from: number;
+    /** There is nothing to play where it leads. */
+    readonly isDead: boolean;
 }
 
 export interface PageNode {
-  readonly page: number;
-  readonly name: string;
-  readonly code: number;
-  /** No code calls it, and no page that is called leads to it. It can be played by its number only. */
-  readonly isUnreachable: boolean;
-  /** Its exit links go round in a circle: a stop does not come to a page that ends. */
-  readonly exitsRound: boolean;
+    readonly page: number;
+    readonly name: string;
+    readonly code: number;
+    /** No code calls it, and no page that is called leads to it. It can be played by its number only. */
+    readonly isUnreachable: boolean;
+    /** Its exit links go round in a circle: a stop does not come to a page that ends. */
+    readonly exitsRound: boolean;
 }
 
 export interface LinkGraph {
-  readonly nodes: readonly PageNode[];
-  readonly links: readonly PageLink[];
+    readonly nodes: readonly PageNode[];
+    readonly links: readonly PageLink[];
 }
 
 /** The pages that hold a motion, and what leads from one to another. */
 export function linkGraph(format: PageFormat, document: MotionDocument): LinkGraph {
-  const views = new Map(document.pages.flatMap((bytes, page) =>
-    (page > 0 && !format.isErased(bytes) && format.fault(bytes) === null && readPage(format, bytes).steps.length > 0 ? [[page, readPage(format, bytes)] as const] : [])));
-  const links = [...views.keys()].flatMap((from) =>
-    format.leads(pageOf(document, from)).map((lead) => ({ ...lead, from, isDead: !views.has(lead.to) })));
-  const reached = format.reachByCode(document);
-  const round = format.exitCircles(document);
-  const nodes = [...views].map(([page, { name, code }]) => ({ page, name, code, isUnreachable: !reached.has(page), exitsRound: round.has(page) }));
-  return { nodes, links };
+    const views = new Map(
+        document.pages.flatMap((bytes, page) =>
+            page > 0 && !format.isErased(bytes) && format.fault(bytes) === null && readPage(format, bytes).steps.length > 0
+                ? [[page, readPage(format, bytes)] as const]
+                : [],
+        ),
+    );
+    const links = [...views.keys()].flatMap(from =>
+        format.leads(pageOf(document, from)).map(lead => ({ ...lead, from, isDead: !views.has(lead.to) })),
+    );
+    const reached = format.reachByCode(document);
+    const round = format.exitCircles(document);
+    const nodes = [...views].map(([page, { name, code }]) => ({
+        page,
+        name,
+        code,
+        isUnreachable: !reached.has(page),
+        exitsRound: round.has(page),
+    }));
+    return { nodes, links };
 }

@@ -22,248 +22,257 @@ export const LAW_OF: Readonly<Record<Law, number>> = { exact: facts.PLAYER_LAW_E
 
 /** What is wrong with a page, by page_status_t. */
 const PAGE_FAULTS = {
-  [facts.PAGE_ERR_CHECKSUM]: 'checksum', [facts.PAGE_ERR_STEPS]: 'steps', [facts.PAGE_ERR_SCHEDULE]: 'schedule', [facts.PAGE_ERR_SPEED]: 'speed',
-  [facts.PAGE_ERR_POSITION]: 'position',
+    [facts.PAGE_ERR_CHECKSUM]: 'checksum',
+    [facts.PAGE_ERR_STEPS]: 'steps',
+    [facts.PAGE_ERR_SCHEDULE]: 'schedule',
+    [facts.PAGE_ERR_SPEED]: 'speed',
+    [facts.PAGE_ERR_POSITION]: 'position',
 } as const;
 export type PageFault = (typeof PAGE_FAULTS)[keyof typeof PAGE_FAULTS];
 const FAULT_OF: Readonly<Record<number, PageFault>> = PAGE_FAULTS;
 
 /** Where a page leads, by motion_api_lead_t: the links that a play follows, and the partners for blending. */
 const LEADS = {
-  [facts.MOTION_API_LEAD_NEXT]: 'next', [facts.MOTION_API_LEAD_EXIT]: 'exit', [facts.MOTION_API_LEAD_LINKED1]: 'linked1',
-  [facts.MOTION_API_LEAD_LINKED2]: 'linked2', [facts.MOTION_API_LEAD_BLEND_RIGHT]: 'blendRight', [facts.MOTION_API_LEAD_BLEND_LEFT]: 'blendLeft',
+    [facts.MOTION_API_LEAD_NEXT]: 'next',
+    [facts.MOTION_API_LEAD_EXIT]: 'exit',
+    [facts.MOTION_API_LEAD_LINKED1]: 'linked1',
+    [facts.MOTION_API_LEAD_LINKED2]: 'linked2',
+    [facts.MOTION_API_LEAD_BLEND_RIGHT]: 'blendRight',
+    [facts.MOTION_API_LEAD_BLEND_LEFT]: 'blendLeft',
 } as const;
 export type LeadKind = (typeof LEADS)[keyof typeof LEADS];
 const LEAD_OF: Readonly<Record<number, LeadKind>> = LEADS;
 
 /** code: of the remote, that chooses it; 0: none is needed. */
 export interface Lead {
-  readonly kind: LeadKind;
-  readonly to: number;
-  readonly code: number;
+    readonly kind: LeadKind;
+    readonly to: number;
+    readonly code: number;
 }
 
 /** How a play is shaped, in percent; blend: negative to the left. Ranges: SHAPE_RANGES. */
 export interface Shape {
-  readonly rate: number;
-  readonly amplitude: number;
-  readonly blend: number;
+    readonly rate: number;
+    readonly amplitude: number;
+    readonly blend: number;
 }
 
 export const AS_STORED: Shape = { rate: facts.SHAPE_NORMAL, amplitude: facts.SHAPE_NORMAL, blend: 0 };
 export const SHAPE_RANGES: Readonly<Record<keyof Shape, readonly [least: number, most: number]>> = {
-  rate: [facts.SHAPE_RATE_MIN, facts.SHAPE_RATE_MAX], amplitude: [0, facts.SHAPE_AMPLITUDE_MAX], blend: [-facts.SHAPE_BLEND_MAX, facts.SHAPE_BLEND_MAX],
+    rate: [facts.SHAPE_RATE_MIN, facts.SHAPE_RATE_MAX],
+    amplitude: [0, facts.SHAPE_AMPLITUDE_MAX],
+    blend: [-facts.SHAPE_BLEND_MAX, facts.SHAPE_BLEND_MAX],
 };
 
 /** A piece of a play: JOINTS goals a tick (servo units), and MARK_BYTES of each tick: page, step, events. */
 export interface Curve {
-  readonly ticks: number;
-  readonly goals: Uint16Array;
-  readonly marks: Uint8Array;
-  readonly ended: boolean;
+    readonly ticks: number;
+    readonly goals: Uint16Array;
+    readonly marks: Uint8Array;
+    readonly ended: boolean;
 }
 
 /** What an instance of motion.wasm exports; it imports nothing. */
 export interface MotionExports {
-  readonly memory: { readonly buffer: ArrayBuffer };
-  _initialize(): void;
-  motion_api_pages(): number;
-  motion_api_check(page: number): number;
-  motion_api_seal(page: number): void;
-  motion_api_clear(page: number): void;
-  motion_api_is_playable(page: number): number;
-  motion_api_crc16(page: number): number;
-  motion_api_mirrored(pos: number): number;
-  motion_api_pos_between(a: number, b: number): number;
-  motion_api_time_between(time: number): number;
-  motion_api_remote_code(buttons: number): number;
-  motion_api_leads(page: number): number;
-  motion_api_leads_table(): number;
-  motion_api_reach(first: number): number;
-  motion_api_exits_round(page: number): number;
-  motion_api_moved(): number;
-  motion_api_relink(page: number): void;
-  motion_api_pose(): number;
-  motion_api_first_pose(page: number): number;
-  motion_api_pose_after(page: number, step: number): void;
-  motion_api_step_ticks(page: number, step: number, law: number): number;
-  motion_api_pause_ticks(page: number, step: number, law: number): number;
-  motion_api_shape(rate: number, amplitude: number, blend: number): number;
-  motion_api_top_speed_q4_4(decivolts: number): number;
-  motion_api_start(page: number, law: number, mode: number, code: number, present: number): number;
-  motion_api_code(code: number): void;
-  motion_api_curve(ticks: number): number;
-  motion_api_curve_goals(): number;
-  motion_api_curve_marks(): number;
+    readonly memory: { readonly buffer: ArrayBuffer };
+    _initialize(): void;
+    motion_api_pages(): number;
+    motion_api_check(page: number): number;
+    motion_api_seal(page: number): void;
+    motion_api_clear(page: number): void;
+    motion_api_is_playable(page: number): number;
+    motion_api_crc16(page: number): number;
+    motion_api_mirrored(pos: number): number;
+    motion_api_pos_between(a: number, b: number): number;
+    motion_api_time_between(time: number): number;
+    motion_api_remote_code(buttons: number): number;
+    motion_api_leads(page: number): number;
+    motion_api_leads_table(): number;
+    motion_api_reach(first: number): number;
+    motion_api_exits_round(page: number): number;
+    motion_api_moved(): number;
+    motion_api_relink(page: number): void;
+    motion_api_pose(): number;
+    motion_api_first_pose(page: number): number;
+    motion_api_pose_after(page: number, step: number): void;
+    motion_api_step_ticks(page: number, step: number, law: number): number;
+    motion_api_pause_ticks(page: number, step: number, law: number): number;
+    motion_api_shape(rate: number, amplitude: number, blend: number): number;
+    motion_api_top_speed_q4_4(decivolts: number): number;
+    motion_api_start(page: number, law: number, mode: number, code: number, present: number): number;
+    motion_api_code(code: number): void;
+    motion_api_curve(ticks: number): number;
+    motion_api_curve_goals(): number;
+    motion_api_curve_marks(): number;
 }
 
 /** One motion area of 128 pages with a player on it. */
 export class Motion {
-  private readonly api: MotionExports;
+    private readonly api: MotionExports;
 
-  /** Takes the exports of a new instance; nobody else may use it. */
-  constructor(api: MotionExports) {
-    this.api = api;
-    api._initialize();
-  }
+    /** Takes the exports of a new instance; nobody else may use it. */
+    constructor(api: MotionExports) {
+        this.api = api;
+        api._initialize();
+    }
 
-  /** The 65,536 bytes of all pages, as they lie in flash; a view, good until the next call. */
-  get pages(): Uint8Array {
-    return new Uint8Array(this.api.memory.buffer, this.api.motion_api_pages(), PAGE_BYTES * PAGE_COUNT);
-  }
+    /** The 65,536 bytes of all pages, as they lie in flash; a view, good until the next call. */
+    get pages(): Uint8Array {
+        return new Uint8Array(this.api.memory.buffer, this.api.motion_api_pages(), PAGE_BYTES * PAGE_COUNT);
+    }
 
-  setPage(page: number, bytes: Uint8Array): void {
-    if (bytes.length !== PAGE_BYTES) throw new RangeError(`a page has ${PAGE_BYTES} bytes, not ${bytes.length}`);
-    this.pages.set(bytes, this.place(page));
-  }
+    setPage(page: number, bytes: Uint8Array): void {
+        if (bytes.length !== PAGE_BYTES) throw new RangeError(`a page has ${PAGE_BYTES} bytes, not ${bytes.length}`);
+        this.pages.set(bytes, this.place(page));
+    }
 
-  page(page: number): Uint8Array {
-    return this.pages.slice(this.place(page), this.place(page) + PAGE_BYTES);
-  }
+    page(page: number): Uint8Array {
+        return this.pages.slice(this.place(page), this.place(page) + PAGE_BYTES);
+    }
 
-  /** The first thing that is wrong with a page, or null. */
-  check(page: number): PageFault | null {
-    const status = this.api.motion_api_check(this.number(page));
-    return FAULT_OF[status] ?? null;
-  }
+    /** The first thing that is wrong with a page, or null. */
+    check(page: number): PageFault | null {
+        const status = this.api.motion_api_check(this.number(page));
+        return FAULT_OF[status] ?? null;
+    }
 
-  seal(page: number): void {
-    this.api.motion_api_seal(this.number(page));
-  }
+    seal(page: number): void {
+        this.api.motion_api_seal(this.number(page));
+    }
 
-  clear(page: number): void {
-    this.api.motion_api_clear(this.number(page));
-  }
+    clear(page: number): void {
+        this.api.motion_api_clear(this.number(page));
+    }
 
-  isPlayable(page: number): boolean {
-    return this.api.motion_api_is_playable(this.number(page)) !== 0;
-  }
+    isPlayable(page: number): boolean {
+        return this.api.motion_api_is_playable(this.number(page)) !== 0;
+    }
 
-  /** The CRC-16 of a page. */
-  crc(page: number): number {
-    return this.api.motion_api_crc16(this.number(page));
-  }
+    /** The CRC-16 of a page. */
+    crc(page: number): number {
+        return this.api.motion_api_crc16(this.number(page));
+    }
 
-  /** A position (servo units) as the joint on the other side has it. */
-  mirrored(position: number): number {
-    return this.api.motion_api_mirrored(position);
-  }
+    /** A position (servo units) as the joint on the other side has it. */
+    mirrored(position: number): number {
+        return this.api.motion_api_mirrored(position);
+    }
 
-  /** A position half-way from a to b. */
-  positionBetween(a: number, b: number): number {
-    return this.api.motion_api_pos_between(a, b);
-  }
+    /** A position half-way from a to b. */
+    positionBetween(a: number, b: number): number {
+        return this.api.motion_api_pos_between(a, b);
+    }
 
-  /** What a step that is put in half-way takes of the time (0..255) of the step behind it, and what is left. */
-  timeSplit(time: number): { readonly share: number; readonly rest: number } {
-    const both = this.api.motion_api_time_between(time);
-    return { share: both & 0xff, rest: both >> 8 };
-  }
+    /** What a step that is put in half-way takes of the time (0..255) of the step behind it, and what is left. */
+    timeSplit(time: number): { readonly share: number; readonly rest: number } {
+        const both = this.api.motion_api_time_between(time);
+        return { share: both & 0xff, rest: both >> 8 };
+    }
 
-  /** The code that buttons of a remote give together (their bits); 0: none. */
-  remoteCode(buttons: number): number {
-    return this.api.motion_api_remote_code(buttons);
-  }
+    /** The code that buttons of a remote give together (their bits); 0: none. */
+    remoteCode(buttons: number): number {
+        return this.api.motion_api_remote_code(buttons);
+    }
 
-  /** Where a page leads, as the firmware decides it; what it never follows is not there. */
-  leads(page: number): Lead[] {
-    const count = this.api.motion_api_leads(this.number(page));
-    const rows = new Uint8Array(this.api.memory.buffer, this.api.motion_api_leads_table(), count * facts.MOTION_API_LEAD_BYTES);
-    return Array.from({ length: count }, (_, i) => {
-      const [kind = 0, to = 0, code = 0] = rows.subarray(i * facts.MOTION_API_LEAD_BYTES);
-      return { kind: LEAD_OF[kind] ?? 'next', to, code };
-    });
-  }
+    /** Where a page leads, as the firmware decides it; what it never follows is not there. */
+    leads(page: number): Lead[] {
+        const count = this.api.motion_api_leads(this.number(page));
+        const rows = new Uint8Array(this.api.memory.buffer, this.api.motion_api_leads_table(), count * facts.MOTION_API_LEAD_BYTES);
+        return Array.from({ length: count }, (_, i) => {
+            const [kind = 0, to = 0, code = 0] = rows.subarray(i * facts.MOTION_API_LEAD_BYTES);
+            return { kind: LEAD_OF[kind] ?? 'next', to, code };
+        });
+    }
 
-  /** Pages that a play of `first` can come to, itself too; 0: of all pages that a code calls. In order. */
-  reach(first: number): number[] {
-    const reached = new Uint8Array(this.api.memory.buffer, this.api.motion_api_reach(first), PAGE_COUNT);
-    return Array.from(reached, (is, page) => (is ? page : 0)).filter((page) => page !== 0);
-  }
+    /** Pages that a play of `first` can come to, itself too; 0: of all pages that a code calls. In order. */
+    reach(first: number): number[] {
+        const reached = new Uint8Array(this.api.memory.buffer, this.api.motion_api_reach(first), PAGE_COUNT);
+        return Array.from(reached, (is, page) => (is ? page : 0)).filter(page => page !== 0);
+    }
 
-  /** The exit links, from this page on, go round. */
-  exitsRound(page: number): boolean {
-    return this.api.motion_api_exits_round(this.number(page)) !== 0;
-  }
+    /** The exit links, from this page on, go round. */
+    exitsRound(page: number): boolean {
+        return this.api.motion_api_exits_round(this.number(page)) !== 0;
+    }
 
-  /** Links and partners of a page follow pages that have moved: from -> to, 0 where nothing is left. */
-  relink(page: number, moved: ReadonlyMap<number, number>): void {
-    const table = new Uint8Array(this.api.memory.buffer, this.api.motion_api_moved(), PAGE_COUNT);
-    table.set(Array.from(table, (_, from) => moved.get(from) ?? from));
-    this.api.motion_api_relink(this.number(page));
-  }
+    /** Links and partners of a page follow pages that have moved: from -> to, 0 where nothing is left. */
+    relink(page: number, moved: ReadonlyMap<number, number>): void {
+        const table = new Uint8Array(this.api.memory.buffer, this.api.motion_api_moved(), PAGE_COUNT);
+        table.set(Array.from(table, (_, from) => moved.get(from) ?? from));
+        this.api.motion_api_relink(this.number(page));
+    }
 
-  /** Where step 1 of a page wants its joints; the others as in `from` (servo units). */
-  firstPose(page: number, from: ArrayLike<number>): Uint16Array {
-    this.pose.set(from);
-    this.api.motion_api_first_pose(this.number(page));
-    return this.pose.slice();
-  }
+    /** Where step 1 of a page wants its joints; the others as in `from` (servo units). */
+    firstPose(page: number, from: ArrayLike<number>): Uint16Array {
+        this.pose.set(from);
+        this.api.motion_api_first_pose(this.number(page));
+        return this.pose.slice();
+    }
 
-  /** Where a page leaves the joints behind a step; those that it does not use, as in `from` (servo units). */
-  poseAfter(page: number, step: number, from: ArrayLike<number>): Uint16Array {
-    this.pose.set(from);
-    this.api.motion_api_pose_after(this.number(page), step);
-    return this.pose.slice();
-  }
+    /** Where a page leaves the joints behind a step; those that it does not use, as in `from` (servo units). */
+    poseAfter(page: number, step: number, from: ArrayLike<number>): Uint16Array {
+        this.pose.set(from);
+        this.api.motion_api_pose_after(this.number(page), step);
+        return this.pose.slice();
+    }
 
-  /** Ticks of a step (0..6) of a good page and of the pause behind it; the joints stand as in `from` before the page. */
-  stepTicks(page: number, step: number, from: ArrayLike<number>, law: Law = 'exact'): { move: number; pause: number } {
-    this.pose.set(from);
-    const number = this.number(page);
-    const lawNumber = LAW_OF[law];
-    const move = this.api.motion_api_step_ticks(number, step, lawNumber);
-    const pause = this.api.motion_api_pause_ticks(number, step, lawNumber);
-    if (move < 0 || pause < 0) throw new RangeError(`no step ${step} in page ${page}`);
-    return { move, pause };
-  }
+    /** Ticks of a step (0..6) of a good page and of the pause behind it; the joints stand as in `from` before the page. */
+    stepTicks(page: number, step: number, from: ArrayLike<number>, law: Law = 'exact'): { move: number; pause: number } {
+        this.pose.set(from);
+        const number = this.number(page);
+        const lawNumber = LAW_OF[law];
+        const move = this.api.motion_api_step_ticks(number, step, lawNumber);
+        const pause = this.api.motion_api_pause_ticks(number, step, lawNumber);
+        if (move < 0 || pause < 0) throw new RangeError(`no step ${step} in page ${page}`);
+        return { move, pause };
+    }
 
-  /** How the plays that begin from now on are shaped. Throws RangeError when a number is out of its range. */
-  setShape({ rate, amplitude, blend }: Shape): void {
-    if (!this.api.motion_api_shape(rate, amplitude, blend)) throw new RangeError(`no shape: ${rate} ${amplitude} ${blend}`);
-  }
+    /** How the plays that begin from now on are shaped. Throws RangeError when a number is out of its range. */
+    setShape({ rate, amplitude, blend }: Shape): void {
+        if (!this.api.motion_api_shape(rate, amplitude, blend)) throw new RangeError(`no shape: ${rate} ${amplitude} ${blend}`);
+    }
 
-  /** The fastest that the firmware asks of an AX-12 when it shapes a motion: 90 % of what it can do at this voltage. Servo
-   *  units a tick. */
-  topSpeed(volts: number): number {
-    return this.api.motion_api_top_speed_q4_4(Math.round(volts * 10)) / 16;
-  }
+    /** The fastest that the firmware asks of an AX-12 when it shapes a motion: 90 % of what it can do at this voltage. Servo
+     *  units a tick. */
+    topSpeed(volts: number): number {
+        return this.api.motion_api_top_speed_q4_4(Math.round(volts * 10)) / 16;
+    }
 
-  /** Begins a play from a pose (31 servo units). false: the page is damaged or has no action. */
-  start(page: number, pose: ArrayLike<number>, options: { law?: Law; code?: number; joints?: number } = {}): boolean {
-    this.pose.set(pose);
-    const law = LAW_OF[options.law ?? 'exact'];
-    const joints = options.joints ?? 0x7fffffff;
-    return this.api.motion_api_start(this.number(page), law, 0, options.code ?? 0, joints) === 0;
-  }
+    /** Begins a play from a pose (31 servo units). false: the page is damaged or has no action. */
+    start(page: number, pose: ArrayLike<number>, options: { law?: Law; code?: number; joints?: number } = {}): boolean {
+        this.pose.set(pose);
+        const law = LAW_OF[options.law ?? 'exact'];
+        const joints = options.joints ?? 0x7fffffff;
+        return this.api.motion_api_start(this.number(page), law, 0, options.code ?? 0, joints) === 0;
+    }
 
-  /** A code arrives (0 released, LINK_CODE_STOP); it counts at the next decision of a link, as in the robot. */
-  code(code: number): void {
-    this.api.motion_api_code(code);
-  }
+    /** A code arrives (0 released, LINK_CODE_STOP); it counts at the next decision of a link, as in the robot. */
+    code(code: number): void {
+        this.api.motion_api_code(code);
+    }
 
-  /** Plays on for at most so many ticks (MOTION_API_CURVE_TICKS at once). */
-  curve(ticks: number): Curve {
-    const played = this.api.motion_api_curve(ticks);
-    const memory = this.api.memory.buffer;
-    return {
-      ticks: played,
-      goals: new Uint16Array(memory, this.api.motion_api_curve_goals(), played * JOINTS).slice(),
-      marks: new Uint8Array(memory, this.api.motion_api_curve_marks(), played * MARK_BYTES).slice(),
-      ended: played < ticks,
-    };
-  }
+    /** Plays on for at most so many ticks (MOTION_API_CURVE_TICKS at once). */
+    curve(ticks: number): Curve {
+        const played = this.api.motion_api_curve(ticks);
+        const memory = this.api.memory.buffer;
+        return {
+            ticks: played,
+            goals: new Uint16Array(memory, this.api.motion_api_curve_goals(), played * JOINTS).slice(),
+            marks: new Uint8Array(memory, this.api.motion_api_curve_marks(), played * MARK_BYTES).slice(),
+            ended: played < ticks,
+        };
+    }
 
-  private get pose(): Uint16Array {
-    return new Uint16Array(this.api.memory.buffer, this.api.motion_api_pose(), JOINTS);
-  }
+    private get pose(): Uint16Array {
+        return new Uint16Array(this.api.memory.buffer, this.api.motion_api_pose(), JOINTS);
+    }
 
-  private place(page: number): number {
-    return this.number(page) * PAGE_BYTES;
-  }
+    private place(page: number): number {
+        return this.number(page) * PAGE_BYTES;
+    }
 
-  private number(page: number): number {
-    if (!Number.isInteger(page) || page < 0 || page >= PAGE_COUNT) throw new RangeError(`no page ${page}`);
-    return page;
-  }
+    private number(page: number): number {
+        if (!Number.isInteger(page) || page < 0 || page >= PAGE_COUNT) throw new RangeError(`no page ${page}`);
+        return page;
+    }
 }

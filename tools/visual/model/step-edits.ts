@@ -17,128 +17,186 @@ export type Side = 'right' | 'left';
 
 /** A page of motions that may be edited. */
 export function editable(format: PageFormat, document: MotionDocument, page: number): Result<Uint8Array> {
-  if (page === 0) return refuse('trim-page');
-  if (!Number.isInteger(page) || page < 0 || page >= document.pages.length) return refuse('no-such-page', String(page));
-  const bytes = pageOf(document, page);
-  return format.fault(bytes) === null ? ok(bytes) : refuse('page-damaged', String(page));
+    if (page === 0) return refuse('trim-page');
+    if (!Number.isInteger(page) || page < 0 || page >= document.pages.length) return refuse('no-such-page', String(page));
+    const bytes = pageOf(document, page);
+    return format.fault(bytes) === null ? ok(bytes) : refuse('page-damaged', String(page));
 }
 
 /** Changes one page by what `make` says of it. */
 export function changePage(
-  format: PageFormat, label: EditName, document: MotionDocument, page: number, make: (view: PageView) => Result<Partial<PageView>>,
+    format: PageFormat,
+    label: EditName,
+    document: MotionDocument,
+    page: number,
+    make: (view: PageView) => Result<Partial<PageView>>,
 ): Result<Transaction> {
-  const before = editable(format, document, page);
-  if (!before.ok) return before;
-  const change = make(readPage(format, before.value));
-  if (!change.ok) return change;
-  const after = writePage(format, before.value, change.value);
-  return after.ok ? ok(transaction(label, [{ page, before: before.value, after: after.value }])) : after;
+    const before = editable(format, document, page);
+    if (!before.ok) return before;
+    const change = make(readPage(format, before.value));
+    if (!change.ok) return change;
+    const after = writePage(format, before.value, change.value);
+    return after.ok ? ok(transaction(label, [{ page, before: before.value, after: after.value }])) : after;
 }
 
 /** Replaces the chosen steps; refused when one of them is not there. */
 function eachStep(view: PageView, chosen: Iterable<number>, make: (step: Step) => Step): Result<Partial<PageView>> {
-  const set = new Set(chosen);
-  for (const index of set) if (!view.steps[index]) return refuse('no-such-step', String(index + 1));
-  return ok({ steps: view.steps.map((step, index) => (set.has(index) ? make(step) : step)) });
+    const set = new Set(chosen);
+    for (const index of set) if (!view.steps[index]) return refuse('no-such-step', String(index + 1));
+    return ok({ steps: view.steps.map((step, index) => (set.has(index) ? make(step) : step)) });
 }
 
 function chosenOf(view: PageView, chosen: Iterable<number>): Result<number[]> {
-  const sorted = [...new Set(chosen)].sort((a, b) => a - b);
-  const missing = sorted.find((index) => !view.steps[index]);
-  return missing === undefined ? ok(sorted) : refuse('no-such-step', String(missing + 1));
+    const sorted = [...new Set(chosen)].sort((a, b) => a - b);
+    const missing = sorted.find(index => !view.steps[index]);
+    return missing === undefined ? ok(sorted) : refuse('no-such-step', String(missing + 1));
 }
 
 /** Positions of joints (null: not used) in one or several steps. */
 export function setJoints(
-  format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>, positions: ReadonlyMap<number, number | null>,
+    format: PageFormat,
+    document: MotionDocument,
+    page: number,
+    steps: Iterable<number>,
+    positions: ReadonlyMap<number, number | null>,
 ): Result<Transaction> {
-  return changePage(format, 'set-joints', document, page, (view) => {
-    for (const id of positions.keys()) if (!(id >= 0 && id < format.layout.joints)) return refuse('no-such-joint', String(id));
-    return eachStep(view, steps, (step) => ({
-      ...step, positions: step.positions.map((position, id) => (positions.has(id) ? positions.get(id) ?? null : position)),
-    }));
-  });
+    return changePage(format, 'set-joints', document, page, view => {
+        for (const id of positions.keys()) if (!(id >= 0 && id < format.layout.joints)) return refuse('no-such-joint', String(id));
+        return eachStep(view, steps, step => ({
+            ...step,
+            positions: step.positions.map((position, id) => (positions.has(id) ? (positions.get(id) ?? null) : position)),
+        }));
+    });
 }
 
 /** Puts steps in before step `at`; `at` = number of steps: behind the last. */
-export function insertSteps(format: PageFormat, document: MotionDocument, page: number, at: number, steps: readonly Step[], label: EditName = 'insert-step'): Result<Transaction> {
-  return changePage(format, label, document, page, (view) => {
-    if (at < 0 || at > view.steps.length || !Number.isInteger(at)) return refuse('no-such-step', String(at + 1));
-    return ok({ steps: view.steps.toSpliced(at, 0, ...steps) });
-  });
+export function insertSteps(
+    format: PageFormat,
+    document: MotionDocument,
+    page: number,
+    at: number,
+    steps: readonly Step[],
+    label: EditName = 'insert-step',
+): Result<Transaction> {
+    return changePage(format, label, document, page, view => {
+        if (at < 0 || at > view.steps.length || !Number.isInteger(at)) return refuse('no-such-step', String(at + 1));
+        return ok({ steps: view.steps.toSpliced(at, 0, ...steps) });
+    });
 }
 
 export function deleteSteps(format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>): Result<Transaction> {
-  return changePage(format, 'delete-steps', document, page, (view) => {
-    const chosen = chosenOf(view, steps);
-    return chosen.ok ? ok({ steps: view.steps.filter((_, index) => !chosen.value.includes(index)) }) : chosen;
-  });
+    return changePage(format, 'delete-steps', document, page, view => {
+        const chosen = chosenOf(view, steps);
+        return chosen.ok ? ok({ steps: view.steps.filter((_, index) => !chosen.value.includes(index)) }) : chosen;
+    });
 }
 
 /** The copies stand together behind the last one chosen. */
 export function duplicateSteps(format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>): Result<Transaction> {
-  return changePage(format, 'duplicate-steps', document, page, (view) => {
-    const chosen = chosenOf(view, steps);
-    if (!chosen.ok) return chosen;
-    const copies = view.steps.filter((_, index) => chosen.value.includes(index));
-    return ok({ steps: view.steps.toSpliced((chosen.value.at(-1) ?? 0) + 1, 0, ...copies) });
-  });
+    return changePage(format, 'duplicate-steps', document, page, view => {
+        const chosen = chosenOf(view, steps);
+        if (!chosen.ok) return chosen;
+        const copies = view.steps.filter((_, index) => chosen.value.includes(index));
+        return ok({ steps: view.steps.toSpliced((chosen.value.at(-1) ?? 0) + 1, 0, ...copies) });
+    });
 }
 
 /** The chosen steps stand together before the step that was at `to`; `to` = number of steps: at the end. */
-export function moveSteps(format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>, to: number): Result<Transaction> {
-  return changePage(format, 'move-steps', document, page, (view) => {
-    const chosen = chosenOf(view, steps);
-    if (!chosen.ok) return chosen;
-    if (to < 0 || to > view.steps.length || !Number.isInteger(to)) return refuse('no-such-step', String(to + 1));
-    const isChosen = (index: number): boolean => chosen.value.includes(index);
-    const rest = (from: number, end: number): Step[] => view.steps.filter((_, index) => index >= from && index < end && !isChosen(index));
-    return ok({ steps: [...rest(0, to), ...view.steps.filter((_, index) => isChosen(index)), ...rest(to, view.steps.length)] });
-  });
+export function moveSteps(
+    format: PageFormat,
+    document: MotionDocument,
+    page: number,
+    steps: Iterable<number>,
+    to: number,
+): Result<Transaction> {
+    return changePage(format, 'move-steps', document, page, view => {
+        const chosen = chosenOf(view, steps);
+        if (!chosen.ok) return chosen;
+        if (to < 0 || to > view.steps.length || !Number.isInteger(to)) return refuse('no-such-step', String(to + 1));
+        const isChosen = (index: number): boolean => chosen.value.includes(index);
+        const rest = (from: number, end: number): Step[] =>
+            view.steps.filter((_, index) => index >= from && index < end && !isChosen(index));
+        return ok({ steps: [...rest(0, to), ...view.steps.filter((_, index) => isChosen(index)), ...rest(to, view.steps.length)] });
+    });
 }
 
-export function setTime(format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>, time: number): Result<Transaction> {
-  return changePage(format, 'set-time', document, page, (view) => eachStep(view, steps, (step) => ({ ...step, time })));
+export function setTime(
+    format: PageFormat,
+    document: MotionDocument,
+    page: number,
+    steps: Iterable<number>,
+    time: number,
+): Result<Transaction> {
+    return changePage(format, 'set-time', document, page, view => eachStep(view, steps, step => ({ ...step, time })));
 }
 
-export function setPause(format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>, pause: number): Result<Transaction> {
-  return changePage(format, 'set-pause', document, page, (view) => eachStep(view, steps, (step) => ({ ...step, pause })));
+export function setPause(
+    format: PageFormat,
+    document: MotionDocument,
+    page: number,
+    steps: Iterable<number>,
+    pause: number,
+): Result<Transaction> {
+    return changePage(format, 'set-pause', document, page, view => eachStep(view, steps, step => ({ ...step, pause })));
 }
 
 /** Makes one side look like the mirror image of the other. */
 export function mirrorSteps(
-  format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>, pairs: readonly JointPair[], from: Side,
+    format: PageFormat,
+    document: MotionDocument,
+    page: number,
+    steps: Iterable<number>,
+    pairs: readonly JointPair[],
+    from: Side,
 ): Result<Transaction> {
-  const sources = new Map(pairs.map(([right, left]) => (from === 'right' ? [left, right] : [right, left]) as [number, number]));
-  return takeMirrored(format, 'mirror-steps', document, page, steps, sources);
+    const sources = new Map(pairs.map(([right, left]) => (from === 'right' ? [left, right] : [right, left]) as [number, number]));
+    return takeMirrored(format, 'mirror-steps', document, page, steps, sources);
 }
 
 /** Left becomes right and right left: the pose as a mirror shows it. */
-export function exchangeSteps(format: PageFormat, document: MotionDocument, page: number, steps: Iterable<number>, pairs: readonly JointPair[]): Result<Transaction> {
-  const sources = new Map(pairs.flatMap(([right, left]): [number, number][] => [[right, left], [left, right]]));
-  return takeMirrored(format, 'exchange-steps', document, page, steps, sources);
+export function exchangeSteps(
+    format: PageFormat,
+    document: MotionDocument,
+    page: number,
+    steps: Iterable<number>,
+    pairs: readonly JointPair[],
+): Result<Transaction> {
+    const sources = new Map(
+        pairs.flatMap(([right, left]): [number, number][] => [
+            [right, left],
+            [left, right],
+        ]),
+    );
+    return takeMirrored(format, 'exchange-steps', document, page, steps, sources);
 }
 
 /** `sources`: for a joint, whose position it takes. */
 function takeMirrored(
-  format: PageFormat, label: EditName, document: MotionDocument, page: number, steps: Iterable<number>, sources: ReadonlyMap<number, number>,
+    format: PageFormat,
+    label: EditName,
+    document: MotionDocument,
+    page: number,
+    steps: Iterable<number>,
+    sources: ReadonlyMap<number, number>,
 ): Result<Transaction> {
-  return changePage(format, label, document, page, (view) => eachStep(view, steps, (step) => ({
-    ...step,
-    positions: step.positions.map((position, id) => {
-      const source = sources.get(id);
-      const seen = source === undefined ? position : step.positions[source] ?? null;
-      return source === undefined || seen === null ? seen : format.mirrored(seen);
-    }),
-  })));
+    return changePage(format, label, document, page, view =>
+        eachStep(view, steps, step => ({
+            ...step,
+            positions: step.positions.map((position, id) => {
+                const source = sources.get(id);
+                const seen = source === undefined ? position : (step.positions[source] ?? null);
+                return source === undefined || seen === null ? seen : format.mirrored(seen);
+            }),
+        })),
+    );
 }
 
 /** Puts a step half-way between `step` and the one behind it; both halves together take as long as the way did. */
 export function interpolate(format: PageFormat, document: MotionDocument, page: number, step: number): Result<Transaction> {
-  return changePage(format, 'interpolate', document, page, (view) => {
-    const a = view.steps[step];
-    const b = view.steps[step + 1];
-    if (!a || !b) return refuse('no-such-step', String(step + 2));
-    return ok({ steps: view.steps.toSpliced(step + 1, 1, ...format.between(a, b, view.schedule)) });
-  });
+    return changePage(format, 'interpolate', document, page, view => {
+        const a = view.steps[step];
+        const b = view.steps[step + 1];
+        if (!a || !b) return refuse('no-such-step', String(step + 2));
+        return ok({ steps: view.steps.toSpliced(step + 1, 1, ...format.between(a, b, view.schedule)) });
+    });
 }

@@ -11,26 +11,31 @@ import type { Step } from './page.ts';
 const LINE = /^step (\d{1,3})(?: pause (\d{1,3}))? \|((?: \d{1,2}:\d{1,4})*)$/;
 
 export function stepsToText(steps: readonly Step[]): string {
-  return steps.map(({ positions, time, pause }) => {
-    const joints = positions.flatMap((position, id) => (position === null ? [] : [` ${id}:${position}`]));
-    return `step ${time}${pause > 0 ? ` pause ${pause}` : ''} |${joints.join('')}\n`;
-  }).join('');
+    return steps
+        .map(({ positions, time, pause }) => {
+            const joints = positions.flatMap((position, id) => (position === null ? [] : [` ${id}:${position}`]));
+            return `step ${time}${pause > 0 ? ` pause ${pause}` : ''} |${joints.join('')}\n`;
+        })
+        .join('');
 }
 
 function stepFrom(line: string): Step | null {
-  const [, time, pause, joints = ''] = LINE.exec(line) ?? [];
-  if (time === undefined || Number(time) > BYTE_MAX || Number(pause ?? 0) > BYTE_MAX) return null;
-  const positions = new Array<number | null>(JOINTS).fill(null);
-  for (const [, id, position] of joints.matchAll(/(\d+):(\d+)/g)) {
-    if (Number(id) >= JOINTS || Number(position) > POSITION_MAX) return null;
-    positions[Number(id)] = Number(position);
-  }
-  return { positions, time: Number(time), pause: Number(pause ?? 0) };
+    const [, time, pause, joints = ''] = LINE.exec(line) ?? [];
+    if (time === undefined || Number(time) > BYTE_MAX || Number(pause ?? 0) > BYTE_MAX) return null;
+    const positions = new Array<number | null>(JOINTS).fill(null);
+    for (const [, id, position] of joints.matchAll(/(\d+):(\d+)/g)) {
+        if (Number(id) >= JOINTS || Number(position) > POSITION_MAX) return null;
+        positions[Number(id)] = Number(position);
+    }
+    return { positions, time: Number(time), pause: Number(pause ?? 0) };
 }
 
 /** null: it is no text of steps. Blank lines and indents do not count. */
 export function stepsFromText(text: string): Step[] | null {
-  const lines = text.split('\n').map((line) => line.trim().replaceAll(/\s+/g, ' ')).filter((line) => line !== '');
-  const steps = lines.map(stepFrom);
-  return steps.length > 0 && steps.every((step) => step !== null) ? steps : null;
+    const lines = text
+        .split('\n')
+        .map(line => line.trim().replaceAll(/\s+/g, ' '))
+        .filter(line => line !== '');
+    const steps = lines.map(stepFrom);
+    return steps.length > 0 && steps.every(step => step !== null) ? steps : null;
 }

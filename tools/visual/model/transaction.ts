@@ -5,27 +5,46 @@ import { isSamePage } from './document.ts';
 
 /** What kinds of edits there are; their names for people stand in view/editor/texts.ts. */
 export const EDIT_NAMES = [
-  'set-joints', 'insert-step', 'delete-steps', 'duplicate-steps', 'move-steps', 'paste-steps', 'set-time', 'set-pause', 'mirror-steps', 'exchange-steps', 'interpolate',
-  'rename', 'set-header', 'set-link', 'copy-page', 'move-page', 'swap-pages', 'clear-page', 'replace-page', 'replace-pages', 'drag',
+    'set-joints',
+    'insert-step',
+    'delete-steps',
+    'duplicate-steps',
+    'move-steps',
+    'paste-steps',
+    'set-time',
+    'set-pause',
+    'mirror-steps',
+    'exchange-steps',
+    'interpolate',
+    'rename',
+    'set-header',
+    'set-link',
+    'copy-page',
+    'move-page',
+    'swap-pages',
+    'clear-page',
+    'replace-page',
+    'replace-pages',
+    'drag',
 ] as const;
 export type EditName = (typeof EDIT_NAMES)[number];
 
 export interface Change {
-  readonly page: number;
-  readonly before: Uint8Array;
-  readonly after: Uint8Array;
+    readonly page: number;
+    readonly before: Uint8Array;
+    readonly after: Uint8Array;
 }
 
 export interface Transaction {
-  readonly label: EditName;
-  readonly changes: readonly Change[];
+    readonly label: EditName;
+    readonly changes: readonly Change[];
 }
 
 export function inverse(transaction: Transaction): Transaction {
-  return { ...transaction, changes: transaction.changes.map(({ page, before, after }) => ({ page, before: after, after: before })) };
+    return { ...transaction, changes: transaction.changes.map(({ page, before, after }) => ({ page, before: after, after: before })) };
 }
 
 /** A transaction without the changes that change nothing. */
 export function transaction(label: EditName, changes: readonly Change[]): Transaction {
-  return { label, changes: changes.filter(({ before, after }) => !isSamePage(before, after)) };
+    return { label, changes: changes.filter(({ before, after }) => !isSamePage(before, after)) };
 }

@@ -6,42 +6,42 @@ import { readPage } from './page.ts';
 import type { PageView } from './page.ts';
 
 export interface Way {
-  /** call: from rest; linked: at the end of the page that plays; stop: its exit; then: its next page, without a key. */
-  readonly kind: 'call' | 'linked' | 'stop' | 'then';
-  /** The remote's code; 0 for `stop` and `then`. */
-  readonly code: number;
-  readonly page: number;
-  readonly name: string;
+    /** call: from rest; linked: at the end of the page that plays; stop: its exit; then: its next page, without a key. */
+    readonly kind: 'call' | 'linked' | 'stop' | 'then';
+    /** The remote's code; 0 for `stop` and `then`. */
+    readonly code: number;
+    readonly page: number;
+    readonly name: string;
 }
 
 export type RobotPages = readonly (Uint8Array | null)[];
 const KINDS = { next: 'then', exit: 'stop', linked1: 'linked', linked2: 'linked' } as const;
 
 function view(format: PageFormat, pages: RobotPages, page: number): PageView | null {
-  const bytes = pages[page];
-  if (page === 0 || !bytes || format.isErased(bytes) || format.fault(bytes) !== null) return null;
-  const read = readPage(format, bytes);
-  return read.steps.length > 0 ? read : null;
+    const bytes = pages[page];
+    if (page === 0 || !bytes || format.isErased(bytes) || format.fault(bytes) !== null) return null;
+    const read = readPage(format, bytes);
+    return read.steps.length > 0 ? read : null;
 }
 
 /** What each key, or keys together, start from rest: of pages with the same code the lowest. In order of the codes. */
 export function callsOf(format: PageFormat, pages: RobotPages): Way[] {
-  const calls = new Map<number, Way>();
-  for (let page = pages.length - 1; page > 0; page--) {
-    const read = view(format, pages, page);
-    if (read && read.code !== 0) calls.set(read.code, { kind: 'call', code: read.code, page, name: read.name });
-  }
-  return [...calls.values()].sort((a, b) => a.code - b.code);
+    const calls = new Map<number, Way>();
+    for (let page = pages.length - 1; page > 0; page--) {
+        const read = view(format, pages, page);
+        if (read && read.code !== 0) calls.set(read.code, { kind: 'call', code: read.code, page, name: read.name });
+    }
+    return [...calls.values()].sort((a, b) => a.code - b.code);
 }
 
 /** Where the page leads at its end: keys first, then what it does without one, then a stop. */
 export function waysFrom(format: PageFormat, pages: RobotPages, page: number): Way[] {
-  const bytes = pages[page];
-  if (page === 0 || !bytes) return [];
-  const order = ['linked', 'then', 'stop'];
-  const ways = format.leads(bytes).flatMap(({ to, kind, code }) => {
-    const name = view(format, pages, to)?.name;
-    return name === undefined || kind === 'blendRight' || kind === 'blendLeft' ? [] : [{ kind: KINDS[kind], code, page: to, name }];
-  });
-  return ways.sort((a, b) => order.indexOf(a.kind) - order.indexOf(b.kind));
+    const bytes = pages[page];
+    if (page === 0 || !bytes) return [];
+    const order = ['linked', 'then', 'stop'];
+    const ways = format.leads(bytes).flatMap(({ to, kind, code }) => {
+        const name = view(format, pages, to)?.name;
+        return name === undefined || kind === 'blendRight' || kind === 'blendLeft' ? [] : [{ kind: KINDS[kind], code, page: to, name }];
+    });
+    return ways.sort((a, b) => order.indexOf(a.kind) - order.indexOf(b.kind));
 }

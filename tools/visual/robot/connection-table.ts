@@ -10,30 +10,41 @@
 // Each open state --named-other--> other-board, which ends by stop or lost.
 
 export type ConnectionState =
-  | 'closed' // nothing is open
-  | 'opening' // the port is being opened
-  | 'asking' // open; `@ver` was sent
-  | 'ready' // a firmware that we know answers
-  | 'silent' // open, and nothing that we know answers: a terminal still works; asked again from time to time
-  | 'foreign' // open, and a firmware answers that speaks something else
-  | 'other-board' // open, and a boot loader has said the name of a board that is none of ours: nothing is asked there
-  | 'waiting'; // the port was lost; tried again with growing pauses
+    | 'closed' // nothing is open
+    | 'opening' // the port is being opened
+    | 'asking' // open; `@ver` was sent
+    | 'ready' // a firmware that we know answers
+    | 'silent' // open, and nothing that we know answers: a terminal still works; asked again from time to time
+    | 'foreign' // open, and a firmware answers that speaks something else
+    | 'other-board' // open, and a boot loader has said the name of a board that is none of ours: nothing is asked there
+    | 'waiting'; // the port was lost; tried again with growing pauses
 
 export type ConnectionEvent =
-  | 'connect' | 'opened' | 'open-failed' | 'known' | 'unknown' | 'named-other' | 'no-answer' | 'ask-again' | 'lost' | 'retry' | 'gave-up' | 'stop';
+    | 'connect'
+    | 'opened'
+    | 'open-failed'
+    | 'known'
+    | 'unknown'
+    | 'named-other'
+    | 'no-answer'
+    | 'ask-again'
+    | 'lost'
+    | 'retry'
+    | 'gave-up'
+    | 'stop';
 
 const table: Record<ConnectionState, Partial<Record<ConnectionEvent, ConnectionState>>> = {
-  closed: { connect: 'opening' },
-  opening: { opened: 'asking', 'open-failed': 'waiting', 'gave-up': 'closed', stop: 'closed' },
-  asking: { known: 'ready', unknown: 'foreign', 'named-other': 'other-board', 'no-answer': 'silent', lost: 'waiting', stop: 'closed' },
-  ready: { lost: 'waiting', 'ask-again': 'asking', 'named-other': 'other-board', stop: 'closed' },
-  silent: { 'ask-again': 'asking', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
-  foreign: { 'ask-again': 'asking', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
-  'other-board': { lost: 'waiting', stop: 'closed' },
-  waiting: { retry: 'opening', 'gave-up': 'closed', stop: 'closed' },
+    closed: { connect: 'opening' },
+    opening: { opened: 'asking', 'open-failed': 'waiting', 'gave-up': 'closed', stop: 'closed' },
+    asking: { known: 'ready', unknown: 'foreign', 'named-other': 'other-board', 'no-answer': 'silent', lost: 'waiting', stop: 'closed' },
+    ready: { lost: 'waiting', 'ask-again': 'asking', 'named-other': 'other-board', stop: 'closed' },
+    silent: { 'ask-again': 'asking', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
+    foreign: { 'ask-again': 'asking', 'named-other': 'other-board', lost: 'waiting', stop: 'closed' },
+    'other-board': { lost: 'waiting', stop: 'closed' },
+    waiting: { retry: 'opening', 'gave-up': 'closed', stop: 'closed' },
 };
 
 /** The next state; null: the event means nothing here and nothing is to be done. */
 export function nextState(state: ConnectionState, event: ConnectionEvent): ConnectionState | null {
-  return table[state][event] ?? null;
+    return table[state][event] ?? null;
 }

@@ -25,219 +25,228 @@ const ASK_AGAIN_MS = 400;
 const CTRL_C = Uint8Array.of(3);
 
 export interface ConnectionEvents {
-  /** What these return is not looked at. */
-  state(state: ConnectionState): unknown;
-  text(bytes: Uint8Array): unknown;
-  /** isInDialog, when it may have changed. */
-  dialog?(isInDialog: boolean): unknown;
+    /** What these return is not looked at. */
+    state(state: ConnectionState): unknown;
+    text(bytes: Uint8Array): unknown;
+    /** isInDialog, when it may have changed. */
+    dialog?(isInDialog: boolean): unknown;
 }
 
 export class Connection {
-  private readonly port: Port;
-  private readonly clock: Clock;
-  private readonly events: ConnectionEvents;
-  private readonly dialog: EditDialog; // outlives a pulled cable, as Edit's own does
-  private contact: FirstContact | null = null;
-  private isMet = false;
-  private current: ConnectionState = 'closed';
-  private line: Line | null = null;
-  private asked: Requests | null = null;
-  private cancelTimer: () => void = () => undefined;
-  private retryMs = RETRY_FIRST_MS;
-  private lostAtMs = 0;
-  /** What runs there; null until it is known. */
-  version: Version | null = null;
-  /** Why the state is silent, foreign, other-board or waiting. */
-  error: RobotError | null = null;
+    private readonly port: Port;
+    private readonly clock: Clock;
+    private readonly events: ConnectionEvents;
+    private readonly dialog: EditDialog; // outlives a pulled cable, as Edit's own does
+    private contact: FirstContact | null = null;
+    private isMet = false;
+    private current: ConnectionState = 'closed';
+    private line: Line | null = null;
+    private asked: Requests | null = null;
+    private cancelTimer: () => void = () => undefined;
+    private retryMs = RETRY_FIRST_MS;
+    private lostAtMs = 0;
+    /** What runs there; null until it is known. */
+    version: Version | null = null;
+    /** Why the state is silent, foreign, other-board or waiting. */
+    error: RobotError | null = null;
 
-  constructor(port: Port, clock: Clock, events: ConnectionEvents) {
-    this.port = port;
-    this.clock = clock;
-    this.events = events;
-    this.dialog = new EditDialog(clock, () => {
-      this.asked?.dialogChanged();
-      events.dialog?.(this.isInDialog);
-    });
-  }
-
-  get state(): ConnectionState {
-    return this.current;
-  }
-
-  get name(): string {
-    return this.port.name;
-  }
-
-  /** Requests of the open line. Throws RobotError not-connected when there is none. */
-  get requests(): Requests {
-    if (!this.asked) throw new RobotError('not-connected');
-    return this.asked;
-  }
-
-  /** isFresh: the board was switched on for this connection, so nobody has typed anything there. */
-  connect(isFresh = false): void {
-    this.isMet = isFresh;
-    this.lostAtMs = this.clock.now();
-    this.retryMs = RETRY_FIRST_MS;
-    this.on('connect');
-  }
-
-  /** The board was restarted on purpose, or another image runs: finds out anew what it is. */
-  askAgain(): void {
-    this.on('ask-again');
-  }
-
-  /** The system tells that the port is there again: no need to wait for the next try. */
-  retryNow(): void {
-    if (this.current === 'waiting') this.on('retry');
-  }
-
-  async close(): Promise<void> {
-    this.on('stop');
-    this.dialog.stop();
-    await this.shut();
-  }
-
-  /** What a person types: questions keep out of the line. Rejects when there is no line. */
-  async type(bytes: Uint8Array): Promise<void> {
-    const written = this.write(bytes); // before a question that waited for the end of the line
-    const keys = String.fromCharCode(...bytes);
-    if (this.line) this.dialog.typed(keys);
-    this.asked?.typed(keys);
-    await written;
-  }
-
-  /** The bytes of a remote. Rejects when there is no line. */
-  async write(bytes: Uint8Array): Promise<void> {
-    if (!this.line) throw new RobotError('not-connected');
-    await this.line.write(bytes);
-  }
-
-  /** A person is in the middle of a line: what is asked now waits (Requests.typed). */
-  get isHeldOff(): boolean {
-    return this.asked?.isHeldOff ?? false;
-  }
-
-  /** Edit waits for an answer in its terminal, or shows a list, or plays: what is asked is refused until that ends. */
-  get isInDialog(): boolean {
-    return this.dialog.isLong || this.error?.code === 'edit-waits';
-  }
-
-  /** Stops what a person's line has begun in Edit: there `@stop` is no stop, a key is (Ctrl-C). false: nothing is open, so ask. */
-  async breakOff(): Promise<boolean> {
-    if (!this.dialog.isOpen && !this.isInDialog) return false;
-    await this.type(CTRL_C);
-    return true;
-  }
-
-  /** Somebody looks at Edit's screen (EditScreen.look): of this line, until it ends. */
-  look(size: TerminalSize | null): void {
-    this.asked?.screen.look(size);
-  }
-
-  private on(event: ConnectionEvent): void {
-    const next = nextState(this.current, event);
-    if (!next) return;
-    this.cancelTimer();
-    this.cancelTimer = () => undefined;
-    this.current = next;
-    this.events.state(next);
-    this.enter(next);
-  }
-
-  private enter(state: ConnectionState): void {
-    switch (state) {
-      case 'opening': return void this.open();
-      case 'asking': return void this.ask();
-      case 'silent': return this.later(ASK_AGAIN_MS, 'ask-again');
-      case 'waiting': return this.wait();
-      case 'closed': return this.asked?.end('not-connected');
-      case 'other-board': return this.asked?.end('not-connected');
-      case 'ready': case 'foreign': return;
-      default: state satisfies never;
+    constructor(port: Port, clock: Clock, events: ConnectionEvents) {
+        this.port = port;
+        this.clock = clock;
+        this.events = events;
+        this.dialog = new EditDialog(clock, () => {
+            this.asked?.dialogChanged();
+            events.dialog?.(this.isInDialog);
+        });
     }
-  }
 
-  private later(delayMs: number, event: ConnectionEvent): void {
-    this.cancelTimer = this.clock.after(delayMs, () => this.on(event));
-  }
-
-  private async open(): Promise<void> {
-    await this.shut();
-    try {
-      await this.port.open({ baudRate: BAUD_RATE });
-    } catch (cause) {
-      this.error = new RobotError('port-busy', cause instanceof Error ? cause.message : '', { cause });
-      this.on('open-failed');
-      return;
+    get state(): ConnectionState {
+        return this.current;
     }
-    if (this.current !== 'opening') return void this.shut(); // stopped meanwhile
-    const banner = new LoaderBanner();
-    const line = new Line(this.port, this.clock, {
-      text: (bytes) => {
-        this.meetOther(banner.heard(bytes));
-        this.asked?.screen.heard();
-        this.dialog.heard(bytes);
-        this.contact?.heard(bytes);
-        this.events.text(bytes);
-      },
-      answer: (line) => this.asked?.take(line),
-      lost: (cause) => this.lose(cause),
-    });
-    this.line = line;
-    this.asked = new Requests(line, this.clock, this.dialog);
-    this.contact = new FirstContact(this.clock, (keys) => line.write(new TextEncoder().encode(keys)));
-    this.on('opened');
-  }
 
-  private async ask(): Promise<void> {
-    this.version = null;
-    const { asked, contact } = this;
-    if (!asked || !contact) return; // closed meanwhile
-    try {
-      if (!this.isMet) await contact.make();
-      const version = await askVersion(asked, { timeoutMs: ASK_MS });
-      this.version = version;
-      this.isMet = true;
-      this.dialog.runs(version.image);
-      this.retryMs = RETRY_FIRST_MS;
-      this.error = version.protocol === PROTOCOL ? null : new RobotError('foreign', `protocol ${version.protocol}`);
-      this.on(this.error ? 'unknown' : 'known');
-    } catch (cause) {
-      if (this.asked !== asked || this.current !== 'asking') return; // another line is asked by now, or nobody
-      this.error = cause instanceof RobotError ? cause : new RobotError('foreign', String(cause));
-      this.on(this.error.code === 'no-answer' || this.error.code === 'edit-waits' ? 'no-answer' : 'unknown');
+    get name(): string {
+        return this.port.name;
     }
-  }
 
-  /** name: of another board, if its boot loader has just said one. */
-  private meetOther(name: string | null): void {
-    if (name === null) return;
-    this.error = new RobotError('other-board', name);
-    this.version = null;
-    this.on('named-other');
-  }
+    /** Requests of the open line. Throws RobotError not-connected when there is none. */
+    get requests(): Requests {
+        if (!this.asked) throw new RobotError('not-connected');
+        return this.asked;
+    }
 
-  private lose(cause: unknown): void {
-    this.lostAtMs = this.clock.now();
-    this.asked?.end('port-lost');
-    this.error = new RobotError('port-lost', '', { cause });
-    this.on('lost');
-  }
+    /** isFresh: the board was switched on for this connection, so nobody has typed anything there. */
+    connect(isFresh = false): void {
+        this.isMet = isFresh;
+        this.lostAtMs = this.clock.now();
+        this.retryMs = RETRY_FIRST_MS;
+        this.on('connect');
+    }
 
-  private wait(): void {
-    if (this.clock.now() - this.lostAtMs > GIVE_UP_MS) return this.on('gave-up');
-    this.later(this.retryMs, 'retry');
-    this.retryMs = Math.min(this.retryMs * 2, RETRY_MOST_MS);
-  }
+    /** The board was restarted on purpose, or another image runs: finds out anew what it is. */
+    askAgain(): void {
+        this.on('ask-again');
+    }
 
-  private async shut(): Promise<void> {
-    const line = this.line;
-    this.line = null;
-    this.asked?.end('not-connected');
-    this.asked = null;
-    if (!line) return;
-    await line.close();
-    await this.port.close().catch(() => undefined); // a lost port cannot be closed
-  }
+    /** The system tells that the port is there again: no need to wait for the next try. */
+    retryNow(): void {
+        if (this.current === 'waiting') this.on('retry');
+    }
+
+    async close(): Promise<void> {
+        this.on('stop');
+        this.dialog.stop();
+        await this.shut();
+    }
+
+    /** What a person types: questions keep out of the line. Rejects when there is no line. */
+    async type(bytes: Uint8Array): Promise<void> {
+        const written = this.write(bytes); // before a question that waited for the end of the line
+        const keys = String.fromCharCode(...bytes);
+        if (this.line) this.dialog.typed(keys);
+        this.asked?.typed(keys);
+        await written;
+    }
+
+    /** The bytes of a remote. Rejects when there is no line. */
+    async write(bytes: Uint8Array): Promise<void> {
+        if (!this.line) throw new RobotError('not-connected');
+        await this.line.write(bytes);
+    }
+
+    /** A person is in the middle of a line: what is asked now waits (Requests.typed). */
+    get isHeldOff(): boolean {
+        return this.asked?.isHeldOff ?? false;
+    }
+
+    /** Edit waits for an answer in its terminal, or shows a list, or plays: what is asked is refused until that ends. */
+    get isInDialog(): boolean {
+        return this.dialog.isLong || this.error?.code === 'edit-waits';
+    }
+
+    /** Stops what a person's line has begun in Edit: there `@stop` is no stop, a key is (Ctrl-C). false: nothing is open, so ask. */
+    async breakOff(): Promise<boolean> {
+        if (!this.dialog.isOpen && !this.isInDialog) return false;
+        await this.type(CTRL_C);
+        return true;
+    }
+
+    /** Somebody looks at Edit's screen (EditScreen.look): of this line, until it ends. */
+    look(size: TerminalSize | null): void {
+        this.asked?.screen.look(size);
+    }
+
+    private on(event: ConnectionEvent): void {
+        const next = nextState(this.current, event);
+        if (!next) return;
+        this.cancelTimer();
+        this.cancelTimer = () => undefined;
+        this.current = next;
+        this.events.state(next);
+        this.enter(next);
+    }
+
+    private enter(state: ConnectionState): void {
+        switch (state) {
+            case 'opening':
+                return void this.open();
+            case 'asking':
+                return void this.ask();
+            case 'silent':
+                return this.later(ASK_AGAIN_MS, 'ask-again');
+            case 'waiting':
+                return this.wait();
+            case 'closed':
+                return this.asked?.end('not-connected');
+            case 'other-board':
+                return this.asked?.end('not-connected');
+            case 'ready':
+            case 'foreign':
+                return;
+            default:
+                state satisfies never;
+        }
+    }
+
+    private later(delayMs: number, event: ConnectionEvent): void {
+        this.cancelTimer = this.clock.after(delayMs, () => this.on(event));
+    }
+
+    private async open(): Promise<void> {
+        await this.shut();
+        try {
+            await this.port.open({ baudRate: BAUD_RATE });
+        } catch (cause) {
+            this.error = new RobotError('port-busy', cause instanceof Error ? cause.message : '', { cause });
+            this.on('open-failed');
+            return;
+        }
+        if (this.current !== 'opening') return void this.shut(); // stopped meanwhile
+        const banner = new LoaderBanner();
+        const line = new Line(this.port, this.clock, {
+            text: bytes => {
+                this.meetOther(banner.heard(bytes));
+                this.asked?.screen.heard();
+                this.dialog.heard(bytes);
+                this.contact?.heard(bytes);
+                this.events.text(bytes);
+            },
+            answer: line => this.asked?.take(line),
+            lost: cause => this.lose(cause),
+        });
+        this.line = line;
+        this.asked = new Requests(line, this.clock, this.dialog);
+        this.contact = new FirstContact(this.clock, keys => line.write(new TextEncoder().encode(keys)));
+        this.on('opened');
+    }
+
+    private async ask(): Promise<void> {
+        this.version = null;
+        const { asked, contact } = this;
+        if (!asked || !contact) return; // closed meanwhile
+        try {
+            if (!this.isMet) await contact.make();
+            const version = await askVersion(asked, { timeoutMs: ASK_MS });
+            this.version = version;
+            this.isMet = true;
+            this.dialog.runs(version.image);
+            this.retryMs = RETRY_FIRST_MS;
+            this.error = version.protocol === PROTOCOL ? null : new RobotError('foreign', `protocol ${version.protocol}`);
+            this.on(this.error ? 'unknown' : 'known');
+        } catch (cause) {
+            if (this.asked !== asked || this.current !== 'asking') return; // another line is asked by now, or nobody
+            this.error = cause instanceof RobotError ? cause : new RobotError('foreign', String(cause));
+            this.on(this.error.code === 'no-answer' || this.error.code === 'edit-waits' ? 'no-answer' : 'unknown');
+        }
+    }
+
+    /** name: of another board, if its boot loader has just said one. */
+    private meetOther(name: string | null): void {
+        if (name === null) return;
+        this.error = new RobotError('other-board', name);
+        this.version = null;
+        this.on('named-other');
+    }
+
+    private lose(cause: unknown): void {
+        this.lostAtMs = this.clock.now();
+        this.asked?.end('port-lost');
+        this.error = new RobotError('port-lost', '', { cause });
+        this.on('lost');
+    }
+
+    private wait(): void {
+        if (this.clock.now() - this.lostAtMs > GIVE_UP_MS) return this.on('gave-up');
+        this.later(this.retryMs, 'retry');
+        this.retryMs = Math.min(this.retryMs * 2, RETRY_MOST_MS);
+    }
+
+    private async shut(): Promise<void> {
+        const line = this.line;
+        this.line = null;
+        this.asked?.end('not-connected');
+        this.asked = null;
+        if (!line) return;
+        await line.close();
+        await this.port.close().catch(() => undefined); // a lost port cannot be closed
+    }
 }

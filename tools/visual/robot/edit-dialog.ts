@@ -22,85 +22,85 @@ const NOTHING_OPEN: ReadonlySet<EditPlace> = new Set(['table', 'new-line', 'away
 const nothing = (): void => undefined;
 
 export class EditDialog {
-  private readonly clock: Clock;
-  private readonly changed: () => void;
-  private readonly cursor = new EditCursor();
-  private state: 'closed' | 'open' | 'long' = 'closed';
-  private mayBeEdit = true;
-  private hasHeard = false; // since the last key
-  private isResting = false;
-  private cancelRest = nothing;
-  private cancelLong = nothing;
+    private readonly clock: Clock;
+    private readonly changed: () => void;
+    private readonly cursor = new EditCursor();
+    private state: 'closed' | 'open' | 'long' = 'closed';
+    private mayBeEdit = true;
+    private hasHeard = false; // since the last key
+    private isResting = false;
+    private cancelRest = nothing;
+    private cancelLong = nothing;
 
-  /** changed: it is LONG, or CLOSED again. */
-  constructor(clock: Clock, changed: () => void) {
-    this.clock = clock;
-    this.changed = changed;
-  }
+    /** changed: it is LONG, or CLOSED again. */
+    constructor(clock: Clock, changed: () => void) {
+        this.clock = clock;
+        this.changed = changed;
+    }
 
-  /** Something may be open that takes a question for an answer. */
-  get isOpen(): boolean {
-    return this.state !== 'closed';
-  }
+    /** Something may be open that takes a question for an answer. */
+    get isOpen(): boolean {
+        return this.state !== 'closed';
+    }
 
-  get isLong(): boolean {
-    return this.state === 'long';
-  }
+    get isLong(): boolean {
+        return this.state === 'long';
+    }
 
-  /** A line is open, perhaps without a letter: it has to be emptied and ended before a question. */
-  get hasLine(): boolean {
-    return this.mayBeEdit && (this.cursor.place === 'line' || this.cursor.place === 'new-line');
-  }
+    /** A line is open, perhaps without a letter: it has to be emptied and ended before a question. */
+    get hasLine(): boolean {
+        return this.mayBeEdit && (this.cursor.place === 'line' || this.cursor.place === 'new-line');
+    }
 
-  /** This image answers. Only Edit has dialogs; until something answers it may be Edit. */
-  runs(image: string): void {
-    this.mayBeEdit = image === 'edit';
-    if (!this.mayBeEdit) this.close();
-  }
+    /** This image answers. Only Edit has dialogs; until something answers it may be Edit. */
+    runs(image: string): void {
+        this.mayBeEdit = image === 'edit';
+        if (!this.mayBeEdit) this.close();
+    }
 
-  /** A person's keys have gone down the line. */
-  typed(keys: string): void {
-    if (!this.mayBeEdit) return;
-    this.hasHeard = false;
-    if (/[\r\n]/.test(keys)) this.open();
-    this.rest();
-  }
+    /** A person's keys have gone down the line. */
+    typed(keys: string): void {
+        if (!this.mayBeEdit) return;
+        this.hasHeard = false;
+        if (/[\r\n]/.test(keys)) this.open();
+        this.rest();
+    }
 
-  /** The board has said this to the terminal. */
-  heard(bytes: Uint8Array): void {
-    const places = this.cursor.take(bytes);
-    const isNews = !this.hasHeard || [...places].some((place) => !NOTHING_OPEN.has(place));
-    this.hasHeard = true;
-    if (isNews || !this.isResting) this.rest();
-  }
+    /** The board has said this to the terminal. */
+    heard(bytes: Uint8Array): void {
+        const places = this.cursor.take(bytes);
+        const isNews = !this.hasHeard || [...places].some(place => !NOTHING_OPEN.has(place));
+        this.hasHeard = true;
+        if (isNews || !this.isResting) this.rest();
+    }
 
-  /** No timer is left. */
-  stop(): void {
-    this.cancelRest();
-    this.cancelLong();
-    this.isResting = false;
-  }
+    /** No timer is left. */
+    stop(): void {
+        this.cancelRest();
+        this.cancelLong();
+        this.isResting = false;
+    }
 
-  private open(): void {
-    this.cancelLong();
-    if (this.state === 'long') return;
-    this.state = 'open';
-    this.cancelLong = this.clock.after(LONG_MS, () => {
-      this.state = 'long';
-      this.changed();
-    });
-  }
+    private open(): void {
+        this.cancelLong();
+        if (this.state === 'long') return;
+        this.state = 'open';
+        this.cancelLong = this.clock.after(LONG_MS, () => {
+            this.state = 'long';
+            this.changed();
+        });
+    }
 
-  private rest(): void {
-    this.cancelRest();
-    this.isResting = this.isOpen && NOTHING_OPEN.has(this.cursor.place);
-    if (this.isResting) this.cancelRest = this.clock.after(this.hasHeard ? RESTS_MS : SILENT_MS, () => this.close());
-  }
+    private rest(): void {
+        this.cancelRest();
+        this.isResting = this.isOpen && NOTHING_OPEN.has(this.cursor.place);
+        if (this.isResting) this.cancelRest = this.clock.after(this.hasHeard ? RESTS_MS : SILENT_MS, () => this.close());
+    }
 
-  private close(): void {
-    this.stop();
-    if (!this.isOpen) return;
-    this.state = 'closed';
-    this.changed();
-  }
+    private close(): void {
+        this.stop();
+        if (!this.isOpen) return;
+        this.state = 'closed';
+        this.changed();
+    }
 }

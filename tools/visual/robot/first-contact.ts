@@ -18,41 +18,41 @@ const TAKE_BACK = '\b';
 const LISTEN_MS = 300;
 
 export class FirstContact {
-  private readonly clock: Clock;
-  private readonly write: (keys: string) => Promise<void>;
-  private text = '';
-  private done: (() => void) | null = null;
+    private readonly clock: Clock;
+    private readonly write: (keys: string) => Promise<void>;
+    private text = '';
+    private done: (() => void) | null = null;
 
-  constructor(clock: Clock, write: (keys: string) => Promise<void>) {
-    this.clock = clock;
-    this.write = write;
-  }
+    constructor(clock: Clock, write: (keys: string) => Promise<void>) {
+        this.clock = clock;
+        this.write = write;
+    }
 
-  /** The board has said this. */
-  heard(bytes: Uint8Array): void {
-    if (!this.done) return;
-    this.text += String.fromCharCode(...bytes);
-    if (/[@\n]/.test(this.text)) this.done();
-  }
+    /** The board has said this. */
+    heard(bytes: Uint8Array): void {
+        if (!this.done) return;
+        this.text += String.fromCharCode(...bytes);
+        if (/[@\n]/.test(this.text)) this.done();
+    }
 
-  /** Afterwards a question may be asked. Rejects with RobotError: edit-waits, and as the port does. */
-  async make(): Promise<void> {
-    this.text = '';
-    const listened = this.listen();
-    await this.write(KNOCK);
-    await listened;
-    if (this.text.includes('@')) return this.write(EMPTY_LINE);
-    if (this.text.includes('\x1b') && !this.text.includes('\n')) throw new RobotError('edit-waits');
-    return this.write(TAKE_BACK);
-  }
+    /** Afterwards a question may be asked. Rejects with RobotError: edit-waits, and as the port does. */
+    async make(): Promise<void> {
+        this.text = '';
+        const listened = this.listen();
+        await this.write(KNOCK);
+        await listened;
+        if (this.text.includes('@')) return this.write(EMPTY_LINE);
+        if (this.text.includes('\x1b') && !this.text.includes('\n')) throw new RobotError('edit-waits');
+        return this.write(TAKE_BACK);
+    }
 
-  private async listen(): Promise<void> {
-    let cancel = (): void => undefined;
-    await new Promise<void>((resolve) => {
-      this.done = resolve;
-      cancel = this.clock.after(LISTEN_MS, resolve);
-    });
-    cancel();
-    this.done = null;
-  }
+    private async listen(): Promise<void> {
+        let cancel = (): void => undefined;
+        await new Promise<void>(resolve => {
+            this.done = resolve;
+            cancel = this.clock.after(LISTEN_MS, resolve);
+        });
+        cancel();
+        this.done = null;
+    }
 }

@@ -11,117 +11,124 @@ import { RobotError } from './robot-error.ts';
 const HOLD_LIMIT_MS = 1000;
 
 export interface LineEvents {
-  /** For a terminal. */
-  text(bytes: Uint8Array): void;
-  /** A whole answer line, without its line end. */
-  answer(line: string): void;
-  /** The port is gone (a pulled cable); not called after close(). */
-  lost(cause: unknown): void;
+    /** For a terminal. */
+    text(bytes: Uint8Array): void;
+    /** A whole answer line, without its line end. */
+    answer(line: string): void;
+    /** The port is gone (a pulled cable); not called after close(). */
+    lost(cause: unknown): void;
 }
 
 export class Line {
-  private readonly port: Port;
-  private readonly clock: Clock;
-  private readonly events: LineEvents;
-  private state = LINE_START;
-  private reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
-  private writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
-  private writing: Promise<void> = Promise.resolve();
-  private resume: (() => void) | null = null;
-  private held: Promise<void> | null = null;
-  private isClosed = false;
-  private loop: Promise<void> = Promise.resolve();
+    private readonly port: Port;
+    private readonly clock: Clock;
+    private readonly events: LineEvents;
+    private state = LINE_START;
+    private reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
+    private writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
+    private writing: Promise<void> = Promise.resolve();
+    private resume: (() => void) | null = null;
+    private held: Promise<void> | null = null;
+    private isClosed = false;
+    private loop: Promise<void> = Promise.resolve();
 
-  /** Takes an open port; it stays the caller's to close, after close() of this. */
-  constructor(port: Port, clock: Clock, events: LineEvents) {
-    this.port = port;
-    this.clock = clock;
-    this.events = events;
-    this.writer = port.writable?.getWriter() ?? null;
-    this.loop = this.readAll();
-  }
-
-  /** Queues bytes; resolves when the port has taken them, rejects when it cannot. */
-  write(bytes: Uint8Array): Promise<void> {
-    const done = this.writing.then(async () => {
-      if (this.held) await this.held;
-      if (!this.writer || this.isClosed) throw new RobotError('not-connected');
-      await this.writer.write(bytes);
-    });
-    this.writing = done.catch(() => undefined); // its caller hears of it; the next one may still try
-    return done;
-  }
-
-  /** Announces a request, so that its echo and its answer are not text. */
-  expect(request: string): void {
-    this.state = expectAnswer(this.state, request);
-  }
-
-  /** The oldest announced request will not be answered. */
-  forget(): void {
-    this.state = forgetAnswer(this.state);
-  }
-
-  async close(): Promise<void> {
-    this.isClosed = true;
-    this.go();
-    await this.reader?.cancel().catch(() => undefined); // a lost port has ended already
-    await this.loop;
-    this.writer?.releaseLock();
-    this.writer = null;
-  }
-
-  private async readAll(): Promise<void> {
-    while (this.port.readable && !this.isClosed) {
-      this.reader = this.port.readable.getReader();
-      try {
-        for (let read = await this.reader.read(); !read.done; read = await this.reader.read()) this.take(read.value);
-        break; // cancelled, or closed by the port
-      } catch (cause) {
-        // A framing or overrun error ends this stream and the port offers another; a lost port offers none.
-        if (!this.port.readable) return this.lose(cause);
-      } finally {
-        this.reader.releaseLock();
-        this.reader = null;
-      }
+    /** Takes an open port; it stays the caller's to close, after close() of this. */
+    constructor(port: Port, clock: Clock, events: LineEvents) {
+        this.port = port;
+        this.clock = clock;
+        this.events = events;
+        this.writer = port.writable?.getWriter() ?? null;
+        this.loop = this.readAll();
     }
-    if (!this.isClosed) this.lose(null);
-  }
 
-  private lose(cause: unknown): void {
-    if (this.isClosed) return;
-    this.isClosed = true;
-    this.go();
-    this.events.lost(cause);
-  }
-
-  private take(bytes: Uint8Array): void {
-    const [state, events] = parseLine(this.state, bytes);
-    this.state = state;
-    for (const event of events) {
-      switch (event.kind) {
-        case 'text': this.events.text(event.bytes); break;
-        case 'answer': this.events.answer(event.line); break;
-        case 'flow': event.go ? this.go() : this.hold(); break;
-        default: event satisfies never;
-      }
+    /** Queues bytes; resolves when the port has taken them, rejects when it cannot. */
+    write(bytes: Uint8Array): Promise<void> {
+        const done = this.writing.then(async () => {
+            if (this.held) await this.held;
+            if (!this.writer || this.isClosed) throw new RobotError('not-connected');
+            await this.writer.write(bytes);
+        });
+        this.writing = done.catch(() => undefined); // its caller hears of it; the next one may still try
+        return done;
     }
-  }
 
-  private hold(): void {
-    if (this.held) return;
-    this.held = new Promise((resolve) => {
-      const cancel = this.clock.after(HOLD_LIMIT_MS, () => this.go());
-      this.resume = () => {
-        cancel();
-        resolve();
-      };
-    });
-  }
+    /** Announces a request, so that its echo and its answer are not text. */
+    expect(request: string): void {
+        this.state = expectAnswer(this.state, request);
+    }
 
-  private go(): void {
-    this.resume?.();
-    this.resume = null;
-    this.held = null;
-  }
+    /** The oldest announced request will not be answered. */
+    forget(): void {
+        this.state = forgetAnswer(this.state);
+    }
+
+    async close(): Promise<void> {
+        this.isClosed = true;
+        this.go();
+        await this.reader?.cancel().catch(() => undefined); // a lost port has ended already
+        await this.loop;
+        this.writer?.releaseLock();
+        this.writer = null;
+    }
+
+    private async readAll(): Promise<void> {
+        while (this.port.readable && !this.isClosed) {
+            this.reader = this.port.readable.getReader();
+            try {
+                for (let read = await this.reader.read(); !read.done; read = await this.reader.read()) this.take(read.value);
+                break; // cancelled, or closed by the port
+            } catch (cause) {
+                // A framing or overrun error ends this stream and the port offers another; a lost port offers none.
+                if (!this.port.readable) return this.lose(cause);
+            } finally {
+                this.reader.releaseLock();
+                this.reader = null;
+            }
+        }
+        if (!this.isClosed) this.lose(null);
+    }
+
+    private lose(cause: unknown): void {
+        if (this.isClosed) return;
+        this.isClosed = true;
+        this.go();
+        this.events.lost(cause);
+    }
+
+    private take(bytes: Uint8Array): void {
+        const [state, events] = parseLine(this.state, bytes);
+        this.state = state;
+        for (const event of events) {
+            switch (event.kind) {
+                case 'text':
+                    this.events.text(event.bytes);
+                    break;
+                case 'answer':
+                    this.events.answer(event.line);
+                    break;
+                case 'flow':
+                    event.go ? this.go() : this.hold();
+                    break;
+                default:
+                    event satisfies never;
+            }
+        }
+    }
+
+    private hold(): void {
+        if (this.held) return;
+        this.held = new Promise(resolve => {
+            const cancel = this.clock.after(HOLD_LIMIT_MS, () => this.go());
+            this.resume = () => {
+                cancel();
+                resolve();
+            };
+        });
+    }
+
+    private go(): void {
+        this.resume?.();
+        this.resume = null;
+        this.held = null;
+    }
 }

@@ -7,15 +7,15 @@ const BANNER = /SYSTEM O\.K\. \(([ -~]{1,40}?) boot ?loader\b/i;
 const LONGEST = 80;
 
 export class LoaderBanner {
-  private text = '';
+    private text = '';
 
-  /** The name of a board that is none of ours, when these bytes end its banner; else null. */
-  heard(bytes: Uint8Array): string | null {
-    const text = this.text + String.fromCharCode(...bytes);
-    this.text = text.slice(-LONGEST);
-    const name = BANNER.exec(text)?.[1]?.trim();
-    if (name === undefined) return null;
-    this.text = '';
-    return OURS.includes(name.replaceAll(/[- _]/g, '').toUpperCase()) ? null : name;
-  }
+    /** The name of a board that is none of ours, when these bytes end its banner; else null. */
+    heard(bytes: Uint8Array): string | null {
+        const text = this.text + String.fromCharCode(...bytes);
+        this.text = text.slice(-LONGEST);
+        const name = BANNER.exec(text)?.[1]?.trim();
+        if (name === undefined) return null;
+        this.text = '';
+        return OURS.includes(name.replaceAll(/[- _]/g, '').toUpperCase()) ? null : name;
+    }
 }

@@ -8,27 +8,27 @@ import { RobotError } from './robot-error.ts';
 import type { Requests } from './requests.ts';
 
 export interface ReadOptions {
-  /** Versions of a page that may be the robot's: what its CRC fits needs not be read. */
-  readonly known?: (page: number) => readonly Uint8Array[];
-  readonly progress?: (done: number, total: number) => void;
-  readonly signal?: AbortSignal;
+    /** Versions of a page that may be the robot's: what its CRC fits needs not be read. */
+    readonly known?: (page: number) => readonly Uint8Array[];
+    readonly progress?: (done: number, total: number) => void;
+    readonly signal?: AbortSignal;
 }
 
 /** The 128 pages as they stand in flash. Rejects with RobotError; cancelled between two pages. */
 export async function readPages(requests: Requests, crcOf: PageCrc, options: ReadOptions = {}): Promise<Uint8Array[]> {
-  const crcs = await askPageCrcs(requests);
-  const pages = crcs.map((crc, page) => options.known?.(page).find((bytes) => crcOf(bytes) === crc));
-  const missing = pages.flatMap((bytes, page) => (bytes ? [] : [page]));
-  let ask = askDensePage;
-  for (const [done, page] of missing.entries()) {
-    if (options.signal?.aborted) throw new RobotError('cancelled');
-    options.progress?.(done, missing.length);
-    pages[page] = await ask(requests, page, crcOf).catch((error: unknown) => {
-      if (!(error instanceof RobotError) || error.number !== REFUSED.noCommand) throw error;
-      ask = askPage; // an older image
-      return askPage(requests, page, crcOf);
-    });
-  }
-  options.progress?.(missing.length, missing.length);
-  return pages as Uint8Array[]; // what was missing has been read
+    const crcs = await askPageCrcs(requests);
+    const pages = crcs.map((crc, page) => options.known?.(page).find(bytes => crcOf(bytes) === crc));
+    const missing = pages.flatMap((bytes, page) => (bytes ? [] : [page]));
+    let ask = askDensePage;
+    for (const [done, page] of missing.entries()) {
+        if (options.signal?.aborted) throw new RobotError('cancelled');
+        options.progress?.(done, missing.length);
+        pages[page] = await ask(requests, page, crcOf).catch((error: unknown) => {
+            if (!(error instanceof RobotError) || error.number !== REFUSED.noCommand) throw error;
+            ask = askPage; // an older image
+            return askPage(requests, page, crcOf);
+        });
+    }
+    options.progress?.(missing.length, missing.length);
+    return pages as Uint8Array[]; // what was missing has been read
 }

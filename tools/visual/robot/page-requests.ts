@@ -16,44 +16,44 @@ const SAVE_MS = 2000;
 export const ERR_UNSAVED = 12;
 
 function hex(bytes: Uint8Array): string {
-  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, '0')).join('');
+    return Array.from(bytes, byte => byte.toString(16).padStart(2, '0')).join('');
 }
 
 function crcOf(words: string): number {
-  if (!/^[0-9A-F]{4}$/i.test(words)) throw new RobotError('foreign', `a CRC: ${words.slice(0, 20)}`);
-  return Number.parseInt(words, 16);
+    if (!/^[0-9A-F]{4}$/i.test(words)) throw new RobotError('foreign', `a CRC: ${words.slice(0, 20)}`);
+    return Number.parseInt(words, 16);
 }
 
 /** The CRC-16 of each of these pages, as they stand in flash. */
 export async function askPageCrcs(requests: Ask, first = 0, last = PAGE_COUNT - 1): Promise<number[]> {
-  const answer = await requests.ask(`@crcs ${first} ${last}`, { timeoutMs: CRCS_MS });
-  const words = answer.match(/.{1,4}/g) ?? [];
-  if (words.length !== last - first + 1) throw new RobotError('foreign', `@crcs: ${words.length} pages`);
-  return words.map(crcOf);
+    const answer = await requests.ask(`@crcs ${first} ${last}`, { timeoutMs: CRCS_MS });
+    const words = answer.match(/.{1,4}/g) ?? [];
+    if (words.length !== last - first + 1) throw new RobotError('foreign', `@crcs: ${words.length} pages`);
+    return words.map(crcOf);
 }
 
 /** Loads a page into the board's RAM. Refused with ERR 12 when the page there has edits. */
 export async function openPage(requests: Ask, page: number): Promise<void> {
-  await requests.ask(`@open ${page}`);
+    await requests.ask(`@open ${page}`);
 }
 
 /** At most 32 bytes into the page in RAM. */
 export async function sendData(requests: Ask, offset: number, bytes: Uint8Array): Promise<void> {
-  await requests.ask(`@data ${offset} ${hex(bytes)}`);
+    await requests.ask(`@data ${offset} ${hex(bytes)}`);
 }
 
 /** CRC-16 of the page in RAM. */
 export async function askRamCrc(requests: Ask): Promise<number> {
-  return crcOf(await requests.ask('@crc'));
+    return crcOf(await requests.ask('@crc'));
 }
 
 /** Saves the page in RAM in that place, if its CRC is this one. */
 export async function savePage(requests: Ask, page: number, crc: number): Promise<void> {
-  await requests.ask(`@save ${page} ${crc.toString(16).padStart(4, '0')}`, { timeoutMs: SAVE_MS });
+    await requests.ask(`@save ${page} ${crc.toString(16).padStart(4, '0')}`, { timeoutMs: SAVE_MS });
 }
 
 /** Whether Edit's RAM holds what its flash holds nowhere: edits that a restart would lose. */
 export async function hasUnsavedEdits(requests: Ask, format: Pick<PageFormat, 'crc' | 'empty'>): Promise<boolean> {
-  const crc = await askRamCrc(requests);
-  return crc !== format.crc(format.empty) && !(await askPageCrcs(requests)).includes(crc);
+    const crc = await askRamCrc(requests);
+    return crc !== format.crc(format.empty) && !(await askPageCrcs(requests)).includes(crc);
 }

@@ -7,10 +7,10 @@ export const BAUD_RATE = 57_600;
 
 /** One way to a board. Streams are there between open() and close(); a pulled cable ends `readable` with an error. */
 export interface Port {
-  /** For people: "the robot in this page", "USB serial port". */
-  readonly name: string;
-  readonly readable: ReadableStream<Uint8Array> | null;
-  readonly writable: WritableStream<Uint8Array> | null;
-  open(options: { readonly baudRate: number }): Promise<void>;
-  close(): Promise<void>;
+    /** For people: "the robot in this page", "USB serial port". */
+    readonly name: string;
+    readonly readable: ReadableStream<Uint8Array> | null;
+    readonly writable: WritableStream<Uint8Array> | null;
+    open(options: { readonly baudRate: number }): Promise<void>;
+    close(): Promise<void>;
 }

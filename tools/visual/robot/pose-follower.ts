@@ -13,44 +13,44 @@ import { RobotError } from './robot-error.ts';
 const RESTING_MS = 300;
 
 export class PoseFollower {
-  private readonly connection: Connection;
-  private readonly clock: Clock;
-  private readonly mayAsk: () => boolean;
-  private readonly show: (pose: readonly JointPose[]) => void;
-  private isRunning = false;
+    private readonly connection: Connection;
+    private readonly clock: Clock;
+    private readonly mayAsk: () => boolean;
+    private readonly show: (pose: readonly JointPose[]) => void;
+    private isRunning = false;
 
-  /** show: gets each pose as it comes. */
-  constructor(connection: Connection, clock: Clock, mayAsk: () => boolean, show: (pose: readonly JointPose[]) => void) {
-    this.connection = connection;
-    this.clock = clock;
-    this.mayAsk = mayAsk;
-    this.show = show;
-  }
-
-  start(): void {
-    this.isRunning = true;
-    void this.run();
-  }
-
-  stop(): void {
-    this.isRunning = false;
-  }
-
-  private async run(): Promise<void> {
-    while (this.isRunning) {
-      if (this.mayAsk() && (await this.once())) continue;
-      await new Promise<void>((resolve) => this.clock.after(RESTING_MS, resolve));
+    /** show: gets each pose as it comes. */
+    constructor(connection: Connection, clock: Clock, mayAsk: () => boolean, show: (pose: readonly JointPose[]) => void) {
+        this.connection = connection;
+        this.clock = clock;
+        this.mayAsk = mayAsk;
+        this.show = show;
     }
-  }
 
-  private async once(): Promise<boolean> {
-    try {
-      const pose = await askPose(this.connection.requests);
-      if (this.isRunning) this.show(pose);
-      return true;
-    } catch (error) {
-      if (error instanceof RobotError && error.code === 'no-answer') this.connection.askAgain();
-      return false;
+    start(): void {
+        this.isRunning = true;
+        void this.run();
     }
-  }
+
+    stop(): void {
+        this.isRunning = false;
+    }
+
+    private async run(): Promise<void> {
+        while (this.isRunning) {
+            if (this.mayAsk() && (await this.once())) continue;
+            await new Promise<void>(resolve => this.clock.after(RESTING_MS, resolve));
+        }
+    }
+
+    private async once(): Promise<boolean> {
+        try {
+            const pose = await askPose(this.connection.requests);
+            if (this.isRunning) this.show(pose);
+            return true;
+        } catch (error) {
+            if (error instanceof RobotError && error.code === 'no-answer') this.connection.askAgain();
+            return false;
+        }
+    }
 }

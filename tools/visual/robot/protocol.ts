@@ -8,43 +8,43 @@ import { RobotError } from './robot-error.ts';
 
 /** What `@ver` says. */
 export interface Version {
-  readonly image: string; // "play", "edit"
-  readonly version: string; // "1.0.0"; empty for an image without a record
-  readonly board: string; // "cm5", "cm2"
-  readonly protocol: number;
-  /** What it can do: list, page, pose, ... */
-  readonly can: ReadonlySet<string>;
+    readonly image: string; // "play", "edit"
+    readonly version: string; // "1.0.0"; empty for an image without a record
+    readonly board: string; // "cm5", "cm2"
+    readonly protocol: number;
+    /** What it can do: list, page, pose, ... */
+    readonly can: ReadonlySet<string>;
 }
 
 export type PlayState = 'idle' | 'ready' | 'approach' | 'paused' | 'playing';
 
 /** What `@where` says. */
 export interface Where {
-  readonly state: PlayState;
-  readonly page: number;
-  readonly step: number;
-  readonly repetition: number;
-  readonly code: number;
-  readonly batteryVolts: number;
-  /** Bit per servo ID. */
-  readonly faulty: number;
-  /** Everything it said, by name: later versions say more. */
-  readonly fields: ReadonlyMap<string, string>;
+    readonly state: PlayState;
+    readonly page: number;
+    readonly step: number;
+    readonly repetition: number;
+    readonly code: number;
+    readonly batteryVolts: number;
+    /** Bit per servo ID. */
+    readonly faulty: number;
+    /** Everything it said, by name: later versions say more. */
+    readonly fields: ReadonlyMap<string, string>;
 }
 
 export interface JointPose {
-  readonly id: number;
-  /** Servo units, null when the servo does not answer. */
-  readonly position: number | null;
-  readonly torque: boolean;
+    readonly id: number;
+    /** Servo units, null when the servo does not answer. */
+    readonly position: number | null;
+    readonly torque: boolean;
 }
 
 export interface PageEntry {
-  readonly page: number;
-  readonly name: string;
-  /** 0 for a page that is damaged: `fault` says how. */
-  readonly steps: number;
-  readonly fault: string;
+    readonly page: number;
+    readonly name: string;
+    /** 0 for a page that is damaged: `fault` says how. */
+    readonly steps: number;
+    readonly fault: string;
 }
 
 export const PROTOCOL = 1;
@@ -53,61 +53,72 @@ const LIST_MS = 4000;
 const PAGE_MS = 2000;
 
 function fields(answer: string): Map<string, string> {
-  return new Map(answer.split(' ').filter(Boolean).map((word) => {
-    const equals = word.indexOf('=');
-    return equals < 0 ? [word, ''] as const : [word.slice(0, equals), word.slice(equals + 1)] as const;
-  }));
+    return new Map(
+        answer
+            .split(' ')
+            .filter(Boolean)
+            .map(word => {
+                const equals = word.indexOf('=');
+                return equals < 0 ? ([word, ''] as const) : ([word.slice(0, equals), word.slice(equals + 1)] as const);
+            }),
+    );
 }
 
 function strange(request: string, answer: string): RobotError {
-  return new RobotError('foreign', `${request}: ${answer.slice(0, 60)}`);
+    return new RobotError('foreign', `${request}: ${answer.slice(0, 60)}`);
 }
 
 export async function askVersion(requests: Requests, options?: RequestOptions): Promise<Version> {
-  const answer = await requests.ask('@ver', options);
-  const said = fields(answer);
-  const image = said.get('image');
-  if (!image) throw strange('@ver', answer);
-  return {
-    image,
-    version: said.get('version') ?? '',
-    board: said.get('board') ?? '',
-    protocol: Number(said.get('protocol') ?? 0),
-    can: new Set((said.get('can') ?? '').split(',')),
-  };
+    const answer = await requests.ask('@ver', options);
+    const said = fields(answer);
+    const image = said.get('image');
+    if (!image) throw strange('@ver', answer);
+    return {
+        image,
+        version: said.get('version') ?? '',
+        board: said.get('board') ?? '',
+        protocol: Number(said.get('protocol') ?? 0),
+        can: new Set((said.get('can') ?? '').split(',')),
+    };
 }
 
 export async function askWhere(requests: Requests, options?: RequestOptions): Promise<Where> {
-  const answer = await requests.ask('@where', options);
-  const said = fields(answer);
-  const number = (name: string): number => Number(said.get(name) ?? 0);
-  const state = said.get('state') ?? '';
-  if (!STATES.includes(state)) throw strange('@where', answer);
-  return {
-    state: state as PlayState,
-    page: number('page'), step: number('step'), repetition: number('repetition'), code: number('code'),
-    batteryVolts: number('dv') / 10,
-    faulty: Number.parseInt(said.get('faulty') ?? '0', 16),
-    fields: said,
-  };
+    const answer = await requests.ask('@where', options);
+    const said = fields(answer);
+    const number = (name: string): number => Number(said.get(name) ?? 0);
+    const state = said.get('state') ?? '';
+    if (!STATES.includes(state)) throw strange('@where', answer);
+    return {
+        state: state as PlayState,
+        page: number('page'),
+        step: number('step'),
+        repetition: number('repetition'),
+        code: number('code'),
+        batteryVolts: number('dv') / 10,
+        faulty: Number.parseInt(said.get('faulty') ?? '0', 16),
+        fields: said,
+    };
 }
 
 export async function askPose(requests: Requests, options?: RequestOptions): Promise<JointPose[]> {
-  const answer = await requests.ask('@pose', options);
-  return answer.split(' ').filter(Boolean).map((word) => {
-    const match = /^(\d+):(\d+|\?):([01])$/.exec(word);
-    if (!match) throw strange('@pose', answer);
-    return { id: Number(match[1]), position: match[2] === '?' ? null : Number(match[2]), torque: match[3] === '1' };
-  });
+    const answer = await requests.ask('@pose', options);
+    return answer
+        .split(' ')
+        .filter(Boolean)
+        .map(word => {
+            const match = /^(\d+):(\d+|\?):([01])$/.exec(word);
+            if (!match) throw strange('@pose', answer);
+            return { id: Number(match[1]), position: match[2] === '?' ? null : Number(match[2]), torque: match[3] === '1' };
+        });
 }
 
 export async function askList(requests: Requests): Promise<PageEntry[]> {
-  const answer = await requests.ask('@list', { timeoutMs: LIST_MS });
-  return Array.from(answer.matchAll(/(\d+):(\d+|!):"([^"]*)"/g), (match) => {
-    const damaged = match[2] === '!';
-    const words = match[3] ?? '';
-    return { page: Number(match[1]), steps: damaged ? 0 : Number(match[2]), name: damaged ? '' : words, fault: damaged ? words : '' };
-  });
+    const answer = await requests.ask('@list', { timeoutMs: LIST_MS });
+    return Array.from(answer.matchAll(/(\d+):(\d+|!):"([^"]*)"/g), match => {
+        const damaged = match[2] === '!';
+        const words = match[3] ?? '';
+        return { page: Number(match[1]), steps: damaged ? 0 : Number(match[2]), name: damaged ? '' : words, fault: damaged ? words : '' };
+    });
 }
 
 /** The CRC-16 of a page: PageFormat.crc. */
@@ -115,67 +126,75 @@ export type PageCrc = (page: Uint8Array) => number;
 
 /** The 512 bytes of a page, checked by their CRC. */
 export function askPage(requests: Requests, page: number, crcOf: PageCrc): Promise<Uint8Array> {
-  return readWhole(requests, '@page', page, crcOf, (text) => {
-    return Uint8Array.from({ length: text.length / 2 }, (_, i) => Number.parseInt(text.slice(2 * i, 2 * i + 2), 16));
-  });
+    return readWhole(requests, '@page', page, crcOf, text => {
+        return Uint8Array.from({ length: text.length / 2 }, (_, i) => Number.parseInt(text.slice(2 * i, 2 * i + 2), 16));
+    });
 }
 
 /** The same in two thirds of the time. An image that is older refuses with ERR 1. */
 export function askDensePage(requests: Requests, page: number, crcOf: PageCrc): Promise<Uint8Array> {
-  return readWhole(requests, '@dense', page, crcOf, fromDense);
+    return readWhole(requests, '@dense', page, crcOf, fromDense);
 }
 
-async function readWhole(requests: Requests, word: string, page: number, crcOf: PageCrc, decode: (text: string) => Uint8Array): Promise<Uint8Array> {
-  const answer = await requests.ask(`${word} ${page}`, { timeoutMs: PAGE_MS });
-  const [number, text = '', crc = ''] = answer.split(' ');
-  if (Number(number) !== page) throw strange(word, answer);
-  const bytes = decode(text);
-  if (bytes.length !== PAGE_BYTES || crcOf(bytes) !== Number.parseInt(crc, 16)) throw strange(word, 'the CRC does not fit');
-  return bytes;
+async function readWhole(
+    requests: Requests,
+    word: string,
+    page: number,
+    crcOf: PageCrc,
+    decode: (text: string) => Uint8Array,
+): Promise<Uint8Array> {
+    const answer = await requests.ask(`${word} ${page}`, { timeoutMs: PAGE_MS });
+    const [number, text = '', crc = ''] = answer.split(' ');
+    if (Number(number) !== page) throw strange(word, answer);
+    const bytes = decode(text);
+    if (bytes.length !== PAGE_BYTES || crcOf(bytes) !== Number.parseInt(crc, 16)) throw strange(word, 'the CRC does not fit');
+    return bytes;
 }
 
 const SIX_BITS = 0x30;
 
 /** Six bits a character: the low ones of two, then always three bytes, and behind them a character with the high bits, the newest's highest. */
 function fromDense(text: string): Uint8Array {
-  const sixes = Array.from(text, (letter) => letter.charCodeAt(0) - SIX_BITS);
-  const made: number[] = [];
-  for (let at = 0, count = 2; at < sixes.length; at += count + 1, count = 3) {
-    const high = sixes[at + count] ?? 0;
-    for (const [i, low] of sixes.slice(at, at + count).entries()) made.push(low | (((high >> (2 * (i + 3 - count))) & 3) << 6));
-  }
-  return Uint8Array.from(made);
+    const sixes = Array.from(text, letter => letter.charCodeAt(0) - SIX_BITS);
+    const made: number[] = [];
+    for (let at = 0, count = 2; at < sixes.length; at += count + 1, count = 3) {
+        const high = sixes[at + count] ?? 0;
+        for (const [i, low] of sixes.slice(at, at + count).entries()) made.push(low | (((high >> (2 * (i + 3 - count))) & 3) << 6));
+    }
+    return Uint8Array.from(made);
 }
 
 export async function play(requests: Requests, page: number, code = 0): Promise<void> {
-  await requests.ask(code ? `@play ${page} ${code}` : `@play ${page}`);
+    await requests.ask(code ? `@play ${page} ${code}` : `@play ${page}`);
 }
 
 /** Shapes the play from the next step on: blend -100..100 (left..right), rate 10..400 %, amplitude 0..150 %. Say it again within
  *  a second, or the robot ends its play by itself. */
 export async function drive(requests: Requests, blend: number, rate: number, amplitude: number): Promise<void> {
-  await requests.ask(`@drive ${blend} ${rate} ${amplitude}`);
+    await requests.ask(`@drive ${blend} ${rate} ${amplitude}`);
 }
 
 export type Command = 'stop' | 'break' | 'pause' | 'resume' | 'reset';
 
 export async function command(requests: Requests, what: Command): Promise<void> {
-  await requests.ask(`@${what}`, { isUrgent: what === 'stop' || what === 'break' });
+    await requests.ask(`@${what}`, { isUrgent: what === 'stop' || what === 'break' });
 }
 
 /** Without IDs: all servos. */
 export async function setTorque(requests: Requests, on: boolean, ids: readonly number[] = []): Promise<void> {
-  await requests.ask(['@torque', on ? 'on' : 'off', ...ids].join(' '), { timeoutMs: PAGE_MS });
+    await requests.ask(['@torque', on ? 'on' : 'off', ...ids].join(' '), { timeoutMs: PAGE_MS });
 }
 
 /** Goes slowly to a pose, ramped, at most `degreesPerSecond` (1..360). positions: servo units by ID, null: this joint stays
  *  as it is. Refused with ERR 4 while something moves. */
 export async function movePose(requests: Requests, degreesPerSecond: number, positions: readonly (number | null)[]): Promise<void> {
-  const first = positions.findIndex((position) => position !== null);
-  if (first < 0) return;
-  const last = positions.findLastIndex((position) => position !== null);
-  const digits = positions.slice(first, last + 1).map((position) => (position === null ? '---' : position.toString(16).padStart(3, '0').toUpperCase()));
-  await requests.ask(`@move ${degreesPerSecond} ${first} ${digits.join('')}`);
+    const first = positions.findIndex(position => position !== null);
+    if (first < 0) return;
+    const last = positions.findLastIndex(position => position !== null);
+    const digits = positions
+        .slice(first, last + 1)
+        .map(position => (position === null ? '---' : position.toString(16).padStart(3, '0').toUpperCase()));
+    await requests.ask(`@move ${degreesPerSecond} ${first} ${digits.join('')}`);
 }
 
 /** ERR numbers of PROTOCOL.md that a program acts on. */
@@ -183,40 +202,40 @@ export const REFUSED = { noCommand: 1, busy: 4, torqueOff: 8, notHere: 10 } as c
 
 /** Shapes what plays, in Play: speed in percent (10..400). */
 export async function setRate(requests: Requests, percent: number): Promise<void> {
-  await requests.ask(`@rate ${percent}`);
+    await requests.ask(`@rate ${percent}`);
 }
 
 /** Size about the centre pose, in percent (0..150), of these joints or all. */
 export async function setAmplitude(requests: Requests, percent: number, ids: readonly number[] = []): Promise<void> {
-  await requests.ask(['@amplitude', percent, ...ids].join(' '));
+    await requests.ask(['@amplitude', percent, ...ids].join(' '));
 }
 
 /** Towards the partner page: right 1..100, left -1..-100. */
 export async function setBlend(requests: Requests, percent: number): Promise<void> {
-  await requests.ask(`@blend ${percent}`);
+    await requests.ask(`@blend ${percent}`);
 }
 
 /** A second page over the play, on these joints or those that its first step uses; null: no more. Play alone has layers. */
 export async function setLayer(requests: Requests, page: number | null, ids: readonly number[] = []): Promise<void> {
-  await requests.ask(page === null ? '@layer off' : ['@layer', page, ...ids].join(' '));
+    await requests.ask(page === null ? '@layer off' : ['@layer', page, ...ids].join(' '));
 }
 
 /** Moves a joint by code: to a position (servo units), at most so fast (1..360), and holds it there. */
 export async function aim(requests: Requests, id: number, position: number, degreesPerSecond: number): Promise<void> {
-  await requests.ask(`@aim ${id} ${position} ${degreesPerSecond}`);
+    await requests.ask(`@aim ${id} ${position} ${degreesPerSecond}`);
 }
 
 /** To and fro about a centre: servo units, a period of 125..30000 ms. */
 export async function swing(requests: Requests, id: number, centre: number, amplitude: number, periodMs: number): Promise<void> {
-  await requests.ask(`@swing ${id} ${centre} ${amplitude} ${periodMs}`);
+    await requests.ask(`@swing ${id} ${centre} ${amplitude} ${periodMs}`);
 }
 
 /** These joints, or all, go back to the play; without one they stay. */
 export async function free(requests: Requests, ids: readonly number[] = []): Promise<void> {
-  await requests.ask(['@free', ...ids].join(' '));
+    await requests.ask(['@free', ...ids].join(' '));
 }
 
 /** Everything as stored. */
 export async function resetShape(requests: Requests): Promise<void> {
-  await requests.ask('@shape reset');
+    await requests.ask('@shape reset');
 }

@@ -8,11 +8,11 @@ const TAKES_BACK = new Set(['\b', '\x7f']);
 
 /** The line after these keys; '' when none is half typed. */
 export function typedLine(before: string, keys: string): string {
-  let line = before;
-  for (const key of keys.replaceAll(ESCAPE_SEQUENCE, '')) {
-    if (ENDS.has(key)) line = '';
-    else if (TAKES_BACK.has(key)) line = line.slice(0, -1);
-    else if (key >= ' ') line += key;
-  }
-  return line;
+    let line = before;
+    for (const key of keys.replaceAll(ESCAPE_SEQUENCE, '')) {
+        if (ENDS.has(key)) line = '';
+        else if (TAKES_BACK.has(key)) line = line.slice(0, -1);
+        else if (key >= ' ') line += key;
+    }
+    return line;
 }

@@ -5,11 +5,11 @@ import type { Port } from './port.ts';
 
 /** What we use of the browser's SerialPort. */
 export interface BrowserSerialPort {
-  readonly readable: ReadableStream<Uint8Array> | null;
-  readonly writable: WritableStream<Uint8Array> | null;
-  open(options: { baudRate: number; bufferSize?: number }): Promise<void>;
-  close(): Promise<void>;
-  getInfo?(): { usbVendorId?: number | undefined };
+    readonly readable: ReadableStream<Uint8Array> | null;
+    readonly writable: WritableStream<Uint8Array> | null;
+    open(options: { baudRate: number; bufferSize?: number }): Promise<void>;
+    close(): Promise<void>;
+    getInfo?(): { usbVendorId?: number | undefined };
 }
 
 /** The answers of 128 pages come without a pause; the browser's own buffer of 255 bytes would overrun. */
@@ -18,28 +18,28 @@ const BUFFER_BYTES = 16_384;
 const VENDORS: Readonly<Record<number, string>> = { 0x0403: 'FTDI', 0x067b: 'Prolific', 0x10c4: 'Silicon Labs', 0x1a86: 'WCH' };
 
 export class WebSerialPort implements Port {
-  readonly name: string;
-  private readonly port: BrowserSerialPort;
+    readonly name: string;
+    private readonly port: BrowserSerialPort;
 
-  constructor(port: BrowserSerialPort) {
-    this.port = port;
-    const vendor = port.getInfo?.().usbVendorId;
-    this.name = vendor === undefined ? 'serial port' : `USB serial port (${VENDORS[vendor] ?? vendor.toString(16)})`;
-  }
+    constructor(port: BrowserSerialPort) {
+        this.port = port;
+        const vendor = port.getInfo?.().usbVendorId;
+        this.name = vendor === undefined ? 'serial port' : `USB serial port (${VENDORS[vendor] ?? vendor.toString(16)})`;
+    }
 
-  get readable(): ReadableStream<Uint8Array> | null {
-    return this.port.readable;
-  }
+    get readable(): ReadableStream<Uint8Array> | null {
+        return this.port.readable;
+    }
 
-  get writable(): WritableStream<Uint8Array> | null {
-    return this.port.writable;
-  }
+    get writable(): WritableStream<Uint8Array> | null {
+        return this.port.writable;
+    }
 
-  open(options: { readonly baudRate: number }): Promise<void> {
-    return this.port.open({ baudRate: options.baudRate, bufferSize: BUFFER_BYTES });
-  }
+    open(options: { readonly baudRate: number }): Promise<void> {
+        return this.port.open({ baudRate: options.baudRate, bufferSize: BUFFER_BYTES });
+    }
 
-  close(): Promise<void> {
-    return this.port.close();
-  }
+    close(): Promise<void> {
+        return this.port.close();
+    }
 }

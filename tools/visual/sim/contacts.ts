@@ -5,31 +5,31 @@ import type { Touch } from '../model/trial.ts';
 import type { Data } from './mujoco.ts';
 
 export interface GeomTouch {
-  /** Two of them. */
-  readonly geoms: readonly number[];
-  readonly depthM: number;
+    /** Two of them. */
+    readonly geoms: readonly number[];
+    readonly depthM: number;
 }
 
 /** Geoms that touch since the last step, or the last mj_collision(). */
 export function geomTouches({ ncon, contact }: Data): GeomTouch[] {
-  const all = Array.from({ length: ncon }, (_, i) => {
-    const one = contact.get(i);
-    const copied = { geoms: [one?.geom1 ?? -1, one?.geom2 ?? -1], depthM: -(one?.dist ?? 1) };
-    one?.delete();
-    return copied;
-  });
-  contact.delete();
-  return all.filter(({ depthM }) => depthM >= 0);
+    const all = Array.from({ length: ncon }, (_, i) => {
+        const one = contact.get(i);
+        const copied = { geoms: [one?.geom1 ?? -1, one?.geom2 ?? -1], depthM: -(one?.dist ?? 1) };
+        one?.delete();
+        return copied;
+    });
+    contact.delete();
+    return all.filter(({ depthM }) => depthM >= 0);
 }
 
 /** Links that touch each other: each pair once, as deep as it is. linkOf: the name of the link that a geom belongs to; undefined:
  *  it is no part of the robot. */
 export function linkTouches(touches: readonly GeomTouch[], linkOf: (geom: number) => string | undefined): Touch[] {
-  const pairs = new Map<string, Touch>();
-  for (const { geoms, depthM } of touches) {
-    const [a, b] = geoms.map(linkOf).sort();
-    if (a === undefined || b === undefined) continue;
-    if (depthM >= (pairs.get(`${a} ${b}`)?.depthM ?? 0)) pairs.set(`${a} ${b}`, { links: [a, b], depthM });
-  }
-  return [...pairs.values()];
+    const pairs = new Map<string, Touch>();
+    for (const { geoms, depthM } of touches) {
+        const [a, b] = geoms.map(linkOf).sort();
+        if (a === undefined || b === undefined) continue;
+        if (depthM >= (pairs.get(`${a} ${b}`)?.depthM ?? 0)) pairs.set(`${a} ${b}`, { links: [a, b], depthM });
+    }
+    return [...pairs.values()];
 }

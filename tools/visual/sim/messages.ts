@@ -9,44 +9,50 @@ import type { Images, Memories } from './machine.ts';
 
 /** A hand that pulls a link at a point (in the link's frame) towards a place in the room. */
 export interface Grip {
-  readonly link: string;
-  readonly point: Vector;
-  readonly target: Vector;
+    readonly link: string;
+    readonly point: Vector;
+    readonly target: Vector;
 }
 
 /** The floor: tilted to the front and to the left (radians), and how much it grips (0..2). */
 export interface Floor {
-  readonly tiltFront: number;
-  readonly tiltLeft: number;
-  readonly friction: number;
+    readonly tiltFront: number;
+    readonly tiltLeft: number;
+    readonly friction: number;
 }
 
 export type ToSim =
-  | { readonly kind: 'start'; readonly module: WebAssembly.Module; readonly body: Body; readonly images: Images; readonly kept: Memories | null }
-  /** The page has taken the last state: it may have the next one. So a slow page gets fewer, never a queue of them. */
-  | { readonly kind: 'seen' }
-  | { readonly kind: 'physics'; readonly bodyXml: string; readonly wasm: ArrayBuffer }
-  | { readonly kind: 'bytes'; readonly sender: Sender; readonly bytes: Uint8Array }
-  | { readonly kind: 'speed'; readonly speed: number }
-  | { readonly kind: 'tick' }
-  | { readonly kind: 'power'; readonly on: boolean }
-  | { readonly kind: 'reset' }
-  | { readonly kind: 'button'; readonly button: Button; readonly down: boolean }
-  | { readonly kind: 'battery'; readonly volts: number }
-  | { readonly kind: 'fault'; readonly servo: number; readonly fault: number; readonly answers: number }
-  | { readonly kind: 'turn-servo'; readonly servo: number; readonly position: number }
-  /** ticks: lets go by itself after so many; without it, at the next grip. */
-  | { readonly kind: 'grip'; readonly grip: Grip | null; readonly ticks?: number }
-  | { readonly kind: 'hold'; readonly held: boolean }
-  | { readonly kind: 'floor'; readonly floor: Floor }
-  | { readonly kind: 'memories'; readonly id: number };
+    | {
+          readonly kind: 'start';
+          readonly module: WebAssembly.Module;
+          readonly body: Body;
+          readonly images: Images;
+          readonly kept: Memories | null;
+      }
+    /** The page has taken the last state: it may have the next one. So a slow page gets fewer, never a queue of them. */
+    | { readonly kind: 'seen' }
+    | { readonly kind: 'physics'; readonly bodyXml: string; readonly wasm: ArrayBuffer }
+    | { readonly kind: 'bytes'; readonly sender: Sender; readonly bytes: Uint8Array }
+    | { readonly kind: 'speed'; readonly speed: number }
+    | { readonly kind: 'tick' }
+    | { readonly kind: 'power'; readonly on: boolean }
+    | { readonly kind: 'reset' }
+    | { readonly kind: 'button'; readonly button: Button; readonly down: boolean }
+    | { readonly kind: 'battery'; readonly volts: number }
+    | { readonly kind: 'fault'; readonly servo: number; readonly fault: number; readonly answers: number }
+    | { readonly kind: 'turn-servo'; readonly servo: number; readonly position: number }
+    /** ticks: lets go by itself after so many; without it, at the next grip. */
+    | { readonly kind: 'grip'; readonly grip: Grip | null; readonly ticks?: number }
+    | { readonly kind: 'hold'; readonly held: boolean }
+    | { readonly kind: 'floor'; readonly floor: Floor }
+    | { readonly kind: 'memories'; readonly id: number };
 
 export type FromSim =
-  | { readonly kind: 'started'; readonly faults: readonly string[] }
-  | { readonly kind: 'physics'; readonly error: string | null }
-  | { readonly kind: 'bytes'; readonly bytes: Uint8Array }
-  | { readonly kind: 'state'; readonly state: RobotState }
-  /** The robot has written flash or EEPROM and rests: keep this. `id`: it was asked for by a message with that id. */
-  | { readonly kind: 'memories'; readonly memories: Memories; readonly id: number | null }
-  | { readonly kind: 'violation'; readonly violation: string; readonly text: string }
-  | { readonly kind: 'crashed'; readonly text: string };
+    | { readonly kind: 'started'; readonly faults: readonly string[] }
+    | { readonly kind: 'physics'; readonly error: string | null }
+    | { readonly kind: 'bytes'; readonly bytes: Uint8Array }
+    | { readonly kind: 'state'; readonly state: RobotState }
+    /** The robot has written flash or EEPROM and rests: keep this. `id`: it was asked for by a message with that id. */
+    | { readonly kind: 'memories'; readonly memories: Memories; readonly id: number | null }
+    | { readonly kind: 'violation'; readonly violation: string; readonly text: string }
+    | { readonly kind: 'crashed'; readonly text: string };

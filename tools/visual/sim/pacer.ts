@@ -7,43 +7,43 @@ import { CYCLES_PER_MS } from './board.ts';
 const FORGIVEN_MS = 250;
 
 export class Pacer {
-  private speed = 1;
-  private startMs = 0;
-  private startCycle = 0;
+    private speed = 1;
+    private startMs = 0;
+    private startCycle = 0;
 
-  /** speed: simulated seconds a second; 0 stands still, Infinity runs as fast as it can. */
-  setSpeed(speed: number, nowMs: number, cycle: number): void {
-    this.speed = speed;
-    this.startMs = nowMs;
-    this.startCycle = cycle;
-  }
+    /** speed: simulated seconds a second; 0 stands still, Infinity runs as fast as it can. */
+    setSpeed(speed: number, nowMs: number, cycle: number): void {
+        this.speed = speed;
+        this.startMs = nowMs;
+        this.startCycle = cycle;
+    }
 
-  get currentSpeed(): number {
-    return this.speed;
-  }
+    get currentSpeed(): number {
+        return this.speed;
+    }
 
-  get isPaused(): boolean {
-    return this.speed === 0;
-  }
+    get isPaused(): boolean {
+        return this.speed === 0;
+    }
 
-  get isUnthrottled(): boolean {
-    return this.speed === Infinity;
-  }
+    get isUnthrottled(): boolean {
+        return this.speed === Infinity;
+    }
 
-  /** The cycle that should be reached now. */
-  dueCycle(nowMs: number, cycle: number): number {
-    if (this.speed === 0) return cycle;
-    if (this.speed === Infinity) return Infinity;
-    const due = this.startCycle + (nowMs - this.startMs) * this.speed * CYCLES_PER_MS;
-    if (due - cycle <= FORGIVEN_MS * CYCLES_PER_MS * Math.max(1, this.speed)) return due;
-    this.setSpeed(this.speed, nowMs, cycle);
-    return cycle;
-  }
+    /** The cycle that should be reached now. */
+    dueCycle(nowMs: number, cycle: number): number {
+        if (this.speed === 0) return cycle;
+        if (this.speed === Infinity) return Infinity;
+        const due = this.startCycle + (nowMs - this.startMs) * this.speed * CYCLES_PER_MS;
+        if (due - cycle <= FORGIVEN_MS * CYCLES_PER_MS * Math.max(1, this.speed)) return due;
+        this.setSpeed(this.speed, nowMs, cycle);
+        return cycle;
+    }
 
-  /** Milliseconds of the wall clock by which the simulation is behind; 0 when it is paused or unthrottled. */
-  lateMs(nowMs: number, cycle: number): number {
-    if (this.speed === 0 || this.speed === Infinity) return 0;
-    const due = this.startCycle + (nowMs - this.startMs) * this.speed * CYCLES_PER_MS;
-    return Math.max(0, (due - cycle) / CYCLES_PER_MS / this.speed);
-  }
+    /** Milliseconds of the wall clock by which the simulation is behind; 0 when it is paused or unthrottled. */
+    lateMs(nowMs: number, cycle: number): number {
+        if (this.speed === 0 || this.speed === Infinity) return 0;
+        const due = this.startCycle + (nowMs - this.startMs) * this.speed * CYCLES_PER_MS;
+        return Math.max(0, (due - cycle) / CYCLES_PER_MS / this.speed);
+    }
 }

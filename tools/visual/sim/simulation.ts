@@ -13,112 +13,118 @@ import { Standing } from './standing.ts';
 const TRACE_LIMIT = 512; // ticks; a page that asks rarely gets the newest
 
 export class Simulation {
-  readonly board: Board;
-  private readonly body: Body;
-  private readonly standing: Standing;
-  private readonly joints: ReadonlyMap<number, Joint>;
-  private physical: PhysicalBody | null = null;
-  private readings: ServoReading[];
-  private trace: number[] = [];
-  private gripTicks = Infinity;
-  private floor: Floor = { tiltFront: 0, tiltLeft: 0, friction: 0.8 };
+    readonly board: Board;
+    private readonly body: Body;
+    private readonly standing: Standing;
+    private readonly joints: ReadonlyMap<number, Joint>;
+    private physical: PhysicalBody | null = null;
+    private readings: ServoReading[];
+    private trace: number[] = [];
+    private gripTicks = Infinity;
+    private floor: Floor = { tiltFront: 0, tiltLeft: 0, friction: 0.8 };
 
-  constructor(board: Board, body: Body) {
-    this.board = board;
-    this.body = body;
-    this.standing = new Standing(body);
-    this.joints = new Map(body.joints.map((joint) => [joint.servo, joint]));
-    this.readings = board.servos();
-  }
-
-  /** From now on the robot has a body of mass that can fall, standing where its joints put it. held: a hand holds it until
-   *  setHeld(false). */
-  setPhysical(physical: PhysicalBody, held = true): void {
-    this.physical = physical;
-    physical.begin((servo) => this.angle(servo), this.body);
-    physical.setFloor(this.floor);
-    if (held) physical.setHeld(true);
-    this.board.setBody(physical);
-  }
-
-  get hasFallen(): boolean {
-    return this.physical?.hasFallen ?? false;
-  }
-
-  get hasPhysics(): boolean {
-    return this.physical !== null;
-  }
-
-  /** Runs on to this cycle, at tick borders. false: a violation stopped the board. */
-  runTo(cycle: number): boolean {
-    let next = Math.floor(this.board.nowCycles / CYCLES_PER_TICK + 1) * CYCLES_PER_TICK;
-    for (; next <= cycle; next += CYCLES_PER_TICK) {
-      if (!this.board.runTo(next)) return false;
-      this.note();
+    constructor(board: Board, body: Body) {
+        this.board = board;
+        this.body = body;
+        this.standing = new Standing(body);
+        this.joints = new Map(body.joints.map(joint => [joint.servo, joint]));
+        this.readings = board.servos();
     }
-    return true;
-  }
 
-  runTick(): boolean {
-    return this.runTo(this.board.nowCycles + CYCLES_PER_TICK);
-  }
+    /** From now on the robot has a body of mass that can fall, standing where its joints put it. held: a hand holds it until
+     *  setHeld(false). */
+    setPhysical(physical: PhysicalBody, held = true): void {
+        this.physical = physical;
+        physical.begin(servo => this.angle(servo), this.body);
+        physical.setFloor(this.floor);
+        if (held) physical.setHeld(true);
+        this.board.setBody(physical);
+    }
 
-  /** ticks: how long the hand pulls; without it, until the next grip. */
-  setGrip(grip: Grip | null, ticks = Infinity): void {
-    this.gripTicks = ticks;
-    this.physical?.setGrip(grip);
-  }
+    get hasFallen(): boolean {
+        return this.physical?.hasFallen ?? false;
+    }
 
-  setHeld(held: boolean): void {
-    this.physical?.setHeld(held);
-  }
+    get hasPhysics(): boolean {
+        return this.physical !== null;
+    }
 
-  setFloor(floor: Floor): void {
-    this.floor = floor;
-    this.physical?.setFloor(floor);
-  }
+    /** Runs on to this cycle, at tick borders. false: a violation stopped the board. */
+    runTo(cycle: number): boolean {
+        let next = Math.floor(this.board.nowCycles / CYCLES_PER_TICK + 1) * CYCLES_PER_TICK;
+        for (; next <= cycle; next += CYCLES_PER_TICK) {
+            if (!this.board.runTo(next)) return false;
+            this.note();
+        }
+        return true;
+    }
 
-  /** A hand turns a joint of a robot without a body of mass. */
-  turnServo(servo: number, position: number): void {
-    const index = this.readings.findIndex((reading) => reading.id === servo);
-    if (index >= 0 && !this.physical) this.board.pushServo(index, position);
-  }
+    runTick(): boolean {
+        return this.runTo(this.board.nowCycles + CYCLES_PER_TICK);
+    }
 
-  setFault(servo: number, fault: number, answers: number): void {
-    const index = this.readings.findIndex((reading) => reading.id === servo);
-    if (index >= 0) this.board.setFault(index, fault, answers);
-  }
+    /** ticks: how long the hand pulls; without it, until the next grip. */
+    setGrip(grip: Grip | null, ticks = Infinity): void {
+        this.gripTicks = ticks;
+        this.physical?.setGrip(grip);
+    }
 
-  /** Everything there is to tell; the trace begins anew. */
-  state(lateMs: number): RobotState {
-    const trace = Float32Array.from(this.trace);
-    this.trace = [];
-    return {
-      ticks: Math.floor(this.board.nowCycles / CYCLES_PER_TICK),
-      servos: this.readings.map(({ id, goalPos, position, torque, alarms, celsius, faults }) => ({
-        id, goalPos, position, torque, alarms, celsius, faults,
-      })),
-      trunk: this.physical ? this.physical.trunk : this.standing.move((joint) => this.angle(joint.servo)),
-      leds: this.board.leds,
-      isPowered: this.board.isPowered,
-      isHeld: this.physical?.held ?? false,
-      hasFallen: this.physical?.hasFallen ?? false,
-      lateMs,
-      trace,
-    };
-  }
+    setHeld(held: boolean): void {
+        this.physical?.setHeld(held);
+    }
 
-  private angle(servo: number): number {
-    const joint = this.joints.get(servo);
-    const reading = this.readings.find((one) => one.id === servo);
-    return joint && reading ? jointAngle(joint, reading.position) : 0;
-  }
+    setFloor(floor: Floor): void {
+        this.floor = floor;
+        this.physical?.setFloor(floor);
+    }
 
-  private note(): void {
-    if (--this.gripTicks === 0) this.physical?.setGrip(null);
-    this.readings = this.board.servos();
-    for (const { goalPos, position } of this.readings) this.trace.push(goalPos, position);
-    const limit = TRACE_LIMIT * 2 * this.readings.length;
-    if (this.trace.length > limit) this.trace.splice(0, this.trace.length - limit);
-  }
+    /** A hand turns a joint of a robot without a body of mass. */
+    turnServo(servo: number, position: number): void {
+        const index = this.readings.findIndex(reading => reading.id === servo);
+        if (index >= 0 && !this.physical) this.board.pushServo(index, position);
+    }
+
+    setFault(servo: number, fault: number, answers: number): void {
+        const index = this.readings.findIndex(reading => reading.id === servo);
+        if (index >= 0) this.board.setFault(index, fault, answers);
+    }
+
+    /** Everything there is to tell; the trace begins anew. */
+    state(lateMs: number): RobotState {
+        const trace = Float32Array.from(this.trace);
+        this.trace = [];
+        return {
+            ticks: Math.floor(this.board.nowCycles / CYCLES_PER_TICK),
+            servos: this.readings.map(({ id, goalPos, position, torque, alarms, celsius, faults }) => ({
+                id,
+                goalPos,
+                position,
+                torque,
+                alarms,
+                celsius,
+                faults,
+            })),
+            trunk: this.physical ? this.physical.trunk : this.standing.move(joint => this.angle(joint.servo)),
+            leds: this.board.leds,
+            isPowered: this.board.isPowered,
+            isHeld: this.physical?.held ?? false,
+            hasFallen: this.physical?.hasFallen ?? false,
+            lateMs,
+            trace,
+        };
+    }
+
+    private angle(servo: number): number {
+        const joint = this.joints.get(servo);
+        const reading = this.readings.find(one => one.id === servo);
+        return joint && reading ? jointAngle(joint, reading.position) : 0;
+    }
+
+    private note(): void {
+        if (--this.gripTicks === 0) this.physical?.setGrip(null);
+        this.readings = this.board.servos();
+        for (const { goalPos, position } of this.readings) this.trace.push(goalPos, position);
+        const limit = TRACE_LIMIT * 2 * this.readings.length;
+        if (this.trace.length > limit) this.trace.splice(0, this.trace.length - limit);
+    }
 }

@@ -23,121 +23,131 @@ const FALLEN = 0.5;
 const TURN_TICKS = 16;
 
 interface Exports {
-  readonly memory: WebAssembly.Memory;
-  _initialize(): void;
-  trial_api_image(): number;
-  trial_api_new(volts: number): number;
-  trial_api_add_servo(id: number): number;
-  trial_api_stand(): void;
-  trial_api_shape(rate: number, amplitude: number, blend: number): number;
-  trial_api_start(page: number, law: number): number;
-  trial_api_keys(code: number): void;
-  trial_api_run(ticks: number): number;
-  trial_api_page(): number;
-  trial_api_step(): number;
-  trial_api_positions(): number;
+    readonly memory: WebAssembly.Memory;
+    _initialize(): void;
+    trial_api_image(): number;
+    trial_api_new(volts: number): number;
+    trial_api_add_servo(id: number): number;
+    trial_api_stand(): void;
+    trial_api_shape(rate: number, amplitude: number, blend: number): number;
+    trial_api_start(page: number, law: number): number;
+    trial_api_keys(code: number): void;
+    trial_api_run(ticks: number): number;
+    trial_api_page(): number;
+    trial_api_step(): number;
+    trial_api_positions(): number;
 }
 
 /** A trial under way. */
 class Play {
-  readonly positions: Float32Array;
-  readonly pages = new Set<number>();
-  ticks = 0;
-  isOn = false;
-  now: TrialMoment;
-  fell: TrialMoment | null = null;
+    readonly positions: Float32Array;
+    readonly pages = new Set<number>();
+    ticks = 0;
+    isOn = false;
+    now: TrialMoment;
+    fell: TrialMoment | null = null;
 
-  constructor({ page, ticks }: TrialRequest) {
-    this.positions = new Float32Array(ticks * JOINTS).fill(NaN);
-    this.now = { tick: 0, page, step: 0 };
-  }
+    constructor({ page, ticks }: TrialRequest) {
+        this.positions = new Float32Array(ticks * JOINTS).fill(NaN);
+        this.now = { tick: 0, page, step: 0 };
+    }
 }
 
 /** A place for trials; one at a time. */
 export class TrialStand {
-  private readonly api: Exports;
-  private readonly body: Body;
-  private readonly physical: PhysicalBody;
+    private readonly api: Exports;
+    private readonly body: Body;
+    private readonly physical: PhysicalBody;
 
-  private constructor(api: Exports, body: Body, physical: PhysicalBody) {
-    this.api = api;
-    this.body = body;
-    this.physical = physical;
-  }
-
-  /** module: trial.wasm; physical: for trials alone. */
-  static async make(module: WebAssembly.Module, body: Body, physical: PhysicalBody): Promise<TrialStand> {
-    const exportsOf = (): Exports => instance.exports as unknown as Exports; // the names of trial_api.h: tests/trial.test.ts calls them all
-    const pass = (call: keyof ShaftBody) => (at: number, count: number) => physical[call](new Float64Array(exportsOf().memory.buffer, at, count * SHAFT_FIELDS));
-    const instance: WebAssembly.Instance = await WebAssembly.instantiate(module, {
-      ...wasiImports(() => exportsOf().memory), body: { look: pass('look'), step: pass('step') },
-    });
-    exportsOf()._initialize();
-    return new TrialStand(exportsOf(), body, physical);
-  }
-
-  /** Plays a motion; yields now and then, with the ticks that are done. Throws when the page cannot be played. */
-  *play(request: TrialRequest): Generator<number, TrialRecord> {
-    const { api } = this;
-    const play = this.begin(request);
-    const stood = this.settle(request);
-    if (stood) this.start(play, request);
-    const limit = request.ticks + (request.toTheEnd ? STOP_TICKS : 0);
-    for (let done = 1; play.isOn && done <= limit; done++) {
-      if (done > request.ticks) api.trial_api_keys(LINK_CODE_STOP);
-      this.tick(play, done <= request.ticks);
-      if (done % TURN_TICKS === 0) yield Math.min(done, request.ticks);
+    private constructor(api: Exports, body: Body, physical: PhysicalBody) {
+        this.api = api;
+        this.body = body;
+        this.physical = physical;
     }
-    for (let i = 0; stood && request.toTheEnd && i < AFTER_TICKS; i++) this.tick(play, false);
-    const { ticks, positions, pages, fell } = play;
-    return {
-      stood, ticks, positions: positions.slice(0, ticks * JOINTS), pages: [...pages], fell, ended: !play.isOn, onFeet: stood && this.physical.isOnItsFeet,
-    };
-  }
 
-  private begin(request: TrialRequest): Play {
-    const { api } = this;
-    if (request.image.length !== IMAGE_BYTES) throw new RangeError(`an image of motions has ${IMAGE_BYTES} bytes, not ${request.image.length}`);
-    new Uint8Array(api.memory.buffer, api.trial_api_image(), IMAGE_BYTES).set(request.image);
-    if (!api.trial_api_new(request.volts)) throw new Error('no memory for a trial');
-    for (const { servo } of this.body.joints) if (!api.trial_api_add_servo(servo)) throw new Error(`servo ${servo} cannot be plugged in`);
-    const { rate, amplitude, blend } = request.shape;
-    if (!api.trial_api_shape(rate, amplitude, blend)) throw new RangeError(`no shape: ${rate} ${amplitude} ${blend}`);
-    return new Play(request);
-  }
+    /** module: trial.wasm; physical: for trials alone. */
+    static async make(module: WebAssembly.Module, body: Body, physical: PhysicalBody): Promise<TrialStand> {
+        const exportsOf = (): Exports => instance.exports as unknown as Exports; // the names of trial_api.h: tests/trial.test.ts calls them all
+        const pass = (call: keyof ShaftBody) => (at: number, count: number) =>
+            physical[call](new Float64Array(exportsOf().memory.buffer, at, count * SHAFT_FIELDS));
+        const instance: WebAssembly.Instance = await WebAssembly.instantiate(module, {
+            ...wasiImports(() => exportsOf().memory),
+            body: { look: pass('look'), step: pass('step') },
+        });
+        exportsOf()._initialize();
+        return new TrialStand(exportsOf(), body, physical);
+    }
 
-  /** Puts it on its soles in the first pose. false: it does not stand there. */
-  private settle({ pose }: TrialRequest): boolean {
-    const joints = new Map(this.body.joints.map((joint) => [joint.servo, joint]));
-    this.physical.begin((servo) => {
-      const joint = joints.get(servo);
-      return joint ? jointAngle(joint, pose[servo] ?? joint.zero) : 0;
-    }, this.body);
-    this.api.trial_api_stand();
-    this.api.trial_api_run(SETTLE_TICKS);
-    return this.physical.upright > FALLEN;
-  }
+    /** Plays a motion; yields now and then, with the ticks that are done. Throws when the page cannot be played. */
+    *play(request: TrialRequest): Generator<number, TrialRecord> {
+        const { api } = this;
+        const play = this.begin(request);
+        const stood = this.settle(request);
+        if (stood) this.start(play, request);
+        const limit = request.ticks + (request.toTheEnd ? STOP_TICKS : 0);
+        for (let done = 1; play.isOn && done <= limit; done++) {
+            if (done > request.ticks) api.trial_api_keys(LINK_CODE_STOP);
+            this.tick(play, done <= request.ticks);
+            if (done % TURN_TICKS === 0) yield Math.min(done, request.ticks);
+        }
+        for (let i = 0; stood && request.toTheEnd && i < AFTER_TICKS; i++) this.tick(play, false);
+        const { ticks, positions, pages, fell } = play;
+        return {
+            stood,
+            ticks,
+            positions: positions.slice(0, ticks * JOINTS),
+            pages: [...pages],
+            fell,
+            ended: !play.isOn,
+            onFeet: stood && this.physical.isOnItsFeet,
+        };
+    }
 
-  private start(play: Play, { page, law }: TrialRequest): void {
-    const status = this.api.trial_api_start(page, LAW_OF[law]);
-    if (status !== 0) throw new Error(`page ${page} cannot be played (${status})`);
-    play.isOn = true;
-  }
+    private begin(request: TrialRequest): Play {
+        const { api } = this;
+        if (request.image.length !== IMAGE_BYTES)
+            throw new RangeError(`an image of motions has ${IMAGE_BYTES} bytes, not ${request.image.length}`);
+        new Uint8Array(api.memory.buffer, api.trial_api_image(), IMAGE_BYTES).set(request.image);
+        if (!api.trial_api_new(request.volts)) throw new Error('no memory for a trial');
+        for (const { servo } of this.body.joints)
+            if (!api.trial_api_add_servo(servo)) throw new Error(`servo ${servo} cannot be plugged in`);
+        const { rate, amplitude, blend } = request.shape;
+        if (!api.trial_api_shape(rate, amplitude, blend)) throw new RangeError(`no shape: ${rate} ${amplitude} ${blend}`);
+        return new Play(request);
+    }
 
-  private tick(play: Play, isNoted: boolean): void {
-    const { api } = this;
-    play.isOn = api.trial_api_run(1) !== 0;
-    const page = api.trial_api_page();
-    if (page > 0) play.now = { tick: play.ticks, page, step: api.trial_api_step() - 1 };
-    if (page > 0) play.pages.add(page);
-    if (isNoted) this.notePositions(play);
-    if (this.physical.upright < FALLEN) play.fell ??= play.now;
-  }
+    /** Puts it on its soles in the first pose. false: it does not stand there. */
+    private settle({ pose }: TrialRequest): boolean {
+        const joints = new Map(this.body.joints.map(joint => [joint.servo, joint]));
+        this.physical.begin(servo => {
+            const joint = joints.get(servo);
+            return joint ? jointAngle(joint, pose[servo] ?? joint.zero) : 0;
+        }, this.body);
+        this.api.trial_api_stand();
+        this.api.trial_api_run(SETTLE_TICKS);
+        return this.physical.upright > FALLEN;
+    }
 
-  private notePositions(play: Play): void {
-    const { joints } = this.body;
-    const from = play.ticks++ * JOINTS;
-    const positions = new Float64Array(this.api.memory.buffer, this.api.trial_api_positions(), joints.length);
-    joints.forEach(({ servo }, i) => (play.positions[from + servo] = positions[i] ?? NaN));
-  }
+    private start(play: Play, { page, law }: TrialRequest): void {
+        const status = this.api.trial_api_start(page, LAW_OF[law]);
+        if (status !== 0) throw new Error(`page ${page} cannot be played (${status})`);
+        play.isOn = true;
+    }
+
+    private tick(play: Play, isNoted: boolean): void {
+        const { api } = this;
+        play.isOn = api.trial_api_run(1) !== 0;
+        const page = api.trial_api_page();
+        if (page > 0) play.now = { tick: play.ticks, page, step: api.trial_api_step() - 1 };
+        if (page > 0) play.pages.add(page);
+        if (isNoted) this.notePositions(play);
+        if (this.physical.upright < FALLEN) play.fell ??= play.now;
+    }
+
+    private notePositions(play: Play): void {
+        const { joints } = this.body;
+        const from = play.ticks++ * JOINTS;
+        const positions = new Float64Array(this.api.memory.buffer, this.api.trial_api_positions(), joints.length);
+        joints.forEach(({ servo }, i) => (play.positions[from + servo] = positions[i] ?? NaN));
+    }
 }

@@ -27,121 +27,135 @@ const early: ToSim[] = [];
 const ready = new MessageChannel();
 
 function tell(message: FromSim, transfer: Transferable[] = []): void {
-  postMessage(message, { transfer });
+    postMessage(message, { transfer });
 }
 
 async function start(message: Extract<ToSim, { kind: 'start' }>): Promise<void> {
-  const board = await makeMachine(message.module, message.images, message.kept, Math.floor(Math.random() * 0xffffffff));
-  startedBody = message.body;
-  simulation = new Simulation(board, message.body);
-  isStopped = false;
-  keptOperations = seenOperations = board.operations;
-  board.setPower(true);
-  pacer.setSpeed(1, performance.now(), board.nowCycles);
-  tell({ kind: 'started', faults: board.faultNames() });
-  for (const one of early.splice(0)) handle(one);
-  loop();
+    const board = await makeMachine(message.module, message.images, message.kept, Math.floor(Math.random() * 0xffffffff));
+    startedBody = message.body;
+    simulation = new Simulation(board, message.body);
+    isStopped = false;
+    keptOperations = seenOperations = board.operations;
+    board.setPower(true);
+    pacer.setSpeed(1, performance.now(), board.nowCycles);
+    tell({ kind: 'started', faults: board.faultNames() });
+    for (const one of early.splice(0)) handle(one);
+    loop();
 }
 
 async function addPhysics(message: Extract<ToSim, { kind: 'physics' }>): Promise<void> {
-  try {
-    const [{ makeMujoco }, { PhysicalBody }] = await Promise.all([import('./mujoco.ts'), import('./physical-body.ts')]);
-    const mujoco = await makeMujoco(message.wasm);
-    if (!simulation || !startedBody) throw new Error('there is no robot yet');
-    simulation.setPhysical(new PhysicalBody(mujoco, message.bodyXml, startedBody));
-    pacer.setSpeed(pacer.isPaused ? 0 : pacer.currentSpeed, performance.now(), simulation.board.nowCycles);
-    tell({ kind: 'physics', error: null });
-  } catch (cause) {
-    tell({ kind: 'physics', error: cause instanceof Error ? cause.message : String(cause) });
-  }
+    try {
+        const [{ makeMujoco }, { PhysicalBody }] = await Promise.all([import('./mujoco.ts'), import('./physical-body.ts')]);
+        const mujoco = await makeMujoco(message.wasm);
+        if (!simulation || !startedBody) throw new Error('there is no robot yet');
+        simulation.setPhysical(new PhysicalBody(mujoco, message.bodyXml, startedBody));
+        pacer.setSpeed(pacer.isPaused ? 0 : pacer.currentSpeed, performance.now(), simulation.board.nowCycles);
+        tell({ kind: 'physics', error: null });
+    } catch (cause) {
+        tell({ kind: 'physics', error: cause instanceof Error ? cause.message : String(cause) });
+    }
 }
 
 function loop(): void {
-  if (!simulation || isStopped) return;
-  const startMs = performance.now();
-  const isBehind = run(simulation, startMs);
-  const bytes = simulation.board.receive();
-  if (bytes.length > 0) tell({ kind: 'bytes', bytes }, [bytes.buffer]);
-  const nowMs = performance.now();
-  if (isSeen && nowMs - frameAtMs >= FRAME_MS - 1) sendFrame(simulation, nowMs);
-  if (isBehind) ready.port2.postMessage(null);
-  else setTimeout(() => guarded(loop), IDLE_MS);
+    if (!simulation || isStopped) return;
+    const startMs = performance.now();
+    const isBehind = run(simulation, startMs);
+    const bytes = simulation.board.receive();
+    if (bytes.length > 0) tell({ kind: 'bytes', bytes }, [bytes.buffer]);
+    const nowMs = performance.now();
+    if (isSeen && nowMs - frameAtMs >= FRAME_MS - 1) sendFrame(simulation, nowMs);
+    if (isBehind) ready.port2.postMessage(null);
+    else setTimeout(() => guarded(loop), IDLE_MS);
 }
 
 /** Runs what is due, but not for longer than one turn; true when there is more. */
 function run(robot: Simulation, startMs: number): boolean {
-  while (robot.board.nowCycles < pacer.dueCycle(performance.now(), robot.board.nowCycles)) {
-    const before = robot.board.nowCycles;
-    const due = pacer.dueCycle(performance.now(), before);
-    if (due - before < CYCLES_PER_TICK) return false; // less than a tick
-    if (!robot.runTick()) {
-      const violation = robot.board.violation;
-      isStopped = true;
-      tell({ kind: 'violation', violation: violation?.kind ?? 'unknown', text: violation?.text ?? '' });
-      return false;
+    while (robot.board.nowCycles < pacer.dueCycle(performance.now(), robot.board.nowCycles)) {
+        const before = robot.board.nowCycles;
+        const due = pacer.dueCycle(performance.now(), before);
+        if (due - before < CYCLES_PER_TICK) return false; // less than a tick
+        if (!robot.runTick()) {
+            const violation = robot.board.violation;
+            isStopped = true;
+            tell({ kind: 'violation', violation: violation?.kind ?? 'unknown', text: violation?.text ?? '' });
+            return false;
+        }
+        if (performance.now() - startMs > TURN_MS) return true;
     }
-    if (performance.now() - startMs > TURN_MS) return true;
-  }
-  return false;
+    return false;
 }
 
 function sendFrame(robot: Simulation, nowMs: number): void {
-  frameAtMs = nowMs;
-  isSeen = false;
-  const state = robot.state(pacer.lateMs(nowMs, robot.board.nowCycles));
-  tell({ kind: 'state', state }, [state.trace.buffer]);
-  const operations = robot.board.operations;
-  if (operations !== seenOperations) {
-    seenOperations = operations;
-    writtenAtMs = nowMs;
-  } else if (operations !== keptOperations && nowMs - writtenAtMs > REST_MS) {
-    keptOperations = operations;
-    tell({ kind: 'memories', memories: readMemories(robot.board), id: null });
-  }
+    frameAtMs = nowMs;
+    isSeen = false;
+    const state = robot.state(pacer.lateMs(nowMs, robot.board.nowCycles));
+    tell({ kind: 'state', state }, [state.trace.buffer]);
+    const operations = robot.board.operations;
+    if (operations !== seenOperations) {
+        seenOperations = operations;
+        writtenAtMs = nowMs;
+    } else if (operations !== keptOperations && nowMs - writtenAtMs > REST_MS) {
+        keptOperations = operations;
+        tell({ kind: 'memories', memories: readMemories(robot.board), id: null });
+    }
 }
 
 function handle(message: ToSim): void {
-  if (message.kind === 'start') return void start(message).catch(crash);
-  if (!simulation) {
-    if (message.kind !== 'bytes') early.push(message); // bytes: nobody listens to the wire yet
-    return;
-  }
-  if (message.kind === 'physics') return void addPhysics(message);
-  if (message.kind === 'seen') {
-    isSeen = true;
-    return;
-  }
-  const { board } = simulation;
-  switch (message.kind) {
-    case 'bytes': return board.send(message.sender, message.bytes);
-    case 'speed': return pacer.setSpeed(message.speed, performance.now(), board.nowCycles);
-    case 'tick': return void simulation.runTick();
-    case 'power': return board.setPower(message.on);
-    case 'reset': return resetBoard(board);
-    case 'button': return board.press(message.button, message.down);
-    case 'battery': return board.setBattery(message.volts);
-    case 'fault': return simulation.setFault(message.servo, message.fault, message.answers);
-    case 'turn-servo': return simulation.turnServo(message.servo, message.position);
-    case 'grip': return simulation.setGrip(message.grip, message.ticks);
-    case 'hold': return simulation.setHeld(message.held);
-    case 'floor': return simulation.setFloor(message.floor);
-    case 'memories': return tell({ kind: 'memories', memories: readMemories(board), id: message.id });
-    default: message satisfies never;
-  }
+    if (message.kind === 'start') return void start(message).catch(crash);
+    if (!simulation) {
+        if (message.kind !== 'bytes') early.push(message); // bytes: nobody listens to the wire yet
+        return;
+    }
+    if (message.kind === 'physics') return void addPhysics(message);
+    if (message.kind === 'seen') {
+        isSeen = true;
+        return;
+    }
+    const { board } = simulation;
+    switch (message.kind) {
+        case 'bytes':
+            return board.send(message.sender, message.bytes);
+        case 'speed':
+            return pacer.setSpeed(message.speed, performance.now(), board.nowCycles);
+        case 'tick':
+            return void simulation.runTick();
+        case 'power':
+            return board.setPower(message.on);
+        case 'reset':
+            return resetBoard(board);
+        case 'button':
+            return board.press(message.button, message.down);
+        case 'battery':
+            return board.setBattery(message.volts);
+        case 'fault':
+            return simulation.setFault(message.servo, message.fault, message.answers);
+        case 'turn-servo':
+            return simulation.turnServo(message.servo, message.position);
+        case 'grip':
+            return simulation.setGrip(message.grip, message.ticks);
+        case 'hold':
+            return simulation.setHeld(message.held);
+        case 'floor':
+            return simulation.setFloor(message.floor);
+        case 'memories':
+            return tell({ kind: 'memories', memories: readMemories(board), id: message.id });
+        default:
+            message satisfies never;
+    }
 }
 
 function crash(cause: unknown): void {
-  isStopped = true;
-  tell({ kind: 'crashed', text: cause instanceof Error ? cause.message : String(cause) });
+    isStopped = true;
+    tell({ kind: 'crashed', text: cause instanceof Error ? cause.message : String(cause) });
 }
 
 ready.port1.onmessage = () => guarded(loop);
 self.onmessage = (event: MessageEvent<ToSim>) => guarded(() => handle(event.data));
 
 function guarded(deed: () => void): void {
-  try {
-    deed();
-  } catch (cause) {
-    crash(cause);
-  }
+    try {
+        deed();
+    } catch (cause) {
+        crash(cause);
+    }
 }

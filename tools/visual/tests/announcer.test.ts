@@ -6,63 +6,80 @@ import type { DeskState } from '../view/desk.ts';
 import { GetUp } from '../view/get-up.ts';
 
 const START = {
-  source: 'simulated', connection: 'ready', isPowered: true, isLate: false, isInDialog: false, stopped: null, shownPage: null, said: null, version: { image: 'play' },
-  doing: { text: 'x', tone: 'calm' }, where: null, pages: [{ page: 20, name: 'walk' }, { page: 21, name: 'walk_r' }, { page: 22, name: 'walk_l' }],
+    source: 'simulated',
+    connection: 'ready',
+    isPowered: true,
+    isLate: false,
+    isInDialog: false,
+    stopped: null,
+    shownPage: null,
+    said: null,
+    version: { image: 'play' },
+    doing: { text: 'x', tone: 'calm' },
+    where: null,
+    pages: [
+        { page: 20, name: 'walk' },
+        { page: 21, name: 'walk_r' },
+        { page: 22, name: 'walk_l' },
+    ],
 } as unknown as DeskState;
 const at = (state: string, page: number, step: number): DeskState => ({ ...START, where: { state, page, step } }) as DeskState;
 
 function heard() {
-  vi.useFakeTimers();
-  const said: (readonly [number, string])[] = [];
-  const began = Date.now();
-  const announcer = new Announcer({ say: (text) => said.push([Date.now() - began, text]), after: (ms, call) => void setTimeout(call, ms) });
-  return { announcer, said };
+    vi.useFakeTimers();
+    const said: (readonly [number, string])[] = [];
+    const began = Date.now();
+    const announcer = new Announcer({ say: text => said.push([Date.now() - began, text]), after: (ms, call) => void setTimeout(call, ms) });
+    return { announcer, said };
 }
 
 test('12 s of walking are two sentences: that it begins, and that it ends', async () => {
-  const { announcer, said } = heard();
-  announcer.look(at('idle', 0, 0), '');
-  for (let i = 0; i < 40; i++) {
-    announcer.look(at(i === 0 ? 'approach' : 'playing', i < 3 ? 20 : 21 + (i % 2), 1 + (i % 4)), '');
-    await vi.advanceTimersByTimeAsync(300);
-  }
-  announcer.look(at('idle', 0, 0), '');
-  expect(said.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.']);
+    const { announcer, said } = heard();
+    announcer.look(at('idle', 0, 0), '');
+    for (let i = 0; i < 40; i++) {
+        announcer.look(at(i === 0 ? 'approach' : 'playing', i < 3 ? 20 : 21 + (i % 2), 1 + (i % 4)), '');
+        await vi.advanceTimersByTimeAsync(300);
+    }
+    announcer.look(at('idle', 0, 0), '');
+    expect(said.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.']);
 });
 
 test('a fall and what went wrong are said, at most one sentence a second, the newest two', async () => {
-  const { announcer, said } = heard();
-  announcer.look(at('playing', 20, 1), '');
-  announcer.look(at('playing', 20, 1), 'The robot lies on the floor.');
-  announcer.look(at('idle', 0, 0), 'The robot lies on the floor.');
-  announcer.look({ ...at('idle', 0, 0), said: { text: 'The robot refused.', tone: 'bad' } }, 'The robot lies on the floor.');
-  await vi.advanceTimersByTimeAsync(5000);
-  expect(said.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.', 'The robot refused.']);
-  const times = said.map(([ms]) => ms);
-  for (const [i, ms] of times.slice(1).entries()) expect(ms - (times[i] ?? 0)).toBeGreaterThanOrEqual(1000);
+    const { announcer, said } = heard();
+    announcer.look(at('playing', 20, 1), '');
+    announcer.look(at('playing', 20, 1), 'The robot lies on the floor.');
+    announcer.look(at('idle', 0, 0), 'The robot lies on the floor.');
+    announcer.look({ ...at('idle', 0, 0), said: { text: 'The robot refused.', tone: 'bad' } }, 'The robot lies on the floor.');
+    await vi.advanceTimersByTimeAsync(5000);
+    expect(said.map(([, text]) => text)).toEqual(['Plays page 20 (walk).', 'The robot stands and waits.', 'The robot refused.']);
+    const times = said.map(([ms]) => ms);
+    for (const [i, ms] of times.slice(1).entries()) expect(ms - (times[i] ?? 0)).toBeGreaterThanOrEqual(1000);
 });
 
-const LIES = { face: { pos: [0, 0, 0.05], quat: [Math.SQRT1_2, 0, Math.SQRT1_2, 0] }, back: { pos: [0, 0, 0.05], quat: [Math.SQRT1_2, 0, -Math.SQRT1_2, 0] } } as const;
+const LIES = {
+    face: { pos: [0, 0, 0.05], quat: [Math.SQRT1_2, 0, Math.SQRT1_2, 0] },
+    back: { pos: [0, 0, 0.05], quat: [Math.SQRT1_2, 0, -Math.SQRT1_2, 0] },
+} as const;
 
 test('get up: one that has rolled over gets up from there, and gives up behind three tries; Stop ends it', () => {
-  const played: string[] = [];
-  const getUp = new GetUp((motion) => played.push(motion));
-  const ends = (lies: keyof typeof LIES, hasFallen = true): void => {
-    getUp.look(true, LIES[lies], true);
-    getUp.look(false, LIES[lies], hasFallen);
-  };
-  getUp.start(LIES.face);
-  ends('back');
-  ends('back', false); // it stands
-  ends('face'); // and falls later: nobody has asked
-  expect(played).toEqual(['face', 'back']);
-  played.length = 0;
-  getUp.start(LIES.back);
-  for (let i = 0; i < 5; i++) ends('face');
-  expect(played).toEqual(['back', 'face', 'face']);
-  played.length = 0;
-  getUp.start(LIES.back);
-  getUp.stop();
-  ends('face');
-  expect(played).toEqual(['back']);
+    const played: string[] = [];
+    const getUp = new GetUp(motion => played.push(motion));
+    const ends = (lies: keyof typeof LIES, hasFallen = true): void => {
+        getUp.look(true, LIES[lies], true);
+        getUp.look(false, LIES[lies], hasFallen);
+    };
+    getUp.start(LIES.face);
+    ends('back');
+    ends('back', false); // it stands
+    ends('face'); // and falls later: nobody has asked
+    expect(played).toEqual(['face', 'back']);
+    played.length = 0;
+    getUp.start(LIES.back);
+    for (let i = 0; i < 5; i++) ends('face');
+    expect(played).toEqual(['back', 'face', 'face']);
+    played.length = 0;
+    getUp.start(LIES.back);
+    getUp.stop();
+    ends('face');
+    expect(played).toEqual(['back']);
 });

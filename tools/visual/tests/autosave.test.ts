@@ -22,251 +22,293 @@ let ids = 0;
 
 /** A tab of a browser whose disk is `storage`. */
 async function openTab(storage: DocumentStorage, options: { taken?: string } = {}) {
-  const failures: unknown[] = [];
-  const copies: string[] = [];
-  const editor: DocumentEditor = new DocumentEditor(body, { format, player, document: library }, {
-    changed: () => documents.keep(), refused: () => undefined, opened: () => undefined,
-  });
-  const documents: KeptDocuments = new KeptDocuments({
-    open: (document, history) => editor.open(document, history), rename: (name) => editor.rename(name), edited: () => editor.state.get(),
-  }, {
-    storage, isKept: true, empty: emptyDocument(format, ''), nowMs: () => ++ids, newId: () => `id${++ids}`,
-    hold: (id) => Promise.resolve(id !== options.taken), failed: (error) => failures.push(error), copied: (name) => copies.push(name),
-  });
-  await documents.start(library);
-  return { editor, documents, failures, copies };
+    const failures: unknown[] = [];
+    const copies: string[] = [];
+    const editor: DocumentEditor = new DocumentEditor(
+        body,
+        { format, player, document: library },
+        {
+            changed: () => documents.keep(),
+            refused: () => undefined,
+            opened: () => undefined,
+        },
+    );
+    const documents: KeptDocuments = new KeptDocuments(
+        {
+            open: (document, history) => editor.open(document, history),
+            rename: name => editor.rename(name),
+            edited: () => editor.state.get(),
+        },
+        {
+            storage,
+            isKept: true,
+            empty: emptyDocument(format, ''),
+            nowMs: () => ++ids,
+            newId: () => `id${++ids}`,
+            hold: id => Promise.resolve(id !== options.taken),
+            failed: error => failures.push(error),
+            copied: name => copies.push(name),
+        },
+    );
+    await documents.start(library);
+    return { editor, documents, failures, copies };
 }
 
 function now(editor: DocumentEditor): MotionDocument {
-  return editor.state.get().document;
+    return editor.state.get().document;
 }
 
 /** Undo and redo, to the last, go through the same versions of the document as before. */
 function checkUndo(editor: DocumentEditor, versions: readonly Uint8Array[], at: number, where: string): void {
-  const is = (version: Uint8Array | undefined): boolean => Buffer.from(imageOf(now(editor))).equals(Buffer.from(version ?? []));
-  const { done, undone } = editor.state.get().history;
-  expect([done.length, undone.length], where).toEqual([at, versions.length - 1 - at]);
-  for (let i = at; i > 0; i--) {
-    editor.undo();
-    expect(is(versions[i - 1]), `${where}, undone to ${i - 1}`).toBe(true);
-  }
-  for (let i = 1; i < versions.length; i++) {
-    editor.redo();
-    expect(is(versions[i]), `${where}, redone to ${i}`).toBe(true);
-  }
+    const is = (version: Uint8Array | undefined): boolean => Buffer.from(imageOf(now(editor))).equals(Buffer.from(version ?? []));
+    const { done, undone } = editor.state.get().history;
+    expect([done.length, undone.length], where).toEqual([at, versions.length - 1 - at]);
+    for (let i = at; i > 0; i--) {
+        editor.undo();
+        expect(is(versions[i - 1]), `${where}, undone to ${i - 1}`).toBe(true);
+    }
+    for (let i = 1; i < versions.length; i++) {
+        editor.redo();
+        expect(is(versions[i]), `${where}, redone to ${i}`).toBe(true);
+    }
 }
 
 test('closed at 500 moments: all that was finished is there, with its undo and redo; an open gesture is not', async () => {
-  const closed = { edits: 0, inGesture: 0, undone: 0 };
-  for (let seed = 1; seed <= 500; seed++) {
-    const random = randomNumbers(seed);
-    const disk = new PassingStorage();
-    const { editor } = await openTab(disk);
-    const versions: Uint8Array[] = [imageOf(now(editor))]; // what a person has seen finished, as undo goes through it
-    let at = 0;
-    let open: ReturnType<DocumentEditor['gesture']> | null = null;
-    const finished = (): void => {
-      versions.length = ++at;
-      versions.push(imageOf(now(editor)));
-    };
-    for (let moment = Math.floor(random() * 16); moment >= 0; moment--) {
-      const page = 1 + Math.floor(random() * 30);
-      const kind = open ? (random() < 0.5 ? 'change' : 'finish') : (['edit', 'edit', 'undo', 'redo', 'begin'] as const)[Math.floor(random() * 5)];
-      if (kind === 'edit' && editor.dispatch(editor.edits.rename(now(editor), page, `n${seed}_${moment}`))) finished();
-      if (kind === 'undo' && at > 0) (editor.undo(), at--);
-      if (kind === 'redo' && at < versions.length - 1) (editor.redo(), at++);
-      if (kind === 'begin' || kind === 'change') {
-        open ??= editor.gesture('drag');
-        open.change(editor.edits.setLink(open.start, page, 'exit', 1 + Math.floor(random() * 127)));
-      }
-      if (kind === 'finish') {
-        const before = versions[at];
-        open?.finish();
-        open = null;
-        if (before && !Buffer.from(imageOf(now(editor))).equals(Buffer.from(before))) finished();
-      }
+    const closed = { edits: 0, inGesture: 0, undone: 0 };
+    for (let seed = 1; seed <= 500; seed++) {
+        const random = randomNumbers(seed);
+        const disk = new PassingStorage();
+        const { editor } = await openTab(disk);
+        const versions: Uint8Array[] = [imageOf(now(editor))]; // what a person has seen finished, as undo goes through it
+        let at = 0;
+        let open: ReturnType<DocumentEditor['gesture']> | null = null;
+        const finished = (): void => {
+            versions.length = ++at;
+            versions.push(imageOf(now(editor)));
+        };
+        for (let moment = Math.floor(random() * 16); moment >= 0; moment--) {
+            const page = 1 + Math.floor(random() * 30);
+            const kind = open
+                ? random() < 0.5
+                    ? 'change'
+                    : 'finish'
+                : (['edit', 'edit', 'undo', 'redo', 'begin'] as const)[Math.floor(random() * 5)];
+            if (kind === 'edit' && editor.dispatch(editor.edits.rename(now(editor), page, `n${seed}_${moment}`))) finished();
+            if (kind === 'undo' && at > 0) editor.undo(), at--;
+            if (kind === 'redo' && at < versions.length - 1) editor.redo(), at++;
+            if (kind === 'begin' || kind === 'change') {
+                open ??= editor.gesture('drag');
+                open.change(editor.edits.setLink(open.start, page, 'exit', 1 + Math.floor(random() * 127)));
+            }
+            if (kind === 'finish') {
+                const before = versions[at];
+                open?.finish();
+                open = null;
+                if (before && !Buffer.from(imageOf(now(editor))).equals(Buffer.from(before))) finished();
+            }
+        }
+        closed.edits += at;
+        closed.inGesture += Number(open !== null);
+        closed.undone += Number(at < versions.length - 1);
+        const { editor: next } = await openTab(disk); // the first tab is gone, in whatever it was doing
+        expect(Buffer.from(imageOf(now(next))).equals(Buffer.from(versions[at] ?? [])), `seed ${seed}`).toBe(true);
+        checkUndo(next, versions, at, `seed ${seed}`);
     }
-    closed.edits += at;
-    closed.inGesture += Number(open !== null);
-    closed.undone += Number(at < versions.length - 1);
-    const { editor: next } = await openTab(disk); // the first tab is gone, in whatever it was doing
-    expect(Buffer.from(imageOf(now(next))).equals(Buffer.from(versions[at] ?? [])), `seed ${seed}`).toBe(true);
-    checkUndo(next, versions, at, `seed ${seed}`);
-  }
-  expect(closed.edits).toBeGreaterThan(500);
-  expect(closed.inGesture).toBeGreaterThan(50);
-  expect(closed.undone).toBeGreaterThan(50);
+    expect(closed.edits).toBeGreaterThan(500);
+    expect(closed.inGesture).toBeGreaterThan(50);
+    expect(closed.undone).toBeGreaterThan(50);
 });
 
 test('a history that goes on over three tabs; the names of its steps too', async () => {
-  const disk = new PassingStorage();
-  for (const [i, name] of ['one', 'two', 'three'].entries()) {
-    const { editor } = await openTab(disk);
-    expect(editor.state.get().history.done.map((step) => step.label)).toEqual(Array.from({ length: 2 * i }, (_, k) => (k % 2 ? 'set-link' : 'rename')));
-    editor.dispatch(editor.edits.rename(now(editor), 2, name));
-    editor.dispatch(editor.edits.setLink(now(editor), 3, 'exit', i + 1));
-    editor.undo();
-    editor.redo();
-  }
-  const { editor, documents } = await openTab(disk);
-  for (let i = 0; i < 6; i++) editor.undo();
-  expect(imageOf(now(editor))).toEqual(imageOf(library));
-  expect(documents.state.get().forgotten).toBe(0);
+    const disk = new PassingStorage();
+    for (const [i, name] of ['one', 'two', 'three'].entries()) {
+        const { editor } = await openTab(disk);
+        expect(editor.state.get().history.done.map(step => step.label)).toEqual(
+            Array.from({ length: 2 * i }, (_, k) => (k % 2 ? 'set-link' : 'rename')),
+        );
+        editor.dispatch(editor.edits.rename(now(editor), 2, name));
+        editor.dispatch(editor.edits.setLink(now(editor), 3, 'exit', i + 1));
+        editor.undo();
+        editor.redo();
+    }
+    const { editor, documents } = await openTab(disk);
+    for (let i = 0; i < 6; i++) editor.undo();
+    expect(imageOf(now(editor))).toEqual(imageOf(library));
+    expect(documents.state.get().forgotten).toBe(0);
 });
 
 test('a step that is damaged or missing on the disk: what is older is forgotten, and told; the document is whole', async () => {
-  for (const [spoil, left] of [['missing', 2], ['torn', 2], ['of another document', 2]] as const) {
-    const disk = new PassingStorage();
-    const { editor } = await openTab(disk);
-    for (const name of ['a', 'b', 'c', 'd', 'e']) editor.dispatch(editor.edits.rename(now(editor), 2, name));
-    const last = imageOf(now(editor));
-    const readSteps = disk.readSteps.bind(disk);
-    disk.readSteps = async (id) => (await readSteps(id)).flatMap((step) => {
-      const found = step as { number: number; changes: { after: Uint8Array }[] };
-      if (found.number !== 2) return [step];
-      const other = { ...found.changes[0], after: library.pages[9] };
-      return spoil === 'missing' ? [] : [{ ...found, changes: spoil === 'torn' ? [{ ...found.changes[0], after: new Uint8Array(3) }] : [other] }];
-    });
-    const { editor: next, documents } = await openTab(disk);
-    expect(imageOf(now(next)), spoil).toEqual(last);
-    expect(next.state.get().history.done, spoil).toHaveLength(left);
-    expect(documents.state.get().forgotten, spoil).toBe(3);
-  }
+    for (const [spoil, left] of [
+        ['missing', 2],
+        ['torn', 2],
+        ['of another document', 2],
+    ] as const) {
+        const disk = new PassingStorage();
+        const { editor } = await openTab(disk);
+        for (const name of ['a', 'b', 'c', 'd', 'e']) editor.dispatch(editor.edits.rename(now(editor), 2, name));
+        const last = imageOf(now(editor));
+        const readSteps = disk.readSteps.bind(disk);
+        disk.readSteps = async id =>
+            (await readSteps(id)).flatMap(step => {
+                const found = step as { number: number; changes: { after: Uint8Array }[] };
+                if (found.number !== 2) return [step];
+                const other = { ...found.changes[0], after: library.pages[9] };
+                return spoil === 'missing'
+                    ? []
+                    : [{ ...found, changes: spoil === 'torn' ? [{ ...found.changes[0], after: new Uint8Array(3) }] : [other] }];
+            });
+        const { editor: next, documents } = await openTab(disk);
+        expect(imageOf(now(next)), spoil).toEqual(last);
+        expect(next.state.get().history.done, spoil).toHaveLength(left);
+        expect(documents.state.get().forgotten, spoil).toBe(3);
+    }
 });
 
 test('a history too long for its room: the oldest steps go, undo goes back as far as was kept', () => {
-  const step = (i: number): Transaction => ({ label: 'rename', changes: [{ page: 2, before: library.pages[i] ?? format.empty, after: library.pages[i + 1] ?? format.empty }] });
-  const steps = Array.from({ length: 50 }, (_, i) => step(i + 1));
-  let log = EMPTY_LOG;
-  const kept = new Map<number, unknown>();
-  for (let count = 1; count <= steps.length; count++) {
-    const made = advance(log, { done: steps.slice(0, count), undone: [] }, 20 * 1200);
-    log = made.log;
-    for (const number of [...kept.keys()]) if (number < made.change.dropBefore || number >= made.change.dropFrom) kept.delete(number);
-    for (const one of made.change.add) kept.set(one.number, one);
-  }
-  expect(kept.size).toBe(21);
-  const document = { ...library, pages: library.pages.map((bytes, page) => (page === 2 ? (library.pages[51] ?? bytes) : bytes)) };
-  const { history, log: again } = restored(document, 50, [...kept.values()]);
-  expect(history.done).toHaveLength(21);
-  expect(again.base).toBe(29);
+    const step = (i: number): Transaction => ({
+        label: 'rename',
+        changes: [{ page: 2, before: library.pages[i] ?? format.empty, after: library.pages[i + 1] ?? format.empty }],
+    });
+    const steps = Array.from({ length: 50 }, (_, i) => step(i + 1));
+    let log = EMPTY_LOG;
+    const kept = new Map<number, unknown>();
+    for (let count = 1; count <= steps.length; count++) {
+        const made = advance(log, { done: steps.slice(0, count), undone: [] }, 20 * 1200);
+        log = made.log;
+        for (const number of [...kept.keys()]) if (number < made.change.dropBefore || number >= made.change.dropFrom) kept.delete(number);
+        for (const one of made.change.add) kept.set(one.number, one);
+    }
+    expect(kept.size).toBe(21);
+    const document = { ...library, pages: library.pages.map((bytes, page) => (page === 2 ? (library.pages[51] ?? bytes) : bytes)) };
+    const { history, log: again } = restored(document, 50, [...kept.values()]);
+    expect(history.done).toHaveLength(21);
+    expect(again.base).toBe(29);
 });
 
 test('no room for document and history: the history goes, the document stays', async () => {
-  const disk = new PassingStorage();
-  const { editor, failures } = await openTab(disk);
-  const put = disk.putDocument.bind(disk);
-  disk.putDocument = (document, steps) => (steps.add.length > 0 ? Promise.reject(new Error('QuotaExceededError')) : put(document, steps));
-  editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
-  await settle();
-  expect(failures).toEqual([]);
-  const next = await openTab(disk);
-  expect(next.editor.page(2).name).toBe('curtsy');
-  expect(next.editor.state.get().history.done).toEqual([]);
-  expect(next.documents.state.get().forgotten).toBe(1);
+    const disk = new PassingStorage();
+    const { editor, failures } = await openTab(disk);
+    const put = disk.putDocument.bind(disk);
+    disk.putDocument = (document, steps) => (steps.add.length > 0 ? Promise.reject(new Error('QuotaExceededError')) : put(document, steps));
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
+    await settle();
+    expect(failures).toEqual([]);
+    const next = await openTab(disk);
+    expect(next.editor.page(2).name).toBe('curtsy');
+    expect(next.editor.state.get().history.done).toEqual([]);
+    expect(next.documents.state.get().forgotten).toBe(1);
 });
 
 test('several documents, each with its own pages; the one edited last is opened', async () => {
-  const disk = new PassingStorage();
-  const { editor, documents } = await openTab(disk);
-  const first = documents.state.get().openId;
-  await documents.create('Dances');
-  expect(format.isEmpty(pageOf(now(editor), 2))).toBe(true);
-  expect(editor.state.get().history.done).toHaveLength(0);
-  await documents.open(first);
-  expect(imageOf(now(editor))).toEqual(imageOf(library));
-  editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
-  documents.rename('Bows');
-  expect(editor.state.get().history.done).toHaveLength(1); // a new name keeps the history
-  const again = await openTab(disk);
-  expect(now(again.editor).name).toBe('Bows');
-  expect(again.documents.state.get().documents.map((one) => one.name).sort()).toEqual(['Bows', 'Dances']);
-  await again.documents.remove();
-  expect(now(again.editor).name).toBe('Dances');
+    const disk = new PassingStorage();
+    const { editor, documents } = await openTab(disk);
+    const first = documents.state.get().openId;
+    await documents.create('Dances');
+    expect(format.isEmpty(pageOf(now(editor), 2))).toBe(true);
+    expect(editor.state.get().history.done).toHaveLength(0);
+    await documents.open(first);
+    expect(imageOf(now(editor))).toEqual(imageOf(library));
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
+    documents.rename('Bows');
+    expect(editor.state.get().history.done).toHaveLength(1); // a new name keeps the history
+    const again = await openTab(disk);
+    expect(now(again.editor).name).toBe('Bows');
+    expect(
+        again.documents.state
+            .get()
+            .documents.map(one => one.name)
+            .sort(),
+    ).toEqual(['Bows', 'Dances']);
+    await again.documents.remove();
+    expect(now(again.editor).name).toBe('Dances');
 });
 
 test('what is edited right after a copy was asked for belongs to the copy, and the first document stays as it was', async () => {
-  const disk = new PassingStorage();
-  const { editor, documents } = await openTab(disk);
-  const first = documents.state.get().openId;
-  const made = documents.create('My motions (copy)', now(editor));
-  editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy')); // before the browser has given the copy to this tab
-  await made;
-  await settle();
-  const kept = new Map((await disk.load()).documents.map((one) => [one.name, one.image]));
-  expect(Buffer.from(kept.get('My motions') ?? []).equals(imageOf(library))).toBe(true);
-  expect(now(editor).name).toBe('My motions (copy)');
-  expect(Buffer.from(kept.get('My motions (copy)') ?? []).equals(imageOf(now(editor)))).toBe(true);
-  expect(editor.page(2).name).toBe('curtsy');
-  await documents.open(first);
-  expect(editor.page(2).name).toBe('bow');
+    const disk = new PassingStorage();
+    const { editor, documents } = await openTab(disk);
+    const first = documents.state.get().openId;
+    const made = documents.create('My motions (copy)', now(editor));
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy')); // before the browser has given the copy to this tab
+    await made;
+    await settle();
+    const kept = new Map((await disk.load()).documents.map(one => [one.name, one.image]));
+    expect(Buffer.from(kept.get('My motions') ?? []).equals(imageOf(library))).toBe(true);
+    expect(now(editor).name).toBe('My motions (copy)');
+    expect(Buffer.from(kept.get('My motions (copy)') ?? []).equals(imageOf(now(editor)))).toBe(true);
+    expect(editor.page(2).name).toBe('curtsy');
+    await documents.open(first);
+    expect(editor.page(2).name).toBe('bow');
 });
 
 test('a document that another tab has opens as a copy', async () => {
-  const disk = new PassingStorage();
-  const { documents } = await openTab(disk);
-  const second = await openTab(disk, { taken: documents.state.get().openId });
-  expect(now(second.editor).name).toBe('My motions (copy)');
-  expect(second.documents.state.get().documents).toHaveLength(2);
-  expect(second.copies).toEqual(['My motions (copy)']); // said, not only done
+    const disk = new PassingStorage();
+    const { documents } = await openTab(disk);
+    const second = await openTab(disk, { taken: documents.state.get().openId });
+    expect(now(second.editor).name).toBe('My motions (copy)');
+    expect(second.documents.state.get().documents).toHaveLength(2);
+    expect(second.copies).toEqual(['My motions (copy)']); // said, not only done
 });
 
 test('copies are numbered: of a document, and of a copy', () => {
-  expect(copyName('walk', ['walk'])).toBe('walk (copy)');
-  expect(copyName('walk (copy)', ['walk', 'walk (copy)'])).toBe('walk (copy 2)');
-  expect(copyName('walk', ['walk (copy)', 'walk (copy 2)'])).toBe('walk (copy 3)');
+    expect(copyName('walk', ['walk'])).toBe('walk (copy)');
+    expect(copyName('walk (copy)', ['walk', 'walk (copy)'])).toBe('walk (copy 2)');
+    expect(copyName('walk', ['walk (copy)', 'walk (copy 2)'])).toBe('walk (copy 3)');
 });
 
 test('it opens where somebody worked last, over a reload too; a document in which nobody did, on a new page', async () => {
-  const disk = new PassingStorage();
-  const { editor } = await openTab(disk);
-  const { page } = editor.state.get();
-  expect(page).toBeGreaterThan(0);
-  expect(editor.page(page).steps).toEqual([]);
-  editor.dispatch(editor.edits.rename(now(editor), 12, 'mine'));
-  editor.select({ page: 40 });
-  const again = await openTab(disk);
-  expect(again.editor.state.get().page).toBe(12);
+    const disk = new PassingStorage();
+    const { editor } = await openTab(disk);
+    const { page } = editor.state.get();
+    expect(page).toBeGreaterThan(0);
+    expect(editor.page(page).steps).toEqual([]);
+    editor.dispatch(editor.edits.rename(now(editor), 12, 'mine'));
+    editor.select({ page: 40 });
+    const again = await openTab(disk);
+    expect(again.editor.state.get().page).toBe(12);
 });
 
 test('a page of the library is one until it is changed; its copy is under a name of its own, without its key, and links as it does', async () => {
-  const editor = new DocumentEditor(body, { format, player, document: library, library: library.pages }, { changed: () => undefined, refused: () => undefined, opened: () => undefined });
-  expect(editor.isOfLibrary(3)).toBe(true);
-  const copy = must(editor.edits.copyForEditing(now(editor), 3));
-  editor.dispatch({ ok: true, value: copy.edit });
-  expect(editor.page(copy.page)).toMatchObject({ name: 'wave 2', code: 0, next: editor.page(3).next });
-  expect(editor.page(copy.page).steps).toEqual(editor.page(3).steps);
-  expect([editor.isOfLibrary(3), editor.isOfLibrary(copy.page)]).toEqual([true, false]);
-  editor.undo(); // one step
-  expect(editor.page(copy.page).steps).toEqual([]);
+    const editor = new DocumentEditor(
+        body,
+        { format, player, document: library, library: library.pages },
+        { changed: () => undefined, refused: () => undefined, opened: () => undefined },
+    );
+    expect(editor.isOfLibrary(3)).toBe(true);
+    const copy = must(editor.edits.copyForEditing(now(editor), 3));
+    editor.dispatch({ ok: true, value: copy.edit });
+    expect(editor.page(copy.page)).toMatchObject({ name: 'wave 2', code: 0, next: editor.page(3).next });
+    expect(editor.page(copy.page).steps).toEqual(editor.page(3).steps);
+    expect([editor.isOfLibrary(3), editor.isOfLibrary(copy.page)]).toEqual([true, false]);
+    editor.undo(); // one step
+    expect(editor.page(copy.page).steps).toEqual([]);
 });
 
 test('a disk that is full is told of, and the work goes on', async () => {
-  const disk = new PassingStorage();
-  const { editor, documents, failures } = await openTab(disk);
-  disk.putDocument = () => Promise.reject(new Error('QuotaExceededError'));
-  editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
-  await settle();
-  expect(failures).toHaveLength(1);
-  expect(documents.state.get().saving).toBe('off');
-  expect(editor.page(2).name).toBe('curtsy');
+    const disk = new PassingStorage();
+    const { editor, documents, failures } = await openTab(disk);
+    disk.putDocument = () => Promise.reject(new Error('QuotaExceededError'));
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
+    await settle();
+    expect(failures).toHaveLength(1);
+    expect(documents.state.get().saving).toBe('off');
+    expect(editor.page(2).name).toBe('curtsy');
 });
 
 test('what cannot be read is named, not dropped', () => {
-  const good = { id: 'a', name: 'good', image: imageOf(library), savedMs: 1 };
-  const kept = sortKept([good, { id: 'b', name: 'half', image: new Uint8Array(100) }, null], [{ id: 'c', robot: 'old robot' }]);
-  expect(kept.documents).toEqual([good]);
-  expect(kept.unreadable).toEqual(['half', 'without a name', 'old robot']);
+    const good = { id: 'a', name: 'good', image: imageOf(library), savedMs: 1 };
+    const kept = sortKept([good, { id: 'b', name: 'half', image: new Uint8Array(100) }, null], [{ id: 'c', robot: 'old robot' }]);
+    expect(kept.documents).toEqual([good]);
+    expect(kept.unreadable).toEqual(['half', 'without a name', 'old robot']);
 });
 
 test('a backup is kept once for each state of a robot', async () => {
-  const disk = new PassingStorage();
-  const { editor, documents } = await openTab(disk);
-  await documents.backUp('usb', library.pages);
-  await documents.backUp('usb', library.pages);
-  editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
-  await documents.backUp('usb', now(editor).pages);
-  await documents.backUp('other', library.pages);
-  expect(documents.state.get().backups.map((one) => one.robot)).toEqual(['other', 'usb', 'usb']);
-  expect((await disk.load()).backups).toHaveLength(3);
+    const disk = new PassingStorage();
+    const { editor, documents } = await openTab(disk);
+    await documents.backUp('usb', library.pages);
+    await documents.backUp('usb', library.pages);
+    editor.dispatch(editor.edits.rename(now(editor), 2, 'curtsy'));
+    await documents.backUp('usb', now(editor).pages);
+    await documents.backUp('other', library.pages);
+    expect(documents.state.get().backups.map(one => one.robot)).toEqual(['other', 'usb', 'usb']);
+    expect((await disk.load()).backups).toHaveLength(3);
 });

@@ -4,26 +4,39 @@ import { nextState } from '../robot/connection-table.ts';
 import type { ConnectionEvent, ConnectionState } from '../robot/connection-table.ts';
 
 const STATES: ConnectionState[] = ['closed', 'opening', 'asking', 'ready', 'silent', 'foreign', 'other-board', 'waiting'];
-const EVENTS: ConnectionEvent[] = ['connect', 'opened', 'open-failed', 'known', 'unknown', 'named-other', 'no-answer', 'ask-again', 'lost', 'retry', 'gave-up', 'stop'];
+const EVENTS: ConnectionEvent[] = [
+    'connect',
+    'opened',
+    'open-failed',
+    'known',
+    'unknown',
+    'named-other',
+    'no-answer',
+    'ask-again',
+    'lost',
+    'retry',
+    'gave-up',
+    'stop',
+];
 
 test('from every state but closed, stop ends it', () => {
-  for (const state of STATES) expect(nextState(state, 'stop')).toBe(state === 'closed' ? null : 'closed');
+    for (const state of STATES) expect(nextState(state, 'stop')).toBe(state === 'closed' ? null : 'closed');
 });
 
 test('every state with an open port hears that it is lost', () => {
-  for (const state of ['asking', 'ready', 'silent', 'foreign', 'other-board'] as const) expect(nextState(state, 'lost')).toBe('waiting');
+    for (const state of ['asking', 'ready', 'silent', 'foreign', 'other-board'] as const) expect(nextState(state, 'lost')).toBe('waiting');
 });
 
 test('every state is reached, and ready only by an answer', () => {
-  const reached = new Set<string>(['closed']);
-  const ways: string[] = [];
-  for (const state of STATES) {
-    for (const event of EVENTS) {
-      const next = nextState(state, event);
-      if (next) reached.add(next);
-      if (next === 'ready') ways.push(`${state} ${event}`);
+    const reached = new Set<string>(['closed']);
+    const ways: string[] = [];
+    for (const state of STATES) {
+        for (const event of EVENTS) {
+            const next = nextState(state, event);
+            if (next) reached.add(next);
+            if (next === 'ready') ways.push(`${state} ${event}`);
+        }
     }
-  }
-  expect([...reached].sort()).toEqual([...STATES].sort());
-  expect(ways).toEqual(['asking known']);
+    expect([...reached].sort()).toEqual([...STATES].sort());
+    expect(ways).toEqual(['asking known']);
 });

@@ -5,12 +5,21 @@ import type { PlayState, Where } from '../robot/protocol.ts';
 import type { DeskState } from '../view/desk.ts';
 import { doingText } from '../view/texts.ts';
 
-const state = (image: string): DeskState => ({ source: 'simulated', connection: 'ready', isPowered: true, shownPage: null, stopped: null, pages: [{ page: 2, name: 'bow', steps: 3, fault: '' }], version: { image } }) as unknown as DeskState;
+const state = (image: string): DeskState =>
+    ({
+        source: 'simulated',
+        connection: 'ready',
+        isPowered: true,
+        shownPage: null,
+        stopped: null,
+        pages: [{ page: 2, name: 'bow', steps: 3, fault: '' }],
+        version: { image },
+    }) as unknown as DeskState;
 const where = (now: PlayState): Where => ({ state: now, page: 2, step: 1 }) as Where;
 
 test('Edit says where its screen is, before its first answer and after it, until something plays', () => {
-  const said = [null, where('idle'), where('ready')].map((now) => doingText(state('edit'), now));
-  expect(said).toEqual(Array(3).fill('Edit runs: its screen is in the terminal.'));
-  expect(doingText(state('edit'), where('playing'))).toBe('Playing page 2 (bow), step 1.');
-  expect(doingText(state('play'), where('idle'))).toBe('The robot stands and waits.');
+    const said = [null, where('idle'), where('ready')].map(now => doingText(state('edit'), now));
+    expect(said).toEqual(Array(3).fill('Edit runs: its screen is in the terminal.'));
+    expect(doingText(state('edit'), where('playing'))).toBe('Playing page 2 (bow), step 1.');
+    expect(doingText(state('play'), where('idle'))).toBe('The robot stands and waits.');
 });

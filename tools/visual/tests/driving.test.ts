@@ -9,71 +9,88 @@ import { RobotError } from '../robot/robot-error.ts';
 import type { DeskState } from '../view/desk.ts';
 import { Store } from '../view/store.ts';
 
-const PLAYS = { source: 'simulated', image: 'play', connection: 'ready', version: { image: 'play' }, pages: [], said: null } as unknown as DeskState;
+const PLAYS = {
+    source: 'simulated',
+    image: 'play',
+    connection: 'ready',
+    version: { image: 'play' },
+    pages: [],
+    said: null,
+} as unknown as DeskState;
 
 function driven(start: Partial<DeskState>, isHeld = false) {
-  vi.useFakeTimers();
-  const state = new Store<DeskState>({ ...PLAYS, ...start });
-  const sent: Uint8Array[] = [];
-  const simulated = { isHeld, post: (message: { kind: string; bytes?: Uint8Array }) => void (message.bytes && sent.push(message.bytes)) };
-  let stand = (): void => undefined;
-  let refuse = (_: Error): void => undefined;
-  let asked = 0;
-  const becomeDriven = (): Promise<void> => {
-    asked++;
-    return new Promise((resolve, reject) => {
-      [stand, refuse] = [resolve, reject];
+    vi.useFakeTimers();
+    const state = new Store<DeskState>({ ...PLAYS, ...start });
+    const sent: Uint8Array[] = [];
+    const simulated = { isHeld, post: (message: { kind: string; bytes?: Uint8Array }) => void (message.bytes && sent.push(message.bytes)) };
+    let stand = (): void => undefined;
+    let refuse = (_: Error): void => undefined;
+    let asked = 0;
+    const becomeDriven = (): Promise<void> => {
+        asked++;
+        return new Promise((resolve, reject) => {
+            [stand, refuse] = [resolve, reject];
+        });
+    };
+    const strip = new Strip(state);
+    const driving = new Driving({
+        state,
+        strip,
+        simulated,
+        connection: () => {
+            throw new RobotError('not-connected');
+        },
+        becomeDriven,
     });
-  };
-  const strip = new Strip(state);
-  const driving = new Driving({ state, strip, simulated, connection: () => { throw new RobotError('not-connected'); }, becomeDriven });
-  const press = (...buttons: RemoteButton[]): void => driving.remote(new Set(buttons));
-  const becomes = async (): Promise<void> => {
-    simulated.isHeld = false;
-    state.set(PLAYS);
-    stand();
-    await vi.advanceTimersByTimeAsync(0);
-  };
-  return { press, becomes, sent, refuse: (error: Error) => refuse(error), asked: () => asked, said: () => state.get().said };
+    const press = (...buttons: RemoteButton[]): void => driving.remote(new Set(buttons));
+    const becomes = async (): Promise<void> => {
+        simulated.isHeld = false;
+        state.set(PLAYS);
+        stand();
+        await vi.advanceTimersByTimeAsync(0);
+    };
+    return { press, becomes, sent, refuse: (error: Error) => refuse(error), asked: () => asked, said: () => state.get().said };
 }
 
 test('a robot that stands hears a key at once', () => {
-  const { press, sent } = driven({});
-  press('up');
-  expect(sent).toEqual([remotePacket(['up'])]);
+    const { press, sent } = driven({});
+    press('up');
+    expect(sent).toEqual([remotePacket(['up'])]);
 });
 
 test.each([
-  ['while a hand stands it up', {}, true], ['while it runs Edit', { image: 'edit', version: { image: 'edit' } }, false], ['while it starts', { connection: 'asking', version: null }, false],
+    ['while a hand stands it up', {}, true],
+    ['while it runs Edit', { image: 'edit', version: { image: 'edit' } }, false],
+    ['while it starts', { connection: 'asking', version: null }, false],
 ] as const)('tapped %s: sent and let go when the robot can do it, not before', async (_, start, isHeld) => {
-  const { press, becomes, sent, asked } = driven(start as unknown as Partial<DeskState>, isHeld);
-  press('up');
-  press();
-  await vi.advanceTimersByTimeAsync(3000);
-  expect(sent).toEqual([]);
-  await becomes();
-  expect(sent).toEqual([remotePacket(['up'])]);
-  await vi.advanceTimersByTimeAsync(500);
-  expect(sent).toEqual([remotePacket(['up']), remotePacket([])]);
-  expect(asked()).toBe(1);
+    const { press, becomes, sent, asked } = driven(start as unknown as Partial<DeskState>, isHeld);
+    press('up');
+    press();
+    await vi.advanceTimersByTimeAsync(3000);
+    expect(sent).toEqual([]);
+    await becomes();
+    expect(sent).toEqual([remotePacket(['up'])]);
+    await vi.advanceTimersByTimeAsync(500);
+    expect(sent).toEqual([remotePacket(['up']), remotePacket([])]);
+    expect(asked()).toBe(1);
 });
 
 test('the last of several keys counts; one that is still held goes on by itself', async () => {
-  const { press, becomes, sent } = driven({}, true);
-  press('up');
-  press();
-  press('left');
-  await becomes();
-  await vi.advanceTimersByTimeAsync(250);
-  expect(sent).toEqual([remotePacket(['left']), remotePacket(['left'])]);
+    const { press, becomes, sent } = driven({}, true);
+    press('up');
+    press();
+    press('left');
+    await becomes();
+    await vi.advanceTimersByTimeAsync(250);
+    expect(sent).toEqual([remotePacket(['left']), remotePacket(['left'])]);
 });
 
 test('when the robot refuses, the key is dropped with a word', async () => {
-  const { press, refuse, sent, said } = driven({ image: 'edit' });
-  press('up');
-  press();
-  refuse(new RobotError('page-unsaved'));
-  await vi.advanceTimersByTimeAsync(1000);
-  expect(sent).toEqual([]);
-  expect(said()?.text).toMatch(/edits that are not saved/);
+    const { press, refuse, sent, said } = driven({ image: 'edit' });
+    press('up');
+    press();
+    refuse(new RobotError('page-unsaved'));
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(sent).toEqual([]);
+    expect(said()?.text).toMatch(/edits that are not saved/);
 });

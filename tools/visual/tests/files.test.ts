@@ -18,126 +18,137 @@ let formats: PythonFormats;
 let folder: string;
 
 beforeAll(async () => {
-  folder = await mkdtemp(join(tmpdir(), 'm512-files-'));
-  formats = new PythonFormats(await loadPyodide({ stdLibURL: join(ROOT, 'build/wasm/python.zip'), lockFileContents: LOCK }));
+    folder = await mkdtemp(join(tmpdir(), 'm512-files-'));
+    formats = new PythonFormats(await loadPyodide({ stdLibURL: join(ROOT, 'build/wasm/python.zip'), lockFileContents: LOCK }));
 });
 afterAll(() => rm(folder, { recursive: true }));
 
 interface Told {
-  readonly notes: string[];
-  readonly losses: string[];
+    readonly notes: string[];
+    readonly losses: string[];
 }
 
 /** m512 as it is installed here. */
 async function m512(...words: string[]): Promise<string> {
-  return (await run(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', ...words], { cwd: folder })).stdout;
+    return (await run(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', ...words], { cwd: folder })).stdout;
 }
 
 async function library(): Promise<Uint8Array> {
-  return new Uint8Array(await readFile(join(ROOT, 'build/motions/motions.bin')));
+    return new Uint8Array(await readFile(join(ROOT, 'build/motions/motions.bin')));
 }
 
-test.each(Object.keys(SUFFIXES))('our library as %s: written and read as m512 does', async (suffix) => {
-  const image = await library();
-  await writeFile(join(folder, 'library.bin'), image);
-  const told = JSON.parse(await m512('convert', 'library.bin', `one${suffix}`, '--json')) as Told;
-  const saved = await formats.save(`one${suffix}`, image);
-  if (saved.kind !== 'saved') throw new Error(saved.text);
-  expect(Buffer.from(saved.file).equals(await readFile(join(folder, `one${suffix}`)))).toBe(true);
-  expect(saved.losses).toEqual(told.losses);
+test.each(Object.keys(SUFFIXES))('our library as %s: written and read as m512 does', async suffix => {
+    const image = await library();
+    await writeFile(join(folder, 'library.bin'), image);
+    const told = JSON.parse(await m512('convert', 'library.bin', `one${suffix}`, '--json')) as Told;
+    const saved = await formats.save(`one${suffix}`, image);
+    if (saved.kind !== 'saved') throw new Error(saved.text);
+    expect(Buffer.from(saved.file).equals(await readFile(join(folder, `one${suffix}`)))).toBe(true);
+    expect(saved.losses).toEqual(told.losses);
 
-  const back = JSON.parse(await m512('convert', `one${suffix}`, `back${suffix}.bin`, '--json')) as Told;
-  const opened = await formats.open(`one${suffix}`, saved.file);
-  if (opened.kind !== 'opened') throw new Error(opened.kind);
-  expect(Buffer.from(opened.image).equals(await readFile(join(folder, `back${suffix}.bin`)))).toBe(true);
-  expect([opened.notes, opened.losses]).toEqual([back.notes, back.losses]);
+    const back = JSON.parse(await m512('convert', `one${suffix}`, `back${suffix}.bin`, '--json')) as Told;
+    const opened = await formats.open(`one${suffix}`, saved.file);
+    if (opened.kind !== 'opened') throw new Error(opened.kind);
+    expect(Buffer.from(opened.image).equals(await readFile(join(folder, `back${suffix}.bin`)))).toBe(true);
+    expect([opened.notes, opened.losses]).toEqual([back.notes, back.losses]);
 });
 
 test('files as they are found, and those of others where they are there', async () => {
-  const samples = join(ROOT, 'tests/samples');
-  const folders = [samples, join(samples, 'wild'), join(process.env['M512_SHARED'] ?? join(ROOT, '../shared'), 'data')];
-  const lists = await Promise.all(folders.map(async (data) => (await readdir(data).catch(() => [])).map((name) => join(data, name))));
-  const paths = lists.flat().filter((path) => /\.(mtn|bin|hex)$/.test(path));
-  expect(paths.length).toBeGreaterThan(20);
-  for (const path of paths) {
-    const name = basename(path);
-    const file = new Uint8Array(await readFile(path));
-    const opened = await formats.open(name, file);
-    const wanted = await m512('convert', path, 'wanted.bin', '--force', '--json').then((text) => JSON.parse(text) as Told, (error: Error) => error);
-    if (opened.kind === 'refused') {
-      expect(wanted, name).toBeInstanceOf(Error);
-    } else if (opened.kind === 'opened' && !(wanted instanceof Error) && !opened.notes.some((note) => note.includes('scaled'))) {
-      const bytes = await readFile(join(folder, 'wanted.bin'));
-      expect(Buffer.from(opened.image).equals(bytes.subarray(0, 65536)) || bytes.length !== 65536, name).toBe(true);
+    const samples = join(ROOT, 'tests/samples');
+    const folders = [samples, join(samples, 'wild'), join(process.env['M512_SHARED'] ?? join(ROOT, '../shared'), 'data')];
+    const lists = await Promise.all(folders.map(async data => (await readdir(data).catch(() => [])).map(name => join(data, name))));
+    const paths = lists.flat().filter(path => /\.(mtn|bin|hex)$/.test(path));
+    expect(paths.length).toBeGreaterThan(20);
+    for (const path of paths) {
+        const name = basename(path);
+        const file = new Uint8Array(await readFile(path));
+        const opened = await formats.open(name, file);
+        const wanted = await m512('convert', path, 'wanted.bin', '--force', '--json').then(
+            text => JSON.parse(text) as Told,
+            (error: Error) => error,
+        );
+        if (opened.kind === 'refused') {
+            expect(wanted, name).toBeInstanceOf(Error);
+        } else if (opened.kind === 'opened' && !(wanted instanceof Error) && !opened.notes.some(note => note.includes('scaled'))) {
+            const bytes = await readFile(join(folder, 'wanted.bin'));
+            expect(Buffer.from(opened.image).equals(bytes.subarray(0, 65536)) || bytes.length !== 65536, name).toBe(true);
+        }
     }
-  }
 });
 
-test('a damaged file is refused with m512\'s sentence', async () => {
-  const hex = new TextEncoder().encode(':10E00000');
-  expect(await formats.open('x.hex', hex)).toEqual({ kind: 'refused', text: expect.stringContaining('end record is missing') });
-  expect(await formats.open('x.txt', new Uint8Array(3))).toEqual({ kind: 'refused', text: expect.stringContaining('x.txt') });
-  expect(await formats.save('x.doc', await library())).toEqual({ kind: 'refused', text: expect.stringContaining('suffix') });
+test("a damaged file is refused with m512's sentence", async () => {
+    const hex = new TextEncoder().encode(':10E00000');
+    expect(await formats.open('x.hex', hex)).toEqual({ kind: 'refused', text: expect.stringContaining('end record is missing') });
+    expect(await formats.open('x.txt', new Uint8Array(3))).toEqual({ kind: 'refused', text: expect.stringContaining('x.txt') });
+    expect(await formats.save('x.doc', await library())).toEqual({ kind: 'refused', text: expect.stringContaining('suffix') });
 });
 
 test('pages of a larger board are asked about, never lost in silence', async () => {
-  const image = await library();
-  const large = new Uint8Array(131072);
-  large.set(image);
-  for (let page = 128; page < 256; page++) large.set(image.subarray(5 * 512, 6 * 512), page * 512);
-  expect(await formats.open('large.bin', large)).toEqual({ kind: 'no-room', pages: 'pages 128..255' });
-  const opened = await formats.open('large.bin', large, true);
-  expect(opened.kind === 'opened' && opened.losses.join()).toContain('128..255');
+    const image = await library();
+    const large = new Uint8Array(131072);
+    large.set(image);
+    for (let page = 128; page < 256; page++) large.set(image.subarray(5 * 512, 6 * 512), page * 512);
+    expect(await formats.open('large.bin', large)).toEqual({ kind: 'no-room', pages: 'pages 128..255' });
+    const opened = await formats.open('large.bin', large, true);
+    expect(opened.kind === 'opened' && opened.losses.join()).toContain('128..255');
 });
 
 test('checks and differences in the words of m512', async () => {
-  const image = await library();
-  const other = image.slice();
-  other[7 * 512 + 100] = (other[7 * 512 + 100] ?? 0) ^ 1;
-  await writeFile(join(folder, 'a.bin'), image);
-  await writeFile(join(folder, 'b.bin'), other);
-  const said = await m512('diff', 'a.bin', 'b.bin').catch((error: { stdout: string }) => error.stdout);
-  expect((await formats.differences(image, other)).map(({ text }) => text).join('\n')).toBe(said.trim());
-  const found = await m512('pages', 'b.bin', 'check', '--json').catch((error: { stdout: string }) => error.stdout);
-  const wanted = (JSON.parse(found) as { page: number; problem?: string; note?: string }[]).map(({ page, problem, note }) => ({ page, text: problem ?? note, isFault: problem !== undefined }));
-  expect(await formats.check(other)).toEqual(wanted);
+    const image = await library();
+    const other = image.slice();
+    other[7 * 512 + 100] = (other[7 * 512 + 100] ?? 0) ^ 1;
+    await writeFile(join(folder, 'a.bin'), image);
+    await writeFile(join(folder, 'b.bin'), other);
+    const said = await m512('diff', 'a.bin', 'b.bin').catch((error: { stdout: string }) => error.stdout);
+    expect((await formats.differences(image, other)).map(({ text }) => text).join('\n')).toBe(said.trim());
+    const found = await m512('pages', 'b.bin', 'check', '--json').catch((error: { stdout: string }) => error.stdout);
+    const wanted = (JSON.parse(found) as { page: number; problem?: string; note?: string }[]).map(({ page, problem, note }) => ({
+        page,
+        text: problem ?? note,
+        isFault: problem !== undefined,
+    }));
+    expect(await formats.check(other)).toEqual(wanted);
 });
 
 test('motions in an address: there and back, and nothing of one that was cut or changed on its way', async () => {
-  const image = await library();
-  const pages = new Map([20, 21, 127].map((page) => [page, image.slice(page * 512, (page + 1) * 512)]));
-  const text = await encodeMotion(pages);
-  expect(text).toMatch(/^[\w-]+$/);
-  expect(await decodeMotion(text)).toEqual(pages);
-  for (let length = 0; length < text.length; length += 7) expect(await decodeMotion(text.slice(0, length)), `cut at ${length}`).toBeNull();
-  for (const strange of ['', '!', 'AAAA', btoa('no motion')]) expect(await decodeMotion(strange), strange).toBeNull();
+    const image = await library();
+    const pages = new Map([20, 21, 127].map(page => [page, image.slice(page * 512, (page + 1) * 512)]));
+    const text = await encodeMotion(pages);
+    expect(text).toMatch(/^[\w-]+$/);
+    expect(await decodeMotion(text)).toEqual(pages);
+    for (let length = 0; length < text.length; length += 7)
+        expect(await decodeMotion(text.slice(0, length)), `cut at ${length}`).toBeNull();
+    for (const strange of ['', '!', 'AAAA', btoa('no motion')]) expect(await decodeMotion(strange), strange).toBeNull();
 });
 
 test('a link cannot fill the memory', async () => {
-  let inflated = 0;
-  const Real = DecompressionStream;
-  vi.stubGlobal('DecompressionStream', class {
-    readonly writable: WritableStream;
-    readonly readable: ReadableStream;
+    let inflated = 0;
+    const Real = DecompressionStream;
+    vi.stubGlobal(
+        'DecompressionStream',
+        class {
+            readonly writable: WritableStream;
+            readonly readable: ReadableStream;
 
-    constructor(format: CompressionFormat) {
-      const real = new Real(format);
-      const count = new TransformStream<Uint8Array, Uint8Array>({
-        transform(chunk, out) {
-          inflated += chunk.length;
-          out.enqueue(chunk);
+            constructor(format: CompressionFormat) {
+                const real = new Real(format);
+                const count = new TransformStream<Uint8Array, Uint8Array>({
+                    transform(chunk, out) {
+                        inflated += chunk.length;
+                        out.enqueue(chunk);
+                    },
+                });
+                this.writable = real.writable;
+                this.readable = real.readable.pipeThrough(count);
+            }
         },
-      });
-      this.writable = real.writable;
-      this.readable = real.readable.pipeThrough(count);
-    }
-  });
-  onTestFinished(() => void vi.unstubAllGlobals());
-  const bomb = new Blob([new Uint8Array(50_000_000)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
-  const packed = Buffer.from(await new Response(bomb).arrayBuffer()).toString('base64url');
-  expect(packed.length).toBeLessThan(100_000);
-  expect(await decodeMotion(packed)).toBeNull();
-  await new Promise((resolve) => setTimeout(resolve, 50)); // nor does it go on behind the answer
-  expect(inflated).toBeGreaterThan(0);
-  expect(inflated).toBeLessThan(1_000_000);
+    );
+    onTestFinished(() => void vi.unstubAllGlobals());
+    const bomb = new Blob([new Uint8Array(50_000_000)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+    const packed = Buffer.from(await new Response(bomb).arrayBuffer()).toString('base64url');
+    expect(packed.length).toBeLessThan(100_000);
+    expect(await decodeMotion(packed)).toBeNull();
+    await new Promise(resolve => setTimeout(resolve, 50)); // nor does it go on behind the answer
+    expect(inflated).toBeGreaterThan(0);
+    expect(inflated).toBeLessThan(1_000_000);
 });

@@ -9,53 +9,61 @@ import { RobotBench } from './robot-bench.ts';
 const UNITS_PER_DEGREE = 1024 / 300;
 
 async function ready(seed: number) {
-  const bench = await RobotBench.make('edit', seed);
-  const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text: () => undefined });
-  connection.connect();
-  for (let i = 0; i < 200 && connection.state !== 'ready'; i++) await bench.run(50);
-  await bench.until(setTorque(connection.requests, true));
-  return { bench, connection };
+    const bench = await RobotBench.make('edit', seed);
+    const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text: () => undefined });
+    connection.connect();
+    for (let i = 0; i < 200 && connection.state !== 'ready'; i++) await bench.run(50);
+    await bench.until(setTorque(connection.requests, true));
+    return { bench, connection };
 }
 
 function poseWith(joints: Readonly<Record<number, number>>): (number | null)[] {
-  return Array.from({ length: 31 }, (_, id) => joints[id] ?? null);
+    return Array.from({ length: 31 }, (_, id) => joints[id] ?? null);
 }
 
 test('many poses in a hurry: the last one counts, slowly', async () => {
-  const { bench, connection } = await ready(61);
-  const failed: unknown[] = [];
-  const follow = new Follow(() => connection, (error) => failed.push(error), bench.clock);
-  let before = 512;
-  let fastest = 0;
-  for (let i = 0; i < 60; i++) {
-    if (i < 20) follow.set(poseWith({ 3: 512 + 10 * i, 5: 500 - 5 * i }));
-    await bench.run(100);
-    const { position } = (await bench.until(askPose(connection.requests))).find(({ id }) => id === 3) ?? {};
-    fastest = Math.max(fastest, Math.abs((position ?? 0) - before) / 0.1);
-    before = position ?? 0;
-  }
-  follow.set(null);
-  expect(failed).toEqual([]);
-  expect(Math.abs(before - 702)).toBeLessThan(5);
-  expect(fastest).toBeGreaterThan(20); // units a second: it moved
-  expect(fastest).toBeLessThan(FOLLOW_DEGREES_PER_SECOND * UNITS_PER_DEGREE * 1.5); // a question takes part of the time
-  await connection.close();
+    const { bench, connection } = await ready(61);
+    const failed: unknown[] = [];
+    const follow = new Follow(
+        () => connection,
+        error => failed.push(error),
+        bench.clock,
+    );
+    let before = 512;
+    let fastest = 0;
+    for (let i = 0; i < 60; i++) {
+        if (i < 20) follow.set(poseWith({ 3: 512 + 10 * i, 5: 500 - 5 * i }));
+        await bench.run(100);
+        const { position } = (await bench.until(askPose(connection.requests))).find(({ id }) => id === 3) ?? {};
+        fastest = Math.max(fastest, Math.abs((position ?? 0) - before) / 0.1);
+        before = position ?? 0;
+    }
+    follow.set(null);
+    expect(failed).toEqual([]);
+    expect(Math.abs(before - 702)).toBeLessThan(5);
+    expect(fastest).toBeGreaterThan(20); // units a second: it moved
+    expect(fastest).toBeLessThan(FOLLOW_DEGREES_PER_SECOND * UNITS_PER_DEGREE * 1.5); // a question takes part of the time
+    await connection.close();
 });
 
 test('a limp joint stays limp; a limp robot is left alone, and it is said', async () => {
-  const { bench, connection } = await ready(62);
-  const failed: unknown[] = [];
-  const follow = new Follow(() => connection, (error) => failed.push(error), bench.clock);
-  await bench.until(setTorque(connection.requests, false, [3]));
-  follow.set(poseWith({ 3: 600, 5: 600 }));
-  await bench.run(3000);
-  const pose = await bench.until(askPose(connection.requests));
-  expect(pose.find(({ id }) => id === 3)).toMatchObject({ torque: false });
-  expect(Math.abs((pose.find(({ id }) => id === 5)?.position ?? 0) - 600)).toBeLessThan(5);
-  expect(failed).toEqual([]);
-  await bench.until(setTorque(connection.requests, false));
-  follow.set(poseWith({ 5: 500 }));
-  await bench.run(1500);
-  expect(failed).toEqual([expect.objectContaining({ code: 'refused' })]);
-  await connection.close();
+    const { bench, connection } = await ready(62);
+    const failed: unknown[] = [];
+    const follow = new Follow(
+        () => connection,
+        error => failed.push(error),
+        bench.clock,
+    );
+    await bench.until(setTorque(connection.requests, false, [3]));
+    follow.set(poseWith({ 3: 600, 5: 600 }));
+    await bench.run(3000);
+    const pose = await bench.until(askPose(connection.requests));
+    expect(pose.find(({ id }) => id === 3)).toMatchObject({ torque: false });
+    expect(Math.abs((pose.find(({ id }) => id === 5)?.position ?? 0) - 600)).toBeLessThan(5);
+    expect(failed).toEqual([]);
+    await bench.until(setTorque(connection.requests, false));
+    follow.set(poseWith({ 5: 500 }));
+    await bench.run(1500);
+    expect(failed).toEqual([expect.objectContaining({ code: 'refused' })]);
+    await connection.close();
 });

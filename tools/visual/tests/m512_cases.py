@@ -8,6 +8,7 @@ missing here. `quick` leaves out tests that make files by chance or in great num
 a sentence without its numbers and names, or "read". Each line: {"test", "name", "data" (base64), and what bridge.py says of it here, in
 CPython: "error", "no_room", or "sha256" of the image with "notes" and "losses"}. The last line counts: {"tests", "files", "refused"}.
 """
+
 import base64
 import hashlib
 import json
@@ -25,12 +26,14 @@ from m512.files import image as raw
 from m512.files import text as text_files
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2]
-bridge = types.SimpleNamespace(**runpy.run_path(str(TOOLS / "visual" / "files" / "bridge.py")))   # as the page's Python runs it
+bridge = types.SimpleNamespace(**runpy.run_path(str(TOOLS / "visual" / "files" / "bridge.py")))  # as the page's Python runs it
 
 TESTS = ("test_convert.py", "test_mtn_wild.py", "test_text.py", "test_trust.py", "test_pages.py")
 #: Made by chance, or of whole robots: of them `all` takes every file.
-SLOW = ("any_byte_changed or any_bytes or any_characters or damaged_pages or looks_like_something_else or every_accident or real or plays_as_one "
-        "or combinations or textconv or standard_input or process_substitution or ctrl_c or help_of or time or 12_bit or long_page")
+SLOW = (
+    "any_byte_changed or any_bytes or any_characters or damaged_pages or looks_like_something_else or every_accident or real or plays_as_one "
+    "or combinations or textconv or standard_input or process_substitution or ctrl_c or help_of or time or 12_bit or long_page"
+)
 FIRST_OF_SLOW = "every_accident and 1.01-False or long_page_without_room or file_of_a_12_bit"
 
 
@@ -85,6 +88,7 @@ def noise():
     from hypothesis import HealthCheck, given, settings
 
     from tests.campaigns.noise import pieces
+
     talks = []
 
     @settings(max_examples=200, derandomize=True, database=None, deadline=None, suppress_health_check=list(HealthCheck))

@@ -11,26 +11,26 @@ import type { Result } from '../model/result.ts';
 import { robotImages, wasmModule } from './robot-bench.ts';
 
 export async function makeMotion(): Promise<Motion> {
-  const instance = await WebAssembly.instantiate(await wasmModule('motion'), {});
-  return new Motion(instance.exports as unknown as MotionExports);
+    const instance = await WebAssembly.instantiate(await wasmModule('motion'), {});
+    return new Motion(instance.exports as unknown as MotionExports);
 }
 
 export async function libraryDocument(name = 'library'): Promise<MotionDocument> {
-  return documentFrom((await robotImages('play')).motions, name);
+    return documentFrom((await robotImages('play')).motions, name);
 }
 
 export async function makeFormat() {
-  const format = new PageFormat(await makeMotion());
-  return { format, edits: makeEdits(format) };
+    const format = new PageFormat(await makeMotion());
+    return { format, edits: makeEdits(format) };
 }
 
 /** The value, or the refusal thrown. */
 export function must<T>(result: Result<T>): T {
-  if (!result.ok) throw new Error(`refused: ${result.refusal.code} ${result.refusal.words}`);
-  return result.value;
+    if (!result.ok) throw new Error(`refused: ${result.refusal.code} ${result.refusal.words}`);
+    return result.value;
 }
 
 /** The code of the refusal; '' when nothing was refused. */
 export function refusalOf(result: Result<unknown>): string {
-  return result.ok ? '' : result.refusal.code;
+    return result.ok ? '' : result.refusal.code;
 }

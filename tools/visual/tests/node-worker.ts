@@ -12,35 +12,35 @@ const BOOT = (url: string): string => `
 `;
 
 export class NodeWorker {
-  /** Those that nobody has ended. */
-  static readonly alive = new Set<NodeWorker>();
-  onmessage: ((event: { data: unknown }) => void) | null = null;
-  onerror: ((event: { message: string }) => void) | null = null;
-  private readonly thread: Thread;
-  private posted: unknown[] = [];
-  private transferred: ArrayBuffer[] = [];
+    /** Those that nobody has ended. */
+    static readonly alive = new Set<NodeWorker>();
+    onmessage: ((event: { data: unknown }) => void) | null = null;
+    onerror: ((event: { message: string }) => void) | null = null;
+    private readonly thread: Thread;
+    private posted: unknown[] = [];
+    private transferred: ArrayBuffer[] = [];
 
-  constructor(url: URL) {
-    NodeWorker.alive.add(this);
-    this.thread = new Thread(BOOT(url.href), { eval: true });
-    this.thread.on('message', (data: unknown) => this.onmessage?.({ data }));
-    this.thread.on('error', (error) => this.onerror?.({ message: error instanceof Error ? error.message : String(error) }));
-  }
+    constructor(url: URL) {
+        NodeWorker.alive.add(this);
+        this.thread = new Thread(BOOT(url.href), { eval: true });
+        this.thread.on('message', (data: unknown) => this.onmessage?.({ data }));
+        this.thread.on('error', error => this.onerror?.({ message: error instanceof Error ? error.message : String(error) }));
+    }
 
-  postMessage(message: unknown, transfer: ArrayBuffer[] = []): void {
-    if (this.posted.length === 0) queueMicrotask(() => this.send());
-    this.posted.push(message);
-    this.transferred.push(...transfer);
-  }
+    postMessage(message: unknown, transfer: ArrayBuffer[] = []): void {
+        if (this.posted.length === 0) queueMicrotask(() => this.send());
+        this.posted.push(message);
+        this.transferred.push(...transfer);
+    }
 
-  terminate(): void {
-    NodeWorker.alive.delete(this);
-    void this.thread.terminate();
-  }
+    terminate(): void {
+        NodeWorker.alive.delete(this);
+        void this.thread.terminate();
+    }
 
-  private send(): void {
-    this.thread.postMessage(this.posted, this.transferred);
-    this.posted = [];
-    this.transferred = [];
-  }
+    private send(): void {
+        this.thread.postMessage(this.posted, this.transferred);
+        this.posted = [];
+        this.transferred = [];
+    }
 }

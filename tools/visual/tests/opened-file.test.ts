@@ -16,50 +16,64 @@ const [WALK, WALK_R] = [20, 21];
 
 /** A document with the library, and a file of these pages that has been read. */
 async function opened(pages: ReadonlyMap<number, Uint8Array>) {
-  const body = { joints: [] } as unknown as Body;
-  const editor = new DocumentEditor(body, { format, player: await makeMotion(), document: library }, { changed: () => undefined, refused: () => undefined, opened: () => undefined });
-  const created: MotionDocument[] = [];
-  const image = imageOf({ name: '', pages: library.pages.map((_, page) => pages.get(page) ?? format.empty) });
-  const formats = { open: () => Promise.resolve({ kind: 'opened', image, notes: [], losses: [] }) } as unknown as FileFormats;
-  const files = new DocumentFiles(editor, formats, { cancel: () => undefined, create: (_, document) => Promise.resolve(void created.push(document)) });
-  await files.open('found.mtn', new Uint8Array());
-  return { editor, files, created };
+    const body = { joints: [] } as unknown as Body;
+    const editor = new DocumentEditor(
+        body,
+        { format, player: await makeMotion(), document: library },
+        { changed: () => undefined, refused: () => undefined, opened: () => undefined },
+    );
+    const created: MotionDocument[] = [];
+    const image = imageOf({ name: '', pages: library.pages.map((_, page) => pages.get(page) ?? format.empty) });
+    const formats = { open: () => Promise.resolve({ kind: 'opened', image, notes: [], losses: [] }) } as unknown as FileFormats;
+    const files = new DocumentFiles(editor, formats, {
+        cancel: () => undefined,
+        create: (_, document) => Promise.resolve(void created.push(document)),
+    });
+    await files.open('found.mtn', new Uint8Array());
+    return { editor, files, created };
 }
 
 const renamed = (page: number, name: string): Uint8Array => must(writePage(format, pageOf(library, page), { name }));
 
 test('added: what is there stays, the links go to where the pages are now, and it is one undo step', async () => {
-  const { editor, files } = await opened(new Map([[WALK, renamed(WALK, 'stroll')], [WALK_R, renamed(WALK_R, 'stroll_r')]]));
-  files.addOpened();
-  const { document, page } = editor.state.get();
-  for (const [number, bytes] of library.pages.entries()) if (!format.isEmpty(bytes)) expect(pageOf(document, number)).toEqual(bytes);
-  expect(editor.page(page).name).toBe('stroll');
-  const leads = format.leads(pageOf(document, page)).map(({ to }) => editor.page(to).name);
-  expect(leads).toContain('stroll_r');
-  expect(files.state.get().opened).toBeNull();
-  editor.undo();
-  expect(imageOf(editor.state.get().document)).toEqual(imageOf(library));
+    const { editor, files } = await opened(
+        new Map([
+            [WALK, renamed(WALK, 'stroll')],
+            [WALK_R, renamed(WALK_R, 'stroll_r')],
+        ]),
+    );
+    files.addOpened();
+    const { document, page } = editor.state.get();
+    for (const [number, bytes] of library.pages.entries()) if (!format.isEmpty(bytes)) expect(pageOf(document, number)).toEqual(bytes);
+    expect(editor.page(page).name).toBe('stroll');
+    const leads = format.leads(pageOf(document, page)).map(({ to }) => editor.page(to).name);
+    expect(leads).toContain('stroll_r');
+    expect(files.state.get().opened).toBeNull();
+    editor.undo();
+    expect(imageOf(editor.state.get().document)).toEqual(imageOf(library));
 });
 
 test('what is there already is not doubled, unless it leads to something that came', async () => {
-  const same = await opened(new Map(library.pages.entries()));
-  same.files.addOpened();
-  expect(imageOf(same.editor.state.get().document)).toEqual(imageOf(library));
-  const torn = await opened(new Map([...library.pages.entries()].map(([page, bytes]) => [page, page === WALK_R ? renamed(page, 'other') : bytes])));
-  torn.files.addOpened();
-  const { document, page } = torn.editor.state.get();
-  expect(pageOf(document, WALK)).toEqual(pageOf(library, WALK)); // nothing of mine leads elsewhere now
-  expect(torn.editor.page(page).steps.length).toBeGreaterThan(0);
+    const same = await opened(new Map(library.pages.entries()));
+    same.files.addOpened();
+    expect(imageOf(same.editor.state.get().document)).toEqual(imageOf(library));
+    const torn = await opened(
+        new Map([...library.pages.entries()].map(([page, bytes]) => [page, page === WALK_R ? renamed(page, 'other') : bytes])),
+    );
+    torn.files.addOpened();
+    const { document, page } = torn.editor.state.get();
+    expect(pageOf(document, WALK)).toEqual(pageOf(library, WALK)); // nothing of mine leads elsewhere now
+    expect(torn.editor.page(page).steps.length).toBeGreaterThan(0);
 });
 
 test('as a new document it is one of its own; replacing takes every page but the trim', async () => {
-  const pages = new Map([[5, renamed(3, 'hello')]]);
-  const one = await opened(pages);
-  await one.files.createFromOpened();
-  expect(one.created).toMatchObject([{ name: 'found' }]);
-  expect(imageOf(one.editor.state.get().document)).toEqual(imageOf(library));
-  const other = await opened(pages);
-  other.files.replaceAll(false);
-  expect(other.editor.page(5).name).toBe('hello');
-  expect(format.isEmpty(pageOf(other.editor.state.get().document, WALK))).toBe(true);
+    const pages = new Map([[5, renamed(3, 'hello')]]);
+    const one = await opened(pages);
+    await one.files.createFromOpened();
+    expect(one.created).toMatchObject([{ name: 'found' }]);
+    expect(imageOf(one.editor.state.get().document)).toEqual(imageOf(library));
+    const other = await opened(pages);
+    other.files.replaceAll(false);
+    expect(other.editor.page(5).name).toBe('hello');
+    expect(format.isEmpty(pageOf(other.editor.state.get().document, WALK))).toBe(true);
 });

@@ -12,85 +12,94 @@ import type { Place, Vector } from '../model/space.ts';
 import { randomNumbers } from './robot-bench.ts';
 
 const body = JSON.parse(readFileSync(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
-const READY: Angles = new Map(body.joints.map((joint) => [joint.servo, { 11: 0.4, 12: 0.4, 13: -0.8, 14: -0.8, 15: 0.4, 16: 0.4 }[joint.servo] ?? 0]));
+const READY: Angles = new Map(
+    body.joints.map(joint => [joint.servo, { 11: 0.4, 12: 0.4, 13: -0.8, 14: -0.8, 15: 0.4, 16: 0.4 }[joint.servo] ?? 0]),
+);
 const AT: Place = { pos: [0.5, 0.2, 0], quat: turn([0, 0, 1], 0.7) };
 const STANCE = { keep: 'right', at: AT } as const;
 const placesOf = (angles: Angles, held: Grab) => placeLinks(body, trunkOn(body, held.stance.keep, angles, held.stance.at), angleIn(angles));
 const pointOf = (angles: Angles, held: Grab): Vector => {
-  const place = placesOf(angles, held).get(held.link)!; // a link of this body
-  return add(place.pos, rotate(place.quat, held.point));
+    const place = placesOf(angles, held).get(held.link)!; // a link of this body
+    return add(place.pos, rotate(place.quat, held.point));
 };
-const changed = (angles: Angles): number[] => [...angles].filter(([servo, angle]) => Math.abs(angle - (READY.get(servo) ?? 0)) > 1e-9).map(([servo]) => servo);
+const changed = (angles: Angles): number[] =>
+    [...angles].filter(([servo, angle]) => Math.abs(angle - (READY.get(servo) ?? 0)) > 1e-9).map(([servo]) => servo);
 
 test('what one takes hold of', () => {
-  expect(partOf(body, 'right_hand', 'right_forearm')).toEqual({ kind: 'hand', side: 'right' });
-  expect(partOf(body, 'right_forearm', 'right_forearm')).toMatchObject({ kind: 'joint', joint: { servo: 5 } });
-  expect(partOf(body, 'left_sole', 'left_foot')).toEqual({ kind: 'foot', side: 'left' });
-  expect(partOf(body, null, 'left_thigh')).toMatchObject({ joint: { servo: 12 } });
-  expect(partOf(body, 'chest', 'trunk')).toEqual({ kind: 'trunk' });
-  expect(partOf(body, 'face', 'head')).toEqual({ kind: 'trunk' });
+    expect(partOf(body, 'right_hand', 'right_forearm')).toEqual({ kind: 'hand', side: 'right' });
+    expect(partOf(body, 'right_forearm', 'right_forearm')).toMatchObject({ kind: 'joint', joint: { servo: 5 } });
+    expect(partOf(body, 'left_sole', 'left_foot')).toEqual({ kind: 'foot', side: 'left' });
+    expect(partOf(body, null, 'left_thigh')).toMatchObject({ joint: { servo: 12 } });
+    expect(partOf(body, 'chest', 'trunk')).toEqual({ kind: 'trunk' });
+    expect(partOf(body, 'face', 'head')).toEqual({ kind: 'trunk' });
 });
 
 test('a hand follows the mouse; only its arm moves', () => {
-  const random = randomNumbers(31);
-  for (let i = 0; i < 30; i++) {
-    const held = grab(body, 'left_hand', 'left_forearm', [0.01, 0, -0.09], READY, STANCE);
-    const somewhere = new Map(READY).set(2, random()).set(4, random()).set(6, -random());
-    const wanted = pointOf(somewhere, held);
-    const angles = dragged(body, held, wanted, true);
-    expect(length(subtract(pointOf(angles, held), wanted)), `case ${i}`).toBeLessThan(1e-4);
-    for (const servo of changed(angles)) expect([2, 4, 6]).toContain(servo);
-  }
+    const random = randomNumbers(31);
+    for (let i = 0; i < 30; i++) {
+        const held = grab(body, 'left_hand', 'left_forearm', [0.01, 0, -0.09], READY, STANCE);
+        const somewhere = new Map(READY).set(2, random()).set(4, random()).set(6, -random());
+        const wanted = pointOf(somewhere, held);
+        const angles = dragged(body, held, wanted, true);
+        expect(length(subtract(pointOf(angles, held), wanted)), `case ${i}`).toBeLessThan(1e-4);
+        for (const servo of changed(angles)) expect([2, 4, 6]).toContain(servo);
+    }
 });
 
 test('one joint turns until the point lies in the direction of the mouse, and no farther than it can', () => {
-  const held = grab(body, 'right_forearm', 'right_forearm', [0.019, 0, -0.02], READY, STANCE);
-  const axis = rotate(held.places.get('right_forearm')!.quat, [-1, 0, 0]);
-  const elbow = held.places.get('right_forearm')!.pos;
-  for (const by of [0.3, -0.5, 0.8, -1.4]) {
-    const wanted = add(elbow, rotate(turn(axis, by), subtract(held.world, elbow)));
-    const angles = dragged(body, held, wanted, true);
-    expect(changed(angles)).toEqual([5]);
-    expect(length(subtract(pointOf(angles, held), wanted))).toBeLessThan(1e-9);
-  }
-  const beyond = dragged(body, held, add(elbow, rotate(turn(axis, 1.5), subtract(held.world, elbow))), true);
-  expect(((beyond.get(5) ?? 0) * 180) / Math.PI).toBeCloseTo(50, 6); // the elbow's limit: humanoid.xml
+    const held = grab(body, 'right_forearm', 'right_forearm', [0.019, 0, -0.02], READY, STANCE);
+    const axis = rotate(held.places.get('right_forearm')!.quat, [-1, 0, 0]);
+    const elbow = held.places.get('right_forearm')!.pos;
+    for (const by of [0.3, -0.5, 0.8, -1.4]) {
+        const wanted = add(elbow, rotate(turn(axis, by), subtract(held.world, elbow)));
+        const angles = dragged(body, held, wanted, true);
+        expect(changed(angles)).toEqual([5]);
+        expect(length(subtract(pointOf(angles, held), wanted))).toBeLessThan(1e-9);
+    }
+    const beyond = dragged(body, held, add(elbow, rotate(turn(axis, 1.5), subtract(held.world, elbow))), true);
+    expect(((beyond.get(5) ?? 0) * 180) / Math.PI).toBeCloseTo(50, 6); // the elbow's limit: humanoid.xml
 });
 
 test('a foot moves with its sole flat while the other one stays; the kept foot can be taken too', () => {
-  for (const side of ['left', 'right'] as const) {
-    const held = grab(body, `${side}_sole`, `${side}_foot`, [0.03, 0, -0.03], READY, STANCE);
-    expect(held.stance.keep).toBe(side === 'left' ? 'right' : 'left');
-    const before = placesOf(READY, held);
-    const angles = dragged(body, held, add(held.world, [0.02, 0.01, 0.02]), true);
-    const after = placesOf(angles, held);
-    expect(subtract(after.get(`${side}_foot`)!.pos, before.get(`${side}_foot`)!.pos)).toEqual([0.02, 0.01, 0.02].map((v) => expect.closeTo(v, 4)));
-    expect(rotate(after.get(`${side}_foot`)!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 5);
-    const stays = `${held.stance.keep}_foot`;
-    expect(after.get(stays)!.pos).toEqual(before.get(stays)!.pos.map((v) => expect.closeTo(v, 4)));
-  }
+    for (const side of ['left', 'right'] as const) {
+        const held = grab(body, `${side}_sole`, `${side}_foot`, [0.03, 0, -0.03], READY, STANCE);
+        expect(held.stance.keep).toBe(side === 'left' ? 'right' : 'left');
+        const before = placesOf(READY, held);
+        const angles = dragged(body, held, add(held.world, [0.02, 0.01, 0.02]), true);
+        const after = placesOf(angles, held);
+        expect(subtract(after.get(`${side}_foot`)!.pos, before.get(`${side}_foot`)!.pos)).toEqual(
+            [0.02, 0.01, 0.02].map(v => expect.closeTo(v, 4)),
+        );
+        expect(rotate(after.get(`${side}_foot`)!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 5);
+        const stays = `${held.stance.keep}_foot`;
+        expect(after.get(stays)!.pos).toEqual(before.get(stays)!.pos.map(v => expect.closeTo(v, 4)));
+    }
 });
 
 test('the trunk moves over feet that stay, and stops where the legs end', () => {
-  const held = grab(body, 'chest', 'trunk', [0.02, 0, 0], READY, STANCE);
-  const before = placesOf(READY, held);
-  for (const by of [[0, 0, -0.02], [0.01, 0.01, -0.01], [0, 0, 0.5]] as const) {
-    const after = placesOf(dragged(body, held, add(held.world, by), true), held);
-    for (const foot of ['right_foot', 'left_foot']) {
-      expect(after.get(foot)!.pos).toEqual(before.get(foot)!.pos.map((v) => expect.closeTo(v, 3)));
-      expect(rotate(after.get(foot)!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
+    const held = grab(body, 'chest', 'trunk', [0.02, 0, 0], READY, STANCE);
+    const before = placesOf(READY, held);
+    for (const by of [
+        [0, 0, -0.02],
+        [0.01, 0.01, -0.01],
+        [0, 0, 0.5],
+    ] as const) {
+        const after = placesOf(dragged(body, held, add(held.world, by), true), held);
+        for (const foot of ['right_foot', 'left_foot']) {
+            expect(after.get(foot)!.pos).toEqual(before.get(foot)!.pos.map(v => expect.closeTo(v, 3)));
+            expect(rotate(after.get(foot)!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
+        }
+        if (by[2] < 0.1) expect(subtract(after.get('trunk')!.pos, before.get('trunk')!.pos)).toEqual(by.map(v => expect.closeTo(v, 3)));
     }
-    if (by[2] < 0.1) expect(subtract(after.get('trunk')!.pos, before.get('trunk')!.pos)).toEqual(by.map((v) => expect.closeTo(v, 3)));
-  }
 });
 
 test('both feet flat: whatever the ankles did, the soles lie on the floor', () => {
-  const twisted = new Map(READY).set(15, 0.2).set(16, 0.6).set(17, 0.1).set(18, -0.1);
-  const angles = flattened(body, twisted, { keep: 'right', at: ORIGIN });
-  const places = placeLinks(body, trunkOn(body, 'right', angles, ORIGIN), angleIn(angles));
-  for (const foot of ['right_foot', 'left_foot']) {
-    expect(rotate(places.get(foot)!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
-    expect(places.get(foot)!.pos[2]).toBeCloseTo(0.032, 3);
-  }
-  expect(rotate(places.get('trunk')!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
+    const twisted = new Map(READY).set(15, 0.2).set(16, 0.6).set(17, 0.1).set(18, -0.1);
+    const angles = flattened(body, twisted, { keep: 'right', at: ORIGIN });
+    const places = placeLinks(body, trunkOn(body, 'right', angles, ORIGIN), angleIn(angles));
+    for (const foot of ['right_foot', 'left_foot']) {
+        expect(rotate(places.get(foot)!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
+        expect(places.get(foot)!.pos[2]).toBeCloseTo(0.032, 3);
+    }
+    expect(rotate(places.get('trunk')!.quat, [0, 0, 1])[2]).toBeCloseTo(1, 4);
 });

@@ -17,99 +17,105 @@ const WAVE = 3;
 const TRUNK = { pos: [2, 1, 0.3], quat: [Math.SQRT1_2, 0, 0, Math.SQRT1_2] } as const; // turned to the left
 
 async function shown() {
-  const events = { changed: () => undefined, refused: () => undefined, opened: () => undefined };
-  const editor = new DocumentEditor(body, { format, player: await makeMotion(), document: await libraryDocument() }, events);
-  const state = new Store<DeskState>({ where: null, shownPage: null } as DeskState);
-  let frames: ((nowMs: number) => void)[] = [];
-  let nowMs = 1000;
-  const preview = new MotionPreview({
-    body, editor, state, trunk: () => TRUNK, isFollowing: () => false, told: () => undefined, nextFrame: (call) => void frames.push(call),
-  });
-  const pass = (ms: number): void => {
-    const due = frames;
-    frames = [];
-    nowMs += ms;
-    for (const call of due) call(nowMs);
-  };
-  const where = (change: Partial<Where>): void => state.set({ where: { state: 'idle', page: 0, step: 0, ...change } as Where });
-  return { editor, state, preview, pass, where };
+    const events = { changed: () => undefined, refused: () => undefined, opened: () => undefined };
+    const editor = new DocumentEditor(body, { format, player: await makeMotion(), document: await libraryDocument() }, events);
+    const state = new Store<DeskState>({ where: null, shownPage: null } as DeskState);
+    let frames: ((nowMs: number) => void)[] = [];
+    let nowMs = 1000;
+    const preview = new MotionPreview({
+        body,
+        editor,
+        state,
+        trunk: () => TRUNK,
+        isFollowing: () => false,
+        told: () => undefined,
+        nextFrame: call => void frames.push(call),
+    });
+    const pass = (ms: number): void => {
+        const due = frames;
+        frames = [];
+        nowMs += ms;
+        for (const call of due) call(nowMs);
+    };
+    const where = (change: Partial<Where>): void => state.set({ where: { state: 'idle', page: 0, step: 0, ...change } as Where });
+    return { editor, state, preview, pass, where };
 }
 
-test('the first pose is there at once, and 0.3 s later the motion is 0.3 s on: the curve of the firmware\'s own player', async () => {
-  const { editor, preview, pass, state } = await shown();
-  const curve = editor.curve(WAVE, { shape: AS_STORED });
-  expect(preview.start(WAVE)).toBe(true);
-  expect(state.get().shownPage).toBe(WAVE);
-  expect(Array.from(preview.pose()?.positions ?? [])).toEqual(Array.from(curve?.goals.subarray(0, 31) ?? []));
-  pass(0);
-  pass(300);
-  const tick = Math.floor(0.3 * 128);
-  expect(preview.state.get().tick).toBe(tick);
-  expect(Array.from(preview.pose()?.positions ?? [])).toEqual(Array.from(curve?.goals.subarray(31 * tick, 31 * (tick + 1)) ?? []));
+test("the first pose is there at once, and 0.3 s later the motion is 0.3 s on: the curve of the firmware's own player", async () => {
+    const { editor, preview, pass, state } = await shown();
+    const curve = editor.curve(WAVE, { shape: AS_STORED });
+    expect(preview.start(WAVE)).toBe(true);
+    expect(state.get().shownPage).toBe(WAVE);
+    expect(Array.from(preview.pose()?.positions ?? [])).toEqual(Array.from(curve?.goals.subarray(0, 31) ?? []));
+    pass(0);
+    pass(300);
+    const tick = Math.floor(0.3 * 128);
+    expect(preview.state.get().tick).toBe(tick);
+    expect(Array.from(preview.pose()?.positions ?? [])).toEqual(Array.from(curve?.goals.subarray(31 * tick, 31 * (tick + 1)) ?? []));
 });
 
 test('it begins where the robot stands, as the robot is turned', async () => {
-  const { preview } = await shown();
-  preview.start(WAVE);
-  const trunk = preview.pose()?.trunk;
-  expect(trunk?.pos.slice(0, 2)).toEqual([2, 1]);
-  expect(Math.atan2(trunk?.quat[3] ?? 0, trunk?.quat[0] ?? 0) * 2).toBeCloseTo(Math.PI / 2, 2);
+    const { preview } = await shown();
+    preview.start(WAVE);
+    const trunk = preview.pose()?.trunk;
+    expect(trunk?.pos.slice(0, 2)).toEqual([2, 1]);
+    expect(Math.atan2(trunk?.quat[3] ?? 0, trunk?.quat[0] ?? 0) * 2).toBeCloseTo(Math.PI / 2, 2);
 });
 
 test('at its end it stands still; looping, it goes on', async () => {
-  const { preview, pass } = await shown();
-  preview.start(WAVE);
-  pass(0);
-  pass(60_000);
-  const { tick, ticks, isRunning } = preview.state.get();
-  expect([tick, isRunning]).toEqual([ticks - 1, false]);
-  preview.setLooping(true);
-  preview.resume();
-  expect(preview.state.get().tick).toBe(0);
-  pass(0);
-  pass(60_000);
-  expect(preview.state.get().isRunning).toBe(true);
+    const { preview, pass } = await shown();
+    preview.start(WAVE);
+    pass(0);
+    pass(60_000);
+    const { tick, ticks, isRunning } = preview.state.get();
+    expect([tick, isRunning]).toEqual([ticks - 1, false]);
+    preview.setLooping(true);
+    preview.resume();
+    expect(preview.state.get().tick).toBe(0);
+    pass(0);
+    pass(60_000);
+    expect(preview.state.get().isRunning).toBe(true);
 });
 
 test('from a step: its first tick; the scrubber stands still where it is put', async () => {
-  const { preview } = await shown();
-  preview.start(WAVE, 2);
-  expect(preview.state.get().at).toEqual({ page: WAVE, step: 3 });
-  expect(preview.sinceStep()).toBe(0);
-  preview.seek(WAVE, 40);
-  expect(preview.state.get()).toMatchObject({ tick: 40, isRunning: false, figure: 'shown' });
+    const { preview } = await shown();
+    preview.start(WAVE, 2);
+    expect(preview.state.get().at).toEqual({ page: WAVE, step: 3 });
+    expect(preview.sinceStep()).toBe(0);
+    preview.seek(WAVE, 40);
+    expect(preview.state.get()).toMatchObject({ tick: 40, isRunning: false, figure: 'shown' });
 });
 
 test('while a robot plays, and behind it, the figure is the robot, until somebody edits or chooses a step', async () => {
-  const { editor, preview, where, state } = await shown();
-  expect(preview.state.get().figure).toBe('step');
-  where({});
-  where({ state: 'playing', page: WAVE, step: 1 });
-  expect(preview.state.get().figure).toBe('robot');
-  where({});
-  expect(preview.state.get().figure).toBe('robot');
-  editor.select({ page: WAVE, step: 1 });
-  expect(preview.state.get().figure).toBe('step');
-  preview.start(WAVE);
-  where({ state: 'approach', page: WAVE });
-  expect(preview.state.get()).toMatchObject({ figure: 'robot', isRunning: false });
-  expect([preview.pose(), state.get().shownPage]).toEqual([null, null]);
+    const { editor, preview, where, state } = await shown();
+    expect(preview.state.get().figure).toBe('step');
+    where({});
+    where({ state: 'playing', page: WAVE, step: 1 });
+    expect(preview.state.get().figure).toBe('robot');
+    where({});
+    expect(preview.state.get().figure).toBe('robot');
+    editor.select({ page: WAVE, step: 1 });
+    expect(preview.state.get().figure).toBe('step');
+    preview.start(WAVE);
+    where({ state: 'approach', page: WAVE });
+    expect(preview.state.get()).toMatchObject({ figure: 'robot', isRunning: false });
+    expect([preview.pose(), state.get().shownPage]).toEqual([null, null]);
 });
 
 test('who opens another area when the robot has ended looks at the step', async () => {
-  const { preview, where, state } = await shown();
-  where({ state: 'playing', page: 20, step: 1 });
-  state.set({ tab: 'curves' });
-  expect(preview.state.get().figure).toBe('robot'); // it moves still
-  where({});
-  state.set({ tab: 'steps' });
-  expect(preview.state.get().figure).toBe('step');
+    const { preview, where, state } = await shown();
+    where({ state: 'playing', page: 20, step: 1 });
+    state.set({ tab: 'curves' });
+    expect(preview.state.get().figure).toBe('robot'); // it moves still
+    where({});
+    state.set({ tab: 'steps' });
+    expect(preview.state.get().figure).toBe('step');
 });
 
-test('a robot that begins to play does not take a step out of somebody\'s hand', async () => {
-  const { editor, preview, where } = await shown();
-  const gesture = editor.gesture('set-joints');
-  where({ state: 'playing', page: 20, step: 1 });
-  expect(preview.state.get().figure).toBe('step');
-  gesture.cancel();
+test("a robot that begins to play does not take a step out of somebody's hand", async () => {
+    const { editor, preview, where } = await shown();
+    const gesture = editor.gesture('set-joints');
+    where({ state: 'playing', page: 20, step: 1 });
+    expect(preview.state.get().figure).toBe('step');
+    gesture.cancel();
 });

@@ -17,86 +17,86 @@ const body = JSON.parse(readFileSync(`${ROOT}build/wasm/body.json`, 'utf8')) as 
 
 /** A worker that hears nothing while it works, as Python does; a test says when it answers. */
 class BusyWorker {
-  static readonly all: BusyWorker[] = [];
-  onmessage: ((event: { data: FromFiles }) => void) | null = null;
-  onerror: (() => void) | null = null;
-  isEnded = false;
-  readonly asked: ToFiles[] = [];
+    static readonly all: BusyWorker[] = [];
+    onmessage: ((event: { data: FromFiles }) => void) | null = null;
+    onerror: (() => void) | null = null;
+    isEnded = false;
+    readonly asked: ToFiles[] = [];
 
-  constructor() {
-    BusyWorker.all.push(this);
-  }
+    constructor() {
+        BusyWorker.all.push(this);
+    }
 
-  postMessage(message: ToFiles): void {
-    this.asked.push(message);
-  }
+    postMessage(message: ToFiles): void {
+        this.asked.push(message);
+    }
 
-  terminate(): void {
-    this.isEnded = true;
-  }
+    terminate(): void {
+        this.isEnded = true;
+    }
 
-  answer(answer: unknown): void {
-    const question = this.asked.find((message) => message.kind === 'question');
-    if (question?.kind === 'question') this.onmessage?.({ data: { kind: 'answer', id: question.id, answer } });
-  }
+    answer(answer: unknown): void {
+        const question = this.asked.find(message => message.kind === 'question');
+        if (question?.kind === 'question') this.onmessage?.({ data: { kind: 'answer', id: question.id, answer } });
+    }
 }
 
 async function openPage() {
-  BusyWorker.all.length = 0;
-  const { format } = await makeFormat();
-  const client = new FormatsClient({ wasmUrl: '', libraryUrl: '' }, () => new BusyWorker() as unknown as Worker);
-  const parts = { format, player: await makeMotion(), document: await libraryDocument() };
-  const editor = new DocumentEditor(body, parts, { changed: () => undefined, refused: () => undefined, opened: () => undefined });
-  return { client, editor, files: new DocumentFiles(editor, client, { cancel: () => client.cancel(), create: () => Promise.resolve() }) };
+    BusyWorker.all.length = 0;
+    const { format } = await makeFormat();
+    const client = new FormatsClient({ wasmUrl: '', libraryUrl: '' }, () => new BusyWorker() as unknown as Worker);
+    const parts = { format, player: await makeMotion(), document: await libraryDocument() };
+    const editor = new DocumentEditor(body, parts, { changed: () => undefined, refused: () => undefined, opened: () => undefined });
+    return { client, editor, files: new DocumentFiles(editor, client, { cancel: () => client.cancel(), create: () => Promise.resolve() }) };
 }
 
 const last = (): BusyWorker => {
-  const worker = BusyWorker.all.at(-1);
-  if (!worker) throw new Error('no worker was started');
-  return worker;
+    const worker = BusyWorker.all.at(-1);
+    if (!worker) throw new Error('no worker was started');
+    return worker;
 };
 
 test('a reading is cancelled: its worker ends, nothing is said or changed, what else was asked is answered, and the next file is read', async () => {
-  const { client, editor, files } = await openPage();
-  const { document } = editor.state.get();
-  const checked = client.check(new Uint8Array(65536));
-  void files.choose(new File(['motion512 1'], 'long.m512'));
-  await settle();
-  expect(files.state.get().busy).toContain('long.m512');
-  files.cancel();
-  await settle();
-  expect(files.state.get()).toMatchObject({ busy: null, trouble: null, opened: null });
-  expect(BusyWorker.all.map(({ isEnded }) => isEnded)).toEqual([true, false]);
-  last().answer([]);
-  expect(await checked).toEqual([]);
-  void files.choose(new File(['x'], 'next.m512'));
-  await settle();
-  expect(files.state.get().busy).toContain('next.m512');
-  expect(editor.state.get().document).toBe(document);
+    const { client, editor, files } = await openPage();
+    const { document } = editor.state.get();
+    const checked = client.check(new Uint8Array(65536));
+    void files.choose(new File(['motion512 1'], 'long.m512'));
+    await settle();
+    expect(files.state.get().busy).toContain('long.m512');
+    files.cancel();
+    await settle();
+    expect(files.state.get()).toMatchObject({ busy: null, trouble: null, opened: null });
+    expect(BusyWorker.all.map(({ isEnded }) => isEnded)).toEqual([true, false]);
+    last().answer([]);
+    expect(await checked).toEqual([]);
+    void files.choose(new File(['x'], 'next.m512'));
+    await settle();
+    expect(files.state.get().busy).toContain('next.m512');
+    expect(editor.state.get().document).toBe(document);
 });
 
 test('without a reading there is nothing to cancel', async () => {
-  const { files } = await openPage();
-  files.cancel();
-  expect(BusyWorker.all).toEqual([]);
+    const { files } = await openPage();
+    files.cancel();
+    expect(BusyWorker.all).toEqual([]);
 });
 
 test('a file that is too large is not read at all; m512 has the same bound', async () => {
-  const { files } = await openPage();
-  let isRead = false;
-  const arrayBuffer = async (): Promise<ArrayBuffer> => {
-    isRead = true;
-    return new ArrayBuffer(1);
-  };
-  await files.choose({ name: 'film.mtn', size: MOST_BYTES + 1, arrayBuffer });
-  expect(files.state.get().trouble).toMatch(/^film.mtn is larger than 4 MB/);
-  expect([isRead, BusyWorker.all]).toEqual([false, []]);
-  const bound = execFileSync(`${ROOT}build/venv/bin/python`, ['-c', 'from m512.files.storage import MOST_BYTES; print(MOST_BYTES)']);
-  expect(MOST_BYTES).toBe(Number(bound));
+    const { files } = await openPage();
+    let isRead = false;
+    const arrayBuffer = async (): Promise<ArrayBuffer> => {
+        isRead = true;
+        return new ArrayBuffer(1);
+    };
+    await files.choose({ name: 'film.mtn', size: MOST_BYTES + 1, arrayBuffer });
+    expect(files.state.get().trouble).toMatch(/^film.mtn is larger than 4 MB/);
+    expect([isRead, BusyWorker.all]).toEqual([false, []]);
+    const bound = execFileSync(`${ROOT}build/venv/bin/python`, ['-c', 'from m512.files.storage import MOST_BYTES; print(MOST_BYTES)']);
+    expect(MOST_BYTES).toBe(Number(bound));
 });
 
 test('a file that cannot be read (a folder, or gone) is told', async () => {
-  const { files } = await openPage();
-  await files.choose({ name: 'folder', size: 4096, arrayBuffer: () => Promise.reject(new DOMException('gone', 'NotFoundError')) });
-  expect(files.state.get()).toMatchObject({ busy: null, trouble: expect.stringMatching(/^folder cannot be read/) });
+    const { files } = await openPage();
+    await files.choose({ name: 'folder', size: 4096, arrayBuffer: () => Promise.reject(new DOMException('gone', 'NotFoundError')) });
+    expect(files.state.get()).toMatchObject({ busy: null, trouble: expect.stringMatching(/^folder cannot be read/) });
 });

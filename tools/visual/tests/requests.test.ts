@@ -3,7 +3,27 @@
 import { afterEach, expect, test } from 'vitest';
 import { Connection } from '../robot/connection.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { aim, askDensePage, askList, askPage, askPose, askVersion, askWhere, command, drive, free, movePose, play, resetShape, setAmplitude, setBlend, setLayer, setRate, setTorque, swing } from '../robot/protocol.ts';
+import {
+    aim,
+    askDensePage,
+    askList,
+    askPage,
+    askPose,
+    askVersion,
+    askWhere,
+    command,
+    drive,
+    free,
+    movePose,
+    play,
+    resetShape,
+    setAmplitude,
+    setBlend,
+    setLayer,
+    setRate,
+    setTorque,
+    swing,
+} from '../robot/protocol.ts';
 import { remotePacket } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import { makeFormat } from './motion-bench.ts';
@@ -13,227 +33,251 @@ const { format } = await makeFormat();
 const crcOf = (bytes: Uint8Array): number => format.crc(bytes);
 const open: Connection[] = [];
 afterEach(async () => {
-  for (const connection of open.splice(0)) await connection.close();
+    for (const connection of open.splice(0)) await connection.close();
 });
 
 async function connect(bench: RobotBench) {
-  const states: ConnectionState[] = [];
-  const heard: number[] = [];
-  const connection = new Connection(bench.port, bench.clock, {
-    state: (state) => states.push(state),
-    text: (bytes) => heard.push(...bytes),
-  });
-  open.push(connection);
-  connection.connect();
-  return { connection, states, text: () => String.fromCharCode(...heard) };
+    const states: ConnectionState[] = [];
+    const heard: number[] = [];
+    const connection = new Connection(bench.port, bench.clock, {
+        state: state => states.push(state),
+        text: bytes => heard.push(...bytes),
+    });
+    open.push(connection);
+    connection.connect();
+    return { connection, states, text: () => String.fromCharCode(...heard) };
 }
 
 async function ready(image: 'play' | 'edit', seed: number) {
-  const bench = await RobotBench.make(image, seed);
-  const link = await connect(bench);
-  for (let i = 0; i < 200 && link.connection.state !== 'ready'; i++) await bench.run(50);
-  expect(link.connection.state, `seed ${seed}`).toBe('ready');
-  return { bench, ...link };
+    const bench = await RobotBench.make(image, seed);
+    const link = await connect(bench);
+    for (let i = 0; i < 200 && link.connection.state !== 'ready'; i++) await bench.run(50);
+    expect(link.connection.state, `seed ${seed}`).toBe('ready');
+    return { bench, ...link };
 }
 
-test.each([['play', 11], ['edit', 12]] as const)('%s: the questions of the protocol', async (image, seed) => {
-  const { bench, connection } = await ready(image, seed);
-  const requests = connection.requests;
-  await bench.run(2000); // the voltage is asked after the start
-  expect(connection.version).toMatchObject({ image, board: 'cm5', protocol: 1 });
-  expect(connection.version?.can.has('save')).toBe(image === 'edit');
-  expect(await bench.until(askWhere(requests))).toMatchObject({ state: 'idle', batteryVolts: 9.6, faulty: 0 });
-  const pose = await bench.until(askPose(requests));
-  expect(pose.map((joint) => joint.id)).toEqual(Array.from({ length: 18 }, (_, i) => i + 1));
-  expect(pose[0]).toEqual({ id: 1, position: 512, torque: false });
-  const list = await bench.until(askList(requests));
-  expect(list).toContainEqual({ page: 2, name: 'bow', steps: expect.any(Number), fault: '' });
-  const { motions } = await robotImages('play');
-  for (const page of [2, 100]) {
-    expect(await bench.until(askPage(requests, page, crcOf))).toEqual(motions.slice(page * 512, page * 512 + 512));
-    expect(await bench.until(askDensePage(requests, page, crcOf))).toEqual(motions.slice(page * 512, page * 512 + 512));
-  }
+test.each([
+    ['play', 11],
+    ['edit', 12],
+] as const)('%s: the questions of the protocol', async (image, seed) => {
+    const { bench, connection } = await ready(image, seed);
+    const requests = connection.requests;
+    await bench.run(2000); // the voltage is asked after the start
+    expect(connection.version).toMatchObject({ image, board: 'cm5', protocol: 1 });
+    expect(connection.version?.can.has('save')).toBe(image === 'edit');
+    expect(await bench.until(askWhere(requests))).toMatchObject({ state: 'idle', batteryVolts: 9.6, faulty: 0 });
+    const pose = await bench.until(askPose(requests));
+    expect(pose.map(joint => joint.id)).toEqual(Array.from({ length: 18 }, (_, i) => i + 1));
+    expect(pose[0]).toEqual({ id: 1, position: 512, torque: false });
+    const list = await bench.until(askList(requests));
+    expect(list).toContainEqual({ page: 2, name: 'bow', steps: expect.any(Number), fault: '' });
+    const { motions } = await robotImages('play');
+    for (const page of [2, 100]) {
+        expect(await bench.until(askPage(requests, page, crcOf))).toEqual(motions.slice(page * 512, page * 512 + 512));
+        expect(await bench.until(askDensePage(requests, page, crcOf))).toEqual(motions.slice(page * 512, page * 512 + 512));
+    }
 });
 
 test('many questions at once are answered in their order', async () => {
-  const { bench, connection } = await ready('play', 13);
-  const answers = await bench.until(Promise.all([
-    askWhere(connection.requests), askPose(connection.requests), askVersion(connection.requests), askWhere(connection.requests),
-  ]));
-  expect(answers[1]).toHaveLength(18);
-  expect(answers[2].image).toBe('play');
-  expect(answers[3].state).toBe('idle');
+    const { bench, connection } = await ready('play', 13);
+    const answers = await bench.until(
+        Promise.all([
+            askWhere(connection.requests),
+            askPose(connection.requests),
+            askVersion(connection.requests),
+            askWhere(connection.requests),
+        ]),
+    );
+    expect(answers[1]).toHaveLength(18);
+    expect(answers[2].image).toBe('play');
+    expect(answers[3].state).toBe('idle');
 });
 
 test('a refusal carries the number and the words of the board', async () => {
-  const { bench, connection } = await ready('play', 14);
-  const refused = bench.until(play(connection.requests, 300));
-  await expect(refused).rejects.toMatchObject({ code: 'refused', number: 3, words: expect.stringContaining('Page') });
+    const { bench, connection } = await ready('play', 14);
+    const refused = bench.until(play(connection.requests, 300));
+    await expect(refused).rejects.toMatchObject({ code: 'refused', number: 3, words: expect.stringContaining('Page') });
 });
 
 test('a terminal beside the program sees its own text and nothing of the program', async () => {
-  const { bench, connection, text } = await ready('play', 15);
-  const before = text();
-  for (let i = 0; i < 20; i++) await bench.until(askWhere(connection.requests));
-  expect(text()).toBe(before);
-  expect(text()).not.toContain('@');
-  await connection.write(new TextEncoder().encode('version\r'));
-  await bench.run(300);
-  expect(text().slice(before.length)).toMatch(/^version\r\nMotion512 Play .*\r\n OK\r\n\] $/s);
+    const { bench, connection, text } = await ready('play', 15);
+    const before = text();
+    for (let i = 0; i < 20; i++) await bench.until(askWhere(connection.requests));
+    expect(text()).toBe(before);
+    expect(text()).not.toContain('@');
+    await connection.write(new TextEncoder().encode('version\r'));
+    await bench.run(300);
+    expect(text().slice(before.length)).toMatch(/^version\r\nMotion512 Play .*\r\n OK\r\n\] $/s);
 });
 
 test('a walk by remote is heard of by @where, and ends by @stop', async () => {
-  const { bench, connection } = await ready('play', 16);
-  bench.board.send('remote', remotePacket(['up']));
-  await bench.run(5000);
-  expect(await bench.until(askWhere(connection.requests))).toMatchObject({ state: 'playing', code: 1 });
-  await bench.until(command(connection.requests, 'stop'));
-  await bench.run(5000);
-  expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+    const { bench, connection } = await ready('play', 16);
+    bench.board.send('remote', remotePacket(['up']));
+    await bench.run(5000);
+    expect(await bench.until(askWhere(connection.requests))).toMatchObject({ state: 'playing', code: 1 });
+    await bench.until(command(connection.requests, 'stop'));
+    await bench.run(5000);
+    expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
 });
 
 test('a board that says nothing: time-out, and the late answer does not answer the next question', async () => {
-  const { bench, connection } = await ready('play', 17);
-  const hurried = bench.until(connection.requests.ask('@list', { timeoutMs: 5 }));
-  await expect(hurried).rejects.toMatchObject({ code: 'no-answer' });
-  const list = await bench.until(askList(connection.requests));
-  expect(list.length).toBeGreaterThan(30);
-  await expect(bench.until(connection.requests.ask('@page 2', { timeoutMs: 5 }))).rejects.toMatchObject({ code: 'no-answer' });
-  const { motions } = await robotImages('play');
-  expect(await bench.until(askPage(connection.requests, 3, crcOf))).toEqual(motions.slice(3 * 512, 4 * 512));
-  bench.board.setPower(false);
-  await expect(bench.until(askWhere(connection.requests))).rejects.toMatchObject({ code: 'no-answer' });
+    const { bench, connection } = await ready('play', 17);
+    const hurried = bench.until(connection.requests.ask('@list', { timeoutMs: 5 }));
+    await expect(hurried).rejects.toMatchObject({ code: 'no-answer' });
+    const list = await bench.until(askList(connection.requests));
+    expect(list.length).toBeGreaterThan(30);
+    await expect(bench.until(connection.requests.ask('@page 2', { timeoutMs: 5 }))).rejects.toMatchObject({ code: 'no-answer' });
+    const { motions } = await robotImages('play');
+    expect(await bench.until(askPage(connection.requests, 3, crcOf))).toEqual(motions.slice(3 * 512, 4 * 512));
+    bench.board.setPower(false);
+    await expect(bench.until(askWhere(connection.requests))).rejects.toMatchObject({ code: 'no-answer' });
 });
 
 test('cancelled by the caller, in the queue and under way', async () => {
-  const { bench, connection } = await ready('play', 18);
-  const first = new AbortController();
-  const second = new AbortController();
-  const both = Promise.allSettled([
-    connection.requests.ask('@list', { signal: first.signal }), connection.requests.ask('@pose', { signal: second.signal }),
-  ]);
-  first.abort();
-  second.abort();
-  const [one, two] = await bench.until(both);
-  expect([one, two].map((r) => r.status === 'rejected' && (r.reason as RobotError).code)).toEqual(['cancelled', 'cancelled']);
-  expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+    const { bench, connection } = await ready('play', 18);
+    const first = new AbortController();
+    const second = new AbortController();
+    const both = Promise.allSettled([
+        connection.requests.ask('@list', { signal: first.signal }),
+        connection.requests.ask('@pose', { signal: second.signal }),
+    ]);
+    first.abort();
+    second.abort();
+    const [one, two] = await bench.until(both);
+    expect([one, two].map(r => r.status === 'rejected' && (r.reason as RobotError).code)).toEqual(['cancelled', 'cancelled']);
+    expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
 });
 
 test('the cable is pulled with a question under way, and put back', async () => {
-  const { bench, connection, states } = await ready('play', 19);
-  const asked = askList(connection.requests);
-  asked.catch(() => undefined);
-  await bench.run(20);
-  bench.port.unplug();
-  await expect(bench.until(asked)).rejects.toMatchObject({ code: 'port-lost' });
-  expect(connection.state).toBe('waiting');
-  await bench.run(3000);
-  expect(connection.state).toBe('ready');
-  expect(states.slice(-4)).toEqual(['waiting', 'opening', 'asking', 'ready']);
-  expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+    const { bench, connection, states } = await ready('play', 19);
+    const asked = askList(connection.requests);
+    asked.catch(() => undefined);
+    await bench.run(20);
+    bench.port.unplug();
+    await expect(bench.until(asked)).rejects.toMatchObject({ code: 'port-lost' });
+    expect(connection.state).toBe('waiting');
+    await bench.run(3000);
+    expect(connection.state).toBe('ready');
+    expect(states.slice(-4)).toEqual(['waiting', 'opening', 'asking', 'ready']);
+    expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
 });
 
 test('a board without power is silent, and found when it is switched on', async () => {
-  const bench = await RobotBench.make('play', 20);
-  bench.board.setPower(false);
-  const { connection, states } = await connect(bench);
-  await bench.run(1500);
-  expect(states).toContain('silent');
-  expect(states).not.toContain('ready');
-  bench.board.setPower(true);
-  await bench.run(6000);
-  expect(connection.state).toBe('ready');
+    const bench = await RobotBench.make('play', 20);
+    bench.board.setPower(false);
+    const { connection, states } = await connect(bench);
+    await bench.run(1500);
+    expect(states).toContain('silent');
+    expect(states).not.toContain('ready');
+    bench.board.setPower(true);
+    await bench.run(6000);
+    expect(connection.state).toBe('ready');
 });
 
 test('a board in its boot loader: what it says is text, and the state says silent', async () => {
-  const bench = await RobotBench.make('play', 21);
-  bench.board.setPower(false);
-  bench.board.writeEeprom(4095, Uint8Array.of(0xff));
-  bench.board.setPower(true);
-  const { states, text } = await connect(bench);
-  await bench.run(2500);
-  expect(states).toContain('silent');
-  expect(states).not.toContain('ready');
-  expect(text()).toContain('- ');
+    const bench = await RobotBench.make('play', 21);
+    bench.board.setPower(false);
+    bench.board.writeEeprom(4095, Uint8Array.of(0xff));
+    bench.board.setPower(true);
+    const { states, text } = await connect(bench);
+    await bench.run(2500);
+    expect(states).toContain('silent');
+    expect(states).not.toContain('ready');
+    expect(text()).toContain('- ');
 });
 
 test('closing while something waits rejects it', async () => {
-  const { connection } = await ready('play', 22);
-  const asked = askWhere(connection.requests);
-  asked.catch(() => undefined);
-  await connection.close();
-  await settle();
-  await expect(asked).rejects.toBeInstanceOf(RobotError);
-  expect(() => connection.requests).toThrow(RobotError);
+    const { connection } = await ready('play', 22);
+    const asked = askWhere(connection.requests);
+    asked.catch(() => undefined);
+    await connection.close();
+    await settle();
+    await expect(asked).rejects.toBeInstanceOf(RobotError);
+    expect(() => connection.requests).toThrow(RobotError);
 });
 
 test('driven by a stick: @drive is in force, and ends with the play when the stick falls silent', async () => {
-  const { bench, connection } = await ready('play', 23);
-  await bench.until(play(connection.requests, 20));
-  await bench.run(4000);
-  await bench.until(drive(connection.requests, -30, 100, 80));
-  expect((await bench.until(askWhere(connection.requests))).fields.get('blend')).toBe('-30');
-  await bench.run(6000); // nobody says @drive again: the watchdog of the firmware stops the walk
-  expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
+    const { bench, connection } = await ready('play', 23);
+    await bench.until(play(connection.requests, 20));
+    await bench.run(4000);
+    await bench.until(drive(connection.requests, -30, 100, 80));
+    expect((await bench.until(askWhere(connection.requests))).fields.get('blend')).toBe('-30');
+    await bench.run(6000); // nobody says @drive again: the watchdog of the firmware stops the walk
+    expect((await bench.until(askWhere(connection.requests))).state).toBe('idle');
 });
 
-test.each([['play', 24], ['edit', 25]] as const)('%s: a pose by @move, some joints let go and held again', async (image, seed) => {
-  const { bench, connection } = await ready(image, seed);
-  const { requests } = connection;
-  await bench.until(setTorque(requests, true));
-  const positions = new Array<number | null>(31).fill(null);
-  [positions[1], positions[3], positions[18]] = [600, 420, 500];
-  await bench.until(movePose(requests, 90, positions));
-  await expect(bench.until(movePose(requests, 90, positions))).rejects.toMatchObject({ code: 'refused', number: 4 });
-  await bench.run(3000);
-  const pose = await bench.until(askPose(requests));
-  for (const [id, wanted] of [[1, 600], [2, 512], [3, 420], [18, 500]] as const) {
-    expect(Math.abs((pose.find((joint) => joint.id === id)?.position ?? 0) - wanted), `servo ${id}`).toBeLessThan(4);
-  }
-  await bench.until(setTorque(requests, false, [1, 3, 5]));
-  const limp = async (): Promise<number[]> => (await bench.until(askPose(requests))).filter((joint) => !joint.torque).map((joint) => joint.id);
-  expect(await limp()).toEqual([1, 3, 5]);
-  await bench.until(setTorque(requests, true, [1, 3, 5]));
-  expect(await limp()).toEqual([]);
-  await bench.until(movePose(requests, 90, new Array<null>(31).fill(null))); // no joint: nothing is asked
+test.each([
+    ['play', 24],
+    ['edit', 25],
+] as const)('%s: a pose by @move, some joints let go and held again', async (image, seed) => {
+    const { bench, connection } = await ready(image, seed);
+    const { requests } = connection;
+    await bench.until(setTorque(requests, true));
+    const positions = new Array<number | null>(31).fill(null);
+    [positions[1], positions[3], positions[18]] = [600, 420, 500];
+    await bench.until(movePose(requests, 90, positions));
+    await expect(bench.until(movePose(requests, 90, positions))).rejects.toMatchObject({ code: 'refused', number: 4 });
+    await bench.run(3000);
+    const pose = await bench.until(askPose(requests));
+    for (const [id, wanted] of [
+        [1, 600],
+        [2, 512],
+        [3, 420],
+        [18, 500],
+    ] as const) {
+        expect(Math.abs((pose.find(joint => joint.id === id)?.position ?? 0) - wanted), `servo ${id}`).toBeLessThan(4);
+    }
+    await bench.until(setTorque(requests, false, [1, 3, 5]));
+    const limp = async (): Promise<number[]> =>
+        (await bench.until(askPose(requests))).filter(joint => !joint.torque).map(joint => joint.id);
+    expect(await limp()).toEqual([1, 3, 5]);
+    await bench.until(setTorque(requests, true, [1, 3, 5]));
+    expect(await limp()).toEqual([]);
+    await bench.until(movePose(requests, 90, new Array<null>(31).fill(null))); // no joint: nothing is asked
 });
 
 test('a play is shaped, and shaped back', async () => {
-  const { bench, connection } = await ready('play', 26);
-  const { requests } = connection;
-  await bench.until(setRate(requests, 150));
-  await bench.until(setBlend(requests, -20));
-  await bench.until(setAmplitude(requests, 80));
-  const shape = async (): Promise<(string | undefined)[]> => {
-    const { fields } = await bench.until(askWhere(requests));
-    return ['rate', 'blend', 'amplitude'].map((name) => fields.get(name));
-  };
-  expect(await shape()).toEqual(['150', '-20', '80']);
-  await bench.until(resetShape(requests));
-  expect(await shape()).toEqual(['100', '0', '100']);
+    const { bench, connection } = await ready('play', 26);
+    const { requests } = connection;
+    await bench.until(setRate(requests, 150));
+    await bench.until(setBlend(requests, -20));
+    await bench.until(setAmplitude(requests, 80));
+    const shape = async (): Promise<(string | undefined)[]> => {
+        const { fields } = await bench.until(askWhere(requests));
+        return ['rate', 'blend', 'amplitude'].map(name => fields.get(name));
+    };
+    expect(await shape()).toEqual(['150', '-20', '80']);
+    await bench.until(resetShape(requests));
+    expect(await shape()).toEqual(['100', '0', '100']);
 });
 
 test('beside a play: a page laid over the walk, a joint aimed, one swung, all given back; what cannot be is refused and changes nothing', async () => {
-  const { bench, connection } = await ready('play', 27);
-  const { requests } = connection;
-  const beside = async (): Promise<(string | undefined)[]> => {
-    const { fields } = await bench.until(askWhere(requests));
-    return ['layer', 'aim'].map((name) => fields.get(name));
-  };
-  const refused = (request: Promise<void>): Promise<unknown> => bench.until(request.then(() => 'done', (error: unknown) => (error instanceof RobotError ? error.code : error)));
-  await bench.until(play(requests, 20));
-  for (let i = 0; i < 40 && (await bench.until(askWhere(requests))).state !== 'playing'; i++) await bench.run(250);
-  await bench.until(setLayer(requests, 60));
-  expect(await beside()).toEqual(['60', '00000000']);
-  await bench.until(setLayer(requests, null));
-  await bench.until(aim(requests, 2, 600, 90));
-  await bench.until(swing(requests, 6, 512, 40, 2000));
-  expect((await beside())[1]).toBe('00000044'); // bits 2 and 6
-  expect(await refused(swing(requests, 6, 1000, 100, 2000))).toBe('refused'); // leaves 0..1023
-  expect(await refused(setLayer(requests, 126))).toBe('refused'); // no such page
-  expect((await beside())[1]).toBe('00000044');
-  await bench.until(free(requests, [2]));
-  await bench.until(free(requests));
-  expect((await beside())[1]).toBe('00000000');
-  expect((await bench.until(askWhere(requests))).state).toBe('playing');
+    const { bench, connection } = await ready('play', 27);
+    const { requests } = connection;
+    const beside = async (): Promise<(string | undefined)[]> => {
+        const { fields } = await bench.until(askWhere(requests));
+        return ['layer', 'aim'].map(name => fields.get(name));
+    };
+    const refused = (request: Promise<void>): Promise<unknown> =>
+        bench.until(
+            request.then(
+                () => 'done',
+                (error: unknown) => (error instanceof RobotError ? error.code : error),
+            ),
+        );
+    await bench.until(play(requests, 20));
+    for (let i = 0; i < 40 && (await bench.until(askWhere(requests))).state !== 'playing'; i++) await bench.run(250);
+    await bench.until(setLayer(requests, 60));
+    expect(await beside()).toEqual(['60', '00000000']);
+    await bench.until(setLayer(requests, null));
+    await bench.until(aim(requests, 2, 600, 90));
+    await bench.until(swing(requests, 6, 512, 40, 2000));
+    expect((await beside())[1]).toBe('00000044'); // bits 2 and 6
+    expect(await refused(swing(requests, 6, 1000, 100, 2000))).toBe('refused'); // leaves 0..1023
+    expect(await refused(setLayer(requests, 126))).toBe('refused'); // no such page
+    expect((await beside())[1]).toBe('00000044');
+    await bench.until(free(requests, [2]));
+    await bench.until(free(requests));
+    expect((await beside())[1]).toBe('00000000');
+    expect((await bench.until(askWhere(requests))).state).toBe('playing');
 });

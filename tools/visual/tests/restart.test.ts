@@ -15,105 +15,108 @@ const files = vi.hoisted(() => ({ missing: '', broken: '' }));
 const browser = vi.hoisted(() => ({ keeps: true, kept: null as KeptRobot | null }));
 
 vi.mock('../app/assets.ts', () => ({
-  boardModule: () => bench.wasmModule('board'),
-  robotImages: async (image: 'play' | 'edit') => {
-    if (files.missing === image) throw new TypeError('Failed to fetch');
-    const images = await bench.robotImages(image);
-    return files.broken === image ? { ...images, application: 'no HEX' } : images;
-  },
-  motionLibrary: async () => (await bench.robotImages('play')).motions,
-  physics: () => Promise.reject(new Error('not here')),
+    boardModule: () => bench.wasmModule('board'),
+    robotImages: async (image: 'play' | 'edit') => {
+        if (files.missing === image) throw new TypeError('Failed to fetch');
+        const images = await bench.robotImages(image);
+        return files.broken === image ? { ...images, application: 'no HEX' } : images;
+    },
+    motionLibrary: async () => (await bench.robotImages('play')).motions,
+    physics: () => Promise.reject(new Error('not here')),
 }));
 vi.mock('../view/robot-store.ts', () => {
-  const tried = async (): Promise<void> => {
-    if (!browser.keeps) throw new DOMException('private window', 'InvalidStateError');
-  };
-  return {
-    loadRobot: () => tried().then(() => browser.kept),
-    saveRobot: (_: string, robot: KeptRobot) => tried().then(() => void (browser.kept = robot)),
-    forgetRobot: () => tried().then(() => void (browser.kept = null)),
-  };
+    const tried = async (): Promise<void> => {
+        if (!browser.keeps) throw new DOMException('private window', 'InvalidStateError');
+    };
+    return {
+        loadRobot: () => tried().then(() => browser.kept),
+        saveRobot: (_: string, robot: KeptRobot) => tried().then(() => void (browser.kept = robot)),
+        forgetRobot: () => tried().then(() => void (browser.kept = null)),
+    };
 });
 
 const BODY = JSON.parse(await readFile(new URL('../../../build/wasm/body.json', import.meta.url), 'utf8')) as Body;
 
 beforeEach(() => {
-  vi.stubGlobal('Worker', NodeWorker);
-  Object.assign(files, { missing: '', broken: '' });
-  Object.assign(browser, { keeps: true, kept: null });
+    vi.stubGlobal('Worker', NodeWorker);
+    Object.assign(files, { missing: '', broken: '' });
+    Object.assign(browser, { keeps: true, kept: null });
 });
 afterEach(() => {
-  for (const worker of NodeWorker.alive) worker.terminate();
-  vi.unstubAllGlobals();
+    for (const worker of NodeWorker.alive) worker.terminate();
+    vi.unstubAllGlobals();
 });
 
 function page() {
-  const seen = { stopped: null as string | null, motions: new Uint8Array(), connections: [] as string[] };
-  const source = new SimulatedSource(BODY, {
-    frame: () => undefined, text: () => undefined, connection: (state) => seen.connections.push(state),
-    change: (change) => void (change.stopped !== undefined && (seen.stopped = change.stopped)), motions: (image) => (seen.motions = Uint8Array.from(image)),
-  });
-  return { source, seen };
+    const seen = { stopped: null as string | null, motions: new Uint8Array(), connections: [] as string[] };
+    const source = new SimulatedSource(BODY, {
+        frame: () => undefined,
+        text: () => undefined,
+        connection: state => seen.connections.push(state),
+        change: change => void (change.stopped !== undefined && (seen.stopped = change.stopped)),
+        motions: image => (seen.motions = Uint8Array.from(image)),
+    });
+    return { source, seen };
 }
 
 /** Until this image answers. */
 async function runs(source: SimulatedSource, image: string): Promise<void> {
-  await vi.waitFor(() => expect(source.connection?.version?.image).toBe(image), { timeout: 240_000, interval: 20 });
+    await vi.waitFor(() => expect(source.connection?.version?.image).toBe(image), { timeout: 240_000, interval: 20 });
 }
 
 test('what is asked of a robot that is still being made is answered when it is there', async () => {
-  const worker = new NodeWorker(new URL('../sim/worker.ts', import.meta.url));
-  const robot = new SimulatedRobot(worker as unknown as Worker, { message: () => undefined });
-  const images = await bench.robotImages('play');
-  robot.post({ kind: 'start', module: await bench.wasmModule('board'), body: BODY, images, kept: null });
-  const { flash } = await robot.memories();
-  expect(flash.slice(MOTIONS_ADDRESS, MOTIONS_ADDRESS + images.motions.length)).toEqual(images.motions);
+    const worker = new NodeWorker(new URL('../sim/worker.ts', import.meta.url));
+    const robot = new SimulatedRobot(worker as unknown as Worker, { message: () => undefined });
+    const images = await bench.robotImages('play');
+    robot.post({ kind: 'start', module: await bench.wasmModule('board'), body: BODY, images, kept: null });
+    const { flash } = await robot.memories();
+    expect(flash.slice(MOTIONS_ADDRESS, MOTIONS_ADDRESS + images.motions.length)).toEqual(images.motions);
 });
 
 test('pressed again before the robot is there, and again: the last one runs, and it is the only one', async () => {
-  const { source } = page();
-  const done = Promise.all([source.start('play'), source.restart('edit'), source.restart('play'), source.restart('edit')]);
-  await done;
-  await runs(source, 'edit');
-  expect(NodeWorker.alive.size).toBe(1);
-  await source.restart('play');
-  await runs(source, 'play');
-  expect(NodeWorker.alive.size).toBe(1);
+    const { source } = page();
+    const done = Promise.all([source.start('play'), source.restart('edit'), source.restart('play'), source.restart('edit')]);
+    await done;
+    await runs(source, 'edit');
+    expect(NodeWorker.alive.size).toBe(1);
+    await source.restart('play');
+    await runs(source, 'play');
+    expect(NodeWorker.alive.size).toBe(1);
 });
 
 test('an image that cannot be loaded: the robot goes on as it was, and the next try is one', async () => {
-  const { source, seen } = page();
-  await source.start('play');
-  await runs(source, 'play');
-  seen.connections.length = 0;
-  files.missing = 'edit';
-  await expect(source.restart('edit')).rejects.toThrow('Failed to fetch');
-  await expect(source.forget('edit')).rejects.toThrow('Failed to fetch');
-  expect(seen.connections).toEqual([]);
-  expect(source.connection?.state).toBe('ready');
-  files.missing = '';
-  await source.restart('edit');
-  await runs(source, 'edit');
+    const { source, seen } = page();
+    await source.start('play');
+    await runs(source, 'play');
+    seen.connections.length = 0;
+    files.missing = 'edit';
+    await expect(source.restart('edit')).rejects.toThrow('Failed to fetch');
+    await expect(source.forget('edit')).rejects.toThrow('Failed to fetch');
+    expect(seen.connections).toEqual([]);
+    expect(source.connection?.state).toBe('ready');
+    files.missing = '';
+    await source.restart('edit');
+    await runs(source, 'edit');
 });
 
 test('after a crash the next robot starts, with what was kept', async () => {
-  const { source, seen } = page();
-  files.broken = 'edit';
-  browser.kept = { flash: new Uint8Array(0x20000).fill(0x5a), eeprom: new Uint8Array(4096).fill(0xff), servos: new Uint8Array() };
-  await source.start('edit');
-  await vi.waitFor(() => expect(seen.stopped).toContain('crashed'), { timeout: 240_000 });
-  await source.restart('play');
-  await vi.waitFor(() => expect(seen.stopped).toBeNull(), { timeout: 240_000 });
-  expect(seen.motions.every((byte) => byte === 0x5a)).toBe(true);
+    const { source, seen } = page();
+    files.broken = 'edit';
+    browser.kept = { flash: new Uint8Array(0x20000).fill(0x5a), eeprom: new Uint8Array(4096).fill(0xff), servos: new Uint8Array() };
+    await source.start('edit');
+    await vi.waitFor(() => expect(seen.stopped).toContain('crashed'), { timeout: 240_000 });
+    await source.restart('play');
+    await vi.waitFor(() => expect(seen.stopped).toBeNull(), { timeout: 240_000 });
+    expect(seen.motions.every(byte => byte === 0x5a)).toBe(true);
 });
 
 test('a browser that keeps nothing: another image has the motions of the one before', async () => {
-  const { source, seen } = page();
-  const flash = new Uint8Array(0x20000).fill(0xff);
-  flash[MOTIONS_ADDRESS + 5000] = 0x77;
-  browser.kept = { flash, eeprom: new Uint8Array(4096).fill(0xff), servos: new Uint8Array() };
-  await source.start('play');
-  browser.keeps = false;
-  await source.restart('edit');
-  expect(seen.motions[5000]).toBe(0x77);
+    const { source, seen } = page();
+    const flash = new Uint8Array(0x20000).fill(0xff);
+    flash[MOTIONS_ADDRESS + 5000] = 0x77;
+    browser.kept = { flash, eeprom: new Uint8Array(4096).fill(0xff), servos: new Uint8Array() };
+    await source.start('play');
+    browser.keeps = false;
+    await source.restart('edit');
+    expect(seen.motions[5000]).toBe(0x77);
 });

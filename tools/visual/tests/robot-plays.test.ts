@@ -18,62 +18,74 @@ const WAVE = 60;
 
 /** Your robot with the motion library, and the page with this document; nothing of the robot has been read. */
 async function yours(image: 'play' | 'edit', document: MotionDocument, seed: number) {
-  const bench = await RobotBench.make(image, seed);
-  const { connection } = connected(bench);
-  for (let ms = 0; connection.state !== 'ready' && ms < 8000; ms += 50) await bench.run(50);
-  const sent: string[] = [];
-  const send = bench.board.send.bind(bench.board);
-  bench.board.send = (sender, bytes) => {
-    sent.push(new TextDecoder().decode(bytes));
-    send(sender, bytes);
-  };
-  const body = { joints: [] } as unknown as ConstructorParameters<typeof DocumentEditor>[0]; // no joint is mirrored here
-  const editor = new DocumentEditor(body, { format, player: await makeMotion(), document }, { changed: () => undefined, refused: () => undefined, opened: () => undefined });
-  const transfer = new RobotTransfer({
-    format, document: () => document, robot: () => editor.state.get().robot, setRobot: (pages) => editor.setRobot(pages),
-    requests: () => connection.requests, becomeEdit: () => Promise.resolve(), backUp: () => Promise.resolve(),
-  });
-  const state = new Store({ source: 'yours' } as DeskState);
-  const plays = new RobotPlays({ state, editor, transfer, connection: () => connection, prepare: () => Promise.resolve() });
-  return { bench, plays, transfer, played: () => sent.filter((line) => line.startsWith('@play')) };
+    const bench = await RobotBench.make(image, seed);
+    const { connection } = connected(bench);
+    for (let ms = 0; connection.state !== 'ready' && ms < 8000; ms += 50) await bench.run(50);
+    const sent: string[] = [];
+    const send = bench.board.send.bind(bench.board);
+    bench.board.send = (sender, bytes) => {
+        sent.push(new TextDecoder().decode(bytes));
+        send(sender, bytes);
+    };
+    const body = { joints: [] } as unknown as ConstructorParameters<typeof DocumentEditor>[0]; // no joint is mirrored here
+    const editor = new DocumentEditor(
+        body,
+        { format, player: await makeMotion(), document },
+        { changed: () => undefined, refused: () => undefined, opened: () => undefined },
+    );
+    const transfer = new RobotTransfer({
+        format,
+        document: () => document,
+        robot: () => editor.state.get().robot,
+        setRobot: pages => editor.setRobot(pages),
+        requests: () => connection.requests,
+        becomeEdit: () => Promise.resolve(),
+        backUp: () => Promise.resolve(),
+    });
+    const state = new Store({ source: 'yours' } as DeskState);
+    const plays = new RobotPlays({ state, editor, transfer, connection: () => connection, prepare: () => Promise.resolve() });
+    return { bench, plays, transfer, played: () => sent.filter(line => line.startsWith('@play')) };
 }
 
 function changed(page: number): MotionDocument {
-  const bytes = library.pages[page] ?? format.empty;
-  const [first, ...others] = readPage(format, bytes).steps;
-  if (!first) throw new Error(`page ${page} has no step`);
-  const steps = [{ ...first, positions: first.positions.map((position, id) => (id === 3 ? 600 : position)) }, ...others];
-  return { ...library, pages: library.pages.map((one, index) => (index === page ? must(writePage(format, bytes, { steps })) : one)) };
+    const bytes = library.pages[page] ?? format.empty;
+    const [first, ...others] = readPage(format, bytes).steps;
+    if (!first) throw new Error(`page ${page} has no step`);
+    const steps = [{ ...first, positions: first.positions.map((position, id) => (id === 3 ? 600 : position)) }, ...others];
+    return { ...library, pages: library.pages.map((one, index) => (index === page ? must(writePage(format, bytes, { steps })) : one)) };
 }
 
-test.each([['play', 61], ['edit', 62]] as const)('%s: pressed while the pages are still being read, Play does not play what is in flash instead', async (image, seed) => {
-  const { bench, plays, transfer, played } = await yours(image, changed(WAVE), seed);
-  const reading = transfer.read();
-  await bench.run(300);
-  expect(transfer.state.get().phase).toBe('reading');
-  await expect(bench.until(plays.playEdited(WAVE))).rejects.toMatchObject({ code: 'pages-differ' });
-  expect(played()).toEqual([]);
-  transfer.cancel();
-  await bench.until(reading);
+test.each([
+    ['play', 61],
+    ['edit', 62],
+] as const)('%s: pressed while the pages are still being read, Play does not play what is in flash instead', async (image, seed) => {
+    const { bench, plays, transfer, played } = await yours(image, changed(WAVE), seed);
+    const reading = transfer.read();
+    await bench.run(300);
+    expect(transfer.state.get().phase).toBe('reading');
+    await expect(bench.until(plays.playEdited(WAVE))).rejects.toMatchObject({ code: 'pages-differ' });
+    expect(played()).toEqual([]);
+    transfer.cancel();
+    await bench.until(reading);
 });
 
 test('what the robot has as the document has it plays at once, read or not', async () => {
-  const { bench, plays, played } = await yours('play', changed(3), 63);
-  await bench.until(plays.playEdited(WAVE));
-  expect(played()).toEqual([`@play ${WAVE}\r`]);
+    const { bench, plays, played } = await yours('play', changed(3), 63);
+    await bench.until(plays.playEdited(WAVE));
+    expect(played()).toEqual([`@play ${WAVE}\r`]);
 });
 
 test('what somebody has changed in the robot since it was read does not play', async () => {
-  const { bench, plays, transfer, played } = await yours('edit', library, 64);
-  expect(await bench.until(transfer.read(), 60_000)).toEqual({ isDone: true });
-  bench.board.send('pc', new TextEncoder().encode(`page ${WAVE}\rname other\rsave\r`));
-  await bench.run(3000);
-  await expect(bench.until(plays.playEdited(WAVE))).rejects.toMatchObject({ code: 'pages-differ' });
-  expect(played()).toEqual([]);
+    const { bench, plays, transfer, played } = await yours('edit', library, 64);
+    expect(await bench.until(transfer.read(), 60_000)).toEqual({ isDone: true });
+    bench.board.send('pc', new TextEncoder().encode(`page ${WAVE}\rname other\rsave\r`));
+    await bench.run(3000);
+    await expect(bench.until(plays.playEdited(WAVE))).rejects.toMatchObject({ code: 'pages-differ' });
+    expect(played()).toEqual([]);
 });
 
 test('a page is laid over a play only as the document has it', async () => {
-  const { bench, plays } = await yours('play', changed(WAVE), 65);
-  const lay = plays.beside({ kind: 'layer', page: WAVE, joints: [] });
-  await expect(bench.until(lay)).rejects.toMatchObject({ code: 'layer-differs' });
+    const { bench, plays } = await yours('play', changed(WAVE), 65);
+    const lay = plays.beside({ kind: 'layer', page: WAVE, joints: [] });
+    await expect(bench.until(lay)).rejects.toMatchObject({ code: 'layer-differs' });
 });

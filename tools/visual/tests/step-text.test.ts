@@ -13,30 +13,42 @@ import { makeFormat } from './motion-bench.ts';
 import { randomNumbers } from './robot-bench.ts';
 
 const PYTHON = new URL('../../../build/venv/bin/python', import.meta.url).pathname;
-const step = (joints: Record<number, number>, time: number, pause = 0): Step =>
-  ({ positions: Array.from({ length: JOINTS }, (_, id) => joints[id] ?? null), time, pause });
+const step = (joints: Record<number, number>, time: number, pause = 0): Step => ({
+    positions: Array.from({ length: JOINTS }, (_, id) => joints[id] ?? null),
+    time,
+    pause,
+});
 
 test('the step of FORMAT.md, both ways', () => {
-  const nod = step({ 1: 600, 2: 424 }, 40, 8);
-  expect(stepsToText([nod])).toBe('step 40 pause 8 | 1:600 2:424\n');
-  expect(stepsFromText('  step 40  pause 8 | 1:600 2:424\r\n\n')).toEqual([nod]);
-  expect(stepsFromText('step 64 |')).toEqual([step({}, 64)]);
+    const nod = step({ 1: 600, 2: 424 }, 40, 8);
+    expect(stepsToText([nod])).toBe('step 40 pause 8 | 1:600 2:424\n');
+    expect(stepsFromText('  step 40  pause 8 | 1:600 2:424\r\n\n')).toEqual([nod]);
+    expect(stepsFromText('step 64 |')).toEqual([step({}, 64)]);
 });
 
-test.each(['', 'hello', 'step 300 | 1:600', 'step 40 | 1:1024', 'step 40 | 31:5', 'step 40 | 1:600 x', 'step 40 | 1:600\nhello'])('%j is no text of steps', (text) => {
-  expect(stepsFromText(text)).toBeNull();
-});
+test.each(['', 'hello', 'step 300 | 1:600', 'step 40 | 1:1024', 'step 40 | 31:5', 'step 40 | 1:600 x', 'step 40 | 1:600\nhello'])(
+    '%j is no text of steps',
+    text => {
+        expect(stepsFromText(text)).toBeNull();
+    },
+);
 
 test('m512 makes the same steps of the text', async () => {
-  const random = randomNumbers(41);
-  const steps = Array.from({ length: 7 }, () => step(
-    Object.fromEntries(Array.from({ length: 1 + Math.floor(random() * 20) }, () => [Math.floor(random() * JOINTS), Math.floor(random() * 1024)])),
-    Math.floor(random() * 256), Math.floor(random() * 256)));
-  expect(stepsFromText(stepsToText(steps))).toEqual(steps);
-  const folder = mkdtempSync(join(tmpdir(), 'm512-steps-'));
-  onTestFinished(() => rmSync(folder, { recursive: true }));
-  writeFileSync(join(folder, 'a.m512'), `motion512 1\npage 5 chance\n${stepsToText(steps)}`);
-  execFileSync(PYTHON, ['-m', 'm512', 'convert', join(folder, 'a.m512'), join(folder, 'a.bin')]);
-  const { format } = await makeFormat();
-  expect(readPage(format, new Uint8Array(readFileSync(join(folder, 'a.bin'))).slice(5 * 512, 6 * 512)).steps).toEqual(steps);
+    const random = randomNumbers(41);
+    const steps = Array.from({ length: 7 }, () =>
+        step(
+            Object.fromEntries(
+                Array.from({ length: 1 + Math.floor(random() * 20) }, () => [Math.floor(random() * JOINTS), Math.floor(random() * 1024)]),
+            ),
+            Math.floor(random() * 256),
+            Math.floor(random() * 256),
+        ),
+    );
+    expect(stepsFromText(stepsToText(steps))).toEqual(steps);
+    const folder = mkdtempSync(join(tmpdir(), 'm512-steps-'));
+    onTestFinished(() => rmSync(folder, { recursive: true }));
+    writeFileSync(join(folder, 'a.m512'), `motion512 1\npage 5 chance\n${stepsToText(steps)}`);
+    execFileSync(PYTHON, ['-m', 'm512', 'convert', join(folder, 'a.m512'), join(folder, 'a.bin')]);
+    const { format } = await makeFormat();
+    expect(readPage(format, new Uint8Array(readFileSync(join(folder, 'a.bin'))).slice(5 * 512, 6 * 512)).steps).toEqual(steps);
 });

@@ -2,6 +2,7 @@
 """The board in the page is the board on the PC: sessions of a minute, and some made by chance, are run by libcm5sim.so
 (through the Python binding, which knows nothing of the page's flat API) and by board.wasm in Node. Console bytes, goals
 and positions of every tick, flash and EEPROM must be equal to the bit."""
+
 import hashlib
 import json
 import os
@@ -20,21 +21,51 @@ SERVOS = range(1, 19)
 TICK = 125000
 SESSIONS = json.loads((HERE / "session" / "session.json").read_text())
 SEED = 20261122
-WORDS = ["app\r", "GO\r", "play walk\r", "stop\r", "list\r", "page 9\r", "\x1b[A", "\x1b[B", "on\r", "off\r", "@pose\r", "@where\r",
-         "x", "\r", "write\r", "save\r", "break\r", "servos\r", "\x03", "@play 2\r", "name a b\r", "set 700\r"]
+WORDS = [
+    "app\r",
+    "GO\r",
+    "play walk\r",
+    "stop\r",
+    "list\r",
+    "page 9\r",
+    "\x1b[A",
+    "\x1b[B",
+    "on\r",
+    "off\r",
+    "@pose\r",
+    "@where\r",
+    "x",
+    "\r",
+    "write\r",
+    "save\r",
+    "break\r",
+    "servos\r",
+    "\x03",
+    "@play 2\r",
+    "name a b\r",
+    "set 700\r",
+]
 
 
 def chance(rng, image):
     events = []
     for ms in sorted(rng.randrange(1000, 7500) for _ in range(25)):
         kind = rng.choice(["send"] * 5 + ["rc", "push", "fault", "battery"])
-        what = {"send": lambda: rng.choice(WORDS), "rc": lambda: rng.randrange(1024),
-                "push": lambda: [rng.choice(SERVOS), rng.randrange(300, 700)],
-                "fault": lambda: [rng.choice(SERVOS), rng.choice(["silent", "checksum", "short", "noise", "late"]), rng.randrange(5)],
-                "battery": lambda: rng.choice([7.0, 9.6, 12.0])}[kind]()
+        what = {
+            "send": lambda: rng.choice(WORDS),
+            "rc": lambda: rng.randrange(1024),
+            "push": lambda: [rng.choice(SERVOS), rng.randrange(300, 700)],
+            "fault": lambda: [rng.choice(SERVOS), rng.choice(["silent", "checksum", "short", "noise", "late"]), rng.randrange(5)],
+            "battery": lambda: rng.choice([7.0, 9.6, 12.0]),
+        }[kind]()
         events.append([ms, kind, what])
-    return {"name": f"by chance, {image}", "images": ["boot-cm5", image], "seed": rng.randrange(1000), "seconds": 8,
-            "events": [[500, "send", "GO\r"]] + events}
+    return {
+        "name": f"by chance, {image}",
+        "images": ["boot-cm5", image],
+        "seed": rng.randrange(1000),
+        "seconds": 8,
+        "events": [[500, "send", "GO\r"]] + events,
+    }
 
 
 def act(board, verb, what):
@@ -58,8 +89,12 @@ def act(board, verb, what):
 
 
 def run_natively(session):
-    board = Board(images=[f"{name}.hex" for name in session["images"]], servos=SERVOS, seed=session["seed"],
-                  motions=(BUILD / "motions" / "motions.bin").read_bytes())
+    board = Board(
+        images=[f"{name}.hex" for name in session["images"]],
+        servos=SERVOS,
+        seed=session["seed"],
+        motions=(BUILD / "motions" / "motions.bin").read_bytes(),
+    )
     board.power_on()
     goals, positions = hashlib.sha256(), hashlib.sha256()
     events = list(session["events"])
@@ -69,10 +104,15 @@ def run_natively(session):
         board.run(cycles=max(0, tick * TICK - board.now_cycles))
         goals.update(struct.pack("<18H", *(board.servos[i].goal for i in SERVOS)))
         positions.update(struct.pack("<18d", *(board.servos[i].position for i in SERVOS)))
-    return {"console": hashlib.sha256(board.console).hexdigest(), "goals": goals.hexdigest(), "positions": positions.hexdigest(),
-            "flash": hashlib.sha256(bytes(board.flash[0:0x20000])).hexdigest(),
-            "eeprom": hashlib.sha256(bytes(board.eeprom[0:0x1000])).hexdigest(),
-            "cycles": str(board.now_cycles), "busy": str(board.busy_cycles)}
+    return {
+        "console": hashlib.sha256(board.console).hexdigest(),
+        "goals": goals.hexdigest(),
+        "positions": positions.hexdigest(),
+        "flash": hashlib.sha256(bytes(board.flash[0:0x20000])).hexdigest(),
+        "eeprom": hashlib.sha256(bytes(board.eeprom[0:0x1000])).hexdigest(),
+        "cycles": str(board.now_cycles),
+        "busy": str(board.busy_cycles),
+    }
 
 
 @pytest.fixture(scope="module")

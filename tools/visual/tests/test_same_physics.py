@@ -6,6 +6,7 @@ machine do not agree to the bit, and walking is not a stable thing: the same fal
 
 Trials too: a motion that falls in the page's area Checks (trial.wasm, Node) falls in `tools/body/try`, within 0.3 s, and one that
 ends on its feet there does so here."""
+
 import base64
 import json
 import os
@@ -34,13 +35,15 @@ SCENARIOS = {
 
 
 def natively(scenario):
-    board = Board(images=["boot-cm5.hex", "play-cm5.hex"], servos=SERVOS, seed=scenario["seed"],
-                  motions=(BUILD / "motions" / "motions.bin").read_bytes())
+    board = Board(
+        images=["boot-cm5.hex", "play-cm5.hex"], servos=SERVOS, seed=scenario["seed"], motions=(BUILD / "motions" / "motions.bin").read_bytes()
+    )
     board.eeprom[4095:4096] = b"\x11"
     start = 3 * 128 + scenario["approachTicks"]
 
     def to(tick):
         board.run(cycles=max(0, tick * TICK - board.now_cycles))
+
     to(3 * 128)
     board.send(f"@play {scenario['page']}\r")
     to(start)
@@ -80,11 +83,17 @@ def test_same_falls_and_distances(in_node, name):
         assert there["height"] == pytest.approx(here["height"], abs=2)
 
 
-STOPPED_S = 6                    # a motion that goes round is told to stop then
-ANKLES = {15: 41, 16: -41}       # by 12 degrees
-TRIALS = {                       # page, what all its joints are off by, volts
-    "walk": (20, {}, 11.1), "walk, 9.6 V": (20, {}, 9.6), "bow": (2, {}, 9.6), "kick": (36, {}, 11.1), "dance": (12, {}, 11.1),
-    "walk on its heels": (20, ANKLES, 11.1), "walk on its toes": (20, {15: -41, 16: 41}, 11.1), "kick on its heels": (36, ANKLES, 11.1),
+STOPPED_S = 6  # a motion that goes round is told to stop then
+ANKLES = {15: 41, 16: -41}  # by 12 degrees
+TRIALS = {  # page, what all its joints are off by, volts
+    "walk": (20, {}, 11.1),
+    "walk, 9.6 V": (20, {}, 9.6),
+    "bow": (2, {}, 9.6),
+    "kick": (36, {}, 11.1),
+    "dance": (12, {}, 11.1),
+    "walk on its heels": (20, ANKLES, 11.1),
+    "walk on its toes": (20, {15: -41, 16: 41}, 11.1),
+    "kick on its heels": (36, ANKLES, 11.1),
 }
 
 
@@ -92,15 +101,15 @@ def off_by(image, offsets):
     """The image with these joints off in all steps of all pages."""
     spoiled = bytearray(image)
     for at in range(512, len(image), 512):
-        page = Page(image[at:at + 512])
+        page = Page(image[at : at + 512])
         for step in range(page.steps):
             for servo, units in offsets.items():
                 place = 64 + 64 * step + 2 * servo
                 word = page.data[place] | page.data[place + 1] << 8
                 if word <= 1023:
-                    page.data[place:place + 2] = min(max(word + units, 0), 1023).to_bytes(2, "little")
+                    page.data[place : place + 2] = min(max(word + units, 0), 1023).to_bytes(2, "little")
         if offsets and page.steps:
-            spoiled[at:at + 512] = bytes(page.seal())
+            spoiled[at : at + 512] = bytes(page.seal())
     return bytes(spoiled)
 
 
@@ -110,8 +119,14 @@ def trials(tmp_path_factory):
     library = (BUILD / "motions" / "motions.bin").read_bytes()
     asked = {name: (off_by(library, offsets), page, volts) for name, (page, offsets, volts) in TRIALS.items()}
     path = tmp_path_factory.mktemp("trials") / "trials.json"
-    path.write_text(json.dumps([{"image": base64.b64encode(image).decode(), "page": page, "ticks": STOPPED_S * 128, "volts": volts}
-                                for image, page, volts in asked.values()]))
+    path.write_text(
+        json.dumps(
+            [
+                {"image": base64.b64encode(image).decode(), "page": page, "ticks": STOPPED_S * 128, "volts": volts}
+                for image, page, volts in asked.values()
+            ]
+        )
+    )
     node = BUILD / "venv" / "bin" / "node"
     done = subprocess.run([node, HERE / "session" / "node-trials.ts", path], capture_output=True, text=True, timeout=800)
     assert done.returncode == 0, done.stderr

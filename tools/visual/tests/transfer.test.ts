@@ -19,299 +19,345 @@ const { format } = await makeFormat();
 const library = await libraryDocument();
 const open: Connection[] = [];
 afterEach(async () => {
-  for (const connection of open.splice(0)) await connection.close();
+    for (const connection of open.splice(0)) await connection.close();
 });
 
 async function ready(image: 'play' | 'edit', seed: number, prepare: (bench: RobotBench) => void = () => undefined) {
-  const bench = await RobotBench.make(image, seed);
-  prepare(bench);
-  const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text: () => undefined });
-  open.push(connection);
-  connection.connect();
-  await untilReady(bench, connection);
-  return { bench, connection };
+    const bench = await RobotBench.make(image, seed);
+    prepare(bench);
+    const connection = new Connection(bench.port, bench.clock, { state: () => undefined, text: () => undefined });
+    open.push(connection);
+    connection.connect();
+    await untilReady(bench, connection);
+    return { bench, connection };
 }
 
 const crcOf = (bytes: Uint8Array): number => format.crc(bytes);
 
 async function untilReady(bench: RobotBench, connection: Connection): Promise<void> {
-  for (let i = 0; i < 400 && connection.state !== 'ready'; i++) await bench.run(25);
-  expect(connection.state).toBe('ready');
+    for (let i = 0; i < 400 && connection.state !== 'ready'; i++) await bench.run(25);
+    expect(connection.state).toBe('ready');
 }
 
 function flashPage(bench: RobotBench, page: number): Uint8Array {
-  return bench.board.readFlash().slice(MOTIONS_ADDRESS + 512 * page, MOTIONS_ADDRESS + 512 * page + 512);
+    return bench.board.readFlash().slice(MOTIONS_ADDRESS + 512 * page, MOTIONS_ADDRESS + 512 * page + 512);
 }
 
 /** A page with other contents that is good. */
 function another(bytes: Uint8Array, random: () => number): Uint8Array {
-  const page = readPage(format, bytes);
-  const steps = page.steps.length > 0 ? page.steps : [{ positions: new Array<number | null>(31).fill(null), time: 20, pause: 0 }];
-  const positions = (steps[0]?.positions ?? []).map((position, id) => (id % 5 === 2 ? Math.floor(random() * 1024) : position));
-  const change = { name: `n${Math.floor(random() * 1e6)}`, steps: steps.map((step, i) => (i === 0 ? { ...step, positions } : step)) };
-  return must(writePage(format, bytes, change));
+    const page = readPage(format, bytes);
+    const steps = page.steps.length > 0 ? page.steps : [{ positions: new Array<number | null>(31).fill(null), time: 20, pause: 0 }];
+    const positions = (steps[0]?.positions ?? []).map((position, id) => (id % 5 === 2 ? Math.floor(random() * 1024) : position));
+    const change = { name: `n${Math.floor(random() * 1e6)}`, steps: steps.map((step, i) => (i === 0 ? { ...step, positions } : step)) };
+    return must(writePage(format, bytes, change));
 }
 
-test.each([['edit', 41], ['play', 42]] as const)('%s: all pages are read, only those that nobody has; within 20 s', async (image, seed) => {
-  const { bench, connection } = await ready(image, seed);
-  const started = bench.clock.now();
-  const all = await bench.until(readPages(connection.requests, crcOf, { known: () => [format.empty, new Uint8Array(512).fill(0xff)] }), 60_000);
-  const first = bench.clock.now() - started;
-  expect(all).toEqual(library.pages);
-  const again: number[] = [];
-  const from = bench.clock.now();
-  const known = (page: number) => (page === 20 ? [] : [pageOf(library, page)]);
-  expect(await bench.until(readPages(connection.requests, crcOf, { known, progress: (_, total) => again.push(total) }))).toEqual(library.pages);
-  expect(again.at(-1)).toBe(1);
-  const second = bench.clock.now() - from;
-  console.log(`${image}: the library's pages in ${(first / 1000).toFixed(1)} s, with one page changed in ${(second / 1000).toFixed(1)} s`);
-  expect(first).toBeLessThan(20_000);
-  expect(second).toBeLessThan(1000);
+test.each([
+    ['edit', 41],
+    ['play', 42],
+] as const)('%s: all pages are read, only those that nobody has; within 20 s', async (image, seed) => {
+    const { bench, connection } = await ready(image, seed);
+    const started = bench.clock.now();
+    const all = await bench.until(
+        readPages(connection.requests, crcOf, { known: () => [format.empty, new Uint8Array(512).fill(0xff)] }),
+        60_000,
+    );
+    const first = bench.clock.now() - started;
+    expect(all).toEqual(library.pages);
+    const again: number[] = [];
+    const from = bench.clock.now();
+    const known = (page: number) => (page === 20 ? [] : [pageOf(library, page)]);
+    expect(await bench.until(readPages(connection.requests, crcOf, { known, progress: (_, total) => again.push(total) }))).toEqual(
+        library.pages,
+    );
+    expect(again.at(-1)).toBe(1);
+    const second = bench.clock.now() - from;
+    console.log(
+        `${image}: the library's pages in ${(first / 1000).toFixed(1)} s, with one page changed in ${(second / 1000).toFixed(1)} s`,
+    );
+    expect(first).toBeLessThan(20_000);
+    expect(second).toBeLessThan(1000);
 });
 
 test('128 pages of which nobody has any, every byte by chance, within 20 s', async () => {
-  const { bench, connection } = await ready('edit', 51);
-  const pages = Array.from({ length: 128 }, () => Uint8Array.from({ length: 512 }, () => Math.floor(bench.random() * 256)));
-  for (const [page, bytes] of pages.entries()) bench.board.writeFlash(MOTIONS_ADDRESS + 512 * page, bytes);
-  const started = bench.clock.now();
-  expect(await bench.until(readPages(connection.requests, crcOf), 60_000)).toEqual(pages);
-  const took = bench.clock.now() - started;
-  console.log(`128 pages, every byte by chance, in ${(took / 1000).toFixed(1)} s`);
-  expect(took).toBeLessThan(20_000);
+    const { bench, connection } = await ready('edit', 51);
+    const pages = Array.from({ length: 128 }, () => Uint8Array.from({ length: 512 }, () => Math.floor(bench.random() * 256)));
+    for (const [page, bytes] of pages.entries()) bench.board.writeFlash(MOTIONS_ADDRESS + 512 * page, bytes);
+    const started = bench.clock.now();
+    expect(await bench.until(readPages(connection.requests, crcOf), 60_000)).toEqual(pages);
+    const took = bench.clock.now() - started;
+    console.log(`128 pages, every byte by chance, in ${(took / 1000).toFixed(1)} s`);
+    expect(took).toBeLessThan(20_000);
 });
 
 test('an image that does not know the dense form is read all the same', async () => {
-  const { bench, connection } = await ready('edit', 53);
-  const asked: string[] = [];
-  const older = { ask: (text: string, options?: object) => {
-    asked.push(text);
-    return text.startsWith('@dense') ? Promise.reject(new RobotError('refused', 'Unknown word', { number: 1 })) : connection.requests.ask(text, options);
-  } } as typeof connection.requests;
-  const known = (page: number) => (page < 4 ? [] : [pageOf(library, page)]);
-  expect(await bench.until(readPages(older, crcOf, { known }))).toEqual(library.pages);
-  expect(asked.filter((text) => text.startsWith('@dense'))).toHaveLength(1);
-  expect(asked.filter((text) => text.startsWith('@page'))).toHaveLength(4);
+    const { bench, connection } = await ready('edit', 53);
+    const asked: string[] = [];
+    const older = {
+        ask: (text: string, options?: object) => {
+            asked.push(text);
+            return text.startsWith('@dense')
+                ? Promise.reject(new RobotError('refused', 'Unknown word', { number: 1 }))
+                : connection.requests.ask(text, options);
+        },
+    } as typeof connection.requests;
+    const known = (page: number) => (page < 4 ? [] : [pageOf(library, page)]);
+    expect(await bench.until(readPages(older, crcOf, { known }))).toEqual(library.pages);
+    expect(asked.filter(text => text.startsWith('@dense'))).toHaveLength(1);
+    expect(asked.filter(text => text.startsWith('@page'))).toHaveLength(4);
 });
 
 /** Twenty pages: of the library, empty, erased and damaged ones. */
 function twenty(bench: RobotBench): PageToWrite[] {
-  return Array.from({ length: 20 }, (_, i) => i * 6 + 1).map((page) => {
-    const before = flashPage(bench, page);
-    return { page, before, after: another(format.fault(before) === null ? before : format.empty, bench.random) };
-  });
+    return Array.from({ length: 20 }, (_, i) => i * 6 + 1).map(page => {
+        const before = flashPage(bench, page);
+        return { page, before, after: another(format.fault(before) === null ? before : format.empty, bench.random) };
+    });
 }
 
 function spoil(bench: RobotBench): void {
-  const at = (page: number): number => MOTIONS_ADDRESS + 512 * page;
-  bench.board.writeFlash(at(7), new Uint8Array(512).fill(0xff)); // erased
-  const damaged = flashPage(bench, 19);
-  damaged[100] = (damaged[100] ?? 0) ^ 4;
-  bench.board.writeFlash(at(19), damaged);
+    const at = (page: number): number => MOTIONS_ADDRESS + 512 * page;
+    bench.board.writeFlash(at(7), new Uint8Array(512).fill(0xff)); // erased
+    const damaged = flashPage(bench, 19);
+    damaged[100] = (damaged[100] ?? 0) ^ 4;
+    bench.board.writeFlash(at(19), damaged);
 }
 
 const KINDS = ['@crcs', '@open', '@data', '@crc', '@save'] as const;
 
 /** Pulls the cable in the n-th request of a kind (1..): within its bytes, or up to 80 ms after them. Counts them all. */
 function pullAt(bench: RobotBench, kind: string, nth: number): { restore(): void; counts: Map<string, number>; isPulled(): boolean } {
-  const send = bench.board.send.bind(bench.board);
-  const counts = new Map<string, number>();
-  const late = bench.random() < 0.5;
-  let isPulled = false;
-  bench.board.send = (who, bytes) => {
-    const [word = ''] = new TextDecoder().decode(bytes).split(' ').map((one) => one.trim());
-    counts.set(word, (counts.get(word) ?? 0) + 1);
-    if (word !== kind || counts.get(word) !== nth) return send(who, bytes);
-    isPulled = true;
-    send(who, late ? bytes : bytes.slice(0, Math.floor(bench.random() * (bytes.length + 1))));
-    if (late) bench.clock.after(Math.floor(bench.random() * 80), () => bench.port.unplug());
-    else bench.port.unplug();
-  };
-  return { restore: () => { bench.board.send = send; }, counts, isPulled: () => isPulled };
+    const send = bench.board.send.bind(bench.board);
+    const counts = new Map<string, number>();
+    const late = bench.random() < 0.5;
+    let isPulled = false;
+    bench.board.send = (who, bytes) => {
+        const [word = ''] = new TextDecoder()
+            .decode(bytes)
+            .split(' ')
+            .map(one => one.trim());
+        counts.set(word, (counts.get(word) ?? 0) + 1);
+        if (word !== kind || counts.get(word) !== nth) return send(who, bytes);
+        isPulled = true;
+        send(who, late ? bytes : bytes.slice(0, Math.floor(bench.random() * (bytes.length + 1))));
+        if (late) bench.clock.after(Math.floor(bench.random() * 80), () => bench.port.unplug());
+        else bench.port.unplug();
+    };
+    return {
+        restore: () => {
+            bench.board.send = send;
+        },
+        counts,
+        isPulled: () => isPulled,
+    };
 }
 
 test('twenty pages: what is written is in flash, nothing else is touched, and the account says so', async () => {
-  const { bench, connection } = await ready('edit', 43, spoil);
-  const pages = twenty(bench);
-  const others = Array.from({ length: 128 }, (_, page) => flashPage(bench, page));
-  const write = new PageWrite(pages, format);
-  const started = bench.clock.now();
-  await bench.until(write.run(connection.requests), 60_000);
-  console.log(`twenty pages written and verified in ${((bench.clock.now() - started) / 1000).toFixed(1)} s`);
-  expect(write.isDone).toBe(true);
-  for (const { page, after } of pages) others[page] = after;
-  for (const [page, bytes] of others.entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
+    const { bench, connection } = await ready('edit', 43, spoil);
+    const pages = twenty(bench);
+    const others = Array.from({ length: 128 }, (_, page) => flashPage(bench, page));
+    const write = new PageWrite(pages, format);
+    const started = bench.clock.now();
+    await bench.until(write.run(connection.requests), 60_000);
+    console.log(`twenty pages written and verified in ${((bench.clock.now() - started) / 1000).toFixed(1)} s`);
+    expect(write.isDone).toBe(true);
+    for (const { page, after } of pages) others[page] = after;
+    for (const [page, bytes] of others.entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
 });
 
 test('a page that changed in the robot meanwhile is not written over, nor are edits of somebody at the terminal', async () => {
-  const { bench, connection } = await ready('edit', 44);
-  const page = { page: 30, before: pageOf(library, 31), after: another(format.empty, bench.random) };
-  const other = new PageWrite([page], format);
-  await expect(bench.until(other.run(connection.requests))).rejects.toMatchObject({ code: 'page-changed', words: '30' });
-  expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
-  await connection.write(new TextEncoder().encode('page 100\rname secret\r'));
-  await bench.run(3000);
-  const mine = new PageWrite([{ ...page, before: pageOf(library, 30) }], format);
-  await expect(bench.until(mine.run(connection.requests))).rejects.toMatchObject({ code: 'page-unsaved' });
-  expect(mine.account.get(30)).toBe('sending');
-  expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
+    const { bench, connection } = await ready('edit', 44);
+    const page = { page: 30, before: pageOf(library, 31), after: another(format.empty, bench.random) };
+    const other = new PageWrite([page], format);
+    await expect(bench.until(other.run(connection.requests))).rejects.toMatchObject({ code: 'page-changed', words: '30' });
+    expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
+    await connection.write(new TextEncoder().encode('page 100\rname secret\r'));
+    await bench.run(3000);
+    const mine = new PageWrite([{ ...page, before: pageOf(library, 30) }], format);
+    await expect(bench.until(mine.run(connection.requests))).rejects.toMatchObject({ code: 'page-unsaved' });
+    expect(mine.account.get(30)).toBe('sending');
+    expect(flashPage(bench, 30)).toEqual(pageOf(library, 30));
 });
 
 test('stopped between two pages: those before are new, those after old, and the next run goes on', async () => {
-  const { bench, connection } = await ready('edit', 45);
-  const pages = twenty(bench);
-  const write = new PageWrite(pages, format);
-  const stop = new AbortController();
-  const changed = (): void => void ([...write.account.values()].filter((state) => state === 'written').length === 5 && stop.abort());
-  await expect(bench.until(write.run(connection.requests, { signal: stop.signal, changed }), 30_000)).rejects.toMatchObject({ code: 'cancelled' });
-  for (const [i, { page, before, after }] of pages.entries()) expect(flashPage(bench, page)).toEqual(i < 5 ? after : before);
-  await bench.until(write.run(connection.requests), 60_000);
-  expect(write.isDone).toBe(true);
+    const { bench, connection } = await ready('edit', 45);
+    const pages = twenty(bench);
+    const write = new PageWrite(pages, format);
+    const stop = new AbortController();
+    const changed = (): void => void ([...write.account.values()].filter(state => state === 'written').length === 5 && stop.abort());
+    await expect(bench.until(write.run(connection.requests, { signal: stop.signal, changed }), 30_000)).rejects.toMatchObject({
+        code: 'cancelled',
+    });
+    for (const [i, { page, before, after }] of pages.entries()) expect(flashPage(bench, page)).toEqual(i < 5 ? after : before);
+    await bench.until(write.run(connection.requests), 60_000);
+    expect(write.isDone).toBe(true);
 });
 
 /** Looks whether the account says what is in flash. */
 function checkAccount(bench: RobotBench, write: PageWrite, pages: readonly PageToWrite[], where: string): void {
-  for (const { page, before, after } of pages) {
-    const now = flashPage(bench, page);
-    const is = Buffer.from(now).equals(Buffer.from(after)) ? 'new' : Buffer.from(now).equals(Buffer.from(before)) ? 'old' : 'torn';
-    const state = write.account.get(page) ?? '';
-    const may: Record<string, readonly string[]> = { waiting: ['old'], sending: ['old'], saving: ['old', 'new'], written: ['new'], verified: ['new'] };
-    expect(may[state], `${where}, page ${page}: ${state}`).toContain(is);
-  }
+    for (const { page, before, after } of pages) {
+        const now = flashPage(bench, page);
+        const is = Buffer.from(now).equals(Buffer.from(after)) ? 'new' : Buffer.from(now).equals(Buffer.from(before)) ? 'old' : 'torn';
+        const state = write.account.get(page) ?? '';
+        const may: Record<string, readonly string[]> = {
+            waiting: ['old'],
+            sending: ['old'],
+            saving: ['old', 'new'],
+            written: ['new'],
+            verified: ['new'],
+        };
+        expect(may[state], `${where}, page ${page}: ${state}`).toContain(is);
+    }
 }
 
 test('the cable pulled at requests of a write of twenty pages: old or new, the account right, "try again" finishes', async () => {
-  const { bench, connection } = await ready('edit', 46, spoil);
-  let pages = twenty(bench);
-  const counter = pullAt(bench, '', 0);
-  await bench.until(new PageWrite(pages, format).run(connection.requests), 60_000);
-  counter.restore();
-  const every = KINDS.flatMap((kind) => Array.from({ length: counter.counts.get(kind) ?? 0 }, (_, i) => [kind, i + 1] as const));
-  const some = ['@crcs', '@open', '@data', '@crc', '@save', '@save'].map((kind) => {
-    const ofKind = every.filter(([one]) => one === kind);
-    return ofKind[Math.floor(bench.random() * ofKind.length)] ?? ['@open', 1] as const;
-  });
-  expect(every.length).toBeGreaterThan(100);
-  const cuts = process.env['CUTS'] === 'all' ? every : some;
-  const waiting = [...cuts];
-  for (let cut = waiting.shift(); cut; cut = waiting.shift()) {
-    const [kind, nth] = cut;
-    pages = twenty(bench);
-    const where = `${kind} ${nth}`;
-    const write = new PageWrite(pages, format);
-    const pull = pullAt(bench, kind, nth);
-    const outcome = await bench.until(write.run(connection.requests).then(() => 'done', (error: { code: string }) => error.code), 60_000);
-    pull.restore();
-    await bench.run(200); // what the board was about to do it does, cable or not
-    checkAccount(bench, write, pages, `${where}, ${outcome}`);
-    await untilReady(bench, connection);
-    if (outcome !== 'done') await bench.until(write.run(connection.requests), 60_000);
-    expect(write.isDone, where).toBe(true);
-    for (const { page, after } of pages) expect(flashPage(bench, page), `${where}, page ${page}`).toEqual(after);
-    // These pages differ in fewer pieces than the first ones did: the last of their requests is cut instead.
-    if (!pull.isPulled()) waiting.unshift([kind, pull.counts.get(kind) ?? 1]);
-  }
-  console.log(`${cuts.length} of ${every.length} requests cut`);
+    const { bench, connection } = await ready('edit', 46, spoil);
+    let pages = twenty(bench);
+    const counter = pullAt(bench, '', 0);
+    await bench.until(new PageWrite(pages, format).run(connection.requests), 60_000);
+    counter.restore();
+    const every = KINDS.flatMap(kind => Array.from({ length: counter.counts.get(kind) ?? 0 }, (_, i) => [kind, i + 1] as const));
+    const some = ['@crcs', '@open', '@data', '@crc', '@save', '@save'].map(kind => {
+        const ofKind = every.filter(([one]) => one === kind);
+        return ofKind[Math.floor(bench.random() * ofKind.length)] ?? (['@open', 1] as const);
+    });
+    expect(every.length).toBeGreaterThan(100);
+    const cuts = process.env['CUTS'] === 'all' ? every : some;
+    const waiting = [...cuts];
+    for (let cut = waiting.shift(); cut; cut = waiting.shift()) {
+        const [kind, nth] = cut;
+        pages = twenty(bench);
+        const where = `${kind} ${nth}`;
+        const write = new PageWrite(pages, format);
+        const pull = pullAt(bench, kind, nth);
+        const outcome = await bench.until(
+            write.run(connection.requests).then(
+                () => 'done',
+                (error: { code: string }) => error.code,
+            ),
+            60_000,
+        );
+        pull.restore();
+        await bench.run(200); // what the board was about to do it does, cable or not
+        checkAccount(bench, write, pages, `${where}, ${outcome}`);
+        await untilReady(bench, connection);
+        if (outcome !== 'done') await bench.until(write.run(connection.requests), 60_000);
+        expect(write.isDone, where).toBe(true);
+        for (const { page, after } of pages) expect(flashPage(bench, page), `${where}, page ${page}`).toEqual(after);
+        // These pages differ in fewer pieces than the first ones did: the last of their requests is cut instead.
+        if (!pull.isPulled()) waiting.unshift([kind, pull.counts.get(kind) ?? 1]);
+    }
+    console.log(`${cuts.length} of ${every.length} requests cut`);
 }, 3_600_000);
 
 /** What the page puts behind a RobotTransfer, on the bench. */
 function transferOn(bench: RobotBench, connection: Connection, pages: readonly PageToWrite[]) {
-  const document = { name: 'mine', pages: library.pages.map((bytes, page) => pages.find((one) => one.page === page)?.after ?? bytes) };
-  const kept: Uint8Array[][] = [];
-  let robot: readonly (Uint8Array | null)[] = [];
-  const transfer = new RobotTransfer({
-    format, document: () => document, robot: () => robot, setRobot: (now) => { robot = now; }, requests: () => connection.requests,
-    becomeEdit: () => (connection.version?.can.has('save') ? Promise.resolve() : Promise.reject(new RobotError('needs-edit'))),
-    backUp: (now) => Promise.resolve(void kept.push([...now])),
-  });
-  return { transfer, kept, robot: () => robot, before: Array.from({ length: 128 }, (_, page) => flashPage(bench, page)) };
+    const document = { name: 'mine', pages: library.pages.map((bytes, page) => pages.find(one => one.page === page)?.after ?? bytes) };
+    const kept: Uint8Array[][] = [];
+    let robot: readonly (Uint8Array | null)[] = [];
+    const transfer = new RobotTransfer({
+        format,
+        document: () => document,
+        robot: () => robot,
+        setRobot: now => {
+            robot = now;
+        },
+        requests: () => connection.requests,
+        becomeEdit: () => (connection.version?.can.has('save') ? Promise.resolve() : Promise.reject(new RobotError('needs-edit'))),
+        backUp: now => Promise.resolve(void kept.push([...now])),
+    });
+    return { transfer, kept, robot: () => robot, before: Array.from({ length: 128 }, (_, page) => flashPage(bench, page)) };
 }
 
 test('the page: a backup before the first write, a cable pulled in mid-write, "try again" finishes, and what is known of the robot is right', async () => {
-  const { bench, connection } = await ready('edit', 47);
-  const pages = twenty(bench);
-  const { transfer, kept, robot, before } = transferOn(bench, connection, pages);
-  const pull = pullAt(bench, '@save', 7);
-  expect(await bench.until(transfer.write(pages.map(({ page }) => page)), 60_000)).toMatchObject({ isDone: false, error: { code: 'port-lost' } });
-  pull.restore();
-  expect(kept).toEqual([before]);
-  expect(transfer.state.get()).toMatchObject({ phase: 'stopped', total: 20 });
-  expect(transfer.state.get().trouble).toContain('cable');
-  const done = transfer.state.get().done;
-  expect([6, 7]).toContain(done);
-  expect(robot().filter((bytes, page) => !Buffer.from(bytes ?? []).equals(Buffer.from(before[page] ?? [])))).toHaveLength(done);
-  expect(await transfer.tryAgain()).toMatchObject({ isDone: false }); // the cable is still out
-  await untilReady(bench, connection);
-  expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
-  expect(transfer.state.get()).toMatchObject({ phase: 'written', done: 20, total: 20, trouble: null });
-  for (const [page, bytes] of robot().entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
-  expect(kept).toHaveLength(1);
+    const { bench, connection } = await ready('edit', 47);
+    const pages = twenty(bench);
+    const { transfer, kept, robot, before } = transferOn(bench, connection, pages);
+    const pull = pullAt(bench, '@save', 7);
+    expect(await bench.until(transfer.write(pages.map(({ page }) => page)), 60_000)).toMatchObject({
+        isDone: false,
+        error: { code: 'port-lost' },
+    });
+    pull.restore();
+    expect(kept).toEqual([before]);
+    expect(transfer.state.get()).toMatchObject({ phase: 'stopped', total: 20 });
+    expect(transfer.state.get().trouble).toContain('cable');
+    const done = transfer.state.get().done;
+    expect([6, 7]).toContain(done);
+    expect(robot().filter((bytes, page) => !Buffer.from(bytes ?? []).equals(Buffer.from(before[page] ?? [])))).toHaveLength(done);
+    expect(await transfer.tryAgain()).toMatchObject({ isDone: false }); // the cable is still out
+    await untilReady(bench, connection);
+    expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
+    expect(transfer.state.get()).toMatchObject({ phase: 'written', done: 20, total: 20, trouble: null });
+    for (const [page, bytes] of robot().entries()) expect(flashPage(bench, page), `page ${page}`).toEqual(bytes);
+    expect(kept).toHaveLength(1);
 });
 
 test('the page: Play cannot save, and a robot that cannot be kept is not written', async () => {
-  const { bench, connection } = await ready('play', 48);
-  const { transfer, kept } = transferOn(bench, connection, twenty(bench));
-  expect(await transfer.write([1])).toMatchObject({ isDone: false, error: { code: 'needs-edit' } });
-  expect(transfer.state.get().trouble).toContain('m512 flash edit-cm5.hex');
-  expect(kept).toEqual([]);
-  expect(flashPage(bench, 1)).toEqual(pageOf(library, 1));
+    const { bench, connection } = await ready('play', 48);
+    const { transfer, kept } = transferOn(bench, connection, twenty(bench));
+    expect(await transfer.write([1])).toMatchObject({ isDone: false, error: { code: 'needs-edit' } });
+    expect(transfer.state.get().trouble).toContain('m512 flash edit-cm5.hex');
+    expect(kept).toEqual([]);
+    expect(flashPage(bench, 1)).toEqual(pageOf(library, 1));
 });
 
 /** Lets what goes down the line be changed: a byte lost in noise, a request that never arrives. */
 function onTheLine(bench: RobotBench, change: (line: string) => string): string[] {
-  const send = bench.board.send.bind(bench.board);
-  const sent: string[] = [];
-  bench.board.send = (sender, bytes) => {
-    const line = new TextDecoder().decode(bytes);
-    sent.push(line);
-    send(sender, new TextEncoder().encode(change(line)));
-  };
-  return sent;
+    const send = bench.board.send.bind(bench.board);
+    const sent: string[] = [];
+    bench.board.send = (sender, bytes) => {
+        const line = new TextDecoder().decode(bytes);
+        sent.push(line);
+        send(sender, new TextEncoder().encode(change(line)));
+    };
+    return sent;
 }
 
 test('a digit of "@save" lost in noise: the robot says OK of another page, and the comparison at the end finds out', async () => {
-  const { bench, connection } = await ready('edit', 54);
-  const page = { page: 31, before: flashPage(bench, 31), after: another(pageOf(library, 31), bench.random) };
-  onTheLine(bench, (line) => line.replace('@save 31 ', '@save 1 '));
-  const write = new PageWrite([page], format);
-  await expect(bench.until(write.run(connection.requests), 30_000)).rejects.toMatchObject({ code: 'page-not-saved', words: '31' });
-  expect(flashPage(bench, 1)).toEqual(page.after); // the fault was one: the board did save
-  expect(write.isDone).toBe(false);
+    const { bench, connection } = await ready('edit', 54);
+    const page = { page: 31, before: flashPage(bench, 31), after: another(pageOf(library, 31), bench.random) };
+    onTheLine(bench, line => line.replace('@save 31 ', '@save 1 '));
+    const write = new PageWrite([page], format);
+    await expect(bench.until(write.run(connection.requests), 30_000)).rejects.toMatchObject({ code: 'page-not-saved', words: '31' });
+    expect(flashPage(bench, 1)).toEqual(page.after); // the fault was one: the board did save
+    expect(write.isDone).toBe(false);
 });
 
 test('a page that came damaged from a robot is not passed on: not a byte of it goes down the line', async () => {
-  const { bench, connection } = await ready('edit', 55, spoil);
-  const { transfer, robot } = transferOn(bench, connection, [{ page: 19, before: flashPage(bench, 19), after: flashPage(bench, 19) }]);
-  bench.board.writeFlash(MOTIONS_ADDRESS + 512 * 19, pageOf(library, 19)); // repaired there meanwhile
-  const sent = onTheLine(bench, (line) => line);
-  expect(await bench.until(transfer.write([19]), 60_000)).toEqual({ isDone: true });
-  expect(sent.filter((line) => /^@(open|data|save)/.test(line))).toEqual([]);
-  expect(flashPage(bench, 19)).toEqual(pageOf(library, 19));
-  expect(robot()[19]).toEqual(pageOf(library, 19));
+    const { bench, connection } = await ready('edit', 55, spoil);
+    const { transfer, robot } = transferOn(bench, connection, [{ page: 19, before: flashPage(bench, 19), after: flashPage(bench, 19) }]);
+    bench.board.writeFlash(MOTIONS_ADDRESS + 512 * 19, pageOf(library, 19)); // repaired there meanwhile
+    const sent = onTheLine(bench, line => line);
+    expect(await bench.until(transfer.write([19]), 60_000)).toEqual({ isDone: true });
+    expect(sent.filter(line => /^@(open|data|save)/.test(line))).toEqual([]);
+    expect(flashPage(bench, 19)).toEqual(pageOf(library, 19));
+    expect(robot()[19]).toEqual(pageOf(library, 19));
 });
 
 test('one transfer at a time: what is asked beside it is refused by name, and nothing of it goes down the line', async () => {
-  const { bench, connection } = await ready('edit', 56);
-  const pages = twenty(bench);
-  const { transfer, kept } = transferOn(bench, connection, pages);
-  const sent = onTheLine(bench, (line) => line);
-  const first = transfer.write(pages.map(({ page }) => page));
-  await bench.run(200);
-  const busy = { isDone: false, error: { code: 'transfer-busy' } };
-  expect(await bench.until(transfer.write([1]), 100)).toMatchObject(busy);
-  expect(await bench.until(transfer.read(), 100)).toMatchObject(busy);
-  expect(await bench.until(transfer.tryAgain(), 100)).toMatchObject(busy);
-  expect(await bench.until(first, 60_000)).toEqual({ isDone: true });
-  expect(sent.filter((line) => line.startsWith('@save'))).toHaveLength(pages.length);
-  expect(sent.filter((line) => line.startsWith('@crcs 0 127'))).toHaveLength(1);
-  expect(kept).toHaveLength(1);
-  expect(transfer.state.get()).toMatchObject({ phase: 'written', done: pages.length });
+    const { bench, connection } = await ready('edit', 56);
+    const pages = twenty(bench);
+    const { transfer, kept } = transferOn(bench, connection, pages);
+    const sent = onTheLine(bench, line => line);
+    const first = transfer.write(pages.map(({ page }) => page));
+    await bench.run(200);
+    const busy = { isDone: false, error: { code: 'transfer-busy' } };
+    expect(await bench.until(transfer.write([1]), 100)).toMatchObject(busy);
+    expect(await bench.until(transfer.read(), 100)).toMatchObject(busy);
+    expect(await bench.until(transfer.tryAgain(), 100)).toMatchObject(busy);
+    expect(await bench.until(first, 60_000)).toEqual({ isDone: true });
+    expect(sent.filter(line => line.startsWith('@save'))).toHaveLength(pages.length);
+    expect(sent.filter(line => line.startsWith('@crcs 0 127'))).toHaveLength(1);
+    expect(kept).toHaveLength(1);
+    expect(transfer.state.get()).toMatchObject({ phase: 'written', done: pages.length });
 });
 
 test('a framing error in the middle of an answer does not end the talk', async () => {
-  const { bench, connection } = await ready('edit', 57);
-  const asked = askList(connection.requests);
-  await bench.run(60); // at 57,600 baud the list takes longer than that
-  bench.port.garble();
-  expect(await bench.until(asked)).toContainEqual({ page: 2, name: 'bow', steps: expect.any(Number), fault: '' });
-  expect(connection.state).toBe('ready');
+    const { bench, connection } = await ready('edit', 57);
+    const asked = askList(connection.requests);
+    await bench.run(60); // at 57,600 baud the list takes longer than that
+    bench.port.garble();
+    expect(await bench.until(asked)).toContainEqual({ page: 2, name: 'bow', steps: expect.any(Number), fault: '' });
+    expect(connection.state).toBe('ready');
 });

@@ -18,66 +18,68 @@ const library = await libraryDocument();
 const STOOD: TrialRecord = { stood: true, ticks: 128, positions: new Float32Array(), pages: [], fell: null, ended: true, onFeet: true };
 
 async function bench(made: () => Promise<Partial<TrialClient>>) {
-  const events = { changed: () => undefined, refused: () => undefined, opened: () => trials.forget() };
-  const editor: DocumentEditor = new DocumentEditor(body, { format, player, document: library }, events);
-  const trials: MotionTrials = new MotionTrials(editor, made as () => Promise<TrialClient>);
-  return { editor, trials };
+    const events = { changed: () => undefined, refused: () => undefined, opened: () => trials.forget() };
+    const editor: DocumentEditor = new DocumentEditor(body, { format, player, document: library }, events);
+    const trials: MotionTrials = new MotionTrials(editor, made as () => Promise<TrialClient>);
+    return { editor, trials };
 }
 
 /** A physics in which everything stands; what it was asked. */
 function standing(asked: number[]): () => Promise<Partial<TrialClient>> {
-  return () => Promise.resolve({
-    play: (request: TrialRequest, signal: AbortSignal) => {
-      asked.push(request.page);
-      return signal.aborted ? Promise.reject(signal.reason as Error) : Promise.resolve({ ...STOOD, pages: [request.page] });
-    },
-    touching: () => Promise.resolve([]), dispose: () => undefined,
-  });
+    return () =>
+        Promise.resolve({
+            play: (request: TrialRequest, signal: AbortSignal) => {
+                asked.push(request.page);
+                return signal.aborted ? Promise.reject(signal.reason as Error) : Promise.resolve({ ...STOOD, pages: [request.page] });
+            },
+            touching: () => Promise.resolve([]),
+            dispose: () => undefined,
+        });
 }
 
 test('a trial holds until a page that the play reaches is changed, or the law is; undo makes it hold again', async () => {
-  const asked: number[] = [];
-  const { editor, trials } = await bench(standing(asked));
-  await trials.run([2, 8, 100]); // 8 goes on in 9 and 10; 100 has no action
-  expect(asked).toEqual([2, 8]);
-  expect(trials.state.get()).toMatchObject({ phase: 'idle', done: 2 });
-  const change = (page: number): boolean => editor.dispatch(editor.edits.setTime(editor.state.get().document, page, [0], 99));
-  change(10);
-  expect([2, 8].map((page) => trials.isFresh(page))).toEqual([true, false]);
-  editor.undo();
-  expect(trials.isFresh(8)).toBe(true);
-  editor.select({ law: 'classic' });
-  expect(trials.isFresh(2)).toBe(false);
-  editor.select({ law: 'exact' });
-  change(2);
-  await trials.run([2, 8]);
-  expect(asked).toEqual([2, 8, 2]);
+    const asked: number[] = [];
+    const { editor, trials } = await bench(standing(asked));
+    await trials.run([2, 8, 100]); // 8 goes on in 9 and 10; 100 has no action
+    expect(asked).toEqual([2, 8]);
+    expect(trials.state.get()).toMatchObject({ phase: 'idle', done: 2 });
+    const change = (page: number): boolean => editor.dispatch(editor.edits.setTime(editor.state.get().document, page, [0], 99));
+    change(10);
+    expect([2, 8].map(page => trials.isFresh(page))).toEqual([true, false]);
+    editor.undo();
+    expect(trials.isFresh(8)).toBe(true);
+    editor.select({ law: 'classic' });
+    expect(trials.isFresh(2)).toBe(false);
+    editor.select({ law: 'exact' });
+    change(2);
+    await trials.run([2, 8]);
+    expect(asked).toEqual([2, 8, 2]);
 });
 
 test('another document knows nothing; who stops keeps what is known', async () => {
-  const asked: number[] = [];
-  const { editor, trials } = await bench(standing(asked));
-  const unwatch = trials.state.watch(({ page }) => page === 4 && trials.cancel());
-  await trials.run([2, 4, 5]);
-  unwatch();
-  expect([...trials.state.get().trials.keys()]).toEqual([2]);
-  expect(trials.state.get()).toMatchObject({ phase: 'idle', trouble: null });
-  editor.open(library, NO_HISTORY);
-  expect(trials.state.get().trials.size).toBe(0);
-  expect(trials.isFresh(2)).toBe(false);
+    const asked: number[] = [];
+    const { editor, trials } = await bench(standing(asked));
+    const unwatch = trials.state.watch(({ page }) => page === 4 && trials.cancel());
+    await trials.run([2, 4, 5]);
+    unwatch();
+    expect([...trials.state.get().trials.keys()]).toEqual([2]);
+    expect(trials.state.get()).toMatchObject({ phase: 'idle', trouble: null });
+    editor.open(library, NO_HISTORY);
+    expect(trials.state.get().trials.size).toBe(0);
+    expect(trials.isFresh(2)).toBe(false);
 });
 
 test('without physics it says so; poses and curves do not ask for it again and again, a person may', async () => {
-  let made = 0;
-  const { trials } = await bench(() => {
-    made++;
-    return Promise.reject(new Error('no memory'));
-  });
-  expect(await trials.touching(new Array<number>(31).fill(512))).toEqual([]);
-  expect(await trials.touching(new Array<number>(31).fill(500))).toEqual([]);
-  expect(await trials.follow(2, 100, AS_STORED, new AbortController().signal)).toBeNull();
-  expect(made).toBe(1);
-  await trials.run([2]);
-  expect(trials.state.get()).toMatchObject({ phase: 'failed', trouble: 'no memory' });
-  expect(made).toBe(2);
+    let made = 0;
+    const { trials } = await bench(() => {
+        made++;
+        return Promise.reject(new Error('no memory'));
+    });
+    expect(await trials.touching(new Array<number>(31).fill(512))).toEqual([]);
+    expect(await trials.touching(new Array<number>(31).fill(500))).toEqual([]);
+    expect(await trials.follow(2, 100, AS_STORED, new AbortController().signal)).toBeNull();
+    expect(made).toBe(1);
+    await trials.run([2]);
+    expect(trials.state.get()).toMatchObject({ phase: 'failed', trouble: 'no memory' });
+    expect(made).toBe(2);
 });

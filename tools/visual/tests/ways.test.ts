@@ -10,37 +10,50 @@ import { libraryDocument, makeFormat } from './motion-bench.ts';
 let format: PageFormat;
 let pages: RobotPages;
 beforeAll(async () => {
-  ({ format } = await makeFormat());
-  ({ pages } = await libraryDocument());
+    ({ format } = await makeFormat());
+    ({ pages } = await libraryDocument());
 });
 
 /** "U 3" as the code that is the sum of its keys. */
 const KEYS: Readonly<Record<string, number>> = { U: 1, D: 2, L: 4, R: 8, 1: 16, 2: 32, 3: 64, 4: 128 };
-const code = (keys: string): number => keys.split(' ').filter(Boolean).reduce((sum, key) => sum + (KEYS[key] ?? NaN), 0);
+const code = (keys: string): number =>
+    keys
+        .split(' ')
+        .filter(Boolean)
+        .reduce((sum, key) => sum + (KEYS[key] ?? NaN), 0);
 const words = (ways: readonly Way[]): string[] => ways.map(({ kind, name, code: by }) => `${kind} ${by} ${name}`).sort();
 
 test('every row of the table: its keys, and its ways on', async () => {
-  const text = await readFile(new URL('../../motions/README.md', import.meta.url), 'utf8');
-  const rows = [...text.matchAll(/^\| (\d+) \| `(\w+)` \| ([UDLR1-4 ]*?) *\|[^|]*\|([^|]*)\|$/gm)];
-  expect(rows.length).toBeGreaterThan(30);
-  const calls = callsOf(format, pages);
-  for (const [, number, name, keys = '', onward = ''] of rows) {
-    const page = Number(number);
-    expect(calls.filter((way) => way.page === page).map((way) => way.code), name).toEqual(keys.trim() ? [code(keys.trim())] : []);
-    const wanted = [...onward.matchAll(/(next|exit|[UDLR1-4 ]+:) `(\w+)`/g)].map(([, by = '', to = '']) => {
-      const target = to === 'self' ? name : to;
-      return by === 'next' ? `then 0 ${target}` : by === 'exit' ? `stop 0 ${target}` : `linked ${code(by.slice(0, -1).trim())} ${target}`;
-    });
-    expect(words(waysFrom(format, pages, page)), name).toEqual(wanted.sort());
-  }
+    const text = await readFile(new URL('../../motions/README.md', import.meta.url), 'utf8');
+    const rows = [...text.matchAll(/^\| (\d+) \| `(\w+)` \| ([UDLR1-4 ]*?) *\|[^|]*\|([^|]*)\|$/gm)];
+    expect(rows.length).toBeGreaterThan(30);
+    const calls = callsOf(format, pages);
+    for (const [, number, name, keys = '', onward = ''] of rows) {
+        const page = Number(number);
+        expect(
+            calls.filter(way => way.page === page).map(way => way.code),
+            name,
+        ).toEqual(keys.trim() ? [code(keys.trim())] : []);
+        const wanted = [...onward.matchAll(/(next|exit|[UDLR1-4 ]+:) `(\w+)`/g)].map(([, by = '', to = '']) => {
+            const target = to === 'self' ? name : to;
+            return by === 'next'
+                ? `then 0 ${target}`
+                : by === 'exit'
+                  ? `stop 0 ${target}`
+                  : `linked ${code(by.slice(0, -1).trim())} ${target}`;
+        });
+        expect(words(waysFrom(format, pages, page)), name).toEqual(wanted.sort());
+    }
 });
 
 test('of two pages with one code the lowest is called, as the firmware does; erased and damaged pages lead nowhere', () => {
-  const walk = pages[20] ?? null;
-  const twice = pages.map((bytes, page) => (page === 90 ? walk : bytes));
-  expect(callsOf(format, twice).find((way) => way.code === 1)?.page).toBe(20);
-  const damaged = pages.map((bytes, page) => (page === 20 && bytes ? Uint8Array.from(bytes, (byte, at) => (at === 100 ? byte ^ 1 : byte)) : bytes));
-  expect(callsOf(format, damaged).some((way) => way.code === 1)).toBe(false);
-  expect(waysFrom(format, damaged, 20)).toEqual([]);
-  expect(waysFrom(format, [], 20)).toEqual([]);
+    const walk = pages[20] ?? null;
+    const twice = pages.map((bytes, page) => (page === 90 ? walk : bytes));
+    expect(callsOf(format, twice).find(way => way.code === 1)?.page).toBe(20);
+    const damaged = pages.map((bytes, page) =>
+        page === 20 && bytes ? Uint8Array.from(bytes, (byte, at) => (at === 100 ? byte ^ 1 : byte)) : bytes,
+    );
+    expect(callsOf(format, damaged).some(way => way.code === 1)).toBe(false);
+    expect(waysFrom(format, damaged, 20)).toEqual([]);
+    expect(waysFrom(format, [], 20)).toEqual([]);
 });

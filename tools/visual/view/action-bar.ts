@@ -12,91 +12,120 @@ import './action-bar.css';
 
 /** Names of the motion library that get a button, and what stands on it; the lesser ones only where there is room. */
 const BUTTONS: readonly (readonly [string, string, 'lesser'?])[] = [
-  ['walk', 'Walk'], ['back', 'Back', 'lesser'], ['left', 'Turn left', 'lesser'], ['right', 'Turn right', 'lesser'], ['wave', 'Wave'], ['bow', 'Bow', 'lesser'], ['dance', 'Dance', 'lesser'],
+    ['walk', 'Walk'],
+    ['back', 'Back', 'lesser'],
+    ['left', 'Turn left', 'lesser'],
+    ['right', 'Turn right', 'lesser'],
+    ['wave', 'Wave'],
+    ['bow', 'Bow', 'lesser'],
+    ['dance', 'Dance', 'lesser'],
 ];
 /** The page for a robot on its face, and the one for a robot on its back. */
 const GET_UP = { face: 'get_up', back: 'get_up_back' };
 
 export class ActionBar extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private shown = '';
-  private readonly getUp = make('button', { class: 'get-up', title: 'From its face or its back, as it lies', onclick: () => this.standUp() }, 'Get up');
-  private readonly letGo = make('button', { title: 'The hand that holds the robot lets go of it', onclick: () => this.desk.lab.hold(false) }, 'Let go');
-  private readonly gettingUp = new GetUp((motion) => this.playNamed(GET_UP[motion]));
-  private frame: RobotState | null = null;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private shown = '';
+    private readonly getUp = make(
+        'button',
+        { class: 'get-up', title: 'From its face or its back, as it lies', onclick: () => this.standUp() },
+        'Get up',
+    );
+    private readonly letGo = make(
+        'button',
+        { title: 'The hand that holds the robot lets go of it', onclick: () => this.desk.lab.hold(false) },
+        'Let go',
+    );
+    private readonly gettingUp = new GetUp(motion => this.playNamed(GET_UP[motion]));
+    private frame: RobotState | null = null;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.setAttribute('role', 'toolbar');
-    this.setAttribute('aria-label', 'Motions');
-    this.disposals.push(this.desk.state.watch((state) => this.render(state)), this.desk.onFrame((frame) => this.look(frame)));
-  }
+    connectedCallback(): void {
+        this.setAttribute('role', 'toolbar');
+        this.setAttribute('aria-label', 'Motions');
+        this.disposals.push(
+            this.desk.state.watch(state => this.render(state)),
+            this.desk.onFrame(frame => this.look(frame)),
+        );
+    }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  private render(state: DeskState): void {
-    const isReady = state.connection === 'ready';
-    const mayStop = isReady || state.isInDialog; // that ends what Edit waits for
-    const key = `${isReady} ${mayStop} ${state.source} ${state.pages.map(({ page, name, steps }) => `${page}:${name}:${steps}`).join()}`;
-    if (key === this.shown) return;
-    this.shown = key;
-    const byName = new Map(state.pages.map((page) => [page.name, page]));
-    const plays = (name: string, title: string, kind = ''): HTMLButtonElement[] => {
-      const page = byName.get(name);
-      return page ? [this.button(title, isReady, () => this.desk.play(page.page), kind)] : [];
-    };
-    keepFocus(this, () => this.replaceChildren(this.button('Stop', mayStop, () => this.stop(), 'stop'), ...(state.source === 'simulated' ? [this.letGo] : []), ...BUTTONS.flatMap(([name, title, kind]) => plays(name, title, kind)),
-      ...(state.source === 'simulated' ? this.oneGetUp(byName) : [...plays(GET_UP.face, 'Get up (face)'), ...plays(GET_UP.back, 'Get up (back)')]),
-      this.list(state.pages, isReady)));
-    this.look(this.frame);
-  }
+    private render(state: DeskState): void {
+        const isReady = state.connection === 'ready';
+        const mayStop = isReady || state.isInDialog; // that ends what Edit waits for
+        const key = `${isReady} ${mayStop} ${state.source} ${state.pages.map(({ page, name, steps }) => `${page}:${name}:${steps}`).join()}`;
+        if (key === this.shown) return;
+        this.shown = key;
+        const byName = new Map(state.pages.map(page => [page.name, page]));
+        const plays = (name: string, title: string, kind = ''): HTMLButtonElement[] => {
+            const page = byName.get(name);
+            return page ? [this.button(title, isReady, () => this.desk.play(page.page), kind)] : [];
+        };
+        keepFocus(this, () =>
+            this.replaceChildren(
+                this.button('Stop', mayStop, () => this.stop(), 'stop'),
+                ...(state.source === 'simulated' ? [this.letGo] : []),
+                ...BUTTONS.flatMap(([name, title, kind]) => plays(name, title, kind)),
+                ...(state.source === 'simulated'
+                    ? this.oneGetUp(byName)
+                    : [...plays(GET_UP.face, 'Get up (face)'), ...plays(GET_UP.back, 'Get up (back)')]),
+                this.list(state.pages, isReady),
+            ),
+        );
+        this.look(this.frame);
+    }
 
-  /** The robot in the page tells how it lies; yours has no sensor for it, so that a person must say it. */
-  private oneGetUp(pages: ReadonlyMap<string, PageEntry>): HTMLButtonElement[] {
-    return pages.has(GET_UP.face) && pages.has(GET_UP.back) ? [this.getUp] : [];
-  }
+    /** The robot in the page tells how it lies; yours has no sensor for it, so that a person must say it. */
+    private oneGetUp(pages: ReadonlyMap<string, PageEntry>): HTMLButtonElement[] {
+        return pages.has(GET_UP.face) && pages.has(GET_UP.back) ? [this.getUp] : [];
+    }
 
-  private stop(): Promise<void> {
-    this.gettingUp.stop();
-    return this.desk.command('stop');
-  }
+    private stop(): Promise<void> {
+        this.gettingUp.stop();
+        return this.desk.command('stop');
+    }
 
-  private look(frame: RobotState | null): void {
-    this.frame = frame;
-    const { where } = this.desk.state.get();
-    if (frame) this.gettingUp.look(where !== null && where.state !== 'idle', frame.trunk, frame.hasFallen);
-    const lies = frame?.hasFallen === true && frame.isPowered;
-    this.letGo.disabled = frame?.isHeld !== true;
-    this.getUp.disabled = !lies || this.desk.state.get().connection !== 'ready' || !frame?.isPowered;
-    this.getUp.classList.toggle('wanted', lies);
-  }
+    private look(frame: RobotState | null): void {
+        this.frame = frame;
+        const { where } = this.desk.state.get();
+        if (frame) this.gettingUp.look(where !== null && where.state !== 'idle', frame.trunk, frame.hasFallen);
+        const lies = frame?.hasFallen === true && frame.isPowered;
+        this.letGo.disabled = frame?.isHeld !== true;
+        this.getUp.disabled = !lies || this.desk.state.get().connection !== 'ready' || !frame?.isPowered;
+        this.getUp.classList.toggle('wanted', lies);
+    }
 
-  private standUp(): void {
-    if (this.frame) this.gettingUp.start(this.frame.trunk);
-  }
+    private standUp(): void {
+        if (this.frame) this.gettingUp.start(this.frame.trunk);
+    }
 
-  private playNamed(wanted: string): void {
-    const page = this.desk.state.get().pages.find(({ name }) => name === wanted);
-    if (page) void this.desk.play(page.page);
-  }
+    private playNamed(wanted: string): void {
+        const page = this.desk.state.get().pages.find(({ name }) => name === wanted);
+        if (page) void this.desk.play(page.page);
+    }
 
-  private button(title: string, isReady: boolean, deed: () => Promise<void>, kind = ''): HTMLButtonElement {
-    return make('button', { class: kind, disabled: !isReady, onclick: () => void deed() }, title);
-  }
+    private button(title: string, isReady: boolean, deed: () => Promise<void>, kind = ''): HTMLButtonElement {
+        return make('button', { class: kind, disabled: !isReady, onclick: () => void deed() }, title);
+    }
 
-  private list(pages: readonly PageEntry[], isReady: boolean): HTMLSelectElement {
-    const playable = pages.filter((page) => page.steps > 0 && page.page > 0);
-    const options = playable.map((page) => make('option', { value: page.page }, `${page.page} ${page.name}`));
-    const list = make('select', { 'aria-label': 'Play a page', disabled: !isReady || playable.length === 0 },
-      make('option', { value: '' }, 'All pages …'), ...options);
-    onChoice(list, (page) => {
-      if (page !== '') void this.desk.play(Number(page));
-      list.value = '';
-    });
-    return list;
-  }
+    private list(pages: readonly PageEntry[], isReady: boolean): HTMLSelectElement {
+        const playable = pages.filter(page => page.steps > 0 && page.page > 0);
+        const options = playable.map(page => make('option', { value: page.page }, `${page.page} ${page.name}`));
+        const list = make(
+            'select',
+            { 'aria-label': 'Play a page', disabled: !isReady || playable.length === 0 },
+            make('option', { value: '' }, 'All pages …'),
+            ...options,
+        );
+        onChoice(list, page => {
+            if (page !== '') void this.desk.play(Number(page));
+            list.value = '';
+        });
+        return list;
+    }
 }
 
 define('action-bar', ActionBar);

@@ -8,51 +8,51 @@ import { startText } from './texts.ts';
 export const ANNOUNCE_MS = 1000;
 
 export interface AnnouncerParts {
-  say(text: string): void;
-  after(delayMs: number, call: () => void): void;
+    say(text: string): void;
+    after(delayMs: number, call: () => void): void;
 }
 
 export class Announcer {
-  private readonly parts: AnnouncerParts;
-  private isMoving = false;
-  private isWaiting = false;
-  private due: string[] = [];
-  private last = '';
-  private lastTrouble = '';
-  private lastFallen = '';
+    private readonly parts: AnnouncerParts;
+    private isMoving = false;
+    private isWaiting = false;
+    private due: string[] = [];
+    private last = '';
+    private lastTrouble = '';
+    private lastFallen = '';
 
-  constructor(parts: AnnouncerParts) {
-    this.parts = parts;
-  }
+    constructor(parts: AnnouncerParts) {
+        this.parts = parts;
+    }
 
-  /** fallen: what is said of a robot that lies or is held; '' when it stands. */
-  look(state: DeskState, fallen: string): void {
-    const moves = state.where !== null && state.where.state !== 'idle' && state.where.state !== 'ready';
-    if (moves !== this.isMoving) this.tell(startText(state));
-    this.isMoving = moves;
-    if (fallen !== this.lastFallen && fallen !== '') this.tell(fallen);
-    this.lastFallen = fallen;
-    const trouble = state.said?.tone === 'bad' ? state.said.text : state.connection === 'ready' ? '' : state.doing.text;
-    if (trouble !== this.lastTrouble && trouble !== '') this.tell(trouble);
-    this.lastTrouble = trouble;
-  }
+    /** fallen: what is said of a robot that lies or is held; '' when it stands. */
+    look(state: DeskState, fallen: string): void {
+        const moves = state.where !== null && state.where.state !== 'idle' && state.where.state !== 'ready';
+        if (moves !== this.isMoving) this.tell(startText(state));
+        this.isMoving = moves;
+        if (fallen !== this.lastFallen && fallen !== '') this.tell(fallen);
+        this.lastFallen = fallen;
+        const trouble = state.said?.tone === 'bad' ? state.said.text : state.connection === 'ready' ? '' : state.doing.text;
+        if (trouble !== this.lastTrouble && trouble !== '') this.tell(trouble);
+        this.lastTrouble = trouble;
+    }
 
-  private tell(text: string): void {
-    if (text === this.last && this.due.length === 0) return;
-    this.due = [...this.due.filter((one) => one !== text), text].slice(-2); // what is older is over
-    this.next();
-  }
+    private tell(text: string): void {
+        if (text === this.last && this.due.length === 0) return;
+        this.due = [...this.due.filter(one => one !== text), text].slice(-2); // what is older is over
+        this.next();
+    }
 
-  private next(): void {
-    if (this.isWaiting) return;
-    const text = this.due.shift();
-    if (text === undefined) return;
-    this.last = text;
-    this.parts.say(text);
-    this.isWaiting = true;
-    this.parts.after(ANNOUNCE_MS, () => {
-      this.isWaiting = false;
-      this.next();
-    });
-  }
+    private next(): void {
+        if (this.isWaiting) return;
+        const text = this.due.shift();
+        if (text === undefined) return;
+        this.last = text;
+        this.parts.say(text);
+        this.isWaiting = true;
+        this.parts.after(ANNOUNCE_MS, () => {
+            this.isWaiting = false;
+            this.next();
+        });
+    }
 }

@@ -4,39 +4,39 @@
 
 /** deed: gets the value that was chosen; it may set another one. */
 export function onChoice(list: HTMLSelectElement, deed: (value: string) => void): void {
-  let isKeyDown = false;
-  let before: string | null = null; // while a choice by keyboard waits: what was chosen before it
-  const act = (): void => {
-    before = null;
-    deed(list.value);
-  };
-  const takeBack = (): void => {
-    isKeyDown = false;
-    if (before !== null) list.value = before;
-    before = null;
-  };
-  let atKey = list.value;
-  list.addEventListener('keydown', (event) => {
-    if (event.key === 'Enter' && before !== null) {
-      event.preventDefault(); // it would open the list
-      act();
-    } else if (event.key === 'Escape' && before !== null) {
-      event.preventDefault(); // it would close the dialog around it
-      takeBack();
-    } else {
-      isKeyDown = !opensList(event);
-      if (before === null) atKey = list.value;
-    }
-  });
-  list.addEventListener('keyup', () => (isKeyDown = false));
-  list.addEventListener('blur', takeBack);
-  list.addEventListener('change', () => {
-    if (isKeyDown) before ??= atKey;
-    else act();
-  });
+    let isKeyDown = false;
+    let before: string | null = null; // while a choice by keyboard waits: what was chosen before it
+    const act = (): void => {
+        before = null;
+        deed(list.value);
+    };
+    const takeBack = (): void => {
+        isKeyDown = false;
+        if (before !== null) list.value = before;
+        before = null;
+    };
+    let atKey = list.value;
+    list.addEventListener('keydown', event => {
+        if (event.key === 'Enter' && before !== null) {
+            event.preventDefault(); // it would open the list
+            act();
+        } else if (event.key === 'Escape' && before !== null) {
+            event.preventDefault(); // it would close the dialog around it
+            takeBack();
+        } else {
+            isKeyDown = !opensList(event);
+            if (before === null) atKey = list.value;
+        }
+    });
+    list.addEventListener('keyup', () => (isKeyDown = false));
+    list.addEventListener('blur', takeBack);
+    list.addEventListener('change', () => {
+        if (isKeyDown) before ??= atKey;
+        else act();
+    });
 }
 
 /** In the open list the arrows only move a mark, and Enter is the choice. */
 function opensList(event: KeyboardEvent): boolean {
-  return event.key === ' ' || event.key === 'Enter' || event.key === 'F4' || event.altKey;
+    return event.key === ' ' || event.key === 'Enter' || event.key === 'F4' || event.altKey;
 }

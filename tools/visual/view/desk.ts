@@ -25,122 +25,122 @@ export type Tab = 'remote' | 'steps' | 'curves' | 'pages' | 'links' | 'checks' |
 
 /** What is said in the strip. `board`: in the words that the board used. */
 export interface Notice {
-  readonly text: string;
-  readonly tone: 'calm' | 'good' | 'bad';
+    readonly text: string;
+    readonly tone: 'calm' | 'good' | 'bad';
 }
 
 export interface DeskState {
-  readonly source: Source;
-  readonly connection: ConnectionState;
-  readonly portName: string;
-  readonly version: Version | null;
-  readonly where: Where | null;
-  /** Edit waits for a person in its terminal, or plays what was typed there; nothing is asked of the robot. */
-  readonly isInDialog: boolean;
-  readonly pages: readonly PageEntry[];
-  /** Image that the simulated robot runs. */
-  readonly image: ImageName;
-  readonly physics: 'loading' | 'on' | 'off';
-  readonly speed: number;
-  /** The robot in the page has stopped for good; this says why. */
-  readonly stopped: string | null;
-  /** What the robot does. */
-  readonly doing: Notice;
-  /** What went wrong last, or was said last; null: nothing. */
-  readonly said: Notice | null;
-  readonly faultNames: readonly string[];
-  readonly tab: Tab;
-  /** A newer version of this page waits for takeNewVersion(). */
-  readonly hasNewVersion: boolean;
-  /** A page that the picture shows while no robot plays it; null: none. */
-  readonly shownPage: number | null;
-  readonly isPowered: boolean;
-  /** The robot in the page has not answered for longer than a start takes. */
-  readonly isLate: boolean;
+    readonly source: Source;
+    readonly connection: ConnectionState;
+    readonly portName: string;
+    readonly version: Version | null;
+    readonly where: Where | null;
+    /** Edit waits for a person in its terminal, or plays what was typed there; nothing is asked of the robot. */
+    readonly isInDialog: boolean;
+    readonly pages: readonly PageEntry[];
+    /** Image that the simulated robot runs. */
+    readonly image: ImageName;
+    readonly physics: 'loading' | 'on' | 'off';
+    readonly speed: number;
+    /** The robot in the page has stopped for good; this says why. */
+    readonly stopped: string | null;
+    /** What the robot does. */
+    readonly doing: Notice;
+    /** What went wrong last, or was said last; null: nothing. */
+    readonly said: Notice | null;
+    readonly faultNames: readonly string[];
+    readonly tab: Tab;
+    /** A newer version of this page waits for takeNewVersion(). */
+    readonly hasNewVersion: boolean;
+    /** A page that the picture shows while no robot plays it; null: none. */
+    readonly shownPage: number | null;
+    readonly isPowered: boolean;
+    /** The robot in the page has not answered for longer than a start takes. */
+    readonly isLate: boolean;
 }
 
 /** A hand at a point of a link (metres, in the link's frame), pulling towards a place in the room. */
 export interface Hand {
-  readonly link: string;
-  readonly point: Vector;
-  readonly target: Vector;
+    readonly link: string;
+    readonly point: Vector;
+    readonly target: Vector;
 }
 
 /** What goes on beside a play: a second page on joints of its own (null: no more; no joints: those that its first step uses), or
  *  joints that code moves. Servo units. */
 export type Beside =
-  | { readonly kind: 'layer'; readonly page: number | null; readonly joints: readonly number[] }
-  | { readonly kind: 'aim'; readonly joint: number; readonly position: number; readonly degreesPerSecond: number }
-  | { readonly kind: 'swing'; readonly joint: number; readonly centre: number; readonly amplitude: number; readonly periodMs: number }
-  /** No joints: all. */
-  | { readonly kind: 'free'; readonly joints: readonly number[] };
+    | { readonly kind: 'layer'; readonly page: number | null; readonly joints: readonly number[] }
+    | { readonly kind: 'aim'; readonly joint: number; readonly position: number; readonly degreesPerSecond: number }
+    | { readonly kind: 'swing'; readonly joint: number; readonly centre: number; readonly amplitude: number; readonly periodMs: number }
+    /** No joints: all. */
+    | { readonly kind: 'free'; readonly joints: readonly number[] };
 
 export interface Floor {
-  readonly tiltFront: number;
-  readonly tiltLeft: number;
-  readonly friction: number;
+    readonly tiltFront: number;
+    readonly tiltLeft: number;
+    readonly friction: number;
 }
 
 /** What a person can do to the robot in the page besides talking to it. To yours it does nothing. */
 export interface Lab {
-  /** Times the robot's own; 0: it waits. */
-  setSpeed(speed: number): void;
-  oneTick(): void;
-  setPower(on: boolean): void;
-  press(button: PanelButton, down: boolean): void;
-  setBattery(volts: number): void;
-  setFault(servo: number, fault: number, on: boolean): void;
-  /** ticks: lets go by itself after so many of the robot's time; without it, at the next pull. */
-  pull(hand: Hand | null, ticks?: number): void;
-  hold(held: boolean): void;
-  setFloor(floor: Floor): void;
+    /** Times the robot's own; 0: it waits. */
+    setSpeed(speed: number): void;
+    oneTick(): void;
+    setPower(on: boolean): void;
+    press(button: PanelButton, down: boolean): void;
+    setBattery(volts: number): void;
+    setFault(servo: number, fault: number, on: boolean): void;
+    /** ticks: lets go by itself after so many of the robot's time; without it, at the next pull. */
+    pull(hand: Hand | null, ticks?: number): void;
+    hold(held: boolean): void;
+    setFloor(floor: Floor): void;
 }
 
 export interface Desk {
-  readonly body: Body;
-  readonly state: Store<DeskState>;
-  readonly editor: Editor;
-  readonly files: Files;
-  readonly documents: Documents;
-  readonly transfer: Transfer;
-  readonly trials: Trials;
-  readonly preview: Preview;
-  readonly lab: Lab;
-  /** Up to 60 times a second. */
-  onFrame(listener: (state: RobotState) => void): () => void;
-  /** What the board says to a terminal. */
-  onText(listener: (bytes: Uint8Array) => void): () => void;
+    readonly body: Body;
+    readonly state: Store<DeskState>;
+    readonly editor: Editor;
+    readonly files: Files;
+    readonly documents: Documents;
+    readonly transfer: Transfer;
+    readonly trials: Trials;
+    readonly preview: Preview;
+    readonly lab: Lab;
+    /** Up to 60 times a second. */
+    onFrame(listener: (state: RobotState) => void): () => void;
+    /** What the board says to a terminal. */
+    onText(listener: (bytes: Uint8Array) => void): () => void;
 
-  show(tab: Tab): void;
-  /** The terminal shows so many letters. */
-  terminalSize(size: TerminalSize): void;
-  play(page: number): Promise<void>;
-  command(command: Command): Promise<void>;
-  /** Without servos: of all. */
-  setTorque(on: boolean, servos?: readonly number[]): Promise<void>;
-  /** Plays a page of the document: writes it and what it leads to first, as far as the robot has it otherwise. The picture shows it at once. */
-  playEdited(page: number): Promise<void>;
-  /** How what plays is shaped, from its next step on. Only Play can. */
-  shape(shape: Shape): Promise<void>;
-  /** What goes on beside a play. Only Play can. */
-  beside(what: Beside): Promise<void>;
-  /** From now on the robot goes slowly to this pose (servo units by ID; null: this joint stays); null: no more. */
-  follow(positions: readonly (number | null)[] | null): void;
-  /** Says something in the strip. */
-  say(notice: Notice): void;
-  remote(held: ReadonlySet<RemoteButton>): void;
-  /** A stick: x to the right, y ahead, -1..1; null: let go. It walks, the farther the stick the larger the steps. */
-  drive(stick: { readonly x: number; readonly y: number } | null): void;
-  type(bytes: Uint8Array): void;
+    show(tab: Tab): void;
+    /** The terminal shows so many letters. */
+    terminalSize(size: TerminalSize): void;
+    play(page: number): Promise<void>;
+    command(command: Command): Promise<void>;
+    /** Without servos: of all. */
+    setTorque(on: boolean, servos?: readonly number[]): Promise<void>;
+    /** Plays a page of the document: writes it and what it leads to first, as far as the robot has it otherwise. The picture shows it at once. */
+    playEdited(page: number): Promise<void>;
+    /** How what plays is shaped, from its next step on. Only Play can. */
+    shape(shape: Shape): Promise<void>;
+    /** What goes on beside a play. Only Play can. */
+    beside(what: Beside): Promise<void>;
+    /** From now on the robot goes slowly to this pose (servo units by ID; null: this joint stays); null: no more. */
+    follow(positions: readonly (number | null)[] | null): void;
+    /** Says something in the strip. */
+    say(notice: Notice): void;
+    remote(held: ReadonlySet<RemoteButton>): void;
+    /** A stick: x to the right, y ahead, -1..1; null: let go. It walks, the farther the stick the larger the steps. */
+    drive(stick: { readonly x: number; readonly y: number } | null): void;
+    type(bytes: Uint8Array): void;
 
-  /** Reloads the page as its newest version. */
-  takeNewVersion(): void;
-  useSimulated(): void;
-  /** Opens the browser's chooser; call it in a click. */
-  connectYours(): Promise<void>;
+    /** Reloads the page as its newest version. */
+    takeNewVersion(): void;
+    useSimulated(): void;
+    /** Opens the browser's chooser; call it in a click. */
+    connectYours(): Promise<void>;
 
-  /** Starts the robot in the page anew with that image; motions and settings stay. */
-  runImage(image: ImageName): void;
-  /** Forgets flash and EEPROM of the robot in the page: a robot fresh from the factory. */
-  forget(): Promise<void>;
+    /** Starts the robot in the page anew with that image; motions and settings stay. */
+    runImage(image: ImageName): void;
+    /** Forgets flash and EEPROM of the robot in the page: a robot fresh from the factory. */
+    forget(): Promise<void>;
 }

@@ -7,39 +7,39 @@ import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 
 /** A document as it is kept. */
 export interface KeptDocument {
-  readonly id: string;
-  readonly name: string;
-  /** 65,536 bytes. */
-  readonly image: Uint8Array;
-  readonly savedMs: number;
-  /** How many steps of its history are done; not there: nothing of it was kept. */
-  readonly position?: number;
+    readonly id: string;
+    readonly name: string;
+    /** 65,536 bytes. */
+    readonly image: Uint8Array;
+    readonly savedMs: number;
+    /** How many steps of its history are done; not there: nothing of it was kept. */
+    readonly position?: number;
 }
 
 /** A robot's pages before something was written into it. */
 export interface Backup {
-  readonly id: string;
-  /** Which robot, as the port is called. */
-  readonly robot: string;
-  readonly image: Uint8Array;
-  readonly takenMs: number;
+    readonly id: string;
+    /** Which robot, as the port is called. */
+    readonly robot: string;
+    readonly image: Uint8Array;
+    readonly takenMs: number;
 }
 
 /** What is kept, and what is there but cannot be read: kept as it is. */
 export interface Kept {
-  readonly documents: readonly KeptDocument[];
-  readonly backups: readonly Backup[];
-  readonly unreadable: readonly string[];
+    readonly documents: readonly KeptDocument[];
+    readonly backups: readonly Backup[];
+    readonly unreadable: readonly string[];
 }
 
 export interface DocumentStorage {
-  load(): Promise<Kept>;
-  /** With what changes about the steps of its history: both or nothing. */
-  putDocument(document: KeptDocument, steps: StepsChange): Promise<void>;
-  /** The steps of a document's history that are kept, in any order. */
-  readSteps(id: string): Promise<readonly unknown[]>;
-  putBackup(backup: Backup): Promise<void>;
-  removeDocument(id: string): Promise<void>;
+    load(): Promise<Kept>;
+    /** With what changes about the steps of its history: both or nothing. */
+    putDocument(document: KeptDocument, steps: StepsChange): Promise<void>;
+    /** The steps of a document's history that are kept, in any order. */
+    readSteps(id: string): Promise<readonly unknown[]>;
+    putBackup(backup: Backup): Promise<void>;
+    removeDocument(id: string): Promise<void>;
 }
 
 const DATABASE = 'motion512-editor';
@@ -50,134 +50,142 @@ const STEPS = 'steps';
 const KEYS = { [DOCUMENTS]: 'id', [BACKUPS]: 'id', [STEPS]: ['document', 'number'] };
 
 function isImage(value: unknown): value is Uint8Array {
-  return value instanceof Uint8Array && value.length === PAGE_BYTES * PAGE_COUNT;
+    return value instanceof Uint8Array && value.length === PAGE_BYTES * PAGE_COUNT;
 }
 
 function done<T>(asked: IDBRequest<T>): Promise<T> {
-  return new Promise((resolve, reject) => {
-    asked.onsuccess = () => resolve(asked.result);
-    asked.onerror = () => reject(asked.error);
-  });
+    return new Promise((resolve, reject) => {
+        asked.onsuccess = () => resolve(asked.result);
+        asked.onerror = () => reject(asked.error);
+    });
 }
 
 /** The database, unless a tab with an older page still holds it. */
 function opened(asked: IDBOpenDBRequest): Promise<IDBDatabase> {
-  return new Promise((resolve, reject) => {
-    asked.onblocked = () => reject(new Error('another tab has an older page open'));
-    done(asked).then((database) => {
-      database.onversionchange = () => database.close(); // a newer page needs it; this one says that it keeps nothing more
-      resolve(database);
-    }, reject);
-  });
+    return new Promise((resolve, reject) => {
+        asked.onblocked = () => reject(new Error('another tab has an older page open'));
+        done(asked).then(database => {
+            database.onversionchange = () => database.close(); // a newer page needs it; this one says that it keeps nothing more
+            resolve(database);
+        }, reject);
+    });
 }
 
 /** Numbers from..below of a document. */
 function stepsIn(id: string, from: number, below: number): IDBKeyRange {
-  return IDBKeyRange.bound([id, from], [id, below], false, true);
+    return IDBKeyRange.bound([id, from], [id, below], false, true);
 }
 
 /** Sorts what a database holds into what can be read and what cannot. */
 export function sortKept(documents: readonly unknown[], backups: readonly unknown[]): Kept {
-  const readable = (entry: unknown): boolean => isImage((entry as { image?: unknown } | null)?.image);
-  const nameOf = (entry: unknown): string => {
-    const { name, robot, id } = (entry ?? {}) as Record<string, unknown>;
-    return String(name ?? robot ?? id ?? 'without a name');
-  };
-  return {
-    documents: documents.filter(readable) as KeptDocument[],
-    backups: backups.filter(readable) as Backup[],
-    unreadable: [...documents, ...backups].filter((entry) => !readable(entry)).map(nameOf),
-  };
+    const readable = (entry: unknown): boolean => isImage((entry as { image?: unknown } | null)?.image);
+    const nameOf = (entry: unknown): string => {
+        const { name, robot, id } = (entry ?? {}) as Record<string, unknown>;
+        return String(name ?? robot ?? id ?? 'without a name');
+    };
+    return {
+        documents: documents.filter(readable) as KeptDocument[],
+        backups: backups.filter(readable) as Backup[],
+        unreadable: [...documents, ...backups].filter(entry => !readable(entry)).map(nameOf),
+    };
 }
 
 export class BrowserStorage implements DocumentStorage {
-  private readonly database: IDBDatabase;
+    private readonly database: IDBDatabase;
 
-  private constructor(database: IDBDatabase) {
-    this.database = database;
-  }
+    private constructor(database: IDBDatabase) {
+        this.database = database;
+    }
 
-  /** Rejects when the browser keeps nothing (a private window, a full disk). */
-  static async open(): Promise<BrowserStorage> {
-    const asked = indexedDB.open(DATABASE, 2);
-    asked.onupgradeneeded = () => {
-      const there = asked.result.objectStoreNames;
-      for (const [store, keyPath] of Object.entries(KEYS)) if (!there.contains(store)) asked.result.createObjectStore(store, { keyPath });
-    };
-    return new BrowserStorage(await opened(asked));
-  }
+    /** Rejects when the browser keeps nothing (a private window, a full disk). */
+    static async open(): Promise<BrowserStorage> {
+        const asked = indexedDB.open(DATABASE, 2);
+        asked.onupgradeneeded = () => {
+            const there = asked.result.objectStoreNames;
+            for (const [store, keyPath] of Object.entries(KEYS))
+                if (!there.contains(store)) asked.result.createObjectStore(store, { keyPath });
+        };
+        return new BrowserStorage(await opened(asked));
+    }
 
-  async load(): Promise<Kept> {
-    const transaction = this.database.transaction([DOCUMENTS, BACKUPS]);
-    const [documents, backups] = await Promise.all([DOCUMENTS, BACKUPS].map((store) => done(transaction.objectStore(store).getAll() as IDBRequest<unknown[]>)));
-    return sortKept(documents ?? [], backups ?? []);
-  }
+    async load(): Promise<Kept> {
+        const transaction = this.database.transaction([DOCUMENTS, BACKUPS]);
+        const [documents, backups] = await Promise.all(
+            [DOCUMENTS, BACKUPS].map(store => done(transaction.objectStore(store).getAll() as IDBRequest<unknown[]>)),
+        );
+        return sortKept(documents ?? [], backups ?? []);
+    }
 
-  putDocument(document: KeptDocument, { dropBefore, dropFrom, add }: StepsChange): Promise<void> {
-    return this.write((store) => {
-      store(DOCUMENTS).put(document);
-      store(STEPS).delete(stepsIn(document.id, dropFrom, Infinity));
-      if (dropBefore > 0) store(STEPS).delete(stepsIn(document.id, 0, dropBefore)); // a range of nothing is an error
-      for (const step of add) store(STEPS).put({ ...step, document: document.id });
-    });
-  }
+    putDocument(document: KeptDocument, { dropBefore, dropFrom, add }: StepsChange): Promise<void> {
+        return this.write(store => {
+            store(DOCUMENTS).put(document);
+            store(STEPS).delete(stepsIn(document.id, dropFrom, Infinity));
+            if (dropBefore > 0) store(STEPS).delete(stepsIn(document.id, 0, dropBefore)); // a range of nothing is an error
+            for (const step of add) store(STEPS).put({ ...step, document: document.id });
+        });
+    }
 
-  readSteps(id: string): Promise<readonly unknown[]> {
-    return done(this.database.transaction(STEPS).objectStore(STEPS).getAll(stepsIn(id, 0, Infinity)) as IDBRequest<unknown[]>);
-  }
+    readSteps(id: string): Promise<readonly unknown[]> {
+        return done(
+            this.database
+                .transaction(STEPS)
+                .objectStore(STEPS)
+                .getAll(stepsIn(id, 0, Infinity)) as IDBRequest<unknown[]>,
+        );
+    }
 
-  putBackup(backup: Backup): Promise<void> {
-    return this.write((store) => store(BACKUPS).put(backup));
-  }
+    putBackup(backup: Backup): Promise<void> {
+        return this.write(store => store(BACKUPS).put(backup));
+    }
 
-  removeDocument(id: string): Promise<void> {
-    return this.write((store) => {
-      store(DOCUMENTS).delete(id);
-      store(STEPS).delete(stepsIn(id, 0, Infinity));
-    });
-  }
+    removeDocument(id: string): Promise<void> {
+        return this.write(store => {
+            store(DOCUMENTS).delete(id);
+            store(STEPS).delete(stepsIn(id, 0, Infinity));
+        });
+    }
 
-  private write(deed: (store: (name: string) => IDBObjectStore) => unknown): Promise<void> {
-    return new Promise((resolve, reject) => {
-      const transaction = this.database.transaction(Object.keys(KEYS), 'readwrite');
-      transaction.oncomplete = () => resolve();
-      transaction.onabort = transaction.onerror = () => reject(transaction.error ?? new Error('nothing was kept'));
-      deed((name) => transaction.objectStore(name));
-      transaction.commit();
-    });
-  }
+    private write(deed: (store: (name: string) => IDBObjectStore) => unknown): Promise<void> {
+        return new Promise((resolve, reject) => {
+            const transaction = this.database.transaction(Object.keys(KEYS), 'readwrite');
+            transaction.oncomplete = () => resolve();
+            transaction.onabort = transaction.onerror = () => reject(transaction.error ?? new Error('nothing was kept'));
+            deed(name => transaction.objectStore(name));
+            transaction.commit();
+        });
+    }
 }
 
 /** Where nothing can be kept: as long as the page is open. */
 export class PassingStorage implements DocumentStorage {
-  private readonly documents = new Map<string, KeptDocument>();
-  private readonly backups = new Map<string, Backup>();
-  private readonly steps = new Map<string, Map<number, unknown>>();
+    private readonly documents = new Map<string, KeptDocument>();
+    private readonly backups = new Map<string, Backup>();
+    private readonly steps = new Map<string, Map<number, unknown>>();
 
-  load(): Promise<Kept> {
-    return Promise.resolve(sortKept([...this.documents.values()], [...this.backups.values()]));
-  }
+    load(): Promise<Kept> {
+        return Promise.resolve(sortKept([...this.documents.values()], [...this.backups.values()]));
+    }
 
-  putDocument(document: KeptDocument, { dropBefore, dropFrom, add }: StepsChange): Promise<void> {
-    this.documents.set(document.id, document);
-    const steps = new Map([...(this.steps.get(document.id) ?? [])].filter(([number]) => number >= dropBefore && number < dropFrom));
-    for (const step of add) steps.set(step.number, step);
-    this.steps.set(document.id, steps);
-    return Promise.resolve();
-  }
+    putDocument(document: KeptDocument, { dropBefore, dropFrom, add }: StepsChange): Promise<void> {
+        this.documents.set(document.id, document);
+        const steps = new Map([...(this.steps.get(document.id) ?? [])].filter(([number]) => number >= dropBefore && number < dropFrom));
+        for (const step of add) steps.set(step.number, step);
+        this.steps.set(document.id, steps);
+        return Promise.resolve();
+    }
 
-  readSteps(id: string): Promise<readonly unknown[]> {
-    return Promise.resolve([...(this.steps.get(id)?.values() ?? [])]);
-  }
+    readSteps(id: string): Promise<readonly unknown[]> {
+        return Promise.resolve([...(this.steps.get(id)?.values() ?? [])]);
+    }
 
-  putBackup(backup: Backup): Promise<void> {
-    this.backups.set(backup.id, backup);
-    return Promise.resolve();
-  }
+    putBackup(backup: Backup): Promise<void> {
+        this.backups.set(backup.id, backup);
+        return Promise.resolve();
+    }
 
-  removeDocument(id: string): Promise<void> {
-    this.documents.delete(id);
-    this.steps.delete(id);
-    return Promise.resolve();
-  }
+    removeDocument(id: string): Promise<void> {
+        this.documents.delete(id);
+        this.steps.delete(id);
+        return Promise.resolve();
+    }
 }

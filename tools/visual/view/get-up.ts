@@ -8,31 +8,31 @@ import type { Place } from '../model/space.ts';
 const MOST_TRIES = 3;
 
 export class GetUp {
-  private readonly play: (motion: 'face' | 'back') => void;
-  private tries = 0;
-  private wasMoving = false;
+    private readonly play: (motion: 'face' | 'back') => void;
+    private tries = 0;
+    private wasMoving = false;
 
-  constructor(play: (motion: 'face' | 'back') => void) {
-    this.play = play;
-  }
+    constructor(play: (motion: 'face' | 'back') => void) {
+        this.play = play;
+    }
 
-  start(trunk: Place): void {
-    this.tries = 1;
-    this.wasMoving = false;
-    this.play(liesOnFace(trunk) ? 'face' : 'back');
-  }
+    start(trunk: Place): void {
+        this.tries = 1;
+        this.wasMoving = false;
+        this.play(liesOnFace(trunk) ? 'face' : 'back');
+    }
 
-  stop(): void {
-    this.tries = 0;
-  }
+    stop(): void {
+        this.tries = 0;
+    }
 
-  /** Looks again whenever a motion has ended. */
-  look(isMoving: boolean, trunk: Place, hasFallen: boolean): void {
-    const hasEnded = this.wasMoving && !isMoving;
-    this.wasMoving = isMoving;
-    if (this.tries === 0 || !hasEnded) return;
-    if (!hasFallen || this.tries === MOST_TRIES) return this.stop();
-    this.tries++;
-    this.play(liesOnFace(trunk) ? 'face' : 'back');
-  }
+    /** Looks again whenever a motion has ended. */
+    look(isMoving: boolean, trunk: Place, hasFallen: boolean): void {
+        const hasEnded = this.wasMoving && !isMoving;
+        this.wasMoving = isMoving;
+        if (this.tries === 0 || !hasEnded) return;
+        if (!hasFallen || this.tries === MOST_TRIES) return this.stop();
+        this.tries++;
+        this.play(liesOnFace(trunk) ? 'face' : 'back');
+    }
 }

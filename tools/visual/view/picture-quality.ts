@@ -3,13 +3,16 @@
 // step out. Goes down fast and up slowly, so that it does not swing.
 
 export interface Quality {
-  /** Of the screen's own pixels. */
-  readonly pixels: number;
-  readonly shadows: boolean;
+    /** Of the screen's own pixels. */
+    readonly pixels: number;
+    readonly shadows: boolean;
 }
 
 const STEPS: readonly Quality[] = [
-  { pixels: 1, shadows: true }, { pixels: 0.75, shadows: true }, { pixels: 0.6, shadows: true }, { pixels: 0.45, shadows: false },
+    { pixels: 1, shadows: true },
+    { pixels: 0.75, shadows: true },
+    { pixels: 0.6, shadows: true },
+    { pixels: 0.45, shadows: false },
 ];
 const SLOW_MS = 45;
 const FAST_MS = 22;
@@ -18,35 +21,35 @@ const SOFTWARE_MS = 60;
 const UP_AFTER = 240;
 
 export class PictureQuality {
-  private step: number;
-  private slow = 0;
-  private fast = 0;
-  private readonly bySoftware: boolean;
+    private step: number;
+    private slow = 0;
+    private fast = 0;
+    private readonly bySoftware: boolean;
 
-  constructor(bySoftware: boolean) {
-    this.bySoftware = bySoftware;
-    this.step = bySoftware ? 2 : 0;
-  }
+    constructor(bySoftware: boolean) {
+        this.bySoftware = bySoftware;
+        this.step = bySoftware ? 2 : 0;
+    }
 
-  /** Milliseconds from one look at the picture to the next. A picture by software must not take the processor from the robot: it gets
-   *  no more than half of the time. frameMs: what the last one took. */
-  restMs(frameMs: number): number {
-    return this.bySoftware ? Math.max(SOFTWARE_MS, 2 * frameMs) : 0;
-  }
+    /** Milliseconds from one look at the picture to the next. A picture by software must not take the processor from the robot: it gets
+     *  no more than half of the time. frameMs: what the last one took. */
+    restMs(frameMs: number): number {
+        return this.bySoftware ? Math.max(SOFTWARE_MS, 2 * frameMs) : 0;
+    }
 
-  get quality(): Quality {
-    return STEPS[this.step] ?? { pixels: 1, shadows: true };
-  }
+    get quality(): Quality {
+        return STEPS[this.step] ?? { pixels: 1, shadows: true };
+    }
 
-  /** A frame took so long; true when the quality has changed. */
-  take(frameMs: number): boolean {
-    if (this.bySoftware) return false; // slow by nature
-    this.slow = frameMs > SLOW_MS ? this.slow + 1 : 0;
-    this.fast = frameMs < FAST_MS ? this.fast + 1 : 0;
-    const change = this.slow >= DOWN_AFTER && this.step < STEPS.length - 1 ? 1 : this.fast >= UP_AFTER && this.step > 0 ? -1 : 0;
-    if (change === 0) return false;
-    this.step += change;
-    this.slow = this.fast = 0;
-    return true;
-  }
+    /** A frame took so long; true when the quality has changed. */
+    take(frameMs: number): boolean {
+        if (this.bySoftware) return false; // slow by nature
+        this.slow = frameMs > SLOW_MS ? this.slow + 1 : 0;
+        this.fast = frameMs < FAST_MS ? this.fast + 1 : 0;
+        const change = this.slow >= DOWN_AFTER && this.step < STEPS.length - 1 ? 1 : this.fast >= UP_AFTER && this.step > 0 ? -1 : 0;
+        if (change === 0) return false;
+        this.step += change;
+        this.slow = this.fast = 0;
+        return true;
+    }
 }

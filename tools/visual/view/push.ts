@@ -9,11 +9,11 @@ const CHEST_M = 0.03; // above the middle of the trunk
 
 /** direction: 1 ahead, -1 back. Your robot is not pushed. */
 export function pushRobot(desk: Desk, direction: 1 | -1): void {
-  if (desk.state.get().source !== 'simulated') return;
-  const trunk = desk.body.links[0]?.name ?? 'trunk';
-  const stop = desk.onFrame((state) => {
-    stop();
-    const [x, y, z] = state.trunk.pos;
-    desk.lab.pull({ link: trunk, point: [0, 0, CHEST_M], target: [x + direction * REACH_M, y, z + CHEST_M] }, PUSH_TICKS);
-  });
+    if (desk.state.get().source !== 'simulated') return;
+    const trunk = desk.body.links[0]?.name ?? 'trunk';
+    const stop = desk.onFrame(state => {
+        stop();
+        const [x, y, z] = state.trunk.pos;
+        desk.lab.pull({ link: trunk, point: [0, 0, CHEST_M], target: [x + direction * REACH_M, y, z + CHEST_M] }, PUSH_TICKS);
+    });
 }

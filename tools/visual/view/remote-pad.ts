@@ -10,129 +10,178 @@ import { WayList } from './way-list.ts';
 import './remote-pad.css';
 
 const KEYS: Readonly<Record<string, RemoteButton>> = {
-  ArrowUp: 'up', ArrowDown: 'down', ArrowLeft: 'left', ArrowRight: 'right', KeyW: 'up', KeyS: 'down', KeyA: 'left', KeyD: 'right',
-  Digit1: 'b1', Digit2: 'b2', Digit3: 'b3', Digit4: 'b4', Digit5: 'b5', Digit6: 'b6',
-  Numpad1: 'b1', Numpad2: 'b2', Numpad3: 'b3', Numpad4: 'b4', Numpad5: 'b5', Numpad6: 'b6', Space: 'b6',
+    ArrowUp: 'up',
+    ArrowDown: 'down',
+    ArrowLeft: 'left',
+    ArrowRight: 'right',
+    KeyW: 'up',
+    KeyS: 'down',
+    KeyA: 'left',
+    KeyD: 'right',
+    Digit1: 'b1',
+    Digit2: 'b2',
+    Digit3: 'b3',
+    Digit4: 'b4',
+    Digit5: 'b5',
+    Digit6: 'b6',
+    Numpad1: 'b1',
+    Numpad2: 'b2',
+    Numpad3: 'b3',
+    Numpad4: 'b4',
+    Numpad5: 'b5',
+    Numpad6: 'b6',
+    Space: 'b6',
 };
 /** The standard layout of a game pad: directions at 12..15, buttons at 0..3. */
 const PAD: readonly (readonly [number, RemoteButton])[] = [
-  [12, 'up'], [13, 'down'], [14, 'left'], [15, 'right'], [0, 'b6'], [1, 'b2'], [2, 'b3'], [3, 'b4'], [4, 'b1'], [9, 'b5'],
+    [12, 'up'],
+    [13, 'down'],
+    [14, 'left'],
+    [15, 'right'],
+    [0, 'b6'],
+    [1, 'b2'],
+    [2, 'b3'],
+    [3, 'b4'],
+    [4, 'b1'],
+    [9, 'b5'],
 ];
 const STICK_REST = 0.25;
 const BUTTONS: readonly (readonly [RemoteButton, string, string])[] = [
-  ['up', '▲', 'U: ahead'], ['left', '◀', 'L: left'], ['right', '▶', 'R: right'], ['down', '▼', 'D: back'],
-  ['b1', '1', 'button 1'], ['b2', '2', 'button 2'], ['b3', '3', 'button 3'], ['b4', '4', 'button 4'], ['b5', '5', '5: pause'], ['b6', '6', '6: stop'],
+    ['up', '▲', 'U: ahead'],
+    ['left', '◀', 'L: left'],
+    ['right', '▶', 'R: right'],
+    ['down', '▼', 'D: back'],
+    ['b1', '1', 'button 1'],
+    ['b2', '2', 'button 2'],
+    ['b3', '3', 'button 3'],
+    ['b4', '4', 'button 4'],
+    ['b5', '5', '5: pause'],
+    ['b6', '6', '6: stop'],
 ];
 
 export class RemotePad extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly held = { screen: new Set<RemoteButton>(), keys: new Set<RemoteButton>(), pad: new Set<RemoteButton>() };
-  private readonly buttons = new Map<RemoteButton, HTMLButtonElement>();
-  private readonly ways = new WayList();
-  private told = '';
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private readonly held = { screen: new Set<RemoteButton>(), keys: new Set<RemoteButton>(), pad: new Set<RemoteButton>() };
+    private readonly buttons = new Map<RemoteButton, HTMLButtonElement>();
+    private readonly ways = new WayList();
+    private told = '';
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    const pad = make('div', { class: 'pad', role: 'group', 'aria-label': 'Remote control' });
-    for (const [name, sign, title] of BUTTONS) pad.append(this.button(name, sign, title));
-    this.ways.desk = this.desk;
-    this.replaceChildren(make('h2', {}, 'Remote control'), pad, make('p', { class: 'hint' },
-      'Arrow keys or W A S D start walking and turning, 1 to 4 other motions; 6 or the space bar stops, 5 pauses. A game pad works too.'), this.ways);
-    this.listen();
-  }
+    connectedCallback(): void {
+        const pad = make('div', { class: 'pad', role: 'group', 'aria-label': 'Remote control' });
+        for (const [name, sign, title] of BUTTONS) pad.append(this.button(name, sign, title));
+        this.ways.desk = this.desk;
+        this.replaceChildren(
+            make('h2', {}, 'Remote control'),
+            pad,
+            make(
+                'p',
+                { class: 'hint' },
+                'Arrow keys or W A S D start walking and turning, 1 to 4 other motions; 6 or the space bar stops, 5 pauses. A game pad works too.',
+            ),
+            this.ways,
+        );
+        this.listen();
+    }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-    this.letGo();
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+        this.letGo();
+    }
 
-  private button(name: RemoteButton, sign: string, title: string): HTMLButtonElement {
-    const button = make('button', { class: `key ${name}`, 'aria-label': title, title }, sign);
-    const hold = (event: PointerEvent): void => {
-      button.setPointerCapture(event.pointerId);
-      this.change('screen', name, true);
-    };
-    button.addEventListener('pointerdown', hold);
-    for (const end of ['pointerup', 'pointercancel'] as const) button.addEventListener(end, () => this.change('screen', name, false));
-    button.addEventListener('keydown', (event) => event.key === 'Enter' && this.change('screen', name, true));
-    button.addEventListener('keyup', (event) => event.key === 'Enter' && this.change('screen', name, false));
-    this.buttons.set(name, button);
-    return button;
-  }
+    private button(name: RemoteButton, sign: string, title: string): HTMLButtonElement {
+        const button = make('button', { class: `key ${name}`, 'aria-label': title, title }, sign);
+        const hold = (event: PointerEvent): void => {
+            button.setPointerCapture(event.pointerId);
+            this.change('screen', name, true);
+        };
+        button.addEventListener('pointerdown', hold);
+        for (const end of ['pointerup', 'pointercancel'] as const) button.addEventListener(end, () => this.change('screen', name, false));
+        button.addEventListener('keydown', event => event.key === 'Enter' && this.change('screen', name, true));
+        button.addEventListener('keyup', event => event.key === 'Enter' && this.change('screen', name, false));
+        this.buttons.set(name, button);
+        return button;
+    }
 
-  private listen(): void {
-    const key = (event: KeyboardEvent): void => this.key(event);
-    const blur = (): void => this.letGo();
-    window.addEventListener('keydown', key);
-    window.addEventListener('keyup', key);
-    window.addEventListener('blur', blur);
-    this.disposals.push(() => window.removeEventListener('keydown', key), () => window.removeEventListener('keyup', key),
-      () => window.removeEventListener('blur', blur));
-    this.watchPad();
-  }
+    private listen(): void {
+        const key = (event: KeyboardEvent): void => this.key(event);
+        const blur = (): void => this.letGo();
+        window.addEventListener('keydown', key);
+        window.addEventListener('keyup', key);
+        window.addEventListener('blur', blur);
+        this.disposals.push(
+            () => window.removeEventListener('keydown', key),
+            () => window.removeEventListener('keyup', key),
+            () => window.removeEventListener('blur', blur),
+        );
+        this.watchPad();
+    }
 
-  /** A game pad tells nothing by itself: as long as there is one, it is asked. */
-  private watchPad(): void {
-    let frame = 0;
-    const ask = (): void => {
-      const pad = navigator.getGamepads().find((one) => one !== null) ?? null;
-      this.readPad(pad);
-      frame = pad ? requestAnimationFrame(ask) : 0;
-    };
-    const begin = (): void => {
-      if (frame === 0) ask();
-    };
-    window.addEventListener('gamepadconnected', begin);
-    this.disposals.push(() => window.removeEventListener('gamepadconnected', begin), () => cancelAnimationFrame(frame));
-  }
+    /** A game pad tells nothing by itself: as long as there is one, it is asked. */
+    private watchPad(): void {
+        let frame = 0;
+        const ask = (): void => {
+            const pad = navigator.getGamepads().find(one => one !== null) ?? null;
+            this.readPad(pad);
+            frame = pad ? requestAnimationFrame(ask) : 0;
+        };
+        const begin = (): void => {
+            if (frame === 0) ask();
+        };
+        window.addEventListener('gamepadconnected', begin);
+        this.disposals.push(
+            () => window.removeEventListener('gamepadconnected', begin),
+            () => cancelAnimationFrame(frame),
+        );
+    }
 
-  private key(event: KeyboardEvent): void {
-    const name = KEYS[event.code];
-    const target = event.target instanceof HTMLElement ? event.target : null;
-    const isElsewhere = target?.closest('input, select, textarea, terminal-pane, [role="tablist"]') !== null && target !== null;
-    if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and the arrows turn the picture
-    if (event.type === 'keydown' && this.desk.state.get().tab !== 'remote') return; // elsewhere the arrows edit
-    if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // a robot that moves is stopped
-    event.preventDefault();
-    this.change('keys', name, event.type === 'keydown');
-  }
+    private key(event: KeyboardEvent): void {
+        const name = KEYS[event.code];
+        const target = event.target instanceof HTMLElement ? event.target : null;
+        const isElsewhere = target?.closest('input, select, textarea, terminal-pane, [role="tablist"]') !== null && target !== null;
+        if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and the arrows turn the picture
+        if (event.type === 'keydown' && this.desk.state.get().tab !== 'remote') return; // elsewhere the arrows edit
+        if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // a robot that moves is stopped
+        event.preventDefault();
+        this.change('keys', name, event.type === 'keydown');
+    }
 
-  private get isPlaying(): boolean {
-    const { where } = this.desk.state.get();
-    return where !== null && where.state !== 'idle' && where.state !== 'ready';
-  }
+    private get isPlaying(): boolean {
+        const { where } = this.desk.state.get();
+        return where !== null && where.state !== 'idle' && where.state !== 'ready';
+    }
 
-  /** null: it has gone, and holds nothing any more. */
-  private readPad(pad: Gamepad | null): void {
-    const [x = 0, y = 0] = pad?.axes ?? [];
-    const now = PAD.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);
-    this.desk.drive(Math.hypot(x, y) < STICK_REST ? null : { x, y: -y });
-    this.held.pad.clear();
-    for (const name of now) this.held.pad.add(name);
-    this.tell();
-  }
+    /** null: it has gone, and holds nothing any more. */
+    private readPad(pad: Gamepad | null): void {
+        const [x = 0, y = 0] = pad?.axes ?? [];
+        const now = PAD.filter(([index]) => pad?.buttons[index]?.pressed).map(([, name]) => name);
+        this.desk.drive(Math.hypot(x, y) < STICK_REST ? null : { x, y: -y });
+        this.held.pad.clear();
+        for (const name of now) this.held.pad.add(name);
+        this.tell();
+    }
 
-  private change(by: 'screen' | 'keys', name: RemoteButton, down: boolean): void {
-    if (down) this.held[by].add(name);
-    else this.held[by].delete(name);
-    this.tell();
-  }
+    private change(by: 'screen' | 'keys', name: RemoteButton, down: boolean): void {
+        if (down) this.held[by].add(name);
+        else this.held[by].delete(name);
+        this.tell();
+    }
 
-  private letGo(): void {
-    this.held.screen.clear();
-    this.held.keys.clear();
-    this.tell();
-  }
+    private letGo(): void {
+        this.held.screen.clear();
+        this.held.keys.clear();
+        this.tell();
+    }
 
-  private tell(): void {
-    const all = new Set([...this.held.screen, ...this.held.keys, ...this.held.pad]);
-    const names = [...all].sort().join(' ');
-    if (names === this.told) return;
-    this.told = names;
-    for (const [name, button] of this.buttons) button.setAttribute('aria-pressed', String(all.has(name)));
-    this.ways.light(this.desk.editor.format.remoteCode(wordOf(all)));
-    this.desk.remote(all);
-  }
+    private tell(): void {
+        const all = new Set([...this.held.screen, ...this.held.keys, ...this.held.pad]);
+        const names = [...all].sort().join(' ');
+        if (names === this.told) return;
+        this.told = names;
+        for (const [name, button] of this.buttons) button.setAttribute('aria-pressed', String(all.has(name)));
+        this.ways.light(this.desk.editor.format.remoteCode(wordOf(all)));
+        this.desk.remote(all);
+    }
 }
 
 define('remote-pad', RemotePad);

@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The robot as three's objects, made from the body's numbers. It shows what it is told and holds nothing itself.
 
-import { BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, Group, Mesh, MeshStandardMaterial, Object3D, SphereGeometry, Vector3 } from 'three';
+import {
+    BufferGeometry,
+    CapsuleGeometry,
+    Color,
+    CylinderGeometry,
+    Group,
+    Mesh,
+    MeshStandardMaterial,
+    Object3D,
+    SphereGeometry,
+    Vector3,
+} from 'three';
 import { RoundedBoxGeometry } from 'three/examples/jsm/geometries/RoundedBoxGeometry.js';
 import type { Angles, Body, Joint, Shape } from '../model/body.ts';
 import type { Place } from '../model/space.ts';
@@ -13,125 +24,140 @@ const TOUCH = new Color(0xe09c00);
 const NO_ALARMS: ReadonlySet<number> = new Set();
 
 function geometryOf(shape: Shape): BufferGeometry {
-  const [a = 0.01, b = 0.01, c = 0.01] = shape.size;
-  switch (shape.type) {
-    case 'box': return new RoundedBoxGeometry(2 * a, 2 * b, 2 * c, 3, Math.min(ROUND, a, b, c));
-    case 'sphere': return new SphereGeometry(a, 24, 16);
-    case 'capsule': return new CapsuleGeometry(a, 2 * b, 8, 24).rotateX(Math.PI / 2);
-    case 'cylinder': return new CylinderGeometry(a, a, 2 * b, 28).rotateX(Math.PI / 2);
-    default: return shape.type satisfies never;
-  }
+    const [a = 0.01, b = 0.01, c = 0.01] = shape.size;
+    switch (shape.type) {
+        case 'box':
+            return new RoundedBoxGeometry(2 * a, 2 * b, 2 * c, 3, Math.min(ROUND, a, b, c));
+        case 'sphere':
+            return new SphereGeometry(a, 24, 16);
+        case 'capsule':
+            return new CapsuleGeometry(a, 2 * b, 8, 24).rotateX(Math.PI / 2);
+        case 'cylinder':
+            return new CylinderGeometry(a, a, 2 * b, 28).rotateX(Math.PI / 2);
+        default:
+            return shape.type satisfies never;
+    }
 }
 
 function put(object: Object3D, place: Place): void {
-  object.position.set(...place.pos);
-  object.quaternion.set(place.quat[1], place.quat[2], place.quat[3], place.quat[0]);
+    object.position.set(...place.pos);
+    object.quaternion.set(place.quat[1], place.quat[2], place.quat[3], place.quat[0]);
 }
 
 /** A ghost is seen through, casts no shadow and cannot be picked. */
 export interface GhostLook {
-  readonly colour: number;
-  readonly opacity: number;
+    readonly colour: number;
+    readonly opacity: number;
 }
 
 interface JointGroup {
-  readonly joint: Joint;
-  readonly group: Group;
-  readonly axis: Vector3;
+    readonly joint: Joint;
+    readonly group: Group;
+    readonly axis: Vector3;
 }
 
 export class RobotFigure {
-  readonly root = new Group();
-  /** What can be picked; `userData.link` names the link, `userData.shape` the shape. */
-  readonly meshes: Mesh[] = [];
-  private readonly joints = new Map<number, JointGroup>();
-  private readonly links = new Map<string, Group>();
-  private readonly materials = new Map<string, MeshStandardMaterial[]>();
-  private readonly ghost: GhostLook | null;
-  private marked: string | null = null;
-  private chosen: ReadonlySet<string> = new Set();
-  private touching: ReadonlySet<string> = new Set();
+    readonly root = new Group();
+    /** What can be picked; `userData.link` names the link, `userData.shape` the shape. */
+    readonly meshes: Mesh[] = [];
+    private readonly joints = new Map<number, JointGroup>();
+    private readonly links = new Map<string, Group>();
+    private readonly materials = new Map<string, MeshStandardMaterial[]>();
+    private readonly ghost: GhostLook | null;
+    private marked: string | null = null;
+    private chosen: ReadonlySet<string> = new Set();
+    private touching: ReadonlySet<string> = new Set();
 
-  constructor(body: Body, ghost: GhostLook | null = null) {
-    this.ghost = ghost;
-    const jointOf = new Map(body.joints.map((joint) => [joint.body, joint]));
-    for (const link of body.links) this.addLink(link, jointOf.get(link.name));
-    for (const shape of body.shapes) this.addShape(shape, body);
-  }
-
-  /** Where the trunk is and how the joints stand. alarms: servos that report a fault. */
-  show(trunk: Place, angles: Angles, alarms: ReadonlySet<number> = NO_ALARMS): void {
-    put(this.root, trunk);
-    for (const { joint, group, axis } of this.joints.values()) group.quaternion.setFromAxisAngle(axis, angles.get(joint.servo) ?? 0);
-    if (this.ghost) return;
-    const alarmed = new Set([...alarms].map((servo) => this.joints.get(servo)?.joint.body));
-    for (const [link, materials] of this.materials) this.tint(materials, alarmed.has(link), link);
-  }
-
-  /** Lights up one link; null: none. */
-  mark(link: string | null): void {
-    this.marked = link;
-  }
-
-  /** Lights up the links that are being edited. */
-  choose(links: ReadonlySet<string>): void {
-    this.chosen = links;
-  }
-
-  /** Lights up the links that are in each other. */
-  touch(links: ReadonlySet<string>): void {
-    this.touching = links;
-  }
-
-  /** Leaves out the parts of these links: a ghost has no need of them where the figure stands the same. */
-  hide(links: ReadonlySet<string>): void {
-    for (const mesh of this.meshes) mesh.visible = !links.has(String(mesh.userData['link']));
-  }
-
-  link(name: string): Object3D | undefined {
-    return this.links.get(name);
-  }
-
-  dispose(): void {
-    for (const mesh of this.meshes) mesh.geometry.dispose();
-    for (const list of this.materials.values()) list.forEach((material) => material.dispose());
-  }
-
-  private addLink(link: Body['links'][number], joint: Joint | undefined): void {
-    const turned = new Group();
-    if (link.parent === null) {
-      this.links.set(link.name, this.root);
-      return;
+    constructor(body: Body, ghost: GhostLook | null = null) {
+        this.ghost = ghost;
+        const jointOf = new Map(body.joints.map(joint => [joint.body, joint]));
+        for (const link of body.links) this.addLink(link, jointOf.get(link.name));
+        for (const shape of body.shapes) this.addShape(shape, body);
     }
-    const still = new Group();
-    put(still, link);
-    still.add(turned);
-    this.links.get(link.parent)?.add(still);
-    this.links.set(link.name, turned);
-    if (joint) this.joints.set(joint.servo, { joint, group: turned, axis: new Vector3(...joint.axis) });
-  }
 
-  private addShape(shape: Shape, body: Body): void {
-    const [r = 1, g = 1, b = 1] = body.materials[shape.material] ?? [];
-    const isMetal = shape.material === 'bracket';
-    const material = this.ghost
-      ? new MeshStandardMaterial({ color: this.ghost.colour, transparent: true, opacity: this.ghost.opacity, depthWrite: false, roughness: 0.8 })
-      : new MeshStandardMaterial({ color: new Color().setRGB(r, g, b, 'srgb'), roughness: isMetal ? 0.42 : 0.55, metalness: isMetal ? 0.35 : 0.05 });
-    const mesh = new Mesh(geometryOf(shape), material);
-    put(mesh, shape);
-    mesh.castShadow = mesh.receiveShadow = this.ghost === null;
-    mesh.userData['link'] = shape.body;
-    mesh.userData['shape'] = shape.name;
-    this.links.get(shape.body)?.add(mesh);
-    this.meshes.push(mesh);
-    this.materials.set(shape.body, [...(this.materials.get(shape.body) ?? []), material]);
-  }
-
-  private tint(materials: readonly MeshStandardMaterial[], hasAlarm: boolean, link: string): void {
-    const touches = this.touching.has(link);
-    for (const material of materials) {
-      material.emissive = hasAlarm ? ALARM : touches ? TOUCH : HIGHLIGHT;
-      material.emissiveIntensity = hasAlarm || touches ? 0.55 : this.chosen.has(link) ? 0.6 : link === this.marked ? 0.35 : 0;
+    /** Where the trunk is and how the joints stand. alarms: servos that report a fault. */
+    show(trunk: Place, angles: Angles, alarms: ReadonlySet<number> = NO_ALARMS): void {
+        put(this.root, trunk);
+        for (const { joint, group, axis } of this.joints.values()) group.quaternion.setFromAxisAngle(axis, angles.get(joint.servo) ?? 0);
+        if (this.ghost) return;
+        const alarmed = new Set([...alarms].map(servo => this.joints.get(servo)?.joint.body));
+        for (const [link, materials] of this.materials) this.tint(materials, alarmed.has(link), link);
     }
-  }
+
+    /** Lights up one link; null: none. */
+    mark(link: string | null): void {
+        this.marked = link;
+    }
+
+    /** Lights up the links that are being edited. */
+    choose(links: ReadonlySet<string>): void {
+        this.chosen = links;
+    }
+
+    /** Lights up the links that are in each other. */
+    touch(links: ReadonlySet<string>): void {
+        this.touching = links;
+    }
+
+    /** Leaves out the parts of these links: a ghost has no need of them where the figure stands the same. */
+    hide(links: ReadonlySet<string>): void {
+        for (const mesh of this.meshes) mesh.visible = !links.has(String(mesh.userData['link']));
+    }
+
+    link(name: string): Object3D | undefined {
+        return this.links.get(name);
+    }
+
+    dispose(): void {
+        for (const mesh of this.meshes) mesh.geometry.dispose();
+        for (const list of this.materials.values()) list.forEach(material => material.dispose());
+    }
+
+    private addLink(link: Body['links'][number], joint: Joint | undefined): void {
+        const turned = new Group();
+        if (link.parent === null) {
+            this.links.set(link.name, this.root);
+            return;
+        }
+        const still = new Group();
+        put(still, link);
+        still.add(turned);
+        this.links.get(link.parent)?.add(still);
+        this.links.set(link.name, turned);
+        if (joint) this.joints.set(joint.servo, { joint, group: turned, axis: new Vector3(...joint.axis) });
+    }
+
+    private addShape(shape: Shape, body: Body): void {
+        const [r = 1, g = 1, b = 1] = body.materials[shape.material] ?? [];
+        const isMetal = shape.material === 'bracket';
+        const material = this.ghost
+            ? new MeshStandardMaterial({
+                  color: this.ghost.colour,
+                  transparent: true,
+                  opacity: this.ghost.opacity,
+                  depthWrite: false,
+                  roughness: 0.8,
+              })
+            : new MeshStandardMaterial({
+                  color: new Color().setRGB(r, g, b, 'srgb'),
+                  roughness: isMetal ? 0.42 : 0.55,
+                  metalness: isMetal ? 0.35 : 0.05,
+              });
+        const mesh = new Mesh(geometryOf(shape), material);
+        put(mesh, shape);
+        mesh.castShadow = mesh.receiveShadow = this.ghost === null;
+        mesh.userData['link'] = shape.body;
+        mesh.userData['shape'] = shape.name;
+        this.links.get(shape.body)?.add(mesh);
+        this.meshes.push(mesh);
+        this.materials.set(shape.body, [...(this.materials.get(shape.body) ?? []), material]);
+    }
+
+    private tint(materials: readonly MeshStandardMaterial[], hasAlarm: boolean, link: string): void {
+        const touches = this.touching.has(link);
+        for (const material of materials) {
+            material.emissive = hasAlarm ? ALARM : touches ? TOUCH : HIGHLIGHT;
+            material.emissiveIntensity = hasAlarm || touches ? 0.55 : this.chosen.has(link) ? 0.6 : link === this.marked ? 0.35 : 0;
+        }
+    }
 }

@@ -2,7 +2,20 @@
 // Camera and figure in the room. Draws when it is told to; holds no state of the robot.
 
 import {
-  BufferGeometry, Line, LineBasicMaterial, Object3D, PCFShadowMap, PerspectiveCamera, Quaternion, Raycaster, Scene, Spherical, Vector2, Vector3, WebGLRenderer, Plane,
+    BufferGeometry,
+    Line,
+    LineBasicMaterial,
+    Object3D,
+    PCFShadowMap,
+    PerspectiveCamera,
+    Quaternion,
+    Raycaster,
+    Scene,
+    Spherical,
+    Vector2,
+    Vector3,
+    WebGLRenderer,
+    Plane,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Body } from '../model/body.ts';
@@ -25,178 +38,190 @@ const LEAST_POLAR = 0.05;
 const EDGE_ON = 0.2; // sine of the angle between sight and plane
 
 export interface Picked {
-  readonly link: string;
-  /** Name of the shape that was hit, if it has one. */
-  readonly shape: string | null;
-  /** In the frame of the link. */
-  readonly point: Vector;
-  readonly world: Vector;
+    readonly link: string;
+    /** Name of the shape that was hit, if it has one. */
+    readonly shape: string | null;
+    /** In the frame of the link. */
+    readonly point: Vector;
+    readonly world: Vector;
 }
 
 export class RobotScene {
-  readonly figure: RobotFigure;
-  readonly controls: OrbitControls;
-  /** There is no graphics chip, or the browser may not use it. */
-  readonly isSoftware: boolean;
-  private readonly renderer: WebGLRenderer;
-  private readonly scene = new Scene();
-  private readonly camera = new PerspectiveCamera(32, 1, 0.02, 60);
-  private readonly place = new Room(this.scene);
-  private readonly room = this.place.leaning;
-  private readonly string: Line;
-  private readonly followed = new Vector3(0, 0, 0.14);
-  private readonly raycaster = new Raycaster();
-  private readonly change = new PictureChange();
+    readonly figure: RobotFigure;
+    readonly controls: OrbitControls;
+    /** There is no graphics chip, or the browser may not use it. */
+    readonly isSoftware: boolean;
+    private readonly renderer: WebGLRenderer;
+    private readonly scene = new Scene();
+    private readonly camera = new PerspectiveCamera(32, 1, 0.02, 60);
+    private readonly place = new Room(this.scene);
+    private readonly room = this.place.leaning;
+    private readonly string: Line;
+    private readonly followed = new Vector3(0, 0, 0.14);
+    private readonly raycaster = new Raycaster();
+    private readonly change = new PictureChange();
 
-  /** Throws when the browser has no WebGL. */
-  constructor(canvas: HTMLCanvasElement, body: Body) {
-    this.isSoftware = drawsBySoftware();
-    this.renderer = new WebGLRenderer({ canvas, antialias: !this.isSoftware });
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
-    this.figure = new RobotFigure(body);
-    this.camera.up.set(0, 0, 1);
-    this.camera.position.set(0.88, -0.56, 0.42);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.target.copy(this.followed);
-    Object.assign(this.controls, { minDistance: 0.3, maxDistance: 4, maxPolarAngle: Math.PI * 0.52, enableDamping: true });
-    this.string = new Line(new BufferGeometry().setFromPoints([new Vector3(), new Vector3()]), new LineBasicMaterial({ color: 0x2f9bff }));
-    this.string.visible = false;
-    this.string.frustumCulled = false;
-    this.room.add(this.figure.root, this.string);
-  }
+    /** Throws when the browser has no WebGL. */
+    constructor(canvas: HTMLCanvasElement, body: Body) {
+        this.isSoftware = drawsBySoftware();
+        this.renderer = new WebGLRenderer({ canvas, antialias: !this.isSoftware });
+        this.renderer.shadowMap.enabled = true;
+        this.renderer.shadowMap.type = PCFShadowMap;
+        this.figure = new RobotFigure(body);
+        this.camera.up.set(0, 0, 1);
+        this.camera.position.set(0.88, -0.56, 0.42);
+        this.controls = new OrbitControls(this.camera, canvas);
+        this.controls.target.copy(this.followed);
+        Object.assign(this.controls, { minDistance: 0.3, maxDistance: 4, maxPolarAngle: Math.PI * 0.52, enableDamping: true });
+        this.string = new Line(
+            new BufferGeometry().setFromPoints([new Vector3(), new Vector3()]),
+            new LineBasicMaterial({ color: 0x2f9bff }),
+        );
+        this.string.visible = false;
+        this.string.frustumCulled = false;
+        this.room.add(this.figure.root, this.string);
+    }
 
-  /** Colours of the room, from the page's theme. */
-  paint(colours: RoomColours): void {
-    this.place.paint(colours);
-    this.change.touch();
-  }
+    /** Colours of the room, from the page's theme. */
+    paint(colours: RoomColours): void {
+        this.place.paint(colours);
+        this.change.touch();
+    }
 
-  resize(width: number, height: number, quality: Quality): void {
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXELS) * quality.pixels);
-    this.place.light.castShadow = quality.shadows;
-    this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / Math.max(height, 1);
-    this.camera.updateProjectionMatrix();
-    this.change.touch();
-  }
+    resize(width: number, height: number, quality: Quality): void {
+        this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, MOST_PIXELS) * quality.pixels);
+        this.place.light.castShadow = quality.shadows;
+        this.renderer.setSize(width, height, false);
+        this.camera.aspect = width / Math.max(height, 1);
+        this.camera.updateProjectionMatrix();
+        this.change.touch();
+    }
 
-  tilt(front: number, left: number): void {
-    this.room.rotation.set(-left, front, 0);
-  }
+    tilt(front: number, left: number): void {
+        this.room.rotation.set(-left, front, 0);
+    }
 
-  /** Something of the room that comes and goes: ghosts, marks on the floor. */
-  add(...objects: Object3D[]): void {
-    this.room.add(...objects);
-  }
+    /** Something of the room that comes and goes: ghosts, marks on the floor. */
+    add(...objects: Object3D[]): void {
+        this.room.add(...objects);
+    }
 
-  /** The camera goes round what it looks at, over or under it (radians), and to so much of its distance. */
-  turn(around: number, down: number, distance: number): void {
-    const { object, target, minDistance, maxDistance, maxPolarAngle } = this.controls;
-    const from = new Spherical().setFromVector3(object.position.clone().sub(target).applyQuaternion(TO_Y_UP));
-    from.set(clamp(from.radius * distance, minDistance, maxDistance), clamp(from.phi + down, LEAST_POLAR, maxPolarAngle), from.theta + around);
-    object.position.setFromSpherical(from).applyQuaternion(TO_Y_UP.clone().invert()).add(target);
-  }
+    /** The camera goes round what it looks at, over or under it (radians), and to so much of its distance. */
+    turn(around: number, down: number, distance: number): void {
+        const { object, target, minDistance, maxDistance, maxPolarAngle } = this.controls;
+        const from = new Spherical().setFromVector3(object.position.clone().sub(target).applyQuaternion(TO_Y_UP));
+        from.set(
+            clamp(from.radius * distance, minDistance, maxDistance),
+            clamp(from.phi + down, LEAST_POLAR, maxPolarAngle),
+            from.theta + around,
+        );
+        object.position.setFromSpherical(from).applyQuaternion(TO_Y_UP.clone().invert()).add(target);
+    }
 
-  /** The camera goes with the trunk, and behind it if it chases; elapsedMs: since the last look. null: it stays. */
-  look(trunk: Place, elapsedMs: number | null, chases: boolean): void {
-    if (elapsedMs !== null) this.follow(trunk, glide(FOLLOW, elapsedMs), chases);
-    this.place.goWith(this.followed);
-  }
+    /** The camera goes with the trunk, and behind it if it chases; elapsedMs: since the last look. null: it stays. */
+    look(trunk: Place, elapsedMs: number | null, chases: boolean): void {
+        if (elapsedMs !== null) this.follow(trunk, glide(FOLLOW, elapsedMs), chases);
+        this.place.goWith(this.followed);
+    }
 
-  /** Draws the next time in any case. */
-  redraw(): void {
-    this.change.touch();
-  }
+    /** Draws the next time in any case. */
+    redraw(): void {
+        this.change.touch();
+    }
 
-  /** Draws what is to be seen now; elapsedMs: since the last call. false: it is what was drawn last. */
-  draw(elapsedMs: number): boolean {
-    this.controls.dampingFactor = glide(DAMPING, elapsedMs); // it glides on after a gesture
-    this.controls.update();
-    const isNew = this.change.take(this.scene, this.camera);
-    if (isNew) this.renderer.render(this.scene, this.camera);
-    return isNew;
-  }
+    /** Draws what is to be seen now; elapsedMs: since the last call. false: it is what was drawn last. */
+    draw(elapsedMs: number): boolean {
+        this.controls.dampingFactor = glide(DAMPING, elapsedMs); // it glides on after a gesture
+        this.controls.update();
+        const isNew = this.change.take(this.scene, this.camera);
+        if (isNew) this.renderer.render(this.scene, this.camera);
+        return isNew;
+    }
 
-  /** What is under a point of the picture (-1..1, y up). */
-  pick(x: number, y: number): Picked | null {
-    this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
-    const hit = this.raycaster.intersectObjects(this.figure.meshes, false)[0];
-    const link: unknown = hit?.object.userData['link'];
-    if (!hit || typeof link !== 'string') return null;
-    const frame = this.figure.link(link);
-    const local = frame ? frame.worldToLocal(hit.point.clone()) : hit.point;
-    const shape: unknown = hit.object.userData['shape'];
-    return { link, shape: typeof shape === 'string' ? shape : null, point: local.toArray(), world: this.room.worldToLocal(hit.point.clone()).toArray() };
-  }
+    /** What is under a point of the picture (-1..1, y up). */
+    pick(x: number, y: number): Picked | null {
+        this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
+        const hit = this.raycaster.intersectObjects(this.figure.meshes, false)[0];
+        const link: unknown = hit?.object.userData['link'];
+        if (!hit || typeof link !== 'string') return null;
+        const frame = this.figure.link(link);
+        const local = frame ? frame.worldToLocal(hit.point.clone()) : hit.point;
+        const shape: unknown = hit.object.userData['shape'];
+        return {
+            link,
+            shape: typeof shape === 'string' ? shape : null,
+            point: local.toArray(),
+            world: this.room.worldToLocal(hit.point.clone()).toArray(),
+        };
+    }
 
-  /** The place under a point of the picture in the plane through `world` with this normal; seen edge-on: as drag(). */
-  dragInPlane(x: number, y: number, world: Vector, normal: Vector): Vector {
-    this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
-    const towards = new Vector3(...normal).transformDirection(this.room.matrixWorld);
-    if (Math.abs(towards.dot(this.raycaster.ray.direction)) < EDGE_ON) return this.drag(x, y, world);
-    const plane = new Plane().setFromNormalAndCoplanarPoint(towards, this.room.localToWorld(new Vector3(...world)));
-    const hit = this.raycaster.ray.intersectPlane(plane, new Vector3());
-    return hit ? this.room.worldToLocal(hit).toArray() : this.drag(x, y, world);
-  }
+    /** The place under a point of the picture in the plane through `world` with this normal; seen edge-on: as drag(). */
+    dragInPlane(x: number, y: number, world: Vector, normal: Vector): Vector {
+        this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
+        const towards = new Vector3(...normal).transformDirection(this.room.matrixWorld);
+        if (Math.abs(towards.dot(this.raycaster.ray.direction)) < EDGE_ON) return this.drag(x, y, world);
+        const plane = new Plane().setFromNormalAndCoplanarPoint(towards, this.room.localToWorld(new Vector3(...world)));
+        const hit = this.raycaster.ray.intersectPlane(plane, new Vector3());
+        return hit ? this.room.worldToLocal(hit).toArray() : this.drag(x, y, world);
+    }
 
-  /** Where a shape of the figure is in the picture (-1..1, y up); null: there is none of that name. */
-  placeOf(shape: string): readonly [number, number] | null {
-    const mesh = this.figure.meshes.find((one) => one.userData['shape'] === shape);
-    if (!mesh) return null;
-    const { x, y } = mesh.getWorldPosition(new Vector3()).project(this.camera);
-    return [x, y];
-  }
+    /** Where a shape of the figure is in the picture (-1..1, y up); null: there is none of that name. */
+    placeOf(shape: string): readonly [number, number] | null {
+        const mesh = this.figure.meshes.find(one => one.userData['shape'] === shape);
+        if (!mesh) return null;
+        const { x, y } = mesh.getWorldPosition(new Vector3()).project(this.camera);
+        return [x, y];
+    }
 
-  /** The place under a point of the picture, in the plane through `world` that faces the camera. */
-  drag(x: number, y: number, world: Vector): Vector {
-    this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
-    const towards = this.camera.getWorldDirection(new Vector3());
-    const plane = new Plane().setFromNormalAndCoplanarPoint(towards, this.room.localToWorld(new Vector3(...world)));
-    const hit = this.raycaster.ray.intersectPlane(plane, new Vector3());
-    return hit ? this.room.worldToLocal(hit).toArray() : world;
-  }
+    /** The place under a point of the picture, in the plane through `world` that faces the camera. */
+    drag(x: number, y: number, world: Vector): Vector {
+        this.raycaster.setFromCamera(new Vector2(x, y), this.camera);
+        const towards = this.camera.getWorldDirection(new Vector3());
+        const plane = new Plane().setFromNormalAndCoplanarPoint(towards, this.room.localToWorld(new Vector3(...world)));
+        const hit = this.raycaster.ray.intersectPlane(plane, new Vector3());
+        return hit ? this.room.worldToLocal(hit).toArray() : world;
+    }
 
-  /** The string between hand and limb; null: none. */
-  pull(link: string, point: Vector, target: Vector): void;
-  pull(link: null): void;
-  pull(link: string | null, point?: Vector, target?: Vector): void {
-    const frame = link === null ? undefined : this.figure.link(link);
-    this.string.visible = frame !== undefined;
-    if (!frame || !point || !target) return;
-    const from = this.room.worldToLocal(frame.localToWorld(new Vector3(...point)));
-    this.string.geometry.setFromPoints([from, new Vector3(...target)]);
-    this.change.touch();
-  }
+    /** The string between hand and limb; null: none. */
+    pull(link: string, point: Vector, target: Vector): void;
+    pull(link: null): void;
+    pull(link: string | null, point?: Vector, target?: Vector): void {
+        const frame = link === null ? undefined : this.figure.link(link);
+        this.string.visible = frame !== undefined;
+        if (!frame || !point || !target) return;
+        const from = this.room.worldToLocal(frame.localToWorld(new Vector3(...point)));
+        this.string.geometry.setFromPoints([from, new Vector3(...target)]);
+        this.change.touch();
+    }
 
-  dispose(): void {
-    this.controls.dispose();
-    this.figure.dispose();
-    this.place.dispose();
-    this.renderer.dispose();
-  }
+    dispose(): void {
+        this.controls.dispose();
+        this.figure.dispose();
+        this.place.dispose();
+        this.renderer.dispose();
+    }
 
-  private follow(trunk: Place, share: number, chases: boolean): void {
-    const wanted = new Vector3(trunk.pos[0], trunk.pos[1], Math.max(0.07, trunk.pos[2] * 0.47));
-    const step = wanted.sub(this.followed).multiplyScalar(share);
-    this.followed.add(step);
-    this.controls.target.add(step);
-    this.camera.position.add(step);
-    const heading = chases ? headingOf(trunk) : null;
-    if (heading === null) return;
-    const from = this.camera.position.clone().sub(this.controls.target);
-    this.turn(chaseTurn(Math.atan2(from.y, from.x), heading, Math.hypot(step.x, step.y)), 0, 1);
-  }
+    private follow(trunk: Place, share: number, chases: boolean): void {
+        const wanted = new Vector3(trunk.pos[0], trunk.pos[1], Math.max(0.07, trunk.pos[2] * 0.47));
+        const step = wanted.sub(this.followed).multiplyScalar(share);
+        this.followed.add(step);
+        this.controls.target.add(step);
+        this.camera.position.add(step);
+        const heading = chases ? headingOf(trunk) : null;
+        if (heading === null) return;
+        const from = this.camera.position.clone().sub(this.controls.target);
+        this.turn(chaseTurn(Math.atan2(from.y, from.x), heading, Math.hypot(step.x, step.y)), 0, 1);
+    }
 }
 
 function clamp(value: number, least: number, most: number): number {
-  return Math.min(Math.max(value, least), most);
+    return Math.min(Math.max(value, least), most);
 }
 
 function drawsBySoftware(): boolean {
-  const context = document.createElement('canvas').getContext('webgl2');
-  const facts = context?.getExtension('WEBGL_debug_renderer_info');
-  const name: unknown = context && facts ? context.getParameter(facts.UNMASKED_RENDERER_WEBGL) : '';
-  context?.getExtension('WEBGL_lose_context')?.loseContext();
-  return typeof name === 'string' && /swiftshader|llvmpipe|software/i.test(name);
+    const context = document.createElement('canvas').getContext('webgl2');
+    const facts = context?.getExtension('WEBGL_debug_renderer_info');
+    const name: unknown = context && facts ? context.getParameter(facts.UNMASKED_RENDERER_WEBGL) : '';
+    context?.getExtension('WEBGL_lose_context')?.loseContext();
+    return typeof name === 'string' && /swiftshader|llvmpipe|software/i.test(name);
 }

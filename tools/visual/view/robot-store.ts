@@ -4,48 +4,49 @@
 import { MEM_BOOT_END, MEM_EEPROM_BYTES } from '../model/facts.ts';
 
 export interface KeptRobot {
-  readonly flash: Uint8Array;
-  readonly eeprom: Uint8Array;
-  readonly servos: Uint8Array;
+    readonly flash: Uint8Array;
+    readonly eeprom: Uint8Array;
+    readonly servos: Uint8Array;
 }
 
 const DATABASE = 'motion512';
 const STORE = 'robot';
 
 function request<T>(asked: IDBRequest<T>): Promise<T> {
-  return new Promise((resolve, reject) => {
-    asked.onsuccess = () => resolve(asked.result);
-    asked.onerror = () => reject(asked.error);
-  });
+    return new Promise((resolve, reject) => {
+        asked.onsuccess = () => resolve(asked.result);
+        asked.onerror = () => reject(asked.error);
+    });
 }
 
 async function open(): Promise<IDBDatabase> {
-  const asked = indexedDB.open(DATABASE, 1);
-  asked.onupgradeneeded = () => asked.result.createObjectStore(STORE);
-  return request(asked);
+    const asked = indexedDB.open(DATABASE, 1);
+    asked.onupgradeneeded = () => asked.result.createObjectStore(STORE);
+    return request(asked);
 }
 
 async function withStore<T>(mode: IDBTransactionMode, deed: (store: IDBObjectStore) => IDBRequest<T>): Promise<T> {
-  const database = await open();
-  try {
-    return await request(deed(database.transaction(STORE, mode).objectStore(STORE)));
-  } finally {
-    database.close();
-  }
+    const database = await open();
+    try {
+        return await request(deed(database.transaction(STORE, mode).objectStore(STORE)));
+    } finally {
+        database.close();
+    }
 }
 
 /** null: nothing was kept. Rejects when the browser keeps nothing. */
 export async function loadRobot(key: string): Promise<KeptRobot | null> {
-  const kept: unknown = await withStore('readonly', (store) => store.get(key) as IDBRequest<unknown>);
-  const robot = kept as Partial<KeptRobot> | undefined;
-  const isWhole = robot?.flash?.length === MEM_BOOT_END && robot.eeprom?.length === MEM_EEPROM_BYTES && robot.servos instanceof Uint8Array;
-  return isWhole ? (robot as KeptRobot) : null;
+    const kept: unknown = await withStore('readonly', store => store.get(key) as IDBRequest<unknown>);
+    const robot = kept as Partial<KeptRobot> | undefined;
+    const isWhole =
+        robot?.flash?.length === MEM_BOOT_END && robot.eeprom?.length === MEM_EEPROM_BYTES && robot.servos instanceof Uint8Array;
+    return isWhole ? (robot as KeptRobot) : null;
 }
 
 export async function saveRobot(key: string, robot: KeptRobot): Promise<void> {
-  await withStore('readwrite', (store) => store.put(robot, key));
+    await withStore('readwrite', store => store.put(robot, key));
 }
 
 export async function forgetRobot(key: string): Promise<void> {
-  await withStore('readwrite', (store) => store.delete(key) as IDBRequest<undefined>);
+    await withStore('readwrite', store => store.delete(key) as IDBRequest<undefined>);
 }

@@ -31,299 +31,314 @@ const FINGER_PX = 14;
 const AROUND = Array.from({ length: 8 }, (_, i) => (i * Math.PI) / 4);
 
 export class RobotView extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  /** Nobody has touched the picture since it was last looked at, and then there was nothing new to draw: the camera has come to rest. */
-  isStill = false;
-  editing = new Store<Editing>(EDITING_START);
-  private pose: PoseTool | null = null;
-  private scene: RobotScene | null = null;
-  private quality = new PictureQuality(false);
-  private state: RobotState | null = null;
-  private grabbed: (Picked & { target: Picked['world'] }) | null = null;
-  private taught: readonly number[] = [];
-  /** Pointer that has hold of the robot. */
-  private holder: number | null = null;
-  /** A hand has turned the camera while the robot was driven. */
-  private isLookedRound = false;
-  private readonly label = make('div', { class: 'joint-label', 'aria-hidden': 'true' });
-  private readonly spoken = make('p', { class: 'visually-hidden', role: 'status', 'aria-label': 'Chosen joint' });
-  private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'The robot' });
-  private readonly fingers = new Fingers(this.canvas, () => this.endDrag());
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    /** Nobody has touched the picture since it was last looked at, and then there was nothing new to draw: the camera has come to rest. */
+    isStill = false;
+    editing = new Store<Editing>(EDITING_START);
+    private pose: PoseTool | null = null;
+    private scene: RobotScene | null = null;
+    private quality = new PictureQuality(false);
+    private state: RobotState | null = null;
+    private grabbed: (Picked & { target: Picked['world'] }) | null = null;
+    private taught: readonly number[] = [];
+    /** Pointer that has hold of the robot. */
+    private holder: number | null = null;
+    /** A hand has turned the camera while the robot was driven. */
+    private isLookedRound = false;
+    private readonly label = make('div', { class: 'joint-label', 'aria-hidden': 'true' });
+    private readonly spoken = make('p', { class: 'visually-hidden', role: 'status', 'aria-label': 'Chosen joint' });
+    private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'The robot' });
+    private readonly fingers = new Fingers(this.canvas, () => this.endDrag());
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.append(this.canvas, this.label, this.spoken);
-    try {
-      this.scene = new RobotScene(this.canvas, this.desk.body);
-    } catch {
-      this.replaceChildren(make('p', { class: 'no-picture' }, TEXTS.noWebGl));
-      return;
+    connectedCallback(): void {
+        this.append(this.canvas, this.label, this.spoken);
+        try {
+            this.scene = new RobotScene(this.canvas, this.desk.body);
+        } catch {
+            this.replaceChildren(make('p', { class: 'no-picture' }, TEXTS.noWebGl));
+            return;
+        }
+        this.quality = new PictureQuality(this.scene.isSoftware);
+        this.pose = new PoseTool(this.scene, this.desk, this.editing);
+        this.watchSize(this.scene);
+        this.watchTheme(this.scene);
+        this.listen();
+        this.disposals.push(this.desk.onFrame(state => (this.state = state)));
+        this.drawFrames(this.scene);
     }
-    this.quality = new PictureQuality(this.scene.isSoftware);
-    this.pose = new PoseTool(this.scene, this.desk, this.editing);
-    this.watchSize(this.scene);
-    this.watchTheme(this.scene);
-    this.listen();
-    this.disposals.push(this.desk.onFrame((state) => (this.state = state)));
-    this.drawFrames(this.scene);
-  }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-    this.pose?.dispose();
-    this.scene?.dispose();
-    this.scene = null;
-  }
-
-  /** How far the centre of mass of the edited step is inside the ground of its soles (metres); null: not looked at. */
-  get margin(): number | null {
-    return this.pose?.margin ?? null;
-  }
-
-  /** Beside the figure there is a ghost of the robot or of the edited step. */
-  get hasGhost(): boolean {
-    return this.pose?.layer.hasGhost === true;
-  }
-
-  /** Limbs of the shown figure that are in each other; looked at while a step is edited. */
-  get touches(): readonly Touch[] {
-    return this.pose?.touches ?? [];
-  }
-
-  /** Where a shape of the robot (a name of the body file) is on the screen, in CSS pixels; null: it is not seen. */
-  placeOf(shape: string): { readonly x: number; readonly y: number } | null {
-    const at = this.scene?.placeOf(shape);
-    if (!at) return null;
-    const box = this.canvas.getBoundingClientRect();
-    return { x: box.left + ((at[0] + 1) / 2) * box.width, y: box.top + ((1 - at[1]) / 2) * box.height };
-  }
-
-  tilt(front: number, left: number): void {
-    this.scene?.tilt(front, left);
-  }
-
-  private drawFrames(scene: RobotScene): void {
-    let request = 0;
-    let beforeMs = 0;
-    let tookMs = 0;
-    let wasNew = false;
-    let isDrawn = false;
-    const draw = (nowMs: number): void => {
-      request = requestAnimationFrame(draw);
-      if (wasNew) tookMs = nowMs - beforeMs; // the browser asks again when it is through with it
-      wasNew = false;
-      const elapsedMs = nowMs - beforeMs;
-      if (elapsedMs < this.quality.restMs(tookMs)) return;
-      if (this.quality.take(elapsedMs)) this.resize(scene);
-      beforeMs = nowMs;
-      this.place(scene, elapsedMs);
-      if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
-      wasNew = scene.draw(elapsedMs);
-      this.isStill = !wasNew;
-      if (this.state && !isDrawn) isDrawn = performance.mark(ROBOT_DRAWN) !== null;
-    };
-    request = requestAnimationFrame(draw);
-    this.disposals.push(() => cancelAnimationFrame(request));
-  }
-
-  private place(scene: RobotScene, elapsedMs: number): void {
-    if (!this.state) return;
-    this.pose?.show(this.state, this.holder !== null);
-    scene.look(this.pose?.figureTrunk ?? this.state.trunk, this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null, this.chases());
-  }
-
-  /** Behind a robot that is driven, until a hand turns the camera: then as that hand has left it. */
-  private chases(): boolean {
-    const { tab, where } = this.desk.state.get();
-    const isDriven = tab === 'remote' && where?.state === 'playing';
-    if (!isDriven) this.isLookedRound = false;
-    return isDriven && !this.isLookedRound && !matchMedia('(prefers-reduced-motion: reduce)').matches;
-  }
-
-  private watchSize(scene: RobotScene): void {
-    const observer = new ResizeObserver(() => this.resize(scene));
-    observer.observe(this);
-    this.disposals.push(() => observer.disconnect());
-  }
-
-  private resize(scene: RobotScene): void {
-    scene.resize(this.clientWidth, this.clientHeight, this.quality.quality);
-  }
-
-  private watchTheme(scene: RobotScene): void {
-    const paint = (): void => {
-      const style = getComputedStyle(this);
-      const colour = (name: string): string => style.getPropertyValue(name).trim();
-      scene.paint({ horizon: colour('--room'), sky: colour('--room-sky'), floor: colour('--room-floor'), lines: colour('--room-lines') });
-    };
-    const dark = matchMedia('(prefers-color-scheme: dark)');
-    const observer = new MutationObserver(paint);
-    observer.observe(document.documentElement, { attributeFilter: ['data-theme'] });
-    dark.addEventListener('change', paint);
-    this.disposals.push(() => dark.removeEventListener('change', paint), () => observer.disconnect());
-    paint();
-  }
-
-  private listen(): void {
-    const canvas = this.canvas;
-    for (const touch of ['pointerdown', 'pointermove', 'pointerup', 'wheel', 'keydown']) canvas.addEventListener(touch, () => (this.isStill = false), { capture: true });
-    this.scene?.controls.addEventListener('start', () => (this.isLookedRound = true));
-    canvas.addEventListener('pointerdown', (event) => this.grab(event), { capture: true });
-    canvas.addEventListener('pointermove', (event) => this.move(event));
-    canvas.addEventListener('pointerup', (event) => this.lift(event, true));
-    canvas.addEventListener('pointercancel', (event) => this.lift(event, false));
-    canvas.addEventListener('pointerleave', () => this.leave());
-    canvas.addEventListener('keydown', (event) => this.key(event));
-    canvas.addEventListener('keyup', () => {
-      this.pose?.keyUp();
-      this.speak();
-    });
-    canvas.addEventListener('blur', () => this.pose?.keyUp());
-    canvas.addEventListener('webglcontextrestored', () => this.scene?.redraw());
-  }
-
-  private at(event: PointerEvent, dx = 0, dy = 0): readonly [number, number] {
-    const box = this.canvas.getBoundingClientRect();
-    return [((event.clientX + dx - box.left) / box.width) * 2 - 1, 1 - ((event.clientY + dy - box.top) / box.height) * 2];
-  }
-
-  private pick(event: PointerEvent): Picked | null {
-    const picked = this.scene?.pick(...this.at(event)) ?? null;
-    if (picked || event.pointerType !== 'touch') return picked;
-    for (const angle of AROUND) {
-      const near = this.scene?.pick(...this.at(event, FINGER_PX * Math.cos(angle), FINGER_PX * Math.sin(angle)));
-      if (near) return near;
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+        this.pose?.dispose();
+        this.scene?.dispose();
+        this.scene = null;
     }
-    return null;
-  }
 
-  /** A second finger: what the first one drags is taken back. */
-  private endDrag(): boolean {
-    const hadHold = this.holder !== null;
-    this.release(false);
-    this.label.hidden = true;
-    return hadHold;
-  }
+    /** How far the centre of mass of the edited step is inside the ground of its soles (metres); null: not looked at. */
+    get margin(): number | null {
+        return this.pose?.margin ?? null;
+    }
 
-  private lift(event: PointerEvent, keep: boolean): void {
-    this.fingers.remove(event);
-    if (event.pointerType === 'touch') this.label.hidden = true;
-    if (event.pointerId === this.holder) this.release(keep);
-  }
+    /** Beside the figure there is a ghost of the robot or of the edited step. */
+    get hasGhost(): boolean {
+        return this.pose?.layer.hasGhost === true;
+    }
 
-  private grab(event: PointerEvent): void {
-    if (this.fingers.isHandingOver || !this.fingers.add(event)) return;
-    if (event.button === 0 && this.pick(event) && this.state) this.pose?.showStep(this.state);
-    const picked = event.button === 0 ? this.pick(event) : null;
-    const isPosing = this.pose?.isPosing === true;
-    if (!picked || !this.scene || (!isPosing && this.desk.state.get().source !== 'simulated')) return;
-    event.stopImmediatePropagation(); // the camera stays where it is
-    event.preventDefault();
-    this.canvas.focus({ preventScroll: true });
-    this.scene.controls.enabled = false;
-    this.canvas.setPointerCapture(event.pointerId);
-    this.holder = event.pointerId;
-    this.makeRoom(event);
-    if (event.pointerType === 'touch') this.showJoint(picked.link);
-    if (isPosing) this.pose?.down(picked, event.shiftKey || event.ctrlKey);
-    else this.take(picked);
-  }
+    /** Limbs of the shown figure that are in each other; looked at while a step is edited. */
+    get touches(): readonly Touch[] {
+        return this.pose?.touches ?? [];
+    }
 
-  /** Nothing over the picture covers the hand that drags: what is told of the drag goes to the other half (robot-view.css). */
-  private makeRoom(event: PointerEvent): void {
-    this.dataset['hand'] = this.at(event)[1] > 0 ? 'high' : 'low';
-  }
+    /** Where a shape of the robot (a name of the body file) is on the screen, in CSS pixels; null: it is not seen. */
+    placeOf(shape: string): { readonly x: number; readonly y: number } | null {
+        const at = this.scene?.placeOf(shape);
+        if (!at) return null;
+        const box = this.canvas.getBoundingClientRect();
+        return { x: box.left + ((at[0] + 1) / 2) * box.width, y: box.top + ((1 - at[1]) / 2) * box.height };
+    }
 
-  /** Your hand. A limb that is being taught becomes limp under it. */
-  private take(picked: Picked): void {
-    this.grabbed = { ...picked, target: picked.world };
-    const limb = limbTo(this.desk.body, picked.link, picked.point).links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
-    this.taught = limb.filter((servo) => this.editing.get().taught.has(servo));
-    if (this.taught.length > 0) void this.desk.setTorque(false, this.taught);
-  }
+    tilt(front: number, left: number): void {
+        this.scene?.tilt(front, left);
+    }
 
-  private move(event: PointerEvent): void {
-    if (!this.scene) return;
-    this.fingers.move(event);
-    if (this.holder !== null && event.pointerId !== this.holder) return;
-    if (this.holder !== null) this.makeRoom(event);
-    if (this.pose?.isDragging) return this.pose.move(...this.at(event));
-    if (!this.grabbed) return event.pointerType === 'touch' ? undefined : this.hover(event);
-    const target = this.scene.drag(...this.at(event), this.grabbed.world);
-    this.grabbed = { ...this.grabbed, target };
-    this.desk.lab.pull({ link: this.grabbed.link, point: this.grabbed.point, target });
-  }
+    private drawFrames(scene: RobotScene): void {
+        let request = 0;
+        let beforeMs = 0;
+        let tookMs = 0;
+        let wasNew = false;
+        let isDrawn = false;
+        const draw = (nowMs: number): void => {
+            request = requestAnimationFrame(draw);
+            if (wasNew) tookMs = nowMs - beforeMs; // the browser asks again when it is through with it
+            wasNew = false;
+            const elapsedMs = nowMs - beforeMs;
+            if (elapsedMs < this.quality.restMs(tookMs)) return;
+            if (this.quality.take(elapsedMs)) this.resize(scene);
+            beforeMs = nowMs;
+            this.place(scene, elapsedMs);
+            if (this.grabbed) scene.pull(this.grabbed.link, this.grabbed.point, this.grabbed.target);
+            wasNew = scene.draw(elapsedMs);
+            this.isStill = !wasNew;
+            if (this.state && !isDrawn) isDrawn = performance.mark(ROBOT_DRAWN) !== null;
+        };
+        request = requestAnimationFrame(draw);
+        this.disposals.push(() => cancelAnimationFrame(request));
+    }
 
-  /** keep: false takes back what a drag has changed. */
-  private release(keep: boolean): void {
-    if (!this.scene) return;
-    this.scene.controls.enabled = true;
-    this.holder = null;
-    delete this.dataset['hand'];
-    this.pose?.up(keep);
-    if (!this.grabbed) return;
-    this.grabbed = null;
-    this.scene.pull(null);
-    void this.letGo();
-  }
+    private place(scene: RobotScene, elapsedMs: number): void {
+        if (!this.state) return;
+        this.pose?.show(this.state, this.holder !== null);
+        scene.look(
+            this.pose?.figureTrunk ?? this.state.trunk,
+            this.grabbed === null && !this.pose?.isDragging ? elapsedMs : null,
+            this.chases(),
+        );
+    }
 
-  /** What was taught holds first, so that it does not drop. */
-  private async letGo(): Promise<void> {
-    const isTaught = this.taught.some((servo) => this.editing.get().taught.has(servo));
-    if (isTaught) await this.desk.setTorque(true, this.taught);
-    if (!this.grabbed) this.desk.lab.pull(null);
-  }
+    /** Behind a robot that is driven, until a hand turns the camera: then as that hand has left it. */
+    private chases(): boolean {
+        const { tab, where } = this.desk.state.get();
+        const isDriven = tab === 'remote' && where?.state === 'playing';
+        if (!isDriven) this.isLookedRound = false;
+        return isDriven && !this.isLookedRound && !matchMedia('(prefers-reduced-motion: reduce)').matches;
+    }
 
-  private hover(event: PointerEvent): void {
-    const link = this.pick(event)?.link ?? null;
-    this.scene?.figure.mark(link);
-    this.canvas.classList.toggle('over-robot', link !== null);
-    this.showJoint(link);
-  }
+    private watchSize(scene: RobotScene): void {
+        const observer = new ResizeObserver(() => this.resize(scene));
+        observer.observe(this);
+        this.disposals.push(() => observer.disconnect());
+    }
 
-  /** Nothing is under the mouse any more. */
-  private leave(): void {
-    this.scene?.figure.mark(null);
-    this.canvas.classList.remove('over-robot');
-    this.label.hidden = true;
-  }
+    private resize(scene: RobotScene): void {
+        scene.resize(this.clientWidth, this.clientHeight, this.quality.quality);
+    }
 
-  /** The chosen joints, as the keys have turned them. */
-  private speak(): void {
-    const { joints } = this.desk.editor.state.get();
-    if (!this.pose?.isPosing || joints.size === 0) return;
-    const said = this.desk.body.joints.filter(({ servo }) => joints.has(servo)).map((joint) => `${jointTitle(joint)}: ${this.standOf(joint)}`);
-    setText(this.spoken, said.join(', '));
-  }
+    private watchTheme(scene: RobotScene): void {
+        const paint = (): void => {
+            const style = getComputedStyle(this);
+            const colour = (name: string): string => style.getPropertyValue(name).trim();
+            scene.paint({
+                horizon: colour('--room'),
+                sky: colour('--room-sky'),
+                floor: colour('--room-floor'),
+                lines: colour('--room-lines'),
+            });
+        };
+        const dark = matchMedia('(prefers-color-scheme: dark)');
+        const observer = new MutationObserver(paint);
+        observer.observe(document.documentElement, { attributeFilter: ['data-theme'] });
+        dark.addEventListener('change', paint);
+        this.disposals.push(
+            () => dark.removeEventListener('change', paint),
+            () => observer.disconnect(),
+        );
+        paint();
+    }
 
-  private showJoint(link: string | null): void {
-    const joint = this.desk.body.joints.find((one) => one.body === link);
-    this.label.hidden = !joint;
-    if (joint) this.label.textContent = `${joint.servo} ${jointTitle(joint)}: ${this.standOf(joint)}`;
-  }
+    private listen(): void {
+        const canvas = this.canvas;
+        for (const touch of ['pointerdown', 'pointermove', 'pointerup', 'wheel', 'keydown'])
+            canvas.addEventListener(touch, () => (this.isStill = false), { capture: true });
+        this.scene?.controls.addEventListener('start', () => (this.isLookedRound = true));
+        canvas.addEventListener('pointerdown', event => this.grab(event), { capture: true });
+        canvas.addEventListener('pointermove', event => this.move(event));
+        canvas.addEventListener('pointerup', event => this.lift(event, true));
+        canvas.addEventListener('pointercancel', event => this.lift(event, false));
+        canvas.addEventListener('pointerleave', () => this.leave());
+        canvas.addEventListener('keydown', event => this.key(event));
+        canvas.addEventListener('keyup', () => {
+            this.pose?.keyUp();
+            this.speak();
+        });
+        canvas.addEventListener('blur', () => this.pose?.keyUp());
+        canvas.addEventListener('webglcontextrestored', () => this.scene?.redraw());
+    }
 
-  private standOf(joint: Joint): string {
-    if (this.pose?.isPosing) return String(Math.round(this.pose.shownPose[joint.servo] ?? joint.zero));
-    const servo = this.state?.servos.find((one) => one.id === joint.servo);
-    return `${Math.round(servo?.position ?? joint.zero)}${servo?.torque ? '' : ', limp'}`;
-  }
+    private at(event: PointerEvent, dx = 0, dy = 0): readonly [number, number] {
+        const box = this.canvas.getBoundingClientRect();
+        return [((event.clientX + dx - box.left) / box.width) * 2 - 1, 1 - ((event.clientY + dy - box.top) / box.height) * 2];
+    }
 
-  private key(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
-    if (this.pose?.isPosing && this.pose.key(event)) event.preventDefault();
-    else if (event.key === 'Escape') this.release(false);
-    else if (event.key.toLowerCase() === 'p' && !this.pose?.isPosing) pushRobot(this.desk, event.shiftKey ? -1 : 1);
-    else this.lookByKey(event);
-  }
+    private pick(event: PointerEvent): Picked | null {
+        const picked = this.scene?.pick(...this.at(event)) ?? null;
+        if (picked || event.pointerType !== 'touch') return picked;
+        for (const angle of AROUND) {
+            const near = this.scene?.pick(...this.at(event, FINGER_PX * Math.cos(angle), FINGER_PX * Math.sin(angle)));
+            if (near) return near;
+        }
+        return null;
+    }
 
-  private lookByKey(event: KeyboardEvent): void {
-    const around = event.shiftKey ? { ArrowLeft: -1, ArrowRight: 1 }[event.key] : undefined;
-    const down = { PageUp: -1, PageDown: 1 }[event.key];
-    const nearer = { '+': NEARER, '-': 1 / NEARER, '−': 1 / NEARER }[event.key];
-    if (around === undefined && down === undefined && nearer === undefined) return;
-    event.preventDefault();
-    this.scene?.turn(TURN_RAD * (around ?? 0), TURN_RAD * (down ?? 0), nearer ?? 1);
-  }
+    /** A second finger: what the first one drags is taken back. */
+    private endDrag(): boolean {
+        const hadHold = this.holder !== null;
+        this.release(false);
+        this.label.hidden = true;
+        return hadHold;
+    }
+
+    private lift(event: PointerEvent, keep: boolean): void {
+        this.fingers.remove(event);
+        if (event.pointerType === 'touch') this.label.hidden = true;
+        if (event.pointerId === this.holder) this.release(keep);
+    }
+
+    private grab(event: PointerEvent): void {
+        if (this.fingers.isHandingOver || !this.fingers.add(event)) return;
+        if (event.button === 0 && this.pick(event) && this.state) this.pose?.showStep(this.state);
+        const picked = event.button === 0 ? this.pick(event) : null;
+        const isPosing = this.pose?.isPosing === true;
+        if (!picked || !this.scene || (!isPosing && this.desk.state.get().source !== 'simulated')) return;
+        event.stopImmediatePropagation(); // the camera stays where it is
+        event.preventDefault();
+        this.canvas.focus({ preventScroll: true });
+        this.scene.controls.enabled = false;
+        this.canvas.setPointerCapture(event.pointerId);
+        this.holder = event.pointerId;
+        this.makeRoom(event);
+        if (event.pointerType === 'touch') this.showJoint(picked.link);
+        if (isPosing) this.pose?.down(picked, event.shiftKey || event.ctrlKey);
+        else this.take(picked);
+    }
+
+    /** Nothing over the picture covers the hand that drags: what is told of the drag goes to the other half (robot-view.css). */
+    private makeRoom(event: PointerEvent): void {
+        this.dataset['hand'] = this.at(event)[1] > 0 ? 'high' : 'low';
+    }
+
+    /** Your hand. A limb that is being taught becomes limp under it. */
+    private take(picked: Picked): void {
+        this.grabbed = { ...picked, target: picked.world };
+        const limb = limbTo(this.desk.body, picked.link, picked.point).links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
+        this.taught = limb.filter(servo => this.editing.get().taught.has(servo));
+        if (this.taught.length > 0) void this.desk.setTorque(false, this.taught);
+    }
+
+    private move(event: PointerEvent): void {
+        if (!this.scene) return;
+        this.fingers.move(event);
+        if (this.holder !== null && event.pointerId !== this.holder) return;
+        if (this.holder !== null) this.makeRoom(event);
+        if (this.pose?.isDragging) return this.pose.move(...this.at(event));
+        if (!this.grabbed) return event.pointerType === 'touch' ? undefined : this.hover(event);
+        const target = this.scene.drag(...this.at(event), this.grabbed.world);
+        this.grabbed = { ...this.grabbed, target };
+        this.desk.lab.pull({ link: this.grabbed.link, point: this.grabbed.point, target });
+    }
+
+    /** keep: false takes back what a drag has changed. */
+    private release(keep: boolean): void {
+        if (!this.scene) return;
+        this.scene.controls.enabled = true;
+        this.holder = null;
+        delete this.dataset['hand'];
+        this.pose?.up(keep);
+        if (!this.grabbed) return;
+        this.grabbed = null;
+        this.scene.pull(null);
+        void this.letGo();
+    }
+
+    /** What was taught holds first, so that it does not drop. */
+    private async letGo(): Promise<void> {
+        const isTaught = this.taught.some(servo => this.editing.get().taught.has(servo));
+        if (isTaught) await this.desk.setTorque(true, this.taught);
+        if (!this.grabbed) this.desk.lab.pull(null);
+    }
+
+    private hover(event: PointerEvent): void {
+        const link = this.pick(event)?.link ?? null;
+        this.scene?.figure.mark(link);
+        this.canvas.classList.toggle('over-robot', link !== null);
+        this.showJoint(link);
+    }
+
+    /** Nothing is under the mouse any more. */
+    private leave(): void {
+        this.scene?.figure.mark(null);
+        this.canvas.classList.remove('over-robot');
+        this.label.hidden = true;
+    }
+
+    /** The chosen joints, as the keys have turned them. */
+    private speak(): void {
+        const { joints } = this.desk.editor.state.get();
+        if (!this.pose?.isPosing || joints.size === 0) return;
+        const said = this.desk.body.joints
+            .filter(({ servo }) => joints.has(servo))
+            .map(joint => `${jointTitle(joint)}: ${this.standOf(joint)}`);
+        setText(this.spoken, said.join(', '));
+    }
+
+    private showJoint(link: string | null): void {
+        const joint = this.desk.body.joints.find(one => one.body === link);
+        this.label.hidden = !joint;
+        if (joint) this.label.textContent = `${joint.servo} ${jointTitle(joint)}: ${this.standOf(joint)}`;
+    }
+
+    private standOf(joint: Joint): string {
+        if (this.pose?.isPosing) return String(Math.round(this.pose.shownPose[joint.servo] ?? joint.zero));
+        const servo = this.state?.servos.find(one => one.id === joint.servo);
+        return `${Math.round(servo?.position ?? joint.zero)}${servo?.torque ? '' : ', limp'}`;
+    }
+
+    private key(event: KeyboardEvent): void {
+        if (event.ctrlKey || event.altKey || event.metaKey) return;
+        if (this.pose?.isPosing && this.pose.key(event)) event.preventDefault();
+        else if (event.key === 'Escape') this.release(false);
+        else if (event.key.toLowerCase() === 'p' && !this.pose?.isPosing) pushRobot(this.desk, event.shiftKey ? -1 : 1);
+        else this.lookByKey(event);
+    }
+
+    private lookByKey(event: KeyboardEvent): void {
+        const around = event.shiftKey ? { ArrowLeft: -1, ArrowRight: 1 }[event.key] : undefined;
+        const down = { PageUp: -1, PageDown: 1 }[event.key];
+        const nearer = { '+': NEARER, '-': 1 / NEARER, '−': 1 / NEARER }[event.key];
+        if (around === undefined && down === undefined && nearer === undefined) return;
+        event.preventDefault();
+        this.scene?.turn(TURN_RAD * (around ?? 0), TURN_RAD * (down ?? 0), nearer ?? 1);
+    }
 }
 
 define('robot-view', RobotView);

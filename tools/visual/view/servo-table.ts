@@ -14,69 +14,96 @@ const FRAMES_A_SECOND = 60;
 const UPDATES_A_SECOND = 10;
 
 interface Row {
-  readonly goal: HTMLTableCellElement;
-  readonly position: HTMLTableCellElement;
-  readonly state: HTMLTableCellElement;
-  readonly fault: HTMLSelectElement;
+    readonly goal: HTMLTableCellElement;
+    readonly position: HTMLTableCellElement;
+    readonly state: HTMLTableCellElement;
+    readonly fault: HTMLSelectElement;
 }
 
 export class ServoTable extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly chart = new ServoChart();
-  private readonly rows = new Map<number, Row>();
-  private frame = 0;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private readonly chart = new ServoChart();
+    private readonly rows = new Map<number, Row>();
+    private frame = 0;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    const body = make('tbody');
-    for (const joint of [...this.desk.body.joints].sort((a, b) => a.servo - b.servo)) body.append(this.row(joint.servo, jointTitle(joint)));
-    const head = make('tr', {}, ...['', 'Joint', 'Goal', 'Position', 'State', 'Fault'].map((title) => make('th', { scope: 'col' }, title)));
-    this.replaceChildren(make('section', { 'aria-label': 'Servos' }, make('h2', {}, 'Servos: goal (dashed) and position'), this.chart,
-      make('div', { class: 'scroll' }, make('table', {}, make('thead', {}, head), body))));
-    this.chart.choose(13);
-    this.disposals.push(this.desk.onFrame((state) => this.take(state)), this.desk.state.watch((state) => this.fillFaults(state.faultNames)));
-  }
-
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  private row(servo: number, title: string): HTMLTableRowElement {
-    const cells = { goal: make('td', { class: 'number' }), position: make('td', { class: 'number' }), state: make('td') };
-    const fault = make('select', { 'aria-label': `Fault of servo ${servo}` });
-    onChoice(fault, () => this.setFault(servo, fault));
-    const choice = make('input', { type: 'radio', name: 'charted', 'aria-label': `Draw servo ${servo}`, checked: servo === 13 });
-    choice.addEventListener('change', () => this.chart.choose(servo));
-    this.rows.set(servo, { ...cells, fault });
-    return make('tr', {}, make('td', {}, choice), make('th', { scope: 'row' }, `${servo} ${title}`), cells.goal, cells.position, cells.state, make('td', {}, fault));
-  }
-
-  private fillFaults(names: readonly string[]): void {
-    for (const { fault } of this.rows.values()) {
-      if (fault.options.length === names.length + 1) continue;
-      fault.replaceChildren(make('option', { value: '' }, 'none'), ...names.map((name, i) => make('option', { value: i }, FAULT_TITLES[name] ?? name)));
+    connectedCallback(): void {
+        const body = make('tbody');
+        for (const joint of [...this.desk.body.joints].sort((a, b) => a.servo - b.servo))
+            body.append(this.row(joint.servo, jointTitle(joint)));
+        const head = make(
+            'tr',
+            {},
+            ...['', 'Joint', 'Goal', 'Position', 'State', 'Fault'].map(title => make('th', { scope: 'col' }, title)),
+        );
+        this.replaceChildren(
+            make(
+                'section',
+                { 'aria-label': 'Servos' },
+                make('h2', {}, 'Servos: goal (dashed) and position'),
+                this.chart,
+                make('div', { class: 'scroll' }, make('table', {}, make('thead', {}, head), body)),
+            ),
+        );
+        this.chart.choose(13);
+        this.disposals.push(
+            this.desk.onFrame(state => this.take(state)),
+            this.desk.state.watch(state => this.fillFaults(state.faultNames)),
+        );
     }
-  }
 
-  private setFault(servo: number, fault: HTMLSelectElement): void {
-    for (let i = 0; i < fault.options.length - 1; i++) this.desk.lab.setFault(servo, i, fault.value === String(i));
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  private take(state: RobotState): void {
-    this.chart.take(state);
-    if (this.frame++ % (FRAMES_A_SECOND / UPDATES_A_SECOND) !== 0 || this.offsetParent === null) return;
-    for (const servo of state.servos) this.update(servo);
-  }
+    private row(servo: number, title: string): HTMLTableRowElement {
+        const cells = { goal: make('td', { class: 'number' }), position: make('td', { class: 'number' }), state: make('td') };
+        const fault = make('select', { 'aria-label': `Fault of servo ${servo}` });
+        onChoice(fault, () => this.setFault(servo, fault));
+        const choice = make('input', { type: 'radio', name: 'charted', 'aria-label': `Draw servo ${servo}`, checked: servo === 13 });
+        choice.addEventListener('change', () => this.chart.choose(servo));
+        this.rows.set(servo, { ...cells, fault });
+        return make(
+            'tr',
+            {},
+            make('td', {}, choice),
+            make('th', { scope: 'row' }, `${servo} ${title}`),
+            cells.goal,
+            cells.position,
+            cells.state,
+            make('td', {}, fault),
+        );
+    }
 
-  private update(servo: ServoState): void {
-    const row = this.rows.get(servo.id);
-    if (!row) return;
-    setText(row.goal, servo.torque && servo.goalPos !== null ? String(servo.goalPos) : '–');
-    setText(row.position, servo.position.toFixed(0));
-    const alarms = ALARMS.filter((_, i) => (servo.alarms >> i) & 1);
-    setText(row.state, alarms.length > 0 ? alarms.join(', ') : servo.torque ? 'holds' : 'limp');
-    row.state.classList.toggle('alarm', alarms.length > 0);
-  }
+    private fillFaults(names: readonly string[]): void {
+        for (const { fault } of this.rows.values()) {
+            if (fault.options.length === names.length + 1) continue;
+            fault.replaceChildren(
+                make('option', { value: '' }, 'none'),
+                ...names.map((name, i) => make('option', { value: i }, FAULT_TITLES[name] ?? name)),
+            );
+        }
+    }
+
+    private setFault(servo: number, fault: HTMLSelectElement): void {
+        for (let i = 0; i < fault.options.length - 1; i++) this.desk.lab.setFault(servo, i, fault.value === String(i));
+    }
+
+    private take(state: RobotState): void {
+        this.chart.take(state);
+        if (this.frame++ % (FRAMES_A_SECOND / UPDATES_A_SECOND) !== 0 || this.offsetParent === null) return;
+        for (const servo of state.servos) this.update(servo);
+    }
+
+    private update(servo: ServoState): void {
+        const row = this.rows.get(servo.id);
+        if (!row) return;
+        setText(row.goal, servo.torque && servo.goalPos !== null ? String(servo.goalPos) : '–');
+        setText(row.position, servo.position.toFixed(0));
+        const alarms = ALARMS.filter((_, i) => (servo.alarms >> i) & 1);
+        setText(row.state, alarms.length > 0 ? alarms.join(', ') : servo.torque ? 'holds' : 'limp');
+        row.state.classList.toggle('alarm', alarms.length > 0);
+    }
 }
 
 define('servo-table', ServoTable);

@@ -8,48 +8,64 @@ import { TEXTS } from './texts.ts';
 import './status-strip.css';
 
 export class StatusStrip extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'off', 'aria-label': 'What the robot does' });
-  private readonly said = make('p', { class: 'said', role: 'log', 'aria-live': 'off', 'aria-label': 'Last message' });
-  /** The only part that is read aloud. */
-  private readonly spoken = make('p', { class: 'visually-hidden', 'aria-live': 'polite', 'aria-label': 'Announcements' });
-  private readonly announcer = new Announcer({ say: (text) => setText(this.spoken, text), after: (delayMs, call) => void setTimeout(call, delayMs) });
-  private readonly facts = make('p', { class: 'facts' });
-  private readonly disposals: (() => void)[] = [];
-  private fallen = '';
+    desk!: Desk; // set before it is connected
+    private readonly doing = make('p', { class: 'doing', role: 'status', 'aria-live': 'off', 'aria-label': 'What the robot does' });
+    private readonly said = make('p', { class: 'said', role: 'log', 'aria-live': 'off', 'aria-label': 'Last message' });
+    /** The only part that is read aloud. */
+    private readonly spoken = make('p', { class: 'visually-hidden', 'aria-live': 'polite', 'aria-label': 'Announcements' });
+    private readonly announcer = new Announcer({
+        say: text => setText(this.spoken, text),
+        after: (delayMs, call) => void setTimeout(call, delayMs),
+    });
+    private readonly facts = make('p', { class: 'facts' });
+    private readonly disposals: (() => void)[] = [];
+    private fallen = '';
 
-  connectedCallback(): void {
-    this.replaceChildren(this.doing, this.said, this.facts, this.spoken);
-    this.disposals.push(this.desk.state.watch((state) => this.render(state)), this.desk.onFrame((state) => {
-      const fallen = state.hasFallen ? TEXTS.fallen : state.isHeld ? TEXTS.held : '';
-      if (fallen === this.fallen) return;
-      this.fallen = fallen;
-      this.render(this.desk.state.get());
-    }));
-  }
+    connectedCallback(): void {
+        this.replaceChildren(this.doing, this.said, this.facts, this.spoken);
+        this.disposals.push(
+            this.desk.state.watch(state => this.render(state)),
+            this.desk.onFrame(state => {
+                const fallen = state.hasFallen ? TEXTS.fallen : state.isHeld ? TEXTS.held : '';
+                if (fallen === this.fallen) return;
+                this.fallen = fallen;
+                this.render(this.desk.state.get());
+            }),
+        );
+    }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  private render(state: DeskState): void {
-    const liesIdle = this.fallen === TEXTS.fallen && (state.doing.text === TEXTS.waits || state.doing.text === TEXTS.editRuns);
-    this.write(this.doing, { ...state.doing, text: liesIdle ? TEXTS.getUp : [state.doing.text, this.fallen].filter(Boolean).join(' ') });
-    this.announcer.look(state, this.fallen);
-    this.write(this.said, state.said);
-    const where = state.where;
-    const version = state.version;
-    setText(this.facts, [
-      version ? `${version.image === 'edit' ? 'Edit' : version.image === 'play' ? 'Play' : version.image} ${version.version}` : '',
-      where && where.batteryVolts > 0 ? `${where.batteryVolts.toFixed(1)} V` : '',
-      state.speed === 1 || state.source === 'yours' ? '' : state.speed === 0 ? 'time stands still' : `${state.speed}× time`,
-    ].filter(Boolean).join(' · '));
-  }
+    private render(state: DeskState): void {
+        const liesIdle = this.fallen === TEXTS.fallen && (state.doing.text === TEXTS.waits || state.doing.text === TEXTS.editRuns);
+        this.write(this.doing, {
+            ...state.doing,
+            text: liesIdle ? TEXTS.getUp : [state.doing.text, this.fallen].filter(Boolean).join(' '),
+        });
+        this.announcer.look(state, this.fallen);
+        this.write(this.said, state.said);
+        const where = state.where;
+        const version = state.version;
+        setText(
+            this.facts,
+            [
+                version
+                    ? `${version.image === 'edit' ? 'Edit' : version.image === 'play' ? 'Play' : version.image} ${version.version}`
+                    : '',
+                where && where.batteryVolts > 0 ? `${where.batteryVolts.toFixed(1)} V` : '',
+                state.speed === 1 || state.source === 'yours' ? '' : state.speed === 0 ? 'time stands still' : `${state.speed}× time`,
+            ]
+                .filter(Boolean)
+                .join(' · '),
+        );
+    }
 
-  private write(line: HTMLElement, notice: Notice | null): void {
-    setText(line, notice?.text ?? '');
-    line.dataset['tone'] = notice?.tone ?? 'calm';
-  }
+    private write(line: HTMLElement, notice: Notice | null): void {
+        setText(line, notice?.text ?? '');
+        line.dataset['tone'] = notice?.tone ?? 'calm';
+    }
 }
 
 define('status-strip', StatusStrip);

@@ -2,26 +2,26 @@
 // One value that views watch. Values are replaced, never changed in place.
 
 export class Store<T extends object> {
-  private value: T;
-  private readonly listeners = new Set<(value: T) => void>();
+    private value: T;
+    private readonly listeners = new Set<(value: T) => void>();
 
-  constructor(value: T) {
-    this.value = value;
-  }
+    constructor(value: T) {
+        this.value = value;
+    }
 
-  get(): T {
-    return this.value;
-  }
+    get(): T {
+        return this.value;
+    }
 
-  set(change: Partial<T>): void {
-    this.value = { ...this.value, ...change };
-    for (const listener of this.listeners) listener(this.value);
-  }
+    set(change: Partial<T>): void {
+        this.value = { ...this.value, ...change };
+        for (const listener of this.listeners) listener(this.value);
+    }
 
-  /** Calls at once, and after every change; the returned function ends it. */
-  watch(listener: (value: T) => void): () => void {
-    this.listeners.add(listener);
-    listener(this.value);
-    return () => this.listeners.delete(listener);
-  }
+    /** Calls at once, and after every change; the returned function ends it. */
+    watch(listener: (value: T) => void): () => void {
+        this.listeners.add(listener);
+        listener(this.value);
+        return () => this.listeners.delete(listener);
+    }
 }

@@ -19,66 +19,84 @@ const BELOW_PX = 8;
 const LINES_KEPT = 2000;
 
 export class TerminalPane extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private terminal: Terminal | null = null;
-  private readonly full = make('button', { class: 'full-screen', 'aria-pressed': 'false', onclick: () => void this.fillScreen() }, 'Full screen');
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private terminal: Terminal | null = null;
+    private readonly full = make(
+        'button',
+        { class: 'full-screen', 'aria-pressed': 'false', onclick: () => void this.fillScreen() },
+        'Full screen',
+    );
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    const screen = make('div', { class: 'screen' });
-    this.replaceChildren(this.full, screen);
-    this.addEventListener('fullscreenchange', () => this.full.setAttribute('aria-pressed', String(document.fullscreenElement === this)));
-    const terminal = new Terminal({
-      cols: COLUMNS, rows: ROWS_MOST, scrollback: LINES_KEPT, fontFamily: '"DejaVu Sans Mono", ui-monospace, monospace', cursorBlink: false,
-      screenReaderMode: false, theme: { background: '#10151a', foreground: '#d8e0e6', cursor: '#6db3f8' },
-    });
-    this.terminal = terminal;
-    terminal.open(screen);
-    terminal.textarea?.setAttribute('aria-label', 'Terminal of the robot');
-    // Tab goes on to the next thing, as everywhere: no firmware wants it, and a keyboard must get out of here.
-    terminal.attachCustomKeyEventHandler((event) => event.key !== 'Tab');
-    terminal.onData((text) => this.desk.type(new TextEncoder().encode(text)));
-    terminal.onBinary((text) => this.desk.type(Uint8Array.from(text, (c) => c.charCodeAt(0))));
-    const observer = new ResizeObserver(() => this.fit(terminal));
-    observer.observe(this);
-    this.disposals.push(this.desk.onText((bytes) => terminal.write(bytes)), () => observer.disconnect(), () => terminal.dispose());
-  }
+    connectedCallback(): void {
+        const screen = make('div', { class: 'screen' });
+        this.replaceChildren(this.full, screen);
+        this.addEventListener('fullscreenchange', () =>
+            this.full.setAttribute('aria-pressed', String(document.fullscreenElement === this)),
+        );
+        const terminal = new Terminal({
+            cols: COLUMNS,
+            rows: ROWS_MOST,
+            scrollback: LINES_KEPT,
+            fontFamily: '"DejaVu Sans Mono", ui-monospace, monospace',
+            cursorBlink: false,
+            screenReaderMode: false,
+            theme: { background: '#10151a', foreground: '#d8e0e6', cursor: '#6db3f8' },
+        });
+        this.terminal = terminal;
+        terminal.open(screen);
+        terminal.textarea?.setAttribute('aria-label', 'Terminal of the robot');
+        // Tab goes on to the next thing, as everywhere: no firmware wants it, and a keyboard must get out of here.
+        terminal.attachCustomKeyEventHandler(event => event.key !== 'Tab');
+        terminal.onData(text => this.desk.type(new TextEncoder().encode(text)));
+        terminal.onBinary(text => this.desk.type(Uint8Array.from(text, c => c.charCodeAt(0))));
+        const observer = new ResizeObserver(() => this.fit(terminal));
+        observer.observe(this);
+        this.disposals.push(
+            this.desk.onText(bytes => terminal.write(bytes)),
+            () => observer.disconnect(),
+            () => terminal.dispose(),
+        );
+    }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-    this.terminal = null;
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+        this.terminal = null;
+    }
 
-  override focus(): void {
-    this.terminal?.focus();
-  }
+    override focus(): void {
+        this.terminal?.focus();
+    }
 
-  /** What stands on the screen, line by line: for tests and for screen readers. */
-  get screenText(): string {
-    const buffer = this.terminal?.buffer.active;
-    if (!buffer) return '';
-    return Array.from({ length: this.terminal?.rows ?? 0 }, (_, row) => buffer.getLine(buffer.baseY + row)?.translateToString(true) ?? '').join('\n');
-  }
+    /** What stands on the screen, line by line: for tests and for screen readers. */
+    get screenText(): string {
+        const buffer = this.terminal?.buffer.active;
+        if (!buffer) return '';
+        return Array.from(
+            { length: this.terminal?.rows ?? 0 },
+            (_, row) => buffer.getLine(buffer.baseY + row)?.translateToString(true) ?? '',
+        ).join('\n');
+    }
 
-  /** A browser that gives no element the screen (iPhone) gives it the whole page. */
-  private async fillScreen(): Promise<void> {
-    if (document.fullscreenElement === this) return document.exitFullscreen();
-    if (document.fullscreenEnabled) return this.requestFullscreen();
-    this.full.setAttribute('aria-pressed', String(this.classList.toggle('full')));
-  }
+    /** A browser that gives no element the screen (iPhone) gives it the whole page. */
+    private async fillScreen(): Promise<void> {
+        if (document.fullscreenElement === this) return document.exitFullscreen();
+        if (document.fullscreenEnabled) return this.requestFullscreen();
+        this.full.setAttribute('aria-pressed', String(this.classList.toggle('full')));
+    }
 
-  private fit(terminal: Terminal): void {
-    const width = this.clientWidth - 24;
-    const height = this.clientHeight - 24 - this.full.offsetHeight - BELOW_PX;
-    if (width <= 0 || height <= 0) return;
-    const byWidth = width / (COLUMNS * LETTER.width);
-    const byHeight = height / (ROWS_MOST * LETTER.height);
-    const size = Math.max(FONT.least, Math.min(FONT.most, byWidth, Math.max(byHeight, FONT.least)));
-    const rows = Math.floor(height / (size * LETTER.height));
-    terminal.options.fontSize = Math.floor(size * 2) / 2;
-    terminal.resize(COLUMNS, Math.max(ROWS_LEAST, Math.min(ROWS_MOST, rows)));
-    this.desk.terminalSize({ rows: terminal.rows, columns: terminal.cols });
-  }
+    private fit(terminal: Terminal): void {
+        const width = this.clientWidth - 24;
+        const height = this.clientHeight - 24 - this.full.offsetHeight - BELOW_PX;
+        if (width <= 0 || height <= 0) return;
+        const byWidth = width / (COLUMNS * LETTER.width);
+        const byHeight = height / (ROWS_MOST * LETTER.height);
+        const size = Math.max(FONT.least, Math.min(FONT.most, byWidth, Math.max(byHeight, FONT.least)));
+        const rows = Math.floor(height / (size * LETTER.height));
+        terminal.options.fontSize = Math.floor(size * 2) / 2;
+        terminal.resize(COLUMNS, Math.max(ROWS_LEAST, Math.min(ROWS_MOST, rows)));
+        this.desk.terminalSize({ rows: terminal.rows, columns: terminal.cols });
+    }
 }
 
 define('terminal-pane', TerminalPane);

@@ -7,124 +7,149 @@ import type { RobotError, RobotErrorCode } from '../robot/robot-error.ts';
 import type { DeskState } from './desk.ts';
 
 const ERRORS: Record<RobotErrorCode, string> = {
-  'no-answer': 'The robot did not answer. Is it switched on? If its screen shows a "-", type GO in the terminal.',
-  refused: 'The robot refused:',
-  'not-connected': 'No robot is connected. Choose one at the top.',
-  'port-lost': 'The cable was pulled. Plug it in again; the page reconnects by itself.',
-  'port-busy': 'The port cannot be opened. Close the other program that uses it, then try again.',
-  'no-serial': 'This browser cannot reach a serial port. It needs Web Serial, which Chromium has. The robot in the page works here, too.',
-  foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
-  'other-board': 'Motion512 runs on CM-2, CM-2+ and CM-5 only, and this board is another one. Nothing is sent there; choose another port. Its boot loader calls it',
-  'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
-  'edit-waits': 'Not done: Edit waits for you in the terminal. Finish there, or press Stop; then try again.',
-  'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
-  cancelled: 'Stopped.',
-  'page-changed': 'This page has changed in the robot since it was read; nothing was written over it. Compare once more: page',
-  'page-unsaved': 'The page in Edit\'s memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.',
-  'page-not-saved': 'The robot took this page but does not have it now. Its flash may be worn out; your page is safe here. Try again: page',
-  'no-backup': 'The robot\'s pages could not be kept in this browser (private window, or the disk is full), so nothing was written. Make room, then try again.',
-  'needs-edit': 'The robot runs Play, and only Edit saves pages. Flash it with: m512 flash edit-cm5.hex, then try again. Motions stay.',
-  'transfer-busy': 'Not done: pages of the robot are still being read or written. Try again when that has ended.',
-  'pages-differ': 'Not played: your robot has another version of this motion. Write it first with "To the robot …", then play it.',
-  'damaged-here': 'Not played: this page is damaged in the document, and is not written. Take it from a backup or from the robot, or clear it: page',
-  'layer-differs': 'Not done: the robot has another version of this motion. Play it by itself, which writes it (your robot: write it with "To the robot …"); then lay it over.',
+    'no-answer': 'The robot did not answer. Is it switched on? If its screen shows a "-", type GO in the terminal.',
+    refused: 'The robot refused:',
+    'not-connected': 'No robot is connected. Choose one at the top.',
+    'port-lost': 'The cable was pulled. Plug it in again; the page reconnects by itself.',
+    'port-busy': 'The port cannot be opened. Close the other program that uses it, then try again.',
+    'no-serial': 'This browser cannot reach a serial port. It needs Web Serial, which Chromium has. The robot in the page works here, too.',
+    foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
+    'other-board':
+        'Motion512 runs on CM-2, CM-2+ and CM-5 only, and this board is another one. Nothing is sent there; choose another port. Its boot loader calls it',
+    'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
+    'edit-waits': 'Not done: Edit waits for you in the terminal. Finish there, or press Stop; then try again.',
+    'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
+    cancelled: 'Stopped.',
+    'page-changed': 'This page has changed in the robot since it was read; nothing was written over it. Compare once more: page',
+    'page-unsaved': "The page in Edit's memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.",
+    'page-not-saved':
+        'The robot took this page but does not have it now. Its flash may be worn out; your page is safe here. Try again: page',
+    'no-backup':
+        "The robot's pages could not be kept in this browser (private window, or the disk is full), so nothing was written. Make room, then try again.",
+    'needs-edit': 'The robot runs Play, and only Edit saves pages. Flash it with: m512 flash edit-cm5.hex, then try again. Motions stay.',
+    'transfer-busy': 'Not done: pages of the robot are still being read or written. Try again when that has ended.',
+    'pages-differ': 'Not played: your robot has another version of this motion. Write it first with "To the robot …", then play it.',
+    'damaged-here':
+        'Not played: this page is damaged in the document, and is not written. Take it from a backup or from the robot, or clear it: page',
+    'layer-differs':
+        'Not done: the robot has another version of this motion. Play it by itself, which writes it (your robot: write it with "To the robot …"); then lay it over.',
 };
 
 /** One sentence for an error; the board's own words are quoted behind it. */
 export function errorText(error: RobotError): string {
-  const sentence = ERRORS[error.code];
-  return error.words === '' || error.code === 'no-answer' ? sentence : `${sentence} ${error.words}`;
+    const sentence = ERRORS[error.code];
+    return error.words === '' || error.code === 'no-answer' ? sentence : `${sentence} ${error.words}`;
 }
 
 const CONNECTIONS: Record<ConnectionState, string> = {
-  closed: 'No robot is connected.',
-  opening: 'Opening the port ...',
-  asking: 'Asking the robot who it is ...',
-  ready: 'Connected.',
-  silent: 'The port is open, but no Motion512 answers. Switch the robot on; if its screen shows a "-", type GO in the terminal.',
-  foreign: 'This robot runs another firmware. Flash ours with: m512 flash edit-cm5.hex. The terminal works meanwhile.',
-  'other-board': 'This is no board for Motion512, says its boot loader. Nothing is sent there; the terminal works.',
-  waiting: 'The cable is out. Plug it in again; the page reconnects by itself.',
+    closed: 'No robot is connected.',
+    opening: 'Opening the port ...',
+    asking: 'Asking the robot who it is ...',
+    ready: 'Connected.',
+    silent: 'The port is open, but no Motion512 answers. Switch the robot on; if its screen shows a "-", type GO in the terminal.',
+    foreign: 'This robot runs another firmware. Flash ours with: m512 flash edit-cm5.hex. The terminal works meanwhile.',
+    'other-board': 'This is no board for Motion512, says its boot loader. Nothing is sent there; the terminal works.',
+    waiting: 'The cable is out. Plug it in again; the page reconnects by itself.',
 };
 
 export function connectionText(state: ConnectionState): string {
-  return CONNECTIONS[state];
+    return CONNECTIONS[state];
 }
 
 function pageTitle(state: DeskState, page: number): string {
-  const name = state.pages.find((entry) => entry.page === page)?.name;
-  return name ? `page ${page} (${name})` : `page ${page}`;
+    const name = state.pages.find(entry => entry.page === page)?.name;
+    return name ? `page ${page} (${name})` : `page ${page}`;
 }
 
 /** What the robot does, in one sentence. */
 export function doingText(state: DeskState, where: Where | null): string {
-  if (state.stopped !== null) return state.stopped;
-  const shown = state.shownPage === null ? '' : TEXTS.shownOnly(pageTitle(state, state.shownPage));
-  return [shown, robotText(state, where)].filter(Boolean).join(' ');
+    if (state.stopped !== null) return state.stopped;
+    const shown = state.shownPage === null ? '' : TEXTS.shownOnly(pageTitle(state, state.shownPage));
+    return [shown, robotText(state, where)].filter(Boolean).join(' ');
 }
 
 function robotText(state: DeskState, where: Where | null): string {
-  if (state.source === 'simulated' && !state.isPowered) return TEXTS.isOff;
-  if (state.isInDialog) return TEXTS.editWaits;
-  if (state.connection !== 'ready') return state.source === 'simulated' && !state.isLate ? TEXTS.starts : CONNECTIONS[state.connection];
-  const isEdit = state.version?.image === 'edit';
-  if (!where) return isEdit ? TEXTS.editRuns : 'Ready.';
-  switch (where.state) {
-    case 'idle': case 'ready': return isEdit ? TEXTS.editRuns : TEXTS.waits;
-    case 'approach': return `Going slowly to the first pose of ${pageTitle(state, where.page)}.`;
-    case 'paused': return `Paused in ${pageTitle(state, where.page)}, step ${where.step}.`;
-    case 'playing': return `Playing ${pageTitle(state, where.page)}, step ${where.step}.`;
-    default: return where.state satisfies never;
-  }
+    if (state.source === 'simulated' && !state.isPowered) return TEXTS.isOff;
+    if (state.isInDialog) return TEXTS.editWaits;
+    if (state.connection !== 'ready') return state.source === 'simulated' && !state.isLate ? TEXTS.starts : CONNECTIONS[state.connection];
+    const isEdit = state.version?.image === 'edit';
+    if (!where) return isEdit ? TEXTS.editRuns : 'Ready.';
+    switch (where.state) {
+        case 'idle':
+        case 'ready':
+            return isEdit ? TEXTS.editRuns : TEXTS.waits;
+        case 'approach':
+            return `Going slowly to the first pose of ${pageTitle(state, where.page)}.`;
+        case 'paused':
+            return `Paused in ${pageTitle(state, where.page)}, step ${where.step}.`;
+        case 'playing':
+            return `Playing ${pageTitle(state, where.page)}, step ${where.step}.`;
+        default:
+            return where.state satisfies never;
+    }
 }
 
 /** That the robot begins to move, or has ended: without its steps. */
 export function startText(state: DeskState): string {
-  const { where } = state;
-  if (where === null || where.state === 'idle' || where.state === 'ready') return robotText(state, where);
-  return where.state === 'paused' ? `Paused in ${pageTitle(state, where.page)}.` : `Plays ${pageTitle(state, where.page)}.`;
+    const { where } = state;
+    if (where === null || where.state === 'idle' || where.state === 'ready') return robotText(state, where);
+    return where.state === 'paused' ? `Paused in ${pageTitle(state, where.page)}.` : `Plays ${pageTitle(state, where.page)}.`;
 }
 
 /** A thing that the chip would not forgive. */
 export function violationText(kind: string, text: string): string {
-  return `The firmware did what no chip allows (${kind}): ${text}. Start the robot anew in the Lab.`;
+    return `The firmware did what no chip allows (${kind}): ${text}. Start the robot anew in the Lab.`;
 }
 
 export const TEXTS = {
-  noWebGl: 'This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot, switch WebGL on in the settings, then reload.',
-  noWebAssembly: 'This browser runs no WebAssembly, of which the robot is made. Switch it on in the settings, or open this page in another browser.',
-  noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
-  waits: 'The robot stands and waits.',
-  starts: 'The robot is starting …',
-  isOff: 'The robot is switched off. Switch it on in the Lab.',
-  shownOnly: (title: string): string => `In the picture only: ${title}.`,
-  /** It waits as well; this is what one has to know of it. */
-  editRuns: 'Edit runs: its screen is in the terminal.',
-  /** A question, a list or a play: the page cannot tell which. */
-  editWaits: 'Edit waits for you in the terminal: answer its question, leave its list, or let the motion end. Stop ends it, too.',
-  editNoRemote: 'Edit hears no remote control; Play does. Flash it with: m512 flash play-cm5.hex. Motions stay.',
-  fallen: 'The robot lies on the floor.',
-  getUp: 'The robot lies on the floor. Press Get up.',
-  held: 'A hand holds the robot.',
-  crashed: 'The simulated robot has crashed. Start it anew in the Lab; what it had saved is kept.',
-  kept: 'Saved in this browser.',
-  notKept: 'This browser does not keep the robot\'s memory (private window, or the disk is full). What you save is gone with the page.',
-  robotKept: 'All pages of your robot are read, and kept in this browser as a backup.',
-  workNotKept: 'This browser could not keep your work (private window, or the disk is full). Save it as a file before you close the page.',
-  newVersion: 'A new version of this page is there. What you have made is kept.',
-  factoryFresh: 'The robot in the page forgets its motions and settings, as if it were new. Your documents here stay.',
-  labForYours: 'The Lab belongs to the simulated robot. Choose it at the top.',
+    noWebGl:
+        'This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot, switch WebGL on in the settings, then reload.',
+    noWebAssembly:
+        'This browser runs no WebAssembly, of which the robot is made. Switch it on in the settings, or open this page in another browser.',
+    noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
+    waits: 'The robot stands and waits.',
+    starts: 'The robot is starting …',
+    isOff: 'The robot is switched off. Switch it on in the Lab.',
+    shownOnly: (title: string): string => `In the picture only: ${title}.`,
+    /** It waits as well; this is what one has to know of it. */
+    editRuns: 'Edit runs: its screen is in the terminal.',
+    /** A question, a list or a play: the page cannot tell which. */
+    editWaits: 'Edit waits for you in the terminal: answer its question, leave its list, or let the motion end. Stop ends it, too.',
+    editNoRemote: 'Edit hears no remote control; Play does. Flash it with: m512 flash play-cm5.hex. Motions stay.',
+    fallen: 'The robot lies on the floor.',
+    getUp: 'The robot lies on the floor. Press Get up.',
+    held: 'A hand holds the robot.',
+    crashed: 'The simulated robot has crashed. Start it anew in the Lab; what it had saved is kept.',
+    kept: 'Saved in this browser.',
+    notKept: "This browser does not keep the robot's memory (private window, or the disk is full). What you save is gone with the page.",
+    robotKept: 'All pages of your robot are read, and kept in this browser as a backup.',
+    workNotKept:
+        'This browser could not keep your work (private window, or the disk is full). Save it as a file before you close the page.',
+    newVersion: 'A new version of this page is there. What you have made is kept.',
+    factoryFresh: 'The robot in the page forgets its motions and settings, as if it were new. Your documents here stay.',
+    labForYours: 'The Lab belongs to the simulated robot. Choose it at the top.',
 } as const;
 
 export const FAULT_TITLES: Readonly<Record<string, string>> = {
-  silent: 'does not answer', dead: 'unplugged', duplicate: 'its ID twice', checksum: 'wrong checksums', noise: 'noise before answers',
-  late: 'answers late', short: 'answers cut off', 'two-talkers': 'answers for others', overload: 'overloaded', overheating: 'too hot',
-  'low-voltage': 'low voltage', 'angle-limit': 'angle limit', mishears: 'mishears', blocked: 'blocked',
+    silent: 'does not answer',
+    dead: 'unplugged',
+    duplicate: 'its ID twice',
+    checksum: 'wrong checksums',
+    noise: 'noise before answers',
+    late: 'answers late',
+    short: 'answers cut off',
+    'two-talkers': 'answers for others',
+    overload: 'overloaded',
+    overheating: 'too hot',
+    'low-voltage': 'low voltage',
+    'angle-limit': 'angle limit',
+    mishears: 'mishears',
+    blocked: 'blocked',
 };
 
 /** The remote's list of keys. */
 export const WAY_TEXTS = {
-  keys: 'What the keys start',
-  then: 'then',
-  plays: (page: number, name: string) => `${name === '' ? `Page ${page}` : name} plays; at its end the keys lead on to`,
+    keys: 'What the keys start',
+    then: 'then',
+    plays: (page: number, name: string) => `${name === '' ? `Page ${page}` : name} plays; at its end the keys lead on to`,
 } as const;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Bodies as they may be: what is not known of a robot, made by chance from a seed. The nominal body is Variation()."""
+
 import dataclasses
 import math
 import random
@@ -22,26 +23,28 @@ class Variation:
     seed: int = 0
     volts: float = 11.1
     floor_friction: float = 0.8
-    tilt: float = 0.0                    # of the floor, and where it goes down to (0: forward)
+    tilt: float = 0.0  # of the floor, and where it goes down to (0: forward)
     tilt_towards: float = 0.0
     gear_friction_nm: float = 0.05
     rotor_kgm2: float = 0.003
-    mass: dict = field(default_factory=dict)        # body -> factor; a body that is not named keeps its mass
-    trunk_forward_mm: float = 0.0        # its middle of mass
+    mass: dict = field(default_factory=dict)  # body -> factor; a body that is not named keeps its mass
+    trunk_forward_mm: float = 0.0  # its middle of mass
     sole_forward_mm: float = 0.0
-    hand_mm: float = 0.0                 # longer
+    hand_mm: float = 0.0  # longer
     zero_units: dict = field(default_factory=dict)  # servo -> how far its 512 is off
     pushes: tuple = ()
 
     def said(self):
         """In one line."""
-        return (f"seed {self.seed}: {self.volts:.1f} V, floor {self.floor_friction:.2f}, tilt {self.tilt:.1f} towards "
-                f"{self.tilt_towards:.0f}, gears {self.gear_friction_nm:.3f} N m, rotor {self.rotor_kgm2:.4f} kg m2, "
-                f"{len(self.pushes)} pushes")
+        return (
+            f"seed {self.seed}: {self.volts:.1f} V, floor {self.floor_friction:.2f}, tilt {self.tilt:.1f} towards "
+            f"{self.tilt_towards:.0f}, gears {self.gear_friction_nm:.3f} N m, rotor {self.rotor_kgm2:.4f} kg m2, "
+            f"{len(self.pushes)} pushes"
+        )
 
 
 NOMINAL = Variation()
-DEGREE = 1024 / 300                      # servo units
+DEGREE = 1024 / 300  # servo units
 PUSH_NEWTON_S = 0.3
 
 
@@ -52,15 +55,20 @@ def random_body(robot, seed, seconds=0.0, zero_sigma_degrees=1.0, joint_units=2.
     chance = random.Random(f"{robot.name} {seed}")
     everything = chance.uniform(0.95, 1.05)
     return Variation(
-        seed=seed, volts=chance.uniform(*volts), floor_friction=chance.uniform(0.4, 1.2), tilt=chance.uniform(0, 2),
-        tilt_towards=chance.uniform(0, 360), gear_friction_nm=_even_in_log(chance, 0.03, 0.1),
+        seed=seed,
+        volts=chance.uniform(*volts),
+        floor_friction=chance.uniform(0.4, 1.2),
+        tilt=chance.uniform(0, 2),
+        tilt_towards=chance.uniform(0, 360),
+        gear_friction_nm=_even_in_log(chance, 0.03, 0.1),
         rotor_kgm2=_even_in_log(chance, 0.001, 0.01),
         mass={body: everything * chance.uniform(0.9, 1.1) for body in sorted(robot.bodies)},
-        trunk_forward_mm=chance.uniform(-8, 8), sole_forward_mm=chance.uniform(-8, 8), hand_mm=chance.uniform(-8, 8),
-        zero_units={servo: chance.gauss(0, zero_sigma_degrees) * DEGREE + chance.uniform(-joint_units, joint_units)
-                    for servo in robot.servos},
-        pushes=tuple(Push(chance.uniform(0, seconds), chance.uniform(0, PUSH_NEWTON_S), chance.uniform(0, 360))
-                     for _ in range(pushes)))
+        trunk_forward_mm=chance.uniform(-8, 8),
+        sole_forward_mm=chance.uniform(-8, 8),
+        hand_mm=chance.uniform(-8, 8),
+        zero_units={servo: chance.gauss(0, zero_sigma_degrees) * DEGREE + chance.uniform(-joint_units, joint_units) for servo in robot.servos},
+        pushes=tuple(Push(chance.uniform(0, seconds), chance.uniform(0, PUSH_NEWTON_S), chance.uniform(0, 360)) for _ in range(pushes)),
+    )
 
 
 def body_of_the_bench(robot, seed):

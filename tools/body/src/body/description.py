@@ -9,6 +9,7 @@
 Angles are those of the body file: 0 is straight, and positive is what the table of README.md says, on both sides. Servo
 positions are 0..1023 for 300 degrees; direction and zero of each servo come from the file.
 """
+
 import pathlib
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
@@ -46,15 +47,15 @@ class Joint:
 class Leg:
     """Lengths of a leg in mm, measured at angle 0. The knee stands `back` behind the line from hip to ankle."""
 
-    hip_to_side: float        # from the middle of the body to the hip
-    shoulder_to_yaw: float    # from the shoulders' height down to the yaw axis; 0 where there is none
+    hip_to_side: float  # from the middle of the body to the hip
+    shoulder_to_yaw: float  # from the shoulders' height down to the yaw axis; 0 where there is none
     yaw_to_hip: float
     thigh_down: float
     thigh_back: float
     shank_down: float
     shank_forward: float
     ankle_to_sole: float
-    sole: tuple               # behind and before the ankle, inside and outside of it: (-58, 42, -30, 30)
+    sole: tuple  # behind and before the ankle, inside and outside of it: (-58, 42, -30, 30)
 
     @property
     def thigh_mm(self):
@@ -71,12 +72,12 @@ class Description:
     def __init__(self, path, root):
         self.path, self.root = path, root
         self.name = root.get("model", path.stem)
-        self.parent = {}                                 # body -> body that carries it, None: the trunk
-        self.bodies = {}                                 # name -> element
+        self.parent = {}  # body -> body that carries it, None: the trunk
+        self.bodies = {}  # name -> element
         self._collect(root.find("worldbody"), None)
         self.joints = {joint.servo: joint for joint in self._joints()}
         if not self.joints:
-            raise BodyError(f"{path}: no joint has user=\"ID direction zero\"; without it no servo moves anything")
+            raise BodyError(f'{path}: no joint has user="ID direction zero"; without it no servo moves anything')
 
     def _collect(self, element, parent):
         for child in element.findall("body"):
@@ -91,8 +92,10 @@ class Description:
                     continue
                 servo, direction, zero = numbers(joint.get("user"))
                 if not 0 <= servo <= 253 or abs(direction) != 1:
-                    raise BodyError(f"{self.path}: joint {joint.get('name')} has user=\"{joint.get('user')}\"; "
-                                    "it must be a servo ID 0..253, a direction 1 or -1, and a servo position")
+                    raise BodyError(
+                        f'{self.path}: joint {joint.get("name")} has user="{joint.get("user")}"; '
+                        "it must be a servo ID 0..253, a direction 1 or -1, and a servo position"
+                    )
                 low, high = (radians(angle) for angle in numbers(joint.get("range")))
                 yield Joint(int(servo), joint.get("name"), name, int(direction), zero, low, high)
 
@@ -145,9 +148,17 @@ class Description:
         foot, sole = self._chain_mm(f"{side}_foot"), self.geom(f"{side}_sole")
         (half_long, half_wide, half_high), (x, y, z) = (tuple(1000 * value for value in numbers(sole[key])) for key in ("size", "pos"))
         outward = (-1 if side == "right" else 1) * (y + foot[1] - ankle[1])
-        return Leg(abs(hip[1]), -yaw[2] if yaw else 0.0, yaw[2] - hip[2] if yaw else 0.0, hip[2] - knee[2], hip[0] - knee[0],
-                   knee[2] - ankle[2], ankle[0] - knee[0], half_high - z,
-                   (x - half_long, x + half_long, outward - half_wide, outward + half_wide))
+        return Leg(
+            abs(hip[1]),
+            -yaw[2] if yaw else 0.0,
+            yaw[2] - hip[2] if yaw else 0.0,
+            hip[2] - knee[2],
+            hip[0] - knee[0],
+            knee[2] - ankle[2],
+            ankle[0] - knee[0],
+            half_high - z,
+            (x - half_long, x + half_long, outward - half_wide, outward + half_wide),
+        )
 
 
 def numbers(text):

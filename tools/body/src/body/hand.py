@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """A robot whose servos are limp cannot stand. A hand holds it until they drive, then puts it on its soles and lets go."""
+
 from .trial import FALLEN, ON_FEET
 
-STILL_DEGREES_S = 6.0            # slower than this is standing still
+STILL_DEGREES_S = 6.0  # slower than this is standing still
 STILL_S = 0.1
 
 

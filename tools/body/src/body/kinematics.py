@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Where the links of a body are in a pose, and where its weight is. From the body file alone: no MuJoCo."""
+
 from math import cos, radians, sin
 
 import numpy
@@ -11,9 +12,13 @@ def turn(axis, angle):
     """Rotation matrix about an axis, radians."""
     x, y, z = numpy.asarray(axis, float) / numpy.linalg.norm(axis)
     c, s = cos(angle), sin(angle)
-    return numpy.array(((c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s),
-                        (y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s),
-                        (z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c))))
+    return numpy.array(
+        (
+            (c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s),
+            (y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s),
+            (z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c)),
+        )
+    )
 
 
 def euler(element):
@@ -28,7 +33,7 @@ def places(robot: Description, positions):
     """{body: (origin in mm, rotation)} in the frame of the trunk; servos that `positions` does not name stand at angle 0."""
     angles = {robot.joints[servo].name: robot.angle(servo, position) for servo, position in positions.items() if servo in robot.joints}
     found = {}
-    for body, element in robot.bodies.items():               # parents come before their children
+    for body, element in robot.bodies.items():  # parents come before their children
         parent = robot.parent[body]
         at, turned = found[parent] if parent else (numpy.zeros(3), numpy.eye(3))
         at = at + turned @ (numpy.array(robot.place_mm(body)) if parent else numpy.zeros(3))

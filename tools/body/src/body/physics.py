@@ -8,6 +8,7 @@
 
 One step is 1/1024 s. Whoever steps it (the simulated servos) does so through `seam`; the torques come from there.
 """
+
 import ctypes
 import functools
 import pathlib
@@ -21,18 +22,19 @@ from .description import UNITS_PER_RADIAN
 
 STEP_S = 1 / 1024
 PUSH_S = 1 / 32
-ROOT_NUMBERS, ROOT_SPEEDS = 7, 6                 # of the free joint, in qpos and qvel
+ROOT_NUMBERS, ROOT_SPEEDS = 7, 6  # of the free joint, in qpos and qvel
 P, D, I32 = ctypes.c_void_p, ctypes.POINTER(ctypes.c_double), ctypes.c_int32
 
 
 class SeamJoint(ctypes.Structure):
     """servo_mujoco_joint_t"""
-    _fields_ = [("angle", D), ("speed", D), ("torque", D), ("direction", ctypes.c_double), ("offset_rad", ctypes.c_double),
-                ("id", I32)]
+
+    _fields_ = [("angle", D), ("speed", D), ("torque", D), ("direction", ctypes.c_double), ("offset_rad", ctypes.c_double), ("id", I32)]
 
 
 class Seam(ctypes.Structure):
     """servo_mujoco_t"""
+
     _fields_ = [("mj_step", P), ("model", P), ("data", P), ("joints", ctypes.POINTER(SeamJoint)), ("count", I32)]
 
 
@@ -53,13 +55,14 @@ class Physics:
         self.robot, self.variation = robot, variation
         self.model = mujoco.MjModel.from_xml_string(robot.xml())
         if abs(self.model.opt.timestep - STEP_S) > 1e-12:
-            raise ValueError(f"{robot.path}: the time step must be 1/1024 s (option timestep=\"0.0009765625\")")
+            raise ValueError(f'{robot.path}: the time step must be 1/1024 s (option timestep="0.0009765625")')
         self._vary()
         self.data = mujoco.MjData(self.model)
         self.root = self.model.body(1).id
         self._names = [self.model.geom(geom).name for geom in range(self.model.ngeom)]
-        self._places = {servo: (self.model.joint(joint.name).qposadr[0], self.model.joint(joint.name).dofadr[0])
-                        for servo, joint in robot.joints.items()}
+        self._places = {
+            servo: (self.model.joint(joint.name).qposadr[0], self.model.joint(joint.name).dofadr[0]) for servo, joint in robot.joints.items()
+        }
         self.seam = self._make_seam()
         self._turns, self._last_yaw = 0.0, 0.0
 
@@ -70,8 +73,9 @@ class Physics:
         model.geom("floor").friction[0] = change.floor_friction
         down = radians(change.tilt)
         size = numpy.linalg.norm(model.opt.gravity)
-        model.opt.gravity[:] = size * numpy.array((sin(down) * cos(radians(change.tilt_towards)),
-                                                   sin(down) * sin(radians(change.tilt_towards)), -cos(down)))
+        model.opt.gravity[:] = size * numpy.array(
+            (sin(down) * cos(radians(change.tilt_towards)), sin(down) * sin(radians(change.tilt_towards)), -cos(down))
+        )
         model.dof_armature[ROOT_SPEEDS:] = change.rotor_kgm2
         model.dof_frictionloss[ROOT_SPEEDS:] = change.gear_friction_nm
         for body, factor in change.mass.items():
@@ -96,10 +100,11 @@ class Physics:
             motor = names[self.model.joint(joint.name).id]
             place.angle, place.speed, place.torque = (
                 ctypes.cast(array.ctypes.data + 8 * int(at), D)
-                for array, at in ((self.data.qpos, angle), (self.data.qvel, speed), (self.data.ctrl, motor)))
+                for array, at in ((self.data.qpos, angle), (self.data.qvel, speed), (self.data.ctrl, motor))
+            )
             place.direction, place.id = joint.direction, servo
             place.offset_rad = joint.angle(512 - self.variation.zero_units.get(servo, 0.0))
-        self._joints = joints                        # kept alive for as long as the seam
+        self._joints = joints  # kept alive for as long as the seam
         return Seam(_mj_step(), self.model._address, self.data._address, joints, len(joints))
 
     # Poses
@@ -161,7 +166,7 @@ class Physics:
         try:
             return self.model.equality("hand").id
         except KeyError:
-            raise ValueError(f"{self.robot.path}: no <weld name=\"hand\" body1=\"trunk\">: nothing can hold this robot") from None
+            raise ValueError(f'{self.robot.path}: no <weld name="hand" body1="trunk">: nothing can hold this robot') from None
 
     @property
     def fastest_joint(self):
@@ -183,8 +188,7 @@ class Physics:
 
     def lowest_mm(self):
         """Height of the lowest point of what can touch the floor."""
-        return 1000 * min(self._lowest(geom) for geom in range(self.model.ngeom)
-                          if self.model.geom_contype[geom] and self.model.geom_bodyid[geom])
+        return 1000 * min(self._lowest(geom) for geom in range(self.model.ngeom) if self.model.geom_contype[geom] and self.model.geom_bodyid[geom])
 
     def _lowest(self, geom):
         up = numpy.abs(self.data.geom_xmat[geom].reshape(3, 3)[2])

@@ -5,6 +5,7 @@
 
 A scene is polygons in the frame of the floor (mm): the robot stands on its soles, as flat as its pose makes them.
 """
+
 from dataclasses import dataclass
 from math import cos, radians, sin
 
@@ -13,12 +14,17 @@ import numpy
 from .description import numbers
 from .kinematics import euler, places, turn
 
-VIEW = (-55.0, 14.0)             # looking from its right front; degrees round, degrees up
+VIEW = (-55.0, 14.0)  # looking from its right front; degrees round, degrees up
 LIGHT = numpy.array((0.35, -0.5, 0.8)) / numpy.linalg.norm((0.35, -0.5, 0.8))
-SIDES = 10                       # of what is round
-BOX = [((-1, -1, -1), (-1, -1, 1), (-1, 1, 1), (-1, 1, -1)), ((1, -1, -1), (1, 1, -1), (1, 1, 1), (1, -1, 1)),
-       ((-1, -1, -1), (1, -1, -1), (1, -1, 1), (-1, -1, 1)), ((-1, 1, -1), (-1, 1, 1), (1, 1, 1), (1, 1, -1)),
-       ((-1, -1, -1), (-1, 1, -1), (1, 1, -1), (1, -1, -1)), ((-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1))]
+SIDES = 10  # of what is round
+BOX = [
+    ((-1, -1, -1), (-1, -1, 1), (-1, 1, 1), (-1, 1, -1)),
+    ((1, -1, -1), (1, 1, -1), (1, 1, 1), (1, -1, 1)),
+    ((-1, -1, -1), (1, -1, -1), (1, -1, 1), (-1, -1, 1)),
+    ((-1, 1, -1), (-1, 1, 1), (1, 1, 1), (1, 1, -1)),
+    ((-1, -1, -1), (-1, 1, -1), (1, 1, -1), (1, -1, -1)),
+    ((-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)),
+]
 
 
 @dataclass
@@ -90,8 +96,13 @@ def flat(faces, view=VIEW):
         if size == 0 or normal @ towards <= 0:
             continue
         light = 0.62 + 0.38 * max(0.0, normal @ LIGHT / size)
-        seen.append((face.corners.mean(axis=0) @ towards, numpy.column_stack((face.corners @ right, face.corners @ above)),
-                     tuple(light * part for part in face.colour)))
+        seen.append(
+            (
+                face.corners.mean(axis=0) @ towards,
+                numpy.column_stack((face.corners @ right, face.corners @ above)),
+                tuple(light * part for part in face.colour),
+            )
+        )
     return [(corners, colour) for _, corners, colour in sorted(seen, key=lambda part: part[0])]
 
 
@@ -99,13 +110,15 @@ def polygons(parts, **how):
     """What flat() gives as a matplotlib collection; `how`: its further properties."""
     from matplotlib.collections import PolyCollection
 
-    return PolyCollection([corners for corners, _ in parts], facecolors=[colour for _, colour in parts], edgecolors=(0, 0, 0, 0.35),
-                          linewidths=0.4, **how)
+    return PolyCollection(
+        [corners for corners, _ in parts], facecolors=[colour for _, colour in parts], edgecolors=(0, 0, 0, 0.35), linewidths=0.4, **how
+    )
 
 
 def save_strip(path, scenes, view=VIEW, height_inches=2.6, columns=8, dpi=120):
     """Draws [(label, faces)] beside each other, a row of `columns` after the other, into a .png or .svg file."""
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
 

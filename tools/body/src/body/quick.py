@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The robot without its chip (tools/sim/quick): the firmware's player in C, virtual servos, and a body."""
+
 import ctypes
 import functools
 import os
@@ -14,21 +15,35 @@ P, I, D = ctypes.c_void_p, ctypes.c_int, ctypes.c_double
 
 class Load(ctypes.Structure):
     """quick_load_t"""
+
     _fields_ = [(name, D) for name in ("torque_nm", "torque2_nm2", "most_degrees_c", "most_units_per_tick")]
 
 
 class Body(ctypes.Structure):
     """servo_body_t"""
+
     _fields_ = [("context", P), ("look", P), ("step", P)]
 
 
 _FUNCTIONS = {
-    "quick_new": (P, ctypes.c_char_p), "quick_free": (None, P), "quick_bus": (P, P), "quick_now": (ctypes.c_uint64, P),
-    "quick_torque_on": (None, P), "quick_start": (I, P, ctypes.c_uint8, I), "quick_keys": (None, P, ctypes.c_uint8),
-    "quick_run": (ctypes.c_bool, P, ctypes.c_uint32), "quick_page": (I, P), "quick_step": (I, P), "quick_fault": (I, P),
-    "quick_goal": (I, P, ctypes.c_uint8), "quick_load": (Load, P, I), "servo_mujoco_body": (Body, P),
-    "servo_bus_add": (P, P, ctypes.c_uint8, I, ctypes.c_uint32), "servo_bus_body": (None, P, ctypes.c_uint64, P),
-    "servo_bus_supply": (None, P, ctypes.c_uint64, D), "servo_api_model": (I, ctypes.c_char_p),
+    "quick_new": (P, ctypes.c_char_p),
+    "quick_free": (None, P),
+    "quick_bus": (P, P),
+    "quick_now": (ctypes.c_uint64, P),
+    "quick_torque_on": (None, P),
+    "quick_start": (I, P, ctypes.c_uint8, I),
+    "quick_keys": (None, P, ctypes.c_uint8),
+    "quick_run": (ctypes.c_bool, P, ctypes.c_uint32),
+    "quick_page": (I, P),
+    "quick_step": (I, P),
+    "quick_fault": (I, P),
+    "quick_goal": (I, P, ctypes.c_uint8),
+    "quick_load": (Load, P, I),
+    "servo_mujoco_body": (Body, P),
+    "servo_bus_add": (P, P, ctypes.c_uint8, I, ctypes.c_uint32),
+    "servo_bus_body": (None, P, ctypes.c_uint64, P),
+    "servo_bus_supply": (None, P, ctypes.c_uint64, D),
+    "servo_api_model": (I, ctypes.c_char_p),
 }
 
 

@@ -9,6 +9,7 @@ The player is the firmware's, compiled for this machine; servos and body are tho
 (quick.py): about 30 times as fast as the robot. A trial is a value: the same arguments give the same outcome, to the last bit on
 one machine and one version of MuJoCo.
 """
+
 import functools
 import math
 from dataclasses import dataclass, field
@@ -19,13 +20,13 @@ from .physics import PUSH_S, Physics
 from .quick import Quick
 
 TICKS_PER_S = 128
-CHUNK = 4                        # ticks between looks, and between keys: 31 ms, about the pace of a remote's packets
-FALLEN = 0.5                     # the trunk is tilted by 60 degrees
-ON_FEET = 0.9                    # and by less than 26
-WARM_S = 1.5                     # speeds are measured from here on: without the start
-SETTLE_S = 0.25                  # in the first pose, before the play
-AFTER_S = 0.75                   # after the play: does it stay?
-STOP = 255                       # the code of a stop
+CHUNK = 4  # ticks between looks, and between keys: 31 ms, about the pace of a remote's packets
+FALLEN = 0.5  # the trunk is tilted by 60 degrees
+ON_FEET = 0.9  # and by less than 26
+WARM_S = 1.5  # speeds are measured from here on: without the start
+SETTLE_S = 0.25  # in the first pose, before the play
+AFTER_S = 0.75  # after the play: does it stay?
+STOP = 255  # the code of a stop
 
 
 @dataclass(frozen=True)
@@ -43,19 +44,19 @@ class Look:
 class Outcome:
     """What came of it. Speeds are means from WARM_S on; ways and heading are those of the whole play."""
 
-    seconds: float = 0.0         # how long it played; to the fall if it fell
-    fell_s: float = None         # when; None: it did not
-    ended: bool = False          # the play came to its end by itself
-    on_feet: bool = False        # in the end it stands upright, and nothing but its soles touches the floor
+    seconds: float = 0.0  # how long it played; to the fall if it fell
+    fell_s: float = None  # when; None: it did not
+    ended: bool = False  # the play came to its end by itself
+    on_feet: bool = False  # in the end it stands upright, and nothing but its soles touches the floor
     x_mm: float = 0.0
     y_mm: float = 0.0
     heading: float = 0.0
-    forward_mm_s: float = 0.0    # along the way it went: the length of the path of the middle of its steps, with its sign
-    sideways_mm_s: float = 0.0   # seen from the robot, to the left
+    forward_mm_s: float = 0.0  # along the way it went: the length of the path of the middle of its steps, with its sign
+    sideways_mm_s: float = 0.0  # seen from the robot, to the left
     turn_deg_s: float = 0.0
     track: list = field(default_factory=list)
-    loads: dict = field(default_factory=dict)       # servo -> quick.Load
-    touched: set = field(default_factory=set)       # pairs of geoms that touched each other, the floor not counted
+    loads: dict = field(default_factory=dict)  # servo -> quick.Load
+    touched: set = field(default_factory=set)  # pairs of geoms that touched each other, the floor not counted
 
     @property
     def most_units_per_tick(self):
@@ -68,8 +69,10 @@ class Outcome:
 
     def said(self):
         how = f"fell after {self.fell_s:.1f} s" if self.fell_s is not None else "on its feet" if self.on_feet else "not on its feet"
-        return (f"{how}; {self.x_mm:.0f} mm forward, {self.y_mm:.0f} to the left, turned {self.heading:.0f} degrees in "
-                f"{self.seconds:.1f} s ({self.forward_mm_s:.0f} mm/s, {self.turn_deg_s:.1f} degrees/s)")
+        return (
+            f"{how}; {self.x_mm:.0f} mm forward, {self.y_mm:.0f} to the left, turned {self.heading:.0f} degrees in "
+            f"{self.seconds:.1f} s ({self.forward_mm_s:.0f} mm/s, {self.turn_deg_s:.1f} degrees/s)"
+        )
 
 
 @functools.lru_cache(maxsize=8)
@@ -84,8 +87,7 @@ def first_pose(image, page, robot):
     return {servo: word if word <= 1023 else 512 for servo, word in words.items()}
 
 
-def try_motion(image, page, seconds, robot="humanoid", variation=NOMINAL, law="exact", keys=(), models=None, pose=None,
-               lie=None, falls=True):
+def try_motion(image, page, seconds, robot="humanoid", variation=NOMINAL, law="exact", keys=(), models=None, pose=None, lie=None, falls=True):
     """Plays `page` for at most `seconds`, and looks.
 
     robot     a name, a path, or a Description
@@ -162,8 +164,13 @@ def look(physics, frame, zero_s):
     """Where it is now; frame: (x, y, heading in radians) at zero_s."""
     x0, y0, turned = frame
     x, y = physics.x_mm - x0, physics.y_mm - y0
-    return Look(physics.time_s - zero_s, x * math.cos(turned) + y * math.sin(turned), y * math.cos(turned) - x * math.sin(turned),
-                physics.heading - math.degrees(turned), physics.upright)
+    return Look(
+        physics.time_s - zero_s,
+        x * math.cos(turned) + y * math.sin(turned),
+        y * math.cos(turned) - x * math.sin(turned),
+        physics.heading - math.degrees(turned),
+        physics.upright,
+    )
 
 
 def _measure(outcome):
@@ -172,7 +179,8 @@ def _measure(outcome):
     last = outcome.track[-1]
     outcome.x_mm, outcome.y_mm, outcome.heading = last.x_mm, last.y_mm, last.heading
     outcome.forward_mm_s, outcome.sideways_mm_s, outcome.turn_deg_s = pace(
-        [seen for seen in outcome.track if seen.time_s >= min(WARM_S, last.time_s / 2)])
+        [seen for seen in outcome.track if seen.time_s >= min(WARM_S, last.time_s / 2)]
+    )
 
 
 def pace(looks):

@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Errors that a user reads: one sentence each, shown without a traceback, each with an exit code for scripts."""
+
 from __future__ import annotations
 
 # Exit codes. 0 is success; 1 is Python's own for a crash and 2 is click's for a wrong command line.
-EXIT_DIFFERENT = 3     # a comparison, check or verification found something
-EXIT_BAD_FILE = 4      # a file is missing, damaged or of the wrong kind
-EXIT_REFUSED = 5       # asked for something that would do harm, or the user said no
-EXIT_PORT = 6          # no port, no access, or the cable came off
-EXIT_NO_ANSWER = 7     # the port is there but nobody answers as expected
-EXIT_BOARD = 8         # the board answered with an error
-EXIT_MISSING = 9       # an optional library or the simulator is not installed
-EXIT_CANCELLED = 130   # Ctrl-C, as shells have it
+EXIT_DIFFERENT = 3  # a comparison, check or verification found something
+EXIT_BAD_FILE = 4  # a file is missing, damaged or of the wrong kind
+EXIT_REFUSED = 5  # asked for something that would do harm, or the user said no
+EXIT_PORT = 6  # no port, no access, or the cable came off
+EXIT_NO_ANSWER = 7  # the port is there but nobody answers as expected
+EXIT_BOARD = 8  # the board answered with an error
+EXIT_MISSING = 9  # an optional library or the simulator is not installed
+EXIT_CANCELLED = 130  # Ctrl-C, as shells have it
 
-WORDS_MOST = 300       # characters of a sentence that quotes what somebody wrote
+WORDS_MOST = 300  # characters of a sentence that quotes what somebody wrote
 
 
 class M512Error(Exception):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Where things lie that m512 uses and does not bring: in the source tree around this package, or in the wheel `cm5sim`."""
+
 from __future__ import annotations
 
 import os

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What a user sees while something takes its time: remarks on stderr, a progress bar on a terminal, questions."""
+
 from __future__ import annotations
 
 import sys

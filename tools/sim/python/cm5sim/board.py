@@ -10,6 +10,7 @@
 Time passes only inside run() and expect(). The first violation ends the run with the exception Violation, an armed
 power cut with PowerCut. Everything is deterministic for a given seed.
 """
+
 import ctypes
 import pathlib
 from typing import NamedTuple
@@ -48,6 +49,7 @@ class PowerCut(Exception):
 
 class Frame(NamedTuple):
     """One SYNC WRITE with goal positions. tick counts from the first frame of the trace."""
+
     cycle: int
     tick: int
     goals: dict
@@ -75,7 +77,7 @@ class Board(Inside, Wear):
         for image in [images] if isinstance(images, (str, pathlib.Path)) else images:
             self.load(image)
         if motions is not None:
-            self.flash[MOTIONS_ADDRESS:MOTIONS_ADDRESS + len(motions)] = motions
+            self.flash[MOTIONS_ADDRESS : MOTIONS_ADDRESS + len(motions)] = motions
         if bootrst is not None:
             self._lib.board_set_bootrst(self._pointer, bootrst)
         self.servos = Servos(self._lib, self._lib.board_servo_bus(self._pointer), lambda: self.now_cycles)
@@ -274,14 +276,14 @@ class Board(Inside, Wear):
             self._run(min(end - self.now_cycles, CYCLES_PER_MS * 20))
         self._lib.board_stop_on_text(self._pointer, None)
         seen = self._heard(self._taken)
-        seen = seen[:seen.index(wanted) + len(wanted)]
+        seen = seen[: seen.index(wanted) + len(wanted)]
         self._taken += len(seen)
         return seen.decode("latin-1")
 
     def attach(self, body):
         """Hangs the servos' shafts on a body (body.physics.Physics), in lock step with the board; None: each turns by itself
         again. After the body was put somewhere else by hand, attach it again: the servos then see it at once."""
-        self._body = body                            # kept alive
+        self._body = body  # kept alive
         if body is None:
             self._lib.board_body(self._pointer, None)
             return
@@ -305,7 +307,7 @@ class Board(Inside, Wear):
         """[(cycle, bytes)] of every good instruction packet since the start or clear_trace()."""
         count = ctypes.c_size_t()
         items = self._lib.board_trace(self._pointer, ctypes.byref(count))
-        return [(items[i].cycle, bytes(items[i].bytes[:items[i].count])) for i in range(count.value)]
+        return [(items[i].cycle, bytes(items[i].bytes[: items[i].count])) for i in range(count.value)]
 
     @property
     def trace(self):
@@ -356,5 +358,5 @@ def sync_goals(packet):
     if not address <= 30 <= address + length - 2:
         return {}
     at = 1 + 30 - address
-    blocks = [data[i:i + length + 1] for i in range(0, len(data), length + 1)]
+    blocks = [data[i : i + length + 1] for i in range(0, len(data), length + 1)]
     return {block[0]: block[at] | block[at + 1] << 8 for block in blocks}

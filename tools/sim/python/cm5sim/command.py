@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The command `cm5sim` of the wheel: starts the program that the wheel brings, with its images and libraries beside it."""
+
 import os
 import sys
 
@@ -18,7 +19,7 @@ def main():
         environment.setdefault("M512_PYTHON", sys.executable)
         scripts = library.ROBOT / "tools"
         environment.setdefault("M512_PLOT_SCRIPT", str(scripts / "sim" / "cm5sim" / "plot_trace.py"))
-        environment.setdefault("M512_BODY_SCRIPT", str(scripts / "body" / "src" / "with_body.py"))   # as setup.py puts it
+        environment.setdefault("M512_BODY_SCRIPT", str(scripts / "body" / "src" / "with_body.py"))  # as setup.py puts it
     os.execve(program, ["cm5sim", *sys.argv[1:]], environment)
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What a test sees of the firmware from inside: functions and variables by name, cycles, interrupts at any place, single steps. A part of
 class Board."""
+
 from typing import NamedTuple
 
 # Interrupts of this firmware by what causes them.
@@ -9,6 +10,7 @@ VECTORS = {"tick": 12, "bus byte": 18, "bus room": 19, "bus sent": 20, "console 
 
 class Cycles(NamedTuple):
     """Cycles of a probed function: own time (interrupts taken out) and total time."""
+
     count: int
     max: int
     mean: float

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Finds and declares libcm5sim.so: the C interface of board.h as ctypes functions, nothing more."""
+
 import ctypes
 import functools
 import os
@@ -19,8 +20,13 @@ def build_folder():
 
 
 class ViolationRecord(ctypes.Structure):
-    _fields_ = [("kind", ctypes.c_int), ("cycle", ctypes.c_uint64), ("pc", ctypes.c_uint32),
-                ("function", ctypes.c_char * 64), ("text", ctypes.c_char * 192)]
+    _fields_ = [
+        ("kind", ctypes.c_int),
+        ("cycle", ctypes.c_uint64),
+        ("pc", ctypes.c_uint32),
+        ("function", ctypes.c_char * 64),
+        ("text", ctypes.c_char * 192),
+    ]
 
 
 class UartCounts(ctypes.Structure):
@@ -32,18 +38,23 @@ class TracePacket(ctypes.Structure):
 
 
 class ProbeResult(ctypes.Structure):
-    _fields_ = [(name, ctypes.c_uint64) for name in (
-        "calls", "total_max", "total_sum", "own_max", "own_sum", "last_total", "last_own", "max_at")]
+    _fields_ = [(name, ctypes.c_uint64) for name in ("calls", "total_max", "total_sum", "own_max", "own_sum", "last_total", "last_own", "max_at")]
 
 
 class ServoBody(ctypes.Structure):
     """servo_body_t: what the shafts hang on."""
+
     _fields_ = [("context", ctypes.c_void_p), ("look", ctypes.c_void_p), ("step", ctypes.c_void_p)]
 
 
 class SweepResult(ctypes.Structure):
-    _fields_ = [("place", ctypes.c_uint32), ("calls", ctypes.c_uint64), ("rounds", ctypes.c_uint64),
-                ("taken", ctypes.c_uint64), ("last", ctypes.c_uint64)]
+    _fields_ = [
+        ("place", ctypes.c_uint32),
+        ("calls", ctypes.c_uint64),
+        ("rounds", ctypes.c_uint64),
+        ("taken", ctypes.c_uint64),
+        ("last", ctypes.c_uint64),
+    ]
 
 
 P, I, B, S, D = ctypes.c_void_p, ctypes.c_int, ctypes.c_bool, ctypes.c_char_p, ctypes.c_double
@@ -52,42 +63,89 @@ SIZE = ctypes.POINTER(Z)
 OPERATION_DONE = ctypes.CFUNCTYPE(None, P, U64, I, U32)
 _FUNCTIONS = {
     # board.h
-    "board_new": (P, I, U32), "board_free": (None, P), "board_load": (B, P, S, U32), "board_error": (S, P),
-    "board_set_bootrst": (None, P, B), "board_power_on": (None, P), "board_power_off": (None, P),
-    "board_is_powered": (B, P), "board_brown_out": (None, P), "board_hold_reset": (None, P, B),
-    "board_resets": (U32, P), "board_reset_cause": (I, P), "board_run": (I, P, U64), "board_now": (U64, P),
-    "board_busy_cycles": (U64, P), "board_stop_on_text": (None, P, S), "board_stop_at": (None, P, U32),
-    "board_violation": (ctypes.POINTER(ViolationRecord), P), "board_clear_violation": (None, P),
-    "board_allow": (None, P, I, B), "board_violations": (U32, P, I), "violation_name": (S, I),
+    "board_new": (P, I, U32),
+    "board_free": (None, P),
+    "board_load": (B, P, S, U32),
+    "board_error": (S, P),
+    "board_set_bootrst": (None, P, B),
+    "board_power_on": (None, P),
+    "board_power_off": (None, P),
+    "board_is_powered": (B, P),
+    "board_brown_out": (None, P),
+    "board_hold_reset": (None, P, B),
+    "board_resets": (U32, P),
+    "board_reset_cause": (I, P),
+    "board_run": (I, P, U64),
+    "board_now": (U64, P),
+    "board_busy_cycles": (U64, P),
+    "board_stop_on_text": (None, P, S),
+    "board_stop_at": (None, P, U32),
+    "board_violation": (ctypes.POINTER(ViolationRecord), P),
+    "board_clear_violation": (None, P),
+    "board_allow": (None, P, I, B),
+    "board_violations": (U32, P, I),
+    "violation_name": (S, I),
     "violation_find": (I, S),
     # board_ports.h
-    "board_console_rate": (None, P, U32), "board_console_send": (None, P, I, S, Z),
-    "board_console_pause": (None, P, U64), "board_console_waiting": (Z, P), "board_console_flush": (None, P),
-    "board_console_output": (P, P, SIZE), "board_servo_bus": (P, P), "board_trace_start": (B, P),
+    "board_console_rate": (None, P, U32),
+    "board_console_send": (None, P, I, S, Z),
+    "board_console_pause": (None, P, U64),
+    "board_console_waiting": (Z, P),
+    "board_console_flush": (None, P),
+    "board_console_output": (P, P, SIZE),
+    "board_servo_bus": (P, P),
+    "board_trace_start": (B, P),
     "board_trace": (ctypes.POINTER(TracePacket), P, SIZE),
-    "board_body": (None, P, ctypes.POINTER(ServoBody)), "servo_mujoco_body": (ServoBody, P),
-    "board_bus_turn": (U64, P, B), "board_uart_counts": (None, P, I, ctypes.POINTER(UartCounts)), "board_press": (None, P, I, B),
-    "board_set_bounce": (None, P, U64), "board_leds": (U8, P), "board_pin": (I, P, ctypes.c_char, I), "board_battery": (None, P, D),
+    "board_body": (None, P, ctypes.POINTER(ServoBody)),
+    "servo_mujoco_body": (ServoBody, P),
+    "board_bus_turn": (U64, P, B),
+    "board_uart_counts": (None, P, I, ctypes.POINTER(UartCounts)),
+    "board_press": (None, P, I, B),
+    "board_set_bounce": (None, P, U64),
+    "board_leds": (U8, P),
+    "board_pin": (I, P, ctypes.c_char, I),
+    "board_battery": (None, P, D),
     "board_thermistor": (None, P, D),
     # board_memory.h
-    "board_flash_read": (Z, P, U32, P, Z), "board_flash_write": (Z, P, U32, P, Z),
-    "board_eeprom_read": (Z, P, U32, P, Z), "board_eeprom_write": (Z, P, U32, P, Z),
-    "board_ram_read": (Z, P, U32, P, Z), "board_ram_write": (Z, P, U32, P, Z), "board_set_lock": (None, P, U8),
-    "board_lock": (U8, P), "board_set_fuses": (None, P, U8, U8, U8), "board_flash_wear": (U32, P, U32),
-    "board_eeprom_wear": (U32, P, U32), "board_operations": (U64, P),
-    "board_age_flash": (None, P, U32, U32), "board_age_eeprom": (None, P, U32, U32),
+    "board_flash_read": (Z, P, U32, P, Z),
+    "board_flash_write": (Z, P, U32, P, Z),
+    "board_eeprom_read": (Z, P, U32, P, Z),
+    "board_eeprom_write": (Z, P, U32, P, Z),
+    "board_ram_read": (Z, P, U32, P, Z),
+    "board_ram_write": (Z, P, U32, P, Z),
+    "board_set_lock": (None, P, U8),
+    "board_lock": (U8, P),
+    "board_set_fuses": (None, P, U8, U8, U8),
+    "board_flash_wear": (U32, P, U32),
+    "board_eeprom_wear": (U32, P, U32),
+    "board_operations": (U64, P),
+    "board_age_flash": (None, P, U32, U32),
+    "board_age_eeprom": (None, P, U32, U32),
     "board_operation": (B, P, U64, ctypes.POINTER(I), ctypes.POINTER(U32)),
-    "board_cut_power": (None, P, U64, I, U32), "board_cut_power_at": (None, P, U64),
+    "board_cut_power": (None, P, U64, I, U32),
+    "board_cut_power_at": (None, P, U64),
     "board_on_operation": (None, P, OPERATION_DONE, P),
     # board_debug.h
-    "board_function": (U32, P, S), "board_variable": (U32, P, S), "board_function_at": (S, P, U32),
-    "board_pc": (U32, P), "board_stack_low": (U32, P), "board_stack_headroom": (U32, P),
-    "board_probe": (B, P, S), "board_probe_result": (ctypes.POINTER(ProbeResult), P, S),
-    "board_probe_clear": (None, P), "board_interrupt_count": (U64, P, I),
-    "board_interrupt_max": (U64, P, I), "board_interrupt": (B, P, I, U8), "board_sweep": (B, P, S, I, U8),
-    "board_sweep_result": (ctypes.POINTER(SweepResult), P, S), "board_sweep_end": (None, P),
-    "board_skip_waits": (None, P, B), "board_step": (U32, P), "board_gdb": (B, P, I, B),
-    "board_vcd_start": (B, P, S), "board_vcd_stop": (None, P),
+    "board_function": (U32, P, S),
+    "board_variable": (U32, P, S),
+    "board_function_at": (S, P, U32),
+    "board_pc": (U32, P),
+    "board_stack_low": (U32, P),
+    "board_stack_headroom": (U32, P),
+    "board_probe": (B, P, S),
+    "board_probe_result": (ctypes.POINTER(ProbeResult), P, S),
+    "board_probe_clear": (None, P),
+    "board_interrupt_count": (U64, P, I),
+    "board_interrupt_max": (U64, P, I),
+    "board_interrupt": (B, P, I, U8),
+    "board_sweep": (B, P, S, I, U8),
+    "board_sweep_result": (ctypes.POINTER(SweepResult), P, S),
+    "board_sweep_end": (None, P),
+    "board_skip_waits": (None, P, B),
+    "board_step": (U32, P),
+    "board_gdb": (B, P, I, B),
+    "board_vcd_start": (B, P, S),
+    "board_vcd_stop": (None, P),
 }
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A memory of the simulated board as something like a bytearray: b.flash[0xE000:0xE200], b.eeprom[5] = 1."""
+
 import ctypes
 
 

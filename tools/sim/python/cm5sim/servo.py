@@ -10,21 +10,46 @@
 
 Nothing is kept in Python: every reading is of the board's present moment.
 """
+
 import ctypes
 
 TABLE_BYTES = 50
 ALWAYS = 0xFFFFFFFF
-FAULTS = ("silent", "dead", "duplicate", "checksum", "noise", "late", "short", "two-talkers", "overload",
-          "overheating", "low-voltage", "angle-limit", "mishears", "blocked")
-ERROR_NAMES = {1: "voltage", 2: "angle-limit", 4: "overheating", 8: "range", 16: "checksum", 32: "overload",
-               64: "instruction"}
+FAULTS = (
+    "silent",
+    "dead",
+    "duplicate",
+    "checksum",
+    "noise",
+    "late",
+    "short",
+    "two-talkers",
+    "overload",
+    "overheating",
+    "low-voltage",
+    "angle-limit",
+    "mishears",
+    "blocked",
+)
+ERROR_NAMES = {1: "voltage", 2: "angle-limit", 4: "overheating", 8: "range", 16: "checksum", 32: "overload", 64: "instruction"}
 COUNTERS = ("packets", "answers", "checksum_errors", "framing_errors", "gaps", "oversize", "deaf")
 _STATES = ("position", "velocity", "output", "outside_load", "ambient", "celsius", "held", "late_us", "torque_nm")
 _SETTABLE = _STATES[3:-1]
 _REGISTERS = {  # name: (address, bytes)
-    "model": (0, 2), "id": (3, 1), "return_delay": (5, 1), "goal": (30, 2), "speed": (32, 2), "torque_limit": (34, 2),
-    "present": (36, 2), "present_speed": (38, 2), "present_load": (40, 2), "voltage_tenths": (42, 1),
-    "temperature": (43, 1), "registered": (44, 1), "cw_slope": (28, 1), "ccw_slope": (29, 1),
+    "model": (0, 2),
+    "id": (3, 1),
+    "return_delay": (5, 1),
+    "goal": (30, 2),
+    "speed": (32, 2),
+    "torque_limit": (34, 2),
+    "present": (36, 2),
+    "present_speed": (38, 2),
+    "present_load": (40, 2),
+    "voltage_tenths": (42, 1),
+    "temperature": (43, 1),
+    "registered": (44, 1),
+    "cw_slope": (28, 1),
+    "ccw_slope": (29, 1),
 }
 
 
@@ -32,22 +57,23 @@ def declare(lib):
     """Tells ctypes the signatures; harmless when repeated."""
     p, u8, u16, u32, u64 = ctypes.c_void_p, ctypes.c_uint8, ctypes.c_uint16, ctypes.c_uint32, ctypes.c_uint64
     for name, result, arguments in (
-            ("servo_api_count", ctypes.c_int, [p]),
-            ("servo_api_at", p, [p, ctypes.c_int]),
-            ("servo_api_id", u8, [p]),
-            ("servo_api_get", u16, [p, u64, u8, u8]),
-            ("servo_api_write", u8, [p, u64, u8, ctypes.c_char_p, u8]),
-            ("servo_api_alarms", u8, [p, u64]),
-            ("servo_api_state", ctypes.c_double, [p, u64, ctypes.c_int]),
-            ("servo_api_set_state", None, [p, u64, ctypes.c_int, ctypes.c_double]),
-            ("servo_api_counter", u32, [p, ctypes.c_int]),
-            ("servo_api_fault", ctypes.c_bool, [p, u64, p, ctypes.c_char_p, u32]),
-            ("servo_api_clear", None, [p, u64, p]),
-            ("servo_api_model", ctypes.c_int, [ctypes.c_char_p]),
-            ("servo_bus_add", p, [p, u8, ctypes.c_int, u32]),
-            ("servo_bus_find", p, [p, u8]),
-            ("servo_bus_noise", None, [p, u64, ctypes.c_char_p, u8, u32]),
-            ("servo_push_to", None, [p, u64, ctypes.c_double])):
+        ("servo_api_count", ctypes.c_int, [p]),
+        ("servo_api_at", p, [p, ctypes.c_int]),
+        ("servo_api_id", u8, [p]),
+        ("servo_api_get", u16, [p, u64, u8, u8]),
+        ("servo_api_write", u8, [p, u64, u8, ctypes.c_char_p, u8]),
+        ("servo_api_alarms", u8, [p, u64]),
+        ("servo_api_state", ctypes.c_double, [p, u64, ctypes.c_int]),
+        ("servo_api_set_state", None, [p, u64, ctypes.c_int, ctypes.c_double]),
+        ("servo_api_counter", u32, [p, ctypes.c_int]),
+        ("servo_api_fault", ctypes.c_bool, [p, u64, p, ctypes.c_char_p, u32]),
+        ("servo_api_clear", None, [p, u64, p]),
+        ("servo_api_model", ctypes.c_int, [ctypes.c_char_p]),
+        ("servo_bus_add", p, [p, u8, ctypes.c_int, u32]),
+        ("servo_bus_find", p, [p, u8]),
+        ("servo_bus_noise", None, [p, u64, ctypes.c_char_p, u8, u32]),
+        ("servo_push_to", None, [p, u64, ctypes.c_double]),
+    ):
         function = getattr(lib, name)
         function.restype, function.argtypes = result, arguments
 

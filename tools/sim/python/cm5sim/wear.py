@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Erases and writes of flash and EEPROM: how often, where, and the power cut at any of them. A part of class Board."""
+
 import ctypes
 
 from . import library

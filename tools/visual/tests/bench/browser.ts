@@ -8,84 +8,112 @@ const seconds = Number(process.argv[2] ?? 60);
 const LATE_MS = 50;
 
 interface Sample {
-  readonly wallMs: number;
-  readonly ticks: number;
-  readonly lateMs: number;
+    readonly wallMs: number;
+    readonly ticks: number;
+    readonly lateMs: number;
 }
 
 function weight(): void {
-  const { first, physics, python } = weights();
-  const line = (what: string, bytes: number): void => console.log(`${what.padEnd(42)}${(bytes / 1024).toFixed(0).padStart(6)} KB`);
-  line('first load with both images, compressed', first);
-  line('physics, after it', physics);
-  line('Python, when m512 is asked', python);
+    const { first, physics, python } = weights();
+    const line = (what: string, bytes: number): void => console.log(`${what.padEnd(42)}${(bytes / 1024).toFixed(0).padStart(6)} KB`);
+    line('first load with both images, compressed', first);
+    line('physics, after it', physics);
+    line('Python, when m512 is asked', python);
 }
 
 /** Time, lateness and how far time has come, told by the page itself. */
 async function watch(visitor: Visitor, ms: number): Promise<Sample[]> {
-  return visitor.page.evaluate((limit) => new Promise<Sample[]>((resolve) => {
-    const samples: Sample[] = [];
-    const desk = (document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: { ticks: number; lateMs: number }) => void): () => void } }).desk;
-    const start = performance.now();
-    const stop = desk.onFrame((state) => {
-      samples.push({ wallMs: performance.now() - start, ticks: state.ticks, lateMs: state.lateMs });
-      if (performance.now() - start < limit) return;
-      stop();
-      resolve(samples);
-    });
-  }), ms);
+    return visitor.page.evaluate(
+        limit =>
+            new Promise<Sample[]>(resolve => {
+                const samples: Sample[] = [];
+                const desk = (
+                    document.querySelector('app-shell') as unknown as {
+                        desk: { onFrame(l: (s: { ticks: number; lateMs: number }) => void): () => void };
+                    }
+                ).desk;
+                const start = performance.now();
+                const stop = desk.onFrame(state => {
+                    samples.push({ wallMs: performance.now() - start, ticks: state.ticks, lateMs: state.lateMs });
+                    if (performance.now() - start < limit) return;
+                    stop();
+                    resolve(samples);
+                });
+            }),
+        ms,
+    );
 }
 
 function report(name: string, samples: readonly Sample[]): void {
-  const [first, last] = [samples[0], samples.at(-1)];
-  if (!first || !last) return;
-  const wall = (last.wallMs - first.wallMs) / 1000;
-  const robot = (last.ticks - first.ticks) / 128;
-  const late = samples.filter((sample) => sample.wallMs > 1000).map((sample) => sample.lateMs).sort((a, b) => a - b);
-  const part = (of: number): string => (late[Math.floor(of * (late.length - 1))] ?? 0).toFixed(0);
-  console.log(`${name.padEnd(42)}${robot.toFixed(1)} s of the robot in ${wall.toFixed(1)} s (${(robot / wall).toFixed(2)} x), ${(samples.length / wall).toFixed(0)} states a second`);
-  if (late.some((ms) => ms > 0)) {
-    console.log(`${'late, after the first second'.padEnd(42)}${part(1)} ms at most, 99 of 100 states ${part(0.99)} ms, half ${part(0.5)} ms; ${late.filter((ms) => ms > LATE_MS).length} of ${late.length} above ${LATE_MS} ms`);
-  }
+    const [first, last] = [samples[0], samples.at(-1)];
+    if (!first || !last) return;
+    const wall = (last.wallMs - first.wallMs) / 1000;
+    const robot = (last.ticks - first.ticks) / 128;
+    const late = samples
+        .filter(sample => sample.wallMs > 1000)
+        .map(sample => sample.lateMs)
+        .sort((a, b) => a - b);
+    const part = (of: number): string => (late[Math.floor(of * (late.length - 1))] ?? 0).toFixed(0);
+    console.log(
+        `${name.padEnd(42)}${robot.toFixed(1)} s of the robot in ${wall.toFixed(1)} s (${(robot / wall).toFixed(2)} x), ${(samples.length / wall).toFixed(0)} states a second`,
+    );
+    if (late.some(ms => ms > 0)) {
+        console.log(
+            `${'late, after the first second'.padEnd(42)}${part(1)} ms at most, 99 of 100 states ${part(0.99)} ms, half ${part(0.5)} ms; ${late.filter(ms => ms > LATE_MS).length} of ${late.length} above ${LATE_MS} ms`,
+        );
+    }
 }
 
 /** How long after the page was asked for the robot is in the picture, and stands on its own feet. */
 async function start(name: string, visitor: Visitor): Promise<void> {
-  const drawn = await visitor.untilDrawn();
-  await visitor.untilStanding();
-  const stands = await visitor.page.evaluate(() => performance.now());
-  console.log(`${name.padEnd(42)}${(drawn / 1000).toFixed(2).padStart(6)} s in the picture, ${(stands / 1000).toFixed(2)} s on its own feet`);
+    const drawn = await visitor.untilDrawn();
+    await visitor.untilStanding();
+    const stands = await visitor.page.evaluate(() => performance.now());
+    console.log(
+        `${name.padEnd(42)}${(drawn / 1000).toFixed(2).padStart(6)} s in the picture, ${(stands / 1000).toFixed(2)} s on its own feet`,
+    );
 }
 
 /** From a key to the first goal that moves and is known here: the worker, the board and the way back. */
 async function keyLatency(visitor: Visitor): Promise<void> {
-  const taken: number[] = [];
-  for (const key of ['ArrowUp', 'ArrowLeft', 'ArrowDown', 'ArrowRight', 'ArrowUp']) {
-    taken.push(await visitor.page.evaluate((code) => new Promise<number>((resolve) => {
-      type Frame = { servos: { goalPos: number }[] };
-      const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
-      let before: string | null = null;
-      let pressedMs = 0;
-      const stop = desk.onFrame(({ servos }) => {
-        const goals = servos.map(({ goalPos }) => goalPos).join();
-        if (before === null) {
-          before = goals;
-          pressedMs = performance.now();
-          for (const type of ['keydown', 'keyup']) window.dispatchEvent(new KeyboardEvent(type, { code }));
-        } else if (goals !== before) {
-          stop();
-          resolve(performance.now() - pressedMs);
-        }
-      });
-    }), key));
-    await visitor.doing.filter({ hasText: 'Playing' }).waitFor();
-    await visitor.button('Stop').click();
-    await visitor.untilStanding();
-  }
-  console.log(`${'from a key to the first goal that moves'.padEnd(42)}${taken.map((ms) => ms.toFixed(0)).join(', ')} ms`);
+    const taken: number[] = [];
+    for (const key of ['ArrowUp', 'ArrowLeft', 'ArrowDown', 'ArrowRight', 'ArrowUp']) {
+        taken.push(
+            await visitor.page.evaluate(
+                code =>
+                    new Promise<number>(resolve => {
+                        type Frame = { servos: { goalPos: number }[] };
+                        const { desk } = document.querySelector('app-shell') as unknown as {
+                            desk: { onFrame(l: (s: Frame) => void): () => void };
+                        };
+                        let before: string | null = null;
+                        let pressedMs = 0;
+                        const stop = desk.onFrame(({ servos }) => {
+                            const goals = servos.map(({ goalPos }) => goalPos).join();
+                            if (before === null) {
+                                before = goals;
+                                pressedMs = performance.now();
+                                for (const type of ['keydown', 'keyup']) window.dispatchEvent(new KeyboardEvent(type, { code }));
+                            } else if (goals !== before) {
+                                stop();
+                                resolve(performance.now() - pressedMs);
+                            }
+                        });
+                    }),
+                key,
+            ),
+        );
+        await visitor.doing.filter({ hasText: 'Playing' }).waitFor();
+        await visitor.button('Stop').click();
+        await visitor.untilStanding();
+    }
+    console.log(`${'from a key to the first goal that moves'.padEnd(42)}${taken.map(ms => ms.toFixed(0)).join(', ')} ms`);
 }
 
-const load = (): string => loadavg().map((value) => value.toFixed(1)).join(' ');
+const load = (): string =>
+    loadavg()
+        .map(value => value.toFixed(1))
+        .join(' ');
 console.log(`load of the machine ${load()}, ${availableParallelism()} cores`);
 weight();
 const [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
@@ -98,7 +126,9 @@ await keyLatency(visitor);
 await visitor.button('Walk').click();
 await visitor.open('Terminal');
 report('walking, physics, picture, terminal', await watch(visitor, seconds * 1000));
-await visitor.page.evaluate(() => (document.querySelector('app-shell') as unknown as { desk: { lab: { setSpeed(s: number): void } } }).desk.lab.setSpeed(Infinity));
+await visitor.page.evaluate(() =>
+    (document.querySelector('app-shell') as unknown as { desk: { lab: { setSpeed(s: number): void } } }).desk.lab.setSpeed(Infinity),
+);
 report('the same, unthrottled', await watch(visitor, 10_000));
 console.log(`load of the machine ${load()}`);
 await visitor.leave();

@@ -22,18 +22,18 @@ simulation.setPhysical(new PhysicalBody(mujoco, await readFile(new URL('wasm/bod
 
 let heard = 0;
 function run(ticks: number): void {
-  for (let tick = 0; tick < ticks; tick += 2) {
-    if (!simulation.runTo(simulation.board.nowCycles + 2 * CYCLES_PER_TICK)) throw new Error(simulation.board.violation?.text);
-    heard += simulation.board.receive().length;
-    simulation.state(0);
-  }
+    for (let tick = 0; tick < ticks; tick += 2) {
+        if (!simulation.runTo(simulation.board.nowCycles + 2 * CYCLES_PER_TICK)) throw new Error(simulation.board.violation?.text);
+        heard += simulation.board.receive().length;
+        simulation.state(0);
+    }
 }
 
 /** Bytes of the process after a collection, as far as it can be told. */
 function memory(): number {
-  (globalThis as { gc?: () => void }).gc?.();
-  const { heapUsed, external, arrayBuffers } = process.memoryUsage();
-  return heapUsed + external + arrayBuffers;
+    (globalThis as { gc?: () => void }).gc?.();
+    const { heapUsed, external, arrayBuffers } = process.memoryUsage();
+    return heapUsed + external + arrayBuffers;
 }
 
 run(3 * 128);
@@ -42,5 +42,7 @@ run(20 * 128);
 const before = memory();
 for (let minute = 1; minute <= minutes; minute++) run(60 * 128);
 const grown = memory() - before;
-console.log(`${minutes} minutes of walking: memory ${(before / 2 ** 20).toFixed(1)} MB, grown by ${(grown / 2 ** 20).toFixed(2)} MB; ${heard} bytes heard, ${simulation.board.waiting} waiting`);
+console.log(
+    `${minutes} minutes of walking: memory ${(before / 2 ** 20).toFixed(1)} MB, grown by ${(grown / 2 ** 20).toFixed(2)} MB; ${heard} bytes heard, ${simulation.board.waiting} waiting`,
+);
 if (grown > MOST_GROWTH || simulation.board.waiting > 0 || heard === 0) process.exit(1);

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """How much faster than the robot the native board walks, without a body and with MuJoCo: the yardstick for the page's."""
+
 import os
 import pathlib
 import time

@@ -10,52 +10,62 @@ const PAGES = [60, 61, 62, 63];
 
 /** Pulls the cable when the third page is being saved. */
 async function pullAtThirdSave(person: Visitor): Promise<void> {
-  await person.page.locator('app-shell').evaluate((shell) => {
-    type Port = { deliver(bytes: Uint8Array): void; unplug(): void };
-    const { desk } = shell as unknown as { desk: { sources: { simulated: { connection: { port: Port } } } } };
-    const { port } = desk.sources.simulated.connection;
-    const deliver = port.deliver;
-    let saves = 0;
-    port.deliver = (bytes) => {
-      deliver(bytes);
-      if (new TextDecoder().decode(bytes).startsWith('@save') && ++saves === 3) port.unplug();
-    };
-  });
+    await person.page.locator('app-shell').evaluate(shell => {
+        type Port = { deliver(bytes: Uint8Array): void; unplug(): void };
+        const { desk } = shell as unknown as { desk: { sources: { simulated: { connection: { port: Port } } } } };
+        const { port } = desk.sources.simulated.connection;
+        const deliver = port.deliver;
+        let saves = 0;
+        port.deliver = bytes => {
+            deliver(bytes);
+            if (new TextDecoder().decode(bytes).startsWith('@save') && ++saves === 3) port.unplug();
+        };
+    });
 }
 
 test('a cable pulled while four pages are written: each is told as old or new, "Try again" finishes', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
-  const { page } = person;
-  await person.untilStanding();
-  await person.open('Lab');
-  await person.button('Run Edit').click();
-  await person.page.getByText(/^Edit runs/).waitFor();
-  await person.open('Pages');
-  const card = (name: RegExp) => page.getByRole('option', { name });
-  await card(/^page 7 stand/).click();
-  for (const number of PAGES) {
-    await person.button('Copy or move …').click();
-    await page.getByRole('textbox', { name: 'To page' }).fill(String(number));
-    await page.keyboard.press('Enter');
-    await page.getByRole('dialog').getByRole('button', { name: 'Copy', exact: true }).click();
-    await card(new RegExp(`^page ${number} stand`)).waitFor();
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const { page } = person;
+    await person.untilStanding();
+    await person.open('Lab');
+    await person.button('Run Edit').click();
+    await person.page.getByText(/^Edit runs/).waitFor();
+    await person.open('Pages');
+    const card = (name: RegExp) => page.getByRole('option', { name });
     await card(/^page 7 stand/).click();
-  }
-  await person.button(`To the robot (${PAGES.length}) …`).click();
-  const rows = page.getByRole('list', { name: 'Pages that differ' });
-  await rows.getByText(`page ${PAGES[0]} (stand)`).waitFor();
-  await pullAtThirdSave(person);
-  await person.button(`Write ${PAGES.length} pages into the robot`).click();
-  const status = page.getByRole('status', { name: 'Transfer' });
-  await status.filter({ hasText: 'cable' }).waitFor();
-  const accounts = await rows.getByRole('listitem').locator('.account').allTextContents();
-  expect(accounts.slice(0, 2)).toEqual(['✓ written', '✓ written']);
-  expect(['being saved …', '✓ written']).toContain(accounts[2]);
-  expect(accounts[3]).toBe('as it was');
-  await expect.poll(async () => { // it reconnects by itself; until then it says once more that the cable is out
-    // The button may go between the look and the click: then it was not needed.
-    if (await person.button('Try again').isVisible()) await person.button('Try again').click({ timeout: 2000 }).catch(() => undefined);
-    return status.textContent();
-  }, { timeout: 240_000, interval: 2000 }).toContain(`Written and verified: ${PAGES.length} pages.`);
-  await person.leave();
+    for (const number of PAGES) {
+        await person.button('Copy or move …').click();
+        await page.getByRole('textbox', { name: 'To page' }).fill(String(number));
+        await page.keyboard.press('Enter');
+        await page.getByRole('dialog').getByRole('button', { name: 'Copy', exact: true }).click();
+        await card(new RegExp(`^page ${number} stand`)).waitFor();
+        await card(/^page 7 stand/).click();
+    }
+    await person.button(`To the robot (${PAGES.length}) …`).click();
+    const rows = page.getByRole('list', { name: 'Pages that differ' });
+    await rows.getByText(`page ${PAGES[0]} (stand)`).waitFor();
+    await pullAtThirdSave(person);
+    await person.button(`Write ${PAGES.length} pages into the robot`).click();
+    const status = page.getByRole('status', { name: 'Transfer' });
+    await status.filter({ hasText: 'cable' }).waitFor();
+    const accounts = await rows.getByRole('listitem').locator('.account').allTextContents();
+    expect(accounts.slice(0, 2)).toEqual(['✓ written', '✓ written']);
+    expect(['being saved …', '✓ written']).toContain(accounts[2]);
+    expect(accounts[3]).toBe('as it was');
+    await expect
+        .poll(
+            async () => {
+                // it reconnects by itself; until then it says once more that the cable is out
+                // The button may go between the look and the click: then it was not needed.
+                if (await person.button('Try again').isVisible())
+                    await person
+                        .button('Try again')
+                        .click({ timeout: 2000 })
+                        .catch(() => undefined);
+                return status.textContent();
+            },
+            { timeout: 240_000, interval: 2000 },
+        )
+        .toContain(`Written and verified: ${PAGES.length} pages.`);
+    await person.leave();
 }, 900_000);

@@ -5,12 +5,12 @@ import type { Visitor } from './page-bench.ts';
 
 /** Names page 100 and saves it; the terminal is open. Ends when Edit shows nothing unsaved. */
 export async function nameAndSave(person: Visitor, name: string): Promise<void> {
-  await person.untilScreenSays('PageNumber');
-  await person.type('page 100\r');
-  await person.untilScreenSays('PageNumber:0100');
-  await person.type(`name ${name}\r`);
-  await person.untilScreenSays(name);
-  await person.untilScreenSays(/\* unsaved/);
-  await person.type('save\r');
-  await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
+    await person.untilScreenSays('PageNumber');
+    await person.type('page 100\r');
+    await person.untilScreenSays('PageNumber:0100');
+    await person.type(`name ${name}\r`);
+    await person.untilScreenSays(name);
+    await person.untilScreenSays(/\* unsaved/);
+    await person.type('save\r');
+    await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
 }

@@ -9,97 +9,109 @@ const suite = pageSuite();
 
 /** Where a person sees a part of the robot. */
 function placeOf(visitor: Visitor, shape: string): Promise<{ x: number; y: number }> {
-  return visitor.page.locator('robot-view').evaluate((view, name) => (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf(name), shape);
+    return visitor.page
+        .locator('robot-view')
+        .evaluate((view, name) => (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf(name), shape);
 }
 
 /** Positions of the right arm's servos. */
 function arm(visitor: Visitor): Promise<number[]> {
-  return visitor.page.evaluate(() => new Promise<number[]>((resolve) => {
-    type Frame = { servos: { id: number; position: number }[] };
-    const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
-    const stop = desk.onFrame((state) => {
-      stop();
-      resolve([1, 3, 5].map((id) => state.servos.find((one) => one.id === id)?.position ?? 0));
-    });
-  }));
+    return visitor.page.evaluate(
+        () =>
+            new Promise<number[]>(resolve => {
+                type Frame = { servos: { id: number; position: number }[] };
+                const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
+                const stop = desk.onFrame(state => {
+                    stop();
+                    resolve([1, 3, 5].map(id => state.servos.find(one => one.id === id)?.position ?? 0));
+                });
+            }),
+    );
 }
 
-const farthest = (a: readonly number[], b: readonly number[]): number => Math.max(...a.map((position, i) => Math.abs(position - (b[i] ?? 0))));
+const farthest = (a: readonly number[], b: readonly number[]): number =>
+    Math.max(...a.map((position, i) => Math.abs(position - (b[i] ?? 0))));
 
 /** Moves the mouse until the hand lights up under it. */
 async function pointAtHand(visitor: Visitor): Promise<{ x: number; y: number }> {
-  const label = visitor.page.locator('robot-view .joint-label');
-  for (let i = 0; i < 40; i++) {
-    const at = await placeOf(visitor, 'right_hand');
-    await visitor.page.mouse.move(at.x, at.y);
-    if (/right elbow/.test((await label.textContent()) ?? '') && (await label.isVisible())) return at;
-    await visitor.page.waitForTimeout(300);
-  }
-  throw new Error('the hand never lights up under the mouse');
+    const label = visitor.page.locator('robot-view .joint-label');
+    for (let i = 0; i < 40; i++) {
+        const at = await placeOf(visitor, 'right_hand');
+        await visitor.page.mouse.move(at.x, at.y);
+        if (/right elbow/.test((await label.textContent()) ?? '') && (await label.isVisible())) return at;
+        await visitor.page.waitForTimeout(300);
+    }
+    throw new Error('the hand never lights up under the mouse');
 }
 
 async function dragHand(visitor: Visitor, dx: number, dy: number): Promise<void> {
-  const before = await arm(visitor);
-  const from = await pointAtHand(visitor);
-  await visitor.page.mouse.down();
-  await visitor.page.mouse.move(from.x + dx / 2, from.y + dy / 2);
-  await visitor.page.mouse.move(from.x + dx, from.y + dy);
-  await expect.poll(async () => farthest(await arm(visitor), before), PATIENT).toBeGreaterThan(30); // 9 degrees: it came along
-  await visitor.page.mouse.up();
-  await visitor.page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'it holds when you let go' }).waitFor();
+    const before = await arm(visitor);
+    const from = await pointAtHand(visitor);
+    await visitor.page.mouse.down();
+    await visitor.page.mouse.move(from.x + dx / 2, from.y + dy / 2);
+    await visitor.page.mouse.move(from.x + dx, from.y + dy);
+    await expect.poll(async () => farthest(await arm(visitor), before), PATIENT).toBeGreaterThan(30); // 9 degrees: it came along
+    await visitor.page.mouse.up();
+    await visitor.page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'it holds when you let go' }).waitFor();
 }
 
 const steps = (visitor: Visitor) => visitor.page.getByRole('button', { name: /^Step \d$/ });
 const addStep = (visitor: Visitor) => visitor.button('Add step from the robot').click();
 
 /** What the tour says now. */
-const said = (visitor: Visitor, text: string | RegExp) => visitor.page.getByRole('status', { name: 'Tour' }).filter({ hasText: text }).waitFor(PATIENT);
+const said = (visitor: Visitor, text: string | RegExp) =>
+    visitor.page.getByRole('status', { name: 'Tour' }).filter({ hasText: text }).waitFor(PATIENT);
 
 /** Seconds of the robot's own time. */
-const robotSeconds = async (visitor: Visitor): Promise<number> => Number.parseFloat((await visitor.page.locator('lab-pane .clock').textContent()) ?? '0');
+const robotSeconds = async (visitor: Visitor): Promise<number> =>
+    Number.parseFloat((await visitor.page.locator('lab-pane .clock').textContent()) ?? '0');
 
 /** The hand up beside the head, to the side, up again. */
-const WAVES = [[-60, -190], [-70, 80], [60, -90]] as const;
+const WAVES = [
+    [-60, -190],
+    [-70, 80],
+    [60, -90],
+] as const;
 
 test('a pupil, by the tour: teaches a page by hand, names it, the firmware plays it; undo takes each thing back', async () => {
-  const pupil = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 } });
-  await pupil.untilStanding();
-  await pupil.button('Tour').click();
-  await said(pupil, 'You will teach the robot to wave.');
-  await pupil.button('Start').click();
-  await said(pupil, 'Open it.');
-  await pupil.open('Steps');
-  await said(pupil, 'Press "Right arm"');
-  await pupil.button('Right arm').click();
-  for (const [i, [dx, dy]] of WAVES.entries()) {
-    await said(pupil, /(Take the right|Drag the) hand/);
-    await dragHand(pupil, dx, dy);
-    await said(pupil, /^(Press "Add step|Add this pose)/);
-    if (i === 1) await pupil.page.screenshot({ path: `${SHOTS}tour.png` });
-    await addStep(pupil);
-    await expect.poll(() => steps(pupil).count(), PATIENT).toBe(i + 1);
-  }
-  await said(pupil, 'Give it a name');
-  const name = pupil.page.getByRole('textbox', { name: 'Name of the page' });
-  await name.fill('hello');
-  await name.press('Enter');
-  await pupil.button('Hold').click();
-  await pupil.page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'All joints hold.' }).waitFor(PATIENT);
-  const lifted = await arm(pupil);
-  await said(pupil, 'Press "Play"');
-  await pupil.button('▶ Play').click();
-  await pupil.doing.filter({ hasText: /Playing page \d+ \(hello\)/ }).waitFor(PATIENT);
-  await said(pupil, 'That is your first motion.');
-  await pupil.page.screenshot({ path: `${SHOTS}steps.png` });
-  await pupil.untilStanding();
-  // Somebody who reads needs 4 s for a click, 8 for a drag or a name; the rest is the robot's own time since Edit began.
-  expect(11 * 4 + 4 * 8 + (await robotSeconds(pupil))).toBeLessThan(120);
-  expect(farthest(await arm(pupil), lifted)).toBeLessThan(25); // where the hand had put it
-  await pupil.button('Done').click();
-  for (const left of [3, 2, 1, 0]) {
-    await pupil.page.getByRole('button', { name: /^Undo:/ }).click();
-    await expect.poll(() => steps(pupil).count()).toBe(left);
-  }
-  expect(await name.inputValue()).toBe('');
-  await pupil.leave();
+    const pupil = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 } });
+    await pupil.untilStanding();
+    await pupil.button('Tour').click();
+    await said(pupil, 'You will teach the robot to wave.');
+    await pupil.button('Start').click();
+    await said(pupil, 'Open it.');
+    await pupil.open('Steps');
+    await said(pupil, 'Press "Right arm"');
+    await pupil.button('Right arm').click();
+    for (const [i, [dx, dy]] of WAVES.entries()) {
+        await said(pupil, /(Take the right|Drag the) hand/);
+        await dragHand(pupil, dx, dy);
+        await said(pupil, /^(Press "Add step|Add this pose)/);
+        if (i === 1) await pupil.page.screenshot({ path: `${SHOTS}tour.png` });
+        await addStep(pupil);
+        await expect.poll(() => steps(pupil).count(), PATIENT).toBe(i + 1);
+    }
+    await said(pupil, 'Give it a name');
+    const name = pupil.page.getByRole('textbox', { name: 'Name of the page' });
+    await name.fill('hello');
+    await name.press('Enter');
+    await pupil.button('Hold').click();
+    await pupil.page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'All joints hold.' }).waitFor(PATIENT);
+    const lifted = await arm(pupil);
+    await said(pupil, 'Press "Play"');
+    await pupil.button('▶ Play').click();
+    await pupil.doing.filter({ hasText: /Playing page \d+ \(hello\)/ }).waitFor(PATIENT);
+    await said(pupil, 'That is your first motion.');
+    await pupil.page.screenshot({ path: `${SHOTS}steps.png` });
+    await pupil.untilStanding();
+    // Somebody who reads needs 4 s for a click, 8 for a drag or a name; the rest is the robot's own time since Edit began.
+    expect(11 * 4 + 4 * 8 + (await robotSeconds(pupil))).toBeLessThan(120);
+    expect(farthest(await arm(pupil), lifted)).toBeLessThan(25); // where the hand had put it
+    await pupil.button('Done').click();
+    for (const left of [3, 2, 1, 0]) {
+        await pupil.page.getByRole('button', { name: /^Undo:/ }).click();
+        await expect.poll(() => steps(pupil).count()).toBe(left);
+    }
+    expect(await name.inputValue()).toBe('');
+    await pupil.leave();
 }, 900_000);

@@ -18,13 +18,13 @@ const suite = pageSuite();
 let folder: string;
 
 beforeAll(() => {
-  folder = mkdtempSync(join(tmpdir(), 'm512-page-'));
+    folder = mkdtempSync(join(tmpdir(), 'm512-page-'));
 });
 afterAll(() => rmSync(folder, { recursive: true }));
 
 function convert(from: string, to: string): Buffer {
-  execFileSync(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', 'convert', from, join(folder, to), '--force'], { stdio: 'ignore' });
-  return readFileSync(join(folder, to));
+    execFileSync(join(ROOT, 'build/venv/bin/python'), ['-m', 'm512', 'convert', from, join(folder, to), '--force'], { stdio: 'ignore' });
+    return readFileSync(join(folder, to));
 }
 
 const PAGE = 100;
@@ -33,118 +33,127 @@ const EASY = 192; // 1.5 s in ticks
 
 /** The library with a motion that leans too far, too fast, in page 60, as a RoboPlus file. */
 async function foundOnTheNet(): Promise<void> {
-  const { format, edits } = await makeFormat();
-  const library = await libraryDocument();
-  const [stand] = readPage(format, library.pages[7] ?? new Uint8Array(512)).steps;
-  if (!stand) throw new Error('page 7 of the library has no step');
-  const lean = { ...stand, positions: stand.positions.map((position, id) => ({ 3: (stand.positions[3] ?? 512) + 60, 15: 530, 16: 494 }[id] ?? position)), time: 15, pause: 40 };
-  const filled = withChanges(library, must(edits.insertSteps(library, PAGE, 0, [{ ...stand, time: 60 }, lean])).changes);
-  writeFileSync(join(folder, 'library.bin'), imageOf(withChanges(filled, must(edits.rename(filled, PAGE, 'topple')).changes)));
-  convert(join(folder, 'library.bin'), 'found.mtn');
+    const { format, edits } = await makeFormat();
+    const library = await libraryDocument();
+    const [stand] = readPage(format, library.pages[7] ?? new Uint8Array(512)).steps;
+    if (!stand) throw new Error('page 7 of the library has no step');
+    const lean = {
+        ...stand,
+        positions: stand.positions.map((position, id) => ({ 3: (stand.positions[3] ?? 512) + 60, 15: 530, 16: 494 })[id] ?? position),
+        time: 15,
+        pause: 40,
+    };
+    const filled = withChanges(library, must(edits.insertSteps(library, PAGE, 0, [{ ...stand, time: 60 }, lean])).changes);
+    writeFileSync(join(folder, 'library.bin'), imageOf(withChanges(filled, must(edits.rename(filled, PAGE, 'topple')).changes)));
+    convert(join(folder, 'library.bin'), 'found.mtn');
 }
 
 /** What the person does to the page, done to its bytes: step 2 takes 1.5 s, its left side becomes the mirror of the right. */
 function changed(image: Buffer): Buffer {
-  const bytes = Buffer.from(image);
-  bytes[at(PAGE, 1, 63)] = EASY;
-  for (let right = 1; right <= 17; right += 2) {
-    bytes.writeUInt16LE(Math.min(1024 - bytes.readUInt16LE(at(PAGE, 1, 2 * right)), 1023), at(PAGE, 1, 2 * right + 2));
-  }
-  bytes[512 * PAGE + 31] = 0;
-  bytes[512 * PAGE + 31] = 0xff - (bytes.subarray(512 * PAGE, 512 * (PAGE + 1)).reduce((sum, byte) => sum + byte, 0) & 0xff);
-  return bytes;
+    const bytes = Buffer.from(image);
+    bytes[at(PAGE, 1, 63)] = EASY;
+    for (let right = 1; right <= 17; right += 2) {
+        bytes.writeUInt16LE(Math.min(1024 - bytes.readUInt16LE(at(PAGE, 1, 2 * right)), 1023), at(PAGE, 1, 2 * right + 2));
+    }
+    bytes[512 * PAGE + 31] = 0;
+    bytes[512 * PAGE + 31] = 0xff - (bytes.subarray(512 * PAGE, 512 * (PAGE + 1)).reduce((sum, byte) => sum + byte, 0) & 0xff);
+    return bytes;
 }
 
 /** Strokes on the curves in the colour of what is bad. */
 function redPixels(page: Page): Promise<number> {
-  return page.locator('curve-canvas canvas').evaluate((canvas) => {
-    const { width, height } = canvas as HTMLCanvasElement;
-    const sample = document.createElement('canvas').getContext('2d');
-    const context = (canvas as HTMLCanvasElement).getContext('2d');
-    if (!sample || !context) return -1;
-    sample.fillStyle = getComputedStyle(canvas).getPropertyValue('--bad').trim();
-    sample.fillRect(0, 0, 1, 1);
-    const [r = 0, g = 0, b = 0] = sample.getImageData(0, 0, 1, 1).data;
-    const { data } = context.getImageData(0, 0, width, height);
-    let count = 0;
-    for (let i = 0; i < data.length; i += 4) count += Number(Math.abs((data[i] ?? 0) - r) + Math.abs((data[i + 1] ?? 0) - g) + Math.abs((data[i + 2] ?? 0) - b) < 24);
-    return count;
-  });
+    return page.locator('curve-canvas canvas').evaluate(canvas => {
+        const { width, height } = canvas as HTMLCanvasElement;
+        const sample = document.createElement('canvas').getContext('2d');
+        const context = (canvas as HTMLCanvasElement).getContext('2d');
+        if (!sample || !context) return -1;
+        sample.fillStyle = getComputedStyle(canvas).getPropertyValue('--bad').trim();
+        sample.fillRect(0, 0, 1, 1);
+        const [r = 0, g = 0, b = 0] = sample.getImageData(0, 0, 1, 1).data;
+        const { data } = context.getImageData(0, 0, width, height);
+        let count = 0;
+        for (let i = 0; i < data.length; i += 4)
+            count += Number(Math.abs((data[i] ?? 0) - r) + Math.abs((data[i + 1] ?? 0) - g) + Math.abs((data[i + 2] ?? 0) - b) < 24);
+        return count;
+    });
 }
 
 test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fast and where it falls, stretches, mirrors, saves it in every form as m512 does', async () => {
-  await foundOnTheNet();
-  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
-  const { page } = person;
-  const chooser = page.getByLabel('Motion file');
-  writeFileSync(join(folder, 'torn.mtn'), readFileSync(join(folder, 'found.mtn')).subarray(0, 5000));
-  await chooser.setInputFiles(join(folder, 'torn.mtn'));
-  await page.getByRole('dialog', { name: 'That did not work' }).getByText(/torn\.mtn/).waitFor();
-  await person.button('Close').click();
+    await foundOnTheNet();
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
+    const { page } = person;
+    const chooser = page.getByLabel('Motion file');
+    writeFileSync(join(folder, 'torn.mtn'), readFileSync(join(folder, 'found.mtn')).subarray(0, 5000));
+    await chooser.setInputFiles(join(folder, 'torn.mtn'));
+    await page
+        .getByRole('dialog', { name: 'That did not work' })
+        .getByText(/torn\.mtn/)
+        .waitFor();
+    await person.button('Close').click();
 
-  await chooser.setInputFiles(join(folder, 'found.mtn'));
-  const dialog = page.getByRole('dialog', { name: 'found.mtn' });
-  await dialog.getByText(/^[1-9]\d motion pages/).waitFor();
-  await page.screenshot({ path: `${SHOTS}opened.png` });
-  await dialog.getByRole('button', { name: 'Replace all pages' }).click();
-  await dialog.waitFor({ state: 'hidden' });
+    await chooser.setInputFiles(join(folder, 'found.mtn'));
+    const dialog = page.getByRole('dialog', { name: 'found.mtn' });
+    await dialog.getByText(/^[1-9]\d motion pages/).waitFor();
+    await page.screenshot({ path: `${SHOTS}opened.png` });
+    await dialog.getByRole('button', { name: 'Replace all pages' }).click();
+    await dialog.waitFor({ state: 'hidden' });
 
-  await person.open('Checks');
-  const findings = page.getByRole('list', { name: 'Findings' }).getByRole('listitem').filter({ hasText: 'topple' });
-  const fast = findings.filter({ hasText: /Step 2: the [a-z ]+ is asked for \d+\.\d\d times the speed/ });
-  await fast.getByRole('button', { name: `Go to page ${PAGE} (topple), step 2` }).click();
-  expect(await person.button('Step 2').getAttribute('aria-current')).toBe('true');
-  await person.open('Checks');
-  await person.button(`Try page ${PAGE} (topple)`).click();
-  await findings.filter({ hasText: /Falls in step 2 after \d\.\d s, and stays on the floor/ }).waitFor();
-  await person.open('Curves');
-  const tooFast = page.getByRole('status', { name: 'Too fast' });
-  await tooFast.and(page.locator('[data-tone=bad]')).waitFor();
-  await expect.poll(() => redPixels(page), { timeout: 240_000 }).toBeGreaterThan(50);
-  await page.screenshot({ path: `${SHOTS}too-fast.png` });
+    await person.open('Checks');
+    const findings = page.getByRole('list', { name: 'Findings' }).getByRole('listitem').filter({ hasText: 'topple' });
+    const fast = findings.filter({ hasText: /Step 2: the [a-z ]+ is asked for \d+\.\d\d times the speed/ });
+    await fast.getByRole('button', { name: `Go to page ${PAGE} (topple), step 2` }).click();
+    expect(await person.button('Step 2').getAttribute('aria-current')).toBe('true');
+    await person.open('Checks');
+    await person.button(`Try page ${PAGE} (topple)`).click();
+    await findings.filter({ hasText: /Falls in step 2 after \d\.\d s, and stays on the floor/ }).waitFor();
+    await person.open('Curves');
+    const tooFast = page.getByRole('status', { name: 'Too fast' });
+    await tooFast.and(page.locator('[data-tone=bad]')).waitFor();
+    await expect.poll(() => redPixels(page), { timeout: 240_000 }).toBeGreaterThan(50);
+    await page.screenshot({ path: `${SHOTS}too-fast.png` });
 
-  await person.open('Steps');
-  await page.getByRole('spinbutton', { name: 'Time of step 2' }).fill('1.5');
-  await page.keyboard.press('Enter');
-  await person.button('Mirror ◂').click();
-  await person.button(`Undo: mirror (page ${PAGE})`).waitFor();
-  await person.open('Curves');
-  await tooFast.and(page.locator('[data-tone=calm]')).waitFor();
-  await expect.poll(() => redPixels(page), { timeout: 240_000 }).toBe(0);
+    await person.open('Steps');
+    await page.getByRole('spinbutton', { name: 'Time of step 2' }).fill('1.5');
+    await page.keyboard.press('Enter');
+    await person.button('Mirror ◂').click();
+    await person.button(`Undo: mirror (page ${PAGE})`).waitFor();
+    await person.open('Curves');
+    await tooFast.and(page.locator('[data-tone=calm]')).waitFor();
+    await expect.poll(() => redPixels(page), { timeout: 240_000 }).toBe(0);
 
-  const wanted = changed(convert(join(folder, 'found.mtn'), 'found.bin'));
-  for (const suffix of ['.bin', '.mtn', '.m512', '.hex']) {
-    const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel('Save as a file').selectOption(suffix)]);
-    const saved = readFileSync(await download.path());
-    if (suffix === '.mtn') await person.button('Understood').click(); // it says what the form cannot hold: unused bytes at least
-    expect(download.suggestedFilename()).toBe(`My motions${suffix}`);
-    if (suffix === '.bin') {
-      expect(saved.subarray(512).equals(wanted.subarray(512))).toBe(true); // page 0 is this robot's own trim; the file brought none
-      writeFileSync(join(folder, 'saved.bin'), saved);
-    } else {
-      expect(saved.equals(convert(join(folder, 'saved.bin'), `wanted${suffix}`)), suffix).toBe(true);
+    const wanted = changed(convert(join(folder, 'found.mtn'), 'found.bin'));
+    for (const suffix of ['.bin', '.mtn', '.m512', '.hex']) {
+        const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel('Save as a file').selectOption(suffix)]);
+        const saved = readFileSync(await download.path());
+        if (suffix === '.mtn') await person.button('Understood').click(); // it says what the form cannot hold: unused bytes at least
+        expect(download.suggestedFilename()).toBe(`My motions${suffix}`);
+        if (suffix === '.bin') {
+            expect(saved.subarray(512).equals(wanted.subarray(512))).toBe(true); // page 0 is this robot's own trim; the file brought none
+            writeFileSync(join(folder, 'saved.bin'), saved);
+        } else {
+            expect(saved.equals(convert(join(folder, 'saved.bin'), `wanted${suffix}`)), suffix).toBe(true);
+        }
     }
-  }
-  await person.leave();
+    await person.leave();
 });
 
 test('a teacher sends a motion as a link; a pupil adds it by keyboard', async () => {
-  const teacher = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
-  await teacher.open('Pages');
-  await teacher.page.getByRole('option', { name: /^page 2 bow/ }).click();
-  await teacher.button('Send as link').click();
-  const link = await teacher.page.getByRole('textbox', { name: 'Link' }).inputValue();
-  expect(link.length).toBeLessThan(2000);
-  await teacher.leave();
+    const teacher = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    await teacher.open('Pages');
+    await teacher.page.getByRole('option', { name: /^page 2 bow/ }).click();
+    await teacher.button('Send as link').click();
+    const link = await teacher.page.getByRole('textbox', { name: 'Link' }).inputValue();
+    expect(link.length).toBeLessThan(2000);
+    await teacher.leave();
 
-  const pupil = await Visitor.come(suite.browser, link, { hasPicture: false });
-  await pupil.page.getByRole('dialog', { name: 'A motion for you' }).waitFor();
-  await pupil.untilStanding();
-  const keys = new Keyboard(pupil);
-  await keys.at('Add it and play');
-  await keys.press('Enter');
-  await keys.at('Steps');
-  await pupil.doing.filter({ hasText: /Playing page \d+ \(bow\)/ }).waitFor();
-  expect(new URL(pupil.page.url()).hash).toBe('');
-  await pupil.leave();
+    const pupil = await Visitor.come(suite.browser, link, { hasPicture: false });
+    await pupil.page.getByRole('dialog', { name: 'A motion for you' }).waitFor();
+    await pupil.untilStanding();
+    const keys = new Keyboard(pupil);
+    await keys.at('Add it and play');
+    await keys.press('Enter');
+    await keys.at('Steps');
+    await pupil.doing.filter({ hasText: /Playing page \d+ \(bow\)/ }).waitFor();
+    expect(new URL(pupil.page.url()).hash).toBe('');
+    await pupil.leave();
 });

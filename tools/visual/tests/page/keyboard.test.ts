@@ -12,168 +12,173 @@ const WIDE = { width: 1280, height: 800 };
 const suite = pageSuite();
 const chosen = (person: Visitor) => person.page.getByRole('group', { name: 'Chosen joints' }).getByRole('spinbutton');
 const steps = (person: Visitor) => person.page.getByRole('button', { name: /^Step \d$/ });
-const place = (person: Visitor): Promise<string> => person.page.locator('robot-view').evaluate((view) => {
-  const { x, y } = (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf('right_hand');
-  return `${Math.round(x)} ${Math.round(y)}`;
-});
+const place = (person: Visitor): Promise<string> =>
+    person.page.locator('robot-view').evaluate(view => {
+        const { x, y } = (view as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf('right_hand');
+        return `${Math.round(x)} ${Math.round(y)}`;
+    });
 
 test('a pupil: walks, looks round, pushes it over, gets up; teaches a page, names it, plays it; sends it as a teacher does', async () => {
-  const pupil = await Visitor.come(suite.browser, suite.address, { screen: WIDE });
-  const keys = new Keyboard(pupil);
-  const { page } = pupil;
-  await page.context().grantPermissions(['clipboard-write']);
-  await pupil.untilStanding();
-  await keys.to('The robot');
-  await page.keyboard.down('ArrowUp');
-  await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
-  await page.keyboard.up('ArrowUp');
-  await keys.press('Space');
-  await pupil.untilStanding();
-  for (const key of ['Shift+ArrowLeft', 'PageUp', '+']) { // the picture turns, the robot does not
-    const before = await place(pupil);
-    await keys.press(key);
-    await expect.poll(() => place(pupil)).not.toBe(before);
-  }
-  expect(await pupil.doing.textContent()).toBe('The robot stands and waits.');
-  await keys.press('p');
-  await pupil.doing.filter({ hasText: 'The robot lies on the floor. Press Get up.' }).waitFor();
-  await keys.enter('Get up');
-  await pupil.untilStanding();
+    const pupil = await Visitor.come(suite.browser, suite.address, { screen: WIDE });
+    const keys = new Keyboard(pupil);
+    const { page } = pupil;
+    await page.context().grantPermissions(['clipboard-write']);
+    await pupil.untilStanding();
+    await keys.to('The robot');
+    await page.keyboard.down('ArrowUp');
+    await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+    await page.keyboard.up('ArrowUp');
+    await keys.press('Space');
+    await pupil.untilStanding();
+    for (const key of ['Shift+ArrowLeft', 'PageUp', '+']) {
+        // the picture turns, the robot does not
+        const before = await place(pupil);
+        await keys.press(key);
+        await expect.poll(() => place(pupil)).not.toBe(before);
+    }
+    expect(await pupil.doing.textContent()).toBe('The robot stands and waits.');
+    await keys.press('p');
+    await pupil.doing.filter({ hasText: 'The robot lies on the floor. Press Get up.' }).waitFor();
+    await keys.enter('Get up');
+    await pupil.untilStanding();
 
-  await keys.open('Steps');
-  await keys.enter('New page');
-  await keys.at('Name of the page');
-  await page.keyboard.type('nod');
-  await keys.press('Enter');
-  await keys.at('Name of the page');
-  await keys.enter('Right arm');
-  const teaching = page.getByRole('status', { name: 'Teaching' });
-  await teaching.filter({ hasText: 'Drag the limb' }).waitFor();
-  await keys.enter('Hold');
-  await teaching.filter({ hasText: 'All joints hold.' }).waitFor();
-  await keys.enter('Add step from the robot');
-  await expect.poll(() => steps(pupil).count()).toBe(1);
-  await keys.to('Step 1');
-  await keys.press('d');
-  await expect.poll(() => steps(pupil).count()).toBe(2);
-  await keys.at('Step 2');
-  await keys.enter('Pose', 'Shift+Tab');
-  await keys.to('The robot', 'Shift+Tab');
-  await keys.press('ArrowRight', 'ArrowRight', 'ArrowRight', 'Shift+ArrowUp', 'Shift+ArrowUp');
-  await expect.poll(() => chosen(pupil).count()).toBe(1);
-  const turned = Number(await chosen(pupil).inputValue());
-  await keys.press('Control+z');
-  await expect.poll(async () => Number(await chosen(pupil).inputValue())).toBe(turned - 10);
-  await keys.press('Control+y');
-  await expect.poll(async () => Number(await chosen(pupil).inputValue())).toBe(turned);
-  await keys.to(/^3 /); // its number
-  await page.keyboard.type(String(turned - 60));
-  await keys.press('Enter');
-  await keys.to('Step 2');
-  await keys.press('Alt+ArrowLeft');
-  await keys.at('Step 1');
-  await keys.press('x', 'Alt+ArrowRight');
-  await keys.at('Step 2');
-  await keys.to('Time of step 2');
-  await page.keyboard.type('2');
-  await keys.press('Enter');
-  await keys.enter('▶ Play', 'Shift+Tab');
-  await pupil.doing.filter({ hasText: /Playing page \d+ \(nod\)/ }).waitFor();
-  await pupil.untilStanding();
-  await page.screenshot({ path: `${SHOTS}keyboard.png` });
+    await keys.open('Steps');
+    await keys.enter('New page');
+    await keys.at('Name of the page');
+    await page.keyboard.type('nod');
+    await keys.press('Enter');
+    await keys.at('Name of the page');
+    await keys.enter('Right arm');
+    const teaching = page.getByRole('status', { name: 'Teaching' });
+    await teaching.filter({ hasText: 'Drag the limb' }).waitFor();
+    await keys.enter('Hold');
+    await teaching.filter({ hasText: 'All joints hold.' }).waitFor();
+    await keys.enter('Add step from the robot');
+    await expect.poll(() => steps(pupil).count()).toBe(1);
+    await keys.to('Step 1');
+    await keys.press('d');
+    await expect.poll(() => steps(pupil).count()).toBe(2);
+    await keys.at('Step 2');
+    await keys.enter('Pose', 'Shift+Tab');
+    await keys.to('The robot', 'Shift+Tab');
+    await keys.press('ArrowRight', 'ArrowRight', 'ArrowRight', 'Shift+ArrowUp', 'Shift+ArrowUp');
+    await expect.poll(() => chosen(pupil).count()).toBe(1);
+    const turned = Number(await chosen(pupil).inputValue());
+    await keys.press('Control+z');
+    await expect.poll(async () => Number(await chosen(pupil).inputValue())).toBe(turned - 10);
+    await keys.press('Control+y');
+    await expect.poll(async () => Number(await chosen(pupil).inputValue())).toBe(turned);
+    await keys.to(/^3 /); // its number
+    await page.keyboard.type(String(turned - 60));
+    await keys.press('Enter');
+    await keys.to('Step 2');
+    await keys.press('Alt+ArrowLeft');
+    await keys.at('Step 1');
+    await keys.press('x', 'Alt+ArrowRight');
+    await keys.at('Step 2');
+    await keys.to('Time of step 2');
+    await page.keyboard.type('2');
+    await keys.press('Enter');
+    await keys.enter('▶ Play', 'Shift+Tab');
+    await pupil.doing.filter({ hasText: /Playing page \d+ \(nod\)/ }).waitFor();
+    await pupil.untilStanding();
+    await page.screenshot({ path: `${SHOTS}keyboard.png` });
 
-  await keys.to('Light or dark', 'Shift+Tab'); // the head of the page is behind the picture
-  await keys.enter('Send as link', 'Shift+Tab');
-  await keys.at('Link');
-  await keys.press('Escape');
-  await keys.at('Send as link'); // where it was
-  await pupil.leave();
+    await keys.to('Light or dark', 'Shift+Tab'); // the head of the page is behind the picture
+    await keys.enter('Send as link', 'Shift+Tab');
+    await keys.at('Link');
+    await keys.press('Escape');
+    await keys.at('Send as link'); // where it was
+    await pupil.leave();
 }, 900_000);
 
 test('a hobbyist: opens a file, goes where it is faulty, renames, copies and clears pages, links them, writes; somebody debugs', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', screen: WIDE, hasPicture: false });
-  const keys = new Keyboard(person);
-  const { page } = person;
-  const card = (name: RegExp) => page.getByRole('option', { name });
-  await person.untilStanding();
-  const chooser = page.waitForEvent('filechooser');
-  await keys.enter('Open …');
-  await (await chooser).setFiles(LIBRARY);
-  await page.getByRole('dialog', { name: 'motions.bin' }).waitFor();
-  await keys.enter('Replace all pages');
-  await keys.at('Open …');
+    const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', screen: WIDE, hasPicture: false });
+    const keys = new Keyboard(person);
+    const { page } = person;
+    const card = (name: RegExp) => page.getByRole('option', { name });
+    await person.untilStanding();
+    const chooser = page.waitForEvent('filechooser');
+    await keys.enter('Open …');
+    await (await chooser).setFiles(LIBRARY);
+    await page.getByRole('dialog', { name: 'motions.bin' }).waitFor();
+    await keys.enter('Replace all pages');
+    await keys.at('Open …');
 
-  await keys.open('Pages');
-  await keys.to(/^page \d+, empty/); // a new page is chosen
-  await keys.press('Home');
-  await keys.at(/^page 1 ready/);
-  await keys.press('ArrowRight', 'F2'); // the bow
-  await keys.at('Name');
-  await page.keyboard.type('curtsy');
-  await keys.press('Enter');
-  await card(/^page 2 curtsy/).waitFor();
-  await keys.press('Control+c', 'End', 'ArrowLeft', 'Control+v'); // behind the last one stands the trim
-  await keys.enter('Copy');
-  await card(/^page 127 curtsy/).waitFor();
-  await keys.at(/^page 127 curtsy/);
-  await keys.press('Delete');
-  await keys.enter('Clear');
-  await card(/^page 127, empty/).waitFor();
-  await keys.press('Control+z');
-  await card(/^page 127 curtsy/).waitFor();
-  await keys.press('Enter');
-  await keys.at('Steps');
-  await keys.press('ArrowRight', 'ArrowRight', 'ArrowRight');
-  await keys.at('Links');
-  await keys.choose('next', /^100 \(empty\)/);
-  await page.getByRole('button', { name: /^page 100, nothing to play here/ }).waitFor();
-  await keys.at('next'); // the list is made anew, and the keyboard is where it was
-  await page.screenshot({ path: `${SHOTS}links-dark.png` });
-  await keys.open('Checks');
-  const dead = page.getByRole('list', { name: 'Findings' }).getByRole('listitem').filter({ hasText: 'next leads to page 100, which has no action' });
-  await dead.waitFor(); // in m512's words
-  await page.screenshot({ path: `${SHOTS}checks-dark.png` });
-  await keys.enter('Go to page 127 (curtsy)');
-  await keys.at('Links');
-  await page.getByRole('heading', { name: 'Links of page 127 (curtsy)' }).waitFor();
+    await keys.open('Pages');
+    await keys.to(/^page \d+, empty/); // a new page is chosen
+    await keys.press('Home');
+    await keys.at(/^page 1 ready/);
+    await keys.press('ArrowRight', 'F2'); // the bow
+    await keys.at('Name');
+    await page.keyboard.type('curtsy');
+    await keys.press('Enter');
+    await card(/^page 2 curtsy/).waitFor();
+    await keys.press('Control+c', 'End', 'ArrowLeft', 'Control+v'); // behind the last one stands the trim
+    await keys.enter('Copy');
+    await card(/^page 127 curtsy/).waitFor();
+    await keys.at(/^page 127 curtsy/);
+    await keys.press('Delete');
+    await keys.enter('Clear');
+    await card(/^page 127, empty/).waitFor();
+    await keys.press('Control+z');
+    await card(/^page 127 curtsy/).waitFor();
+    await keys.press('Enter');
+    await keys.at('Steps');
+    await keys.press('ArrowRight', 'ArrowRight', 'ArrowRight');
+    await keys.at('Links');
+    await keys.choose('next', /^100 \(empty\)/);
+    await page.getByRole('button', { name: /^page 100, nothing to play here/ }).waitFor();
+    await keys.at('next'); // the list is made anew, and the keyboard is where it was
+    await page.screenshot({ path: `${SHOTS}links-dark.png` });
+    await keys.open('Checks');
+    const dead = page
+        .getByRole('list', { name: 'Findings' })
+        .getByRole('listitem')
+        .filter({ hasText: 'next leads to page 100, which has no action' });
+    await dead.waitFor(); // in m512's words
+    await page.screenshot({ path: `${SHOTS}checks-dark.png` });
+    await keys.enter('Go to page 127 (curtsy)');
+    await keys.at('Links');
+    await page.getByRole('heading', { name: 'Links of page 127 (curtsy)' }).waitFor();
 
-  await keys.press('ArrowLeft');
-  await keys.at('Pages');
-  await keys.enter(/^To the robot \(2\)/);
-  const rows = page.getByRole('list', { name: 'Pages that differ' });
-  await rows.getByText('page 127 (curtsy)').waitFor();
-  await keys.enter('Write 2 pages into the robot');
-  await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 pages.' }).waitFor();
-  await keys.at('Close'); // what was pressed has nothing to do any more
-  await keys.press('Escape');
-  await keys.at(/^To the robot/);
-  const saved = page.waitForEvent('download');
-  await keys.choose('Save as a file', /\.mtn/);
-  expect((await saved).suggestedFilename()).toBe('My motions.mtn');
-  await keys.press('Escape'); // what the form cannot hold
+    await keys.press('ArrowLeft');
+    await keys.at('Pages');
+    await keys.enter(/^To the robot \(2\)/);
+    const rows = page.getByRole('list', { name: 'Pages that differ' });
+    await rows.getByText('page 127 (curtsy)').waitFor();
+    await keys.enter('Write 2 pages into the robot');
+    await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 2 pages.' }).waitFor();
+    await keys.at('Close'); // what was pressed has nothing to do any more
+    await keys.press('Escape');
+    await keys.at(/^To the robot/);
+    const saved = page.waitForEvent('download');
+    await keys.choose('Save as a file', /\.mtn/);
+    expect((await saved).suggestedFilename()).toBe('My motions.mtn');
+    await keys.press('Escape'); // what the form cannot hold
 
-  await keys.open('Terminal');
-  await keys.to('Terminal of the robot');
-  await keys.press('Enter');
-  await person.untilScreenSays('PageNumber'); // Edit has written
-  await keys.press('Shift+Tab');
-  await keys.at('Terminal'); // out of it
-  await keys.press('ArrowRight');
-  await keys.enter('Pause');
-  await keys.enter('One tick');
-  await keys.enter('0.1×');
-  await page.getByRole('button', { name: '0.1×', pressed: true }).waitFor();
-  await keys.enter('real time');
-  await keys.to('Battery');
-  await keys.press('ArrowLeft', 'ArrowLeft');
-  await keys.to('Slope to the left');
-  await keys.press('ArrowRight');
-  await keys.choose('Fault of servo 1', /^does not answer$/);
-  await keys.to('Draw servo 13'); // where a letter is no choice
-  await keys.press('?');
-  await page.getByRole('dialog', { name: 'Keys' }).waitFor();
-  await page.screenshot({ path: `${SHOTS}keys-dark.png` });
-  await keys.press('Escape');
-  await keys.at('Draw servo 13');
-  await person.leave();
+    await keys.open('Terminal');
+    await keys.to('Terminal of the robot');
+    await keys.press('Enter');
+    await person.untilScreenSays('PageNumber'); // Edit has written
+    await keys.press('Shift+Tab');
+    await keys.at('Terminal'); // out of it
+    await keys.press('ArrowRight');
+    await keys.enter('Pause');
+    await keys.enter('One tick');
+    await keys.enter('0.1×');
+    await page.getByRole('button', { name: '0.1×', pressed: true }).waitFor();
+    await keys.enter('real time');
+    await keys.to('Battery');
+    await keys.press('ArrowLeft', 'ArrowLeft');
+    await keys.to('Slope to the left');
+    await keys.press('ArrowRight');
+    await keys.choose('Fault of servo 1', /^does not answer$/);
+    await keys.to('Draw servo 13'); // where a letter is no choice
+    await keys.press('?');
+    await page.getByRole('dialog', { name: 'Keys' }).waitFor();
+    await page.screenshot({ path: `${SHOTS}keys-dark.png` });
+    await keys.press('Escape');
+    await keys.at('Draw servo 13');
+    await person.leave();
 }, 900_000);

@@ -8,77 +8,86 @@ const STOPS_MOST = 200;
 
 /** What has the keyboard. */
 interface Stop {
-  /** As a screen reader calls it; '': nothing in the page has it. */
-  readonly name: string;
-  readonly isSeen: boolean;
+    /** As a screen reader calls it; '': nothing in the page has it. */
+    readonly name: string;
+    readonly isSeen: boolean;
 }
 
 export class Keyboard {
-  private readonly person: Visitor;
+    private readonly person: Visitor;
 
-  constructor(person: Visitor) {
-    this.person = person;
-  }
-
-  stop(): Promise<Stop> {
-    return this.person.page.evaluate(() => {
-      const active = document.activeElement;
-      if (!active || active === document.body) return { name: '', isSeen: true };
-      const label = active.closest('label') ?? (active.id ? document.querySelector(`label[for="${active.id}"]`) : null);
-      const name = active.getAttribute('aria-label') ?? (label ? label.querySelector('span')?.textContent ?? label.textContent : active.textContent) ?? '';
-      // An outline of its own, of the thing around it, or (a node of the chart) a frame.
-      const marks = [active, active.closest('terminal-pane'), active.querySelector(':scope > rect')].filter((one) => one !== null);
-      const isMarked = marks.some((one) => {
-        const style = getComputedStyle(one);
-        return (style.outlineStyle !== 'none' && Number.parseFloat(style.outlineWidth) >= 1) || (one.tagName === 'rect' && Number.parseFloat(style.strokeWidth) >= 4);
-      });
-      const box = active.getBoundingClientRect();
-      const isThere = box.width > 0 && box.height > 0;
-      return { name: name.trim(), isSeen: isMarked && isThere };
-    });
-  }
-
-  async press(...keys: string[]): Promise<void> {
-    for (const key of keys) await this.person.page.keyboard.press(key);
-  }
-
-  async at(name: string | RegExp): Promise<void> {
-    await expect.poll(async () => (await this.stop()).name).toMatch(typeof name === 'string' ? new RegExp(`^${name.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&')}$`) : name);
-  }
-
-  /** Goes there by Tab, or back by Shift+Tab. Everything on the way must show that it has the keyboard. */
-  async to(name: string | RegExp, key: 'Tab' | 'Shift+Tab' = 'Tab'): Promise<void> {
-    const passed: string[] = [];
-    for (let i = 0; i < STOPS_MOST; i++) {
-      await this.press(key);
-      const stop = await this.stop();
-      expect(stop, `"${stop.name}" does not show that it has the keyboard`).toHaveProperty('isSeen', true);
-      if (typeof name === 'string' ? stop.name === name : name.test(stop.name)) return;
-      passed.push(stop.name);
+    constructor(person: Visitor) {
+        this.person = person;
     }
-    throw new Error(`${key} never comes to ${name}; it comes to: ${[...new Set(passed)].join(' | ')}`);
-  }
 
-  /** Goes there and presses Enter. */
-  async enter(name: string | RegExp, key: 'Tab' | 'Shift+Tab' = 'Tab'): Promise<void> {
-    await this.to(name, key);
-    await this.press('Enter');
-  }
-
-  /** Goes to an area: past what stands before the tabs, then by the arrows. */
-  async open(area: string): Promise<void> {
-    if (!(await this.person.page.getByRole('tab', { selected: true }).evaluate((tab) => tab === document.activeElement))) {
-      await this.enter('To the areas');
+    stop(): Promise<Stop> {
+        return this.person.page.evaluate(() => {
+            const active = document.activeElement;
+            if (!active || active === document.body) return { name: '', isSeen: true };
+            const label = active.closest('label') ?? (active.id ? document.querySelector(`label[for="${active.id}"]`) : null);
+            const name =
+                active.getAttribute('aria-label') ??
+                (label ? (label.querySelector('span')?.textContent ?? label.textContent) : active.textContent) ??
+                '';
+            // An outline of its own, of the thing around it, or (a node of the chart) a frame.
+            const marks = [active, active.closest('terminal-pane'), active.querySelector(':scope > rect')].filter(one => one !== null);
+            const isMarked = marks.some(one => {
+                const style = getComputedStyle(one);
+                return (
+                    (style.outlineStyle !== 'none' && Number.parseFloat(style.outlineWidth) >= 1) ||
+                    (one.tagName === 'rect' && Number.parseFloat(style.strokeWidth) >= 4)
+                );
+            });
+            const box = active.getBoundingClientRect();
+            const isThere = box.width > 0 && box.height > 0;
+            return { name: name.trim(), isSeen: isMarked && isThere };
+        });
     }
-    while ((await this.stop()).name !== area) await this.press('ArrowRight');
-  }
 
-  /** In a list: the arrow until this is chosen; Enter. */
-  async choose(list: string, choice: string | RegExp): Promise<void> {
-    await this.to(list);
-    const chosen = (): Promise<string> => this.person.page.evaluate(() => (document.activeElement as HTMLSelectElement).selectedOptions[0]?.textContent ?? '');
-    for (let i = 0; i < STOPS_MOST && !(await chosen()).match(choice); i++) await this.press('ArrowDown');
-    expect(await chosen()).toMatch(choice);
-    await this.press('Enter');
-  }
+    async press(...keys: string[]): Promise<void> {
+        for (const key of keys) await this.person.page.keyboard.press(key);
+    }
+
+    async at(name: string | RegExp): Promise<void> {
+        await expect
+            .poll(async () => (await this.stop()).name)
+            .toMatch(typeof name === 'string' ? new RegExp(`^${name.replaceAll(/[.*+?^${}()|[\]\\]/g, '\\$&')}$`) : name);
+    }
+
+    /** Goes there by Tab, or back by Shift+Tab. Everything on the way must show that it has the keyboard. */
+    async to(name: string | RegExp, key: 'Tab' | 'Shift+Tab' = 'Tab'): Promise<void> {
+        const passed: string[] = [];
+        for (let i = 0; i < STOPS_MOST; i++) {
+            await this.press(key);
+            const stop = await this.stop();
+            expect(stop, `"${stop.name}" does not show that it has the keyboard`).toHaveProperty('isSeen', true);
+            if (typeof name === 'string' ? stop.name === name : name.test(stop.name)) return;
+            passed.push(stop.name);
+        }
+        throw new Error(`${key} never comes to ${name}; it comes to: ${[...new Set(passed)].join(' | ')}`);
+    }
+
+    /** Goes there and presses Enter. */
+    async enter(name: string | RegExp, key: 'Tab' | 'Shift+Tab' = 'Tab'): Promise<void> {
+        await this.to(name, key);
+        await this.press('Enter');
+    }
+
+    /** Goes to an area: past what stands before the tabs, then by the arrows. */
+    async open(area: string): Promise<void> {
+        if (!(await this.person.page.getByRole('tab', { selected: true }).evaluate(tab => tab === document.activeElement))) {
+            await this.enter('To the areas');
+        }
+        while ((await this.stop()).name !== area) await this.press('ArrowRight');
+    }
+
+    /** In a list: the arrow until this is chosen; Enter. */
+    async choose(list: string, choice: string | RegExp): Promise<void> {
+        await this.to(list);
+        const chosen = (): Promise<string> =>
+            this.person.page.evaluate(() => (document.activeElement as HTMLSelectElement).selectedOptions[0]?.textContent ?? '');
+        for (let i = 0; i < STOPS_MOST && !(await chosen()).match(choice); i++) await this.press('ArrowDown');
+        expect(await chosen()).toMatch(choice);
+        await this.press('Enter');
+    }
 }

@@ -7,40 +7,46 @@ import { pageSuite } from './page-suite.ts';
 const suite = pageSuite();
 
 test('physics that comes late, as over a slow line: the robot plays without it, then a hand holds it until it stands', async () => {
-  let arrive = (): void => undefined;
-  const arrived = new Promise<void>((resolve) => (arrive = resolve));
-  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, before: (page) => page.route(PHYSICS, async (route) => {
-    await arrived;
-    await route.continue();
-  }) });
-  await person.untilStanding();
-  await person.button('Bow').click();
-  await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
-  arrive();
-  await person.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
-  await person.untilStanding();
-  await person.leave();
+    let arrive = (): void => undefined;
+    const arrived = new Promise<void>(resolve => (arrive = resolve));
+    const person = await Visitor.come(suite.browser, suite.address, {
+        hasPicture: false,
+        before: page =>
+            page.route(PHYSICS, async route => {
+                await arrived;
+                await route.continue();
+            }),
+    });
+    await person.untilStanding();
+    await person.button('Bow').click();
+    await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
+    arrive();
+    await person.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
+    await person.untilStanding();
+    await person.leave();
 });
 
 test('an old machine: no picture, no serial port, no physics', async () => {
-  const browser = await startBrowser('--disable-3d-apis');
-  try {
-    const person = await Visitor.come(browser, suite.address, { before: async (page) => {
-      await page.route(PHYSICS, (route) => route.abort());
-      await page.addInitScript(() => Reflect.deleteProperty(Navigator.prototype, 'serial'));
-    } });
-    await person.page.getByText('This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot').waitFor();
-    const said = person.page.getByRole('log', { name: 'Last message' });
-    await said.filter({ hasText: 'Physics could not be loaded, so the robot cannot fall.' }).waitFor();
-    await person.untilStanding();
-    await person.button('Your robot …').click();
-    await said.filter({ hasText: /^This browser cannot reach a serial port\. It needs Web Serial/ }).waitFor();
-    await person.button('Walk').click();
-    await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
-    // What was refused above is in the console as well; nothing else is.
-    expect(person.faults.splice(0).filter((fault) => !/ERR_FAILED|WebGL/i.test(fault))).toEqual([]);
-    await person.leave();
-  } finally {
-    await browser.close();
-  }
+    const browser = await startBrowser('--disable-3d-apis');
+    try {
+        const person = await Visitor.come(browser, suite.address, {
+            before: async page => {
+                await page.route(PHYSICS, route => route.abort());
+                await page.addInitScript(() => Reflect.deleteProperty(Navigator.prototype, 'serial'));
+            },
+        });
+        await person.page.getByText('This browser draws no 3D picture (WebGL is off). Everything else works; to see the robot').waitFor();
+        const said = person.page.getByRole('log', { name: 'Last message' });
+        await said.filter({ hasText: 'Physics could not be loaded, so the robot cannot fall.' }).waitFor();
+        await person.untilStanding();
+        await person.button('Your robot …').click();
+        await said.filter({ hasText: /^This browser cannot reach a serial port\. It needs Web Serial/ }).waitFor();
+        await person.button('Walk').click();
+        await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+        // What was refused above is in the console as well; nothing else is.
+        expect(person.faults.splice(0).filter(fault => !/ERR_FAILED|WebGL/i.test(fault))).toEqual([]);
+        await person.leave();
+    } finally {
+        await browser.close();
+    }
 });

@@ -9,80 +9,85 @@ import { comesLater, weights } from './weight.ts';
 let browser: Browser;
 const servers: PageServer[] = [];
 const serve = async (...options: string[]): Promise<PageServer> => {
-  const server = await PageServer.start(...options);
-  servers.push(server);
-  return server;
+    const server = await PageServer.start(...options);
+    servers.push(server);
+    return server;
 };
 beforeAll(async () => {
-  browser = await startBrowser();
+    browser = await startBrowser();
 });
 afterAll(async () => {
-  await browser.close();
-  for (const server of servers) await server.stop();
+    await browser.close();
+    for (const server of servers) await server.stop();
 });
 
 test('the first load is at most 1 MB, compressed, with both images; physics and Python come behind it', () => {
-  const { first, physics, python } = weights();
-  expect(first).toBeLessThanOrEqual(1_000_000);
-  expect(Math.min(physics, python)).toBeGreaterThan(1_000_000); // they are there, and not counted
+    const { first, physics, python } = weights();
+    expect(first).toBeLessThanOrEqual(1_000_000);
+    expect(Math.min(physics, python)).toBeGreaterThan(1_000_000); // they are there, and not counted
 });
 
 test('from a sub-path, and the second visit with the server stopped', async () => {
-  const server = await serve('--under', '/some/where');
-  const asked: string[] = [];
-  const visitor = await Visitor.come(browser, server.address, { keepsPage: true, before: async (page) => {
-    page.on('request', (request) => asked.push(request.url()));
-  } });
-  await visitor.untilStanding();
-  // What was asked for until then is what the first load is said to be: nothing of Python is in it, and every file is there.
-  expect(asked.filter((url) => comesLater(url, '') === 'python')).toEqual([]);
-  expect(asked.every((url) => url.startsWith(server.address))).toBe(true);
-  await visitor.page.evaluate(async () => {
-    await navigator.serviceWorker.ready;
-  });
-  await server.stop();
-  await visitor.page.reload();
-  await visitor.untilStanding();
-  await visitor.leave();
+    const server = await serve('--under', '/some/where');
+    const asked: string[] = [];
+    const visitor = await Visitor.come(browser, server.address, {
+        keepsPage: true,
+        before: async page => {
+            page.on('request', request => asked.push(request.url()));
+        },
+    });
+    await visitor.untilStanding();
+    // What was asked for until then is what the first load is said to be: nothing of Python is in it, and every file is there.
+    expect(asked.filter(url => comesLater(url, '') === 'python')).toEqual([]);
+    expect(asked.every(url => url.startsWith(server.address))).toBe(true);
+    await visitor.page.evaluate(async () => {
+        await navigator.serviceWorker.ready;
+    });
+    await server.stop();
+    await visitor.page.reload();
+    await visitor.untilStanding();
+    await visitor.leave();
 });
 
 test('a release while the page is open: it goes on with its own files, says that there is a new version, and becomes it when asked', async () => {
-  const page = await ReleasedPage.make();
-  const server = await serve(page.folder);
-  const visitor = await Visitor.come(browser, server.address, { keepsPage: true, hasPicture: false });
-  await visitor.untilStanding();
-  const caches = (): Promise<string[]> => visitor.page.evaluate(() => window.caches.keys());
-  await visitor.page.evaluate(() => navigator.serviceWorker.ready);
-  const [old] = await caches();
-  await page.release();
-  await visitor.page.evaluate(async () => (await navigator.serviceWorker.ready).update());
-  const reload = visitor.button('New version: reload');
-  await reload.waitFor();
-  await visitor.open('Steps');
-  await visitor.page.getByLabel('Motion file').setInputFiles({ name: 'mine.m512', mimeType: 'text/plain', buffer: Buffer.from('m512 1\n') });
-  const dialog = visitor.page.getByRole('dialog');
-  await dialog.waitFor();
-  expect(await dialog.textContent()).not.toMatch(/could not be loaded/); // Python, 5 MB, came from the old version
-  await visitor.page.keyboard.press('Escape');
-  await reload.click();
-  await visitor.page.waitForEvent('load');
-  await visitor.untilStanding();
-  expect(await reload.isVisible()).toBe(false);
-  expect((await caches()).filter((name) => name === old)).toEqual([]);
-  await visitor.leave();
-  await page.remove();
+    const page = await ReleasedPage.make();
+    const server = await serve(page.folder);
+    const visitor = await Visitor.come(browser, server.address, { keepsPage: true, hasPicture: false });
+    await visitor.untilStanding();
+    const caches = (): Promise<string[]> => visitor.page.evaluate(() => window.caches.keys());
+    await visitor.page.evaluate(() => navigator.serviceWorker.ready);
+    const [old] = await caches();
+    await page.release();
+    await visitor.page.evaluate(async () => (await navigator.serviceWorker.ready).update());
+    const reload = visitor.button('New version: reload');
+    await reload.waitFor();
+    await visitor.open('Steps');
+    await visitor.page
+        .getByLabel('Motion file')
+        .setInputFiles({ name: 'mine.m512', mimeType: 'text/plain', buffer: Buffer.from('m512 1\n') });
+    const dialog = visitor.page.getByRole('dialog');
+    await dialog.waitFor();
+    expect(await dialog.textContent()).not.toMatch(/could not be loaded/); // Python, 5 MB, came from the old version
+    await visitor.page.keyboard.press('Escape');
+    await reload.click();
+    await visitor.page.waitForEvent('load');
+    await visitor.untilStanding();
+    expect(await reload.isVisible()).toBe(false);
+    expect((await caches()).filter(name => name === old)).toEqual([]);
+    await visitor.leave();
+    await page.remove();
 });
 
 test('the policy holds: no code from text, in the page', async () => {
-  const server = await serve();
-  const visitor = await Visitor.come(browser, server.address, { hasPicture: false, hasPhysics: false });
-  // Playwright's own scripts may do what the policy forbids; a text that the page is to run later may not.
-  const ran = await visitor.page.evaluate(async () => {
-    (setTimeout as (code: string) => void)('document.title = "made from text"');
-    await new Promise((resolve) => setTimeout(resolve, 200));
-    return document.title;
-  });
-  expect(ran).not.toBe('made from text');
-  expect(visitor.faults.join()).toMatch(/content security policy/i);
-  await server.stop();
+    const server = await serve();
+    const visitor = await Visitor.come(browser, server.address, { hasPicture: false, hasPhysics: false });
+    // Playwright's own scripts may do what the policy forbids; a text that the page is to run later may not.
+    const ran = await visitor.page.evaluate(async () => {
+        (setTimeout as (code: string) => void)('document.title = "made from text"');
+        await new Promise(resolve => setTimeout(resolve, 200));
+        return document.title;
+    });
+    expect(ran).not.toBe('made from text');
+    expect(visitor.faults.join()).toMatch(/content security policy/i);
+    await server.stop();
 });

@@ -11,32 +11,42 @@ import type { Browser, BrowserContext, ConsoleMessage, Page } from 'playwright-c
 export const BROWSER = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
 /** There is no graphics chip: WebGL is drawn by software. The page around it is then put together without it: by WebGL's software that takes
  *  0.2 s a frame, and a robot that shall keep its time waits for every one of them. */
-export const FLAGS = ['--disable-gpu-compositing', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-  '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...(process.getuid?.() === 0 ? ['--no-sandbox'] : [])];
+export const FLAGS = [
+    '--disable-gpu-compositing',
+    '--disable-quic',
+    '--no-first-run',
+    '--disable-background-networking',
+    '--disable-component-update',
+    '--disable-sync',
+    '--use-gl=angle',
+    '--use-angle=swiftshader',
+    '--enable-unsafe-swiftshader',
+    ...(process.getuid?.() === 0 ? ['--no-sandbox'] : []),
+];
 /** CSS pixels. */
 export interface Screen {
-  readonly width: number;
-  readonly height: number;
-  readonly hasTouch?: boolean;
+    readonly width: number;
+    readonly height: number;
+    readonly hasTouch?: boolean;
 }
 
 const SCREEN: Screen = { width: 1000, height: 640 };
 
 /** How somebody comes. */
 export interface Visit {
-  readonly theme?: 'light' | 'dark';
-  /** Pixels of the screen to a CSS pixel. */
-  readonly sharpness?: number;
-  readonly screen?: Screen;
-  /** false: the browser has no WebGL, as on an old machine (lacking.test.ts). For what is not about the picture: drawing it by software takes
-   *  more of the processor than all else. */
-  readonly hasPicture?: boolean;
-  /** false: the robot's physics cannot be loaded, so it stands without a body of mass, and can be used three seconds sooner. */
-  readonly hasPhysics?: boolean;
-  /** The browser keeps the page for the time without a network (offline.test.ts): it writes 10 MB for that. */
-  readonly keepsPage?: boolean;
-  /** Done with the empty page, before the address is opened. */
-  readonly before?: (page: Page) => Promise<unknown>;
+    readonly theme?: 'light' | 'dark';
+    /** Pixels of the screen to a CSS pixel. */
+    readonly sharpness?: number;
+    readonly screen?: Screen;
+    /** false: the browser has no WebGL, as on an old machine (lacking.test.ts). For what is not about the picture: drawing it by software takes
+     *  more of the processor than all else. */
+    readonly hasPicture?: boolean;
+    /** false: the robot's physics cannot be loaded, so it stands without a body of mass, and can be used three seconds sooner. */
+    readonly hasPhysics?: boolean;
+    /** The browser keeps the page for the time without a network (offline.test.ts): it writes 10 MB for that. */
+    readonly keepsPage?: boolean;
+    /** Done with the empty page, before the address is opened. */
+    readonly before?: (page: Page) => Promise<unknown>;
 }
 
 /** What a browser says to the console of what it was told to lack. */
@@ -47,13 +57,13 @@ export const PHYSICS = '**/mujoco.wasm*';
 
 /** In the browser: WebGL is off. */
 function withoutWebGl(): void {
-  const { prototype } = HTMLCanvasElement;
-  const contextOf = prototype.getContext as (this: HTMLCanvasElement, kind: string, options?: unknown) => RenderingContext | null;
-  Object.assign(prototype, {
-    getContext(this: HTMLCanvasElement, kind: string, options?: unknown) {
-      return kind.startsWith('webgl') ? null : contextOf.call(this, kind, options);
-    },
-  });
+    const { prototype } = HTMLCanvasElement;
+    const contextOf = prototype.getContext as (this: HTMLCanvasElement, kind: string, options?: unknown) => RenderingContext | null;
+    Object.assign(prototype, {
+        getContext(this: HTMLCanvasElement, kind: string, options?: unknown) {
+            return kind.startsWith('webgl') ? null : contextOf.call(this, kind, options);
+        },
+    });
 }
 
 const STANDS = /^(The robot stands and waits|Edit runs: its screen is in the terminal)\.$/;
@@ -63,125 +73,145 @@ const ROBOT_DRAWN = 'robot-drawn';
 const LIMIT_MS = Number(process.env['WAIT_MS'] ?? 240_000);
 
 export class PageServer {
-  readonly address: string;
-  private readonly process: ChildProcess;
+    readonly address: string;
+    private readonly process: ChildProcess;
 
-  private constructor(process: ChildProcess, address: string) {
-    this.process = process;
-    this.address = address;
-  }
+    private constructor(process: ChildProcess, address: string) {
+        this.process = process;
+        this.address = address;
+    }
 
-  static async start(...options: string[]): Promise<PageServer> {
-    const server = spawn(new URL('../../serve', import.meta.url).pathname, options, { stdio: ['ignore', 'pipe', 'inherit'] });
-    const address = await new Promise<string>((resolve, reject) => {
-      server.stdout.once('data', (line: Buffer) => resolve(line.toString().trim()));
-      server.once('exit', () => reject(new Error('the server ended: is the page built? tools/dev/build web')));
-    });
-    return new PageServer(server, address);
-  }
+    static async start(...options: string[]): Promise<PageServer> {
+        const server = spawn(new URL('../../serve', import.meta.url).pathname, options, { stdio: ['ignore', 'pipe', 'inherit'] });
+        const address = await new Promise<string>((resolve, reject) => {
+            server.stdout.once('data', (line: Buffer) => resolve(line.toString().trim()));
+            server.once('exit', () => reject(new Error('the server ended: is the page built? tools/dev/build web')));
+        });
+        return new PageServer(server, address);
+    }
 
-  stop(): Promise<void> {
-    return new Promise((resolve) => {
-      if (this.process.exitCode !== null || this.process.signalCode !== null) return resolve();
-      this.process.once('exit', () => resolve());
-      this.process.kill();
-    });
-  }
+    stop(): Promise<void> {
+        return new Promise(resolve => {
+            if (this.process.exitCode !== null || this.process.signalCode !== null) return resolve();
+            this.process.once('exit', () => resolve());
+            this.process.kill();
+        });
+    }
 }
 
 /** more: flags besides ours. */
 export async function startBrowser(...more: string[]): Promise<Browser> {
-  if (!BROWSER) throw new Error('there is no Chromium: tools/dev/setup webtest');
-  return chromium.launch({ executablePath: BROWSER, headless: true, args: [...FLAGS, ...more] });
+    if (!BROWSER) throw new Error('there is no Chromium: tools/dev/setup webtest');
+    return chromium.launch({ executablePath: BROWSER, headless: true, args: [...FLAGS, ...more] });
 }
 
 /** One visitor with a browser profile of its own. */
 export class Visitor {
-  readonly page: Page;
-  readonly faults: string[] = [];
-  private readonly context: BrowserContext;
+    readonly page: Page;
+    readonly faults: string[] = [];
+    private readonly context: BrowserContext;
 
-  private constructor(context: BrowserContext, page: Page) {
-    this.context = context;
-    this.page = page;
-  }
-
-  static async come(browser: Browser, address: string, visit: Visit = {}): Promise<Visitor> {
-    const { theme = 'light', sharpness = 1, screen: { width, height, hasTouch = false } = SCREEN, hasPicture = true, hasPhysics = true, keepsPage = false, before } = visit;
-    // Reduced motion: no colour is looked at while it changes.
-    const context = await browser.newContext({ viewport: { width, height }, hasTouch, colorScheme: theme, deviceScaleFactor: sharpness, reducedMotion: 'reduce',
-      serviceWorkers: keepsPage ? 'allow' : 'block' });
-    context.setDefaultTimeout(LIMIT_MS);
-    if (!hasPicture) await context.addInitScript(withoutWebGl);
-    if (!hasPhysics) await context.route(PHYSICS, (route) => route.abort());
-    const visitor = new Visitor(context, await context.newPage());
-    visitor.watch(new URL(address).origin, [...(hasPicture ? [] : [NO_PICTURE]), ...(hasPhysics ? [] : [NO_PHYSICS])]);
-    await before?.(visitor.page);
-    await visitor.page.goto(address);
-    return visitor;
-  }
-
-  private watch(origin: string, expected: readonly RegExp[]): void {
-    const isExpected = (message: ConsoleMessage): boolean => expected.some((lack) => lack.test(`${message.text()} ${message.location().url}`));
-    this.page.on('console', (message) => message.type() === 'error' && !isExpected(message) && this.faults.push(`console: ${message.text()}`));
-    this.page.on('pageerror', (error) => this.faults.push(`error: ${error.message}`));
-    this.context.on('request', (request) => {
-      const url = request.url();
-      if (!url.startsWith(origin) && !url.startsWith('data:') && !url.startsWith('blob:')) this.faults.push(`foreign request: ${url}`);
-    });
-  }
-
-  /** What the strip says of what the robot does. */
-  get doing() {
-    return this.page.getByRole('status', { name: 'What the robot does' });
-  }
-
-  button(name: string) {
-    return this.page.getByRole('button', { name, exact: true });
-  }
-
-  async open(tab: 'Remote' | 'Steps' | 'Curves' | 'Pages' | 'Links' | 'Checks' | 'Terminal' | 'Lab'): Promise<void> {
-    await this.page.getByRole('tab', { name: tab, exact: true }).click();
-  }
-
-  /** Waits until the robot is in the picture; milliseconds since the page was asked for. */
-  async untilDrawn(): Promise<number> {
-    const drawn = await this.page.waitForFunction((mark) => performance.getEntriesByName(mark)[0]?.startTime, ROBOT_DRAWN);
-    return (await drawn.jsonValue()) ?? NaN;
-  }
-
-  /** Waits until the firmware answers and nothing plays; with physics, until the robot stands by itself. */
-  async untilStanding(): Promise<void> {
-    await this.page.locator('status-strip .doing').filter({ hasText: STANDS }).waitFor();
-  }
-
-  /** Until what has changed is on the screen: a mouse hits what is seen there. */
-  async untilSeen(): Promise<void> {
-    await this.page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  }
-
-  /** The terminal's screen as text. */
-  screen(): Promise<string> {
-    return this.page.locator('terminal-pane').evaluate((pane) => (pane as unknown as { screenText: string }).screenText);
-  }
-
-  /** Types into the terminal as a person does. */
-  async type(text: string): Promise<void> {
-    await this.page.getByRole('textbox', { name: 'Terminal of the robot' }).focus();
-    for (const part of text.split(/(\r)/)) part === '\r' ? await this.page.keyboard.press('Enter') : await this.page.keyboard.type(part);
-  }
-
-  async untilScreenSays(text: string | RegExp, limitMs = LIMIT_MS): Promise<void> {
-    const end = Date.now() + limitMs;
-    for (let screen = await this.screen(); !screen.match(text); screen = await this.screen()) {
-      if (Date.now() > end) throw new Error(`the terminal never said ${text}; it shows:\n${screen}`);
-      await this.page.waitForTimeout(100);
+    private constructor(context: BrowserContext, page: Page) {
+        this.context = context;
+        this.page = page;
     }
-  }
 
-  /** Leaves; throws when anything was wrong meanwhile. */
-  async leave(): Promise<void> {
-    await this.context.close();
-    if (this.faults.length > 0) throw new Error(this.faults.join('\n'));
-  }
+    static async come(browser: Browser, address: string, visit: Visit = {}): Promise<Visitor> {
+        const {
+            theme = 'light',
+            sharpness = 1,
+            screen: { width, height, hasTouch = false } = SCREEN,
+            hasPicture = true,
+            hasPhysics = true,
+            keepsPage = false,
+            before,
+        } = visit;
+        // Reduced motion: no colour is looked at while it changes.
+        const context = await browser.newContext({
+            viewport: { width, height },
+            hasTouch,
+            colorScheme: theme,
+            deviceScaleFactor: sharpness,
+            reducedMotion: 'reduce',
+            serviceWorkers: keepsPage ? 'allow' : 'block',
+        });
+        context.setDefaultTimeout(LIMIT_MS);
+        if (!hasPicture) await context.addInitScript(withoutWebGl);
+        if (!hasPhysics) await context.route(PHYSICS, route => route.abort());
+        const visitor = new Visitor(context, await context.newPage());
+        visitor.watch(new URL(address).origin, [...(hasPicture ? [] : [NO_PICTURE]), ...(hasPhysics ? [] : [NO_PHYSICS])]);
+        await before?.(visitor.page);
+        await visitor.page.goto(address);
+        return visitor;
+    }
+
+    private watch(origin: string, expected: readonly RegExp[]): void {
+        const isExpected = (message: ConsoleMessage): boolean =>
+            expected.some(lack => lack.test(`${message.text()} ${message.location().url}`));
+        this.page.on(
+            'console',
+            message => message.type() === 'error' && !isExpected(message) && this.faults.push(`console: ${message.text()}`),
+        );
+        this.page.on('pageerror', error => this.faults.push(`error: ${error.message}`));
+        this.context.on('request', request => {
+            const url = request.url();
+            if (!url.startsWith(origin) && !url.startsWith('data:') && !url.startsWith('blob:'))
+                this.faults.push(`foreign request: ${url}`);
+        });
+    }
+
+    /** What the strip says of what the robot does. */
+    get doing() {
+        return this.page.getByRole('status', { name: 'What the robot does' });
+    }
+
+    button(name: string) {
+        return this.page.getByRole('button', { name, exact: true });
+    }
+
+    async open(tab: 'Remote' | 'Steps' | 'Curves' | 'Pages' | 'Links' | 'Checks' | 'Terminal' | 'Lab'): Promise<void> {
+        await this.page.getByRole('tab', { name: tab, exact: true }).click();
+    }
+
+    /** Waits until the robot is in the picture; milliseconds since the page was asked for. */
+    async untilDrawn(): Promise<number> {
+        const drawn = await this.page.waitForFunction(mark => performance.getEntriesByName(mark)[0]?.startTime, ROBOT_DRAWN);
+        return (await drawn.jsonValue()) ?? NaN;
+    }
+
+    /** Waits until the firmware answers and nothing plays; with physics, until the robot stands by itself. */
+    async untilStanding(): Promise<void> {
+        await this.page.locator('status-strip .doing').filter({ hasText: STANDS }).waitFor();
+    }
+
+    /** Until what has changed is on the screen: a mouse hits what is seen there. */
+    async untilSeen(): Promise<void> {
+        await this.page.evaluate(() => new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    }
+
+    /** The terminal's screen as text. */
+    screen(): Promise<string> {
+        return this.page.locator('terminal-pane').evaluate(pane => (pane as unknown as { screenText: string }).screenText);
+    }
+
+    /** Types into the terminal as a person does. */
+    async type(text: string): Promise<void> {
+        await this.page.getByRole('textbox', { name: 'Terminal of the robot' }).focus();
+        for (const part of text.split(/(\r)/))
+            part === '\r' ? await this.page.keyboard.press('Enter') : await this.page.keyboard.type(part);
+    }
+
+    async untilScreenSays(text: string | RegExp, limitMs = LIMIT_MS): Promise<void> {
+        const end = Date.now() + limitMs;
+        for (let screen = await this.screen(); !screen.match(text); screen = await this.screen()) {
+            if (Date.now() > end) throw new Error(`the terminal never said ${text}; it shows:\n${screen}`);
+            await this.page.waitForTimeout(100);
+        }
+    }
+
+    /** Leaves; throws when anything was wrong meanwhile. */
+    async leave(): Promise<void> {
+        await this.context.close();
+        if (this.faults.length > 0) throw new Error(this.faults.join('\n'));
+    }
 }

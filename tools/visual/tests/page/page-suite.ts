@@ -10,48 +10,56 @@ import { PageServer, startBrowser } from './page-bench.ts';
 export const SHOTS = new URL('../../../../build/visual-shots/', import.meta.url).pathname;
 
 export interface PageSuite {
-  readonly browser: Browser;
-  /** Of the served page. */
-  readonly address: string;
+    readonly browser: Browser;
+    /** Of the served page. */
+    readonly address: string;
 }
 
 const TELL_MS = 20_000;
 
 /** What a page shows and knows, for the report of a test that failed: a wait alone says nothing of why. */
 async function told(page: Page): Promise<string> {
-  const shows = page.evaluate(() => {
-    const shell = document.querySelector('app-shell') as unknown as { desk: { state: { get(): Record<string, unknown> } } } | null;
-    const { connection, image, physics, speed, stopped, tab, version, where } = shell?.desk.state.get() ?? {};
-    const text = (name: string): string => document.querySelector<HTMLElement>(name)?.innerText ?? '';
-    const terminal = document.querySelector('terminal-pane') as unknown as { screenText?: string } | null;
-    const strip = [text('.start-failed'), text('status-strip')].filter(Boolean).join('\n');
-    const shown = ['[role="tabpanel"]:not([hidden])', 'dialog[open]'].map((name) => text(name).slice(0, 2000)).join('\n');
-    return `${strip}\n${shown}\n${JSON.stringify({ connection, image, physics, speed, stopped, tab, version, where })}\n${terminal?.screenText ?? ''}`;
-  });
-  const silent = new Promise<string>((resolve) => setTimeout(() => resolve('nothing: it has hung'), TELL_MS));
-  return Promise.race([shows, silent]).catch((error: unknown) => `nothing: ${String(error)}`);
+    const shows = page.evaluate(() => {
+        const shell = document.querySelector('app-shell') as unknown as { desk: { state: { get(): Record<string, unknown> } } } | null;
+        const { connection, image, physics, speed, stopped, tab, version, where } = shell?.desk.state.get() ?? {};
+        const text = (name: string): string => document.querySelector<HTMLElement>(name)?.innerText ?? '';
+        const terminal = document.querySelector('terminal-pane') as unknown as { screenText?: string } | null;
+        const strip = [text('.start-failed'), text('status-strip')].filter(Boolean).join('\n');
+        const shown = ['[role="tabpanel"]:not([hidden])', 'dialog[open]'].map(name => text(name).slice(0, 2000)).join('\n');
+        return `${strip}\n${shown}\n${JSON.stringify({ connection, image, physics, speed, stopped, tab, version, where })}\n${terminal?.screenText ?? ''}`;
+    });
+    const silent = new Promise<string>(resolve => setTimeout(() => resolve('nothing: it has hung'), TELL_MS));
+    return Promise.race([shows, silent]).catch((error: unknown) => `nothing: ${String(error)}`);
 }
 
 /** One browser and one server for all tests of a file; there from its first test to its last. */
 export function pageSuite(): PageSuite {
-  const suite: { browser?: Browser; server?: PageServer } = {};
-  beforeAll(async () => {
-    await mkdir(SHOTS, { recursive: true });
-    [suite.browser, suite.server] = await Promise.all([startBrowser(), PageServer.start()]);
-  });
-  // The page of a test that failed would go on working beside the next one.
-  afterEach(async ({ task }) => {
-    const pages = suite.browser?.contexts().flatMap((context) => context.pages()) ?? [];
-    if (task.result?.state === 'fail') for (const page of pages) console.log(`when "${task.name}" failed, ${page.url()} showed:\n${await told(page)}`);
-    for (const context of suite.browser?.contexts() ?? []) await context.close();
-  });
-  afterAll(async () => {
-    await suite.browser?.close();
-    await suite.server?.stop();
-  });
-  const begun = <T>(part: T | undefined): T => {
-    if (part === undefined) throw new Error('asked for before the first test');
-    return part;
-  };
-  return { get browser() { return begun(suite.browser); }, get address() { return begun(suite.server).address; } };
+    const suite: { browser?: Browser; server?: PageServer } = {};
+    beforeAll(async () => {
+        await mkdir(SHOTS, { recursive: true });
+        [suite.browser, suite.server] = await Promise.all([startBrowser(), PageServer.start()]);
+    });
+    // The page of a test that failed would go on working beside the next one.
+    afterEach(async ({ task }) => {
+        const pages = suite.browser?.contexts().flatMap(context => context.pages()) ?? [];
+        if (task.result?.state === 'fail')
+            for (const page of pages) console.log(`when "${task.name}" failed, ${page.url()} showed:\n${await told(page)}`);
+        for (const context of suite.browser?.contexts() ?? []) await context.close();
+    });
+    afterAll(async () => {
+        await suite.browser?.close();
+        await suite.server?.stop();
+    });
+    const begun = <T>(part: T | undefined): T => {
+        if (part === undefined) throw new Error('asked for before the first test');
+        return part;
+    };
+    return {
+        get browser() {
+            return begun(suite.browser);
+        },
+        get address() {
+            return begun(suite.server).address;
+        },
+    };
 }

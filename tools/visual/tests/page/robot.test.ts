@@ -12,218 +12,236 @@ const suite = pageSuite();
 
 /** A game pad of which this button is pressed; null: there is none any more. */
 async function gamePad(visitor: Visitor, pressed: number | null): Promise<void> {
-  await visitor.page.evaluate((held) => {
-    const pad = { axes: [0, 0], buttons: Array.from({ length: 16 }, (_, i) => ({ pressed: i === held })) };
-    navigator.getGamepads = () => [held === null ? null : pad as unknown as Gamepad];
-    window.dispatchEvent(new Event(held === null ? 'gamepaddisconnected' : 'gamepadconnected'));
-  }, pressed);
+    await visitor.page.evaluate(held => {
+        const pad = { axes: [0, 0], buttons: Array.from({ length: 16 }, (_, i) => ({ pressed: i === held })) };
+        navigator.getGamepads = () => [held === null ? null : (pad as unknown as Gamepad)];
+        window.dispatchEvent(new Event(held === null ? 'gamepaddisconnected' : 'gamepadconnected'));
+    }, pressed);
 }
 
 test('a pupil: it stands, walks while the keys light up, is pushed over, gets up; a game pad drives it, a hand puts it on its feet, too', async () => {
-  const pupil = await Visitor.come(suite.browser, suite.address, { sharpness: 2 }); // sharp, for the README
-  await pupil.untilStanding();
-  expect(await pupil.button('Get up').isDisabled()).toBe(true); // it stands
-  await pupil.page.keyboard.down('ArrowUp');
-  await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
-  await pupil.page.keyboard.up('ArrowUp');
-  await pupil.page.getByText(/walk_[rl] plays/).waitFor();
-  await pupil.page.screenshot({ path: `${SHOTS}page.png`, scale: 'css' }); // stands in the README
-  await pupil.button('Stop').click();
-  await pupil.untilStanding();
-  await gamePad(pupil, 12);
-  await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
-  await gamePad(pupil, null); // pulled out while it was pressed
-  await expect.poll(() => pupil.button('U: ahead').getAttribute('aria-pressed')).toBe('false');
-  await pupil.button('Stop').click();
-  await pupil.untilStanding();
-  await pupil.open('Lab');
-  await pupil.button('Push ahead').click();
-  await pupil.doing.filter({ hasText: LIES }).waitFor();
-  await pupil.button('4×').click();
-  await pupil.button('Get up').click();
-  await pupil.untilStanding();
-  await pupil.button('Push back').click();
-  await pupil.doing.filter({ hasText: LIES }).waitFor();
-  await pupil.button('Put on its feet').click();
-  await pupil.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
-  await pupil.doing.filter({ hasNotText: 'lies' }).waitFor();
-  await pupil.button('Let go').click();
-  await pupil.untilStanding();
-  await pupil.leave();
+    const pupil = await Visitor.come(suite.browser, suite.address, { sharpness: 2 }); // sharp, for the README
+    await pupil.untilStanding();
+    expect(await pupil.button('Get up').isDisabled()).toBe(true); // it stands
+    await pupil.page.keyboard.down('ArrowUp');
+    await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+    await pupil.page.keyboard.up('ArrowUp');
+    await pupil.page.getByText(/walk_[rl] plays/).waitFor();
+    await pupil.page.screenshot({ path: `${SHOTS}page.png`, scale: 'css' }); // stands in the README
+    await pupil.button('Stop').click();
+    await pupil.untilStanding();
+    await gamePad(pupil, 12);
+    await pupil.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+    await gamePad(pupil, null); // pulled out while it was pressed
+    await expect.poll(() => pupil.button('U: ahead').getAttribute('aria-pressed')).toBe('false');
+    await pupil.button('Stop').click();
+    await pupil.untilStanding();
+    await pupil.open('Lab');
+    await pupil.button('Push ahead').click();
+    await pupil.doing.filter({ hasText: LIES }).waitFor();
+    await pupil.button('4×').click();
+    await pupil.button('Get up').click();
+    await pupil.untilStanding();
+    await pupil.button('Push back').click();
+    await pupil.doing.filter({ hasText: LIES }).waitFor();
+    await pupil.button('Put on its feet').click();
+    await pupil.doing.filter({ hasText: 'A hand holds the robot.' }).waitFor();
+    await pupil.doing.filter({ hasNotText: 'lies' }).waitFor();
+    await pupil.button('Let go').click();
+    await pupil.untilStanding();
+    await pupil.leave();
 });
 
 /** What the browser has kept of the robot's flash, as letters. */
 function keptFlash(visitor: Visitor): Promise<string> {
-  return visitor.page.evaluate(() => new Promise<string>((resolve, reject) => {
-    const opened = indexedDB.open('motion512');
-    opened.onerror = () => reject(opened.error);
-    opened.onsuccess = () => {
-      const asked: IDBRequest<{ flash: Uint8Array } | undefined> = opened.result.transaction('robot').objectStore('robot').get('cm5');
-      asked.onsuccess = () => {
-        opened.result.close();
-        resolve(new TextDecoder('latin1').decode(asked.result?.flash));
-      };
-    };
-  }));
+    return visitor.page.evaluate(
+        () =>
+            new Promise<string>((resolve, reject) => {
+                const opened = indexedDB.open('motion512');
+                opened.onerror = () => reject(opened.error);
+                opened.onsuccess = () => {
+                    const asked: IDBRequest<{ flash: Uint8Array } | undefined> = opened.result
+                        .transaction('robot')
+                        .objectStore('robot')
+                        .get('cm5');
+                    asked.onsuccess = () => {
+                        opened.result.close();
+                        resolve(new TextDecoder('latin1').decode(asked.result?.flash));
+                    };
+                };
+            }),
+    );
 }
 
 test('somebody leaves the terminal while Edit waits for a name: the page says so, asks nothing, does nothing later; Stop ends it, and a key of the remote throws nothing away', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
-  const waits = person.doing.filter({ hasText: /^Edit waits for you in the terminal/ });
-  const runs = person.doing.filter({ hasText: /^Edit runs/ });
-  const said = person.page.getByRole('log', { name: 'Last message' });
-  await person.untilStanding();
-  await person.open('Lab');
-  await person.button('Run Edit').click();
-  await runs.waitFor();
-  await person.open('Terminal');
-  await person.untilScreenSays('PageNumber');
-  await person.type('page 100\rname\r');
-  await person.untilScreenSays('name name:');
-  await person.open('Remote');
-  await waits.waitFor();
-  await person.button('Bow').click();
-  await said.filter({ hasText: /^Not done: Edit waits/ }).waitFor();
-  await person.page.screenshot({ path: `${SHOTS}edit-waits.png` });
-  await person.open('Terminal');
-  await person.type('salute\r');
-  await person.untilScreenSays(/\* unsaved/);
-  expect(await person.screen()).toContain('salute');
-  await runs.waitFor();
-  await person.type('new\r');
-  await person.untilScreenSays('Are you sure?');
-  await person.open('Remote');
-  await waits.waitFor();
-  await person.button('Stop').click();
-  await runs.waitFor();
-  await person.open('Terminal');
-  await person.untilScreenSays('salute'); // it was a no
-  await person.open('Remote');
-  await person.page.keyboard.press('ArrowUp'); // only Play hears it, and would start with an empty RAM
-  await said.filter({ hasText: /^The page in Edit's memory has edits that are not saved/ }).waitFor();
-  await person.open('Terminal');
-  await person.untilScreenSays('salute');
-  await person.type('save\r');
-  await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
-  await person.open('Remote');
-  await person.page.keyboard.press('ArrowUp'); // it brings Play, and is carried out there
-  await person.doing.filter({ hasText: /^Playing page 2[012] \(walk/ }).waitFor();
-  await person.leave();
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    const waits = person.doing.filter({ hasText: /^Edit waits for you in the terminal/ });
+    const runs = person.doing.filter({ hasText: /^Edit runs/ });
+    const said = person.page.getByRole('log', { name: 'Last message' });
+    await person.untilStanding();
+    await person.open('Lab');
+    await person.button('Run Edit').click();
+    await runs.waitFor();
+    await person.open('Terminal');
+    await person.untilScreenSays('PageNumber');
+    await person.type('page 100\rname\r');
+    await person.untilScreenSays('name name:');
+    await person.open('Remote');
+    await waits.waitFor();
+    await person.button('Bow').click();
+    await said.filter({ hasText: /^Not done: Edit waits/ }).waitFor();
+    await person.page.screenshot({ path: `${SHOTS}edit-waits.png` });
+    await person.open('Terminal');
+    await person.type('salute\r');
+    await person.untilScreenSays(/\* unsaved/);
+    expect(await person.screen()).toContain('salute');
+    await runs.waitFor();
+    await person.type('new\r');
+    await person.untilScreenSays('Are you sure?');
+    await person.open('Remote');
+    await waits.waitFor();
+    await person.button('Stop').click();
+    await runs.waitFor();
+    await person.open('Terminal');
+    await person.untilScreenSays('salute'); // it was a no
+    await person.open('Remote');
+    await person.page.keyboard.press('ArrowUp'); // only Play hears it, and would start with an empty RAM
+    await said.filter({ hasText: /^The page in Edit's memory has edits that are not saved/ }).waitFor();
+    await person.open('Terminal');
+    await person.untilScreenSays('salute');
+    await person.type('save\r');
+    await expect.poll(async () => (await person.screen()).includes('* unsaved')).toBe(false);
+    await person.open('Remote');
+    await person.page.keyboard.press('ArrowUp'); // it brings Play, and is carried out there
+    await person.doing.filter({ hasText: /^Playing page 2[012] \(walk/ }).waitFor();
+    await person.leave();
 });
 
 test('somebody who debugs: Edit in the terminal, a page saved, and the browser keeps it over a reload', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
-  await person.untilStanding();
-  await person.open('Lab');
-  await person.button('Run Edit').click();
-  await person.open('Terminal');
-  await nameAndSave(person, 'salute');
-  await expect.poll(() => keptFlash(person), PATIENT).toContain('salute');
-  await person.page.reload();
-  await person.untilStanding();
-  await person.open('Terminal');
-  await person.type('list\r');
-  await person.untilScreenSays(/100.*salute/);
-  await person.leave();
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    await person.untilStanding();
+    await person.open('Lab');
+    await person.button('Run Edit').click();
+    await person.open('Terminal');
+    await nameAndSave(person, 'salute');
+    await expect.poll(() => keptFlash(person), PATIENT).toContain('salute');
+    await person.page.reload();
+    await person.untilStanding();
+    await person.open('Terminal');
+    await person.type('list\r');
+    await person.untilScreenSays(/100.*salute/);
+    await person.leave();
 });
 
 /** Where in the picture a part of the robot is, found as a person does: by looking what lights up under the mouse. */
 async function find(visitor: Visitor, title: RegExp): Promise<{ x: number; y: number }> {
-  const box = await visitor.page.getByRole('img', { name: 'The robot' }).boundingBox();
-  const label = visitor.page.locator('robot-view .joint-label');
-  for (let row = 4; box && row < 14; row++) {
-    for (let column = 4; column < 16; column++) {
-      const at = { x: box.x + (box.width * column) / 20, y: box.y + (box.height * row) / 20 };
-      await visitor.page.mouse.move(at.x, at.y);
-      if (title.test((await label.textContent()) ?? '') && (await label.isVisible())) return at;
+    const box = await visitor.page.getByRole('img', { name: 'The robot' }).boundingBox();
+    const label = visitor.page.locator('robot-view .joint-label');
+    for (let row = 4; box && row < 14; row++) {
+        for (let column = 4; column < 16; column++) {
+            const at = { x: box.x + (box.width * column) / 20, y: box.y + (box.height * row) / 20 };
+            await visitor.page.mouse.move(at.x, at.y);
+            if (title.test((await label.textContent()) ?? '') && (await label.isVisible())) return at;
+        }
     }
-  }
-  throw new Error(`nothing in the picture is called ${title}`);
+    throw new Error(`nothing in the picture is called ${title}`);
 }
 
 /** How far the three joints of the right arm are from 512, together. */
 function rightArm(visitor: Visitor): Promise<number> {
-  return visitor.page.evaluate(() => new Promise<number>((resolve) => {
-    type Frame = { servos: { id: number; position: number }[] };
-    const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
-    const stop = desk.onFrame((state) => {
-      stop();
-      const at = (id: number): number => state.servos.find((servo) => servo.id === id)?.position ?? 0;
-      resolve(Math.abs(at(1) - 512) + Math.abs(at(3) - 512) + Math.abs(at(5) - 512));
-    });
-  }));
+    return visitor.page.evaluate(
+        () =>
+            new Promise<number>(resolve => {
+                type Frame = { servos: { id: number; position: number }[] };
+                const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
+                const stop = desk.onFrame(state => {
+                    stop();
+                    const at = (id: number): number => state.servos.find(servo => servo.id === id)?.position ?? 0;
+                    resolve(Math.abs(at(1) - 512) + Math.abs(at(3) - 512) + Math.abs(at(5) - 512));
+                });
+            }),
+    );
 }
 
 test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by tick', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark' });
-  await person.untilStanding();
-  const arm = await find(person, /right elbow/);
-  const rest = await rightArm(person);
-  await person.page.mouse.down();
-  await person.page.mouse.move(arm.x - 90, arm.y - 60, { steps: 8 });
-  await expect.poll(async () => Math.abs((await rightArm(person)) - rest), PATIENT).toBeGreaterThan(4);
-  await person.page.mouse.up();
-  await expect.poll(async () => Math.abs((await rightArm(person)) - rest), PATIENT).toBeLessThan(4);
+    const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark' });
+    await person.untilStanding();
+    const arm = await find(person, /right elbow/);
+    const rest = await rightArm(person);
+    await person.page.mouse.down();
+    await person.page.mouse.move(arm.x - 90, arm.y - 60, { steps: 8 });
+    await expect.poll(async () => Math.abs((await rightArm(person)) - rest), PATIENT).toBeGreaterThan(4);
+    await person.page.mouse.up();
+    await expect.poll(async () => Math.abs((await rightArm(person)) - rest), PATIENT).toBeLessThan(4);
 
-  await person.open('Lab');
-  const clock = person.page.locator('lab-pane .clock');
-  const seconds = async (): Promise<number> => Number.parseFloat(await clock.innerText());
-  const facts = person.page.locator('status-strip .facts');
-  await person.button('Pause').click();
-  await person.button('Pause').and(person.page.locator('[aria-pressed="true"]')).waitFor();
-  await facts.filter({ hasText: 'time stands still' }).waitFor();
-  for (let i = 0; i < 3; i++) await rightArm(person); // each a state that was asked for after the one before: the last is of the pause
-  const stands = await seconds();
-  for (let i = 0; i < 16; i++) await person.button('One tick').click();
-  await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 0.05); // 16 ticks of 1/128 s, shown in tenths
-  expect(await seconds()).toBeLessThan(stands + 0.25);
-  await person.button('0.1×').click(); // how slow that is: pacer.test.ts
-  await facts.filter({ hasText: '0.1× time' }).waitFor();
-  await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 0.25);
-  await person.button('real time').click();
-  await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 1);
-  await person.leave();
+    await person.open('Lab');
+    const clock = person.page.locator('lab-pane .clock');
+    const seconds = async (): Promise<number> => Number.parseFloat(await clock.innerText());
+    const facts = person.page.locator('status-strip .facts');
+    await person.button('Pause').click();
+    await person.button('Pause').and(person.page.locator('[aria-pressed="true"]')).waitFor();
+    await facts.filter({ hasText: 'time stands still' }).waitFor();
+    for (let i = 0; i < 3; i++) await rightArm(person); // each a state that was asked for after the one before: the last is of the pause
+    const stands = await seconds();
+    for (let i = 0; i < 16; i++) await person.button('One tick').click();
+    await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 0.05); // 16 ticks of 1/128 s, shown in tenths
+    expect(await seconds()).toBeLessThan(stands + 0.25);
+    await person.button('0.1×').click(); // how slow that is: pacer.test.ts
+    await facts.filter({ hasText: '0.1× time' }).waitFor();
+    await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 0.25);
+    await person.button('real time').click();
+    await expect.poll(seconds, PATIENT).toBeGreaterThan(stands + 1);
+    await person.leave();
 });
 
 /** A row of the table of servos: what it was told, where it is, what it says of itself. */
 async function servo(visitor: Visitor, id: number): Promise<{ goal: number; position: number; state: string }> {
-  const [goal = '', position = '', state = ''] = await visitor.page.locator('servo-table tbody tr').nth(id - 1).locator('td').allInnerTexts().then((cells) => cells.slice(1));
-  return { goal: Number.parseInt(goal, 10), position: Number.parseInt(position, 10), state };
+    const [goal = '', position = '', state = ''] = await visitor.page
+        .locator('servo-table tbody tr')
+        .nth(id - 1)
+        .locator('td')
+        .allInnerTexts()
+        .then(cells => cells.slice(1));
+    return { goal: Number.parseInt(goal, 10), position: Number.parseInt(position, 10), state };
 }
 
 test('somebody who debugs breaks servos, lowers the battery, tilts the floor: the firmware names each, goals stand beside positions', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', hasPicture: false });
-  const { page } = person;
-  const said = page.getByRole('log', { name: 'Last message' });
-  const fault = (id: number, what: string) => page.getByLabel(`Fault of servo ${id}`, { exact: true }).selectOption(what);
-  await person.untilStanding();
-  await person.open('Lab');
+    const person = await Visitor.come(suite.browser, suite.address, { theme: 'dark', hasPicture: false });
+    const { page } = person;
+    const said = page.getByRole('log', { name: 'Last message' });
+    const fault = (id: number, what: string) => page.getByLabel(`Fault of servo ${id}`, { exact: true }).selectOption(what);
+    await person.untilStanding();
+    await person.open('Lab');
 
-  await fault(13, 'blocked'); // a knee
-  const before = (await servo(person, 13)).position;
-  await person.button('Bow').click();
-  await expect.poll(async () => Math.abs((await servo(person, 13)).goal - before), PATIENT).toBeGreaterThan(12); // the bow bends it further
-  expect(Math.abs((await servo(person, 13)).position - before)).toBeLessThan(4); // and it does not follow
-  expect((await servo(person, 11)).state).toBe('holds');
-  await person.untilStanding();
-  await fault(13, 'none');
+    await fault(13, 'blocked'); // a knee
+    const before = (await servo(person, 13)).position;
+    await person.button('Bow').click();
+    await expect.poll(async () => Math.abs((await servo(person, 13)).goal - before), PATIENT).toBeGreaterThan(12); // the bow bends it further
+    expect(Math.abs((await servo(person, 13)).position - before)).toBeLessThan(4); // and it does not follow
+    expect((await servo(person, 11)).state).toBe('holds');
+    await person.untilStanding();
+    await fault(13, 'none');
 
-  for (const [id, what, says, state] of [[1, 'overloaded', /servo 1\b/i, 'overload'], [3, 'too hot', /servo 3 is hot/i, 'hot'], [5, 'does not answer', /servo 5 does not answer/i, 'holds']] as const) {
-    await fault(id, what);
-    await said.filter({ hasText: says }).waitFor();
-    await expect.poll(async () => (await servo(person, id)).state, PATIENT).toBe(state); // the table is written anew ten times a second
-    if (id === 5) await page.screenshot({ path: `${SHOTS}lab-dark.png` });
-    await fault(id, 'none');
-  }
-  await said.filter({ hasText: 'Servo 5 answers again' }).waitFor();
-  await person.button('Bow').click();
-  await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
-  await person.untilStanding(); // whole again
+    for (const [id, what, says, state] of [
+        [1, 'overloaded', /servo 1\b/i, 'overload'],
+        [3, 'too hot', /servo 3 is hot/i, 'hot'],
+        [5, 'does not answer', /servo 5 does not answer/i, 'holds'],
+    ] as const) {
+        await fault(id, what);
+        await said.filter({ hasText: says }).waitFor();
+        await expect.poll(async () => (await servo(person, id)).state, PATIENT).toBe(state); // the table is written anew ten times a second
+        if (id === 5) await page.screenshot({ path: `${SHOTS}lab-dark.png` });
+        await fault(id, 'none');
+    }
+    await said.filter({ hasText: 'Servo 5 answers again' }).waitFor();
+    await person.button('Bow').click();
+    await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
+    await person.untilStanding(); // whole again
 
-  await page.getByLabel('Battery').fill('6.5');
-  await said.filter({ hasText: 'Battery is low: 6.5 V' }).waitFor();
-  await page.locator('status-strip .facts').filter({ hasText: '6.5 V' }).waitFor();
-  await page.getByLabel('Slope to the front').fill('15');
-  await person.doing.filter({ hasText: LIES }).waitFor();
-  await person.leave();
+    await page.getByLabel('Battery').fill('6.5');
+    await said.filter({ hasText: 'Battery is low: 6.5 V' }).waitFor();
+    await page.locator('status-strip .facts').filter({ hasText: '6.5 V' }).waitFor();
+    await page.getByLabel('Slope to the front').fill('15');
+    await person.doing.filter({ hasText: LIES }).waitFor();
+    await person.leave();
 });

@@ -20,143 +20,178 @@ const LEAST_TYPE_PX = 12;
 const suite = pageSuite();
 
 interface Look {
-  readonly cut: readonly string[];
-  readonly blue: readonly string[];
-  readonly type: readonly number[];
+    readonly cut: readonly string[];
+    readonly blue: readonly string[];
+    readonly type: readonly number[];
 }
 
 /** In the browser: what a stranger sees of the page as it stands. */
 function look(): Look {
-  const seen = [...document.querySelectorAll<HTMLElement>('app-shell *')].filter((element) => element.checkVisibility({ visibilityProperty: true }) && !element.closest('.xterm, svg, .visually-hidden, .skip'));
-  const hasText = (element: HTMLElement): boolean => [...element.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.textContent?.trim());
-  const pressed = seen.filter((element) => element.matches('button, [role="tab"], summary'));
-  const blue = getComputedStyle(document.documentElement).getPropertyValue('--accent').trim();
-  const probe = Object.assign(document.createElement('i'), { className: 'probe' });
-  document.body.append(probe);
-  probe.style.setProperty('background-color', blue);
-  const colour = getComputedStyle(probe).backgroundColor;
-  probe.remove();
-  const { innerWidth } = window;
-  const isCut = (element: HTMLElement): boolean => {
-    const box = element.getBoundingClientRect();
-    return element.scrollWidth > element.clientWidth + 1 || box.left < -1 || box.right > innerWidth + 1;
-  };
-  return {
-    cut: pressed.filter((element) => element.clientWidth > 0 && isCut(element)).map((element) => element.textContent),
-    blue: pressed.filter((element) => element.matches('button') && getComputedStyle(element).backgroundColor === colour).map((element) => element.textContent),
-    type: [...new Set(seen.filter(hasText).map((element) => parseFloat(getComputedStyle(element).fontSize)))].sort((a, b) => a - b),
-  };
+    const seen = [...document.querySelectorAll<HTMLElement>('app-shell *')].filter(
+        element => element.checkVisibility({ visibilityProperty: true }) && !element.closest('.xterm, svg, .visually-hidden, .skip'),
+    );
+    const hasText = (element: HTMLElement): boolean =>
+        [...element.childNodes].some(node => node.nodeType === Node.TEXT_NODE && node.textContent?.trim());
+    const pressed = seen.filter(element => element.matches('button, [role="tab"], summary'));
+    const blue = getComputedStyle(document.documentElement).getPropertyValue('--accent').trim();
+    const probe = Object.assign(document.createElement('i'), { className: 'probe' });
+    document.body.append(probe);
+    probe.style.setProperty('background-color', blue);
+    const colour = getComputedStyle(probe).backgroundColor;
+    probe.remove();
+    const { innerWidth } = window;
+    const isCut = (element: HTMLElement): boolean => {
+        const box = element.getBoundingClientRect();
+        return element.scrollWidth > element.clientWidth + 1 || box.left < -1 || box.right > innerWidth + 1;
+    };
+    return {
+        cut: pressed.filter(element => element.clientWidth > 0 && isCut(element)).map(element => element.textContent),
+        blue: pressed
+            .filter(element => element.matches('button') && getComputedStyle(element).backgroundColor === colour)
+            .map(element => element.textContent),
+        type: [...new Set(seen.filter(hasText).map(element => parseFloat(getComputedStyle(element).fontSize)))].sort((a, b) => a - b),
+    };
 }
 
 async function box(page: Page, what: string): Promise<{ x: number; y: number; width: number; height: number }> {
-  const found = await page.locator(what).first().boundingBox();
-  if (!found) throw new Error(`${what} is not on the screen`);
-  return found;
+    const found = await page.locator(what).first().boundingBox();
+    if (!found) throw new Error(`${what} is not on the screen`);
+    return found;
 }
 
-test.each(Object.entries(SCREENS))('%s: one row of head, no word cut, at most five sizes of type and one blue button in every area', async (name, screen) => {
-  const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
-  const { page } = person;
-  await person.untilStanding();
-  expect((await box(page, 'app-shell > header')).height).toBeLessThanOrEqual(ROW_PX);
-  const picture = await box(page, '.stage');
-  const type = new Set<number>();
-  for (const area of AREAS) {
-    await person.open(area);
-    await person.untilSeen();
-    const found = await page.evaluate(look);
-    expect.soft(found.cut, `${area}: cut`).toEqual([]);
-    expect.soft(found.blue.length, `${area}: blue ${found.blue.join()}`).toBeLessThanOrEqual(1);
-    for (const px of found.type) type.add(px);
-    await page.mouse.move(screen.width - 60, screen.height - 90);
-    await page.mouse.wheel(0, 600);
-    await person.untilSeen();
-    expect.soft((await box(page, '.stage')).y, `${area}: the picture stays`).toBe(picture.y);
-  }
-  expect([...type].length, [...type].join()).toBeLessThanOrEqual(5);
-  expect(Math.min(...type)).toBeGreaterThanOrEqual(LEAST_TYPE_PX);
-  await page.screenshot({ path: `${SHOTS}screen-${name.toLowerCase()}.png` });
-  await person.leave();
-});
+test.each(Object.entries(SCREENS))(
+    '%s: one row of head, no word cut, at most five sizes of type and one blue button in every area',
+    async (name, screen) => {
+        const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
+        const { page } = person;
+        await person.untilStanding();
+        expect((await box(page, 'app-shell > header')).height).toBeLessThanOrEqual(ROW_PX);
+        const picture = await box(page, '.stage');
+        const type = new Set<number>();
+        for (const area of AREAS) {
+            await person.open(area);
+            await person.untilSeen();
+            const found = await page.evaluate(look);
+            expect.soft(found.cut, `${area}: cut`).toEqual([]);
+            expect.soft(found.blue.length, `${area}: blue ${found.blue.join()}`).toBeLessThanOrEqual(1);
+            for (const px of found.type) type.add(px);
+            await page.mouse.move(screen.width - 60, screen.height - 90);
+            await page.mouse.wheel(0, 600);
+            await person.untilSeen();
+            expect.soft((await box(page, '.stage')).y, `${area}: the picture stays`).toBe(picture.y);
+        }
+        expect([...type].length, [...type].join()).toBeLessThanOrEqual(5);
+        expect(Math.min(...type)).toBeGreaterThanOrEqual(LEAST_TYPE_PX);
+        await page.screenshot({ path: `${SHOTS}screen-${name.toLowerCase()}.png` });
+        await person.leave();
+    },
+);
 
 test('lying and at 200 %, picture and area are beside each other; on end, the area is a sheet that folds', async () => {
-  for (const screen of [LYING, DESK_AT_200]) {
-    const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
-    const [stage, areas] = [await box(person.page, '.stage'), await box(person.page, '.areas')];
-    expect(areas.x).toBeGreaterThanOrEqual(stage.x + stage.width - 1);
-    expect(areas.y).toBe(stage.y);
+    for (const screen of [LYING, DESK_AT_200]) {
+        const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
+        const [stage, areas] = [await box(person.page, '.stage'), await box(person.page, '.areas')];
+        expect(areas.x).toBeGreaterThanOrEqual(stage.x + stage.width - 1);
+        expect(areas.y).toBe(stage.y);
+        await person.leave();
+    }
+    const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPicture: false, hasPhysics: false });
+    const before = await box(person.page, '.stage');
+    await person.button('Areas').click();
+    expect((await box(person.page, '.stage')).height).toBeGreaterThan(before.height + 100);
+    await person.open('Steps');
+    expect((await box(person.page, '.stage')).height).toBe(before.height);
+    await person.button('Menu').click();
+    await person.button('Send as link').waitFor();
+    await person.page.keyboard.press('Escape');
+    await person.button('Send as link').waitFor({ state: 'hidden' });
     await person.leave();
-  }
-  const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPicture: false, hasPhysics: false });
-  const before = await box(person.page, '.stage');
-  await person.button('Areas').click();
-  expect((await box(person.page, '.stage')).height).toBeGreaterThan(before.height + 100);
-  await person.open('Steps');
-  expect((await box(person.page, '.stage')).height).toBe(before.height);
-  await person.button('Menu').click();
-  await person.button('Send as link').waitFor();
-  await person.page.keyboard.press('Escape');
-  await person.button('Send as link').waitFor({ state: 'hidden' });
-  await person.leave();
 });
 
 test('on a phone the Tour leaves the hand in the picture free', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPhysics: false });
-  const { page } = person;
-  await person.untilStanding();
-  await person.button('Tour').click();
-  await person.button('Start').click();
-  const card = page.getByRole('region', { name: 'Tour' });
-  for (const stop of [3, 4, 5]) {
-    await person.button('Next').click();
-    await page.getByText(new RegExp(`: ${stop} of`)).waitFor({ state: 'attached' });
-  }
-  await card.getByText('Take the right hand').waitFor();
-  const [sheet, ring] = [await box(page, 'tour-card'), await box(page, '.tour-ring')];
-  expect(sheet.height).toBeLessThanOrEqual(TOUR_PX);
-  expect(sheet.y + sheet.height).toBe(PHONE.height);
-  expect(ring.y + ring.height).toBeLessThan((await box(page, 'action-bar')).y);
-  await page.screenshot({ path: `${SHOTS}phone-tour.png` });
-  await person.leave();
+    const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPhysics: false });
+    const { page } = person;
+    await person.untilStanding();
+    await person.button('Tour').click();
+    await person.button('Start').click();
+    const card = page.getByRole('region', { name: 'Tour' });
+    for (const stop of [3, 4, 5]) {
+        await person.button('Next').click();
+        await page.getByText(new RegExp(`: ${stop} of`)).waitFor({ state: 'attached' });
+    }
+    await card.getByText('Take the right hand').waitFor();
+    const [sheet, ring] = [await box(page, 'tour-card'), await box(page, '.tour-ring')];
+    expect(sheet.height).toBeLessThanOrEqual(TOUR_PX);
+    expect(sheet.y + sheet.height).toBe(PHONE.height);
+    expect(ring.y + ring.height).toBeLessThan((await box(page, 'action-bar')).y);
+    await page.screenshot({ path: `${SHOTS}phone-tour.png` });
+    await person.leave();
 });
 
 test('the terminal has letters of 12 px or more on every screen, and the full screen', async () => {
-  for (const screen of Object.values(SCREENS)) {
-    const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
-    await person.open('Terminal');
-    const letters = person.page.locator('terminal-pane .xterm-rows');
-    await expect.poll(() => letters.evaluate((rows) => parseFloat(getComputedStyle(rows).fontSize))).toBeGreaterThanOrEqual(LEAST_TYPE_PX);
-    await person.button('Full screen').click();
-    await expect.poll(() => box(person.page, 'terminal-pane')).toEqual({ x: 0, y: 0, width: screen.width, height: screen.height });
-    await person.leave();
-  }
+    for (const screen of Object.values(SCREENS)) {
+        const person = await Visitor.come(suite.browser, suite.address, { screen, hasPicture: false, hasPhysics: false });
+        await person.open('Terminal');
+        const letters = person.page.locator('terminal-pane .xterm-rows');
+        await expect
+            .poll(() => letters.evaluate(rows => parseFloat(getComputedStyle(rows).fontSize)))
+            .toBeGreaterThanOrEqual(LEAST_TYPE_PX);
+        await person.button('Full screen').click();
+        await expect.poll(() => box(person.page, 'terminal-pane')).toEqual({ x: 0, y: 0, width: screen.width, height: screen.height });
+        await person.leave();
+    }
 });
 
 test('nothing over the picture covers the hand that is dragged, wherever it goes; no ghost stands before it', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { screen: DESK, hasPhysics: false });
-  const { page } = person;
-  await person.untilStanding();
-  await person.open('Pages');
-  await page.getByRole('option', { name: /^page 2 bow/ }).click();
-  await person.open('Steps');
-  const view = page.locator('robot-view');
-  const hand = await view.evaluate((element) => (element as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf('right_hand'));
-  const stage = await box(page, '.stage');
-  await page.mouse.move(hand.x, hand.y);
-  await page.mouse.down();
-  const covering: string[] = [];
-  for (const [x, y] of [[0.05, 0.12], [0.3, 0.06], [0.5, 0.3], [0.9, 0.06], [0.1, 0.95], [0.5, 0.96], [0.9, 0.94]] as const) {
-    const at = { x: stage.x + x * stage.width, y: stage.y + y * stage.height };
-    await page.mouse.move(at.x, at.y);
-    await person.untilSeen();
-    covering.push(...await page.evaluate((point) => [...document.querySelectorAll<HTMLElement>('.stage > :not(robot-view) *, .joint-label')].filter((element) => {
-      const { left, right, top, bottom } = element.getBoundingClientRect();
-      return element.checkVisibility({ visibilityProperty: true }) && element.textContent !== '' && point.x >= left && point.x <= right && point.y >= top && point.y <= bottom;
-    }).map((element) => element.textContent), at));
-    expect(await view.evaluate((element) => (element as unknown as { hasGhost: boolean }).hasGhost)).toBe(false);
-  }
-  expect(covering).toEqual([]);
-  await page.mouse.up();
-  await person.button('Walk').waitFor(); // all of it is back
-  await person.leave();
+    const person = await Visitor.come(suite.browser, suite.address, { screen: DESK, hasPhysics: false });
+    const { page } = person;
+    await person.untilStanding();
+    await person.open('Pages');
+    await page.getByRole('option', { name: /^page 2 bow/ }).click();
+    await person.open('Steps');
+    const view = page.locator('robot-view');
+    const hand = await view.evaluate(element =>
+        (element as unknown as { placeOf(name: string): { x: number; y: number } }).placeOf('right_hand'),
+    );
+    const stage = await box(page, '.stage');
+    await page.mouse.move(hand.x, hand.y);
+    await page.mouse.down();
+    const covering: string[] = [];
+    for (const [x, y] of [
+        [0.05, 0.12],
+        [0.3, 0.06],
+        [0.5, 0.3],
+        [0.9, 0.06],
+        [0.1, 0.95],
+        [0.5, 0.96],
+        [0.9, 0.94],
+    ] as const) {
+        const at = { x: stage.x + x * stage.width, y: stage.y + y * stage.height };
+        await page.mouse.move(at.x, at.y);
+        await person.untilSeen();
+        covering.push(
+            ...(await page.evaluate(
+                point =>
+                    [...document.querySelectorAll<HTMLElement>('.stage > :not(robot-view) *, .joint-label')]
+                        .filter(element => {
+                            const { left, right, top, bottom } = element.getBoundingClientRect();
+                            return (
+                                element.checkVisibility({ visibilityProperty: true }) &&
+                                element.textContent !== '' &&
+                                point.x >= left &&
+                                point.x <= right &&
+                                point.y >= top &&
+                                point.y <= bottom
+                            );
+                        })
+                        .map(element => element.textContent),
+                at,
+            )),
+        );
+        expect(await view.evaluate(element => (element as unknown as { hasGhost: boolean }).hasGhost)).toBe(false);
+    }
+    expect(covering).toEqual([]);
+    await page.mouse.up();
+    await person.button('Walk').waitFor(); // all of it is back
+    await person.leave();
 });

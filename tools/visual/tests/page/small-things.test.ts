@@ -8,69 +8,82 @@ import { pageSuite } from './page-suite.ts';
 const suite = pageSuite();
 
 test('menus, Ctrl+A, F6, a joint spoken, a double click on "Add step", a library page, a question before "Factory fresh"', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 }, hasPhysics: false });
-  const { page } = person;
-  await person.untilStanding();
-  await person.open('Steps');
-  expect(await page.getByRole('button', { name: /^Step \d$/ }).count()).toBe(0); // a new page
+    const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 }, hasPhysics: false });
+    const { page } = person;
+    await person.untilStanding();
+    await person.open('Steps');
+    expect(await page.getByRole('button', { name: /^Step \d$/ }).count()).toBe(0); // a new page
 
-  const add = person.button('Add step from the robot');
-  const before = await add.boundingBox();
-  await add.dblclick();
-  await expect.poll(() => page.getByRole('button', { name: /^Step \d$/ }).count()).toBe(2); // twice, and nothing is deleted
-  expect(await add.boundingBox()).toEqual(before);
+    const add = person.button('Add step from the robot');
+    const before = await add.boundingBox();
+    await add.dblclick();
+    await expect.poll(() => page.getByRole('button', { name: /^Step \d$/ }).count()).toBe(2); // twice, and nothing is deleted
+    expect(await add.boundingBox()).toEqual(before);
 
-  await page.keyboard.press('Control+a');
-  expect(await page.locator('step-row .pick[aria-pressed="true"]').count()).toBe(2);
+    await page.keyboard.press('Control+a');
+    expect(await page.locator('step-row .pick[aria-pressed="true"]').count()).toBe(2);
 
-  const menu = page.locator('pose-bar details');
-  const view = menu.locator('summary');
-  await view.click();
-  await page.keyboard.press('Escape');
-  expect(await menu.getAttribute('open')).toBeNull();
-  await view.click();
-  await page.getByRole('tab', { name: 'Steps' }).click();
-  expect(await menu.getAttribute('open')).toBeNull();
+    const menu = page.locator('pose-bar details');
+    const view = menu.locator('summary');
+    await view.click();
+    await page.keyboard.press('Escape');
+    expect(await menu.getAttribute('open')).toBeNull();
+    await view.click();
+    await page.getByRole('tab', { name: 'Steps' }).click();
+    expect(await menu.getAttribute('open')).toBeNull();
 
-  await page.keyboard.press('F6');
-  expect(await page.evaluate(() => document.activeElement?.tagName)).toBe('CANVAS');
-  await page.keyboard.press('ArrowRight');
-  await page.keyboard.press('ArrowUp');
-  await expect.poll(() => page.getByRole('status', { name: 'Chosen joint' }).textContent()).toMatch(/^right shoulder .*: \d+/);
-  await page.keyboard.press('F6');
-  expect(await page.evaluate(() => document.activeElement?.getAttribute('role'))).toBe('tab');
+    await page.keyboard.press('F6');
+    expect(await page.evaluate(() => document.activeElement?.tagName)).toBe('CANVAS');
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('ArrowUp');
+    await expect.poll(() => page.getByRole('status', { name: 'Chosen joint' }).textContent()).toMatch(/^right shoulder .*: \d+/);
+    await page.keyboard.press('F6');
+    expect(await page.evaluate(() => document.activeElement?.getAttribute('role'))).toBe('tab');
 
-  const last = (await page.getByRole('combobox', { name: 'Page', exact: true }).inputValue());
-  await page.reload();
-  await person.untilStanding();
-  await person.open('Steps');
-  expect(await page.getByRole('combobox', { name: 'Page', exact: true }).inputValue()).toBe(last);
-  await page.getByRole('combobox', { name: 'Page', exact: true }).selectOption('3');
-  await person.button('Edit a copy').click();
-  expect(await page.getByRole('textbox', { name: 'Name of the page' }).inputValue()).toBe('wave 2');
+    const last = await page.getByRole('combobox', { name: 'Page', exact: true }).inputValue();
+    await page.reload();
+    await person.untilStanding();
+    await person.open('Steps');
+    expect(await page.getByRole('combobox', { name: 'Page', exact: true }).inputValue()).toBe(last);
+    await page.getByRole('combobox', { name: 'Page', exact: true }).selectOption('3');
+    await person.button('Edit a copy').click();
+    expect(await page.getByRole('textbox', { name: 'Name of the page' }).inputValue()).toBe('wave 2');
 
-  await person.open('Lab');
-  await person.button('Factory fresh').click();
-  await page.getByRole('dialog', { name: 'Factory fresh?' }).getByRole('button', { name: 'Cancel' }).click();
-  await person.button('Power off').click();
-  await person.doing.filter({ hasText: /^The robot is switched off/ }).waitFor();
-  await person.leave();
+    await person.open('Lab');
+    await person.button('Factory fresh').click();
+    await page.getByRole('dialog', { name: 'Factory fresh?' }).getByRole('button', { name: 'Cancel' }).click();
+    await person.button('Power off').click();
+    await person.doing.filter({ hasText: /^The robot is switched off/ }).waitFor();
+    await person.leave();
 });
 
 test('whoever leaves is asked exactly when the browser keeps nothing', async () => {
-  for (const isKept of [true, false]) {
-    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false, before: async (page) => {
-      if (!isKept) await page.addInitScript(() => Object.defineProperty(window, 'indexedDB', { get: () => { throw new DOMException('denied', 'SecurityError'); } }));
-    } });
-    await person.page.locator('app-shell').waitFor();
-    const isAsked = await person.page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
-    expect(isAsked).toBe(!isKept);
-    await person.leave();
-  }
+    for (const isKept of [true, false]) {
+        const person = await Visitor.come(suite.browser, suite.address, {
+            hasPicture: false,
+            hasPhysics: false,
+            before: async page => {
+                if (!isKept)
+                    await page.addInitScript(() =>
+                        Object.defineProperty(window, 'indexedDB', {
+                            get: () => {
+                                throw new DOMException('denied', 'SecurityError');
+                            },
+                        }),
+                    );
+            },
+        });
+        await person.page.locator('app-shell').waitFor();
+        const isAsked = await person.page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
+        expect(isAsked).toBe(!isKept);
+        await person.leave();
+    }
 });
 
 test('without WebAssembly a sentence says so, and names no other browser', async () => {
-  const person = await Visitor.come(suite.browser, suite.address, { before: (page) => page.addInitScript(() => Reflect.deleteProperty(globalThis, 'WebAssembly')) });
-  await person.page.getByRole('alert').filter({ hasText: 'This browser runs no WebAssembly' }).waitFor();
-  await person.leave();
+    const person = await Visitor.come(suite.browser, suite.address, {
+        before: page => page.addInitScript(() => Reflect.deleteProperty(globalThis, 'WebAssembly')),
+    });
+    await person.page.getByRole('alert').filter({ hasText: 'This browser runs no WebAssembly' }).waitFor();
+    await person.leave();
 });

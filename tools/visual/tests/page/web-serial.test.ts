@@ -19,11 +19,11 @@ const POLICIES = '/etc/chromium/policies/managed';
 const PATIENT_MS = 240_000;
 
 function reasonToLeaveOut(): string | null {
-  if (process.getuid?.() !== 0) return 'it needs root';
-  if (!existsSync('/dev/ttyS0')) return 'there is no /dev/ttyS0';
-  if (!existsSync(SIMULATOR)) return 'cm5sim is not built';
-  if (spawnSync('unshare', ['-m', 'mount', '--bind', '/dev/null', '/dev/ttyS0']).status !== 0) return 'mounts are not allowed here';
-  return null;
+    if (process.getuid?.() !== 0) return 'it needs root';
+    if (!existsSync('/dev/ttyS0')) return 'there is no /dev/ttyS0';
+    if (!existsSync(SIMULATOR)) return 'cm5sim is not built';
+    if (spawnSync('unshare', ['-m', 'mount', '--bind', '/dev/null', '/dev/ttyS0']).status !== 0) return 'mounts are not allowed here';
+    return null;
 }
 
 const why = reasonToLeaveOut();
@@ -31,175 +31,213 @@ if (why) console.warn(`left out: Web Serial to cm5sim: ${why}`);
 
 /** A robot in cm5sim; its flash is written to `flash` when its cable is pulled. */
 class Robot {
-  readonly flash: string;
-  private readonly folder: string;
-  private readonly options: readonly string[];
-  private process: ChildProcess | null = null;
+    readonly flash: string;
+    private readonly folder: string;
+    private readonly options: readonly string[];
+    private process: ChildProcess | null = null;
 
-  constructor(folder: string, image: 'play' | 'edit', hand: string) {
-    this.folder = folder;
-    this.flash = join(folder, 'flash');
-    writeFileSync(join(folder, 'hand'), hand);
-    writeFileSync(join(folder, 'eeprom'), Buffer.concat([Buffer.alloc(4095, 0xff), Buffer.of(0x11)])); // the loader starts the image without a word
-    this.options = ['boot-cm5.hex', `${image}-cm5.hex`, '--motions', join(BUILD, 'motions/motions.bin'), '--servos', '1-18', '--eeprom', join(folder, 'eeprom'),
-      '--no-stdio', '--realtime', '--allow=uart-overrun', // what is sent while the controller restarts is lost
-       ...(hand ? [`--script=${join(folder, 'hand')}`] : ['--time=3000s'])];
-  }
+    constructor(folder: string, image: 'play' | 'edit', hand: string) {
+        this.folder = folder;
+        this.flash = join(folder, 'flash');
+        writeFileSync(join(folder, 'hand'), hand);
+        writeFileSync(join(folder, 'eeprom'), Buffer.concat([Buffer.alloc(4095, 0xff), Buffer.of(0x11)])); // the loader starts the image without a word
+        this.options = [
+            'boot-cm5.hex',
+            `${image}-cm5.hex`,
+            '--motions',
+            join(BUILD, 'motions/motions.bin'),
+            '--servos',
+            '1-18',
+            '--eeprom',
+            join(folder, 'eeprom'),
+            '--no-stdio',
+            '--realtime',
+            '--allow=uart-overrun', // what is sent while the controller restarts is lost
+            ...(hand ? [`--script=${join(folder, 'hand')}`] : ['--time=3000s']),
+        ];
+    }
 
-  /** Its serial port. */
-  async plugIn(): Promise<string> {
-    const link = join(this.folder, 'robot');
-    this.process = spawn(SIMULATOR, [...this.options, '--flash', this.flash, `--pty=${link}`], { stdio: ['ignore', 'ignore', 'inherit'], cwd: join(BUILD, '..') });
-    await expect.poll(() => existsSync(link), { timeout: PATIENT_MS }).toBe(true);
-    return realpathSync(link);
-  }
+    /** Its serial port. */
+    async plugIn(): Promise<string> {
+        const link = join(this.folder, 'robot');
+        this.process = spawn(SIMULATOR, [...this.options, '--flash', this.flash, `--pty=${link}`], {
+            stdio: ['ignore', 'ignore', 'inherit'],
+            cwd: join(BUILD, '..'),
+        });
+        await expect.poll(() => existsSync(link), { timeout: PATIENT_MS }).toBe(true);
+        return realpathSync(link);
+    }
 
-  /** Pulls its cable: its end of the line is gone. */
-  pull(): Promise<void> {
-    const { process } = this;
-    this.process = null;
-    return new Promise((resolve) => {
-      if (!process || process.exitCode !== null || process.signalCode !== null) return resolve();
-      process.once('exit', () => resolve());
-      process.kill('SIGINT');
-    });
-  }
+    /** Pulls its cable: its end of the line is gone. */
+    pull(): Promise<void> {
+        const { process } = this;
+        this.process = null;
+        return new Promise(resolve => {
+            if (!process || process.exitCode !== null || process.signalCode !== null) return resolve();
+            process.once('exit', () => resolve());
+            process.kill('SIGINT');
+        });
+    }
 }
 
 /** A browser that sees the pty as /dev/ttyS0 and may use it on this origin. It writes its process ID into `folder`. */
 function wrapper(folder: string, pty: string, origin: string): string {
-  const policies = join(folder, 'policies');
-  mkdirSync(policies);
-  writeFileSync(join(policies, 'serial.json'), JSON.stringify({ SerialAllowAllPortsForUrls: [origin] }));
-  mkdirSync(POLICIES, { recursive: true });
-  const script = join(folder, 'browser');
-  const mounts = `mount --bind ${pty} /dev/ttyS0 && mount --bind ${policies} ${POLICIES}`;
-  writeFileSync(script, `#!/bin/sh\nexec unshare -m sh -c 'echo $$ > ${folder}/pid && ${mounts} && exec ${BROWSER} "$@"' sh "$@"\n`);
-  chmodSync(script, 0o755);
-  return script;
+    const policies = join(folder, 'policies');
+    mkdirSync(policies);
+    writeFileSync(join(policies, 'serial.json'), JSON.stringify({ SerialAllowAllPortsForUrls: [origin] }));
+    mkdirSync(POLICIES, { recursive: true });
+    const script = join(folder, 'browser');
+    const mounts = `mount --bind ${pty} /dev/ttyS0 && mount --bind ${policies} ${POLICIES}`;
+    writeFileSync(script, `#!/bin/sh\nexec unshare -m sh -c 'echo $$ > ${folder}/pid && ${mounts} && exec ${BROWSER} "$@"' sh "$@"\n`);
+    chmodSync(script, 0o755);
+    return script;
 }
 
 /** From now on the port that the browser sees is another one. */
 function plugInto(folder: string, pty: string): void {
-  const browser = readFileSync(join(folder, 'pid'), 'utf8').trim();
-  execFileSync('nsenter', [`--mount=/proc/${browser}/ns/mnt`, 'sh', '-c', `umount -l /dev/ttyS0 && mount --bind ${pty} /dev/ttyS0`]); // the old one is gone
+    const browser = readFileSync(join(folder, 'pid'), 'utf8').trim();
+    execFileSync('nsenter', [`--mount=/proc/${browser}/ns/mnt`, 'sh', '-c', `umount -l /dev/ttyS0 && mount --bind ${pty} /dev/ttyS0`]); // the old one is gone
 }
 
 interface Bench {
-  readonly person: Visitor;
-  readonly robot: Robot;
-  readonly folder: string;
+    readonly person: Visitor;
+    readonly robot: Robot;
+    readonly folder: string;
 }
 
 /** What somebody does with a robot on the port of this computer. */
 async function atTheRobot(image: 'play' | 'edit', deed: (bench: Bench) => Promise<void>, hand = ''): Promise<void> {
-  const folder = mkdtempSync(join(tmpdir(), 'm512-serial-'));
-  const server = await PageServer.start();
-  const robot = new Robot(folder, image, hand);
-  const browser = await chromium.launch({ executablePath: wrapper(folder, await robot.plugIn(), new URL(server.address).origin), headless: true, args: FLAGS });
-  try {
-    const person = await Visitor.come(browser, server.address, { hasPicture: image === 'play', hasPhysics: image === 'play' });
-    await person.untilStanding();
-    await new Keyboard(person).enter('Your robot …'); // the chooser would be the browser's
-    await person.button('serial port').waitFor();
-    await deed({ person, robot, folder });
-    await person.leave();
-  } finally {
-    await browser.close();
-    await robot.pull();
-    await server.stop();
-    rmSync(folder, { recursive: true });
-  }
+    const folder = mkdtempSync(join(tmpdir(), 'm512-serial-'));
+    const server = await PageServer.start();
+    const robot = new Robot(folder, image, hand);
+    const browser = await chromium.launch({
+        executablePath: wrapper(folder, await robot.plugIn(), new URL(server.address).origin),
+        headless: true,
+        args: FLAGS,
+    });
+    try {
+        const person = await Visitor.come(browser, server.address, { hasPicture: image === 'play', hasPhysics: image === 'play' });
+        await person.untilStanding();
+        await new Keyboard(person).enter('Your robot …'); // the chooser would be the browser's
+        await person.button('serial port').waitFor();
+        await deed({ person, robot, folder });
+        await person.leave();
+    } finally {
+        await browser.close();
+        await robot.pull();
+        await server.stop();
+        rmSync(folder, { recursive: true });
+    }
 }
 
 /** Waits until a servo of the picture is beyond this position. Prints how many poses a second of the wall clock the picture got meanwhile:
  *  of the robot's own time it gets more than 20 (live.test.ts). */
 async function untilBeyond(person: Visitor, servo: number, position: number): Promise<void> {
-  const rate = await person.page.evaluate(([id, beyond, limitMs]) => new Promise<number>((resolve) => {
-    type Frame = { servos: { id: number; position: number }[] };
-    const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
-    const startMs = performance.now();
-    let poses = 0;
-    const end = (result: number): void => {
-      stop();
-      resolve(result);
-    };
-    const stop = desk.onFrame((state) => {
-      poses++;
-      if ((state.servos.find((one) => one.id === id)?.position ?? 0) > beyond) end((1000 * poses) / (performance.now() - startMs));
-    });
-    setTimeout(() => end(-1), limitMs);
-  }), [servo, position, PATIENT_MS] as const);
-  if (rate < 0) throw new Error(`servo ${servo} never came beyond ${position}; the page says: ${await person.page.locator('status-strip').innerText()}`);
-  console.log(`the picture got ${rate.toFixed(1)} poses a second over Web Serial`);
+    const rate = await person.page.evaluate(
+        ([id, beyond, limitMs]) =>
+            new Promise<number>(resolve => {
+                type Frame = { servos: { id: number; position: number }[] };
+                const { desk } = document.querySelector('app-shell') as unknown as { desk: { onFrame(l: (s: Frame) => void): () => void } };
+                const startMs = performance.now();
+                let poses = 0;
+                const end = (result: number): void => {
+                    stop();
+                    resolve(result);
+                };
+                const stop = desk.onFrame(state => {
+                    poses++;
+                    if ((state.servos.find(one => one.id === id)?.position ?? 0) > beyond)
+                        end((1000 * poses) / (performance.now() - startMs));
+                });
+                setTimeout(() => end(-1), limitMs);
+            }),
+        [servo, position, PATIENT_MS] as const,
+    );
+    if (rate < 0)
+        throw new Error(
+            `servo ${servo} never came beyond ${position}; the page says: ${await person.page.locator('status-strip').innerText()}`,
+        );
+    console.log(`the picture got ${rate.toFixed(1)} poses a second over Web Serial`);
 }
 
-test.skipIf(why !== null)('a hobbyist: connects, walks by keyboard, plays a bow, the picture follows; after a reset and a pulled cable the page reconnects by itself', async () => {
-  await atTheRobot('play', async ({ person, robot, folder }) => {
-    await person.untilStanding();
-    await person.page.keyboard.press('ArrowUp');
-    await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
-    await person.page.keyboard.press('Space');
-    await person.untilStanding();
-    await person.button('Bow').click();
-    await untilBeyond(person, 11, 700); // a bow: the right hip
-    await person.untilStanding();
-    await person.open('Terminal');
-    await person.type('@reset\r');
-    await person.untilScreenSays(/last reset: (?!power-on)/);
-    await person.untilStanding();
-    await person.button('Wave').click();
-    await person.doing.filter({ hasText: 'Playing page 3 (wave)' }).waitFor();
+test.skipIf(why !== null)(
+    'a hobbyist: connects, walks by keyboard, plays a bow, the picture follows; after a reset and a pulled cable the page reconnects by itself',
+    async () => {
+        await atTheRobot('play', async ({ person, robot, folder }) => {
+            await person.untilStanding();
+            await person.page.keyboard.press('ArrowUp');
+            await person.doing.filter({ hasText: /Playing page 2[12] \(walk_/ }).waitFor();
+            await person.page.keyboard.press('Space');
+            await person.untilStanding();
+            await person.button('Bow').click();
+            await untilBeyond(person, 11, 700); // a bow: the right hip
+            await person.untilStanding();
+            await person.open('Terminal');
+            await person.type('@reset\r');
+            await person.untilScreenSays(/last reset: (?!power-on)/);
+            await person.untilStanding();
+            await person.button('Wave').click();
+            await person.doing.filter({ hasText: 'Playing page 3 (wave)' }).waitFor();
 
-    await robot.pull();
-    await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
-    plugInto(folder, await robot.plugIn());
-    await person.untilStanding(); // nobody has pressed anything
-    await person.button('Bow').click();
-    await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
-    await robot.pull();
-    await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
-    await person.button('Robot in this page').click();
-    await person.untilStanding();
-  });
-}, 900_000);
+            await robot.pull();
+            await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
+            plugInto(folder, await robot.plugIn());
+            await person.untilStanding(); // nobody has pressed anything
+            await person.button('Bow').click();
+            await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
+            await robot.pull();
+            await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
+            await person.button('Robot in this page').click();
+            await person.untilStanding();
+        });
+    },
+    900_000,
+);
 
 /** A hand of the simulator: when the right arm is let go, it turns two of its servos and stays there. */
 const HAND = 'torque 1 == 1 within 3000s\ntorque 1 == 0 within 3000s\npush 1 400\npush 3 700\nwait 3000s\n';
 
-test.skipIf(why !== null)('a hobbyist with Edit: all pages read and kept, a step taught by hand, what will change, written; a page saved in the terminal; nothing else is', async () => {
-  await atTheRobot('edit', async ({ person, robot }) => {
-    const { page } = person;
-    await page.getByText('All pages of your robot are read, and kept in this browser as a backup.').waitFor();
-    await person.open('Steps');
-    await person.button('New page').click();
-    await person.button('Add step from the robot').click();
-    await person.button('Hold').click();
-    await page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'All joints hold.' }).waitFor();
-    const seen = untilBeyond(person, 3, 690);
-    await person.button('Right arm').click();
-    await seen;
-    await person.button('Add step from the robot').click();
-    await page.getByRole('button', { name: 'Step 2', exact: true }).waitFor();
-    const name = page.getByRole('textbox', { name: 'Name of the page' });
-    await name.fill('hello');
-    await name.press('Enter');
-    await person.button('To the robot (1) …').click();
-    const rows = page.getByRole('list', { name: 'Pages that differ' });
-    await rows.getByText(/^page \d+ \(hello\)$/).waitFor();
-    const number = Number.parseInt((await rows.getByText(/^page \d+ \(hello\)$/).innerText()).slice(5), 10);
-    await person.button('Write 1 page into the robot').click();
-    await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 1 page.' }).waitFor();
-    await rows.getByText('Nothing differs.').waitFor();
-    await person.button('Close').click();
-    await person.open('Terminal');
-    await nameAndSave(person, 'salute');
-    await robot.pull();
-    await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
-    const [before, after] = [readFileSync(join(BUILD, 'motions/motions.bin')), readFileSync(robot.flash).subarray(0xe000)];
-    const pageIn = (image: Buffer, at: number): Buffer => image.subarray(512 * at, 512 * at + 512);
-    const differ = Array.from({ length: 128 }, (_, at) => at).filter((at) => !pageIn(before, at).equals(pageIn(after, at)));
-    expect(differ).toEqual([number, 100]);
-    expect(pageIn(after, 100).toString('latin1')).toContain('salute');
-  }, HAND);
-}, 900_000);
+test.skipIf(why !== null)(
+    'a hobbyist with Edit: all pages read and kept, a step taught by hand, what will change, written; a page saved in the terminal; nothing else is',
+    async () => {
+        await atTheRobot(
+            'edit',
+            async ({ person, robot }) => {
+                const { page } = person;
+                await page.getByText('All pages of your robot are read, and kept in this browser as a backup.').waitFor();
+                await person.open('Steps');
+                await person.button('New page').click();
+                await person.button('Add step from the robot').click();
+                await person.button('Hold').click();
+                await page.getByRole('status', { name: 'Teaching' }).filter({ hasText: 'All joints hold.' }).waitFor();
+                const seen = untilBeyond(person, 3, 690);
+                await person.button('Right arm').click();
+                await seen;
+                await person.button('Add step from the robot').click();
+                await page.getByRole('button', { name: 'Step 2', exact: true }).waitFor();
+                const name = page.getByRole('textbox', { name: 'Name of the page' });
+                await name.fill('hello');
+                await name.press('Enter');
+                await person.button('To the robot (1) …').click();
+                const rows = page.getByRole('list', { name: 'Pages that differ' });
+                await rows.getByText(/^page \d+ \(hello\)$/).waitFor();
+                const number = Number.parseInt((await rows.getByText(/^page \d+ \(hello\)$/).innerText()).slice(5), 10);
+                await person.button('Write 1 page into the robot').click();
+                await page.getByRole('status', { name: 'Transfer' }).filter({ hasText: 'Written and verified: 1 page.' }).waitFor();
+                await rows.getByText('Nothing differs.').waitFor();
+                await person.button('Close').click();
+                await person.open('Terminal');
+                await nameAndSave(person, 'salute');
+                await robot.pull();
+                await person.doing.filter({ hasText: 'The cable is out.' }).waitFor();
+                const [before, after] = [readFileSync(join(BUILD, 'motions/motions.bin')), readFileSync(robot.flash).subarray(0xe000)];
+                const pageIn = (image: Buffer, at: number): Buffer => image.subarray(512 * at, 512 * at + 512);
+                const differ = Array.from({ length: 128 }, (_, at) => at).filter(at => !pageIn(before, at).equals(pageIn(after, at)));
+                expect(differ).toEqual([number, 100]);
+                expect(pageIn(after, 100).toString('latin1')).toContain('salute');
+            },
+            HAND,
+        );
+    },
+    900_000,
+);

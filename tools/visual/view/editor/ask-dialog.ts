@@ -6,34 +6,52 @@ import { make } from '../element.ts';
 type Answer = readonly [title: string, value: string];
 
 function show(title: string, answers: readonly Answer[], ...content: HTMLElement[]): Promise<string | null> {
-  const dialog = make('dialog', { class: 'ask-dialog', 'aria-label': title });
-  const buttons = answers.map(([text, value], i) => make('button', { value, class: i === 0 ? 'primary' : '' }, text));
-  const cancel = make('button', { value: '', formnovalidate: true, type: 'button', onclick: () => dialog.close('') }, 'Cancel');
-  dialog.append(make('form', { method: 'dialog' }, make('h2', {}, title), ...content, make('div', { class: 'buttons' }, cancel, ...buttons)));
-  document.body.append(dialog);
-  dialog.returnValue = '';
-  dialog.showModal();
-  return new Promise((resolve) => {
-    dialog.addEventListener('close', () => {
-      dialog.remove();
-      resolve(dialog.returnValue === '' ? null : dialog.returnValue);
+    const dialog = make('dialog', { class: 'ask-dialog', 'aria-label': title });
+    const buttons = answers.map(([text, value], i) => make('button', { value, class: i === 0 ? 'primary' : '' }, text));
+    const cancel = make('button', { value: '', formnovalidate: true, type: 'button', onclick: () => dialog.close('') }, 'Cancel');
+    dialog.append(
+        make('form', { method: 'dialog' }, make('h2', {}, title), ...content, make('div', { class: 'buttons' }, cancel, ...buttons)),
+    );
+    document.body.append(dialog);
+    dialog.returnValue = '';
+    dialog.showModal();
+    return new Promise(resolve => {
+        dialog.addEventListener('close', () => {
+            dialog.remove();
+            resolve(dialog.returnValue === '' ? null : dialog.returnValue);
+        });
+        dialog.addEventListener('cancel', () => {
+            dialog.returnValue = '';
+        });
     });
-    dialog.addEventListener('cancel', () => { dialog.returnValue = ''; });
-  });
 }
 
 /** The value of the answer chosen; null: none. */
 export function ask(title: string, text: string, answers: readonly Answer[], ...content: HTMLElement[]): Promise<string | null> {
-  return show(title, answers, make('p', {}, text), ...content);
+    return show(title, answers, make('p', {}, text), ...content);
 }
 
 /** What was typed; null: nothing. */
-export async function askText(title: string, label: string, value: string, options: { maxLength?: number; pattern?: string; hint?: string } = {}): Promise<string | null> {
-  const input = make('input', {
-    type: 'text', value, required: true, maxlength: options.maxLength ?? 60, autofocus: true,
-    ...(options.pattern ? { pattern: options.pattern, title: options.hint ?? '' } : {}),
-  });
-  input.addEventListener('focus', () => input.select());
-  const answer = await show(title, [['OK', 'ok']], make('label', {}, label, input), ...(options.hint ? [make('p', {}, options.hint)] : []));
-  return answer === null ? null : input.value.trim();
+export async function askText(
+    title: string,
+    label: string,
+    value: string,
+    options: { maxLength?: number; pattern?: string; hint?: string } = {},
+): Promise<string | null> {
+    const input = make('input', {
+        type: 'text',
+        value,
+        required: true,
+        maxlength: options.maxLength ?? 60,
+        autofocus: true,
+        ...(options.pattern ? { pattern: options.pattern, title: options.hint ?? '' } : {}),
+    });
+    input.addEventListener('focus', () => input.select());
+    const answer = await show(
+        title,
+        [['OK', 'ok']],
+        make('label', {}, label, input),
+        ...(options.hint ? [make('p', {}, options.hint)] : []),
+    );
+    return answer === null ? null : input.value.trim();
 }

@@ -23,147 +23,202 @@ const WAIT_MS = 400;
 const CURVE_TICKS = 6000;
 
 interface Shown {
-  readonly page: number;
-  readonly step: number | null;
-  readonly joint: number | null;
-  readonly text: string;
-  readonly isFault: boolean;
-  readonly tab: Tab;
-  /** Told from the poses alone: a trial in physics knows better. */
-  readonly isGuess?: boolean;
+    readonly page: number;
+    readonly step: number | null;
+    readonly joint: number | null;
+    readonly text: string;
+    readonly isFault: boolean;
+    readonly tab: Tab;
+    /** Told from the poses alone: a trial in physics knows better. */
+    readonly isGuess?: boolean;
 }
 
 export class ChecksPane extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly summary = make('p', { class: 'summary', role: 'status', 'aria-label': 'Result of the checks' });
-  private readonly list = make('ul', { 'aria-label': 'Findings' });
-  private readonly byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
-  private shown: MotionDocument | null = null;
-  /** What is looked at next, or was looked at last. */
-  private due: MotionDocument | null = null;
-  private drawn = '';
-  /** What is known without physics, as it was looked at last. */
-  private known: { readonly document: MotionDocument; readonly all: readonly Shown[]; readonly note: string } | null = null;
-  private timer: ReturnType<typeof setTimeout> | undefined;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private readonly summary = make('p', { class: 'summary', role: 'status', 'aria-label': 'Result of the checks' });
+    private readonly list = make('ul', { 'aria-label': 'Findings' });
+    private readonly byPage = new WeakMap<Uint8Array, readonly PageFinding[]>();
+    private shown: MotionDocument | null = null;
+    /** What is looked at next, or was looked at last. */
+    private due: MotionDocument | null = null;
+    private drawn = '';
+    /** What is known without physics, as it was looked at last. */
+    private known: { readonly document: MotionDocument; readonly all: readonly Shown[]; readonly note: string } | null = null;
+    private timer: ReturnType<typeof setTimeout> | undefined;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    const physics = Object.assign(new PhysicsBar(), { desk: this.desk });
-    this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.checks), physics, this.summary, this.list);
-    const { editor, state, trials } = this.desk;
-    this.disposals.push(editor.state.watch(() => this.later()), state.watch(() => this.later()), trials.state.watch(() => this.render()), () => clearTimeout(this.timer));
-  }
+    connectedCallback(): void {
+        const physics = Object.assign(new PhysicsBar(), { desk: this.desk });
+        this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.checks), physics, this.summary, this.list);
+        const { editor, state, trials } = this.desk;
+        this.disposals.push(
+            editor.state.watch(() => this.later()),
+            state.watch(() => this.later()),
+            trials.state.watch(() => this.render()),
+            () => clearTimeout(this.timer),
+        );
+    }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  private later(): void {
-    const { document, gesture } = this.desk.editor.state.get();
-    if (this.desk.state.get().tab !== 'checks' || gesture) return;
-    if (document === this.shown) this.render(); // another law makes trials old
-    if (document === this.due) return; // a robot that talks does not put it off
-    clearTimeout(this.timer);
-    this.due = document;
-    if (document === this.shown) return;
-    this.timer = setTimeout(() => void this.look(document), this.shown === null ? 0 : WAIT_MS);
-  }
+    private later(): void {
+        const { document, gesture } = this.desk.editor.state.get();
+        if (this.desk.state.get().tab !== 'checks' || gesture) return;
+        if (document === this.shown) this.render(); // another law makes trials old
+        if (document === this.due) return; // a robot that talks does not put it off
+        clearTimeout(this.timer);
+        this.due = document;
+        if (document === this.shown) return;
+        this.timer = setTimeout(() => void this.look(document), this.shown === null ? 0 : WAIT_MS);
+    }
 
-  private async look(document: MotionDocument): Promise<void> {
-    this.shown = document;
-    const own = this.ownFindings(document).map((one) => this.shownOf(one));
-    this.show(document, own, EDITOR_TEXTS.checking);
-    const said = await this.desk.files.formats.check(imageOf(document)).catch(() => null);
-    if (this.shown !== document) return;
-    const theirs = said?.map((one) => this.shownOfM512(one)) ?? [];
-    // What m512 says of damage it says in better words.
-    const rest = said ? own.filter((one) => !theirs.some((other) => other.page === one.page && other.text.startsWith('damaged') && one.tab === 'pages')) : own;
-    this.show(document, [...theirs, ...rest], said ? '' : EDITOR_TEXTS.noM512);
-  }
+    private async look(document: MotionDocument): Promise<void> {
+        this.shown = document;
+        const own = this.ownFindings(document).map(one => this.shownOf(one));
+        this.show(document, own, EDITOR_TEXTS.checking);
+        const said = await this.desk.files.formats.check(imageOf(document)).catch(() => null);
+        if (this.shown !== document) return;
+        const theirs = said?.map(one => this.shownOfM512(one)) ?? [];
+        // What m512 says of damage it says in better words.
+        const rest = said
+            ? own.filter(one => !theirs.some(other => other.page === one.page && other.text.startsWith('damaged') && one.tab === 'pages'))
+            : own;
+        this.show(document, [...theirs, ...rest], said ? '' : EDITOR_TEXTS.noM512);
+    }
 
-  private ownFindings(document: MotionDocument): PageFinding[] {
-    const { editor, body } = this.desk;
-    const options = { format: editor.format, body, topSpeed: editor.topSpeed(NOMINAL_VOLTS), curve: (page: number) => editor.curve(page, { ticks: CURVE_TICKS }) };
-    const ofPages = document.pages.flatMap((_, page) => {
-      const bytes = pageOf(document, page);
-      const found = this.byPage.get(bytes) ?? checkPage(document, page, options);
-      this.byPage.set(bytes, found);
-      return found.map((one) => ({ ...one, page })); // the same bytes may stand in two places
-    });
-    return [...ofPages, ...checkLinks(editor.format, document)];
-  }
+    private ownFindings(document: MotionDocument): PageFinding[] {
+        const { editor, body } = this.desk;
+        const options = {
+            format: editor.format,
+            body,
+            topSpeed: editor.topSpeed(NOMINAL_VOLTS),
+            curve: (page: number) => editor.curve(page, { ticks: CURVE_TICKS }),
+        };
+        const ofPages = document.pages.flatMap((_, page) => {
+            const bytes = pageOf(document, page);
+            const found = this.byPage.get(bytes) ?? checkPage(document, page, options);
+            this.byPage.set(bytes, found);
+            return found.map(one => ({ ...one, page })); // the same bytes may stand in two places
+        });
+        return [...ofPages, ...checkLinks(editor.format, document)];
+    }
 
-  private shownOf(one: PageFinding): Shown {
-    const joint = this.desk.body.joints.find((other) => other.servo === one.joint);
-    const isOfLinks = one.kind === 'exit-circle';
-    const tab: Tab = isOfLinks ? 'links' : one.step === null ? 'pages' : 'steps';
-    return { page: one.page, step: one.step, joint: one.joint, text: findingText(one, joint ? jointTitle(joint) : `joint ${one.joint}`), isFault: isFaulty(one), tab, isGuess: one.kind === 'tips-over' };
-  }
+    private shownOf(one: PageFinding): Shown {
+        const joint = this.desk.body.joints.find(other => other.servo === one.joint);
+        const isOfLinks = one.kind === 'exit-circle';
+        const tab: Tab = isOfLinks ? 'links' : one.step === null ? 'pages' : 'steps';
+        return {
+            page: one.page,
+            step: one.step,
+            joint: one.joint,
+            text: findingText(one, joint ? jointTitle(joint) : `joint ${one.joint}`),
+            isFault: isFaulty(one),
+            tab,
+            isGuess: one.kind === 'tips-over',
+        };
+    }
 
-  private shownOfM512({ page, text, isFault }: Finding): Shown {
-    const isOfLinks = /leads to page|linked page/.test(text);
-    return { page, step: null, joint: null, text, isFault, tab: isOfLinks ? 'links' : 'pages' };
-  }
+    private shownOfM512({ page, text, isFault }: Finding): Shown {
+        const isOfLinks = /leads to page|linked page/.test(text);
+        return { page, step: null, joint: null, text, isFault, tab: isOfLinks ? 'links' : 'pages' };
+    }
 
-  private show(document: MotionDocument, all: readonly Shown[], note: string): void {
-    this.known = { document, all, note };
-    this.render();
-  }
+    private show(document: MotionDocument, all: readonly Shown[], note: string): void {
+        this.known = { document, all, note };
+        this.render();
+    }
 
-  /** What physics says of the pages that it has tried. Of those that stand nothing is to be told. */
-  private physicsFindings(): Shown[] {
-    const { editor, trials: physics } = this.desk;
-    const { document } = editor.state.get();
-    const { trials } = physics.state.get();
-    return [...trials].filter(([page]) => editor.format.isPlayable(pageOf(document, page))).flatMap(([page, trial]) => {
-      const stale = physics.isFresh(page) ? '' : TRIAL_TEXTS.stale;
-      const said = trial.verdict.kind === 'stands' ? [] : [this.verdictShown(page, trial, trials)];
-      const [deepest] = [...trial.touches].sort((a, b) => b.depthM - a.depthM);
-      const touches = deepest ? [{ page, step: deepest.step, joint: null, text: touchText(deepest, trial.touches.map(({ step }) => step)), isFault: false, tab: 'steps' as const }] : [];
-      return [...said, ...touches].map((one) => ({ ...one, text: stale + one.text }));
-    });
-  }
+    /** What physics says of the pages that it has tried. Of those that stand nothing is to be told. */
+    private physicsFindings(): Shown[] {
+        const { editor, trials: physics } = this.desk;
+        const { document } = editor.state.get();
+        const { trials } = physics.state.get();
+        return [...trials]
+            .filter(([page]) => editor.format.isPlayable(pageOf(document, page)))
+            .flatMap(([page, trial]) => {
+                const stale = physics.isFresh(page) ? '' : TRIAL_TEXTS.stale;
+                const said = trial.verdict.kind === 'stands' ? [] : [this.verdictShown(page, trial, trials)];
+                const [deepest] = [...trial.touches].sort((a, b) => b.depthM - a.depthM);
+                const touches = deepest
+                    ? [
+                          {
+                              page,
+                              step: deepest.step,
+                              joint: null,
+                              text: touchText(
+                                  deepest,
+                                  trial.touches.map(({ step }) => step),
+                              ),
+                              isFault: false,
+                              tab: 'steps' as const,
+                          },
+                      ]
+                    : [];
+                return [...said, ...touches].map(one => ({ ...one, text: stale + one.text }));
+            });
+    }
 
-  private verdictShown(page: number, { verdict }: PageTrial, trials: ReadonlyMap<number, PageTrial>): Shown {
-    const [behind] = [...trials].filter(([one, trial]) => one !== page && trial.pages.includes(page));
-    const text = verdictText(verdict, page, (one) => this.titleOf(one), behind ? [behind[0], behind[1].verdict.kind] : null);
-    return { page: verdict.at?.page ?? page, step: verdict.at?.step ?? 0, joint: null, text, isFault: verdict.kind === 'falls', tab: 'steps' };
-  }
+    private verdictShown(page: number, { verdict }: PageTrial, trials: ReadonlyMap<number, PageTrial>): Shown {
+        const [behind] = [...trials].filter(([one, trial]) => one !== page && trial.pages.includes(page));
+        const text = verdictText(verdict, page, one => this.titleOf(one), behind ? [behind[0], behind[1].verdict.kind] : null);
+        return {
+            page: verdict.at?.page ?? page,
+            step: verdict.at?.step ?? 0,
+            joint: null,
+            text,
+            isFault: verdict.kind === 'falls',
+            tab: 'steps',
+        };
+    }
 
-  private titleOf(page: number): string {
-    return pageText(page, this.desk.editor.page(page).name);
-  }
+    private titleOf(page: number): string {
+        return pageText(page, this.desk.editor.page(page).name);
+    }
 
-  private render(): void {
-    if (!this.known) return;
-    const { document, note } = this.known;
-    const tried = this.desk.trials;
-    const guessed = this.known.all.filter(({ page, isGuess }) => !isGuess || !tried.isFresh(page));
-    const all = [...guessed, ...this.physicsFindings()];
-    const { format } = this.desk.editor;
-    const used = document.pages.filter((bytes, page) => page > 0 && !format.isEmpty(bytes)).length;
-    const faults = all.filter((one) => one.isFault).length;
-    const counted = all.length === 0 ? EDITOR_TEXTS.allGood(used) : `${faults} ${faults === 1 ? 'fault' : 'faults'}, ${all.length - faults} to know.`;
-    const said = [counted, note].filter(Boolean).join(' ');
-    if (this.summary.textContent !== said) this.summary.textContent = said;
-    const sorted = [...all].sort((a, b) => Number(b.isFault) - Number(a.isFault) || a.page - b.page || (a.step ?? -1) - (b.step ?? -1));
-    const drawn = JSON.stringify(sorted);
-    if (drawn === this.drawn) return; // the keyboard stays where it is
-    this.drawn = drawn;
-    this.list.replaceChildren(...sorted.map((one) => this.row(one)));
-  }
+    private render(): void {
+        if (!this.known) return;
+        const { document, note } = this.known;
+        const tried = this.desk.trials;
+        const guessed = this.known.all.filter(({ page, isGuess }) => !isGuess || !tried.isFresh(page));
+        const all = [...guessed, ...this.physicsFindings()];
+        const { format } = this.desk.editor;
+        const used = document.pages.filter((bytes, page) => page > 0 && !format.isEmpty(bytes)).length;
+        const faults = all.filter(one => one.isFault).length;
+        const counted =
+            all.length === 0
+                ? EDITOR_TEXTS.allGood(used)
+                : `${faults} ${faults === 1 ? 'fault' : 'faults'}, ${all.length - faults} to know.`;
+        const said = [counted, note].filter(Boolean).join(' ');
+        if (this.summary.textContent !== said) this.summary.textContent = said;
+        const sorted = [...all].sort((a, b) => Number(b.isFault) - Number(a.isFault) || a.page - b.page || (a.step ?? -1) - (b.step ?? -1));
+        const drawn = JSON.stringify(sorted);
+        if (drawn === this.drawn) return; // the keyboard stays where it is
+        this.drawn = drawn;
+        this.list.replaceChildren(...sorted.map(one => this.row(one)));
+    }
 
-  private row(one: Shown): HTMLElement {
-    const title = this.titleOf(one.page);
-    return make('li', { class: one.isFault ? 'fault' : 'note' },
-      make('span', { class: 'sign' }, one.isFault ? '⚠ fault' : 'to know'), make('b', {}, title), make('span', { class: 'words' }, one.text),
-      make('button', { 'aria-label': `Go to ${title}${one.step === null ? '' : `, step ${one.step + 1}`}`, onclick: () => this.goTo(one) }, 'Go'));
-  }
+    private row(one: Shown): HTMLElement {
+        const title = this.titleOf(one.page);
+        return make(
+            'li',
+            { class: one.isFault ? 'fault' : 'note' },
+            make('span', { class: 'sign' }, one.isFault ? '⚠ fault' : 'to know'),
+            make('b', {}, title),
+            make('span', { class: 'words' }, one.text),
+            make(
+                'button',
+                { 'aria-label': `Go to ${title}${one.step === null ? '' : `, step ${one.step + 1}`}`, onclick: () => this.goTo(one) },
+                'Go',
+            ),
+        );
+    }
 
-  private goTo({ page, step, joint, tab }: Shown): void {
-    this.desk.editor.select({ page, step: step ?? 0, steps: new Set([step ?? 0]), joints: new Set(joint === null ? [] : [joint]) });
-    this.desk.show(tab);
-  }
+    private goTo({ page, step, joint, tab }: Shown): void {
+        this.desk.editor.select({ page, step: step ?? 0, steps: new Set([step ?? 0]), joints: new Set(joint === null ? [] : [joint]) });
+        this.desk.show(tab);
+    }
 }
 
 define('checks-pane', ChecksPane);

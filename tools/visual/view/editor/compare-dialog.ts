@@ -18,194 +18,230 @@ import './compare-dialog.css';
 const LINES = 4;
 
 export class CompareDialog extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly which = make('select', { 'aria-label': 'Compare with', onchange: () => void this.look() });
-  private readonly chooser = make('input', { type: 'file', hidden: true, 'aria-label': 'File to compare with', onchange: () => void this.chosenFile() });
-  private readonly rows = make('ul', { class: 'rows', 'aria-label': 'Pages that differ' });
-  private readonly status = make('p', { class: 'status', role: 'status', 'aria-label': 'Transfer' });
-  private readonly bar = make('progress', { hidden: true, 'aria-label': 'Progress' });
-  private readonly go = make('button', { class: 'primary', onclick: () => void this.deed() });
-  private readonly stop = make('button', { hidden: true, onclick: () => this.desk.transfer.cancel() }, 'Stop');
-  private readonly again = make('button', { hidden: true, onclick: () => void this.tryAgain() }, 'Try again');
-  private readonly shut = make('button', { onclick: () => this.dialog.close() }, 'Close');
-  private readonly reread = make('button', { onclick: () => void this.readRobot() }, 'Read the robot again');
-  private readonly dialog = make('dialog', { class: 'compare', 'aria-label': 'Compare and write' });
-  private file: { readonly title: string; readonly pages: readonly Uint8Array[] } | null = null;
-  private other: readonly (Uint8Array | null)[] = [];
-  private readonly ticks = new Map<number, HTMLInputElement>();
-  private readonly marks = new Map<number, HTMLElement>();
-  private looked = 0;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private readonly which = make('select', { 'aria-label': 'Compare with', onchange: () => void this.look() });
+    private readonly chooser = make('input', {
+        type: 'file',
+        hidden: true,
+        'aria-label': 'File to compare with',
+        onchange: () => void this.chosenFile(),
+    });
+    private readonly rows = make('ul', { class: 'rows', 'aria-label': 'Pages that differ' });
+    private readonly status = make('p', { class: 'status', role: 'status', 'aria-label': 'Transfer' });
+    private readonly bar = make('progress', { hidden: true, 'aria-label': 'Progress' });
+    private readonly go = make('button', { class: 'primary', onclick: () => void this.deed() });
+    private readonly stop = make('button', { hidden: true, onclick: () => this.desk.transfer.cancel() }, 'Stop');
+    private readonly again = make('button', { hidden: true, onclick: () => void this.tryAgain() }, 'Try again');
+    private readonly shut = make('button', { onclick: () => this.dialog.close() }, 'Close');
+    private readonly reread = make('button', { onclick: () => void this.readRobot() }, 'Read the robot again');
+    private readonly dialog = make('dialog', { class: 'compare', 'aria-label': 'Compare and write' });
+    private file: { readonly title: string; readonly pages: readonly Uint8Array[] } | null = null;
+    private other: readonly (Uint8Array | null)[] = [];
+    private readonly ticks = new Map<number, HTMLInputElement>();
+    private readonly marks = new Map<number, HTMLElement>();
+    private looked = 0;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    const file = make('button', { onclick: () => this.chooser.click() }, 'A file …');
-    this.dialog.replaceChildren(
-      make('header', {}, make('h2', {}, 'Compare and write'), make('label', {}, 'With ', this.which), file, this.chooser, this.reread),
-      make('p', { class: 'purpose' }, EDITOR_TEXTS.compare), this.rows, make('footer', {}, this.status, this.bar, this.stop, this.again, this.go, this.shut));
-    this.replaceChildren(this.dialog);
-    this.disposals.push(this.desk.transfer.state.watch((state) => this.dialog.open && this.renderTransfer(state)));
-  }
-
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  /** Opens with the robot, which is read. */
-  async open(): Promise<void> {
-    this.fillWhich('robot');
-    if (!this.dialog.open) this.dialog.showModal();
-    await this.readRobot();
-  }
-
-  private get key(): string {
-    return this.which.value;
-  }
-
-  private fillWhich(key: string): void {
-    const all = [...comparables(this.desk), ...(this.file ? [{ key: 'file', title: this.file.title }] : [])];
-    this.which.replaceChildren(...all.map((one) => make('option', { value: one.key }, one.title)));
-    this.which.value = key;
-  }
-
-  private async readRobot(): Promise<void> {
-    await this.desk.transfer.read();
-    await this.look();
-  }
-
-  private async tryAgain(): Promise<void> {
-    await this.desk.transfer.tryAgain();
-    await this.look();
-  }
-
-  private async chosenFile(): Promise<void> {
-    const file = this.chooser.files?.[0];
-    this.chooser.value = '';
-    if (!file) return;
-    if (file.size > MOST_BYTES) {
-      this.status.textContent = FILE_TEXTS.tooManyBytes(file.name);
-      return;
+    connectedCallback(): void {
+        const file = make('button', { onclick: () => this.chooser.click() }, 'A file …');
+        this.dialog.replaceChildren(
+            make(
+                'header',
+                {},
+                make('h2', {}, 'Compare and write'),
+                make('label', {}, 'With ', this.which),
+                file,
+                this.chooser,
+                this.reread,
+            ),
+            make('p', { class: 'purpose' }, EDITOR_TEXTS.compare),
+            this.rows,
+            make('footer', {}, this.status, this.bar, this.stop, this.again, this.go, this.shut),
+        );
+        this.replaceChildren(this.dialog);
+        this.disposals.push(this.desk.transfer.state.watch(state => this.dialog.open && this.renderTransfer(state)));
     }
-    this.status.textContent = EDITOR_TEXTS.readingFile(file.name);
-    const read = await this.desk.files.formats.open(file.name, new Uint8Array(await file.arrayBuffer()), true);
-    if (read.kind !== 'opened') {
-      this.status.textContent = read.kind === 'refused' ? read.text : EDITOR_TEXTS.noRoom(read.pages);
-      return;
+
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
     }
-    this.file = { title: file.name, pages: documentFrom(read.image, file.name).pages };
-    this.fillWhich('file');
-    await this.look();
-  }
 
-  /** Shows what differs. */
-  private async look(): Promise<void> {
-    const mine = ++this.looked;
-    const { desk, key } = this;
-    const found = key === 'file' ? this.file?.pages : await pagesOf(desk, key);
-    if (mine !== this.looked) return;
-    this.other = found ?? [];
-    this.ticks.clear();
-    this.marks.clear();
-    const { document } = desk.editor.state.get();
-    const pages = this.other.flatMap((bytes, page) => (bytes && !desk.editor.format.isSame(bytes, pageOf(document, page)) ? [page] : []));
-    this.rows.replaceChildren(...pages.map((page) => this.row(page)));
-    if (pages.length === 0 && found) this.rows.append(make('li', { class: 'same' }, EDITOR_TEXTS.same));
-    this.renderTransfer(desk.transfer.state.get());
-    if (pages.length > 0) void this.addWords(mine);
-  }
-
-  private row(page: number): HTMLElement {
-    const { desk } = this;
-    const { format, state } = desk.editor;
-    const ours = pageOf(state.get().document, page);
-    const theirs = this.other[page] ?? format.empty;
-    const [mine, other] = [readPage(format, ours), readPage(format, theirs)];
-    const isRobot = this.key === 'robot';
-    const source = isRobot ? ours : theirs;
-    const tick = make('input', { type: 'checkbox', checked: page > 0, disabled: (isRobot && page === 0) || format.fault(source) !== null });
-    if (tick.disabled) tick.checked = false;
-    tick.addEventListener('change', () => this.renderTransfer(desk.transfer.state.get()));
-    this.ticks.set(page, tick);
-    const title = pageText(page, (isRobot ? mine.name : other.name) || mine.name || other.name);
-    const mark = make('span', { class: 'account' });
-    this.marks.set(page, mark);
-    const pictures = page === 0 ? null : isRobot ? ghosts(desk.body, other, mine) : ghosts(desk.body, mine, other);
-    const words = isRobot ? 'Take the robot\'s' : 'Take over';
-    const take = make('button', { 'aria-label': `${words} ${title}`, onclick: () => void this.takeOver([page]) }, words);
-    const note = page === 0 ? EDITOR_TEXTS.trimStays : format.fault(source) !== null ? EDITOR_TEXTS.damagedStays : '';
-    return make('li', { 'data-page': page }, make('label', {}, tick, make('b', {}, title)), mark, take, pictures,
-      make('div', { class: 'words' }, note || EDITOR_TEXTS.wordsComing));
-  }
-
-  /** m512 says the differences in its own words; it takes some seconds to come the first time. */
-  private async addWords(mine: number): Promise<void> {
-    const { format, state } = this.desk.editor;
-    const { document } = state.get();
-    const theirs = imageOf({ name: '', pages: this.other.map((bytes) => bytes ?? format.empty) });
-    const images = this.key === 'robot' ? [theirs, imageOf(document)] as const : [imageOf(document), theirs] as const;
-    const said = await this.desk.files.formats.differences(...images).catch(() => null);
-    if (mine !== this.looked) return;
-    for (const [page] of this.ticks) {
-      const words = this.rows.querySelector(`[data-page="${page}"] .words`);
-      const lines = said?.filter((one) => one.page === page).map((one) => one.text.replace(/^page \d+( "[^"]*")?(, |: ?)?/, '')) ?? [EDITOR_TEXTS.noWords];
-      if (lines.length > 0) words?.replaceChildren(...this.wordsOf(lines));
+    /** Opens with the robot, which is read. */
+    async open(): Promise<void> {
+        this.fillWhich('robot');
+        if (!this.dialog.open) this.dialog.showModal();
+        await this.readRobot();
     }
-  }
 
-  private wordsOf(lines: readonly string[]): HTMLElement[] {
-    const list = (some: readonly string[]): HTMLElement => make('ul', {}, ...some.map((line) => make('li', {}, line)));
-    if (lines.length <= LINES + 1) return [list(lines)];
-    return [list(lines.slice(0, LINES)), make('details', {}, make('summary', {}, `${lines.length - LINES} more`), list(lines.slice(LINES)))];
-  }
-
-  private get chosen(): number[] {
-    return [...this.ticks].filter(([, tick]) => tick.checked).map(([page]) => page);
-  }
-
-  private async deed(): Promise<void> {
-    if (this.key !== 'robot') return this.takeOver(this.chosen);
-    await this.desk.transfer.write(this.chosen);
-    this.fillWhich(this.key); // there is a backup more
-    if (this.desk.transfer.state.get().phase === 'written') await this.look();
-  }
-
-  private async takeOver(pages: readonly number[]): Promise<void> {
-    const { editor } = this.desk;
-    const taken = new Map(pages.map((page) => [page, this.other[page] ?? editor.format.empty]));
-    editor.dispatch(editor.edits.replacePages(editor.state.get().document, taken));
-    await this.look();
-  }
-
-  /** What was at hand may be gone or of no use now: the keyboard is at what comes next. */
-  private keepFocus(): void {
-    const { activeElement } = document;
-    const isThere = activeElement !== null && this.dialog.contains(activeElement) && !activeElement.matches(':disabled, [hidden]');
-    if (!this.dialog.open || isThere) return;
-    const isDone = this.desk.transfer.state.get().phase === 'written';
-    const row = isDone ? null : this.rows.querySelector<HTMLElement>('button');
-    const next = [this.stop, this.again].find((button) => !button.hidden) ?? row ?? this.shut;
-    next.focus({ preventScroll: true });
-  }
-
-  private renderTransfer(state: TransferState): void {
-    const isRobot = this.key === 'robot';
-    const isBusy = state.phase === 'reading' || state.phase === 'writing';
-    const count = this.chosen.length;
-    this.status.textContent = isRobot ? transferText(state) : '';
-    this.status.dataset['tone'] = state.phase === 'stopped' ? 'bad' : 'calm';
-    this.bar.hidden = !isBusy;
-    this.bar.max = Math.max(1, state.total);
-    this.bar.value = state.done;
-    this.stop.hidden = !isBusy;
-    this.again.hidden = !isRobot || state.phase !== 'stopped';
-    this.reread.hidden = !isRobot;
-    this.go.disabled = isBusy || count === 0;
-    this.go.textContent = isRobot ? `Write ${count} ${count === 1 ? 'page' : 'pages'} into the robot` : `Take over ${count} ${count === 1 ? 'page' : 'pages'}`;
-    for (const [page, mark] of this.marks) {
-      const account = isRobot ? state.account.get(page) : undefined;
-      mark.textContent = account ? ACCOUNT_TEXTS[account] : '';
+    private get key(): string {
+        return this.which.value;
     }
-    this.keepFocus();
-  }
+
+    private fillWhich(key: string): void {
+        const all = [...comparables(this.desk), ...(this.file ? [{ key: 'file', title: this.file.title }] : [])];
+        this.which.replaceChildren(...all.map(one => make('option', { value: one.key }, one.title)));
+        this.which.value = key;
+    }
+
+    private async readRobot(): Promise<void> {
+        await this.desk.transfer.read();
+        await this.look();
+    }
+
+    private async tryAgain(): Promise<void> {
+        await this.desk.transfer.tryAgain();
+        await this.look();
+    }
+
+    private async chosenFile(): Promise<void> {
+        const file = this.chooser.files?.[0];
+        this.chooser.value = '';
+        if (!file) return;
+        if (file.size > MOST_BYTES) {
+            this.status.textContent = FILE_TEXTS.tooManyBytes(file.name);
+            return;
+        }
+        this.status.textContent = EDITOR_TEXTS.readingFile(file.name);
+        const read = await this.desk.files.formats.open(file.name, new Uint8Array(await file.arrayBuffer()), true);
+        if (read.kind !== 'opened') {
+            this.status.textContent = read.kind === 'refused' ? read.text : EDITOR_TEXTS.noRoom(read.pages);
+            return;
+        }
+        this.file = { title: file.name, pages: documentFrom(read.image, file.name).pages };
+        this.fillWhich('file');
+        await this.look();
+    }
+
+    /** Shows what differs. */
+    private async look(): Promise<void> {
+        const mine = ++this.looked;
+        const { desk, key } = this;
+        const found = key === 'file' ? this.file?.pages : await pagesOf(desk, key);
+        if (mine !== this.looked) return;
+        this.other = found ?? [];
+        this.ticks.clear();
+        this.marks.clear();
+        const { document } = desk.editor.state.get();
+        const pages = this.other.flatMap((bytes, page) =>
+            bytes && !desk.editor.format.isSame(bytes, pageOf(document, page)) ? [page] : [],
+        );
+        this.rows.replaceChildren(...pages.map(page => this.row(page)));
+        if (pages.length === 0 && found) this.rows.append(make('li', { class: 'same' }, EDITOR_TEXTS.same));
+        this.renderTransfer(desk.transfer.state.get());
+        if (pages.length > 0) void this.addWords(mine);
+    }
+
+    private row(page: number): HTMLElement {
+        const { desk } = this;
+        const { format, state } = desk.editor;
+        const ours = pageOf(state.get().document, page);
+        const theirs = this.other[page] ?? format.empty;
+        const [mine, other] = [readPage(format, ours), readPage(format, theirs)];
+        const isRobot = this.key === 'robot';
+        const source = isRobot ? ours : theirs;
+        const tick = make('input', {
+            type: 'checkbox',
+            checked: page > 0,
+            disabled: (isRobot && page === 0) || format.fault(source) !== null,
+        });
+        if (tick.disabled) tick.checked = false;
+        tick.addEventListener('change', () => this.renderTransfer(desk.transfer.state.get()));
+        this.ticks.set(page, tick);
+        const title = pageText(page, (isRobot ? mine.name : other.name) || mine.name || other.name);
+        const mark = make('span', { class: 'account' });
+        this.marks.set(page, mark);
+        const pictures = page === 0 ? null : isRobot ? ghosts(desk.body, other, mine) : ghosts(desk.body, mine, other);
+        const words = isRobot ? "Take the robot's" : 'Take over';
+        const take = make('button', { 'aria-label': `${words} ${title}`, onclick: () => void this.takeOver([page]) }, words);
+        const note = page === 0 ? EDITOR_TEXTS.trimStays : format.fault(source) !== null ? EDITOR_TEXTS.damagedStays : '';
+        return make(
+            'li',
+            { 'data-page': page },
+            make('label', {}, tick, make('b', {}, title)),
+            mark,
+            take,
+            pictures,
+            make('div', { class: 'words' }, note || EDITOR_TEXTS.wordsComing),
+        );
+    }
+
+    /** m512 says the differences in its own words; it takes some seconds to come the first time. */
+    private async addWords(mine: number): Promise<void> {
+        const { format, state } = this.desk.editor;
+        const { document } = state.get();
+        const theirs = imageOf({ name: '', pages: this.other.map(bytes => bytes ?? format.empty) });
+        const images = this.key === 'robot' ? ([theirs, imageOf(document)] as const) : ([imageOf(document), theirs] as const);
+        const said = await this.desk.files.formats.differences(...images).catch(() => null);
+        if (mine !== this.looked) return;
+        for (const [page] of this.ticks) {
+            const words = this.rows.querySelector(`[data-page="${page}"] .words`);
+            const lines = said?.filter(one => one.page === page).map(one => one.text.replace(/^page \d+( "[^"]*")?(, |: ?)?/, '')) ?? [
+                EDITOR_TEXTS.noWords,
+            ];
+            if (lines.length > 0) words?.replaceChildren(...this.wordsOf(lines));
+        }
+    }
+
+    private wordsOf(lines: readonly string[]): HTMLElement[] {
+        const list = (some: readonly string[]): HTMLElement => make('ul', {}, ...some.map(line => make('li', {}, line)));
+        if (lines.length <= LINES + 1) return [list(lines)];
+        return [
+            list(lines.slice(0, LINES)),
+            make('details', {}, make('summary', {}, `${lines.length - LINES} more`), list(lines.slice(LINES))),
+        ];
+    }
+
+    private get chosen(): number[] {
+        return [...this.ticks].filter(([, tick]) => tick.checked).map(([page]) => page);
+    }
+
+    private async deed(): Promise<void> {
+        if (this.key !== 'robot') return this.takeOver(this.chosen);
+        await this.desk.transfer.write(this.chosen);
+        this.fillWhich(this.key); // there is a backup more
+        if (this.desk.transfer.state.get().phase === 'written') await this.look();
+    }
+
+    private async takeOver(pages: readonly number[]): Promise<void> {
+        const { editor } = this.desk;
+        const taken = new Map(pages.map(page => [page, this.other[page] ?? editor.format.empty]));
+        editor.dispatch(editor.edits.replacePages(editor.state.get().document, taken));
+        await this.look();
+    }
+
+    /** What was at hand may be gone or of no use now: the keyboard is at what comes next. */
+    private keepFocus(): void {
+        const { activeElement } = document;
+        const isThere = activeElement !== null && this.dialog.contains(activeElement) && !activeElement.matches(':disabled, [hidden]');
+        if (!this.dialog.open || isThere) return;
+        const isDone = this.desk.transfer.state.get().phase === 'written';
+        const row = isDone ? null : this.rows.querySelector<HTMLElement>('button');
+        const next = [this.stop, this.again].find(button => !button.hidden) ?? row ?? this.shut;
+        next.focus({ preventScroll: true });
+    }
+
+    private renderTransfer(state: TransferState): void {
+        const isRobot = this.key === 'robot';
+        const isBusy = state.phase === 'reading' || state.phase === 'writing';
+        const count = this.chosen.length;
+        this.status.textContent = isRobot ? transferText(state) : '';
+        this.status.dataset['tone'] = state.phase === 'stopped' ? 'bad' : 'calm';
+        this.bar.hidden = !isBusy;
+        this.bar.max = Math.max(1, state.total);
+        this.bar.value = state.done;
+        this.stop.hidden = !isBusy;
+        this.again.hidden = !isRobot || state.phase !== 'stopped';
+        this.reread.hidden = !isRobot;
+        this.go.disabled = isBusy || count === 0;
+        this.go.textContent = isRobot
+            ? `Write ${count} ${count === 1 ? 'page' : 'pages'} into the robot`
+            : `Take over ${count} ${count === 1 ? 'page' : 'pages'}`;
+        for (const [page, mark] of this.marks) {
+            const account = isRobot ? state.account.get(page) : undefined;
+            mark.textContent = account ? ACCOUNT_TEXTS[account] : '';
+        }
+        this.keepFocus();
+    }
 }
 
 define('compare-dialog', CompareDialog);

@@ -6,35 +6,35 @@ import type { Desk } from '../desk.ts';
 import { EDITOR_TEXTS } from './texts.ts';
 
 export interface Compared {
-  /** robot, b:ID of a backup, d:ID of a document, file. */
-  readonly key: string;
-  readonly title: string;
+    /** robot, b:ID of a backup, d:ID of a document, file. */
+    readonly key: string;
+    readonly title: string;
 }
 
 /** Everything that could be chosen now; a file is chosen by its own button. */
 export function comparables(desk: Desk): Compared[] {
-  const { documents, backups, openId } = desk.documents.state.get();
-  const when = (ms: number): string => new Date(ms).toLocaleString();
-  return [
-    { key: 'robot', title: robotTitle(desk) },
-    ...backups.map(({ id, robot, takenMs }) => ({ key: `b:${id}`, title: EDITOR_TEXTS.backupOf(robot, when(takenMs)) })),
-    ...documents.filter(({ id }) => id !== openId).map(({ id, name }) => ({ key: `d:${id}`, title: `${name} (document)` })),
-  ];
+    const { documents, backups, openId } = desk.documents.state.get();
+    const when = (ms: number): string => new Date(ms).toLocaleString();
+    return [
+        { key: 'robot', title: robotTitle(desk) },
+        ...backups.map(({ id, robot, takenMs }) => ({ key: `b:${id}`, title: EDITOR_TEXTS.backupOf(robot, when(takenMs)) })),
+        ...documents.filter(({ id }) => id !== openId).map(({ id, name }) => ({ key: `d:${id}`, title: `${name} (document)` })),
+    ];
 }
 
 export function robotTitle(desk: Desk): string {
-  const { source, portName } = desk.state.get();
-  return source === 'simulated' ? 'The robot in this page' : `Your robot (${portName})`;
+    const { source, portName } = desk.state.get();
+    return source === 'simulated' ? 'The robot in this page' : `Your robot (${portName})`;
 }
 
 /** Its 128 pages; null: gone, or (the robot) not read. */
 export async function pagesOf(desk: Desk, key: string): Promise<readonly (Uint8Array | null)[] | null> {
-  const id = key.slice(2);
-  if (key === 'robot') {
-    const { robot } = desk.editor.state.get();
-    return robot.length > 0 ? robot : null;
-  }
-  if (key.startsWith('d:')) return (await desk.documents.read(id))?.pages ?? null;
-  const backup = desk.documents.state.get().backups.find((one) => one.id === id);
-  return backup ? documentFrom(backup.image, backup.robot).pages : null;
+    const id = key.slice(2);
+    if (key === 'robot') {
+        const { robot } = desk.editor.state.get();
+        return robot.length > 0 ? robot : null;
+    }
+    if (key.startsWith('d:')) return (await desk.documents.read(id))?.pages ?? null;
+    const backup = desk.documents.state.get().backups.find(one => one.id === id);
+    return backup ? documentFrom(backup.image, backup.robot).pages : null;
 }

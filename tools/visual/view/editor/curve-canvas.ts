@@ -17,138 +17,159 @@ const CHOSEN_COLOURS = ['--curve-1', '--curve-2', '--curve-3', '--curve-4', '--c
 
 /** What a drawing shows, in numbers. */
 export interface Drawn {
-  /** Joints and places that are too fast. */
-  readonly fast: ReadonlyMap<number, readonly TickSpan[]>;
-  readonly isShaped: boolean;
-  /** How far the chosen joints are behind at most, in physics (servo units); empty: not known. */
-  readonly lags: ReadonlyMap<number, number>;
-  /** Physics was asked and cannot tell. */
-  readonly isUnknown: boolean;
+    /** Joints and places that are too fast. */
+    readonly fast: ReadonlyMap<number, readonly TickSpan[]>;
+    readonly isShaped: boolean;
+    /** How far the chosen joints are behind at most, in physics (servo units); empty: not known. */
+    readonly lags: ReadonlyMap<number, number>;
+    /** Physics was asked and cannot tell. */
+    readonly isUnknown: boolean;
 }
 
 export class CurveCanvas extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  /** After each drawing. */
-  onDrawn: (drawn: Drawn) => void = () => undefined;
-  private shape = AS_STORED;
-  private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'Curves of the joints' });
-  private readonly label = make('p', { class: 'point', 'aria-hidden': true });
-  private drawing: CurveDrawing | null = null;
-  private hand!: CurveHand; // made when it is connected, as the next one: they want the desk
-  private follow!: ServoFollow;
-  private request = 0;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    /** After each drawing. */
+    onDrawn: (drawn: Drawn) => void = () => undefined;
+    private shape = AS_STORED;
+    private readonly canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': 'Curves of the joints' });
+    private readonly label = make('p', { class: 'point', 'aria-hidden': true });
+    private drawing: CurveDrawing | null = null;
+    private hand!: CurveHand; // made when it is connected, as the next one: they want the desk
+    private follow!: ServoFollow;
+    private request = 0;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.replaceChildren(this.canvas, this.label);
-    this.hand = new CurveHand(this.desk);
-    this.follow = new ServoFollow(this.desk, () => this.later());
-    const { canvas } = this;
-    canvas.addEventListener('pointerdown', (event) => this.down(event));
-    canvas.addEventListener('pointermove', (event) => this.move(event));
-    canvas.addEventListener('pointerleave', () => (this.label.textContent = ''));
-    canvas.addEventListener('pointerup', () => this.end(true));
-    canvas.addEventListener('pointercancel', () => this.end(false));
-    // A finger beside all way-points scrolls the area, as it does everywhere else.
-    canvas.addEventListener('touchstart', (event) => this.hand.dragged && event.preventDefault(), { passive: false });
-    canvas.addEventListener('keydown', (event) => this.hand.key(event) && event.preventDefault());
-    canvas.addEventListener('keyup', () => this.hand.keyUp());
-    canvas.addEventListener('blur', () => this.hand.keyUp());
-    const sizes = new ResizeObserver(() => this.later());
-    sizes.observe(this);
-    const themes = new MutationObserver(() => this.later());
-    themes.observe(document.documentElement, { attributeFilter: ['data-theme'] });
-    this.disposals.push(() => this.follow.dispose(), () => sizes.disconnect(), () => themes.disconnect(), () => cancelAnimationFrame(this.request),
-      this.desk.editor.state.watch(() => this.later()));
-  }
+    connectedCallback(): void {
+        this.replaceChildren(this.canvas, this.label);
+        this.hand = new CurveHand(this.desk);
+        this.follow = new ServoFollow(this.desk, () => this.later());
+        const { canvas } = this;
+        canvas.addEventListener('pointerdown', event => this.down(event));
+        canvas.addEventListener('pointermove', event => this.move(event));
+        canvas.addEventListener('pointerleave', () => (this.label.textContent = ''));
+        canvas.addEventListener('pointerup', () => this.end(true));
+        canvas.addEventListener('pointercancel', () => this.end(false));
+        // A finger beside all way-points scrolls the area, as it does everywhere else.
+        canvas.addEventListener('touchstart', event => this.hand.dragged && event.preventDefault(), { passive: false });
+        canvas.addEventListener('keydown', event => this.hand.key(event) && event.preventDefault());
+        canvas.addEventListener('keyup', () => this.hand.keyUp());
+        canvas.addEventListener('blur', () => this.hand.keyUp());
+        const sizes = new ResizeObserver(() => this.later());
+        sizes.observe(this);
+        const themes = new MutationObserver(() => this.later());
+        themes.observe(document.documentElement, { attributeFilter: ['data-theme'] });
+        this.disposals.push(
+            () => this.follow.dispose(),
+            () => sizes.disconnect(),
+            () => themes.disconnect(),
+            () => cancelAnimationFrame(this.request),
+            this.desk.editor.state.watch(() => this.later()),
+        );
+    }
 
-  disconnectedCallback(): void {
-    this.end(true);
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
+    disconnectedCallback(): void {
+        this.end(true);
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  setShape(shape: Shape): void {
-    this.shape = shape;
-    this.later();
-  }
+    setShape(shape: Shape): void {
+        this.shape = shape;
+        this.later();
+    }
 
-  /** Shows where the servos are, as physics has it. */
-  setFollow(on: boolean): void {
-    this.follow.setOn(on);
-  }
+    /** Shows where the servos are, as physics has it. */
+    setFollow(on: boolean): void {
+        this.follow.setOn(on);
+    }
 
-  /** One drawing a frame, however much has changed; none while the area is not shown. */
-  private later(): void {
-    if (this.request !== 0) return;
-    this.request = requestAnimationFrame(() => {
-      this.request = 0;
-      if (this.clientWidth > 0) this.draw();
-    });
-  }
+    /** One drawing a frame, however much has changed; none while the area is not shown. */
+    private later(): void {
+        if (this.request !== 0) return;
+        this.request = requestAnimationFrame(() => {
+            this.request = 0;
+            if (this.clientWidth > 0) this.draw();
+        });
+    }
 
-  private draw(): void {
-    const scene = this.makeScene();
-    const [width, height] = [this.clientWidth, this.clientHeight];
-    const sharpness = Math.min(devicePixelRatio, 2);
-    const [w, h] = [Math.round(width * sharpness), Math.round(height * sharpness)];
-    if (this.canvas.width !== w || this.canvas.height !== h) Object.assign(this.canvas, { width: w, height: h });
-    const context = this.canvas.getContext('2d');
-    if (!context) return;
-    context.setTransform(sharpness, 0, 0, sharpness, 0, 0);
-    context.clearRect(0, 0, width, height);
-    this.drawing = scene && { scene, frame: new CurveFrame(this.hand.dragged ?? scene, width, height) };
-    if (this.drawing) drawCurves(context, this.drawing.frame, this.drawing.scene, this.colours());
-    this.onDrawn({ fast: scene?.fast ?? new Map(), isShaped: !!scene?.stored, lags: this.lags(scene), isUnknown: this.follow.isUnknown });
-  }
+    private draw(): void {
+        const scene = this.makeScene();
+        const [width, height] = [this.clientWidth, this.clientHeight];
+        const sharpness = Math.min(devicePixelRatio, 2);
+        const [w, h] = [Math.round(width * sharpness), Math.round(height * sharpness)];
+        if (this.canvas.width !== w || this.canvas.height !== h) Object.assign(this.canvas, { width: w, height: h });
+        const context = this.canvas.getContext('2d');
+        if (!context) return;
+        context.setTransform(sharpness, 0, 0, sharpness, 0, 0);
+        context.clearRect(0, 0, width, height);
+        this.drawing = scene && { scene, frame: new CurveFrame(this.hand.dragged ?? scene, width, height) };
+        if (this.drawing) drawCurves(context, this.drawing.frame, this.drawing.scene, this.colours());
+        this.onDrawn({
+            fast: scene?.fast ?? new Map(),
+            isShaped: !!scene?.stored,
+            lags: this.lags(scene),
+            isUnknown: this.follow.isUnknown,
+        });
+    }
 
-  private lags(scene: CurveScene | null): Map<number, number> {
-    return new Map([...(scene?.chosen ?? [])].flatMap((joint) => {
-      const lag = scene && this.follow.lag(scene.curve, joint);
-      return lag === null ? [] : [[joint, lag] as const];
-    }));
-  }
+    private lags(scene: CurveScene | null): Map<number, number> {
+        return new Map(
+            [...(scene?.chosen ?? [])].flatMap(joint => {
+                const lag = scene && this.follow.lag(scene.curve, joint);
+                return lag === null ? [] : [[joint, lag] as const];
+            }),
+        );
+    }
 
-  private makeScene(): CurveScene | null {
-    const { shape, hand, desk: { editor, state } } = this;
-    const scene = curveScene(editor, { shape, volts: state.get().where?.batteryVolts || NOMINAL_VOLTS, edges: hand.dragged });
-    if (!scene) return null;
-    this.follow.look(scene.curve.ticks, shape);
-    return { ...scene, followed: this.follow.positions };
-  }
+    private makeScene(): CurveScene | null {
+        const {
+            shape,
+            hand,
+            desk: { editor, state },
+        } = this;
+        const scene = curveScene(editor, { shape, volts: state.get().where?.batteryVolts || NOMINAL_VOLTS, edges: hand.dragged });
+        if (!scene) return null;
+        this.follow.look(scene.curve.ticks, shape);
+        return { ...scene, followed: this.follow.positions };
+    }
 
-  private colours(): CurveColours {
-    const style = getComputedStyle(this);
-    const colour = (name: string): string => style.getPropertyValue(name).trim();
-    return {
-      line: colour('--ink'), faint: colour('--curve-faint'), fast: colour('--bad'), grid: colour('--line'), text: colour('--ink-soft'),
-      ground: colour('--panel-low'), chosen: CHOSEN_COLOURS.map(colour),
-    };
-  }
+    private colours(): CurveColours {
+        const style = getComputedStyle(this);
+        const colour = (name: string): string => style.getPropertyValue(name).trim();
+        return {
+            line: colour('--ink'),
+            faint: colour('--curve-faint'),
+            fast: colour('--bad'),
+            grid: colour('--line'),
+            text: colour('--ink-soft'),
+            ground: colour('--panel-low'),
+            chosen: CHOSEN_COLOURS.map(colour),
+        };
+    }
 
-  private down(event: PointerEvent): void {
-    if (event.button !== 0 || !this.drawing) return;
-    event.preventDefault(); // no text is marked
-    this.canvas.focus({ preventScroll: true });
-    if (this.hand.down(this.drawing, event, event.shiftKey || event.ctrlKey)) this.canvas.setPointerCapture(event.pointerId);
-  }
+    private down(event: PointerEvent): void {
+        if (event.button !== 0 || !this.drawing) return;
+        event.preventDefault(); // no text is marked
+        this.canvas.focus({ preventScroll: true });
+        if (this.hand.down(this.drawing, event, event.shiftKey || event.ctrlKey)) this.canvas.setPointerCapture(event.pointerId);
+    }
 
-  private move(event: PointerEvent): void {
-    if (this.hand.dragged) this.hand.move(event);
-    else this.hover(event);
-  }
+    private move(event: PointerEvent): void {
+        if (this.hand.dragged) this.hand.move(event);
+        else this.hover(event);
+    }
 
-  private hover(event: PointerEvent): void {
-    const { drawing } = this;
-    const point = drawing && nearestPoint(drawing, event);
-    this.canvas.classList.toggle('over-point', !!point);
-    const joint = point?.joint ?? (drawing && jointAt(drawing, event));
-    const name = this.desk.body.joints.find(({ servo }) => servo === joint)?.name.replaceAll('_', ' ') ?? '';
-    this.label.textContent = joint === null ? '' : `${joint} ${name}${point ? `, step ${point.step + 1}: ${point.position}` : ''}`;
-  }
+    private hover(event: PointerEvent): void {
+        const { drawing } = this;
+        const point = drawing && nearestPoint(drawing, event);
+        this.canvas.classList.toggle('over-point', !!point);
+        const joint = point?.joint ?? (drawing && jointAt(drawing, event));
+        const name = this.desk.body.joints.find(({ servo }) => servo === joint)?.name.replaceAll('_', ' ') ?? '';
+        this.label.textContent = joint === null ? '' : `${joint} ${name}${point ? `, step ${point.step + 1}: ${point.position}` : ''}`;
+    }
 
-  private end(keep: boolean): void {
-    if (this.hand.up(keep)) this.later();
-  }
+    private end(keep: boolean): void {
+        if (this.hand.up(keep)) this.later();
+    }
 }
 
 define('curve-canvas', CurveCanvas);

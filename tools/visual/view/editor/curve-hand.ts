@@ -17,139 +17,149 @@ const COARSE_UNITS = 10;
 
 /** What is on the canvas now. */
 export interface CurveDrawing {
-  readonly scene: CurveScene;
-  readonly frame: CurveFrame;
+    readonly scene: CurveScene;
+    readonly frame: CurveFrame;
 }
 
 /** A place on the canvas in pixels, and whose it is: `touch` is a finger. */
 interface Spot {
-  readonly pointerType: string;
-  readonly offsetX: number;
-  readonly offsetY: number;
+    readonly pointerType: string;
+    readonly offsetX: number;
+    readonly offsetY: number;
 }
 
 interface Drag extends CurveDrawing {
-  readonly point: WayPoint;
-  readonly gesture: Gesture;
-  readonly start: Spot;
-  axis: 'position' | 'time' | null;
+    readonly point: WayPoint;
+    readonly gesture: Gesture;
+    readonly start: Spot;
+    axis: 'position' | 'time' | null;
 }
 
 export class CurveHand {
-  private readonly desk: Desk;
-  private readonly arrows: JointTurn;
-  private drag: Drag | null = null;
+    private readonly desk: Desk;
+    private readonly arrows: JointTurn;
+    private drag: Drag | null = null;
 
-  constructor(desk: Desk) {
-    this.desk = desk;
-    const { editor, body } = desk;
-    this.arrows = new JointTurn(editor, body, (start, positions) => editor.edits.setJoints(start, editor.state.get().page, [editor.state.get().step], positions));
-  }
-
-  /** The picture in which a drag began: its edges stay while the drag is on. */
-  get dragged(): CurveScene | null {
-    return this.drag?.scene ?? null;
-  }
-
-  /** true: a way-point is taken hold of, and the pointer belongs to it. */
-  down(drawing: CurveDrawing, spot: Spot, add: boolean): boolean {
-    const { editor } = this.desk;
-    const point = nearestPoint(drawing, spot);
-    if (!point) {
-      const joint = jointAt(drawing, spot);
-      if (joint !== null) editor.select({ joints: new Set(add ? [...editor.state.get().joints, joint] : [joint]) });
-      return false;
+    constructor(desk: Desk) {
+        this.desk = desk;
+        const { editor, body } = desk;
+        this.arrows = new JointTurn(editor, body, (start, positions) =>
+            editor.edits.setJoints(start, editor.state.get().page, [editor.state.get().step], positions),
+        );
     }
-    editor.select({ step: point.step, steps: new Set([point.step]) });
-    this.drag = { ...drawing, point, gesture: editor.gesture('drag'), start: { offsetX: spot.offsetX, offsetY: spot.offsetY, pointerType: spot.pointerType }, axis: null };
-    return true;
-  }
 
-  move(spot: Spot): void {
-    const { drag } = this;
-    if (!drag) return;
-    const [dx, dy] = [spot.offsetX - drag.start.offsetX, spot.offsetY - drag.start.offsetY];
-    drag.axis ??= Math.hypot(dx, dy) < CLEAR_PX ? null : Math.abs(dx) > Math.abs(dy) ? 'time' : 'position';
-    const { editor } = this.desk;
-    const { page } = editor.state.get();
-    const { point, gesture, frame } = drag;
-    if (drag.axis === 'position') {
-      const position = Math.min(Math.max(Math.round(point.position + frame.position(dy) - frame.position(0)), 0), POSITION_MAX);
-      gesture.change(editor.edits.setJoints(gesture.start, page, [point.step], new Map([[point.joint, position]])));
-    } else if (drag.axis === 'time' && editor.page(page).schedule === 'time') {
-      const begin = drag.scene.ends[point.step]?.move ?? 0;
-      const seconds = Math.max(0, begin + frame.tick(dx) - frame.tick(0)) / TICKS_PER_SECOND;
-      gesture.change(editor.edits.setTime(gesture.start, page, [point.step], nearestSetting(editor, page, point.step, 'time', seconds)));
+    /** The picture in which a drag began: its edges stay while the drag is on. */
+    get dragged(): CurveScene | null {
+        return this.drag?.scene ?? null;
     }
-  }
 
-  /** The end of a drag. keep: false takes it back. true: there was one. */
-  up(keep: boolean): boolean {
-    const { drag } = this;
-    this.drag = null;
-    if (keep) drag?.gesture.finish();
-    else drag?.gesture.cancel();
-    return drag !== null;
-  }
+    /** true: a way-point is taken hold of, and the pointer belongs to it. */
+    down(drawing: CurveDrawing, spot: Spot, add: boolean): boolean {
+        const { editor } = this.desk;
+        const point = nearestPoint(drawing, spot);
+        if (!point) {
+            const joint = jointAt(drawing, spot);
+            if (joint !== null) editor.select({ joints: new Set(add ? [...editor.state.get().joints, joint] : [joint]) });
+            return false;
+        }
+        editor.select({ step: point.step, steps: new Set([point.step]) });
+        this.drag = {
+            ...drawing,
+            point,
+            gesture: editor.gesture('drag'),
+            start: { offsetX: spot.offsetX, offsetY: spot.offsetY, pointerType: spot.pointerType },
+            axis: null,
+        };
+        return true;
+    }
 
-  /** true: the key was meant for the curves. */
-  key(event: KeyboardEvent): boolean {
-    const side = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    const turn = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    if (event.key === 'Escape') this.escape();
-    else if (turn !== undefined) this.turn(turn * (event.shiftKey ? COARSE_UNITS : 1));
-    else if (side !== undefined && event.altKey) this.changeTime(side);
-    else if (side !== undefined) this.chooseStep(side);
-    else return false;
-    return true;
-  }
+    move(spot: Spot): void {
+        const { drag } = this;
+        if (!drag) return;
+        const [dx, dy] = [spot.offsetX - drag.start.offsetX, spot.offsetY - drag.start.offsetY];
+        drag.axis ??= Math.hypot(dx, dy) < CLEAR_PX ? null : Math.abs(dx) > Math.abs(dy) ? 'time' : 'position';
+        const { editor } = this.desk;
+        const { page } = editor.state.get();
+        const { point, gesture, frame } = drag;
+        if (drag.axis === 'position') {
+            const position = Math.min(Math.max(Math.round(point.position + frame.position(dy) - frame.position(0)), 0), POSITION_MAX);
+            gesture.change(editor.edits.setJoints(gesture.start, page, [point.step], new Map([[point.joint, position]])));
+        } else if (drag.axis === 'time' && editor.page(page).schedule === 'time') {
+            const begin = drag.scene.ends[point.step]?.move ?? 0;
+            const seconds = Math.max(0, begin + frame.tick(dx) - frame.tick(0)) / TICKS_PER_SECOND;
+            gesture.change(
+                editor.edits.setTime(gesture.start, page, [point.step], nearestSetting(editor, page, point.step, 'time', seconds)),
+            );
+        }
+    }
 
-  keyUp(): void {
-    this.arrows.end(true);
-  }
+    /** The end of a drag. keep: false takes it back. true: there was one. */
+    up(keep: boolean): boolean {
+        const { drag } = this;
+        this.drag = null;
+        if (keep) drag?.gesture.finish();
+        else drag?.gesture.cancel();
+        return drag !== null;
+    }
 
-  private escape(): void {
-    this.up(false);
-    this.arrows.end(false);
-  }
+    /** true: the key was meant for the curves. */
+    key(event: KeyboardEvent): boolean {
+        const side = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+        const turn = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+        if (event.key === 'Escape') this.escape();
+        else if (turn !== undefined) this.turn(turn * (event.shiftKey ? COARSE_UNITS : 1));
+        else if (side !== undefined && event.altKey) this.changeTime(side);
+        else if (side !== undefined) this.chooseStep(side);
+        else return false;
+        return true;
+    }
 
-  private turn(units: number): void {
-    const { editor } = this.desk;
-    const { page, step, joints } = editor.state.get();
-    if (joints.size > 0) this.arrows.turn(units, () => editor.poseAfter(page, step));
-  }
+    keyUp(): void {
+        this.arrows.end(true);
+    }
 
-  private chooseStep(by: number): void {
-    const { editor } = this.desk;
-    const { page, step } = editor.state.get();
-    const to = Math.min(Math.max(step + by, 0), editor.page(page).steps.length - 1);
-    editor.select({ step: to, steps: new Set([to]) });
-  }
+    private escape(): void {
+        this.up(false);
+        this.arrows.end(false);
+    }
 
-  private changeTime(by: number): void {
-    const { editor } = this.desk;
-    const { page, step, document } = editor.state.get();
-    const time = Math.min(Math.max((editor.page(page).steps[step]?.time ?? 0) + by, 0), BYTE_MAX);
-    editor.dispatch(editor.edits.setTime(document, page, [step], time));
-  }
+    private turn(units: number): void {
+        const { editor } = this.desk;
+        const { page, step, joints } = editor.state.get();
+        if (joints.size > 0) this.arrows.turn(units, () => editor.poseAfter(page, step));
+    }
+
+    private chooseStep(by: number): void {
+        const { editor } = this.desk;
+        const { page, step } = editor.state.get();
+        const to = Math.min(Math.max(step + by, 0), editor.page(page).steps.length - 1);
+        editor.select({ step: to, steps: new Set([to]) });
+    }
+
+    private changeTime(by: number): void {
+        const { editor } = this.desk;
+        const { page, step, document } = editor.state.get();
+        const time = Math.min(Math.max((editor.page(page).steps[step]?.time ?? 0) + by, 0), BYTE_MAX);
+        editor.dispatch(editor.edits.setTime(document, page, [step], time));
+    }
 }
 
 /** How far beside a thing it may still be meant. */
 function reachPx(pointerType: string): number {
-  return pointerType === 'touch' ? NEAR_PX.finger : NEAR_PX.mouse;
+    return pointerType === 'touch' ? NEAR_PX.finger : NEAR_PX.mouse;
 }
 
 /** The way-point under the mouse. */
 export function nearestPoint({ scene, frame }: CurveDrawing, { offsetX, offsetY, pointerType }: Spot): WayPoint | null {
-  const distance = (point: WayPoint): number => Math.hypot(frame.x(point.tick) - offsetX, frame.y(point.position) - offsetY);
-  const near = scene.wayPoints.filter((point) => distance(point) < reachPx(pointerType)).sort((a, b) => distance(a) - distance(b));
-  return near[0] ?? null;
+    const distance = (point: WayPoint): number => Math.hypot(frame.x(point.tick) - offsetX, frame.y(point.position) - offsetY);
+    const near = scene.wayPoints.filter(point => distance(point) < reachPx(pointerType)).sort((a, b) => distance(a) - distance(b));
+    return near[0] ?? null;
 }
 
 /** The joint whose curve is under the mouse. */
 export function jointAt({ scene, frame }: CurveDrawing, { offsetX, offsetY, pointerType }: Spot): number | null {
-  const tick = Math.min(Math.max(Math.round(frame.tick(offsetX)) - 1, 0), scene.curve.ticks - 1);
-  const off = (joint: number): number => Math.abs(frame.y(scene.curve.goals[tick * JOINTS + joint] ?? 0) - offsetY);
-  const [near] = [...scene.joints].sort((a, b) => off(a) - off(b));
-  return near !== undefined && off(near) < reachPx(pointerType) ? near : null;
+    const tick = Math.min(Math.max(Math.round(frame.tick(offsetX)) - 1, 0), scene.curve.ticks - 1);
+    const off = (joint: number): number => Math.abs(frame.y(scene.curve.goals[tick * JOINTS + joint] ?? 0) - offsetY);
+    const [near] = [...scene.joints].sort((a, b) => off(a) - off(b));
+    return near !== undefined && off(near) < reachPx(pointerType) ? near : null;
 }

@@ -20,99 +20,120 @@ const RENAME = 'rename';
 const REMOVE = 'remove';
 
 export class EditBar extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  /** Opens the way to the robot. */
-  onTransfer: () => void = () => undefined;
-  private readonly documents = make('select', { 'aria-label': 'Document' });
-  private readonly kept = make('span', { class: 'kept', role: 'status', 'aria-label': 'Autosave' });
-  private readonly undo = make('button', { onclick: () => this.desk.editor.undo() }, '↶');
-  private readonly redo = make('button', { onclick: () => this.desk.editor.redo() }, '↷');
-  private readonly transfer = make('button', { onclick: () => this.onTransfer() }, 'To the robot …');
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    /** Opens the way to the robot. */
+    onTransfer: () => void = () => undefined;
+    private readonly documents = make('select', { 'aria-label': 'Document' });
+    private readonly kept = make('span', { class: 'kept', role: 'status', 'aria-label': 'Autosave' });
+    private readonly undo = make('button', { onclick: () => this.desk.editor.undo() }, '↶');
+    private readonly redo = make('button', { onclick: () => this.desk.editor.redo() }, '↷');
+    private readonly transfer = make('button', { onclick: () => this.onTransfer() }, 'To the robot …');
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.setAttribute('role', 'toolbar');
-    this.setAttribute('aria-label', 'Document');
-    this.replaceChildren(this.documents, this.kept, this.undo, this.redo, this.transfer);
-    onChoice(this.documents, (value) => void this.chooseDocument(value));
-    const keys = (event: KeyboardEvent): void => this.key(event);
-    document.addEventListener('keydown', keys);
-    this.disposals.push(
-      this.desk.documents.state.watch((state) => this.renderDocuments(state)), this.desk.editor.state.watch((state) => this.renderEdits(state)),
-      this.desk.documents.state.watch(() => this.renderEdits(this.desk.editor.state.get())), () => document.removeEventListener('keydown', keys),
-    );
-  }
-
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  private renderDocuments({ documents, openId, saving, unreadable }: DocumentsState): void {
-    const options = documents.map(({ id, name }) => make('option', { value: id, selected: id === openId }, name));
-    const damaged = unreadable.map((name) => make('option', { disabled: true }, `${name} (${EDITOR_TEXTS.unreadable})`));
-    const deeds = [[NEW, 'New document …'], [COPY, 'Copy of this one …'], [FROM_ROBOT, 'What the robot has …'], [RENAME, 'Rename …'], [REMOVE, 'Delete …']]
-      .map(([value = '', title = '']) => make('option', { value }, title));
-    this.documents.replaceChildren(...options, ...damaged, make('hr'), ...deeds);
-    this.documents.value = openId;
-    this.kept.textContent = keptText(saving);
-    this.kept.dataset['state'] = saving;
-  }
-
-  private renderEdits(state: EditorState): void {
-    const { done, undone } = state.history;
-    const show = (button: HTMLButtonElement, word: string, edit: (typeof done)[number] | undefined): void => {
-      button.disabled = edit === undefined;
-      button.title = edit ? `${word}: ${editText(edit)}` : word;
-      button.setAttribute('aria-label', button.title);
-    };
-    show(this.undo, 'Undo', done.at(-1));
-    const { forgotten } = this.desk.documents.state.get();
-    if (done.length === 0 && forgotten > 0) this.undo.title = EDITOR_TEXTS.forgotten(forgotten);
-    show(this.redo, 'Redo', undone.at(-1));
-    const count = dirtyPages(state, this.desk.editor.format).size;
-    this.transfer.textContent = count > 0 ? `To the robot (${count}) …` : 'To the robot …';
-  }
-
-  private async chooseDocument(value: string): Promise<void> {
-    const { documents, editor } = this.desk;
-    const { name } = editor.state.get().document;
-    this.documents.value = documents.state.get().openId;
-    switch (value) {
-      case NEW: return this.create('New document', 'My motions');
-      case COPY: return this.create('Copy of this document', copyName(name, documents.state.get().documents.map((one) => one.name)), () => editor.state.get().document);
-      case FROM_ROBOT: return this.createFromRobot();
-      case RENAME: {
-        const given = await askText('Rename this document', 'Name', name);
-        return given ? documents.rename(given) : undefined;
-      }
-      case REMOVE: return (await ask('Delete this document?', EDITOR_TEXTS.removal(name), [['Delete', 'delete']])) ? documents.remove() : undefined;
-      default: return documents.open(value);
+    connectedCallback(): void {
+        this.setAttribute('role', 'toolbar');
+        this.setAttribute('aria-label', 'Document');
+        this.replaceChildren(this.documents, this.kept, this.undo, this.redo, this.transfer);
+        onChoice(this.documents, value => void this.chooseDocument(value));
+        const keys = (event: KeyboardEvent): void => this.key(event);
+        document.addEventListener('keydown', keys);
+        this.disposals.push(
+            this.desk.documents.state.watch(state => this.renderDocuments(state)),
+            this.desk.editor.state.watch(state => this.renderEdits(state)),
+            this.desk.documents.state.watch(() => this.renderEdits(this.desk.editor.state.get())),
+            () => document.removeEventListener('keydown', keys),
+        );
     }
-  }
 
-  /** from: asked when the name is given, for the document may have changed meanwhile. */
-  private async create(title: string, proposal: string, from?: () => MotionDocument): Promise<void> {
-    const name = await askText(title, 'Name', proposal);
-    if (name) await this.desk.documents.create(name, from?.());
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  private async createFromRobot(): Promise<void> {
-    const { transfer, editor } = this.desk;
-    if (!(await transfer.read()).isDone) return this.onTransfer(); // which says why, and offers to try again
-    const pages = editor.state.get().robot.map((bytes) => bytes ?? editor.format.empty);
-    await this.create('What the robot has, as a document', 'My robot', () => ({ name: '', pages }));
-  }
+    private renderDocuments({ documents, openId, saving, unreadable }: DocumentsState): void {
+        const options = documents.map(({ id, name }) => make('option', { value: id, selected: id === openId }, name));
+        const damaged = unreadable.map(name => make('option', { disabled: true }, `${name} (${EDITOR_TEXTS.unreadable})`));
+        const deeds = [
+            [NEW, 'New document …'],
+            [COPY, 'Copy of this one …'],
+            [FROM_ROBOT, 'What the robot has …'],
+            [RENAME, 'Rename …'],
+            [REMOVE, 'Delete …'],
+        ].map(([value = '', title = '']) => make('option', { value }, title));
+        this.documents.replaceChildren(...options, ...damaged, make('hr'), ...deeds);
+        this.documents.value = openId;
+        this.kept.textContent = keptText(saving);
+        this.kept.dataset['state'] = saving;
+    }
 
-  /** Ctrl+Z and Ctrl+Y, but for what is being typed. */
-  private key(event: KeyboardEvent): void {
-    const isInDialog = event.target instanceof Element && event.target.closest('dialog') !== null;
-    if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping(event) || isInDialog || this.closest('[hidden]')) return;
-    const key = event.key.toLowerCase();
-    if (key !== 'z' && key !== 'y') return;
-    event.preventDefault();
-    if (key === 'y' || event.shiftKey) this.desk.editor.redo();
-    else this.desk.editor.undo();
-  }
+    private renderEdits(state: EditorState): void {
+        const { done, undone } = state.history;
+        const show = (button: HTMLButtonElement, word: string, edit: (typeof done)[number] | undefined): void => {
+            button.disabled = edit === undefined;
+            button.title = edit ? `${word}: ${editText(edit)}` : word;
+            button.setAttribute('aria-label', button.title);
+        };
+        show(this.undo, 'Undo', done.at(-1));
+        const { forgotten } = this.desk.documents.state.get();
+        if (done.length === 0 && forgotten > 0) this.undo.title = EDITOR_TEXTS.forgotten(forgotten);
+        show(this.redo, 'Redo', undone.at(-1));
+        const count = dirtyPages(state, this.desk.editor.format).size;
+        this.transfer.textContent = count > 0 ? `To the robot (${count}) …` : 'To the robot …';
+    }
+
+    private async chooseDocument(value: string): Promise<void> {
+        const { documents, editor } = this.desk;
+        const { name } = editor.state.get().document;
+        this.documents.value = documents.state.get().openId;
+        switch (value) {
+            case NEW:
+                return this.create('New document', 'My motions');
+            case COPY:
+                return this.create(
+                    'Copy of this document',
+                    copyName(
+                        name,
+                        documents.state.get().documents.map(one => one.name),
+                    ),
+                    () => editor.state.get().document,
+                );
+            case FROM_ROBOT:
+                return this.createFromRobot();
+            case RENAME: {
+                const given = await askText('Rename this document', 'Name', name);
+                return given ? documents.rename(given) : undefined;
+            }
+            case REMOVE:
+                return (await ask('Delete this document?', EDITOR_TEXTS.removal(name), [['Delete', 'delete']]))
+                    ? documents.remove()
+                    : undefined;
+            default:
+                return documents.open(value);
+        }
+    }
+
+    /** from: asked when the name is given, for the document may have changed meanwhile. */
+    private async create(title: string, proposal: string, from?: () => MotionDocument): Promise<void> {
+        const name = await askText(title, 'Name', proposal);
+        if (name) await this.desk.documents.create(name, from?.());
+    }
+
+    private async createFromRobot(): Promise<void> {
+        const { transfer, editor } = this.desk;
+        if (!(await transfer.read()).isDone) return this.onTransfer(); // which says why, and offers to try again
+        const pages = editor.state.get().robot.map(bytes => bytes ?? editor.format.empty);
+        await this.create('What the robot has, as a document', 'My robot', () => ({ name: '', pages }));
+    }
+
+    /** Ctrl+Z and Ctrl+Y, but for what is being typed. */
+    private key(event: KeyboardEvent): void {
+        const isInDialog = event.target instanceof Element && event.target.closest('dialog') !== null;
+        if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping(event) || isInDialog || this.closest('[hidden]')) return;
+        const key = event.key.toLowerCase();
+        if (key !== 'z' && key !== 'y') return;
+        event.preventDefault();
+        if (key === 'y' || event.shiftKey) this.desk.editor.redo();
+        else this.desk.editor.undo();
+    }
 }
 
 define('edit-bar', EditBar);

@@ -18,66 +18,66 @@ import type { Posed } from './pose-layer.ts';
 const HERE: Place = { pos: [0, 0, 0], quat: [1, 0, 0, 0] };
 
 export class EditedPose {
-  private readonly editor: Editor;
-  private readonly body: Body;
-  private readonly editing: Store<Editing>;
-  /** As it was seen last. */
-  robot: RobotState | null = null;
+    private readonly editor: Editor;
+    private readonly body: Body;
+    private readonly editing: Store<Editing>;
+    /** As it was seen last. */
+    robot: RobotState | null = null;
 
-  constructor(editor: Editor, body: Body, editing: Store<Editing>) {
-    this.editor = editor;
-    this.body = body;
-    this.editing = editing;
-  }
+    constructor(editor: Editor, body: Body, editing: Store<Editing>) {
+        this.editor = editor;
+        this.body = body;
+        this.editing = editing;
+    }
 
-  get angles(): Angles {
-    const { page, step } = this.editor.state.get();
-    if (this.isEmpty && this.robot) return robotAngles(this.body, this.robot);
-    return stepAngles(this.editor, this.body, page, step);
-  }
+    get angles(): Angles {
+        const { page, step } = this.editor.state.get();
+        if (this.isEmpty && this.robot) return robotAngles(this.body, this.robot);
+        return stepAngles(this.editor, this.body, page, step);
+    }
 
-  /** Servo units by ID. */
-  get positions(): number[] {
-    const { page, step } = this.editor.state.get();
-    const pose = this.editor.poseAfter(page, step);
-    if (!this.isEmpty || !this.robot) return pose;
-    return robotPositions(this.robot).map((position, id) => position ?? pose[id] ?? 0);
-  }
+    /** Servo units by ID. */
+    get positions(): number[] {
+        const { page, step } = this.editor.state.get();
+        const pose = this.editor.poseAfter(page, step);
+        if (!this.isEmpty || !this.robot) return pose;
+        return robotPositions(this.robot).map((position, id) => position ?? pose[id] ?? 0);
+    }
 
-  stance(angles: Angles): Stance {
-    return stanceOf(this.body, this.editing.get(), angles, this.feet());
-  }
+    stance(angles: Angles): Stance {
+        return stanceOf(this.body, this.editing.get(), angles, this.feet());
+    }
 
-  /** The figure with these angles on this foot. */
-  posed(angles: Angles, stance: Stance): Posed {
-    return { trunk: trunkOn(this.body, stance.keep, angles, stance.at), angles };
-  }
+    /** The figure with these angles on this foot. */
+    posed(angles: Angles, stance: Stance): Posed {
+        return { trunk: trunkOn(this.body, stance.keep, angles, stance.at), angles };
+    }
 
-  /** The figure as a step of the page leaves it, on its own foot; null: there is no such step. */
-  atStep(at: number): Posed | null {
-    const { page } = this.editor.state.get();
-    if (at < 0 || at >= this.editor.page(page).steps.length) return null;
-    const angles = stepAngles(this.editor, this.body, page, at);
-    const { keep } = this.editing.get();
-    const foot = keep === 'lower' ? lowerFoot(this.body, angles) : keep;
-    return this.posed(angles, { keep: foot, at: this.feet()[foot] });
-  }
+    /** The figure as a step of the page leaves it, on its own foot; null: there is no such step. */
+    atStep(at: number): Posed | null {
+        const { page } = this.editor.state.get();
+        if (at < 0 || at >= this.editor.page(page).steps.length) return null;
+        const angles = stepAngles(this.editor, this.body, page, at);
+        const { keep } = this.editing.get();
+        const foot = keep === 'lower' ? lowerFoot(this.body, angles) : keep;
+        return this.posed(angles, { keep: foot, at: this.feet()[foot] });
+    }
 
-  private get isEmpty(): boolean {
-    return this.editor.page(this.editor.state.get().page).steps.length === 0;
-  }
+    private get isEmpty(): boolean {
+        return this.editor.page(this.editor.state.get().page).steps.length === 0;
+    }
 
-  /** Where the robot has its feet: there the edited step stands too. */
-  private feet(): Record<Side, Place> {
-    const { robot } = this;
-    const places = robot ? placeLinks(this.body, robot.trunk, angleIn(robotAngles(this.body, robot))) : null;
-    return { right: places?.get('right_foot') ?? HERE, left: places?.get('left_foot') ?? HERE };
-  }
+    /** Where the robot has its feet: there the edited step stands too. */
+    private feet(): Record<Side, Place> {
+        const { robot } = this;
+        const places = robot ? placeLinks(this.body, robot.trunk, angleIn(robotAngles(this.body, robot))) : null;
+        return { right: places?.get('right_foot') ?? HERE, left: places?.get('left_foot') ?? HERE };
+    }
 }
 
 /** Servo units by ID, as the robot stands. */
 export function robotPose(robot: RobotState): number[] {
-  const pose = new Array<number>(JOINTS).fill(POSITION_MIDDLE);
-  for (const { id, position } of robot.servos) pose[id] = Math.round(position);
-  return pose;
+    const pose = new Array<number>(JOINTS).fill(POSITION_MIDDLE);
+    for (const { id, position } of robot.servos) pose[id] = Math.round(position);
+    return pose;
 }

@@ -17,58 +17,66 @@ import type { Editor } from '../editor-desk.ts';
 export type PictureMode = 'pose' | 'hand';
 
 export interface Editing {
-  readonly mode: PictureMode;
-  readonly keep: Side | 'lower';
-  /** A foot that is dragged keeps its sole parallel to the floor. */
-  readonly soleFlat: boolean;
-  readonly onionSkin: boolean;
-  readonly balance: boolean;
-  /** The robot goes where the chosen step is. */
-  readonly follow: boolean;
-  /** Servos that are being taught: limp, but for the simulated robot, whose limbs hold when the mouse lets go of them. */
-  readonly taught: ReadonlySet<number>;
+    readonly mode: PictureMode;
+    readonly keep: Side | 'lower';
+    /** A foot that is dragged keeps its sole parallel to the floor. */
+    readonly soleFlat: boolean;
+    readonly onionSkin: boolean;
+    readonly balance: boolean;
+    /** The robot goes where the chosen step is. */
+    readonly follow: boolean;
+    /** Servos that are being taught: limp, but for the simulated robot, whose limbs hold when the mouse lets go of them. */
+    readonly taught: ReadonlySet<number>;
 }
 
 export const EDITING_START: Editing = {
-  mode: 'pose', keep: 'lower', soleFlat: true, onionSkin: false, balance: true, follow: false, taught: new Set(),
+    mode: 'pose',
+    keep: 'lower',
+    soleFlat: true,
+    onionSkin: false,
+    balance: true,
+    follow: false,
+    taught: new Set(),
 };
 
 /** Areas in which a step is edited: there the picture shows it. */
 const EDITING_TABS: ReadonlySet<Tab> = new Set<Tab>(['steps', 'curves']);
 
 export function isEditing(tab: Tab): boolean {
-  return EDITING_TABS.has(tab);
+    return EDITING_TABS.has(tab);
 }
 
 export function stepAngles(editor: Editor, body: Body, page: number, step: number): Angles {
-  return anglesOf(body, editor.poseAfter(page, step), new Map());
+    return anglesOf(body, editor.poseAfter(page, step), new Map());
 }
 
 export function robotAngles(body: Body, robot: RobotState): Angles {
-  const positions = new Map(robot.servos.map((servo) => [servo.id, servo.position]));
-  return new Map(body.joints.map((joint) => [joint.servo, jointAngle(joint, positions.get(joint.servo) ?? joint.zero)]));
+    const positions = new Map(robot.servos.map(servo => [servo.id, servo.position]));
+    return new Map(body.joints.map(joint => [joint.servo, jointAngle(joint, positions.get(joint.servo) ?? joint.zero)]));
 }
 
 /** Servo units by ID of the robot as it stands; null: no such servo. A joint that holds has its goal: what it was told, not how
  *  far the weight bends it. */
 export function robotPositions(robot: RobotState): (number | null)[] {
-  const positions = new Array<number | null>(JOINTS).fill(null);
-  for (const servo of robot.servos) positions[servo.id] = Math.round((servo.torque ? servo.goalPos : null) ?? servo.position);
-  return positions;
+    const positions = new Array<number | null>(JOINTS).fill(null);
+    for (const servo of robot.servos) positions[servo.id] = Math.round((servo.torque ? servo.goalPos : null) ?? servo.position);
+    return positions;
 }
 
 /** Positions of the joints whose angles differ. */
 export function changedPositions(body: Body, before: Angles, after: Angles): Map<number, number> {
-  return new Map(body.joints.flatMap((joint) => {
-    const [was, is] = [nearestPosition(joint, before.get(joint.servo) ?? 0), nearestPosition(joint, after.get(joint.servo) ?? 0)];
-    return was === is ? [] : [[joint.servo, is] as const];
-  }));
+    return new Map(
+        body.joints.flatMap(joint => {
+            const [was, is] = [nearestPosition(joint, before.get(joint.servo) ?? 0), nearestPosition(joint, after.get(joint.servo) ?? 0)];
+            return was === is ? [] : [[joint.servo, is] as const];
+        }),
+    );
 }
 
 /** The foot on which the edited figure stands, where the robot has that foot. */
 export function stanceOf(body: Body, editing: Editing, angles: Angles, feet: Readonly<Record<Side, Stance['at']>>): Stance {
-  const keep = editing.keep === 'lower' ? lowerFoot(body, angles) : editing.keep;
-  return { keep, at: feet[keep] };
+    const keep = editing.keep === 'lower' ? lowerFoot(body, angles) : editing.keep;
+    return { keep, at: feet[keep] };
 }
 
 const SAFE_UNITS_PER_TICK = 2.5;
@@ -76,17 +84,20 @@ const LEAST_TIME = 48;
 
 /** Time of a step (ticks at nominal speed) in which no joint has to hurry on its way from the pose before. */
 export function easyTime(from: readonly (number | null)[], to: readonly (number | null)[]): number {
-  const ways = to.map((position, id) => Math.abs((position ?? 0) - (from[id] ?? position ?? 0)));
-  return Math.min(BYTE_MAX, Math.max(LEAST_TIME, Math.ceil(Math.max(...ways) / SAFE_UNITS_PER_TICK)));
+    const ways = to.map((position, id) => Math.abs((position ?? 0) - (from[id] ?? position ?? 0)));
+    return Math.min(BYTE_MAX, Math.max(LEAST_TIME, Math.ceil(Math.max(...ways) / SAFE_UNITS_PER_TICK)));
 }
 
 /** A step of these positions that the robot reaches without haste. */
 export function easyStep(positions: readonly (number | null)[], before: readonly (number | null)[]): Step {
-  return { positions, time: easyTime(before, positions), pause: 0 };
+    return { positions, time: easyTime(before, positions), pause: 0 };
 }
 
 /** The chosen joints turned by so many servo units from `pose` (by ID), each as far as it can. */
 export function changedBy(body: Body, joints: ReadonlySet<number>, pose: readonly number[], by: number): Map<number, number> {
-  return new Map(body.joints.filter((joint) => joints.has(joint.servo)).map((joint) =>
-    [joint.servo, nearestPosition(joint, jointAngle(joint, (pose[joint.servo] ?? joint.zero) + by))] as const));
+    return new Map(
+        body.joints
+            .filter(joint => joints.has(joint.servo))
+            .map(joint => [joint.servo, nearestPosition(joint, jointAngle(joint, (pose[joint.servo] ?? joint.zero) + by))] as const),
+    );
 }

@@ -15,129 +15,188 @@ const ACCEPTED = '.m512,.bin,.img,.hex,.ihex,.mtn';
 const FORGET_MS = 60_000; // a download has begun by then
 
 export class FilesMenu extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly chooser = make('input', { type: 'file', accept: ACCEPTED, hidden: true, 'aria-label': 'Motion file', onchange: () => this.chosen() });
-  private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.desk.files.dismiss() });
-  private readonly busy = make('span', { class: 'busy', role: 'status' });
-  private readonly stop = make('button', { hidden: true, onclick: () => this.desk.files.cancel() }, 'Cancel');
-  private shown: Pick<FilesState, 'opened' | 'tooLarge' | 'sent' | 'trouble'> | null = null;
-  private readonly ends: (() => void)[] = [];
-
-  connectedCallback(): void {
-    const save = make('select', { 'aria-label': 'Save as a file' }, make('option', { value: '' }, 'Save as …'),
-      ...Object.entries(SUFFIXES).map(([suffix, title]) => make('option', { value: suffix }, `${title} (${suffix})`)));
-    onChoice(save, (suffix) => {
-      if (suffix !== '') void this.save(suffix as Suffix); // one of the options
-      save.value = '';
+    desk!: Desk; // set before it is connected
+    private readonly chooser = make('input', {
+        type: 'file',
+        accept: ACCEPTED,
+        hidden: true,
+        'aria-label': 'Motion file',
+        onchange: () => this.chosen(),
     });
-    this.replaceChildren(make('button', { onclick: () => this.chooser.click() }, 'Open …'), save,
-      make('button', { title: 'A link that holds this page and those that it leads to', onclick: () => void this.send() }, 'Send as link'),
-      this.busy, this.stop, this.chooser, this.dialog);
-    this.listen('dragover', (event) => this.isFile(event) && event.preventDefault());
-    this.listen('drop', (event) => void this.dropped(event));
-    this.ends.push(this.desk.files.state.watch((state) => this.render(state)));
-  }
+    private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.desk.files.dismiss() });
+    private readonly busy = make('span', { class: 'busy', role: 'status' });
+    private readonly stop = make('button', { hidden: true, onclick: () => this.desk.files.cancel() }, 'Cancel');
+    private shown: Pick<FilesState, 'opened' | 'tooLarge' | 'sent' | 'trouble'> | null = null;
+    private readonly ends: (() => void)[] = [];
 
-  disconnectedCallback(): void {
-    for (const end of this.ends.splice(0)) end();
-  }
+    connectedCallback(): void {
+        const save = make(
+            'select',
+            { 'aria-label': 'Save as a file' },
+            make('option', { value: '' }, 'Save as …'),
+            ...Object.entries(SUFFIXES).map(([suffix, title]) => make('option', { value: suffix }, `${title} (${suffix})`)),
+        );
+        onChoice(save, suffix => {
+            if (suffix !== '') void this.save(suffix as Suffix); // one of the options
+            save.value = '';
+        });
+        this.replaceChildren(
+            make('button', { onclick: () => this.chooser.click() }, 'Open …'),
+            save,
+            make(
+                'button',
+                { title: 'A link that holds this page and those that it leads to', onclick: () => void this.send() },
+                'Send as link',
+            ),
+            this.busy,
+            this.stop,
+            this.chooser,
+            this.dialog,
+        );
+        this.listen('dragover', event => this.isFile(event) && event.preventDefault());
+        this.listen('drop', event => void this.dropped(event));
+        this.ends.push(this.desk.files.state.watch(state => this.render(state)));
+    }
 
-  private listen(type: 'dragover' | 'drop', listener: (event: DragEvent) => void): void {
-    window.addEventListener(type, listener);
-    this.ends.push(() => window.removeEventListener(type, listener));
-  }
+    disconnectedCallback(): void {
+        for (const end of this.ends.splice(0)) end();
+    }
 
-  private isFile(event: DragEvent): boolean {
-    return event.dataTransfer?.types.includes('Files') ?? false;
-  }
+    private listen(type: 'dragover' | 'drop', listener: (event: DragEvent) => void): void {
+        window.addEventListener(type, listener);
+        this.ends.push(() => window.removeEventListener(type, listener));
+    }
 
-  private async dropped(event: DragEvent): Promise<void> {
-    const file = event.dataTransfer?.files[0];
-    if (!file || !this.isFile(event)) return;
-    event.preventDefault();
-    await this.read(file);
-  }
+    private isFile(event: DragEvent): boolean {
+        return event.dataTransfer?.types.includes('Files') ?? false;
+    }
 
-  private chosen(): void {
-    const file = this.chooser.files?.[0];
-    this.chooser.value = ''; // the same file may be chosen again
-    if (file) void this.read(file);
-  }
+    private async dropped(event: DragEvent): Promise<void> {
+        const file = event.dataTransfer?.files[0];
+        if (!file || !this.isFile(event)) return;
+        event.preventDefault();
+        await this.read(file);
+    }
 
-  private async read(file: File): Promise<void> {
-    await this.desk.files.choose(file);
-  }
+    private chosen(): void {
+        const file = this.chooser.files?.[0];
+        this.chooser.value = ''; // the same file may be chosen again
+        if (file) void this.read(file);
+    }
 
-  private async save(suffix: Suffix): Promise<void> {
-    const saved = await this.desk.files.save(suffix);
-    if (!saved) return;
-    const address = URL.createObjectURL(new Blob([saved.bytes as Uint8Array<ArrayBuffer>]));
-    make('a', { href: address, download: saved.name }).click();
-    setTimeout(() => URL.revokeObjectURL(address), FORGET_MS);
-    if (saved.losses.length > 0) this.show(saved.name, [make('p', {}, FILE_TEXTS.losses(saved.name)), lines(saved.losses)], [this.closing('Understood')]);
-  }
+    private async read(file: File): Promise<void> {
+        await this.desk.files.choose(file);
+    }
 
-  private async send(): Promise<void> {
-    const hash = await this.desk.files.link();
-    if (hash === null) return;
-    const address = new URL(hash, window.location.href).href;
-    const isCopied = await navigator.clipboard.writeText(address).then(() => true, () => false);
-    const field = make('input', { type: 'text', readonly: true, value: address, 'aria-label': 'Link' });
-    this.show('A link with the motion in it', [make('p', {}, isCopied ? FILE_TEXTS.linkCopied : FILE_TEXTS.linkShown), field], [this.closing('Close')]);
-    field.select();
-  }
+    private async save(suffix: Suffix): Promise<void> {
+        const saved = await this.desk.files.save(suffix);
+        if (!saved) return;
+        const address = URL.createObjectURL(new Blob([saved.bytes as Uint8Array<ArrayBuffer>]));
+        make('a', { href: address, download: saved.name }).click();
+        setTimeout(() => URL.revokeObjectURL(address), FORGET_MS);
+        if (saved.losses.length > 0)
+            this.show(saved.name, [make('p', {}, FILE_TEXTS.losses(saved.name)), lines(saved.losses)], [this.closing('Understood')]);
+    }
 
-  private render(state: FilesState): void {
-    this.busy.textContent = state.busy ?? '';
-    this.stop.hidden = state.busy === null;
-    const { opened, tooLarge, sent, trouble } = state;
-    const { shown } = this;
-    if (shown && shown.opened === opened && shown.tooLarge === tooLarge && shown.sent === sent && shown.trouble === trouble) return;
-    this.shown = { opened, tooLarge, sent, trouble };
-    if (trouble !== null) this.show('That did not work', [make('p', {}, trouble)], [this.closing('Close')]);
-    else if (opened) this.showOpened(opened);
-    else if (tooLarge) this.show(tooLarge.name, [make('p', {}, FILE_TEXTS.tooLarge(tooLarge.pages))],
-      [make('button', { onclick: () => void this.desk.files.openWithoutRest() }, 'Open without them'), this.closing('Cancel')]);
-    else if (sent) this.show('A motion for you', [make('p', {}, FILE_TEXTS.sent(sent.name, sent.pages.size))],
-      [make('button', { class: 'primary', onclick: () => this.addSent(true) }, 'Add it and play'), make('button', { onclick: () => this.addSent(false) }, 'Add it'), this.closing('No')]);
-    else this.dialog.close();
-  }
+    private async send(): Promise<void> {
+        const hash = await this.desk.files.link();
+        if (hash === null) return;
+        const address = new URL(hash, window.location.href).href;
+        const isCopied = await navigator.clipboard.writeText(address).then(
+            () => true,
+            () => false,
+        );
+        const field = make('input', { type: 'text', readonly: true, value: address, 'aria-label': 'Link' });
+        this.show(
+            'A link with the motion in it',
+            [make('p', {}, isCopied ? FILE_TEXTS.linkCopied : FILE_TEXTS.linkShown), field],
+            [this.closing('Close')],
+        );
+        field.select();
+    }
 
-  private showOpened({ name, notes, losses, count, hasTrim }: NonNullable<FilesState['opened']>): void {
-    const trim = make('input', { type: 'checkbox' });
-    const { files } = this.desk;
-    const ways = [
-      make('button', { class: 'primary', title: FILE_TEXTS.addHint, onclick: () => files.addOpened() }, 'Add to free pages'),
-      make('button', { title: FILE_TEXTS.documentHint, onclick: () => void files.createFromOpened() }, 'As a new document'),
-      make('button', { title: FILE_TEXTS.replaceHint, onclick: () => files.replaceAll(trim.checked) }, 'Replace all pages'),
-    ];
-    this.show(name, [
-      make('p', {}, FILE_TEXTS.opened(count)), lines([...notes, ...losses]), hasTrim ? make('label', {}, trim, ` ${FILE_TEXTS.trim}`) : null,
-    ], [...ways, this.closing('Cancel')]);
-  }
+    private render(state: FilesState): void {
+        this.busy.textContent = state.busy ?? '';
+        this.stop.hidden = state.busy === null;
+        const { opened, tooLarge, sent, trouble } = state;
+        const { shown } = this;
+        if (shown && shown.opened === opened && shown.tooLarge === tooLarge && shown.sent === sent && shown.trouble === trouble) return;
+        this.shown = { opened, tooLarge, sent, trouble };
+        if (trouble !== null) this.show('That did not work', [make('p', {}, trouble)], [this.closing('Close')]);
+        else if (opened) this.showOpened(opened);
+        else if (tooLarge)
+            this.show(
+                tooLarge.name,
+                [make('p', {}, FILE_TEXTS.tooLarge(tooLarge.pages))],
+                [make('button', { onclick: () => void this.desk.files.openWithoutRest() }, 'Open without them'), this.closing('Cancel')],
+            );
+        else if (sent)
+            this.show(
+                'A motion for you',
+                [make('p', {}, FILE_TEXTS.sent(sent.name, sent.pages.size))],
+                [
+                    make('button', { class: 'primary', onclick: () => this.addSent(true) }, 'Add it and play'),
+                    make('button', { onclick: () => this.addSent(false) }, 'Add it'),
+                    this.closing('No'),
+                ],
+            );
+        else this.dialog.close();
+    }
 
-  private addSent(plays: boolean): void {
-    const page = this.desk.files.addSent();
-    if (page === 0) return;
-    window.history.replaceState(null, '', window.location.pathname + window.location.search);
-    this.desk.show('steps');
-    document.getElementById('tab-steps')?.focus();
-    if (plays) void this.desk.playEdited(page);
-  }
+    private showOpened({ name, notes, losses, count, hasTrim }: NonNullable<FilesState['opened']>): void {
+        const trim = make('input', { type: 'checkbox' });
+        const { files } = this.desk;
+        const ways = [
+            make('button', { class: 'primary', title: FILE_TEXTS.addHint, onclick: () => files.addOpened() }, 'Add to free pages'),
+            make('button', { title: FILE_TEXTS.documentHint, onclick: () => void files.createFromOpened() }, 'As a new document'),
+            make('button', { title: FILE_TEXTS.replaceHint, onclick: () => files.replaceAll(trim.checked) }, 'Replace all pages'),
+        ];
+        this.show(
+            name,
+            [
+                make('p', {}, FILE_TEXTS.opened(count)),
+                lines([...notes, ...losses]),
+                hasTrim ? make('label', {}, trim, ` ${FILE_TEXTS.trim}`) : null,
+            ],
+            [...ways, this.closing('Cancel')],
+        );
+    }
 
-  private closing(title: string): HTMLButtonElement {
-    return make('button', { onclick: () => { this.dialog.close(); this.desk.files.dismiss(); } }, title);
-  }
+    private addSent(plays: boolean): void {
+        const page = this.desk.files.addSent();
+        if (page === 0) return;
+        window.history.replaceState(null, '', window.location.pathname + window.location.search);
+        this.desk.show('steps');
+        document.getElementById('tab-steps')?.focus();
+        if (plays) void this.desk.playEdited(page);
+    }
 
-  private show(title: string, content: (HTMLElement | null)[], buttons: HTMLButtonElement[]): void {
-    this.dialog.replaceChildren(make('h2', { id: 'files-title' }, title), ...content.filter((part) => part !== null), make('div', { class: 'buttons' }, ...buttons));
-    if (!this.dialog.open) this.dialog.showModal();
-  }
+    private closing(title: string): HTMLButtonElement {
+        return make(
+            'button',
+            {
+                onclick: () => {
+                    this.dialog.close();
+                    this.desk.files.dismiss();
+                },
+            },
+            title,
+        );
+    }
+
+    private show(title: string, content: (HTMLElement | null)[], buttons: HTMLButtonElement[]): void {
+        this.dialog.replaceChildren(
+            make('h2', { id: 'files-title' }, title),
+            ...content.filter(part => part !== null),
+            make('div', { class: 'buttons' }, ...buttons),
+        );
+        if (!this.dialog.open) this.dialog.showModal();
+    }
 }
 
 /** Scrolls when it is long, also by keyboard. */
 function lines(texts: readonly string[]): HTMLElement | null {
-  return texts.length === 0 ? null : make('ul', { tabindex: 0 }, ...texts.map((text) => make('li', {}, text)));
+    return texts.length === 0 ? null : make('ul', { tabindex: 0 }, ...texts.map(text => make('li', {}, text)));
 }
 
 define('files-menu', FilesMenu);

@@ -10,33 +10,37 @@ import type { Editing } from './editing.ts';
 import { FOLLOW_TEXTS } from './step-texts.ts';
 
 export class FollowBar extends HTMLElement {
-  desk!: Desk; // these are set before it is connected
-  editing!: Store<Editing>;
-  private readonly box = make('input', { type: 'checkbox', onchange: () => this.editing.set({ follow: this.box.checked }) });
-  private readonly disposals: (() => void)[] = [];
-  private told = false;
+    desk!: Desk; // these are set before it is connected
+    editing!: Store<Editing>;
+    private readonly box = make('input', { type: 'checkbox', onchange: () => this.editing.set({ follow: this.box.checked }) });
+    private readonly disposals: (() => void)[] = [];
+    private told = false;
 
-  connectedCallback(): void {
-    this.replaceChildren(make('label', {}, this.box, FOLLOW_TEXTS.offer));
-    this.disposals.push(this.editing.watch(() => this.render()), this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(() => this.render()));
-  }
+    connectedCallback(): void {
+        this.replaceChildren(make('label', {}, this.box, FOLLOW_TEXTS.offer));
+        this.disposals.push(
+            this.editing.watch(() => this.render()),
+            this.desk.editor.state.watch(() => this.render()),
+            this.desk.state.watch(() => this.render()),
+        );
+    }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-    if (this.told) this.desk.follow(null);
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+        if (this.told) this.desk.follow(null);
+    }
 
-  private render(): void {
-    const { follow } = this.editing.get();
-    this.box.checked = follow;
-    const { tab, connection } = this.desk.state.get();
-    const { editor } = this.desk;
-    const { page, step } = editor.state.get();
-    const shall = follow && isEditing(tab) && connection === 'ready' && editor.page(page).steps.length > 0;
-    if (!shall && !this.told) return;
-    this.told = shall;
-    this.desk.follow(shall ? editor.poseAfter(page, step) : null);
-  }
+    private render(): void {
+        const { follow } = this.editing.get();
+        this.box.checked = follow;
+        const { tab, connection } = this.desk.state.get();
+        const { editor } = this.desk;
+        const { page, step } = editor.state.get();
+        const shall = follow && isEditing(tab) && connection === 'ready' && editor.page(page).steps.length > 0;
+        if (!shall && !this.told) return;
+        this.told = shall;
+        this.desk.follow(shall ? editor.poseAfter(page, step) : null);
+    }
 }
 
 define('follow-bar', FollowBar);

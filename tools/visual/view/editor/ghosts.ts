@@ -11,28 +11,37 @@ const SIZE = { width: 46, height: 54 };
 const GHOST = 0.28;
 
 function isSamePose(a: Step, b: Step): boolean {
-  return a.positions.every((position, id) => position === b.positions[id]);
+    return a.positions.every((position, id) => position === b.positions[id]);
 }
 
 function picture(body: Body, before: Step | undefined, after: Step | undefined): HTMLCanvasElement {
-  const sharpness = Math.min(window.devicePixelRatio, 2);
-  const canvas = make('canvas', { width: SIZE.width * sharpness, height: SIZE.height * sharpness, 'aria-hidden': 'true', class: after ? '' : 'gone' });
-  const context = canvas.getContext('2d');
-  if (!context) return canvas;
-  context.scale(sharpness, sharpness);
-  const draw = (step: Step, alpha: number): void => {
-    context.globalAlpha = alpha;
-    drawPose(context, body, anglesOf(body, step.positions, new Map()), SIZE.width, SIZE.height);
-  };
-  if (before) draw(before, GHOST);
-  if (after) draw(after, 1);
-  return canvas;
+    const sharpness = Math.min(window.devicePixelRatio, 2);
+    const canvas = make('canvas', {
+        width: SIZE.width * sharpness,
+        height: SIZE.height * sharpness,
+        'aria-hidden': 'true',
+        class: after ? '' : 'gone',
+    });
+    const context = canvas.getContext('2d');
+    if (!context) return canvas;
+    context.scale(sharpness, sharpness);
+    const draw = (step: Step, alpha: number): void => {
+        context.globalAlpha = alpha;
+        drawPose(context, body, anglesOf(body, step.positions, new Map()), SIZE.width, SIZE.height);
+    };
+    if (before) draw(before, GHOST);
+    if (after) draw(after, 1);
+    return canvas;
 }
 
 /** One for each step whose pose differs; the first pose when none does. */
 export function ghosts(body: Body, before: PageView, after: PageView): HTMLElement {
-  const count = Math.max(before.steps.length, after.steps.length);
-  const steps = Array.from({ length: count }, (_, k) => [before.steps[k], after.steps[k]] as const);
-  const different = steps.filter(([a, b]) => !a || !b || !isSamePose(a, b));
-  return make('span', { class: 'ghosts' }, ...(different.length > 0 ? different : steps.slice(0, 1)).map(([a, b]) => picture(body, a, b)));
+    const count = Math.max(before.steps.length, after.steps.length);
+    const steps = Array.from({ length: count }, (_, k) => [before.steps[k], after.steps[k]] as const);
+    const different = steps.filter(([a, b]) => !a || !b || !isSamePose(a, b));
+    return make(
+        'span',
+        { class: 'ghosts' },
+        ...(different.length > 0 ? different : steps.slice(0, 1)).map(([a, b]) => picture(body, a, b)),
+    );
 }

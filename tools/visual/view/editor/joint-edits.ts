@@ -16,26 +16,36 @@ import { easyStep, robotPositions } from './editing.ts';
 
 /** Joints that a drag of this part moves. */
 export function jointsOfPart(body: Body, part: Part): number[] {
-  const limb = (link: string): number[] => limbTo(body, link, [0, 0, 0]).links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
-  switch (part.kind) {
-    case 'joint': return [part.joint.servo];
-    case 'hand': return limb(`${part.side}_forearm`);
-    case 'foot': return limb(`${part.side}_foot`);
-    case 'trunk': return [...limb('right_foot'), ...limb('left_foot')];
-    default: return part satisfies never;
-  }
+    const limb = (link: string): number[] => limbTo(body, link, [0, 0, 0]).links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
+    switch (part.kind) {
+        case 'joint':
+            return [part.joint.servo];
+        case 'hand':
+            return limb(`${part.side}_forearm`);
+        case 'foot':
+            return limb(`${part.side}_foot`);
+        case 'trunk':
+            return [...limb('right_foot'), ...limb('left_foot')];
+        default:
+            return part satisfies never;
+    }
 }
 
 /** The chosen step with these positions (servo units by ID). A page without steps gets its first one: the robot's pose with
  *  them. */
-export function changeStep(editor: Editor, start: MotionDocument, positions: ReadonlyMap<number, number>, robot: RobotState | null): Result<Transaction> {
-  const { page, step } = editor.state.get();
-  if (!isWithoutSteps(editor, start, page)) return editor.edits.setJoints(start, page, [step], positions);
-  const pose = robot ? robotPositions(robot) : new Array<number | null>(JOINTS).fill(null);
-  for (const [id, position] of positions) pose[id] = position;
-  return editor.edits.insertSteps(start, page, 0, [easyStep(pose, pose)]);
+export function changeStep(
+    editor: Editor,
+    start: MotionDocument,
+    positions: ReadonlyMap<number, number>,
+    robot: RobotState | null,
+): Result<Transaction> {
+    const { page, step } = editor.state.get();
+    if (!isWithoutSteps(editor, start, page)) return editor.edits.setJoints(start, page, [step], positions);
+    const pose = robot ? robotPositions(robot) : new Array<number | null>(JOINTS).fill(null);
+    for (const [id, position] of positions) pose[id] = position;
+    return editor.edits.insertSteps(start, page, 0, [easyStep(pose, pose)]);
 }
 
 function isWithoutSteps(editor: Editor, start: MotionDocument, page: number): boolean {
-  return readPage(editor.format, pageOf(start, page)).steps.length === 0;
+    return readPage(editor.format, pageOf(start, page)).steps.length === 0;
 }

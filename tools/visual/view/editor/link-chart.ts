@@ -10,141 +10,206 @@ const NODE = { width: 104, height: 40 };
 const PADDING = 14;
 
 export interface ChartMarks {
-  readonly selected: number;
-  readonly playing: number;
+    readonly selected: number;
+    readonly playing: number;
 }
 
 function draw(tag: string, attributes: Readonly<Record<string, string | number>>, ...children: (Node | string)[]): SVGElement {
-  const element = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
-  element.append(...children);
-  return element;
+    const element = document.createElementNS(SVG, tag);
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+    element.append(...children);
+    return element;
 }
 
 /** "walk_go → walk_l by ▲": for a title. */
 function linkTitle(link: PageLink, nodes: ReadonlyMap<number, PageNode>): string {
-  const name = (page: number): string => pageText(page, nodes.get(page)?.name ?? '');
-  return `${name(link.from)}, ${LINK_TEXTS[link.kind]}${link.code ? ` by ${codeText(link.code)}` : ''}: ${name(link.to)}${link.isDead ? ', where nothing can be played' : ''}`;
+    const name = (page: number): string => pageText(page, nodes.get(page)?.name ?? '');
+    return `${name(link.from)}, ${LINK_TEXTS[link.kind]}${link.code ? ` by ${codeText(link.code)}` : ''}: ${name(link.to)}${link.isDead ? ', where nothing can be played' : ''}`;
 }
 
 type Point = { readonly x: number; readonly y: number };
 
 /** Where everything stands. Places of nodes are their middles. */
 interface Laid {
-  readonly nodes: Map<number, Point>;
-  readonly edges: Map<PageLink, { readonly points: readonly Point[]; readonly label: Point | null }>;
-  width: number;
-  height: number;
+    readonly nodes: Map<number, Point>;
+    readonly edges: Map<PageLink, { readonly points: readonly Point[]; readonly label: Point | null }>;
+    width: number;
+    height: number;
 }
 
 /** The chart; nodes carry data-page. Pages that hang together are laid out together, one group below the other; those that are
  *  linked to nothing fill rows at the end. `width`: what is there, in pixels. */
 export function linkChart({ nodes, links }: LinkGraph, width: number): SVGElement {
-  const byPage = new Map(nodes.map((node) => [node.page, node]));
-  const between = links.filter((link) => link.from !== link.to);
-  const groups = groupsOf([...byPage.keys()], between);
-  const laid: Laid = { nodes: new Map(), edges: new Map(), width: 0, height: PADDING };
-  for (const group of groups.filter((one) => one.length > 1)) placeGroup(laid, between.filter((link) => group.includes(link.from)), group);
-  placeRows(laid, groups.filter((one) => one.length === 1).flat(), width);
-  const size = { width: Math.max(laid.width, 1) + 2 * PADDING, height: laid.height + PADDING };
-  return draw('svg', { viewBox: `0 0 ${size.width} ${size.height}`, ...size, role: 'group', 'aria-label': 'Links between pages' }, markers(),
-    ...between.map((link) => edge(link, laid, byPage)), ...[...laid.nodes.keys()].map((page) => box(page, laid, byPage.get(page) ?? null, links)));
+    const byPage = new Map(nodes.map(node => [node.page, node]));
+    const between = links.filter(link => link.from !== link.to);
+    const groups = groupsOf([...byPage.keys()], between);
+    const laid: Laid = { nodes: new Map(), edges: new Map(), width: 0, height: PADDING };
+    for (const group of groups.filter(one => one.length > 1))
+        placeGroup(
+            laid,
+            between.filter(link => group.includes(link.from)),
+            group,
+        );
+    placeRows(laid, groups.filter(one => one.length === 1).flat(), width);
+    const size = { width: Math.max(laid.width, 1) + 2 * PADDING, height: laid.height + PADDING };
+    return draw(
+        'svg',
+        { viewBox: `0 0 ${size.width} ${size.height}`, ...size, role: 'group', 'aria-label': 'Links between pages' },
+        markers(),
+        ...between.map(link => edge(link, laid, byPage)),
+        ...[...laid.nodes.keys()].map(page => box(page, laid, byPage.get(page) ?? null, links)),
+    );
 }
 
 /** Pages that hang together, the largest group first; where nothing can be played counts as well. */
 function groupsOf(pages: readonly number[], links: readonly PageLink[]): number[][] {
-  const group = new Map<number, number[]>(pages.map((page) => [page, [page]]));
-  for (const { from, to } of links) {
-    const [a, b] = [group.get(from) ?? [from], group.get(to) ?? [to]];
-    if (a === b) continue;
-    const joined = [...a, ...b];
-    for (const page of joined) group.set(page, joined);
-  }
-  return [...new Set(group.values())].sort((a, b) => b.length - a.length || (a[0] ?? 0) - (b[0] ?? 0));
+    const group = new Map<number, number[]>(pages.map(page => [page, [page]]));
+    for (const { from, to } of links) {
+        const [a, b] = [group.get(from) ?? [from], group.get(to) ?? [to]];
+        if (a === b) continue;
+        const joined = [...a, ...b];
+        for (const page of joined) group.set(page, joined);
+    }
+    return [...new Set(group.values())].sort((a, b) => b.length - a.length || (a[0] ?? 0) - (b[0] ?? 0));
 }
 
 function placeGroup(laid: Laid, links: readonly PageLink[], pages: readonly number[]): void {
-  const graph = new Graph({ multigraph: true });
-  graph.setGraph({ rankdir: 'TB', nodesep: 14, ranksep: 34, edgesep: 8 });
-  graph.setDefaultEdgeLabel(() => ({}));
-  for (const page of pages) graph.setNode(String(page), { ...NODE });
-  for (const link of links) graph.setEdge(String(link.from), String(link.to), { width: link.code ? 46 : 4, height: link.code ? 16 : 4, labelpos: 'c' }, link.kind);
-  layout(graph);
-  const at = ({ x, y }: Point): Point => ({ x: x + PADDING, y: y + laid.height });
-  const size = graph.graph() as { width?: number; height?: number }; // what layout() has put there
-  for (const page of pages) laid.nodes.set(page, at(graph.node(String(page)) as Point));
-  for (const link of links) {
-    const { points = [] } = graph.edge({ v: String(link.from), w: String(link.to), name: link.kind }) as { points?: Point[] };
-    const [a, b] = points.slice(Math.floor((points.length - 1) / 2)); // the line goes through the middle between the two
-    laid.edges.set(link, { points: points.map(at), label: link.code && a && b ? at({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 }) : null });
-  }
-  laid.width = Math.max(laid.width, size.width ?? 0);
-  laid.height += (size.height ?? 0) + 2 * PADDING;
+    const graph = new Graph({ multigraph: true });
+    graph.setGraph({ rankdir: 'TB', nodesep: 14, ranksep: 34, edgesep: 8 });
+    graph.setDefaultEdgeLabel(() => ({}));
+    for (const page of pages) graph.setNode(String(page), { ...NODE });
+    for (const link of links)
+        graph.setEdge(
+            String(link.from),
+            String(link.to),
+            { width: link.code ? 46 : 4, height: link.code ? 16 : 4, labelpos: 'c' },
+            link.kind,
+        );
+    layout(graph);
+    const at = ({ x, y }: Point): Point => ({ x: x + PADDING, y: y + laid.height });
+    const size = graph.graph() as { width?: number; height?: number }; // what layout() has put there
+    for (const page of pages) laid.nodes.set(page, at(graph.node(String(page)) as Point));
+    for (const link of links) {
+        const { points = [] } = graph.edge({ v: String(link.from), w: String(link.to), name: link.kind }) as { points?: Point[] };
+        const [a, b] = points.slice(Math.floor((points.length - 1) / 2)); // the line goes through the middle between the two
+        laid.edges.set(link, {
+            points: points.map(at),
+            label: link.code && a && b ? at({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 }) : null,
+        });
+    }
+    laid.width = Math.max(laid.width, size.width ?? 0);
+    laid.height += (size.height ?? 0) + 2 * PADDING;
 }
 
 function placeRows(laid: Laid, pages: readonly number[], width: number): void {
-  const columns = Math.max(1, Math.floor((Math.max(width, laid.width) - 2 * PADDING + 10) / (NODE.width + 10)));
-  for (const [i, page] of pages.entries()) {
-    laid.nodes.set(page, { x: PADDING + (i % columns) * (NODE.width + 10) + NODE.width / 2, y: laid.height + Math.floor(i / columns) * (NODE.height + 10) + NODE.height / 2 });
-  }
-  laid.width = Math.max(laid.width, Math.min(columns, pages.length) * (NODE.width + 10) - 10);
-  laid.height += Math.ceil(pages.length / columns) * (NODE.height + 10);
+    const columns = Math.max(1, Math.floor((Math.max(width, laid.width) - 2 * PADDING + 10) / (NODE.width + 10)));
+    for (const [i, page] of pages.entries()) {
+        laid.nodes.set(page, {
+            x: PADDING + (i % columns) * (NODE.width + 10) + NODE.width / 2,
+            y: laid.height + Math.floor(i / columns) * (NODE.height + 10) + NODE.height / 2,
+        });
+    }
+    laid.width = Math.max(laid.width, Math.min(columns, pages.length) * (NODE.width + 10) - 10);
+    laid.height += Math.ceil(pages.length / columns) * (NODE.height + 10);
 }
 
 function markers(): SVGElement {
-  return draw('defs', {}, ...['next', 'exit', 'linked', 'blend', 'dead'].map((kind) =>
-    draw('marker', { id: `arrow-${kind}`, viewBox: '0 0 8 8', refX: 7, refY: 4, markerWidth: 9, markerHeight: 9, markerUnits: 'userSpaceOnUse', orient: 'auto-start-reverse' },
-      draw('path', { d: 'M 0 0 L 8 4 L 0 8 z', class: `head ${kind}` }))));
+    return draw(
+        'defs',
+        {},
+        ...['next', 'exit', 'linked', 'blend', 'dead'].map(kind =>
+            draw(
+                'marker',
+                {
+                    id: `arrow-${kind}`,
+                    viewBox: '0 0 8 8',
+                    refX: 7,
+                    refY: 4,
+                    markerWidth: 9,
+                    markerHeight: 9,
+                    markerUnits: 'userSpaceOnUse',
+                    orient: 'auto-start-reverse',
+                },
+                draw('path', { d: 'M 0 0 L 8 4 L 0 8 z', class: `head ${kind}` }),
+            ),
+        ),
+    );
 }
 
 function kindOf(link: PageLink): string {
-  return link.isDead ? 'dead' : link.kind.startsWith('linked') ? 'linked' : link.kind.startsWith('blend') ? 'blend' : link.kind;
+    return link.isDead ? 'dead' : link.kind.startsWith('linked') ? 'linked' : link.kind.startsWith('blend') ? 'blend' : link.kind;
 }
 
 function edge(link: PageLink, laid: Laid, byPage: ReadonlyMap<number, PageNode>): SVGElement {
-  const { points, label: at } = laid.edges.get(link) ?? { points: [], label: null };
-  const kind = kindOf(link);
-  const line = draw('path', { d: smooth(points), class: `link ${kind}`, 'marker-end': `url(#arrow-${kind})` });
-  const label = at ? [draw('text', { x: at.x, y: at.y + 4, class: 'key' }, codeText(link.code))] : [];
-  return draw('g', { class: 'edge', 'data-source': link.from, 'data-target': link.to }, line, ...label, draw('title', {}, linkTitle(link, byPage)));
+    const { points, label: at } = laid.edges.get(link) ?? { points: [], label: null };
+    const kind = kindOf(link);
+    const line = draw('path', { d: smooth(points), class: `link ${kind}`, 'marker-end': `url(#arrow-${kind})` });
+    const label = at ? [draw('text', { x: at.x, y: at.y + 4, class: 'key' }, codeText(link.code))] : [];
+    return draw(
+        'g',
+        { class: 'edge', 'data-source': link.from, 'data-target': link.to },
+        line,
+        ...label,
+        draw('title', {}, linkTitle(link, byPage)),
+    );
 }
 
 /** Through the middles of dagre's points, which are the corners. */
 function smooth(points: readonly Point[]): string {
-  const [first, ...rest] = points;
-  if (!first) return '';
-  const at = ({ x, y }: Point): string => `${x.toFixed(1)} ${y.toFixed(1)}`;
-  const middle = rest.slice(0, -1).map((point, i) => {
-    const next = rest[i + 1] ?? point;
-    return `Q ${at(point)} ${at({ x: (point.x + next.x) / 2, y: (point.y + next.y) / 2 })}`;
-  });
-  const last = rest.at(-1) ?? first;
-  return `M ${at(first)} ${middle.join(' ')} L ${at(last)}`;
+    const [first, ...rest] = points;
+    if (!first) return '';
+    const at = ({ x, y }: Point): string => `${x.toFixed(1)} ${y.toFixed(1)}`;
+    const middle = rest.slice(0, -1).map((point, i) => {
+        const next = rest[i + 1] ?? point;
+        return `Q ${at(point)} ${at({ x: (point.x + next.x) / 2, y: (point.y + next.y) / 2 })}`;
+    });
+    const last = rest.at(-1) ?? first;
+    return `M ${at(first)} ${middle.join(' ')} L ${at(last)}`;
 }
 
 function box(page: number, laid: Laid, node: PageNode | null, links: readonly PageLink[]): SVGElement {
-  const { x, y } = laid.nodes.get(page) ?? { x: 0, y: 0 };
-  const itself = links.filter((link) => link.from === page && link.to === page).map((link) => LINK_TEXTS[link.kind]);
-  const oddities = [node ? '' : 'nothing to play here', node?.exitsRound ? 'exits go round' : ''].filter(Boolean);
-  const name = `${page} ${node?.name ?? ''}`.trimEnd();
-  const words = [`page ${name}`, node?.code ? `${codeText(node.code)} calls it` : '', itself.length > 0 ? `${itself.join(', ')}: itself` : '', node?.isUnreachable ? EDITOR_TEXTS.byNumber : '', ...oddities];
-  const title = words.filter(Boolean).join(', ');
-  const signs = [node?.code ? codeText(node.code) : '', itself.length > 0 ? '⟲' : '', oddities.length > 0 ? '⚠' : ''].filter(Boolean).join(' ');
-  return draw('g', { class: `node${node ? '' : ' dead'}${oddities.length > 0 ? ' odd' : ''}`, 'data-page': page, tabindex: -1, role: 'button', 'aria-label': title,
-    transform: `translate(${x - NODE.width / 2} ${y - NODE.height / 2})` },
-  draw('rect', { width: NODE.width, height: NODE.height, rx: 7 }), draw('title', {}, title),
-  draw('text', { x: 8, y: 17, class: 'name' }, name), ' ', draw('text', { x: 8, y: 32, class: 'signs' }, signs));
+    const { x, y } = laid.nodes.get(page) ?? { x: 0, y: 0 };
+    const itself = links.filter(link => link.from === page && link.to === page).map(link => LINK_TEXTS[link.kind]);
+    const oddities = [node ? '' : 'nothing to play here', node?.exitsRound ? 'exits go round' : ''].filter(Boolean);
+    const name = `${page} ${node?.name ?? ''}`.trimEnd();
+    const words = [
+        `page ${name}`,
+        node?.code ? `${codeText(node.code)} calls it` : '',
+        itself.length > 0 ? `${itself.join(', ')}: itself` : '',
+        node?.isUnreachable ? EDITOR_TEXTS.byNumber : '',
+        ...oddities,
+    ];
+    const title = words.filter(Boolean).join(', ');
+    const signs = [node?.code ? codeText(node.code) : '', itself.length > 0 ? '⟲' : '', oddities.length > 0 ? '⚠' : '']
+        .filter(Boolean)
+        .join(' ');
+    return draw(
+        'g',
+        {
+            class: `node${node ? '' : ' dead'}${oddities.length > 0 ? ' odd' : ''}`,
+            'data-page': page,
+            tabindex: -1,
+            role: 'button',
+            'aria-label': title,
+            transform: `translate(${x - NODE.width / 2} ${y - NODE.height / 2})`,
+        },
+        draw('rect', { width: NODE.width, height: NODE.height, rx: 7 }),
+        draw('title', {}, title),
+        draw('text', { x: 8, y: 17, class: 'name' }, name),
+        ' ',
+        draw('text', { x: 8, y: 32, class: 'signs' }, signs),
+    );
 }
 
 /** What is chosen and what plays, on a chart that stands. */
 export function markChart(chart: Element, { selected, playing }: ChartMarks): void {
-  for (const node of chart.querySelectorAll<SVGElement>('.node')) {
-    const page = Number(node.dataset['page']);
-    node.classList.toggle('selected', page === selected);
-    node.classList.toggle('playing', page === playing);
-    node.setAttribute('tabindex', page === selected ? '0' : '-1');
-  }
-  for (const line of chart.querySelectorAll<SVGElement>('.edge')) {
-    line.classList.toggle('selected', Number(line.dataset['source']) === selected || Number(line.dataset['target']) === selected);
-  }
+    for (const node of chart.querySelectorAll<SVGElement>('.node')) {
+        const page = Number(node.dataset['page']);
+        node.classList.toggle('selected', page === selected);
+        node.classList.toggle('playing', page === playing);
+        node.setAttribute('tabindex', page === selected ? '0' : '-1');
+    }
+    for (const line of chart.querySelectorAll<SVGElement>('.edge')) {
+        line.classList.toggle('selected', Number(line.dataset['source']) === selected || Number(line.dataset['target']) === selected);
+    }
 }

@@ -14,45 +14,85 @@ import { LINK_TEXTS, codeText, pageText } from './texts.ts';
 
 const CODE_OF: Partial<Record<LinkField, 'linked1Code' | 'linked2Code'>> = { linked1: 'linked1Code', linked2: 'linked2Code' };
 /** What may be chosen: no key, each button alone, and the slanting directions. */
-const CHORDS: readonly (readonly RemoteButton[])[] = [[], ...(Object.keys(REMOTE_BUTTONS) as RemoteButton[]).map((button) => [button]),
-  ...(['up', 'down'] as const).flatMap((way) => [[way, 'left'], [way, 'right']] as const)];
+const CHORDS: readonly (readonly RemoteButton[])[] = [
+    [],
+    ...(Object.keys(REMOTE_BUTTONS) as RemoteButton[]).map(button => [button]),
+    ...(['up', 'down'] as const).flatMap(
+        way =>
+            [
+                [way, 'left'],
+                [way, 'right'],
+            ] as const,
+    ),
+];
 
 export function linkList(editor: Editor, graph: LinkGraph, page: number): HTMLElement[] {
-  const title = pageText(page, editor.page(page).name);
-  const incoming = graph.links.filter((link) => link.to === page && link.from !== page);
-  return [
-    make('h2', {}, `Links of ${title}`),
-    make('div', { class: 'fields' }, ...[...LINK_FIELDS, ...PARTNER_FIELDS].flatMap((link) => field(editor, page, link))),
-    make('h2', {}, 'Leads here'),
-    incoming.length === 0 ? make('p', { class: 'none' }, 'No page.') : make('ul', {}, ...incoming.map((link) =>
-      make('li', {}, make('button', { onclick: () => editor.select({ page: link.from }) },
-        `${pageText(link.from, editor.page(link.from).name)} by ${LINK_TEXTS[link.kind]}${link.code ? ` ${codeText(link.code)}` : ''}`)))),
-  ];
+    const title = pageText(page, editor.page(page).name);
+    const incoming = graph.links.filter(link => link.to === page && link.from !== page);
+    return [
+        make('h2', {}, `Links of ${title}`),
+        make('div', { class: 'fields' }, ...[...LINK_FIELDS, ...PARTNER_FIELDS].flatMap(link => field(editor, page, link))),
+        make('h2', {}, 'Leads here'),
+        incoming.length === 0
+            ? make('p', { class: 'none' }, 'No page.')
+            : make(
+                  'ul',
+                  {},
+                  ...incoming.map(link =>
+                      make(
+                          'li',
+                          {},
+                          make(
+                              'button',
+                              { onclick: () => editor.select({ page: link.from }) },
+                              `${pageText(link.from, editor.page(link.from).name)} by ${LINK_TEXTS[link.kind]}${link.code ? ` ${codeText(link.code)}` : ''}`,
+                          ),
+                      ),
+                  ),
+              ),
+    ];
 }
 
 function field(editor: Editor, page: number, link: LinkField): HTMLElement[] {
-  const view = editor.page(page);
-  const target = view[link];
-  const choice = make('select', { 'aria-label': LINK_TEXTS[link] }, ...targets(editor).map(([value, title]) => make('option', { value, selected: value === target }, title)));
-  onChoice(choice, (to) => editor.dispatch(editor.edits.setLink(editor.state.get().document, page, link, Number(to))));
-  const go = make('button', { disabled: target === 0, 'aria-label': `Go to ${LINK_TEXTS[link]}`, onclick: () => editor.select({ page: target }) }, 'Go');
-  const code = CODE_OF[link];
-  return [make('label', {}, LINK_TEXTS[link]), choice, code ? codeField(editor, page, link, code) : make('span'), go];
+    const view = editor.page(page);
+    const target = view[link];
+    const choice = make(
+        'select',
+        { 'aria-label': LINK_TEXTS[link] },
+        ...targets(editor).map(([value, title]) => make('option', { value, selected: value === target }, title)),
+    );
+    onChoice(choice, to => editor.dispatch(editor.edits.setLink(editor.state.get().document, page, link, Number(to))));
+    const go = make(
+        'button',
+        { disabled: target === 0, 'aria-label': `Go to ${LINK_TEXTS[link]}`, onclick: () => editor.select({ page: target }) },
+        'Go',
+    );
+    const code = CODE_OF[link];
+    return [make('label', {}, LINK_TEXTS[link]), choice, code ? codeField(editor, page, link, code) : make('span'), go];
 }
 
 /** Empty pages stand at the end: one may be filled later. */
 function targets(editor: Editor): [number, string][] {
-  const { document } = editor.state.get();
-  const all = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => i + 1);
-  const isUsed = (page: number): boolean => !editor.format.isEmpty(document.pages[page] ?? editor.format.empty);
-  return [[0, 'none'], ...[...all.filter(isUsed), ...all.filter((page) => !isUsed(page))].map((page): [number, string] => [page, `${page} ${editor.page(page).name || '(empty)'}`])];
+    const { document } = editor.state.get();
+    const all = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => i + 1);
+    const isUsed = (page: number): boolean => !editor.format.isEmpty(document.pages[page] ?? editor.format.empty);
+    return [
+        [0, 'none'],
+        ...[...all.filter(isUsed), ...all.filter(page => !isUsed(page))].map((page): [number, string] => [
+            page,
+            `${page} ${editor.page(page).name || '(empty)'}`,
+        ]),
+    ];
 }
 
 function codeField(editor: Editor, page: number, link: LinkField, code: 'linked1Code' | 'linked2Code'): HTMLElement {
-  const value = editor.page(page)[code];
-  const codes = [...CHORDS.map((held) => editor.format.remoteCode(wordOf(held))), value];
-  const choice = make('select', { 'aria-label': `Key of ${LINK_TEXTS[link]}` }, ...[...new Set(codes)].map((one) =>
-    make('option', { value: one, selected: one === value }, one === 0 ? 'no key' : codeText(one))));
-  onChoice(choice, (key) => editor.dispatch(editor.edits.setHeader(editor.state.get().document, page, { [code]: Number(key) })));
-  return choice;
+    const value = editor.page(page)[code];
+    const codes = [...CHORDS.map(held => editor.format.remoteCode(wordOf(held))), value];
+    const choice = make(
+        'select',
+        { 'aria-label': `Key of ${LINK_TEXTS[link]}` },
+        ...[...new Set(codes)].map(one => make('option', { value: one, selected: one === value }, one === 0 ? 'no key' : codeText(one))),
+    );
+    onChoice(choice, key => editor.dispatch(editor.edits.setHeader(editor.state.get().document, page, { [code]: Number(key) })));
+    return choice;
 }

@@ -16,114 +16,136 @@ import { EDITOR_TEXTS, LEGEND_TEXTS, LINK_TEXTS, pageText } from './texts.ts';
 import './links-pane.css';
 
 export class LinksPane extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly chart = make('div', { class: 'chart' });
-  private readonly list = make('div', { class: 'list' });
-  private graph: LinkGraph = { nodes: [], links: [] };
-  private drawn: MotionDocument | null = null;
-  private listed = '';
-  private pulled = 0;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private readonly chart = make('div', { class: 'chart' });
+    private readonly list = make('div', { class: 'list' });
+    private graph: LinkGraph = { nodes: [], links: [] };
+    private drawn: MotionDocument | null = null;
+    private listed = '';
+    private pulled = 0;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.links), this.chart,
-      make('p', { class: 'legend' }, ...(['next', 'exit', 'linked', 'blend', 'dead'] as const).map((kind) => make('span', { class: kind }, LEGEND_TEXTS[kind]))), this.list);
-    this.chart.addEventListener('keydown', (event) => this.key(event));
-    this.chart.addEventListener('dblclick', () => this.dispatchEvent(new CustomEvent('open-steps', { bubbles: true })));
-    this.chart.addEventListener('pointerdown', (event) => { this.pulled = pageAt(event); });
-    this.chart.addEventListener('pointermove', (event) => this.pull(event));
-    this.chart.addEventListener('pointerup', (event) => void this.drop(event));
-    this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(() => queueMicrotask(() => this.render()))); // by then the area is shown, and has a width
-  }
-
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  private render(): void {
-    const { editor, state } = this.desk;
-    const { document, page, gesture } = editor.state.get();
-    const { tab, where } = state.get();
-    if (tab !== 'links') return;
-    if (document !== this.drawn && !gesture) this.draw(document);
-    const playing = where?.state === 'playing' ? where.page : 0;
-    markChart(this.chart, { selected: page, playing });
-    const key = `${page}`;
-    if (key === this.listed) return;
-    this.listed = key;
-    keepFocus(this.list, () => this.list.replaceChildren(...(page === 0 ? [make('p', {}, EDITOR_TEXTS.trimStays)] : linkList(editor, this.graph, page))));
-    this.centre(this.chart.querySelector('.node.selected'));
-  }
-
-  /** Scrolls the chart and nothing around it. */
-  private centre(node: Element | null): void {
-    if (!node) return;
-    const [at, room] = [node.getBoundingClientRect(), this.chart.getBoundingClientRect()];
-    this.chart.scrollBy({ left: at.x + at.width / 2 - room.x - room.width / 2, top: at.y + at.height / 2 - room.y - room.height / 2 });
-  }
-
-  private draw(document: MotionDocument): void {
-    this.drawn = document;
-    this.listed = '';
-    const hadFocus = this.chart.contains(window.document.activeElement);
-    this.graph = linkGraph(this.desk.editor.format, document);
-    this.chart.replaceChildren(this.graph.nodes.length > 0 ? linkChart(this.graph, this.chart.clientWidth) : make('p', {}, EDITOR_TEXTS.noLinks));
-    if (hadFocus) this.focusPage(this.desk.editor.state.get().page);
-  }
-
-  private focusPage(page: number): void {
-    this.chart.querySelector<SVGElement>(`.node[data-page="${page}"]`)?.focus();
-  }
-
-  private choose(page: number): void {
-    this.desk.editor.select({ page });
-    this.focusPage(page);
-  }
-
-  private pull(event: PointerEvent): void {
-    const over = pageAt(event);
-    const isPulling = this.pulled !== 0 && event.buttons === 1 && over !== this.pulled;
-    this.chart.classList.toggle('pulling', isPulling);
-    for (const node of this.chart.querySelectorAll<SVGElement>('.node')) node.classList.toggle('over', isPulling && Number(node.dataset['page']) === over);
-  }
-
-  private async drop(event: PointerEvent): Promise<void> {
-    const [from, to] = [this.pulled, pageAt(event)];
-    this.pulled = 0;
-    this.chart.classList.remove('pulling');
-    if (from === 0 || to === 0) return;
-    if (from === to) return this.choose(from);
-    const { editor } = this.desk;
-    const title = (page: number): string => pageText(page, editor.page(page).name);
-    const kinds: readonly LinkField[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
-    const answer = await ask('Link', `Which link of ${title(from)} shall lead to ${title(to)}?`, kinds.map((kind) => [LINK_TEXTS[kind], kind]));
-    if (answer) editor.dispatch(editor.edits.setLink(editor.state.get().document, from, answer as LinkField, to)); // one of the kinds
-    this.choose(from);
-  }
-
-  /** Arrows go to the nearest page that way; Enter opens its steps. */
-  private key(event: KeyboardEvent): void {
-    if (event.key === 'Enter') return void this.dispatchEvent(new CustomEvent('open-steps', { bubbles: true }));
-    const way = ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] } as const)[event.key];
-    const here = this.chart.querySelector('.node.selected')?.getBoundingClientRect();
-    if (!way || !here) return;
-    event.preventDefault();
-    const [dx, dy] = way;
-    let best = { page: 0, far: Number.POSITIVE_INFINITY };
-    for (const node of this.chart.querySelectorAll<SVGElement>('.node:not(.dead)')) {
-      const there = node.getBoundingClientRect();
-      const along = (there.x - here.x) * dx + (there.y - here.y) * dy;
-      const across = Math.abs((there.x - here.x) * dy) + Math.abs((there.y - here.y) * dx);
-      if (along > 4 && along + 2 * across < best.far) best = { page: Number(node.dataset['page']), far: along + 2 * across };
+    connectedCallback(): void {
+        this.replaceChildren(
+            make('p', { class: 'purpose' }, EDITOR_TEXTS.links),
+            this.chart,
+            make(
+                'p',
+                { class: 'legend' },
+                ...(['next', 'exit', 'linked', 'blend', 'dead'] as const).map(kind => make('span', { class: kind }, LEGEND_TEXTS[kind])),
+            ),
+            this.list,
+        );
+        this.chart.addEventListener('keydown', event => this.key(event));
+        this.chart.addEventListener('dblclick', () => this.dispatchEvent(new CustomEvent('open-steps', { bubbles: true })));
+        this.chart.addEventListener('pointerdown', event => {
+            this.pulled = pageAt(event);
+        });
+        this.chart.addEventListener('pointermove', event => this.pull(event));
+        this.chart.addEventListener('pointerup', event => void this.drop(event));
+        this.disposals.push(
+            this.desk.editor.state.watch(() => this.render()),
+            this.desk.state.watch(() => queueMicrotask(() => this.render())),
+        ); // by then the area is shown, and has a width
     }
-    if (best.page !== 0) this.choose(best.page);
-  }
+
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
+
+    private render(): void {
+        const { editor, state } = this.desk;
+        const { document, page, gesture } = editor.state.get();
+        const { tab, where } = state.get();
+        if (tab !== 'links') return;
+        if (document !== this.drawn && !gesture) this.draw(document);
+        const playing = where?.state === 'playing' ? where.page : 0;
+        markChart(this.chart, { selected: page, playing });
+        const key = `${page}`;
+        if (key === this.listed) return;
+        this.listed = key;
+        keepFocus(this.list, () =>
+            this.list.replaceChildren(...(page === 0 ? [make('p', {}, EDITOR_TEXTS.trimStays)] : linkList(editor, this.graph, page))),
+        );
+        this.centre(this.chart.querySelector('.node.selected'));
+    }
+
+    /** Scrolls the chart and nothing around it. */
+    private centre(node: Element | null): void {
+        if (!node) return;
+        const [at, room] = [node.getBoundingClientRect(), this.chart.getBoundingClientRect()];
+        this.chart.scrollBy({ left: at.x + at.width / 2 - room.x - room.width / 2, top: at.y + at.height / 2 - room.y - room.height / 2 });
+    }
+
+    private draw(document: MotionDocument): void {
+        this.drawn = document;
+        this.listed = '';
+        const hadFocus = this.chart.contains(window.document.activeElement);
+        this.graph = linkGraph(this.desk.editor.format, document);
+        this.chart.replaceChildren(
+            this.graph.nodes.length > 0 ? linkChart(this.graph, this.chart.clientWidth) : make('p', {}, EDITOR_TEXTS.noLinks),
+        );
+        if (hadFocus) this.focusPage(this.desk.editor.state.get().page);
+    }
+
+    private focusPage(page: number): void {
+        this.chart.querySelector<SVGElement>(`.node[data-page="${page}"]`)?.focus();
+    }
+
+    private choose(page: number): void {
+        this.desk.editor.select({ page });
+        this.focusPage(page);
+    }
+
+    private pull(event: PointerEvent): void {
+        const over = pageAt(event);
+        const isPulling = this.pulled !== 0 && event.buttons === 1 && over !== this.pulled;
+        this.chart.classList.toggle('pulling', isPulling);
+        for (const node of this.chart.querySelectorAll<SVGElement>('.node'))
+            node.classList.toggle('over', isPulling && Number(node.dataset['page']) === over);
+    }
+
+    private async drop(event: PointerEvent): Promise<void> {
+        const [from, to] = [this.pulled, pageAt(event)];
+        this.pulled = 0;
+        this.chart.classList.remove('pulling');
+        if (from === 0 || to === 0) return;
+        if (from === to) return this.choose(from);
+        const { editor } = this.desk;
+        const title = (page: number): string => pageText(page, editor.page(page).name);
+        const kinds: readonly LinkField[] = [...LINK_FIELDS, ...PARTNER_FIELDS];
+        const answer = await ask(
+            'Link',
+            `Which link of ${title(from)} shall lead to ${title(to)}?`,
+            kinds.map(kind => [LINK_TEXTS[kind], kind]),
+        );
+        if (answer) editor.dispatch(editor.edits.setLink(editor.state.get().document, from, answer as LinkField, to)); // one of the kinds
+        this.choose(from);
+    }
+
+    /** Arrows go to the nearest page that way; Enter opens its steps. */
+    private key(event: KeyboardEvent): void {
+        if (event.key === 'Enter') return void this.dispatchEvent(new CustomEvent('open-steps', { bubbles: true }));
+        const way = ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] } as const)[event.key];
+        const here = this.chart.querySelector('.node.selected')?.getBoundingClientRect();
+        if (!way || !here) return;
+        event.preventDefault();
+        const [dx, dy] = way;
+        let best = { page: 0, far: Number.POSITIVE_INFINITY };
+        for (const node of this.chart.querySelectorAll<SVGElement>('.node:not(.dead)')) {
+            const there = node.getBoundingClientRect();
+            const along = (there.x - here.x) * dx + (there.y - here.y) * dy;
+            const across = Math.abs((there.x - here.x) * dy) + Math.abs((there.y - here.y) * dx);
+            if (along > 4 && along + 2 * across < best.far) best = { page: Number(node.dataset['page']), far: along + 2 * across };
+        }
+        if (best.page !== 0) this.choose(best.page);
+    }
 }
 
 /** The page under the pointer; 0: none. */
 function pageAt(event: PointerEvent): number {
-  const node = document.elementFromPoint(event.clientX, event.clientY)?.closest<SVGElement>('.node');
-  return Number(node?.dataset['page'] ?? 0);
+    const node = document.elementFromPoint(event.clientX, event.clientY)?.closest<SVGElement>('.node');
+    return Number(node?.dataset['page'] ?? 0);
 }
 
 define('links-pane', LinksPane);

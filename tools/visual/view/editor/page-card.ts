@@ -14,96 +14,97 @@ const PICTURE = { width: 64, height: 74 };
 
 /** The step that is farthest from the first one: most motions begin and end standing, and look alike there. */
 export function tellingStep(page: PageView): Step | undefined {
-  const [first] = page.steps;
-  const way = (step: Step): number => step.positions.reduce<number>((sum, position, id) => {
-    const from = first?.positions[id] ?? null;
-    return position === null || from === null ? sum : sum + Math.abs(position - from);
-  }, 0);
-  return page.steps.reduce<Step | undefined>((best, step) => (best && way(best) >= way(step) ? best : step), first);
+    const [first] = page.steps;
+    const way = (step: Step): number =>
+        step.positions.reduce<number>((sum, position, id) => {
+            const from = first?.positions[id] ?? null;
+            return position === null || from === null ? sum : sum + Math.abs(position - from);
+        }, 0);
+    return page.steps.reduce<Step | undefined>((best, step) => (best && way(best) >= way(step) ? best : step), first);
 }
 
 export interface CardState {
-  readonly isSelected: boolean;
-  /** The robot has another one. */
-  readonly isDirty: boolean;
-  readonly isPlaying: boolean;
+    readonly isSelected: boolean;
+    /** The robot has another one. */
+    readonly isDirty: boolean;
+    readonly isPlaying: boolean;
 }
 
 export class PageCard extends HTMLElement {
-  body!: Body; // set before it is connected, like format and page
-  format!: PageFormat;
-  page = 0;
-  private bytes: Uint8Array | null = null;
-  private isSeen = false;
-  private picture: HTMLCanvasElement | null = null;
-  private readonly title1 = make('b');
-  private readonly name1 = make('span', { class: 'name' });
-  private readonly facts = make('span', { class: 'facts' });
-  private readonly frame = make('span', { class: 'picture' });
+    body!: Body; // set before it is connected, like format and page
+    format!: PageFormat;
+    page = 0;
+    private bytes: Uint8Array | null = null;
+    private isSeen = false;
+    private picture: HTMLCanvasElement | null = null;
+    private readonly title1 = make('b');
+    private readonly name1 = make('span', { class: 'name' });
+    private readonly facts = make('span', { class: 'facts' });
+    private readonly frame = make('span', { class: 'picture' });
 
-  connectedCallback(): void {
-    if (this.hasChildNodes()) return;
-    this.setAttribute('role', 'option');
-    this.dataset['page'] = String(this.page);
-    this.title1.textContent = String(this.page);
-    this.append(this.frame, make('span', { class: 'line' }, this.title1, ' ', this.name1), ' ', this.facts);
-  }
+    connectedCallback(): void {
+        if (this.hasChildNodes()) return;
+        this.setAttribute('role', 'option');
+        this.dataset['page'] = String(this.page);
+        this.title1.textContent = String(this.page);
+        this.append(this.frame, make('span', { class: 'line' }, this.title1, ' ', this.name1), ' ', this.facts);
+    }
 
-  /** A name by which it is found, in small letters. */
-  get words(): string {
-    return `${this.page} ${this.name1.textContent ?? ''}`.toLowerCase();
-  }
+    /** A name by which it is found, in small letters. */
+    get words(): string {
+        return `${this.page} ${this.name1.textContent ?? ''}`.toLowerCase();
+    }
 
-  show(bytes: Uint8Array, state: CardState): void {
-    if (bytes !== this.bytes) this.take(bytes);
-    this.setAttribute('aria-selected', String(state.isSelected));
-    this.tabIndex = state.isSelected ? 0 : -1;
-    this.classList.toggle('dirty', state.isDirty);
-    this.classList.toggle('playing', state.isPlaying);
-    this.title = state.isDirty ? 'The robot has another version of this page.' : '';
-  }
+    show(bytes: Uint8Array, state: CardState): void {
+        if (bytes !== this.bytes) this.take(bytes);
+        this.setAttribute('aria-selected', String(state.isSelected));
+        this.tabIndex = state.isSelected ? 0 : -1;
+        this.classList.toggle('dirty', state.isDirty);
+        this.classList.toggle('playing', state.isPlaying);
+        this.title = state.isDirty ? 'The robot has another version of this page.' : '';
+    }
 
-  /** It is in sight: its picture is drawn. */
-  see(): void {
-    this.isSeen = true;
-    this.draw();
-  }
+    /** It is in sight: its picture is drawn. */
+    see(): void {
+        this.isSeen = true;
+        this.draw();
+    }
 
-  private take(bytes: Uint8Array): void {
-    this.bytes = bytes;
-    const { format } = this;
-    const isEmpty = format.isEmpty(bytes);
-    const isDamaged = format.fault(bytes) !== null;
-    const page = readPage(format, bytes);
-    this.classList.toggle('empty', isEmpty);
-    this.classList.toggle('damaged', isDamaged);
-    this.draggable = !isEmpty && !isDamaged && this.page > 0;
-    this.name1.textContent = this.page === 0 ? 'trim' : page.name;
-    const seconds = pageSeconds(format, bytes);
-    const steps = page.steps.length;
-    const parts = [seconds > 0 ? `${seconds.toFixed(1)} s` : '', steps > 0 ? `${steps} st` : '', codeText(page.code)];
-    this.facts.textContent = isDamaged ? '⚠ damaged' : isEmpty ? '' : parts.filter(Boolean).join(' · ');
-    this.setAttribute('aria-label', this.label(isEmpty, steps));
-    this.picture = null;
-    this.draw();
-  }
+    private take(bytes: Uint8Array): void {
+        this.bytes = bytes;
+        const { format } = this;
+        const isEmpty = format.isEmpty(bytes);
+        const isDamaged = format.fault(bytes) !== null;
+        const page = readPage(format, bytes);
+        this.classList.toggle('empty', isEmpty);
+        this.classList.toggle('damaged', isDamaged);
+        this.draggable = !isEmpty && !isDamaged && this.page > 0;
+        this.name1.textContent = this.page === 0 ? 'trim' : page.name;
+        const seconds = pageSeconds(format, bytes);
+        const steps = page.steps.length;
+        const parts = [seconds > 0 ? `${seconds.toFixed(1)} s` : '', steps > 0 ? `${steps} st` : '', codeText(page.code)];
+        this.facts.textContent = isDamaged ? '⚠ damaged' : isEmpty ? '' : parts.filter(Boolean).join(' · ');
+        this.setAttribute('aria-label', this.label(isEmpty, steps));
+        this.picture = null;
+        this.draw();
+    }
 
-  /** Begins with what stands on the card, in its order: who calls it by what they see is understood (WCAG 2.5.3). Then the whole word. */
-  private label(isEmpty: boolean, steps: number): string {
-    const title = `page ${this.page} ${this.name1.textContent ?? ''}`.trimEnd();
-    const whole = isEmpty ? 'empty' : steps === 1 ? '1 step' : `${steps} steps`;
-    return [title, this.facts.textContent, whole].filter(Boolean).join(', ');
-  }
+    /** Begins with what stands on the card, in its order: who calls it by what they see is understood (WCAG 2.5.3). Then the whole word. */
+    private label(isEmpty: boolean, steps: number): string {
+        const title = `page ${this.page} ${this.name1.textContent ?? ''}`.trimEnd();
+        const whole = isEmpty ? 'empty' : steps === 1 ? '1 step' : `${steps} steps`;
+        return [title, this.facts.textContent, whole].filter(Boolean).join(', ');
+    }
 
-  private draw(): void {
-    const { bytes, format } = this;
-    if (!this.isSeen || this.picture || !bytes) return;
-    const step = format.isEmpty(bytes) || this.page === 0 ? undefined : tellingStep(readPage(format, bytes));
-    if (!step) return this.frame.replaceChildren();
-    this.picture = make('canvas', { 'aria-hidden': 'true' });
-    showPose(this.picture, this.body, anglesOf(this.body, step.positions, new Map()), PICTURE.width, PICTURE.height);
-    this.frame.replaceChildren(this.picture);
-  }
+    private draw(): void {
+        const { bytes, format } = this;
+        if (!this.isSeen || this.picture || !bytes) return;
+        const step = format.isEmpty(bytes) || this.page === 0 ? undefined : tellingStep(readPage(format, bytes));
+        if (!step) return this.frame.replaceChildren();
+        this.picture = make('canvas', { 'aria-hidden': 'true' });
+        showPose(this.picture, this.body, anglesOf(this.body, step.positions, new Map()), PICTURE.width, PICTURE.height);
+        this.frame.replaceChildren(this.picture);
+    }
 }
 
 define('page-card', PageCard);

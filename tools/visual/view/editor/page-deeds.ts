@@ -9,65 +9,77 @@ import { ask, askText } from './ask-dialog.ts';
 import { EDITOR_TEXTS, pageText } from './texts.ts';
 
 export class PageDeeds {
-  private readonly editor: Editor;
-  /** The page that Ctrl+C or Ctrl+X took; 0: none. */
-  private taken = 0;
+    private readonly editor: Editor;
+    /** The page that Ctrl+C or Ctrl+X took; 0: none. */
+    private taken = 0;
 
-  constructor(editor: Editor) {
-    this.editor = editor;
-  }
+    constructor(editor: Editor) {
+        this.editor = editor;
+    }
 
-  async rename(page: number): Promise<void> {
-    const name = await askText(`Rename ${this.title(page)}`, 'Name', this.editor.page(page).name, { maxLength: 13, pattern: '[ -~]*', hint: EDITOR_TEXTS.nameHint });
-    if (name !== null) this.editor.dispatch(this.editor.edits.rename(this.editor.state.get().document, page, name));
-  }
+    async rename(page: number): Promise<void> {
+        const name = await askText(`Rename ${this.title(page)}`, 'Name', this.editor.page(page).name, {
+            maxLength: 13,
+            pattern: '[ -~]*',
+            hint: EDITOR_TEXTS.nameHint,
+        });
+        if (name !== null) this.editor.dispatch(this.editor.edits.rename(this.editor.state.get().document, page, name));
+    }
 
-  async clear(page: number): Promise<void> {
-    if (this.isEmpty(page)) return;
-    const answer = await ask(`Clear ${this.title(page)}?`, EDITOR_TEXTS.clear(this.title(page)), [['Clear', 'clear']]);
-    if (answer) this.editor.dispatch(this.editor.edits.clearPages(this.editor.state.get().document, [page]));
-  }
+    async clear(page: number): Promise<void> {
+        if (this.isEmpty(page)) return;
+        const answer = await ask(`Clear ${this.title(page)}?`, EDITOR_TEXTS.clear(this.title(page)), [['Clear', 'clear']]);
+        if (answer) this.editor.dispatch(this.editor.edits.clearPages(this.editor.state.get().document, [page]));
+    }
 
-  take(page: number): void {
-    this.taken = page;
-  }
+    take(page: number): void {
+        this.taken = page;
+    }
 
-  async putTaken(onto: number): Promise<void> {
-    if (this.taken !== 0) await this.transfer(this.taken, onto);
-  }
+    async putTaken(onto: number): Promise<void> {
+        if (this.taken !== 0) await this.transfer(this.taken, onto);
+    }
 
-  /** By number, for those who do not drag. */
-  async transferByNumber(page: number): Promise<void> {
-    const { document } = this.editor.state.get();
-    const free = freePage(this.editor.format, document, page);
-    const answer = await askText(`Copy or move ${this.title(page)}`, 'To page', String(free || page), { maxLength: 3, pattern: '[0-9]+', hint: 'A page from 1 to 127.' });
-    if (answer !== null) await this.transfer(page, Number(answer));
-  }
+    /** By number, for those who do not drag. */
+    async transferByNumber(page: number): Promise<void> {
+        const { document } = this.editor.state.get();
+        const free = freePage(this.editor.format, document, page);
+        const answer = await askText(`Copy or move ${this.title(page)}`, 'To page', String(free || page), {
+            maxLength: 3,
+            pattern: '[0-9]+',
+            hint: 'A page from 1 to 127.',
+        });
+        if (answer !== null) await this.transfer(page, Number(answer));
+    }
 
-  /** Asks what is meant, and whether links follow. */
-  async transfer(from: number, to: number): Promise<void> {
-    if (from === to) return;
-    const { editor } = this;
-    const { document } = editor.state.get();
-    const isFree = document.pages[to] === undefined || this.isEmpty(to);
-    const follow = make('input', { type: 'checkbox', checked: true });
-    const question = EDITOR_TEXTS.transfer(this.title(from), this.title(to));
-    const answer = await ask('Copy or move', isFree ? question : `${question} ${EDITOR_TEXTS.replaced(this.title(to))}`,
-      [['Copy', 'copy'], ['Move', 'move'], ...(isFree ? [] : [['Exchange', 'swap'] as const])],
-      make('label', {}, follow, 'Links of other pages follow what is moved'));
-    const options = { linksFollow: follow.checked, replace: true };
-    const edit = {
-      copy: () => editor.edits.copyPage(document, from, to, options), move: () => editor.edits.movePage(document, from, to, options),
-      swap: () => editor.edits.swapPages(document, from, to, options),
-    }[answer ?? ''];
-    if (edit && editor.dispatch(edit())) editor.select({ page: to });
-  }
+    /** Asks what is meant, and whether links follow. */
+    async transfer(from: number, to: number): Promise<void> {
+        if (from === to) return;
+        const { editor } = this;
+        const { document } = editor.state.get();
+        const isFree = document.pages[to] === undefined || this.isEmpty(to);
+        const follow = make('input', { type: 'checkbox', checked: true });
+        const question = EDITOR_TEXTS.transfer(this.title(from), this.title(to));
+        const answer = await ask(
+            'Copy or move',
+            isFree ? question : `${question} ${EDITOR_TEXTS.replaced(this.title(to))}`,
+            [['Copy', 'copy'], ['Move', 'move'], ...(isFree ? [] : [['Exchange', 'swap'] as const])],
+            make('label', {}, follow, 'Links of other pages follow what is moved'),
+        );
+        const options = { linksFollow: follow.checked, replace: true };
+        const edit = {
+            copy: () => editor.edits.copyPage(document, from, to, options),
+            move: () => editor.edits.movePage(document, from, to, options),
+            swap: () => editor.edits.swapPages(document, from, to, options),
+        }[answer ?? ''];
+        if (edit && editor.dispatch(edit())) editor.select({ page: to });
+    }
 
-  private isEmpty(page: number): boolean {
-    return this.editor.format.isEmpty(pageOf(this.editor.state.get().document, page));
-  }
+    private isEmpty(page: number): boolean {
+        return this.editor.format.isEmpty(pageOf(this.editor.state.get().document, page));
+    }
 
-  private title(page: number): string {
-    return pageText(page, this.editor.state.get().document.pages[page] ? this.editor.page(page).name : '');
-  }
+    private title(page: number): string {
+        return pageText(page, this.editor.state.get().document.pages[page] ? this.editor.page(page).name : '');
+    }
 }

@@ -8,81 +8,110 @@ import { EDITOR_TEXTS } from './texts.ts';
 import { STEP_TEXTS } from './step-texts.ts';
 
 export class PageHead extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly choice = make('select', { 'aria-label': 'Page', onchange: () => this.desk.editor.select({ page: Number(this.choice.value) }) });
-  private readonly name = make('input', { type: 'text', maxlength: 13, 'aria-label': 'Name of the page', placeholder: 'name', spellcheck: 'false' });
-  private readonly play = make('button', { onclick: () => void this.desk.playEdited(this.desk.editor.state.get().page) }, '▶ Play');
-  private readonly library = make('div', { class: 'library', role: 'status' });
-  /** Pages of the library that somebody wants to edit themselves. */
-  private readonly agreed = new Set<number>();
-  private shown: readonly Uint8Array[] | null = null;
-  private readonly disposals: (() => void)[] = [];
-
-  connectedCallback(): void {
-    this.name.addEventListener('change', () => this.rename());
-    this.name.addEventListener('keydown', (event) => event.key === 'Enter' && this.rename());
-    this.replaceChildren(this.choice, this.name, make('button', { title: 'The first empty page', onclick: () => this.newPage() }, 'New page'),
-      make('span', { class: 'space' }), this.play, make('button', { class: 'stop', onclick: () => void this.desk.command('stop') }, 'Stop'), this.library);
-    this.library.append(make('span', {}, EDITOR_TEXTS.ofLibrary), make('button', { onclick: () => this.editCopy() }, EDITOR_TEXTS.editsCopy),
-      make('button', { onclick: () => this.agree() }, EDITOR_TEXTS.editsItself));
-    this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(() => this.render()));
-  }
-
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  private render(): void {
-    const { editor } = this.desk;
-    const { page, document: { pages } } = editor.state.get();
-    if (this.shown !== pages) this.list(pages);
-    this.choice.value = String(page);
-    this.library.classList.toggle('away', this.agreed.has(page) || !editor.isOfLibrary(page));
-    if (document.activeElement !== this.name) this.name.value = editor.page(page).name;
-    this.play.disabled = editor.page(page).steps.length === 0;
-    this.play.classList.toggle('primary', !this.play.disabled);
-  }
-
-  private list(pages: readonly Uint8Array[]): void {
-    const options = pages.map((_, page) => {
-      const { name, steps } = this.desk.editor.page(page);
-      return page === 0 ? null : make('option', { value: page }, `${page} ${name || (steps.length > 0 ? '(no name)' : '–')}`);
+    desk!: Desk; // set before it is connected
+    private readonly choice = make('select', {
+        'aria-label': 'Page',
+        onchange: () => this.desk.editor.select({ page: Number(this.choice.value) }),
     });
-    const same = this.shown !== null && this.choice.length === options.length - 1;
-    if (!same) this.choice.replaceChildren(...options.filter((option) => option !== null));
-    else options.forEach((option, i) => { const old = this.choice.options[i - 1]; if (option && old && old.text !== option.text) old.text = option.text; });
-    this.shown = pages;
-  }
+    private readonly name = make('input', {
+        type: 'text',
+        maxlength: 13,
+        'aria-label': 'Name of the page',
+        placeholder: 'name',
+        spellcheck: 'false',
+    });
+    private readonly play = make('button', { onclick: () => void this.desk.playEdited(this.desk.editor.state.get().page) }, '▶ Play');
+    private readonly library = make('div', { class: 'library', role: 'status' });
+    /** Pages of the library that somebody wants to edit themselves. */
+    private readonly agreed = new Set<number>();
+    private shown: readonly Uint8Array[] | null = null;
+    private readonly disposals: (() => void)[] = [];
 
-  private agree(): void {
-    this.agreed.add(this.desk.editor.state.get().page);
-    this.render();
-    this.choice.focus();
-  }
+    connectedCallback(): void {
+        this.name.addEventListener('change', () => this.rename());
+        this.name.addEventListener('keydown', event => event.key === 'Enter' && this.rename());
+        this.replaceChildren(
+            this.choice,
+            this.name,
+            make('button', { title: 'The first empty page', onclick: () => this.newPage() }, 'New page'),
+            make('span', { class: 'space' }),
+            this.play,
+            make('button', { class: 'stop', onclick: () => void this.desk.command('stop') }, 'Stop'),
+            this.library,
+        );
+        this.library.append(
+            make('span', {}, EDITOR_TEXTS.ofLibrary),
+            make('button', { onclick: () => this.editCopy() }, EDITOR_TEXTS.editsCopy),
+            make('button', { onclick: () => this.agree() }, EDITOR_TEXTS.editsItself),
+        );
+        this.disposals.push(
+            this.desk.editor.state.watch(() => this.render()),
+            this.desk.state.watch(() => this.render()),
+        );
+    }
 
-  private editCopy(): void {
-    const { editor } = this.desk;
-    const { page, document } = editor.state.get();
-    const copy = editor.edits.copyForEditing(document, page);
-    if (!copy.ok) return void editor.dispatch(copy);
-    if (editor.dispatch({ ok: true, value: copy.value.edit })) editor.select({ page: copy.value.page });
-    this.name.focus();
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  private rename(): void {
-    const { editor } = this.desk;
-    const { page, document } = editor.state.get();
-    if (!editor.dispatch(editor.edits.rename(document, page, this.name.value.trim()))) this.name.value = editor.page(page).name;
-  }
+    private render(): void {
+        const { editor } = this.desk;
+        const {
+            page,
+            document: { pages },
+        } = editor.state.get();
+        if (this.shown !== pages) this.list(pages);
+        this.choice.value = String(page);
+        this.library.classList.toggle('away', this.agreed.has(page) || !editor.isOfLibrary(page));
+        if (document.activeElement !== this.name) this.name.value = editor.page(page).name;
+        this.play.disabled = editor.page(page).steps.length === 0;
+        this.play.classList.toggle('primary', !this.play.disabled);
+    }
 
-  private newPage(): void {
-    const { editor } = this.desk;
-    const { pages } = editor.state.get().document;
-    const free = pages.findIndex((bytes, page) => page > 0 && page < PAGE_COUNT && editor.format.isEmpty(bytes));
-    if (free < 0) return this.desk.say({ text: STEP_TEXTS.allUsed, tone: 'bad' });
-    editor.select({ page: free, step: 0, steps: new Set([0]), joints: new Set() });
-    this.name.focus();
-  }
+    private list(pages: readonly Uint8Array[]): void {
+        const options = pages.map((_, page) => {
+            const { name, steps } = this.desk.editor.page(page);
+            return page === 0 ? null : make('option', { value: page }, `${page} ${name || (steps.length > 0 ? '(no name)' : '–')}`);
+        });
+        const same = this.shown !== null && this.choice.length === options.length - 1;
+        if (!same) this.choice.replaceChildren(...options.filter(option => option !== null));
+        else
+            options.forEach((option, i) => {
+                const old = this.choice.options[i - 1];
+                if (option && old && old.text !== option.text) old.text = option.text;
+            });
+        this.shown = pages;
+    }
+
+    private agree(): void {
+        this.agreed.add(this.desk.editor.state.get().page);
+        this.render();
+        this.choice.focus();
+    }
+
+    private editCopy(): void {
+        const { editor } = this.desk;
+        const { page, document } = editor.state.get();
+        const copy = editor.edits.copyForEditing(document, page);
+        if (!copy.ok) return void editor.dispatch(copy);
+        if (editor.dispatch({ ok: true, value: copy.value.edit })) editor.select({ page: copy.value.page });
+        this.name.focus();
+    }
+
+    private rename(): void {
+        const { editor } = this.desk;
+        const { page, document } = editor.state.get();
+        if (!editor.dispatch(editor.edits.rename(document, page, this.name.value.trim()))) this.name.value = editor.page(page).name;
+    }
+
+    private newPage(): void {
+        const { editor } = this.desk;
+        const { pages } = editor.state.get().document;
+        const free = pages.findIndex((bytes, page) => page > 0 && page < PAGE_COUNT && editor.format.isEmpty(bytes));
+        if (free < 0) return this.desk.say({ text: STEP_TEXTS.allUsed, tone: 'bad' });
+        editor.select({ page: free, step: 0, steps: new Set([0]), joints: new Set() });
+        this.name.focus();
+    }
 }
 
 define('page-head', PageHead);

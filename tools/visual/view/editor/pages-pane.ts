@@ -15,153 +15,204 @@ import './pages-pane.css';
 type Filter = 'all' | 'used' | 'changed';
 
 export class PagesPane extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  /** Opens the comparison with a robot, a backup or another document. */
-  onCompare: () => void = () => undefined;
-  private readonly cards: PageCard[] = [];
-  private readonly search = make('input', { type: 'search', placeholder: 'Search', 'aria-label': 'Search pages', oninput: () => this.filter() });
-  private readonly which = make('select', { 'aria-label': 'Which pages', onchange: () => this.filter() },
-    make('option', { value: 'all' }, 'All pages'), make('option', { value: 'used' }, 'In use'), make('option', { value: 'changed' }, 'Not in the robot'));
-  private readonly list = make('div', { class: 'cards', role: 'listbox', 'aria-label': 'Pages' });
-  private readonly nothing = make('p', { class: 'nothing', hidden: true }, EDITOR_TEXTS.nothingFound);
-  private deeds!: PageDeeds; // made with the desk
-  private dragged = 0;
-  private playing = 0;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    /** Opens the comparison with a robot, a backup or another document. */
+    onCompare: () => void = () => undefined;
+    private readonly cards: PageCard[] = [];
+    private readonly search = make('input', {
+        type: 'search',
+        placeholder: 'Search',
+        'aria-label': 'Search pages',
+        oninput: () => this.filter(),
+    });
+    private readonly which = make(
+        'select',
+        { 'aria-label': 'Which pages', onchange: () => this.filter() },
+        make('option', { value: 'all' }, 'All pages'),
+        make('option', { value: 'used' }, 'In use'),
+        make('option', { value: 'changed' }, 'Not in the robot'),
+    );
+    private readonly list = make('div', { class: 'cards', role: 'listbox', 'aria-label': 'Pages' });
+    private readonly nothing = make('p', { class: 'nothing', hidden: true }, EDITOR_TEXTS.nothingFound);
+    private deeds!: PageDeeds; // made with the desk
+    private dragged = 0;
+    private playing = 0;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.deeds = new PageDeeds(this.desk.editor);
-    this.makeCards();
-    this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.pages), this.tools(), this.list, this.nothing);
-    this.listen();
-    this.disposals.push(this.watchSight(), this.desk.editor.state.watch((state) => this.render(state)), this.desk.state.watch(({ where }) => {
-      const playing = where?.state === 'playing' ? where.page : 0;
-      if (playing === this.playing) return;
-      this.playing = playing;
-      this.render(this.desk.editor.state.get());
-    }));
-  }
-
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  private get current(): number {
-    return this.desk.editor.state.get().page;
-  }
-
-  private tools(): HTMLElement {
-    const button = (title: string, deed: () => unknown): HTMLButtonElement => make('button', { onclick: () => void deed() }, title);
-    return make('div', { class: 'tools', role: 'toolbar', 'aria-label': 'The chosen page' }, this.search, this.which,
-      button('Rename …', () => this.deeds.rename(this.current)), button('Copy or move …', () => this.deeds.transferByNumber(this.current)),
-      button('Clear …', () => this.deeds.clear(this.current)), button('Compare …', () => this.onCompare()));
-  }
-
-  private makeCards(): void {
-    if (this.cards.length > 0) return;
-    for (let page = 0; page < PAGE_COUNT; page++) {
-      const card = new PageCard();
-      Object.assign(card, { body: this.desk.body, format: this.desk.editor.format, page });
-      this.cards.push(card);
+    connectedCallback(): void {
+        this.deeds = new PageDeeds(this.desk.editor);
+        this.makeCards();
+        this.replaceChildren(make('p', { class: 'purpose' }, EDITOR_TEXTS.pages), this.tools(), this.list, this.nothing);
+        this.listen();
+        this.disposals.push(
+            this.watchSight(),
+            this.desk.editor.state.watch(state => this.render(state)),
+            this.desk.state.watch(({ where }) => {
+                const playing = where?.state === 'playing' ? where.page : 0;
+                if (playing === this.playing) return;
+                this.playing = playing;
+                this.render(this.desk.editor.state.get());
+            }),
+        );
     }
-    this.list.append(...this.cards.slice(1), ...this.cards.slice(0, 1)); // the trim stands last: no motion
-  }
 
-  private watchSight(): () => void {
-    const sight = new IntersectionObserver((seen) => {
-      for (const { target, isIntersecting } of seen) if (isIntersecting && target instanceof PageCard) target.see();
-    }, { root: null, rootMargin: '200px' });
-    for (const card of this.cards) sight.observe(card);
-    return () => sight.disconnect();
-  }
-
-  private render(state: EditorState): void {
-    const dirty = dirtyPages(state, this.desk.editor.format);
-    for (const card of this.cards) {
-      const { page } = card;
-      card.show(pageOf(state.document, page), { isSelected: page === state.page, isDirty: dirty.has(page), isPlaying: page === this.playing });
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
     }
-    this.filter();
-  }
 
-  private filter(): void {
-    const words = this.search.value.trim().toLowerCase();
-    const which = this.which.value as Filter;
-    let count = 0;
-    for (const card of this.cards) {
-      const isIn = which === 'all' || (which === 'changed' ? card.classList.contains('dirty') : !card.classList.contains('empty'));
-      card.hidden = !isIn || !card.words.includes(words);
-      if (!card.hidden) count++;
+    private get current(): number {
+        return this.desk.editor.state.get().page;
     }
-    this.nothing.hidden = count > 0;
-  }
 
-  private listen(): void {
-    const cardOf = (event: Event): PageCard | null => (event.target instanceof Element ? event.target.closest<PageCard>('page-card') : null);
-    this.list.addEventListener('click', (event) => this.choose(cardOf(event)));
-    this.list.addEventListener('focusin', (event) => { // however a page got the focus, keys mean that page
-      const page = cardOf(event)?.page ?? this.current;
-      if (page !== this.current) this.desk.editor.select({ page });
-    });
-    this.list.addEventListener('dblclick', (event) => cardOf(event) && this.openSteps());
-    this.list.addEventListener('keydown', (event) => this.key(event));
-    this.list.addEventListener('dragstart', (event) => {
-      this.dragged = cardOf(event)?.page ?? 0;
-      event.dataTransfer?.setData('text/plain', `page ${this.dragged}`);
-    });
-    this.list.addEventListener('dragover', (event) => {
-      const over = cardOf(event);
-      if (this.dragged === 0 || !over || over.page === 0) return;
-      event.preventDefault();
-      this.mark(over);
-    });
-    this.list.addEventListener('dragend', () => this.mark(null));
-    this.list.addEventListener('drop', (event) => {
-      const over = cardOf(event);
-      if (this.dragged === 0 || !over) return;
-      event.preventDefault();
-      const from = this.dragged;
-      this.mark(null);
-      void this.deeds.transfer(from, over.page);
-    });
-  }
+    private tools(): HTMLElement {
+        const button = (title: string, deed: () => unknown): HTMLButtonElement => make('button', { onclick: () => void deed() }, title);
+        return make(
+            'div',
+            { class: 'tools', role: 'toolbar', 'aria-label': 'The chosen page' },
+            this.search,
+            this.which,
+            button('Rename …', () => this.deeds.rename(this.current)),
+            button('Copy or move …', () => this.deeds.transferByNumber(this.current)),
+            button('Clear …', () => this.deeds.clear(this.current)),
+            button('Compare …', () => this.onCompare()),
+        );
+    }
 
-  private mark(over: PageCard | null): void {
-    if (!over) this.dragged = 0;
-    for (const card of this.cards) card.classList.toggle('over', card === over);
-  }
+    private makeCards(): void {
+        if (this.cards.length > 0) return;
+        for (let page = 0; page < PAGE_COUNT; page++) {
+            const card = new PageCard();
+            Object.assign(card, { body: this.desk.body, format: this.desk.editor.format, page });
+            this.cards.push(card);
+        }
+        this.list.append(...this.cards.slice(1), ...this.cards.slice(0, 1)); // the trim stands last: no motion
+    }
 
-  private choose(card: PageCard | null): void {
-    if (!card) return;
-    this.desk.editor.select({ page: card.page });
-    card.focus();
-  }
+    private watchSight(): () => void {
+        const sight = new IntersectionObserver(
+            seen => {
+                for (const { target, isIntersecting } of seen) if (isIntersecting && target instanceof PageCard) target.see();
+            },
+            { root: null, rootMargin: '200px' },
+        );
+        for (const card of this.cards) sight.observe(card);
+        return () => sight.disconnect();
+    }
 
-  private openSteps(): void {
-    this.dispatchEvent(new CustomEvent('open-steps', { bubbles: true }));
-  }
+    private render(state: EditorState): void {
+        const dirty = dirtyPages(state, this.desk.editor.format);
+        for (const card of this.cards) {
+            const { page } = card;
+            card.show(pageOf(state.document, page), {
+                isSelected: page === state.page,
+                isDirty: dirty.has(page),
+                isPlaying: page === this.playing,
+            });
+        }
+        this.filter();
+    }
 
-  private key(event: KeyboardEvent): void {
-    const control = event.ctrlKey || event.metaKey;
-    const deed = this.move(event.key) ?? {
-      Enter: () => this.openSteps(), F2: () => this.deeds.rename(this.current), Delete: () => this.deeds.clear(this.current),
-      ...(control && { c: () => this.deeds.take(this.current), x: () => this.deeds.take(this.current), v: () => this.deeds.putTaken(this.current) }),
-    }[event.key];
-    if (!deed) return;
-    event.preventDefault();
-    void deed();
-  }
+    private filter(): void {
+        const words = this.search.value.trim().toLowerCase();
+        const which = this.which.value as Filter;
+        let count = 0;
+        for (const card of this.cards) {
+            const isIn = which === 'all' || (which === 'changed' ? card.classList.contains('dirty') : !card.classList.contains('empty'));
+            card.hidden = !isIn || !card.words.includes(words);
+            if (!card.hidden) count++;
+        }
+        this.nothing.hidden = count > 0;
+    }
 
-  /** Arrows go through what is shown, rows as they stand. */
-  private move(key: string): (() => void) | undefined {
-    const shown = this.cards.slice(1).concat(this.cards.slice(0, 1)).filter((card) => !card.hidden);
-    const at = shown.findIndex((card) => card.page === this.current);
-    const top = shown[0]?.offsetTop;
-    const columns = Math.max(1, shown.findIndex((card) => card.offsetTop !== top));
-    const to = { ArrowLeft: at - 1, ArrowRight: at + 1, ArrowUp: at - columns, ArrowDown: at + columns, Home: 0, End: shown.length - 1 }[key];
-    const card = to === undefined ? undefined : shown[Math.max(0, Math.min(to, shown.length - 1))];
-    return card ? () => this.choose(card) : undefined;
-  }
+    private listen(): void {
+        const cardOf = (event: Event): PageCard | null =>
+            event.target instanceof Element ? event.target.closest<PageCard>('page-card') : null;
+        this.list.addEventListener('click', event => this.choose(cardOf(event)));
+        this.list.addEventListener('focusin', event => {
+            // however a page got the focus, keys mean that page
+            const page = cardOf(event)?.page ?? this.current;
+            if (page !== this.current) this.desk.editor.select({ page });
+        });
+        this.list.addEventListener('dblclick', event => cardOf(event) && this.openSteps());
+        this.list.addEventListener('keydown', event => this.key(event));
+        this.list.addEventListener('dragstart', event => {
+            this.dragged = cardOf(event)?.page ?? 0;
+            event.dataTransfer?.setData('text/plain', `page ${this.dragged}`);
+        });
+        this.list.addEventListener('dragover', event => {
+            const over = cardOf(event);
+            if (this.dragged === 0 || !over || over.page === 0) return;
+            event.preventDefault();
+            this.mark(over);
+        });
+        this.list.addEventListener('dragend', () => this.mark(null));
+        this.list.addEventListener('drop', event => {
+            const over = cardOf(event);
+            if (this.dragged === 0 || !over) return;
+            event.preventDefault();
+            const from = this.dragged;
+            this.mark(null);
+            void this.deeds.transfer(from, over.page);
+        });
+    }
+
+    private mark(over: PageCard | null): void {
+        if (!over) this.dragged = 0;
+        for (const card of this.cards) card.classList.toggle('over', card === over);
+    }
+
+    private choose(card: PageCard | null): void {
+        if (!card) return;
+        this.desk.editor.select({ page: card.page });
+        card.focus();
+    }
+
+    private openSteps(): void {
+        this.dispatchEvent(new CustomEvent('open-steps', { bubbles: true }));
+    }
+
+    private key(event: KeyboardEvent): void {
+        const control = event.ctrlKey || event.metaKey;
+        const deed =
+            this.move(event.key) ??
+            {
+                Enter: () => this.openSteps(),
+                F2: () => this.deeds.rename(this.current),
+                Delete: () => this.deeds.clear(this.current),
+                ...(control && {
+                    c: () => this.deeds.take(this.current),
+                    x: () => this.deeds.take(this.current),
+                    v: () => this.deeds.putTaken(this.current),
+                }),
+            }[event.key];
+        if (!deed) return;
+        event.preventDefault();
+        void deed();
+    }
+
+    /** Arrows go through what is shown, rows as they stand. */
+    private move(key: string): (() => void) | undefined {
+        const shown = this.cards
+            .slice(1)
+            .concat(this.cards.slice(0, 1))
+            .filter(card => !card.hidden);
+        const at = shown.findIndex(card => card.page === this.current);
+        const top = shown[0]?.offsetTop;
+        const columns = Math.max(
+            1,
+            shown.findIndex(card => card.offsetTop !== top),
+        );
+        const to = {
+            ArrowLeft: at - 1,
+            ArrowRight: at + 1,
+            ArrowUp: at - columns,
+            ArrowDown: at + columns,
+            Home: 0,
+            End: shown.length - 1,
+        }[key];
+        const card = to === undefined ? undefined : shown[Math.max(0, Math.min(to, shown.length - 1))];
+        return card ? () => this.choose(card) : undefined;
+    }
 }
 
 define('pages-pane', PagesPane);

@@ -9,63 +9,79 @@ import { pageText } from './texts.ts';
 import { TRIAL_TEXTS, countedText } from './trial-texts.ts';
 
 export class PhysicsBar extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly one = make('button', { onclick: () => void this.desk.trials.run([this.desk.editor.state.get().page]) });
-  private readonly all = make('button', { class: 'primary', onclick: () => void this.desk.trials.run(this.playable()) }, 'Try all motions');
-  private readonly stop = make('button', { onclick: () => this.desk.trials.cancel() }, 'Stop trying');
-  private readonly progress = make('progress', { 'aria-label': 'Motions tried' });
-  private readonly said = make('p', { class: 'said', role: 'status', 'aria-label': 'What physics says' });
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private readonly one = make('button', { onclick: () => void this.desk.trials.run([this.desk.editor.state.get().page]) });
+    private readonly all = make(
+        'button',
+        { class: 'primary', onclick: () => void this.desk.trials.run(this.playable()) },
+        'Try all motions',
+    );
+    private readonly stop = make('button', { onclick: () => this.desk.trials.cancel() }, 'Stop trying');
+    private readonly progress = make('progress', { 'aria-label': 'Motions tried' });
+    private readonly said = make('p', { class: 'said', role: 'status', 'aria-label': 'What physics says' });
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.replaceChildren(make('p', { class: 'purpose' }, TRIAL_TEXTS.purpose), make('div', { class: 'row' }, this.one, this.all, this.stop, this.progress), this.said);
-    const { trials, editor, state } = this.desk;
-    this.disposals.push(trials.state.watch(() => this.render()), editor.state.watch(() => this.render()), state.watch(() => this.render()));
-  }
+    connectedCallback(): void {
+        this.replaceChildren(
+            make('p', { class: 'purpose' }, TRIAL_TEXTS.purpose),
+            make('div', { class: 'row' }, this.one, this.all, this.stop, this.progress),
+            this.said,
+        );
+        const { trials, editor, state } = this.desk;
+        this.disposals.push(
+            trials.state.watch(() => this.render()),
+            editor.state.watch(() => this.render()),
+            state.watch(() => this.render()),
+        );
+    }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  private playable(): number[] {
-    const { format, state } = this.desk.editor;
-    const { document } = state.get();
-    return document.pages.flatMap((_, page) => (page > 0 && format.isPlayable(pageOf(document, page)) ? [page] : []));
-  }
+    private playable(): number[] {
+        const { format, state } = this.desk.editor;
+        const { document } = state.get();
+        return document.pages.flatMap((_, page) => (page > 0 && format.isPlayable(pageOf(document, page)) ? [page] : []));
+    }
 
-  private render(): void {
-    const { editor, trials, state } = this.desk;
-    if (state.get().tab !== 'checks' || editor.state.get().gesture) return;
-    const { page } = editor.state.get();
-    const trial = trials.state.get();
-    const isBusy = trial.phase === 'loading' || trial.phase === 'trying';
-    const playable = this.playable();
-    this.one.textContent = `Try ${this.titleOf(page)}`;
-    this.one.hidden = this.all.hidden = isBusy;
-    this.one.disabled = !playable.includes(page) || trials.isFresh(page);
-    this.all.disabled = playable.every((one) => trials.isFresh(one));
-    this.stop.hidden = this.progress.hidden = !isBusy;
-    this.progress.max = Math.max(1, trial.total);
-    this.progress.value = trial.done;
-    this.say(this.textOf(trial, playable));
-  }
+    private render(): void {
+        const { editor, trials, state } = this.desk;
+        if (state.get().tab !== 'checks' || editor.state.get().gesture) return;
+        const { page } = editor.state.get();
+        const trial = trials.state.get();
+        const isBusy = trial.phase === 'loading' || trial.phase === 'trying';
+        const playable = this.playable();
+        this.one.textContent = `Try ${this.titleOf(page)}`;
+        this.one.hidden = this.all.hidden = isBusy;
+        this.one.disabled = !playable.includes(page) || trials.isFresh(page);
+        this.all.disabled = playable.every(one => trials.isFresh(one));
+        this.stop.hidden = this.progress.hidden = !isBusy;
+        this.progress.max = Math.max(1, trial.total);
+        this.progress.value = trial.done;
+        this.say(this.textOf(trial, playable));
+    }
 
-  private textOf(trial: TrialsState, playable: readonly number[]): string {
-    if (trial.phase === 'loading') return TRIAL_TEXTS.loading;
-    if (trial.phase === 'failed') return TRIAL_TEXTS.failed(trial.trouble ?? '');
-    if (trial.phase === 'trying' && trial.page !== null) return TRIAL_TEXTS.trying(trial, this.titleOf(trial.page));
-    const known = playable.flatMap((page) => trial.trials.get(page) ?? []);
-    const changed = playable.filter((page) => trial.trials.has(page) && !this.desk.trials.isFresh(page)).length;
-    return countedText(known.map(({ verdict }) => verdict.kind), playable.length - known.length, changed);
-  }
+    private textOf(trial: TrialsState, playable: readonly number[]): string {
+        if (trial.phase === 'loading') return TRIAL_TEXTS.loading;
+        if (trial.phase === 'failed') return TRIAL_TEXTS.failed(trial.trouble ?? '');
+        if (trial.phase === 'trying' && trial.page !== null) return TRIAL_TEXTS.trying(trial, this.titleOf(trial.page));
+        const known = playable.flatMap(page => trial.trials.get(page) ?? []);
+        const changed = playable.filter(page => trial.trials.has(page) && !this.desk.trials.isFresh(page)).length;
+        return countedText(
+            known.map(({ verdict }) => verdict.kind),
+            playable.length - known.length,
+            changed,
+        );
+    }
 
-  private titleOf(page: number): string {
-    return pageText(page, this.desk.editor.page(page).name);
-  }
+    private titleOf(page: number): string {
+        return pageText(page, this.desk.editor.page(page).name);
+    }
 
-  private say(text: string): void {
-    if (this.said.textContent !== text) this.said.textContent = text;
-  }
+    private say(text: string): void {
+        if (this.said.textContent !== text) this.said.textContent = text;
+    }
 }
 
 define('physics-bar', PhysicsBar);

@@ -7,60 +7,77 @@ import { define, make, setText } from '../element.ts';
 import { SHOW_TEXTS } from './step-texts.ts';
 
 export class PlayBar extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly show = make('button', { class: 'show', title: SHOW_TEXTS.hint, onclick: () => this.toggle() }, SHOW_TEXTS.show);
-  private readonly fromStep = make('button', { title: SHOW_TEXTS.fromStepHint, onclick: () => this.startAtStep() }, SHOW_TEXTS.fromStep);
-  private readonly moment = make('input', { type: 'range', min: 0, max: 0, step: 1, value: 0, 'aria-label': 'Moment of the motion', oninput: () => this.seek() });
-  private readonly clock = make('output', { 'aria-live': 'off' });
-  private readonly loop = make('input', { type: 'checkbox', onchange: () => this.desk.preview.setLooping(this.loop.checked) });
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private readonly show = make('button', { class: 'show', title: SHOW_TEXTS.hint, onclick: () => this.toggle() }, SHOW_TEXTS.show);
+    private readonly fromStep = make('button', { title: SHOW_TEXTS.fromStepHint, onclick: () => this.startAtStep() }, SHOW_TEXTS.fromStep);
+    private readonly moment = make('input', {
+        type: 'range',
+        min: 0,
+        max: 0,
+        step: 1,
+        value: 0,
+        'aria-label': 'Moment of the motion',
+        oninput: () => this.seek(),
+    });
+    private readonly clock = make('output', { 'aria-live': 'off' });
+    private readonly loop = make('input', { type: 'checkbox', onchange: () => this.desk.preview.setLooping(this.loop.checked) });
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.setAttribute('role', 'group');
-    this.setAttribute('aria-label', 'In the picture');
-    this.replaceChildren(this.show, this.fromStep, this.moment, this.clock, make('label', { title: SHOW_TEXTS.loopHint }, this.loop, SHOW_TEXTS.loop));
-    this.disposals.push(this.desk.preview.state.watch(() => this.render()), this.desk.editor.state.watch(() => this.render()));
-  }
+    connectedCallback(): void {
+        this.setAttribute('role', 'group');
+        this.setAttribute('aria-label', 'In the picture');
+        this.replaceChildren(
+            this.show,
+            this.fromStep,
+            this.moment,
+            this.clock,
+            make('label', { title: SHOW_TEXTS.loopHint }, this.loop, SHOW_TEXTS.loop),
+        );
+        this.disposals.push(
+            this.desk.preview.state.watch(() => this.render()),
+            this.desk.editor.state.watch(() => this.render()),
+        );
+    }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  private render(): void {
-    const { editor, preview } = this.desk;
-    const { page } = editor.state.get();
-    const { isRunning, isLooping, tick, ticks } = preview.state.get();
-    const isEmpty = editor.page(page).steps.length === 0;
-    for (const control of [this.show, this.fromStep, this.moment]) control.disabled = isEmpty;
-    setText(this.show, isRunning ? SHOW_TEXTS.pause : SHOW_TEXTS.show);
-    this.moment.max = String(Math.max(1, ticks - 1));
-    this.moment.value = String(tick);
-    this.loop.checked = isLooping;
-    const seconds = (count: number): string => (count / TICKS_PER_SECOND).toFixed(2);
-    this.moment.setAttribute('aria-valuetext', `${seconds(tick)} s`);
-    setText(this.clock, ticks === 0 ? '' : `${seconds(tick)} / ${seconds(ticks)} s`);
-  }
+    private render(): void {
+        const { editor, preview } = this.desk;
+        const { page } = editor.state.get();
+        const { isRunning, isLooping, tick, ticks } = preview.state.get();
+        const isEmpty = editor.page(page).steps.length === 0;
+        for (const control of [this.show, this.fromStep, this.moment]) control.disabled = isEmpty;
+        setText(this.show, isRunning ? SHOW_TEXTS.pause : SHOW_TEXTS.show);
+        this.moment.max = String(Math.max(1, ticks - 1));
+        this.moment.value = String(tick);
+        this.loop.checked = isLooping;
+        const seconds = (count: number): string => (count / TICKS_PER_SECOND).toFixed(2);
+        this.moment.setAttribute('aria-valuetext', `${seconds(tick)} s`);
+        setText(this.clock, ticks === 0 ? '' : `${seconds(tick)} / ${seconds(ticks)} s`);
+    }
 
-  private toggle(): void {
-    const { preview, editor } = this.desk;
-    const { isRunning, ticks } = preview.state.get();
-    if (isRunning) preview.pause();
-    else if (ticks > 0) preview.resume();
-    else preview.start(editor.state.get().page);
-  }
+    private toggle(): void {
+        const { preview, editor } = this.desk;
+        const { isRunning, ticks } = preview.state.get();
+        if (isRunning) preview.pause();
+        else if (ticks > 0) preview.resume();
+        else preview.start(editor.state.get().page);
+    }
 
-  private startAtStep(): void {
-    const { page, step } = this.desk.editor.state.get();
-    this.desk.preview.start(page, step);
-  }
+    private startAtStep(): void {
+        const { page, step } = this.desk.editor.state.get();
+        this.desk.preview.start(page, step);
+    }
 
-  private seek(): void {
-    const { preview, editor } = this.desk;
-    const share = Number(this.moment.value) / Number(this.moment.max);
-    const { page } = editor.state.get();
-    if (preview.state.get().ticks === 0) preview.seek(page, 0); // how long it is shows only now
-    preview.seek(page, Math.round(share * (preview.state.get().ticks - 1)));
-  }
+    private seek(): void {
+        const { preview, editor } = this.desk;
+        const share = Number(this.moment.value) / Number(this.moment.max);
+        const { page } = editor.state.get();
+        if (preview.state.get().ticks === 0) preview.seek(page, 0); // how long it is shows only now
+        preview.seek(page, Math.round(share * (preview.state.get().ticks - 1)));
+    }
 }
 
 define('play-bar', PlayBar);

@@ -15,121 +15,153 @@ import { POSE_TEXTS } from './step-texts.ts';
 import { touchesText } from './trial-texts.ts';
 import './pose-bar.css';
 
-const MODES: readonly (readonly [PictureMode, string, string])[] = [['pose', 'Pose', POSE_TEXTS.poseMode], ['hand', 'Hand', POSE_TEXTS.handMode]];
-const OPTIONS: readonly (readonly ['soleFlat' | 'onionSkin' | 'balance', string])[] = [
-  ['soleFlat', 'Feet stay flat'], ['onionSkin', 'Steps before and after'], ['balance', 'Balance'],
+const MODES: readonly (readonly [PictureMode, string, string])[] = [
+    ['pose', 'Pose', POSE_TEXTS.poseMode],
+    ['hand', 'Hand', POSE_TEXTS.handMode],
 ];
-const KEEPS = [['lower', 'lower foot'], ['right', 'right foot'], ['left', 'left foot']] as const;
+const OPTIONS: readonly (readonly ['soleFlat' | 'onionSkin' | 'balance', string])[] = [
+    ['soleFlat', 'Feet stay flat'],
+    ['onionSkin', 'Steps before and after'],
+    ['balance', 'Balance'],
+];
+const KEEPS = [
+    ['lower', 'lower foot'],
+    ['right', 'right foot'],
+    ['left', 'left foot'],
+] as const;
 
 export class PoseBar extends HTMLElement {
-  desk!: Desk; // these are set before it is connected
-  editing!: Store<Editing>;
-  /** Metres inside the ground of the soles; null: not looked at. */
-  margin: () => number | null = () => null;
-  /** Limbs of the shown figure that are in each other. */
-  touches: () => readonly Touch[] = () => [];
-  private readonly modes = new Map<PictureMode, HTMLButtonElement>();
-  private readonly joints = make('div', { class: 'joints', role: 'group', 'aria-label': 'Chosen joints' });
-  /** shown: the position that stands in the input, unless somebody types there. */
-  private readonly fields = new Map<number, { readonly input: HTMLInputElement; readonly degrees: HTMLElement; shown: number }>();
-  private readonly balance = make('p', { class: 'balance', role: 'status', 'aria-label': 'Balance' });
-  private readonly touch = make('p', { class: 'touch', role: 'status', 'aria-label': 'Limbs that meet' });
-  private readonly hint = make('p', { class: 'hint' });
-  private robot: RobotState | null = null;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // these are set before it is connected
+    editing!: Store<Editing>;
+    /** Metres inside the ground of the soles; null: not looked at. */
+    margin: () => number | null = () => null;
+    /** Limbs of the shown figure that are in each other. */
+    touches: () => readonly Touch[] = () => [];
+    private readonly modes = new Map<PictureMode, HTMLButtonElement>();
+    private readonly joints = make('div', { class: 'joints', role: 'group', 'aria-label': 'Chosen joints' });
+    /** shown: the position that stands in the input, unless somebody types there. */
+    private readonly fields = new Map<number, { readonly input: HTMLInputElement; readonly degrees: HTMLElement; shown: number }>();
+    private readonly balance = make('p', { class: 'balance', role: 'status', 'aria-label': 'Balance' });
+    private readonly touch = make('p', { class: 'touch', role: 'status', 'aria-label': 'Limbs that meet' });
+    private readonly hint = make('p', { class: 'hint' });
+    private robot: RobotState | null = null;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    const group = make('div', { class: 'modes', role: 'group', 'aria-label': 'What a drag in the picture does' });
-    for (const [mode, title, hint] of MODES) {
-      const button = make('button', { title: hint, onclick: () => this.editing.set({ mode }) }, title);
-      this.modes.set(mode, button);
-      group.append(button);
+    connectedCallback(): void {
+        const group = make('div', { class: 'modes', role: 'group', 'aria-label': 'What a drag in the picture does' });
+        for (const [mode, title, hint] of MODES) {
+            const button = make('button', { title: hint, onclick: () => this.editing.set({ mode }) }, title);
+            this.modes.set(mode, button);
+            group.append(button);
+        }
+        this.replaceChildren(make('div', { class: 'row' }, group, this.options()), this.hint, this.joints, this.balance, this.touch);
+        this.disposals.push(
+            this.editing.watch(() => this.render()),
+            this.desk.state.watch(() => this.render()),
+            this.desk.editor.state.watch(() => this.render()),
+            this.desk.onFrame(robot => {
+                this.robot = robot;
+                this.showBalance();
+                this.showTouches();
+            }),
+        );
     }
-    this.replaceChildren(make('div', { class: 'row' }, group, this.options()), this.hint, this.joints, this.balance, this.touch);
-    this.disposals.push(this.editing.watch(() => this.render()), this.desk.state.watch(() => this.render()),
-      this.desk.editor.state.watch(() => this.render()), this.desk.onFrame((robot) => {
-        this.robot = robot;
-        this.showBalance();
-        this.showTouches();
-      }));
-  }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  private options(): HTMLElement {
-    const keep = make('select', { 'aria-label': 'Which foot stays', onchange: () => this.editing.set({ keep: keep.value as Editing['keep'] }) },
-      ...KEEPS.map(([value, title]) => make('option', { value }, title)));
-    const boxes = OPTIONS.map(([name, title]) => {
-      const box = make('input', { type: 'checkbox', checked: this.editing.get()[name], onchange: () => this.editing.set({ [name]: box.checked }) });
-      return make('label', {}, box, title);
-    });
-    const menu = make('details', { class: 'options' }, make('summary', {}, 'View'), make('div', { class: 'menu' }, ...boxes, make('label', {}, 'Stays: ', keep)));
-    this.disposals.push(closesByItself(menu));
-    return menu;
-  }
-
-  private render(): void {
-    const { mode } = this.editing.get();
-    this.hidden = !isEditing(this.desk.state.get().tab);
-    if (this.hidden) return;
-    for (const [name, button] of this.modes) button.setAttribute('aria-pressed', String(name === mode));
-    const { joints } = this.desk.editor.state.get();
-    this.hint.textContent = mode === 'hand' ? POSE_TEXTS.handMode : joints.size === 0 ? POSE_TEXTS.poseMode : '';
-    this.joints.hidden = mode === 'hand' || joints.size === 0;
-    if (!this.joints.hidden) this.showJoints(joints);
-  }
-
-  private showJoints(chosen: ReadonlySet<number>): void {
-    const joints = this.desk.body.joints.filter((joint) => chosen.has(joint.servo));
-    if (joints.map((joint) => joint.servo).join() !== [...this.fields.keys()].join()) {
-      this.fields.clear();
-      this.joints.replaceChildren(...joints.map((joint) => this.field(joint)));
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
     }
-    const { editor } = this.desk;
-    const { page, step } = editor.state.get();
-    const pose = editor.poseAfter(page, step);
-    for (const joint of joints) {
-      const field = this.fields.get(joint.servo);
-      const position = pose[joint.servo] ?? joint.zero;
-      if (!field) continue;
-      if (field.shown !== position) field.input.value = String(position); // else it would take away what is being typed
-      field.shown = position;
-      field.degrees.textContent = `${Math.round((jointAngle(joint, position) * 180) / Math.PI)}°`;
+
+    private options(): HTMLElement {
+        const keep = make(
+            'select',
+            { 'aria-label': 'Which foot stays', onchange: () => this.editing.set({ keep: keep.value as Editing['keep'] }) },
+            ...KEEPS.map(([value, title]) => make('option', { value }, title)),
+        );
+        const boxes = OPTIONS.map(([name, title]) => {
+            const box = make('input', {
+                type: 'checkbox',
+                checked: this.editing.get()[name],
+                onchange: () => this.editing.set({ [name]: box.checked }),
+            });
+            return make('label', {}, box, title);
+        });
+        const menu = make(
+            'details',
+            { class: 'options' },
+            make('summary', {}, 'View'),
+            make('div', { class: 'menu' }, ...boxes, make('label', {}, 'Stays: ', keep)),
+        );
+        this.disposals.push(closesByItself(menu));
+        return menu;
     }
-  }
 
-  private field(joint: Joint): HTMLElement {
-    const [low, high] = [nearestPosition(joint, joint.low), nearestPosition(joint, joint.high)].sort((a, b) => a - b);
-    const input = make('input', { type: 'number', min: low ?? 0, max: high ?? 0, step: 1, onchange: () => this.set(joint, input) });
-    const degrees = make('output');
-    this.fields.set(joint.servo, { input, degrees, shown: NaN });
-    return make('label', {}, make('span', {}, `${joint.servo} ${jointTitle(joint)}`), input, degrees);
-  }
+    private render(): void {
+        const { mode } = this.editing.get();
+        this.hidden = !isEditing(this.desk.state.get().tab);
+        if (this.hidden) return;
+        for (const [name, button] of this.modes) button.setAttribute('aria-pressed', String(name === mode));
+        const { joints } = this.desk.editor.state.get();
+        this.hint.textContent = mode === 'hand' ? POSE_TEXTS.handMode : joints.size === 0 ? POSE_TEXTS.poseMode : '';
+        this.joints.hidden = mode === 'hand' || joints.size === 0;
+        if (!this.joints.hidden) this.showJoints(joints);
+    }
 
-  private set(joint: Joint, input: HTMLInputElement): void {
-    const field = this.fields.get(joint.servo);
-    if (field) field.shown = NaN; // what comes of it is shown anew
-    if (!Number.isFinite(input.valueAsNumber)) return this.render();
-    const { editor } = this.desk;
-    const position = nearestPosition(joint, jointAngle(joint, input.valueAsNumber));
-    editor.dispatch(changeStep(editor, editor.state.get().document, new Map([[joint.servo, position]]), this.robot));
-    this.render(); // a position that is the same changes nothing in the document
-  }
+    private showJoints(chosen: ReadonlySet<number>): void {
+        const joints = this.desk.body.joints.filter(joint => chosen.has(joint.servo));
+        if (joints.map(joint => joint.servo).join() !== [...this.fields.keys()].join()) {
+            this.fields.clear();
+            this.joints.replaceChildren(...joints.map(joint => this.field(joint)));
+        }
+        const { editor } = this.desk;
+        const { page, step } = editor.state.get();
+        const pose = editor.poseAfter(page, step);
+        for (const joint of joints) {
+            const field = this.fields.get(joint.servo);
+            const position = pose[joint.servo] ?? joint.zero;
+            if (!field) continue;
+            if (field.shown !== position) field.input.value = String(position); // else it would take away what is being typed
+            field.shown = position;
+            field.degrees.textContent = `${Math.round((jointAngle(joint, position) * 180) / Math.PI)}°`;
+        }
+    }
 
-  private showBalance(): void {
-    const margin = this.margin();
-    const isInHand = this.editing.get().mode === 'hand' && this.robot?.isHeld === true;
-    const text = margin === null ? '' : isInHand ? POSE_TEXTS.held : margin < 0 ? POSE_TEXTS.tips : `Balance: ${Math.round(margin * 1000)} mm inside the soles`;
-    if (this.balance.textContent !== text) this.balance.textContent = text;
-    this.balance.dataset['tone'] = margin !== null && margin < 0 && !isInHand ? 'bad' : 'calm';
-  }
+    private field(joint: Joint): HTMLElement {
+        const [low, high] = [nearestPosition(joint, joint.low), nearestPosition(joint, joint.high)].sort((a, b) => a - b);
+        const input = make('input', { type: 'number', min: low ?? 0, max: high ?? 0, step: 1, onchange: () => this.set(joint, input) });
+        const degrees = make('output');
+        this.fields.set(joint.servo, { input, degrees, shown: NaN });
+        return make('label', {}, make('span', {}, `${joint.servo} ${jointTitle(joint)}`), input, degrees);
+    }
 
-  private showTouches(): void {
-    const text = this.hidden ? '' : touchesText(this.touches());
-    if (this.touch.textContent !== text) this.touch.textContent = text;
-  }
+    private set(joint: Joint, input: HTMLInputElement): void {
+        const field = this.fields.get(joint.servo);
+        if (field) field.shown = NaN; // what comes of it is shown anew
+        if (!Number.isFinite(input.valueAsNumber)) return this.render();
+        const { editor } = this.desk;
+        const position = nearestPosition(joint, jointAngle(joint, input.valueAsNumber));
+        editor.dispatch(changeStep(editor, editor.state.get().document, new Map([[joint.servo, position]]), this.robot));
+        this.render(); // a position that is the same changes nothing in the document
+    }
+
+    private showBalance(): void {
+        const margin = this.margin();
+        const isInHand = this.editing.get().mode === 'hand' && this.robot?.isHeld === true;
+        const text =
+            margin === null
+                ? ''
+                : isInHand
+                  ? POSE_TEXTS.held
+                  : margin < 0
+                    ? POSE_TEXTS.tips
+                    : `Balance: ${Math.round(margin * 1000)} mm inside the soles`;
+        if (this.balance.textContent !== text) this.balance.textContent = text;
+        this.balance.dataset['tone'] = margin !== null && margin < 0 && !isInHand ? 'bad' : 'calm';
+    }
+
+    private showTouches(): void {
+        const text = this.hidden ? '' : touchesText(this.touches());
+        if (this.touch.textContent !== text) this.touch.textContent = text;
+    }
 }
 
 define('pose-bar', PoseBar);

@@ -27,183 +27,191 @@ const SAME_RAD = 0.02;
 const KEY_UNITS = { fine: 1, coarse: 10 };
 
 interface Drag {
-  readonly held: Grab;
-  readonly picked: Picked;
-  gesture: Gesture | null;
+    readonly held: Grab;
+    readonly picked: Picked;
+    gesture: Gesture | null;
 }
 
 export class PoseTool {
-  readonly layer: PoseLayer;
-  private readonly scene: RobotScene;
-  private readonly desk: Desk;
-  private readonly editing: Store<Editing>;
-  private readonly body: Body;
-  private readonly edited: EditedPose;
-  private readonly arrows: JointTurn;
-  private drag: Drag | null = null;
-  /** Where the figure is: the camera goes with it. */
-  figureTrunk: Place | null = null;
-  /** Of what is shown as the edited step; null: nothing is. */
-  private balance: Balance | null = null;
-  private readonly touchWatch: TouchWatch;
+    readonly layer: PoseLayer;
+    private readonly scene: RobotScene;
+    private readonly desk: Desk;
+    private readonly editing: Store<Editing>;
+    private readonly body: Body;
+    private readonly edited: EditedPose;
+    private readonly arrows: JointTurn;
+    private drag: Drag | null = null;
+    /** Where the figure is: the camera goes with it. */
+    figureTrunk: Place | null = null;
+    /** Of what is shown as the edited step; null: nothing is. */
+    private balance: Balance | null = null;
+    private readonly touchWatch: TouchWatch;
 
-  constructor(scene: RobotScene, desk: Desk, editing: Store<Editing>) {
-    this.scene = scene;
-    this.desk = desk;
-    this.editing = editing;
-    this.body = desk.body;
-    this.layer = new PoseLayer(desk.body);
-    this.edited = new EditedPose(desk.editor, desk.body, editing);
-    this.arrows = new JointTurn(desk.editor, desk.body, (start, positions) => changeStep(desk.editor, start, positions, this.edited.robot));
-    this.touchWatch = new TouchWatch(desk.trials);
-    scene.add(this.layer.root);
-  }
+    constructor(scene: RobotScene, desk: Desk, editing: Store<Editing>) {
+        this.scene = scene;
+        this.desk = desk;
+        this.editing = editing;
+        this.body = desk.body;
+        this.layer = new PoseLayer(desk.body);
+        this.edited = new EditedPose(desk.editor, desk.body, editing);
+        this.arrows = new JointTurn(desk.editor, desk.body, (start, positions) =>
+            changeStep(desk.editor, start, positions, this.edited.robot),
+        );
+        this.touchWatch = new TouchWatch(desk.trials);
+        scene.add(this.layer.root);
+    }
 
-  /** Drags in the picture change the step. */
-  get isPosing(): boolean {
-    return isEditing(this.desk.state.get().tab) && this.editing.get().mode === 'pose';
-  }
+    /** Drags in the picture change the step. */
+    get isPosing(): boolean {
+        return isEditing(this.desk.state.get().tab) && this.editing.get().mode === 'pose';
+    }
 
-  get isDragging(): boolean {
-    return this.drag !== null;
-  }
+    get isDragging(): boolean {
+        return this.drag !== null;
+    }
 
-  /** Metres inside the ground of the soles; null: not looked at. */
-  get margin(): number | null {
-    return this.balance?.margin ?? null;
-  }
+    /** Metres inside the ground of the soles; null: not looked at. */
+    get margin(): number | null {
+        return this.balance?.margin ?? null;
+    }
 
-  /** Limbs of the shown figure that are in each other. */
-  get touches(): readonly Touch[] {
-    return this.touchWatch.touches;
-  }
+    /** Limbs of the shown figure that are in each other. */
+    get touches(): readonly Touch[] {
+        return this.touchWatch.touches;
+    }
 
-  /** Servo units by ID of what is edited. */
-  get shownPose(): readonly number[] {
-    return this.edited.positions;
-  }
+    /** Servo units by ID of what is edited. */
+    get shownPose(): readonly number[] {
+        return this.edited.positions;
+    }
 
-  /** Puts figure and ghosts where they belong; true when the figure is the edited step. isInHand: somebody drags the robot, and no ghost covers it. */
-  show(robot: RobotState, isInHand: boolean): boolean {
-    this.edited.robot = robot;
-    const real: Posed = { trunk: robot.trunk, angles: robotAngles(this.body, robot) };
-    const { preview } = this.desk;
-    const shown = preview.pose();
-    const edited = isEditing(this.desk.state.get().tab) && preview.state.get().figure === 'step' ? this.shown() : null;
-    const isPosing = edited !== null && this.isPosing;
-    const alarms = new Set(robot.servos.filter((servo) => servo.alarms !== 0).map((servo) => servo.id));
-    const figure = shown ? { trunk: shown.trunk, angles: anglesOf(this.body, shown.positions, new Map()) } : isPosing && edited ? edited : real;
-    this.figureTrunk = figure.trunk;
-    this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
-    this.scene.figure.show(figure.trunk, figure.angles, isPosing || shown ? new Set() : alarms);
-    this.scene.figure.choose(isPosing ? this.chosenLinks() : new Set());
-    const other = isInHand ? null : isPosing ? real : edited;
-    this.layer.show('ghost', other && edited && !isSame(real.angles, edited.angles) ? other : null, figure);
-    this.showOnion(isInHand ? null : edited, figure);
-    this.balance = edited && this.editing.get().balance ? balanceOf(this.body, edited) : null;
-    this.layer.showBalance(this.balance);
-    this.touchWatch.look(edited ? (isPosing ? this.shownPose : robotPose(robot)) : null);
-    return isPosing;
-  }
+    /** Puts figure and ghosts where they belong; true when the figure is the edited step. isInHand: somebody drags the robot, and no ghost covers it. */
+    show(robot: RobotState, isInHand: boolean): boolean {
+        this.edited.robot = robot;
+        const real: Posed = { trunk: robot.trunk, angles: robotAngles(this.body, robot) };
+        const { preview } = this.desk;
+        const shown = preview.pose();
+        const edited = isEditing(this.desk.state.get().tab) && preview.state.get().figure === 'step' ? this.shown() : null;
+        const isPosing = edited !== null && this.isPosing;
+        const alarms = new Set(robot.servos.filter(servo => servo.alarms !== 0).map(servo => servo.id));
+        const figure = shown
+            ? { trunk: shown.trunk, angles: anglesOf(this.body, shown.positions, new Map()) }
+            : isPosing && edited
+              ? edited
+              : real;
+        this.figureTrunk = figure.trunk;
+        this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
+        this.scene.figure.show(figure.trunk, figure.angles, isPosing || shown ? new Set() : alarms);
+        this.scene.figure.choose(isPosing ? this.chosenLinks() : new Set());
+        const other = isInHand ? null : isPosing ? real : edited;
+        this.layer.show('ghost', other && edited && !isSame(real.angles, edited.angles) ? other : null, figure);
+        this.showOnion(isInHand ? null : edited, figure);
+        this.balance = edited && this.editing.get().balance ? balanceOf(this.body, edited) : null;
+        this.layer.showBalance(this.balance);
+        this.touchWatch.look(edited ? (isPosing ? this.shownPose : robotPose(robot)) : null);
+        return isPosing;
+    }
 
-  /** The figure is the edited step from now on: what is pulled is a step, not a motion or the robot. */
-  showStep(robot: RobotState): void {
-    if (!this.isPosing || this.desk.preview.state.get().figure === 'step') return;
-    this.desk.preview.showStep();
-    this.show(robot, false);
-  }
+    /** The figure is the edited step from now on: what is pulled is a step, not a motion or the robot. */
+    showStep(robot: RobotState): void {
+        if (!this.isPosing || this.desk.preview.state.get().figure === 'step') return;
+        this.desk.preview.showStep();
+        this.show(robot, false);
+    }
 
-  /** Takes hold of what is under the mouse: picks its joints. add: beside those that are chosen. */
-  down(picked: Picked, add: boolean): void {
-    const { angles } = this.edited;
-    const held = grab(this.body, picked.shape, picked.link, picked.point, angles, this.edited.stance(angles));
-    const joints = jointsOfPart(this.body, held.part);
-    const { joints: chosen } = this.desk.editor.state.get();
-    this.desk.editor.select({ joints: new Set(add ? [...chosen, ...joints] : joints) });
-    this.drag = { held, picked, gesture: null };
-  }
+    /** Takes hold of what is under the mouse: picks its joints. add: beside those that are chosen. */
+    down(picked: Picked, add: boolean): void {
+        const { angles } = this.edited;
+        const held = grab(this.body, picked.shape, picked.link, picked.point, angles, this.edited.stance(angles));
+        const joints = jointsOfPart(this.body, held.part);
+        const { joints: chosen } = this.desk.editor.state.get();
+        this.desk.editor.select({ joints: new Set(add ? [...chosen, ...joints] : joints) });
+        this.drag = { held, picked, gesture: null };
+    }
 
-  move(x: number, y: number): void {
-    const { drag } = this;
-    if (!drag) return;
-    const { held } = drag;
-    const target = held.part.kind === 'joint'
-      ? this.scene.dragInPlane(x, y, held.world, jointAxis(held, held.part.joint).axis) : this.scene.drag(x, y, held.world);
-    const positions = changedPositions(this.body, held.angles, dragged(this.body, held, target, this.editing.get().soleFlat));
-    drag.gesture ??= this.desk.editor.gesture('set-joints');
-    drag.gesture.change(changeStep(this.desk.editor, drag.gesture.start, positions, this.edited.robot));
-  }
+    move(x: number, y: number): void {
+        const { drag } = this;
+        if (!drag) return;
+        const { held } = drag;
+        const target =
+            held.part.kind === 'joint'
+                ? this.scene.dragInPlane(x, y, held.world, jointAxis(held, held.part.joint).axis)
+                : this.scene.drag(x, y, held.world);
+        const positions = changedPositions(this.body, held.angles, dragged(this.body, held, target, this.editing.get().soleFlat));
+        drag.gesture ??= this.desk.editor.gesture('set-joints');
+        drag.gesture.change(changeStep(this.desk.editor, drag.gesture.start, positions, this.edited.robot));
+    }
 
-  /** The end of a drag. keep: false takes it back. */
-  up(keep: boolean): void {
-    const gesture = this.drag?.gesture;
-    this.drag = null;
-    if (keep) gesture?.finish();
-    else gesture?.cancel();
-  }
+    /** The end of a drag. keep: false takes it back. */
+    up(keep: boolean): void {
+        const gesture = this.drag?.gesture;
+        this.drag = null;
+        if (keep) gesture?.finish();
+        else gesture?.cancel();
+    }
 
-  /** true: the key was meant for this. Left and right choose a joint, up and down turn what is chosen. */
-  key(event: KeyboardEvent): boolean {
-    if (event.key === 'Escape') return this.escape();
-    const turn = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    const next = event.shiftKey ? undefined : { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    if (next !== undefined) this.chooseNext(next);
-    else if (turn !== undefined) this.turn(turn * (event.shiftKey ? KEY_UNITS.coarse : KEY_UNITS.fine));
-    else return false;
-    return true;
-  }
+    /** true: the key was meant for this. Left and right choose a joint, up and down turn what is chosen. */
+    key(event: KeyboardEvent): boolean {
+        if (event.key === 'Escape') return this.escape();
+        const turn = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+        const next = event.shiftKey ? undefined : { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+        if (next !== undefined) this.chooseNext(next);
+        else if (turn !== undefined) this.turn(turn * (event.shiftKey ? KEY_UNITS.coarse : KEY_UNITS.fine));
+        else return false;
+        return true;
+    }
 
-  /** The arrow was let go: what it turned is one edit. */
-  keyUp(): void {
-    this.arrows.end(true);
-  }
+    /** The arrow was let go: what it turned is one edit. */
+    keyUp(): void {
+        this.arrows.end(true);
+    }
 
-  dispose(): void {
-    this.up(true);
-    this.keyUp();
-    this.layer.dispose();
-  }
+    dispose(): void {
+        this.up(true);
+        this.keyUp();
+        this.layer.dispose();
+    }
 
-  private escape(): boolean {
-    const isOpen = this.drag !== null || this.arrows.isHeld;
-    this.up(false);
-    this.arrows.end(false);
-    if (!isOpen) this.desk.editor.select({ joints: new Set() });
-    return true;
-  }
+    private escape(): boolean {
+        const isOpen = this.drag !== null || this.arrows.isHeld;
+        this.up(false);
+        this.arrows.end(false);
+        if (!isOpen) this.desk.editor.select({ joints: new Set() });
+        return true;
+    }
 
-  private turn(units: number): void {
-    if (this.desk.editor.state.get().joints.size === 0) this.chooseNext(1);
-    this.arrows.turn(units, () => this.shownPose);
-  }
+    private turn(units: number): void {
+        if (this.desk.editor.state.get().joints.size === 0) this.chooseNext(1);
+        this.arrows.turn(units, () => this.shownPose);
+    }
 
-  private chooseNext(by: number): void {
-    const ids = this.body.joints.map((joint) => joint.servo).sort((a, b) => a - b);
-    const [first] = [...this.desk.editor.state.get().joints].sort((a, b) => a - b);
-    const at = first === undefined ? (by > 0 ? -1 : 0) : ids.indexOf(first);
-    const id = ids[(at + by + ids.length) % ids.length];
-    if (id !== undefined) this.desk.editor.select({ joints: new Set([id]) });
-  }
+    private chooseNext(by: number): void {
+        const ids = this.body.joints.map(joint => joint.servo).sort((a, b) => a - b);
+        const [first] = [...this.desk.editor.state.get().joints].sort((a, b) => a - b);
+        const at = first === undefined ? (by > 0 ? -1 : 0) : ids.indexOf(first);
+        const id = ids[(at + by + ids.length) % ids.length];
+        if (id !== undefined) this.desk.editor.select({ joints: new Set([id]) });
+    }
 
-  /** The edited step; while the mouse drags, on the foot on which it stood before. */
-  private shown(): Posed {
-    const { angles } = this.edited;
-    return this.edited.posed(angles, this.drag?.held.stance ?? this.edited.stance(angles));
-  }
+    /** The edited step; while the mouse drags, on the foot on which it stood before. */
+    private shown(): Posed {
+        const { angles } = this.edited;
+        return this.edited.posed(angles, this.drag?.held.stance ?? this.edited.stance(angles));
+    }
 
-  private showOnion(edited: Posed | null, figure: Posed): void {
-    const { step } = this.desk.editor.state.get();
-    const skin = (at: number): Posed | null => (edited && this.editing.get().onionSkin ? this.edited.atStep(at) : null);
-    this.layer.show('before', skin(step - 1), figure);
-    this.layer.show('after', skin(step + 1), figure);
-  }
+    private showOnion(edited: Posed | null, figure: Posed): void {
+        const { step } = this.desk.editor.state.get();
+        const skin = (at: number): Posed | null => (edited && this.editing.get().onionSkin ? this.edited.atStep(at) : null);
+        this.layer.show('before', skin(step - 1), figure);
+        this.layer.show('after', skin(step + 1), figure);
+    }
 
-  private chosenLinks(): Set<string> {
-    const { joints } = this.desk.editor.state.get();
-    return new Set(this.body.joints.filter((joint) => joints.has(joint.servo)).map((joint) => joint.body));
-  }
+    private chosenLinks(): Set<string> {
+        const { joints } = this.desk.editor.state.get();
+        return new Set(this.body.joints.filter(joint => joints.has(joint.servo)).map(joint => joint.body));
+    }
 }
 
 function isSame(a: Angles, b: Angles): boolean {
-  return [...a].every(([servo, angle]) => Math.abs(angle - (b.get(servo) ?? 0)) < SAME_RAD);
+    return [...a].every(([servo, angle]) => Math.abs(angle - (b.get(servo) ?? 0)) < SAME_RAD);
 }

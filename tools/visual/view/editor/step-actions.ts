@@ -9,170 +9,199 @@ import { define, make } from '../element.ts';
 import { STEP_TEXTS } from './step-texts.ts';
 
 interface Action {
-  readonly title: string;
-  readonly hint: string;
-  /** Works with the row of steps under the keyboard. */
-  readonly key?: string;
-  readonly deed: () => void;
-  readonly needs: 'nothing' | 'step' | 'two';
+    readonly title: string;
+    readonly hint: string;
+    /** Works with the row of steps under the keyboard. */
+    readonly key?: string;
+    readonly deed: () => void;
+    readonly needs: 'nothing' | 'step' | 'two';
 }
 
 export class StepActions extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private robot: RobotState | null = null;
-  private readonly buttons = new Map<Action, HTMLButtonElement>();
-  private readonly disposals: (() => void)[] = [];
-  readonly actions: readonly Action[] = [
-    { title: 'Insert', hint: 'A step before the chosen one, half-way to it', key: 'Insert', deed: () => this.insert(), needs: 'step' },
-    { title: 'Duplicate', hint: 'The chosen steps once more', key: 'd', deed: () => this.duplicate(), needs: 'step' },
-    { title: 'Between', hint: 'A step half-way between this one and the next', key: 'b', deed: () => this.between(), needs: 'two' },
-    { title: 'Mirror ◂', hint: 'The left side becomes the mirror image of the right', key: 'm', deed: () => this.mirror('right'), needs: 'step' },
-    { title: 'Mirror ▸', hint: 'The right side becomes the mirror image of the left', key: 'M', deed: () => this.mirror('left'), needs: 'step' },
-    { title: 'Exchange sides', hint: 'Left becomes right and right becomes left', key: 'x', deed: () => this.exchange(), needs: 'step' },
-    { title: 'Copy', hint: 'As readable text, for another page or window', deed: () => void this.copy(), needs: 'step' },
-    { title: 'Paste', hint: 'Behind the chosen step', deed: () => void this.paste(), needs: 'nothing' },
-    { title: 'Delete', hint: 'The chosen steps', key: 'Delete', deed: () => this.deleteSteps(), needs: 'step' },
-  ];
+    desk!: Desk; // set before it is connected
+    private robot: RobotState | null = null;
+    private readonly buttons = new Map<Action, HTMLButtonElement>();
+    private readonly disposals: (() => void)[] = [];
+    readonly actions: readonly Action[] = [
+        { title: 'Insert', hint: 'A step before the chosen one, half-way to it', key: 'Insert', deed: () => this.insert(), needs: 'step' },
+        { title: 'Duplicate', hint: 'The chosen steps once more', key: 'd', deed: () => this.duplicate(), needs: 'step' },
+        { title: 'Between', hint: 'A step half-way between this one and the next', key: 'b', deed: () => this.between(), needs: 'two' },
+        {
+            title: 'Mirror ◂',
+            hint: 'The left side becomes the mirror image of the right',
+            key: 'm',
+            deed: () => this.mirror('right'),
+            needs: 'step',
+        },
+        {
+            title: 'Mirror ▸',
+            hint: 'The right side becomes the mirror image of the left',
+            key: 'M',
+            deed: () => this.mirror('left'),
+            needs: 'step',
+        },
+        {
+            title: 'Exchange sides',
+            hint: 'Left becomes right and right becomes left',
+            key: 'x',
+            deed: () => this.exchange(),
+            needs: 'step',
+        },
+        { title: 'Copy', hint: 'As readable text, for another page or window', deed: () => void this.copy(), needs: 'step' },
+        { title: 'Paste', hint: 'Behind the chosen step', deed: () => void this.paste(), needs: 'nothing' },
+        { title: 'Delete', hint: 'The chosen steps', key: 'Delete', deed: () => this.deleteSteps(), needs: 'step' },
+    ];
 
-  connectedCallback(): void {
-    this.setAttribute('role', 'toolbar');
-    this.setAttribute('aria-label', 'Chosen steps');
-    this.replaceChildren(...this.actions.map((action) => {
-      const title = action.key ? `${action.hint} (${action.key.length === 1 ? `${/[A-Z]/.test(action.key) ? 'Shift+' : ''}${action.key.toUpperCase()}` : action.key})` : action.hint;
-      const button = make('button', { title, onclick: action.deed }, action.title);
-      this.buttons.set(action, button);
-      return button;
-    }));
-    this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.onFrame((robot) => (this.robot = robot)));
-  }
-
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  /** A key over the row of steps; true: it was one of these. */
-  key(event: KeyboardEvent): boolean {
-    if (event.ctrlKey || event.metaKey || event.altKey) return false;
-    const action = this.actions.find(({ key }) => key === event.key);
-    const button = action && this.buttons.get(action);
-    if (!button || button.disabled) return false;
-    action.deed();
-    return true;
-  }
-
-  /** The clipboard's own events: they need no permission. */
-  onCopy(event: ClipboardEvent): void {
-    event.clipboardData?.setData('text/plain', this.text());
-    event.preventDefault();
-  }
-
-  onCut(event: ClipboardEvent): void {
-    this.onCopy(event);
-    this.deleteSteps();
-  }
-
-  onPaste(event: ClipboardEvent): void {
-    this.take(event.clipboardData?.getData('text/plain') ?? '');
-    event.preventDefault();
-  }
-
-  /** A step that is the robot as it stands, behind the chosen one. */
-  addFromRobot(): void {
-    if (!this.robot) return;
-    const { editor } = this.desk;
-    const { page, step, document } = editor.state.get();
-    const count = editor.page(page).steps.length;
-    const positions = robotPositions(this.robot);
-    const before = count > 0 ? editor.poseAfter(page, step) : positions;
-    const at = count > 0 ? step + 1 : 0;
-    if (editor.dispatch(editor.edits.insertSteps(document, page, at, [easyStep(positions, before)]))) this.choose(at, 1);
-  }
-
-  private render(): void {
-    const { editor } = this.desk;
-    const { page, step } = editor.state.get();
-    const count = editor.page(page).steps.length;
-    for (const [{ needs }, button] of this.buttons) button.disabled = needs === 'step' ? count === 0 : needs === 'two' ? step + 1 >= count : false;
-  }
-
-  private choose(from: number, count: number): void {
-    this.desk.editor.select({ step: from, steps: new Set(Array.from({ length: count }, (_, i) => from + i)) });
-  }
-
-  private insert(): void {
-    const { editor } = this.desk;
-    const { page, step, document } = editor.state.get();
-    const { steps } = editor.page(page);
-    const next = steps[step];
-    if (!next) return;
-    const before = editor.poseAfter(page, step - 1);
-    const positions = next.positions.map((to, id) => (to === null ? null : Math.round((to + (step > 0 ? (before[id] ?? to) : to)) / 2)));
-    if (editor.dispatch(editor.edits.insertSteps(document, page, step, [{ ...next, positions, pause: 0 }]))) this.choose(step, 1);
-  }
-
-  private duplicate(): void {
-    const { editor } = this.desk;
-    const { page, steps, document } = editor.state.get();
-    const last = Math.max(...steps);
-    if (editor.dispatch(editor.edits.duplicateSteps(document, page, steps))) this.choose(last + 1, steps.size);
-  }
-
-  private between(): void {
-    const { editor } = this.desk;
-    const { page, step, document } = editor.state.get();
-    if (editor.dispatch(editor.edits.interpolate(document, page, step))) this.choose(step + 1, 1);
-  }
-
-  private mirror(from: 'right' | 'left'): void {
-    const { editor } = this.desk;
-    const { page, steps, document } = editor.state.get();
-    editor.dispatch(editor.edits.mirrorSteps(document, page, steps, editor.pairs, from));
-  }
-
-  private exchange(): void {
-    const { editor } = this.desk;
-    const { page, steps, document } = editor.state.get();
-    editor.dispatch(editor.edits.exchangeSteps(document, page, steps, editor.pairs));
-  }
-
-  private deleteSteps(): void {
-    const { editor } = this.desk;
-    const { page, steps, document } = editor.state.get();
-    const first = Math.min(...steps);
-    if (editor.dispatch(editor.edits.deleteSteps(document, page, steps))) this.choose(Math.max(0, Math.min(first, editor.page(page).steps.length - 1)), 1);
-  }
-
-  private text(): string {
-    const { editor } = this.desk;
-    const { page, steps } = editor.state.get();
-    return stepsToText(editor.page(page).steps.filter((_, index) => steps.has(index)));
-  }
-
-  private async copy(): Promise<void> {
-    try {
-      await navigator.clipboard.writeText(this.text());
-      this.desk.say({ text: STEP_TEXTS.copied, tone: 'good' });
-    } catch {
-      this.desk.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' }); // the browser forbids it here
+    connectedCallback(): void {
+        this.setAttribute('role', 'toolbar');
+        this.setAttribute('aria-label', 'Chosen steps');
+        this.replaceChildren(
+            ...this.actions.map(action => {
+                const title = action.key
+                    ? `${action.hint} (${action.key.length === 1 ? `${/[A-Z]/.test(action.key) ? 'Shift+' : ''}${action.key.toUpperCase()}` : action.key})`
+                    : action.hint;
+                const button = make('button', { title, onclick: action.deed }, action.title);
+                this.buttons.set(action, button);
+                return button;
+            }),
+        );
+        this.disposals.push(
+            this.desk.editor.state.watch(() => this.render()),
+            this.desk.onFrame(robot => (this.robot = robot)),
+        );
     }
-  }
 
-  private async paste(): Promise<void> {
-    try {
-      this.take(await navigator.clipboard.readText());
-    } catch {
-      this.desk.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' });
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
     }
-  }
 
-  private take(text: string): void {
-    const steps = stepsFromText(text);
-    if (!steps) return this.desk.say({ text: STEP_TEXTS.noSteps, tone: 'bad' });
-    const { editor } = this.desk;
-    const { page, document, steps: chosen } = editor.state.get();
-    const at = editor.page(page).steps.length === 0 ? 0 : Math.max(...chosen) + 1;
-    if (editor.dispatch(editor.edits.insertSteps(document, page, at, steps, 'paste-steps'))) this.choose(at, steps.length);
-  }
+    /** A key over the row of steps; true: it was one of these. */
+    key(event: KeyboardEvent): boolean {
+        if (event.ctrlKey || event.metaKey || event.altKey) return false;
+        const action = this.actions.find(({ key }) => key === event.key);
+        const button = action && this.buttons.get(action);
+        if (!button || button.disabled) return false;
+        action.deed();
+        return true;
+    }
+
+    /** The clipboard's own events: they need no permission. */
+    onCopy(event: ClipboardEvent): void {
+        event.clipboardData?.setData('text/plain', this.text());
+        event.preventDefault();
+    }
+
+    onCut(event: ClipboardEvent): void {
+        this.onCopy(event);
+        this.deleteSteps();
+    }
+
+    onPaste(event: ClipboardEvent): void {
+        this.take(event.clipboardData?.getData('text/plain') ?? '');
+        event.preventDefault();
+    }
+
+    /** A step that is the robot as it stands, behind the chosen one. */
+    addFromRobot(): void {
+        if (!this.robot) return;
+        const { editor } = this.desk;
+        const { page, step, document } = editor.state.get();
+        const count = editor.page(page).steps.length;
+        const positions = robotPositions(this.robot);
+        const before = count > 0 ? editor.poseAfter(page, step) : positions;
+        const at = count > 0 ? step + 1 : 0;
+        if (editor.dispatch(editor.edits.insertSteps(document, page, at, [easyStep(positions, before)]))) this.choose(at, 1);
+    }
+
+    private render(): void {
+        const { editor } = this.desk;
+        const { page, step } = editor.state.get();
+        const count = editor.page(page).steps.length;
+        for (const [{ needs }, button] of this.buttons)
+            button.disabled = needs === 'step' ? count === 0 : needs === 'two' ? step + 1 >= count : false;
+    }
+
+    private choose(from: number, count: number): void {
+        this.desk.editor.select({ step: from, steps: new Set(Array.from({ length: count }, (_, i) => from + i)) });
+    }
+
+    private insert(): void {
+        const { editor } = this.desk;
+        const { page, step, document } = editor.state.get();
+        const { steps } = editor.page(page);
+        const next = steps[step];
+        if (!next) return;
+        const before = editor.poseAfter(page, step - 1);
+        const positions = next.positions.map((to, id) =>
+            to === null ? null : Math.round((to + (step > 0 ? (before[id] ?? to) : to)) / 2),
+        );
+        if (editor.dispatch(editor.edits.insertSteps(document, page, step, [{ ...next, positions, pause: 0 }]))) this.choose(step, 1);
+    }
+
+    private duplicate(): void {
+        const { editor } = this.desk;
+        const { page, steps, document } = editor.state.get();
+        const last = Math.max(...steps);
+        if (editor.dispatch(editor.edits.duplicateSteps(document, page, steps))) this.choose(last + 1, steps.size);
+    }
+
+    private between(): void {
+        const { editor } = this.desk;
+        const { page, step, document } = editor.state.get();
+        if (editor.dispatch(editor.edits.interpolate(document, page, step))) this.choose(step + 1, 1);
+    }
+
+    private mirror(from: 'right' | 'left'): void {
+        const { editor } = this.desk;
+        const { page, steps, document } = editor.state.get();
+        editor.dispatch(editor.edits.mirrorSteps(document, page, steps, editor.pairs, from));
+    }
+
+    private exchange(): void {
+        const { editor } = this.desk;
+        const { page, steps, document } = editor.state.get();
+        editor.dispatch(editor.edits.exchangeSteps(document, page, steps, editor.pairs));
+    }
+
+    private deleteSteps(): void {
+        const { editor } = this.desk;
+        const { page, steps, document } = editor.state.get();
+        const first = Math.min(...steps);
+        if (editor.dispatch(editor.edits.deleteSteps(document, page, steps)))
+            this.choose(Math.max(0, Math.min(first, editor.page(page).steps.length - 1)), 1);
+    }
+
+    private text(): string {
+        const { editor } = this.desk;
+        const { page, steps } = editor.state.get();
+        return stepsToText(editor.page(page).steps.filter((_, index) => steps.has(index)));
+    }
+
+    private async copy(): Promise<void> {
+        try {
+            await navigator.clipboard.writeText(this.text());
+            this.desk.say({ text: STEP_TEXTS.copied, tone: 'good' });
+        } catch {
+            this.desk.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' }); // the browser forbids it here
+        }
+    }
+
+    private async paste(): Promise<void> {
+        try {
+            this.take(await navigator.clipboard.readText());
+        } catch {
+            this.desk.say({ text: STEP_TEXTS.noClipboard, tone: 'bad' });
+        }
+    }
+
+    private take(text: string): void {
+        const steps = stepsFromText(text);
+        if (!steps) return this.desk.say({ text: STEP_TEXTS.noSteps, tone: 'bad' });
+        const { editor } = this.desk;
+        const { page, document, steps: chosen } = editor.state.get();
+        const at = editor.page(page).steps.length === 0 ? 0 : Math.max(...chosen) + 1;
+        if (editor.dispatch(editor.edits.insertSteps(document, page, at, steps, 'paste-steps'))) this.choose(at, steps.length);
+    }
 }
 
 define('step-actions', StepActions);

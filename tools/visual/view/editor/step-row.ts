@@ -15,217 +15,243 @@ const PICTURE = { width: 64, height: 84 };
 const DRAG_PX = 6;
 
 interface Card {
-  readonly root: HTMLLIElement;
-  readonly pick: HTMLButtonElement;
-  readonly canvas: HTMLCanvasElement;
-  readonly time: HTMLInputElement;
-  readonly pause: HTMLInputElement;
-  pose: string;
+    readonly root: HTMLLIElement;
+    readonly pick: HTMLButtonElement;
+    readonly canvas: HTMLCanvasElement;
+    readonly time: HTMLInputElement;
+    readonly pause: HTMLInputElement;
+    pose: string;
 }
 
 export class StepRow extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly list = make('ol', { 'aria-label': 'Steps of the page' });
-  private readonly cards: Card[] = [];
-  private readonly empty = make('p', { class: 'empty', tabindex: -1 }, STEP_TEXTS.empty);
-  private playing = -1;
-  private isBehind = false;
-  private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // set before it is connected
+    private readonly list = make('ol', { 'aria-label': 'Steps of the page' });
+    private readonly cards: Card[] = [];
+    private readonly empty = make('p', { class: 'empty', tabindex: -1 }, STEP_TEXTS.empty);
+    private playing = -1;
+    private isBehind = false;
+    private drag: { readonly from: number; readonly startX: number; to: number | null } | null = null;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    const titles = make('p', { class: 'titles', 'aria-hidden': true }, make('span', {}, 'time'), make('span', {}, 'pause'));
-    this.replaceChildren(titles, this.list, this.empty);
-    this.disposals.push(this.desk.editor.state.watch(() => this.render()), this.desk.state.watch(({ tab }) => {
-      if (tab === 'steps' && this.isBehind) this.render();
-      this.markPlaying();
-    }), this.desk.preview.state.watch(() => this.markPlaying()));
-  }
-
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  /** Ctrl+A chooses all steps, wherever in Steps one is, but where one types. */
-  listenForAll(): void {
-    const all = (event: KeyboardEvent): void => {
-      if (event.key.toLowerCase() !== 'a' || !(event.ctrlKey || event.metaKey) || event.altKey || this.desk.state.get().tab !== 'steps') return;
-      if (isTyping(event) || (event.target instanceof Element && event.target.closest('dialog'))) return;
-      event.preventDefault();
-      this.desk.editor.select({ steps: new Set(this.cards.keys()) });
-    };
-    document.addEventListener('keydown', all);
-    this.disposals.push(() => document.removeEventListener('keydown', all));
-  }
-
-  /** The step that the robot plays, or that the picture shows. */
-  private markPlaying(): void {
-    const { where } = this.desk.state.get();
-    const { figure, at } = this.desk.preview.state.get();
-    const { page } = this.desk.editor.state.get();
-    const now = figure === 'shown' ? at : where?.state === 'playing' ? where : null;
-    const playing = now !== null && now.page === page ? now.step - 1 : -1;
-    if (playing === this.playing) return;
-    this.playing = playing;
-    for (const [index, card] of this.cards.entries()) card.root.classList.toggle('playing', index === playing);
-  }
-
-  /** The cursor's card gets the keyboard; without a step, what is said instead of them. */
-  focusCursor(): void {
-    const { page, step } = this.desk.editor.state.get();
-    const isEmpty = this.desk.editor.page(page).steps.length === 0;
-    ((isEmpty ? null : this.cards[step]?.pick) ?? this.empty).focus();
-  }
-
-  private render(): void {
-    this.isBehind = this.desk.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
-    if (this.isBehind) return;
-    const { editor } = this.desk;
-    const state = editor.state.get();
-    const { steps, schedule } = editor.page(state.page);
-    const count = Math.max(1, steps.length); // one that is not seen keeps the room of the first step: nothing jumps when that comes
-    while (this.cards.length > count) this.cards.pop()?.root.remove();
-    while (this.cards.length < count) this.addCard(this.cards.length);
-    this.empty.hidden = steps.length > 0;
-    this.classList.toggle('without', steps.length === 0);
-    const times = stepTimes(editor, state.page);
-    for (const [index, card] of this.cards.entries()) {
-      const isCursor = index === state.step;
-      card.pick.setAttribute('aria-pressed', String(state.steps.has(index)));
-      card.pick.setAttribute('aria-current', String(isCursor));
-      card.pick.tabIndex = isCursor ? 0 : -1;
-      card.root.classList.toggle('playing', index === this.playing);
-      this.showFields(card, schedule, steps[index], times[index]);
-      this.picture(card, index);
+    connectedCallback(): void {
+        const titles = make('p', { class: 'titles', 'aria-hidden': true }, make('span', {}, 'time'), make('span', {}, 'pause'));
+        this.replaceChildren(titles, this.list, this.empty);
+        this.disposals.push(
+            this.desk.editor.state.watch(() => this.render()),
+            this.desk.state.watch(({ tab }) => {
+                if (tab === 'steps' && this.isBehind) this.render();
+                this.markPlaying();
+            }),
+            this.desk.preview.state.watch(() => this.markPlaying()),
+        );
     }
-  }
 
-  private showFields(card: Card, schedule: 'time' | 'speed', step: Step | undefined, seconds: { move: number; pause: number } | undefined): void {
-    const isSpeed = schedule === 'speed';
-    card.time.step = isSpeed ? '1' : '0.05';
-    card.time.title = isSpeed ? 'Speed (256 = 720 degrees a second)' : 'Seconds to get there';
-    const write = (input: HTMLInputElement, value: string): void => {
-      if (document.activeElement !== input) input.value = value;
-    };
-    write(card.time, isSpeed ? String(step?.time ?? 0) : (seconds?.move ?? 0).toFixed(2));
-    write(card.pause, (seconds?.pause ?? 0).toFixed(2));
-  }
-
-  private picture(card: Card, index: number): void {
-    const { editor, body } = this.desk;
-    const pose = editor.poseAfter(editor.state.get().page, index);
-    const key = pose.join();
-    if (key === card.pose) return;
-    card.pose = key;
-    showPose(card.canvas, body, anglesOf(body, pose, new Map()), PICTURE.width, PICTURE.height);
-  }
-
-  private addCard(index: number): void {
-    const canvas = make('canvas', { 'aria-hidden': true });
-    const pick = make('button', { class: 'pick', 'aria-label': `Step ${index + 1}` }, canvas, make('span', { class: 'number' }, String(index + 1)));
-    const time = this.field(index, 'time', 'Time');
-    const pause = this.field(index, 'pause', 'Pause');
-    const root = make('li', {}, pick, time, pause);
-    pick.addEventListener('pointerdown', (event) => this.down(event, index, pick));
-    pick.addEventListener('pointermove', (event) => this.moveDrag(event));
-    pick.addEventListener('pointerup', (event) => this.up(event));
-    pick.addEventListener('pointercancel', () => this.endDrag());
-    pick.addEventListener('keydown', (event) => this.key(event, index));
-    this.cards.push({ root, pick, canvas, time, pause, pose: '' });
-    this.list.append(root);
-  }
-
-  private field(index: number, field: TimedField, title: string): HTMLInputElement {
-    const input = make('input', { type: 'number', min: 0, step: 0.05, 'aria-label': `${title} of step ${index + 1}` });
-    input.addEventListener('change', () => this.setField(index, field, input.valueAsNumber));
-    input.addEventListener('blur', () => this.render());
-    return input;
-  }
-
-  /** What is typed is seconds (or speed); all chosen steps get it when this is one of them. */
-  private setField(index: number, field: TimedField, typed: number): void {
-    const { editor } = this.desk;
-    const { page, steps, document } = editor.state.get();
-    if (!Number.isFinite(typed)) return this.render();
-    const chosen = steps.has(index) ? steps : new Set([index]);
-    const isSpeed = field === 'time' && editor.page(page).schedule === 'speed';
-    const value = isSpeed ? Math.round(typed) : nearestSetting(editor, page, index, field, typed);
-    editor.dispatch(field === 'time' ? editor.edits.setTime(document, page, chosen, value) : editor.edits.setPause(document, page, chosen, value));
-  }
-
-  private choose(index: number, event: { readonly shiftKey: boolean; readonly ctrlKey: boolean; readonly metaKey: boolean }): void {
-    const { step, steps } = this.desk.editor.state.get();
-    let chosen = new Set([index]);
-    if (event.shiftKey) chosen = new Set([...steps, ...Array.from({ length: Math.abs(index - step) + 1 }, (_, i) => Math.min(index, step) + i)]);
-    else if (event.ctrlKey || event.metaKey) {
-      chosen = new Set(steps);
-      if (!chosen.delete(index)) chosen.add(index);
-      if (chosen.size === 0) chosen.add(index);
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
     }
-    this.desk.editor.select({ step: index, steps: chosen });
-  }
 
-  private key(event: KeyboardEvent, index: number): void {
-    const count = this.cards.length;
-    const by = { ArrowLeft: -1, ArrowRight: 1, Home: -count, End: count }[event.key];
-    if (by === undefined) return;
-    event.preventDefault();
-    if (event.altKey) this.moveChosen(by < 0 ? -1 : 1);
-    else {
-      const to = Math.min(Math.max(index + by, 0), count - 1);
-      this.choose(to, { shiftKey: event.shiftKey, ctrlKey: false, metaKey: false });
+    /** Ctrl+A chooses all steps, wherever in Steps one is, but where one types. */
+    listenForAll(): void {
+        const all = (event: KeyboardEvent): void => {
+            if (
+                event.key.toLowerCase() !== 'a' ||
+                !(event.ctrlKey || event.metaKey) ||
+                event.altKey ||
+                this.desk.state.get().tab !== 'steps'
+            )
+                return;
+            if (isTyping(event) || (event.target instanceof Element && event.target.closest('dialog'))) return;
+            event.preventDefault();
+            this.desk.editor.select({ steps: new Set(this.cards.keys()) });
+        };
+        document.addEventListener('keydown', all);
+        this.disposals.push(() => document.removeEventListener('keydown', all));
     }
-    this.focusCursor();
-  }
 
-  /** By keyboard: one place on. */
-  private moveChosen(by: 1 | -1): void {
-    const { steps } = this.desk.editor.state.get();
-    const sorted = [...steps].sort((a, b) => a - b);
-    const to = by < 0 ? (sorted[0] ?? 0) - 1 : (sorted.at(-1) ?? 0) + 2;
-    if (to >= 0 && to <= this.cards.length) this.moveTo(to);
-  }
-
-  /** The chosen steps go before the step that is at `to` now; the cursor goes with them. */
-  private moveTo(to: number): void {
-    const { editor } = this.desk;
-    const { page, step, steps, document } = editor.state.get();
-    if (!editor.dispatch(editor.edits.moveSteps(document, page, steps, to))) return;
-    const sorted = [...steps].sort((a, b) => a - b);
-    const begin = to - sorted.filter((index) => index < to).length;
-    editor.select({ step: begin + Math.max(0, sorted.indexOf(step)), steps: new Set(sorted.map((_, i) => begin + i)) });
-  }
-
-  private down(event: PointerEvent, index: number, pick: HTMLButtonElement): void {
-    if (event.button !== 0) return;
-    if (!this.desk.editor.state.get().steps.has(index) || event.shiftKey || event.ctrlKey || event.metaKey) this.choose(index, event);
-    pick.setPointerCapture(event.pointerId);
-    this.drag = { from: index, startX: event.clientX, to: null };
-  }
-
-  private moveDrag(event: PointerEvent): void {
-    const { drag } = this;
-    if (!drag || (drag.to === null && Math.abs(event.clientX - drag.startX) < DRAG_PX)) return;
-    const middles = this.cards.map(({ root }) => { const box = root.getBoundingClientRect(); return box.left + box.width / 2; });
-    drag.to = middles.filter((middle) => middle < event.clientX).length;
-    for (const [index, { root }] of this.cards.entries()) {
-      root.classList.toggle('drop-before', index === drag.to);
-      root.classList.toggle('drop-behind', index === this.cards.length - 1 && drag.to === this.cards.length);
+    /** The step that the robot plays, or that the picture shows. */
+    private markPlaying(): void {
+        const { where } = this.desk.state.get();
+        const { figure, at } = this.desk.preview.state.get();
+        const { page } = this.desk.editor.state.get();
+        const now = figure === 'shown' ? at : where?.state === 'playing' ? where : null;
+        const playing = now !== null && now.page === page ? now.step - 1 : -1;
+        if (playing === this.playing) return;
+        this.playing = playing;
+        for (const [index, card] of this.cards.entries()) card.root.classList.toggle('playing', index === playing);
     }
-  }
 
-  private up(event: PointerEvent): void {
-    const { drag } = this;
-    this.endDrag();
-    if (!drag) return;
-    if (drag.to !== null) this.moveTo(drag.to);
-    else if (!event.shiftKey && !event.ctrlKey && !event.metaKey) this.choose(drag.from, event);
-  }
+    /** The cursor's card gets the keyboard; without a step, what is said instead of them. */
+    focusCursor(): void {
+        const { page, step } = this.desk.editor.state.get();
+        const isEmpty = this.desk.editor.page(page).steps.length === 0;
+        ((isEmpty ? null : this.cards[step]?.pick) ?? this.empty).focus();
+    }
 
-  private endDrag(): void {
-    this.drag = null;
-    for (const { root } of this.cards) root.classList.remove('drop-before', 'drop-behind');
-  }
+    private render(): void {
+        this.isBehind = this.desk.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
+        if (this.isBehind) return;
+        const { editor } = this.desk;
+        const state = editor.state.get();
+        const { steps, schedule } = editor.page(state.page);
+        const count = Math.max(1, steps.length); // one that is not seen keeps the room of the first step: nothing jumps when that comes
+        while (this.cards.length > count) this.cards.pop()?.root.remove();
+        while (this.cards.length < count) this.addCard(this.cards.length);
+        this.empty.hidden = steps.length > 0;
+        this.classList.toggle('without', steps.length === 0);
+        const times = stepTimes(editor, state.page);
+        for (const [index, card] of this.cards.entries()) {
+            const isCursor = index === state.step;
+            card.pick.setAttribute('aria-pressed', String(state.steps.has(index)));
+            card.pick.setAttribute('aria-current', String(isCursor));
+            card.pick.tabIndex = isCursor ? 0 : -1;
+            card.root.classList.toggle('playing', index === this.playing);
+            this.showFields(card, schedule, steps[index], times[index]);
+            this.picture(card, index);
+        }
+    }
+
+    private showFields(
+        card: Card,
+        schedule: 'time' | 'speed',
+        step: Step | undefined,
+        seconds: { move: number; pause: number } | undefined,
+    ): void {
+        const isSpeed = schedule === 'speed';
+        card.time.step = isSpeed ? '1' : '0.05';
+        card.time.title = isSpeed ? 'Speed (256 = 720 degrees a second)' : 'Seconds to get there';
+        const write = (input: HTMLInputElement, value: string): void => {
+            if (document.activeElement !== input) input.value = value;
+        };
+        write(card.time, isSpeed ? String(step?.time ?? 0) : (seconds?.move ?? 0).toFixed(2));
+        write(card.pause, (seconds?.pause ?? 0).toFixed(2));
+    }
+
+    private picture(card: Card, index: number): void {
+        const { editor, body } = this.desk;
+        const pose = editor.poseAfter(editor.state.get().page, index);
+        const key = pose.join();
+        if (key === card.pose) return;
+        card.pose = key;
+        showPose(card.canvas, body, anglesOf(body, pose, new Map()), PICTURE.width, PICTURE.height);
+    }
+
+    private addCard(index: number): void {
+        const canvas = make('canvas', { 'aria-hidden': true });
+        const pick = make(
+            'button',
+            { class: 'pick', 'aria-label': `Step ${index + 1}` },
+            canvas,
+            make('span', { class: 'number' }, String(index + 1)),
+        );
+        const time = this.field(index, 'time', 'Time');
+        const pause = this.field(index, 'pause', 'Pause');
+        const root = make('li', {}, pick, time, pause);
+        pick.addEventListener('pointerdown', event => this.down(event, index, pick));
+        pick.addEventListener('pointermove', event => this.moveDrag(event));
+        pick.addEventListener('pointerup', event => this.up(event));
+        pick.addEventListener('pointercancel', () => this.endDrag());
+        pick.addEventListener('keydown', event => this.key(event, index));
+        this.cards.push({ root, pick, canvas, time, pause, pose: '' });
+        this.list.append(root);
+    }
+
+    private field(index: number, field: TimedField, title: string): HTMLInputElement {
+        const input = make('input', { type: 'number', min: 0, step: 0.05, 'aria-label': `${title} of step ${index + 1}` });
+        input.addEventListener('change', () => this.setField(index, field, input.valueAsNumber));
+        input.addEventListener('blur', () => this.render());
+        return input;
+    }
+
+    /** What is typed is seconds (or speed); all chosen steps get it when this is one of them. */
+    private setField(index: number, field: TimedField, typed: number): void {
+        const { editor } = this.desk;
+        const { page, steps, document } = editor.state.get();
+        if (!Number.isFinite(typed)) return this.render();
+        const chosen = steps.has(index) ? steps : new Set([index]);
+        const isSpeed = field === 'time' && editor.page(page).schedule === 'speed';
+        const value = isSpeed ? Math.round(typed) : nearestSetting(editor, page, index, field, typed);
+        editor.dispatch(
+            field === 'time' ? editor.edits.setTime(document, page, chosen, value) : editor.edits.setPause(document, page, chosen, value),
+        );
+    }
+
+    private choose(index: number, event: { readonly shiftKey: boolean; readonly ctrlKey: boolean; readonly metaKey: boolean }): void {
+        const { step, steps } = this.desk.editor.state.get();
+        let chosen = new Set([index]);
+        if (event.shiftKey)
+            chosen = new Set([...steps, ...Array.from({ length: Math.abs(index - step) + 1 }, (_, i) => Math.min(index, step) + i)]);
+        else if (event.ctrlKey || event.metaKey) {
+            chosen = new Set(steps);
+            if (!chosen.delete(index)) chosen.add(index);
+            if (chosen.size === 0) chosen.add(index);
+        }
+        this.desk.editor.select({ step: index, steps: chosen });
+    }
+
+    private key(event: KeyboardEvent, index: number): void {
+        const count = this.cards.length;
+        const by = { ArrowLeft: -1, ArrowRight: 1, Home: -count, End: count }[event.key];
+        if (by === undefined) return;
+        event.preventDefault();
+        if (event.altKey) this.moveChosen(by < 0 ? -1 : 1);
+        else {
+            const to = Math.min(Math.max(index + by, 0), count - 1);
+            this.choose(to, { shiftKey: event.shiftKey, ctrlKey: false, metaKey: false });
+        }
+        this.focusCursor();
+    }
+
+    /** By keyboard: one place on. */
+    private moveChosen(by: 1 | -1): void {
+        const { steps } = this.desk.editor.state.get();
+        const sorted = [...steps].sort((a, b) => a - b);
+        const to = by < 0 ? (sorted[0] ?? 0) - 1 : (sorted.at(-1) ?? 0) + 2;
+        if (to >= 0 && to <= this.cards.length) this.moveTo(to);
+    }
+
+    /** The chosen steps go before the step that is at `to` now; the cursor goes with them. */
+    private moveTo(to: number): void {
+        const { editor } = this.desk;
+        const { page, step, steps, document } = editor.state.get();
+        if (!editor.dispatch(editor.edits.moveSteps(document, page, steps, to))) return;
+        const sorted = [...steps].sort((a, b) => a - b);
+        const begin = to - sorted.filter(index => index < to).length;
+        editor.select({ step: begin + Math.max(0, sorted.indexOf(step)), steps: new Set(sorted.map((_, i) => begin + i)) });
+    }
+
+    private down(event: PointerEvent, index: number, pick: HTMLButtonElement): void {
+        if (event.button !== 0) return;
+        if (!this.desk.editor.state.get().steps.has(index) || event.shiftKey || event.ctrlKey || event.metaKey) this.choose(index, event);
+        pick.setPointerCapture(event.pointerId);
+        this.drag = { from: index, startX: event.clientX, to: null };
+    }
+
+    private moveDrag(event: PointerEvent): void {
+        const { drag } = this;
+        if (!drag || (drag.to === null && Math.abs(event.clientX - drag.startX) < DRAG_PX)) return;
+        const middles = this.cards.map(({ root }) => {
+            const box = root.getBoundingClientRect();
+            return box.left + box.width / 2;
+        });
+        drag.to = middles.filter(middle => middle < event.clientX).length;
+        for (const [index, { root }] of this.cards.entries()) {
+            root.classList.toggle('drop-before', index === drag.to);
+            root.classList.toggle('drop-behind', index === this.cards.length - 1 && drag.to === this.cards.length);
+        }
+    }
+
+    private up(event: PointerEvent): void {
+        const { drag } = this;
+        this.endDrag();
+        if (!drag) return;
+        if (drag.to !== null) this.moveTo(drag.to);
+        else if (!event.shiftKey && !event.ctrlKey && !event.metaKey) this.choose(drag.from, event);
+    }
+
+    private endDrag(): void {
+        this.drag = null;
+        for (const { root } of this.cards) root.classList.remove('drop-before', 'drop-behind');
+    }
 }
 
 define('step-row', StepRow);

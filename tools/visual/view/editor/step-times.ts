@@ -9,40 +9,40 @@ import type { Editor } from '../editor-desk.ts';
 export type TimedField = 'time' | 'pause';
 
 export interface StepTime {
-  /** Seconds. */
-  readonly move: number;
-  readonly pause: number;
+    /** Seconds. */
+    readonly move: number;
+    readonly pause: number;
 }
 
 /** Of all steps of a page of the document. */
 export function stepTimes(editor: Editor, page: number): StepTime[] {
-  const { document, law } = editor.state.get();
-  const bytes = pageOf(document, page);
-  const from = editor.firstPose(page);
-  return editor.page(page).steps.map((_, step) => stepSeconds(editor.format, bytes, step, from, law));
+    const { document, law } = editor.state.get();
+    const bytes = pageOf(document, page);
+    const from = editor.firstPose(page);
+    return editor.page(page).steps.map((_, step) => stepSeconds(editor.format, bytes, step, from, law));
 }
 
 function withField(view: PageView, step: number, field: TimedField, value: number): Partial<PageView> {
-  return { steps: view.steps.map((one, index) => (index === step ? { ...one, [field]: value } : one)) };
+    return { steps: view.steps.map((one, index) => (index === step ? { ...one, [field]: value } : one)) };
 }
 
 /** The byte 0..255 with which the firmware comes nearest to so many seconds. Both fields grow with their byte: halving finds it. */
 export function nearestSetting(editor: Editor, page: number, step: number, field: TimedField, seconds: number): number {
-  const { document, law } = editor.state.get();
-  const bytes = pageOf(document, page);
-  const from = editor.firstPose(page);
-  const view = editor.page(page);
-  const lasts = (value: number): number => {
-    const changed = writePage(editor.format, bytes, withField(view, step, field, value));
-    if (!changed.ok) return Infinity;
-    const { move, pause } = stepSeconds(editor.format, changed.value, step, from, law);
-    return field === 'time' ? move : pause;
-  };
-  let [low, high] = [0, BYTE_MAX];
-  while (low < high) {
-    const middle = Math.ceil((low + high) / 2);
-    if (lasts(middle) <= seconds + 1e-9) low = middle;
-    else high = middle - 1;
-  }
-  return low < BYTE_MAX && Math.abs(lasts(low + 1) - seconds) < Math.abs(lasts(low) - seconds) ? low + 1 : low;
+    const { document, law } = editor.state.get();
+    const bytes = pageOf(document, page);
+    const from = editor.firstPose(page);
+    const view = editor.page(page);
+    const lasts = (value: number): number => {
+        const changed = writePage(editor.format, bytes, withField(view, step, field, value));
+        if (!changed.ok) return Infinity;
+        const { move, pause } = stepSeconds(editor.format, changed.value, step, from, law);
+        return field === 'time' ? move : pause;
+    };
+    let [low, high] = [0, BYTE_MAX];
+    while (low < high) {
+        const middle = Math.ceil((low + high) / 2);
+        if (lasts(middle) <= seconds + 1e-9) low = middle;
+        else high = middle - 1;
+    }
+    return low < BYTE_MAX && Math.abs(lasts(low + 1) - seconds) < Math.abs(lasts(low) - seconds) ? low + 1 : low;
 }

@@ -16,28 +16,41 @@ import { TimeLine } from './time-line.ts';
 import './steps-pane.css';
 
 export class StepsPane extends HTMLElement {
-  desk!: Desk; // these are set before it is connected
-  editing!: Store<Editing>;
+    desk!: Desk; // these are set before it is connected
+    editing!: Store<Editing>;
 
-  connectedCallback(): void {
-    const give = <T extends HTMLElement & { desk: Desk }>(element: T): T => Object.assign(element, { desk: this.desk });
-    const actions = give(new StepActions());
-    const row = give(new StepRow());
-    const teach = Object.assign(give(new TeachBar()), { editing: this.editing, add: () => actions.addFromRobot() });
-    const follow = Object.assign(give(new FollowBar()), { editing: this.editing });
-    this.replaceChildren(make('p', { class: 'purpose' }, STEP_TEXTS.purpose), give(new PageHead()), row, give(new TimeLine()), give(new PlayBar()), actions, teach, follow);
-    row.addEventListener('keydown', (event) => {
-      if (event.target instanceof HTMLInputElement || !actions.key(event)) return;
-      event.preventDefault();
-      row.focusCursor();
-    });
-    row.listenForAll();
-    for (const [name, deed] of [['copy', actions.onCopy], ['cut', actions.onCut], ['paste', actions.onPaste]] as const) {
-      row.addEventListener(name, (event) => {
-        if (!(event.target instanceof HTMLInputElement)) deed.call(actions, event);
-      });
+    connectedCallback(): void {
+        const give = <T extends HTMLElement & { desk: Desk }>(element: T): T => Object.assign(element, { desk: this.desk });
+        const actions = give(new StepActions());
+        const row = give(new StepRow());
+        const teach = Object.assign(give(new TeachBar()), { editing: this.editing, add: () => actions.addFromRobot() });
+        const follow = Object.assign(give(new FollowBar()), { editing: this.editing });
+        this.replaceChildren(
+            make('p', { class: 'purpose' }, STEP_TEXTS.purpose),
+            give(new PageHead()),
+            row,
+            give(new TimeLine()),
+            give(new PlayBar()),
+            actions,
+            teach,
+            follow,
+        );
+        row.addEventListener('keydown', event => {
+            if (event.target instanceof HTMLInputElement || !actions.key(event)) return;
+            event.preventDefault();
+            row.focusCursor();
+        });
+        row.listenForAll();
+        for (const [name, deed] of [
+            ['copy', actions.onCopy],
+            ['cut', actions.onCut],
+            ['paste', actions.onPaste],
+        ] as const) {
+            row.addEventListener(name, event => {
+                if (!(event.target instanceof HTMLInputElement)) deed.call(actions, event);
+            });
+        }
     }
-  }
 }
 
 define('steps-pane', StepsPane);

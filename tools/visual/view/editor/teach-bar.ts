@@ -11,98 +11,110 @@ import type { Editing } from './editing.ts';
 import { TEACH_TEXTS } from './step-texts.ts';
 
 export interface LimbGroup {
-  readonly title: string;
-  readonly servos: readonly number[];
+    readonly title: string;
+    readonly servos: readonly number[];
 }
 
 export function limbGroups(body: Body): LimbGroup[] {
-  const servos = (limb: ReturnType<typeof handLimb>): number[] => limb.links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
-  return [
-    { title: 'Right arm', servos: servos(handLimb(body, 'right')) }, { title: 'Left arm', servos: servos(handLimb(body, 'left')) },
-    { title: 'Right leg', servos: servos(footLimb(body, 'right')) }, { title: 'Left leg', servos: servos(footLimb(body, 'left')) },
-  ];
+    const servos = (limb: ReturnType<typeof handLimb>): number[] => limb.links.flatMap(({ joint }) => (joint ? [joint.servo] : []));
+    return [
+        { title: 'Right arm', servos: servos(handLimb(body, 'right')) },
+        { title: 'Left arm', servos: servos(handLimb(body, 'left')) },
+        { title: 'Right leg', servos: servos(footLimb(body, 'right')) },
+        { title: 'Left leg', servos: servos(footLimb(body, 'left')) },
+    ];
 }
 
 export class TeachBar extends HTMLElement {
-  desk!: Desk; // these are set before it is connected
-  editing!: Store<Editing>;
-  /** Takes the robot's pose as a step. */
-  add: () => void = () => undefined;
-  private readonly limbs = new Map<LimbGroup, HTMLButtonElement>();
-  private readonly adds = make('button', { onclick: () => this.add() }, 'Add step from the robot');
-  private readonly hold = make('button', { onclick: () => void this.holdAll() }, 'Hold');
-  private readonly hint = make('p', { class: 'hint', role: 'status', 'aria-label': 'Teaching' });
-  private limp: readonly number[] = [];
-  /** The hand that holds the body was asked for here. */
-  private isCarrying = false;
-  /** Legs were let go in it. */
-  private mustCarry = false;
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // these are set before it is connected
+    editing!: Store<Editing>;
+    /** Takes the robot's pose as a step. */
+    add: () => void = () => undefined;
+    private readonly limbs = new Map<LimbGroup, HTMLButtonElement>();
+    private readonly adds = make('button', { onclick: () => this.add() }, 'Add step from the robot');
+    private readonly hold = make('button', { onclick: () => void this.holdAll() }, 'Hold');
+    private readonly hint = make('p', { class: 'hint', role: 'status', 'aria-label': 'Teaching' });
+    private limp: readonly number[] = [];
+    /** The hand that holds the body was asked for here. */
+    private isCarrying = false;
+    /** Legs were let go in it. */
+    private mustCarry = false;
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    const row = make('div', { class: 'row' });
-    for (const group of limbGroups(this.desk.body)) {
-      const button = make('button', { onclick: () => void this.toggle(group) }, group.title);
-      this.limbs.set(group, button);
-      row.append(button);
+    connectedCallback(): void {
+        const row = make('div', { class: 'row' });
+        for (const group of limbGroups(this.desk.body)) {
+            const button = make('button', { onclick: () => void this.toggle(group) }, group.title);
+            this.limbs.set(group, button);
+            row.append(button);
+        }
+        this.replaceChildren(
+            make('h2', {}, 'Teach by hand: let go of'),
+            row,
+            make('div', { class: 'row' }, this.hold, this.adds),
+            this.hint,
+        );
+        this.disposals.push(
+            this.editing.watch(() => this.render()),
+            this.desk.state.watch(() => this.render()),
+            this.desk.editor.state.watch(() => this.render()),
+            this.desk.onFrame(({ servos }) => {
+                const limp = servos.filter(servo => !servo.torque).map(servo => servo.id);
+                if (limp.join() === this.limp.join()) return;
+                this.limp = limp;
+                this.render();
+            }),
+        );
     }
-    this.replaceChildren(make('h2', {}, 'Teach by hand: let go of'), row,
-      make('div', { class: 'row' }, this.hold, this.adds), this.hint);
-    this.disposals.push(this.editing.watch(() => this.render()), this.desk.state.watch(() => this.render()), this.desk.editor.state.watch(() => this.render()), this.desk.onFrame(({ servos }) => {
-      const limp = servos.filter((servo) => !servo.torque).map((servo) => servo.id);
-      if (limp.join() === this.limp.join()) return;
-      this.limp = limp;
-      this.render();
-    }));
-  }
 
-  disconnectedCallback(): void {
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  private render(): void {
-    const { taught } = this.editing.get();
-    const { editor } = this.desk;
-    this.adds.classList.toggle('primary', editor.page(editor.state.get().page).steps.length === 0); // then there is nothing to play
-    for (const [group, button] of this.limbs) button.setAttribute('aria-pressed', String(group.servos.every((servo) => taught.has(servo))));
-    this.hold.disabled = taught.size === 0 && this.limp.length === 0;
-    const isSimulated = this.desk.state.get().source === 'simulated';
-    this.hint.textContent = this.hold.disabled ? TEACH_TEXTS.stiff : isSimulated ? TEACH_TEXTS.limpSimulated : TEACH_TEXTS.limpYours;
-  }
-
-  /** Lets a limb go, or holds it where it is. In the simulation a hand holds the body meanwhile: whoever pulls at an arm would
-   *  pull the robot over, and limp legs do not carry it. */
-  private async toggle(group: LimbGroup): Promise<void> {
-    const { taught } = this.editing.get();
-    const isTaught = group.servos.every((servo) => taught.has(servo));
-    const next = new Set(isTaught ? [...taught].filter((servo) => !group.servos.includes(servo)) : [...taught, ...group.servos]);
-    this.editing.set({ taught: next, mode: 'hand', follow: false });
-    if (!isTaught && this.desk.state.get().source === 'simulated') this.carry(group);
-    await this.desk.setTorque(isTaught, group.servos);
-    if (isTaught) this.letStand(next);
-  }
-
-  private carry(group: LimbGroup): void {
-    this.desk.lab.hold((this.isCarrying = true));
-    if (/leg$/.test(group.title)) this.mustCarry = true;
-  }
-
-  private async holdAll(): Promise<void> {
-    this.editing.set({ taught: new Set() });
-    await this.desk.setTorque(true, this.limp);
-    this.letStand(new Set());
-  }
-
-  /** On legs that somebody has bent it may not stand: then the hand stays, until Play or "Let go". */
-  private letStand(taught: ReadonlySet<number>): void {
-    if (taught.size > 0 || !this.isCarrying) return;
-    this.isCarrying = false;
-    if (this.mustCarry) {
-      this.mustCarry = false;
-      return this.desk.say({ text: TEACH_TEXTS.handStays, tone: 'calm' });
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
     }
-    this.desk.lab.hold(false);
-  }
+
+    private render(): void {
+        const { taught } = this.editing.get();
+        const { editor } = this.desk;
+        this.adds.classList.toggle('primary', editor.page(editor.state.get().page).steps.length === 0); // then there is nothing to play
+        for (const [group, button] of this.limbs)
+            button.setAttribute('aria-pressed', String(group.servos.every(servo => taught.has(servo))));
+        this.hold.disabled = taught.size === 0 && this.limp.length === 0;
+        const isSimulated = this.desk.state.get().source === 'simulated';
+        this.hint.textContent = this.hold.disabled ? TEACH_TEXTS.stiff : isSimulated ? TEACH_TEXTS.limpSimulated : TEACH_TEXTS.limpYours;
+    }
+
+    /** Lets a limb go, or holds it where it is. In the simulation a hand holds the body meanwhile: whoever pulls at an arm would
+     *  pull the robot over, and limp legs do not carry it. */
+    private async toggle(group: LimbGroup): Promise<void> {
+        const { taught } = this.editing.get();
+        const isTaught = group.servos.every(servo => taught.has(servo));
+        const next = new Set(isTaught ? [...taught].filter(servo => !group.servos.includes(servo)) : [...taught, ...group.servos]);
+        this.editing.set({ taught: next, mode: 'hand', follow: false });
+        if (!isTaught && this.desk.state.get().source === 'simulated') this.carry(group);
+        await this.desk.setTorque(isTaught, group.servos);
+        if (isTaught) this.letStand(next);
+    }
+
+    private carry(group: LimbGroup): void {
+        this.desk.lab.hold((this.isCarrying = true));
+        if (/leg$/.test(group.title)) this.mustCarry = true;
+    }
+
+    private async holdAll(): Promise<void> {
+        this.editing.set({ taught: new Set() });
+        await this.desk.setTorque(true, this.limp);
+        this.letStand(new Set());
+    }
+
+    /** On legs that somebody has bent it may not stand: then the hand stays, until Play or "Let go". */
+    private letStand(taught: ReadonlySet<number>): void {
+        if (taught.size > 0 || !this.isCarrying) return;
+        this.isCarrying = false;
+        if (this.mustCarry) {
+            this.mustCarry = false;
+            return this.desk.say({ text: TEACH_TEXTS.handStays, tone: 'calm' });
+        }
+        this.desk.lab.hold(false);
+    }
 }
 
 define('teach-bar', TeachBar);

@@ -14,158 +14,183 @@ const NEAR_PX = { mouse: 7, finger: 24 };
 const ROOM_S = 0.4;
 
 interface Drag {
-  readonly index: number;
-  readonly field: TimedField;
-  readonly startX: number;
-  readonly startSeconds: number;
-  readonly secondsPerPixel: number;
-  readonly gesture: Gesture;
+    readonly index: number;
+    readonly field: TimedField;
+    readonly startX: number;
+    readonly startSeconds: number;
+    readonly secondsPerPixel: number;
+    readonly gesture: Gesture;
 }
 
 export class TimeLine extends HTMLElement {
-  desk!: Desk; // set before it is connected
-  private readonly bar = make('div', { class: 'bar', role: 'img' });
-  private readonly head = make('i', { class: 'head', hidden: true });
-  private readonly frame = make('div', { class: 'frame' });
-  private isScrubbing = false;
-  private readonly total = make('p', { class: 'total' });
-  private drag: Drag | null = null;
-  private scale = 1;
-  private isBehind = false;
-  private unwatch: () => void = () => undefined;
-  private readonly escape = (event: KeyboardEvent): void => {
-    if (event.key === 'Escape' && this.drag) this.end(false);
-  };
-
-  connectedCallback(): void {
-    this.frame.replaceChildren(this.bar, this.head);
-    this.replaceChildren(this.frame, this.total);
-    this.bar.addEventListener('pointerdown', (event) => this.down(event));
-    this.bar.addEventListener('pointermove', (event) => this.move(event));
-    this.bar.addEventListener('pointerup', () => this.end(true));
-    this.bar.addEventListener('pointercancel', () => this.end(false));
-    window.addEventListener('keydown', this.escape);
-    const unwatchDesk = this.desk.state.watch(({ tab }) => tab === 'steps' && this.isBehind && this.render());
-    const unwatchEditor = this.desk.editor.state.watch(() => this.render());
-    const unwatchPreview = this.desk.preview.state.watch(() => this.renderHead());
-    this.unwatch = () => {
-      unwatchPreview();
-      unwatchDesk();
-      unwatchEditor();
+    desk!: Desk; // set before it is connected
+    private readonly bar = make('div', { class: 'bar', role: 'img' });
+    private readonly head = make('i', { class: 'head', hidden: true });
+    private readonly frame = make('div', { class: 'frame' });
+    private isScrubbing = false;
+    private readonly total = make('p', { class: 'total' });
+    private drag: Drag | null = null;
+    private scale = 1;
+    private isBehind = false;
+    private unwatch: () => void = () => undefined;
+    private readonly escape = (event: KeyboardEvent): void => {
+        if (event.key === 'Escape' && this.drag) this.end(false);
     };
-  }
 
-  disconnectedCallback(): void {
-    this.unwatch();
-    window.removeEventListener('keydown', this.escape);
-  }
+    connectedCallback(): void {
+        this.frame.replaceChildren(this.bar, this.head);
+        this.replaceChildren(this.frame, this.total);
+        this.bar.addEventListener('pointerdown', event => this.down(event));
+        this.bar.addEventListener('pointermove', event => this.move(event));
+        this.bar.addEventListener('pointerup', () => this.end(true));
+        this.bar.addEventListener('pointercancel', () => this.end(false));
+        window.addEventListener('keydown', this.escape);
+        const unwatchDesk = this.desk.state.watch(({ tab }) => tab === 'steps' && this.isBehind && this.render());
+        const unwatchEditor = this.desk.editor.state.watch(() => this.render());
+        const unwatchPreview = this.desk.preview.state.watch(() => this.renderHead());
+        this.unwatch = () => {
+            unwatchPreview();
+            unwatchDesk();
+            unwatchEditor();
+        };
+    }
 
-  private render(): void {
-    this.isBehind = this.desk.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
-    if (this.isBehind) return;
-    const { editor } = this.desk;
-    const { page, steps: chosen } = editor.state.get();
-    const times = stepTimes(editor, page);
-    const isTimed = editor.page(page).schedule === 'time';
-    const all = times.reduce((sum, { move, pause }) => sum + move + pause, 0);
-    if (!this.drag) this.scale = all + ROOM_S; // the scale stands still under a drag
-    const share = (seconds: number): string => `${(100 * seconds) / this.scale}%`;
-    this.bar.replaceChildren(...times.flatMap(({ move, pause }, index) => {
-      const way = make('div', { class: `way${chosen.has(index) ? ' chosen' : ''}` }, make('span', {}, String(index + 1)), isTimed ? this.handle('time') : null);
-      const rest = make('div', { class: 'rest' }, this.handle('pause'));
-      way.style.width = share(move);
-      rest.style.width = share(pause);
-      return [way, rest];
-    }));
-    this.hidden = times.length === 0;
-    this.total.textContent = `${all.toFixed(2)} s`;
-    this.bar.setAttribute('aria-label', `The page takes ${all.toFixed(2)} seconds`);
-  }
+    disconnectedCallback(): void {
+        this.unwatch();
+        window.removeEventListener('keydown', this.escape);
+    }
 
-  /** Beside all ends: the picture shows the moment under the pointer. */
-  private scrub(event: PointerEvent): void {
-    event.preventDefault();
-    this.bar.setPointerCapture(event.pointerId);
-    this.isScrubbing = true;
-    this.seekTo(event);
-  }
+    private render(): void {
+        this.isBehind = this.desk.state.get().tab !== 'steps'; // nobody looks: drawn when somebody does
+        if (this.isBehind) return;
+        const { editor } = this.desk;
+        const { page, steps: chosen } = editor.state.get();
+        const times = stepTimes(editor, page);
+        const isTimed = editor.page(page).schedule === 'time';
+        const all = times.reduce((sum, { move, pause }) => sum + move + pause, 0);
+        if (!this.drag) this.scale = all + ROOM_S; // the scale stands still under a drag
+        const share = (seconds: number): string => `${(100 * seconds) / this.scale}%`;
+        this.bar.replaceChildren(
+            ...times.flatMap(({ move, pause }, index) => {
+                const way = make(
+                    'div',
+                    { class: `way${chosen.has(index) ? ' chosen' : ''}` },
+                    make('span', {}, String(index + 1)),
+                    isTimed ? this.handle('time') : null,
+                );
+                const rest = make('div', { class: 'rest' }, this.handle('pause'));
+                way.style.width = share(move);
+                rest.style.width = share(pause);
+                return [way, rest];
+            }),
+        );
+        this.hidden = times.length === 0;
+        this.total.textContent = `${all.toFixed(2)} s`;
+        this.bar.setAttribute('aria-label', `The page takes ${all.toFixed(2)} seconds`);
+    }
 
-  private seekTo({ clientX }: PointerEvent): void {
-    const { editor, preview } = this.desk;
-    const { page } = editor.state.get();
-    const boxes = [...this.bar.children].map((part) => part.getBoundingClientRect());
-    const part = Math.max(0, boxes.findIndex((box) => clientX < box.right));
-    const box = boxes[clientX >= (boxes.at(-1)?.right ?? 0) ? boxes.length - 1 : part];
-    const index = Math.floor(Math.max(0, boxes.indexOf(box ?? new DOMRect())) / 2);
-    const { move = 0, pause = 0 } = stepTimes(editor, page)[index] ?? {};
-    const share = box ? Math.max(0, Math.min((clientX - box.left) / box.width, 1)) : 0;
-    const isPause = box !== undefined && boxes.indexOf(box) % 2 === 1;
-    preview.seek(page, preview.tickOf(page, index) + Math.round((isPause ? move + share * pause : share * move) * TICKS_PER_SECOND));
-  }
+    /** Beside all ends: the picture shows the moment under the pointer. */
+    private scrub(event: PointerEvent): void {
+        event.preventDefault();
+        this.bar.setPointerCapture(event.pointerId);
+        this.isScrubbing = true;
+        this.seekTo(event);
+    }
 
-  /** The moment that the picture shows, while it is one of this page. */
-  private renderHead(): void {
-    const { editor, preview } = this.desk;
-    const { page } = editor.state.get();
-    const { figure, ticks, at } = preview.state.get();
-    const [way, rest] = [...this.bar.children].slice(2 * (at.step - 1), 2 * at.step) as HTMLElement[];
-    const time = stepTimes(editor, page)[at.step - 1];
-    this.head.hidden = figure !== 'shown' || ticks === 0 || at.page !== page || !way || !rest || !time;
-    if (this.head.hidden || !way || !rest || !time) return;
-    const since = preview.sinceStep() / TICKS_PER_SECOND;
-    const within = (part: HTMLElement, seconds: number, all: number): number => part.offsetLeft + part.offsetWidth * (all > 0 ? Math.min(seconds / all, 1) : 0);
-    this.head.style.left = `${since < time.move ? within(way, since, time.move) : within(rest, since - time.move, time.pause)}px`;
-  }
+    private seekTo({ clientX }: PointerEvent): void {
+        const { editor, preview } = this.desk;
+        const { page } = editor.state.get();
+        const boxes = [...this.bar.children].map(part => part.getBoundingClientRect());
+        const part = Math.max(
+            0,
+            boxes.findIndex(box => clientX < box.right),
+        );
+        const box = boxes[clientX >= (boxes.at(-1)?.right ?? 0) ? boxes.length - 1 : part];
+        const index = Math.floor(Math.max(0, boxes.indexOf(box ?? new DOMRect())) / 2);
+        const { move = 0, pause = 0 } = stepTimes(editor, page)[index] ?? {};
+        const share = box ? Math.max(0, Math.min((clientX - box.left) / box.width, 1)) : 0;
+        const isPause = box !== undefined && boxes.indexOf(box) % 2 === 1;
+        preview.seek(page, preview.tickOf(page, index) + Math.round((isPause ? move + share * pause : share * move) * TICKS_PER_SECOND));
+    }
 
-  private handle(field: TimedField): HTMLElement {
-    return make('i', { class: `handle ${field}`, title: field === 'time' ? 'Drag: how long the step takes' : 'Drag: how long it pauses' });
-  }
+    /** The moment that the picture shows, while it is one of this page. */
+    private renderHead(): void {
+        const { editor, preview } = this.desk;
+        const { page } = editor.state.get();
+        const { figure, ticks, at } = preview.state.get();
+        const [way, rest] = [...this.bar.children].slice(2 * (at.step - 1), 2 * at.step) as HTMLElement[];
+        const time = stepTimes(editor, page)[at.step - 1];
+        this.head.hidden = figure !== 'shown' || ticks === 0 || at.page !== page || !way || !rest || !time;
+        if (this.head.hidden || !way || !rest || !time) return;
+        const since = preview.sinceStep() / TICKS_PER_SECOND;
+        const within = (part: HTMLElement, seconds: number, all: number): number =>
+            part.offsetLeft + part.offsetWidth * (all > 0 ? Math.min(seconds / all, 1) : 0);
+        this.head.style.left = `${since < time.move ? within(way, since, time.move) : within(rest, since - time.move, time.pause)}px`;
+    }
 
-  private down(event: PointerEvent): void {
-    if (event.button !== 0) return;
-    const end = this.endAt(event);
-    if (!end) return this.scrub(event);
-    event.preventDefault();
-    this.bar.setPointerCapture(event.pointerId);
-    const { index, field } = end;
-    const { editor } = this.desk;
-    const times = stepTimes(editor, editor.state.get().page)[index];
-    const gesture = editor.gesture(field === 'time' ? 'set-time' : 'set-pause');
-    const startSeconds = (field === 'time' ? times?.move : times?.pause) ?? 0;
-    this.drag = { index, field, startX: event.clientX, startSeconds, secondsPerPixel: this.scale / Math.max(1, this.bar.clientWidth), gesture };
-  }
+    private handle(field: TimedField): HTMLElement {
+        return make('i', {
+            class: `handle ${field}`,
+            title: field === 'time' ? 'Drag: how long the step takes' : 'Drag: how long it pauses',
+        });
+    }
 
-  /** The nearest end; a step without pause is drawn a little wide, so that both of its ends can be taken hold of. */
-  private endAt({ clientX, pointerType }: PointerEvent): { readonly index: number; readonly field: TimedField } | null {
-    const { editor } = this.desk;
-    const isTimed = editor.page(editor.state.get().page).schedule === 'time';
-    const ends = [...this.bar.children].map((part, i) => {
-      const field: TimedField = i % 2 === 0 ? 'time' : 'pause'; // as render() draws them
-      return { index: Math.floor(i / 2), field, off: Math.abs(clientX - part.getBoundingClientRect().right) };
-    });
-    const [nearest] = ends.filter(({ field }) => isTimed || field === 'pause').sort((a, b) => a.off - b.off);
-    return nearest && nearest.off <= (pointerType === 'touch' ? NEAR_PX.finger : NEAR_PX.mouse) ? nearest : null;
-  }
+    private down(event: PointerEvent): void {
+        if (event.button !== 0) return;
+        const end = this.endAt(event);
+        if (!end) return this.scrub(event);
+        event.preventDefault();
+        this.bar.setPointerCapture(event.pointerId);
+        const { index, field } = end;
+        const { editor } = this.desk;
+        const times = stepTimes(editor, editor.state.get().page)[index];
+        const gesture = editor.gesture(field === 'time' ? 'set-time' : 'set-pause');
+        const startSeconds = (field === 'time' ? times?.move : times?.pause) ?? 0;
+        this.drag = {
+            index,
+            field,
+            startX: event.clientX,
+            startSeconds,
+            secondsPerPixel: this.scale / Math.max(1, this.bar.clientWidth),
+            gesture,
+        };
+    }
 
-  private move(event: PointerEvent): void {
-    if (this.isScrubbing) this.seekTo(event);
-    if (!this.drag) return;
-    const { index, field, startX, startSeconds, secondsPerPixel, gesture } = this.drag;
-    const { editor } = this.desk;
-    const { page } = editor.state.get();
-    const seconds = Math.max(0, startSeconds + (event.clientX - startX) * secondsPerPixel);
-    const value = nearestSetting(editor, page, index, field, seconds);
-    gesture.change(field === 'time' ? editor.edits.setTime(gesture.start, page, [index], value) : editor.edits.setPause(gesture.start, page, [index], value));
-  }
+    /** The nearest end; a step without pause is drawn a little wide, so that both of its ends can be taken hold of. */
+    private endAt({ clientX, pointerType }: PointerEvent): { readonly index: number; readonly field: TimedField } | null {
+        const { editor } = this.desk;
+        const isTimed = editor.page(editor.state.get().page).schedule === 'time';
+        const ends = [...this.bar.children].map((part, i) => {
+            const field: TimedField = i % 2 === 0 ? 'time' : 'pause'; // as render() draws them
+            return { index: Math.floor(i / 2), field, off: Math.abs(clientX - part.getBoundingClientRect().right) };
+        });
+        const [nearest] = ends.filter(({ field }) => isTimed || field === 'pause').sort((a, b) => a.off - b.off);
+        return nearest && nearest.off <= (pointerType === 'touch' ? NEAR_PX.finger : NEAR_PX.mouse) ? nearest : null;
+    }
 
-  private end(keep: boolean): void {
-    const { drag } = this;
-    this.isScrubbing = false;
-    this.drag = null;
-    if (keep) drag?.gesture.finish();
-    else drag?.gesture.cancel();
-    if (drag) this.render();
-  }
+    private move(event: PointerEvent): void {
+        if (this.isScrubbing) this.seekTo(event);
+        if (!this.drag) return;
+        const { index, field, startX, startSeconds, secondsPerPixel, gesture } = this.drag;
+        const { editor } = this.desk;
+        const { page } = editor.state.get();
+        const seconds = Math.max(0, startSeconds + (event.clientX - startX) * secondsPerPixel);
+        const value = nearestSetting(editor, page, index, field, seconds);
+        gesture.change(
+            field === 'time'
+                ? editor.edits.setTime(gesture.start, page, [index], value)
+                : editor.edits.setPause(gesture.start, page, [index], value),
+        );
+    }
+
+    private end(keep: boolean): void {
+        const { drag } = this;
+        this.isScrubbing = false;
+        this.drag = null;
+        if (keep) drag?.gesture.finish();
+        else drag?.gesture.cancel();
+        if (drag) this.render();
+    }
 }
 
 define('time-line', TimeLine);

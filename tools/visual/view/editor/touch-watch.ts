@@ -8,35 +8,35 @@ import type { Trials } from '../trial-desk.ts';
 const NONE: readonly Touch[] = [];
 
 export class TouchWatch {
-  private readonly trials: Pick<Trials, 'touching'>;
-  private asked: readonly number[] | null = null;
-  private wanted: readonly number[] | null = null;
-  private isAsking = false;
-  /** Of the last pose that was answered. */
-  touches = NONE;
+    private readonly trials: Pick<Trials, 'touching'>;
+    private asked: readonly number[] | null = null;
+    private wanted: readonly number[] | null = null;
+    private isAsking = false;
+    /** Of the last pose that was answered. */
+    touches = NONE;
 
-  constructor(trials: Pick<Trials, 'touching'>) {
-    this.trials = trials;
-  }
+    constructor(trials: Pick<Trials, 'touching'>) {
+        this.trials = trials;
+    }
 
-  /** The figure stands like this now (servo units by ID); null: nothing is to be told of it. */
-  look(pose: readonly number[] | null): void {
-    this.wanted = pose;
-    if (pose === null) {
-      this.touches = NONE;
-      this.asked = null;
-    } else if (!this.isAsking && !isSame(pose, this.asked)) void this.ask(pose);
-  }
+    /** The figure stands like this now (servo units by ID); null: nothing is to be told of it. */
+    look(pose: readonly number[] | null): void {
+        this.wanted = pose;
+        if (pose === null) {
+            this.touches = NONE;
+            this.asked = null;
+        } else if (!this.isAsking && !isSame(pose, this.asked)) void this.ask(pose);
+    }
 
-  private async ask(pose: readonly number[]): Promise<void> {
-    this.isAsking = true;
-    this.asked = pose;
-    const touches = await this.trials.touching(pose);
-    this.isAsking = false;
-    if (this.wanted !== null) this.touches = touches;
-  }
+    private async ask(pose: readonly number[]): Promise<void> {
+        this.isAsking = true;
+        this.asked = pose;
+        const touches = await this.trials.touching(pose);
+        this.isAsking = false;
+        if (this.wanted !== null) this.touches = touches;
+    }
 }
 
 function isSame(a: readonly number[], b: readonly number[] | null): boolean {
-  return b !== null && a.every((position, id) => position === b[id]);
+    return b !== null && a.every((position, id) => position === b[id]);
 }

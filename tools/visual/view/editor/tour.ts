@@ -16,136 +16,160 @@ const MOVED_UNITS = 25;
 const RING_PX = 46;
 
 export class TourCard extends HTMLElement {
-  desk!: Desk; // these are set before it is connected
-  editing!: Store<Editing>;
-  /** Where a shape of the robot is on the screen. */
-  placeOf: (shape: string) => { readonly x: number; readonly y: number } | null = () => null;
-  /** A stop wants something in the area. */
-  onArea: () => void = () => undefined;
-  private at = -1;
-  private robot: RobotState | null = null;
-  private armBefore: readonly number[] = [];
-  private readonly heading = make('h2', {});
-  private readonly text = make('p', { role: 'status', 'aria-label': 'Tour' });
-  private readonly next = make('button', { onclick: () => this.go(this.at + 1) }, 'Next');
-  private readonly ring = make('div', { class: 'tour-ring', 'aria-hidden': true });
-  private readonly disposals: (() => void)[] = [];
+    desk!: Desk; // these are set before it is connected
+    editing!: Store<Editing>;
+    /** Where a shape of the robot is on the screen. */
+    placeOf: (shape: string) => { readonly x: number; readonly y: number } | null = () => null;
+    /** A stop wants something in the area. */
+    onArea: () => void = () => undefined;
+    private at = -1;
+    private robot: RobotState | null = null;
+    private armBefore: readonly number[] = [];
+    private readonly heading = make('h2', {});
+    private readonly text = make('p', { role: 'status', 'aria-label': 'Tour' });
+    private readonly next = make('button', { onclick: () => this.go(this.at + 1) }, 'Next');
+    private readonly ring = make('div', { class: 'tour-ring', 'aria-hidden': true });
+    private readonly disposals: (() => void)[] = [];
 
-  connectedCallback(): void {
-    this.hidden = true;
-    this.setAttribute('role', 'region');
-    this.setAttribute('aria-label', 'Tour');
-    this.replaceChildren(this.heading, this.text,
-      make('div', { class: 'row' }, make('button', { class: 'back', onclick: () => this.go(this.at - 1) }, 'Back'), this.next, make('span', { class: 'space' }), make('button', { onclick: () => this.end() }, 'End the tour')));
-    this.ring.hidden = true;
-    document.body.append(this.ring);
-    this.disposals.push(this.desk.onFrame((robot) => {
-      this.robot = robot;
-      this.look();
-    }), this.desk.state.watch(() => this.look()), this.desk.editor.state.watch(() => this.look()), this.editing.watch(() => this.look()));
-  }
-
-  disconnectedCallback(): void {
-    this.ring.remove();
-    for (const dispose of this.disposals.splice(0)) dispose();
-  }
-
-  start(): void {
-    this.hidden = false;
-    this.go(0);
-    this.next.focus();
-  }
-
-  private end(): void {
-    this.hidden = this.ring.hidden = true;
-    this.at = -1;
-  }
-
-  private go(to: number): void {
-    if (to >= TOUR.length) return this.end();
-    this.at = Math.max(0, to);
-    this.armBefore = this.arm();
-    this.heading.textContent = `Your first wave: ${this.at + 1} of ${TOUR.length}`;
-    this.text.textContent = this.stop?.text ?? '';
-    this.next.textContent = this.at === TOUR.length - 1 ? 'Done' : this.at === 0 ? 'Start' : 'Next';
-    this.lead(this.stop?.target ?? '');
-    this.showRing();
-  }
-
-  /** Where the picture is the matter, the card leaves it the room; what is wanted in the area comes into sight. */
-  private lead(target: string): void {
-    this.classList.toggle('low', target !== '' && !target.startsWith('#'));
-    if (!target.startsWith('#')) return;
-    this.onArea();
-    this.find(target.slice(1))?.scrollIntoView({ block: 'nearest' });
-  }
-
-  private get stop(): TourStop | null {
-    return TOUR[this.at] ?? null;
-  }
-
-  private look(): void {
-    if (this.hidden || !this.stop) return;
-    if (this.isReached(this.stop)) this.go(this.at + 1);
-    else this.showRing();
-  }
-
-  private arm(): number[] {
-    return (this.robot?.servos ?? []).filter((servo) => ARM.includes(servo.id)).map((servo) => servo.position);
-  }
-
-  private isReached({ goal, steps }: TourStop): boolean {
-    const { tab, where } = this.desk.state.get();
-    const { editor } = this.desk;
-    const { page } = editor.state.get();
-    const view = editor.page(page);
-    switch (goal) {
-      case 'read': return false;
-      case 'steps-tab': return tab === 'steps';
-      case 'new-page': return tab === 'steps' && view.steps.length === 0;
-      case 'let-go': return ARM.every((servo) => this.editing.get().taught.has(servo));
-      case 'drag': return this.hasMoved() && this.holds();
-      case 'add': return view.steps.length >= (steps ?? 1);
-      case 'name': return view.name !== '';
-      case 'play': return where?.state === 'playing' && where.page === page;
-      default: return goal satisfies never;
+    connectedCallback(): void {
+        this.hidden = true;
+        this.setAttribute('role', 'region');
+        this.setAttribute('aria-label', 'Tour');
+        this.replaceChildren(
+            this.heading,
+            this.text,
+            make(
+                'div',
+                { class: 'row' },
+                make('button', { class: 'back', onclick: () => this.go(this.at - 1) }, 'Back'),
+                this.next,
+                make('span', { class: 'space' }),
+                make('button', { onclick: () => this.end() }, 'End the tour'),
+            ),
+        );
+        this.ring.hidden = true;
+        document.body.append(this.ring);
+        this.disposals.push(
+            this.desk.onFrame(robot => {
+                this.robot = robot;
+                this.look();
+            }),
+            this.desk.state.watch(() => this.look()),
+            this.desk.editor.state.watch(() => this.look()),
+            this.editing.watch(() => this.look()),
+        );
     }
-  }
 
-  private hasMoved(): boolean {
-    const now = this.arm();
-    return now.some((position, i) => Math.abs(position - (this.armBefore[i] ?? position)) > MOVED_UNITS);
-  }
+    disconnectedCallback(): void {
+        this.ring.remove();
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
 
-  private holds(): boolean {
-    return this.robot?.servos.filter((servo) => ARM.includes(servo.id)).every((servo) => servo.torque) === true;
-  }
+    start(): void {
+        this.hidden = false;
+        this.go(0);
+        this.next.focus();
+    }
 
-  private showRing(): void {
-    const { stop } = this;
-    const target = stop?.target ?? '';
-    const box = target.startsWith('#') ? this.boxOf(target.slice(1)) : this.boxOfShape(target);
-    this.ring.hidden = box === null;
-    if (!box) return;
-    const { style } = this.ring;
-    for (const [name, value] of Object.entries(box)) style.setProperty(name, `${Math.round(value)}px`);
-  }
+    private end(): void {
+        this.hidden = this.ring.hidden = true;
+        this.at = -1;
+    }
 
-  /** A tab, a button or a field, by what stands on it. */
-  private boxOf(name: string): { left: number; top: number; width: number; height: number } | null {
-    const box = this.find(name)?.getBoundingClientRect();
-    return box && box.width > 0 ? { left: box.left - 4, top: box.top - 4, width: box.width + 8, height: box.height + 8 } : null;
-  }
+    private go(to: number): void {
+        if (to >= TOUR.length) return this.end();
+        this.at = Math.max(0, to);
+        this.armBefore = this.arm();
+        this.heading.textContent = `Your first wave: ${this.at + 1} of ${TOUR.length}`;
+        this.text.textContent = this.stop?.text ?? '';
+        this.next.textContent = this.at === TOUR.length - 1 ? 'Done' : this.at === 0 ? 'Start' : 'Next';
+        this.lead(this.stop?.target ?? '');
+        this.showRing();
+    }
 
-  private find(name: string): HTMLElement | undefined {
-    const all = document.querySelectorAll<HTMLElement>('[role="tab"], .area:not([hidden]) button, .area:not([hidden]) input');
-    return [...all].find((element) => (element.getAttribute('aria-label') ?? element.textContent) === name);
-  }
+    /** Where the picture is the matter, the card leaves it the room; what is wanted in the area comes into sight. */
+    private lead(target: string): void {
+        this.classList.toggle('low', target !== '' && !target.startsWith('#'));
+        if (!target.startsWith('#')) return;
+        this.onArea();
+        this.find(target.slice(1))?.scrollIntoView({ block: 'nearest' });
+    }
 
-  private boxOfShape(shape: string): { left: number; top: number; width: number; height: number } | null {
-    const at = shape === '' ? null : this.placeOf(shape);
-    return at && { left: at.x - RING_PX / 2, top: at.y - RING_PX / 2, width: RING_PX, height: RING_PX };
-  }
+    private get stop(): TourStop | null {
+        return TOUR[this.at] ?? null;
+    }
+
+    private look(): void {
+        if (this.hidden || !this.stop) return;
+        if (this.isReached(this.stop)) this.go(this.at + 1);
+        else this.showRing();
+    }
+
+    private arm(): number[] {
+        return (this.robot?.servos ?? []).filter(servo => ARM.includes(servo.id)).map(servo => servo.position);
+    }
+
+    private isReached({ goal, steps }: TourStop): boolean {
+        const { tab, where } = this.desk.state.get();
+        const { editor } = this.desk;
+        const { page } = editor.state.get();
+        const view = editor.page(page);
+        switch (goal) {
+            case 'read':
+                return false;
+            case 'steps-tab':
+                return tab === 'steps';
+            case 'new-page':
+                return tab === 'steps' && view.steps.length === 0;
+            case 'let-go':
+                return ARM.every(servo => this.editing.get().taught.has(servo));
+            case 'drag':
+                return this.hasMoved() && this.holds();
+            case 'add':
+                return view.steps.length >= (steps ?? 1);
+            case 'name':
+                return view.name !== '';
+            case 'play':
+                return where?.state === 'playing' && where.page === page;
+            default:
+                return goal satisfies never;
+        }
+    }
+
+    private hasMoved(): boolean {
+        const now = this.arm();
+        return now.some((position, i) => Math.abs(position - (this.armBefore[i] ?? position)) > MOVED_UNITS);
+    }
+
+    private holds(): boolean {
+        return this.robot?.servos.filter(servo => ARM.includes(servo.id)).every(servo => servo.torque) === true;
+    }
+
+    private showRing(): void {
+        const { stop } = this;
+        const target = stop?.target ?? '';
+        const box = target.startsWith('#') ? this.boxOf(target.slice(1)) : this.boxOfShape(target);
+        this.ring.hidden = box === null;
+        if (!box) return;
+        const { style } = this.ring;
+        for (const [name, value] of Object.entries(box)) style.setProperty(name, `${Math.round(value)}px`);
+    }
+
+    /** A tab, a button or a field, by what stands on it. */
+    private boxOf(name: string): { left: number; top: number; width: number; height: number } | null {
+        const box = this.find(name)?.getBoundingClientRect();
+        return box && box.width > 0 ? { left: box.left - 4, top: box.top - 4, width: box.width + 8, height: box.height + 8 } : null;
+    }
+
+    private find(name: string): HTMLElement | undefined {
+        const all = document.querySelectorAll<HTMLElement>('[role="tab"], .area:not([hidden]) button, .area:not([hidden]) input');
+        return [...all].find(element => (element.getAttribute('aria-label') ?? element.textContent) === name);
+    }
+
+    private boxOfShape(shape: string): { left: number; top: number; width: number; height: number } | null {
+        const at = shape === '' ? null : this.placeOf(shape);
+        return at && { left: at.x - RING_PX / 2, top: at.y - RING_PX / 2, width: RING_PX, height: RING_PX };
+    }
 }
 
 /** The right arm. */

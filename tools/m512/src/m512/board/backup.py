@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Backups: a folder with motions.bin, eeprom.bin, app.bin and manifest.json (date, board, sizes, CRCs)."""
+
 from __future__ import annotations
 
 import hashlib
@@ -43,12 +44,23 @@ def take(loader: Loader, folder: Path, areas: list[str], phase) -> Backup:
         raise FileError(f"cannot make {folder}: {error.strerror}") from None
     record = Record.of(data.get("app", b""))
     manifest = {
-        "format": FORMAT, "version": VERSION, "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
-        "board": loader.board or None, "loader": loader.name,
+        "format": FORMAT,
+        "version": VERSION,
+        "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
+        "board": loader.board or None,
+        "loader": loader.name,
         "application": str(record) if record else None,
-        "files": {area: {"file": f"{area}.bin", "address": AREAS[area][0], "bytes": len(data[area]),
-                         "crc16": f"{crc16(data[area]):04X}", "sha256": hashlib.sha256(data[area]).hexdigest()}
-                  for area in areas}}
+        "files": {
+            area: {
+                "file": f"{area}.bin",
+                "address": AREAS[area][0],
+                "bytes": len(data[area]),
+                "crc16": f"{crc16(data[area]):04X}",
+                "sha256": hashlib.sha256(data[area]).hexdigest(),
+            }
+            for area in areas
+        },
+    }
     for area in areas:
         formats.write_bytes(folder / f"{area}.bin", data[area])
     formats.write_bytes(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
@@ -64,8 +76,11 @@ def load(folder: Path) -> Backup:
             raise FileError(f"{folder}: a backup of a kind that this program does not know")
         if not all(isinstance(entry["file"], str) for entry in manifest["files"].values()):
             raise ValueError
-        files = {area: (entry["file"], int(entry["bytes"]), int(entry["crc16"], 16), entry["sha256"])
-                 for area, entry in manifest["files"].items() if area in AREAS}
+        files = {
+            area: (entry["file"], int(entry["bytes"]), int(entry["crc16"], 16), entry["sha256"])
+            for area, entry in manifest["files"].items()
+            if area in AREAS
+        }
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise FileError(f"{folder / MANIFEST} is damaged") from None
     data = {}
@@ -84,8 +99,12 @@ def load(folder: Path) -> Backup:
 
 def flash_pages(backup: Backup, areas: list[str]) -> dict[int, bytes]:
     """The flash areas as page index -> bytes."""
-    return {(AREAS[area][0] + at) // FLASH_PAGE: backup.data[area][at:at + FLASH_PAGE]
-            for area in areas if area != "eeprom" for at in range(0, len(backup.data[area]), FLASH_PAGE)}
+    return {
+        (AREAS[area][0] + at) // FLASH_PAGE: backup.data[area][at : at + FLASH_PAGE]
+        for area in areas
+        if area != "eeprom"
+        for at in range(0, len(backup.data[area]), FLASH_PAGE)
+    }
 
 
 def eeprom_changes(wanted: bytes, found: bytes) -> dict[int, int]:

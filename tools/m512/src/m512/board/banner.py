@@ -6,6 +6,7 @@ other boards speak the same words; their flash is laid out in another way, so th
     a name of the family   refused, whatever the user says
     another name, or none  refused, until the user says which board it is (--board)
 """
+
 from __future__ import annotations
 
 import re
@@ -32,9 +33,11 @@ def board_of(name: str, told: str = "") -> str:
     if not board and _FAMILY.match(plain):
         raise RefusedError(f"the boot loader says that this is a {name}. m512 knows {OURS} only, so nothing was written. Is this the right port?")
     if not board and not told:
-        who = f"the boot loader says that it is on a \"{name}\"" if name else "the boot loader does not say which board it is on"
-        raise RefusedError(f"{who}, so nothing was written. If you know it, say it behind flash, run, backup, restore, pages or diff: --board cm5, "
-                           "or --board cm2 for a CM-2 or CM-2+")
+        who = f'the boot loader says that it is on a "{name}"' if name else "the boot loader does not say which board it is on"
+        raise RefusedError(
+            f"{who}, so nothing was written. If you know it, say it behind flash, run, backup, restore, pages or diff: --board cm5, "
+            "or --board cm2 for a CM-2 or CM-2+"
+        )
     if board and told and board != told:
         raise RefusedError(f"the boot loader says that this is a {name}, and --board says {told}. Nothing was written")
     return board or told

@@ -5,6 +5,7 @@ Frames: 0xA5 command number n body[2 n] CRC-16, answers the same with 0x5A and a
 change nothing may be sent again at will; a write is the same page again, so it may be too. Two writes are under way at
 a time, so that the line is never idle.
 """
+
 from __future__ import annotations
 
 import re
@@ -21,16 +22,20 @@ from m512.files.page import EMPTY
 REQUEST, ANSWER = 0xA5, 0x5A
 HELLO, RATE, READ, WRITE, SUMS, EE_WRITE, LEAVE = range(1, 8)
 OK, EQUAL, REFUSED, BROKEN, BAD_FRAME, BAD_COMMAND = range(6)
-STATUS = {REFUSED: "refused (outside of what may be written)", BROKEN: "the flash does not take the data",
-          BAD_FRAME: "damaged on the line", BAD_COMMAND: "not known to this loader"}
+STATUS = {
+    REFUSED: "refused (outside of what may be written)",
+    BROKEN: "the flash does not take the data",
+    BAD_FRAME: "damaged on the line",
+    BAD_COMMAND: "not known to this loader",
+}
 APP_STATES = {0: "none", 1: "unknown kind", 2: "good", 3: "damaged"}
-WINDOW = 2            # writes under way
+WINDOW = 2  # writes under way
 TRIES = 4
 ANSWER_SECONDS = 1.5
 FAST_RATE, FAST_UBRR, SLOW_UBRR = 117647, 16, 34
 SUMS_MAX = 64
-EEPROM_PAGE, EE_WRITE_MAX = 0x8100, 32     # EEPROM is read as pages from here
-BACK_SECONDS = 4.2    # without a good frame the loader ends a session, and a rate
+EEPROM_PAGE, EE_WRITE_MAX = 0x8100, 32  # EEPROM is read as pages from here
+BACK_SECONDS = 4.2  # without a good frame the loader ends a session, and a rate
 # The first HELLO then has no byte that is a key of an editor, should one be listening instead of the loader.
 FIRST_NUMBER = 159
 TO_PROMPT, TO_APPLICATION, TO_RESET = range(3)
@@ -53,7 +58,7 @@ class BlockLoader:
     """A session with our loader. Use it as a context; it leaves the loader at its prompt, at the usual rate."""
 
     name = "Motion512 boot loader"
-    was_at_prompt = False     # before this program came
+    was_at_prompt = False  # before this program came
 
     def __init__(self, link: Link, identity: str = "", tries: int = 2, seconds: float = ANSWER_SECONDS):
         self.link, self.number, self.rate = link, FIRST_NUMBER, BAUD
@@ -81,7 +86,7 @@ class BlockLoader:
         while True:
             left = deadline - self.link.now()
             some = self.link.read_some(left, 1) if left > 0 else b""
-            if not some:       # silence, or chatter without an answer
+            if not some:  # silence, or chatter without an answer
                 return None
             if some[0] != ANSWER:
                 continue
@@ -110,7 +115,7 @@ class BlockLoader:
             number = self._send(command, body)
             answer = self._receive(seconds)
             while answer and answer[2] != BAD_FRAME and (answer[0], answer[1]) != (command, number):
-                answer = self._receive(seconds)      # of a request before, which came too late
+                answer = self._receive(seconds)  # of a request before, which came too late
             if answer is None:
                 self.link.drain()
                 continue
@@ -152,12 +157,11 @@ class BlockLoader:
             out += known.get(page) or self._ask(READ, page.to_bytes(2, "little"))
             if progress:
                 progress(page - first + 1, last - first + 1)
-        return bytes(out[start - first * FLASH_PAGE:end - first * FLASH_PAGE])
+        return bytes(out[start - first * FLASH_PAGE : end - first * FLASH_PAGE])
 
     def _known(self, first: int, last: int) -> dict[int, bytes]:
         """Pages that hold nothing: erased flash, or half of an empty motion page."""
-        plain = {page_sum(piece): piece for piece in
-                 (b"\xff" * FLASH_PAGE, bytes(FLASH_PAGE), EMPTY[:FLASH_PAGE], EMPTY[FLASH_PAGE:])}
+        plain = {page_sum(piece): piece for piece in (b"\xff" * FLASH_PAGE, bytes(FLASH_PAGE), EMPTY[:FLASH_PAGE], EMPTY[FLASH_PAGE:])}
         sums = self._sums(first, last - first + 1)
         return {page: plain[found] for page, found in sums.items() if found in plain}
 
@@ -169,8 +173,7 @@ class BlockLoader:
             if len(data) != 4 * some:
                 raise NoAnswerError("the loader's answer to SUMS has the wrong length")
             for k in range(some):
-                out[at + k] = (int.from_bytes(data[4 * k:4 * k + 2], "little"),
-                               int.from_bytes(data[4 * k + 2:4 * k + 4], "little"))
+                out[at + k] = (int.from_bytes(data[4 * k : 4 * k + 2], "little"), int.from_bytes(data[4 * k + 2 : 4 * k + 4], "little"))
             if progress:
                 progress(at + some - first, count)
         return out

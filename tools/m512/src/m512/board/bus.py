@@ -5,6 +5,7 @@ console is talked to as if it were a board's line.
 The programs are looked for in $M512_PROGRAMS, in the build folder of a source tree, beside this Python (`pip install motion512`), and in
 the PATH. What the robot keeps is in its own folder: $M512_ROBOT, or the programs' default.
 """
+
 from __future__ import annotations
 
 import os
@@ -24,10 +25,12 @@ from m512.errors import EXIT_BAD_FILE, FileError, M512Error, MissingError, PortE
 from m512.places import build_folder
 
 PREFIX = "bus:"
-START_SECONDS = 120.0      # the search for servos takes up to ten; a busy computer needs more
+START_SECONDS = 120.0  # the search for servos takes up to ten; a busy computer needs more
 END_SECONDS = 30.0
-NO_LOADER = ("servos on an adapter have no board with a boot loader. Motions go there with `m512 put FILE all -p bus:...`; "
-             "what the robot keeps are the files of its folder (hal/host/README.md)")
+NO_LOADER = (
+    "servos on an adapter have no board with a boot loader. Motions go there with `m512 put FILE all -p bus:...`; "
+    "what the robot keeps are the files of its folder (hal/host/README.md)"
+)
 
 
 def is_bus(word: str) -> bool:
@@ -57,8 +60,10 @@ def find_program(image: str) -> Path:
     for place in places:
         if place.exists():
             return place
-    raise MissingError(f"the program {name} is not here: install the wheel motion512 of a release (Linux), build it from the sources "
-                       "(cmake --preset host), or name its folder in M512_PROGRAMS")
+    raise MissingError(
+        f"the program {name} is not here: install the wheel motion512 of a release (Linux), build it from the sources "
+        "(cmake --preset host), or name its folder in M512_PROGRAMS"
+    )
 
 
 class Program:
@@ -71,8 +76,9 @@ class Program:
             command += ["--robot", os.environ["M512_ROBOT"]]
         self.word = word
         # A group of its own: Ctrl-C is for m512, which ends the program when it has said its last word.
-        self.process = subprocess.Popen(command + [device], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                                        start_new_session=True)
+        self.process = subprocess.Popen(
+            command + [device], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
+        )
         assert self.process.stderr is not None
         self.errors: IO[bytes] = self.process.stderr
         self.said = ""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """`m512 doctor -p bus:...`: from the adapter to each servo, what is there, what is wrong, what to do. Torque stays as it is and nothing
 moves. Only with `mend` two registers are written: a rate and a return delay that the programs do not use."""
+
 from __future__ import annotations
 
 from typing import Callable
@@ -12,14 +13,31 @@ from m512.files.text.writer import ranges
 
 # The rates that servos are sold with or were set to, by divisor 2,000,000 / (n + 1).
 RATES = {1000000: 1, 57142: 34, 115200: 16, 500000: 3, 400000: 4, 250000: 7, 200000: 9, 19200: 103, 9600: 207}
-PLAYED = range(31)         # IDs that Play and Edit can drive
+PLAYED = range(31)  # IDs that Play and Edit can drive
 OTHERS = range(31, 254)
-MODELS = {12: "AX-12", 18: "AX-18", 300: "AX-12W", 10: "RX-10", 24: "RX-24F", 28: "RX-28", 64: "RX-64", 107: "EX-106", 113: "DX-113",
-          116: "DX-116", 117: "DX-117", 29: "MX-28", 310: "MX-64", 320: "MX-106", 360: "MX-12W"}
+MODELS = {
+    12: "AX-12",
+    18: "AX-18",
+    300: "AX-12W",
+    10: "RX-10",
+    24: "RX-24F",
+    28: "RX-28",
+    64: "RX-64",
+    107: "EX-106",
+    113: "DX-113",
+    116: "DX-116",
+    117: "DX-117",
+    29: "MX-28",
+    310: "MX-64",
+    320: "MX-106",
+    360: "MX-12W",
+}
 AT_BAUD, AT_DELAY = 4, 5
-DELAY_MIN, DELAY_SOLD = 5, 250     # in 2 us
-NOBODY = ("is their power on (USB does not feed servos), the cable plugged in at both ends, and a switch on the adapter at the right kind of "
-          "bus (TTL for AX)? Plug in one servo alone to find a bad cable")
+DELAY_MIN, DELAY_SOLD = 5, 250  # in 2 us
+NOBODY = (
+    "is their power on (USB does not feed servos), the cable plugged in at both ends, and a switch on the adapter at the right kind of "
+    "bus (TTL for AX)? Plug in one servo alone to find a bad cable"
+)
 
 
 def examine(word: str, tell: Callable[[Finding], None], mend: bool = False) -> list[Finding]:
@@ -48,8 +66,12 @@ def _programs(add) -> None:
 
 def _adapter(line: servos.Bus, add) -> None:
     add("adapter", OK, f"{line.device} opens")
-    add("latency", OK if line.is_fast else WARN, "the driver passes bytes on at once" if line.is_fast else "the driver may hold bytes back",
-        "" if line.is_fast else "motions are as smooth; servos are asked less often. FTDI: 1 in /sys/class/tty/*/device/latency_timer")
+    add(
+        "latency",
+        OK if line.is_fast else WARN,
+        "the driver passes bytes on at once" if line.is_fast else "the driver may hold bytes back",
+        "" if line.is_fast else "motions are as smooth; servos are asked less often. FTDI: 1 in /sys/class/tty/*/device/latency_timer",
+    )
     if line.find_echo():
         add("echo", OK, "the adapter repeats what it is sent: dropped")
 
@@ -73,9 +95,15 @@ def _servos(line: servos.Bus, add, wanted: int, mend: bool) -> None:
 
 def _at_rate(line: servos.Bus, add, rate: int, ids: list[int], wanted: int, mend: bool) -> None:
     is_right = rate == wanted
-    add("servos", OK if is_right else WARN, f"{len(ids)} at {rate} baud: IDs {ranges(ids) or 'none'}",
-        "" if is_right else f"they are not played at {wanted}. One command moves them: m512 doctor -p bus:{line.device} --mend; "
-        f"or play them as they are: -p bus:{line.device}@{rate}")
+    add(
+        "servos",
+        OK if is_right else WARN,
+        f"{len(ids)} at {rate} baud: IDs {ranges(ids) or 'none'}",
+        ""
+        if is_right
+        else f"they are not played at {wanted}. One command moves them: m512 doctor -p bus:{line.device} --mend; "
+        f"or play them as they are: -p bus:{line.device}@{rate}",
+    )
     for id_ in ids:
         _servo(line, add, id_, mend)
         if mend and not is_right:
@@ -91,7 +119,12 @@ def _missing(ids: list[int], add) -> None:
         add("servos", WARN, f"nobody has ID {ranges(gaps)}", "if one should: its cable, or two servos share another ID")
     beyond = [id_ for id_ in ids if id_ not in PLAYED]
     if beyond:
-        add("servos", WARN, f"IDs {ranges(beyond)} are never driven: joints are 0..30", "give them another ID with the monitor image or a maker's tool")
+        add(
+            "servos",
+            WARN,
+            f"IDs {ranges(beyond)} are never driven: joints are 0..30",
+            "give them another ID with the monitor image or a maker's tool",
+        )
 
 
 def _servo(line: servos.Bus, add, id_: int, mend: bool) -> None:
@@ -111,10 +144,14 @@ def _servo(line: servos.Bus, add, id_: int, mend: bool) -> None:
     volts, sold = table[42], _word(table, 0)
     if volts < LOW_BATTERY_DV and not problems:
         problems = [f"{volts / 10:.1f} V: charge the battery soon"]
-    add(what, WARN if problems else OK,
+    add(
+        what,
+        WARN if problems else OK,
         f"{MODELS.get(sold, f'model {sold}')} firmware {table[2]}, at {_word(table, 36)}, goes {_word(table, 6)}..{_word(table, 8)}, "
         f"torque {'on' if table[24] else 'off'} up to {_word(table, 34) * 100 // 1023} %, {volts / 10:.1f} V, {table[43]} C "
-        f"(limits {table[12] / 10:.1f}..{table[13] / 10:.1f} V, {table[11]} C)", "; ".join(problems))
+        f"(limits {table[12] / 10:.1f}..{table[13] / 10:.1f} V, {table[11]} C)",
+        "; ".join(problems),
+    )
     if _word(table, 6) == 0 and _word(table, 8) == 0:
         add(what, WARN, "turns without end (both angle limits are 0), so it takes no goals", "set its angle limits: 0 and 1023")
     if table[AT_DELAY] < DELAY_MIN:
@@ -136,12 +173,16 @@ def _mend_rate(line: servos.Bus, add, id_: int, rate: int, wanted: int) -> None:
     if divisor is None:
         add(f"servo {id_}", WARN, f"no servo has the rate {wanted}", "name one of " + " ".join(map(str, RATES)))
         return
-    line.write(id_, AT_BAUD, divisor)      # it answers at the old rate, or at the new one
+    line.write(id_, AT_BAUD, divisor)  # it answers at the old rate, or at the new one
     line.set_rate(wanted)
     done = line.ask(id_, servos.PING) is not None
     line.set_rate(rate)
-    add(f"servo {id_}", OK if done else BAD, f"moved from {rate} to {wanted} baud" if done else f"does not answer at {wanted} baud",
-        "" if done else "switch its power off and on, and look again")
+    add(
+        f"servo {id_}",
+        OK if done else BAD,
+        f"moved from {rate} to {wanted} baud" if done else f"does not answer at {wanted} baud",
+        "" if done else "switch its power off and on, and look again",
+    )
 
 
 def _mend_delay(line: servos.Bus, add, id_: int, delay: int, mend: bool) -> None:

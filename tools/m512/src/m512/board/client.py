@@ -4,6 +4,7 @@
 A request is a line that begins with '@'; the answer is the next line that begins with the same word and ends in OK or
 in ERR, a number and a sentence. Everything else on the line (echo, prompt, screen) is passed over.
 """
+
 from __future__ import annotations
 
 import re
@@ -30,7 +31,7 @@ class Client:
     def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5), is_met: bool = False, slack: float = 0.0):
         self.link = link
         self.version: dict[str, str] = {}
-        self._listed: dict[int, tuple[int | None, str]] | None = None       # for find(), which a command asks for each of its words
+        self._listed: dict[int, tuple[int | None, str]] | None = None  # for find(), which a command asks for each of its words
         self.slack = 0.0
         if not is_met:
             contact.make(link)
@@ -61,7 +62,7 @@ class Client:
                 return line[:-2].strip()
             match = re.match(r"ERR (\d+) ?(.*)", line)
             if match:
-                if int(match.group(1)) == ERR_LINE:   # the board has not run it
+                if int(match.group(1)) == ERR_LINE:  # the board has not run it
                     continue
                 raise self._error(word, int(match.group(1)), match.group(2))
         raise NoAnswerError(f"no answer to {word}")
@@ -85,8 +86,8 @@ class Client:
             # Flow control, a prompt, the echo and terminal sequences may stand before the answer.
             text = re.sub(rb"\x1b\[[0-9;?]*[A-Za-z]|[\x00\x02\x11\x13\xff]", b"", raw).decode("ascii", "replace").strip()
             at = text.rfind(word + " ")
-            if at >= 0 and re.search(r"(^| )(OK|ERR \d+ .*)$", text[at + len(word):]):
-                return text[at + len(word):].strip()
+            if at >= 0 and re.search(r"(^| )(OK|ERR \d+ .*)$", text[at + len(word) :]):
+                return text[at + len(word) :].strip()
 
     # Pages
 
@@ -159,7 +160,7 @@ class Client:
         self.ask(f"open {number}")
         data = bytes(page)
         for at in range(0, PAGE_BYTES, DATA_BYTES):
-            self.ask(f"data {at} {data[at:at + DATA_BYTES].hex()}")
+            self.ask(f"data {at} {data[at : at + DATA_BYTES].hex()}")
         self.ask(f"save {number} {crc16(data):04X}", 10.0)
 
     # Robot

@@ -10,6 +10,7 @@ has taken it (firmware/edit/editor_keys.c):
 
 Then the line is emptied and ended: a name stays as it was, a question is answered no, a half-typed command is not run.
 """
+
 from __future__ import annotations
 
 import re
@@ -24,14 +25,16 @@ WHO = b"\0@"
 # A boot loader's knock rubs out 100 characters, lines of Edit hold 111: Ctrl-U empties those. To a loader it is a letter, echoed and rubbed out.
 CTRL_U = b"\x15"
 EMPTY = CTRL_U + KNOCK
-STOP, BREAK = b"\r", b"\x03"       # keys that end a play in Edit: through its exit page; at once
-SILENT_SECONDS = 0.5               # a play draws every 0.24 s, and oftener with more than one joint
-DRAWING_SECONDS = 2.0              # the whole screen takes half a second
+STOP, BREAK = b"\r", b"\x03"  # keys that end a play in Edit: through its exit page; at once
+SILENT_SECONDS = 0.5  # a play draws every 0.24 s, and oftener with more than one joint
+DRAWING_SECONDS = 2.0  # the whole screen takes half a second
 STOPPING_SECONDS = 60.0
 RUBBED_OUT = b"\x08 \x08"
 
-PLAYS = ("Edit plays what was typed into its terminal (or asks something there while limp joints are moved). m512 has left it alone: wait "
-         "until it ends, or end it with `m512 stop` (--now: at once)")
+PLAYS = (
+    "Edit plays what was typed into its terminal (or asks something there while limp joints are moved). m512 has left it alone: wait "
+    "until it ends, or end it with `m512 stop` (--now: at once)"
+)
 
 
 def make(link: Link, end: bytes = b"") -> None:

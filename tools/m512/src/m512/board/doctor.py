@@ -3,6 +3,7 @@
 
 It writes nothing to the board and moves nothing.
 """
+
 from __future__ import annotations
 
 import sys
@@ -13,7 +14,7 @@ from m512.board.client import Client
 from m512.errors import M512Error, NoAnswerError, RefusedError
 
 OK, WARN, BAD = "ok", "look", "bad"
-LOW_BATTERY_DV = 96       # below 9.6 V without a load a pack is nearly empty
+LOW_BATTERY_DV = 96  # below 9.6 V without a load a pack is nearly empty
 
 
 @dataclass
@@ -44,8 +45,12 @@ def examine(word: str, tell: Callable[[Finding], None], meet: Callable[..., Clie
 
 
 def _libraries(add) -> None:
-    add("python", OK if sys.version_info >= (3, 9) else BAD, "Python " + sys.version.split()[0],
-        "" if sys.version_info >= (3, 9) else "m512 needs Python 3.9 or later")
+    add(
+        "python",
+        OK if sys.version_info >= (3, 9) else BAD,
+        "Python " + sys.version.split()[0],
+        "" if sys.version_info >= (3, 9) else "m512 needs Python 3.9 or later",
+    )
     from m512.board.sim import find_cm5sim
 
     try:
@@ -58,8 +63,12 @@ def _port(word: str, add) -> str | None:
     from m512.board import ports
 
     found = ports.available()
-    add("ports", OK if found or word else BAD, ", ".join(device for device, _ in found) or "none found",
-        "" if found or word else "plug in the USB adapter; on Linux look at `dmesg | tail`")
+    add(
+        "ports",
+        OK if found or word else BAD,
+        ", ".join(device for device, _ in found) or "none found",
+        "" if found or word else "plug in the USB adapter; on Linux look at `dmesg | tail`",
+    )
     try:
         url = ports.pick(word)
         from m512.board.link import Link
@@ -67,7 +76,7 @@ def _port(word: str, add) -> str | None:
         Link(url).close()
     except M512Error as error:
         if found or word:
-            first = str(error).splitlines()[0].removesuffix("; there are:")   # they stand in the line above
+            first = str(error).splitlines()[0].removesuffix("; there are:")  # they stand in the line above
             add("port", BAD, first, "" if "-p" in first or "--port" in first else "name the port with -p")
         return None
     add("port", OK, f"{url} opens")
@@ -114,26 +123,27 @@ def _loader(link, add) -> None:
         if state in ("none", "damaged"):
             add("application", BAD, f"application: {state}", "flash one: m512 run play-cm5.hex")
         else:
-            add("application", WARN, "the board waits in its boot loader" + (f"; application: {state}" if state else ""),
-                "m512 run starts it")
+            add("application", WARN, "the board waits in its boot loader" + (f"; application: {state}" if state else ""), "m512 run starts it")
         if hasattr(loader, "app_state"):
             loader.leave()
         return
     heard = link.drain(0.3, 1.0)
-    add("board", BAD, f"{len(heard)} bytes came, but nobody answers as Play, Edit or a boot loader" if heard
-        else "silence",
+    add(
+        "board",
+        BAD,
+        f"{len(heard)} bytes came, but nobody answers as Play, Edit or a boot loader" if heard else "silence",
         "is the controller on, and the cable in the socket for the PC? Then press MODE while `m512 term` runs: one byte "
-        "0xFF must come. With the factory's firmware, `m512 flash` works all the same")
+        "0xFF must come. With the factory's firmware, `m512 flash` works all the same",
+    )
 
 
 def _robot(client, add) -> None:
     state = client.where()
     volts = int(state.get("dv", "0"))
     if volts:
-        add("battery", WARN if volts < LOW_BATTERY_DV else OK, f"{volts / 10:.1f} V",
-            "charge it soon" if volts < LOW_BATTERY_DV else "")
+        add("battery", WARN if volts < LOW_BATTERY_DV else OK, f"{volts / 10:.1f} V", "charge it soon" if volts < LOW_BATTERY_DV else "")
     missed = int(state.get("missed", "0"))
-    if missed and client.version.get("image") == "play":     # Edit's missed ones were spent on its screen, while nothing moved
+    if missed and client.version.get("image") == "play":  # Edit's missed ones were spent on its screen, while nothing moved
         add("ticks", WARN, f"{missed} ticks of motion were missed since the start", "motions are not quite smooth")
     faulty = int(state.get("faulty", "0"), 16)
     if faulty:
@@ -142,20 +152,30 @@ def _robot(client, add) -> None:
 
 
 def _servos(client, add) -> None:
-    for _ in range(4):      # right after its start the board has not read all of them yet
+    for _ in range(4):  # right after its start the board has not read all of them yet
         pose = client.pose()
         if pose and all(at is not None for at, _ in pose.values()):
             break
         client.link.sleep(0.4)
     if not pose:
-        add("servos", BAD, "no servo answers", "is the battery connected (USB does not feed servos) and the bus cable plugged in? "
-            "New DX servos talk slowly: Play's `servos` names them, `fast` of the monitor image moves them to 1 Mbps")
+        add(
+            "servos",
+            BAD,
+            "no servo answers",
+            "is the battery connected (USB does not feed servos) and the bus cable plugged in? "
+            "New DX servos talk slowly: Play's `servos` names them, `fast` of the monitor image moves them to 1 Mbps",
+        )
         return
     silent = [joint for joint, (at, _) in pose.items() if at is None]
     limp = [joint for joint, (_, on) in pose.items() if not on]
-    add("servos", BAD if silent else OK, f"{len(pose)} servos, IDs {_ranges(pose)}"
-        + (f"; silent now: {_ranges(silent)}" if silent else "") + (f"; limp: {_ranges(limp)}" if limp else ""),
-        "check the cable before the first silent one" if silent else "")
+    add(
+        "servos",
+        BAD if silent else OK,
+        f"{len(pose)} servos, IDs {_ranges(pose)}"
+        + (f"; silent now: {_ranges(silent)}" if silent else "")
+        + (f"; limp: {_ranges(limp)}" if limp else ""),
+        "check the cable before the first silent one" if silent else "",
+    )
 
 
 def _motions(client, add) -> None:
@@ -163,10 +183,8 @@ def _motions(client, add) -> None:
     good = [n for n, (steps, _) in pages.items() if steps]
     damaged = [n for n, (steps, _) in pages.items() if steps is None]
     if damaged:
-        add("pages", BAD, "damaged: " + " ".join(f"{n} ({pages[n][1]})" for n in damaged),
-            "flash your motions again, or repair the pages in Edit")
-    add("motions", OK if good else WARN, f"{len(good)} pages with an action",
-        "" if good else "flash some: m512 flash library.m512")
+        add("pages", BAD, "damaged: " + " ".join(f"{n} ({pages[n][1]})" for n in damaged), "flash your motions again, or repair the pages in Edit")
+    add("motions", OK if good else WARN, f"{len(good)} pages with an action", "" if good else "flash some: m512 flash library.m512")
 
 
 def _ranges(numbers) -> str:

@@ -3,6 +3,7 @@
 
 Because only differing pages are sent, a download that broke off goes on where it stopped when it is repeated.
 """
+
 from __future__ import annotations
 
 from contextlib import AbstractContextManager
@@ -32,8 +33,9 @@ class Report:
         if not self.written:
             return f"all {self.pages} flash pages were there already"
         again = f", {self.retries} repetitions on the line" if self.retries else ""
-        return (f"{self.written} of {self.pages} flash pages written and read back "
-                f"({self.written * FLASH_PAGE:,} bytes in {self.seconds:.1f} s{again})")
+        return (
+            f"{self.written} of {self.pages} flash pages written and read back ({self.written * FLASH_PAGE:,} bytes in {self.seconds:.1f} s{again})"
+        )
 
 
 def check_board(plan: Plan, loader: Loader) -> None:
@@ -53,19 +55,21 @@ def download(loader: Loader, plan: Plan, phase: PhaseMaker, todo: list[int] | No
         pages = {number: plan.pages[number] for number in todo}
         with phase("Writing") as progress:
             if isinstance(loader, FactoryLoader):
-                _to_factory(loader, pages, progress, plan.pages)       # reads back page by page
+                _to_factory(loader, pages, progress, plan.pages)  # reads back page by page
                 return Report(len(plan.pages), len(todo), loader.link.now() - begun, loader.retries)
             loader.write(pages, progress)
         with phase("Verifying") as progress:
             wrong = loader.different(pages, progress)
         if wrong:
-            raise BoardError("read back wrong at " + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in wrong[:8])
-                             + ". Repeat the command; if that does not help the flash is worn out")
+            raise BoardError(
+                "read back wrong at "
+                + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in wrong[:8])
+                + ". Repeat the command; if that does not help the flash is worn out"
+            )
     return Report(len(plan.pages), len(todo), loader.link.now() - begun, loader.retries)
 
 
-def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callable[[int, int], None],
-                around: dict[int, bytes]) -> None:
+def _to_factory(loader: FactoryLoader, pages: dict[int, bytes], progress: Callable[[int, int], None], around: dict[int, bytes]) -> None:
     """Writes. If something ends it early, the error says in which state the board is and what is safe to do."""
     try:
         loader.write(pages, progress, around)

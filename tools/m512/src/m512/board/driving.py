@@ -4,6 +4,7 @@
 The board ends the play through its exit page when no `@drive` comes for a second (setting `drive`), so a lost cable or a
 program that hangs does not leave a walking robot.
 """
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -12,8 +13,8 @@ from typing import Protocol
 from m512.board.client import Client
 from m512.errors import BoardError
 
-PERIOD = 0.05                     # seconds between two lines
-ASK_EVERY = 20                    # lines: whether it still plays
+PERIOD = 0.05  # seconds between two lines
+ASK_EVERY = 20  # lines: whether it still plays
 RATES, AMPLITUDES, BLENDS = (10, 400), (0, 150), (-100, 100)
 
 
@@ -44,7 +45,7 @@ class Keys:
     """Keys of a terminal, which tells presses and no releases: steering goes back to straight by itself."""
 
     HELP = "a d steer, w s speed, e q size, space stops, x at once"
-    STEER, BACK, FASTER, LARGER = 25.0, 60.0, 10.0, 10.0     # percent a key; percent a second; percent a key
+    STEER, BACK, FASTER, LARGER = 25.0, 60.0, 10.0, 10.0  # percent a key; percent a second; percent a key
 
     def __init__(self) -> None:
         self.pressed = ""
@@ -77,7 +78,7 @@ class Pad:
     def update(self, stick: Stick, seconds: float) -> None:
         across, along = (0.0 if abs(value) < self.DEAD else value for value in (self.pad.axis(0), self.pad.axis(1)))
         stick.blend = _clamp(100 * across, BLENDS)
-        stick.rate = 100 - 50 * _clamp(along, (-1, 1))          # forward is negative
+        stick.rate = 100 - 50 * _clamp(along, (-1, 1))  # forward is negative
         stick.layer = bool(self.pad.button(self.LAYER))
         if any(self.pad.button(n) for n in range(4)):
             stick.done = "stop"

@@ -5,6 +5,7 @@ It acknowledges nothing, checks nothing, and takes late data for typed text. So 
 only then ended; words are long ones, of which no single wrong bit makes another word; all that was written is read back by
 dumps. What writes flash is in factory_flash.py and mailbox.py, which say why they cannot hurt the loader.
 """
+
 from __future__ import annotations
 
 import re
@@ -22,14 +23,14 @@ PROMPT = b"\r\n - "
 KNOCK = b"\x08" * 100 + b"\r"
 DUMP_BYTES = 128
 DUMP_CHARACTERS = 660
-DUMP_AHEAD = 4           # dumps asked for in advance, a few bytes each of the loader's 255
+DUMP_AHEAD = 4  # dumps asked for in advance, a few bytes each of the loader's 255
 TRIES = 4
 DUMP_TRIES = 8
 EEPROM_PIECE = 32
 EEPROM_SECONDS = 0.0085
 START_SECONDS = 0.4
-ECHO_QUIET = 0.02        # behind an echo: a line that doubles would show it by then
-PATIENCE = 4.0           # longest silence that is not yet the end of hope, on a line that answers at once
+ECHO_QUIET = 0.02  # behind an echo: a line that doubles would show it by then
+PATIENCE = 4.0  # longest silence that is not yet the end of hope, on a line that answers at once
 _DUMP_LINE = re.compile(rb"\r\n ([0-9A-F]{8}) : ((?:[0-9A-F]{2} ){16})([\x20-\x7f]{16})")
 
 Progress = Callable[[int, int], None]
@@ -37,13 +38,13 @@ Progress = Callable[[int, int], None]
 
 class FactoryLoader:
     name = "factory boot loader"
-    board = ""            # cm5 or cm2, by its banner (loaders.identify)
-    was_at_prompt = False # before this program came
+    board = ""  # cm5 or cm2, by its banner (loaders.identify)
+    was_at_prompt = False  # before this program came
 
     def __init__(self, link: Link):
         self.link = link
         self.retries = 0
-        self.pace = 1 / 5714             # seconds a byte, there and back: measured by echoes
+        self.pace = 1 / 5714  # seconds a byte, there and back: measured by echoes
         self.open_at: int | None = None
         self.mode_before: int | None = None
         self.stays = False
@@ -69,11 +70,12 @@ class FactoryLoader:
         """The board's state after trouble, and what is safe to do."""
         state = ""
         if self.open_at is not None:
-            state = (f"The board may still wait for the rest of a download to 0x{self.open_at:05X}; only pages that this command "
-                     "writes can change by it. Type nothing into a terminal now. ")
+            state = (
+                f"The board may still wait for the rest of a download to 0x{self.open_at:05X}; only pages that this command "
+                "writes can change by it. Type nothing into a terminal now. "
+            )
         again = "Wait a second and repeat the command: it goes on where it stopped. Its boot loader is unharmed"
-        stays = "; until that has worked the controller stays in it at every start" if self.stays else \
-            "; MODE may be pressed as well"
+        stays = "; until that has worked the controller stays in it at every start" if self.stays else "; MODE may be pressed as well"
         return state + again + stays
 
     def type_line(self, line: str) -> None:
@@ -87,7 +89,7 @@ class FactoryLoader:
                 if not some:
                     break
                 echo += some
-            if echo == line.encode() and not self.link.drain(ECHO_QUIET, 0.1):      # not twice
+            if echo == line.encode() and not self.link.drain(ECHO_QUIET, 0.1):  # not twice
                 self.pace = max(1 / 5714, (self.link.now() - begun - ECHO_QUIET) / (2 * len(line)))
                 return
             self.retries += 1
@@ -121,7 +123,7 @@ class FactoryLoader:
                 if tries == DUMP_TRIES:
                     raise
                 self.clean()
-        return bytes(out[start - first:end - first])
+        return bytes(out[start - first : end - first])
 
     def _dumps(self, word: str, at: int, count: int, modulo: int, ahead: int) -> Iterator[bytes]:
         asked = 0
@@ -134,8 +136,7 @@ class FactoryLoader:
             rows = _DUMP_LINE.findall(text)
             wanted = [(here + 16 * k) % modulo for k in range(DUMP_BYTES // 16)]
             data = [bytes.fromhex(digits.decode()) for _, digits, _ in rows]
-            if [int(address, 16) for address, _, _ in rows] != wanted or any(
-                    _as_text(piece) != shown for piece, (_, _, shown) in zip(data, rows)):
+            if [int(address, 16) for address, _, _ in rows] != wanted or any(_as_text(piece) != shown for piece, (_, _, shown) in zip(data, rows)):
                 self.link.drain(0.2, 3)
                 raise NoAnswerError(f"the dump of 0x{here:X} came damaged")
             yield b"".join(data)
@@ -152,18 +153,17 @@ class FactoryLoader:
         for address, data in Plan(pages).runs(list(pages)):
             found = self.read(address, address + len(data), progress and _behind(progress, done, len(pages)))
             for at in range(0, len(data), FLASH_PAGE):
-                if found[at:at + FLASH_PAGE] != data[at:at + FLASH_PAGE]:
+                if found[at : at + FLASH_PAGE] != data[at : at + FLASH_PAGE]:
                     out.append((address + at) // FLASH_PAGE)
             done += len(data) // FLASH_PAGE
         return out
 
     # Writing flash
 
-    def write(self, pages: dict[int, bytes], progress: Progress | None = None,
-              around: dict[int, bytes] | None = None) -> int:
+    def write(self, pages: dict[int, bytes], progress: Progress | None = None, around: dict[int, bytes] | None = None) -> int:
         """Writes these pages and reads them back. `around`: pages known to be there, which may be written along."""
         if any(page * FLASH_PAGE < APP[1] for page in pages):
-            self.stay()                # a program that is half there must not be started
+            self.stay()  # a program that is half there must not be started
         known, done = {**(around or {}), **pages}, 0
         for unit in factory_flash.units(set(known)):
             todo = {page for page in unit if page in pages}
@@ -179,8 +179,7 @@ class FactoryLoader:
             return unit
         page = next(iter(unit))
         if page * FLASH_PAGE < MOTIONS[0]:
-            raise RefusedError("a program of 256 bytes cannot be written safely through the factory's loader: "
-                               "make it 512 bytes long")
+            raise RefusedError("a program of 256 bytes cannot be written safely through the factory's loader: make it 512 bytes long")
         other = page ^ 1
         return {**unit, other: self.read(other * FLASH_PAGE, (other + 1) * FLASH_PAGE)}
 
@@ -200,8 +199,11 @@ class FactoryLoader:
             todo = set(self.different({page: unit[page] for page in look}))
             if not todo:
                 return
-        raise BoardError("read back wrong at " + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in sorted(todo)[:8])
-                         + f", {TRIES} times. If repeating the command does not help, the flash is worn out")
+        raise BoardError(
+            "read back wrong at "
+            + ", ".join(f"0x{n * FLASH_PAGE:05X}" for n in sorted(todo)[:8])
+            + f", {TRIES} times. If repeating the command does not help, the flash is worn out"
+        )
 
     # Writing EEPROM
 
@@ -286,8 +288,7 @@ def _pieces(cells: dict[int, int]) -> list[tuple[int, bytes]]:
     out: list[tuple[int, bytearray]] = []
     for at in sorted(cells):
         last = out[-1] if out else (-1, bytearray())
-        if at == last[0] + len(last[1]) and len(last[1]) < EEPROM_PIECE and cells[at] not in b"\r\n" \
-                and last[1][-1] not in b"\r\n":
+        if at == last[0] + len(last[1]) and len(last[1]) < EEPROM_PIECE and cells[at] not in b"\r\n" and last[1][-1] not in b"\r\n":
             last[1].append(cells[at])
         else:
             out.append((at, bytearray([cells[at]])))

@@ -15,6 +15,7 @@ it. So whatever a line does to the bytes (pauses, loss, each byte twice, bytes t
   the '#' of loaders.py, BLIND_MOST bytes, each perhaps doubled) would end below the loader even if a download was open.
   Those pages go through the mailbox (mailbox.py).
 """
+
 from __future__ import annotations
 
 import re
@@ -33,14 +34,19 @@ RESERVE = 0x1800
 LAST_START = BOOT[0] - RESERVE
 assert RESERVE >= 2 * (BLIND_MOST + FLASH_PAGE)
 TRIES = 5
-REPORT_SECONDS = 0.35      # 111 ms of silence, a page and nine EEPROM bytes, 100 ms between the report's halves
+REPORT_SECONDS = 0.35  # 111 ms of silence, a page and nine EEPROM bytes, 100 ms between the report's halves
 REPORT_BYTES = 70
-_REPORT = re.compile(rb"(?:Success|Error).*Rewriting:0X([0-9A-F]{4}).*"
-                     rb"Size:0X([0-9A-F]{8})  Checksum:([0-9A-F]{2})-([0-9A-F]{2})", re.S)
+_REPORT = re.compile(
+    rb"(?:Success|Error).*Rewriting:0X([0-9A-F]{4}).*"
+    rb"Size:0X([0-9A-F]{8})  Checksum:([0-9A-F]{2})-([0-9A-F]{2})",
+    re.S,
+)
 # What can only come when a download is over: the loader is silent while it receives.
 _OVER = re.compile(rb"Succ|Erro|Rewr|Size|Checks|\r\n - ")
-WRONG_ADDRESS = ("the boot loader took another address than it was given. It has written nothing and waits for data: "
-                 "press MODE before anything else, then repeat the command")
+WRONG_ADDRESS = (
+    "the boot loader took another address than it was given. It has written nothing and waits for data: "
+    "press MODE before anything else, then repeat the command"
+)
 
 
 class Unsure(BoardError):
@@ -58,7 +64,7 @@ def write_page(loader: FactoryLoader, page: int, pages: dict[int, bytes]) -> Non
     elif page - 1 in pages:
         _send(loader, page - 1, page, pages[page], segments(pages[page], 1))
     else:
-        raise RefusedError(f"page 0x{page * FLASH_PAGE:05X} alone cannot be written safely")    # our own mistake
+        raise RefusedError(f"page 0x{page * FLASH_PAGE:05X} alone cannot be written safely")  # our own mistake
 
 
 def endangered(page: int, pages: dict[int, bytes]) -> set[int]:
@@ -87,19 +93,19 @@ def _send(loader: FactoryLoader, scratch: int, page: int, data: bytes, pieces: l
 def _download(loader: FactoryLoader, address: int, data: bytes) -> str:
     """One download: what went wrong, or nothing; it is over then. Unsure: it may still be open."""
     if address % FLASH_PAGE or not 0 < len(data) <= FLASH_PAGE or not 0 <= address < LAST_START:
-        raise RefusedError(f"a download to 0x{address:X} of {len(data)} bytes would hurt")      # our own mistake
+        raise RefusedError(f"a download to 0x{address:X} of {len(data)} bytes would hurt")  # our own mistake
     loader.type_line(f"load {address:x}")
     loader.open_at = address
     loader.link.write(b"\r")
     answer, ready = loader.link.look_for(b"Ready..", loader.patience(80))
-    if not ready and _OVER.search(answer):        # a prompt: the line came damaged and was no `load`
+    if not ready and _OVER.search(answer):  # a prompt: the line came damaged and was no `load`
         loader.open_at = None
         return "the loader did not understand"
     if not ready:
         raise Unsure(loader.how_it_stands())
     if b"Write Address : %08X" % address not in answer:
         raise Unsure(WRONG_ADDRESS)
-    if _OVER.search(loader.link.drain(0)):        # the end of the line came twice: ended before it began
+    if _OVER.search(loader.link.drain(0)):  # the end of the line came twice: ended before it began
         loader.open_at = None
         return "the line doubles bytes"
     loader.link.write(data)

@@ -3,6 +3,7 @@
 
 Every fault of the line itself becomes a PortError that says what to check. Nothing here knows a protocol.
 """
+
 from __future__ import annotations
 
 import time
@@ -29,9 +30,9 @@ class Link:
         except (serial.SerialException, OSError, ValueError) as error:
             self._end_program()
             raise PortError(explain(url, error)) from None
-        self.held = b""     # bytes read and given back
+        self.held = b""  # bytes read and given back
         if self.program:
-            self.held = self._receive(4096, bus.START_SECONDS)      # it has found its servos, and greets
+            self.held = self._receive(4096, bus.START_SECONDS)  # it has found its servos, and greets
 
     def __enter__(self) -> Link:
         return self
@@ -43,7 +44,7 @@ class Link:
         _let_others_in(self.port)
         try:
             self.port.close()
-        except Exception:     # a port that is gone may fail to close in many ways, and nobody can help it
+        except Exception:  # a port that is gone may fail to close in many ways, and nobody can help it
             pass
         self._end_program()
 
@@ -60,8 +61,7 @@ class Link:
         time.sleep(seconds)
 
     def _lost(self, error: Exception) -> PortError:
-        return PortError(f"the line to {self.url} broke ({error}). Check the cable; "
-                         "then repeat the command, it goes on where it stopped")
+        return PortError(f"the line to {self.url} broke ({error}). Check the cable; then repeat the command, it goes on where it stopped")
 
     def set_rate(self, rate: int) -> None:
         try:
@@ -77,7 +77,7 @@ class Link:
             self.port.write(data)
             if wait:
                 self.port.flush()
-        except Exception as error:     # a port that goes away does so as SerialException, OSError, termios.error, ...
+        except Exception as error:  # a port that goes away does so as SerialException, OSError, termios.error, ...
             raise self._lost(error) from None
 
     def _receive(self, limit: int, seconds: float) -> bytes:
@@ -94,7 +94,7 @@ class Link:
             if more > 0:
                 self.port.timeout = 0
                 first += self.port.read(more)
-        except Exception as error:     # a port that goes away does so as SerialException, OSError, termios.error, ...
+        except Exception as error:  # a port that goes away does so as SerialException, OSError, termios.error, ...
             raise self._lost(error) from None
         if self.trace:
             self.trace("<-", first)
@@ -128,8 +128,8 @@ class Link:
         while len(out) < limit:
             at = out.find(end, searched)
             if at >= 0:
-                self.held = bytes(out[at + len(end):]) + self.held
-                return bytes(out[:at + len(end)]), True
+                self.held = bytes(out[at + len(end) :]) + self.held
+                return bytes(out[: at + len(end)]), True
             searched = max(0, len(out) + 1 - len(end))
             left = deadline - self.now()
             some = self._receive(4096, min(left, 0.25)) if left > 0 else b""
@@ -174,8 +174,10 @@ def explain(url: str, error: Exception) -> str:
     """Why a port cannot be opened, and what to do."""
     text = str(error)
     if "Permission" in text or "denied" in text.lower():
-        return (f"{url}: no permission. On Linux add yourself to the group dialout "
-                "(sudo adduser $USER dialout, then log in again); on Windows close other programs that use the port")
+        return (
+            f"{url}: no permission. On Linux add yourself to the group dialout "
+            "(sudo adduser $USER dialout, then log in again); on Windows close other programs that use the port"
+        )
     if "No such file" in text or "FileNotFound" in text or "could not find" in text.lower():
         return f"{url}: no such port. Is the adapter plugged in? `m512 doctor` lists the ports"
     if "busy" in text.lower() or "lock" in text.lower():

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: MIT
 """Gets into a board's boot loader and finds out which one it is, and on which board.
 
-    a play typed into Edit? --- yes --> RefusedError (contact.py)
-       | no
-    prompt there? ---- yes --> identify
-       | no
-    Play or Edit? ---- yes --> @reset, then '#' (asks first when edits would be lost)
-       | no, or it cannot
-    in a session of ours that broke off? --> HELLO
-       | no
-    ask for the MODE button, '#' every 15 ms until the banner comes
+a play typed into Edit? --- yes --> RefusedError (contact.py)
+   | no
+prompt there? ---- yes --> identify
+   | no
+Play or Edit? ---- yes --> @reset, then '#' (asks first when edits would be lost)
+   | no, or it cannot
+in a session of ours that broke off? --> HELLO
+   | no
+ask for the MODE button, '#' every 15 ms until the banner comes
 """
+
 from __future__ import annotations
 
 from typing import Callable, Union
@@ -25,13 +26,13 @@ May = Callable[[str], None]
 Loader = Union[BlockLoader, FactoryLoader]
 BANNER = b"SYSTEM O.K."
 STAY, START, RESET = range(3)  # leave()
-HASH_SECONDS = 0.025           # the window behind a start is 60 ms
-HASHES_MOST = 2100             # with the rest of what is sent blindly: less than factory_flash.BLIND_MOST
+HASH_SECONDS = 0.025  # the window behind a start is 60 ms
+HASHES_MOST = 2100  # with the rest of what is sent blindly: less than factory_flash.BLIND_MOST
 KNOCK_SECONDS = 1.5
 IDENTIFY_TRIES = 6
 WAIT_SECONDS = 60.0
-RESTART_SECONDS = 3.0          # behind a restart that was asked for
-BANNER_IN_FLASH = (0x1F780, 0x1F880)     # of "CM5 Boot loader V1.31", the version that is known (boot/ORIGINAL.md, 7b)
+RESTART_SECONDS = 3.0  # behind a restart that was asked for
+BANNER_IN_FLASH = (0x1F780, 0x1F880)  # of "CM5 Boot loader V1.31", the version that is known (boot/ORIGINAL.md, 7b)
 
 
 def at_prompt(link: Link) -> bool:
@@ -47,7 +48,7 @@ def at_prompt(link: Link) -> bool:
         if prompt:
             link.drain(0.03)
             return True
-        if came.strip(b"\x00\x08 "):        # somebody else is there
+        if came.strip(b"\x00\x08 "):  # somebody else is there
             return False
     return False
 
@@ -85,8 +86,9 @@ def _factory(link: Link, started: bytes, board: str) -> FactoryLoader:
         link.write(b"\r")
         said = call_by_hash(link, RESTART_SECONDS)
         if said is None:
-            raise NoAnswerError("the boot loader was restarted to say which board it is on, and did not come back. Repeat the command, and "
-                                "press MODE when it asks")
+            raise NoAnswerError(
+                "the boot loader was restarted to say which board it is on, and did not come back. Repeat the command, and press MODE when it asks"
+            )
         name = banner.name_in(said)
     loader.board = banner.board_of(name, board)
     return loader
@@ -106,13 +108,13 @@ def call_by_hash(link: Link, seconds: float) -> bytes | None:
             sent += 1
         some = link.read_some(HASH_SECONDS)
         came = (came + some)[-4096:]
-        if BANNER in came or PROMPT in came:     # a prompt without banner: a broken session of ours has ended
+        if BANNER in came or PROMPT in came:  # a prompt without banner: a broken session of ours has ended
             came += link.look_for(PROMPT, 0.3)[0]
             link.drain(0.1, 1.0)
             link.write(KNOCK)
             return came if link.look_for(PROMPT, KNOCK_SECONDS)[1] else None
         after_ff = after_ff + 1 if came.endswith(b"\xff") or (after_ff and not some) else 0
-        if after_ff > 30:      # nothing behind the 0xFF for a while: it was something else
+        if after_ff > 30:  # nothing behind the 0xFF for a while: it was something else
             after_ff = 0
             came = b""
     return None
@@ -141,12 +143,13 @@ def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS,
         return identify(link, board=board)
     except NoAnswerError:
         pass
-    say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; "
-        "Ctrl-C gives up.")
+    say(f"Press the MODE button of the controller (reset). Waiting for its boot loader, up to {seconds:.0f} s; Ctrl-C gives up.")
     said = call_by_hash(link, seconds)
     if said is None:
-        raise NoAnswerError(f"no boot loader answered within {seconds:.0f} s. Is the controller on, the cable in its PC "
-                            "socket, and this the right port? (m512 doctor looks at each)")
+        raise NoAnswerError(
+            f"no boot loader answered within {seconds:.0f} s. Is the controller on, the cable in its PC "
+            "socket, and this the right port? (m512 doctor looks at each)"
+        )
     return identify(link, said, board)
 
 
@@ -167,5 +170,5 @@ def reset_by_application(link: Link, say: Callable[[str], None], may: May = refu
         raise RefusedError("something plays on the robot: `m512 stop` first")
     if client.has_edits():
         may("Edit holds a page with edits that are not saved; restarting loses them. Go on?")
-    link.write(b"@reset\r")       # no wait for its answer: the loader's window comes soon
+    link.write(b"@reset\r")  # no wait for its answer: the loader's window comes soon
     return True

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What a Plan would change on a board, found out without changing anything there."""
+
 from __future__ import annotations
 
 from m512.board.client import Client
@@ -23,8 +24,7 @@ def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
     finally:
         loader.leave(0)
     here = f"{loader.name}" + (f" on a {loader.board}" if loader.board else "")
-    return [f"{here}: {len(todo)} of {len(plan.pages)} flash pages would be written" if todo else
-            f"{here}: the board holds this already"]
+    return [f"{here}: {len(todo)} of {len(plan.pages)} flash pages would be written" if todo else f"{here}: the board holds this already"]
 
 
 def through_application(link: Link, plan: Plan, phase: PhaseMaker) -> list[str]:
@@ -45,8 +45,7 @@ def through_application(link: Link, plan: Plan, phase: PhaseMaker) -> list[str]:
 
 
 def _motions(client: Client, plan: Plan, phase: PhaseMaker) -> list[str]:
-    first = {(page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES: page for page in plan.pages
-             if page * FLASH_PAGE >= MOTIONS[0] and page % 2 == 0}
+    first = {(page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES: page for page in plan.pages if page * FLASH_PAGE >= MOTIONS[0] and page % 2 == 0}
     listed, out = client.list_pages(), []
     with phase("Comparing") as progress:
         for done, (number, page) in enumerate(sorted(first.items())):

@@ -6,6 +6,7 @@ the EEPROM is read back before the loader is told to copy; and the loader itself
 number of 0x80 and up would be the loader's own section (boot/ORIGINAL.md, 7a): it is written first and alone, and
 read back, before the mark that says "please write".
 """
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -25,7 +26,7 @@ TRIES = 3
 def write_motion_page(loader: FactoryLoader, number: int, data: bytes) -> None:
     """Writes motion page `number`. The loader restarts and is at its prompt again."""
     if not 0 <= number < PAGES or len(data) != PAGE_BYTES:
-        raise RefusedError(f"no motion page {number} for the mailbox")       # our own mistake
+        raise RefusedError(f"no motion page {number} for the mailbox")  # our own mistake
     loader.stay()
     _settle(loader, STATE, NOTHING)
     wanted = dict(enumerate(data, MAILBOX))

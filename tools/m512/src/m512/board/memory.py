@@ -3,6 +3,7 @@
 
 A Plan is made and judged before a byte is sent: plan() refuses what would hurt.
 """
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -14,7 +15,7 @@ from m512.files import formats, scale12
 from m512.files.image import Image, hex_segments
 from m512.files.page import EMPTY, PAGE_BYTES, Page
 
-Segments = list[tuple[int, bytes]]       # (address, bytes)
+Segments = list[tuple[int, bytes]]  # (address, bytes)
 FLASH_PAGE = 256
 APP = (0x00000, 0x0C000)
 JOURNAL = (0x0C000, 0x0E000)
@@ -38,19 +39,23 @@ class Record:
 
     @classmethod
     def of(cls, app: bytes) -> Record | None:
-        raw = app[RECORD_AT:RECORD_AT + RECORD_BYTES]
+        raw = app[RECORD_AT : RECORD_AT + RECORD_BYTES]
         if len(raw) < RECORD_BYTES or raw[:4] != b"M512" or raw[15] != 1:
             return None
-        return cls(int.from_bytes(raw[4:8], "little"), int.from_bytes(raw[8:10], "little"),
-                   BOARDS.get(raw[10], f"board {raw[10]}"), KINDS.get(raw[11], f"kind {raw[11]}"),
-                   ".".join(str(b) for b in raw[12:15]))
+        return cls(
+            int.from_bytes(raw[4:8], "little"),
+            int.from_bytes(raw[8:10], "little"),
+            BOARDS.get(raw[10], f"board {raw[10]}"),
+            KINDS.get(raw[11], f"kind {raw[11]}"),
+            ".".join(str(b) for b in raw[12:15]),
+        )
 
     def fits(self, app: bytes) -> bool:
         """Whether length and CRC agree with the image."""
         if not RECORD_AT + RECORD_BYTES <= self.length <= min(len(app), APP[1]):
             return False
-        body = bytearray(app[:self.length])
-        body[RECORD_AT + 8:RECORD_AT + 10] = b"\xff\xff"
+        body = bytearray(app[: self.length])
+        body[RECORD_AT + 8 : RECORD_AT + 10] = b"\xff\xff"
         return crc16(bytes(body)) == self.crc
 
     def __str__(self) -> str:
@@ -80,19 +85,18 @@ class Plan:
 
 def _refuse_outside(start: int, end: int, what: str) -> None:
     if end > BOOT[0]:
-        raise RefusedError(f"{what} reaches 0x{end - 1:05X}, into the boot loader ({_area(BOOT)}). That area can only be "
-                           "written with an ISP programmer")
+        raise RefusedError(
+            f"{what} reaches 0x{end - 1:05X}, into the boot loader ({_area(BOOT)}). That area can only be written with an ISP programmer"
+        )
     if start < JOURNAL[1] and end > JOURNAL[0]:
-        raise RefusedError(f"{what} reaches into {_area(JOURNAL)}, where saved pages are kept in passing. "
-                           f"An application has {_area(APP)}")
+        raise RefusedError(f"{what} reaches into {_area(JOURNAL)}, where saved pages are kept in passing. An application has {_area(APP)}")
 
 
 def _area(area: tuple[int, int]) -> str:
     return f"0x{area[0]:05X}..0x{area[1] - 1:05X}"
 
 
-def plan(path: Path, address: int | None = None, board: str | None = None, with_trim: bool = False,
-         damaged: str = "ask") -> Plan:
+def plan(path: Path, address: int | None = None, board: str | None = None, with_trim: bool = False, damaged: str = "ask") -> Plan:
     """What flashing a file means. `board`: cm5 or cm2 if known, to refuse code for the other one.
     `address`: of a raw binary that is no motion image. `with_trim`: page 0 goes too although it holds no trim."""
     data = formats.read_bytes(path)
@@ -119,9 +123,8 @@ def _segments(path: Path, data: bytes, address: int | None, out: Plan, with_trim
             raise RefusedError(f"{path.name} begins at 0x{segments[0][0]:05X}, beyond this board's flash (a CM-510 image?)")
         for start, piece in segments:
             _refuse_outside(start, start + len(piece), path.name)
-        code = [(start, piece[:MOTIONS[0] - start]) for start, piece in segments if start < MOTIONS[0]]
-        motions = [(max(start, MOTIONS[0]), piece[max(MOTIONS[0] - start, 0):]) for start, piece in segments
-                   if start + len(piece) > MOTIONS[0]]
+        code = [(start, piece[: MOTIONS[0] - start]) for start, piece in segments if start < MOTIONS[0]]
+        motions = [(max(start, MOTIONS[0]), piece[max(MOTIONS[0] - start, 0) :]) for start, piece in segments if start + len(piece) > MOTIONS[0]]
         return code + (_hex_motions(path, motions, out, with_trim, damaged) if motions else [])
     if address is not None:
         return [(address, data)]
@@ -136,11 +139,14 @@ def _hex_motions(path: Path, segments: Segments, out: Plan, with_trim: bool, dam
             raise FileError(f"{path.name}: 0x{start:05X}..0x{start + len(piece) - 1:05X} is not made of whole 512-byte motion pages")
         for at in range(0, len(piece), PAGE_BYTES):
             number = (start - MOTIONS[0] + at) // PAGE_BYTES
-            image[number] = Page(piece[at:at + PAGE_BYTES])
+            image[number] = Page(piece[at : at + PAGE_BYTES])
             given.add(number)
     judged = scale12.judged(image, None)
-    whole = [(address + at, data[at:at + PAGE_BYTES]) for address, data in _motions(path, judged, out, with_trim, damaged)
-             for at in range(0, len(data), PAGE_BYTES)]
+    whole = [
+        (address + at, data[at : at + PAGE_BYTES])
+        for address, data in _motions(path, judged, out, with_trim, damaged)
+        for at in range(0, len(data), PAGE_BYTES)
+    ]
     return [(address, data) for address, data in whole if (address - MOTIONS[0]) // PAGE_BYTES in given]
 
 
@@ -152,8 +158,7 @@ def _motions(path: Path, image: Image, out: Plan, with_trim: bool, damaged: str)
         raise RefusedError("this board has 128 pages:\n  " + "\n  ".join(losses) + "\nmove or delete them first (m512 pages)")
     bad = [(n, page.fault_text()) for n, page in image.items() if page.fault() and bytes(page) != b"\xff" * PAGE_BYTES]
     if bad and damaged == "ask":
-        raise RefusedError("damaged pages (--damaged keep flashes them all the same):\n"
-                           + "\n".join(f"  page {n}: {why}" for n, why in bad))
+        raise RefusedError("damaged pages (--damaged keep flashes them all the same):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
     data = image.to_bytes()
     if not with_trim and data[:PAGE_BYTES] in (EMPTY, b"\xff" * PAGE_BYTES):
         out.remarks.append("page 0 of the file holds no trim; the robot keeps its own (--with-trim overwrites it)")
@@ -166,7 +171,7 @@ def _add(out: Plan, start: int, piece: bytes) -> None:
     for at in range(start - start % FLASH_PAGE, start + len(piece), FLASH_PAGE):
         page = bytearray(out.pages.get(at // FLASH_PAGE, b"\xff" * FLASH_PAGE))
         low, high = max(at, start), min(at + FLASH_PAGE, start + len(piece))
-        page[low - at:high - at] = piece[low - start:high - start]
+        page[low - at : high - at] = piece[low - start : high - start]
         out.pages[at // FLASH_PAGE] = bytes(page)
 
 

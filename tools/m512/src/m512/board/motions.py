@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A board's motions as an Image, in and out, by whoever answers: Play or Edit page by page, else the boot loader."""
+
 from __future__ import annotations
 
 from m512 import ui
@@ -54,7 +55,7 @@ def write_motions(url: str, image: Image, board: str = "") -> None:
 
         loader = loaders.enter(link, ui.say, board=board)
         data = image.to_bytes()
-        plan = Plan({(MOTIONS[0] + at) // 256: data[at:at + 256] for at in range(0, len(data), 256)}, has_motions=True)
+        plan = Plan({(MOTIONS[0] + at) // 256: data[at : at + 256] for at in range(0, len(data), 256)}, has_motions=True)
         ui.say(str(download.download(loader, plan, ui.phase)))
         download.start(loader)
 

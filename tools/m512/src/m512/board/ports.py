@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Serial ports: which there are, and whether a word names one. Opening them is link.py's business."""
+
 from __future__ import annotations
 
 import os
@@ -25,8 +26,7 @@ def available() -> list[tuple[str, str]]:
     """(device, description) of the serial ports of this computer, USB adapters first."""
     from serial.tools import list_ports
 
-    ports = [(port.device, port.description if port.description not in (None, "n/a") else "", port.vid is not None)
-             for port in list_ports.comports()]
+    ports = [(port.device, port.description if port.description not in (None, "n/a") else "", port.vid is not None) for port in list_ports.comports()]
     return [(device, text) for device, text, _ in sorted(ports, key=lambda port: (not port[2], port[0]))]
 
 
@@ -40,8 +40,10 @@ def pick(word: str = "") -> str:
         return hits[0][0]
     listed = "".join(f"\n  {device}  {text}" for device, text in ports)
     if word and not hits:
-        raise PortError(f"no serial port is called {word!r} (a link or pty is named with its path: -p ./{word})"
-                        + (f"; there are:{listed}" if ports else "; there are none"))
+        raise PortError(
+            f"no serial port is called {word!r} (a link or pty is named with its path: -p ./{word})"
+            + (f"; there are:{listed}" if ports else "; there are none")
+        )
     if not hits:
         raise PortError("no serial port found. Plug in the adapter, or name it (m512 ... --port /dev/ttyUSB0)")
     raise PortError(f"several serial ports; say which with --port:{listed}")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Dynamixel protocol 1.0 on an adapter, as far as the doctor needs it: who answers at which rate, what its registers hold, two registers
 mended on request. Nothing here plays or moves anything; that is the programs' (bus.py)."""
+
 from __future__ import annotations
 
 import time
@@ -12,19 +13,21 @@ from m512.errors import PortError
 
 PING, READ, WRITE, SYNC_WRITE = 1, 2, 3, 0x83
 EVERYBODY = 254
-FIRST_SECONDS = 0.08       # for an answer through a driver that holds bytes back for 16 ms
-LEAST_SECONDS = 0.03       # a busy computer looks that late
-BEGUN_SECONDS = 0.02       # for the rest of an answer that has begun
+FIRST_SECONDS = 0.08  # for an answer through a driver that holds bytes back for 16 ms
+LEAST_SECONDS = 0.03  # a busy computer looks that late
+BEGUN_SECONDS = 0.02  # for the rest of an answer that has begun
 TRIES = 3
 
 # Bits of an answer's error byte, with what to do.
-ERRORS = ((0x01, "voltage", "outside its limits: charge the battery, or use another supply"),
-          (0x02, "angle limit", "a goal was outside its angle limits"),
-          (0x04, "overheating", "let it cool down, then switch its power off and on"),
-          (0x08, "range", "an instruction had a value that it does not take"),
-          (0x10, "checksum", "an instruction came damaged: cable, or two programs on the bus"),
-          (0x20, "overload", "it carried too much: free it, then switch its power off and on"),
-          (0x40, "instruction", "it does not know an instruction"))
+ERRORS = (
+    (0x01, "voltage", "outside its limits: charge the battery, or use another supply"),
+    (0x02, "angle limit", "a goal was outside its angle limits"),
+    (0x04, "overheating", "let it cool down, then switch its power off and on"),
+    (0x08, "range", "an instruction had a value that it does not take"),
+    (0x10, "checksum", "an instruction came damaged: cable, or two programs on the bus"),
+    (0x20, "overload", "it carried too much: free it, then switch its power off and on"),
+    (0x40, "instruction", "it does not know an instruction"),
+)
 
 
 class Answer(NamedTuple):
@@ -52,7 +55,7 @@ class Bus:
         self.is_fast = self._make_fast()
         self.longest, self.echoes = 0.0, False
         self.asked: list[bytes] = []
-        self.noise = b""       # what came to the last question without being its answer
+        self.noise = b""  # what came to the last question without being its answer
 
     def __enter__(self) -> Bus:
         return self
@@ -65,7 +68,7 @@ class Bus:
         try:
             self.port.set_low_latency_mode(True)
             return True
-        except Exception:     # ptys, other systems: each refuses in its own way
+        except Exception:  # ptys, other systems: each refuses in its own way
             return "ttyACM" in self.device
 
     def set_rate(self, rate: int) -> None:
@@ -95,7 +98,7 @@ class Bus:
             self.asked = [*self.asked[-3:], question]
             while True:
                 left = until - time.monotonic()
-                self.port.timeout = max(left, 0)      # this process may look late: what has come by then counts
+                self.port.timeout = max(left, 0)  # this process may look late: what has come by then counts
                 some = self.port.read(1)
                 some += self.port.read(self.port.in_waiting) if some else b""
                 heard += some
@@ -121,7 +124,7 @@ class Bus:
         while at >= 0:
             found = heard[at:]
             if len(found) >= 6 and found[3] >= 2 and len(found) >= found[3] + 4:
-                body = found[2:found[3] + 4]
+                body = found[2 : found[3] + 4]
                 if sum(body) & 0xFF == 0xFF:
                     return Answer(body[0], body[2], body[3:-1])
             at = heard.find(b"\xff\xff", at + 1)

@@ -6,6 +6,7 @@ The simulated board keeps real time while this PC has time for it. On a busy PC 
 It is looked for in $M512_CM5SIM, in the build folder of a source tree that this package lies in, beside this Python (`pip install cm5sim`
 puts it there, with firmware images and motions), and in the PATH.
 """
+
 from __future__ import annotations
 
 import os
@@ -27,8 +28,8 @@ from m512.files.wording import named_pages_text
 from m512.places import build_folder, wheel_folder
 
 START_SECONDS = 300.0
-SOON = (0.6, 1.5, 4.0, 15.0)    # seconds for the answer to each first request: one comes before the board listens
-LATER = (60.0, 220.0)           # then with a note; together five minutes
+SOON = (0.6, 1.5, 4.0, 15.0)  # seconds for the answer to each first request: one comes before the board listens
+LATER = (60.0, 220.0)  # then with a note; together five minutes
 SLACK_SECONDS = 300.0
 
 
@@ -42,8 +43,10 @@ def find_cm5sim() -> Path:
     for place in places:
         if place.exists():
             return place
-    raise MissingError("the simulator cm5sim is not here: install its wheel beside m512 (pip install cm5sim-....whl of a release, or "
-                       "tools/sim/python of a built source tree), or name the program in M512_CM5SIM")
+    raise MissingError(
+        "the simulator cm5sim is not here: install its wheel beside m512 (pip install cm5sim-....whl of a release, or "
+        "tools/sim/python of a built source tree), or name the program in M512_CM5SIM"
+    )
 
 
 def find_image(name: str) -> Path:
@@ -58,8 +61,7 @@ def find_image(name: str) -> Path:
     for place in places + [folder / "firmware" / name for folder in (build_folder(), wheel_folder()) if folder]:
         if place.exists():
             return place
-    raise MissingError(f"the firmware image {name} is neither here nor beside the simulator: build it (tools/demo does), "
-                       "or give its path (--image)")
+    raise MissingError(f"the firmware image {name} is neither here nor beside the simulator: build it (tools/demo does), or give its path (--image)")
 
 
 def our_motions() -> Path | None:
@@ -81,8 +83,9 @@ class Simulator:
                 area.write(self._fitting(motions))
                 area.flush()
                 command += ["--motions", f"/dev/fd/{area.fileno()}"]
-            self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                            pass_fds=(area.fileno(),))
+            self.process = subprocess.Popen(
+                command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, pass_fds=(area.fileno(),)
+            )
         self.said = b""
         try:
             self.url = self._wait_for_port()
@@ -100,8 +103,9 @@ class Simulator:
             raise RefusedError(f"{motions}: 12-bit positions mean nothing to this board: {HINT}")
         lost = image.beyond(128)
         if lost:
-            raise RefusedError(f"{motions}: {named_pages_text(lost)}: no room among this board's 128 pages "
-                               "(m512 convert --pages 128 leaves them out)")
+            raise RefusedError(
+                f"{motions}: {named_pages_text(lost)}: no room among this board's 128 pages (m512 convert --pages 128 leaves them out)"
+            )
         return image.resized(128)[0].to_bytes()
 
     def _wait_for_port(self) -> str:
@@ -117,8 +121,13 @@ class Simulator:
                 if not some:
                     break
         ended = self.process.poll() is not None
-        raise MissingError("the simulator did not start: " + (self.said.decode("utf-8", "replace").strip() or (
-            f"it ended with exit code {self.process.returncode}" if ended else f"it named no port for {START_SECONDS / 60:.0f} minutes")))
+        raise MissingError(
+            "the simulator did not start: "
+            + (
+                self.said.decode("utf-8", "replace").strip()
+                or (f"it ended with exit code {self.process.returncode}" if ended else f"it named no port for {START_SECONDS / 60:.0f} minutes")
+            )
+        )
 
     def __enter__(self) -> Simulator:
         return self
@@ -147,5 +156,7 @@ def meet(link: Link) -> Client:
     try:
         return Client(link, LATER, is_met=True, slack=SLACK_SECONDS)
     except NoAnswerError:
-        raise NoAnswerError("the simulated board has not answered for 5 minutes: is the image (--image) a Play or Edit? If it is, this PC is "
-                            "too busy: end other programs, then repeat the command") from None
+        raise NoAnswerError(
+            "the simulated board has not answered for 5 minutes: is the image (--image) a Play or Edit? If it is, this PC is "
+            "too busy: end other programs, then repeat the command"
+        ) from None

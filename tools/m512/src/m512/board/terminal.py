@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A raw terminal: two threads join this terminal and a board. Ctrl-] is the only key that it keeps for itself."""
+
 from __future__ import annotations
 
 import sys
@@ -13,17 +14,17 @@ from m512.board.link import Link
 from m512.errors import FileError, M512Error, PortError
 from m512.files import storage
 
-KEY = "\x1d"      # Ctrl-]
+KEY = "\x1d"  # Ctrl-]
 HELP = """
  Ctrl-] h   this help              Ctrl-] q  quit
  Ctrl-] l   call the boot loader: press MODE, '#' is sent until it answers
  Ctrl-] s   send a text file, a line at a time    Ctrl-] b  send a file as it is
  Ctrl-] g   log to a file, on and off             Ctrl-] Ctrl-]  send Ctrl-]
 """
-PIPE_QUIET = 0.3        # silence that ends an answer when lines come from a pipe
-LINE_SECONDS = 2.0      # for the board's answer to a line of a file
+PIPE_QUIET = 0.3  # silence that ends an answer when lines come from a pipe
+LINE_SECONDS = 2.0  # for the board's answer to a line of a file
 XON, XOFF = 0x11, 0x13
-HIDDEN = (XON, XOFF, 0xFF)     # flow control, and the byte that a controller sends at its start
+HIDDEN = (XON, XOFF, 0xFF)  # flow control, and the byte that a controller sends at its start
 
 
 class Terminal:
@@ -213,5 +214,3 @@ class Terminal:
         except FileError as error:
             self._say(str(error))
             return None
-
-

@@ -6,18 +6,22 @@ the pause is typed text for it: a line of 80 characters crashes it at the line's
 back with the rest of the line behind it, and "l" alone opens a download to 0. All of that needs the end of a line. So
 data is sent in segments in which no line end stands behind anything that could do harm: the pause may then come anywhere.
 """
+
 from __future__ import annotations
 
 import re
 
 LINE_ENDS = b"\r\n"
-DROPPED = b"\x00\x1b"          # the loader neither keeps nor echoes them
+DROPPED = b"\x00\x1b"  # the loader neither keeps nor echoes them
 # A line of 80 characters crashes it; half of that, because a line may double bytes.
 LINE_BYTES = 40
 CTRL_A, BACKSPACE = 0x01, 0x08
 # Words that change something or leave the prompt, from anywhere in the text on: the pause decides where the line begins.
-_WORDS = re.compile(rb"(?:l|ld|load|dn|down|eep_dn|clear_eeprom|up|eep_up|g|go|reset|app|application|sys|system)"
-                    rb"(?:[\x09\x20-\x2f].*)?\Z", re.S | re.I)
+_WORDS = re.compile(
+    rb"(?:l|ld|load|dn|down|eep_dn|clear_eeprom|up|eep_up|g|go|reset|app|application|sys|system)"
+    rb"(?:[\x09\x20-\x2f].*)?\Z",
+    re.S | re.I,
+)
 
 
 def is_risky(line: bytes) -> bool:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The command line. Commands are imported when they are called: `m512 --help` reads only this file."""
+
 from __future__ import annotations
 
 import signal
@@ -54,7 +55,7 @@ class LazyGroup(click.Group):
     def invoke(self, ctx):
         from m512.errors import EXIT_CANCELLED, M512Error
 
-        for name in ("SIGTERM", "SIGHUP"):       # the simulator and a robot that is driven do not outlive this program
+        for name in ("SIGTERM", "SIGHUP"):  # the simulator and a robot that is driven do not outlive this program
             if hasattr(signal, name):
                 signal.signal(getattr(signal, name), lambda number, _: sys.exit(128 + number))
         try:
@@ -72,9 +73,12 @@ class LazyGroup(click.Group):
             sys.exit(0)
 
 
-@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
-             epilog="Exit codes: 0 done, 2 wrong command line, 3 differences or faults found, 4 bad file, 5 refused, "
-                    "6 port lost or not there, 7 no answer, 8 error answer of the board, 9 something not installed, 130 Ctrl-C.")
+@click.group(
+    cls=LazyGroup,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    epilog="Exit codes: 0 done, 2 wrong command line, 3 differences or faults found, 4 bad file, 5 refused, "
+    "6 port lost or not there, 7 no answer, 8 error answer of the board, 9 something not installed, 130 Ctrl-C.",
+)
 @click.version_option(__version__, prog_name="m512")
 def main():
     """Motions, firmware and terminal of CM-2/CM-5 robot controllers.

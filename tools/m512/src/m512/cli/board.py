@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 flash`, `run`, `backup`, `restore`: what goes through a boot loader."""
+
 from __future__ import annotations
 
 import json
@@ -12,13 +13,21 @@ import click
 from m512 import ui
 from m512.errors import M512Error, PortError, RefusedError
 
-port_option = click.option("-p", "--port", envvar="M512_PORT", default="", metavar="PORT",
-                           help="Serial port: device, part of its name, socket://host:port, or bus:DEVICE for servos on an "
-                                "adapter, without a board. Default: the only one.")
-wait_option = click.option("--wait", default=60.0, show_default=True, metavar="SECONDS",
-                           help="How long to wait for the MODE button.")
-board_option = click.option("--board", type=click.Choice(["cm5", "cm2"]), callback=lambda _, __, value: value or "",
-                            help="Which board it is, if its boot loader does not say so (cm2: CM-2 and CM-2+).")
+port_option = click.option(
+    "-p",
+    "--port",
+    envvar="M512_PORT",
+    default="",
+    metavar="PORT",
+    help="Serial port: device, part of its name, socket://host:port, or bus:DEVICE for servos on an adapter, without a board. Default: the only one.",
+)
+wait_option = click.option("--wait", default=60.0, show_default=True, metavar="SECONDS", help="How long to wait for the MODE button.")
+board_option = click.option(
+    "--board",
+    type=click.Choice(["cm5", "cm2"]),
+    callback=lambda _, __, value: value or "",
+    help="Which board it is, if its boot loader does not say so (cm2: CM-2 and CM-2+).",
+)
 json_option = click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 
 
@@ -48,14 +57,23 @@ def number(context, parameter, value):
 
 
 def flash_options(function):
-    for option in (json_option, wait_option, board_option, port_option,
-                   click.option("--dry-run", is_flag=True, help="Look at the board, say what would be written, change nothing."),
-                   click.option("--yes", is_flag=True, help="Do not ask when Edit has edits that are not saved."),
-                   click.option("--damaged", type=click.Choice(["ask", "keep"]), default="ask",
-                                help="Damaged pages in a motion file: refuse (ask) or flash them as they are."),
-                   click.option("--with-trim", is_flag=True, help="Overwrite page 0 even if the file has no trim in it."),
-                   click.option("--fast/--no-fast", default=False, help="Try 117,647 baud (our loader, good adapters)."),
-                   click.option("--address", callback=number, help="Where a raw binary goes, such as 0x0.")):
+    for option in (
+        json_option,
+        wait_option,
+        board_option,
+        port_option,
+        click.option("--dry-run", is_flag=True, help="Look at the board, say what would be written, change nothing."),
+        click.option("--yes", is_flag=True, help="Do not ask when Edit has edits that are not saved."),
+        click.option(
+            "--damaged",
+            type=click.Choice(["ask", "keep"]),
+            default="ask",
+            help="Damaged pages in a motion file: refuse (ask) or flash them as they are.",
+        ),
+        click.option("--with-trim", is_flag=True, help="Overwrite page 0 even if the file has no trim in it."),
+        click.option("--fast/--no-fast", default=False, help="Try 117,647 baud (our loader, good adapters)."),
+        click.option("--address", callback=number, help="Where a raw binary goes, such as 0x0."),
+    ):
         function = option(function)
     return function
 
@@ -112,11 +130,13 @@ def _look(plan, port, board):
         ui.say(line)
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 flash play-cm5.hex                 our application into the board
   m512 flash library.m512                 motions, from the text; also .bin .hex .mtn
-  m512 flash walk.bin -p socket://host:4000 --json""")
+  m512 flash walk.bin -p socket://host:4000 --json"""
+)
 @click.argument("image", type=click.Path(path_type=Path))
 @flash_options
 def flash(image, **options):
@@ -128,10 +148,12 @@ def flash(image, **options):
     _flash(image, start=False, **options)
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 run play-cm5.hex     flash, then start
-  m512 run                  start what is there""")
+  m512 run                  start what is there"""
+)
 @click.argument("image", type=click.Path(path_type=Path), required=False)
 @flash_options
 def run(image, **options):
@@ -157,10 +179,12 @@ def _areas(text):
     return areas
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 backup                         all, into backup-DATE-TIME/
-  m512 backup robot1 --what motions   the motions only""")
+  m512 backup robot1 --what motions   the motions only"""
+)
 @click.argument("folder", type=click.Path(path_type=Path), required=False)
 @click.option("--what", default="motions,eeprom,app", show_default=True, help="Areas to read.")
 @port_option
@@ -181,14 +205,19 @@ def backup(folder, what, port, board, wait, as_json):
         loaders.give_back(loader)
     if as_json:
         ui.show(json.dumps(made.manifest, indent=2))
-    ui.say(f"{folder}: " + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas)
-           + ("" if loader.was_at_prompt else ". The controller restarts."))
+    ui.say(
+        f"{folder}: "
+        + ", ".join(f"{area} {len(made.data[area]):,} bytes" for area in areas)
+        + ("" if loader.was_at_prompt else ". The controller restarts.")
+    )
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 restore backup-20260101-120000
-  m512 restore robot1 --what motions --yes""")
+  m512 restore robot1 --what motions --yes"""
+)
 @click.argument("folder", type=click.Path(path_type=Path))
 @click.option("--what", default="", help="Areas to write (default: all of the backup).")
 @click.option("--yes", is_flag=True, help="Do not ask.")
@@ -226,8 +255,7 @@ def restore(folder, what, yes, port, board, wait, as_json):
             ui.say("The board holds this already.")
             loaders.give_back(loader)
     if as_json:
-        ui.show(json.dumps({"flash_pages": len(todo), "eeprom_cells": len(cells),
-                            "changes": [change.as_dict() for change in changes]}, indent=2))
+        ui.show(json.dumps({"flash_pages": len(todo), "eeprom_cells": len(cells), "changes": [change.as_dict() for change in changes]}, indent=2))
 
 
 @contextmanager
@@ -284,6 +312,6 @@ def _motions_now(loader, saved, pages, progress):
     numbers = sorted({(n * 256 - MOTIONS[0]) // 512 for n in pages})
     for done, number in enumerate(numbers):
         at = MOTIONS[0] + 512 * number
-        out[512 * number:512 * (number + 1)] = loader.read(at, at + 512)
+        out[512 * number : 512 * (number + 1)] = loader.read(at, at + 512)
         progress(done + 1, len(numbers))
     return bytes(out)

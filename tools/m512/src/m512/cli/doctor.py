@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 doctor`."""
+
 from __future__ import annotations
 
 import json
@@ -11,12 +12,14 @@ from m512.cli.board import json_option, port_option
 from m512.errors import EXIT_DIFFERENT
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 doctor
   m512 doctor -p /dev/ttyUSB0 --json
   m512 doctor -p bus:/dev/ttyUSB0           servos on an adapter, without a board
-  m512 doctor -p bus:/dev/ttyUSB0 --mend    moves servos that have another rate to 1 Mbps""")
+  m512 doctor -p bus:/dev/ttyUSB0 --mend    moves servos that have another rate to 1 Mbps"""
+)
 @port_option
 @click.option("--sim", is_flag=True, help="Examine the simulator.")
 @click.option("--mend", is_flag=True, help="With -p bus:...: give servos the rate, and a return delay that is too short its factory value.")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 convert` and `m512 diff`."""
+
 from __future__ import annotations
 
 import json
@@ -55,7 +56,8 @@ def id_list(text):
         raise click.UsageError(str(error)) from None
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 convert walk.m512 walk.bin           text to a 64 KiB image
   m512 convert robot.mtn robot.hex          RoboPlus to Intel HEX at 0x0E000
@@ -64,7 +66,8 @@ Examples:
                                             scaled from 12 to 10 bits, with a report
   m512 convert lib.bin wave.csv --page 15   one page as a table
   m512 convert large.mtn small.bin --only walk --only 20..25
-                                            these pages and all that they lead to, renumbered to fit""")
+                                            these pages and all that they lead to, renumbered to fit"""
+)
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("target", type=click.Path(path_type=Path), default="-")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of SOURCE (default: what its positions look like).")
@@ -74,8 +77,13 @@ Examples:
 @click.option("--only", multiple=True, metavar="NAME|RANGE", help="Take this page, or these, and all that they lead to; again for more.")
 @click.option("--page", "number", help="The page (number or name) of a CSV.")
 @click.option("--onto", type=click.Path(path_type=Path), help="Motion file whose page 0 (trim) a .mtn takes over.")
-@click.option("--damaged", type=click.Choice(["ask", "keep", "drop"]), default="keep",
-              help="Damaged pages: keep byte for byte, replace by empty ones, or refuse to go on.", show_default=True)
+@click.option(
+    "--damaged",
+    type=click.Choice(["ask", "keep", "drop"]),
+    default="keep",
+    help="Damaged pages: keep byte for byte, replace by empty ones, or refuse to go on.",
+    show_default=True,
+)
 @click.option("--mtn-version", type=click.Choice(["1.00", "1.01"]), default="1.01", help="Version of a .mtn to write.")
 @click.option("--force", is_flag=True, help="Overwrite TARGET.")
 @click.option("--json", "as_json", is_flag=True, help="Report on stdout as JSON.")
@@ -115,8 +123,22 @@ def convert(source, target, bits, scale, joints, count, only, number, onto, dama
     losses += lost
     losses += formats.save(target, image, image.find(number) if number else None, mtn_version)
     if as_json:
-        ui.show(json.dumps({"source": str(source), "target": str(target), "pages": len(image.pages), "bits": image.bits,
-                               "damaged": bad, "notes": notes, "losses": losses, "moved": moved, "left": left}, indent=2))
+        ui.show(
+            json.dumps(
+                {
+                    "source": str(source),
+                    "target": str(target),
+                    "pages": len(image.pages),
+                    "bits": image.bits,
+                    "damaged": bad,
+                    "notes": notes,
+                    "losses": losses,
+                    "moved": moved,
+                    "left": left,
+                },
+                indent=2,
+            )
+        )
         return
     for note in notes:
         ui.say(f"note: {note}")
@@ -143,11 +165,13 @@ def _motions_of(word, bits, board):
     return formats.load(Path(word), bits)
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 diff old.bin new.bin
   m512 diff walk.m512 backup-20260101-120000     a backup's folder
-  m512 diff /dev/ttyUSB0 walk.m512 --json        the board, with Play or Edit or a loader""")
+  m512 diff /dev/ttyUSB0 walk.m512 --json        the board, with Play or Edit or a loader"""
+)
 @click.argument("first")
 @click.argument("second")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of images (default: what the positions look like).")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 layer`, `aim`, `swing`, `free`: what moves joints of its own over the motion that plays (Play)."""
+
 from __future__ import annotations
 
 import json
@@ -24,11 +25,13 @@ def show_shape(client, as_json):
         ui.show("  ".join(f"{word} {value}" for word, value in found.items()))
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 layer wave_over                waves while the robot walks
   m512 layer wave --joints 1,3,5      of another page these joints alone
-  m512 layer off                      its joints go back to the motion below""")
+  m512 layer off                      its joints go back to the motion below"""
+)
 @click.argument("page", metavar="PAGE|off")
 @click.option("--joints", help="IDs (1..6 or 1,3,5). Default: those that the page's first step uses.")
 @robot_options
@@ -43,10 +46,12 @@ def layer(page, joints, **options):
         show_shape(client, options["as_json"])
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 aim 19:30deg                   the head looks to the left, also while the robot walks
-  m512 aim 19:512 20:600 --speed 120""")
+  m512 aim 19:512 20:600 --speed 120"""
+)
 @click.argument("positions", nargs=-1, required=True, metavar="ID:POSITION...")
 @click.option("--speed", metavar="DEG/S", type=click.IntRange(1, 360), help="Largest speed. Default: that of the approach.")
 @robot_options
@@ -59,10 +64,12 @@ def aim(positions, speed, **options):
         show_shape(client, options["as_json"])
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 swing 19 512 30deg 4s          the head turns 30 degrees to either side, in four seconds
-  m512 swing 20 512 60 2s --phase 90  begins where it is highest""")
+  m512 swing 20 512 60 2s --phase 90  begins where it is highest"""
+)
 @click.argument("joint", type=click.IntRange(0, ID_MAX), metavar="ID")
 @click.argument("centre", metavar="CENTRE")
 @click.argument("amplitude", metavar="AMPLITUDE")
@@ -78,10 +85,12 @@ def swing(joint, centre, amplitude, period, phase, **options):
         show_shape(client, options["as_json"])
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 free              all joints that aim and swing move
-  m512 free 19 20""")
+  m512 free 19 20"""
+)
 @click.argument("ids", nargs=-1, type=click.IntRange(0, ID_MAX))
 @robot_options
 def free(ids, **options):

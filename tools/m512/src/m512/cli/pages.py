@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 pages FILE ACTION`: looking at pages and changing them."""
+
 from __future__ import annotations
 
 import json
@@ -55,8 +56,10 @@ class Source:
             self._to_board(yes)
         elif in_place:
             if self._is_written_by_hand():
-                raise RefusedError(f"{self.word} is somebody's text: --in-place would make numbers of its comments, poses, names "
-                                   "and includes. Change the text itself, or write the result elsewhere: -o new.m512")
+                raise RefusedError(
+                    f"{self.word} is somebody's text: --in-place would make numbers of its comments, poses, names "
+                    "and includes. Change the text itself, or write the result elsewhere: -o new.m512"
+                )
             for loss in formats.save(Path(self.word), self.image):
                 ui.say(f"loss: {loss}")
         else:
@@ -109,12 +112,14 @@ def changes(function):
 replacing = click.option("--replace", is_flag=True, help="Overwrite a page that is not empty.")
 
 
-@click.group(epilog="""\b
+@click.group(
+    epilog="""\b
 Examples:
   m512 pages lib.bin list
   m512 pages lib.bin show walk_loop
   m512 pages lib.bin merge other.mtn 3 5:20 -o new.bin
-  m512 pages /dev/ttyUSB0 list --json""")
+  m512 pages /dev/ttyUSB0 list --json"""
+)
 @click.argument("source", metavar="FILE|PORT")
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of an image file (default: what its positions look like).")
 @board_option
@@ -136,8 +141,11 @@ def list_(source, everything, as_json):
     from m512.files.image import is_erased
     from m512.pages.listing import describe, table
 
-    rows = [describe(source.image, n, page) for n, page in source.image.items()
-            if everything or not is_erased(page) and (not page.is_empty or page.fault(source.image.kind))]
+    rows = [
+        describe(source.image, n, page)
+        for n, page in source.image.items()
+        if everything or not is_erased(page) and (not page.is_empty or page.fault(source.image.kind))
+    ]
     ui.show(json.dumps(rows, indent=2) if as_json else table(rows))
 
 
@@ -164,12 +172,11 @@ def check(source, as_json):
 
     found, remarks = operations.check(source.image), operations.remarks(source.image)
     if as_json:
-        ui.show(json.dumps([{"page": n, "problem": text} for n, text in found]
-                           + [{"page": n, "note": text} for n, text in remarks], indent=2))
+        ui.show(json.dumps([{"page": n, "problem": text} for n, text in found] + [{"page": n, "note": text} for n, text in remarks], indent=2))
     else:
         for number, text in found:
             title = source.image[number].title
-            ui.show(f"page {number}" + (f" \"{title}\"" if title else "") + f": {text}")
+            ui.show(f"page {number}" + (f' "{title}"' if title else "") + f": {text}")
         notes = Findings()
         for number, text in remarks:
             notes.add(number, source.image[number].title, text)
@@ -236,15 +243,20 @@ def extract(source, page, **where):
         if number not in numbers:
             source.image[number] = Page()
         else:
-            remarks += [f"page {number} \"{here.title}\": {link} {getattr(here, link)} is left behind"
-                        for link in Page.LINKS if getattr(here, link) not in numbers | {0}]
+            remarks += [
+                f'page {number} "{here.title}": {link} {getattr(here, link)} is left behind'
+                for link in Page.LINKS
+                if getattr(here, link) not in numbers | {0}
+            ]
     source.store(remarks, **where)
 
 
-@pages.command(epilog="""\b
+@pages.command(
+    epilog="""\b
 Examples:
   m512 pages lib.bin merge other.mtn all -o new.bin
-  m512 pages lib.bin merge other.bin 3 wave:20 -o new.bin""")
+  m512 pages lib.bin merge other.bin 3 wave:20 -o new.bin"""
+)
 @click.argument("other", type=click.Path(path_type=Path))
 @click.argument("page", nargs=-1, required=True)
 @replacing
@@ -260,8 +272,10 @@ def merge(source, other, page, replace, **where):
     source.store(operations.place(source.image, image, page_moves(page, image), replace), **where)
 
 
-@pages.command(epilog="""\b
-Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of wave, legs of walk_loop)""")
+@pages.command(
+    epilog="""\b
+Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of wave, legs of walk_loop)"""
+)
 @click.argument("base")
 @click.argument("other")
 @click.argument("joints")
@@ -278,15 +292,18 @@ def combine(source, base, other, joints, target, other_file, replace, **where):
     from m512.pages import overlay
 
     donor = formats.load(other_file, source.bits) if other_file else source.image
-    source.store(overlay.combine(source.image, source.image.find(base), donor, donor.find(other), id_list(joints), target, replace),
-                 **where)
+    source.store(overlay.combine(source.image, source.image.find(base), donor, donor.find(other), id_list(joints), target, replace), **where)
 
 
 @pages.command(epilog="Example: m512 pages lib.bin mirror kick_left 41 --in-place")
 @click.argument("page")
 @click.argument("target", type=PAGE_NUMBER, required=False)
-@click.option("--pairs", default="1-2,3-4,5-6,7-8,9-10,11-12,13-14,15-16,17-18", show_default=True,
-              help="Joints that change places; a single one is turned round.")
+@click.option(
+    "--pairs",
+    default="1-2,3-4,5-6,7-8,9-10,11-12,13-14,15-16,17-18",
+    show_default=True,
+    help="Joints that change places; a single one is turned round.",
+)
 @replacing
 @changes
 def mirror(source, page, target, pairs, replace, **where):
@@ -327,15 +344,25 @@ def time(source, page, volts, as_json):
     fast = speed.too_fast(source.image, number, volts)
     total = sum(seconds for _, _, seconds in parts)
     if as_json:
-        ui.show(json.dumps({"pages": [{"page": n, "repeat": r, "seconds": round(s, 4)} for n, r, s in parts],
-                               "seconds": round(total, 4), "end": end, "volts": volts,
-                               "too_fast": [{"page": f.page, "step": f.step, "joint": f.joint,
-                                             "degrees_s": round(f.degrees_s)} for f in fast]}, indent=2))
+        ui.show(
+            json.dumps(
+                {
+                    "pages": [{"page": n, "repeat": r, "seconds": round(s, 4)} for n, r, s in parts],
+                    "seconds": round(total, 4),
+                    "end": end,
+                    "volts": volts,
+                    "too_fast": [{"page": f.page, "step": f.step, "joint": f.joint, "degrees_s": round(f.degrees_s)} for f in fast],
+                },
+                indent=2,
+            )
+        )
         return
     for number, repeat, seconds in parts:
         times = f" ({repeat} times)" if repeat != 1 else ""
         ui.show(f"page {number:3} {source.image[number].title:13} {seconds:8.3f} s{times}")
     ui.show(f"{'all':22} {total:8.3f} s, {end}")
     for part in fast:
-        ui.show(f"page {part.page:3} step {part.step}: too fast at {volts:g} V: joint {part.joint} is asked for "
-                   f"{part.degrees_s:.0f} degrees/s, an unloaded AX-12 does {speed.no_load_degrees_s(volts):.0f}")
+        ui.show(
+            f"page {part.page:3} step {part.step}: too fast at {volts:g} V: joint {part.joint} is asked for "
+            f"{part.degrees_s:.0f} degrees/s, an unloaded AX-12 does {speed.no_load_degrees_s(volts):.0f}"
+        )

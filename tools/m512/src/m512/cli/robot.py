@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 play`, `stop`, `pose`, `torque`, `get`, `put`: what a running Play or Edit does for a program."""
+
 from __future__ import annotations
 
 import json
@@ -18,11 +19,13 @@ ID_MAX = 30
 
 def robot_options(function):
     for option in (
-            click.option("--servos", default="1-18", help="With --sim: the servos that are plugged in.", show_default=True),
-            click.option("--image", default="play-cm5.hex", help="With --sim: the firmware.", show_default=True),
-            click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind."),
-            click.option("--sim", is_flag=True, help="Start the simulator instead of using a port."),
-            json_option, port_option):
+        click.option("--servos", default="1-18", help="With --sim: the servos that are plugged in.", show_default=True),
+        click.option("--image", default="play-cm5.hex", help="With --sim: the firmware.", show_default=True),
+        click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind."),
+        click.option("--sim", is_flag=True, help="Start the simulator instead of using a port."),
+        json_option,
+        port_option,
+    ):
         function = option(function)
     return function
 
@@ -40,8 +43,7 @@ def robot(options, end=b"", image="play"):
     if options["sim"]:
         from m512.board.sim import Simulator, meet
 
-        with Simulator([options["image"]], options["motions"], options["servos"]) as simulator, \
-                Link(simulator.url) as link:
+        with Simulator([options["image"]], options["motions"], options["servos"]) as simulator, Link(simulator.url) as link:
             yield meet(link)
         return
     with Link(ports.pick(options["port"]), image=image) as link:
@@ -53,7 +55,7 @@ def robot(options, end=b"", image="play"):
 
             if not loaders.at_prompt(link):
                 raise NoAnswerError(f"{error} on {link.url} (m512 doctor looks why)") from None
-            loaders.identify(link).leave(loaders.STAY)       # refuses a board that is none of ours
+            loaders.identify(link).leave(loaders.STAY)  # refuses a board that is none of ours
             raise NoAnswerError("the board waits in its boot loader: `m512 run` starts the application") from None
         yield client
 
@@ -65,12 +67,14 @@ def _report(client, as_json):
     return state
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 play walk_start
   m512 play 12 --code U --wait        until it ends; Ctrl-C stops softly, again: at once
   m512 play walk --rate 120 --blend -30   a fifth faster, a curve to the left
-  m512 play wave --sim --motions library.m512 --wait""")
+  m512 play wave --sim --motions library.m512 --wait"""
+)
 @click.argument("page")
 @click.option("--rate", type=click.IntRange(10, 400), help="Speed in percent, for this play and until changed (m512 shape).")
 @click.option("--amplitude", type=click.IntRange(0, 150), help="Size in percent, about the centre page's pose.")
@@ -95,7 +99,7 @@ def play(page, rate, amplitude, blend, key, wait, **options):
                 client.ask(f"{word} {value}")
         client.play(number, code)
         ui.say(f"page {number} plays" + ("; waiting for its end, Ctrl-C stops it" if wait else ""))
-        if wait or options["sim"] or is_bus(options["port"]):      # what was started for this command ends with it
+        if wait or options["sim"] or is_bus(options["port"]):  # what was started for this command ends with it
             _follow(client)
         _report(client, options["as_json"])
 
@@ -121,10 +125,12 @@ def _follow(client):
             ui.say("stopping through the exit page; Ctrl-C again stops at once" if asked == 1 else "stopping at once")
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 stop           softly, through the exit pages
-  m512 stop --now     at once: all joints slow down to a stand, torque stays on""")
+  m512 stop --now     at once: all joints slow down to a stand, torque stays on"""
+)
 @click.option("--now", is_flag=True, help="Leave the page at once.")
 @robot_options
 def stop(now, **options):
@@ -136,11 +142,13 @@ def stop(now, **options):
         _report(client, options["as_json"])
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 pose                          where the joints are
   m512 pose --text                   as a line for a motion text
-  m512 pose 1:512 2:300 --speed 30   move two joints, at 30 degrees/s""")
+  m512 pose 1:512 2:300 --speed 30   move two joints, at 30 degrees/s"""
+)
 @click.argument("positions", nargs=-1, metavar="[ID:POSITION]...")
 @click.option("--speed", default=60, show_default=True, metavar="DEG/S", type=click.IntRange(1, 360), help="Largest speed of a joint.")
 @click.option("--text", "as_text", is_flag=True, help="As a step of the text format.")
@@ -183,10 +191,12 @@ def positions_of(words):
     return out
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 torque off          all joints go limp: hold the robot first
-  m512 torque on 3 4 5""")
+  m512 torque on 3 4 5"""
+)
 @click.argument("state", type=click.Choice(["on", "off"]))
 @click.argument("ids", nargs=-1, type=click.IntRange(0, ID_MAX))
 @robot_options
@@ -197,10 +207,12 @@ def torque(state, ids, **options):
         _report(client, options["as_json"])
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 get walk_start walk_loop -o walk.m512
-  m512 get all -o robot.bin""")
+  m512 get all -o robot.bin"""
+)
 @click.argument("pages", nargs=-1, required=True)
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="Motion file of any kind.")
 @click.option("--force", is_flag=True, help="Overwrite the file.")
@@ -226,11 +238,13 @@ def get(pages, output, force, **options):
         ui.show(json.dumps({"file": str(output), "pages": numbers}))
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 put library.m512 walk_loop         to the same number
   m512 put library.m512 wave:40 3         wave to number 40, page 3 to 3
-  m512 put library.m512 1..9:60           pages 1 to 9 to 60 and on""")
+  m512 put library.m512 1..9:60           pages 1 to 9 to 60 and on"""
+)
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("pages", nargs=-1, required=True)
 @robot_options
@@ -248,7 +262,7 @@ def put(source, pages, **options):
         raise click.UsageError("the simulator forgets what is saved in it; `m512 play PAGE --sim --motions FILE` plays a file's pages")
     image = formats.load(source)
     moves = page_moves(pages, image)
-    goal = Image.empty(256)     # the board says how many of them it has
+    goal = Image.empty(256)  # the board says how many of them it has
     for remark in operations.place(goal, image, moves, replace=True):
         ui.say(f"note: {remark}")
     with robot(options, image="edit") as client:
@@ -256,5 +270,3 @@ def put(source, pages, **options):
     ui.say(f"saved: pages {' '.join(map(str, changed)) or 'none, they were there already'}")
     if options["as_json"]:
         ui.show(json.dumps({"saved": changed}))
-
-

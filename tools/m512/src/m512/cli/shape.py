@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 shape`, `drive`: a motion that plays made faster, larger, turned."""
+
 from __future__ import annotations
 
 from contextlib import contextmanager
@@ -16,9 +17,10 @@ FIELDS = ("rate", "amplitude", "blend")
 
 def shape_options(function):
     for option in (
-            click.option("--blend", type=click.IntRange(-100, 100), help="Percent towards the partner page: right 1.., left -1.."),
-            click.option("--amplitude", type=click.IntRange(0, 150), help="Size in percent, about the centre page's pose."),
-            click.option("--rate", type=click.IntRange(10, 400), help="Speed in percent.")):
+        click.option("--blend", type=click.IntRange(-100, 100), help="Percent towards the partner page: right 1.., left -1.."),
+        click.option("--amplitude", type=click.IntRange(0, 150), help="Size in percent, about the centre page's pose."),
+        click.option("--rate", type=click.IntRange(10, 400), help="Speed in percent."),
+    ):
         function = option(function)
     return function
 
@@ -30,11 +32,13 @@ def apply(client, rate, amplitude, blend):
             client.ask(f"{word} {value}")
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 shape                          what is in force
   m512 shape --rate 120 --blend -30   a fifth faster, a curve to the left
-  m512 shape --reset                  everything as stored""")
+  m512 shape --reset                  everything as stored"""
+)
 @shape_options
 @click.option("--reset", is_flag=True, help="Everything as stored on the board.")
 @robot_options
@@ -47,11 +51,13 @@ def shape(rate, amplitude, blend, reset, **options):
         show_shape(client, options["as_json"])
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 drive walk                keys of the terminal; keep a or d pressed to steer
   m512 drive walk --layer wave_over       f lays a second page over it: it waves while it walks
-  m512 drive walk --pad          the first game pad (needs pygame)""")
+  m512 drive walk --pad          the first game pad (needs pygame)"""
+)
 @click.argument("page")
 @click.option("--pad", is_flag=True, help="A game pad instead of keys.")
 @click.option("--layer", "laid", metavar="PAGE", help="Key f (the pad's fifth button) lays this page over the walk.")
@@ -64,9 +70,9 @@ def drive(page, pad, laid, **options):
     from m512.board import driving
 
     with robot(options) as client:
-        client.shape()          # Edit refuses here; it would play the page, and could not be driven
+        client.shape()  # Edit refuses here; it would play the page, and could not be driven
         number, second = client.find(page), client.find(laid) if laid else 0
-        with (_pad() if pad else _keys()) as source:
+        with _pad() if pad else _keys() as source:
             client.play(number)
             ui.say(f"page {number} plays. " + ("Any of the first four buttons stops it" if pad else driving.Keys.HELP))
             if second:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`m512 term`: the terminal."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -10,11 +11,13 @@ from m512 import ui
 from m512.cli.board import port_option
 
 
-@click.command(epilog="""\b
+@click.command(
+    epilog="""\b
 Examples:
   m512 term                         the only port there is
   m512 term -p ttyUSB0 --log session.txt
-  m512 term --list""")
+  m512 term --list"""
+)
 @port_option
 @click.option("--log", type=click.Path(path_type=Path), help="Write all that the board sends to this file.")
 @click.option("--send", type=click.Path(path_type=Path), help="Send this file first (as typed; a line at a time).")

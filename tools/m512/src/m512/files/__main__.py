@@ -3,6 +3,7 @@
 
 So the first build of the motion library needs no Python package. Exits 1 with one sentence when the source is wrong.
 """
+
 import sys
 from pathlib import Path
 

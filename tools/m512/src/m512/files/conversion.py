@@ -3,6 +3,7 @@
 
 For `m512 convert` and for the page in the browser, which must do the same.
 """
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -13,7 +14,7 @@ from m512.files.image import Image
 from m512.files.page import Page
 from m512.files.wording import Findings, named_pages_text
 
-FEW = 3   # damaged pages told with what is wrong in each
+FEW = 3  # damaged pages told with what is wrong in each
 
 
 def damaged_pages(image: Image) -> list[tuple[int, str]]:
@@ -44,9 +45,11 @@ def fitted(image: Image, count: int | None, source: Path, target: Path) -> tuple
         return image, []
     lost = image.beyond(wanted)
     if lost and not count:
-        raise RefusedError(f"{named_pages_text(lost)}: no room among the {wanted} pages of this kind of board, nothing was written. "
-                           f"--only NAME takes what you choose with all that it leads to, --pages 256 keeps all (for a board of 256 pages), "
-                           f"--pages {wanted} leaves {'it' if len(lost) == 1 else 'them'} out")
+        raise RefusedError(
+            f"{named_pages_text(lost)}: no room among the {wanted} pages of this kind of board, nothing was written. "
+            f"--only NAME takes what you choose with all that it leads to, --pages 256 keeps all (for a board of 256 pages), "
+            f"--pages {wanted} leaves {'it' if len(lost) == 1 else 'them'} out"
+        )
     return image.resized(wanted)
 
 

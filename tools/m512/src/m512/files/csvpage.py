@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """One page as a table for spreadsheets: header fields, then a line a step. An empty cell is a joint not used."""
+
 from __future__ import annotations
 
 import csv
@@ -10,8 +11,23 @@ from m512.files.image import Image
 from m512.files.page import JOINTS, STEPS, Page
 from m512.files.text.words import Token, WordError, name_bytes, number, position, position_text, quote_name
 
-FIELDS = ("repeat", "schedule", "code", "speed", "accel", "next", "exit", "link1_page", "link1_code", "link2_page",
-          "link2_code", "dxl_setup", "blend_right", "blend_left", "byte63")
+FIELDS = (
+    "repeat",
+    "schedule",
+    "code",
+    "speed",
+    "accel",
+    "next",
+    "exit",
+    "link1_page",
+    "link1_code",
+    "link2_page",
+    "link2_code",
+    "dxl_setup",
+    "blend_right",
+    "blend_left",
+    "byte63",
+)
 COLUMNS = ["step", "time", "pause"] + [f"id{joint}" for joint in range(JOINTS)]
 
 
@@ -39,8 +55,14 @@ def write(image: Image, which: int | None) -> tuple[bytes, list[str]]:
         table.writerow([step, page.time(step), page.pause(step)] + words)
     data = out.getvalue()
     again = read(data, "csv")[which]
-    losses = [] if again == page else [f"page {which}: what lies in unused steps, reserved bytes or behind the name's end"
-                                       + (" and its wrong checksum" if page.fault_text() else "")]
+    losses = (
+        []
+        if again == page
+        else [
+            f"page {which}: what lies in unused steps, reserved bytes or behind the name's end"
+            + (" and its wrong checksum" if page.fault_text() else "")
+        ]
+    )
     return data.encode(), losses
 
 

@@ -3,6 +3,7 @@
 
 load() says in Image.notes what it had to decide; save() returns what the new format cannot say (its losses).
 """
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -40,8 +41,7 @@ def recognise(data: bytes, path: Path) -> str:
         return TEXT
     kind = BY_SUFFIX.get(path.suffix.lower())
     if kind in (None, BINARY) or not data:
-        raise FileError(f"{path}: {len(data):,} bytes that are no motion file this program knows "
-                        "(image, Intel HEX, .mtn, CSV or text)")
+        raise FileError(f"{path}: {len(data):,} bytes that are no motion file this program knows (image, Intel HEX, .mtn, CSV or text)")
     return kind
 
 

@@ -8,6 +8,7 @@
 
 Which kind a file is follows from its length; whether it is 12-bit does not, and has to be told.
 """
+
 from __future__ import annotations
 
 import re
@@ -33,7 +34,7 @@ class Image:
     first: int = 0
     bits: int = 10
     notes: list[str] = field(default_factory=list)
-    joints: dict[int, str] = field(default_factory=dict)     # names, where the file gives some
+    joints: dict[int, str] = field(default_factory=dict)  # names, where the file gives some
 
     @classmethod
     def empty(cls, count: int = 128) -> Image:
@@ -90,8 +91,7 @@ class Image:
 
     def beyond(self, count: int) -> dict[int, str]:
         """{number: title} of the used pages that 0..count-1 have no room for."""
-        return {number: page.title for number, page in self.items()
-                if number >= count and not page.is_empty and len(set(page.data)) > 1}
+        return {number: page.title for number, page in self.items() if number >= count and not page.is_empty and len(set(page.data)) > 1}
 
     def resized(self, count: int) -> tuple[Image, list[str]]:
         """The same as pages 0..count-1, with a list of what is lost. Links to pages that are no longer there become empty."""
@@ -122,7 +122,7 @@ def from_bytes(data: bytes, bits: int = 10) -> Image:
     if len(data) not in SIZES:
         raise FileError(f"{len(data):,} bytes is not the size of a motion image (65,536, 65,024 or 131,072)")
     first, _ = SIZES[len(data)]
-    return Image([Page(data[at:at + PAGE_BYTES]) for at in range(0, len(data), PAGE_BYTES)], first, bits)
+    return Image([Page(data[at : at + PAGE_BYTES]) for at in range(0, len(data), PAGE_BYTES)], first, bits)
 
 
 def hex_segments(text: str) -> list[tuple[int, bytes]]:
@@ -150,15 +150,14 @@ def from_hex(text: str, bits: int = 10) -> Image:
     elif 0x1E000 <= low and high <= 0x3E000:
         count = 256
     else:
-        raise FileError(f"addresses 0x{low:05X}..0x{high - 1:05X} are no motion area "
-                        "(0x0E000..0x1DFFF of a CM-2/CM-5, 0x1E000..0x3DFFF of a CM-510)")
+        raise FileError(f"addresses 0x{low:05X}..0x{high - 1:05X} are no motion area (0x0E000..0x1DFFF of a CM-2/CM-5, 0x1E000..0x3DFFF of a CM-510)")
     base, image = HEX_BASE[count], Image.empty(count)
     image.bits = bits
     for start, data in segments:
         if (start - base) % PAGE_BYTES or len(data) % PAGE_BYTES:
             raise FileError(f"0x{start:05X}..0x{start + len(data) - 1:05X} is not made of whole 512-byte pages")
         for at in range(0, len(data), PAGE_BYTES):
-            image[(start - base + at) // PAGE_BYTES] = Page(data[at:at + PAGE_BYTES])
+            image[(start - base + at) // PAGE_BYTES] = Page(data[at : at + PAGE_BYTES])
     given = sum(len(data) for _, data in segments) // PAGE_BYTES
     if given < count:
         image.notes.append(f"the file holds {given} of {count} pages; the others are taken as empty")

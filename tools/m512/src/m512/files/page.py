@@ -4,6 +4,7 @@
 A Page never refuses bytes: damaged pages have to be shown, kept and repaired. `fault()` and `faults()` say what is
 wrong, in the order of page_status_t.
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -19,7 +20,7 @@ TICKS_PER_SECOND = 128
 
 SCHEDULE_SPEED = 0x00
 SCHEDULE_TIME = 0x0A
-POS_UNUSED = 0x4000      # joint not used in this step: it keeps its last target
+POS_UNUSED = 0x4000  # joint not used in this step: it keeps its last target
 POS_TORQUE_OFF = 0x2000  # Edit's work pose only
 CODE_STOP = 255
 
@@ -132,7 +133,7 @@ class Page:
 
     def set_word(self, step: int, joint: int, word: int) -> None:
         at = 64 + STEP_BYTES * step + 2 * joint
-        self.data[at:at + 2] = word.to_bytes(2, "little")
+        self.data[at : at + 2] = word.to_bytes(2, "little")
 
     def words(self, step: int) -> list[int]:
         return [self.word(step, joint) for joint in range(JOINTS)]
@@ -151,11 +152,11 @@ class Page:
         self.data[64 + STEP_BYTES * step + 63] = value
 
     def step_bytes(self, step: int) -> bytes:
-        return bytes(self.data[64 + STEP_BYTES * step:64 + STEP_BYTES * (step + 1)])
+        return bytes(self.data[64 + STEP_BYTES * step : 64 + STEP_BYTES * (step + 1)])
 
     def set_step_bytes(self, step: int, block: bytes) -> None:
         assert len(block) == STEP_BYTES
-        self.data[64 + STEP_BYTES * step:64 + STEP_BYTES * (step + 1)] = block
+        self.data[64 + STEP_BYTES * step : 64 + STEP_BYTES * (step + 1)] = block
 
     # Checks
 
@@ -175,8 +176,7 @@ class Page:
             yield Fault.SCHEDULE
         if self.speed == 0:
             yield Fault.SPEED
-        if any(is_used(word) and word > kind.pos_max
-               for step in range(min(self.steps, STEPS)) for word in self.words(step)):
+        if any(is_used(word) and word > kind.pos_max for step in range(min(self.steps, STEPS)) for word in self.words(step)):
             yield Fault.POSITION
 
     def fault(self, kind: Kind = Kind()) -> Fault:
@@ -197,9 +197,12 @@ class Page:
             return f"schedule is 0x{self.schedule:02X}, neither speed base (0x00) nor time base (0x0A)"
         if fault is Fault.SPEED:
             return "page speed is 0"
-        bad = [f"step {step + 1} ID {joint} is 0x{self.word(step, joint):04X}"
-               for step in range(min(self.steps, STEPS)) for joint in range(JOINTS)
-               if is_used(self.word(step, joint)) and self.word(step, joint) > kind.pos_max]
+        bad = [
+            f"step {step + 1} ID {joint} is 0x{self.word(step, joint):04X}"
+            for step in range(min(self.steps, STEPS))
+            for joint in range(JOINTS)
+            if is_used(self.word(step, joint)) and self.word(step, joint) > kind.pos_max
+        ]
         more = f" and {len(bad) - 3} more" if len(bad) > 3 else ""
         return f"position beyond {kind.pos_max}: " + ", ".join(bad[:3]) + more
 
@@ -230,7 +233,7 @@ def _make_empty() -> bytes:
     data[24] = 32
     data[32:63] = bytes([0x55]) * JOINTS
     for step in range(STEPS):
-        data[64 + STEP_BYTES * step:64 + STEP_BYTES * step + 62] = POS_UNUSED.to_bytes(2, "little") * JOINTS
+        data[64 + STEP_BYTES * step : 64 + STEP_BYTES * step + 62] = POS_UNUSED.to_bytes(2, "little") * JOINTS
     data[31] = (0xFF - sum(data)) & 0xFF
     return bytes(data)
 

@@ -3,6 +3,7 @@
 
 One 12-bit unit is exactly 0.3 10-bit units. What does not fit is cut and reported; what rounding costs is reported.
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -12,7 +13,7 @@ from m512.files.image import TWELVE_BIT_MAX, Image
 from m512.files.page import JOINTS, POS_UNUSED, STEPS, Fault, Page, is_used
 from m512.files.wording import pages_text
 
-SHOWN = 4   # cut positions told one by one
+SHOWN = 4  # cut positions told one by one
 HINT = "m512 convert --bits 12 --scale 10 makes it fit a board of 10 bits"
 
 
@@ -20,15 +21,24 @@ def judged(image: Image, bits: int | None) -> Image:
     """The image, taken as one of 12 bits when nobody said how many it has and it looks like that: more than half of the positions that whole
     pages use lie beyond 1023 (12-bit poses stand about 2048). A 0 does not count, nor what is beyond 4095: unused joints often hold such things.
     Told in one note, whatever was said."""
-    words = [(number, word) for number, page in image.items() if number and page.fault() is not Fault.CHECKSUM
-             for step in range(min(page.steps, STEPS)) for word in page.words(step) if 0 < word <= TWELVE_BIT_MAX and is_used(word)]
+    words = [
+        (number, word)
+        for number, page in image.items()
+        if number and page.fault() is not Fault.CHECKSUM
+        for step in range(min(page.steps, STEPS))
+        for word in page.words(step)
+        if 0 < word <= TWELVE_BIT_MAX and is_used(word)
+    ]
     high = [(number, word) for number, word in words if word > 1023]
     if bits == 12 or 2 * len(high) <= len(words):
         return image
     count = len({number for number, _ in high})
     image.bits = bits or 12
-    image.notes.append(f"looks like 12 bit (positions up to {max(word for _, word in high)} in {count} pages) and is "
-                       + ("read as 10 bit, as asked" if bits else "read so") + f"; {HINT}")
+    image.notes.append(
+        f"looks like 12 bit (positions up to {max(word for _, word in high)} in {count} pages) and is "
+        + ("read as 10 bit, as asked" if bits else "read so")
+        + f"; {HINT}"
+    )
     return image
 
 
@@ -54,8 +64,8 @@ class _Work:
         self.top_in, self.centre_in, self.centre, self.top = (4095, 2048, 512, 1023) if bits == 10 else (1023, 512, 2048, 4095)
         self.count, self.worst = 0, Fraction(0)
         self.damaged: list[int] = []
-        self.cut: list[tuple[int, int, str]] = []            # page, joint, in words
-        self.impossible: list[tuple[int, int]] = []          # page, joint
+        self.cut: list[tuple[int, int, str]] = []  # page, joint, in words
+        self.impossible: list[tuple[int, int]] = []  # page, joint
 
     def scale_page(self, number: int, page: Page) -> None:
         for step in range(min(page.steps, STEPS)):
@@ -80,16 +90,23 @@ class _Work:
     def report(self, bits_before: int) -> list[str]:
         out = [f"{pages_text(self.damaged)}: checksum wrong, not scaled"] if self.damaged else []
         if self.count:
-            out.insert(0, f"{self.count} positions scaled from {bits_before} to {self.bits} bits; rounding moved none by more than "
-                       f"{float(self.worst):.2g} units")
+            out.insert(
+                0,
+                f"{self.count} positions scaled from {bits_before} to {self.bits} bits; rounding moved none by more than "
+                f"{float(self.worst):.2g} units",
+            )
         if self.cut:
-            out.append(f"{len(self.cut)} positions cut at the end of the range: IDs {_ids(joint for _, joint, _ in self.cut)} in "
-                       f"{pages_text(page for page, _, _ in self.cut)} ({'; '.join(text for _, _, text in self.cut[:SHOWN])}"
-                       + (f" and {len(self.cut) - SHOWN} more" if len(self.cut) > SHOWN else "")
-                       + "). --joints leaves out what the robot has not")
+            out.append(
+                f"{len(self.cut)} positions cut at the end of the range: IDs {_ids(joint for _, joint, _ in self.cut)} in "
+                f"{pages_text(page for page, _, _ in self.cut)} ({'; '.join(text for _, _, text in self.cut[:SHOWN])}"
+                + (f" and {len(self.cut) - SHOWN} more" if len(self.cut) > SHOWN else "")
+                + "). --joints leaves out what the robot has not"
+            )
         if self.impossible:
-            out.append(f"{len(self.impossible)} positions were no {bits_before}-bit positions and are now unused: IDs "
-                       f"{_ids(joint for _, joint in self.impossible)} in {pages_text(page for page, _ in self.impossible)}")
+            out.append(
+                f"{len(self.impossible)} positions were no {bits_before}-bit positions and are now unused: IDs "
+                f"{_ids(joint for _, joint in self.impossible)} in {pages_text(page for page, _ in self.impossible)}"
+            )
         return out
 
 
@@ -116,5 +133,4 @@ def keep_joints(image: Image, joints: Iterable[int]) -> list[str]:
                     dropped[joint] = dropped.get(joint, 0) + 1
                     page.set_word(step, joint, POS_UNUSED)
         page.seal()
-    return [f"{sum(dropped.values())} positions of joints left out (IDs " + " ".join(map(str, sorted(dropped))) + ")"] \
-        if dropped else []
+    return [f"{sum(dropped.values())} positions of joints left out (IDs " + " ".join(map(str, sorted(dropped))) + ")"] if dropped else []

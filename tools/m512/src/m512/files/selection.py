@@ -8,6 +8,7 @@
 
 A name goes before all but numbers: a page may be called "a:b" or "1..2". WordError: what somebody typed means nothing.
 """
+
 from __future__ import annotations
 
 import re
@@ -16,7 +17,7 @@ from typing import Callable, Protocol
 
 from m512.errors import M512Error, WordError
 
-NUMBER_MOST = 255        # of a page, anywhere
+NUMBER_MOST = 255  # of a page, anywhere
 
 
 class Pages(Protocol):

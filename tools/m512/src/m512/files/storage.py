@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Files read and written: whole or not at all, and pipes too ("-" is standard input or output)."""
+
 from __future__ import annotations
 
 import os
@@ -11,7 +12,7 @@ from pathlib import Path
 
 from m512.errors import FileError
 
-MOST_BYTES = 4 << 20         # no motion file, firmware or backup is larger; /dev/zero is. Readers take time in proportion to it
+MOST_BYTES = 4 << 20  # no motion file, firmware or backup is larger; /dev/zero is. Readers take time in proportion to it
 
 
 def _descriptor(path: Path) -> int | None:

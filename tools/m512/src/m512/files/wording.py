@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Sentences about many pages: what is the same for several pages is said once."""
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-SHOWN_NAMES = 6   # pages named with their names; more get numbers only
+SHOWN_NAMES = 6  # pages named with their names; more get numbers only
 
 
 def ranges(numbers: Iterable[int]) -> list[str]:
@@ -22,12 +23,12 @@ def ranges(numbers: Iterable[int]) -> list[str]:
 
 
 def listed(texts: Sequence[str]) -> str:
-    """"a", "a and b", "a, b and c"."""
+    """ "a", "a and b", "a, b and c"."""
     return texts[0] if len(texts) == 1 else ", ".join(texts[:-1]) + " and " + texts[-1]
 
 
 def pages_text(numbers: Iterable[int]) -> str:
-    """"page 3", "pages 1..3 and 7"."""
+    """ "page 3", "pages 1..3 and 7"."""
     numbers = sorted(set(numbers))
     return f"page {numbers[0]}" if len(numbers) == 1 else "pages " + listed(ranges(numbers))
 
@@ -36,7 +37,7 @@ def named_pages_text(titles: dict[int, str]) -> str:
     """The same with names, as long as they are few: 'pages 3 "wave" and 7 "bow"'."""
     if len(titles) > SHOWN_NAMES:
         return pages_text(titles)
-    texts = [f"{number} \"{title}\"" if title else str(number) for number, title in sorted(titles.items())]
+    texts = [f'{number} "{title}"' if title else str(number) for number, title in sorted(titles.items())]
     return ("page " if len(texts) == 1 else "pages ") + listed(texts)
 
 

@@ -2,6 +2,7 @@
 """The exact law: no way-point passed, no tick idle, every step ends on its target. Source: the specification of the
 player, section 2. Told in fractions, so that nothing but the last rounding is inexact.
 """
+
 from __future__ import annotations
 
 from fractions import Fraction
@@ -14,7 +15,7 @@ class Exact:
     def __init__(self, walk: Walk, pose: list[int]):
         self.walk, self.ended = walk, False
         self.target, self.start, self.move = list(pose), list(pose), [0] * JOINTS
-        self.before, self.after = [Fraction(0)] * JOINTS, [Fraction(0)] * JOINTS   # speeds at the way-points
+        self.before, self.after = [Fraction(0)] * JOINTS, [Fraction(0)] * JOINTS  # speeds at the way-points
         self.here: Step = None  # type: ignore[assignment]
         self.carry = Fraction(0)
         self.count = self.length = self.ramp = self.hold = 0

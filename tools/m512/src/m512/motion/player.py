@@ -4,6 +4,7 @@
 A model of the law; the firmware's player is in C. A play is a generator of
 Ticks, one each 1/128 s. Only next and exit links are followed: there is no remote control here.
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
@@ -24,12 +25,11 @@ class Tick:
 
     number: int
     page: int
-    step: int                      # 1..7
+    step: int  # 1..7
     goals: list[int] | None
 
 
-def play(image: Image, page: int, pose: Sequence[int] | None = None,
-         limit: int = 128 * 60, stop_at: int | None = None) -> Iterator[Tick]:
+def play(image: Image, page: int, pose: Sequence[int] | None = None, limit: int = 128 * 60, stop_at: int | None = None) -> Iterator[Tick]:
     """The ticks of a play that starts with `page`, at most `limit` of them. `pose`: where the joints stand."""
     walk = Walk(image, page)
     law = Exact(walk, list(pose or [NEUTRAL] * JOINTS))

@@ -4,6 +4,7 @@
 An AX-12 turns 59 rpm without load at 12 V (its maker's sheet), less in proportion at a lower supply. Goals that run away
 faster are not reached: the joint lags, and the motion is another one than was made.
 """
+
 from __future__ import annotations
 
 from collections import deque
@@ -15,10 +16,10 @@ from m512.files.page import JOINTS
 from m512.motion.player import play
 
 NO_LOAD_RPM, SHEET_V = 59.0, 12.0
-BATTERY_V = 9.6                      # a CM-5's pack: 8 cells of 1.2 V
+BATTERY_V = 9.6  # a CM-5's pack: 8 cells of 1.2 V
 DEGREES_PER_UNIT = 300 / 1024
 TICKS_PER_SECOND = 128
-WINDOW = 4                           # ticks over which speed is measured: goals are whole units
+WINDOW = 4  # ticks over which speed is measured: goals are whole units
 
 
 @dataclass
@@ -26,7 +27,7 @@ class TooFast:
     """The fastest joint of a step that asks too much."""
 
     page: int
-    step: int                        # 1..7
+    step: int  # 1..7
     joint: int
     degrees_s: float
 

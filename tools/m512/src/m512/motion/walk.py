@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The order in which a play goes through steps: pages, repetitions, next and exit links. Knows no law of motion."""
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -15,7 +16,7 @@ class Step:
     """A step as the player meets it, `following` the one it looks ahead to (None: the play ends here)."""
 
     page: int
-    number: int                    # 1..7
+    number: int  # 1..7
     data: Page
     first_of_page: bool = False
 
@@ -30,7 +31,7 @@ class Walk:
     def __init__(self, image: Image, page: int):
         self.image, self.page = image, page
         self.step, self.left = 0, 0
-        self.follow: int | None = None    # page after this one, decided at the beginning of its last step
+        self.follow: int | None = None  # page after this one, decided at the beginning of its last step
         self.stopping, self.ended, self.why = False, False, ""
         self.exits: dict[int, None] = {}
         self._enter(page)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """How two motion areas differ, in words: which page, which field or step and joint, from, to."""
+
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
@@ -17,17 +18,16 @@ class Change:
     what: str
     before: str
     after: str
-    step: int | None = None   # 1..7
+    step: int | None = None  # 1..7
     joint: int | None = None
 
     def __str__(self) -> str:
-        where = f"page {self.page}" + (f" \"{self.name}\"" if self.name else "")
+        where = f"page {self.page}" + (f' "{self.name}"' if self.name else "")
         if self.step is not None:
             where += f", step {self.step}"
         if self.joint is not None:
             where += f", ID {self.joint}"
-        move = f" ({int(self.after) - int(self.before):+d})" if self.before.isdigit() and self.after.isdigit() \
-            and self.joint is not None else ""
+        move = f" ({int(self.after) - int(self.before):+d})" if self.before.isdigit() and self.after.isdigit() and self.joint is not None else ""
         what = f" {self.what}" if self.what else ""
         if not self.before and not self.after:
             return f"{where}:{what}"
@@ -37,9 +37,19 @@ class Change:
         return {key: value for key, value in asdict(self).items() if value is not None}
 
 
-FIELDS = {"repeat": "repeat", "speed": "speed", "dxl_setup": "dxl_setup", "accel": "accel", "next": "next", "exit": "exit",
-          "link1_page": "linked page 1", "link2_page": "linked page 2", "blend_right": "blend partner to the right",
-          "blend_left": "blend partner to the left", "byte63": "byte 63"}
+FIELDS = {
+    "repeat": "repeat",
+    "speed": "speed",
+    "dxl_setup": "dxl_setup",
+    "accel": "accel",
+    "next": "next",
+    "exit": "exit",
+    "link1_page": "linked page 1",
+    "link2_page": "linked page 2",
+    "blend_right": "blend partner to the right",
+    "blend_left": "blend partner to the left",
+    "byte63": "byte 63",
+}
 CODES = {"code": "code", "link1_code": "code of linked page 1", "link2_code": "code of linked page 2"}
 SCHEDULES = {SCHEDULE_TIME: "time base", SCHEDULE_SPEED: "speed base"}
 
@@ -78,7 +88,7 @@ def pages(number: int, a: Page, b: Page, image: Image | None = None) -> list[Cha
     whole = _whole(number, a, b)
     if whole:
         return whole
-    name, out = b.title or a.title, []   # type: str, list[Change]
+    name, out = b.title or a.title, []  # type: str, list[Change]
 
     def add(what: str, before: object, after: object, step: int | None = None, joint: int | None = None) -> None:
         if before != after:

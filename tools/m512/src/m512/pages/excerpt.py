@@ -5,6 +5,7 @@ A page keeps its number where that exists in the new image; the others go to its
 codes that choose them follow; a page's own remote code is in it. A link to a page that holds nothing, at which a play ends, becomes none:
 another page may stand there now.
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -21,15 +22,18 @@ LINKS = Page.LINKS + Page.PARTNERS
 @dataclass
 class Excerpt:
     image: Image
-    moved: dict[int, int] = field(default_factory=dict)      # old number -> new one, of all that were taken
-    left: list[int] = field(default_factory=list)            # pages that hold something and were not
+    moved: dict[int, int] = field(default_factory=dict)  # old number -> new one, of all that were taken
+    left: list[int] = field(default_factory=list)  # pages that hold something and were not
 
     def notes(self, whole: Image, wanted: Iterable[int]) -> list[str]:
         """What was taken, renumbered and left out, in words."""
         more = sorted(set(self.moved) - set(wanted))
         out = [f"{_named(whole, more)}: taken too, because what was asked for leads there"] if more else []
-        out += [f"renumbered: {', '.join(_runs({old: new for old, new in self.moved.items() if old != new}))}"] \
-            if any(old != new for old, new in self.moved.items()) else []
+        out += (
+            [f"renumbered: {', '.join(_runs({old: new for old, new in self.moved.items() if old != new}))}"]
+            if any(old != new for old, new in self.moved.items())
+            else []
+        )
         return out + ([f"{_named(whole, self.left)}: left out"] if self.left else [])
 
 
@@ -86,4 +90,3 @@ def _runs(moved: dict[int, int]) -> list[str]:
         else:
             runs.append([old])
     return [f"{pages_text(run)} become{'s' if len(run) == 1 else ''} {pages_text(moved[old] for old in run).split(' ', 1)[1]}" for run in runs]
-

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """One line a page, for people and for programs."""
+
 from __future__ import annotations
 
 from m512.files.image import Image, is_erased
@@ -9,16 +10,37 @@ from m512.motion.player import page_seconds
 
 
 def describe(image: Image, number: int, page: Page) -> dict:
-    links = {name: getattr(page, field) for name, field in
-             (("next", "next"), ("exit", "exit"), ("link1", "link1_page"), ("link2", "link2_page"),
-              ("right", "blend_right"), ("left", "blend_left")) if getattr(page, field)}
+    links = {
+        name: getattr(page, field)
+        for name, field in (
+            ("next", "next"),
+            ("exit", "exit"),
+            ("link1", "link1_page"),
+            ("link2", "link2_page"),
+            ("right", "blend_right"),
+            ("left", "blend_left"),
+        )
+        if getattr(page, field)
+    }
     fault = "" if is_erased(page) else page.fault_text(image.kind)
     good = page.fault(image.kind) is Fault.OK
-    return {"page": number, "name": page.title if good else "", "steps": page.steps, "repeat": page.repeat,
-            "base": "time" if page.schedule == SCHEDULE_TIME else "speed", "speed": page.speed, "accel": page.accel,
-            "code": page.code, "link1_code": page.link1_code, "link2_code": page.link2_code, "links": links,
-            "seconds": round(page_seconds(page), 3) if good else None,
-            "valid": good, "erased": is_erased(page), "fault": fault}
+    return {
+        "page": number,
+        "name": page.title if good else "",
+        "steps": page.steps,
+        "repeat": page.repeat,
+        "base": "time" if page.schedule == SCHEDULE_TIME else "speed",
+        "speed": page.speed,
+        "accel": page.accel,
+        "code": page.code,
+        "link1_code": page.link1_code,
+        "link2_code": page.link2_code,
+        "links": links,
+        "seconds": round(page_seconds(page), 3) if good else None,
+        "valid": good,
+        "erased": is_erased(page),
+        "fault": fault,
+    }
 
 
 def table(rows: list[dict]) -> str:
@@ -31,8 +53,10 @@ def table(rows: list[dict]) -> str:
         elif not row["page"]:
             lines.append(f"{row['page']:4}  (trim)")
         else:
-            lines.append(f"{row['page']:4}  {row['name']:13}  {row['steps']:5}  {row['repeat']:5}  {row['seconds']:7.2f}  "
-                         f"{code_text(row['code']) if row['code'] else '':6}  {_links(row)}".rstrip())
+            lines.append(
+                f"{row['page']:4}  {row['name']:13}  {row['steps']:5}  {row['repeat']:5}  {row['seconds']:7.2f}  "
+                f"{code_text(row['code']) if row['code'] else '':6}  {_links(row)}".rstrip()
+            )
     return "\n".join(lines)
 
 

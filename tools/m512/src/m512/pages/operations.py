@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What `m512 pages` does to pages. Each function changes the image it is given and returns remarks for the user."""
+
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -58,8 +59,13 @@ def remarks(image: Image) -> list[tuple[int, str]]:
     for number, page in image.items():
         if number and not page.fault(image.kind) and page.is_playable and page.schedule == SCHEDULE_TIME and page.speed != NOMINAL_SPEED:
             factor = page.speed / NOMINAL_SPEED
-            out.append((number, f"speed {page.speed}: steps and pauses last {factor:.4g} times what they say "
-                                f"(0.5 s becomes {0.5 * factor:.4g} s); {NOMINAL_SPEED} plays them as written"))
+            out.append(
+                (
+                    number,
+                    f"speed {page.speed}: steps and pauses last {factor:.4g} times what they say "
+                    f"(0.5 s becomes {0.5 * factor:.4g} s); {NOMINAL_SPEED} plays them as written",
+                )
+            )
         beyond = page.links_beyond(image.kind) if number and not page.fault(image.kind) and page.is_playable else []
         if beyond:
             out.append((number, f"{' and '.join(beyond)}: there is no such page, so the robot follows no link there"))
@@ -93,13 +99,13 @@ def rename(image: Image, number: int, name: str) -> list[str]:
 def _must_be_free(image: Image, number: int, replace: bool) -> None:
     page = image[number]
     if not page.is_empty and not is_erased(page) and not replace:
-        raise RefusedError(f"page {number} \"{page.title}\" is not empty (--replace overwrites it)")
+        raise RefusedError(f'page {number} "{page.title}" is not empty (--replace overwrites it)')
 
 
 def copy(image: Image, source: int, target: int, replace: bool = False) -> list[str]:
     _must_be_free(image, target, replace)
     page = need_good(image, source).copy()
-    relink(page, {source: target})             # a page that leads to itself goes on doing so
+    relink(page, {source: target})  # a page that leads to itself goes on doing so
     image[target] = page.seal()
     return [f"the copy has the same name {page.title!r} and code {page.code}"] if page.name or page.code else []
 
@@ -111,8 +117,11 @@ def delete(image: Image, numbers: Iterable[int]) -> list[str]:
         image[number] = Page()
     for number, page in image.items():
         if number not in gone:
-            remarks += [f"page {number} \"{page.title}\" still links to page {getattr(page, link)} ({link})"
-                        for link in Page.LINKS + Page.PARTNERS if getattr(page, link) in gone]
+            remarks += [
+                f'page {number} "{page.title}" still links to page {getattr(page, link)} ({link})'
+                for link in Page.LINKS + Page.PARTNERS
+                if getattr(page, link) in gone
+            ]
     return remarks
 
 
@@ -158,7 +167,7 @@ def place(image: Image, source: Image, moves: list[tuple[int, int]], replace: bo
         for link in Page.LINKS + Page.PARTNERS:
             old = getattr(source[there], link)
             if old and old not in moved:
-                remarks.append(f"page {here} \"{page.title}\": {link} {old} is not among the pages taken")
+                remarks.append(f'page {here} "{page.title}": {link} {old} is not among the pages taken')
         image[here] = page
     return remarks
 
@@ -223,7 +232,7 @@ def chain(image: Image, number: int) -> tuple[list[tuple[int, int, float]], str]
             pose = end_pose(page, pose)
             again = page_seconds(page, pose)
             out.append((number, page.repeat, once + (page.repeat - 1) * again))
-        if not max(1, image.first) <= page.next < image.end:     # page 0 is the trim: no link leads there
+        if not max(1, image.first) <= page.next < image.end:  # page 0 is the trim: no link leads there
             return out, "ends"
         number = page.next
 

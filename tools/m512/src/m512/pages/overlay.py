@@ -9,6 +9,7 @@ its straight line, rounded. What ends first holds its last pose, or goes round a
     other    |----|-----------|                          ... of the arms
     merged   |----|-------|---|--|------------|          steps of both
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -23,7 +24,7 @@ from m512.pages.operations import need_good
 
 STEP_TICKS = 255
 MOST_STEPS = 7 * 60
-Point = tuple[int, int]        # (tick, position)
+Point = tuple[int, int]  # (tick, position)
 
 
 @dataclass
@@ -76,8 +77,9 @@ def line_of(image: Image, number: int, joints: Iterable[int]) -> Line:
             if len(out.ticks) > MOST_STEPS:
                 raise RefusedError(f"page {number}: this motion is longer than {MOST_STEPS} steps")
             goals = {joint: page.word(step.number - 1, joint) for joint in chosen if is_used(page.word(step.number - 1, joint))}
-            moves = [step.target(joint, pose.get(joint, step.target(joint, 512))) - pose.get(joint, step.target(joint, 512))
-                     for joint in range(JOINTS)]
+            moves = [
+                step.target(joint, pose.get(joint, step.target(joint, 512))) - pose.get(joint, step.target(joint, 512)) for joint in range(JOINTS)
+            ]
             begin, now = now, now + max(step_ticks(step, moves), Fraction(1))
             for joint, goal in goals.items():
                 points = out.points.setdefault(joint, [(0, goal)])
@@ -93,8 +95,7 @@ def line_of(image: Image, number: int, joints: Iterable[int]) -> Line:
     return out
 
 
-def combine(image: Image, base: int, other_image: Image, other: int, joints: Iterable[int], target: int,
-            replace: bool = False) -> list[str]:
+def combine(image: Image, base: int, other_image: Image, other: int, joints: Iterable[int], target: int, replace: bool = False) -> list[str]:
     """From page `target` on: the motion of page `base`, with `joints` doing that of page `other` (of another image, or the
     same). Returns remarks. What `base` leads back to is gone on with when `other` is over."""
     if image.bits != other_image.bits:
@@ -139,16 +140,17 @@ def _steps(below: Line, above: Line, taken: set[int], total: int) -> list[tuple[
     return out
 
 
-def _pages(image: Image, base: Page, other: Page, taken: set[int], steps: list[tuple[int, int, dict[int, int]]], target: int,
-           replace: bool) -> list[tuple[int, Page]]:
+def _pages(
+    image: Image, base: Page, other: Page, taken: set[int], steps: list[tuple[int, int, dict[int, int]]], target: int, replace: bool
+) -> list[tuple[int, Page]]:
     """The steps on pages that follow each other: `target` and free ones behind it."""
     count = -(-len(steps) // STEPS)
     free = [n for n in range(target + 1, image.end) if image[n].is_empty or is_erased(image[n])]
     if not image[target].is_empty and not is_erased(image[target]) and not replace:
-        raise RefusedError(f"page {target} \"{image[target].title}\" is not empty (--replace overwrites it)")
+        raise RefusedError(f'page {target} "{image[target].title}" is not empty (--replace overwrites it)')
     if len(free) < count - 1:
         raise RefusedError(f"{len(steps)} steps need {count} pages; behind page {target} only {len(free)} are free")
-    numbers = [target, *free[:count - 1]]
+    numbers = [target, *free[: count - 1]]
     out = []
     for k, number in enumerate(numbers):
         page = Page()
@@ -156,7 +158,7 @@ def _pages(image: Image, base: Page, other: Page, taken: set[int], steps: list[t
         page.accel, page.exit, page.byte63, page.code = base.accel, base.exit, base.byte63, base.code if k == 0 else 0
         for joint in range(JOINTS):
             page.set_compliance(joint, (other if joint in taken else base).compliance(joint))
-        chunk = steps[k * STEPS:(k + 1) * STEPS]
+        chunk = steps[k * STEPS : (k + 1) * STEPS]
         page.steps = len(chunk)
         for at, (ticks, pause, pose) in enumerate(chunk):
             page.set_time(at, ticks)
@@ -180,5 +182,5 @@ def _remarks(image: Image, pages: list[tuple[int, Page]], below: Line, above: Li
             out.append(f"{what} is cut in its round at {total / 128:.3f} s (a round takes {line.length / 128:.3f} s)")
     after = pages[-1][1].next
     if after:
-        out.append(f"page {pages[-1][0]} goes on with page {after}" + (f" \"{image[after].title}\"" if image[after].name else ""))
+        out.append(f"page {pages[-1][0]} goes on with page {after}" + (f' "{image[after].title}"' if image[after].name else ""))
     return out

@@ -4,6 +4,7 @@
 envelope: byte-order mark, line ends, checksum. reader: the text. long_pages: pages with more than seven steps. writer: the
 way back, and what it loses. What reading had to decide stands in Image.notes, in sentences for the user.
 """
+
 from m512.files.mtn.envelope import BOM, file_checksum
 from m512.files.mtn.reader import read
 from m512.files.mtn.writer import rate_of, write

@@ -5,6 +5,7 @@ Editors and version control change these without knowing: a line end behind the 
 although the sum counted it, CR LF, a checksum that is gone or stale. None of it makes the text wrong. So the text is taken whenever it is
 whole, and what was found is told.
 """
+
 from __future__ import annotations
 
 import re
@@ -15,7 +16,7 @@ from m512.errors import FileError
 BOM = b"\xef\xbb\xbf"
 LAST = b"page_end"
 BLANK = b" \t\r\n\0\x1a"
-LONGEST_TAIL = 16      # what an editor can make of two bytes; more is text
+LONGEST_TAIL = 16  # what an editor can make of two bytes; more is text
 
 
 def file_checksum(body: bytes) -> bytes:
@@ -28,11 +29,11 @@ def unwrap(data: bytes, where: str) -> tuple[str, list[str]]:
     FileError: the text is not whole."""
     at = data.rfind(LAST)
     if at < 0:
-        raise FileError(f"{where}: no page ends in it (no line \"page_end\"): the file is not a whole .mtn")
+        raise FileError(f'{where}: no page ends in it (no line "page_end"): the file is not a whole .mtn')
     end = at + len(LAST)
     _must_end_here(data, end, where)
     text = data[:end].replace(b"\r\n", b"\n").replace(b"\r", b"\n") + b"\n"
-    text = re.sub(rb"\A(?:\xef\xbb\xbf)+", b"", text)      # BOM, or several
+    text = re.sub(rb"\A(?:\xef\xbb\xbf)+", b"", text)  # BOM, or several
     return text.decode("utf-8", "surrogateescape"), _judge(data, end)
 
 
@@ -55,8 +56,10 @@ def _judge(data: bytes, end: int) -> list[str]:
     pages = data.count(LAST)
     if found is None:
         return [f"the file has no checksum, so only you can tell whether it is complete: {pages} pages were read"]
-    return [f"the file's checksum is {found.hex(' ')} and should be {file_checksum(data[:end] + _line_end(data[end:])).hex(' ')}: "
-            f"it was edited by hand, or damaged. All {pages} pages could be read; look at them before a robot plays them"]
+    return [
+        f"the file's checksum is {found.hex(' ')} and should be {file_checksum(data[:end] + _line_end(data[end:])).hex(' ')}: "
+        f"it was edited by hand, or damaged. All {pages} pages could be read; look at them before a robot plays them"
+    ]
 
 
 def _line_end(tail: bytes) -> bytes:
@@ -71,7 +74,7 @@ def _trailer(tail: bytes) -> bytes | None:
 def _tails(tail: bytes) -> Iterator[tuple[list[str], bytes]]:
     """Where the checksum may be: behind the line's end or without one, before white space, written again as UTF-8."""
     for line_end in (b"\n", b"\r\n", b"\r", b""):
-        rest = tail[len(line_end):]
+        rest = tail[len(line_end) :]
         if not tail.startswith(line_end) or len(rest) < 2:
             continue
         if not rest[2:].strip(BLANK):
@@ -88,12 +91,15 @@ def _tails(tail: bytes) -> Iterator[tuple[list[str], bytes]]:
 def _as_it_was(data: bytes, end: int) -> Iterator[tuple[list[str], bytes, bytes]]:
     """Bodies as they may have been when the sum was made, with what happened since."""
     text = data[:end]
-    bare = text[len(BOM):] if text.startswith(BOM) else text
+    bare = text[len(BOM) :] if text.startswith(BOM) else text
     marks = [(["byte-order mark added"] if bare != text else [], bare), (["byte-order mark removed"] if bare == text else [], BOM + bare)]
     for mark, marked in marks:
         unix = marked.replace(b"\r\n", b"\n")
-        for ends, body in ((["line ends now CR LF"] if unix != marked else [], unix + b"\n"),
-                           (["line ends mixed"], marked + b"\r\n"), (["line ends now LF"], unix.replace(b"\n", b"\r\n") + b"\r\n"),
-                           (["a line end added"], unix)):
+        for ends, body in (
+            (["line ends now CR LF"] if unix != marked else [], unix + b"\n"),
+            (["line ends mixed"], marked + b"\r\n"),
+            (["line ends now LF"], unix.replace(b"\n", b"\r\n") + b"\r\n"),
+            (["a line end added"], unix),
+        ):
             for changes, trailer in _tails(data[end:]):
                 yield mark + ends + changes, body, trailer

@@ -5,6 +5,7 @@ The chain plays what the long page would: the next link of each part is the foll
 stop is obeyed at the end of the whole page, as it would be there, so the exit links lead to that end. Parts cannot be repeated
 together; the repetitions are written out, and a stop ends them. Parts go where nothing is and nothing leads to, first of all to pages that a board of 128 has.
 """
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -30,21 +31,23 @@ def place_long_pages(image: Image, blocks: Sequence, fill: Callable[[Page, list]
 
 
 def _spread(image: Image, number: int, block, free: list[int], fill: Callable[[Page, list], None], where: str) -> None:
-    parts = [block.steps[at:at + STEPS] for at in range(0, len(block.steps), STEPS)]
+    parts = [block.steps[at : at + STEPS] for at in range(0, len(block.steps), STEPS)]
     rounds = max(block.page.repeat, 1)
-    title = f"page {number}" + (f" \"{block.page.title}\"" if block.page.name else "")
+    title = f"page {number}" + (f' "{block.page.title}"' if block.page.name else "")
     has = f"{title} has {len(block.steps)} steps" + (f" and is played {rounds} times" if rounds > 1 else "")
     needed = len(parts) * rounds - 1
     if needed > len(free):
-        raise FileError(f"{where}: {has}. A page holds {STEPS}; as linked pages it needs {needed} more, and {len(free)} are free. "
-                        "Shorten it or lower its repetitions")
+        raise FileError(
+            f"{where}: {has}. A page holds {STEPS}; as linked pages it needs {needed} more, and {len(free)} are free. "
+            "Shorten it or lower its repetitions"
+        )
     taken = [free.pop(0) for _ in range(needed)]
     chain = [number] + taken
     for place, (here, part) in enumerate(zip(chain, parts * rounds)):
         page = block.page.copy()
         if place:
             page.name = _part_name(block.page.name, number, place + 1)
-        if block.page.repeat:   # a page that is never played (repeat 0) keeps its links: it is passed over along them
+        if block.page.repeat:  # a page that is never played (repeat 0) keeps its links: it is passed over along them
             page.repeat = 1
             if place < needed:
                 page.next = chain[place + 1]
@@ -52,12 +55,15 @@ def _spread(image: Image, number: int, block, free: list[int], fill: Callable[[P
                 page.exit = chain[place + 1]
         fill(page, part)
         image[here] = page
-    image.notes.append(f"{has}, a page holds {STEPS}: " + ("continued in" if block.page.repeat else "it is never played (repeat 0); the rest stands in")
-                       + f" {pages_text(taken)}")
+    image.notes.append(
+        f"{has}, a page holds {STEPS}: "
+        + ("continued in" if block.page.repeat else "it is never played (repeat 0); the rest stands in")
+        + f" {pages_text(taken)}"
+    )
 
 
 def _part_name(name: bytes, number: int, part: int) -> bytes:
     """The page's name with the part's number behind it: names stay different."""
     behind = f"/{part}".encode()
     base = name or str(number).encode()
-    return base[:NAME_BYTES - 1 - len(behind)].decode("utf-8", "ignore").encode("utf-8") + behind
+    return base[: NAME_BYTES - 1 - len(behind)].decode("utf-8", "ignore").encode("utf-8") + behind

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The text of a .mtn as pages. Mapping of the fields: the table in FILES.md is `_header`'s and `read`'s."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -13,9 +14,9 @@ from m512.files.page import POS_UNUSED, SCHEDULE_TIME, STEPS, Page
 from m512.files.scale12 import HINT
 from m512.files.wording import pages_text
 
-IDS = 26                 # the text has IDs 0..25
-PAGES = 255              # and pages 1..255
-UNITS_PER_SECOND = 125   # of pause and time: a unit is 8 ms there
+IDS = 26  # the text has IDs 0..25
+PAGES = 255  # and pages 1..255
+UNITS_PER_SECOND = 125  # of pause and time: a unit is 8 ms there
 UNUSED_WORD = 0x4200
 DIGITS_MOST = 40
 VERSIONS = ("1.00", "1.01")
@@ -51,7 +52,7 @@ class Lines:
         line = self.next()
         name, equals, value = line.partition("=")
         if name != key or not equals:
-            raise self.error(f"\"{key}=\" expected, not {ascii(line[:40])}")
+            raise self.error(f'"{key}=" expected, not {ascii(line[:40])}')
         return value
 
     def numbers(self, text: str, what: str, count: int) -> list[Fraction]:
@@ -92,6 +93,7 @@ class Step:
 @dataclass
 class Block:
     """One page of the text, with as many steps as it has. `page` holds all of it but the steps."""
+
     page: Page
     rate: Fraction
     steps: list[Step] = field(default_factory=list)
@@ -125,7 +127,7 @@ def read(data: bytes, where: str = "mtn", base: Image | None = None, bits: int |
 
 def _read_file(lines: Lines, notes: list[str]) -> _File:
     if lines.value("type") != "motion":
-        raise lines.error("the type is not \"motion\"")
+        raise lines.error('the type is not "motion"')
     version = lines.value("version").replace(",", ".")
     if version not in VERSIONS:
         notes.append(f"version {ascii(version)[1:-1]} is not known; the file is read like version 1.01")
@@ -143,14 +145,14 @@ def _read_file(lines: Lines, notes: list[str]) -> _File:
 
 def _read_block(lines: Lines, number: int, file: _File) -> Block:
     if lines.next().strip() != "page_begin":
-        raise lines.error("\"page_begin\" expected")
+        raise lines.error('"page_begin" expected')
     block = _header(lines, number, file.notes)
     while True:
         line = lines.next()
         if line.strip() == "page_end":
             break
         if not line.startswith("step="):
-            raise lines.error("\"step=\" or \"page_end\" expected")
+            raise lines.error('"step=" or "page_end" expected')
         block.steps.append(_read_step(lines, line[5:]))
     if number > PAGES and (block.steps or block.page.name):
         raise lines.error(f"page {number} has no place: there are {PAGES} pages")
@@ -201,8 +203,7 @@ def fill(page: Page, steps: list[Step], enabled: list[bool]) -> None:
 
 def _bits_of(file: _File, bits: int | None, where: str) -> int:
     """10 or 12. Most positions of a robot of 12 bits lie beyond 1023; a few in a file of 10 are mistakes."""
-    used = [(step.line, joint, step.positions[joint]) for block in file.blocks for step in block.steps
-            for joint in range(IDS) if file.enabled[joint]]
+    used = [(step.line, joint, step.positions[joint]) for block in file.blocks for step in block.steps for joint in range(IDS) if file.enabled[joint]]
     high = [place for place in used if place[2] > TOP[10]]
     if bits == 12 or not high:
         return bits or 10
@@ -210,9 +211,14 @@ def _bits_of(file: _File, bits: int | None, where: str) -> int:
         file.notes.append(f"looks like 12 bit (positions up to {max(at for _, _, at in high)}) and is read so; {HINT}")
         return 12
     line, joint, at = high[0]
-    raise FileError(f"{where}:{line}: position {at} of ID {joint} is beyond {TOP[10]}"
-                    + (", like most in this file: looks like 12 bit: --bits 12 --scale 10" if 2 * len(high) > len(used)
-                       else f", like {len(high)} of {len(used)} in this file: a mistake, or servos of 12 bits (--bits 12)"))
+    raise FileError(
+        f"{where}:{line}: position {at} of ID {joint} is beyond {TOP[10]}"
+        + (
+            ", like most in this file: looks like 12 bit: --bits 12 --scale 10"
+            if 2 * len(high) > len(used)
+            else f", like {len(high)} of {len(used)} in this file: a mistake, or servos of 12 bits (--bits 12)"
+        )
+    )
 
 
 def _note_rates(file: _File) -> None:
@@ -228,5 +234,7 @@ def _note_rates(file: _File) -> None:
             uneven.append((block.rate, block.page.speed, known))
         known.append(number)
     for rate, speed, pages in uneven:
-        file.notes.append(f"{pages_text(pages)}: a page cannot hold rate {float(rate):g}; it becomes 32 / {speed} = {32 / speed:.2f}, "
-                          "as RoboPlus itself makes it on the robot")
+        file.notes.append(
+            f"{pages_text(pages)}: a page cannot hold rate {float(rate):g}; it becomes 32 / {speed} = {32 / speed:.2f}, "
+            "as RoboPlus itself makes it on the robot"
+        )

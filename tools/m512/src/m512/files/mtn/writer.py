@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Pages as the text of a .mtn, and what the text cannot say: it knows 26 joints, time base and two links a page."""
+
 from __future__ import annotations
 
 from fractions import Fraction
@@ -40,8 +41,7 @@ def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
         lines += _page_lines(page)
     told = losses.lines()
     if blank:
-        told.append(f"{blank} pages: what lies in unused steps, unused joints and byte 63 takes RoboPlus' usual values "
-                    "(no effect on playing)")
+        told.append(f"{blank} pages: what lies in unused steps, unused joints and byte 63 takes RoboPlus' usual values (no effect on playing)")
     body = BOM + "\n".join(lines + [""]).encode("utf-8")
     return body + file_checksum(body), told
 
@@ -55,12 +55,17 @@ def _must_fit(image: Image) -> None:
     if image.bits != 10:
         raise RefusedError("a .mtn holds positions of 10 bits and these have 12: convert --bits 12 --scale 10 makes them fit")
     kind = Kind(PAGES + 1)
-    bad = {number: page.title if page.fault(kind) is not Fault.CHECKSUM else "" for number, page in image.items()
-           if number and page.fault(kind) and not _is_blank(page)}
+    bad = {
+        number: page.title if page.fault(kind) is not Fault.CHECKSUM else ""
+        for number, page in image.items()
+        if number and page.fault(kind) and not _is_blank(page)
+    }
     if bad:
         one = next(iter(bad))
-        raise RefusedError(f"{named_pages_text(bad)} cannot be written into a .mtn because of damage (page {one}: "
-                           f"{image[one].fault_text(kind)}). convert --damaged drop leaves such pages out")
+        raise RefusedError(
+            f"{named_pages_text(bad)} cannot be written into a .mtn because of damage (page {one}: "
+            f"{image[one].fault_text(kind)}). convert --damaged drop leaves such pages out"
+        )
 
 
 def _enabled(image: Image) -> list[bool]:
@@ -83,8 +88,12 @@ def _rate(page: Page) -> Fraction:
 def _page_lines(page: Page) -> list[str]:
     levels = " ".join(str(min(max(page.compliance(joint) >> 4, 0), 15)) for joint in range(IDS))
     rate_text = f"{float(_rate(page)):.1f}"
-    out = ["page_begin", f"name={_name_text(page)}", f"compliance={levels}",
-           f"play_param={page.next} {page.exit} {page.repeat} {rate_text} {page.accel}"]
+    out = [
+        "page_begin",
+        f"name={_name_text(page)}",
+        f"compliance={levels}",
+        f"play_param={page.next} {page.exit} {page.repeat} {rate_text} {page.accel}",
+    ]
     for step in range(page.steps):
         positions = " ".join(str(min(page.word(step, joint) & 0x1FFF, 1023)) for joint in range(IDS))
         pause, time = page.pause(step) / UNITS_PER_SECOND, page.time(step) / UNITS_PER_SECOND
@@ -118,10 +127,16 @@ def _page_losses(page: Page, enabled: list[bool], lose: Callable[..., None]) -> 
 
 def _changes_without_effect(page: Page) -> bool:
     """Whether something changes that no play shows."""
-    return (page.byte63 != 0x55 or any(page.compliance(j) for j in range(IDS, JOINTS))
-            or any(page.word(s, j) != (UNUSED_WORD if j < IDS else 0) or page.pause(s) or page.time(s)
-                   for s in range(page.steps, STEPS) for j in range(JOINTS))
-            or any(page.word(s, j) & POS_UNUSED for s in range(page.steps) for j in range(IDS, JOINTS)))
+    return (
+        page.byte63 != 0x55
+        or any(page.compliance(j) for j in range(IDS, JOINTS))
+        or any(
+            page.word(s, j) != (UNUSED_WORD if j < IDS else 0) or page.pause(s) or page.time(s)
+            for s in range(page.steps, STEPS)
+            for j in range(JOINTS)
+        )
+        or any(page.word(s, j) & POS_UNUSED for s in range(page.steps) for j in range(IDS, JOINTS))
+    )
 
 
 def _joint_losses(page: Page, enabled: list[bool], lose: Callable[..., None]) -> None:

@@ -5,6 +5,7 @@ A Reader walks through the lines once: statements about the file change its tabl
 page that is open (or, before the first page and after `defaults`, the template of pages to come). Links by name are
 resolved at the end, when all names are known.
 """
+
 from __future__ import annotations
 
 import re
@@ -16,19 +17,7 @@ from m512.files.image import Image
 from m512.files.page import JOINTS, PAGE_BYTES, SCHEDULE_SPEED, SCHEDULE_TIME, STEPS, Page
 from m512.files.selection import number_range
 from m512.files.text.steps import Draft, JointWords, block_words, make_block
-from m512.files.text.words import (
-    IDENTIFIER,
-    Token,
-    code,
-    continues,
-    joint_list,
-    joint_pairs,
-    joints_of,
-    name_bytes,
-    number,
-    ticks,
-    tokenize,
-)
+from m512.files.text.words import IDENTIFIER, Token, code, continues, joint_list, joint_pairs, joints_of, name_bytes, number, ticks, tokenize
 
 VERSION = 1
 MAX_INCLUDE_DEPTH = 8
@@ -43,7 +32,7 @@ class Reader(JointWords):
         self.pages: dict[int, Draft] = {}
         self.where, self.line, self.folder, self.depth = "", 0, Path("."), 0
         self.origin: dict[int, str] = {}
-        self.included = 0       # bytes
+        self.included = 0  # bytes
 
     # Files and lines
 
@@ -70,15 +59,14 @@ class Reader(JointWords):
         if held:
             raise TextError("the last line ends in a backslash: what it goes on with is missing", where, self.line)
         if not started:
-            raise FileError(f"{where}: empty; a motion text starts with \"motion512 {VERSION}\"")
+            raise FileError(f'{where}: empty; a motion text starts with "motion512 {VERSION}"')
         self.where, self.line, self.folder = outer
 
     def _version(self, statement: list[Token]) -> None:
         if statement[0].text != "motion512":
-            raise WordError(f"a motion text starts with \"motion512 {VERSION}\"")
+            raise WordError(f'a motion text starts with "motion512 {VERSION}"')
         if len(statement) != 2 or number(statement[1], 1, 999, "format version") != VERSION:
-            raise WordError(f"this is format version {statement[1] if len(statement) > 1 else '?'}; "
-                            f"this program reads version {VERSION}")
+            raise WordError(f"this is format version {statement[1] if len(statement) > 1 else '?'}; this program reads version {VERSION}")
 
     def _statement(self, tokens: list[Token]) -> None:
         word, rest = tokens[0].text, tokens[1:]
@@ -100,7 +88,7 @@ class Reader(JointWords):
         if rest[0].text not in kinds:
             raise WordError("pages are 0..127, 1..127 or 0..255")
         if self.pages:
-            raise WordError("\"pages\" comes before the first page")
+            raise WordError('"pages" comes before the first page')
         self.first, self.end = kinds[rest[0].text]
 
     def _do_bits(self, rest: list[Token]) -> None:
@@ -110,7 +98,7 @@ class Reader(JointWords):
             raise WordError("bits are 10 or 12, said before the first pose or page")
 
     def _do_include(self, rest: list[Token]) -> None:
-        self._count(rest, 1, 1, "include \"file\"")
+        self._count(rest, 1, 1, 'include "file"')
         path = self.folder / rest[0].text
         self.draft = self.template
         self.depth += 1
@@ -250,7 +238,7 @@ class Reader(JointWords):
             parts = [number(Token(part), 0, 15, "softness") for part in level.split("/")]
             if len(parts) > 2:
                 raise WordError(f"{token}: a level, or clockwise/counter-clockwise levels")
-            for joint in (joints_of(joints, self.joints) if joints else range(JOINTS)):
+            for joint in joints_of(joints, self.joints) if joints else range(JOINTS):
                 self.draft.page.set_compliance(joint, parts[0] << 4 | parts[-1])
 
     def _do_steps(self, rest: list[Token]) -> None:
@@ -321,8 +309,12 @@ class Reader(JointWords):
     # The end
 
     def image(self) -> Image:
-        image = Image([Page() for _ in range(self.first, self.end)], self.first, self.bits,
-                      joints={joint: name for name, joint in reversed(list(self.joints.items()))})
+        image = Image(
+            [Page() for _ in range(self.first, self.end)],
+            self.first,
+            self.bits,
+            joints={joint: name for name, joint in reversed(list(self.joints.items()))},
+        )
         built = {id(draft): draft for draft in self.pages.values()}
         for draft in built.values():
             self._check_units(draft)
@@ -356,8 +348,7 @@ class Reader(JointWords):
                 return number(token, 0, self.end - 1, "a link")
         hits = names.get(name_bytes(token).split(b"\0")[0], [])
         if len(hits) != 1:
-            raise WordError(f"no page is called {token}" if not hits else
-                            f"{token} is the name of pages {', '.join(map(str, hits))}: link by number")
+            raise WordError(f"no page is called {token}" if not hits else f"{token} is the name of pages {', '.join(map(str, hits))}: link by number")
         return hits[0]
 
 

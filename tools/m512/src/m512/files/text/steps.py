@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Steps of the text format: a page as it is being written, and the words of a line of joints. Used by textread.py."""
+
 from __future__ import annotations
 
 import re
@@ -7,7 +8,7 @@ import re
 from m512.files.page import JOINTS, STEPS, Page
 from m512.files.text.words import Token, WordError, joints_of, mirrored, position, step_speed, ticks
 
-Words = dict[int, int]   # joint -> position word
+Words = dict[int, int]  # joint -> position word
 
 
 class Draft:
@@ -33,7 +34,7 @@ class Draft:
             page.set_step_bytes(k, block)
         sealed = True
         for offset, data in self.raw:
-            page.data[offset:offset + len(data)] = data
+            page.data[offset : offset + len(data)] = data
             sealed = sealed and not offset <= 31 < offset + len(data)
         if sealed:
             page.seal()
@@ -64,12 +65,11 @@ class JointWords:
     def pos_max(self) -> int:
         return (1 << self.bits) - 1
 
-    def block(self, draft: Draft, line: int, rest: list[Token], what: str, before: bytes | None,
-              base: bytes | None = None) -> bytes:
+    def block(self, draft: Draft, line: int, rest: list[Token], what: str, before: bytes | None, base: bytes | None = None) -> bytes:
         """`TIME [pause TIME] | joints` as the 64 bytes of a step. `before`: the step before it; `base`: what joints that
         are not named have, if not the page's fill."""
         bar = next((i for i, token in enumerate(rest) if token.text == "|" and not token.quoted), len(rest))
-        head, joints = rest[:bar], rest[bar + 1:]
+        head, joints = rest[:bar], rest[bar + 1 :]
         if len(head) not in (1, 3) or (len(head) == 3 and head[1].text != "pause"):
             raise WordError(f"usage: {what} TIME [pause TIME] | joints")
         pause = ticks(head[2], "pause") if len(head) == 3 else 0
@@ -129,7 +129,7 @@ class JointWords:
             end += 1
         count = end - first
         if not self.row:
-            raise WordError(f"{tokens[first]}: neither joint:position nor a pose; a row of positions needs a \"row\" line")
+            raise WordError(f'{tokens[first]}: neither joint:position nor a pose; a row of positions needs a "row" line')
         if count != len(self.row):
             raise WordError(f"{count} positions; the row has {len(self.row)} joints")
         for joint, token in zip(self.row, tokens[first:end]):

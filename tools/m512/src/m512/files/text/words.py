@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Words of the text format: tokens, numbers, times, codes, positions. FORMAT.md is the specification."""
+
 from __future__ import annotations
 
 import re
@@ -13,12 +14,12 @@ from m512.files.selection import number_range
 KEYS = {"U": 1, "D": 2, "L": 4, "R": 8, "B1": 16, "B2": 32, "B3": 64, "B4": 128}
 CENTRE = 512
 UNITS_PER_DEGREE = 1024 / 300
-SPEED_UNITS_PER_DPS = 256 / 720   # of a step in speed base
+SPEED_UNITS_PER_DPS = 256 / 720  # of a step in speed base
 
 IDENTIFIER = re.compile(r"[A-Za-z_][A-Za-z0-9_]*\Z")
 _TOKEN = re.compile(r'\s*(?:(?P<comment>#.*)|(?P<sep>[;|])|"(?P<quoted>(?:[^"\\]|\\.)*)"|(?P<bare>[^\s#;|"]+)|(?P<bad>"))')
 _OUTSIDE, _IN_QUOTES = re.compile(r'[^"#]*'), re.compile(r'(?:[^"\\]|\\.)*', re.S)
-_ESCAPE = re.compile(rb'\\(x[0-9A-Fa-f]{2}|.)', re.S)
+_ESCAPE = re.compile(rb"\\(x[0-9A-Fa-f]{2}|.)", re.S)
 
 
 @dataclass(frozen=True)
@@ -60,8 +61,8 @@ def continues(line: str, quoted: bool = False) -> tuple[bool, bool]:
     at, line = 0, line[:-1] + " "
     while at < len(line):
         some = (_IN_QUOTES if quoted else _OUTSIDE).match(line, at)
-        at = some.end() if some else at             # both match anything, at least nothing
-        if line[at:at + 1] == "#" and not quoted:
+        at = some.end() if some else at  # both match anything, at least nothing
+        if line[at : at + 1] == "#" and not quoted:
             return False, False
         if at < len(line):
             quoted, at = not quoted, at + 1
@@ -73,7 +74,7 @@ def name_bytes(token: Token) -> bytes:
     try:
         raw = token.text.encode("ascii")
     except UnicodeEncodeError:
-        raise WordError(f"{token}: a page name is ASCII; other bytes are written \"\\xNN\"") from None
+        raise WordError(f'{token}: a page name is ASCII; other bytes are written "\\xNN"') from None
 
     def unescape(match: re.Match[bytes]) -> bytes:
         what = match.group(1)
@@ -97,7 +98,7 @@ def quote_name(name: bytes) -> str:
     if IDENTIFIER.match(name.decode("latin-1")) and len(name) < 14 and name not in (b"self", b"none"):
         return name.decode()
     out = "".join(f"\\{chr(b)}" if chr(b) in '"\\' else chr(b) if 0x20 <= b < 0x7F else f"\\x{b:02X}" for b in name)
-    if len(name) == 14 and "\\" not in out:   # the full 14 bytes are said by an escape
+    if len(name) == 14 and "\\" not in out:  # the full 14 bytes are said by an escape
         out = out[:-1] + f"\\x{name[13]:02X}"
     return f'"{out}"'
 
@@ -164,8 +165,7 @@ def ticks(token: Token, what: str) -> int:
     seconds = float(match.group(1)) / (1000 if match.group(2) == "ms" else 1)
     value = int(seconds * TICKS_PER_SECOND + 0.5)
     if value > 255:
-        raise WordError(f"{what} {token} is {value} ticks; a byte holds 255 (1.992 s). "
-                        "Raise the page's speed (32 = as written) or use two steps")
+        raise WordError(f"{what} {token} is {value} ticks; a byte holds 255 (1.992 s). Raise the page's speed (32 = as written) or use two steps")
     if value == 0 and seconds:
         raise WordError(f"{what} {token} is less than half a tick (7.8125 ms)")
     return value
@@ -217,8 +217,10 @@ def position(text: str, before: int, pos_max: int) -> int:
         return number(token, 0, 0xFFFF, "a raw word")
     degrees = re.fullmatch(r"([+-]?[0-9]{1,9}(?:\.[0-9]*)?)deg", text)
     if degrees and text[0] == "+":
-        raise WordError(f"{text}: an angle is from the centre, a + is from where the joint is. Say {text[1:]} for the angle, or "
-                        f"+{round(float(text[1:-3]) * (UNITS_PER_DEGREE if pos_max == 1023 else 4096 / 360))} to go so far")
+        raise WordError(
+            f"{text}: an angle is from the centre, a + is from where the joint is. Say {text[1:]} for the angle, or "
+            f"+{round(float(text[1:-3]) * (UNITS_PER_DEGREE if pos_max == 1023 else 4096 / 360))} to go so far"
+        )
     if degrees:
         scale = UNITS_PER_DEGREE if pos_max == 1023 else 4096 / 360
         value = (pos_max + 1) // 2 + round(float(degrees.group(1)) * scale)

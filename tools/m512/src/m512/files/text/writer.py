@@ -5,6 +5,7 @@ What most pages share (softness, ramp, the words of joints not used) is said onc
 the empty page are left out, runs of equal pages are written once. Every page is read back before it is trusted; what
 the words cannot say exactly is written as raw bytes.
 """
+
 from __future__ import annotations
 
 from collections import Counter
@@ -18,7 +19,7 @@ from m512.files.text.steps import block_words
 from m512.files.text.words import code_text, position_text, quote_name
 
 STANDARD_FILL = Page().step_bytes(0)
-MAX_ODD_WORDS = 8   # more impossible positions than this: the page is not a motion, show bytes
+MAX_ODD_WORDS = 8  # more impossible positions than this: the page is not a motion, show bytes
 
 
 class Style:
@@ -32,8 +33,15 @@ class Style:
         self.softness = _common((bytes(page.data[32:63]) for page in pages), EMPTY[32:63])
         self.accel = _common((page.accel for page in pages), 32)
         self.byte63 = _common((page.byte63 for page in pages), 0)
-        self.row = sorted({joint for page in pages for step in range(min(page.steps, STEPS)) for joint in range(JOINTS)
-                           if page.word(step, joint) != block_words(self.fill_of(page))[joint]})
+        self.row = sorted(
+            {
+                joint
+                for page in pages
+                for step in range(min(page.steps, STEPS))
+                for joint in range(JOINTS)
+                if page.word(step, joint) != block_words(self.fill_of(page))[joint]
+            }
+        )
         self.names = {numbers[0]: quote_name(name) for name, numbers in image.names().items() if len(numbers) == 1}
 
     def fill_of(self, page: Page) -> bytes:
@@ -60,8 +68,12 @@ def clean_fill(page: Page) -> bytes | None:
 
 def is_motion(page: Page, image: Image) -> bool:
     """Whether words say more about a page than raw bytes do."""
-    odd = sum(1 for step in range(min(page.steps, STEPS)) for word in page.words(step)
-              if word > image.kind.pos_max and word & 0xE000 not in (POS_UNUSED, POS_TORQUE_OFF))
+    odd = sum(
+        1
+        for step in range(min(page.steps, STEPS))
+        for word in page.words(step)
+        if word > image.kind.pos_max and word & 0xE000 not in (POS_UNUSED, POS_TORQUE_OFF)
+    )
     return odd <= MAX_ODD_WORDS
 
 
@@ -146,7 +158,7 @@ def _header(page: Page, number: int, style: Style) -> list[str]:
     if page.byte63 != style.byte63:
         out.append(f"byte63 {page.byte63}")
     for offset, count in ((14, 1), (19, 1)):
-        data = bytes(page.data[offset:offset + count])
+        data = bytes(page.data[offset : offset + count])
         if any(data):
             out.append(f"raw {offset} {data.hex(' ')}")
     if style.fill_of(page) != style.fill:
@@ -157,16 +169,17 @@ def _header(page: Page, number: int, style: Style) -> list[str]:
 def _steps(page: Page, style: Style) -> list[str]:
     fill, base = style.fill_of(page), block_words(style.fill_of(page))
     count = min(page.steps, STEPS)
-    table = [["step", str(page.time(k)), f"pause {page.pause(k)}" if page.pause(k) else "", "|"]
-             + ["." if page.word(k, j) == base[j] else position_text(page.word(k, j), style.pos_max) for j in style.row]
-             for k in range(count)]
+    table = [
+        ["step", str(page.time(k)), f"pause {page.pause(k)}" if page.pause(k) else "", "|"]
+        + ["." if page.word(k, j) == base[j] else position_text(page.word(k, j), style.pos_max) for j in style.row]
+        for k in range(count)
+    ]
     out = []
     if table and style.row:
         table.insert(0, ["# ID", "", "", "|"] + [str(j) for j in style.row])
     widths = [max(len(line[i]) for line in table) for i in range(len(table[0]))] if table else []
     for line in table:
-        cells = [cell.ljust(width) if i in (0, 2) else cell.rjust(width)
-                 for i, (cell, width) in enumerate(zip(line, widths)) if width]
+        cells = [cell.ljust(width) if i in (0, 2) else cell.rjust(width) for i, (cell, width) in enumerate(zip(line, widths)) if width]
         out.append(" ".join(cells).rstrip())
     spares = [k for k in range(count, STEPS) if page.step_bytes(k) != fill]
     out += [_sparse(f"spare {k}", page.step_bytes(k), fill, style.pos_max).strip() for k in spares]
@@ -202,7 +215,7 @@ def raw_text(page: Page, numbers: tuple[int, int], style: Style) -> str:
     fault = page.fault_text(style.image.kind)
     if fault:
         out.append(f"# damaged: {fault}")
-    out += [f"raw {at:3} {bytes(page.data[at:at + 32]).hex(' ')}" for at in range(0, 512, 32)]
+    out += [f"raw {at:3} {bytes(page.data[at : at + 32]).hex(' ')}" for at in range(0, 512, 32)]
     return "\n  ".join(out) + "\n"
 
 
@@ -231,8 +244,9 @@ def write_text(image: Image) -> str:
     style = Style(image)
     head = "\n".join(_preamble(style)) + "\n"
     runs = [(numbers, page) for numbers, page in _runs(image) if bytes(page) != EMPTY]
-    whole = "\n".join([head] + [page_text(page, numbers, style) if is_motion(page, image)
-                                else raw_text(page, numbers, style) for numbers, page in runs])
+    whole = "\n".join(
+        [head] + [page_text(page, numbers, style) if is_motion(page, image) else raw_text(page, numbers, style) for numbers, page in runs]
+    )
     if _reads_as(whole, image):
         return whole
     # Rare: something the words cannot say. Find the pages concerned, one by one, with links by number.
