@@ -66,8 +66,9 @@ void exact_measure_next(player_t *player)
     if (next->page == 0) {
         return;
     }
+    const bool depends = next->schedule == PAGE_SCHEDULE_SPEED || next->top_speed_q4_4 != 0;
     uint16_t longest = 0;
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_JOINTS(player, depends ? player->next_joints : 0, i, joint) {
         const uint16_t distance = distance_of(joint->target_pos, player->next_pos[i]);
         longest = distance > longest ? distance : longest;
     }

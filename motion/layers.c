@@ -75,9 +75,7 @@ layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
         return LAYERS_ERR_JOINTS;
     }
     layers_end(layers);
-    link_t link;
-    link_init(&link, LINK_LATCH);
-    if (player_start(&layers->play, &link, page, PLAYER_LAW_EXACT, layers->goal_pos, joints) != PLAYER_OK) {
+    if (player_start(&layers->play, NULL, page, PLAYER_LAW_EXACT, layers->goal_pos, joints) != PLAYER_OK) {
         return LAYERS_ERR_PAGE; /* unreachable: the page has just been checked */
     }
     layers->steps_begun = 0;
@@ -85,7 +83,7 @@ layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints)
     if (player_is_paused(layers->main)) {
         player_pause(&layers->play);
     }
-    player_plan(&layers->play, &link);
+    player_plan(&layers->play, NULL);
     return LAYERS_OK;
 }
 
@@ -198,28 +196,12 @@ static void follow_code(layers_t *layers)
     }
 }
 
-/* A page layer gets no codes and no stop, so a fresh link will do each time. NOINLINE: its 23 bytes are not on the stack
- * while the main play works. */
-static NOINLINE uint8_t tick_page(layers_t *layers)
-{
-    link_t link;
-    link_init(&link, LINK_LATCH);
-    return player_tick(&layers->play, &link);
-}
-
-static NOINLINE void plan_page(layers_t *layers)
-{
-    link_t link;
-    link_init(&link, LINK_LATCH);
-    player_plan(&layers->play, &link);
-}
-
 /* As layers_tick, while a main play is on and joints have another source or seek theirs. */
 static uint8_t tick_plays(layers_t *layers, link_t *main_link, uint8_t *layer_events)
 {
     const uint32_t of_layer = player_is_moving(&layers->play) ? layers->play.present : 0;
     const uint8_t events = player_tick(layers->main, main_link);
-    *layer_events = tick_page(layers);
+    *layer_events = player_tick(&layers->play, NULL);
     if ((*layer_events & PLAYER_EV_STEP) != 0 && layers->steps_begun < 2) {
         layers->steps_begun++;
     }
@@ -260,7 +242,7 @@ void layers_plan(layers_t *layers, link_t *main_link)
 {
     if (layers->main != NULL) {
         player_plan(layers->main, main_link);
-        plan_page(layers);
+        player_plan(&layers->play, NULL);
     }
 }
 

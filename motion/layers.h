@@ -60,7 +60,7 @@ void layers_set_speed(layers_t *layers, uint16_t deg_s);
 void layers_bind(layers_t *layers, player_t *main_play);
 
 /* Plays a page on `joints` (0: those that its first step uses), as far as the main play has them and code does not. Plays as
- * stored, by the exact law; follows its own links, with code 0. A page layer that was on ends first. The page itself must
+ * stored, by the exact law; follows its pages' next links. A page layer that was on ends first. The page itself must
  * have an action. After an error only play.fault and .fault_page have changed. */
 MUST_CHECK layers_status_t layers_start(layers_t *layers, uint8_t page, uint32_t joints);
 

@@ -119,7 +119,8 @@ void player_init(player_t *player, const page_source_t *source, player_joint_t j
 /* Sets the shape, which applies from the next step that the player looks at; NULL: play as stored. Any time. */
 void player_set_shape(player_t *player, const shape_t *shape);
 
-/* Starts at step 1 of `page`. Call link_call before.
+/* Starts at step 1 of `page`.
+ * link     : what codes and stops do to the play, after link_call; NULL: a play without codes, which follows the next links
  * pose_pos : where the joints are (page coordinates; values above 1023 are taken as 1023)
  * present  : bit per joint that the play may move
  * Pages with PLAY_COUNT 0 are passed over: player.next.page is the page that plays first. The next player_tick makes the
@@ -131,7 +132,7 @@ MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t 
  * have one. */
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
 
-/* One tick: moves all joints. Returns PLAYER_EV_ bits; 0 when idle. */
+/* One tick: moves all joints. link: that of player_start. Returns PLAYER_EV_ bits; 0 when idle. */
 uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* so that tools/bench can measure it */
 
 /* Plans what the coming tick needs, if anything: after the last tick of a step it begins the next one (decides the link,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * sequence.c - which page and step comes next: repetitions, links, pages without action; reads its positions. */
+#include <stddef.h>
 #include "law.h"
 #include "shape_step.h"
 
@@ -22,7 +23,8 @@ static uint8_t fail(player_t *player, uint8_t page, uint8_t fault)
 /* The page that the link names. A link above the last page is taken as 0. */
 static uint8_t follow(link_t *link, uint8_t page, const uint8_t header[HEADER_BYTES], link_taken_t *taken)
 {
-    const uint8_t named = link_decide(link, page, header, taken);
+    *taken = LINK_NEXT;
+    const uint8_t named = link != NULL ? link_decide(link, page, header, taken) : header[PAGE_AT_NEXT_PAGE];
     return page_is_there(named) ? named : 0;
 }
 
@@ -89,7 +91,7 @@ bool sequence_start(player_t *player, link_t *link, uint8_t page)
 static NOINLINE uint8_t decide(player_t *player, link_t *link)
 {
     player->count_left--;
-    if (player->count_left != 0 && !link_is_stopping(link)) {
+    if (player->count_left != 0 && (link == NULL || !link_is_stopping(link))) {
         player->next.step = 1;
         player->next_repetition++;
         return 0;

@@ -96,12 +96,13 @@ static uint16_t slopes_of(uint8_t compliance)
 static void send_words(const servo_link_t *link, uint8_t at, uint32_t joints)
 {
     dxl_writer_t writer;
+    const uint16_t *goals_pos = link->goals_pos;
     dxl_begin(&writer, bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE);
     dxl_put(&writer, at);
     dxl_put(&writer, 2);
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++, joints >>= 1) {
         if (joints & 1u) {
-            const uint16_t word = at == DXL_AT_GOAL ? servo_link_to_servo(link, id, link->goals_pos[id])
+            const uint16_t word = at == DXL_AT_GOAL ? servo_link_to_servo(link, id, goals_pos[id])
                                                     : slopes_of(link->slopes[id]);
             dxl_put(&writer, id);
             dxl_put(&writer, (uint8_t)word);
