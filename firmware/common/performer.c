@@ -440,7 +440,7 @@ void performer_poll(performer_t *performer)
     performer_verdict_t verdict;
     servo_link_poll(performer->servos);
     watch_computer(performer);
-    while ((verdict = performer_watch(performer, &failed)) != WATCH_GO_ON) {
+    if ((verdict = performer_watch(performer, &failed)) != WATCH_GO_ON) { /* one a turn: it may block for 3 ms */
         act_on(performer, verdict, failed);
     }
     if (performer->state == PERFORMER_READY) {
@@ -520,8 +520,8 @@ static void idle_tick(performer_t *performer)
 /* A play whose goals paused for so long would go on with a jerk that nobody has asked for. */
 static void watch_ticks(performer_t *performer)
 {
-    const bool moves = performer->state != PERFORMER_READY && !performer_is_still(performer);
-    if (moves && tick_late() >= LATE_TICKS && !performer->leaving) {
+    if (tick_late() >= LATE_TICKS && !performer->leaving && performer->state != PERFORMER_READY &&
+        !performer_is_still(performer)) {
         performer_event_put(&performer->events, PERFORMER_EV_TICKS_LATE, 0, 0, 0);
         performer_break(performer);
     }

@@ -82,6 +82,20 @@ static void test_performer_fault_limp_goes_on_without_the_joint(void)
     TEST_ASSERT_EQUAL_UINT16(held, fake_servo_link.goal_pos[1]);
 }
 
+/* Switching a torque off blocks the loop; two at once would hold the next tick's goals up. */
+static void test_performer_fault_limp_switches_one_joint_off_a_turn(void)
+{
+    settings.fault_rule = SETTINGS_FAULT_LIMP;
+    start(2, 0);
+    reach(PERFORMER_PLAY);
+    fake_servo_link_fault(&servos, 1, SERVO_FAULT_ERRORS, DXL_ERR_OVERLOAD);
+    fake_servo_link_fault(&servos, 2, SERVO_FAULT_ERRORS, DXL_ERR_OVERLOAD);
+    performer_poll(&performer);
+    TEST_ASSERT_EQUAL_HEX32(SERVO_LINK_BIT(2), servos.torque & (SERVO_LINK_BIT(1) | SERVO_LINK_BIT(2)));
+    performer_poll(&performer);
+    TEST_ASSERT_EQUAL_HEX32(0, servos.torque & (SERVO_LINK_BIT(1) | SERVO_LINK_BIT(2)));
+}
+
 static void test_performer_fault_exit_leaves_through_the_exit_page(void)
 {
     page_set_pos(pages[3], 0, 2, 300);
@@ -247,6 +261,7 @@ int main(void)
     RUN_TEST(test_performer_fault_hold_sends_the_faulty_joint_nothing_more);
     RUN_TEST(test_performer_fault_is_over_when_errors_go_or_torque_comes_back);
     RUN_TEST(test_performer_fault_limp_goes_on_without_the_joint);
+    RUN_TEST(test_performer_fault_limp_switches_one_joint_off_a_turn);
     RUN_TEST(test_performer_fault_exit_leaves_through_the_exit_page);
     RUN_TEST(test_performer_voltage_error_is_told_and_ends_nothing);
     RUN_TEST(test_performer_fault_of_a_joint_out_of_the_play_ends_nothing);
