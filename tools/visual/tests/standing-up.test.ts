@@ -36,6 +36,8 @@ vi.mock('../view/robot-store.ts', () => ({
 }));
 
 const BODY = JSON.parse(await readFile(new URL('body.json', BUILD), 'utf8')) as Body;
+/** The pages that the start of a walk goes on to by itself: tools/motions/README.md. */
+const WALK = [20, 21, 22];
 const SOON = { timeout: 240_000, interval: 20 };
 
 beforeEach(() => {
@@ -71,12 +73,11 @@ test('a walk that somebody started in the air begins anew on the floor', async (
     const { source, where, isHeld } = await held();
     source.post({ kind: 'bytes', sender: 'remote', bytes: remotePacket(['up']) });
     await vi.waitFor(async () => expect((await where()).state).toBe('playing'), SOON);
-    const { page } = await where();
     await source.prepare();
     expect(isHeld()).toBe(false);
     const now = await where();
     expect(now.state).toMatch(/ready|approach|playing/);
-    expect(now.page).toBe(page);
+    expect(WALK).toContain(now.page);
 }, 300_000);
 
 test('put on its feet again behind the first time: the next motion has it let go again', async () => {

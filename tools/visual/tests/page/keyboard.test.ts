@@ -162,7 +162,9 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
     await keys.press('Enter');
     await person.untilScreenSays('PageNumber'); // Edit has written
     await keys.press('Shift+Tab');
-    await keys.at('Terminal'); // out of it
+    await keys.at('Full screen'); // out of it
+    await keys.press('Shift+Tab');
+    await keys.at('Terminal');
     await keys.press('ArrowRight');
     await keys.enter('Pause');
     await keys.enter('One tick');

@@ -96,6 +96,8 @@ test('lying and at 200 %, picture and area are beside each other; on end, the ar
         await person.leave();
     }
     const person = await Visitor.come(suite.browser, suite.address, { screen: PHONE, hasPicture: false, hasPhysics: false });
+    await person.untilStanding();
+    await person.open('Steps');
     const before = await box(person.page, '.stage');
     await person.button('Areas').click();
     expect((await box(person.page, '.stage')).height).toBeGreaterThan(before.height + 100);
