@@ -33,6 +33,7 @@ static struct {
     bool is_there, lost;
     bool has_held;           /* goals or torque were sent: servos may hold their pose */
     bool once;               /* the packet under way is not sent again */
+    bool unread;             /* an answer was asked for, and bus_poll() has not told yet what came of it */
     bool echoes;             /* the adapter repeats what it is sent */
     uint64_t line_free;      /* the last bit of our last packet has left the adapter */
     uint64_t asked_at;       /* the same of the packet whose answer is awaited, or was missed */
@@ -195,9 +196,21 @@ uint8_t *bus_packet(void)
     return core.packet;
 }
 
+/* Takes what has come. */
+static bus_status_t look(bus_answer_t *answer)
+{
+    const bool waited = core.state == BUS_LISTENING;
+    host_fetch_bus();
+    const bus_status_t status = bus_core_poll(&core, (bus_time_t)machine_now(), answer);
+    if (waited && status == BUS_OK) {
+        note_answer_time();
+    }
+    return status;
+}
+
 bool bus_is_busy(void)
 {
-    return core.state != BUS_IDLE && bus_poll(0) == BUS_PENDING;
+    return core.state != BUS_IDLE && look(0) == BUS_PENDING;
 }
 
 /* Our own packets leave one after the other anyway; but at a slow rate they must not pile up. */
@@ -208,25 +221,26 @@ bool bus_is_free(void)
     return now >= port.line_free && (!waits || (core.tries_left == 0 && now > port.asked_at + ANSWER_ON_THE_LINE));
 }
 
+/* A packet without an answer leaves beside the engine while that has an answer to wait for or to hand over. */
 bus_status_t bus_submit(uint8_t size, uint8_t answer_params, uint8_t tries)
 {
-    if (answer_params == BUS_NO_ANSWER && core.state == BUS_LISTENING && bus_is_free()) {
+    if (answer_params == BUS_NO_ANSWER && port.unread && (core.state == BUS_IDLE || bus_is_free())) {
         core.counts.packets++;
         send(core.packet, size);
         return BUS_OK;
     }
-    port.once = tries == 1u;
-    return bus_core_submit(&core, size, answer_params, tries);
+    const bus_status_t status = bus_core_submit(&core, size, answer_params, tries);
+    if (status == BUS_PENDING) {
+        port.once = tries == 1u;
+        port.unread = answer_params != BUS_NO_ANSWER;
+    }
+    return status;
 }
 
 bus_status_t bus_poll(bus_answer_t *answer)
 {
-    const bool waited = core.state == BUS_LISTENING;
-    host_fetch_bus();
-    const bus_status_t status = bus_core_poll(&core, (bus_time_t)machine_now(), answer);
-    if (waited && status == BUS_OK) {
-        note_answer_time();
-    }
+    const bus_status_t status = look(answer);
+    port.unread = port.unread && status == BUS_PENDING;
     return status;
 }
 

@@ -14,9 +14,9 @@ void panel_init(void)
     debounce_init(&buttons, 0);
 }
 
-void panel_set(uint8_t leds, bool lit)
+void panel_set(uint8_t leds, bool on)
 {
-    lamps = (uint8_t)(lit ? lamps | leds : lamps & (uint8_t)~leds);
+    lamps = (uint8_t)(on ? lamps | leds : lamps & (uint8_t)~leds);
 }
 
 uint8_t panel_lit(void)

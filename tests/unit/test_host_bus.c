@@ -118,6 +118,24 @@ static void test_goals_leave_while_an_answer_is_awaited(void)
     TEST_ASSERT_EQUAL(DXL_AT_PRESENT, answer.params[0]);
 }
 
+/* The answer comes while the line is asked whether it is free; the goals that leave then do not take it away. */
+static void test_answer_that_nobody_has_fetched_outlives_the_goals(void)
+{
+    const uint8_t goals[] = {DXL_AT_GOAL, 2, 3, 0, 2};
+    bus_answer_t answer;
+    start(4 * MS, false);
+    TEST_ASSERT_EQUAL(BUS_PENDING, bus_start_read(3, DXL_AT_PRESENT, 2, 1));
+    fake_machine_pass(20 * MS);
+    TEST_ASSERT_TRUE(bus_is_free());
+    const uint8_t size = dxl_build(bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE, goals, sizeof goals);
+    TEST_ASSERT_EQUAL(BUS_OK, bus_submit(size, BUS_NO_ANSWER, 1));
+    memset(&answer, 0xA5, sizeof answer);
+    TEST_ASSERT_EQUAL(BUS_OK, bus_poll(&answer));
+    TEST_ASSERT_EQUAL(3, answer.id);
+    TEST_ASSERT_EQUAL(2, answer.count);
+    TEST_ASSERT_EQUAL(DXL_AT_PRESENT, answer.params[0]);
+}
+
 /* A PING and the status "voltage error" of the same servo are the same bytes. */
 static void test_voltage_error_is_no_echo(void)
 {
@@ -183,6 +201,7 @@ int main(void)
     RUN_TEST(test_silent_servo_costs_what_the_port_has_been_seen_to_take);
     RUN_TEST(test_answer_after_the_limit_makes_the_limit_longer);
     RUN_TEST(test_goals_leave_while_an_answer_is_awaited);
+    RUN_TEST(test_answer_that_nobody_has_fetched_outlives_the_goals);
     RUN_TEST(test_voltage_error_is_no_echo);
     RUN_TEST(test_echo_is_found_out_and_dropped);
     RUN_TEST(test_port_that_goes_fails_at_once_and_says_so_once);

@@ -48,7 +48,7 @@ void pc_read_options(int argc, char **argv)
     }
     for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
         switch (option) {
-        case 'b': pc_options.rate_bps = rate_of(optarg); break;
+        case 'b': pc_options.rate_bps = rate_of(optarg != NULL ? optarg : ""); break;
         case 'r': pc_options.robot = optarg; break;
         case 'm': pc_options.motions = optarg; break;
         case 'p': pc_options.pty_link = optarg != NULL ? optarg : ""; break;

@@ -190,7 +190,7 @@ test('nothing over the picture covers the hand that is dragged, wherever it goes
                 at,
             )),
         );
-        expect(await view.evaluate(element => (element as unknown as { hasGhost: boolean }).hasGhost)).toBe(false);
+        await expect.poll(() => view.evaluate(element => (element as unknown as { hasGhost: boolean }).hasGhost)).toBe(false);
     }
     expect(covering).toEqual([]);
     await page.mouse.up();
