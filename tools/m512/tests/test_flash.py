@@ -96,6 +96,18 @@ def test_flash_motions_and_leave_everything_else(m512, peer, motions):
     assert again["written"] == 0
 
 
+def test_flash_asks_before_motions_that_the_file_does_not_hold_are_lost(m512, peer, motions, tmp_path):
+    mine = read_text("motion512 1\npage 7 bow\n  step 1s | 1..18:300\npage 9 kick\n  step 1s | 1..18:300\npage 3 old\n  step 1s | 1:300\n")
+    peer.flash[0xE200:0x1E000] = mine.to_bytes()[512:]
+    before = bytes(peer.flash)
+    result = m512("flash", motions, "-p", peer.path)
+    assert result.exit_code == 5 and 'pages 7 "bow" and 9 "kick" would be lost' in result.stderr and "--yes" in result.stderr, result.stderr
+    assert bytes(peer.flash) == before
+    result = m512("flash", motions, "-p", peer.path, "--yes")
+    assert result.exit_code == 0, result.stderr
+    assert peer.flash[0xE200:0x1E000] == motion_area()[512:]
+
+
 def test_flash_application_and_start(m512, peer, app_hex):
     result = m512("run", app_hex, "-p", peer.path)
     assert result.exit_code == 0, result.stderr

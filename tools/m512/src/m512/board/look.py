@@ -9,6 +9,7 @@ from m512.board.link import Link
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, MOTIONS, Plan
 from m512.errors import BoardError, NoAnswerError, RefusedError
+from m512.files.image import is_erased
 from m512.files.page import PAGE_BYTES, Page
 from m512.pages import difference
 
@@ -25,6 +26,28 @@ def through_loader(loader: Loader, plan: Plan, phase: PhaseMaker) -> list[str]:
         loader.leave(0)
     here = f"{loader.name}" + (f" on a {loader.board}" if loader.board else "")
     return [f"{here}: {len(todo)} of {len(plan.pages)} flash pages would be written" if todo else f"{here}: the board holds this already"]
+
+
+def emptied(loader: Loader, plan: Plan, todo: list[int], phase: PhaseMaker) -> dict[int, str]:
+    """{number: name} of the motions on the board for which the plan has an empty page. `todo`: the flash pages that differ."""
+    numbers = []
+    for number in sorted({(page * FLASH_PAGE - MOTIONS[0]) // PAGE_BYTES for page in todo if page * FLASH_PAGE >= MOTIONS[0]}):
+        first = (MOTIONS[0] + number * PAGE_BYTES) // FLASH_PAGE
+        if number and first in plan.pages and _holds_nothing(Page(plan.pages[first] + plan.pages[first + 1])):
+            numbers.append(number)
+    out = {}
+    with phase("Reading") as progress:
+        for done, number in enumerate(numbers):
+            at = MOTIONS[0] + number * PAGE_BYTES
+            page = Page(loader.read(at, at + PAGE_BYTES))
+            if not _holds_nothing(page) and not page.fault():
+                out[number] = page.title
+            progress(done + 1, len(numbers))
+    return out
+
+
+def _holds_nothing(page: Page) -> bool:
+    return page.is_empty or is_erased(page)
 
 
 def through_application(link: Link, plan: Plan, phase: PhaseMaker) -> list[str]:

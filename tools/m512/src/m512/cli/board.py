@@ -9,6 +9,7 @@ from datetime import datetime
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 from m512 import ui
 from m512.errors import M512Error, PortError, RefusedError
@@ -29,6 +30,12 @@ board_option = click.option(
     help="Which board it is, if its boot loader does not say so (cm2: CM-2 and CM-2+).",
 )
 json_option = click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
+
+
+def only_the_simulator():
+    """UsageError where --sim and a port were typed: one of the two would be ignored. M512_PORT is no such word."""
+    if click.get_current_context().get_parameter_source("port") is ParameterSource.COMMANDLINE:
+        raise click.UsageError("--sim starts a simulated robot, --port means a real one: say one of the two")
 
 
 def connect(port, wait, yes=False, board=""):
@@ -63,7 +70,11 @@ def flash_options(function):
         board_option,
         port_option,
         click.option("--dry-run", is_flag=True, help="Look at the board, say what would be written, change nothing."),
-        click.option("--yes", is_flag=True, help="Do not ask when Edit has edits that are not saved."),
+        click.option(
+            "--yes",
+            is_flag=True,
+            help="Do not ask: neither when Edit has edits that are not saved, nor when motions of the board become empty pages.",
+        ),
         click.option(
             "--damaged",
             type=click.Choice(["ask", "keep"]),
@@ -95,7 +106,9 @@ def _flash(image, address, fast, with_trim, damaged, dry_run, yes, port, board, 
     with link:
         if fast and isinstance(loader, BlockLoader) and not loader.go_faster():
             ui.say("note: the fast rate does not work here; going on at 57,600")
-        report = download.download(loader, plan, ui.phase)
+        with as_found(loader):
+            todo = _agreed(loader, plan, yes)
+        report = download.download(loader, plan, ui.phase, todo)
         ui.say(str(report))
         if start:
             download.start(loader)
@@ -105,6 +118,24 @@ def _flash(image, address, fast, with_trim, damaged, dry_run, yes, port, board, 
             ui.say("The board waits in its boot loader; `m512 run` starts the application.")
         if as_json:
             ui.show(json.dumps(dict(report.as_dict(), loader=loader.name, board=loader.board, started=start)))
+
+
+def _agreed(loader, plan, yes):
+    """The flash pages to write, after a yes if motions of the board would be lost by it."""
+    from m512.board import download, look
+    from m512.files.wording import named_pages_text
+
+    download.check_board(plan, loader)
+    with ui.phase("Comparing") as progress:
+        todo = loader.different(plan.pages, progress)
+    lost = look.emptied(loader, plan, todo, ui.phase)
+    if lost:
+        ui.confirm(
+            f"The file holds all pages of a board, and these are empty in it: {named_pages_text(lost)} would be lost "
+            "(`m512 backup` keeps them; `m512 put` writes single pages). Go on?",
+            yes,
+        )
+    return todo
 
 
 def _look(plan, port, board):
@@ -198,6 +229,7 @@ def backup(folder, what, port, board, wait, as_json):
 
     areas = _areas(what)
     folder = folder or Path(datetime.now().strftime("backup-%Y%m%d-%H%M%S"))
+    backups.must_be_possible(folder)
     link, loader = connect(port, wait, board=board)
     with link:
         with as_found(loader):
