@@ -71,6 +71,21 @@ def test_no_file_is_left(world, words, environment, says):
     assert not list(world.temporary.iterdir())
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux ends a child with its parent")
+def test_the_simulator_ends_with_a_command_that_was_killed(world):
+    process = world.start("play", "wave", "--sim", "--motions", "wave.m512", "--wait")
+    while "playing" not in process.stderr.readline():
+        assert process.poll() is None
+    (simulator,) = children(process.pid)
+    process.kill()
+    process.communicate(timeout=600)
+    state = Path(f"/proc/{simulator}/stat")
+    deadline = time.monotonic() + 60
+    while state.exists() and state.read_text().rpartition(")")[2].split()[0] not in "ZX":
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 @pytest.mark.parametrize("when", ["starting", "playing"])
 def test_a_signal_ends_the_simulator_too(world, number, when):

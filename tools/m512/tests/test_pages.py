@@ -74,6 +74,23 @@ def test_pages_rename(m512, lib):
     assert m512("pages", lib, "rename", "march", "much too long a name", "--in-place").exit_code == 4
 
 
+@pytest.mark.parametrize("name", ["grün", "日本", "a\nb", "\x1b[2J"])
+def test_pages_rename_takes_no_letter_that_a_page_cannot_hold(m512, lib, name):
+    before = lib.read_bytes()
+    result = m512("pages", lib, "rename", "walk", name, "--in-place")
+    assert result.exit_code == 4 and "ASCII" in result.stderr and lib.read_bytes() == before
+
+
+def test_pages_rename_to_a_number_says_what_the_number_means(m512, lib):
+    result = m512("pages", lib, "rename", "walk", "12", "--in-place")
+    assert result.exit_code == 0 and "12 means page 12" in result.stderr
+
+
+def test_pages_time_of_an_empty_page_is_an_error(m512, lib):
+    result = m512("pages", lib, "time", "12")
+    assert result.exit_code == 4 and "page 12 has no action" in result.stderr and not result.stdout
+
+
 def test_pages_copy_keeps_self_links_on_the_copy(m512, lib):
     assert m512("pages", lib, "copy", "walk", "20", "--in-place").exit_code == 0
     assert image(lib)[20].next == 20 and image(lib)[20].exit == 5 and image(lib)[3].next == 3

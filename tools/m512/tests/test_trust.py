@@ -375,3 +375,50 @@ def test_doctor_does_not_repeat_itself(m512, monkeypatch, tmp_path):
     for line in lines:
         assert said.count(line) == 1 or len(line) < 12, line
     assert said.count("not installed") <= 2
+
+
+# What the system refuses, and what one would not have meant
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a device that is always full is Linux's")
+@pytest.mark.parametrize("words", [["pages", "x.bin", "list"], ["pages", "x.bin", "list", "--json"], ["--help"], ["convert", "x.bin"]])
+def test_a_full_disk_behind_the_output_is_a_sentence(files, words):
+    with open("/dev/full", "wb") as full:
+        found = subprocess.run([sys.executable, "-m", "m512", *words], stdout=full, stderr=subprocess.PIPE, text=True, cwd=files, timeout=300)
+    assert found.returncode == 4 and "No space left" in found.stderr and "Traceback" not in found.stderr and len(found.stderr.splitlines()) == 1
+
+
+def test_a_name_that_no_file_can_have_is_a_sentence(files):
+    found = run("convert", files / "x.bin", files / ("a" * 300 + ".bin"))
+    assert found.returncode == 4 and b"too long" in found.stderr and b"Traceback" not in found.stderr
+
+
+def test_a_closed_output_is_a_sentence(files):
+    found = subprocess.run(f"{sys.executable} -m m512 convert x.bin >&-", shell=True, stderr=subprocess.PIPE, cwd=files, timeout=300)
+    assert found.returncode == 4 and b"standard output is closed" in found.stderr
+
+
+@pytest.mark.parametrize(
+    "words, says",
+    [
+        (["pose", "1:512", "1:600"], "joint 1 has a position already"),
+        (["pose", "1..3:512", "2:600"], "joint 2 has a position already"),
+        (["aim", "1..5:512"], "code moves 4 at once"),
+        (["play", "wave", "--sim"], "say one of the two"),
+        (["doctor", "--sim"], "say one of the two"),
+        (["term", "--sim"], "say one of the two"),
+        (["term", "--motions", "x.bin"], "--motions is for --sim"),
+    ],
+)
+def test_words_of_which_one_would_be_ignored_are_refused_before_a_port_is_opened(m512, words, says):
+    result = m512(*words, "-p", "peer://nobody")
+    assert result.exit_code == 2 and says in result.stderr
+
+
+def test_a_backup_that_cannot_be_written_is_refused_before_the_board_is_called(m512, files):
+    (files / "full").mkdir()
+    (files / "full" / "x").write_text("")
+    (files / "file").write_text("")
+    for folder, says in ((files / "full", "not empty"), (files / "file" / "b", "cannot make")):
+        result = m512("backup", folder, "-p", "peer://nobody")
+        assert result.exit_code == 4 and says in result.stderr

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
@@ -29,10 +30,20 @@ class Backup:
     data: dict[str, bytes]
 
 
+def must_be_possible(folder: Path) -> None:
+    """FileError where no backup can be made: known before a board is called to its loader for it."""
+    try:
+        if folder.exists() and any(folder.iterdir()):
+            raise FileError(f"{folder} is there already and not empty")
+    except OSError as error:
+        raise FileError(f"cannot make {folder}: {error.strerror}") from None
+    there = next(place for place in (folder, *folder.absolute().parents) if place.exists())
+    if not there.is_dir() or not os.access(there, os.W_OK):
+        raise FileError(f"cannot make {folder}: nothing can be written in {there}")
+
+
 def take(loader: Loader, folder: Path, areas: list[str], phase) -> Backup:
     """Reads the areas of the board and writes the folder; the manifest comes last."""
-    if folder.exists() and any(folder.iterdir()):
-        raise FileError(f"{folder} is there already and not empty")
     data = {}
     for area in areas:
         with phase(f"Reading {area}") as progress:

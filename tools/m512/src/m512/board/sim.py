@@ -9,15 +9,18 @@ puts it there, with firmware images and motions), and in the PATH.
 
 from __future__ import annotations
 
+import ctypes
 import os
 import re
 import select
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Callable
 
 from m512 import ui
 from m512.board.client import Client
@@ -31,6 +34,7 @@ START_SECONDS = 300.0
 SOON = (0.6, 1.5, 4.0, 15.0)  # seconds for the answer to each first request: one comes before the board listens
 LATER = (60.0, 220.0)  # then with a note; together five minutes
 SLACK_SECONDS = 300.0
+SET_PARENT_DEATH_SIGNAL = 1  # PR_SET_PDEATHSIG of linux/prctl.h
 
 
 def find_cm5sim() -> Path:
@@ -70,6 +74,14 @@ def our_motions() -> Path | None:
     return next((place for place in places if place.exists()), None)
 
 
+def _ending_with_its_parent() -> Callable[[], None] | None:
+    """What a child process of Linux calls to be ended when this one is, by kill -9 too. Others have no such call."""
+    if sys.platform != "linux":
+        return None
+    libc = ctypes.CDLL(None)
+    return lambda: libc.prctl(SET_PARENT_DEATH_SIGNAL, signal.SIGKILL)
+
+
 class Simulator:
     """cm5sim with its console on a pty, and our motions unless others are given. Use as a context; `url` is the port."""
 
@@ -84,7 +96,12 @@ class Simulator:
                 area.flush()
                 command += ["--motions", f"/dev/fd/{area.fileno()}"]
             self.process = subprocess.Popen(
-                command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, pass_fds=(area.fileno(),)
+                command,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                stdin=subprocess.DEVNULL,
+                pass_fds=(area.fileno(),),
+                preexec_fn=_ending_with_its_parent(),
             )
         self.said = b""
         try:

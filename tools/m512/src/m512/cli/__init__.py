@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import signal
 import sys
 
@@ -51,6 +53,19 @@ class LazyGroup(click.Group):
     def format_commands(self, ctx, formatter):
         with formatter.section("Commands"):
             formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
+
+    def main(self, *args, **kwargs):
+        """What the system refuses is said in a sentence, wherever it comes from: a full disk behind --help, a name of 300 letters."""
+        try:
+            return super().main(*args, **kwargs)
+        except OSError as error:
+            with contextlib.suppress(OSError, AttributeError):
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left to be said would fail again
+            from m512.errors import EXIT_BAD_FILE
+            from m512.ui import say
+
+            say(f"m512: {error.strerror or error}" + (f": {error.filename}" if error.filename else ""))
+            sys.exit(EXIT_BAD_FILE)
 
     def invoke(self, ctx):
         from m512.errors import EXIT_CANCELLED, M512Error

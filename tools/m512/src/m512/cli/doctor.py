@@ -8,7 +8,7 @@ import json
 import click
 
 from m512 import ui
-from m512.cli.board import json_option, port_option
+from m512.cli.board import json_option, only_the_simulator, port_option
 from m512.errors import EXIT_DIFFERENT
 
 
@@ -41,6 +41,8 @@ def doctor(port, sim, mend, as_json):
 
     if mend and not is_bus(port):
         raise click.UsageError("--mend is for -p bus:...")
+    if sim:
+        only_the_simulator()
     if is_bus(port) and not sim:
         from m512.board import bus_doctor
 

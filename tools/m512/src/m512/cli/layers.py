@@ -14,6 +14,7 @@ from m512.cli.robot import ID_MAX, positions_of, robot, robot_options
 
 SECOND_MS = 1000
 AMPLITUDES = (0, 511)
+AIMED_MOST = 4  # joints that code moves at once
 
 
 def show_shape(client, as_json):
@@ -58,6 +59,8 @@ Examples:
 def aim(positions, speed, **options):
     """Bring joints to positions (0..1023, or 30deg from the centre) and hold them there, up to four, until `free`."""
     wanted = positions_of(positions)
+    if len(wanted) > AIMED_MOST:
+        raise click.UsageError(f"{len(wanted)} joints: code moves {AIMED_MOST} at once at most")
     with robot(options) as client:
         for joint, at in wanted.items():
             client.ask(f"aim {joint} {at}" + (f" {speed}" if speed else ""))

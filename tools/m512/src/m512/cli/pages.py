@@ -12,7 +12,7 @@ import click
 from m512 import ui
 from m512.cli.board import board_option
 from m512.cli.files import PAGE_NUMBER, id_list, page_moves, page_numbers
-from m512.errors import EXIT_DIFFERENT, RefusedError, WordError
+from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
 from m512.files import formats, storage
 from m512.files.page import Page
 
@@ -340,6 +340,8 @@ def time(source, page, volts, as_json):
     from m512.pages import operations
 
     number = source.image.find(page)
+    if not source.image[number].is_playable and not source.image[number].fault(source.image.kind):
+        raise FileError(f"page {number} has no action: there is nothing to play")
     parts, end = operations.chain(source.image, number)
     fast = speed.too_fast(source.image, number, volts)
     total = sum(seconds for _, _, seconds in parts)

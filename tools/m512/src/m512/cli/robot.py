@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from m512 import ui
-from m512.cli.board import json_option, port_option
+from m512.cli.board import json_option, only_the_simulator, port_option
 from m512.cli.files import page_moves, page_numbers
 from m512.errors import NoAnswerError, RefusedError
 
@@ -41,6 +41,7 @@ def robot(options, end=b"", image="play"):
     if options["motions"] and not options["sim"]:
         raise click.UsageError("--motions is for --sim; a robot gets its motions with `m512 flash` or `put`")
     if options["sim"]:
+        only_the_simulator()
         from m512.board.sim import Simulator, meet
 
         with Simulator([options["image"]], options["motions"], options["servos"]) as simulator, Link(simulator.url) as link:
@@ -176,7 +177,7 @@ def positions_of(words):
     """{ID: position} of words such as 1:512, 3..5:30deg."""
     from m512.files.text.words import WordError, joints_of, position
 
-    out = {}
+    out: dict[int, int] = {}
     for word in words:
         joints, colon, value = word.rpartition(":")
         try:
@@ -185,7 +186,10 @@ def positions_of(words):
             at = position(value, 0x4000, 1023)
             if at > 1023:
                 raise WordError(f"{word}: a position is 0..1023")
-            out.update({joint: at for joint in joints_of(joints, {})})
+            for joint in joints_of(joints, {}):
+                if joint in out:
+                    raise WordError(f"{word}: joint {joint} has a position already ({out[joint]})")
+                out[joint] = at
         except WordError as error:
             raise click.UsageError(str(error)) from None
     return out

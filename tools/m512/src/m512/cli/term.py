@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from m512 import ui
-from m512.cli.board import port_option
+from m512.cli.board import only_the_simulator, port_option
 
 
 @click.command(
@@ -38,7 +38,10 @@ def term(port, log, send, listing, sim, motions, image):
         for device, text in ports.available():
             ui.show(f"{device}  {text}".rstrip())
         return
+    if motions and not sim:
+        raise click.UsageError("--motions is for --sim; a robot gets its motions with `m512 flash` or `put`")
     if sim:
+        only_the_simulator()
         from m512.board.sim import Simulator
 
         with Simulator([image], motions) as simulator:

@@ -41,6 +41,8 @@ def read(path: Path) -> bytes:
     """All bytes of a file or pipe."""
     try:
         if str(path) == "-":
+            if sys.stdin is None:
+                raise FileError("cannot read -: standard input is closed")
             data = sys.stdin.buffer.read(MOST_BYTES + 1)
         else:
             with open(path, "rb") as file:
@@ -62,6 +64,8 @@ def write(path: Path, data: bytes) -> None:
     try:
         descriptor = _descriptor(path)
         if descriptor == 1:
+            if sys.stdout is None:
+                raise FileError(f"cannot write {path}: standard output is closed")
             sys.stdout.buffer.write(data)
             sys.stdout.buffer.flush()
         elif descriptor is not None:

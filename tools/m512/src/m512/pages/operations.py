@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from m512.errors import FileError, RefusedError
 from m512.files.image import Image, is_erased
 from m512.files.page import JOINTS, SCHEDULE_TIME, STEPS, Page, is_used
+from m512.files.selection import page_number
 from m512.motion.player import page_seconds
 
 NOMINAL_SPEED = 32
@@ -87,13 +88,17 @@ def need_good(image: Image, number: int) -> Page:
 
 
 def rename(image: Image, number: int, name: str) -> list[str]:
-    raw = name.encode("ascii", "replace")
-    if len(raw) > 13 or any(not 0x20 <= b < 0x7F for b in raw):
-        raise FileError(f"{name!r}: a page name has at most 13 ASCII characters")
+    if not all(" " <= letter <= "~" for letter in name):
+        raise FileError(f"{name!r}: a page name is made of ASCII letters, digits, signs and blanks")
+    if len(name) > 13:
+        raise FileError(f"{name!r}: a page name has at most 13 characters, not {len(name)}")
     page = need_good(image, number)
-    page.name = raw
+    page.name = name.encode("ascii")
     page.seal()
-    return []
+    other = page_number(name)
+    if other is None or other == number:
+        return []
+    return [f"page {number} has a number for a name: where a page is asked for, {name} means page {other}"]
 
 
 def _must_be_free(image: Image, number: int, replace: bool) -> None:
