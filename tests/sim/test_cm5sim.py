@@ -134,6 +134,9 @@ def test_terminal_knobs(terminal):
     terminal.expect("ready")
     terminal.send("\x14p")
     terminal.expect("power off")
+    for key in ("x", "\x14s"):  # a board without power hears nothing, and that is said
+        terminal.send(key)
+        terminal.expect("the power is off: Ctrl-T p switches it on")
     terminal.send("\x14p")
     terminal.expect("ready")
 

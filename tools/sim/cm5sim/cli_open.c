@@ -54,6 +54,10 @@ static void press_key(session_t *session, key_press_t key)
     const uint64_t held = (uint64_t)KEY_HELD_MS * BOARD_CYCLES_PER_MS;
     const uint8_t value = (uint8_t)key.value;
     char text[LINE_ANSWER_BYTES];
+    if (!board_is_powered(session->board) && (key.kind == KEY_BYTE || key.kind == KEY_RC || key.kind == KEY_BUTTON)) {
+        session_note(session, "the power is off: Ctrl-T p switches it on");
+        return;
+    }
     switch (key.kind) {
     case KEY_BYTE: session_send(session, &value, 1); break;
     case KEY_EXIT: session_end(session, EXIT_GOOD); break;
@@ -63,7 +67,7 @@ static void press_key(session_t *session, key_press_t key)
     case KEY_BUTTON: session_press(session, (button_t)key.value, held / 3); break;
     case KEY_POWER:
         session_power(session, !board_is_powered(session->board));
-        session_note(session, "power %s", board_is_powered(session->board) ? "on" : "off");
+        session_note(session, board_is_powered(session->board) ? "power on" : "power off (Ctrl-T p switches it on)");
         break;
     case KEY_SERVOS: session_list_servos(session); break;
     case KEY_LINE:
