@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Play and Edit as programs for a PC: the sources of the images, over hal/host instead of hal/avr.
 set(M512_HOST_SOURCES hal/host/bus.c hal/host/console.c hal/host/echo.c hal/host/memory.c hal/host/panel.c hal/host/system.c
-    hal/host/time.c firmware/common/page_service.c)
+    hal/host/time.c firmware/common/page_service.c firmware/host/program.c)
 # The machine below them, and the beginning.
 set(M512_PC_SOURCES firmware/host/main.c hal/host/pc/files.c hal/host/pc/machine.c hal/host/pc/options.c hal/host/pc/port.c
     hal/host/pc/terminal.c)
@@ -14,11 +14,30 @@ function(m512_program name)
     set(sources ${ARG_SOURCES} ${host_sources})
     list(REMOVE_DUPLICATES sources)
     add_executable(${name} ${sources})
-    target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/firmware/${ARG_IMAGE} ${CMAKE_SOURCE_DIR}/firmware/common
+    m512_program_settings(${name} ${ARG_IMAGE} ${ARG_DEFINES})
+endfunction()
+
+function(m512_program_settings name image)
+    target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/firmware/${image} ${CMAKE_SOURCE_DIR}/firmware/common
         ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/hal/host ${CMAKE_SOURCE_DIR}/hal ${CMAKE_SOURCE_DIR}/motion ${CMAKE_SOURCE_DIR}/linker)
-    target_compile_definitions(${name} PRIVATE _GNU_SOURCE ${ARG_DEFINES})
+    target_compile_definitions(${name} PRIVATE _GNU_SOURCE ${ARGN})
     target_compile_options(${name} PRIVATE ${M512_WARNINGS})
     # The main of the image is called by the main of firmware/host.
-    set_source_files_properties(${CMAKE_SOURCE_DIR}/firmware/${ARG_IMAGE}/main.c PROPERTIES
+    set_source_files_properties(${CMAKE_SOURCE_DIR}/firmware/${image}/main.c PROPERTIES
         COMPILE_OPTIONS "-Dmain=image_main;-Wno-missing-prototypes")
+endfunction()
+
+# The same for the machine whose clock is told (hal/host/told): a shared object, which begins anew each time that it is loaded.
+# m512_told_program(<name> ...), as above
+function(m512_told_program name)
+    cmake_parse_arguments(ARG "" "IMAGE" "SOURCES;DEFINES" ${ARGN})
+    set(host_sources ${M512_HOST_SOURCES})
+    list(TRANSFORM host_sources PREPEND ${CMAKE_SOURCE_DIR}/)
+    set(sources ${ARG_SOURCES} ${host_sources})
+    list(REMOVE_DUPLICATES sources)
+    add_library(${name} MODULE EXCLUDE_FROM_ALL ${sources})
+    m512_program_settings(${name} ${ARG_IMAGE} ${ARG_DEFINES})
+    # Its own functions, whatever the program that loads it has of the same name.
+    target_compile_options(${name} PRIVATE -O2 -fno-semantic-interposition)
+    target_link_options(${name} PRIVATE -Wl,-Bsymbolic)
 endfunction()

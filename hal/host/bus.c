@@ -244,9 +244,10 @@ bus_status_t bus_poll(bus_answer_t *answer)
     return status;
 }
 
+/* A packet has been handed over at once, and is news when it has left: until then the program sleeps. */
 bool bus_has_news(void)
 {
-    return bus_core_has_news(&core);
+    return bus_core_has_news(&core) && machine_now() >= port.line_free;
 }
 
 bus_status_t bus_wait(bus_answer_t *answer)

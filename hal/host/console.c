@@ -1,23 +1,28 @@
 /* SPDX-License-Identifier: MIT
  * console.c - console.h over the machine's console. It has no rate. Flow control is the machine's: bytes that find no room
- * stay where they are, so nothing is lost and XOFF is never sent. */
+ * stay where they are, so nothing is lost and XOFF is never sent. An image may have less room than rx, as Play has; therefore
+ * rx takes no more at once than still comes behind an XOFF, and nothing until the XON. */
 #include "console.h"
 
 #include <string.h>
 #include "host.h"
 #include "machine.h"
 
+#define AT_ONCE 16u
+
 static uint8_t rx_storage[CONSOLE_RX_BYTES];
 static ring_t rx;
 static uint8_t tx[CONSOLE_TX_BYTES];
 static uint8_t tx_count;
 static uint8_t received, sent;
+static uint8_t xoffs;   /* calls of console_xoff without their console_xon */
 static volatile uint8_t lost;
 
 void console_init(void)
 {
     ring_init(&rx, rx_storage, CONSOLE_RX_BYTES);
     tx_count = 0;
+    xoffs = 0;
     received = 0;
     sent = 0;
 }
@@ -30,7 +35,8 @@ void console_set_rate(uint8_t divisor)
 void host_fetch_console(void)
 {
     uint8_t bytes[CONSOLE_RX_BYTES];
-    const uint16_t count = machine_console_read(bytes, ring_room(&rx));
+    const uint8_t here = ring_count(&rx), most = xoffs > 0 ? 0 : AT_ONCE;
+    const uint16_t count = machine_console_read(bytes, here < most ? (uint16_t)(most - here) : 0);
     for (uint16_t i = 0; i < count; i++) {
         received++;
         (void)ring_put(&rx, bytes[i]);
@@ -103,19 +109,22 @@ void console_flush(void)
     }
 }
 
-/* ---- flow control: none is needed ---- */
+/* ---- flow control: within the program ---- */
 
 void console_set_flow(bool on)
 {
     (void)on;
+    xoffs = 0;
 }
 
 void console_xoff(void)
 {
+    xoffs++;
 }
 
 void console_xon(void)
 {
+    xoffs = (uint8_t)(xoffs > 0 ? xoffs - 1 : 0);
 }
 
 /* ---- counts ---- */

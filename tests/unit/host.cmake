@@ -19,6 +19,7 @@ if(NOT M512_AVR)
     set(lines hal/host/bus.c hal/host/echo.c hal/host/system.c hal/host/console.c hal/host/time.c hal/bus_core.c hal/bus_call.c hal/dxl_packet.c)
     m512_host_unit_test(test_host_echo hal/host/echo.c)
     m512_host_unit_test(test_host_bus ${lines} hal/host/memory.c)
+    m512_host_unit_test(test_host_console ${lines} hal/host/memory.c)
     m512_host_unit_test(test_host_memory ${lines} hal/host/memory.c firmware/common/page_service.c firmware/common/journal.c
         firmware/common/settings.c)
 endif()

@@ -194,6 +194,18 @@ static void test_rates_are_those_of_the_divisors(void)
     TEST_ASSERT_EQUAL(BUS_RATE_57142, bus_rate());
 }
 
+static void test_packet_is_news_when_it_has_left(void)
+{
+    static const uint8_t goal[] = {DXL_AT_GOAL, 2, 3, 0, 2};
+    start(1 * MS, false);
+    (void)bus_submit(dxl_build(bus_packet(), DXL_BROADCAST, DXL_SYNC_WRITE, goal, sizeof goal), BUS_NO_ANSWER, 1);
+    TEST_ASSERT_FALSE(bus_has_news());      /* the program sleeps meanwhile */
+    TEST_ASSERT_FALSE(bus_is_free());
+    fake_machine_pass(11 * 20);             /* eleven bytes of 10 us */
+    TEST_ASSERT_TRUE(bus_has_news());
+    TEST_ASSERT_TRUE(bus_is_free());
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -205,6 +217,7 @@ int main(void)
     RUN_TEST(test_voltage_error_is_no_echo);
     RUN_TEST(test_echo_is_found_out_and_dropped);
     RUN_TEST(test_port_that_goes_fails_at_once_and_says_so_once);
+    RUN_TEST(test_packet_is_news_when_it_has_left);
     RUN_TEST(test_rates_are_those_of_the_divisors);
     return UNITY_END();
 }

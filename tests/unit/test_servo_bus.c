@@ -297,6 +297,53 @@ static void test_servo_bus_reports_each_good_packet_of_the_controller(void)
     TEST_ASSERT_EQUAL_INT(2, packets_seen);
 }
 
+/* A bus with two servos, told the same packets whole or byte by byte. */
+static void tell(wire_t *to, bool whole)
+{
+    static const uint8_t packets[][12] = {
+        {6, PING_1},
+        {11, 0xFF, 0xFF, 0xFE, 0x07, 0x83, 0x1E, 0x02, 0x01, 0x10, 0x02, 0x44}, /* goal 528 */
+        {6, 0xFF, 0xFF, 0x02, 0x02, 0x01, 0xFA},
+        {8, 0xFF, 0xFF, 0x01, 0x04, 0x02, 0x24, 0x02, 0xD2},                    /* READ of the position */
+        {6, 0xFF, 0xFF, 0x01, 0x02, 0x01, 0x00},                                /* a wrong checksum */
+        {6, PING_1},
+    };
+    static const uint64_t pauses[] = {5 * MS, 20 * MS, MS, 100 * US, 5 * MS, 5 * MS};   /* the fourth answer is talked into */
+    wire_open(to);
+    (void)servo_bus_add(to->bus, 1, SERVO_AX12, 1000000);
+    (void)servo_bus_add(to->bus, 2, SERVO_AX12, 1000000);
+    to->now = MS;
+    for (unsigned i = 0; i < sizeof packets / sizeof packets[0]; i++) {
+        const uint8_t count = packets[i][0];
+        if (whole) {
+            to->now += count * 10u * US;
+            servo_bus_host_packet(to->bus, to->now, packets[i] + 1, count, 1000000);
+        } else {
+            wire_send(to, packets[i] + 1, count);
+        }
+        wire_wait(to, pauses[i]);
+    }
+    servo_advance(to->bus->servos[0], to->now);
+}
+
+static void test_servo_bus_packet_at_once_is_the_same_as_byte_by_byte(void)
+{
+    static wire_t whole, bytes;
+    tell(&whole, true);
+    tell(&bytes, false);
+    TEST_ASSERT_EQUAL_UINT64(bytes.now, whole.now);
+    TEST_ASSERT_TRUE(bytes.count > 20);
+    TEST_ASSERT_EQUAL_INT(bytes.count, whole.count);
+    TEST_ASSERT_EQUAL_MEMORY(bytes.heard, whole.heard, (size_t)bytes.count);
+    TEST_ASSERT_EQUAL_MEMORY(bytes.heard_at, whole.heard_at, (size_t)bytes.count * sizeof bytes.heard_at[0]);
+    for (int i = 0; i < 2; i++) {
+        TEST_ASSERT_EQUAL_MEMORY(bytes.bus->servos[i]->table, whole.bus->servos[i]->table, SERVO_TABLE_BYTES);
+        TEST_ASSERT_EQUAL_MEMORY(&bytes.bus->servos[i]->stats, &whole.bus->servos[i]->stats, sizeof(servo_stats_t));
+    }
+    wire_close(&whole);
+    wire_close(&bytes);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -325,5 +372,6 @@ int main(void)
     RUN_TEST(test_servo_bus_noise_before_the_header_is_skipped);
     RUN_TEST(test_servo_bus_controller_talking_into_an_answer_spoils_both);
     RUN_TEST(test_servo_bus_reports_each_good_packet_of_the_controller);
+    RUN_TEST(test_servo_bus_packet_at_once_is_the_same_as_byte_by_byte);
     return UNITY_END();
 }

@@ -60,11 +60,6 @@ static void put(servo_t *servo, uint8_t address, uint16_t value)
     servo->table[address + 1] = (uint8_t)(value >> 8);
 }
 
-uint16_t servo_get(const servo_t *servo, uint8_t address, uint8_t bytes)
-{
-    return (uint16_t)(servo->table[address] | (bytes == 2 ? servo->table[address + 1] << 8 : 0));
-}
-
 uint32_t servo_rate_bps(const servo_t *servo)
 {
     return 2000000u / (servo->table[SERVO_BAUD] + 1u);
@@ -220,8 +215,9 @@ uint8_t servo_check_write(const servo_t *servo, uint8_t address, const uint8_t *
     if (count == 0 || address + count > SERVO_TABLE_BYTES) {
         return SERVO_ERR_RANGE;
     }
-    servo_t after = *servo; /* a value of two bytes is judged whole, also when only half of it is written */
-    memcpy(after.table + address, data, count);
+    uint8_t after[SERVO_TABLE_BYTES]; /* a value of two bytes is judged whole, also when only half of it is written */
+    memcpy(after, servo->table, sizeof after);
+    memcpy(after + address, data, count);
     uint8_t errors = 0;
     for (uint8_t a = address; a < address + count; a++) {
         const item_t *item = item_at(a);
@@ -229,12 +225,12 @@ uint8_t servo_check_write(const servo_t *servo, uint8_t address, const uint8_t *
         if (item == NULL || locked) {
             return SERVO_ERR_RANGE;
         }
-        const uint16_t value = servo_get(&after, item->address, item->bytes);
+        const uint16_t value = servo_table_get(after, item->address, item->bytes);
         if (value < item->low || value > item_high(servo, item)) {
             return SERVO_ERR_RANGE;
         }
         if (item->address == SERVO_GOAL
-            && (value < servo_get(&after, SERVO_CW_LIMIT, 2) || value > servo_get(&after, SERVO_CCW_LIMIT, 2))) {
+            && (value < servo_table_get(after, SERVO_CW_LIMIT, 2) || value > servo_table_get(after, SERVO_CCW_LIMIT, 2))) {
             errors |= SERVO_ERR_ANGLE;
         }
     }

@@ -110,8 +110,16 @@ void servo_factory_reset(servo_t *servo);
 /* Brings position, temperature, alarms and the read-only registers up to now. Time never runs backwards. */
 void servo_advance(servo_t *servo, uint64_t now_cycles);
 
-/* One register, as of the last servo_advance(). */
-uint16_t servo_get(const servo_t *servo, uint8_t address, uint8_t bytes);
+/* One register of one or two bytes, as of the last servo_advance(). */
+static inline uint16_t servo_table_get(const uint8_t *table, uint8_t address, uint8_t bytes)
+{
+    return (uint16_t)(table[address] | (bytes == 2 ? table[address + 1] << 8 : 0));
+}
+
+static inline uint16_t servo_get(const servo_t *servo, uint8_t address, uint8_t bytes)
+{
+    return servo_table_get(servo->table, address, bytes);
+}
 
 /* Writes registers as a packet would (call servo_advance() first). Returns error bits:
  * SERVO_ERR_RANGE : outside the table, read-only, locked or a value out of its range; nothing was written

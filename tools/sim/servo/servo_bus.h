@@ -61,6 +61,10 @@ servo_t *servo_bus_find(const servo_bus_t *bus, uint8_t id);
 /* The controller's byte has left: its stop bit ends now. */
 void servo_bus_host_byte(servo_bus_t *bus, uint64_t now_cycles, uint8_t byte, uint32_t rate_bps);
 
+/* A whole packet of the controller has left, its bytes back to back: the last stop bit ends now. The same as one call of
+ * servo_bus_host_byte() for each, and a good packet on a quiet wire costs a tenth of that. */
+void servo_bus_host_packet(servo_bus_t *bus, uint64_t now_cycles, const uint8_t *packet, uint8_t count, uint32_t rate_bps);
+
 /* Time of the bus's next own event, SERVO_BUS_NEVER = none. Changes only inside calls of this module. */
 static inline uint64_t servo_bus_next_cycles(const servo_bus_t *bus)
 {

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT
+ * program.c - what the boot loader does on the chip: fetches what was kept, completes the save that a power cut has
+ * interrupted, then runs the image's own main, which the build calls image_main. */
+#include "program.h"
+
+#include "hal/host/host.h"
+#include "hal/host/machine.h"
+
+#include "journal.h"
+#include "page_service.h"
+#include <stddef.h>
+
+int image_main(void);
+
+static void complete_save(void)
+{
+    uint8_t page[JOURNAL_TARGET_BYTES];
+    (void)page_service_init(NULL);
+    switch (journal_recover(page)) {
+    case JOURNAL_RESTORED:
+        machine_tell("a save was cut off last time: it is complete now");
+        break;
+    case JOURNAL_LOST:
+    case JOURNAL_FAILED:
+        machine_tell("a save was cut off last time and cannot be completed: check the page that was being saved");
+        break;
+    default:
+        break;
+    }
+}
+
+int program_start(void)
+{
+    host_recall();
+    complete_save();
+    return image_main();
+}

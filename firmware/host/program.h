@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: MIT
+ * program.h - how Play and Edit begin over any machine of hal/host, once it is open. */
+#ifndef PROGRAM_H
+#define PROGRAM_H
+
+int program_start(void);
+
+#endif

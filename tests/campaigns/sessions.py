@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: MIT
+"""Play and Edit, the same sources as on the chip, run as programs whose clock is told, with simulated servos on their line. One seed
+makes a session: typing, the remote, the panel, faults of servos and of the line, a hand at a joint, a late computer, a pulled
+adapter, power cuts at any tick and within any write. Rules are asked at every tick (told/rules.c), and places that must have been
+reached are counted (told/marks.c). `tools/prove sessions --only 66` repeats session 66 and, if it fails, makes it short.
+
+What is special to the chip (interrupts, stack, its loader, timing) is not here; the other parts have that.
+"""
+
+import collections
+
+from tests.campaigns import proof
+from tests.campaigns.told import chance, runs
+
+TITLE = "Sessions in simulated time"
+PROMISE = "Whatever a person, servos, lines, a computer and the power do at any tick: no leap, nothing moves unasked, text and pages stand."
+SESSIONS, SAMPLE, CHUNK, SHOWN = 9000, 150, 25, 6
+MISSED_IN_SAMPLE = 12  # places that a sample need not reach
+PLACES = (
+    "approach",
+    "move",
+    "move arrived",
+    "play stopped",
+    "play ended",
+    "exit pages in a loop",
+    "damaged page met",
+    "link 1 taken",
+    "link 2 taken",
+    "play ended for a servo",
+    "servo lost",
+    "servo back",
+    "overload named",
+    "overheating named",
+    "angle limit named",
+    "voltage named",
+    "torque lost",
+    "hot servo named",
+    "low battery named",
+    "layer",
+    "layer ended by itself",
+    "computer late in a play",
+    "drive lost",
+    "line too long",
+    "code at rest",
+    "code during a play",
+    "code without a page",
+    "play refused while playing",
+    "play refused without servos",
+    "play refused after off",
+    "aim refused: four joints",
+    "servo lost in a layer",
+    "servo lost in a layer during stop",
+    "servo lost during stop",
+    "servo lost during approach",
+    "servo lost during pause",
+    "servo lost during play",
+    "aim during play",
+    "aim without a play",
+    "joint given back",
+    "resumed",
+    "search for servos",
+    "status line over a typed one",
+    "paused",
+    "paused on the way",
+    "broken off",
+    "broken off on the way",
+    "broken off in a pause",
+    "adapter gone",
+    "adapter gone in a play",
+    "adapter gone in a layer",
+    "save completed at the start",
+    "stop typed",
+    "stop typed in a layer",
+    "stop by the remote",
+    "stopped twice",
+    "setting changed during play",
+    "page saved by a program",
+    "page saved by hand",
+    "undo",
+    "play in Edit",
+    "power cut",
+    "power cut during play",
+    "power cut during stop",
+    "power cut while a page was written",
+    "power cut while the journal was written",
+    "power cut while settings were written",
+)
+
+
+def add_arguments(group):
+    group.add_argument("--only", type=int, metavar="SEED", help="repeat one session; if it fails, make it short")
+    group.add_argument("--list", metavar="FILE", help="repeat a list of actions from a file")
+    group.add_argument("--from", dest="first", type=int, metavar="SEED", help="the first session (default: the seed times a million)")
+    group.add_argument("--sessions", type=int, help=f"how many (default: {SESSIONS})")
+
+
+def chunk(seeds):
+    """Plays some sessions in one process."""
+    return [runs.play(seed, chance.made(seed, runs.MOTIONS)) for seed in seeds]
+
+
+def make_short(outcome, actions):
+    """Writes the short list of a session that failed, and says where."""
+    path = proof.RESULTS / f"session-{outcome.seed}.txt"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    short = runs.shrunk(actions, runs.rule_of(outcome.fault))
+    path.write_text(chance.text(short), encoding="utf-8")
+    print(f"   short, of {len(actions)} actions {len(short)}; again: tools/prove sessions --list {path.relative_to(proof.TOP)}")
+    print(runs.shown([action for action in short if action[0] > 0]))
+
+
+def run(options):
+    """Plays the sessions; see proof.py."""
+    motions = runs.motions()
+    if options.list or options.only is not None:
+        options.keep = False
+        actions = runs.read(options.list) if options.list else chance.made(options.only, motions)
+        outcomes = [runs.play(options.only or 0, actions)]
+        if outcomes[0].fault and not options.list:
+            make_short(outcomes[0], actions)
+    else:
+        options.keep = options.keep and options.sessions is None and options.first is None
+        count = SAMPLE if options.sample else options.sessions or SESSIONS
+        first = options.seed * 1_000_000 if options.first is None else options.first
+        chunks = [range(at, min(at + CHUNK, first + count)) for at in range(first, first + count, CHUNK)]
+        outcomes = [outcome for part in proof.each(chunk, chunks, "chunks of sessions", options.jobs) for outcome in part]
+    return figures(options, outcomes)
+
+
+def figures(options, outcomes):
+    """What the outcomes say."""
+    broken = [outcome for outcome in outcomes if outcome.fault]
+    for outcome in broken[:SHOWN]:
+        print(f"   session {outcome.seed}: {outcome.fault}; again: tools/prove sessions --only {outcome.seed}")
+    marks = collections.Counter()
+    for outcome in outcomes:
+        marks.update(outcome.marks)
+    missed = [place for place in PLACES if not marks[place]]
+    ticks, cpu_s = sum(outcome.ticks for outcome in outcomes), sum(outcome.cpu_s for outcome in outcomes)
+    one = options.list or options.only is not None
+    made = [
+        proof.Figure(
+            "The rules hold at every tick",
+            "goals within range and speed, from where the joint is; nothing moves unasked or after it was let go or lost; a silent servo is "
+            "named and a well one is not; typed text stands; pages and settings are old or new; the program answers",
+            f"{ticks:,} ticks in {len(outcomes):,} sessions, {ticks / 128 / max(cpu_s, 0.001):,.0f} x real time on one core; "
+            f"{len(broken)} sessions broken",
+            not broken,
+            headline=True,
+        )
+    ]
+    if not one:
+        made.append(
+            proof.Figure(
+                "The sessions reach every place that they are to reach",
+                f"{len(PLACES)} named places, such as `servo lost in a layer during stop`",
+                f"{len(PLACES) - len(missed)} reached" + (f"; never: {', '.join(missed)}" if missed else ""),
+                len(missed) <= (MISSED_IN_SAMPLE if options.sample or options.sessions else 0),
+                headline=True,
+            )
+        )
+    return made

@@ -1,0 +1,400 @@
+# SPDX-License-Identifier: MIT
+"""Sessions by chance, for sessions.py: made(seed) is the list of actions of a session, [(tick, words)].
+
+The verbs are those of world.c; ticks are 1/128 s. A session is a person with a robot for some minutes: lines are typed, the remote is
+used, servos and lines fail and recover, the power is cut, the computer is late.
+"""
+
+import random
+
+from tests.campaigns.fuzz_board import KEYS, PlayConsole
+from tests.campaigns.fuzz_board import pages as play_pages
+
+SECOND = 128
+START = 3 * SECOND  # the search for servos is over
+LONG, MANY = 180 * SECOND, 100_000
+PLAYED = (1, 2, 3, 4, 8, 9, 12, 13, 14, 15, 21, 22)
+SETTINGS = (
+    ("law", (0, 1)),
+    ("remote", (0, 1, 2)),
+    ("approach", (30, 60, 120, 240)),
+    ("fault", (0, 0, 1, 1, 2)),
+    ("low", (0, 90, 110)),
+    ("hot", (0, 70, 75)),
+    ("talk", (0, 1, 1, 1)),
+    ("drive", (5, 10)),
+    ("centre", (0, 1)),
+)
+FAULTS = (
+    "silent",
+    "silent",
+    "dead",
+    "dead",
+    "checksum",
+    "noise",
+    "late",
+    "short",
+    "overload",
+    "overheating",
+    "low-voltage",
+    "angle-limit",
+    "mishears",
+    "blocked",
+)
+BUTTONS = (1, 1, 2, 4, 8, 16, 16, 32, 64, 256, 512, 512)
+
+
+def typed(text):
+    """The action that types this."""
+    data = text if isinstance(text, bytes) else text.encode("latin-1")
+    return "type " + data.hex()
+
+
+class Person:
+    """Adds actions to a list, one after the other; `at` is the tick of the next."""
+
+    def __init__(self, rng, servos):
+        self.rng, self.servos, self.at, self.actions = rng, servos, START, []
+
+    def act(self, words, wait=0):
+        self.actions.append((self.at, words))
+        self.at += wait
+
+    def line(self, text, wait=None):
+        self.act(typed(text + "\r"), self.rng.randrange(12, 3 * SECOND) if wait is None else wait)
+
+    def servo(self):
+        return self.rng.choice(self.servos) if self.servos else 1
+
+    def joints(self, most=3):
+        return " ".join(str(self.servo()) for _ in range(self.rng.randrange(1, most + 1)))
+
+    # what happens around the program
+
+    def servo_fails(self):
+        rng, servo = self.rng, self.servo()
+        if not self.servos:
+            return
+        self.act(f"fault {servo} {rng.choice(FAULTS)} {rng.choice((0, 0, 0, 1, 2, 5))}", rng.randrange(1, 8 * SECOND))
+        if rng.random() < 0.8:
+            self.act(f"clear {servo}", rng.randrange(0, 2 * SECOND))
+
+    def line_fails(self):
+        rng = self.rng
+        kind = rng.random()
+        if kind < 0.3:
+            self.act(f"lose {rng.choice((1, 5, 30))}", rng.randrange(SECOND))
+        elif kind < 0.6:
+            self.act(f"damage {rng.choice((1, 1, 3, 20))}", rng.randrange(SECOND))
+        elif kind < 0.8:
+            self.act("plug 0", rng.randrange(2, 3 * SECOND))
+            self.act("plug 1", rng.randrange(SECOND))
+        else:
+            latency = rng.choice((0, 2000, 8000, 32000))
+            self.act(f"latency {latency} {rng.choice((250, 500, 2000))}", rng.randrange(SECOND))
+
+    def computer_is_late(self):
+        self.act(f"late {self.rng.choice((9, 30, 90, 110, 300))}", self.rng.randrange(SECOND))
+
+    def power_fails(self):
+        if self.rng.random() < 0.5:
+            self.act("cut", 4 * SECOND)
+        else:
+            self.act(f"cutwrite {self.rng.randrange(1, 40)}", self.rng.randrange(2, SECOND))
+
+    def hand_pushes(self):
+        if self.servos:
+            self.act(f"push {self.servo()} {self.rng.randrange(200, 824)}", self.rng.randrange(SECOND))
+
+    def battery(self):
+        self.act(f"supply {self.rng.choice((96, 96, 96, 85, 105, 112))}", self.rng.randrange(2 * SECOND))
+
+    def panel(self):
+        self.act(f"press {self.rng.choice((1, 2, 4, 8, 16, 16))}", self.rng.randrange(4, 40))
+        self.act("press 0", self.rng.randrange(2 * SECOND))
+
+    def remote(self):
+        rng = self.rng
+        buttons = rng.choice(BUTTONS)
+        for _ in range(rng.choice((1, 1, 3, 10))):
+            self.act(f"remote {buttons}", rng.choice((6, 7)))
+        if rng.random() < 0.85:
+            self.act("remote 0", rng.randrange(2 * SECOND))
+
+
+class Player(Person):
+    """A person before Play."""
+
+    def plays(self):
+        self.line(f"play {self.rng.choice(PLAYED)}" if self.rng.random() < 0.9 else "play walk start")
+
+    def ends(self):
+        word = self.rng.choice(("stop", "stop", "stop", "break", "off", "@stop", "@break"))
+        self.line(word)
+        if word == "stop" and self.rng.random() < 0.3:
+            self.line(word, self.rng.randrange(8, SECOND))
+
+    def pauses(self):
+        self.line("pause")
+        if self.rng.random() < 0.8:
+            self.line(self.rng.choice(("resume", "resume", "resume", "stop", "break")))
+
+    def shapes(self):
+        rng = self.rng
+        self.line(
+            rng.choice(
+                (
+                    f"rate {rng.choice((50, 100, 150, 400))}",
+                    f"amplitude {rng.choice((0, 50, 100, 150))}",
+                    f"amplitude {rng.randrange(151)} {self.joints()}",
+                    f"blend {rng.randrange(-100, 101)}",
+                    "shape",
+                    "shape reset",
+                    "@shape",
+                )
+            )
+        )
+
+    def drives(self):
+        for _ in range(self.rng.randrange(1, 30)):
+            self.line(f"@drive {self.rng.randrange(-100, 101)} {self.rng.randrange(50, 200)} {self.rng.randrange(50, 150)}", 6)
+
+    def layers(self):
+        rng = self.rng
+        self.line(f"layer {rng.choice(PLAYED)}" + (f" {self.joints()}" if rng.random() < 0.6 else ""))
+        if rng.random() < 0.3:
+            self.line("layer off")
+
+    def stop_in_a_layer(self):
+        """What a fault of a servo must not disturb."""
+        rng, servo = self.rng, self.servo()
+        self.line("play walk start", 4 * SECOND)
+        self.line(f"layer 8 {servo}", rng.randrange(20, 2 * SECOND))
+        if rng.random() < 0.7 and self.servos:
+            self.act(f"fault {servo} {rng.choice(('silent', 'dead'))} 0", rng.randrange(SECOND))
+        self.line("stop", rng.randrange(2 * SECOND))
+        self.act(f"clear {servo}" if self.servos else "remote 0", SECOND)
+
+    def aims(self):
+        rng = self.rng
+        lines = (
+            f"aim {self.servo()} {rng.randrange(200, 824)}",
+            f"aim {self.servo()} {rng.randrange(200, 824)} {rng.choice((30, 90, 200))}",
+            f"swing {self.servo()} 512 {rng.randrange(1, 80)} {rng.choice((1000, 2000, 4000))}",
+            f"free {self.servo()}",
+            "free",
+        )
+        self.line(rng.choice(lines))
+
+    def aims_at_many(self):
+        for servo in self.servos[:6]:
+            self.line(f"aim {servo} {self.rng.randrange(400, 624)}", 20)
+        self.line("free", SECOND)
+
+    def loses_the_adapter_in_a_layer(self):
+        self.line("play walk start", 4 * SECOND)
+        self.line(f"layer 8 {self.servo()}", SECOND)
+        self.act("plug 0", self.rng.randrange(2, SECOND))
+        self.act("plug 1", SECOND)
+
+    def moves(self):
+        rng = self.rng
+        self.line(
+            rng.choice(
+                (
+                    f"@move {rng.choice((20, 60, 120))} 1 200200",
+                    f"@move 60 {self.servo()} {rng.randrange(256, 768):03x}",
+                    "on",
+                    f"on {self.joints()}",
+                    "@torque on",
+                    f"off {self.joints()}",
+                    "off",
+                )
+            )
+        )
+
+    def asks(self):
+        lines = (
+            "@where @pose status servos faults list settings version help law remote @ver @crcs @list @watch,50 @watch,0 servos,find nonsense".split()
+        )
+        self.line(self.rng.choice(lines).replace(",", " "))
+
+    def sets(self):
+        name, values = self.rng.choice(SETTINGS)
+        self.line(f"settings {name} {self.rng.choice(values)}", self.rng.choice((1, 8, 40, 200)))
+
+    def halts_in_a_line(self):
+        """Text that stands while status lines come."""
+        rng = self.rng
+        text = "".join(rng.choice("abcdefg hij 0123") for _ in range(rng.randrange(1, 30)))
+        self.act(typed(text), rng.randrange(6 * SECOND))
+        self.act(typed("\b" * rng.randrange(3) + rng.choice(("\r", "\x15", "\x15"))), rng.randrange(SECOND))
+
+    def types_noise(self):
+        noise = PlayConsole(self.rng.randrange(1 << 30)).noise(self.rng.randrange(1, 300))
+        self.act(typed(noise), len(noise) // 40 + SECOND)
+        self.act(typed("\r"), SECOND)
+
+    def types_too_much(self):
+        self.act(typed("x" * self.rng.randrange(100, 300) + "\r"), SECOND)
+
+    WEIGHTS = (
+        ("plays", 16),
+        ("ends", 8),
+        ("pauses", 3),
+        ("shapes", 4),
+        ("drives", 2),
+        ("layers", 5),
+        ("stop_in_a_layer", 2),
+        ("aims", 5),
+        ("aims_at_many", 0.3),
+        ("loses_the_adapter_in_a_layer", 0.5),
+        ("moves", 4),
+        ("asks", 3),
+        ("sets", 3),
+        ("halts_in_a_line", 3),
+        ("types_noise", 0.3),
+        ("types_too_much", 0.3),
+        ("remote", 8),
+        ("panel", 2),
+        ("servo_fails", 5),
+        ("line_fails", 1.5),
+        ("computer_is_late", 0.7),
+        ("power_fails", 1.5),
+        ("hand_pushes", 1),
+        ("battery", 0.7),
+    )
+
+
+class Editor(Person):
+    """A person before Edit."""
+
+    def line(self, text, wait=None):
+        super().line(text, self.rng.randrange(30, 2 * SECOND) if wait is None else wait)
+
+    def opens(self):
+        self.line(f"page {self.rng.choice((1, 2, 3, 5, 13, 30, 31, 100, 200))}", SECOND)
+
+    def edits(self):
+        rng = self.rng
+        for _ in range(rng.randrange(1, 8)):
+            self.line(
+                rng.choice(
+                    (
+                        f"step {rng.randrange(1, 8)}",
+                        f"goto {rng.randrange(10)} {rng.randrange(33)}",
+                        f"set {rng.randrange(1024)}",
+                        f"set {rng.randrange(256)}",
+                        f"name n{rng.randrange(1000)}",
+                        "write",
+                        f"insert {rng.randrange(7)}",
+                        f"delete {rng.randrange(7)}",
+                        f"move {rng.randrange(7)} {rng.randrange(8)}",
+                        f"swap {rng.randrange(7)} {rng.randrange(7)}",
+                        f"int 0 1 {rng.randrange(101)}",
+                        f"scale {rng.choice((50, 100, 200))}",
+                        "undo",
+                        "redo",
+                        "new",
+                        f"copy {rng.randrange(30)}",
+                    )
+                ),
+                rng.randrange(10, 60),
+            )
+
+    def keys(self):
+        for _ in range(self.rng.randrange(1, 20)):
+            self.act(typed(self.rng.choice(KEYS + (b"[", b"]", b"{", b"}"))), self.rng.randrange(1, 20))
+        self.act(typed("\r"), SECOND)
+
+    def saves(self):
+        rng = self.rng
+        self.line(rng.choice(("save", "save", f"save {rng.randrange(40, 60)}")), rng.randrange(2, 60))
+        self.act(typed(rng.choice("yyyn")), SECOND)
+        self.act(typed(rng.choice("yyyn")), SECOND)
+
+    def poses(self):
+        rng = self.rng
+        self.line(
+            rng.choice(("on", "off", f"on {self.joints()}", f"off {self.joints()}", f"go {rng.randrange(7)}", f"mirror {rng.randrange(7)}")),
+            2 * SECOND,
+        )
+
+    def plays(self):
+        rng = self.rng
+        self.line(rng.choice(("play", f"play {rng.choice(PLAYED)}", f"play 13 {rng.choice((50, 100, 200))}")), rng.randrange(5 * SECOND))
+        self.act(typed(rng.choice((" ", "\r", "\x1b", "\x03"))), SECOND)
+
+    def views(self):
+        self.line(self.rng.choice(("list", "find walk", "check 3", "re", "hex", "dec", "help", "mon", "rows 40", "rows 24", "pairs")), SECOND)
+        self.act(typed("\r"), SECOND)
+
+    def asks(self):
+        self.line(self.rng.choice(("@where", "@pose", "@crc", "@ver", "@list 1 9", "@page 1", "@watch 50", "@watch 0")))
+
+    def uploads(self):
+        """A program saves a page: old or new, and the new one whole."""
+        rng = self.rng
+        data = bytearray(play_pages()[13 * 512 : 14 * 512])
+        for _ in range(rng.randrange(1, 9)):
+            data[64 + 64 * rng.randrange(2) + 62 + rng.randrange(2)] = rng.randrange(1, 200)
+        data[31] = 0
+        data[31] = 255 - sum(data) % 256
+        number = rng.randrange(40, 60)
+        self.act(typed(b"\0@"), SECOND // 2)
+        self.act(typed(b"\x15\r"), SECOND // 4)
+        self.line(f"@open {number}", 20)
+        for offset in range(0, 512, 32):
+            self.line(f"@data {offset} {data[offset : offset + 32].hex()}", 4)
+        self.line("@crc", 20)
+        crc = 0xFFFF
+        for byte in data:
+            crc ^= byte << 8
+            for _ in range(8):
+                crc = (crc << 1 ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
+        if rng.random() < 0.5:
+            self.act(f"cutwrite {rng.randrange(1, 9)}")
+        self.line(f"@save {number} 0x{crc:04x}", SECOND)
+
+    WEIGHTS = (
+        ("opens", 4),
+        ("edits", 8),
+        ("keys", 3),
+        ("saves", 5),
+        ("poses", 4),
+        ("plays", 5),
+        ("views", 3),
+        ("asks", 2),
+        ("uploads", 2),
+        ("servo_fails", 3),
+        ("line_fails", 1),
+        ("computer_is_late", 0.5),
+        ("power_fails", 2),
+        ("hand_pushes", 3),
+    )
+
+
+def made(seed, motions):
+    """The actions of a session."""
+    rng = random.Random(f"told {seed}")
+    servos = list(range(1, 1 + rng.choice((0, 1, 4, 6, 6, 12, 18, 18))))
+    actions = [(0, f"seed {seed}"), (0, f"motions {motions}")] + [(0, f"servo {servo}") for servo in servos]
+    kinds = rng.choice(((Player,), (Player,), (Player,), (Editor,), (Editor, Player), (Player, Editor)))
+    at = START
+    for kind in kinds:
+        person = kind(rng, servos)
+        actions.append((0 if at == START else at, "image " + ("edit" if kind is Editor else "play")))
+        person.at = at + (START if at > START else 0)
+        ends = person.at + rng.choice((20, 60, 120)) * SECOND
+        names, weights = zip(*kind.WEIGHTS)
+        while person.at < ends:
+            getattr(person, rng.choices(names, weights)[0])()
+        actions += person.actions
+        at = person.at
+    actions.append((at + SECOND, "end"))
+    return actions
+
+
+def text(actions):
+    """The list as told_session reads it."""
+    return "".join(f"{tick} {words}\n" for tick, words in actions)

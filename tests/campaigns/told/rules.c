@@ -1,0 +1,459 @@
+/* SPDX-License-Identifier: MIT
+ * rules.c - what must be so at every tick, whatever happens: goals, torque, text, pages, settings, news of servos. */
+#include "session.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "linker/memory_map.h"
+
+#define POSITIONS 1024u
+#define STEP_MAX 19                /* units a tick: a shaped step's mean is 8.7 at 11.1 V, its peak twice that */
+#define START_MAX 24               /* units from where the joint is to its first goal: what a servo that holds gives way */
+#define FORGOTTEN (4u * SECOND)    /* asking 18 servos before a play takes less */
+#define NEWS (6u * SECOND)         /* a servo that has fallen silent is named by then */
+#define TROUBLE (6u * SECOND)      /* what the line has done is past */
+#define QUIET SECOND               /* asking a servo that is silent takes a part of that, and nothing is printed meanwhile */
+#define PROMPT_BACK (8u * SECOND)
+#define SETTLED 64u                /* ticks without a write: a save is over */
+#define GOAL_AT 30u
+#define TORQUE_AT 24u
+#define PAGE_BYTES 512u
+#define COPY_BYTES 64u             /* of the settings in EEPROM */
+
+enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_SYNC_WRITE = 0x83 };
+
+static struct {
+    uint8_t page[0x20000];         /* the pages as they were when the last save was over */
+    uint32_t write_tick;
+    uint32_t goals_tick;           /* the last goals of any joint */
+    uint32_t silent_tick[IDS];     /* the person was told that it does not answer: no goals, until asked */
+    uint32_t off_tick[IDS];
+    int sequence;                  /* of the settings that are sure; -1: none */
+    bool is_playing;               /* by what the console says */
+    bool is_starting;              /* the program has not printed yet */
+    bool pages_are_edited;
+    bool checks_pages;
+} rules;
+
+static bool long_ago(uint32_t tick, uint32_t most)
+{
+    return tick == NEVER_TICK || session.tick - tick > most;
+}
+
+/* ---- what was asked ---- */
+
+static bool may_move(const char *line)
+{
+    static const char *const words[] = {"play", "p", "on", "aim", "swing", "layer", "resume", "code", "free",
+                                        "move", "torque"};
+    char word[16] = "";
+    line += *line == '@' ? 1 : 0;
+    (void)sscanf(line, "%15[^ ,.:;]", word);
+    if (rules.is_playing && (strcmp(word, "stop") == 0 || strcmp(word, "s") == 0)) {
+        return true;   /* it ends a pause, and the play goes on to its exit page */
+    }
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (strcmp(word, words[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void line_typed(void)
+{
+    session.typed[session.typed_count] = '\0';
+    if (session.is_edit || !session.typed_is_known || may_move(session.typed)) {
+        session.asked_tick = session.tick;
+    }
+    if (session.is_edit && (!session.typed_is_known || strstr(session.typed, "sav") != NULL)) {
+        session.save_asked_tick = session.tick;
+    }
+    marks_typed(session.typed);
+    session.typed_count = 0;
+    session.typed_is_known = true;
+}
+
+/* A byte from the person has been read by the program. */
+void rules_typed(uint8_t byte)
+{
+    session.typed_tick = session.tick;
+    if (session.is_edit) {
+        session.asked_tick = session.tick;   /* a key may move a joint */
+    }
+    if (byte == '\r') {
+        line_typed();
+    } else if (byte == '\b' && session.typed_count > 0) {
+        session.typed_count--;
+    } else if (byte == 0x15) {
+        session.typed_count = 0;
+    } else if (byte >= ' ' && byte < 0x7F && session.typed_count < LINE_BYTES - 1) {
+        session.typed[session.typed_count++] = (char)byte;
+    } else if (byte != '\b') {
+        session.typed_is_known = false;
+    }
+}
+
+void rules_remote(unsigned buttons)
+{
+    if (buttons != 0) {
+        session.asked_tick = session.tick;
+    }
+}
+
+/* ---- goals and torque ---- */
+
+static bool has_fault(const joint_t *joint)
+{
+    bool has = false;
+    for (unsigned fault = 0; fault < SERVO_FAULTS && joint->servo != NULL; fault++) {
+        has = has || servo_fault_is_on(joint->servo, (servo_fault_t)fault);
+    }
+    return has || !long_ago(joint->fault_tick, TROUBLE);
+}
+
+static void must_be_asked(uint8_t id, const char *what)
+{
+    const uint32_t last = session.asked_tick > rules.goals_tick ? session.asked_tick : rules.goals_tick;
+    if (session.asked_tick == NEVER_TICK || session.asked_tick < session.boot_tick || long_ago(last, FORGOTTEN)) {
+        session_fail("nothing moves unasked", "%s to servo %u", what, id);
+    }
+}
+
+static void must_not_be_out(uint8_t id)
+{
+    if (rules.off_tick[id] != NEVER_TICK && session.asked_tick < rules.off_tick[id]) {
+        session_fail("a joint that was let go stays so", "a goal to servo %u", id);
+    }
+    const uint32_t silent = rules.silent_tick[id];
+    if (silent != NEVER_TICK && session.asked_tick < silent && long_ago(silent, 2)) {
+        session_fail("a lost joint is not driven", "a goal to servo %u", id);
+    }
+}
+
+static void must_not_leap(uint8_t id, uint16_t goal)
+{
+    const joint_t *joint = &session.joint[id];
+    const uint32_t since = session.tick - joint->goal_tick;
+    const bool goes_on = joint->goal_tick > session.boot_tick && since <= 2;
+    if (goes_on && long_ago(session.late_tick, SECOND)) {
+        const int most = STEP_MAX * (int)(since == 0 ? 1 : since);
+        if (!rules.pages_are_edited && abs(goal - joint->goal) > most) {
+            session_fail("no goal leaps", "servo %u from %u to %u within %u ticks", id, joint->goal, goal, since);
+        }
+    } else if (long_ago(joint->goal_tick, SECOND) && long_ago(joint->pushed_tick, 2 * SECOND) && !has_fault(joint) &&
+               long_ago(session.trouble_tick, TROUBLE)) {
+        const int is = (int)joint->servo->position;
+        if (abs(goal - is) > START_MAX) {
+            session_fail("a motion begins where the joint is", "servo %u stands at %d, its first goal is %u", id, is, goal);
+        }
+    }
+}
+
+static void take_goal(uint8_t id, uint16_t goal)
+{
+    if (id >= IDS || session.joint[id].servo == NULL) {
+        session_fail("goals go to servos that are there", "a goal to servo %u", id);
+    }
+    if (goal >= POSITIONS) {
+        session_fail("goals are within 0..1023", "%u to servo %u", goal, id);
+    }
+    must_be_asked(id, "a goal");
+    must_not_be_out(id);
+    if (!session.is_edit) {
+        must_not_leap(id, goal);   /* Edit moves joints at a speed of their own, and plays pages that chance has made */
+    }
+    session.joint[id].goal = goal;
+    session.joint[id].goal_tick = session.tick;
+}
+
+static void take_torque(uint8_t id, uint8_t on)
+{
+    if (id >= IDS && id != SERVO_BROADCAST) {
+        return;
+    }
+    if (on) {
+        must_be_asked(id, "torque on");
+    }
+    for (unsigned each = 0; each < IDS; each++) {
+        if (id == SERVO_BROADCAST || each == id) {
+            rules.off_tick[each] = on ? NEVER_TICK : session.tick;
+        }
+    }
+}
+
+/* `count` bytes of a servo's table from `address` on. */
+static void take_write(uint8_t id, uint8_t address, const uint8_t *bytes, unsigned count)
+{
+    if (address < TORQUE_AT && !session.is_edit) {
+        session_fail("a servo's own settings are not touched", "a write to %u of servo %u", address, id);
+    }
+    if (address <= TORQUE_AT && address + count > TORQUE_AT) {
+        take_torque(id, bytes[TORQUE_AT - address]);
+    }
+    if (address <= GOAL_AT && address + count > GOAL_AT + 1u && id != SERVO_BROADCAST) {
+        take_goal(id, (uint16_t)(bytes[GOAL_AT - address] | bytes[GOAL_AT + 1u - address] << 8));
+    }
+}
+
+void rules_packet(const uint8_t *packet, uint16_t count)
+{
+    const uint8_t *params = packet + 5;
+    const unsigned given = count - 6u;
+    bool goals = false;
+    if (packet[4] == INST_SYNC_WRITE) {
+        goals = params[0] <= GOAL_AT && params[0] + params[1] > GOAL_AT;
+        for (unsigned at = 2; at + params[1] < given; at += params[1] + 1u) {
+            take_write(params[at], params[0], params + at + 1, params[1]);
+        }
+    } else if ((packet[4] == INST_WRITE || packet[4] == INST_REG_WRITE) && given >= 2) {
+        take_write(packet[2], params[0], params + 1, given - 1u);
+        goals = params[0] <= GOAL_AT && params[0] + given - 1u > GOAL_AT;
+    }
+    if (goals) {
+        rules.goals_tick = session.tick;
+    }
+}
+
+/* ---- news of servos ---- */
+
+/* A servo that answers late talks into the answers of others. */
+static bool somebody_is_late(void)
+{
+    for (unsigned id = 0; id < JOINTS; id++) {
+        const joint_t *joint = &session.joint[id];
+        if (joint->servo != NULL &&
+            (servo_fault_is_on(joint->servo, SERVO_FAULT_LATE) || !long_ago(joint->late_tick, TROUBLE))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void named_silent(unsigned id)
+{
+    joint_t *joint = id < IDS ? &session.joint[id] : NULL;
+    if (joint == NULL || joint->servo == NULL) {
+        session_fail("only servos that are there are news", "servo %u", id);
+    }
+    if (!has_fault(joint) && !somebody_is_late() && long_ago(session.trouble_tick, TROUBLE)) {
+        session_fail("a servo that is well is not called lost", "servo %u", id);
+    }
+    joint->told_silent = true;
+    rules.silent_tick[id] = session.tick;
+}
+
+/* Servos that were well when they were searched for are known. */
+static void servos_are_searched(void)
+{
+    for (unsigned id = 0; id < JOINTS; id++) {
+        joint_t *joint = &session.joint[id];
+        joint->is_known = joint->servo != NULL && !has_fault(joint) && long_ago(session.trouble_tick, TROUBLE);
+    }
+}
+
+void rules_printed(const char *line)
+{
+    static const char *const begun[] = {"Going to", "Moving, ", "Playing page", "Paused"};
+    static const char *const over[] = {"Ended", "Stopped", "Broken off", "The pose"};
+    unsigned id;
+    int at = 0;
+    for (unsigned i = 0; i < 4; i++) {
+        rules.is_playing = (rules.is_playing && strncmp(line, over[i], strlen(over[i])) != 0) ||
+                           strncmp(line, begun[i], strlen(begun[i])) == 0;
+    }
+    /* A first save that is cut off leaves the defaults, which were in force, and the program says so in these words. */
+    if (strstr(line, " servos: ") != NULL) {
+        servos_are_searched();
+    }
+    if (strstr(line, "settings were damaged") != NULL && rules.sequence >= 0) {
+        session_fail("settings are old or new", "\"%s\"", line);
+    }
+    if (sscanf(line, "Servo %u does not answer%n", &id, &at) == 1 && at > 0) {
+        named_silent(id);
+    } else if (sscanf(line, "Servo %u answers again%n", &id, &at) == 1 && at > 0 && id < IDS) {
+        session.joint[id].told_silent = false;
+    }
+}
+
+/* ---- the person's text ---- */
+
+static void text_must_stand(void)
+{
+    if (session.is_edit || !session.typed_is_known || !told_has_typed() || !long_ago(session.late_tick, SECOND)) {
+        return;
+    }
+    const uint32_t last = session.typed_tick > session.printed_tick ? session.typed_tick : session.printed_tick;
+    const bool has_prompt = strncmp(session.line, "] ", 2) == 0;
+    if (session.tick - last < QUIET || (!has_prompt && session.tick - last < PROMPT_BACK)) {
+        return;
+    }
+    session.typed[session.typed_count] = '\0';
+    char shown[LINE_BYTES];
+    snprintf(shown, sizeof shown, "%s", session.line);
+    for (size_t end = strlen(shown); end > 2u + session.typed_count && shown[end - 1] == ' '; end--) {
+        shown[end - 1] = '\0';
+    }
+    if (!has_prompt || strcmp(shown + 2, session.typed) != 0) {
+        session_fail("typed text is untouched", "typed is \"%s\", the line is \"%s\"", session.typed, session.line);
+    }
+}
+
+/* ---- pages and settings ---- */
+
+static uint8_t sum_of(const uint8_t *page)
+{
+    uint8_t sum = 0;
+    for (unsigned i = 0; i < PAGE_BYTES; i++) {
+        sum = (uint8_t)(sum + page[i]);
+    }
+    return sum;
+}
+
+/* A page is as it was, or whole. */
+static void pages_must_be_whole(void)
+{
+    const uint8_t *now = told_memory(MACHINE_PAGES);
+    for (unsigned at = 0; at < told_bytes(MACHINE_PAGES); at += PAGE_BYTES) {
+        if (memcmp(now + at, rules.page + at, PAGE_BYTES) == 0) {
+            continue;
+        }
+        if (sum_of(now + at) != 0xFF) {
+            session_fail("a page is old or new", "page %u is a mixture", at / PAGE_BYTES);
+        }
+        memcpy(rules.page + at, now + at, PAGE_BYTES);
+    }
+}
+
+static uint16_t crc_of(const uint8_t *bytes, unsigned count)
+{
+    uint16_t crc = 0xFFFF;
+    for (unsigned i = 0; i < count; i++) {
+        crc ^= (uint16_t)(bytes[i] << 8);
+        for (unsigned bit = 0; bit < 8; bit++) {
+            crc = (uint16_t)(crc & 0x8000u ? crc << 1 ^ 0x1021 : crc << 1);
+        }
+    }
+    return crc;
+}
+
+/* Sequence number of the newest good copy of the settings, or -1. */
+static int newest_settings(void)
+{
+    int newest = -1;
+    for (unsigned copy = 0; copy < 2; copy++) {
+        const uint8_t *at = told_memory(MACHINE_EEPROM) + MEM_EE_SETTINGS + copy * COPY_BYTES;
+        const unsigned body = at[3];
+        if (at[0] != 'S' || body > COPY_BYTES - 6) {
+            continue;
+        }
+        const uint16_t crc = crc_of(at, 4 + body);
+        if (at[4 + body] == (uint8_t)crc && at[5 + body] == crc >> 8 && (newest < 0 || (int8_t)(at[2] - newest) > 0)) {
+            newest = at[2];
+        }
+    }
+    return newest;
+}
+
+static void settings_must_stand(void)
+{
+    const int newest = newest_settings();
+    if (rules.sequence >= 0 && (newest < 0 || (int8_t)(newest - rules.sequence) < 0)) {
+        session_fail("settings are old or new", "save %d was sure, and save %d is there", rules.sequence, newest);
+    }
+    rules.sequence = newest;
+}
+
+void rules_kept(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count)
+{
+    (void)bytes;
+    rules.write_tick = session.tick;
+    if (memory == MACHINE_EEPROM) {
+        return;
+    }
+    if (!rules.is_starting && (!session.is_edit || session.save_asked_tick == NEVER_TICK)) {
+        session_fail("pages change when somebody saves", "%u bytes at %05x of memory %d", count, at, (int)memory);
+    }
+    rules.checks_pages = true;
+    if (session.is_edit) {
+        rules.pages_are_edited = true;
+    }
+}
+
+void rules_said(const char *sentence)
+{
+    if (strstr(sentence, "cannot be completed") != NULL) {
+        session_fail("a page is old or new", "\"%s\"", sentence);
+    }
+}
+
+/* ---- time ---- */
+
+void rules_boot(void)
+{
+    rules.is_starting = true;
+    rules.is_playing = false;
+    memset(rules.silent_tick, 0, sizeof rules.silent_tick);
+    memset(rules.off_tick, 0, sizeof rules.off_tick);
+    memset(session.line, 0, sizeof session.line);
+    session.column = 0;
+    session.typed_count = 0;
+    session.typed_is_known = true;
+    session.asked_tick = session.save_asked_tick = NEVER_TICK;
+    session.typed_tick = session.printed_tick = session.tick;
+    for (unsigned id = 0; id < IDS; id++) {
+        session.joint[id].told_silent = false;
+        session.joint[id].goal_tick = NEVER_TICK;
+    }
+    if (session.boots == 0) {
+        memcpy(rules.page, told_memory(MACHINE_PAGES), sizeof rules.page);
+        rules.sequence = -1;
+    }
+}
+
+/* The program prints for the first time: what was cut off has been completed. */
+void rules_started(void)
+{
+    if (rules.is_starting) {
+        rules.is_starting = false;
+        pages_must_be_whole();
+        settings_must_stand();
+        servos_are_searched();
+    }
+}
+
+static void servos_must_be_named(void)
+{
+    if (session.is_edit || long_ago(session.boot_tick, TROUBLE) == false) {
+        return;
+    }
+    for (unsigned id = 0; id < JOINTS; id++) {
+        const joint_t *joint = &session.joint[id];
+        if (joint->is_known && joint->silent_since != NEVER_TICK && joint->silent_since > session.boot_tick + TROUBLE &&
+            long_ago(joint->silent_since, NEWS) && !joint->told_silent && long_ago(session.trouble_tick, NEWS)) {
+            session_fail("a silent servo is named", "servo %u is silent since tick %u", id, joint->silent_since);
+        }
+    }
+}
+
+void rules_tick(void)
+{
+    text_must_stand();
+    if (session.tick % 32 == 0) {
+        servos_must_be_named();
+        if (rules.checks_pages && long_ago(rules.write_tick, SETTLED) && !rules.is_starting) {
+            rules.checks_pages = false;
+            pages_must_be_whole();
+        }
+        if (long_ago(rules.write_tick, SETTLED) && long_ago(rules.goals_tick, SETTLED) && !rules.is_starting) {
+            rules.sequence = newest_settings();   /* the program has had time to make them sure */
+        }
+    }
+}
+
+void rules_end(void)
+{
+    pages_must_be_whole();
+}

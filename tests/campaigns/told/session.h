@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT
+ * session.h - one session of Play or Edit in simulated time: how its files see each other.
+ *
+ *   main.c      reads the list of actions, runs the programs, says how it went
+ *   world.c     the servos and the line; carries actions out
+ *   rules.c     what must be so at every tick
+ *   marks.c     places that a campaign must have reached
+ *
+ * Rules and marks see what an outsider sees: the bus, the console, the memories. */
+#ifndef SESSION_H
+#define SESSION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "hal/host/told/told.h"
+#include "servo_bus.h"
+
+#define IDS 254u
+#define JOINTS 31u
+#define LINE_BYTES 160u
+#define SECOND 128u                /* ticks */
+#define NEVER_TICK 0u
+
+/* What is known of one servo. */
+typedef struct {
+    servo_t *servo;
+    uint32_t fault_tick;           /* the last time that a fault of it began, was there or ended */
+    uint32_t late_tick;            /* the last time that its answers began or ceased to come late */
+    uint32_t silent_since;         /* nothing that it says can be understood; NEVER_TICK: it is well */
+    uint32_t pushed_tick;
+    uint32_t goal_tick;            /* the last goal */
+    uint16_t goal;
+    bool is_known;                 /* the program has found it */
+    bool told_silent;              /* what the person was told last */
+} joint_t;
+
+/* One session. */
+typedef struct {
+    bool is_edit;
+    bool is_over;
+    bool shows;                    /* console and bus, as they come */
+    uint32_t tick;
+    uint64_t random;
+    servo_bus_t *bus;
+    joint_t joint[IDS];
+    uint32_t trouble_tick;         /* the last time that the line, the adapter or the computer failed */
+    uint32_t late_tick;            /* the last time that the computer was late or the adapter gone */
+    uint32_t boot_tick;
+    uint32_t boots;
+    uint32_t writes;               /* of memory, so far */
+    uint32_t cut_at_write;         /* the power is cut at this one; 0: at none */
+    bool cut_now;
+    uint32_t typed_tick;           /* the last byte came from the person or the remote */
+    uint32_t printed_tick;
+    uint32_t asked_tick;           /* the last time that somebody asked for what may move since the last start */
+    uint32_t save_asked_tick;      /* the same for a save of a page */
+    char line[LINE_BYTES];         /* what the console shows in its newest line */
+    uint16_t column;
+    char typed[LINE_BYTES];        /* what the person has typed since the last line end */
+    uint16_t typed_count;
+    bool typed_is_known;           /* only letters and backspaces since then */
+} session_t;
+
+extern session_t session;
+
+/* main.c */
+_Noreturn void session_fail(const char *rule, const char *format, ...) __attribute__((format(printf, 2, 3)));
+uint32_t session_random(void);
+
+/* world.c */
+extern const told_teller_t world_teller;
+void world_init(void);
+void world_free(void);
+void world_add_servo(unsigned id);
+/* One action by its words. false: no such action, or not like this. */
+bool world_do(char *words);
+void world_power(bool on);
+void world_forget_line(void);   /* what is still under way on the console is lost */
+
+/* rules.c */
+void rules_boot(void);
+void rules_tick(void);
+void rules_packet(const uint8_t *packet, uint16_t count);
+void rules_printed(const char *line);
+void rules_said(const char *sentence);
+void rules_started(void);
+void rules_typed(uint8_t byte);
+void rules_remote(unsigned buttons);
+void rules_kept(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count);
+void rules_end(void);
+
+/* marks.c */
+void reached(const char *place);
+void marks_printed(const char *line);
+void marks_said(const char *sentence);
+void marks_typed(const char *line);
+void marks_remote(unsigned buttons);
+void marks_cut(const char *where);
+void marks_boot(void);
+void marks_print(void);
+
+#endif
