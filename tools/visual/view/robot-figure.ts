@@ -21,6 +21,11 @@ const ROUND = 0.0035;
 const HIGHLIGHT = new Color(0x2f9bff);
 const ALARM = new Color(0xe5484d);
 const TOUCH = new Color(0xe09c00);
+const LIT = new Color(0xff5a3c);
+/** Of the board, by the bits of its lamps: shapes of the body are called `lamp_NAME`. */
+const LAMPS = ['power', 'txd', 'rxd', 'aux', 'manage', 'program', 'play'].map(name => `lamp_${name}`);
+/** Small and flat on the body: their shadows would cost more than they show. */
+const WITHOUT_SHADOW: readonly string[] = ['horn', 'lamp'];
 const NO_ALARMS: ReadonlySet<number> = new Set();
 
 function geometryOf(shape: Shape): BufferGeometry {
@@ -63,6 +68,7 @@ export class RobotFigure {
     private readonly joints = new Map<number, JointGroup>();
     private readonly links = new Map<string, Group>();
     private readonly materials = new Map<string, MeshStandardMaterial[]>();
+    private readonly lamps = new Map<string, MeshStandardMaterial>();
     private readonly ghost: GhostLook | null;
     private marked: string | null = null;
     private chosen: ReadonlySet<string> = new Set();
@@ -82,6 +88,11 @@ export class RobotFigure {
         if (this.ghost) return;
         const alarmed = new Set([...alarms].map(servo => this.joints.get(servo)?.joint.body));
         for (const [link, materials] of this.materials) this.tint(materials, alarmed.has(link), link);
+    }
+
+    /** The board's lamps, bit by bit. */
+    light(bits: number): void {
+        LAMPS.forEach((name, bit) => this.lamps.get(name)?.emissive.set((bits >> bit) & 1 ? LIT : 0x000000));
     }
 
     /** Lights up one link; null: none. */
@@ -110,7 +121,7 @@ export class RobotFigure {
 
     dispose(): void {
         for (const mesh of this.meshes) mesh.geometry.dispose();
-        for (const list of this.materials.values()) list.forEach(material => material.dispose());
+        for (const list of [...this.materials.values(), [...this.lamps.values()]]) list.forEach(material => material.dispose());
     }
 
     private addLink(link: Body['links'][number], joint: Joint | undefined): void {
@@ -145,12 +156,15 @@ export class RobotFigure {
               });
         const mesh = new Mesh(geometryOf(shape), material);
         put(mesh, shape);
-        mesh.castShadow = mesh.receiveShadow = this.ghost === null;
+        mesh.receiveShadow = this.ghost === null;
+        mesh.castShadow = this.ghost === null && !WITHOUT_SHADOW.includes(shape.material);
         mesh.userData['link'] = shape.body;
         mesh.userData['shape'] = shape.name;
         this.links.get(shape.body)?.add(mesh);
         this.meshes.push(mesh);
-        this.materials.set(shape.body, [...(this.materials.get(shape.body) ?? []), material]);
+        if (LAMPS.includes(shape.name ?? '') && !this.ghost)
+            this.lamps.set(shape.name ?? '', material); // its light is the board's alone
+        else this.materials.set(shape.body, [...(this.materials.get(shape.body) ?? []), material]);
     }
 
     private tint(materials: readonly MeshStandardMaterial[], hasAlarm: boolean, link: string): void {

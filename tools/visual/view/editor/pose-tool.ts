@@ -102,6 +102,7 @@ export class PoseTool {
         this.figureTrunk = figure.trunk;
         this.scene.figure.touch(new Set(this.touches.flatMap(({ links }) => links)));
         this.scene.figure.show(figure.trunk, figure.angles, isPosing || shown ? new Set() : alarms);
+        this.scene.figure.light(robot.leds);
         this.scene.figure.choose(isPosing ? this.chosenLinks() : new Set());
         const other = isInHand ? null : isPosing ? real : edited;
         this.layer.show('ghost', other && edited && !isSame(real.angles, edited.angles) ? other : null, figure);
