@@ -64,6 +64,51 @@ function report(name: string, samples: readonly Sample[]): void {
     }
 }
 
+/** What comes over the wire until the robot stands, as `serve` sends it: compressed. */
+class Wire {
+    private readonly sizes: Promise<number>[] = [];
+
+    constructor(visitor: Visitor) {
+        visitor.page.on('requestfinished', request => this.sizes.push(request.sizes().then(({ responseBodySize }) => responseBodySize)));
+    }
+
+    async report(): Promise<void> {
+        const bytes = (await Promise.all(this.sizes)).reduce((sum, size) => sum + size, 0);
+        console.log(
+            `${'first load over the wire, with physics'.padEnd(42)}${(bytes / 1024 / 1024).toFixed(2).padStart(6)} MB of 4 MB in ${this.sizes.length} files`,
+        );
+    }
+}
+
+/** Play of a motion that was just edited, which the robot does not have: to the first movement of the picture. */
+async function playLatency(visitor: Visitor): Promise<void> {
+    await visitor.open('Pages');
+    await visitor.page.getByRole('option', { name: /^page 3 wave/ }).dblclick();
+    await visitor.page.getByLabel('Time of step 1').fill('0.9');
+    await visitor.page.getByLabel('Time of step 1').press('Enter');
+    await visitor.untilSeen();
+    const took = await visitor.page.evaluate(
+        () =>
+            new Promise<number>(resolve => {
+                type Preview = { state: { watch(l: (s: { tick: number }) => void): () => void } };
+                const { desk } = document.querySelector('app-shell') as unknown as {
+                    desk: { preview: Preview; editor: { state: { get(): { page: number } } }; playEdited(page: number): Promise<void> };
+                };
+                const askedMs = performance.now();
+                const stop = desk.preview.state.watch(({ tick }) => {
+                    if (tick === 0) return;
+                    queueMicrotask(() => stop());
+                    resolve(performance.now() - askedMs);
+                });
+                void desk.playEdited(desk.editor.state.get().page);
+            }),
+    );
+    console.log(`${'Play after an edit to the first movement'.padEnd(42)}${took.toFixed(0).padStart(6)} ms of 300 ms`);
+    await visitor.doing.filter({ hasText: 'Playing page 3' }).waitFor();
+    await visitor.untilStanding();
+    await visitor.open('Remote');
+}
+
 /** How long after the page was asked for the robot is in the picture, and stands on its own feet. */
 async function start(name: string, visitor: Visitor): Promise<void> {
     const drawn = await visitor.untilDrawn();
@@ -118,11 +163,14 @@ console.log(`load of the machine ${load()}, ${availableParallelism()} cores`);
 weight();
 const [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
 const visitor = await Visitor.come(browser, server.address, { keepsPage: true });
+const wire = new Wire(visitor);
 await start('cold start', visitor);
+await wire.report();
 await visitor.page.evaluate(() => navigator.serviceWorker.ready.then(() => undefined));
 await visitor.page.reload();
 await start('warm start', visitor);
 await keyLatency(visitor);
+await playLatency(visitor);
 await visitor.button('Walk').click();
 await visitor.open('Terminal');
 report('walking, physics, picture, terminal', await watch(visitor, seconds * 1000));
