@@ -4,6 +4,7 @@ import { defineConfig } from 'vite';
 import { mujocoWithoutEval } from './mujoco-plugin.ts';
 import { pythonHandedOver } from './python-plugin.ts';
 import { licences } from './licences-plugin.ts';
+import { start } from './start-plugin.ts';
 import { offline } from './offline-plugin.ts';
 
 const { bundled, page } = licences();
@@ -11,7 +12,7 @@ const { bundled, page } = licences();
 export default defineConfig({
     base: './',
     publicDir: false,
-    plugins: [mujocoWithoutEval(), bundled(), page, offline()],
+    plugins: [mujocoWithoutEval(), bundled(), page, start(), offline()],
     build: {
         outDir: '../../build/visual',
         emptyOutDir: true,

@@ -111,6 +111,7 @@ export class RobotDesk implements Desk {
             state: this.state,
             trunk: () => this.lastFrame?.trunk ?? null,
             isFollowing: () => this.follower.isOn,
+            isStoodUp: () => this.isSimulated && this.sources.simulated.isHeld,
             told: () => this.status.tell(),
             nextFrame: call => void requestAnimationFrame(call),
         });
@@ -226,6 +227,25 @@ export class RobotDesk implements Desk {
             await this.plays.playEdited(page);
             clearTimeout(late);
             this.preview.showRobot();
+        });
+    }
+
+    async run(page: number): Promise<void> {
+        const { preview } = this;
+        preview.setLooping(true);
+        preview.start(page);
+        await this.untilReady();
+        if (preview.state.get().isRunning) await this.playEdited(page); // else somebody wants something else by now
+        preview.setLooping(false);
+    }
+
+    private untilReady(): Promise<void> {
+        return new Promise(resolve => {
+            const unwatch = this.state.watch(({ connection, physics }) => {
+                if (connection !== 'ready' || physics === 'loading') return;
+                queueMicrotask(() => unwatch());
+                resolve();
+            });
         });
     }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Files and links: joins m512's formats with the editor's document.
 
-import { MOST_CHARACTERS, decodeMotion, encodeMotion } from '../files/motion-link.ts';
-import { documentFrom, imageOf, pageOf } from '../model/document.ts';
+import { HASH, MOST_CHARACTERS, decodeMotion, encodeMotion, pagesToSend } from '../files/motion-link.ts';
+import { documentFrom, imageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import { MOST_BYTES } from '../model/file-formats.ts';
 import type { FileFormats, NoRoom, Opened, Refused, Suffix } from '../model/file-formats.ts';
@@ -14,7 +14,6 @@ import { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
 
 const NOTHING: FilesState = { busy: null, opened: null, tooLarge: null, sent: null, trouble: null };
-const HASH = '#motion=';
 
 export interface FilesParts {
     /** Ends what the formats open or save. */
@@ -101,7 +100,8 @@ export class DocumentFiles implements Files {
     }
 
     async link(): Promise<string | null> {
-        const pages = this.reached(this.editor.state.get().page);
+        const { document, page } = this.editor.state.get();
+        const pages = pagesToSend(this.editor.format, document, page);
         if (pages.size === 0) {
             this.state.set({ trouble: FILE_TEXTS.nothingToSend });
             return null;
@@ -187,14 +187,5 @@ export class DocumentFiles implements Files {
 
     private pageIn(image: Uint8Array, page: number): Uint8Array {
         return image.subarray(page * PAGE_BYTES, (page + 1) * PAGE_BYTES);
-    }
-
-    /** The page itself first, then all that it leads to, as far as they hold something whole. */
-    private reached(start: number): Map<number, Uint8Array> {
-        const { document } = this.editor.state.get();
-        const { format } = this.editor;
-        const others = format.reach(document, start).filter(page => page !== start);
-        const pages = [start, ...others].map((page): [number, Uint8Array] => [page, pageOf(document, page)]);
-        return new Map(pages.filter(([page, bytes]) => page > 0 && !format.isEmpty(bytes) && format.fault(bytes) === null));
     }
 }

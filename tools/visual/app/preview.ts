@@ -33,6 +33,8 @@ export interface PreviewParts {
     trunk(): Place | null;
     /** The robot goes after the edited step: it moves, and the step is still what one looks at. */
     isFollowing(): boolean;
+    /** A hand is standing the robot up: it moves, and a motion that is shown meanwhile is what one looks at. */
+    isStoodUp(): boolean;
     /** `shownPage` of the state has changed. */
     told(): void;
     /** Calls back once, at the next picture, with the time in milliseconds. */
@@ -111,7 +113,8 @@ export class MotionPreview implements Preview {
         let tabBefore = state.get().tab;
         state.watch(({ where, tab }) => {
             const isMoving = where !== null && where.state !== 'idle' && where.state !== 'ready';
-            if (isMoving && !wasMoving && !parts.isFollowing() && editor.state.get().gesture === null) this.showRobot();
+            const isAside = parts.isFollowing() || editor.state.get().gesture !== null || (this.state.get().isRunning && parts.isStoodUp());
+            if (isMoving && !wasMoving && !isAside) this.showRobot();
             wasMoving = isMoving;
             if (tab !== tabBefore && !isMoving && this.state.get().figure === 'robot') this.showStep(); // who comes to edit looks at the step
             tabBefore = tab;
@@ -230,7 +233,7 @@ export class MotionPreview implements Preview {
         const { page } = this.state.get();
         const shownPage = figure === 'shown' ? page : null;
         if (this.parts.state.get().shownPage === shownPage) return;
-        this.parts.state.set({ shownPage });
+        this.parts.state.set({ shownPage, shownName: this.parts.editor.page(page).name });
         this.parts.told();
     }
 }

@@ -2,8 +2,13 @@
 // Motions in the address of the page, so that a link is all that is sent: base64url of deflated bytes, which are a version, then
 // for each page its number and its 512 bytes. A page of three steps makes about 200 characters.
 
+import { pageOf } from '../model/document.ts';
+import type { MotionDocument } from '../model/document.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
+import type { PageFormat } from '../model/page-format.ts';
 
+/** Before the motion in the address. */
+export const HASH = '#motion=';
 const VERSION = 1;
 const ENTRY = 1 + PAGE_BYTES;
 /** Browsers and mail programs take at least so many characters of an address. */
@@ -68,4 +73,11 @@ function entries(bytes: Uint8Array): Map<number, Uint8Array> | null {
         pages.set(page, bytes.slice(at + 1, at + ENTRY));
     }
     return pages;
+}
+
+/** The page itself first, then all that it leads to, as far as they hold something whole. */
+export function pagesToSend(format: PageFormat, document: MotionDocument, start: number): Map<number, Uint8Array> {
+    const others = format.reach(document, start).filter(page => page !== start);
+    const pages = [start, ...others].map((page): [number, Uint8Array] => [page, pageOf(document, page)]);
+    return new Map(pages.filter(([page, bytes]) => page > 0 && !format.isEmpty(bytes) && format.fault(bytes) === null));
 }

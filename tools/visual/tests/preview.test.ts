@@ -20,6 +20,7 @@ async function shown() {
     const events = { changed: () => undefined, refused: () => undefined, opened: () => undefined };
     const editor = new DocumentEditor(body, { format, player: await makeMotion(), document: await libraryDocument() }, events);
     const state = new Store<DeskState>({ where: null, shownPage: null } as DeskState);
+    const hand = { holds: false };
     let frames: ((nowMs: number) => void)[] = [];
     let nowMs = 1000;
     const preview = new MotionPreview({
@@ -28,6 +29,7 @@ async function shown() {
         state,
         trunk: () => TRUNK,
         isFollowing: () => false,
+        isStoodUp: () => hand.holds,
         told: () => undefined,
         nextFrame: call => void frames.push(call),
     });
@@ -38,7 +40,7 @@ async function shown() {
         for (const call of due) call(nowMs);
     };
     const where = (change: Partial<Where>): void => state.set({ where: { state: 'idle', page: 0, step: 0, ...change } as Where });
-    return { editor, state, preview, pass, where };
+    return { editor, state, preview, pass, where, hand };
 }
 
 test("the first pose is there at once, and 0.3 s later the motion is 0.3 s on: the curve of the firmware's own player", async () => {
@@ -118,4 +120,16 @@ test("a robot that begins to play does not take a step out of somebody's hand", 
     where({ state: 'playing', page: 20, step: 1 });
     expect(preview.state.get().figure).toBe('step');
     gesture.cancel();
+});
+
+test('a motion that is shown goes on while a hand stands the robot up, and gives way when the robot plays', async () => {
+    const { preview, where, hand } = await shown();
+    preview.start(WAVE);
+    hand.holds = true;
+    where({ state: 'playing', page: 1, step: 1 });
+    where({});
+    expect(preview.state.get()).toMatchObject({ figure: 'shown', isRunning: true });
+    hand.holds = false;
+    where({ state: 'playing', page: WAVE, step: 1 });
+    expect(preview.state.get().figure).toBe('robot');
 });

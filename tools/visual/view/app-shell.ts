@@ -2,11 +2,14 @@
 // The page: head, picture, areas in tabs, strip.
 
 import { ActionBar } from './action-bar.ts';
+import { AreaTabs } from './area-tabs.ts';
 import type { Desk, DeskState, Tab } from './desk.ts';
 import { FilesMenu } from './editor/files-menu.ts';
 import { CurvesPane } from './editor/curves-pane.ts';
 import { EDITING_START } from './editor/editing.ts';
 import type { Editing } from './editor/editing.ts';
+import { AS_STORED } from '../model/motion.ts';
+import type { Shape } from '../model/motion.ts';
 import { PoseBar } from './editor/pose-bar.ts';
 import { StepsPane } from './editor/steps-pane.ts';
 import { define, make } from './element.ts';
@@ -15,7 +18,9 @@ import { CompareDialog } from './editor/compare-dialog.ts';
 import { EditBar } from './editor/edit-bar.ts';
 import { LinksPane } from './editor/links-pane.ts';
 import { PagesPane } from './editor/pages-pane.ts';
+import { SentCard } from './editor/sent-card.ts';
 import { TourCard } from './editor/tour.ts';
+import { FirstMinute } from './first-minute.ts';
 import { KeysDialog } from './keys-dialog.ts';
 import { LabPane } from './lab-pane.ts';
 import { MoreMenu } from './more-menu.ts';
@@ -27,23 +32,15 @@ import { TerminalPane } from './terminal-pane.ts';
 import { TEXTS } from './texts.ts';
 import './app-shell.css';
 
-const TABS: readonly (readonly [Tab, string])[] = [
-    ['remote', 'Remote'],
-    ['steps', 'Steps'],
-    ['curves', 'Curves'],
-    ['pages', 'Pages'],
-    ['links', 'Links'],
-    ['checks', 'Checks'],
-    ['terminal', 'Terminal'],
-    ['lab', 'Lab'],
-];
 /** Areas that show the document. */
 const EDITING: readonly Tab[] = ['steps', 'curves', 'pages', 'links', 'checks'];
 
 export class AppShell extends HTMLElement {
     desk!: Desk; // set before it is connected
     private readonly editing = new Store<Editing>(EDITING_START);
-    private readonly tabs = new Map<Tab, HTMLButtonElement>();
+    private readonly shape = new Store<Shape>(AS_STORED);
+    private readonly tabs = new AreaTabs();
+    private readonly files = new FilesMenu();
     private readonly panels = new Map<Tab, HTMLElement>();
     private readonly simulated = make('button', { onclick: () => this.desk.useSimulated() }, 'Robot in this page');
     private readonly yours = make('button', { onclick: () => void this.desk.connectYours() }, 'Your robot …');
@@ -73,13 +70,13 @@ export class AppShell extends HTMLElement {
         });
         const lab = this.give(new LabPane());
         lab.onTilt = (front, left) => robot.tilt(front, left);
-        this.addPanel('remote', this.give(new RemotePad()));
+        this.addPanel('remote', Object.assign(this.give(new RemotePad()), { shape: this.shape }));
         this.addPanel('steps', Object.assign(this.give(new StepsPane()), { editing: this.editing }));
         const pages = this.give(new PagesPane());
         const compare = this.give(new CompareDialog());
         pages.onCompare = this.editBar.onTransfer = () => void compare.open();
         this.addEventListener('open-steps', () => this.desk.show('steps'));
-        this.addPanel('curves', this.give(new CurvesPane()));
+        this.addPanel('curves', Object.assign(this.give(new CurvesPane()), { shape: this.shape }));
         this.addPanel('pages', pages);
         this.addPanel('links', this.give(new LinksPane()));
         this.addPanel('checks', this.give(new ChecksPane()));
@@ -87,11 +84,17 @@ export class AppShell extends HTMLElement {
         this.addPanel('lab', lab);
         const tour = Object.assign(this.give(new TourCard()), { editing: this.editing, placeOf: (shape: string) => robot.placeOf(shape) });
         this.startTour = () => tour.start();
-        this.areas.append(this.sheet, this.tabList(), this.give(this.editBar), ...this.panels.values());
         tour.onArea = () => this.foldSheet(false);
+        tour.onSend = () => void this.files.send();
+        const first = Object.assign(this.give(new FirstMinute()), { onTeach: () => tour.teach() });
+        const sent = this.give(new SentCard());
+        sent.onSent = () => first.close(false);
+        sent.onTeach = () => tour.teach();
+        this.tabs.onChoose = (tab, isClick) => (isClick ? this.choose(tab) : this.desk.show(tab));
+        this.areas.append(this.sheet, this.tabs, this.give(this.editBar), ...this.panels.values());
         this.replaceChildren(
             this.head(),
-            make('main', {}, make('div', { class: 'stage' }, robot, poses, this.give(new ActionBar()), tour), this.areas),
+            make('main', {}, make('div', { class: 'stage' }, robot, poses, this.give(new ActionBar()), tour, sent, first), this.areas),
             this.give(new StatusStrip()),
             compare,
             this.keys.element,
@@ -129,14 +132,14 @@ export class AppShell extends HTMLElement {
         const keys = make('button', { 'aria-label': 'Keys', title: 'Keys (?)', onclick: () => this.keys.open() }, '?');
         const sources = make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours);
         const more = Object.assign(new MoreMenu(), {
-            content: [sources, this.give(new FilesMenu()), make('a', { href: './licences.html' }, 'Licences'), keys, theme],
+            content: [sources, this.give(this.files), make('a', { href: './licences.html' }, 'Licences'), keys, theme],
         });
         const tour = make(
             'button',
             { class: 'tour-start', title: 'Two minutes to the first motion', onclick: () => this.startTour() },
             'Tour',
         );
-        const skip = make('button', { class: 'skip', onclick: () => this.tabs.get(this.desk.state.get().tab)?.focus() }, 'To the areas');
+        const skip = make('button', { class: 'skip', onclick: () => this.tabs.focusTab(this.desk.state.get().tab) }, 'To the areas');
         return make('header', {}, skip, make('h1', {}, 'Motion512'), this.newVersion, tour, more);
     }
 
@@ -151,7 +154,7 @@ export class AppShell extends HTMLElement {
         if (event.key !== 'F6' || event.ctrlKey || event.altKey || document.querySelector('dialog[open]')) return;
         event.preventDefault();
         const { tab } = this.desk.state.get();
-        if (robot.contains(document.activeElement)) this.tabs.get(tab)?.focus();
+        if (robot.contains(document.activeElement)) this.tabs.focusTab(tab);
         else robot.querySelector('canvas')?.focus();
     }
 
@@ -159,21 +162,6 @@ export class AppShell extends HTMLElement {
         const root = document.documentElement;
         const isDark = getComputedStyle(root).getPropertyValue('--ground').trim() === '#14181c';
         root.dataset['theme'] = isDark ? 'light' : 'dark';
-    }
-
-    private tabList(): HTMLElement {
-        const list = make('div', { role: 'tablist', 'aria-label': 'Areas' });
-        for (const [name, title] of TABS) {
-            const tab = make(
-                'button',
-                { role: 'tab', id: `tab-${name}`, 'aria-controls': `area-${name}`, onclick: () => this.choose(name) },
-                title,
-            );
-            tab.addEventListener('keydown', event => this.moveTab(event, name));
-            this.tabs.set(name, tab);
-            list.append(tab);
-        }
-        return list;
     }
 
     private choose(name: Tab): void {
@@ -191,27 +179,13 @@ export class AppShell extends HTMLElement {
         this.sheet.setAttribute('aria-expanded', String(!folds));
     }
 
-    private moveTab(event: KeyboardEvent, from: Tab): void {
-        const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-        if (by === undefined) return;
-        event.preventDefault();
-        const index = TABS.findIndex(([name]) => name === from);
-        const [next] = TABS[(index + by + TABS.length) % TABS.length] ?? [from];
-        this.desk.show(next);
-        this.tabs.get(next)?.focus();
-    }
-
     private render(state: DeskState): void {
         // Whoever was in an area that goes with the keyboard is at the tab of the one that comes.
         const isLeft = [...this.panels].some(([name, panel]) => name !== state.tab && panel.contains(document.activeElement));
         this.editBar.hidden = !EDITING.includes(state.tab);
-        for (const [name, tab] of this.tabs) {
-            tab.setAttribute('aria-selected', String(name === state.tab));
-            tab.tabIndex = name === state.tab ? 0 : -1;
-            const panel = this.panels.get(name);
-            if (panel) panel.hidden = name !== state.tab;
-        }
-        if (isLeft) this.tabs.get(state.tab)?.focus({ preventScroll: true });
+        this.tabs.select(state.tab);
+        for (const [name, panel] of this.panels) panel.hidden = name !== state.tab;
+        if (isLeft) this.tabs.focusTab(state.tab);
         this.newVersion.hidden = !state.hasNewVersion;
         this.simulated.setAttribute('aria-pressed', String(state.source === 'simulated'));
         this.yours.setAttribute('aria-pressed', String(state.source === 'yours'));

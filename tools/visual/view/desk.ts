@@ -54,6 +54,8 @@ export interface DeskState {
     readonly hasNewVersion: boolean;
     /** A page that the picture shows while no robot plays it; null: none. */
     readonly shownPage: number | null;
+    /** Its name in the document; the robot may know none yet. */
+    readonly shownName?: string;
     readonly isPowered: boolean;
     /** The robot in the page has not answered for longer than a start takes. */
     readonly isLate: boolean;
@@ -120,6 +122,8 @@ export interface Desk {
     setTorque(on: boolean, servos?: readonly number[]): Promise<void>;
     /** Plays a page of the document: writes it and what it leads to first, as far as the robot has it otherwise. The picture shows it at once. */
     playEdited(page: number): Promise<void>;
+    /** Shows a page of the document again and again, until the robot does it: as soon as it can. */
+    run(page: number): Promise<void>;
     /** How what plays is shaped, from its next step on. Only Play can. */
     shape(shape: Shape): Promise<void>;
     /** What goes on beside a play. Only Play can. */

@@ -7,7 +7,7 @@ import { ask } from './editor/ask-dialog.ts';
 import { define, make, setText } from './element.ts';
 import { pushRobot } from './push.ts';
 import { ServoTable } from './servo-table.ts';
-import { TEXTS } from './texts.ts';
+import { LAW_TEXTS, TEXTS } from './texts.ts';
 import './lab-pane.css';
 
 const SPEEDS: readonly (readonly [number, string])[] = [
@@ -44,7 +44,16 @@ export class LabPane extends HTMLElement {
         servos.desk = this.desk;
         this.replaceChildren(
             make('p', { class: 'only-simulated' }, TEXTS.labForYours),
-            make('div', { class: 'sections' }, this.timeSection(), this.powerSection(), this.roomSection(), this.imageSection(), servos),
+            make(
+                'div',
+                { class: 'sections' },
+                this.timeSection(),
+                this.powerSection(),
+                this.roomSection(),
+                this.imageSection(),
+                this.lawSection(),
+                servos,
+            ),
         );
         this.disposals.push(
             this.desk.state.watch(state => this.render(state)),
@@ -156,6 +165,19 @@ export class LabPane extends HTMLElement {
                 make('button', { onclick: () => void this.askForget() }, 'Factory fresh'),
             ),
         );
+    }
+
+    private lawSection(): HTMLElement {
+        const row = make('div', { class: 'row' });
+        for (const [law, title, hint] of [
+            ['exact', LAW_TEXTS.exact, LAW_TEXTS.exactHint],
+            ['classic', LAW_TEXTS.classic, LAW_TEXTS.classicHint],
+        ] as const) {
+            const button = make('button', { title: hint, onclick: () => this.desk.editor.select({ law }) }, title);
+            this.disposals.push(this.desk.editor.state.watch(state => button.setAttribute('aria-pressed', String(state.law === law))));
+            row.append(button);
+        }
+        return this.section(LAW_TEXTS.title, row, make('p', { class: 'hint' }, LAW_TEXTS.hint));
     }
 
     private async askForget(): Promise<void> {

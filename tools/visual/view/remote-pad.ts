@@ -4,8 +4,14 @@
 
 import { wordOf } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
+import type { Shape } from '../model/motion.ts';
 import type { Desk } from './desk.ts';
+import { LayerBar } from './editor/layer-bar.ts';
+import { ShapeBar } from './editor/shape-bar.ts';
 import { define, make } from './element.ts';
+import type { Store } from './store.ts';
+import { REMOTE_TEXTS } from './texts.ts';
+import { WaveButton } from './wave-button.ts';
 import { WayList } from './way-list.ts';
 import './remote-pad.css';
 
@@ -60,7 +66,8 @@ const BUTTONS: readonly (readonly [RemoteButton, string, string])[] = [
 ];
 
 export class RemotePad extends HTMLElement {
-    desk!: Desk; // set before it is connected
+    desk!: Desk; // these are set before it is connected
+    shape!: Store<Shape>;
     private readonly held = { screen: new Set<RemoteButton>(), keys: new Set<RemoteButton>(), pad: new Set<RemoteButton>() };
     private readonly buttons = new Map<RemoteButton, HTMLButtonElement>();
     private readonly ways = new WayList();
@@ -68,18 +75,18 @@ export class RemotePad extends HTMLElement {
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const pad = make('div', { class: 'pad', role: 'group', 'aria-label': 'Remote control' });
+        const pad = make('div', { class: 'pad', role: 'group', 'aria-label': REMOTE_TEXTS.title });
         for (const [name, sign, title] of BUTTONS) pad.append(this.button(name, sign, title));
         this.ways.desk = this.desk;
+        const give = <T extends HTMLElement & { desk: Desk }>(element: T): T => Object.assign(element, { desk: this.desk });
+        const shape = Object.assign(give(new ShapeBar()), { shape: this.shape });
         this.replaceChildren(
-            make('h2', {}, 'Remote control'),
-            pad,
-            make(
-                'p',
-                { class: 'hint' },
-                'Arrow keys or W A S D start walking and turning, 1 to 4 other motions; 6 or the space bar stops, 5 pauses. A game pad works too.',
-            ),
+            make('h2', {}, REMOTE_TEXTS.title),
+            make('div', { class: 'drive' }, pad, make('div', { class: 'goes' }, shape, give(new WaveButton()))),
+            make('p', { class: 'hint' }, REMOTE_TEXTS.keys),
             this.ways,
+            make('details', { class: 'beside' }, make('summary', {}, REMOTE_TEXTS.beside), give(new LayerBar())),
+            make('p', { class: 'hint' }, make('a', { href: './motions.html' }, REMOTE_TEXTS.motions)),
         );
         this.listen();
     }
@@ -138,7 +145,8 @@ export class RemotePad extends HTMLElement {
     private key(event: KeyboardEvent): void {
         const name = KEYS[event.code];
         const target = event.target instanceof HTMLElement ? event.target : null;
-        const isElsewhere = target?.closest('input, select, textarea, terminal-pane, [role="tablist"]') !== null && target !== null;
+        const isElsewhere =
+            target?.closest('input, select, textarea, summary, terminal-pane, [role="tablist"]') !== null && target !== null;
         if (!name || event.ctrlKey || event.altKey || event.metaKey || (event.type === 'keydown' && event.shiftKey)) return; // Shift and the arrows turn the picture
         if (event.type === 'keydown' && this.desk.state.get().tab !== 'remote') return; // elsewhere the arrows edit
         if (event.type === 'keydown' && (isElsewhere || (event.code === 'Space' && target?.closest('button') && !this.isPlaying))) return; // a robot that moves is stopped

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Every sentence of the page that is more than a label, in one place: what happened, and what to do.
 
+import type { Shape } from '../model/motion.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
 import type { Where } from '../robot/protocol.ts';
 import type { RobotError, RobotErrorCode } from '../robot/robot-error.ts';
-import type { DeskState } from './desk.ts';
+import type { DeskState, Tab } from './desk.ts';
 
 const ERRORS: Record<RobotErrorCode, string> = {
     'no-answer': 'The robot did not answer. Is it switched on? If its screen shows a "-", type GO in the terminal.',
@@ -57,7 +58,7 @@ export function connectionText(state: ConnectionState): string {
 }
 
 function pageTitle(state: DeskState, page: number): string {
-    const name = state.pages.find(entry => entry.page === page)?.name;
+    const name = page === state.shownPage && state.shownName ? state.shownName : state.pages.find(entry => entry.page === page)?.name;
     return name ? `page ${page} (${name})` : `page ${page}`;
 }
 
@@ -152,4 +153,89 @@ export const WAY_TEXTS = {
     keys: 'What the keys start',
     then: 'then',
     plays: (page: number, name: string) => `${name === '' ? `Page ${page}` : name} plays; at its end the keys lead on to`,
+} as const;
+
+const TITLES: Record<Tab, string> = {
+    remote: 'Remote',
+    steps: 'Steps',
+    curves: 'Curves',
+    pages: 'Pages',
+    links: 'Links',
+    checks: 'Checks',
+    terminal: 'Terminal',
+    lab: 'Lab',
+};
+
+export const AREA_TEXTS = {
+    areas: 'Areas',
+    titles: TITLES,
+    more: 'More',
+    moreHint: 'Curves, pages, links, checks, the terminal, and what can be done to the robot',
+} as const;
+
+/** Over the picture, until somebody has begun. */
+export const FIRST_TEXTS = {
+    region: 'What to do first',
+    what: 'A humanoid with real firmware, in your browser',
+    walk: 'Walk it',
+    push: 'Push it',
+    teach: 'Teach it to wave',
+    motions: 'or look at ten of its motions',
+    walks: 'It walks as soon as it stands. The arrow keys steer it; Stop or the space bar stops it.',
+    pushes: 'It is pushed as soon as it stands by itself. When it lies, press Get up.',
+} as const;
+
+/** A motion that came in the address. */
+export const SENT_TEXTS = {
+    region: 'A motion for you',
+    title: (name: string): string => `“${name}”, a motion for you`,
+    again: '▶ Play it again',
+    edit: 'Look at its steps',
+    teach: 'Teach your own',
+    close: 'Close',
+} as const;
+
+export const TIME_TEXTS = {
+    times: 'Times',
+    timesHint: 'How often the steps are played, one time after another',
+    takes: (seconds: string): string => `The motion takes ${seconds} seconds`,
+    dragTime: 'Drag: how long the step takes',
+    dragPause: 'Drag: how long it pauses',
+} as const;
+
+const SHAPES: Record<keyof Shape, string> = { rate: 'Speed', amplitude: 'Size', blend: 'Turn' };
+
+/** How what plays is shaped, beside the pad of the remote. */
+export const SHAPE_TEXTS = {
+    title: 'How it goes',
+    names: SHAPES,
+    asStored: 'As stored',
+    shapes: 'It takes it with its next step.',
+    needsPlay: 'Edit runs, and only Play shapes a motion. A key of the remote brings Play back.',
+    wave: 'Wave while walking',
+    waveHint: 'The right arm waves, the legs go on',
+} as const;
+
+export const REMOTE_TEXTS = {
+    title: 'Remote control',
+    keys: 'Arrow keys or W A S D start walking and turning, 1 to 4 other motions; 6 or the space bar stops, 5 pauses. A game pad works too.',
+    beside: 'More beside what plays',
+    motions: 'Ten motions as moving pictures',
+} as const;
+
+export const LAW_TEXTS = {
+    title: 'Law of motion',
+    hint: 'By which the curves, the picture and physics in Checks play a motion.',
+    exact: 'Exact',
+    exactHint: 'Every way-point is met, in time',
+    classic: 'Classic',
+    classicHint: 'As the firmware of 2005 moved',
+} as const;
+
+export const LINE_TEXTS = {
+    name: 'Lines',
+    none: 'Choose a limb or a joint: its line gets a colour and its points.',
+    joint: (servo: number, title: string): string => `${servo} ${title}`,
+    atStep: (servo: number, title: string, step: number, position: number, degrees: string): string =>
+        `${servo} ${title}, step ${step}: ${position}, ${degrees}`,
 } as const;

@@ -137,23 +137,52 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
     await person.leave();
 });
 
-test('a teacher sends a motion as a link; a pupil adds it by keyboard', async () => {
+/** In the browser, before the page is there: keeps everything that the strip says of what the robot does, however short. */
+function noteDoing(): void {
+    const said: string[] = [];
+    Object.assign(window, { said });
+    new MutationObserver(() => {
+        const text = document.querySelector('status-strip .doing')?.textContent ?? '';
+        if (said.at(-1) !== text) said.push(text);
+    }).observe(document, { subtree: true, childList: true, characterData: true });
+}
+
+const doings = (page: Page): Promise<string[]> => page.evaluate(() => (window as unknown as { said: string[] }).said);
+
+test('a teacher sends a motion as a link; for the pupil it opens running, is told as an edit, and is played again by keyboard', async () => {
     const teacher = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     await teacher.open('Pages');
     await teacher.page.getByRole('option', { name: /^page 2 bow/ }).click();
+    await teacher.open('Steps');
+    await teacher.page.getByRole('spinbutton', { name: 'Time of step 1' }).fill('1.5'); // another bow than the pupil's own
+    await teacher.page.keyboard.press('Enter');
     await teacher.button('Send as link').click();
     const link = await teacher.page.getByRole('textbox', { name: 'Link' }).inputValue();
     expect(link.length).toBeLessThan(2000);
     await teacher.leave();
 
-    const pupil = await Visitor.come(suite.browser, link, { hasPicture: false });
-    await pupil.page.getByRole('dialog', { name: 'A motion for you' }).waitFor();
+    const pupil = await Visitor.come(suite.browser, link, {
+        isNew: true,
+        hasPicture: false,
+        hasPhysics: false,
+        before: page => page.addInitScript(noteDoing),
+    });
+    const card = pupil.page.getByRole('region', { name: 'A motion for you' });
+    await card.getByText('“bow”, a motion for you').waitFor();
+    expect(await pupil.button('Walk it').isVisible()).toBe(false);
+    expect(new URL(pupil.page.url()).hash).toBe('');
+    const plays = async (): Promise<number> => {
+        const isPlaying = (await doings(pupil.page)).map(text => /^Playing page \d+ \(bow\)/.test(text));
+        return isPlaying.filter((plays, i) => plays && !isPlaying[i - 1]).length;
+    };
+    await expect.poll(plays).toBe(1);
+    const [first] = (await doings(pupil.page)).filter(text => text.includes('(bow)'));
+    expect(first).toMatch(/^In the picture only: page \d+ \(bow\)/); // before the robot can
     await pupil.untilStanding();
     const keys = new Keyboard(pupil);
-    await keys.at('Add it and play');
-    await keys.press('Enter');
-    await keys.at('Steps');
-    await pupil.doing.filter({ hasText: /Playing page \d+ \(bow\)/ }).waitFor();
-    expect(new URL(pupil.page.url()).hash).toBe('');
+    await keys.enter('▶ Play it again');
+    await expect.poll(plays).toBe(2);
+    await keys.enter('Look at its steps');
+    await pupil.page.getByRole('button', { name: /^Undo: .* \(page \d+\)/ }).waitFor();
     await pupil.leave();
 });

@@ -78,6 +78,8 @@ export class Keyboard {
         if (!(await this.person.page.getByRole('tab', { selected: true }).evaluate(tab => tab === document.activeElement))) {
             await this.enter('To the areas');
         }
+        const isSeen = await this.person.page.getByRole('tab', { name: area, exact: true }).isVisible();
+        if (!isSeen) await this.enter('More');
         while ((await this.stop()).name !== area) await this.press('ArrowRight');
     }
 

@@ -5,7 +5,7 @@ import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
-import { wayPoint } from './way-point.ts';
+import { chooseJoints, wayPoint } from './way-point.ts';
 
 /** status.ts */
 const WHERE_MS = 300;
@@ -54,13 +54,19 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
 
     await button(page, 'Step 2').click();
     await person.open('Curves');
-    await button(page, /^15 right ankle pitch/).click();
+    const legend = page.getByRole('list', { name: 'Lines' });
+    await legend
+        .getByText(/^\d+ (right|left) (hip|knee|ankle|shoulder|elbow)/)
+        .first()
+        .waitFor(); // it begins with a limb, by name
+    await chooseJoints(page, [15]);
+    expect(await legend.innerText()).toBe('15 right ankle pitch');
     const ankle = Number(await position(page, /^15 /).inputValue());
     await drag(page, await wayPoint(page, 15, 1), 0, -60);
     await expect.poll(async () => Number(await position(page, /^15 /).inputValue()), PATIENT).toBeGreaterThan(ankle + 5);
     await button(page, /^Undo: drag/).click(); // one drag, one undo step
     await expect.poll(async () => Number(await position(page, /^15 /).inputValue()), PATIENT).toBe(ankle);
-    await button(page, /^16 left ankle pitch/).click();
+    await chooseJoints(page, [15, 16]);
     for (const [joint, to] of [
         [/^15 /, '690'],
         [/^16 /, '334'],
@@ -123,7 +129,9 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
 
     await person.open('Curves');
     const beside = page.getByRole('status', { name: 'Beside the play' });
-    await button(page, /^1 right shoulder/).click();
+    await chooseJoints(page, [1]);
+    await person.open('Remote');
+    await page.getByText('More beside what plays').click();
     await button(page, 'Aim').click();
     await beside.filter({ hasText: 'Moved by code: joint 1.' }).waitFor(PATIENT);
     await page.screenshot({ path: `${SHOTS}layers.png` });

@@ -45,6 +45,8 @@ export interface Visit {
     readonly hasPhysics?: boolean;
     /** The browser keeps the page for the time without a network (offline.test.ts): it writes 10 MB for that. */
     readonly keepsPage?: boolean;
+    /** Nobody has been here before: the page offers what to do first (first-minute.test.ts). Others have begun long ago. */
+    readonly isNew?: boolean;
     /** Done with the empty page, before the address is opened. */
     readonly before?: (page: Page) => Promise<unknown>;
 }
@@ -124,6 +126,7 @@ export class Visitor {
             hasPicture = true,
             hasPhysics = true,
             keepsPage = false,
+            isNew = false,
             before,
         } = visit;
         // Reduced motion: no colour is looked at while it changes.
@@ -137,6 +140,7 @@ export class Visitor {
         });
         context.setDefaultTimeout(LIMIT_MS);
         if (!hasPicture) await context.addInitScript(withoutWebGl);
+        if (!isNew) await context.addInitScript(() => localStorage.setItem('motion512.begun', '1'));
         if (!hasPhysics) await context.route(PHYSICS, route => route.abort());
         const visitor = new Visitor(context, await context.newPage());
         visitor.watch(new URL(address).origin, [...(hasPicture ? [] : [NO_PICTURE]), ...(hasPhysics ? [] : [NO_PHYSICS])]);
@@ -170,7 +174,15 @@ export class Visitor {
     }
 
     async open(tab: 'Remote' | 'Steps' | 'Curves' | 'Pages' | 'Links' | 'Checks' | 'Terminal' | 'Lab'): Promise<void> {
+        await this.showAllAreas(tab);
         await this.page.getByRole('tab', { name: tab, exact: true }).click();
+    }
+
+    /** "More", if this area has no tab yet. */
+    async showAllAreas(tab: string): Promise<void> {
+        await this.page.locator('app-shell').waitFor();
+        const isSeen = await this.page.getByRole('tab', { name: tab, exact: true }).isVisible();
+        if (!isSeen) await this.button('More').click();
     }
 
     /** Waits until the robot is in the picture; milliseconds since the page was asked for. */

@@ -6,7 +6,7 @@ import { Fingers } from './fingers.ts';
 import type { Point } from './fingers.ts';
 import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
-import { wayPoint } from './way-point.ts';
+import { chooseJoints, wayPoint } from './way-point.ts';
 
 const LYING = { width: 1024, height: 768, hasTouch: true };
 const ON_END = { width: 800, height: 1280, hasTouch: true };
@@ -75,6 +75,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     const fingers = await Fingers.on(page);
     await person.untilStanding();
     const found: string[] = [];
+    await page.getByRole('button', { name: 'More', exact: true }).tap();
     for (const area of AREAS) {
         await page.getByRole('tab', { name: area, exact: true }).tap();
         found.push(...(await tooSmall(page)).map(what => `${area}: ${what}`));
@@ -121,7 +122,7 @@ test('lying: the camera by one finger and by two, joints, a hand, steps, times a
     await takeBack(page, /^Undo: time/);
 
     await page.getByRole('tab', { name: 'Curves', exact: true }).tap();
-    await page.getByRole('button', { name: '15 right ankle pitch' }).tap();
+    await chooseJoints(page, [15]);
     const canvas = page.getByRole('img', { name: 'Curves of the joints' });
     const at = await wayPoint(page, 15, 1);
     await fingers.drag({ x: at.x + 12, y: at.y + 8 }, 0, -60);

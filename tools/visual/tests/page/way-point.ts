@@ -25,3 +25,13 @@ export async function wayPoint(page: Page, joint: number, step: number): Promise
     if (!place) throw new Error('there is no such way-point');
     return place;
 }
+
+/** In Curves: these joints and no others. */
+export async function chooseJoints(page: Page, servos: readonly number[]): Promise<void> {
+    const chips = page.getByRole('group', { name: 'Joints to edit' }).getByRole('button');
+    for (const chip of await chips.all()) {
+        const servo = Number.parseInt((await chip.getAttribute('aria-label')) ?? '', 10);
+        const isPressed = (await chip.getAttribute('aria-pressed')) === 'true';
+        if (!Number.isNaN(servo) && isPressed !== servos.includes(servo)) await chip.click();
+    }
+}

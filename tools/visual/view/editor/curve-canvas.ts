@@ -2,24 +2,29 @@
 // The curves of the page, drawn from the firmware's own player at every change. What a hand does to them: curve-hand.ts.
 
 import type { TickSpan } from '../../model/curve-speed.ts';
+import { jointAngle, jointTitle } from '../../model/body.ts';
+import type { Body, Joint } from '../../model/body.ts';
 import { AS_STORED, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
-import { define, make } from '../element.ts';
+import { define, make, setText } from '../element.ts';
+import { LINE_TEXTS } from '../texts.ts';
 import { CurveHand, jointAt, nearestPoint } from './curve-hand.ts';
 import type { CurveDrawing } from './curve-hand.ts';
 import { CurveFrame, drawCurves } from './curve-picture.ts';
-import type { CurveColours, CurveScene } from './curve-picture.ts';
+import type { CurveColours, CurveScene, WayPoint } from './curve-picture.ts';
 import { curveScene } from './curve-scene.ts';
 import { ServoFollow } from './servo-follow.ts';
 
-const CHOSEN_COLOURS = ['--curve-1', '--curve-2', '--curve-3', '--curve-4', '--curve-5', '--curve-6'];
+export const CHOSEN_COLOURS = ['--curve-1', '--curve-2', '--curve-3', '--curve-4', '--curve-5', '--curve-6'];
 
 /** What a drawing shows, in numbers. */
 export interface Drawn {
     /** Joints and places that are too fast. */
     readonly fast: ReadonlyMap<number, readonly TickSpan[]>;
     readonly isShaped: boolean;
+    /** Joints whose lines are strong, in the order of their colours. */
+    readonly chosen: readonly number[];
     /** How far the chosen joints are behind at most, in physics (servo units); empty: not known. */
     readonly lags: ReadonlyMap<number, number>;
     /** Physics was asked and cannot tell. */
@@ -106,6 +111,7 @@ export class CurveCanvas extends HTMLElement {
         this.onDrawn({
             fast: scene?.fast ?? new Map(),
             isShaped: !!scene?.stored,
+            chosen: [...(scene?.chosen ?? [])],
             lags: this.lags(scene),
             isUnknown: this.follow.isUnknown,
         });
@@ -129,7 +135,7 @@ export class CurveCanvas extends HTMLElement {
         const scene = curveScene(editor, { shape, volts: state.get().where?.batteryVolts || NOMINAL_VOLTS, edges: hand.dragged });
         if (!scene) return null;
         this.follow.look(scene.curve.ticks, shape);
-        return { ...scene, followed: this.follow.positions };
+        return { ...scene, followed: this.follow.positions, degrees: degreesFor(this.desk.body, scene.chosen) };
     }
 
     private colours(): CurveColours {
@@ -163,13 +169,31 @@ export class CurveCanvas extends HTMLElement {
         const point = drawing && nearestPoint(drawing, event);
         this.canvas.classList.toggle('over-point', !!point);
         const joint = point?.joint ?? (drawing && jointAt(drawing, event));
-        const name = this.desk.body.joints.find(({ servo }) => servo === joint)?.name.replaceAll('_', ' ') ?? '';
-        this.label.textContent = joint === null ? '' : `${joint} ${name}${point ? `, step ${point.step + 1}: ${point.position}` : ''}`;
+        const servo = this.desk.body.joints.find(one => one.servo === joint);
+        setText(this.label, servo ? lineText(servo, point ?? null) : '');
     }
 
     private end(keep: boolean): void {
         if (this.hand.up(keep)) this.later();
     }
+}
+
+function lineText(joint: Joint, point: WayPoint | null): string {
+    const title = jointTitle(joint);
+    if (!point) return LINE_TEXTS.joint(joint.servo, title);
+    const degrees = `${Math.round((jointAngle(joint, point.position) * 180) / Math.PI)}°`;
+    return LINE_TEXTS.atStep(joint.servo, title, point.step + 1, point.position, degrees);
+}
+
+/** Positions as degrees, if all of these joints count them alike, as those of a limb do; else null. */
+export function degreesFor(body: Body, servos: ReadonlySet<number>): ((position: number) => number) | null {
+    const joints = body.joints.filter(({ servo }) => servos.has(servo));
+    const [first] = joints;
+    if (!first) return null;
+    const isAlike = joints.every(
+        one => one.direction === first.direction && one.zero === first.zero && one.radiansPerUnit === first.radiansPerUnit,
+    );
+    return isAlike ? position => (jointAngle(first, position) * 180) / Math.PI : null;
 }
 
 define('curve-canvas', CurveCanvas);

@@ -21,6 +21,8 @@ export interface CurveScene {
     readonly stored: Curve | null;
     /** Where the servos are in physics, tick by tick: JOINTS servo units; null: not looked at. */
     readonly followed: Float32Array | null;
+    /** Positions of the chosen joints in degrees; null: they do not count them alike. */
+    readonly degrees: ((position: number) => number) | null;
     readonly ticks: number;
     readonly joints: readonly number[];
     readonly chosen: ReadonlySet<number>;
@@ -45,7 +47,7 @@ export interface CurveColours {
 }
 
 const POINT = 6; // pixels
-const EDGE = { left: 34, right: 10, top: 8, bottom: 18 };
+const EDGE = { left: 34, right: 40, top: 8, bottom: 18 };
 
 /** Places in the picture, both ways (CSS pixels). */
 export class CurveFrame {
@@ -114,10 +116,10 @@ function chosenColour(colours: CurveColours, index: number): string {
 function drawGrid(
     context: CanvasRenderingContext2D,
     frame: CurveFrame,
-    { ticks, ends, cursor, low, high }: CurveScene,
+    { ticks, ends, cursor, low, high, degrees, chosen }: CurveScene,
     colours: CurveColours,
 ): void {
-    context.font = '11px system-ui, sans-serif';
+    context.font = '12px system-ui, sans-serif';
     context.lineWidth = 1;
     let begin = 0;
     for (const [step, { move, pause }] of ends.entries()) {
@@ -134,9 +136,9 @@ function drawGrid(
         context.strokeStyle = colours.grid;
         vertical(context, frame, begin);
         context.fillStyle = colours.text;
-        context.fillText(String(step + 1), frame.x(begin - move - pause) + 4, EDGE.top + 10);
+        if (chosen.size === 0) context.fillText(String(step + 1), frame.x(begin - move - pause) + 4, EDGE.top + 10); // else at the points
     }
-    const every = high - low > 500 ? 256 : high - low > 200 ? 100 : 50;
+    const every = high - low > 500 ? 200 : high - low > 200 ? 100 : 50;
     for (let position = Math.ceil(low / every) * every; position <= high; position += every) {
         context.strokeStyle = colours.grid;
         line(context, [
@@ -144,6 +146,7 @@ function drawGrid(
             [frame.width - EDGE.right, frame.y(position)],
         ]);
         context.fillText(String(position), 4, frame.y(position) + 4);
+        if (degrees) context.fillText(`${Math.round(degrees(position))}°`, frame.width - EDGE.right + 8, frame.y(position) + 4);
     }
     const seconds = ticks / TICKS_PER_SECOND;
     for (let second = 0; second <= seconds; second += seconds > 6 ? 1 : 0.5) secondText(context, frame, second);
@@ -208,5 +211,6 @@ function drawWayPoints(context: CanvasRenderingContext2D, frame: CurveFrame, sce
         context.strokeStyle = colours.ground;
         context.lineWidth = 1.5;
         context.stroke();
+        context.fillText(String(point.step + 1), frame.x(point.tick) + POINT + 1, frame.y(point.position) - POINT);
     }
 }

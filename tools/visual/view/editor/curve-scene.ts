@@ -25,7 +25,7 @@ function isShaped(shape: Shape): boolean {
 }
 
 /** null: the page cannot be played. Way-points and the ends of steps are those that are stored. */
-export function curveScene(editor: Editor, { shape, volts, edges }: SceneOptions): Omit<CurveScene, 'followed'> | null {
+export function curveScene(editor: Editor, { shape, volts, edges }: SceneOptions): Omit<CurveScene, 'followed' | 'degrees'> | null {
     const { page, step, joints: chosen, document } = editor.state.get();
     const { steps } = editor.page(page);
     if (!editor.format.isPlayable(pageOf(document, page))) return null;

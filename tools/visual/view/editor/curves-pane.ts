@@ -3,31 +3,29 @@
 
 import { degreesOf, jointTitle } from '../../model/body.ts';
 import type { TickSpan } from '../../model/curve-speed.ts';
-import type { Law } from '../../model/motion.ts';
-import type { Desk } from '../desk.ts';
+import type { Shape } from '../../model/motion.ts';
+import type { Desk, Tab } from '../desk.ts';
 import { define, make } from '../element.ts';
-import { CurveCanvas } from './curve-canvas.ts';
+import type { Store } from '../store.ts';
+import { LINE_TEXTS } from '../texts.ts';
+import { busiestLimb } from '../../model/busiest-limb.ts';
+import { CHOSEN_COLOURS, CurveCanvas } from './curve-canvas.ts';
 import type { Drawn } from './curve-canvas.ts';
-import { LayerBar } from './layer-bar.ts';
 import { PageHead } from './page-head.ts';
 import { PlayBar } from './play-bar.ts';
-import { ShapeBar } from './shape-bar.ts';
 import { CURVE_TEXTS } from './step-texts.ts';
 import { limbGroups } from './teach-bar.ts';
 import './curves-pane.css';
 
-const LAWS: readonly (readonly [Law, string, string])[] = [
-    ['exact', 'Exact', 'Every way-point is met, in time'],
-    ['classic', 'Classic', 'As the firmware of 2005 moved'],
-];
-
 export class CurvesPane extends HTMLElement {
-    desk!: Desk; // set before it is connected
-    private readonly laws = new Map<Law, HTMLButtonElement>();
+    desk!: Desk; // these are set before it is connected
+    shape!: Store<Shape>;
     private readonly chips = new Map<number, HTMLButtonElement>();
+    private readonly legend = make('ul', { class: 'legend', 'aria-label': LINE_TEXTS.name });
     private readonly fast = make('p', { class: 'fast', role: 'status', 'aria-label': 'Too fast' });
     private readonly follow = make('input', { type: 'checkbox' });
     private readonly lines = make('p', { class: 'lines', role: 'status', 'aria-label': 'Other lines' });
+    private shownTab: Tab | null = null;
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
@@ -36,26 +34,29 @@ export class CurvesPane extends HTMLElement {
         canvas.onDrawn = drawn => {
             this.sayFast(drawn.fast);
             this.sayLines(drawn);
+            this.sayLegend(drawn);
         };
         this.follow.addEventListener('change', () => canvas.setFollow(this.follow.checked));
-        const shape = Object.assign(give(new ShapeBar()), { onShape: canvas.setShape.bind(canvas) });
         this.replaceChildren(
             make('p', { class: 'purpose' }, CURVE_TEXTS.purpose),
             give(new PageHead()),
-            this.lawRow(),
             canvas,
+            this.legend,
             give(new PlayBar()),
             this.fast,
             this.lines,
+            make('label', { class: 'follow', title: CURVE_TEXTS.followHint }, this.follow, CURVE_TEXTS.follow),
             this.jointRow(),
-            shape,
-            give(new LayerBar()),
         );
         this.disposals.push(
-            this.desk.editor.state.watch(({ joints, law }) => {
+            this.desk.editor.state.watch(({ joints }) => {
                 for (const [servo, chip] of this.chips) chip.setAttribute('aria-pressed', String(joints.has(servo)));
-                for (const [name, button] of this.laws) button.setAttribute('aria-pressed', String(name === law));
             }),
+            this.desk.state.watch(({ tab }) => {
+                if (tab === 'curves' && this.shownTab !== tab) this.beginWithLimb();
+                this.shownTab = tab;
+            }),
+            this.shape.watch(shape => canvas.setShape(shape)),
         );
     }
 
@@ -63,15 +64,30 @@ export class CurvesPane extends HTMLElement {
         for (const dispose of this.disposals.splice(0)) dispose();
     }
 
-    private lawRow(): HTMLElement {
-        const row = make('div', { class: 'row', role: 'group', 'aria-label': 'Law of motion' }, make('span', {}, 'Law:'));
-        for (const [law, title, hint] of LAWS) {
-            const button = make('button', { title: hint, onclick: () => this.desk.editor.select({ law }) }, title);
-            this.laws.set(law, button);
-            row.append(button);
-        }
-        row.append(make('label', { class: 'follow', title: CURVE_TEXTS.followHint }, this.follow, CURVE_TEXTS.follow));
-        return row;
+    /** Eighteen lines at once tell nothing: who comes sees the limb that the motion moves most. */
+    private beginWithLimb(): void {
+        const { editor, body } = this.desk;
+        const { page, joints } = editor.state.get();
+        if (joints.size > 0) return;
+        const servos = busiestLimb(limbGroups(body), editor.page(page).steps);
+        if (servos.length > 0) editor.select({ joints: new Set(servos) });
+    }
+
+    /** The chosen lines by name, each in its colour. */
+    private sayLegend({ chosen }: Drawn): void {
+        const key = chosen.join();
+        if (key === this.legend.dataset['joints']) return;
+        this.legend.dataset['joints'] = key;
+        const { joints } = this.desk.body;
+        const items = chosen.map((servo, i) => {
+            const joint = joints.find(one => one.servo === servo);
+            return make(
+                'li',
+                { class: `line-${(i % CHOSEN_COLOURS.length) + 1}` },
+                LINE_TEXTS.joint(servo, joint ? jointTitle(joint) : ''),
+            );
+        });
+        this.legend.replaceChildren(...(items.length > 0 ? items : [make('li', { class: 'none' }, LINE_TEXTS.none)]));
     }
 
     /** What the other lines are. */

@@ -19,8 +19,6 @@ export const FILE_TEXTS = {
     documentHint: 'Beside the documents that you have',
     replaceHint: 'Every page that is here now is replaced; Undo brings them back',
     tooLarge: (pages: string): string => `It was made for a robot with 256 pages: ${pages} have no room here.`,
-    sent: (name: string, count: number): string =>
-        `Somebody sent you “${name}” (${count === 1 ? '1 page' : `${count} pages`}). It goes into free pages; nothing of yours is touched.`,
     linkCopied: 'The link is in the clipboard. The motion itself is in it; nothing was sent anywhere.',
     linkShown: 'Copy this link. The motion itself is in it; nothing was sent anywhere.',
     losses: (name: string): string => `${name} cannot hold everything:`,

@@ -26,7 +26,7 @@ export class FilesMenu extends HTMLElement {
     private readonly dialog = make('dialog', { 'aria-labelledby': 'files-title', oncancel: () => this.desk.files.dismiss() });
     private readonly busy = make('span', { class: 'busy', role: 'status' });
     private readonly stop = make('button', { hidden: true, onclick: () => this.desk.files.cancel() }, 'Cancel');
-    private shown: Pick<FilesState, 'opened' | 'tooLarge' | 'sent' | 'trouble'> | null = null;
+    private shown: Pick<FilesState, 'opened' | 'tooLarge' | 'trouble'> | null = null;
     private readonly ends: (() => void)[] = [];
 
     connectedCallback(): void {
@@ -98,7 +98,8 @@ export class FilesMenu extends HTMLElement {
             this.show(saved.name, [make('p', {}, FILE_TEXTS.losses(saved.name)), lines(saved.losses)], [this.closing('Understood')]);
     }
 
-    private async send(): Promise<void> {
+    /** The selected page as a link, in the clipboard and to be copied. */
+    async send(): Promise<void> {
         const hash = await this.desk.files.link();
         if (hash === null) return;
         const address = new URL(hash, window.location.href).href;
@@ -118,10 +119,10 @@ export class FilesMenu extends HTMLElement {
     private render(state: FilesState): void {
         this.busy.textContent = state.busy ?? '';
         this.stop.hidden = state.busy === null;
-        const { opened, tooLarge, sent, trouble } = state;
+        const { opened, tooLarge, trouble } = state;
         const { shown } = this;
-        if (shown && shown.opened === opened && shown.tooLarge === tooLarge && shown.sent === sent && shown.trouble === trouble) return;
-        this.shown = { opened, tooLarge, sent, trouble };
+        if (shown && shown.opened === opened && shown.tooLarge === tooLarge && shown.trouble === trouble) return;
+        this.shown = { opened, tooLarge, trouble };
         if (trouble !== null) this.show('That did not work', [make('p', {}, trouble)], [this.closing('Close')]);
         else if (opened) this.showOpened(opened);
         else if (tooLarge)
@@ -129,16 +130,6 @@ export class FilesMenu extends HTMLElement {
                 tooLarge.name,
                 [make('p', {}, FILE_TEXTS.tooLarge(tooLarge.pages))],
                 [make('button', { onclick: () => void this.desk.files.openWithoutRest() }, 'Open without them'), this.closing('Cancel')],
-            );
-        else if (sent)
-            this.show(
-                'A motion for you',
-                [make('p', {}, FILE_TEXTS.sent(sent.name, sent.pages.size))],
-                [
-                    make('button', { class: 'primary', onclick: () => this.addSent(true) }, 'Add it and play'),
-                    make('button', { onclick: () => this.addSent(false) }, 'Add it'),
-                    this.closing('No'),
-                ],
             );
         else this.dialog.close();
     }
@@ -160,15 +151,6 @@ export class FilesMenu extends HTMLElement {
             ],
             [...ways, this.closing('Cancel')],
         );
-    }
-
-    private addSent(plays: boolean): void {
-        const page = this.desk.files.addSent();
-        if (page === 0) return;
-        window.history.replaceState(null, '', window.location.pathname + window.location.search);
-        this.desk.show('steps');
-        document.getElementById('tab-steps')?.focus();
-        if (plays) void this.desk.playEdited(page);
     }
 
     private closing(title: string): HTMLButtonElement {

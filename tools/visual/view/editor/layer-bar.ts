@@ -9,6 +9,7 @@ import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import { LAYER_TEXTS } from './step-texts.ts';
 import { pageText } from './texts.ts';
+import './layer-bar.css';
 
 const AIM_DEGREES_S = 90;
 
@@ -68,7 +69,6 @@ export class LayerBar extends HTMLElement {
         ];
         this.byCode.replaceChildren(this.jointName, to, aim ?? '', make('span', { class: 'break' }), by, time, swing ?? '', free ?? '');
         this.replaceChildren(
-            make('h2', {}, 'Beside what plays'),
             make('p', { class: 'hint' }, LAYER_TEXTS.purpose),
             make('div', { class: 'row' }, this.page, this.joints, lay ?? '', off ?? ''),
             this.byCode,
@@ -91,7 +91,7 @@ export class LayerBar extends HTMLElement {
 
     private render(): void {
         const { version, tab, source } = this.desk.state.get();
-        if (tab !== 'curves') return;
+        if (tab !== 'remote') return;
         const { document, gesture } = this.desk.editor.state.get();
         if (this.shown !== document.pages && !gesture) this.list(document.pages); // not at every frame of a drag
         const isPlay = version?.image === 'play';

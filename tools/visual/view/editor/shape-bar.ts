@@ -1,60 +1,59 @@
 // SPDX-License-Identifier: MIT
-// Speed, size and direction of what plays: drawn in the curves at once, and told to the robot while Play runs.
+// Speed, size and turn of what plays: told to the robot while Play runs, and drawn in the curves.
 
 import { AS_STORED, SHAPE_RANGES } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
-import { define, make } from '../element.ts';
-import { CURVE_TEXTS } from './step-texts.ts';
+import { define, make, setText } from '../element.ts';
+import type { Store } from '../store.ts';
+import { SHAPE_TEXTS } from '../texts.ts';
+import './shape-bar.css';
 
-const SLIDERS: readonly (readonly [keyof Shape, string])[] = [
-    ['rate', 'Speed'],
-    ['amplitude', 'Size'],
-    ['blend', 'Left – right'],
-];
+const SLIDERS: readonly (keyof Shape)[] = ['rate', 'amplitude', 'blend'];
 const PERCENT_STEP = 5;
 
 export class ShapeBar extends HTMLElement {
-    desk!: Desk; // set before it is connected
-    onShape: (shape: Shape) => void = () => undefined;
-    private shape: Shape = AS_STORED;
-    private readonly inputs = new Map<keyof Shape, { input: HTMLInputElement; output: HTMLOutputElement }>();
+    desk!: Desk; // these are set before it is connected
+    shape!: Store<Shape>;
     private readonly hint = make('p', { class: 'hint' });
-    private unwatch: () => void = () => undefined;
+    private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const sliders = SLIDERS.map(([name, title]) => {
-            const [min, max] = SHAPE_RANGES[name];
-            const output = make('output', {}, `${this.shape[name]} %`);
-            const input = make('input', { type: 'range', min, max, step: PERCENT_STEP, value: this.shape[name] });
-            input.addEventListener('input', () => this.set({ ...this.shape, [name]: input.valueAsNumber }, false));
-            input.addEventListener('change', () => this.set({ ...this.shape, [name]: input.valueAsNumber }, true));
-            this.inputs.set(name, { input, output });
-            return make('label', { class: 'slider' }, make('span', {}, title), input, output);
-        });
         this.replaceChildren(
-            make('h2', {}, 'Shape what plays'),
-            ...sliders,
-            make('div', { class: 'row' }, make('button', { onclick: () => this.set(AS_STORED, true) }, 'As stored'), this.hint),
+            make('h2', {}, SHAPE_TEXTS.title),
+            ...SLIDERS.map(name => this.slider(name)),
+            make('div', { class: 'row' }, make('button', { onclick: () => this.set(AS_STORED, true) }, SHAPE_TEXTS.asStored), this.hint),
         );
-        this.unwatch = this.desk.state.watch(
-            ({ version }) => (this.hint.textContent = version?.image === 'play' ? CURVE_TEXTS.shapes : CURVE_TEXTS.shapeNeedsPlay),
+        this.disposals.push(
+            this.desk.state.watch(({ version }) =>
+                setText(this.hint, version === null || version.image === 'play' ? SHAPE_TEXTS.shapes : SHAPE_TEXTS.needsPlay),
+            ),
         );
     }
 
     disconnectedCallback(): void {
-        this.unwatch();
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
+
+    private slider(name: keyof Shape): HTMLElement {
+        const [min, max] = SHAPE_RANGES[name];
+        const output = make('output');
+        const input = make('input', { type: 'range', min, max, step: PERCENT_STEP });
+        input.addEventListener('input', () => this.set({ [name]: input.valueAsNumber }, false));
+        input.addEventListener('change', () => this.set({ [name]: input.valueAsNumber }, true));
+        this.disposals.push(
+            this.shape.watch(shape => {
+                input.value = String(shape[name]);
+                output.value = `${shape[name]} %`;
+            }),
+        );
+        return make('label', { class: 'slider' }, make('span', {}, SHAPE_TEXTS.names[name]), input, output);
     }
 
     /** tell: also to the robot, if Play runs there. */
-    private set(shape: Shape, tell: boolean): void {
-        this.shape = shape;
-        for (const [name, { input, output }] of this.inputs) {
-            input.value = String(shape[name]);
-            output.value = `${shape[name]} %`;
-        }
-        this.onShape(shape);
-        if (tell && this.desk.state.get().version?.image === 'play') void this.desk.shape(shape);
+    private set(change: Partial<Shape>, tell: boolean): void {
+        this.shape.set(change);
+        if (tell && this.desk.state.get().version?.image === 'play') void this.desk.shape(this.shape.get());
     }
 }
 

@@ -50,7 +50,7 @@ export const LAYER_TEXTS = {
     needsPlay: 'Edit runs, and only Play has layers.',
     needsPlayYours: 'Your robot runs Edit, and only Play has layers. Flash it with: m512 flash play-cm5.hex',
     none: 'Nothing goes on beside the play.',
-    chooseJoint: 'Choose a joint above to move it by code.',
+    chooseJoint: 'Choose a joint in Curves or in the picture of a step, and move it by code here.',
     page: (title: string) => `Over the play: ${title}.`,
     joints: (ids: readonly number[]) => `Moved by code: joint ${ids.join(', ')}.`,
 } as const;
@@ -69,7 +69,4 @@ export const CURVE_TEXTS = {
     lags: (lags: readonly (readonly [joint: number, degrees: number])[]) =>
         `Thin: the servos; behind by up to ${lags.map(([joint, degrees]) => `${Math.round(degrees)}° (joint ${joint})`).join(', ')}.`,
     noLags: 'Physics cannot tell: the robot does not stand in the first pose, or physics is not there.',
-    shapes: 'The robot takes it with its next step.',
-    shapeNeedsPlay:
-        'Drawn only: Edit runs, and only Play shapes a motion. Play a motion below the picture by the remote to go back to Play.',
 } as const;

@@ -2,11 +2,13 @@
 // Time and pause of the steps, drawn to scale; their ends are dragged. By keyboard the fields below the pictures do the same.
 
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
+import { BYTE_MAX } from '../../model/page.ts';
 import type { Desk } from '../desk.ts';
 import type { Gesture } from '../editor-desk.ts';
 import { define, make } from '../element.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
+import { TIME_TEXTS } from '../texts.ts';
 
 /** How far beside an end it may be taken hold of. */
 const NEAR_PX = { mouse: 7, finger: 24 };
@@ -29,6 +31,14 @@ export class TimeLine extends HTMLElement {
     private readonly frame = make('div', { class: 'frame' });
     private isScrubbing = false;
     private readonly total = make('p', { class: 'total' });
+    private readonly times = make('input', {
+        type: 'number',
+        min: 1,
+        max: BYTE_MAX,
+        'aria-label': TIME_TEXTS.times,
+        title: TIME_TEXTS.timesHint,
+        onchange: () => this.setTimes(),
+    });
     private drag: Drag | null = null;
     private scale = 1;
     private isBehind = false;
@@ -39,7 +49,7 @@ export class TimeLine extends HTMLElement {
 
     connectedCallback(): void {
         this.frame.replaceChildren(this.bar, this.head);
-        this.replaceChildren(this.frame, this.total);
+        this.replaceChildren(this.frame, this.total, make('label', { class: 'times' }, '×', this.times));
         this.bar.addEventListener('pointerdown', event => this.down(event));
         this.bar.addEventListener('pointermove', event => this.move(event));
         this.bar.addEventListener('pointerup', () => this.end(true));
@@ -86,7 +96,19 @@ export class TimeLine extends HTMLElement {
         );
         this.hidden = times.length === 0;
         this.total.textContent = `${all.toFixed(2)} s`;
-        this.bar.setAttribute('aria-label', `The page takes ${all.toFixed(2)} seconds`);
+        if (document.activeElement !== this.times) this.times.value = String(editor.page(page).repetitions);
+        this.bar.setAttribute('aria-label', TIME_TEXTS.takes(all.toFixed(2)));
+    }
+
+    /** How often the steps are played one after another, before the motion ends or goes on. */
+    private setTimes(): void {
+        const { editor } = this.desk;
+        const { page, document: motions } = editor.state.get();
+        const wanted = Math.round(this.times.valueAsNumber);
+        const isGood = wanted >= 1 && wanted <= BYTE_MAX;
+        if (isGood && wanted !== editor.page(page).repetitions)
+            editor.dispatch(editor.edits.setHeader(motions, page, { repetitions: wanted }));
+        this.times.value = String(editor.page(page).repetitions);
     }
 
     /** Beside all ends: the picture shows the moment under the pointer. */
@@ -131,7 +153,7 @@ export class TimeLine extends HTMLElement {
     private handle(field: TimedField): HTMLElement {
         return make('i', {
             class: `handle ${field}`,
-            title: field === 'time' ? 'Drag: how long the step takes' : 'Drag: how long it pauses',
+            title: field === 'time' ? TIME_TEXTS.dragTime : TIME_TEXTS.dragPause,
         });
     }
 

@@ -4,7 +4,7 @@
 export interface TourStop {
     readonly text: string;
     /** What ends the stop; `read`: the button alone. */
-    readonly goal: 'read' | 'steps-tab' | 'new-page' | 'let-go' | 'drag' | 'add' | 'name' | 'play';
+    readonly goal: 'read' | 'steps-tab' | 'new-page' | 'let-go' | 'drag' | 'add' | 'name' | 'times' | 'play' | 'send';
     /** Steps that the page has then. */
     readonly steps?: number;
     /** "#Name" of a tab, button or field, or a shape of the robot. */
@@ -27,13 +27,25 @@ export const TOUR: readonly TourStop[] = [
     { goal: 'drag', target: 'right_hand', text: 'Drag the hand back up: a wave goes to and fro.' },
     { goal: 'add', steps: 3, target: '#Add step from the robot', text: 'Add this pose as the third step.' },
     { goal: 'name', target: '#Name of the page', text: 'Give it a name, hello for example, and press Enter.' },
+    { goal: 'times', target: '#Times', text: 'Once is no waving: put 3 into the field with the ×, and press Enter.' },
     {
         goal: 'play',
         target: '#▶ Play',
-        text: 'Press "Play". The robot starts Edit, its firmware that saves motions, takes the page and waves. That takes a few seconds.',
+        text: 'Press "Play". The robot starts Edit, its firmware that saves motions, takes the page and waves three times. That takes a few seconds.',
     },
     {
-        goal: 'read',
-        text: 'That is your first motion. It is kept in this browser. Drag times below the pictures, press "Pose" to bend a step, ? for all keys.',
+        goal: 'send',
+        text: 'That is your first motion, and it is saved in this browser. Send it to a friend: the link opens this page, and the robot waves. Press ? for all keys.',
     },
 ];
+
+export const TOUR_TEXTS = {
+    title: (at: number, of: number): string => `Your first wave: ${at} of ${of}`,
+    tour: 'Tour',
+    back: 'Back',
+    start: 'Start',
+    next: 'Next',
+    done: 'Done',
+    end: 'End the tour',
+    send: 'Send it to a friend',
+} as const;

@@ -7,7 +7,7 @@ import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
-import { TOUR } from './tour-texts.ts';
+import { TOUR, TOUR_TEXTS } from './tour-texts.ts';
 import type { TourStop } from './tour-texts.ts';
 import './tour.css';
 
@@ -22,29 +22,33 @@ export class TourCard extends HTMLElement {
     placeOf: (shape: string) => { readonly x: number; readonly y: number } | null = () => null;
     /** A stop wants something in the area. */
     onArea: () => void = () => undefined;
+    /** The motion that was made is to be sent. */
+    onSend: () => void = () => undefined;
     private at = -1;
     private robot: RobotState | null = null;
     private armBefore: readonly number[] = [];
     private readonly heading = make('h2', {});
-    private readonly text = make('p', { role: 'status', 'aria-label': 'Tour' });
-    private readonly next = make('button', { onclick: () => this.go(this.at + 1) }, 'Next');
+    private readonly text = make('p', { role: 'status', 'aria-label': TOUR_TEXTS.tour });
+    private readonly next = make('button', { onclick: () => this.go(this.at + 1) }, TOUR_TEXTS.next);
+    private readonly send = make('button', { class: 'primary', onclick: () => this.onSend() }, TOUR_TEXTS.send);
     private readonly ring = make('div', { class: 'tour-ring', 'aria-hidden': true });
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
         this.hidden = true;
         this.setAttribute('role', 'region');
-        this.setAttribute('aria-label', 'Tour');
+        this.setAttribute('aria-label', TOUR_TEXTS.tour);
         this.replaceChildren(
             this.heading,
             this.text,
             make(
                 'div',
                 { class: 'row' },
-                make('button', { class: 'back', onclick: () => this.go(this.at - 1) }, 'Back'),
+                make('button', { class: 'back', onclick: () => this.go(this.at - 1) }, TOUR_TEXTS.back),
+                this.send,
                 this.next,
                 make('span', { class: 'space' }),
-                make('button', { onclick: () => this.end() }, 'End the tour'),
+                make('button', { onclick: () => this.end() }, TOUR_TEXTS.end),
             ),
         );
         this.ring.hidden = true;
@@ -71,6 +75,14 @@ export class TourCard extends HTMLElement {
         this.next.focus();
     }
 
+    /** For who has said already what they want: in Steps, with a motion of their own. */
+    teach(): void {
+        this.hidden = false;
+        this.desk.show('steps');
+        this.go(TOUR.findIndex(({ goal }) => goal === 'new-page'));
+        this.look();
+    }
+
     private end(): void {
         this.hidden = this.ring.hidden = true;
         this.at = -1;
@@ -80,9 +92,10 @@ export class TourCard extends HTMLElement {
         if (to >= TOUR.length) return this.end();
         this.at = Math.max(0, to);
         this.armBefore = this.arm();
-        this.heading.textContent = `Your first wave: ${this.at + 1} of ${TOUR.length}`;
+        this.heading.textContent = TOUR_TEXTS.title(this.at + 1, TOUR.length);
         this.text.textContent = this.stop?.text ?? '';
-        this.next.textContent = this.at === TOUR.length - 1 ? 'Done' : this.at === 0 ? 'Start' : 'Next';
+        this.next.textContent = this.at === TOUR.length - 1 ? TOUR_TEXTS.done : this.at === 0 ? TOUR_TEXTS.start : TOUR_TEXTS.next;
+        this.send.hidden = this.stop?.goal !== 'send';
         this.lead(this.stop?.target ?? '');
         this.showRing();
     }
@@ -116,6 +129,7 @@ export class TourCard extends HTMLElement {
         const view = editor.page(page);
         switch (goal) {
             case 'read':
+            case 'send':
                 return false;
             case 'steps-tab':
                 return tab === 'steps';
@@ -129,6 +143,8 @@ export class TourCard extends HTMLElement {
                 return view.steps.length >= (steps ?? 1);
             case 'name':
                 return view.name !== '';
+            case 'times':
+                return view.repetitions > 1;
             case 'play':
                 return where?.state === 'playing' && where.page === page;
             default:

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Somebody who has never been here: one sentence and three buttons, each does what it says, however early it is pressed; two areas and "More".
+import { expect, test } from 'vitest';
+import { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
+
+const suite = pageSuite();
+const first = (person: Visitor) => person.page.getByRole('region', { name: 'What to do first' });
+const tabs = (person: Visitor) =>
+    person.page.getByRole('tab').evaluateAll(all => all.filter(one => one.checkVisibility()).map(one => one.textContent));
+
+test('"Walk it" before the robot stands makes it walk; the buttons do not come back; "More" brings all areas for good', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false, hasPhysics: false });
+    await first(person).getByText('A humanoid with real firmware, in your browser').waitFor();
+    expect(await tabs(person)).toEqual(['Remote', 'Steps']);
+    await person.button('Walk it').click();
+    await first(person).waitFor({ state: 'hidden' });
+    await person.doing.filter({ hasText: /Playing page 2[0-2] \(walk/ }).waitFor();
+    await person.button('More').click();
+    expect(await tabs(person)).toEqual(['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Lab']);
+    await person.page.reload();
+    await person.untilStanding();
+    expect(await first(person).isVisible()).toBe(false);
+    expect(await tabs(person)).toHaveLength(8);
+    await person.leave();
+});
+
+test('"Push it" pushes the robot over as soon as the hand has let go of it', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false });
+    await person.button('Push it').click();
+    await person.doing.filter({ hasText: /^The robot lies on the floor/ }).waitFor();
+    await person.leave();
+});
+
+test('"Teach it to wave" opens Steps and the Tour where the teaching begins; any click elsewhere puts the buttons away', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false, hasPhysics: false });
+    await person.button('Teach it to wave').click();
+    await person.page.getByRole('status', { name: 'Tour' }).filter({ hasText: 'Press "Right arm"' }).waitFor();
+    expect(await person.page.getByRole('tab', { selected: true }).textContent()).toBe('Steps');
+    await person.leave();
+    const other = await Visitor.come(suite.browser, suite.address, { isNew: true, hasPicture: false, hasPhysics: false });
+    await first(other).waitFor();
+    await other.open('Steps');
+    expect(await first(other).isVisible()).toBe(false);
+    await other.leave();
+});
+
+test('the start page has ten motions with moving pictures, and each of its links is the motion itself, running', async () => {
+    const person = await Visitor.come(suite.browser, `${suite.address}motions.html`, { isNew: true, hasPicture: false, hasPhysics: false });
+    const { page } = person;
+    const cards = page.getByRole('listitem');
+    expect(await cards.count()).toBe(10);
+    const pictures = await page.locator('img').evaluateAll(all => all.map(one => (one as HTMLImageElement).src));
+    expect(new Set(pictures).size).toBe(10);
+    for (const address of pictures) {
+        const moving = await (await page.request.get(address)).text();
+        expect(moving, address).toContain('<animate ');
+        expect(await (await page.request.get(address.replace('.svg', '-still.svg'))).text()).not.toContain('<animate ');
+    }
+    await page.getByRole('link', { name: /^Wave/ }).click();
+    await page.getByRole('region', { name: 'A motion for you' }).getByText('“wave”, a motion for you').waitFor();
+    await person.doing.filter({ hasText: /page 3 \(wave\)/ }).waitFor(); // the robot has it already: it is not added
+    await person.doing.filter({ hasText: /^Playing page 3 \(wave\)/ }).waitFor();
+    await person.leave();
+});

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// The tabs of the areas. On the first day there are two, and "More", which brings the others for good.
+
+import type { Tab } from './desk.ts';
+import { define, make } from './element.ts';
+import { isRemembered, remember } from './remembered.ts';
+import { AREA_TEXTS } from './texts.ts';
+import './area-tabs.css';
+
+const TABS: readonly Tab[] = ['remote', 'steps', 'curves', 'pages', 'links', 'checks', 'terminal', 'lab'];
+const FIRST_DAY: readonly Tab[] = ['remote', 'steps'];
+
+export class AreaTabs extends HTMLElement {
+    /** Somebody wants this area; isClick: not only passed by the arrow keys. */
+    onChoose: (tab: Tab, isClick: boolean) => void = () => undefined;
+    private readonly tabs = new Map<Tab, HTMLButtonElement>();
+    private readonly more = make(
+        'button',
+        { class: 'more-areas', title: AREA_TEXTS.moreHint, onclick: () => this.showMore() },
+        AREA_TEXTS.more,
+    );
+
+    connectedCallback(): void {
+        const list = make('div', { role: 'tablist', 'aria-label': AREA_TEXTS.areas });
+        for (const name of TABS) {
+            const tab = make(
+                'button',
+                { role: 'tab', id: `tab-${name}`, 'aria-controls': `area-${name}`, onclick: () => this.onChoose(name, true) },
+                AREA_TEXTS.titles[name],
+            );
+            tab.addEventListener('keydown', event => this.move(event, name));
+            this.tabs.set(name, tab);
+            list.append(tab);
+        }
+        this.replaceChildren(list, this.more);
+        this.showAll(isRemembered('all-areas'));
+    }
+
+    /** An area that is not one of the first day's brings all tabs. */
+    select(chosen: Tab): void {
+        if (!FIRST_DAY.includes(chosen)) this.showAll(true);
+        for (const [name, tab] of this.tabs) {
+            tab.setAttribute('aria-selected', String(name === chosen));
+            tab.tabIndex = name === chosen ? 0 : -1;
+        }
+    }
+
+    focusTab(name: Tab): void {
+        this.tabs.get(name)?.focus({ preventScroll: true });
+    }
+
+    private showMore(): void {
+        remember('all-areas');
+        this.showAll(true);
+        this.focusTab(TABS.find(name => !FIRST_DAY.includes(name)) ?? 'remote');
+    }
+
+    private showAll(shows: boolean): void {
+        this.more.hidden = shows;
+        for (const [name, tab] of this.tabs) tab.hidden = !shows && !FIRST_DAY.includes(name);
+    }
+
+    private move(event: KeyboardEvent, from: Tab): void {
+        const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+        if (by === undefined) return;
+        event.preventDefault();
+        const seen = TABS.filter(name => this.tabs.get(name)?.hidden === false);
+        const next = seen[(seen.indexOf(from) + by + seen.length) % seen.length] ?? from;
+        this.onChoose(next, false);
+        this.focusTab(next);
+    }
+}
+
+define('area-tabs', AreaTabs);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A motion that came in the address of the page: it is taken into the document and runs. The card says what it is, and what next.
+
+import type { Desk } from '../desk.ts';
+import { define, make } from '../element.ts';
+import type { SentMotion } from '../files-desk.ts';
+import { SENT_TEXTS } from '../texts.ts';
+import './sent-card.css';
+
+export class SentCard extends HTMLElement {
+    desk!: Desk; // these are set before it is connected
+    /** A motion has come. */
+    onSent: () => void = () => undefined;
+    /** Somebody wants to teach one. */
+    onTeach: () => void = () => undefined;
+    private unwatch: () => void = () => undefined;
+
+    connectedCallback(): void {
+        this.hidden = true;
+        this.setAttribute('role', 'region');
+        this.setAttribute('aria-label', SENT_TEXTS.region);
+        this.unwatch = this.desk.files.state.watch(({ sent }) => sent && this.take(sent));
+    }
+
+    disconnectedCallback(): void {
+        this.unwatch();
+    }
+
+    private take({ name }: SentMotion): void {
+        this.onSent();
+        const page = this.desk.files.addSent();
+        if (page === 0) return this.desk.files.dismiss(); // there is no room, and that has been said
+        window.history.replaceState(null, '', window.location.pathname + window.location.search);
+        this.show(name, page);
+        void this.desk.run(page);
+    }
+
+    private show(name: string, page: number): void {
+        const button = (title: string, deed: () => void, kind = ''): HTMLButtonElement =>
+            make('button', { class: kind, onclick: deed }, title);
+        const leave = (deed: () => void): void => {
+            this.hidden = true;
+            deed();
+        };
+        this.replaceChildren(
+            make('h2', {}, SENT_TEXTS.title(name)),
+            make(
+                'div',
+                { class: 'row' },
+                button(SENT_TEXTS.again, () => void this.desk.run(page), 'primary'),
+                button(SENT_TEXTS.edit, () => leave(() => this.desk.show('steps'))),
+                button(SENT_TEXTS.teach, () => leave(this.onTeach)),
+                button(SENT_TEXTS.close, () => leave(() => undefined)),
+            ),
+        );
+        this.hidden = false;
+    }
+}
+
+define('sent-card', SentCard);

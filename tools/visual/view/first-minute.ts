@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// What somebody who has never been here sees over the picture: what this is, and three things to do. It goes with the first click
+// or key, and does not come back.
+
+import type { RobotState } from '../robot/robot-state.ts';
+import type { Desk } from './desk.ts';
+import { define, make } from './element.ts';
+import { pushRobot } from './push.ts';
+import { isRemembered, remember } from './remembered.ts';
+import { FIRST_TEXTS } from './texts.ts';
+import './first-minute.css';
+
+/** Keys that only lead to a button, or press it. */
+const ON_THE_WAY: readonly string[] = ['Tab', 'Shift', 'Enter', ' ', 'Control', 'Alt', 'Meta', 'F6'];
+
+export class FirstMinute extends HTMLElement {
+    desk!: Desk; // these are set before it is connected
+    /** Somebody wants to teach the robot. */
+    onTeach: () => void = () => undefined;
+    private readonly disposals: (() => void)[] = [];
+
+    connectedCallback(): void {
+        this.hidden = isRemembered('begun');
+        if (this.hidden) return;
+        this.setAttribute('role', 'region');
+        this.setAttribute('aria-label', FIRST_TEXTS.region);
+        const button = (title: string, deed: () => void, kind = ''): HTMLButtonElement =>
+            make('button', { class: kind, onclick: () => this.choose(deed) }, title);
+        this.replaceChildren(
+            make('p', {}, FIRST_TEXTS.what),
+            make(
+                'div',
+                { class: 'row' },
+                button(FIRST_TEXTS.walk, () => this.walk(), 'primary'),
+                button(FIRST_TEXTS.push, () => this.push()),
+                button(FIRST_TEXTS.teach, () => this.onTeach()),
+            ),
+            make('a', { href: './motions.html' }, FIRST_TEXTS.motions),
+        );
+        const beside = (event: Event): void => {
+            if (event.target instanceof Node && !this.contains(event.target)) this.close();
+        };
+        const key = (event: KeyboardEvent): void => {
+            if (!ON_THE_WAY.includes(event.key)) this.close();
+        };
+        for (const type of ['pointerdown', 'click'] as const) document.addEventListener(type, beside, { capture: true });
+        document.addEventListener('keydown', key);
+        this.disposals.push(
+            () => document.removeEventListener('keydown', key),
+            ...(['pointerdown', 'click'] as const).map(type => () => document.removeEventListener(type, beside, { capture: true })),
+        );
+    }
+
+    disconnectedCallback(): void {
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
+
+    /** Out of the way; it is offered again at the next visit unless somebody has begun. */
+    close(hasBegun = true): void {
+        this.hidden = true;
+        if (hasBegun) remember('begun');
+        for (const dispose of this.disposals.splice(0)) dispose();
+    }
+
+    private choose(deed: () => void): void {
+        this.close();
+        deed();
+    }
+
+    /** As the key of the remote that is pressed once: one that comes too early is kept. */
+    private walk(): void {
+        this.desk.say({ text: FIRST_TEXTS.walks, tone: 'calm' });
+        this.desk.remote(new Set(['up']));
+        this.desk.remote(new Set());
+    }
+
+    /** A robot that a hand still holds is pushed when the hand has let go. */
+    private push(): void {
+        const stop = this.desk.onFrame(state => {
+            if (!this.mayBePushed(state)) return;
+            stop();
+            pushRobot(this.desk, 1);
+        });
+        this.desk.say({ text: FIRST_TEXTS.pushes, tone: 'calm' });
+    }
+
+    private mayBePushed({ isHeld, isPowered }: RobotState): boolean {
+        const { physics, connection, where } = this.desk.state.get();
+        return physics !== 'loading' && connection === 'ready' && where !== null && !isHeld && isPowered;
+    }
+}
+
+define('first-minute', FirstMinute);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Waving while it walks: a page of the library that uses the right arm only, laid over the walk. A robot that stands begins to walk first.
+
+import type { Desk, DeskState } from './desk.ts';
+import { define, make } from './element.ts';
+import { SHAPE_TEXTS } from './texts.ts';
+
+const WAVE = 'wave_over';
+
+export class WaveButton extends HTMLElement {
+    desk!: Desk; // set before it is connected
+    private readonly button = make('button', { title: SHAPE_TEXTS.waveHint, onclick: () => this.press() }, SHAPE_TEXTS.wave);
+    /** Asked for, and it does not walk yet. */
+    private isWanted = false;
+    private unwatch: () => void = () => undefined;
+
+    connectedCallback(): void {
+        this.replaceChildren(this.button);
+        this.unwatch = this.desk.state.watch(state => this.render(state));
+    }
+
+    disconnectedCallback(): void {
+        this.unwatch();
+    }
+
+    private render(state: DeskState): void {
+        this.hidden = this.pageOf(state) === undefined;
+        this.button.disabled = state.connection !== 'ready' || state.version?.image !== 'play';
+        if (!this.isWanted || state.where?.state !== 'playing') return;
+        this.isWanted = false;
+        this.wave();
+    }
+
+    private pageOf({ pages }: DeskState): number | undefined {
+        return pages.find(({ name }) => name === WAVE)?.page;
+    }
+
+    private press(): void {
+        if (this.desk.state.get().where?.state === 'playing') return this.wave();
+        this.isWanted = true;
+        this.desk.remote(new Set(['up']));
+        this.desk.remote(new Set());
+    }
+
+    private wave(): void {
+        const page = this.pageOf(this.desk.state.get());
+        if (page !== undefined) void this.desk.beside({ kind: 'layer', page, joints: [] });
+    }
+}
+
+define('wave-button', WaveButton);
