@@ -25,7 +25,7 @@ test.each(['closed', 'opening', 'asking', 'silent', 'waiting'] as const)(
 
 test('without power it is off, whatever it said last', () => {
     expect(doingText({ ...START, connection: 'ready', isPowered: false }, null)).toBe(
-        'The robot is switched off. Switch it on in the Lab.',
+        'The robot is switched off. Switch it on under "Robot".',
     );
 });
 

@@ -86,7 +86,7 @@ const KEYS: readonly Group[] = [
     ],
     ['Terminal', [['Tab, Shift+Tab', 'leave it; all other keys go to the robot']]],
     [
-        'Lab',
+        'Robot',
         [
             ['Enter, held', 'a button of the panel, held'],
             ['← →', 'a slider'],

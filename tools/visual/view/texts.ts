@@ -26,7 +26,7 @@ const ERRORS: Record<RobotErrorCode, string> = {
     'page-not-saved':
         'The robot took this page but does not have it now. Its flash may be worn out; your page is safe here. Try again: page',
     'no-backup':
-        "The robot's pages could not be kept in this browser (private window, or the disk is full), so nothing was written. Make room, then try again.",
+        "The robot's motions could not be saved in this browser (private window, or the disk is full), so nothing was written. Make room, then try again.",
     'needs-edit': 'The robot runs Play, and only Edit saves pages. Flash it with: m512 flash edit-cm5.hex, then try again. Motions stay.',
     'transfer-busy': 'Not done: pages of the robot are still being read or written. Try again when that has ended.',
     'pages-differ': 'Not played: your robot has another version of this motion. Write it first with "To the robot …", then play it.',
@@ -99,7 +99,7 @@ export function startText(state: DeskState): string {
 
 /** A thing that the chip would not forgive. */
 export function violationText(kind: string, text: string): string {
-    return `The firmware did what no chip allows (${kind}): ${text}. Start the robot anew in the Lab.`;
+    return `The firmware did what no chip allows (${kind}): ${text}. Start the robot anew under "Robot".`;
 }
 
 export const TEXTS = {
@@ -110,7 +110,7 @@ export const TEXTS = {
     noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
     waits: 'The robot stands and waits.',
     starts: 'The robot is starting …',
-    isOff: 'The robot is switched off. Switch it on in the Lab.',
+    isOff: 'The robot is switched off. Switch it on under "Robot".',
     shownOnly: (title: string): string => `In the picture only: ${title}.`,
     /** It waits as well; this is what one has to know of it. */
     editRuns: 'Edit runs: its screen is in the terminal.',
@@ -120,15 +120,15 @@ export const TEXTS = {
     fallen: 'The robot lies on the floor.',
     getUp: 'The robot lies on the floor. Press Get up.',
     held: 'A hand holds the robot.',
-    crashed: 'The simulated robot has crashed. Start it anew in the Lab; what it had saved is kept.',
+    crashed: 'The simulated robot has crashed. Start it anew under "Robot"; what it had saved is still there.',
     kept: 'Saved in this browser.',
-    notKept: "This browser does not keep the robot's memory (private window, or the disk is full). What you save is gone with the page.",
-    robotKept: 'All pages of your robot are read, and kept in this browser as a backup.',
+    notKept: "This browser does not save the robot's memory (private window, or the disk is full). What you save is gone with the page.",
+    robotKept: 'All motions of your robot are read, and saved in this browser as a backup.',
     workNotKept:
-        'This browser could not keep your work (private window, or the disk is full). Save it as a file before you close the page.',
-    newVersion: 'A new version of this page is there. What you have made is kept.',
+        'This browser could not save your work (private window, or the disk is full). Save it as a file before you close the page.',
+    newVersion: 'A new version of this page is there. What you have made is saved.',
     factoryFresh: 'The robot in the page forgets its motions and settings, as if it were new. Your documents here stay.',
-    labForYours: 'The Lab belongs to the simulated robot. Choose it at the top.',
+    labForYours: 'This is about the robot in the page. Choose it at the top.',
 } as const;
 
 export const FAULT_TITLES: Readonly<Record<string, string>> = {
@@ -163,7 +163,7 @@ const TITLES: Record<Tab, string> = {
     links: 'Links',
     checks: 'Checks',
     terminal: 'Terminal',
-    lab: 'Lab',
+    lab: 'Robot',
 };
 
 export const AREA_TEXTS = {

@@ -21,7 +21,7 @@ const FRAMES = 100;
 const [browser, server] = await Promise.all([startBrowser(), PageServer.start()]);
 const visitor = await Visitor.come(browser, server.address, { screen: { width: 1280, height: 800 } });
 await visitor.untilStanding();
-await visitor.open('Lab');
+await visitor.open('Robot');
 await visitor.button('Pause').click(); // the robot's own work is not measured here
 await visitor.open('Curves');
 const frames = await visitor.page.locator('curve-canvas').evaluate(async (element, count): Promise<Frames> => {

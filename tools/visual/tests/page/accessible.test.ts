@@ -7,7 +7,7 @@ import { Visitor } from './page-bench.ts';
 import { SHOTS, pageSuite } from './page-suite.ts';
 
 const WIDE = { width: 1280, height: 800 };
-const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Lab'] as const;
+const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 const LIBRARY = new URL('../../../../build/motions/motions.bin', import.meta.url).pathname;
 const suite = pageSuite();
 
@@ -54,7 +54,7 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
         await page.locator('dialog[open]').waitFor({ state: 'hidden' });
     };
     await person.untilStanding();
-    await person.open('Lab');
+    await person.open('Robot');
     await person.button('Pause').click(); // what is looked at stands still, and the robot leaves the processor to axe
     await page.evaluate(source);
     await person.open('Pages');
@@ -96,7 +96,7 @@ test('no serious finding in any area and any dialog; in the dark the contrast ho
         await page.keyboard.press('Enter');
         await page.getByRole('dialog', { name: 'Copy or move', exact: true }).waitFor();
     });
-    await person.open('Lab');
+    await person.open('Robot');
     await person.button('real time').click(); // the robot is asked what it has
     await person.open('Pages');
     await dialog('Compare', async () => {

@@ -27,7 +27,7 @@ test('a cable pulled while four pages are written: each is told as old or new, "
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
-    await person.open('Lab');
+    await person.open('Robot');
     await person.button('Run Edit').click();
     await person.page.getByText(/^Edit runs/).waitFor();
     await person.open('Pages');

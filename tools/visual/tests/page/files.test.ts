@@ -101,7 +101,7 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
     await person.open('Checks');
     const findings = page.getByRole('list', { name: 'Findings' }).getByRole('listitem').filter({ hasText: 'topple' });
     const fast = findings.filter({ hasText: /Step 2: the [a-z ]+ is asked for \d+\.\d\d times the speed/ });
-    await fast.getByRole('button', { name: `Go to page ${PAGE} (topple), step 2` }).click();
+    await fast.getByRole('button', { name: `Show page ${PAGE} (topple), step 2` }).click();
     expect(await person.button('Step 2').getAttribute('aria-current')).toBe('true');
     await person.open('Checks');
     await person.button(`Try page ${PAGE} (topple)`).click();

@@ -17,7 +17,7 @@ test('"Walk it" before the robot stands makes it walk; the buttons do not come b
     await first(person).waitFor({ state: 'hidden' });
     await person.doing.filter({ hasText: /Playing page 2[0-2] \(walk/ }).waitFor();
     await person.button('More').click();
-    expect(await tabs(person)).toEqual(['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Lab']);
+    expect(await tabs(person)).toEqual(['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Robot']);
     await person.page.reload();
     await person.untilStanding();
     expect(await first(person).isVisible()).toBe(false);

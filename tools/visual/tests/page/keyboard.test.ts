@@ -138,7 +138,7 @@ test('a hobbyist: opens a file, goes where it is faulty, renames, copies and cle
         .filter({ hasText: 'next leads to page 100, which has no action' });
     await dead.waitFor(); // in m512's words
     await page.screenshot({ path: `${SHOTS}checks-dark.png` });
-    await keys.enter('Go to page 127 (curtsy)');
+    await keys.enter('Show page 127 (curtsy)');
     await keys.at('Links');
     await page.getByRole('heading', { name: 'Links of page 127 (curtsy)' }).waitFor();
 

@@ -88,7 +88,7 @@ test('a hobbyist: stretches a step, takes steps to another page as text, drags a
     const falls = verdicts(page).filter({ hasText: /Falls in step 2 after \d\.\d s, and stays on the floor/ });
     await falls.waitFor(PATIENT);
     await page.screenshot({ path: `${SHOTS}checks-physics.png` });
-    await falls.getByRole('button', { name: /^Go to page \d+ \(reel\), step 2/ }).click();
+    await falls.getByRole('button', { name: /^Show page \d+ \(reel\), step 2/ }).click();
     expect(await button(page, 'Step 2').getAttribute('aria-current')).toBe('true');
     await button(page, 'Delete').click();
     await person.open('Checks');

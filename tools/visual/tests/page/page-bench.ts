@@ -173,7 +173,7 @@ export class Visitor {
         return this.page.getByRole('button', { name, exact: true });
     }
 
-    async open(tab: 'Remote' | 'Steps' | 'Curves' | 'Pages' | 'Links' | 'Checks' | 'Terminal' | 'Lab'): Promise<void> {
+    async open(tab: 'Remote' | 'Steps' | 'Curves' | 'Pages' | 'Links' | 'Checks' | 'Terminal' | 'Robot'): Promise<void> {
         await this.showAllAreas(tab);
         await this.page.getByRole('tab', { name: tab, exact: true }).click();
     }

@@ -36,7 +36,7 @@ test('a pupil: it stands, walks while the keys light up, is pushed over, gets up
     await expect.poll(() => pupil.button('U: ahead').getAttribute('aria-pressed')).toBe('false');
     await pupil.button('Stop').click();
     await pupil.untilStanding();
-    await pupil.open('Lab');
+    await pupil.open('Robot');
     await pupil.button('Push ahead').click();
     await pupil.doing.filter({ hasText: LIES }).waitFor();
     await pupil.button('4×').click();
@@ -79,7 +79,7 @@ test('somebody leaves the terminal while Edit waits for a name: the page says so
     const runs = person.doing.filter({ hasText: /^Edit runs/ });
     const said = person.page.getByRole('log', { name: 'Last message' });
     await person.untilStanding();
-    await person.open('Lab');
+    await person.open('Robot');
     await person.button('Run Edit').click();
     await runs.waitFor();
     await person.open('Terminal');
@@ -120,7 +120,7 @@ test('somebody leaves the terminal while Edit waits for a name: the page says so
 test('somebody who debugs: Edit in the terminal, a page saved, and the browser keeps it over a reload', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
     await person.untilStanding();
-    await person.open('Lab');
+    await person.open('Robot');
     await person.button('Run Edit').click();
     await person.open('Terminal');
     await nameAndSave(person, 'salute');
@@ -174,7 +174,7 @@ test('a hand pulls a stiff arm and lets it go back; time slow, paused, tick by t
     await person.page.mouse.up();
     await expect.poll(async () => Math.abs((await rightArm(person)) - rest), PATIENT).toBeLessThan(4);
 
-    await person.open('Lab');
+    await person.open('Robot');
     const clock = person.page.locator('lab-pane .clock');
     const seconds = async (): Promise<number> => Number.parseFloat(await clock.innerText());
     const facts = person.page.locator('status-strip .facts');
@@ -211,7 +211,7 @@ test('somebody who debugs breaks servos, lowers the battery, tilts the floor: th
     const said = page.getByRole('log', { name: 'Last message' });
     const fault = (id: number, what: string) => page.getByLabel(`Fault of servo ${id}`, { exact: true }).selectOption(what);
     await person.untilStanding();
-    await person.open('Lab');
+    await person.open('Robot');
 
     await fault(13, 'blocked'); // a knee
     const before = (await servo(person, 13)).position;

@@ -12,7 +12,7 @@ const TABLET = { width: 1024, height: 768, hasTouch: true };
 const DESK = { width: 1440, height: 900 };
 const DESK_AT_200 = { width: 720, height: 450 };
 const SCREENS = { PHONE, LYING, TABLET, DESK, DESK_AT_200 };
-const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Lab'] as const;
+const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 /** A row of buttons that are 40 px for a finger, with its edges. */
 const ROW_PX = 64;
 const TOUR_PX = 64;

@@ -49,7 +49,7 @@ test('menus, Ctrl+A, F6, a joint spoken, a double click on "Add step", a library
     await person.button('Edit a copy').click();
     expect(await page.getByRole('textbox', { name: 'Name of the page' }).inputValue()).toBe('wave 2');
 
-    await person.open('Lab');
+    await person.open('Robot');
     await person.button('Factory fresh').click();
     await page.getByRole('dialog', { name: 'Factory fresh?' }).getByRole('button', { name: 'Cancel' }).click();
     await person.button('Power off').click();

@@ -10,7 +10,7 @@ import { chooseJoints, wayPoint } from './way-point.ts';
 
 const LYING = { width: 1024, height: 768, hasTouch: true };
 const ON_END = { width: 800, height: 1280, hasTouch: true };
-const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Lab'] as const;
+const AREAS = ['Remote', 'Steps', 'Curves', 'Pages', 'Links', 'Checks', 'Terminal', 'Robot'] as const;
 /** WCAG 2.2: 24. */
 const TARGET_PX = 24;
 const suite = pageSuite();

@@ -204,7 +204,7 @@ test.skipIf(why !== null)(
             'edit',
             async ({ person, robot }) => {
                 const { page } = person;
-                await page.getByText('All pages of your robot are read, and kept in this browser as a backup.').waitFor();
+                await page.getByText('All motions of your robot are read, and saved in this browser as a backup.').waitFor();
                 await person.open('Steps');
                 await person.button('New page').click();
                 await person.button('Add step from the robot').click();

@@ -209,8 +209,8 @@ export class ChecksPane extends HTMLElement {
             make('span', { class: 'words' }, one.text),
             make(
                 'button',
-                { 'aria-label': `Go to ${title}${one.step === null ? '' : `, step ${one.step + 1}`}`, onclick: () => this.goTo(one) },
-                'Go',
+                { 'aria-label': `Show ${title}${one.step === null ? '' : `, step ${one.step + 1}`}`, onclick: () => this.goTo(one) },
+                'Show',
             ),
         );
     }

@@ -64,8 +64,8 @@ function field(editor: Editor, page: number, link: LinkField): HTMLElement[] {
     onChoice(choice, to => editor.dispatch(editor.edits.setLink(editor.state.get().document, page, link, Number(to))));
     const go = make(
         'button',
-        { disabled: target === 0, 'aria-label': `Go to ${LINK_TEXTS[link]}`, onclick: () => editor.select({ page: target }) },
-        'Go',
+        { disabled: target === 0, 'aria-label': `Show ${LINK_TEXTS[link]}`, onclick: () => editor.select({ page: target }) },
+        'Show',
     );
     const code = CODE_OF[link];
     return [make('label', {}, LINK_TEXTS[link]), choice, code ? codeField(editor, page, link, code) : make('span'), go];

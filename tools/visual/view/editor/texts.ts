@@ -31,7 +31,7 @@ const EDITS: Record<EditName, string> = {
     'swap-pages': 'pages exchanged',
     'clear-page': 'page cleared',
     'replace-page': 'page replaced',
-    'replace-pages': 'pages taken over',
+    'replace-pages': 'motions taken',
     drag: 'drag',
 };
 
@@ -66,11 +66,11 @@ export function refusalText({ code, words }: Refusal): string {
 export function keptText(saving: 'saved' | 'saving' | 'off'): string {
     switch (saving) {
         case 'saved':
-            return '✓ kept';
+            return '✓ saved';
         case 'saving':
-            return 'keeping …';
+            return 'saving …';
         case 'off':
-            return '⚠ This browser does not keep your work (private window, or the disk is full). Save it as a file.';
+            return '⚠ This browser does not save your work (private window, or the disk is full). Save it as a file.';
         default:
             return saving satisfies never;
     }
@@ -83,8 +83,8 @@ export const EDITOR_TEXTS = {
     editsItself: 'Edit it itself',
     secondTab: (name: string): string => `Another tab has this document open, so this one has a copy: ${name}.`,
     pages: 'Pages: the 128 motions of this document. Drag one to copy or move it; double-click to edit its steps.',
-    unreadable: 'cannot be read; it is kept as it is',
-    forgotten: (steps: number) => `Undo: the first ${steps} steps of this document were not kept when its tab was closed.`,
+    unreadable: 'cannot be read; it stays as it is',
+    forgotten: (steps: number) => `Undo: the first ${steps} steps of this document were not saved when its tab was closed.`,
     removal: (name: string) => `"${name}" is removed from this browser. This cannot be undone. Robots and files keep what they have.`,
     nothingFound: 'No page is called so. Empty the search to see all of them.',
     nameHint: 'At most 13 letters, digits and signs.',
@@ -97,7 +97,7 @@ export const EDITOR_TEXTS = {
     noM512: "m512's checks could not be loaded. What stands here is what the firmware itself and the body say.",
     allGood: (count: number) => `${count} pages in use, nothing to complain of.`,
     compare:
-        'What differs, page by page: strong is what would come, pale what is there now. A backup of the robot is kept before anything is written.',
+        'What differs, page by page: strong is what would come, pale what is there now. A backup of the robot is saved before anything is written.',
     same: 'Nothing differs.',
     trimStays: 'Page 0 is the trim of the robot it was read from. It is never written into another one.',
     damagedStays: 'This page is damaged and is not passed on.',
@@ -131,7 +131,7 @@ export function transferText({ phase, done, total, trouble }: TransferState): st
         case 'reading':
             return total === 0 ? 'Asking the robot which pages it has …' : `Reading page ${Math.min(done + 1, total)} of ${total} …`;
         case 'writing':
-            return total === 0 ? 'Preparing: the robot is read and kept as a backup …' : `Written: ${done} of ${total} pages …`;
+            return total === 0 ? 'Preparing: the robot is read and saved as a backup …' : `Written: ${done} of ${total} pages …`;
         case 'written':
             return `Written and verified: ${total} ${total === 1 ? 'page' : 'pages'}.`;
         case 'stopped':
