@@ -89,6 +89,16 @@ def test_command_of_the_readme_runs(command, folder):
         assert ",600" in (folder / "walk.csv").read_text()
 
 
+def test_every_example_of_the_help_runs(folder):
+    wide = {**os.environ, "ARGP_HELP_FMT": "rmargin=500"}
+    text = subprocess.run([CM5SIM, "--help"], env=wide, capture_output=True, text=True, check=True).stdout
+    found = re.findall(r"^  (cm5sim \S.*?)(?: {2,}.*)?$", text.partition("\nExamples:\n")[2], re.M)
+    assert len(found) >= 6, text
+    for command in found:
+        code, errors = execute(command, folder)
+        assert code == 0, (command, errors)
+
+
 def test_bench_prints_its_figures():
     done = subprocess.run([sys.executable, TOP / "tools" / "sim" / "bench", "--seconds", "5"], capture_output=True, text=True, check=False)
     print(done.stdout)

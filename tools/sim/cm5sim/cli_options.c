@@ -18,7 +18,7 @@ static const char doc[] =
     "  cm5sim play-cm5.hex                          the robot on this terminal\n"
     "  cm5sim edit-cm5.hex --pty=robot              on a serial port for other programs\n"
     "  cm5sim play-cm5.hex --motions walk.bin --rc  with a remote control\n"
-    "  cm5sim play-cm5.hex --script walk.txt --plot walk.svg\n"
+    "  cm5sim play-cm5.hex --motions walk.bin --script walk.txt --plot walk.svg\n"
     "  cm5sim --bus-pty --servos 1-3                servos alone, for PC programs with a Dynamixel library\n"
     "  cm5sim boot-cm5.hex --flash robot.bin --eeprom robot.eep --pty    keeps what is written\n"
     "\nExit codes: 0 good, 1 an expectation of the script failed, 2 wrong usage or script, 3 the firmware did what "
