@@ -67,7 +67,8 @@ export class DocumentFiles implements Files {
         if (!opened) return;
         const pages = new Map(Array.from({ length: PAGE_COUNT - 1 }, (_, i) => [i + 1, this.pageIn(opened.image, i + 1)] as const));
         for (const [page, bytes] of pages) if (!this.holdsSteps(bytes) || this.editor.format.fault(bytes) !== null) pages.delete(page);
-        if (this.adopt(pages) !== 0) this.dismiss();
+        if (pages.size === 0) this.state.set({ ...NOTHING, trouble: FILE_TEXTS.nothingWhole });
+        else if (this.adopt(pages) !== 0) this.dismiss();
     }
 
     async createFromOpened(): Promise<void> {
@@ -155,10 +156,10 @@ export class DocumentFiles implements Files {
             case 'opened': {
                 const { format } = this.editor;
                 const { image, notes, losses } = answer;
-                const count = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => this.pageIn(image, i + 1)).filter(bytes =>
-                    this.holdsSteps(bytes),
-                ).length;
-                return { tooLarge: null, opened: { name, image, notes, losses, count, hasTrim: !format.isEmpty(this.pageIn(image, 0)) } };
+                const pages = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => this.pageIn(image, i + 1)).filter(bytes => this.holdsSteps(bytes));
+                const damaged = pages.filter(bytes => format.fault(bytes) !== null).length;
+                const hasTrim = !format.isEmpty(this.pageIn(image, 0));
+                return { tooLarge: null, opened: { name, image, notes, losses, count: pages.length, damaged, hasTrim } };
             }
             default:
                 return answer satisfies never;

@@ -66,6 +66,22 @@ test('what is there already is not doubled, unless it leads to something that ca
     expect(torn.editor.page(page).steps.length).toBeGreaterThan(0);
 });
 
+test('damaged pages are counted before, and a file of nothing else is refused with a sentence', async () => {
+    const damaged = Uint8Array.from(renamed(WALK, 'stroll'), (byte, at) => (at === 100 ? byte ^ 1 : byte));
+    const some = await opened(
+        new Map([
+            [WALK, damaged],
+            [WALK_R, renamed(WALK_R, 'stroll_r')],
+        ]),
+    );
+    expect(some.files.state.get().opened).toMatchObject({ count: 2, damaged: 1 });
+    const { editor, files } = await opened(new Map([[WALK, damaged]]));
+    const { page } = editor.state.get();
+    files.addOpened();
+    expect(files.state.get()).toMatchObject({ opened: null, trouble: expect.stringContaining('No page of the file is whole') });
+    expect(editor.state.get().page).toBe(page);
+});
+
 test('as a new document it is one of its own; replacing takes every page but the trim', async () => {
     const pages = new Map([[5, renamed(3, 'hello')]]);
     const one = await opened(pages);

@@ -11,8 +11,9 @@ export interface OpenedFile {
     readonly image: Uint8Array;
     readonly notes: readonly string[];
     readonly losses: readonly string[];
-    /** Pages of motions in it. */
+    /** Pages of motions in it, and how many of them are damaged. */
     readonly count: number;
+    readonly damaged: number;
     /** It brings a page 0: the trim of the robot that it was made on. */
     readonly hasTrim: boolean;
 }

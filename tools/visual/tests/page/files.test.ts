@@ -95,6 +95,11 @@ test('a hobbyist opens a RoboPlus file found on the net, sees where it is too fa
     const dialog = page.getByRole('dialog', { name: 'found.mtn' });
     await dialog.getByText(/^[1-9]\d motion pages/).waitFor();
     await page.screenshot({ path: `${SHOTS}opened.png` });
+    const isInside = await dialog.evaluate(box => {
+        const left = box.getBoundingClientRect().left;
+        return [...box.querySelectorAll('button')].every(button => button.getBoundingClientRect().left > left);
+    });
+    expect(isInside).toBe(true); // four buttons are wider than the dialog
     await dialog.getByRole('button', { name: 'Replace all pages' }).click();
     await dialog.waitFor({ state: 'hidden' });
 

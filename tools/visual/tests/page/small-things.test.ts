@@ -7,7 +7,7 @@ import { pageSuite } from './page-suite.ts';
 
 const suite = pageSuite();
 
-test('menus, Ctrl+A, F6, a joint spoken, a double click on "Add step", a library page, a question before "Factory fresh"', async () => {
+test('menus, Ctrl+A, F6, a joint spoken, double clicks on "Add step" and Play, a library page, a question before "Factory fresh"', async () => {
     const person = await Visitor.come(suite.browser, suite.address, { screen: { width: 1280, height: 800 }, hasPhysics: false });
     const { page } = person;
     await person.untilStanding();
@@ -19,6 +19,11 @@ test('menus, Ctrl+A, F6, a joint spoken, a double click on "Add step", a library
     await add.dblclick();
     await expect.poll(() => page.getByRole('button', { name: /^Step \d$/ }).count()).toBe(2); // twice, and nothing is deleted
     expect(await add.boundingBox()).toEqual(before);
+
+    await person.button('▶ Play').dblclick(); // plays once, and nothing is refused
+    await person.doing.filter({ hasText: /^(Plays|Going slowly|Playing)/ }).waitFor();
+    await person.doing.filter({ hasText: /^Edit runs/ }).waitFor();
+    expect(await page.locator('status-strip').textContent()).not.toContain('refused');
 
     await page.keyboard.press('Control+a');
     expect(await page.locator('step-row .pick[aria-pressed="true"]').count()).toBe(2);

@@ -134,7 +134,7 @@ export class FilesMenu extends HTMLElement {
         else this.dialog.close();
     }
 
-    private showOpened({ name, notes, losses, count, hasTrim }: NonNullable<FilesState['opened']>): void {
+    private showOpened({ name, notes, losses, count, damaged, hasTrim }: NonNullable<FilesState['opened']>): void {
         const trim = make('input', { type: 'checkbox' });
         const { files } = this.desk;
         const ways = [
@@ -145,7 +145,7 @@ export class FilesMenu extends HTMLElement {
         this.show(
             name,
             [
-                make('p', {}, FILE_TEXTS.opened(count)),
+                make('p', {}, FILE_TEXTS.opened(count, damaged)),
                 lines([...notes, ...losses]),
                 hasTrim ? make('label', {}, trim, ` ${FILE_TEXTS.trim}`) : null,
             ],

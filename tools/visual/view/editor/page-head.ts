@@ -20,7 +20,7 @@ export class PageHead extends HTMLElement {
         placeholder: 'name',
         spellcheck: 'false',
     });
-    private readonly play = make('button', { onclick: () => void this.desk.playEdited(this.desk.editor.state.get().page) }, '▶ Play');
+    private readonly play = make('button', { onclick: event => this.playPressed(event) }, '▶ Play');
     private readonly library = make('div', { class: 'library', role: 'status' });
     /** Pages of the library that somebody wants to edit themselves. */
     private readonly agreed = new Set<number>();
@@ -81,6 +81,12 @@ export class PageHead extends HTMLElement {
                 if (option && old && old.text !== option.text) old.text = option.text;
             });
         this.shown = pages;
+    }
+
+    /** The second click of a double click would ask a robot that has just begun, and be refused as busy. */
+    private playPressed(event: Event): void {
+        const isSecondClick = event instanceof UIEvent && event.detail > 1;
+        if (!isSecondClick) void this.desk.playEdited(this.desk.editor.state.get().page);
     }
 
     private agree(): void {
