@@ -10,11 +10,12 @@ What is special to the chip (interrupts, stack, its loader, timing) is not here;
 import collections
 
 from tests.campaigns import proof
-from tests.campaigns.told import chance, runs
+from tests.campaigns.told import board, chance, runs
 
 TITLE = "Sessions in simulated time"
 PROMISE = "Whatever a person, servos, lines, a computer and the power do at any tick: no leap, nothing moves unasked, text and pages stand."
 SESSIONS, SAMPLE, CHUNK, SHOWN = 9000, 150, 25, 6
+BOTH = 100  # sessions that the strict board plays as well: 4 s each
 MISSED_IN_SAMPLE = 12  # places that a sample need not reach
 PLACES = (
     "approach",
@@ -90,6 +91,8 @@ PLACES = (
 def add_arguments(group):
     group.add_argument("--only", type=int, metavar="SEED", help="repeat one session; if it fails, make it short")
     group.add_argument("--list", metavar="FILE", help="repeat a list of actions from a file")
+    group.add_argument("--on-board", action="store_true", help="with --only or --list: what the strict board makes of it (Play alone)")
+    group.add_argument("--both", type=int, metavar="COUNT", help=f"sessions that the strict board plays as well (default: {BOTH})")
     group.add_argument("--from", dest="first", type=int, metavar="SEED", help="the first session (default: the seed times a million)")
     group.add_argument("--sessions", type=int, help=f"how many (default: {SESSIONS})")
 
@@ -115,6 +118,8 @@ def run(options):
     if options.list or options.only is not None:
         options.keep = False
         actions = runs.read(options.list) if options.list else chance.made(options.only, motions)
+        if options.on_board:
+            board.replay(actions)
         outcomes = [runs.play(options.only or 0, actions)]
         if outcomes[0].fault and not options.list:
             make_short(outcomes[0], actions)
@@ -124,7 +129,28 @@ def run(options):
         first = options.seed * 1_000_000 if options.first is None else options.first
         chunks = [range(at, min(at + CHUNK, first + count)) for at in range(first, first + count, CHUNK)]
         outcomes = [outcome for part in proof.each(chunk, chunks, "chunks of sessions", options.jobs) for outcome in part]
-    return figures(options, outcomes)
+    return figures(options, outcomes) + both(options)
+
+
+def both(options):
+    """The figure of what the strict board has played as well. (Of a sample the test prove.told has it.)"""
+    count = BOTH if options.both is None else options.both
+    if options.sample or options.list or options.only is not None or (options.sessions and options.both is None) or not count:
+        return []
+    found = proof.each(board.difference, range(options.seed * 1000, options.seed * 1000 + count), "sessions on the board", options.jobs)
+    wrong = [(seed, words) for seed, (_, words) in zip(range(options.seed * 1000, options.seed * 1000 + count), found) if words]
+    for seed, words in wrong[:SHOWN]:
+        print(f"   session {seed} of both: {words}")
+    return [
+        proof.Figure(
+            "The strict board with the shipped image does the same",
+            "plays, layers, shapes, pauses, settings and the remote by chance; every frame of goals, the console, motion pages and settings "
+            "are compared",
+            f"{sum(frames for frames, _ in found):,} frames in {count} sessions, {len(wrong)} differ",
+            not wrong,
+            headline=True,
+        )
+    ]
 
 
 def figures(options, outcomes):

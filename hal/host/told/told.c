@@ -372,6 +372,11 @@ void told_type(const uint8_t *bytes, uint16_t count, uint32_t byte_time)
     }
 }
 
+void told_type_pause(uint32_t half_us)
+{
+    told.typed_until = (told.typed_until > told.now ? told.typed_until : told.now) + half_us;
+}
+
 bool told_has_typed(void)
 {
     return told.console.head == told.console.tail;

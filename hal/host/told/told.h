@@ -69,6 +69,7 @@ void told_hear(uint8_t byte, uint32_t delay);
  * program has read all. */
 void told_type(const uint8_t *bytes, uint16_t count, uint32_t byte_time);
 bool told_has_typed(void);
+void told_type_pause(uint32_t half_us);    /* the line is silent for so long, before what is typed next */
 
 void told_press(uint8_t buttons);          /* panel.h; those that are down from now on */
 void told_plug(bool is_there);             /* the adapter */

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { EXIT_FAULT = 1, EXIT_USAGE = 2, HANG_S = 20, STARTS_MAX = 400, PATH_BYTES = 512 };
+enum { EXIT_FAULT = 1, EXIT_USAGE = 2, HANG_S = 20, STARTS_MAX = 400, PATH_BYTES = 512, GOAL_COMES = 3 * SECOND };
 
 session_t session;
 
@@ -26,6 +26,8 @@ static struct {
     action_t *action;
     unsigned count, next;
     bool switch_image;
+    bool waits;                    /* for a goal: what follows is late by as much */
+    uint32_t late, waits_since;
 } list;
 
 /* ---- the end ---- */
@@ -95,6 +97,9 @@ static void take(char *words)
     } else if (strcmp(words, "image play") == 0 || strcmp(words, "image edit") == 0) {
         list.switch_image = session.is_edit != (strcmp(words, "image edit") == 0);
         session.is_edit = strcmp(words, "image edit") == 0;
+    } else if (strcmp(words, "goal") == 0) {
+        list.waits = true;
+        list.waits_since = session.tick;
     } else if (strcmp(words, "end") == 0) {
         session.is_over = true;
     } else if (!world_do(words)) {
@@ -106,7 +111,13 @@ static void take(char *words)
 /* Carries out what is due. */
 static void take_due(void)
 {
-    while (list.next < list.count && list.action[list.next].tick <= session.tick && !session.is_over) {
+    const bool came = session.frame_tick > list.waits_since || session.tick - list.waits_since >= GOAL_COMES;
+    if (list.waits && came) {
+        list.waits = false;
+        list.late += session.tick - list.waits_since;
+    }
+    while (list.next < list.count && list.action[list.next].tick + list.late <= session.tick && !list.waits &&
+           !session.is_over) {
         take(list.action[list.next++].words);
     }
 }

@@ -27,7 +27,6 @@ enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_SYNC_WRITE = 0x83 };
 static struct {
     uint8_t page[0x20000];         /* the pages as they were when the last save was over */
     uint32_t write_tick;
-    uint32_t goals_tick;           /* the last goals of any joint */
     uint32_t silent_tick[IDS];     /* the person was told that it does not answer: no goals, until asked */
     uint32_t off_tick[IDS];
     int sequence;                  /* of the settings that are sure; -1: none */
@@ -116,7 +115,7 @@ static bool has_fault(const joint_t *joint)
 
 static void must_be_asked(uint8_t id, const char *what)
 {
-    const uint32_t last = session.asked_tick > rules.goals_tick ? session.asked_tick : rules.goals_tick;
+    const uint32_t last = session.asked_tick > session.goals_tick ? session.asked_tick : session.goals_tick;
     if (session.asked_tick == NEVER_TICK || session.asked_tick < session.boot_tick || long_ago(last, FORGOTTEN)) {
         session_fail("nothing moves unasked", "%s to servo %u", what, id);
     }
@@ -205,6 +204,7 @@ void rules_packet(const uint8_t *packet, uint16_t count)
     bool goals = false;
     if (packet[4] == INST_SYNC_WRITE) {
         goals = params[0] <= GOAL_AT && params[0] + params[1] > GOAL_AT;
+        session.frame_tick = goals ? session.tick : session.frame_tick;
         for (unsigned at = 2; at + params[1] < given; at += params[1] + 1u) {
             take_write(params[at], params[0], params + at + 1, params[1]);
         }
@@ -213,7 +213,7 @@ void rules_packet(const uint8_t *packet, uint16_t count)
         goals = params[0] <= GOAL_AT && params[0] + given - 1u > GOAL_AT;
     }
     if (goals) {
-        rules.goals_tick = session.tick;
+        session.goals_tick = session.tick;
     }
 }
 
@@ -447,7 +447,7 @@ void rules_tick(void)
             rules.checks_pages = false;
             pages_must_be_whole();
         }
-        if (long_ago(rules.write_tick, SETTLED) && long_ago(rules.goals_tick, SETTLED) && !rules.is_starting) {
+        if (long_ago(rules.write_tick, SETTLED) && long_ago(session.goals_tick, SETTLED) && !rules.is_starting) {
             rules.sequence = newest_settings();   /* the program has had time to make them sure */
         }
     }

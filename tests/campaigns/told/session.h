@@ -46,6 +46,8 @@ typedef struct {
     joint_t joint[IDS];
     uint32_t trouble_tick;         /* the last time that the line, the adapter or the computer failed */
     uint32_t late_tick;            /* the last time that the computer was late or the adapter gone */
+    uint32_t goals_tick;           /* the last goals of any joint */
+    uint32_t frame_tick;           /* the last goals of a tick, to all joints at once */
     uint32_t boot_tick;
     uint32_t boots;
     uint32_t writes;               /* of memory, so far */

@@ -257,6 +257,19 @@ static bool clear_faults(unsigned id)
     return true;
 }
 
+/* What is kept without power, to a file: pages, journal, settings. */
+static bool write_memories(const char *path)
+{
+    FILE *file = fopen(path, "wb");
+    if (file == NULL) {
+        return false;
+    }
+    for (unsigned memory = 0; memory < MACHINE_MEMORIES; memory++) {
+        fwrite(told_memory((machine_memory_t)memory), 1, told_bytes((machine_memory_t)memory), file);
+    }
+    return fclose(file) == 0;
+}
+
 /* Motion pages from a file, before the first start. */
 static bool load_motions(const char *path)
 {
@@ -317,6 +330,10 @@ bool world_do(char *words)
         session.cut_now = true;
     } else if (strcmp(verb, "servo") == 0 && numbers == 1) {
         world_add_servo(a);
+    } else if (strcmp(verb, "pause") == 0 && numbers == 1) {
+        told_type_pause(a);
+    } else if (strcmp(verb, "memories") == 0) {
+        return write_memories(rest);
     } else if (strcmp(verb, "motions") == 0) {
         return load_motions(rest);
     } else {
