@@ -23,6 +23,7 @@ PLACES = (
     "move arrived",
     "play stopped",
     "play ended",
+    "play ended where its page says",
     "exit pages in a loop",
     "damaged page met",
     "link 1 taken",
@@ -167,7 +168,7 @@ def figures(options, outcomes):
     made = [
         proof.Figure(
             "The rules hold at every tick",
-            "goals within range and speed, from where the joint is; nothing moves unasked or after it was let go or lost; a silent servo is "
+            "goals within range and speed, from where the joint is to where the page says; nothing moves unasked or after it was let go or lost; a silent servo is "
             "named and a well one is not; typed text stands; pages and settings are old or new; the program answers",
             f"{ticks:,} ticks in {len(outcomes):,} sessions, {ticks / 128 / max(cpu_s, 0.001):,.0f} x real time on one core; "
             f"{len(broken)} sessions broken",

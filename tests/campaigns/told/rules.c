@@ -20,6 +20,8 @@
 #define GOAL_AT 30u
 #define TORQUE_AT 24u
 #define PAGE_BYTES 512u
+#define STEPS_AT 20u
+#define STEP_BYTES 64u
 #define COPY_BYTES 64u             /* of the settings in EEPROM */
 
 enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_SYNC_WRITE = 0x83 };
@@ -30,6 +32,7 @@ static struct {
     uint32_t silent_tick[IDS];     /* the person was told that it does not answer: no goals, until asked */
     uint32_t off_tick[IDS];
     int sequence;                  /* of the settings that are sure; -1: none */
+    bool is_shaped;                /* something but the pages may decide where joints go, since the last start */
     bool is_playing;               /* by what the console says */
     bool is_starting;              /* the program has not printed yet */
     bool pages_are_edited;
@@ -61,9 +64,23 @@ static bool may_move(const char *line)
     return false;
 }
 
+/* Whether after this line something but the pages decides where joints go. */
+static bool may_shape(const char *line)
+{
+    static const char *const words[] = {"amplitude", "blend", "drive", "layer", "aim", "swing", "settings", "remote"};
+    line += *line == '@' ? 1 : 0;
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (strncmp(line, words[i], strlen(words[i])) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void line_typed(void)
 {
     session.typed[session.typed_count] = '\0';
+    rules.is_shaped = rules.is_shaped || !session.typed_is_known || may_shape(session.typed);
     if (session.is_edit || !session.typed_is_known || may_move(session.typed)) {
         session.asked_tick = session.tick;
     }
@@ -97,6 +114,7 @@ void rules_typed(uint8_t byte)
 
 void rules_remote(unsigned buttons)
 {
+    rules.is_shaped = rules.is_shaped || buttons != 0;   /* left and right may steer */
     if (buttons != 0) {
         session.asked_tick = session.tick;
     }
@@ -254,6 +272,28 @@ static void servos_are_searched(void)
     }
 }
 
+/* A play is over: joints that it has moved have come to the last step of its last page, as the page says. */
+static void pose_must_be_there(unsigned page)
+{
+    const uint8_t *at = told_memory(MACHINE_PAGES) + page * PAGE_BYTES;
+    const unsigned steps = at[STEPS_AT];
+    if (rules.is_shaped || session.is_edit || page >= told_bytes(MACHINE_PAGES) / PAGE_BYTES || steps == 0 || steps > 7) {
+        return;
+    }
+    for (unsigned id = 0; id < JOINTS; id++) {
+        const uint8_t *word = at + STEP_BYTES * steps + 2 * id;   /* the steps lie behind as much of a header */
+        const unsigned to = word[0] | (unsigned)word[1] << 8;
+        const joint_t *joint = &session.joint[id];
+        if (joint->goal_tick != session.frame_tick || to >= POSITIONS || has_fault(joint)) {
+            continue;
+        }
+        reached("play ended where its page says");
+        if (joint->goal != to) {
+            session_fail("a play ends in the pose of its page", "servo %u at %u, page %u says %u", id, joint->goal, page, to);
+        }
+    }
+}
+
 void rules_printed(const char *line)
 {
     static const char *const begun[] = {"Going to", "Moving, ", "Playing page", "Paused"};
@@ -265,6 +305,9 @@ void rules_printed(const char *line)
                            strncmp(line, begun[i], strlen(begun[i])) == 0;
     }
     /* A first save that is cut off leaves the defaults, which were in force, and the program says so in these words. */
+    if (sscanf(line, "Ended after page %u", &id) == 1) {
+        pose_must_be_there(id);
+    }
     if (strstr(line, " servos: ") != NULL) {
         servos_are_searched();
     }
@@ -394,7 +437,7 @@ void rules_said(const char *sentence)
 void rules_boot(void)
 {
     rules.is_starting = true;
-    rules.is_playing = false;
+    rules.is_playing = rules.is_shaped = false;
     memset(rules.silent_tick, 0, sizeof rules.silent_tick);
     memset(rules.off_tick, 0, sizeof rules.off_tick);
     memset(session.line, 0, sizeof session.line);
