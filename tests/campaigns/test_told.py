@@ -1,12 +1,36 @@
 # SPDX-License-Identifier: MIT
-"""The strict board with the shipped image and the program in simulated time do the same: goals, text, motion pages, settings."""
+"""The strict board with the shipped image and the program in simulated time do the same: goals, text, motion pages, settings. And
+sessions are the same each time, a broken rule is seen, and its list becomes short."""
 
 import pytest
 
-from tests.campaigns.told import board
+from tests.campaigns.told import board, chance, runs
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_board_and_simulated_time_do_the_same(seed):
     frames, differs = board.difference(seed)
     assert frames > 500 and not differs, differs
+
+
+def test_a_seed_is_the_same_session_each_time():
+    first, again = (runs.play(5, chance.made(5, runs.motions())) for _ in range(2))
+    assert first.ticks > 1000 and first[1:4] == again[1:4]
+
+
+def test_a_power_cut_begins_with_fresh_memory():
+    """Else the text that stood in the line would be there again, and a rule would say so."""
+    actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "image play"), (400, chance.typed("play 8\rhalf a li"))]
+    outcome = runs.play(0, [*actions, (700, "cut"), (1200, chance.typed("version\r")), (1400, "end")])
+    assert not outcome.fault and outcome.marks["power cut during play"] == 1
+
+
+def test_a_broken_rule_is_seen_and_its_list_becomes_short():
+    """An action that nobody knows stands for a program that fails."""
+    actions = [(0, "seed 1"), (0, f"motions {runs.motions()}"), (0, "servo 1"), (0, "image play")]
+    noise = [(420 + 20 * i, chance.typed("version\r")) for i in range(20)]
+    others = [(900, "fault 1 dead 0"), (910, "clear 1"), (920, "no such action")]
+    outcome = runs.play(0, [*actions, *noise, *others, (1000, "end")])
+    assert outcome.fault.startswith("crash") and "no such action" in outcome.fault
+    short = runs.shrunk([*actions, *noise, *others, (1000, "end")], "crash")
+    assert [words for tick, words in short if tick > 0] == ["no such action", "end"]

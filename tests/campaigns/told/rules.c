@@ -289,7 +289,8 @@ static void pose_must_be_there(unsigned page)
         }
         reached("play ended where its page says");
         if (joint->goal != to) {
-            session_fail("a play ends in the pose of its page", "servo %u at %u, page %u says %u", id, joint->goal, page, to);
+            session_fail("a play ends in the pose of its page", "servo %u at %u, page %u says %u", id, joint->goal, page,
+                         to);
         }
     }
 }
