@@ -41,6 +41,7 @@ void console_set_rate(uint8_t divisor);
 
 /* Input. */
 bool console_get(uint8_t *byte);     /* false: nothing there */
+bool console_peek(uint8_t *byte);    /* the byte that console_get would take; false: nothing there */
 uint8_t console_waiting(void);       /* bytes to get */
 
 /* How many bytes were lost just before the one that console_get returned last (overrun, framing, ring full); at most 127. A

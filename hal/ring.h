@@ -66,6 +66,16 @@ static inline bool ring_get(ring_t *ring, uint8_t *byte)
     return true;
 }
 
+/* Reader. The byte that ring_get would take. false: empty, *byte untouched. */
+static inline bool ring_peek(const ring_t *ring, uint8_t *byte)
+{
+    if (ring->tail == ring->head) {
+        return false;
+    }
+    *byte = ring->bytes[ring->tail & ring->mask];
+    return true;
+}
+
 /* Reader: drops everything that waits. */
 static inline void ring_clear(ring_t *ring)
 {

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * requests.c - the requests of both images about the robot: what it does now, and what moves it; and which line runs which
- * request. An answer is ` field=...` pieces and an end, OK or ERR; requests_run prints the end. A request that fails prints
+ * request. An answer is ` field=...` pieces and an end, OK or ERR; requests_line prints the end. A request that fails prints
  * nothing before its error. */
 #include "requests.h"
 
 #include <stddef.h>
 #include "board.h"
+#include "channel.h"
 #include "performer_shape.h"
 #include "ranges.h"
 #include "report.h"
@@ -17,6 +18,7 @@
 static struct {
     uint16_t every_ticks;    /* 0: nobody watches */
     uint16_t last_tick;
+    bool on_channel;         /* asked for there */
 } watch;
 
 /* ---- the robot as it is now ---- */
@@ -89,12 +91,20 @@ static uint8_t do_watch(void *context, const shell_args_t *args)
     (void)context;
     watch.every_ticks = ticks != 0 && ticks < WATCH_TICKS_MIN ? WATCH_TICKS_MIN : ticks;
     watch.last_tick = tick_now16();
+    watch.on_channel = channel_is_printing();
     return REQUEST_OK;
 }
 
 void requests_end_watch(void)
 {
-    watch.every_ticks = 0;
+    if (!watch.on_channel) {
+        watch.every_ticks = 0;
+    }
+}
+
+bool requests_now_is_on_channel(void)
+{
+    return watch.on_channel;
 }
 
 bool requests_now_is_due(void)
@@ -124,6 +134,9 @@ void requests_print_now(void)
     const servo_link_t *servos = requests_image.servos;
     const uint32_t with_goals = joints_with_goals(performer);
     watch.last_tick = tick_now16();
+    if (watch.on_channel) {
+        channel_print_begin();
+    }
     text_P_number(TEXT_P("@now "), performer_is_idle(performer) ? 0 : performer->page);
     text_put(' ');
     text_number(performer->state == PERFORMER_PLAY ? performer->engine.player.now.step : 0);
@@ -138,6 +151,7 @@ void requests_print_now(void)
         }
     }
     text_line_end();
+    channel_print_end();
 }
 
 /* ---- what moves it ---- */
@@ -293,11 +307,6 @@ static uint8_t do_reset(void *context, const shell_args_t *args)
 
 /* ---- dispatch ---- */
 
-bool requests_is_request(const shell_args_t *args)
-{
-    return shell_word(args, 0)[0] == '@';
-}
-
 TEXT_NAMED(word_ver, "ver  ");
 TEXT_NAMED(word_list, "list  ");
 TEXT_NAMED(word_page, "page  ");
@@ -349,36 +358,41 @@ static void finish(uint8_t result)
     case SHELL_ERR_MOVING:
         (void)requests_refusal(PERFORMER_ERR_BUSY);
         break;
+    case SHELL_ERR_LOSSY:
+    case SHELL_ERR_LONG:
+        (void)requests_error(REQUEST_ERR_LINE);
+        shell_print_refusal(result);
+        break;
     default:
         break;   /* SHELL_ERR_REPORTED */
     }
 }
 
-void requests_run(shell_args_t *args)
+void requests_line(char *line, uint8_t fault)
 {
+    shell_args_t args;
+    uint8_t result = fault;
+    shell_words(line, false, &args);
     requests_set_program(true);
-    text_string(shell_word(args, 0));
-    args->words++; /* skips the '@' */
-    uint8_t result = look_up(table, ARRAY_COUNT(table), args);
+    text_string(shell_word(&args, 0));
+    args.words++; /* skips the '@' */
+    if (result == SHELL_OK) {
+        result = look_up(table, ARRAY_COUNT(table), &args);
+    }
     if (result == SHELL_ERR_UNKNOWN) {
-        result = look_up(requests_image.own->rows_P, requests_image.own->count, args);
+        result = look_up(requests_image.own->rows_P, requests_image.own->count, &args);
     }
     finish(result);
     text_line_end();
 }
 
-void requests_refuse_line(const shell_t *shell)
+void requests_answer_channel(void)
 {
-    const char *character = shell->line;
-    requests_set_program(*character == '@');
-    if (requests_from_program()) {
-        while (*character > ' ') {
-            text_put(*character++);
-        }
-    }
-    (void)requests_error(REQUEST_ERR_LINE);
-    shell_print_refusal(shell);
-    text_line_end();
+    uint8_t fault;
+    char *line = channel_take(&fault);
+    channel_print_begin();
+    requests_line(line, fault);
+    channel_print_end();
 }
 
 void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count)

@@ -41,7 +41,8 @@ typedef enum {
     REQUEST_ERR_UNSAVED = 12,  /* the page in RAM has edits that would be lost */
     REQUEST_ERR_FULL = 13,     /* code moves as many joints as it can */
     REQUEST_ERR_IDLE = 14,     /* nothing is playing */
-    REQUEST_ERR_LINE = 15      /* bytes of the line were lost, or it is too long: nothing was done */
+    REQUEST_ERR_LINE = 15,     /* bytes of the line were lost, or it is too long: nothing was done */
+    REQUEST_ERR_ASKED = 16     /* Edit waits for a person's name or answer about the page */
 } request_status_t;
 
 /* The words that an image adds. */
@@ -67,23 +68,25 @@ typedef struct {
 } requests_image_t;
 extern const requests_image_t requests_image;
 
-/* Whether a program sent the line: its first word begins with '@'. */
-bool requests_is_request(const shell_args_t *args);
+/* Runs a program's line, which begins with '@', and prints the answer line with its CR LF. The line is split in place.
+ * fault: SHELL_OK; or why it is refused, SHELL_ERR_LOSSY or SHELL_ERR_LONG. */
+void requests_line(char *line, uint8_t fault);
 
-/* Runs a program's line and prints the answer line with its CR LF. */
-void requests_run(shell_args_t *args);
-
-/* Says why a line was refused (SHELL_REFUSED); a program's line gets an answer. */
-void requests_refuse_line(const shell_t *shell);
+/* The same for the request that has ended in the channel (channel.h). */
+void requests_answer_channel(void);
 
 /* Runs a line that a person typed, with a word of requests_image.own or of `typed_P`, whose words programs do not have. */
 void requests_run_typed(shell_args_t *args, const shell_command_t *typed_P, uint8_t typed_count);
 
 /* ---- @watch: a line with the state of the robot every so many milliseconds ---- */
 
-/* Whether a @now line is due. The image then moves its cursor to the start of a line and calls requests_print_now. */
+/* Whether a @now line is due, and whether it goes to the channel (channel.h). If not, the image moves its cursor to the
+ * start of a line before it calls requests_print_now. */
 bool requests_now_is_due(void);
+bool requests_now_is_on_channel(void);
 void requests_print_now(void);
+
+/* Ends a @watch that was not asked for through the channel. */
 void requests_end_watch(void);
 
 /* ---- for handlers ---- */

@@ -19,8 +19,8 @@
 typedef enum {
     SHELL_TYPING = 0, /* the line is not complete */
     SHELL_LINE,       /* the line is complete: call shell_split and run it */
-    SHELL_REFUSED     /* the line is complete but did not fit, or bytes of it were lost: do not run it; say so with
-                       * shell_print_refusal or requests_refuse_line, then call shell_clear */
+    SHELL_REFUSED     /* the line is complete but has a fault: do not run it; say so with shell_print_refusal or
+                       * requests_line, then call shell_clear */
 } shell_event_t;
 
 typedef struct {
@@ -29,10 +29,9 @@ typedef struct {
     uint8_t line_bytes, history_bytes;
     uint8_t length;         /* characters in `line` */
     uint8_t recalled;       /* how many lines back the recalled line is; 0 = the line being typed */
-    uint8_t lost;           /* bytes of the line that were lost, at most 255 */
+    uint8_t fault;          /* of the line: SHELL_OK, SHELL_ERR_LOSSY, SHELL_ERR_LONG */
     uint8_t escape : 2;     /* state within an escape sequence */
     bool after_cr : 1;      /* the last byte was CR, so an LF now belongs to it */
-    bool too_long : 1;      /* characters were refused */
 } shell_t;
 
 /* Starts with an empty line and an empty history. `line_bytes` includes the NUL. `history` may be NULL with 0 bytes: no
@@ -43,11 +42,11 @@ void shell_init(shell_t *shell, char *line, uint8_t line_bytes, char *history, u
  * the image decides where its answer goes. */
 shell_event_t shell_byte(shell_t *shell, uint8_t byte);
 
-/* Tells that bytes were lost before the next one: the line that it belongs to will be SHELL_REFUSED. */
+/* Tells how many bytes were lost before the next one. If any were, the line that it belongs to will be SHELL_REFUSED. */
 void shell_lose(shell_t *shell, uint8_t count);
 
-/* Prints why the line was refused: "3 bytes of this line were lost: nothing was done". */
-void shell_print_refusal(const shell_t *shell);
+/* Prints why a line was refused: "Bytes of this line were lost: nothing was done". */
+void shell_print_refusal(uint8_t fault);
 
 /* Drops the line without echo; the history stays. Call it after a complete line was run. */
 void shell_clear(shell_t *shell);
@@ -74,6 +73,9 @@ typedef struct {
  * left as it is.
  * hex: numbers without prefix are hexadecimal. */
 void shell_split(shell_t *shell, bool hex, shell_args_t *args);
+
+/* The same for a line that is in no shell: splits these characters in place. */
+void shell_words(char *line, bool hex, shell_args_t *args);
 
 /* Word `index`; an empty string when there is none. */
 const char *shell_word(const shell_args_t *args, uint8_t index);
@@ -128,14 +130,16 @@ typedef struct {
 enum {
     SHELL_OK = 0,
     SHELL_ERR_REPORTED = 1,  /* for handlers: failed, and the reason has been printed */
-    SHELL_ERR_MOVING = 252,  /* not while something moves. This one and the next three print nothing */
+    SHELL_ERR_LOSSY = 250,   /* bytes of the line were lost: shell_print_refusal */
+    SHELL_ERR_LONG,          /* the line is too long: the same */
+    SHELL_ERR_MOVING,  /* not while something moves. This one and the next three print nothing */
     SHELL_ERR_RANGE,         /* not a number, or out of range: shell_print_range_error */
     SHELL_ERR_UNKNOWN,       /* no such word */
     SHELL_ERR_COUNT          /* too few or too many words */
 };
 
 /* Looks word 0 up among `count` commands, checks the number of words and the ranges, and calls the handler with `context`.
- * moving: something moves now. Returns the handler's result, which may be a value of its own, 2..251. SHELL_OK for an empty
+ * moving: something moves now. Returns the handler's result, which may be a value of its own, 2..249. SHELL_OK for an empty
  * line. */
 uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, shell_args_t *args, bool moving);
 

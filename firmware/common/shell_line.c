@@ -40,24 +40,20 @@ void shell_clear(shell_t *shell)
 {
     shell->length = 0;
     shell->recalled = 0;
-    shell->too_long = false;
-    shell->lost = 0;
+    shell->fault = SHELL_OK;
     shell->line[0] = '\0';
 }
 
 void shell_lose(shell_t *shell, uint8_t count)
 {
-    shell->lost = (uint8_t)(shell->lost > UINT8_MAX - count ? UINT8_MAX : shell->lost + count);
+    if (count != 0) {
+        shell->fault = SHELL_ERR_LOSSY;
+    }
 }
 
-void shell_print_refusal(const shell_t *shell)
+void shell_print_refusal(uint8_t fault)
 {
-    if (shell->lost != 0) {
-        text_number(shell->lost);
-        TEXT(" bytes of this line were lost");
-    } else {
-        TEXT("The line is too long");
-    }
+    text_P(fault == SHELL_ERR_LOSSY ? TEXT_P("Bytes of this line were lost") : TEXT_P("The line is too long"));
     TEXT(": nothing was done");
 }
 
@@ -76,14 +72,15 @@ static void empty_line(shell_t *shell)
     while (shell->length > 0) {
         rub_out(shell);
     }
-    shell->too_long = false;
-    shell->lost = 0;
+    shell->fault = SHELL_OK;
 }
 
 static void type(shell_t *shell, char character)
 {
     if (shell->length + 1u >= shell->line_bytes) {
-        shell->too_long = true;
+        if (shell->fault == SHELL_OK) {
+            shell->fault = SHELL_ERR_LONG;
+        }
         text_put(KEY_BEL);
         return;
     }
@@ -193,7 +190,7 @@ shell_event_t shell_byte(shell_t *shell, uint8_t byte)
     }
     if (byte == KEY_CR || byte == KEY_LF) {
         shell->line[shell->length] = '\0';
-        return shell->too_long || shell->lost != 0 ? SHELL_REFUSED : SHELL_LINE;
+        return shell->fault != SHELL_OK ? SHELL_REFUSED : SHELL_LINE;
     }
     if (byte < 0x20 || byte >= KEY_DEL) {
         control_key(shell, byte);
@@ -213,12 +210,17 @@ static bool is_separator(char character)
 void shell_split(shell_t *shell, bool hex, shell_args_t *args)
 {
     remember(shell);
-    args->words = shell->line;
+    shell_words(shell->line, hex, args);
+}
+
+void shell_words(char *line, bool hex, shell_args_t *args)
+{
+    args->words = line;
     args->count = 0;
     args->hex = hex;
-    char *to = shell->line;
+    char *to = line;
     bool inside = false;
-    for (const char *from = shell->line; *from != '\0'; from++) {
+    for (const char *from = line; *from != '\0'; from++) {
         if (!is_separator(*from)) {
             args->count = (uint8_t)(args->count + (inside ? 0 : 1));
             inside = true;

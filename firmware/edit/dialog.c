@@ -80,7 +80,7 @@ bool dialog_ask(const char *question_P)
     the_screen.lead = true;
     text_P(question_P);
     TEXT("Are you sure?[y/N]");
-    console_drop_input();   /* what was typed ahead is no answer */
+    the_dialog.stale_bytes = console_waiting();
     the_dialog.quiet_since = tick_now16();
     return false;
 }

@@ -50,6 +50,7 @@ typedef struct {
     bool faults_stand;             /* the row has shown faults, and not yet that all servos are well */
     bool faults_due;               /* a servo has a new fault; the row will show it when the line has room */
     bool broken_off;               /* a fault ended the last play; the row shows it until the next line is run */
+    uint8_t stale_bytes;           /* waited when a question was asked: they are no answer */
     uint16_t quiet_since;          /* tick of the last byte that came, or of the question */
     shell_args_t args;             /* of the line being run */
     dialog_item_t item;            /* of the list being shown */

@@ -2,6 +2,8 @@
 #include "editor.h"
 
 #include <string.h>
+#include "ansi.h"
+#include "channel.h"
 #include "commands.h"
 #include "console.h"
 #include "dialog.h"
@@ -42,6 +44,7 @@ static const page_source_t source = { NULL, source_read, source_check };
 void editor_init(const char *notice_P)
 {
     notice = notice_P;
+    channel_init();
     dialog_init();
     editor_keys_init();
     session_init();
@@ -55,6 +58,10 @@ void editor_init(const char *notice_P)
 
 void editor_put(char character)
 {
+    if (channel_is_printing()) {
+        ansi_put(character);   /* the terminal does not show it: its cursor and the lines of a list stay */
+        return;
+    }
     if (character == '\n') {
         the_dialog.lines++;
     }
@@ -63,18 +70,48 @@ void editor_put(char character)
 
 /* ---- the main loop ---- */
 
-/* Keys wait while the joints slow down after a break: they are meant for what follows. */
-static bool may_take_bytes(void)
+/* The time that an answer takes is no time between a person's keys. */
+static void answer_program(void)
 {
-    return the_dialog.mode != DIALOG_LIST && !(the_dialog.mode == DIALOG_PLAY && the_performer.leaving);
+    const uint16_t begun = tick_now16();
+    requests_answer_channel();
+    the_dialog.quiet_since = (uint16_t)(the_dialog.quiet_since + tick_now16() - begun);
+    screen_sync();
+}
+
+/* Keys wait during a list, and while the joints slow down after a break: they are meant for what follows. */
+static bool keys_wait(void)
+{
+    return the_dialog.mode == DIALOG_LIST || (the_dialog.mode == DIALOG_PLAY && the_performer.leaving);
+}
+
+static bool may_take_byte(void)
+{
+    uint8_t next;
+    return channel_is_open() || !keys_wait() || (console_peek(&next) && next == CHANNEL_BEGIN);
+}
+
+static void take_byte(uint8_t byte)
+{
+    const bool is_stale = the_dialog.stale_bytes != 0;
+    const channel_event_t event = channel_byte(byte);
+    the_dialog.stale_bytes = (uint8_t)(the_dialog.stale_bytes - is_stale);
+    if (event == CHANNEL_LINE) {
+        answer_program();
+    } else if (event == CHANNEL_NONE && !is_stale) {
+        shell_lose(&the_dialog.shell, console_lost());
+        editor_byte(byte);
+    }
 }
 
 static void take_bytes(void)
 {
     uint8_t byte;
-    for (uint8_t i = 0; i < BYTES_PER_TURN && may_take_bytes() && console_get(&byte); i++) {
-        shell_lose(&the_dialog.shell, console_lost());
-        editor_byte(byte);
+    for (uint8_t i = 0; i < BYTES_PER_TURN && may_take_byte() && console_get(&byte); i++) {
+        take_byte(byte);
+    }
+    if (channel_is_cut_off()) {
+        answer_program();
     }
     editor_quiet();
 }
@@ -96,13 +133,15 @@ static void tick_work(void)
     }
 }
 
-/* Prints a @now line on the plain terminal of programs, between two of their lines. */
+/* Prints a @now line; without the channel only on the plain terminal of programs, between two of their lines. */
 static void print_now(void)
 {
-    if (the_screen.hidden && the_dialog.mode == DIALOG_TABLE && requests_now_is_due()) {
+    const uint8_t sink = the_screen.sink;
+    const bool has_line = requests_now_is_on_channel() || (the_screen.hidden && the_dialog.mode == DIALOG_TABLE);
+    if (has_line && requests_now_is_due()) {
         the_screen.sink = SCREEN_PLAIN;
         requests_print_now();
-        the_screen.sink = SCREEN_QUIET;
+        the_screen.sink = sink;
     }
 }
 
@@ -129,11 +168,11 @@ bool editor_turn(void)
     if (the_dialog.mode == DIALOG_TABLE || the_dialog.mode == DIALOG_PLAY) {
         cmd_play_events(room >= CONSOLE_TX_BYTES - 1u);
     }
+    print_now();
     if (the_dialog.mode == DIALOG_LIST) {
         dialog_list_turn();
         return true;
     }
-    print_now();
     if (the_dialog.faults_due || room < PAINT_ROOM) {
         return false;
     }

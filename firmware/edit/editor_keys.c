@@ -90,12 +90,6 @@ static void run_line(void)
     run();
 }
 
-static void run_program_line(void)
-{
-    shell_split(&the_dialog.shell, false, &the_dialog.args);
-    requests_run(&the_dialog.args);
-}
-
 /* ---- keys ---- */
 
 static void open_line(uint8_t key)
@@ -221,7 +215,7 @@ static void line_byte(uint8_t byte)
         break;
     case SHELL_REFUSED:
         dialog_message_begin();   /* no room for a message after the line */
-        shell_print_refusal(&the_dialog.shell);
+        shell_print_refusal(the_dialog.shell.fault);
         dialog_end_line();
         break;
     case SHELL_LINE:
@@ -232,16 +226,11 @@ static void line_byte(uint8_t byte)
 
 static void program_byte(uint8_t byte)
 {
-    shell_event_t event = shell_byte(&the_dialog.shell, byte);
-    if (event == SHELL_TYPING) {
+    if (shell_byte(&the_dialog.shell, byte) == SHELL_TYPING) {
         return;
     }
     the_screen.sink = SCREEN_PLAIN;
-    if (event == SHELL_LINE) {
-        run_program_line();
-    } else {
-        requests_refuse_line(&the_dialog.shell);
-    }
+    requests_line(the_dialog.line, the_dialog.shell.fault);
     shell_clear(&the_dialog.shell);
     the_dialog.mode = DIALOG_TABLE;
     screen_sync();

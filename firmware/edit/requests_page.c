@@ -16,6 +16,10 @@
 
 REQUEST(do_open)
 {
+    /* A person answers for the page that is open. */
+    if (the_dialog.mode == DIALOG_ASK || the_dialog.mode == DIALOG_NAME) {
+        return requests_refuse(REQUEST_ERR_ASKED, TEXT_P("Edit waits for an answer on its terminal"));
+    }
     if (the_session.is_changed) {
         return requests_refuse(REQUEST_ERR_UNSAVED, TEXT_P("The open page has edits that are not saved"));
     }

@@ -25,7 +25,7 @@ static void take(uint8_t byte)
     if (event == SHELL_LINE) {
         monitor_line(&shell);
     } else {
-        shell_print_refusal(&shell);
+        shell_print_refusal(shell.fault);
         text_line_end();
     }
     shell_clear(&shell);

@@ -234,9 +234,7 @@ void commands_run(play_t *play)
 {
     shell_args_t args;
     shell_split(&play->shell, false, &args);
-    if (requests_is_request(&args)) {
-        requests_run(&args);
-    } else if (args.count > 0) {
+    if (args.count > 0) {
         requests_run_typed(&args, typed, ARRAY_COUNT(typed));
     }
 }

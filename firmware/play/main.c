@@ -10,6 +10,7 @@
  * One loop. play_service also runs while text waits for room on the serial line. So a tick is late by no more than the
  * longest single piece of other work, a few ms of a search by name. Nothing moves at power-on. */
 #include "board.h"
+#include "channel.h"
 #include "commands.h"
 #include "console.h"
 #include "journal.h"
@@ -54,7 +55,9 @@ static uint8_t column;
 
 static void put(char character)
 {
-    column = character == '\n' ? 0 : (uint8_t)(column + (character >= ' ' && column < UINT8_MAX ? 1 : 0));
+    if (!channel_is_printing()) {   /* a terminal does not show what a program is answered */
+        column = character == '\n' ? 0 : (uint8_t)(column + (character >= ' ' && column < UINT8_MAX ? 1 : 0));
+    }
     while (!console_put((uint8_t)character)) {
         play_service(&play);
         board_idle();
@@ -115,6 +118,10 @@ static void print_news(void)
 /* Prints a line of @watch by itself, whatever was being typed. */
 static void print_watched(void)
 {
+    if (requests_now_is_on_channel()) {
+        requests_print_now();
+        return;
+    }
     if (column > 0) {
         text_line_end();
     }
@@ -122,28 +129,51 @@ static void print_watched(void)
     prompt();
 }
 
-static void take_typed(void)
+/* A byte of the shell's. */
+static void type(uint8_t byte)
 {
-    uint8_t byte;
-    if (!inputs_get(&play.inputs, &byte)) {
-        return;
-    }
-    if (byte >= INPUTS_HOLE) {
-        shell_lose(&play.shell, (uint8_t)(byte - INPUTS_HOLE));
-        return;
-    }
     const shell_event_t event = shell_byte(&play.shell, byte);
     if (event == SHELL_TYPING) {
         return;
     }
     text_line_end();
-    if (event == SHELL_REFUSED) {
-        requests_refuse_line(&play.shell);
-    } else {
+    if (play.line[0] == '@') {
+        requests_line(play.line, play.shell.fault);
+    } else if (event == SHELL_LINE) {
         commands_run(&play);
+    } else {
+        shell_print_refusal(play.shell.fault);
+        text_line_end();
     }
     shell_clear(&play.shell);
     prompt();
+}
+
+static void take_typed(void)
+{
+    uint8_t byte;
+    if (!inputs_get(&play.inputs, &byte)) {
+        if (channel_is_cut_off()) {
+            requests_answer_channel();
+        }
+        return;
+    }
+    if (byte >= INPUTS_HOLE) {
+        if (!channel_is_open()) {   /* else the request's CRC tells it */
+            shell_lose(&play.shell, (uint8_t)(byte - INPUTS_HOLE));
+        }
+        return;
+    }
+    switch (channel_byte(byte)) {
+    case CHANNEL_NONE:
+        type(byte);
+        break;
+    case CHANNEL_LINE:
+        requests_answer_channel();
+        break;
+    default:
+        break;
+    }
 }
 
 static void greet(settings_status_t settings)

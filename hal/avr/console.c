@@ -116,6 +116,11 @@ bool console_get(uint8_t *byte)
     return true;
 }
 
+bool console_peek(uint8_t *byte)
+{
+    return ring_peek(&line.rx, byte);
+}
+
 uint8_t console_lost(void)
 {
     return line.lost_here;

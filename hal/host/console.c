@@ -54,6 +54,11 @@ bool console_get(uint8_t *byte)
     return ring_get(&rx, byte);
 }
 
+bool console_peek(uint8_t *byte)
+{
+    return ring_peek(&rx, byte);
+}
+
 uint8_t console_lost(void)
 {
     return 0;   /* what finds no room waits in the machine */

@@ -111,6 +111,11 @@ bool console_get(uint8_t *byte)
     return true;
 }
 
+bool console_peek(uint8_t *byte)
+{
+    return ring_peek(&rx, byte);
+}
+
 uint8_t console_lost(void)
 {
     return lost_here;

@@ -24,6 +24,7 @@ from cm5sim import Board, Violation
 from cm5sim.board import _ADDRESS, CYCLES_PER_MS
 from m512.files.image import Image
 from tests.sim.boot_board import factory_section
+from tests.sim.channel import request as framed
 from tests.sim.made_page import page
 
 MOTION, MOTION_END, JOURNAL = 0xE000, 0x1E000, 0xC000
@@ -159,6 +160,11 @@ class Grammar:
         return "".join(rng.choice(lines) + "\r" + rng.choice(("", "y")) for _ in range(rng.randrange(1, 5))).encode()
 
     def request(self):
+        """By hand, or through the programs' channel."""
+        line = self.request_by_hand()
+        return line if self.rng.random() < 0.5 else b"".join(framed(part.decode()) for part in line.split(b"\r")[:-1])
+
+    def request_by_hand(self):
         rng = self.rng
         kind = rng.randrange(6)
         if kind == 0:

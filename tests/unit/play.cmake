@@ -4,6 +4,8 @@ foreach(test test_shell test_shell_line)
     m512_unit_test(${test} TARGET_TOO INCLUDES firmware/common
         SOURCES firmware/common/shell.c firmware/common/shell_line.c firmware/common/shell_words.c firmware/common/text.c tests/unit/shell_stage.c)
 endforeach()
+m512_unit_test(test_channel TARGET_TOO INCLUDES firmware/common
+    SOURCES firmware/common/channel.c firmware/common/shell.c firmware/common/shell_line.c firmware/common/shell_words.c firmware/common/text.c)
 m512_unit_test(test_remote TARGET_TOO SOURCES hal/remote.c)
 foreach(test test_inputs test_steer)
     m512_unit_test(${test} INCLUDES firmware/common firmware/play

@@ -93,6 +93,20 @@ static void test_contact_counts_after_enough_equal_samples(void)
     TEST_ASSERT_EQUAL(0, debounce_sample(&contact, 0, 3));
 }
 
+static void test_ring_peek_shows_the_next_byte_and_leaves_it(void)
+{
+    uint8_t storage[4], byte = 9;
+    ring_t own;
+    ring_init(&own, storage, sizeof storage);
+    TEST_ASSERT_FALSE(ring_peek(&own, &byte));
+    TEST_ASSERT_EQUAL_UINT8(9, byte);
+    (void)ring_put(&own, 1);
+    (void)ring_put(&own, 2);
+    TEST_ASSERT_TRUE(ring_peek(&own, &byte));
+    TEST_ASSERT_EQUAL_UINT8(1, byte);
+    TEST_ASSERT_EQUAL_UINT8(2, ring_count(&own));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -101,5 +115,6 @@ int main(void)
     RUN_TEST(test_bytes_keep_their_order_over_many_turns);
     RUN_TEST(test_clear_drops_what_waits);
     RUN_TEST(test_contact_counts_after_enough_equal_samples);
+    RUN_TEST(test_ring_peek_shows_the_next_byte_and_leaves_it);
     return UNITY_END();
 }
