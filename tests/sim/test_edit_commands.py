@@ -85,9 +85,9 @@ def test_next_and_before(r):
     assert r.text(2, 76, 4) == "0001"
     r.line("before")
     assert r.text(2, 76, 4) == "0000"
-    assert r.line("b") == "b Page must be 0..127"
+    assert r.line("b") == "b There is no such page"
     r.line("page 127")
-    assert r.line("n") == "n Page must be 0..127"
+    assert r.line("n") == "n There is no such page"
 
 
 @pytest.mark.parametrize("command", ["page 2", "next", "before", "copy 2", "exit"])
