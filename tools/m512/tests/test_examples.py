@@ -106,8 +106,8 @@ def world(tmp_path, monkeypatch, started):
     def at_every_port(command):
         robot = started("boot-cm5.hex", "edit-cm5.hex" if command in THROUGH_EDIT else "play-cm5.hex", text=LIBRARY, servos=range(1, 21))
 
-        def open_any(url, trace=None):
-            return open_port(url if url.startswith(("peer://", "/dev/pts")) else robot.path, trace)
+        def open_any(url, trace=None, image="play"):
+            return open_port(url if url.startswith(("peer://", "/dev/pts")) else robot.path, trace, image)
 
         for module in (link, motions, terminal):
             monkeypatch.setattr(module, "Link", open_any)

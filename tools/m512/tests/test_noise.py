@@ -83,7 +83,7 @@ def test_noise_answer_of_a_block_that_falls_silent_and_goes_on():
 
 def test_a_request_that_the_board_refuses_because_bytes_were_lost_is_sent_again():
     """firmware/common/PROTOCOL.md, ERR 15: the board has not run it."""
-    link = NoisyLink(b"@torque ERR 15 3 bytes of this line were lost: nothing was done\r\n@torque OK\r\n")
+    link = NoisyLink(b"\x1e@tor ERR 15 Bytes of this line were lost: nothing was done\r\n\x1e@torque OK\r\n")
     link_client = Client.__new__(Client)
     link_client.link, link_client.version, link_client.slack = link, {}, 0.0
     assert link_client.ask("torque on") == ""

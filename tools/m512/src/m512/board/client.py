@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Line commands for programs of Play and Edit (firmware/common/PROTOCOL.md), the PC's side.
 
-A request is a line that begins with '@'; the answer is the next line that begins with the same word and ends in OK or
-in ERR, a number and a sentence. Everything else on the line (echo, prompt, screen) is passed over.
+Requests and answers go through the channel: a byte BEGIN, the line, a CRC behind a request. What a person types or sees there goes on beside
+them, and is passed over here.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from m512.board import contact
 from m512.board.link import Link
 from m512.crc16 import crc16
 from m512.errors import BoardError, NoAnswerError
@@ -20,42 +19,55 @@ from m512.files.page import JOINTS, PAGE_BYTES, Page
 ANSWER_SECONDS = 3.0
 TRIES = 3
 DATA_BYTES = 32
-ERR_WORD, ERR_EDITS, ERR_LINE = 1, 12, 15
+ERR_WORD, ERR_EDITS, ERR_LINE, ERR_ASKED = 1, 12, 15, 16
+BEGIN, FLOW = b"\x1e", b"\x11\x13"
+NOBODY = "neither Play nor Edit answers"
+OLDER = (
+    "what runs there shows what is typed, but knows no requests of this m512: an older Play or Edit, or another program. Write a new one: "
+    "m512 flash play-cm5.hex (or edit-cm5.hex)"
+)
+
+
+def framed(request: str) -> bytes:
+    """A request without the CR that ends it."""
+    text = f"@{request} ".encode()
+    return BEGIN + text + b"%04X" % crc16(text)
 
 
 class Client:
-    """Play or Edit on a line. Raises NoAnswerError when nobody answers to @ver, RefusedError when Edit plays what was typed into its
-    terminal. patience: seconds for the answer to each @ver. is_met: contact.make() has been called, or nobody can have left anything open.
-    slack: seconds that every later answer may be late, on a line that does not keep the clock."""
+    """Play or Edit on a line. Raises NoAnswerError when nobody answers to @ver. patience: seconds for the answer to each @ver. slack: seconds
+    that every later answer may be late, on a line that does not keep the clock."""
 
-    def __init__(self, link: Link, patience: Sequence[float] = (0.6, 1.5), is_met: bool = False, slack: float = 0.0):
+    def __init__(self, link: Link, patience: Sequence[float] = (0.9, 1.5), slack: float = 0.0):
         self.link = link
+        self.heard = b""  # without an answer
         self.version: dict[str, str] = {}
         self._listed: dict[int, tuple[int | None, str]] | None = None  # for find(), which a command asks for each of its words
         self.slack = 0.0
-        if not is_met:
-            contact.make(link)
         self.version = self._fields(self._ask_version(patience))
         self.slack = slack
 
     def _ask_version(self, patience: Sequence[float]) -> str:
+        """Without CR: Play and Edit take the request 250 ms later. A boot loader has nothing to run then, whatever was typed there before, and
+        its knock rubs it out."""
         for seconds in patience:
             try:
-                return self.ask("ver", seconds, tries=1)
+                return self.ask("ver", seconds, tries=1, end=b"")
             except NoAnswerError:
                 pass
-        raise NoAnswerError("neither Play nor Edit answers")
+        shown = re.sub(rb"\x1b\[[0-9;?]*[A-Za-z]", b"", self.heard)
+        raise NoAnswerError(OLDER if framed("ver")[1:] in shown else NOBODY)
 
     @staticmethod
     def _fields(text: str) -> dict[str, str]:
         return dict(part.split("=", 1) for part in text.split() if "=" in part)
 
-    def ask(self, request: str, seconds: float = ANSWER_SECONDS, tries: int = TRIES) -> str:
+    def ask(self, request: str, seconds: float = ANSWER_SECONDS, tries: int = TRIES, end: bytes = b"\r") -> str:
         """Sends a request. Returns the text of the answer between the word and OK. BoardError: the board answered ERR."""
         word = "@" + request.split()[0]
         for _ in range(tries):
-            self.link.write(f"@{request}\r".encode())
-            line = self._answer(word, f"@{request}", seconds + self.slack)
+            self.link.write(framed(request) + end)
+            line = self._answer(word, seconds + self.slack)
             if line is None:
                 continue
             if line == "OK" or line.endswith(" OK"):
@@ -73,8 +85,9 @@ class Client:
             text = f"{image} has no {word}: it takes {'Play' if image == 'edit' else 'Edit' if image == 'play' else 'another image'}"
         return BoardError(text or f"error {number}", number)
 
-    def _answer(self, word: str, request: str, seconds: float) -> str | None:
-        """Returns the text behind the word in the first whole line that answers. None: no such line came in time."""
+    def _answer(self, word: str, seconds: float) -> str | None:
+        """Returns the text behind the word in the first whole line that answers, or a refusal of a line that has lost its word. None: no such
+        line came in time."""
         deadline = self.link.now() + seconds
         while True:
             left = deadline - self.link.now()
@@ -82,12 +95,12 @@ class Client:
                 return None
             raw, ended = self.link.look_for(b"\n", left)
             if not ended:
+                self.heard += raw
                 return None
-            # Flow control, a prompt, the echo and terminal sequences may stand before the answer.
-            text = re.sub(rb"\x1b\[[0-9;?]*[A-Za-z]|[\x00\x02\x11\x13\xff]", b"", raw).decode("ascii", "replace").strip()
-            at = text.rfind(word + " ")
-            if at >= 0 and re.search(r"(^| )(OK|ERR \d+ .*)$", text[at + len(word) :]):
-                return text[at + len(word) :].strip()
+            _, framed_here, answer = raw.translate(None, FLOW).rpartition(BEGIN)
+            said, _, text = answer.decode("ascii", "replace").strip().partition(" ")
+            if framed_here and (said == word or text.startswith(f"ERR {ERR_LINE} ")) and re.search(r"(^| )(OK|ERR \d+ .*)$", text):
+                return text
 
     # Pages
 
@@ -151,7 +164,7 @@ class Client:
         try:
             self.ask("open 0")
         except BoardError as error:
-            return error.number == ERR_EDITS
+            return error.number in (ERR_EDITS, ERR_ASKED)
         return False
 
     def save_page(self, number: int, page: Page) -> None:

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Gets into a board's boot loader and finds out which one it is, and on which board.
 
-a play typed into Edit? --- yes --> RefusedError (contact.py)
-   | no
-prompt there? ---- yes --> identify
-   | no
 Play or Edit? ---- yes --> @reset, then '#' (asks first when edits would be lost)
    | no, or it cannot
+prompt there? ---- yes --> identify
+   | no
 in a session of ours that broke off? --> HELLO
    | no
 ask for the MODE button, '#' every 15 ms until the banner comes
@@ -16,7 +14,7 @@ from __future__ import annotations
 
 from typing import Callable, Union
 
-from m512.board import banner, contact
+from m512.board import banner
 from m512.board.block import IDENTITY, BlockLoader
 from m512.board.factory import KNOCK, PROMPT, FactoryLoader
 from m512.board.link import Link
@@ -128,15 +126,14 @@ def refuse(question: str) -> None:
 def enter(link: Link, say: Callable[[str], None], seconds: float = WAIT_SECONDS, may: May = refuse, board: str = "") -> Loader:
     """The board's loader, ready for work. `say` tells the user what is waited for; `may` asks a question and raises
     RefusedError when the answer is no; board: what the user says that it is. RefusedError, too, for a board that is none of ours."""
-    contact.make(link)
-    if at_prompt(link):
-        loader = identify(link, board=board)
-        loader.was_at_prompt = True
-        return loader
     if reset_by_application(link, say, may):
         said = call_by_hash(link, RESTART_SECONDS)
         if said is not None:
             return identify(link, said, board)
+    if at_prompt(link):
+        loader = identify(link, board=board)
+        loader.was_at_prompt = True
+        return loader
     try:
         session = BlockLoader(link, tries=1, seconds=0.4)
         session.leave()
@@ -159,16 +156,16 @@ def give_back(loader: Loader) -> None:
 
 
 def reset_by_application(link: Link, say: Callable[[str], None], may: May = refuse) -> bool:
-    """Asks Play or Edit, which have been met, to restart the controller; whether it will. `may` is asked when edits would be lost."""
-    from m512.board.client import Client
+    """Asks Play or Edit to restart the controller; whether it will. `may` is asked when edits would be lost."""
+    from m512.board.client import Client, framed
 
     try:
-        client = Client(link, (0.7,), is_met=True)
+        client = Client(link, (0.9,))
     except NoAnswerError:
         return False
     if client.where().get("state") != "idle":
         raise RefusedError("something plays on the robot: `m512 stop` first")
     if client.has_edits():
         may("Edit holds a page with edits that are not saved; restarting loses them. Go on?")
-    link.write(b"@reset\r")  # no wait for its answer: the loader's window comes soon
+    link.write(framed("reset") + b"\r")  # no wait for its answer: the loader's window comes soon
     return True

@@ -5,10 +5,9 @@ from __future__ import annotations
 
 from m512.board.client import Client
 from m512.board.download import PhaseMaker, check_board
-from m512.board.link import Link
 from m512.board.loaders import Loader
 from m512.board.memory import FLASH_PAGE, MOTIONS, Plan
-from m512.errors import BoardError, NoAnswerError, RefusedError
+from m512.errors import BoardError, RefusedError
 from m512.files.image import is_erased
 from m512.files.page import PAGE_BYTES, Page
 from m512.pages import difference
@@ -50,12 +49,8 @@ def _holds_nothing(page: Page) -> bool:
     return page.is_empty or is_erased(page)
 
 
-def through_application(link: Link, plan: Plan, phase: PhaseMaker) -> list[str]:
-    """In words, asked of a running Play or Edit, which has been met (contact.py) and goes on."""
-    try:
-        client = Client(link, (0.7,), is_met=True)
-    except NoAnswerError:
-        return ["neither Play nor Edit nor a boot loader answers there: what is on the board is not known"]
+def through_application(client: Client, plan: Plan, phase: PhaseMaker) -> list[str]:
+    """In words, asked of a running Play or Edit, which goes on."""
     version = client.version
     out = [f"{version.get('image', '?')} {version.get('version', '')} runs on a {version.get('board', '?')}"]
     if plan.record and version.get("board") and plan.record.board != version["board"]:

@@ -167,11 +167,11 @@ def meet(link: Link) -> Client:
     """The Client of a simulated board that has just been started. NoAnswerError after five minutes of silence."""
     link.sleep(0.5)
     try:
-        return Client(link, SOON, is_met=True, slack=SLACK_SECONDS)
+        return Client(link, SOON, slack=SLACK_SECONDS)
     except NoAnswerError:
         ui.say("note: the simulated board has not answered yet; m512 waits for five minutes, Ctrl-C ends it")
     try:
-        return Client(link, LATER, is_met=True, slack=SLACK_SECONDS)
+        return Client(link, LATER, slack=SLACK_SECONDS)
     except NoAnswerError:
         raise NoAnswerError(
             "the simulated board has not answered for 5 minutes: is the image (--image) a Play or Edit? If it is, this PC is "

@@ -12,7 +12,7 @@ import click
 from click.core import ParameterSource
 
 from m512 import ui
-from m512.errors import M512Error, PortError, RefusedError
+from m512.errors import M512Error, NoAnswerError, PortError, RefusedError
 
 port_option = click.option(
     "-p",
@@ -140,7 +140,8 @@ def _agreed(loader, plan, yes):
 
 def _look(plan, port, board):
     """What a plan would change on the board, which goes on with what it does."""
-    from m512.board import bus, contact, loaders, look, ports
+    from m512.board import bus, loaders, look, ports
+    from m512.board.client import Client
     from m512.board.link import Link
 
     bus.refuse(port)
@@ -152,11 +153,15 @@ def _look(plan, port, board):
         ui.say(f"note: no board was looked at ({str(error).splitlines()[0]})")
         return
     with link:
-        contact.make(link)
-        if loaders.at_prompt(link):
+        try:
+            client = Client(link)
+        except NoAnswerError as error:
+            if not loaders.at_prompt(link):
+                ui.say(f"no boot loader answers there, and {error}: what is on the board is not known")
+                return
             found = look.through_loader(loaders.identify(link, board=board), plan, ui.phase)
         else:
-            found = look.through_application(link, plan, ui.phase)
+            found = look.through_application(client, plan, ui.phase)
     for line in found:
         ui.say(line)
 

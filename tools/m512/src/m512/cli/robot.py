@@ -31,10 +31,9 @@ def robot_options(function):
 
 
 @contextmanager
-def robot(options, end=b"", image="play"):
-    """The Client that the options mean; whatever was started for it ends with the command. end: a key for what plays there (contact.py).
-    image: what to start behind -p bus:..."""
-    from m512.board import contact, ports
+def robot(options, image="play"):
+    """The Client that the options mean; whatever was started for it ends with the command. image: what to start behind -p bus:..."""
+    from m512.board import ports
     from m512.board.client import Client
     from m512.board.link import Link
 
@@ -49,8 +48,7 @@ def robot(options, end=b"", image="play"):
         return
     with Link(ports.pick(options["port"]), image=image) as link:
         try:
-            contact.make(link, end)
-            client = Client(link, is_met=True)
+            client = Client(link)
         except NoAnswerError as error:
             from m512.board import loaders
 
@@ -136,9 +134,7 @@ Examples:
 @robot_options
 def stop(now, **options):
     """Stop what is playing."""
-    from m512.board import contact
-
-    with robot(options, contact.BREAK if now else contact.STOP) as client:
+    with robot(options) as client:
         client.ask("break" if now else "stop")
         _report(client, options["as_json"])
 
