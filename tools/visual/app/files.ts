@@ -156,7 +156,9 @@ export class DocumentFiles implements Files {
             case 'opened': {
                 const { format } = this.editor;
                 const { image, notes, losses } = answer;
-                const pages = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => this.pageIn(image, i + 1)).filter(bytes => this.holdsSteps(bytes));
+                const pages = Array.from({ length: PAGE_COUNT - 1 }, (_, i) => this.pageIn(image, i + 1)).filter(bytes =>
+                    this.holdsSteps(bytes),
+                );
                 const damaged = pages.filter(bytes => format.fault(bytes) !== null).length;
                 const hasTrim = !format.isEmpty(this.pageIn(image, 0));
                 return { tooLarge: null, opened: { name, image, notes, losses, count: pages.length, damaged, hasTrim } };

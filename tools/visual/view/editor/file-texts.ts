@@ -14,7 +14,8 @@ export const FILE_TEXTS = {
         `The part of this page that reads files could not be loaded (${why}). Nothing was changed. Try again; when that does not help, reload the page: there may be a new version.`,
     opened: (count: number, damaged: number): string =>
         `${count === 1 ? '1 motion page' : `${count} motion pages`}. Added, they go into free pages with what they lead to, and nothing of yours is touched.${damaged > 0 ? ` ${damaged} of them cannot be added: they are damaged.` : ''}`,
-    nothingWhole: 'No page of the file is whole, so none was added. Open it again and take it as a new document: that keeps damaged pages as they are.',
+    nothingWhole:
+        'No page of the file is whole, so none was added. Open it again and take it as a new document: that keeps damaged pages as they are.',
     trim: 'When all pages are replaced, page 0 too: the trim of the robot that the file was made on. Leave it out unless that robot is yours.',
     addHint: 'Into pages that are empty here; what you have already stays as it is',
     documentHint: 'Beside the documents that you have',
