@@ -95,9 +95,9 @@ static void test_contact_counts_after_enough_equal_samples(void)
 
 static void test_ring_peek_shows_the_next_byte_and_leaves_it(void)
 {
-    uint8_t storage[4], byte = 9;
+    uint8_t small[4] = {0}, byte = 9;
     ring_t own;
-    ring_init(&own, storage, sizeof storage);
+    ring_init(&own, small, sizeof small);
     TEST_ASSERT_FALSE(ring_peek(&own, &byte));
     TEST_ASSERT_EQUAL_UINT8(9, byte);
     (void)ring_put(&own, 1);
