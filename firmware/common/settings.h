@@ -76,8 +76,8 @@ typedef struct {
 
 void settings_defaults(settings_t *settings);
 
-/* Loads the newer valid copy, or the defaults. A copy with a field out of range is damaged. NOINLINE: else its records lie on
- * the stack while an image goes on starting. */
+/* Loads the newer valid copy, or the defaults. A copy with a field out of range is damaged. NOINLINE: else its records lie
+ * on the stack while an image goes on starting. */
 settings_status_t settings_load(settings_store_t *store, settings_t *settings) NOINLINE;
 
 /* Begins to save. Then call settings_save_poll until it returns false: it writes at most one byte and never blocks; about 50

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * console.c - console.h over the machine's console. It has no rate. Flow control is the machine's: bytes that find no room
- * stay where they are, so nothing is lost and XOFF is never sent. An image may have less room than rx, as Play has; therefore
- * rx takes no more at once than still comes behind an XOFF, and nothing until the XON. */
+ * stay where they are, so nothing is lost and XOFF is never sent. An image may have less room than rx, as Play has;
+ * therefore rx takes no more at once than still comes behind an XOFF, and nothing until the XON. */
 #include "console.h"
 
 #include <string.h>

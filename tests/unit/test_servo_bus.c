@@ -308,7 +308,8 @@ static void tell(wire_t *to, bool whole)
         {6, 0xFF, 0xFF, 0x01, 0x02, 0x01, 0x00},                                /* a wrong checksum */
         {6, PING_1},
     };
-    static const uint64_t pauses[] = {5 * MS, 20 * MS, MS, 100 * US, 5 * MS, 5 * MS};   /* the fourth answer is talked into */
+    /* The fourth answer is talked into. */
+    static const uint64_t pauses[] = {5 * MS, 20 * MS, MS, 100 * US, 5 * MS, 5 * MS};
     wire_open(to);
     (void)servo_bus_add(to->bus, 1, SERVO_AX12, 1000000);
     (void)servo_bus_add(to->bus, 2, SERVO_AX12, 1000000);
