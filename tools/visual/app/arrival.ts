@@ -30,8 +30,8 @@ export class Arrival {
 
     connectionChanged(connection: ConnectionState): void {
         const { state, strip, status, sources, editor } = this.parts;
-        const { version, name, isInDialog, error } = sources.connection;
-        state.set({ connection, version, portName: name, where: null, isInDialog });
+        const { version, name, error } = sources.connection;
+        state.set({ connection, version, portName: name, where: null });
         status.tell();
         status.look();
         if (connection === 'other-board') strip.fail(error);

@@ -9,11 +9,10 @@ import type { Shape } from '../model/motion.ts';
 import type { Connection } from '../robot/connection.ts';
 import { command, setTorque } from '../robot/protocol.ts';
 import type { Command } from '../robot/protocol.ts';
-import type { TerminalSize } from '../robot/edit-screen.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { RobotState } from '../robot/robot-state.ts';
-import type { Beside, Desk, DeskState, ImageName, Notice, Tab } from '../view/desk.ts';
+import type { Beside, Desk, DeskState, ImageName, Notice, Tab, TerminalSize } from '../view/desk.ts';
 import { EDITOR_TEXTS, refusalText } from '../view/editor/texts.ts';
 import { Store } from '../view/store.ts';
 import { DocumentEditor } from './editor.ts';
@@ -51,7 +50,6 @@ const START: DeskState = {
     portName: '',
     version: null,
     where: null,
-    isInDialog: false,
     pages: [],
     image: 'play',
     physics: 'loading',
@@ -183,7 +181,6 @@ export class RobotDesk implements Desk {
             change: change => {
                 this.state.set(change);
                 if (change.physics === 'on') this.arrival.standUp();
-                if (change.isInDialog !== undefined) this.status.tell();
             },
         };
     }
@@ -262,10 +259,7 @@ export class RobotDesk implements Desk {
             this.preview.pause();
             this.plays.cancel();
         }
-        return this.act(async () => {
-            const isStop = what === 'stop' || what === 'break';
-            if (!isStop || !(await this.connection.breakOff())) await command(this.connection.requests, what);
-        });
+        return this.act(() => command(this.connection.requests, what));
     }
 
     setTorque(on: boolean, servos: readonly number[] = []): Promise<void> {
@@ -289,7 +283,7 @@ export class RobotDesk implements Desk {
     }
 
     type(bytes: Uint8Array): void {
-        void this.connection.type(bytes).catch(this.strip.fail);
+        void this.connection.write(bytes).catch(this.strip.fail);
     }
 
     takeNewVersion(): void {

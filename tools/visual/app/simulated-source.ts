@@ -136,9 +136,8 @@ export class SimulatedSource {
         this.connection = new Connection(robot.port, this.clock, {
             state: state => this.isShown && this.events.connection(state),
             text: bytes => this.isShown && this.events.text(bytes),
-            dialog: isInDialog => this.isShown && this.events.change({ isInDialog }),
         });
-        this.connection.connect(true);
+        this.connection.connect();
         void this.addPhysics(robot);
     }
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What the page asks of a robot by itself, again and again, and the sentence in the strip that says what it does. Edit's screen is put
-// away by a question: while somebody looks at it nothing is asked, and it is brought back after a question that has to be.
+// What the page asks of a robot by itself, again and again, and the sentence in the strip that says what it does. It also has Edit draw its
+// screen for a terminal that has just been opened, or has another size.
 
 import type { Connection } from '../robot/connection.ts';
-import type { TerminalSize } from '../robot/edit-screen.ts';
 import { askWhere } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
-import type { DeskState } from '../view/desk.ts';
+import type { DeskState, TerminalSize } from '../view/desk.ts';
 import type { Store } from '../view/store.ts';
 import { doingText } from '../view/texts.ts';
 
 const WHERE_MS = 300;
+/** Of a screen that Edit draws. */
+const ROWS_LEAST = 24;
 /** A robot in the page that starts answers long before, on a slow computer too. */
 const START_MS = 20_000;
 
@@ -27,14 +28,14 @@ export class Status {
     private timer: ReturnType<typeof setTimeout> | undefined;
     private lateTimer: ReturnType<typeof setTimeout> | undefined;
     private terminal: TerminalSize | null = null;
+    private isDrawingDue = false;
 
     constructor(parts: StatusParts) {
         this.parts = parts;
     }
 
-    /** A program's question would spoil a line that somebody types, and puts Edit's screen away. */
     mayAsk(): boolean {
-        return this.state.connection === 'ready' && !this.parts.connection().isHeldOff && !this.isEditOnScreen && !this.parts.isWriting();
+        return this.state.connection === 'ready' && !this.parts.isWriting();
     }
 
     /** Asks now, and then again and again. */
@@ -47,6 +48,7 @@ export class Status {
             const where = await askWhere(connection.requests, { timeoutMs: 3000 });
             this.parts.state.set({ where });
             this.tell();
+            if (where.state === 'idle') this.draw(connection);
         } catch (error) {
             if (error instanceof RobotError && error.code === 'no-answer') connection.askAgain();
         }
@@ -54,11 +56,9 @@ export class Status {
 
     /** The strip says what the robot does now. */
     tell(): void {
-        const { stopped, connection, isInDialog, where } = this.state;
+        const { stopped, connection, where } = this.state;
         const tone =
-            stopped !== null || isInDialog || connection === 'foreign' || connection === 'other-board' || connection === 'waiting'
-                ? 'bad'
-                : 'calm';
+            stopped !== null || connection === 'foreign' || connection === 'other-board' || connection === 'waiting' ? 'bad' : 'calm';
         this.watchStart();
         this.parts.state.set({ doing: { text: doingText(this.state, where), tone } });
     }
@@ -85,7 +85,17 @@ export class Status {
 
     /** Somebody looks at Edit's screen now, or does no more. */
     look(): void {
-        if (this.state.connection === 'ready') this.parts.connection().look(this.isEditOnScreen ? this.terminal : null);
+        this.isDrawingDue = true;
+    }
+
+    /** Edit draws when the size that a terminal reports is another, and not while the robot moves. */
+    private draw(connection: Connection): void {
+        if (!this.isDrawingDue || !this.isEditOnScreen || !this.terminal) return;
+        this.isDrawingDue = false;
+        const { rows, columns } = this.terminal;
+        const other = rows === ROWS_LEAST ? rows + 1 : ROWS_LEAST;
+        const reports = `\x1b[${other};${columns}R\x1b[${rows};${columns}R`;
+        void connection.write(new TextEncoder().encode(reports)).catch(() => undefined); // a lost line has no screen
     }
 
     private get state(): DeskState {

@@ -53,7 +53,6 @@ export class YourSource {
         const connection: Connection = new Connection(new WebSerialPort(this.port), wallClock, {
             state: state => this.connection === connection && this.events.connection(state),
             text: bytes => this.connection === connection && this.events.text(bytes),
-            dialog: isInDialog => this.connection === connection && this.events.change({ isInDialog }),
         });
         this.connection = connection;
         connection.connect();

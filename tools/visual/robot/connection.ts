@@ -3,11 +3,8 @@
 // when they change stand in connection-table.ts.
 
 import type { Clock } from './clock.ts';
-import { EditDialog } from './edit-dialog.ts';
-import type { TerminalSize } from './edit-screen.ts';
 import { nextState } from './connection-table.ts';
 import type { ConnectionEvent, ConnectionState } from './connection-table.ts';
-import { FirstContact } from './first-contact.ts';
 import { Line } from './line.ts';
 import { LoaderBanner } from './loader-banner.ts';
 import { BAUD_RATE } from './port.ts';
@@ -22,23 +19,17 @@ const RETRY_MOST_MS = 4000;
 const GIVE_UP_MS = 120_000;
 const ASK_MS = 700;
 const ASK_AGAIN_MS = 400;
-const CTRL_C = Uint8Array.of(3);
 
 export interface ConnectionEvents {
     /** What these return is not looked at. */
     state(state: ConnectionState): unknown;
     text(bytes: Uint8Array): unknown;
-    /** isInDialog, when it may have changed. */
-    dialog?(isInDialog: boolean): unknown;
 }
 
 export class Connection {
     private readonly port: Port;
     private readonly clock: Clock;
     private readonly events: ConnectionEvents;
-    private readonly dialog: EditDialog; // outlives a pulled cable, as Edit's own does
-    private contact: FirstContact | null = null;
-    private isMet = false;
     private current: ConnectionState = 'closed';
     private line: Line | null = null;
     private asked: Requests | null = null;
@@ -54,10 +45,6 @@ export class Connection {
         this.port = port;
         this.clock = clock;
         this.events = events;
-        this.dialog = new EditDialog(clock, () => {
-            this.asked?.dialogChanged();
-            events.dialog?.(this.isInDialog);
-        });
     }
 
     get state(): ConnectionState {
@@ -74,9 +61,7 @@ export class Connection {
         return this.asked;
     }
 
-    /** isFresh: the board was switched on for this connection, so nobody has typed anything there. */
-    connect(isFresh = false): void {
-        this.isMet = isFresh;
+    connect(): void {
         this.lostAtMs = this.clock.now();
         this.retryMs = RETRY_FIRST_MS;
         this.on('connect');
@@ -94,45 +79,13 @@ export class Connection {
 
     async close(): Promise<void> {
         this.on('stop');
-        this.dialog.stop();
         await this.shut();
     }
 
-    /** What a person types: questions keep out of the line. Rejects when there is no line. */
-    async type(bytes: Uint8Array): Promise<void> {
-        const written = this.write(bytes); // before a question that waited for the end of the line
-        const keys = String.fromCharCode(...bytes);
-        if (this.line) this.dialog.typed(keys);
-        this.asked?.typed(keys);
-        await written;
-    }
-
-    /** The bytes of a remote. Rejects when there is no line. */
+    /** What a person types, or the bytes of a remote. Rejects when there is no line. */
     async write(bytes: Uint8Array): Promise<void> {
         if (!this.line) throw new RobotError('not-connected');
         await this.line.write(bytes);
-    }
-
-    /** A person is in the middle of a line: what is asked now waits (Requests.typed). */
-    get isHeldOff(): boolean {
-        return this.asked?.isHeldOff ?? false;
-    }
-
-    /** Edit waits for an answer in its terminal, or shows a list, or plays: what is asked is refused until that ends. */
-    get isInDialog(): boolean {
-        return this.dialog.isLong || this.error?.code === 'edit-waits';
-    }
-
-    /** Stops what a person's line has begun in Edit: there `@stop` is no stop, a key is (Ctrl-C). false: nothing is open, so ask. */
-    async breakOff(): Promise<boolean> {
-        if (!this.dialog.isOpen && !this.isInDialog) return false;
-        await this.type(CTRL_C);
-        return true;
-    }
-
-    /** Somebody looks at Edit's screen (EditScreen.look): of this line, until it ends. */
-    look(size: TerminalSize | null): void {
-        this.asked?.screen.look(size);
     }
 
     private on(event: ConnectionEvent): void {
@@ -185,37 +138,30 @@ export class Connection {
         const line = new Line(this.port, this.clock, {
             text: bytes => {
                 this.meetOther(banner.heard(bytes));
-                this.asked?.screen.heard();
-                this.dialog.heard(bytes);
-                this.contact?.heard(bytes);
                 this.events.text(bytes);
             },
             answer: line => this.asked?.take(line),
             lost: cause => this.lose(cause),
         });
         this.line = line;
-        this.asked = new Requests(line, this.clock, this.dialog);
-        this.contact = new FirstContact(this.clock, keys => line.write(new TextEncoder().encode(keys)));
+        this.asked = new Requests(line, this.clock);
         this.on('opened');
     }
 
     private async ask(): Promise<void> {
         this.version = null;
-        const { asked, contact } = this;
-        if (!asked || !contact) return; // closed meanwhile
+        const { asked } = this;
+        if (!asked) return; // closed meanwhile
         try {
-            if (!this.isMet) await contact.make();
             const version = await askVersion(asked, { timeoutMs: ASK_MS });
             this.version = version;
-            this.isMet = true;
-            this.dialog.runs(version.image);
             this.retryMs = RETRY_FIRST_MS;
             this.error = version.protocol === PROTOCOL ? null : new RobotError('foreign', `protocol ${version.protocol}`);
             this.on(this.error ? 'unknown' : 'known');
         } catch (cause) {
             if (this.asked !== asked || this.current !== 'asking') return; // another line is asked by now, or nobody
             this.error = cause instanceof RobotError ? cause : new RobotError('foreign', String(cause));
-            this.on(this.error.code === 'no-answer' || this.error.code === 'edit-waits' ? 'no-answer' : 'unknown');
+            this.on(this.error.code === 'no-answer' ? 'no-answer' : 'unknown');
         }
     }
 

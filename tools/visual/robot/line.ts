@@ -3,7 +3,8 @@
 // bytes go out through one queue that obeys XOFF. Says what came in by callbacks; knows no requests and no states.
 
 import type { Clock } from './clock.ts';
-import { LINE_START, expectAnswer, forgetAnswer, parseLine } from './line-parser.ts';
+import { parseLine } from './line-parser.ts';
+import type { LineState } from './line-parser.ts';
 import type { Port } from './port.ts';
 import { RobotError } from './robot-error.ts';
 
@@ -23,7 +24,7 @@ export class Line {
     private readonly port: Port;
     private readonly clock: Clock;
     private readonly events: LineEvents;
-    private state = LINE_START;
+    private state: LineState = null;
     private reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
     private writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
     private writing: Promise<void> = Promise.resolve();
@@ -50,16 +51,6 @@ export class Line {
         });
         this.writing = done.catch(() => undefined); // its caller hears of it; the next one may still try
         return done;
-    }
-
-    /** Announces a request, so that its echo and its answer are not text. */
-    expect(request: string): void {
-        this.state = expectAnswer(this.state, request);
-    }
-
-    /** The oldest announced request will not be answered. */
-    forget(): void {
-        this.state = forgetAnswer(this.state);
     }
 
     async close(): Promise<void> {

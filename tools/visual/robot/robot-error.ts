@@ -11,7 +11,6 @@ export type RobotErrorCode =
     | 'foreign' // something else answers there
     | 'other-board' // a boot loader has said the name of another board: it is in `words`
     | 'in-loader' // the boot loader waits at its prompt
-    | 'edit-waits' // what a person typed into Edit's terminal is not done with: a question, a list, a play
     | 'no-image' // the firmware for the robot in the page could not be loaded
     | 'cancelled' // somebody stopped it
     | 'page-changed' // a page of the robot is no longer what it was when it was read: its number is in `words`

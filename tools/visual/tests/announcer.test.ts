@@ -10,7 +10,6 @@ const START = {
     connection: 'ready',
     isPowered: true,
     isLate: false,
-    isInDialog: false,
     stopped: null,
     shownPage: null,
     said: null,

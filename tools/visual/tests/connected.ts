@@ -9,14 +9,14 @@ afterEach(async () => {
     for (const connection of open.splice(0)) await connection.close();
 });
 
-export function connected(bench: RobotBench, isFresh = false) {
+export function connected(bench: RobotBench) {
     let text = '';
     const connection = new Connection(bench.port, bench.clock, {
         state: () => undefined,
         text: bytes => (text += new TextDecoder('latin1').decode(bytes)),
     });
     open.push(connection);
-    connection.connect(isFresh);
+    connection.connect();
     return { connection, text: () => text, forget: () => (text = '') };
 }
 

@@ -9,7 +9,6 @@ const START = {
     connection: 'asking',
     isPowered: true,
     isLate: false,
-    isInDialog: false,
     stopped: null,
     version: null,
     shownPage: null,

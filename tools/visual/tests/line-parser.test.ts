@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bytes here are written down by hand, as the boards send them (PROTOCOL.md; a recording of Play and Edit).
+// Bytes here are written down by hand, as PROTOCOL.md has them; the CRC was calculated elsewhere.
 import { expect, test } from 'vitest';
-import { LINE_START, expectAnswer, forgetAnswer, isAnswer, parseLine } from '../robot/line-parser.ts';
+import { framed, isAnswer, parseLine } from '../robot/line-parser.ts';
 import type { LineEvent, LineState } from '../robot/line-parser.ts';
 import { randomNumbers } from './robot-bench.ts';
 
@@ -17,10 +17,10 @@ function told(events: readonly LineEvent[]): { text: string; answers: string[]; 
     return all;
 }
 
-function parseSplit(start: LineState, text: string, random: () => number) {
+function parseSplit(text: string, random: () => number) {
     const bytes = encode(text);
     const events: LineEvent[] = [];
-    let state = start;
+    let state: LineState = null;
     for (let at = 0; at < bytes.length; ) {
         const count = 1 + Math.floor(random() * 12);
         const [next, some] = parseLine(state, bytes.slice(at, at + count));
@@ -31,94 +31,43 @@ function parseSplit(start: LineState, text: string, random: () => number) {
     return told(events);
 }
 
-const asking = (...requests: string[]): LineState => requests.reduce(expectAnswer, LINE_START);
-
-const cases: [string, LineState, string, { text: string; answers?: string[]; flow?: boolean[] }][] = [
-    ['nothing asked, all is text', LINE_START, '@ver\r\n@ver image=play OK\r\n] ', { text: '@ver\r\n@ver image=play OK\r\n] ' }],
-    [
-        'Play: echo, answer and second prompt are taken out',
-        parseLine(asking('@ver'), encode('] '))[0],
-        '@ver\r\n@ver image=play OK\r\n] ready',
-        { text: 'ready', answers: ['@ver image=play OK'] },
-    ],
-    ['Edit: no echo, no prompt', asking('@ver'), '\r\n@ver image=edit OK\r\nPage', { text: '\r\nPage', answers: ['@ver image=edit OK'] }],
-    ['a refusal', asking('@play 300'), '@play ERR 3 Page must be 0..127\r\n', { text: '', answers: ['@play ERR 3 Page must be 0..127'] }],
+const cases: [string, string, { text: string; answers?: string[]; flow?: boolean[] }][] = [
+    ['without a frame all is text', '@ver\r\n@ver image=play OK\r\n] ', { text: '@ver\r\n@ver image=play OK\r\n] ' }],
+    ['an answer within a word', 'sett\x1e@ver image=play OK\r\nings', { text: 'settings', answers: ['@ver image=play OK'] }],
+    ['an answer within an escape sequence', '\x1b[1\x1e@stop OK\r\n2;3H', { text: '\x1b[12;3H', answers: ['@stop OK'] }],
+    ['a refusal', '\x1e@play ERR 3 Page must be 0..127\r\n', { text: '', answers: ['@play ERR 3 Page must be 0..127'] }],
     [
         'XOFF and XON inside an answer',
-        asking('@ver'),
-        '@ver im\x13age\x11=edit OK\r\n',
+        '\x1e@ver im\x13age\x11=edit OK\r\n',
         { text: '', answers: ['@ver image=edit OK'], flow: [false, true] },
     ],
-    [
-        'two at once',
-        asking('@stop', '@where'),
-        '@stop OK\r\n@where state=idle OK\r\n',
-        { text: '', answers: ['@stop OK', '@where state=idle OK'] },
-    ],
-    [
-        'a line of a person that looks like one',
-        asking('@where'),
-        'a@where x\r\n@where state=idle OK\r\n',
-        { text: 'a@where x\r\n', answers: ['@where state=idle OK'] },
-    ],
-    [
-        'text between echo and answer',
-        asking('@where'),
-        '] @where\r\nPage 3 step 2\r\n@where state=playing OK\r\n] x',
-        { text: '] Page 3 step 2\r\nx', answers: ['@where state=playing OK'] },
-    ],
-    [
-        'an answer behind a screen that Edit is drawing, which has no line ends',
-        asking('@crcs 1 2'),
-        'HELP explains, EXIT leaves@crcs F1FCEE6C OK\r\n',
-        { text: 'HELP explains, EXIT leaves', answers: ['@crcs F1FCEE6C OK'] },
-    ],
-    ['an address in a text is no answer', asking('@where'), 'mail a@whole.world now', { text: 'mail a@whole.world now' }],
-    [
-        'not ours: an unknown @ line stays text',
-        asking('@where'),
-        '@what is this\r\n@where OK\r\n',
-        { text: '@what is this\r\n', answers: ['@where OK'] },
-    ],
-    [
-        'a status line right behind the answer',
-        asking('@stop'),
-        '] @stop\r\n@stop OK\r\nStopped after page 2\r\n] ',
-        { text: '] Stopped after page 2\r\n] ', answers: ['@stop OK'] },
-    ],
+    ['two at once', '\x1e@stop OK\r\n\x1e@where state=idle OK\r\n', { text: '', answers: ['@stop OK', '@where state=idle OK'] }],
+    ['an answer whose end was lost', '\x1e@where sta\x1e@where state=idle OK\r\n', { text: '', answers: ['@where state=idle OK'] }],
 ];
 
-test.each(cases)('%s', (_name, state, bytes, wanted) => {
+test.each(cases)('%s', (_name, bytes, wanted) => {
     const { text, answers = [], flow = [] } = { ...wanted };
     for (let seed = 1; seed <= 60; seed++) {
-        expect(parseSplit(state, bytes, randomNumbers(seed)), `seed ${seed}`).toEqual({ text, answers, flow });
+        expect(parseSplit(bytes, randomNumbers(seed)), `seed ${seed}`).toEqual({ text, answers, flow });
     }
 });
 
-test('noise of any kind never throws and loses no byte while nothing is asked', () => {
+test('noise of any kind never throws, and the answer behind it is heard', () => {
     const random = randomNumbers(20261122);
     for (let round = 0; round < 200; round++) {
-        const noise = Array.from({ length: 200 }, () => '@] \r\nOK\x1b\xff'.charCodeAt(Math.floor(random() * 10)));
-        const text = String.fromCharCode(...noise);
-        expect(parseSplit(LINE_START, text, random).text).toBe(text);
+        const noise = Array.from({ length: 200 }, () => '@] \r\nOK\x1b\xff\x1e'.charCodeAt(Math.floor(random() * 11)));
+        const { answers } = parseSplit(`${String.fromCharCode(...noise)}\x1e@where OK\r\n`, random);
+        expect(answers.at(-1)).toBe('@where OK');
     }
 });
 
-test('noise while something is asked still lets the answer through', () => {
-    const random = randomNumbers(7);
-    for (let round = 0; round < 200; round++) {
-        const noise = Array.from({ length: 60 }, () => '@] \r\nwhere'.charCodeAt(Math.floor(random() * 10)));
-        const bytes = `${String.fromCharCode(...noise)}\r\n@where state=idle OK\r\n`;
-        expect(parseSplit(asking('@where'), bytes, random).answers).toEqual(['@where state=idle OK']);
-    }
+test('a request is framed with its CRC', () => {
+    expect(framed('@ver')).toEqual(encode('\x1e@ver 5F4A\r'));
 });
 
-test('forgotten requests are text again', () => {
-    expect(parseSplit(forgetAnswer(asking('@where')), '@where OK\r\n', randomNumbers(1)).text).toBe('@where OK\r\n');
-});
-
-test('isAnswer wants the same word and an end', () => {
+test('isAnswer wants the same word and an end, or the refusal of a line that has lost some of it', () => {
     expect(isAnswer('@play 3', '@play OK')).toBe(true);
     expect(isAnswer('@play 3', '@player OK')).toBe(false);
     expect(isAnswer('@play 3', '@play 3')).toBe(false);
+    expect(isAnswer('@play 3', '@pla ERR 15 Bytes of this line were lost: nothing was done')).toBe(true);
 });

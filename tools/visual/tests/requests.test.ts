@@ -110,6 +110,24 @@ test('a terminal beside the program sees its own text and nothing of the program
     expect(text().slice(before.length)).toMatch(/^version\r\nMotion512 Play .*\r\n OK\r\n\] $/s);
 });
 
+test.each([
+    ['play', 'sett', 'ings talk\r', /^settings talk\r\n/],
+    ['edit', 'page 9\rname\rsal', 'ute\r', /salute/],
+] as const)('%s: what a person has half typed goes on behind questions', async (image, first, rest, shows) => {
+    const { bench, connection, text } = await ready(image, 28);
+    const type = (keys: string): Promise<void> => connection.write(new TextEncoder().encode(keys));
+    await bench.run(1000);
+    const before = text().length;
+    await type(first);
+    await bench.run(500);
+    const typed = text().length;
+    for (let i = 0; i < 5; i++) await bench.until(askWhere(connection.requests));
+    expect(text().length).toBe(typed);
+    await type(rest);
+    await bench.run(500);
+    expect(text().slice(before)).toMatch(shows);
+});
+
 test('a walk by remote is heard of by @where, and ends by @stop', async () => {
     const { bench, connection } = await ready('play', 16);
     bench.board.send('remote', remotePacket(['up']));

@@ -55,8 +55,7 @@ export class ActionBar extends HTMLElement {
 
     private render(state: DeskState): void {
         const isReady = state.connection === 'ready';
-        const mayStop = isReady || state.isInDialog; // that ends what Edit waits for
-        const key = `${isReady} ${mayStop} ${state.source} ${state.pages.map(({ page, name, steps }) => `${page}:${name}:${steps}`).join()}`;
+        const key = `${isReady} ${state.source} ${state.pages.map(({ page, name, steps }) => `${page}:${name}:${steps}`).join()}`;
         if (key === this.shown) return;
         this.shown = key;
         const byName = new Map(state.pages.map(page => [page.name, page]));
@@ -66,7 +65,7 @@ export class ActionBar extends HTMLElement {
         };
         keepFocus(this, () =>
             this.replaceChildren(
-                this.button('Stop', mayStop, () => this.stop(), 'stop'),
+                this.button('Stop', isReady, () => this.stop(), 'stop'),
                 ...(state.source === 'simulated' ? [this.letGo] : []),
                 ...BUTTONS.flatMap(([name, title, kind]) => plays(name, title, kind)),
                 ...(state.source === 'simulated'

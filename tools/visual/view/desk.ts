@@ -6,7 +6,6 @@ import type { Body } from '../model/body.ts';
 import type { Shape } from '../model/motion.ts';
 import type { Vector } from '../model/space.ts';
 import type { ConnectionState } from '../robot/connection-table.ts';
-import type { TerminalSize } from '../robot/edit-screen.ts';
 import type { Command, PageEntry, Version, Where } from '../robot/protocol.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { RobotState } from '../robot/robot-state.ts';
@@ -29,14 +28,18 @@ export interface Notice {
     readonly tone: 'calm' | 'good' | 'bad';
 }
 
+/** In letters. */
+export interface TerminalSize {
+    readonly rows: number;
+    readonly columns: number;
+}
+
 export interface DeskState {
     readonly source: Source;
     readonly connection: ConnectionState;
     readonly portName: string;
     readonly version: Version | null;
     readonly where: Where | null;
-    /** Edit waits for a person in its terminal, or plays what was typed there; nothing is asked of the robot. */
-    readonly isInDialog: boolean;
     readonly pages: readonly PageEntry[];
     /** Image that the simulated robot runs. */
     readonly image: ImageName;

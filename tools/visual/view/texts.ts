@@ -18,7 +18,6 @@ const ERRORS: Record<RobotErrorCode, string> = {
     'other-board':
         'Motion512 runs on CM-2, CM-2+ and CM-5 only, and this board is another one. Nothing is sent there; choose another port. Its boot loader calls it',
     'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
-    'edit-waits': 'Not done: Edit waits for you in the terminal. Finish there, or press Stop; then try again.',
     'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
     cancelled: 'Stopped.',
     'page-changed': 'This page has changed in the robot since it was read; nothing was written over it. Compare once more: page',
@@ -47,7 +46,7 @@ const CONNECTIONS: Record<ConnectionState, string> = {
     opening: 'Opening the port ...',
     asking: 'Asking the robot who it is ...',
     ready: 'Connected.',
-    silent: 'The port is open, but no Motion512 answers. Switch the robot on; if its screen shows a "-", type GO in the terminal.',
+    silent: 'The port is open, but no Motion512 answers. Switch the robot on; if its screen shows a "-", type GO in the terminal. An older Play or Edit is flashed anew: m512 flash edit-cm5.hex.',
     foreign: 'This robot runs another firmware. Flash ours with: m512 flash edit-cm5.hex. The terminal works meanwhile.',
     'other-board': 'This is no board for Motion512, says its boot loader. Nothing is sent there; the terminal works.',
     waiting: 'The cable is out. Plug it in again; the page reconnects by itself.',
@@ -71,7 +70,6 @@ export function doingText(state: DeskState, where: Where | null): string {
 
 function robotText(state: DeskState, where: Where | null): string {
     if (state.source === 'simulated' && !state.isPowered) return TEXTS.isOff;
-    if (state.isInDialog) return TEXTS.editWaits;
     if (state.connection !== 'ready') return state.source === 'simulated' && !state.isLate ? TEXTS.starts : CONNECTIONS[state.connection];
     const isEdit = state.version?.image === 'edit';
     if (!where) return isEdit ? TEXTS.editRuns : 'Ready.';
@@ -114,8 +112,6 @@ export const TEXTS = {
     shownOnly: (title: string): string => `In the picture only: ${title}.`,
     /** It waits as well; this is what one has to know of it. */
     editRuns: 'Edit runs: its screen is in the terminal.',
-    /** A question, a list or a play: the page cannot tell which. */
-    editWaits: 'Edit waits for you in the terminal: answer its question, leave its list, or let the motion end. Stop ends it, too.',
     editNoRemote: 'Edit hears no remote control; Play does. Flash it with: m512 flash play-cm5.hex. Motions stay.',
     fallen: 'The robot lies on the floor.',
     getUp: 'The robot lies on the floor. Press Get up.',

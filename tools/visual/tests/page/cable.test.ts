@@ -18,7 +18,7 @@ async function pullAtThirdSave(person: Visitor): Promise<void> {
         let saves = 0;
         port.deliver = bytes => {
             deliver(bytes);
-            if (new TextDecoder().decode(bytes).startsWith('@save') && ++saves === 3) port.unplug();
+            if (new TextDecoder().decode(bytes).includes('@save') && ++saves === 3) port.unplug();
         };
     });
 }
