@@ -297,7 +297,7 @@ void editor_quiet(void)
 }
 
 /* Ignores the rest of a line whose first letter answered a question, up to its end or a pause; and bytes that still stream
- * in when a question is asked, which are no answer. */
+ * in when a question is asked, which are no answer. The bytes after an ESC belong to it: without them it would be a key. */
 static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
 {
     if (swallow && quiet_ticks < SWALLOW_TICKS) {
@@ -305,7 +305,7 @@ static bool is_left_over(uint8_t byte, uint16_t quiet_ticks)
         return true;
     }
     swallow = false;
-    return the_dialog.mode == DIALOG_ASK && quiet_ticks < STREAM_TICKS;
+    return the_dialog.mode == DIALOG_ASK && quiet_ticks < STREAM_TICKS && !keys_is_open(&keys);
 }
 
 void editor_byte(uint8_t byte)

@@ -100,6 +100,16 @@ def test_unsaved_edits_are_asked_for_and_kept_with_any_key_but_y(r, command, ans
     assert r.text(2, 76, 4) == "0001" and r.cell(1, 0) == "0077" and r.unsaved
 
 
+def test_a_terminals_size_report_answers_no_question(r):
+    r.line("set 77")
+    r.keys("page 2\r")
+    assert r.command.endswith("[y/N]")
+    r.keys("\x1b[8;36;80t", ms=500)
+    assert r.command.endswith("[y/N]") and r.unsaved
+    r.keys("y")
+    assert r.text(2, 76, 4) == "0002"
+
+
 def test_page_change_with_y_drops_edits(r):
     r.line("set 77")
     r.line("page 2", "Y")
