@@ -44,7 +44,7 @@ async function yours(image: 'play' | 'edit', document: MotionDocument, seed: num
     });
     const state = new Store({ source: 'yours' } as DeskState);
     const plays = new RobotPlays({ state, editor, transfer, connection: () => connection, prepare: () => Promise.resolve() });
-    return { bench, plays, transfer, played: () => sent.filter(line => line.startsWith('@play')) };
+    return { bench, plays, transfer, played: () => sent.flatMap(bytes => bytes.match(/@play \d+/g) ?? []) };
 }
 
 function changed(page: number): MotionDocument {
@@ -72,7 +72,7 @@ test.each([
 test('what the robot has as the document has it plays at once, read or not', async () => {
     const { bench, plays, played } = await yours('play', changed(3), 63);
     await bench.until(plays.playEdited(WAVE));
-    expect(played()).toEqual([`@play ${WAVE}\r`]);
+    expect(played()).toEqual([`@play ${WAVE}`]);
 });
 
 test('what somebody has changed in the robot since it was read does not play', async () => {
