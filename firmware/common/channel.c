@@ -6,7 +6,7 @@
 #include "text.h"
 #include "tick.h"
 
-enum { CR = '\r', CRC_DIGITS = 4, CUT_OFF_TICKS = 32 };
+enum { CR = '\r', DEL = 0x7F, CRC_DIGITS = 4, CUT_OFF_TICKS = 32 };
 
 static struct {
     bool printing;
@@ -35,7 +35,10 @@ channel_event_t channel_byte(uint8_t byte)
     if (byte == CR) {
         return CHANNEL_LINE;
     }
-    if (channel.length < sizeof channel.line - 1u) {   /* the CRC of a line that is cut here does not fit */
+    /* Only text is kept, for a refusal shows it: an XOFF in it would stop the terminal. The CRC of a line that is cut at the
+     * end of the buffer does not fit. */
+    const bool is_text = byte >= ' ' && byte < DEL;
+    if ((is_text || channel.length == 0) && channel.length < sizeof channel.line - 1u) {
         channel.line[channel.length++] = (char)byte;
     }
     return CHANNEL_PART;

@@ -73,6 +73,15 @@ static void test_a_persons_bytes_are_not_taken(void)
     TEST_ASSERT_FALSE(channel_is_open());
 }
 
+/* A refusal shows the request: an XOFF, an ESC or a byte above ASCII from a bad line must not reach the terminal. */
+static void test_what_is_no_text_is_left_out(void)
+{
+    TEST_ASSERT_EQUAL_UINT8(CHANNEL_LINE, give("\x1e@v\x13""e\x1b\x80r\x7f \x1e\xff\x01""5F4A\r"));
+    expect_taken("@ver ", SHELL_OK);
+    TEST_ASSERT_EQUAL_UINT8(CHANNEL_LINE, give("\x1e@v\x13""e 5F4A\r"));
+    expect_taken("@ve 5F4A", SHELL_ERR_LOSSY);
+}
+
 static void test_a_whole_request_is_run(void)
 {
     TEST_ASSERT_EQUAL_UINT8(CHANNEL_PART, give("\x1e@ver "));
@@ -96,7 +105,7 @@ static void test_a_changed_or_short_request_is_refused(void)
 static void test_a_request_behind_one_that_has_lost_its_end_is_refused_with_it(void)
 {
     TEST_ASSERT_EQUAL_UINT8(CHANNEL_LINE, give("\x1e@ver\x1e@ver 5F4A\r"));
-    expect_taken("@ver\x1e@ver 5F4A", SHELL_ERR_LOSSY);
+    expect_taken("@ver@ver 5F4A", SHELL_ERR_LOSSY);
     TEST_ASSERT_EQUAL_UINT8(CHANNEL_LINE, give("\x1e@ver 5F4A\r"));
     expect_taken("@ver ", SHELL_OK);
 }
@@ -142,6 +151,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_persons_bytes_are_not_taken);
+    RUN_TEST(test_what_is_no_text_is_left_out);
     RUN_TEST(test_a_whole_request_is_run);
     RUN_TEST(test_a_changed_or_short_request_is_refused);
     RUN_TEST(test_a_request_behind_one_that_has_lost_its_end_is_refused_with_it);
