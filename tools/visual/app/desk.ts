@@ -19,6 +19,7 @@ import { DocumentEditor } from './editor.ts';
 import type { EditorParts } from './editor.ts';
 import { TEXTS } from '../view/texts.ts';
 import { Arrival } from './arrival.ts';
+import { watchCauses } from './causes.ts';
 import { makeDocuments, makeTransfer } from './document-parts.ts';
 import type { DeskStorage } from './document-parts.ts';
 import type { KeptDocuments } from './documents.ts';
@@ -97,7 +98,7 @@ export class RobotDesk implements Desk {
         this.editor = new DocumentEditor(body, parts, {
             changed: () => this.documents.keep(),
             opened: () => this.trials.forget(),
-            refused: refusal => this.say({ text: refusalText(refusal), tone: 'bad' }),
+            refused: refusal => this.strip.complain(refusalText(refusal), 'edit'),
         });
         this.files = new DocumentFiles(this.editor, formats, {
             cancel: () => formats.cancel(),
@@ -115,7 +116,7 @@ export class RobotDesk implements Desk {
         });
         this.trials = new MotionTrials(this.editor, () => trialClient(body));
         this.documents = makeDocuments(this.editor, storage, {
-            failed: () => this.say({ text: TEXTS.workNotKept, tone: 'bad' }),
+            failed: () => this.strip.complain(TEXTS.workNotKept, 'storage'),
             copied: name => this.say({ text: EDITOR_TEXTS.secondTab(name), tone: 'calm' }),
         });
         this.transfer = makeTransfer(this.editor, this.documents, {
@@ -161,12 +162,14 @@ export class RobotDesk implements Desk {
             connection: () => this.connection,
             becomeDriven: () => this.images.becomeDriven(),
         });
+        watchCauses({ strip: this.strip, robot: this.state, editor: this.editor.state, documents: this.documents.state });
     }
 
     private events(): Omit<SourceEvents, 'motions'> {
         return {
             frame: state => {
                 this.lastFrame = state;
+                this.status.reach(state.ticks);
                 if (state.isPowered !== this.state.get().isPowered) {
                     this.state.set({ isPowered: state.isPowered });
                     this.status.tell();
@@ -271,7 +274,8 @@ export class RobotDesk implements Desk {
     }
 
     say(said: Notice): void {
-        this.strip.say(said);
+        if (said.tone === 'bad') this.strip.complain(said.text, 'edit');
+        else this.strip.say(said);
     }
 
     remote(held: ReadonlySet<RemoteButton>): void {

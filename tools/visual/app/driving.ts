@@ -39,7 +39,7 @@ export class Driving {
 
     remote(held: ReadonlySet<RemoteButton>): void {
         if (held.size > 0 && this.isSimulated && !this.hears) this.keep(held);
-        if (held.size > 0 && this.isYoursWithEdit) this.parts.strip.say({ text: TEXTS.editNoRemote, tone: 'bad' });
+        if (held.size > 0 && this.isYoursWithEdit) this.parts.strip.complain(TEXTS.editNoRemote, 'robot');
         this.keys.hold(held);
     }
 

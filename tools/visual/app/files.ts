@@ -9,11 +9,24 @@ import type { FileFormats, NoRoom, Opened, Refused, Suffix } from '../model/file
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { readPage } from '../model/page.ts';
 import { FILE_TEXTS } from '../view/editor/file-texts.ts';
-import type { ChosenFile, Files, FilesState, SavedFile } from '../view/files-desk.ts';
+import type { ChosenFile, Files, FilesState, LookedAt, SavedFile } from '../view/files-desk.ts';
 import { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
 
 const NOTHING: FilesState = { busy: null, opened: null, tooLarge: null, sent: null, trouble: null };
+
+function noPython(error: unknown): string {
+    return FILE_TEXTS.noPython(error instanceof Error ? error.message : String(error));
+}
+
+/** A sentence: why it cannot be read. */
+function bytesOf(file: ChosenFile): Promise<Uint8Array | string> {
+    if (file.size > MOST_BYTES) return Promise.resolve(FILE_TEXTS.tooManyBytes(file.name));
+    return file.arrayBuffer().then(
+        buffer => new Uint8Array(buffer),
+        () => FILE_TEXTS.unreadable(file.name),
+    );
+}
 
 export interface FilesParts {
     /** Ends what the formats open or save. */
@@ -30,6 +43,7 @@ export class DocumentFiles implements Files {
 
     private readonly parts: FilesParts;
     private isCancelled = false;
+    private endLook: () => void = () => undefined;
 
     constructor(editor: DocumentEditor, formats: FileFormats, parts: FilesParts) {
         this.editor = editor;
@@ -38,18 +52,25 @@ export class DocumentFiles implements Files {
     }
 
     async choose(file: ChosenFile): Promise<void> {
-        if (file.size > MOST_BYTES) return this.state.set({ ...NOTHING, trouble: FILE_TEXTS.tooManyBytes(file.name) });
-        const bytes = await file.arrayBuffer().then(
-            buffer => new Uint8Array(buffer),
-            () => null,
-        );
-        if (!bytes) return this.state.set({ ...NOTHING, trouble: FILE_TEXTS.unreadable(file.name) });
+        const bytes = await bytesOf(file);
+        if (typeof bytes === 'string') return this.state.set({ ...NOTHING, trouble: bytes });
         await this.open(file.name, bytes);
+    }
+
+    async look(file: ChosenFile): Promise<LookedAt> {
+        const cancelled = new Promise<LookedAt>(resolve => (this.endLook = () => resolve({ kind: 'cancelled' })));
+        this.state.set({ busy: FILE_TEXTS.reading(file.name) });
+        try {
+            return await Promise.race([this.lookAt(file), cancelled]);
+        } finally {
+            this.state.set({ busy: null });
+        }
     }
 
     cancel(): void {
         if (this.state.get().busy === null) return;
         this.isCancelled = true;
+        this.endLook();
         this.parts.cancel();
     }
 
@@ -142,6 +163,18 @@ export class DocumentFiles implements Files {
         return page;
     }
 
+    private async lookAt(file: ChosenFile): Promise<LookedAt> {
+        const bytes = await bytesOf(file);
+        if (typeof bytes === 'string') return { kind: 'refused', text: bytes };
+        try {
+            const answer = await this.formats.open(file.name, bytes, true);
+            if (answer.kind === 'opened') return { kind: 'read', image: answer.image };
+            return answer.kind === 'refused' ? answer : { kind: 'refused', text: FILE_TEXTS.tooLarge(answer.pages) };
+        } catch (error) {
+            return { kind: 'refused', text: noPython(error) };
+        }
+    }
+
     private async read(name: string, bytes: Uint8Array, leaveOut: boolean): Promise<void> {
         const answer = await this.busy(FILE_TEXTS.reading(name), () => this.formats.open(name, bytes, leaveOut));
         if (answer) this.state.set(this.judged(name, answer));
@@ -181,7 +214,7 @@ export class DocumentFiles implements Files {
         try {
             return await deed();
         } catch (error) {
-            if (!this.isCancelled) this.state.set({ trouble: FILE_TEXTS.noPython(error instanceof Error ? error.message : String(error)) });
+            if (!this.isCancelled) this.state.set({ trouble: noPython(error) });
             return null;
         } finally {
             this.state.set({ busy: null });

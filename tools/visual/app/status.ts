@@ -3,6 +3,7 @@
 // screen for a terminal that has just been opened, or has another size.
 
 import type { Connection } from '../robot/connection.ts';
+import { TICKS_PER_SECOND } from '../model/motion.ts';
 import { askWhere } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { DeskState, TerminalSize } from '../view/desk.ts';
@@ -12,8 +13,8 @@ import { doingText } from '../view/texts.ts';
 const WHERE_MS = 300;
 /** Of a screen that Edit draws. */
 const ROWS_LEAST = 24;
-/** A robot in the page that starts answers long before, on a slow computer too. */
-const START_MS = 20_000;
+/** Of the robot's own time, so that a slow computer is no silent robot: one in the page that starts answers long before. */
+const START_TICKS = 10 * TICKS_PER_SECOND;
 
 export interface StatusParts {
     readonly state: Store<DeskState>;
@@ -26,7 +27,8 @@ export interface StatusParts {
 export class Status {
     private readonly parts: StatusParts;
     private timer: ReturnType<typeof setTimeout> | undefined;
-    private lateTimer: ReturnType<typeof setTimeout> | undefined;
+    /** When the robot in the page began to start, in its own time; null: it answers, or is off. */
+    private startedTicks: number | null = null;
     private terminal: TerminalSize | null = null;
     private isDrawingDue = false;
 
@@ -59,22 +61,17 @@ export class Status {
         const { stopped, connection, where } = this.state;
         const tone =
             stopped !== null || connection === 'foreign' || connection === 'other-board' || connection === 'waiting' ? 'bad' : 'calm';
-        this.watchStart();
         this.parts.state.set({ doing: { text: doingText(this.state, where), tone } });
     }
 
-    /** A robot that starts, or starts anew, is silent for a while, and nothing is wrong. */
-    private watchStart(): void {
+    /** The robot in the page has come to this time. While it starts, or starts anew, it is silent, and nothing is wrong. */
+    reach(ticks: number): void {
         const isStarting = this.state.connection !== 'ready' && this.state.isPowered;
-        if (isStarting === (this.lateTimer !== undefined)) return;
-        clearTimeout(this.lateTimer);
-        this.lateTimer = undefined;
-        if (this.state.isLate) this.parts.state.set({ isLate: false });
-        if (isStarting)
-            this.lateTimer = setTimeout(() => {
-                this.parts.state.set({ isLate: true });
-                this.tell();
-            }, START_MS);
+        this.startedTicks = isStarting ? Math.min(ticks, this.startedTicks ?? ticks) : null; // one that is made anew begins at 0
+        const isLate = this.startedTicks !== null && ticks - this.startedTicks > START_TICKS;
+        if (isLate === this.state.isLate) return;
+        this.parts.state.set({ isLate });
+        this.tell();
     }
 
     /** The terminal shows so many letters. */

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What the status bar says of a robot in the page that starts, that has no power, and that does not start.
-import { expect, test } from 'vitest';
+import { expect, test, vi } from 'vitest';
+import { Status } from '../app/status.ts';
 import type { DeskState } from '../view/desk.ts';
+import { Store } from '../view/store.ts';
 import { doingText } from '../view/texts.ts';
 
 const START = {
@@ -29,6 +31,33 @@ test('without power it is off, whatever it said last', () => {
 });
 
 test('one that never answers, and yours: what to do', () => {
-    expect(doingText({ ...START, connection: 'silent', isLate: true }, null)).toMatch(/type GO in the terminal/);
+    const late = doingText({ ...START, connection: 'silent', isLate: true }, null);
+    expect(late).toMatch(/type GO there; otherwise start it anew under "Robot"/);
+    expect(late).not.toMatch(/flash|port/); // it is the robot in the page
     expect(doingText({ ...START, connection: 'silent', source: 'yours' }, null)).toMatch(/Switch the robot on/);
+});
+
+test('a slow computer is no silent robot: it is late by its own time alone', () => {
+    vi.useFakeTimers();
+    const state = new Store<DeskState>({ ...START, connection: 'silent' });
+    const status = new Status({
+        state,
+        connection: () => {
+            throw new Error('nothing is asked');
+        },
+        isWriting: () => false,
+    });
+    status.tell();
+    vi.advanceTimersByTime(100_000); // the computer is busy, and the robot has not had a second yet
+    for (const ticks of [0, 64, 128]) status.reach(ticks);
+    expect(state.get().doing.text).toBe('The robot is starting …');
+    status.reach(128 * 11);
+    expect(state.get().doing.text).toMatch(/does not answer/);
+    status.reach(1); // made anew
+    expect(state.get().doing.text).toBe('The robot is starting …');
+    status.reach(128 * 11);
+    state.set({ connection: 'ready', where: null });
+    status.reach(128 * 11 + 1);
+    expect(state.get()).toMatchObject({ isLate: false, doing: { text: 'Ready.' } });
+    vi.useRealTimers();
 });

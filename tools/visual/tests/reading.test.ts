@@ -19,7 +19,7 @@ const body = JSON.parse(readFileSync(`${ROOT}build/wasm/body.json`, 'utf8')) as 
 class BusyWorker {
     static readonly all: BusyWorker[] = [];
     onmessage: ((event: { data: FromFiles }) => void) | null = null;
-    onerror: (() => void) | null = null;
+    onerror: ((event: { message: string }) => void) | null = null;
     isEnded = false;
     readonly asked: ToFiles[] = [];
 
@@ -36,7 +36,7 @@ class BusyWorker {
     }
 
     answer(answer: unknown): void {
-        const question = this.asked.find(message => message.kind === 'question');
+        const question = this.asked.findLast(message => message.kind === 'question');
         if (question?.kind === 'question') this.onmessage?.({ data: { kind: 'answer', id: question.id, answer } });
     }
 }
@@ -99,4 +99,34 @@ test('a file that cannot be read (a folder, or gone) is told', async () => {
     const { files } = await openPage();
     await files.choose({ name: 'folder', size: 4096, arrayBuffer: () => Promise.reject(new DOMException('gone', 'NotFoundError')) });
     expect(files.state.get()).toMatchObject({ busy: null, trouble: expect.stringMatching(/^folder cannot be read/) });
+});
+
+test('a file that is only looked at: cancelled, refused, unreadable and without Python it ends with a word, and the next one is read', async () => {
+    const { files } = await openPage();
+    const never = { name: 'slow.m512', size: 9, arrayBuffer: () => new Promise<ArrayBuffer>(() => undefined) };
+    const slow = files.look(never); // from a network drive that has gone
+    files.cancel();
+    expect(await slow).toEqual({ kind: 'cancelled' });
+    const long = files.look(new File(['motion512 1'], 'long.m512'));
+    await settle();
+    expect(files.state.get().busy).toContain('long.m512');
+    files.cancel();
+    expect(await long).toEqual({ kind: 'cancelled' });
+    expect(last().isEnded).toBe(true);
+    const gone = { name: 'folder', size: 1, arrayBuffer: () => Promise.reject(new DOMException('gone', 'NotFoundError')) };
+    expect(await files.look(gone)).toMatchObject({ kind: 'refused', text: expect.stringMatching(/^folder cannot be read/) });
+    const crashes = files.look(new File(['x'], 'crash.m512'));
+    await settle();
+    last().onerror?.({ message: 'out of memory' });
+    expect(await crashes).toMatchObject({ kind: 'refused', text: expect.stringContaining('out of memory') });
+    const bad = files.look(new File(['x'], 'bad.m512'));
+    await settle();
+    last().answer({ kind: 'refused', text: 'no motion file' });
+    expect(await bad).toEqual({ kind: 'refused', text: 'no motion file' });
+    const image = new Uint8Array(65536);
+    const good = files.look(new File(['x'], 'good.m512'));
+    await settle();
+    last().answer({ kind: 'opened', image, notes: [], losses: [] });
+    expect(await good).toEqual({ kind: 'read', image });
+    expect(files.state.get()).toMatchObject({ busy: null, opened: null, trouble: null });
 });

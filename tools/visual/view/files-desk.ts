@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files and links as the views see them. app/files.ts is behind it.
 
-import type { FileFormats, Suffix } from '../model/file-formats.ts';
+import type { FileFormats, Refused, Suffix } from '../model/file-formats.ts';
 import type { Store } from './store.ts';
 
 /** A motion file that was read, before anything of it is taken over. */
@@ -42,6 +42,9 @@ export interface FilesState {
     readonly trouble: string | null;
 }
 
+/** A file that somebody only looks at; `text` says why it could not be read. Cancelled: somebody had enough of it. */
+export type LookedAt = { readonly kind: 'read'; readonly image: Uint8Array } | Refused | { readonly kind: 'cancelled' };
+
 export interface SavedFile {
     readonly name: string;
     readonly bytes: Uint8Array;
@@ -55,6 +58,8 @@ export interface Files {
     /** Opens it, unless it is too large for any motion file. */
     choose(file: ChosenFile): Promise<void>;
     open(name: string, bytes: Uint8Array): Promise<void>;
+    /** Reads it for somebody who only looks: of the state only `busy` changes. */
+    look(file: ChosenFile): Promise<LookedAt>;
     /** Ends what is being read or written; nothing was changed. */
     cancel(): void;
     /** The same file, without the pages that have no room. */

@@ -70,7 +70,10 @@ export function doingText(state: DeskState, where: Where | null): string {
 
 function robotText(state: DeskState, where: Where | null): string {
     if (state.source === 'simulated' && !state.isPowered) return TEXTS.isOff;
-    if (state.connection !== 'ready') return state.source === 'simulated' && !state.isLate ? TEXTS.starts : CONNECTIONS[state.connection];
+    if (state.connection !== 'ready') {
+        if (state.source === 'yours') return CONNECTIONS[state.connection];
+        return state.isLate ? TEXTS.startsNot : TEXTS.starts;
+    }
     const isEdit = state.version?.image === 'edit';
     if (!where) return isEdit ? TEXTS.editRuns : 'Ready.';
     switch (where.state) {
@@ -108,6 +111,7 @@ export const TEXTS = {
     noPhysics: 'Physics could not be loaded, so the robot cannot fall.',
     waits: 'The robot stands and waits.',
     starts: 'The robot is starting …',
+    startsNot: 'The robot in this page does not answer. If its terminal shows a "-", type GO there; otherwise start it anew under "Robot".',
     isOff: 'The robot is switched off. Switch it on under "Robot".',
     shownOnly: (title: string): string => `In the picture only: ${title}.`,
     /** It waits as well; this is what one has to know of it. */

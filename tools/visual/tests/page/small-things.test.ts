@@ -81,6 +81,13 @@ test('whoever leaves is asked exactly when the browser keeps nothing', async () 
         await person.page.locator('app-shell').waitFor();
         const isAsked = await person.page.evaluate(() => !window.dispatchEvent(new Event('beforeunload', { cancelable: true })));
         expect(isAsked).toBe(!isKept);
+        if (!isKept) {
+            // The warning has the whole width, not what is left of it.
+            await person.open('Steps');
+            const warning = await person.page.getByRole('status', { name: 'Autosave' }).boundingBox();
+            const bar = await person.page.getByRole('toolbar', { name: 'Document' }).boundingBox();
+            expect(warning?.width).toBeGreaterThan(0.9 * (bar?.width ?? NaN));
+        }
         await person.leave();
     }
 });

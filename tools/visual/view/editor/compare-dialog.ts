@@ -3,7 +3,6 @@
 // Single pages are taken over into the document; the others way round, pages are written into the robot.
 
 import { documentFrom, imageOf, pageOf } from '../../model/document.ts';
-import { MOST_BYTES } from '../../model/file-formats.ts';
 import { readPage } from '../../model/page.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
@@ -26,16 +25,24 @@ export class CompareDialog extends HTMLElement {
         'aria-label': 'File to compare with',
         onchange: () => void this.chosenFile(),
     });
+    private readonly another = make('button', { onclick: () => this.chooser.click() }, 'A file …');
     private readonly rows = make('ul', { class: 'rows', 'aria-label': 'Pages that differ' });
     private readonly status = make('p', { class: 'status', role: 'status', 'aria-label': 'Transfer' });
     private readonly bar = make('progress', { hidden: true, 'aria-label': 'Progress' });
     private readonly go = make('button', { class: 'primary', onclick: () => void this.deed() });
-    private readonly stop = make('button', { hidden: true, onclick: () => this.desk.transfer.cancel() }, 'Stop');
+    private readonly stop = make('button', { hidden: true, onclick: () => this.cancel() }, 'Stop');
     private readonly again = make('button', { hidden: true, onclick: () => void this.tryAgain() }, 'Try again');
     private readonly shut = make('button', { onclick: () => this.dialog.close() }, 'Close');
     private readonly reread = make('button', { onclick: () => void this.readRobot() }, 'Read the robot again');
-    private readonly dialog = make('dialog', { class: 'compare', 'aria-label': 'Compare and write' });
+    private readonly dialog = make('dialog', {
+        class: 'compare',
+        'aria-label': 'Compare and write',
+        onclose: () => this.reading !== null && this.desk.files.cancel(),
+    });
     private file: { readonly title: string; readonly pages: readonly Uint8Array[] } | null = null;
+    /** The file that is being read, and why the last one could not be; null: none. */
+    private reading: string | null = null;
+    private trouble: string | null = null;
     private other: readonly (Uint8Array | null)[] = [];
     private readonly ticks = new Map<number, HTMLInputElement>();
     private readonly marks = new Map<number, HTMLElement>();
@@ -43,14 +50,13 @@ export class CompareDialog extends HTMLElement {
     private readonly disposals: (() => void)[] = [];
 
     connectedCallback(): void {
-        const file = make('button', { onclick: () => this.chooser.click() }, 'A file …');
         this.dialog.replaceChildren(
             make(
                 'header',
                 {},
                 make('h2', {}, 'Compare and write'),
                 make('label', {}, 'With ', this.which),
-                file,
+                this.another,
                 this.chooser,
                 this.reread,
             ),
@@ -97,25 +103,30 @@ export class CompareDialog extends HTMLElement {
         const file = this.chooser.files?.[0];
         this.chooser.value = '';
         if (!file) return;
-        if (file.size > MOST_BYTES) {
-            this.status.textContent = FILE_TEXTS.tooManyBytes(file.name);
-            return;
+        this.reading = FILE_TEXTS.reading(file.name);
+        this.trouble = null;
+        this.renderTransfer(this.desk.transfer.state.get());
+        const found = await this.desk.files.look(file);
+        this.reading = null;
+        if (found.kind === 'read') {
+            this.file = { title: file.name, pages: documentFrom(found.image, file.name).pages };
+            this.fillWhich('file');
+            return this.look();
         }
-        this.status.textContent = EDITOR_TEXTS.readingFile(file.name);
-        const read = await this.desk.files.formats.open(file.name, new Uint8Array(await file.arrayBuffer()), true);
-        if (read.kind !== 'opened') {
-            this.status.textContent = read.kind === 'refused' ? read.text : EDITOR_TEXTS.noRoom(read.pages);
-            return;
-        }
-        this.file = { title: file.name, pages: documentFrom(read.image, file.name).pages };
-        this.fillWhich('file');
-        await this.look();
+        this.trouble = found.kind === 'refused' ? found.text : FILE_TEXTS.notRead(file.name);
+        this.renderTransfer(this.desk.transfer.state.get());
+    }
+
+    private cancel(): void {
+        if (this.reading !== null) this.desk.files.cancel();
+        else this.desk.transfer.cancel();
     }
 
     /** Shows what differs. */
     private async look(): Promise<void> {
         const mine = ++this.looked;
         const { desk, key } = this;
+        this.trouble = null;
         const found = key === 'file' ? this.file?.pages : await pagesOf(desk, key);
         if (mine !== this.looked) return;
         this.other = found ?? [];
@@ -222,14 +233,18 @@ export class CompareDialog extends HTMLElement {
 
     private renderTransfer(state: TransferState): void {
         const isRobot = this.key === 'robot';
-        const isBusy = state.phase === 'reading' || state.phase === 'writing';
+        const isMoving = state.phase === 'reading' || state.phase === 'writing';
+        const isBusy = isMoving || this.reading !== null;
         const count = this.chosen.length;
-        this.status.textContent = isRobot ? transferText(state) : '';
-        this.status.dataset['tone'] = state.phase === 'stopped' ? 'bad' : 'calm';
-        this.bar.hidden = !isBusy;
+        const isBad = this.reading === null && (this.trouble !== null || (isRobot && state.phase === 'stopped'));
+        this.status.textContent = this.reading ?? this.trouble ?? (isRobot ? transferText(state) : '');
+        this.status.dataset['tone'] = isBad ? 'bad' : 'calm';
+        this.bar.hidden = !isMoving;
         this.bar.max = Math.max(1, state.total);
         this.bar.value = state.done;
+        this.another.disabled = this.reading !== null;
         this.stop.hidden = !isBusy;
+        this.stop.textContent = this.reading === null ? 'Stop' : 'Cancel';
         this.again.hidden = !isRobot || state.phase !== 'stopped';
         this.reread.hidden = !isRobot;
         this.go.disabled = isBusy || count === 0;

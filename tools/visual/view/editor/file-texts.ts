@@ -5,6 +5,7 @@ export const FILE_TEXTS = {
     reading: (name: string): string => `Reading ${name} …`,
     tooManyBytes: (name: string): string => `${name} is larger than 4 MB. No motion file is; it was not read.`,
     unreadable: (name: string): string => `${name} cannot be read. Is it a folder, or was it moved meanwhile? Choose it again.`,
+    notRead: (name: string): string => `${name} was not read. Nothing has changed.`,
     writing: (name: string): string => `Making ${name} …`,
     nothingToSend: 'This page is empty or damaged: there is nothing to send. Choose another page.',
     linkTooLong: 'This page leads to more pages than fit into an address. Save a file and send that.',

@@ -104,8 +104,6 @@ export const EDITOR_TEXTS = {
     wordsComing: 'In words: a moment …',
     noWords: 'The words could not be loaded; the pictures are right.',
     backupOf: (robot: string, when: string) => `Backup of ${when}, ${robot}`,
-    readingFile: (name: string) => `Reading ${name} …`,
-    noRoom: (pages: string) => `The file has pages that have no room among 128: ${pages}.`,
     replaced: (to: string) => `${to} is not empty: it would be replaced. Undo brings it back.`,
 } as const;
 

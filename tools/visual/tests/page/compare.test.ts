@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The comparison with a file that cannot be read, or whose reading somebody has had enough of.
+import { expect, test } from 'vitest';
+import { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
+
+const suite = pageSuite();
+/** Python's own code: without it no file is read. */
+const PYTHON = '**/python-*.zip';
+
+test('a file to compare with: a reading that does not end is cancelled, by the button and by Close, and one that fails says why', async () => {
+    let isOnline = true;
+    const person = await Visitor.come(suite.browser, suite.address, {
+        hasPicture: false,
+        hasPhysics: false,
+        before: page => page.route(PYTHON, route => (isOnline ? undefined : route.abort())), // online, but no answer comes
+    });
+    const { page } = person;
+    await person.untilStanding();
+    await person.open('Steps');
+    await page.getByRole('textbox', { name: 'Name of the page' }).fill('mine');
+    await page.keyboard.press('Enter');
+    await person.button('To the robot (1) …').click();
+    const dialog = page.getByRole('dialog', { name: 'Compare and write' });
+    const status = dialog.getByRole('status', { name: 'Transfer' });
+    const choose = (): Promise<void> =>
+        dialog
+            .getByLabel('File to compare with')
+            .setInputFiles({ name: 'theirs.m512', mimeType: '', buffer: Buffer.from('motion512 1\n') });
+    await dialog.getByRole('button', { name: /^Write 1 page/ }).waitFor();
+
+    await choose();
+    await status.filter({ hasText: 'Reading theirs.m512 …' }).waitFor();
+    await dialog.getByRole('button', { name: 'Cancel' }).click();
+    await status.filter({ hasText: 'theirs.m512 was not read. Nothing has changed.' }).waitFor();
+    expect(await dialog.getByRole('button', { name: 'Cancel' }).isVisible()).toBe(false);
+
+    await choose();
+    await status.filter({ hasText: 'Reading theirs.m512 …' }).waitFor();
+    isOnline = false;
+    await dialog.getByRole('button', { name: 'Close' }).click();
+    await dialog.waitFor({ state: 'hidden' });
+    await person.button('To the robot (1) …').click();
+    await dialog.getByRole('button', { name: /^Write 1 page/ }).waitFor();
+    expect(await status.textContent()).not.toContain('Reading theirs');
+
+    await choose();
+    await status.filter({ hasText: /could not be loaded .* Nothing was changed/ }).waitFor();
+    person.faults.splice(0); // the console says that a file was not there
+    await person.leave();
+});

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Legs that were let go and bent do not bear the robot: the hand goes on holding it behind "Hold", until "Let go" or a play.
+import type { Page } from 'playwright-core';
+import { expect, test } from 'vitest';
+import { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
+
+const suite = pageSuite();
+const HELD = 'A hand holds the robot.';
+
+/** Two seconds of the robot's time: a hand that lets go needs 0.4 s of it. */
+function twoSeconds(page: Page): Promise<void> {
+    return page.evaluate(() => {
+        const { desk } = document.querySelector('app-shell') as unknown as {
+            desk: { onFrame(listener: (state: { ticks: number }) => void): () => void };
+        };
+        return new Promise<void>(resolve => {
+            let first = -1;
+            const end = desk.onFrame(({ ticks }) => {
+                if (first < 0) first = ticks;
+                if (ticks - first < 256) return;
+                end();
+                resolve();
+            });
+        });
+    });
+}
+
+test('the hand stays over legs that were let go, and over an arm beside them, until "Let go", and the next time until a play', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false });
+    const { page, doing } = person;
+    await person.untilStanding();
+    for (const limbs of [['Right leg'], ['Left leg', 'Right arm']]) {
+        await person.open('Steps');
+        for (const limb of limbs) await person.button(limb).click();
+        await doing.filter({ hasText: HELD }).waitFor();
+        await person.button('Hold').click();
+        await page
+            .getByRole('log', { name: 'Last message' })
+            .filter({ hasText: /^The hand goes on holding the robot/ })
+            .waitFor();
+        await twoSeconds(page);
+        expect(await doing.textContent()).toContain(HELD);
+        if (limbs.length === 1) await person.button('Let go').click();
+        else {
+            await person.open('Remote');
+            await person.button('Bow').click();
+        }
+        await doing.filter({ hasNotText: HELD }).waitFor();
+    }
+    await person.untilStanding();
+
+    await person.open('Steps'); // an arm alone: the legs bear it
+    await person.button('Right arm').click();
+    await doing.filter({ hasText: HELD }).waitFor();
+    await person.button('Hold').click();
+    await doing.filter({ hasNotText: HELD }).waitFor();
+    await person.leave();
+});
