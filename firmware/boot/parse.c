@@ -48,7 +48,7 @@ static uint32_t parse_hex(const char *token)
 parse_status_t parse_line(char *line, parse_t *parse)
 {
     *parse = (parse_t){.arg = {0, 1}};
-    while (*line == ' ' || *line == '\t') {
+    while (*line == ' ' || *line == '\t' || *line == '#') {
         line++;
     }
     if (is_separator(*line)) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * parse.h - splits a typed line into a word and hexadecimal arguments. Pure; tested on the PC.
  * Separators are space to '/' (0x20..0x2F) and TAB; several in a row are one. A line that begins with one that is not a
- * space or TAB is empty (so `####` does no harm), as in the original. */
+ * space, TAB or # is empty, as in the original. #s are left over from the start, which they have stopped. */
 #ifndef PARSE_H
 #define PARSE_H
 

@@ -20,12 +20,12 @@ typedef struct {
 #define MAGIC 'S'
 #define LAYOUT 1u
 /* A save clears the magic, writes everything after it, and writes the magic last. So no mixture of old and new bytes ever
- * has the magic. */
+ * has the magic. Cleared is as never written: a first save that is cut off has damaged nothing. */
 #define CRC_BYTES 2u
 #define BODY_BYTES_MAX (COPY_BYTES - sizeof(head_t) - CRC_BYTES)
 #define RECORD_BYTES (sizeof(head_t) + sizeof(settings_t) + CRC_BYTES)
 #define SAVE_STEPS (RECORD_BYTES + 1u)
-#define NO_MAGIC 0x00u
+#define NO_MAGIC 0xFFu
 
 STATIC_ASSERT(sizeof(settings_t) <= BODY_BYTES_MAX, "a record fits its place");
 STATIC_ASSERT(MEM_EE_SETTINGS + 2u * COPY_BYTES <= MEM_EE_SETTINGS_END, "two copies fit");
@@ -111,7 +111,7 @@ settings_status_t settings_load(settings_store_t *store, settings_t *settings)
                 store->sequence = sequence;
             }
             status = SETTINGS_OK;
-        } else if (status == SETTINGS_EMPTY && magic != 0xFF) {
+        } else if (status == SETTINGS_EMPTY && magic != NO_MAGIC) {
             status = SETTINGS_DAMAGED;
         }
     }

@@ -6,8 +6,8 @@
  *
  * Keys: BS (0x08) and DEL (0x7F) delete; CR, LF and CR LF end a line once; Ctrl-A (0x01) and arrow-up put the line
  * typed before in place of this one (again: the one before that), arrow-down goes back; Ctrl-U (0x15) empties the
- * line. Other escape sequences and control characters have no effect. Words are separated by any number of
- * space , . : ; (edit/ORIGINAL.md section 5). Case does not matter. */
+ * line. Other escape sequences and control characters have no effect, and ESC alone takes no other key with it. Words are
+ * separated by any number of space , . : ; (edit/ORIGINAL.md section 5). Case does not matter. */
 #ifndef SHELL_H
 #define SHELL_H
 

@@ -20,7 +20,7 @@ enum {
 /*            ESC            [ or O            0x40..0x7E
  *  ESC_NONE -----> ESC_BEGUN -----> ESC_BODY -----------> ESC_NONE
  *                     | any other byte                ^ (parameters stay in ESC_BODY)
- *                     +--> ESC_NONE                                                       */
+ *                     +--> ESC_NONE, and the byte takes effect: it was the key ESC         */
 enum { ESC_NONE = 0, ESC_BEGUN, ESC_BODY };
 
 void shell_init(shell_t *shell, char *line, uint8_t line_bytes, char *history, uint8_t history_bytes)
@@ -138,36 +138,26 @@ static void remember(shell_t *shell)
     } while (end[-1] != '\0');
 }
 
-/* true: the byte belongs to an escape sequence. */
+/* true: the byte belongs to an escape sequence. A control character ends one and takes effect. */
 static bool swallow_escape(shell_t *shell, uint8_t byte)
 {
-    switch (shell->escape) {
-    case ESC_NONE:
-        if (byte != KEY_ESC) {
-            return false;
-        }
-        shell->escape = ESC_BEGUN;
-        return true;
-    case ESC_BEGUN:
-        if (byte != KEY_ESC) {
-            shell->escape = byte == '[' || byte == 'O' ? ESC_BODY : ESC_NONE;
-        }
-        return true;
-    default:
-        if (byte < 0x20) { /* a control character ends the sequence and takes effect */
-            shell->escape = byte == KEY_ESC ? ESC_BEGUN : ESC_NONE;
-            return byte == KEY_ESC;
-        }
-        if (byte >= 0x40) {
-            shell->escape = ESC_NONE;
-            if (byte == 'A') {
-                recall(shell, shell->recalled + 1);
-            } else if (byte == 'B' && shell->recalled > 0) {
-                recall(shell, shell->recalled - 1);
-            }
-        }
+    if (shell->escape == ESC_BEGUN && (byte == '[' || byte == 'O')) {
+        shell->escape = ESC_BODY;
         return true;
     }
+    if (shell->escape != ESC_BODY || byte < 0x20) {
+        shell->escape = byte == KEY_ESC ? ESC_BEGUN : ESC_NONE;
+        return byte == KEY_ESC;
+    }
+    if (byte >= 0x40) {
+        shell->escape = ESC_NONE;
+        if (byte == 'A') {
+            recall(shell, shell->recalled + 1);
+        } else if (byte == 'B' && shell->recalled > 0) {
+            recall(shell, shell->recalled - 1);
+        }
+    }
+    return true;
 }
 
 static void control_key(shell_t *shell, uint8_t byte)

@@ -130,7 +130,12 @@ def test_unknown_words(board, line):
     assert say(board, line) == BAD_COMMAND
 
 
-@pytest.mark.parametrize("line", ["", "   ", "####", "##load", "/help", "#help"])
+@pytest.mark.parametrize("line", ["#check", "#####check"])
+def test_hashes_left_over_from_the_start_do_not_swallow_a_word(board, line):
+    assert say(board, line) == say(board, "check") != ""
+
+
+@pytest.mark.parametrize("line", ["", "   ", "####", "/help", "-help"])
 def test_empty_lines_do_nothing(board, line):
     assert say(board, line) == ""
 

@@ -54,9 +54,19 @@ static void test_every_character_from_space_to_slash_and_tab_separates(void)
     }
 }
 
+/* Who holds # at the start has some of them before the first word. */
+static void test_hashes_before_a_word_are_blanks(void)
+{
+    const char *lines[] = {"#check", "#####check", " # check", "# #\tcheck"};
+    for (unsigned i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        TEST_ASSERT_EQUAL(PARSE_OK, parse(lines[i]));
+        TEST_ASSERT_EQUAL_STRING("CHECK", parsed.word);
+    }
+}
+
 static void test_a_leading_sign_makes_the_line_empty(void)
 {
-    const char *lines[] = {"", "   ", "\t", "#", "####", "##load", " #load", "/x", "*"};
+    const char *lines[] = {"", "   ", "\t", "#", "####", " # ", "/x", "*", "#-x"};
     for (unsigned i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         TEST_ASSERT_EQUAL(PARSE_OK, parse(lines[i]));
         TEST_ASSERT_EQUAL_STRING("", parsed.word);
@@ -106,6 +116,7 @@ int main(void)
     RUN_TEST(test_arguments_are_hexadecimal_with_or_without_0x);
     RUN_TEST(test_a_missing_address_is_0_and_a_missing_length_1);
     RUN_TEST(test_every_character_from_space_to_slash_and_tab_separates);
+    RUN_TEST(test_hashes_before_a_word_are_blanks);
     RUN_TEST(test_a_leading_sign_makes_the_line_empty);
     RUN_TEST(test_what_is_not_hexadecimal_is_refused);
     RUN_TEST(test_numbers_above_20_bits_are_refused_leading_zeros_are_not);

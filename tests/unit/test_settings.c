@@ -220,6 +220,33 @@ static void test_power_cut_at_every_write_leaves_old_or_new(void)
     printf("settings: %u power cuts, %u old, %u new, 0 other\n", cuts, olds, news);
 }
 
+/* A first save, cut at its n-th EEPROM write. Returns whether the cut happened. */
+static bool cut_first_save(uint32_t operation, int torn)
+{
+    jmp_buf power;
+    fake_eeprom_reset();
+    (void)settings_load(&store, &loaded);
+    if (setjmp(power) == 0) {
+        fake_eeprom_cut(operation, torn, &power);
+        save(&store, &loaded);
+        fake_eeprom_cut(0, 0, &power);
+        return false;
+    }
+    return true;
+}
+
+/* Nothing was there that could be lost. */
+static void test_first_save_that_is_cut_off_is_no_damage(void)
+{
+    static const int torn_values[] = { -1, 0xFF };
+    for (uint8_t t = 0; t < sizeof torn_values / sizeof *torn_values; t++) {
+        for (uint32_t operation = 1; cut_first_save(operation, torn_values[t]); operation++) {
+            TEST_ASSERT_NOT_EQUAL(SETTINGS_DAMAGED, settings_load(&store, &loaded));
+            TEST_ASSERT_EQUAL_MEMORY(&settings, &loaded, sizeof settings);
+        }
+    }
+}
+
 static void test_copy_under_way_has_no_magic(void)
 {
     settings_t old, fresh;
@@ -269,6 +296,7 @@ int main(void)
     RUN_TEST(test_record_of_an_older_program_keeps_its_settings);
     RUN_TEST(test_saving_in_steps_never_blocks_and_ends);
     RUN_TEST(test_power_cut_at_every_write_leaves_old_or_new);
+    RUN_TEST(test_first_save_that_is_cut_off_is_no_damage);
     RUN_TEST(test_copy_under_way_has_no_magic);
     RUN_TEST(test_items_are_set_within_their_range_only);
     RUN_TEST(test_pairs_stay_symmetric);

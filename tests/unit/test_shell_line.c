@@ -64,8 +64,16 @@ static void test_shell_ctrl_u_empties_the_line(void)
 
 static void test_shell_escape_sequences_leave_no_trace(void)
 {
-    keys("a\x1B[C\x1B[1;5D\x1BOP\x1Bx\x1B[3~b");
+    keys("a\x1B[C\x1B[1;5D\x1BOP\x1B\x1B[3~b");
     TEST_ASSERT_EQUAL_STRING("ab", out);
+}
+
+/* A terminal sends ESC alone for the key of that name; nobody waits until the next key is not a part of it. */
+static void test_shell_a_lone_escape_takes_no_key_with_it(void)
+{
+    keys("abc\x1Bxyz\x1B\x08");
+    TEST_ASSERT_EQUAL_UINT8(SHELL_LINE, keys("\x1B\r"));
+    TEST_ASSERT_EQUAL_STRING("abcxy", line);
 }
 
 static void test_shell_line_end_breaks_off_an_escape_sequence(void)
@@ -161,6 +169,7 @@ int main(void)
     RUN_TEST(test_shell_too_long_line_is_refused_not_cut);
     RUN_TEST(test_shell_ctrl_u_empties_the_line);
     RUN_TEST(test_shell_escape_sequences_leave_no_trace);
+    RUN_TEST(test_shell_a_lone_escape_takes_no_key_with_it);
     RUN_TEST(test_shell_line_end_breaks_off_an_escape_sequence);
     RUN_TEST(test_shell_other_controls_and_8_bit_are_ignored);
     RUN_TEST(test_shell_ctrl_a_recalls_several_lines);
