@@ -91,7 +91,7 @@ class Adapter:
         chance = random.Random(asked.seed)
         self.out, self.back = Way(asked, chance, min(asked.jitter, 1)), Way(asked, chance, asked.jitter)
         self.log = open(asked.log, "a", encoding="ascii", buffering=1) if asked.log else None  # noqa: SIM115 (until the end)
-        self.master, self.begun, self.wanted = -1, b"", True
+        self.master, self.begun, self.heard, self.wanted = -1, b"", b"", True
         signal.signal(signal.SIGUSR1, lambda *_: self.want(False))
         signal.signal(signal.SIGUSR2, lambda *_: self.want(True))
 
@@ -140,14 +140,18 @@ class Adapter:
         wait = min([way.next() - now for way in (self.out, self.back) if way.waiting] + [0.05])
         ready, _, _ = select.select([self.bus] + [self.master] * (self.master >= 0), [], [], max(0, wait))
         if self.bus in ready:
-            self.back.put(os.read(self.bus, 4096))
-            self.out.free = 0.0
+            data = os.read(self.bus, 4096)
+            self.back.put(data)
+            found, self.heard = packets(self.heard + data)
+            if found:  # not before the answer is whole: the next packet would meet the rest of it on the line
+                self.out.free = 0.0
         if self.master in ready:
             self.from_program()
         for data, rate in self.out.due():
             set_rate(self.bus, rate)
             os.write(self.bus, data)
             self.out.free = time.monotonic() + ANSWER_S * (data[2] != EVERYBODY)
+            self.heard = b""
         for data, _ in self.back.due() if self.master >= 0 else ():
             self.say("< " + data.hex())
             os.write(self.master, data)

@@ -59,9 +59,6 @@ def play(robot):
         at = robot.expect("\r\n] ", robot.expect("Ended", at))
 
 
-LATE = "The computer came 0.1 s late"  # on a busy machine; the play is then broken off, as it should
-
-
 @pytest.mark.parametrize(
     "adapter",
     [
