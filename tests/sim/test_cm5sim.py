@@ -267,6 +267,12 @@ def test_wrong_usage_is_explained(arguments, says):
     assert says in done.stderr.decode()
 
 
+def test_a_bus_alone_needs_no_console():
+    with Running("--bus-pty", "--no-stdio") as sim:
+        assert sim.message(r"servo bus: (\S+)")
+        assert sim.stop() == 0
+
+
 @pytest.mark.parametrize(
     "arguments",
     [

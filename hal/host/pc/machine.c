@@ -155,7 +155,7 @@ void machine_end(void)
     if (pc_options.off) {
         machine_tell("ended. The torque of all servos is off");
     } else if (host_has_held()) {
-        machine_tell("ended. Servos that held their pose go on holding it (--off switches their torque off)");
+        machine_tell("ended. Servos that held their pose go on holding it. To make them limp: --off, or m512 torque off");
     }
     exit(EXIT_SUCCESS);
 }

@@ -86,6 +86,41 @@ def test_pages_rename_to_a_number_says_what_the_number_means(m512, lib):
     assert result.exit_code == 0 and "12 means page 12" in result.stderr
 
 
+def test_pages_rename_to_a_name_that_is_taken_says_so(m512, lib):
+    assert (
+        m512("pages", lib, "rename", "walk", "stand", "--in-place").stderr
+        == "note: page 1 is called 'stand', too: only the numbers tell them apart\n"
+    )
+    assert m512("pages", lib, "rename", "stop", "halt", "--in-place").stderr == ""
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("copy", "walk", "0"),
+        ("copy", "0", "9"),
+        ("mirror", "walk", "0"),
+        ("combine", "walk", "stop", "1..2", "0"),
+        ("merge", "LIB", "walk:0"),
+        ("merge", "LIB", "0:9"),
+    ],
+)
+@pytest.mark.parametrize("replace", [(), ("--replace",)])
+def test_pages_no_motion_takes_the_place_of_the_trim(m512, lib, words, replace):
+    before = lib.read_bytes()
+    result = m512("pages", lib, *(str(lib) if word == "LIB" else word for word in words), *replace, "--in-place")
+    assert result.exit_code == 5 and "page 0 is a robot's trim and no motion" in result.stderr
+    assert lib.read_bytes() == before
+
+
+def test_pages_merge_takes_a_trim_over_as_a_trim(m512, lib, tmp_path):
+    other = image(lib)
+    other[0] = other[1].copy()
+    (tmp_path / "other.bin").write_bytes(other.to_bytes())
+    assert m512("pages", lib, "merge", tmp_path / "other.bin", "0", "--in-place").exit_code == 0
+    assert image(lib)[0].data == other[0].data
+
+
 def test_pages_time_of_an_empty_page_is_an_error(m512, lib):
     result = m512("pages", lib, "time", "12")
     assert result.exit_code == 4 and "page 12 has no action" in result.stderr and not result.stdout
@@ -288,3 +323,15 @@ def test_a_link_above_127_is_a_note_and_no_damage(m512, tmp_path):
     assert m512("convert", tmp_path / "a.bin", tmp_path / "b.m512").exit_code == 0
     assert "next 0xC8" in (tmp_path / "b.m512").read_text() and "damaged" not in (tmp_path / "b.m512").read_text()
     assert "ends" in m512("pages", tmp_path / "a.bin", "time", "hop").stdout
+
+
+def test_erased_flash_is_no_damage_and_no_trim(m512, tmp_path):
+    path = tmp_path / "new.bin"
+    path.write_bytes(b"\xff" * 65536)
+    result = m512("pages", path, "check")
+    assert (result.exit_code, result.stdout) == (0, "0 pages in use, all good\n")
+    for suffix in ("m512", "hex", "mtn"):
+        result = m512("convert", path, tmp_path / f"new.{suffix}")
+        assert result.exit_code == 0 and "damaged" not in result.stderr and "trim" not in result.stderr, result.stderr
+    assert m512("convert", tmp_path / "new.m512", tmp_path / "again.bin").exit_code == 0
+    assert (tmp_path / "again.bin").read_bytes() == path.read_bytes()

@@ -348,6 +348,26 @@ def test_port_without_its_path_gets_a_hint(m512):
     assert result.exit_code == 6 and "-p ./robot" in result.stderr
 
 
+def test_what_is_no_port_is_told_without_a_useless_hint(m512, files):
+    (files / "here.bin").write_bytes(b"x")
+    for word, says in ((str(files / "here.bin"), "is no serial port"), (str(files / "gone"), "no serial port is called")):
+        result = m512("play", "1", "-p", word)
+        assert result.exit_code == 6 and says in result.stderr and "-p ./" not in result.stderr, result.stderr
+
+
+@pytest.mark.parametrize("word", ["socket://127.0.0.1", "socket://127.0.0.1:99999", "socket://:4000", "socket://127.0.0.1:0"])
+def test_a_socket_that_is_none_is_told_how_to_say_it(m512, word):
+    result = m512("pose", "-p", word)
+    assert result.exit_code == 6 and "say socket://HOST:PORT" in result.stderr, result.stderr
+
+
+@pytest.mark.parametrize("seconds", ["-5", "nan", "inf", "1e9"])
+def test_a_wait_that_is_no_time_is_refused(m512, files, seconds):
+    result = m512("backup", files / "kept", "-p", "peer://nobody", "--wait", seconds)
+    assert result.exit_code == 2 and "--wait" in result.stderr
+    assert not (files / "kept").exists()
+
+
 def test_images_beside_the_simulator_are_found(tmp_path, monkeypatch):
     from m512.board import sim
     from m512.errors import MissingError

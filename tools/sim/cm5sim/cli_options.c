@@ -220,7 +220,7 @@ static void check_all(struct argp_state *state, const options_t *options)
     if ((options->body && options->bus_pty) || (options->view && !options->body)) {
         argp_error(state, "--view shows the --body, and --body needs a board (no --bus-pty)");
     }
-    if (options->no_stdio && !options->use_pty && !options->use_tcp && !options->script
+    if (options->no_stdio && !options->use_pty && !options->use_tcp && !options->script && !options->bus_pty
         && options->time_cycles == UINT64_MAX) {
         argp_error(state, "--no-stdio without --pty, --tcp, --script or --time would run for ever, unseen");
     }

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from typing import Any, Callable
+from urllib.parse import urlsplit
 
 from m512.errors import NoAnswerError, PortError
 
@@ -173,6 +174,8 @@ def _let_others_in(port: Any) -> None:
 def explain(url: str, error: Exception) -> str:
     """Why a port cannot be opened, and what to do."""
     text = str(error)
+    if _names_no_socket(url):
+        return f"{url}: say socket://HOST:PORT, such as socket://127.0.0.1:4000; a port is 1..65535"
     if "Permission" in text or "denied" in text.lower():
         return (
             f"{url}: no permission. On Linux add yourself to the group dialout "
@@ -184,4 +187,13 @@ def explain(url: str, error: Exception) -> str:
         return f"{url}: in use by another program (a terminal, another m512?). End that first"
     if "refused" in text.lower():
         return f"{url}: nobody listens there"
+    if "Name or service not known" in text or "getaddrinfo" in text:
+        return f"{url}: no computer has this name (or this one is offline)"
     return f"{url}: cannot be opened ({text})"
+
+
+def _names_no_socket(url: str) -> bool:
+    try:
+        return url.lower().startswith("socket:") and not (urlsplit(url).hostname and urlsplit(url).port)
+    except ValueError:
+        return True

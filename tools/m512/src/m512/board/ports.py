@@ -16,10 +16,15 @@ def is_port(word: str) -> bool:
         return True
     if re.match(r"/dev/(std(in|out|err)|fd/.*|null|zero|u?random|full)\Z", word):
         return False
+    return is_device(word) or word.startswith("/dev/") and not os.path.exists(word)
+
+
+def is_device(word: str) -> bool:
+    """Whether a character device has this path."""
     try:
         return stat.S_ISCHR(os.stat(word).st_mode)
     except (OSError, ValueError):
-        return word.startswith("/dev/")
+        return False
 
 
 def available() -> list[tuple[str, str]]:
@@ -40,10 +45,10 @@ def pick(word: str = "") -> str:
         return hits[0][0]
     listed = "".join(f"\n  {device}  {text}" for device, text in ports)
     if word and not hits:
-        raise PortError(
-            f"no serial port is called {word!r} (a link or pty is named with its path: -p ./{word})"
-            + (f"; there are:{listed}" if ports else "; there are none")
-        )
+        if os.path.exists(word) and not is_device(word):
+            raise PortError(f"{word} is no serial port" + (f"; there are:{listed}" if ports else "; there are none"))
+        hint = "" if os.sep in word else f" (a link or pty is named with its path: -p ./{word})"
+        raise PortError(f"no serial port is called {word!r}{hint}" + (f"; there are:{listed}" if ports else "; there are none"))
     if not hits:
         raise PortError("no serial port found. Plug in the adapter, or name it (m512 ... --port /dev/ttyUSB0)")
     raise PortError(f"several serial ports; say which with --port:{listed}")

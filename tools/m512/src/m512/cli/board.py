@@ -14,6 +14,17 @@ from click.core import ParameterSource
 from m512 import ui
 from m512.errors import M512Error, NoAnswerError, PortError, RefusedError
 
+
+class Finite(click.FloatRange):
+    """A range that nan is not in."""
+
+    def convert(self, value, param, ctx):
+        number = super().convert(value, param, ctx)
+        if number != number:
+            self.fail(f"{value!r} is no number", param, ctx)
+        return number
+
+
 port_option = click.option(
     "-p",
     "--port",
@@ -22,7 +33,9 @@ port_option = click.option(
     metavar="PORT",
     help="Serial port: device, part of its name, socket://host:port, or bus:DEVICE for servos on an adapter, without a board. Default: the only one.",
 )
-wait_option = click.option("--wait", default=60.0, show_default=True, metavar="SECONDS", help="How long to wait for the MODE button.")
+wait_option = click.option(
+    "--wait", type=Finite(0, 3600), default=60.0, show_default=True, metavar="SECONDS", help="How long to wait for the MODE button."
+)
 board_option = click.option(
     "--board",
     type=click.Choice(["cm5", "cm2"]),

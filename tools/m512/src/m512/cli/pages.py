@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from m512 import ui
-from m512.cli.board import board_option
+from m512.cli.board import Finite, board_option
 from m512.cli.files import PAGE_NUMBER, id_list, page_moves, page_numbers
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
 from m512.files import formats, storage
@@ -88,16 +88,6 @@ class Source:
             return
         ui.confirm("Write this to the board?", yes)
         write_motions(self.word, self.image, self.which_board)
-
-
-class Finite(click.FloatRange):
-    """A range that nan is not in."""
-
-    def convert(self, value, param, ctx):
-        number = super().convert(value, param, ctx)
-        if number != number:
-            self.fail(f"{value!r} is no number", param, ctx)
-        return number
 
 
 def changes(function):
@@ -183,7 +173,8 @@ def check(source, as_json):
         for line in notes.lines():
             ui.say(f"note: {line}")
         if not found:
-            ui.show(f"{sum(not page.is_empty for _, page in source.image.items())} pages in use, all good")
+            used = len(source.image.used())
+            ui.show(f"{used} {'page' if used == 1 else 'pages'} in use, all good")
     raise SystemExit(EXIT_DIFFERENT if found else 0)
 
 

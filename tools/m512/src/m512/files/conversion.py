@@ -10,7 +10,7 @@ from pathlib import Path
 
 from m512.errors import RefusedError
 from m512.files import formats
-from m512.files.image import Image
+from m512.files.image import Image, is_erased
 from m512.files.page import Page
 from m512.files.wording import Findings, named_pages_text
 
@@ -18,8 +18,8 @@ FEW = 3  # damaged pages told with what is wrong in each
 
 
 def damaged_pages(image: Image) -> list[tuple[int, str]]:
-    """[(number, what is wrong)]."""
-    return [(number, page.fault_text(image.kind)) for number, page in image.items() if page.fault(image.kind)]
+    """[(number, what is wrong)]. Erased flash is empty, and no damage."""
+    return [(number, page.fault_text(image.kind)) for number, page in image.items() if page.fault(image.kind) and not is_erased(page)]
 
 
 def treat_damaged(image: Image, how: str, notes: list[str]) -> list[int]:

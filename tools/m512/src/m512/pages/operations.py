@@ -18,7 +18,7 @@ def check(image: Image) -> list[tuple[int, str]]:
     """(page, what is wrong or odd) for a whole image; page 0 is the trim and not a motion."""
     out = []
     for number, page in image.items():
-        if number and is_erased(page):
+        if is_erased(page):
             continue
         fault = page.fault_text(image.kind)
         if fault:
@@ -96,9 +96,10 @@ def rename(image: Image, number: int, name: str) -> list[str]:
     page.name = name.encode("ascii")
     page.seal()
     other = page_number(name)
-    if other is None or other == number:
-        return []
-    return [f"page {number} has a number for a name: where a page is asked for, {name} means page {other}"]
+    if other is not None and other != number:
+        return [f"page {number} has a number for a name: where a page is asked for, {name} means page {other}"]
+    same = [str(n) for n, page in image.items() if name and n != number and page.name == name.encode("ascii")]
+    return [f"page {' and '.join(same)} is called {name!r}, too: only the numbers tell them apart"] if same else []
 
 
 def _must_be_free(image: Image, number: int, replace: bool) -> None:
@@ -107,7 +108,14 @@ def _must_be_free(image: Image, number: int, replace: bool) -> None:
         raise RefusedError(f'page {number} "{page.title}" is not empty (--replace overwrites it)')
 
 
+def keep_trim(source: int, target: int) -> None:
+    """Page 0 goes to page 0 alone, and nothing else goes there: a robot with a motion for a trim stands askew."""
+    if (source == 0) != (target == 0):
+        raise RefusedError("page 0 is a robot's trim and no motion: it stays page 0, and no other page becomes it")
+
+
 def copy(image: Image, source: int, target: int, replace: bool = False) -> list[str]:
+    keep_trim(source, target)
     _must_be_free(image, target, replace)
     page = need_good(image, source).copy()
     relink(page, {source: target})  # a page that leads to itself goes on doing so
@@ -165,6 +173,7 @@ def place(image: Image, source: Image, moves: list[tuple[int, int]], replace: bo
         raise RefusedError(f"the sources have {image.bits} and {source.bits} bits: scale one of them first (convert --scale)")
     remarks, moved = [], dict(moves)
     for there, here in moves:
+        keep_trim(there, here)
         _must_be_free(image, here, replace)
     for there, here in moves:
         page = need_good(source, there).copy()
@@ -180,6 +189,7 @@ def place(image: Image, source: Image, moves: list[tuple[int, int]], replace: bo
 def mirror(image: Image, number: int, pairs: dict[int, int], target: int | None = None, replace: bool = False) -> list[str]:
     """Left for right: joints of a pair exchange positions (p becomes 1024 - p) and softness."""
     target = number if target is None else target
+    keep_trim(number, target)
     _must_be_free(image, target, replace or target == number)
     old, remarks, top = need_good(image, number), [], image.kind.pos_max
     page = old.copy()

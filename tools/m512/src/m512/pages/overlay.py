@@ -20,7 +20,7 @@ from m512.errors import RefusedError
 from m512.files.image import Image, is_erased
 from m512.files.page import JOINTS, POS_UNUSED, STEPS, Page, is_used
 from m512.motion.walk import Step, pause_ticks, step_ticks
-from m512.pages.operations import need_good
+from m512.pages.operations import keep_trim, need_good
 
 STEP_TICKS = 255
 MOST_STEPS = 7 * 60
@@ -100,6 +100,8 @@ def combine(image: Image, base: int, other_image: Image, other: int, joints: Ite
     same). Returns remarks. What `base` leads back to is gone on with when `other` is over."""
     if image.bits != other_image.bits:
         raise RefusedError(f"the sources have {image.bits} and {other_image.bits} bits: scale one of them first (convert --scale)")
+    for number in (base, other):
+        keep_trim(number, target)
     taken = set(joints)
     below = line_of(image, base, set(range(JOINTS)) - taken)
     above = line_of(other_image, other, taken)

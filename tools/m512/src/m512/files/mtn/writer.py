@@ -8,7 +8,7 @@ from functools import partial
 from typing import Callable
 
 from m512.errors import RefusedError
-from m512.files.image import Image
+from m512.files.image import Image, is_erased
 from m512.files.mtn.envelope import BOM, file_checksum
 from m512.files.mtn.reader import IDS, PAGES, UNITS_PER_SECOND, UNUSED_WORD
 from m512.files.page import JOINTS, POS_UNUSED, SCHEDULE_TIME, STEPS, Fault, Kind, Page, is_used
@@ -31,7 +31,7 @@ def write(image: Image, version: str = "1.01") -> tuple[bytes, list[str]]:
     lines = ["type=motion", f"version={version}", "enable=" + " ".join(str(int(e)) for e in enabled)]
     if version == "1.01":
         lines.append("motor_type=" + " ".join(["0"] * IDS))
-    if image.first == 0 and any(image[0].word(2, j) not in (POS_UNUSED, 0) for j in range(JOINTS)):
+    if image.first == 0 and not is_erased(image[0]) and any(image[0].word(2, j) not in (POS_UNUSED, 0) for j in range(JOINTS)):
         losses.add(0, "", "the robot's trim is not in a .mtn")
     blank = 0
     for number in range(1, PAGES + 1):
