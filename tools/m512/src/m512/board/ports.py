@@ -45,7 +45,7 @@ def pick(word: str = "") -> str:
         return hits[0][0]
     listed = "".join(f"\n  {device}  {text}" for device, text in ports)
     if word and not hits:
-        if os.path.exists(word) and not is_device(word):
+        if os.sep in word and os.path.exists(word) and not is_device(word):
             raise PortError(f"{word} is no serial port" + (f"; there are:{listed}" if ports else "; there are none"))
         hint = "" if os.sep in word else f" (a link or pty is named with its path: -p ./{word})"
         raise PortError(f"no serial port is called {word!r}{hint}" + (f"; there are:{listed}" if ports else "; there are none"))
