@@ -11,9 +11,12 @@ Time passes only inside run() and expect(). The first violation ends the run wit
 power cut with PowerCut. Everything is deterministic for a given seed.
 """
 
+from __future__ import annotations
+
 import ctypes
 import pathlib
-from typing import NamedTuple
+from collections.abc import Iterable
+from typing import Any, NamedTuple
 
 from . import library
 from .inside import Inside
@@ -34,11 +37,11 @@ _TIME, _VIOLATION, _POWER_CUT, _TEXT, _ADDRESS, _REQUEST = range(6)
 class Violation(Exception):
     """The firmware did something that fails on the real chip: kind, cycle, pc, function, text."""
 
-    def __init__(self, kind, cycle, pc, function, text):
+    def __init__(self, kind: str, cycle: int, pc: int, function: str, text: str) -> None:
         super().__init__(f"{kind} at cycle {cycle}, pc 0x{pc:05X} in {function}: {text}")
         self.kind, self.cycle, self.pc, self.function, self.text = kind, cycle, pc, function, text
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         """A campaign's worker sends it to the process that asked; an exception alone would be made again from its message."""
         return type(self), (self.kind, self.cycle, self.pc, self.function, self.text)
 
@@ -52,10 +55,10 @@ class Frame(NamedTuple):
 
     cycle: int
     tick: int
-    goals: dict
+    goals: dict[int, int]
 
 
-def find_image(name):
+def find_image(name: str | pathlib.Path) -> pathlib.Path:
     """A path as it is, or a name below build/firmware."""
     path = pathlib.Path(name)
     return path if path.exists() else library.build_folder() / "firmware" / name
@@ -64,7 +67,15 @@ def find_image(name):
 class Board(Inside, Wear):
     """One controller board; see the module's text."""
 
-    def __init__(self, kind="cm5", images=(), motions=None, servos=(), seed=1, bootrst=None):
+    def __init__(
+        self,
+        kind: str = "cm5",
+        images: str | pathlib.Path | Iterable[str | pathlib.Path] = (),
+        motions: bytes | None = None,
+        servos: Iterable[int] = (),
+        seed: int = 1,
+        bootrst: bool | None = None,
+    ) -> None:
         self._lib = library.load()
         self._pointer = self._lib.board_new({"cm5": 0, "cm2": 1}[kind], seed)
         if not self._pointer:
@@ -85,80 +96,80 @@ class Board(Inside, Wear):
             self.servos.add(number)
         self._lib.board_trace_start(self._pointer)
 
-    def _memory(self, size, name):
+    def _memory(self, size: int, name: str) -> Memory:
         return Memory(self, size, getattr(self._lib, f"board_{name}_read"), getattr(self._lib, f"board_{name}_write"))
 
-    def close(self):
+    def close(self) -> None:
         """Frees the board; it cannot be used afterwards."""
         if self._pointer:
             self._lib.board_free(self._pointer)
             self._pointer = None
 
-    def __del__(self):
+    def __del__(self) -> None:
         if getattr(self, "_pointer", None):
             self.close()
 
-    def __enter__(self):
+    def __enter__(self) -> Board:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     # Images and power
 
-    def load(self, image, address=0):
+    def load(self, image: str | pathlib.Path, address: int = 0) -> None:
         """Loads a HEX, ELF or binary file (a path, or a name below build/firmware) with its symbols."""
         path = find_image(image)
         if not self._lib.board_load(self._pointer, str(path).encode(), address):
             raise FileNotFoundError(self._lib.board_error(self._pointer).decode())
 
-    def power_on(self):
+    def power_on(self) -> None:
         self._started = True
         self._lib.board_power_on(self._pointer)
 
-    def power_off(self):
+    def power_off(self) -> None:
         self._started = True
         self._lib.board_power_off(self._pointer)
 
-    def brown_out(self):
+    def brown_out(self) -> None:
         self._lib.board_brown_out(self._pointer)
 
-    def reset(self, ms=1):
+    def reset(self, ms: float = 1) -> None:
         """Presses MODE, the reset pin, for so long."""
         self.press("MODE")
         self.run(ms=ms)
         self.release("MODE")
 
     @property
-    def powered(self):
-        return self._lib.board_is_powered(self._pointer)
+    def powered(self) -> bool:
+        return bool(self._lib.board_is_powered(self._pointer))
 
     @property
-    def resets(self):
-        return self._lib.board_resets(self._pointer)
+    def resets(self) -> int:
+        return int(self._lib.board_resets(self._pointer))
 
     @property
-    def reset_cause(self):
+    def reset_cause(self) -> str:
         return RESET_CAUSES[self._lib.board_reset_cause(self._pointer)]
 
     # Time
 
-    def run(self, ms=0, cycles=0, ticks=0):
+    def run(self, ms: float = 0, cycles: int = 0, ticks: float = 0) -> bool:
         """Lets time pass. Returns True if all of it has passed, False if an armed stop ended the run."""
         total = int(ms * CYCLES_PER_MS) + int(cycles) + int(ticks * CYCLES_PER_TICK)
         return self._run(total) == _TIME
 
-    def _run(self, cycles):
+    def _run(self, cycles: int) -> int:
         if not self._started:
             self.power_on()
-        why = self._lib.board_run(self._pointer, cycles)
+        why = int(self._lib.board_run(self._pointer, cycles))
         if why == _VIOLATION:
-            raise self.violation
+            raise self.violation or AssertionError("a violation that is not on record")
         if why == _POWER_CUT:
             raise PowerCut(f"at cycle {self.now_cycles}, operation {self.operations}")
         return why
 
-    def run_to(self, function, ms=1000):
+    def run_to(self, function: int | str, ms: float = 1000) -> None:
         """Runs to the first instruction of a function (a name or a flash byte address)."""
         address = function if isinstance(function, int) else self.function(function)
         self._lib.board_stop_at(self._pointer, address)
@@ -168,22 +179,22 @@ class Board(Inside, Wear):
             raise AssertionError(f"{function} was not reached within {ms} ms")
 
     @property
-    def now_cycles(self):
-        return self._lib.board_now(self._pointer)
+    def now_cycles(self) -> int:
+        return int(self._lib.board_now(self._pointer))
 
     @property
-    def now_ms(self):
+    def now_ms(self) -> float:
         return self.now_cycles / CYCLES_PER_MS
 
     @property
-    def busy_cycles(self):
+    def busy_cycles(self) -> int:
         """Cycles in which the CPU executed instructions."""
-        return self._lib.board_busy_cycles(self._pointer)
+        return int(self._lib.board_busy_cycles(self._pointer))
 
     # Violations
 
     @property
-    def violation(self):
+    def violation(self) -> Violation | None:
         """The violation on record, or None."""
         record = self._lib.board_violation(self._pointer).contents
         if record.kind == 0:
@@ -191,80 +202,80 @@ class Board(Inside, Wear):
         name = self._lib.violation_name(record.kind).decode()
         return Violation(name, record.cycle, record.pc, record.function.decode(), record.text.decode())
 
-    def clear_violation(self):
+    def clear_violation(self) -> None:
         self._lib.board_clear_violation(self._pointer)
 
-    def _kind(self, name):
-        kind = self._lib.violation_find(name.encode())
+    def _kind(self, name: str) -> int:
+        kind = int(self._lib.violation_find(name.encode()))
         if kind == 0:
             raise ValueError(f"no violation is called {name}")
         return kind
 
-    def allow(self, *names):
+    def allow(self, *names: str) -> None:
         """Lets kinds of violation pass; they are counted."""
         for name in names:
             self._lib.board_allow(self._pointer, self._kind(name), True)
 
-    def forbid(self, *names):
+    def forbid(self, *names: str) -> None:
         for name in names:
             self._lib.board_allow(self._pointer, self._kind(name), False)
 
-    def violations(self, name):
+    def violations(self, name: str) -> int:
         """How often a kind happened, allowed or not."""
-        return self._lib.board_violations(self._pointer, self._kind(name))
+        return int(self._lib.board_violations(self._pointer, self._kind(name)))
 
     # Console and remote
 
-    def send(self, data, wait=False):
+    def send(self, data: str | bytes, wait: bool = False) -> None:
         """Queues bytes on the PC's serial line; wait=True runs until the last one has passed."""
         data = data.encode() if isinstance(data, str) else bytes(data)
         self._lib.board_console_send(self._pointer, 0, data, len(data))
         while wait and self.waiting:
             self.run(ms=1)
 
-    def pause(self, ms):
+    def pause(self, ms: float) -> None:
         """Queues silence behind the bytes sent so far."""
         self._lib.board_console_pause(self._pointer, int(ms * CYCLES_PER_MS))
 
     @property
-    def waiting(self):
+    def waiting(self) -> int:
         """Bytes that have not left the line yet."""
-        return self._lib.board_console_waiting(self._pointer)
+        return int(self._lib.board_console_waiting(self._pointer))
 
-    def flush(self):
+    def flush(self) -> None:
         self._lib.board_console_flush(self._pointer)
 
-    def baud(self, rate):
+    def baud(self, rate: int) -> None:
         """Sets the PC's and the remote's end of the line."""
         self._lib.board_console_rate(self._pointer, rate)
 
-    def rc(self, value):
+    def rc(self, value: int) -> None:
         """Sends one RC-100 packet: FF 55 low ~low high ~high."""
         low, high = value & 0xFF, value >> 8 & 0xFF
         packet = bytes([0xFF, 0x55, low, low ^ 0xFF, high, high ^ 0xFF])
         self._lib.board_console_send(self._pointer, 1, packet, len(packet))
 
-    def remote(self, data):
+    def remote(self, data: bytes) -> None:
         """Queues raw bytes of the remote."""
         self._lib.board_console_send(self._pointer, 1, bytes(data), len(data))
 
-    def _heard(self, start):
+    def _heard(self, start: int) -> bytes:
         count = ctypes.c_size_t()
         pointer = self._lib.board_console_output(self._pointer, ctypes.byref(count))
         return ctypes.string_at(pointer + start, count.value - start) if count.value > start else b""
 
     @property
-    def console(self):
+    def console(self) -> bytes:
         """Everything the PC has heard so far."""
         return self._heard(0)
 
-    def take(self):
+    def take(self) -> bytes:
         """What the PC has heard since the last take() or expect()."""
         data = self._heard(self._taken)
         self._taken += len(data)
         return data
 
-    def expect(self, text, ms=1000):
+    def expect(self, text: str | bytes, ms: float = 1000) -> str:
         """Runs until text comes and returns all that came up to its end, from the last take() or expect() on."""
         wanted = text.encode() if isinstance(text, str) else bytes(text)
         end = self.now_cycles + int(ms * CYCLES_PER_MS)
@@ -280,7 +291,7 @@ class Board(Inside, Wear):
         self._taken += len(seen)
         return seen.decode("latin-1")
 
-    def attach(self, body):
+    def attach(self, body: Any) -> None:
         """Hangs the servos' shafts on a body (body.physics.Physics), in lock step with the board; None: each turns by itself
         again. After the body was put somewhere else by hand, attach it again: the servos then see it at once."""
         self._body = body  # kept alive
@@ -290,7 +301,7 @@ class Board(Inside, Wear):
         seam = self._lib.servo_mujoco_body(ctypes.addressof(body.seam))
         self._lib.board_body(self._pointer, seam)
 
-    def uart(self, number):
+    def uart(self, number: int) -> library.UartCounts:
         """The counters of UART 0 (bus) or 1 (console): sent, received, overruns, framing, deaf."""
         counts = library.UartCounts()
         self._lib.board_uart_counts(self._pointer, number, ctypes.byref(counts))
@@ -298,21 +309,22 @@ class Board(Inside, Wear):
 
     # Servo bus
 
-    def bus_turn_us(self, forget=False):
+    def bus_turn_us(self, forget: bool = False) -> float:
         """The longest time from a last stop bit of ours to listening again, since the start or a call with forget."""
-        return self._lib.board_bus_turn(self._pointer, forget) / 16
+        return int(self._lib.board_bus_turn(self._pointer, forget)) / 16
 
     @property
-    def packets(self):
+    def packets(self) -> list[tuple[int, bytes]]:
         """[(cycle, bytes)] of every good instruction packet since the start or clear_trace()."""
         count = ctypes.c_size_t()
         items = self._lib.board_trace(self._pointer, ctypes.byref(count))
         return [(items[i].cycle, bytes(items[i].bytes[: items[i].count])) for i in range(count.value)]
 
     @property
-    def trace(self):
+    def trace(self) -> list[Frame]:
         """Frames of goal positions: SYNC WRITE packets that reach address 30."""
-        frames, first = [], None
+        frames: list[Frame] = []
+        first = None
         for cycle, packet in self.packets:
             goals = sync_goals(packet)
             if goals:
@@ -320,37 +332,37 @@ class Board(Inside, Wear):
                 frames.append(Frame(cycle, round((cycle - first) / CYCLES_PER_TICK), goals))
         return frames
 
-    def clear_trace(self):
+    def clear_trace(self) -> None:
         self._lib.board_trace_start(self._pointer)
 
     # Panel
 
-    def press(self, button):
+    def press(self, button: str) -> None:
         self._lib.board_press(self._pointer, BUTTONS.index(button.upper()), True)
 
-    def release(self, button):
+    def release(self, button: str) -> None:
         self._lib.board_press(self._pointer, BUTTONS.index(button.upper()), False)
 
-    def bounce(self, ms):
+    def bounce(self, ms: float) -> None:
         """Sets how long contacts bounce after a press or a release (5 ms at first)."""
         self._lib.board_set_bounce(self._pointer, int(ms * CYCLES_PER_MS))
 
     @property
-    def leds(self):
+    def leds(self) -> set[str]:
         """Names of the lit LEDs."""
         bits = self._lib.board_leds(self._pointer)
         return {name for bit, name in enumerate(LEDS) if bits >> bit & 1}
 
-    def pin(self, name):
+    def pin(self, name: str) -> int | None:
         """A port pin such as "E2": 0, 1, or None when the board does not drive it."""
-        level = self._lib.board_pin(self._pointer, name[0].encode(), int(name[1]))
+        level: int = self._lib.board_pin(self._pointer, name[0].encode(), int(name[1]))
         return None if level < 0 else level
 
-    def battery(self, volts):
+    def battery(self, volts: float) -> None:
         self._lib.board_battery(self._pointer, volts)
 
 
-def sync_goals(packet):
+def sync_goals(packet: bytes) -> dict[int, int]:
     """{id: goal} of a SYNC WRITE that covers the goal position (address 30), else {}."""
     if len(packet) < 8 or packet[4] != 0x83:
         return {}

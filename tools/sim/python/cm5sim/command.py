@@ -7,7 +7,7 @@ import sys
 from . import library
 
 
-def main():
+def main() -> None:
     """Does not return: the program takes this process over."""
     program = library.build_folder() / "host" / "tools" / "sim" / "cm5sim"
     if not program.exists():

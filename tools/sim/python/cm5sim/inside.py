@@ -2,16 +2,24 @@
 """What a test sees of the firmware from inside: functions and variables by name, cycles, interrupts at any place, single steps. A part of
 class Board."""
 
-from typing import NamedTuple
+from __future__ import annotations
+
+import ctypes
+import pathlib
+from typing import Any, NamedTuple
 
 # Interrupts of this firmware by what causes them.
 VECTORS = {"tick": 12, "bus byte": 18, "bus room": 19, "bus sent": 20, "console byte": 30, "console room": 31}
 
 
+def number_of(vector: int | str) -> int:
+    return VECTORS[vector] if isinstance(vector, str) else vector
+
+
 class Cycles(NamedTuple):
     """Cycles of a probed function: own time (interrupts taken out) and total time."""
 
-    count: int
+    count: int  # type: ignore[assignment]  # hides tuple.count, which nobody asks of a probe
     max: int
     mean: float
     total_max: int
@@ -20,40 +28,44 @@ class Cycles(NamedTuple):
 
 
 class Inside:
-    """Of class Board, which has _lib and _pointer."""
+    """Of class Board, which sets these two."""
 
-    def function(self, name):
-        address = self._lib.board_function(self._pointer, name.encode())
+    _lib: ctypes.CDLL
+    _pointer: int | None
+
+    def function(self, name: str) -> int:
+        address: int = self._lib.board_function(self._pointer, name.encode())
         if address == 0xFFFFFFFF:
             raise KeyError(f"no function {name} in the loaded images")
         return address
 
-    def variable(self, name):
+    def variable(self, name: str) -> int:
         """Data address of a variable."""
-        address = self._lib.board_variable(self._pointer, name.encode())
+        address: int = self._lib.board_variable(self._pointer, name.encode())
         if address == 0xFFFFFFFF:
             raise KeyError(f"no variable {name} in the loaded images")
         return address
 
-    def function_at(self, address):
-        return self._lib.board_function_at(self._pointer, address).decode()
+    def function_at(self, address: int) -> str:
+        name: bytes = self._lib.board_function_at(self._pointer, address)
+        return name.decode()
 
     @property
-    def pc(self):
-        return self._lib.board_pc(self._pointer)
+    def pc(self) -> int:
+        return int(self._lib.board_pc(self._pointer))
 
     @property
-    def stack_headroom(self):
+    def stack_headroom(self) -> int:
         """Bytes between the end of the variables and the lowest stack so far."""
-        return self._lib.board_stack_headroom(self._pointer)
+        return int(self._lib.board_stack_headroom(self._pointer))
 
-    def probe(self, *names):
+    def probe(self, *names: str) -> None:
         """Counts the cycles of functions from now on."""
         for name in names:
             if not self._lib.board_probe(self._pointer, name.encode()):
                 raise KeyError(f"no function {name} in the loaded images, or too many probes")
 
-    def cycles(self, name):
+    def cycles(self, name: str) -> Cycles:
         """Figures of a probed function."""
         pointer = self._lib.board_probe_result(self._pointer, name.encode())
         if not pointer:
@@ -62,41 +74,41 @@ class Inside:
         calls = max(r.calls, 1)
         return Cycles(r.calls, r.own_max, r.own_sum / calls, r.total_max, r.total_sum / calls, r.max_at)
 
-    def clear_probes(self):
+    def clear_probes(self) -> None:
         self._lib.board_probe_clear(self._pointer)
 
-    def interrupt(self, vector, byte=0):
+    def interrupt(self, vector: int | str, byte: int = 0) -> None:
         """Raises an interrupt now (a number of board_debug.h's board_interrupt, or a name of VECTORS)."""
-        if not self._lib.board_interrupt(self._pointer, VECTORS.get(vector, vector), byte):
+        if not self._lib.board_interrupt(self._pointer, number_of(vector), byte):
             raise ValueError(f"interrupt {vector} cannot be raised")
 
-    def sweep(self, function, vector, byte=0):
+    def sweep(self, function: str, vector: int | str, byte: int = 0) -> None:
         """Interrupts each call of a function once from now on, each time one instruction later than in the call before."""
-        number = VECTORS.get(vector, vector)
+        number = number_of(vector)
         if not self._lib.board_sweep(self._pointer, function.encode(), number, byte):
             raise KeyError(f"no function {function} in the loaded images, or interrupt {vector} cannot be raised")
 
-    def swept(self, function):
+    def swept(self, function: str) -> Any:
         """How far a sweep has come: place, calls, rounds, taken."""
         pointer = self._lib.board_sweep_result(self._pointer, function.encode())
         if not pointer:
             raise KeyError(f"{function} is not swept")
         return pointer.contents
 
-    def end_sweeps(self):
+    def end_sweeps(self) -> None:
         self._lib.board_sweep_end(self._pointer)
 
-    def skip_waits(self, on=True):
+    def skip_waits(self, on: bool = True) -> None:
         """Rounds of loops that only wait are counted instead of executed: the same run, faster. Probes do not see them."""
         self._lib.board_skip_waits(self._pointer, on)
 
-    def step(self):
+    def step(self) -> int:
         """Runs one instruction or interrupt response and returns its cycles."""
-        return self._lib.board_step(self._pointer)
+        return int(self._lib.board_step(self._pointer))
 
-    def vcd(self, path):
+    def vcd(self, path: str | pathlib.Path) -> None:
         if not self._lib.board_vcd_start(self._pointer, str(path).encode()):
             raise OSError(self._lib.board_error(self._pointer).decode())
 
-    def stop_vcd(self):
+    def stop_vcd(self) -> None:
         self._lib.board_vcd_stop(self._pointer)

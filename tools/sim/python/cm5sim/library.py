@@ -5,6 +5,7 @@ import ctypes
 import functools
 import os
 import pathlib
+from typing import Any
 
 from . import servo
 
@@ -13,7 +14,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROBOT = HERE / "robot"  # in a wheel: what it takes from the build tree, in the same folders (setup.py), and lib/
 
 
-def build_folder():
+def build_folder() -> pathlib.Path:
     """The build tree: environment M512_BUILD, the one in the wheel, or build/ of the repository this file is in."""
     given = os.environ.get("M512_BUILD")
     return pathlib.Path(given) if given else ROBOT if ROBOT.exists() else HERE.parents[3] / "build"
@@ -61,7 +62,7 @@ P, I, B, S, D = ctypes.c_void_p, ctypes.c_int, ctypes.c_bool, ctypes.c_char_p, c
 U8, U32, U64, Z = ctypes.c_uint8, ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t
 SIZE = ctypes.POINTER(Z)
 OPERATION_DONE = ctypes.CFUNCTYPE(None, P, U64, I, U32)
-_FUNCTIONS = {
+_FUNCTIONS: dict[str, tuple[Any, ...]] = {  # name: result, arguments...
     # board.h
     "board_new": (P, I, U32),
     "board_free": (None, P),
@@ -150,7 +151,7 @@ _FUNCTIONS = {
 
 
 @functools.cache
-def load():
+def load() -> ctypes.CDLL:
     """The library, declared. Built by: cmake --build build/host --target cm5sim_shared."""
     path = build_folder() / "host" / "tools" / "sim" / "libcm5sim.so"
     if not path.exists():

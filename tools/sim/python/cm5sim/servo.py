@@ -11,7 +11,11 @@
 Nothing is kept in Python: every reading is of the board's present moment.
 """
 
+from __future__ import annotations
+
 import ctypes
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
 
 TABLE_BYTES = 50
 ALWAYS = 0xFFFFFFFF
@@ -53,10 +57,10 @@ _REGISTERS = {  # name: (address, bytes)
 }
 
 
-def declare(lib):
+def declare(lib: ctypes.CDLL) -> None:
     """Tells ctypes the signatures; harmless when repeated."""
     p, u8, u16, u32, u64 = ctypes.c_void_p, ctypes.c_uint8, ctypes.c_uint16, ctypes.c_uint32, ctypes.c_uint64
-    for name, result, arguments in (
+    functions: list[tuple[str, Any, list[Any]]] = [
         ("servo_api_count", ctypes.c_int, [p]),
         ("servo_api_at", p, [p, ctypes.c_int]),
         ("servo_api_id", u8, [p]),
@@ -73,7 +77,8 @@ def declare(lib):
         ("servo_bus_find", p, [p, u8]),
         ("servo_bus_noise", None, [p, u64, ctypes.c_char_p, u8, u32]),
         ("servo_push_to", None, [p, u64, ctypes.c_double]),
-    ):
+    ]
+    for name, result, arguments in functions:
         function = getattr(lib, name)
         function.restype, function.argtypes = result, arguments
 
@@ -81,14 +86,17 @@ def declare(lib):
 class Servo:
     """One servo on the bus; see the module's text."""
 
-    def __init__(self, servos, pointer):
+    _servos: Servos
+    _pointer: int
+
+    def __init__(self, servos: Servos, pointer: int) -> None:
         object.__setattr__(self, "_servos", servos)
         object.__setattr__(self, "_pointer", pointer)
 
-    def _get(self, address, count):
-        return self._servos.lib.servo_api_get(self._pointer, self._servos.now(), address, count)
+    def _get(self, address: int, count: int) -> int:
+        return int(self._servos.lib.servo_api_get(self._pointer, self._servos.now(), address, count))
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:  # a register or counter: int; a state: float
         servos = self._servos
         if name in _REGISTERS:
             return self._get(*_REGISTERS[name])
@@ -98,80 +106,80 @@ class Servo:
             return servos.lib.servo_api_counter(self._pointer, COUNTERS.index(name))
         raise AttributeError(f"a servo has no {name!r}")
 
-    def __setattr__(self, name, value):
+    def __setattr__(self, name: str, value: float) -> None:
         if name not in _SETTABLE:
             raise AttributeError(f"{name!r} of a servo cannot be set from outside; write() writes registers")
         self._servos.lib.servo_api_set_state(self._pointer, self._servos.now(), _STATES.index(name), float(value))
 
     @property
-    def torque(self):
+    def torque(self) -> bool:
         return bool(self._get(24, 1)) and self._get(34, 2) > 0
 
     @property
-    def led(self):
+    def led(self) -> bool:
         return bool(self._get(25, 1))
 
     @property
-    def moving(self):
+    def moving(self) -> bool:
         return bool(self._get(46, 1))
 
     @property
-    def voltage(self):
+    def voltage(self) -> float:
         return self._get(42, 1) / 10
 
     @property
-    def rate(self):
+    def rate(self) -> int:
         return 2_000_000 // (self._get(4, 1) + 1)
 
     @property
-    def load(self):
+    def load(self) -> float:
         """Present load as a signed part of full output: positive when it pushes towards larger positions."""
-        value = self.present_load
+        value: int = self.present_load
         return (value & 1023) / 1023 * (-1 if value & 1024 else 1)
 
     @property
-    def alarms(self):
+    def alarms(self) -> set[str]:
         """Names of the alarms that its answers carry now."""
         bits = self._servos.lib.servo_api_alarms(self._pointer, self._servos.now())
         return {name for bit, name in ERROR_NAMES.items() if bits & bit}
 
     @property
-    def table(self):
+    def table(self) -> bytes:
         return bytes(self._get(address, 1) for address in range(TABLE_BYTES))
 
-    def write(self, address, values):
+    def write(self, address: int, values: Iterable[int]) -> int:
         data = bytes(values)
-        return self._servos.lib.servo_api_write(self._pointer, self._servos.now(), address, data, len(data))
+        return int(self._servos.lib.servo_api_write(self._pointer, self._servos.now(), address, data, len(data)))
 
-    def push_to(self, position):
+    def push_to(self, position: float) -> None:
         self._servos.lib.servo_push_to(self._pointer, self._servos.now(), float(position))
 
-    def fault(self, name, times=None):
+    def fault(self, name: str, times: int | None = None) -> None:
         answers = ALWAYS if times is None else times
         servos = self._servos
         if not servos.lib.servo_api_fault(servos.bus, servos.now(), self._pointer, name.encode(), answers):
             raise ValueError(f"no such fault: {name!r}; known: {', '.join(FAULTS)}")
 
-    def clear(self, name=None):
+    def clear(self, name: str | None = None) -> None:
         servos = self._servos
         if name is None:
             servos.lib.servo_api_clear(servos.bus, servos.now(), self._pointer)
         else:
             self.fault(name, 0)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<servo {self.id}: goal {self.goal}, present {self.present}, torque {'on' if self.torque else 'off'}>"
 
 
 class Servos:
     """All servos of a bus by their present ID; iterates over them in order of plugging in."""
 
-    def __init__(self, lib, bus, now):
+    def __init__(self, lib: ctypes.CDLL, bus: int, now: Callable[[], int]) -> None:
         """bus: servo_bus_t pointer; now: function that returns the board's cycle."""
         declare(lib)
         self.lib, self.bus, self.now = lib, bus, now
 
-    def add(self, servo_id, model="ax12", rate=None):
+    def add(self, servo_id: int, model: str = "ax12", rate: int | None = None) -> Servo:
         number = self.lib.servo_api_model(model.encode())
         if number < 0:
             raise ValueError(f"no servo model {model!r}; known: ax12, ax18, dx117")
@@ -180,34 +188,34 @@ class Servos:
             raise MemoryError("no memory for a servo")
         return Servo(self, pointer)
 
-    def __len__(self):
-        return self.lib.servo_api_count(self.bus)
+    def __len__(self) -> int:
+        return int(self.lib.servo_api_count(self.bus))
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Servo]:
         for index in range(len(self)):
             yield Servo(self, self.lib.servo_api_at(self.bus, index))
 
-    def __getitem__(self, servo_id):
+    def __getitem__(self, servo_id: int) -> Servo:
         pointer = self.lib.servo_bus_find(self.bus, servo_id)
         if not pointer:
             raise KeyError(f"no servo with ID {servo_id}; there are {self.ids}")
         return Servo(self, pointer)
 
-    def __contains__(self, servo_id):
+    def __contains__(self, servo_id: int) -> bool:
         return bool(self.lib.servo_bus_find(self.bus, servo_id))
 
     @property
-    def ids(self):
+    def ids(self) -> list[int]:
         return [servo.id for servo in self]
 
     @property
-    def present(self):
+    def present(self) -> dict[int, int]:
         return {servo.id: servo.present for servo in self}
 
     @property
-    def goals(self):
+    def goals(self) -> dict[int, int]:
         return {servo.id: servo.goal for servo in self}
 
-    def noise(self, data, rate=1_000_000):
+    def noise(self, data: bytes, rate: int = 1_000_000) -> None:
         """Stray bytes on the wire from now on."""
         self.lib.servo_bus_noise(self.bus, self.now(), bytes(data), len(data), rate)
