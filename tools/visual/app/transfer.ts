@@ -74,7 +74,7 @@ export class RobotTransfer implements Transfer {
         this.under = null;
         this.goesOn = () =>
             this.during('writing', async () => {
-                await this.parts.becomeEdit();
+                await this.orStopped(this.parts.becomeEdit());
                 this.under ??= await this.begin(document, pages);
                 await this.run(this.under);
                 this.state.set({ phase: 'written' });
@@ -88,6 +88,15 @@ export class RobotTransfer implements Transfer {
 
     cancel(): void {
         this.stop.abort();
+    }
+
+    /** Edit takes its time to start; who stops the transfer does not wait for it. */
+    private orStopped(deed: Promise<void>): Promise<void> {
+        const { signal } = this.stop;
+        const stopped = new Promise<never>((_, reject) =>
+            signal.addEventListener('abort', () => reject(new RobotError('cancelled')), { once: true }),
+        );
+        return Promise.race([deed, stopped]);
     }
 
     private async begin(document: MotionDocument, pages: readonly number[]): Promise<PageWrite> {

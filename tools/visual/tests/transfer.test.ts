@@ -252,7 +252,7 @@ test('the cable pulled at requests of a write of twenty pages: old or new, the a
 }, 3_600_000);
 
 /** What the page puts behind a RobotTransfer, on the bench. */
-function transferOn(bench: RobotBench, connection: Connection, pages: readonly PageToWrite[]) {
+function transferOn(bench: RobotBench, connection: Connection, pages: readonly PageToWrite[], edit = Promise.resolve()) {
     const document = { name: 'mine', pages: library.pages.map((bytes, page) => pages.find(one => one.page === page)?.after ?? bytes) };
     const kept: Uint8Array[][] = [];
     let robot: readonly (Uint8Array | null)[] = [];
@@ -264,7 +264,7 @@ function transferOn(bench: RobotBench, connection: Connection, pages: readonly P
             robot = now;
         },
         requests: () => connection.requests,
-        becomeEdit: () => (connection.version?.can.has('save') ? Promise.resolve() : Promise.reject(new RobotError('needs-edit'))),
+        becomeEdit: () => (connection.version?.can.has('save') ? edit : Promise.reject(new RobotError('needs-edit'))),
         backUp: now => Promise.resolve(void kept.push([...now])),
     });
     return { transfer, kept, robot: () => robot, before: Array.from({ length: 128 }, (_, page) => flashPage(bench, page)) };
@@ -314,6 +314,24 @@ function onTheLine(bench: RobotBench, change: (line: string) => string): string[
     };
     return sent;
 }
+
+test('the page: Stop is heard while Edit is still starting, nothing is written when it has started, and "try again" goes on', async () => {
+    const { bench, connection } = await ready('edit', 49);
+    let started = (): void => undefined;
+    const edit = new Promise<void>(resolve => (started = resolve));
+    const pages = twenty(bench);
+    const { transfer, kept, before } = transferOn(bench, connection, pages, edit);
+    const write = transfer.write(pages.map(({ page }) => page));
+    transfer.cancel();
+    expect(await bench.until(write, 1000)).toMatchObject({ isDone: false, error: { code: 'cancelled' } });
+    expect(transfer.state.get()).toMatchObject({ phase: 'stopped', trouble: 'Stopped.' });
+    started();
+    await bench.run(3000);
+    expect(kept).toEqual([]);
+    expect(Array.from({ length: 128 }, (_, page) => flashPage(bench, page))).toEqual(before);
+    expect(await bench.until(transfer.tryAgain(), 60_000)).toEqual({ isDone: true });
+    for (const { page, after } of pages) expect(flashPage(bench, page)).toEqual(after);
+});
 
 test('a digit of "@save" lost in noise: the board refuses the request, and it is sent again', async () => {
     const { bench, connection } = await ready('edit', 54);

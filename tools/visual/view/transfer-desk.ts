@@ -27,6 +27,6 @@ export interface Transfer {
     write(pages: readonly number[]): Promise<TransferEnd>;
     /** Goes on with what was stopped. */
     tryAgain(): Promise<TransferEnd>;
-    /** Stops between two pages. */
+    /** Stops at once, or between two pages. */
     cancel(): void;
 }
