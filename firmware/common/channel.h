@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * channel.h - the programs' channel: one control byte hands the line behind it to requests, in every mode of an image.
+ * channel.h - the programs' channel: one control byte hands the line after it to requests, in every mode of an image.
  * What a person types has its own buffer and goes on where it was.
  *
  *     0x1E @where 394C CR                  the request; its last four characters are the CRC-16 (crc16.h) of those before

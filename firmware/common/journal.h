@@ -14,7 +14,7 @@
  *   recover:  newest record pending -> target (pages that differ) -> state := 0
  *
  * The newest record is the one with the highest sequence (modulo 65536) among those whose own CRC fits. Only that one
- * counts; older ones are done whatever their state says. A save uses the slot after the newest, so every flash page of
+ * takes effect; older ones are done whatever their state says. A save uses the slot after the newest, so every flash page of
  * the area is erased once in JOURNAL_SLOTS saves.
  * A power cut before the record is complete leaves an invalid record, hence the old page. From a complete record on the
  * next start finishes the target, however often the power fails while it does so. */

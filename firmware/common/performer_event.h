@@ -39,7 +39,7 @@ typedef enum {
     PERFORMER_EV_HOT,        /* a: servo ID, b: degrees C */
     PERFORMER_EV_LAYER_ENDED, /* a: the page in which it ended */
     PERFORMER_EV_TICKS_LATE, /* a tick came 0.1 s late; what played is broken off */
-    PERFORMER_EV_BUS_LOST,   /* the adapter of the bus was pulled out; all joints count as switched off by hand */
+    PERFORMER_EV_BUS_LOST,   /* the adapter of the bus was pulled out; all joints are taken as switched off by hand */
     PERFORMER_EV_DRIVE_LOST, /* the driving program is silent; the play is being stopped */
     PERFORMER_EV_LOST        /* a: number of events dropped because the queue was full */
 } performer_event_kind_t;
