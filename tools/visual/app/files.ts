@@ -194,6 +194,7 @@ export class DocumentFiles implements Files {
                 );
                 const damaged = pages.filter(bytes => format.fault(bytes) !== null).length;
                 const hasTrim = !format.isEmpty(this.pageIn(image, 0));
+                if (pages.length === 0 && !hasTrim) return { tooLarge: null, trouble: FILE_TEXTS.noMotions(name) };
                 return { tooLarge: null, opened: { name, image, notes, losses, count: pages.length, damaged, hasTrim } };
             }
             default:

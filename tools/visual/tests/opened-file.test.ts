@@ -8,6 +8,7 @@ import { imageOf, pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import type { FileFormats } from '../model/file-formats.ts';
 import { writePage } from '../model/page.ts';
+import { FILE_TEXTS } from '../view/editor/file-texts.ts';
 import { libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
 
 const { format } = await makeFormat();
@@ -80,6 +81,15 @@ test('damaged pages are counted before, and a file of nothing else is refused wi
     files.addOpened();
     expect(files.state.get()).toMatchObject({ opened: null, trouble: expect.stringContaining('No page of the file is whole') });
     expect(editor.state.get().page).toBe(page);
+});
+
+test('a file without motions is told so, whether its pages are empty or were never written; one with a trim alone says that', async () => {
+    const erased = await opened(new Map(library.pages.map((_, page) => [page, format.erased] as const)));
+    for (const { files } of [await opened(new Map()), erased])
+        expect(files.state.get()).toMatchObject({ opened: null, trouble: expect.stringMatching(/^found.mtn holds no motions/) });
+    const trim = await opened(new Map([[0, renamed(WALK, 'trim')]]));
+    expect(trim.files.state.get()).toMatchObject({ opened: { count: 0, hasTrim: true }, trouble: null });
+    expect(FILE_TEXTS.opened(0, 0)).toMatch(/^No motions, only the trim/);
 });
 
 test('as a new document it is one of its own; replacing takes every page but the trim', async () => {

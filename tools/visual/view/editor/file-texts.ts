@@ -14,7 +14,10 @@ export const FILE_TEXTS = {
     noPython: (why: string): string =>
         `The part of this page that reads files could not be loaded (${why}). Nothing was changed. Try again; when that does not help, reload the page: there may be a new version.`,
     opened: (count: number, damaged: number): string =>
-        `${count === 1 ? '1 motion page' : `${count} motion pages`}. Added, they go into free pages with what they lead to, and nothing of yours is touched.${damaged > 0 ? ` ${damaged} of them cannot be added: they are damaged.` : ''}`,
+        count === 0
+            ? 'No motions, only the trim of the robot that the file was made on.'
+            : `${count === 1 ? '1 motion page' : `${count} motion pages`}. Added, they go into free pages with what they lead to, and nothing of yours is touched.${damaged > 0 ? ` ${damaged} of them cannot be added: they are damaged.` : ''}`,
+    noMotions: (name: string): string => `${name} holds no motions: all its pages are empty. Nothing was changed.`,
     nothingWhole:
         'No page of the file is whole, so none was added. Open it again and take it as a new document: that keeps damaged pages as they are.',
     trim: 'When all pages are replaced, page 0 too: the trim of the robot that the file was made on. Leave it out unless that robot is yours.',

@@ -149,7 +149,7 @@ export class FilesMenu extends HTMLElement {
                 lines([...notes, ...losses]),
                 hasTrim ? make('label', {}, trim, ` ${FILE_TEXTS.trim}`) : null,
             ],
-            [...ways, this.closing('Cancel')],
+            [...ways.slice(count === 0 ? 1 : 0), this.closing('Cancel')],
         );
     }
 
