@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-// One tab for one document: a lock of the browser, which it gives back when the tab closes.
+// One tab for one document, and one for what the robot in the page keeps: locks of the browser, given back when the tab closes.
+
+/** A page that is loaded anew may find itself, still leaving. */
+const RELOAD_MS = 1000;
 
 let release: () => void = () => undefined;
 
@@ -14,6 +17,24 @@ export function holdDocument(id: string): Promise<boolean> {
             return new Promise<void>(done => {
                 release = done;
             });
+        });
+        held.catch(reject);
+    });
+}
+
+/** Takes what the robot in the page keeps for this tab, for good. false: another tab has it. */
+export async function holdRobot(): Promise<boolean> {
+    if (!('locks' in navigator)) return true;
+    if (await tryRobot()) return true;
+    await new Promise(resolve => setTimeout(resolve, RELOAD_MS));
+    return tryRobot();
+}
+
+function tryRobot(): Promise<boolean> {
+    return new Promise((resolve, reject) => {
+        const held = navigator.locks.request('motion512-robot', { ifAvailable: true }, lock => {
+            resolve(lock !== null);
+            return lock ? new Promise<never>(() => undefined) : undefined;
         });
         held.catch(reject);
     });

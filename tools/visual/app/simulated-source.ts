@@ -17,6 +17,7 @@ import { forgetRobot, loadRobot, saveRobot } from '../view/robot-store.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
 import { TEXTS, violationText } from '../view/texts.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
+import { holdRobot } from './hold-document.ts';
 import { boardModule, motionLibrary, physics, robotImages } from './assets.ts';
 import { TickClock } from './tick-clock.ts';
 
@@ -62,6 +63,9 @@ export class SimulatedSource {
     private standing: Promise<void> | null = null;
     private isInHand = false;
     private clock = new TickClock();
+    /** Only one tab keeps what its robot saves: two would write over each other. */
+    private readonly mayKeep = holdRobot();
+    private isSecondTold = false;
     private readonly waiting: ((state: RobotState) => void)[] = [];
     connection: Connection | null = null;
 
@@ -94,7 +98,7 @@ export class SimulatedSource {
         return this.inTurn(async () => {
             const parts = await this.parts(image);
             await this.end();
-            await forgetRobot(KEY).catch(() => this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } }));
+            if (await this.mayKeep) await forgetRobot(KEY).catch(() => this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } }));
             this.begin(parts, null);
         });
     }
@@ -266,10 +270,16 @@ export class SimulatedSource {
 
     private async keep(memories: KeptRobot): Promise<void> {
         this.events.motions(motionsIn(memories));
+        if (!(await this.mayKeep)) return this.tellSecond();
         try {
             await saveRobot(KEY, memories);
         } catch {
             this.events.change({ said: { text: TEXTS.notKept, tone: 'bad' } });
         }
+    }
+
+    private tellSecond(): void {
+        if (!this.isSecondTold) this.events.change({ said: { text: TEXTS.secondRobot, tone: 'bad' } });
+        this.isSecondTold = true;
     }
 }

@@ -123,6 +123,7 @@ export const TEXTS = {
     crashed: 'The simulated robot has crashed. Start it anew under "Robot"; what it had saved is still there.',
     kept: 'Saved in this browser.',
     notKept: "This browser does not save the robot's memory (private window, or the disk is full). What you save is gone with the page.",
+    secondRobot: 'Another tab has this robot, too, so what this one saves is gone when its tab is closed. Documents stay.',
     robotKept: 'All motions of your robot are read, and saved in this browser as a backup.',
     workNotKept:
         'This browser could not save your work (private window, or the disk is full). Save it as a file before you close the page.',

@@ -41,11 +41,13 @@ test('a file to compare with: a reading that does not end is cancelled, by the b
     await dialog.getByRole('button', { name: 'Close' }).click();
     await dialog.waitFor({ state: 'hidden' });
     await person.button('To the robot (1) …').click();
-    await dialog.getByRole('button', { name: /^Write 1 page/ }).waitFor();
     expect(await status.textContent()).not.toContain('Reading theirs');
 
-    await choose();
+    await choose(); // the robot is still being read, and what that brings takes no sentence away
     await status.filter({ hasText: /could not be loaded .* Nothing was changed/ }).waitFor();
+    await dialog.getByRole('button', { name: 'Stop' }).waitFor({ state: 'hidden' });
+    await dialog.getByText('The words could not be loaded').waitFor();
+    expect(await status.textContent()).toMatch(/could not be loaded .* Nothing was changed/);
     person.faults.splice(0); // the console says that a file was not there
     await person.leave();
 });

@@ -18,7 +18,7 @@ const LINES = 4;
 
 export class CompareDialog extends HTMLElement {
     desk!: Desk; // set before it is connected
-    private readonly which = make('select', { 'aria-label': 'Compare with', onchange: () => void this.look() });
+    private readonly which = make('select', { 'aria-label': 'Compare with', onchange: () => void this.choose() });
     private readonly chooser = make('input', {
         type: 'file',
         hidden: true,
@@ -33,7 +33,7 @@ export class CompareDialog extends HTMLElement {
     private readonly stop = make('button', { hidden: true, onclick: () => this.cancel() }, 'Stop');
     private readonly again = make('button', { hidden: true, onclick: () => void this.tryAgain() }, 'Try again');
     private readonly shut = make('button', { onclick: () => this.dialog.close() }, 'Close');
-    private readonly reread = make('button', { onclick: () => void this.readRobot() }, 'Read the robot again');
+    private readonly reread = make('button', { onclick: () => void this.readAgain() }, 'Read the robot again');
     private readonly dialog = make('dialog', {
         class: 'compare',
         'aria-label': 'Compare and write',
@@ -74,6 +74,7 @@ export class CompareDialog extends HTMLElement {
 
     /** Opens with the robot, which is read. */
     async open(): Promise<void> {
+        this.trouble = null;
         this.fillWhich('robot');
         if (!this.dialog.open) this.dialog.showModal();
         await this.readRobot();
@@ -89,12 +90,23 @@ export class CompareDialog extends HTMLElement {
         this.which.value = key;
     }
 
+    private choose(): Promise<void> {
+        this.trouble = null;
+        return this.look();
+    }
+
     private async readRobot(): Promise<void> {
         await this.desk.transfer.read();
         await this.look();
     }
 
+    private readAgain(): Promise<void> {
+        this.trouble = null;
+        return this.readRobot();
+    }
+
     private async tryAgain(): Promise<void> {
+        this.trouble = null;
         await this.desk.transfer.tryAgain();
         await this.look();
     }
@@ -111,7 +123,7 @@ export class CompareDialog extends HTMLElement {
         if (found.kind === 'read') {
             this.file = { title: file.name, pages: documentFrom(found.image, file.name).pages };
             this.fillWhich('file');
-            return this.look();
+            return this.choose();
         }
         this.trouble = found.kind === 'refused' ? found.text : FILE_TEXTS.notRead(file.name);
         this.renderTransfer(this.desk.transfer.state.get());
@@ -126,7 +138,6 @@ export class CompareDialog extends HTMLElement {
     private async look(): Promise<void> {
         const mine = ++this.looked;
         const { desk, key } = this;
-        this.trouble = null;
         const found = key === 'file' ? this.file?.pages : await pagesOf(desk, key);
         if (mine !== this.looked) return;
         this.other = found ?? [];
@@ -207,6 +218,7 @@ export class CompareDialog extends HTMLElement {
     }
 
     private async deed(): Promise<void> {
+        this.trouble = null;
         if (this.key !== 'robot') return this.takeOver(this.chosen);
         await this.desk.transfer.write(this.chosen);
         this.fillWhich(this.key); // there is a backup more

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Two tabs have a robot each, and one memory in the browser: the second one writes nothing over what the first has saved.
+import type { Page } from 'playwright-core';
+import { expect, test } from 'vitest';
+import { Visitor } from './page-bench.ts';
+import { pageSuite } from './page-suite.ts';
+
+const suite = pageSuite();
+
+/** EEPROM that the browser keeps, as text; '' when it keeps none. */
+function keptEeprom(page: Page): Promise<string> {
+    return page.evaluate(
+        () =>
+            new Promise<string>((resolve, reject) => {
+                const opened = indexedDB.open('motion512');
+                opened.onerror = () => reject(opened.error);
+                opened.onsuccess = () => {
+                    const asked = opened.result.transaction('robot').objectStore('robot').get('cm5');
+                    asked.onerror = () => reject(asked.error);
+                    asked.onsuccess = () => {
+                        opened.result.close();
+                        resolve(asked.result ? Array.from(asked.result.eeprom as Uint8Array).join() : '');
+                    };
+                };
+            }),
+    );
+}
+
+/** Saves a setting, as a person does in Play. */
+async function saveLaw(page: Page, law = 'classic'): Promise<void> {
+    const more = page.getByRole('button', { name: 'More' });
+    if (await more.isVisible()) await more.click();
+    await page.getByRole('tab', { name: 'Terminal', exact: true }).click();
+    await page.getByRole('textbox', { name: 'Terminal of the robot' }).focus();
+    await page.keyboard.type(`law ${law}`);
+    await page.keyboard.press('Enter');
+}
+
+test('what the first tab has saved stays, whatever the second saves or forgets; the second says so', async () => {
+    const person = await Visitor.come(suite.browser, suite.address, { hasPicture: false, hasPhysics: false });
+    await person.untilStanding();
+    const second = await person.page.context().newPage();
+    await second.goto(suite.address);
+    await second.locator('status-strip .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    const before = await keptEeprom(second);
+    await saveLaw(second);
+    await second
+        .getByRole('log', { name: 'Last message' })
+        .filter({ hasText: /^Another tab has this robot, too/ })
+        .waitFor();
+    expect(await keptEeprom(second)).toBe(before);
+    await saveLaw(person.page);
+    await expect.poll(() => keptEeprom(person.page)).not.toBe(before);
+    const saved = await keptEeprom(person.page);
+    await second.getByRole('tab', { name: 'Robot', exact: true }).click();
+    await second.getByRole('button', { name: 'Factory fresh' }).click();
+    await second
+        .getByRole('dialog', { name: 'Factory fresh?' })
+        .getByRole('button', { name: /^(?!Cancel)/ })
+        .first()
+        .click();
+    await second.locator('status-strip .doing').filter({ hasText: 'The robot is starting' }).waitFor();
+    await second.locator('status-strip .doing').filter({ hasText: 'The robot stands and waits.' }).waitFor();
+    expect(await keptEeprom(second)).toBe(saved);
+
+    await person.page.reload(); // it is still the first
+    await person.untilStanding();
+    await saveLaw(person.page, 'exact');
+    await expect.poll(() => keptEeprom(person.page)).not.toBe(saved);
+    await person.leave();
+});
