@@ -28,6 +28,7 @@ interface Case {
     readonly error?: string;
     readonly no_room?: string;
     readonly sha256?: string;
+    readonly is_empty?: boolean;
     readonly notes?: readonly string[];
     readonly losses?: readonly string[];
 }
@@ -60,7 +61,7 @@ test("every file of m512's tests: the same image, or one sentence that names fil
     const [{ cases, counts }, { editor, files }] = await Promise.all([recorded(), openPage()]);
     const { document, history } = editor.state.get();
     const before = Buffer.from(imageOf(document));
-    for (const { test: from, name, data, error, no_room, sha256, notes, losses } of cases) {
+    for (const { test: from, name, data, error, no_room, sha256, is_empty, notes, losses } of cases) {
         const where = `${from}: ${name}, ${data.slice(0, 60)}`;
         await files.open(name, new Uint8Array(Buffer.from(data, 'base64')));
         const { opened, tooLarge, trouble, busy } = files.state.get();
@@ -73,6 +74,8 @@ test("every file of m512's tests: the same image, or one sentence that names fil
             expect([opened, tooLarge], where).toEqual([null, null]);
         } else if (no_room !== undefined) {
             expect([trouble, opened, tooLarge], where).toEqual([null, null, { name, pages: no_room }]);
+        } else if (is_empty) {
+            expect([trouble, opened], where).toEqual([`${name} holds no motions: all its pages are empty. Nothing was changed.`, null]);
         } else {
             expect(trouble, where).toBeNull();
             expect(

@@ -6,7 +6,8 @@ quick, all: every file that they read, and what the page has to make of it. nois
 m512's tests run as they are; what reaches a reader of files is written down, with the test that brought it, so no case of them can be
 missing here. `quick` leaves out tests that make files by chance or in great number, and keeps one file of each kind of answer: a kind is
 a sentence without its numbers and names, or "read". Each line: {"test", "name", "data" (base64), and what bridge.py says of it here, in
-CPython: "error", "no_room", or "sha256" of the image with "notes" and "losses"}. The last line counts: {"tests", "files", "refused"}.
+CPython: "error", "no_room", or "sha256" of the image with "notes", "losses", and "is_empty": every page is erased, or good and without a
+step}. The last line counts: {"tests", "files", "refused"}.
 """
 
 import base64
@@ -80,7 +81,11 @@ def told(suffix, data):
     name = "case" + suffix
     answer = bridge.opened(name, data)
     image = answer.pop("image", None)
-    return {"name": name, **answer, **({"sha256": hashlib.sha256(image).hexdigest()} if image else {})}
+    if image:
+        pages = [page for _, page in raw.from_bytes(image).items()]
+        is_empty = all(raw.is_erased(page) or (page.steps == 0 and not page.fault()) for page in pages)
+        answer = {**answer, "sha256": hashlib.sha256(image).hexdigest(), "is_empty": is_empty}
+    return {"name": name, **answer}
 
 
 def noise():
