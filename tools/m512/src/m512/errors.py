@@ -59,7 +59,7 @@ class BoardError(M512Error):
 
     exit_code = EXIT_BOARD
 
-    def __init__(self, message: str, number=None):
+    def __init__(self, message: str, number: int | None = None) -> None:
         super().__init__(message)
         self.number = number
 

@@ -6,10 +6,13 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
+from typing import Any, Callable
 
+from m512.board.block import Progress
 from m512.board.loaders import Loader
 from m512.board.memory import APP, EEPROM_BYTES, FLASH_PAGE, MOTIONS, Record
 from m512.crc16 import crc16
@@ -26,7 +29,7 @@ MAILBOX_CELLS = range(0xFF4, 0xFF6)
 @dataclass
 class Backup:
     folder: Path
-    manifest: dict
+    manifest: dict[str, Any]
     data: dict[str, bytes]
 
 
@@ -42,7 +45,7 @@ def must_be_possible(folder: Path) -> None:
         raise FileError(f"cannot make {folder}: nothing can be written in {there}")
 
 
-def take(loader: Loader, folder: Path, areas: list[str], phase) -> Backup:
+def take(loader: Loader, folder: Path, areas: list[str], phase: Callable[[str], AbstractContextManager[Progress]]) -> Backup:
     """Reads the areas of the board and writes the folder; the manifest comes last."""
     data = {}
     for area in areas:

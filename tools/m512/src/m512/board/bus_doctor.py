@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Callable
 
 from m512.board import bus, servos
-from m512.board.doctor import BAD, LOW_BATTERY_DV, OK, WARN, Finding
+from m512.board.doctor import BAD, LOW_BATTERY_DV, OK, WARN, Add, Finding
 from m512.errors import M512Error
 from m512.files.text.writer import ranges
 
@@ -57,14 +57,14 @@ def examine(word: str, tell: Callable[[Finding], None], mend: bool = False) -> l
     return out
 
 
-def _programs(add) -> None:
+def _programs(add: Add) -> None:
     try:
         add("programs", OK, " ".join(str(bus.find_program(image)) for image in ("play", "edit")))
     except M512Error as error:
         add("programs", BAD, "Play and Edit for this computer are missing", str(error).partition(": ")[2])
 
 
-def _adapter(line: servos.Bus, add) -> None:
+def _adapter(line: servos.Bus, add: Add) -> None:
     add("adapter", OK, f"{line.device} opens")
     add(
         "latency",
@@ -76,7 +76,7 @@ def _adapter(line: servos.Bus, add) -> None:
         add("echo", OK, "the adapter repeats what it is sent: dropped")
 
 
-def _servos(line: servos.Bus, add, wanted: int, mend: bool) -> None:
+def _servos(line: servos.Bus, add: Add, wanted: int, mend: bool) -> None:
     found: list[int] = []
     for rate in [wanted] + [rate for rate in RATES if rate != wanted]:
         try:
@@ -93,7 +93,7 @@ def _servos(line: servos.Bus, add, wanted: int, mend: bool) -> None:
     _missing(sorted(found), add)
 
 
-def _at_rate(line: servos.Bus, add, rate: int, ids: list[int], wanted: int, mend: bool) -> None:
+def _at_rate(line: servos.Bus, add: Add, rate: int, ids: list[int], wanted: int, mend: bool) -> None:
     is_right = rate == wanted
     add(
         "servos",
@@ -110,7 +110,7 @@ def _at_rate(line: servos.Bus, add, rate: int, ids: list[int], wanted: int, mend
             _mend_rate(line, add, id_, rate, wanted)
 
 
-def _missing(ids: list[int], add) -> None:
+def _missing(ids: list[int], add: Add) -> None:
     """Robots count their servos from 1 on without a gap."""
     if not ids:
         add("servos", BAD, "no servo answers, at no rate", NOBODY)
@@ -127,7 +127,7 @@ def _missing(ids: list[int], add) -> None:
         )
 
 
-def _servo(line: servos.Bus, add, id_: int, mend: bool) -> None:
+def _servo(line: servos.Bus, add: Add, id_: int, mend: bool) -> None:
     what = f"servo {id_}"
     table: dict[int, int] = {}
     for at, count in ((0, 19), (24, 23)):
@@ -168,7 +168,7 @@ def _no_answer(line: servos.Bus, id_: int) -> tuple[str, str]:
     return "answers PING only", "its status return level (address 16) is 0: set it to 2"
 
 
-def _mend_rate(line: servos.Bus, add, id_: int, rate: int, wanted: int) -> None:
+def _mend_rate(line: servos.Bus, add: Add, id_: int, rate: int, wanted: int) -> None:
     divisor: int | None = RATES.get(wanted)
     if divisor is None:
         add(f"servo {id_}", WARN, f"no servo has the rate {wanted}", "name one of " + " ".join(map(str, RATES)))
@@ -185,7 +185,7 @@ def _mend_rate(line: servos.Bus, add, id_: int, rate: int, wanted: int) -> None:
     )
 
 
-def _mend_delay(line: servos.Bus, add, id_: int, delay: int, mend: bool) -> None:
+def _mend_delay(line: servos.Bus, add: Add, id_: int, delay: int, mend: bool) -> None:
     what = f"servo {id_}"
     if not mend:
         add(what, WARN, f"answers after {2 * delay} us, before some adapters listen", "--mend sets it to 500 us, as sold")

@@ -7,13 +7,18 @@ It writes nothing to the board and moves nothing.
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
-from typing import Callable
+from typing import TYPE_CHECKING, Callable
 
 from m512.board.client import Client
 from m512.errors import M512Error, NoAnswerError, RefusedError
 
+if TYPE_CHECKING:
+    from m512.board.link import Link
+
 OK, WARN, BAD = "ok", "look", "bad"
+Add = Callable[..., None]  # takes a finding, as Finding() does
 LOW_BATTERY_DV = 96  # below 9.6 V without a load a pack is nearly empty
 
 
@@ -24,7 +29,7 @@ class Finding:
     text: str
     advice: str = ""
 
-    def as_dict(self) -> dict:
+    def as_dict(self) -> dict[str, str]:
         return {key: value for key, value in asdict(self).items() if value}
 
 
@@ -44,7 +49,7 @@ def examine(word: str, tell: Callable[[Finding], None], meet: Callable[..., Clie
     return out
 
 
-def _libraries(add) -> None:
+def _libraries(add: Add) -> None:
     add(
         "python",
         OK if sys.version_info >= (3, 9) else BAD,
@@ -59,7 +64,7 @@ def _libraries(add) -> None:
         add("simulator", WARN, "not installed; only --sim needs it", str(error).partition(": ")[2])
 
 
-def _port(word: str, add) -> str | None:
+def _port(word: str, add: Add) -> str | None:
     from m512.board import ports
 
     found = ports.available()
@@ -83,7 +88,7 @@ def _port(word: str, add) -> str | None:
     return url
 
 
-def _board(url: str, add, meet: Callable[..., Client]) -> None:
+def _board(url: str, add: Add, meet: Callable[..., Client]) -> None:
     from m512.board.link import Link
 
     with Link(url) as link:
@@ -107,7 +112,7 @@ def _board(url: str, add, meet: Callable[..., Client]) -> None:
                 add(look.__name__.strip("_"), BAD, str(error), "repeat; if it stays, restart the controller (MODE)")
 
 
-def _loader(link, add) -> None:
+def _loader(link: Link, add: Add) -> None:
     from m512.board import loaders
 
     if loaders.at_prompt(link):
@@ -137,7 +142,7 @@ def _loader(link, add) -> None:
     )
 
 
-def _robot(client, add) -> None:
+def _robot(client: Client, add: Add) -> None:
     state = client.where()
     volts = int(state.get("dv", "0"))
     if volts:
@@ -151,7 +156,7 @@ def _robot(client, add) -> None:
         add("faults", BAD, f"servos with a fault: {ids}", "type `faults` in `m512 term` for the reason; let hot ones cool down")
 
 
-def _servos(client, add) -> None:
+def _servos(client: Client, add: Add) -> None:
     for _ in range(4):  # right after its start the board has not read all of them yet
         pose = client.pose()
         if pose and all(at is not None for at, _ in pose.values()):
@@ -178,7 +183,7 @@ def _servos(client, add) -> None:
     )
 
 
-def _motions(client, add) -> None:
+def _motions(client: Client, add: Add) -> None:
     pages = client.list_pages()
     good = [n for n, (steps, _) in pages.items() if steps]
     damaged = [n for n, (steps, _) in pages.items() if steps is None]
@@ -187,7 +192,7 @@ def _motions(client, add) -> None:
     add("motions", OK if good else WARN, f"{len(good)} pages with an action", "" if good else "flash some: m512 flash library.m512")
 
 
-def _ranges(numbers) -> str:
+def _ranges(numbers: Iterable[int]) -> str:
     from m512.files.text.writer import ranges
 
     return ranges(sorted(numbers)) or "none"

@@ -26,7 +26,7 @@ class Report:
     seconds: float
     retries: int
 
-    def as_dict(self) -> dict:
+    def as_dict(self) -> dict[str, float]:
         return {"pages": self.pages, "written": self.written, "seconds": round(self.seconds, 2), "retries": self.retries}
 
     def __str__(self) -> str:

@@ -8,9 +8,10 @@ program that hangs does not leave a walking robot.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Callable, Protocol
 
 from m512.board.client import Client
+from m512.board.link import Link
 from m512.errors import BoardError
 
 PERIOD = 0.05  # seconds between two lines
@@ -72,7 +73,7 @@ class Pad:
 
     DEAD, LAYER = 0.12, 4
 
-    def __init__(self, pad) -> None:
+    def __init__(self, pad: Any) -> None:
         self.pad = pad
 
     def update(self, stick: Stick, seconds: float) -> None:
@@ -84,7 +85,7 @@ class Pad:
             stick.done = "stop"
 
 
-def drive(client: Client, source: Source, link, told, layer: int = 0) -> Stick:
+def drive(client: Client, source: Source, link: Link, told: Callable[[Stick], object], layer: int = 0) -> Stick:
     """Sends until the source says done or the play ends; `told(stick)` after each line. layer: the second page, 0: there is none. A play
     that is left by an exception is stopped softly."""
     stick, before, laid, lines = Stick(), link.now(), False, 0
@@ -109,7 +110,7 @@ def drive(client: Client, source: Source, link, told, layer: int = 0) -> Stick:
     return stick
 
 
-def _laid(client: Client, page) -> str:
+def _laid(client: Client, page: int | str) -> str:
     """Lays the page over the walk, or takes it off; what the board has against it is no reason to stop."""
     try:
         client.ask(f"layer {page}")
@@ -118,9 +119,9 @@ def _laid(client: Client, page) -> str:
     return ""
 
 
-def _clamp(value: float, span) -> float:
+def _clamp(value: float, span: tuple[float, float]) -> float:
     return min(max(value, span[0]), span[1])
 
 
-def _within(value: float, span) -> int:
+def _within(value: float, span: tuple[float, float]) -> int:
     return int(round(_clamp(value, span)))

@@ -88,7 +88,7 @@ class Link:
             return out
         try:
             self.port.timeout = max(seconds, 0)
-            first = self.port.read(1)
+            first: bytes = self.port.read(1)
             if not first:
                 return b""
             more = min(self.port.in_waiting, limit - 1)

@@ -54,8 +54,8 @@ def different(loader: FactoryLoader, wanted: dict[int, int]) -> dict[int, int]:
     return out
 
 
-def _runs(cells: list) -> list:
-    out: list = []
+def _runs(cells: list[int]) -> list[list[int]]:
+    out: list[list[int]] = []
     for at in cells:
         if out and at == out[-1][-1] + 1:
             out[-1].append(at)

@@ -8,7 +8,7 @@ import threading
 import time
 from itertools import chain
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from m512.board.link import Link
 from m512.errors import FileError, M512Error, PortError
@@ -89,7 +89,7 @@ class Terminal:
         sys.stderr.write("\r\n-- " + text.replace("\n", "\r\n") + "\r\n")
         sys.stderr.flush()
 
-    def _read(self, console) -> None:
+    def _read(self, console: Any) -> None:
         """Copies what the board sends to the screen, unchanged."""
         while self.running:
             try:
@@ -107,7 +107,7 @@ class Terminal:
                 self.log.write(data)
                 self.log.flush()
 
-    def _keys(self, console) -> None:
+    def _keys(self, console: Any) -> None:
         while self.running:
             try:
                 key = console.getkey()
@@ -121,7 +121,7 @@ class Terminal:
             elif not self._own(console):
                 return
 
-    def _own(self, console) -> bool:
+    def _own(self, console: Any) -> bool:
         """Acts on the key after Ctrl-]. False: quit."""
         key = console.getkey().lower()
         if key == "q":
@@ -152,7 +152,7 @@ class Terminal:
         time.sleep(0.35)
         self.link.write(b"\x08\r")
 
-    def _toggle_log(self, console) -> None:
+    def _toggle_log(self, console: Any) -> None:
         if self.log:
             self.log.close()
             self.log = None
@@ -165,7 +165,7 @@ class Terminal:
             except FileError as error:
                 self._say(str(error))
 
-    def _ask(self, console, prompt: str) -> str:
+    def _ask(self, console: Any, prompt: str) -> str:
         sys.stderr.write("\r\n-- " + prompt)
         sys.stderr.flush()
         out = ""

@@ -7,6 +7,7 @@ import contextlib
 import os
 import signal
 import sys
+from typing import Any
 
 import click
 
@@ -39,10 +40,10 @@ COMMANDS = {
 
 
 class LazyGroup(click.Group):
-    def list_commands(self, ctx):
+    def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
 
-    def get_command(self, ctx, name):
+    def get_command(self, ctx: click.Context, name: str) -> Any:
         if name not in COMMANDS:
             return None
         from importlib import import_module
@@ -50,11 +51,11 @@ class LazyGroup(click.Group):
         module = import_module(f"m512.cli.{COMMANDS[name][0]}")
         return getattr(module, name)
 
-    def format_commands(self, ctx, formatter):
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
             formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
 
-    def main(self, *args, **kwargs):
+    def main(self, *args: Any, **kwargs: Any) -> Any:
         """What the system refuses is said in a sentence, wherever it comes from: a full disk behind --help, a name of 300 letters."""
         try:
             return super().main(*args, **kwargs)
@@ -67,7 +68,7 @@ class LazyGroup(click.Group):
             say(f"m512: {error.strerror or error}" + (f": {error.filename}" if error.filename else ""))
             sys.exit(EXIT_BAD_FILE)
 
-    def invoke(self, ctx):
+    def invoke(self, ctx: click.Context) -> Any:
         from m512.errors import EXIT_CANCELLED, M512Error
 
         for name in ("SIGTERM", "SIGHUP"):  # the simulator and a robot that is driven do not outlive this program
@@ -95,7 +96,7 @@ class LazyGroup(click.Group):
     "6 port lost or not there, 7 no answer, 8 error answer of the board, 9 something not installed, 130 Ctrl-C.",
 )
 @click.version_option(__version__, prog_name="m512")
-def main():
+def main() -> None:
     """Motions, firmware and terminal of CM-2/CM-5 robot controllers.
 
     \b

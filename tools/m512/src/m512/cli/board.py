@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 import click
 from click.core import ParameterSource
@@ -18,7 +20,7 @@ from m512.errors import M512Error, NoAnswerError, PortError, RefusedError
 class Finite(click.FloatRange):
     """A range that nan is not in."""
 
-    def convert(self, value, param, ctx):
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         number = super().convert(value, param, ctx)
         if number != number:
             self.fail(f"{value!r} is no number", param, ctx)
@@ -45,13 +47,13 @@ board_option = click.option(
 json_option = click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 
 
-def only_the_simulator():
+def only_the_simulator() -> None:
     """UsageError where --sim and a port were typed: one of the two would be ignored. M512_PORT is no such word."""
     if click.get_current_context().get_parameter_source("port") is ParameterSource.COMMANDLINE:
         raise click.UsageError("--sim starts a simulated robot, --port means a real one: say one of the two")
 
 
-def connect(port, wait, yes=False, board=""):
+def connect(port: str, wait: float, yes: bool = False, board: str = "") -> Any:
     """(link, loader) of the board on a port. A running Play or Edit restarts by itself; edits are lost only after a yes."""
     from m512.board import bus, loaders, ports
     from m512.board.link import Link
@@ -67,7 +69,7 @@ def connect(port, wait, yes=False, board=""):
     return link, loader
 
 
-def number(context, parameter, value):
+def number(context: click.Context, parameter: click.Parameter, value: Any) -> int | None:
     if value is None:
         return None
     try:
@@ -76,7 +78,7 @@ def number(context, parameter, value):
         raise click.BadParameter("a number, decimal or 0x") from None
 
 
-def flash_options(function):
+def flash_options(function: Any) -> Any:
     for option in (
         json_option,
         wait_option,
@@ -102,7 +104,20 @@ def flash_options(function):
     return function
 
 
-def _flash(image, address, fast, with_trim, damaged, dry_run, yes, port, board, wait, as_json, start):
+def _flash(
+    image: Any,
+    address: int | None,
+    fast: bool,
+    with_trim: bool,
+    damaged: str,
+    dry_run: bool,
+    yes: bool,
+    port: str,
+    board: str,
+    wait: float,
+    as_json: bool,
+    start: bool,
+) -> None:
     from m512.board import download, memory
     from m512.board.block import BlockLoader
 
@@ -133,7 +148,7 @@ def _flash(image, address, fast, with_trim, damaged, dry_run, yes, port, board, 
             ui.show(json.dumps(dict(report.as_dict(), loader=loader.name, board=loader.board, started=start)))
 
 
-def _agreed(loader, plan, yes):
+def _agreed(loader: Any, plan: Any, yes: bool) -> Any:
     """The flash pages to write, after a yes if motions of the board would be lost by it."""
     from m512.board import download, look
     from m512.files.wording import named_pages_text
@@ -151,7 +166,7 @@ def _agreed(loader, plan, yes):
     return todo
 
 
-def _look(plan, port, board):
+def _look(plan: Any, port: str, board: str) -> None:
     """What a plan would change on the board, which goes on with what it does."""
     from m512.board import bus, loaders, look, ports
     from m512.board.client import Client
@@ -188,7 +203,7 @@ Examples:
 )
 @click.argument("image", type=click.Path(path_type=Path))
 @flash_options
-def flash(image, **options):
+def flash(image: Any, **options: Any) -> None:
     """Write code or motions into the board and read them back.
 
     Our boot loader and the factory's are told apart by themselves. Only pages that differ are sent, so a transfer that
@@ -205,7 +220,7 @@ Examples:
 )
 @click.argument("image", type=click.Path(path_type=Path), required=False)
 @flash_options
-def run(image, **options):
+def run(image: Any, **options: Any) -> None:
     """Write IMAGE as `m512 flash` does and start the application."""
     if image:
         _flash(image, start=True, **options)
@@ -218,7 +233,7 @@ def run(image, **options):
         ui.say("started")
 
 
-def _areas(text):
+def _areas(text: str) -> list[str]:
     from m512.board.backup import AREAS
 
     areas = [area for area in text.split(",") if area]
@@ -240,7 +255,7 @@ Examples:
 @board_option
 @wait_option
 @json_option
-def backup(folder, what, port, board, wait, as_json):
+def backup(folder: Path, what: str, port: str, board: str, wait: float, as_json: bool) -> None:
     """Read motions, EEPROM and application into FOLDER, with a manifest (date, board, CRCs)."""
     from m512.board import backup as backups
     from m512.board import loaders
@@ -275,7 +290,7 @@ Examples:
 @board_option
 @wait_option
 @json_option
-def restore(folder, what, yes, port, board, wait, as_json):
+def restore(folder: Path, what: str, yes: bool, port: str, board: str, wait: float, as_json: bool) -> None:
     """Show what a backup would change on the board, ask, and write it."""
     from m512.board import backup as backups
     from m512.board import download, loaders
@@ -309,7 +324,7 @@ def restore(folder, what, yes, port, board, wait, as_json):
 
 
 @contextmanager
-def as_found(loader):
+def as_found(loader: Any) -> Iterator[None]:
     """Whatever ends this early (an error, a no, Ctrl-C) leaves the board as it was found."""
     from m512.board import loaders
 
@@ -322,7 +337,7 @@ def as_found(loader):
         raise
 
 
-def _compare(loader, saved, areas, pages):
+def _compare(loader: Any, saved: Any, areas: list[str], pages: Any) -> Any:
     """(flash pages that differ, EEPROM cells that differ, changes of motions), told in words."""
     from m512.board import backup as backups
     from m512.board.memory import MOTIONS, Record
@@ -354,7 +369,7 @@ def _compare(loader, saved, areas, pages):
     return todo, cells, changes
 
 
-def _motions_now(loader, saved, pages, progress):
+def _motions_now(loader: Any, saved: Any, pages: Any, progress: Any) -> bytes:
     """The board's motion area, read only where it differs from the backup."""
     from m512.board.memory import MOTIONS
 

@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 import json
+from typing import TYPE_CHECKING
 
 import click
 
 from m512 import ui
 from m512.cli.board import json_option, only_the_simulator, port_option
 from m512.errors import EXIT_DIFFERENT
+
+if TYPE_CHECKING:
+    from m512.board.doctor import Finding
 
 
 @click.command(
@@ -24,7 +28,7 @@ Examples:
 @click.option("--sim", is_flag=True, help="Examine the simulator.")
 @click.option("--mend", is_flag=True, help="With -p bus:...: give servos the rate, and a return delay that is too short its factory value.")
 @json_option
-def doctor(port, sim, mend, as_json):
+def doctor(port: str, sim: bool, mend: bool, as_json: bool) -> None:
     """Look at port, boot loader, image, servos and motions, and say what is wrong and what to do.
 
     Nothing is written (but with --mend) and nothing moves. Exit code 3 when something is bad.
@@ -32,7 +36,7 @@ def doctor(port, sim, mend, as_json):
     from m512.board.bus import is_bus
     from m512.board.doctor import BAD, examine
 
-    def tell(finding):
+    def tell(finding: Finding) -> None:
         if not as_json:
             mark = {"ok": "ok  ", "look": "look", "bad": "BAD "}[finding.state]
             ui.show(f"{mark} {finding.what:11} {finding.text}")

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Callable
 
 import click
 
@@ -13,13 +15,16 @@ from m512.cli.board import board_option
 from m512.errors import EXIT_DIFFERENT, FileError, RefusedError, WordError
 from m512.files import conversion, formats, selection, storage
 
+if TYPE_CHECKING:
+    from m512.files.image import Image
 
-class PageNumber(click.ParamType):
+
+class PageNumber(click.ParamType):  # type: ignore[type-arg]  # generic from click 8.2 on
     """A page's number and nothing else: int() also takes 1_0 and digits of other scripts."""
 
     name = "number"
 
-    def convert(self, value, param, ctx):
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
         number = value if isinstance(value, int) else selection.page_number(value)
         if number is None or number > selection.NUMBER_MOST:
             self.fail(f"{value!r} is no page number (0..{selection.NUMBER_MOST})", param, ctx)
@@ -29,24 +34,24 @@ class PageNumber(click.ParamType):
 PAGE_NUMBER = PageNumber()
 
 
-def page_numbers(words, pages):
+def page_numbers(words: Sequence[str], pages: Any) -> Any:
     """The pages that arguments mean, of a file or a board (files/selection.py)."""
     return _meant(selection.numbers, words, pages)
 
 
-def page_moves(words, pages):
+def page_moves(words: Sequence[str], pages: Any) -> Any:
     """[(number there, number here)] of arguments such as 3, wave:40, 20..25:60, all."""
     return _meant(selection.moves, words, pages)
 
 
-def _meant(parse, words, pages):
+def _meant(parse: Callable[..., Any], words: Sequence[str], pages: Any) -> Any:
     try:
         return parse(words, pages)
     except WordError as error:
         raise click.UsageError(str(error)) from None
 
 
-def id_list(text):
+def id_list(text: str) -> list[int]:
     """IDs of an option's value."""
     from m512.files.text.words import joints_of
 
@@ -87,7 +92,21 @@ Examples:
 @click.option("--mtn-version", type=click.Choice(["1.00", "1.01"]), default="1.01", help="Version of a .mtn to write.")
 @click.option("--force", is_flag=True, help="Overwrite TARGET.")
 @click.option("--json", "as_json", is_flag=True, help="Report on stdout as JSON.")
-def convert(source, target, bits, scale, joints, count, only, number, onto, damaged, mtn_version, force, as_json):
+def convert(
+    source: Path,
+    target: Path,
+    bits: str | None,
+    scale: Any,
+    joints: Any,
+    count: int | None,
+    only: Any,
+    number: Any,
+    onto: Any,
+    damaged: str,
+    mtn_version: Any,
+    force: bool,
+    as_json: bool,
+) -> None:
     """Convert the motions in SOURCE to TARGET.
 
     Without a TARGET, or with -, the text goes to standard output; a SOURCE of - is standard input. For git:
@@ -99,7 +118,7 @@ def convert(source, target, bits, scale, joints, count, only, number, onto, dama
     """
     if storage.exists(target) and not force:
         raise RefusedError(f"{target} is there already (--force overwrites it)")
-    image = formats.load(source, bits and int(bits), formats.load(onto) if onto else None)
+    image = formats.load(source, int(bits) if bits else None, formats.load(onto) if onto else None)
     notes, losses = list(image.notes), []
     moved, left = {}, []
     if only:
@@ -146,7 +165,7 @@ def convert(source, target, bits, scale, joints, count, only, number, onto, dama
         ui.say(f"loss: {loss}")
 
 
-def _motions_of(word, bits, board):
+def _motions_of(word: str, bits: int | None, board: str) -> Image:
     """The motions of a file, a backup's folder, or a board."""
     from m512.board.ports import is_port
 
@@ -177,13 +196,13 @@ Examples:
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of images (default: what the positions look like).")
 @board_option
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
-def diff(first, second, bits, board, as_json):
+def diff(first: str, second: str, bits: str | None, board: str, as_json: bool) -> None:
     """Say in words how the motions in FIRST and SECOND differ: which page, which step, which joint, from, to.
 
     Each is a motion file, the folder of a backup, or the port of a board. Exit code 0 when they are equal, 3 when they differ."""
     from m512.pages import difference
 
-    found = difference.images(*(_motions_of(word, bits and int(bits), board) for word in (first, second)))
+    found = difference.images(*(_motions_of(word, int(bits) if bits else None, board) for word in (first, second)))
     if as_json:
         ui.show(json.dumps([change.as_dict() for change in found], indent=2))
     else:

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,12 +14,15 @@ from m512 import ui
 from m512.cli.files import id_list
 from m512.cli.robot import ID_MAX, positions_of, robot, robot_options
 
+if TYPE_CHECKING:
+    from m512.board.client import Client
+
 SECOND_MS = 1000
 AMPLITUDES = (0, 511)
 AIMED_MOST = 4  # joints that code moves at once
 
 
-def show_shape(client, as_json):
+def show_shape(client: Client, as_json: bool) -> None:
     """What is in force now."""
     found = client.shape()
     if as_json:
@@ -36,7 +41,7 @@ Examples:
 @click.argument("page", metavar="PAGE|off")
 @click.option("--joints", help="IDs (1..6 or 1,3,5). Default: those that the page's first step uses.")
 @robot_options
-def layer(page, joints, **options):
+def layer(page: str, joints: Any, **options: Any) -> None:
     """Play a second PAGE over the one that plays, on joints of its own; all others go on as without it."""
     chosen = id_list(joints) if joints else []
     if page == "off" and chosen:
@@ -56,7 +61,7 @@ Examples:
 @click.argument("positions", nargs=-1, required=True, metavar="ID:POSITION...")
 @click.option("--speed", metavar="DEG/S", type=click.IntRange(1, 360), help="Largest speed. Default: that of the approach.")
 @robot_options
-def aim(positions, speed, **options):
+def aim(positions: Sequence[str], speed: int | None, **options: Any) -> None:
     """Bring joints to positions (0..1023, or 30deg from the centre) and hold them there, up to four, until `free`."""
     wanted = positions_of(positions)
     if len(wanted) > AIMED_MOST:
@@ -79,7 +84,7 @@ Examples:
 @click.argument("period", metavar="PERIOD")
 @click.option("--phase", type=click.IntRange(0, 359), default=0, metavar="DEG", help="Where in the sine it begins.")
 @robot_options
-def swing(joint, centre, amplitude, period, phase, **options):
+def swing(joint: Any, centre: Any, amplitude: str, period: Any, phase: Any, **options: Any) -> None:
     """Swing a joint about CENTRE by AMPLITUDE (units, or 30deg), once in PERIOD (2s, 1500ms), until `free`."""
     (at,) = positions_of([f"{joint}:{centre}"]).values()
     line = f"swing {joint} {at} {_amplitude(amplitude)} {_milliseconds(period)}" + (f" {phase}" if phase else "")
@@ -96,14 +101,14 @@ Examples:
 )
 @click.argument("ids", nargs=-1, type=click.IntRange(0, ID_MAX))
 @robot_options
-def free(ids, **options):
+def free(ids: Sequence[str], **options: Any) -> None:
     """End `aim` and `swing`: joints go back to the motion that plays, or stay where they are."""
     with robot(options) as client:
         client.ask(" ".join(map(str, ["free", *ids])))
         show_shape(client, options["as_json"])
 
 
-def _amplitude(text):
+def _amplitude(text: str) -> int:
     """Servo units of 30deg or 100."""
     found = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]{0,9})?)(deg)?", text)
     units = -1 if not found or not found.group(2) and "." in text else round(float(found.group(1)) * (1024 / 300 if found.group(2) else 1))
@@ -112,7 +117,7 @@ def _amplitude(text):
     return units
 
 
-def _milliseconds(text):
+def _milliseconds(text: str) -> int:
     """Milliseconds of 2s or 1500ms."""
     found = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]{0,9})?)(ms|s)", text)
     if found:

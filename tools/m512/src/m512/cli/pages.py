@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -30,7 +32,7 @@ class Source:
         return is_port(self.word)
 
     @cached_property
-    def image(self):
+    def image(self) -> Any:
         if self.board:
             from m512.board.motions import read_motions
 
@@ -42,7 +44,7 @@ class Source:
             ui.say(f"note: {note}")
         return image
 
-    def store(self, remarks, output, in_place, force, yes):
+    def store(self, remarks: Iterable[str], output: Any, in_place: bool, force: bool, yes: bool) -> None:
         """Writes the changed image where it was asked for."""
         for remark in remarks:
             ui.say(f"note: {remark}")
@@ -75,7 +77,7 @@ class Source:
         text = data.decode("utf-8-sig")
         return write_text(read_text(text, self.word, Path(self.word).parent)) != text
 
-    def _to_board(self, yes):
+    def _to_board(self, yes: bool) -> None:
         """Shows what changes, asks, writes."""
         from m512.board.motions import write_motions
         from m512.pages import difference
@@ -90,7 +92,7 @@ class Source:
         write_motions(self.word, self.image, self.which_board)
 
 
-def changes(function):
+def changes(function: Any) -> Any:
     """Options of the actions that change pages."""
     function = click.option("-o", "--output", type=click.Path(), help="Write the result here.")(function)
     function = click.option("--in-place", is_flag=True, help="Write the result back to the file.")(function)
@@ -114,19 +116,19 @@ Examples:
 @click.option("--bits", type=click.Choice(["10", "12"]), help="Resolution of an image file (default: what its positions look like).")
 @board_option
 @click.pass_context
-def pages(context, source, bits, board):
+def pages(context: click.Context, source: str, bits: str | None, board: str) -> None:
     """List, check, edit, merge, mirror and retime the pages of a motion file, or of a board on a PORT.
 
     Pages are given by number, name or range (20..25: those of them that are not empty). Actions that change something want -o FILE or --in-place.
     """
-    context.obj = Source(source, bits and int(bits), board)
+    context.obj = Source(source, int(bits) if bits else None, board)
 
 
 @pages.command("list", epilog="Example: m512 pages lib.bin list --all")
 @click.option("--all", "everything", is_flag=True, help="Empty and erased pages too.")
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 @click.pass_obj
-def list_(source, everything, as_json):
+def list_(source: Source, everything: bool, as_json: bool) -> None:
     """Number, name, steps, play time, links and codes of all pages."""
     from m512.files.image import is_erased
     from m512.pages.listing import describe, table
@@ -142,7 +144,7 @@ def list_(source, everything, as_json):
 @pages.command(epilog="Example: m512 pages lib.bin show walk_loop")
 @click.argument("page", nargs=-1, required=True)
 @click.pass_obj
-def show(source, page):
+def show(source: Source, page: Sequence[str]) -> None:
     """Print pages in the text format."""
     from m512.files.text.writer import Style, is_motion, page_text, raw_text
 
@@ -155,7 +157,7 @@ def show(source, page):
 @pages.command(epilog="Example: m512 pages lib.bin check || echo look at it")
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 @click.pass_obj
-def check(source, as_json):
+def check(source: Source, as_json: bool) -> None:
     """Say what is wrong: damaged pages, links to nothing, steps without time. Exit code 3 when something is."""
     from m512.files.wording import Findings
     from m512.pages import operations
@@ -182,7 +184,7 @@ def check(source, as_json):
 @click.argument("page")
 @click.argument("name")
 @changes
-def rename(source, page, name, **where):
+def rename(source: Source, page: str, name: str, **where: Any) -> None:
     """Give a page another name."""
     from m512.pages import operations
 
@@ -194,7 +196,7 @@ def rename(source, page, name, **where):
 @click.argument("target", type=PAGE_NUMBER)
 @replacing
 @changes
-def copy(source, page, target, replace, **where):
+def copy(source: Source, page: str, target: Any, replace: bool, **where: Any) -> None:
     """Copy a page to another number."""
     from m512.pages import operations
 
@@ -204,7 +206,7 @@ def copy(source, page, target, replace, **where):
 @pages.command(epilog="Example: m512 pages lib.bin delete 40 old_wave --in-place")
 @click.argument("page", nargs=-1, required=True)
 @changes
-def delete(source, page, **where):
+def delete(source: Source, page: Sequence[str], **where: Any) -> None:
     """Make pages empty; says which pages still link to them."""
     from m512.pages import operations
 
@@ -216,7 +218,7 @@ def delete(source, page, **where):
 @click.argument("target", type=PAGE_NUMBER)
 @click.option("--swap", is_flag=True, help="Exchange with a page that is there.")
 @changes
-def renumber(source, page, target, swap, **where):
+def renumber(source: Source, page: str, target: Any, swap: bool, **where: Any) -> None:
     """Move a page to another number; all links follow."""
     from m512.pages import operations
 
@@ -226,7 +228,7 @@ def renumber(source, page, target, swap, **where):
 @pages.command(epilog="Example: m512 pages lib.bin extract walk_start walk_loop walk_end -o walk.m512")
 @click.argument("page", nargs=-1, required=True)
 @changes
-def extract(source, page, **where):
+def extract(source: Source, page: Sequence[str], **where: Any) -> None:
     """Keep these pages only, at their numbers."""
     numbers = set(page_numbers(page, source.image))
     remarks = []
@@ -252,7 +254,7 @@ Examples:
 @click.argument("page", nargs=-1, required=True)
 @replacing
 @changes
-def merge(source, other, page, replace, **where):
+def merge(source: Source, other: Path, page: Sequence[str], replace: bool, **where: Any) -> None:
     """Take pages from OTHER: `3` or `3..9` to their own numbers, `3:20` or `wave:20` to number 20, `all` that are not empty.
 
     Links among the pages taken follow them.
@@ -274,7 +276,7 @@ Example: m512 pages lib.bin combine walk_loop wave 1..6 40 -o new.bin   (arms of
 @click.option("--from", "other_file", type=click.Path(path_type=Path), help="File that holds OTHER.")
 @replacing
 @changes
-def combine(source, base, other, joints, target, other_file, replace, **where):
+def combine(source: Source, base: str, other: str, joints: Any, target: Any, other_file: Any, replace: bool, **where: Any) -> None:
     """From page TARGET on: the motion of BASE, with JOINTS (1..6 or 1,3,5) doing that of OTHER.
 
     A motion is a page and what it links to. The two may have any lengths: the result has a step wherever one of them has
@@ -297,7 +299,7 @@ def combine(source, base, other, joints, target, other_file, replace, **where):
 )
 @replacing
 @changes
-def mirror(source, page, target, pairs, replace, **where):
+def mirror(source: Source, page: str, target: Any, pairs: Any, replace: bool, **where: Any) -> None:
     """Left for right: paired joints change places, position p becomes 1024 - p."""
     from m512.files.text.words import joint_pairs
     from m512.pages import operations
@@ -313,7 +315,7 @@ def mirror(source, page, target, pairs, replace, **where):
 @click.argument("page")
 @click.argument("factor", type=float)
 @changes
-def retime(source, page, factor, **where):
+def retime(source: Source, page: str, factor: float, **where: Any) -> None:
     """Make a page take FACTOR times as long (step times, pauses, ramp)."""
     from m512.pages import operations
 
@@ -325,7 +327,7 @@ def retime(source, page, factor, **where):
 @click.option("--volts", type=Finite(6, 16), default=9.6, show_default=True, help="Supply of the servos.")
 @click.option("--json", "as_json", is_flag=True, help="Result on stdout as JSON.")
 @click.pass_obj
-def time(source, page, volts, as_json):
+def time(source: Source, page: str, volts: float, as_json: bool) -> None:
     """Play time of a page and of the chain of pages that follows it, and where it is too fast for an AX-12."""
     from m512.motion import speed
     from m512.pages import operations

@@ -4,20 +4,25 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from m512 import ui
 from m512.cli.board import json_option, only_the_simulator, port_option
 from m512.cli.files import page_moves, page_numbers
-from m512.errors import NoAnswerError, RefusedError
+from m512.errors import NoAnswerError, RefusedError, WordError
+
+if TYPE_CHECKING:
+    from m512.board.client import Client
 
 ID_MAX = 30
 
 
-def robot_options(function):
+def robot_options(function: Any) -> Any:
     for option in (
         click.option("--servos", default="1-18", help="With --sim: the servos that are plugged in.", show_default=True),
         click.option("--image", default="play-cm5.hex", help="With --sim: the firmware.", show_default=True),
@@ -31,7 +36,7 @@ def robot_options(function):
 
 
 @contextmanager
-def robot(options, image="play"):
+def robot(options: dict[str, Any], image: Any = "play") -> Iterator[Client]:
     """The Client that the options mean; whatever was started for it ends with the command. image: what to start behind -p bus:..."""
     from m512.board import ports
     from m512.board.client import Client
@@ -59,7 +64,7 @@ def robot(options, image="play"):
         yield client
 
 
-def _report(client, as_json):
+def _report(client: Client, as_json: bool) -> dict[str, str]:
     state = client.where()
     if as_json:
         ui.show(json.dumps({k: int(v) if v.isdigit() and k != "faulty" else v for k, v in state.items()}))
@@ -81,10 +86,10 @@ Examples:
 @click.option("--code", "key", default="", help="Code of the call: a number, or keys such as U or L+B1.")
 @click.option("--wait", is_flag=True, help="Follow the play until it ends.")
 @robot_options
-def play(page, rate, amplitude, blend, key, wait, **options):
+def play(page: str, rate: int | None, amplitude: int | None, blend: int | None, key: str | None, wait: bool, **options: Any) -> None:
     """Play a page of the board, by number or name."""
     from m512.board.bus import is_bus
-    from m512.files.text.words import Token, WordError
+    from m512.files.text.words import Token
     from m512.files.text.words import code as parse
 
     try:
@@ -103,7 +108,7 @@ def play(page, rate, amplitude, blend, key, wait, **options):
         _report(client, options["as_json"])
 
 
-def _follow(client):
+def _follow(client: Client) -> None:
     """Tells pages and steps until the robot is idle. The first Ctrl-C is a stop, the second a break."""
     before, asked = None, 0
     while True:
@@ -132,7 +137,7 @@ Examples:
 )
 @click.option("--now", is_flag=True, help="Leave the page at once.")
 @robot_options
-def stop(now, **options):
+def stop(now: bool, **options: Any) -> None:
     """Stop what is playing."""
     with robot(options) as client:
         client.ask("break" if now else "stop")
@@ -150,7 +155,7 @@ Examples:
 @click.option("--speed", default=60, show_default=True, metavar="DEG/S", type=click.IntRange(1, 360), help="Largest speed of a joint.")
 @click.option("--text", "as_text", is_flag=True, help="As a step of the text format.")
 @robot_options
-def pose(positions, speed, as_text, **options):
+def pose(positions: Sequence[str], speed: int, as_text: bool, **options: Any) -> None:
     """Show the pose of the robot, or move joints to positions (0..1023, or 30deg from the centre)."""
     wanted = positions_of(positions)
     with robot(options) as client:
@@ -169,9 +174,9 @@ def pose(positions, speed, as_text, **options):
             ui.show(f"ID {joint:2}  {'silent' if at is None else at:>6}  {degrees}  {'holds' if on else 'limp'}")
 
 
-def positions_of(words):
+def positions_of(words: Sequence[str]) -> Any:
     """{ID: position} of words such as 1:512, 3..5:30deg."""
-    from m512.files.text.words import WordError, joints_of, position
+    from m512.files.text.words import joints_of, position
 
     out: dict[int, int] = {}
     for word in words:
@@ -200,7 +205,7 @@ Examples:
 @click.argument("state", type=click.Choice(["on", "off"]))
 @click.argument("ids", nargs=-1, type=click.IntRange(0, ID_MAX))
 @robot_options
-def torque(state, ids, **options):
+def torque(state: str, ids: Sequence[int], **options: Any) -> None:
     """Switch the torque of all joints, or of some IDs. On holds the pose that the joints are in."""
     with robot(options) as client:
         client.torque(state == "on", list(ids))
@@ -217,7 +222,7 @@ Examples:
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="Motion file of any kind.")
 @click.option("--force", is_flag=True, help="Overwrite the file.")
 @robot_options
-def get(pages, output, force, **options):
+def get(pages: Sequence[str], output: Any, force: bool, **options: Any) -> None:
     """Read PAGES (numbers, names, ranges as 20..25, or `all`) from a running board into a file."""
     from m512.files import formats, storage
     from m512.files.image import Image
@@ -248,7 +253,7 @@ Examples:
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("pages", nargs=-1, required=True)
 @robot_options
-def put(source, pages, **options):
+def put(source: Path, pages: Sequence[str], **options: Any) -> None:
     """Save PAGES of a motion file to the board, one by one, while Edit runs there: 3, wave, 20..25, `all`, or wave:40 to number 40.
 
     For many pages at once, or with Play, `m512 flash` is the way.

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,10 +14,14 @@ from m512.cli.layers import show_shape
 from m512.cli.robot import robot, robot_options
 from m512.errors import MissingError, how_to_install
 
+if TYPE_CHECKING:
+    from m512.board.client import Client
+    from m512.board.driving import Keys, Pad, Stick
+
 FIELDS = ("rate", "amplitude", "blend")
 
 
-def shape_options(function):
+def shape_options(function: Any) -> Any:
     for option in (
         click.option("--blend", type=click.IntRange(-100, 100), help="Percent towards the partner page: right 1.., left -1.."),
         click.option("--amplitude", type=click.IntRange(0, 150), help="Size in percent, about the centre page's pose."),
@@ -25,7 +31,7 @@ def shape_options(function):
     return function
 
 
-def apply(client, rate, amplitude, blend):
+def apply(client: Client, rate: int | None, amplitude: int | None, blend: int | None) -> None:
     """Sends what was asked for."""
     for word, value in zip(FIELDS, (rate, amplitude, blend)):
         if value is not None:
@@ -42,7 +48,7 @@ Examples:
 @shape_options
 @click.option("--reset", is_flag=True, help="Everything as stored on the board.")
 @robot_options
-def shape(rate, amplitude, blend, reset, **options):
+def shape(rate: int | None, amplitude: int | None, blend: int | None, reset: bool, **options: Any) -> None:
     """Show or change the speed, size and turn of the motion that plays (Play)."""
     with robot(options) as client:
         if reset:
@@ -62,7 +68,7 @@ Examples:
 @click.option("--pad", is_flag=True, help="A game pad instead of keys.")
 @click.option("--layer", "laid", metavar="PAGE", help="Key f (the pad's fifth button) lays this page over the walk.")
 @robot_options
-def drive(page, pad, laid, **options):
+def drive(page: str, pad: bool, laid: Any, **options: Any) -> None:
     """Play PAGE and drive it: a joystick at 20 lines a second.
 
     When the cable is lost or m512 ends, the board stops the play through its exit page.
@@ -81,12 +87,12 @@ def drive(page, pad, laid, **options):
     ui.say("\nstopping" if stick.done else "")
 
 
-def _tell(stick):
+def _tell(stick: Stick) -> None:
     click.echo(f"\r{stick.line()}  {stick.said}   ", err=True, nl=False)
 
 
 @contextmanager
-def _keys():
+def _keys() -> Iterator[Keys]:
     """Keys as they are pressed, without Enter."""
     import sys
     import threading
@@ -101,7 +107,7 @@ def _keys():
     console, keys = Console(), Keys()
     console.setup()
 
-    def read():
+    def read() -> None:
         while True:
             key = console.getkey()
             keys.press(key)
@@ -117,7 +123,7 @@ def _keys():
 
 
 @contextmanager
-def _pad():
+def _pad() -> Iterator[Pad]:
     """The first game pad, through pygame."""
     import os
 
@@ -136,12 +142,12 @@ def _pad():
         device = pygame.joystick.Joystick(0)
 
         class Reader:
-            def axis(self, n):
+            def axis(self, n: int) -> float:
                 pygame.event.pump()
                 return device.get_axis(n) if n < device.get_numaxes() else 0.0
 
-            def button(self, n):
-                return n < device.get_numbuttons() and device.get_button(n)
+            def button(self, n: int) -> bool:
+                return bool(n < device.get_numbuttons() and device.get_button(n))
 
         yield Pad(Reader())
     finally:

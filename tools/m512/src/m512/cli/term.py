@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -25,7 +26,7 @@ Examples:
 @click.option("--sim", is_flag=True, help="Start the simulator with Edit instead of using a port.")
 @click.option("--motions", type=click.Path(path_type=Path), help="With --sim: motion file of any kind.")
 @click.option("--image", default="edit-cm5.hex", show_default=True, help="With --sim or -p bus:...: the firmware.")
-def term(port, log, send, listing, sim, motions, image):
+def term(port: str, log: Path | None, send: Path | None, listing: bool, sim: bool, motions: Path | None, image: Any) -> None:
     """A terminal at 57,600 baud, good for Edit's full screen.
 
     Everything typed goes to the board, but for Ctrl-]: then h shows help, q quits, l calls the boot loader with '#',

@@ -6,10 +6,10 @@ from __future__ import annotations
 import csv
 from io import StringIO
 
-from m512.errors import FileError
+from m512.errors import FileError, WordError
 from m512.files.image import Image
 from m512.files.page import JOINTS, STEPS, Page
-from m512.files.text.words import Token, WordError, name_bytes, number, position, position_text, quote_name
+from m512.files.text.words import Token, name_bytes, number, position, position_text, quote_name
 
 FIELDS = (
     "repeat",

@@ -46,10 +46,10 @@ class Kind:
 
 
 def _field(at: int, doc: str) -> property:
-    def get(self) -> int:
+    def get(self: Page) -> int:
         return self.data[at]
 
-    def put(self, value: int) -> None:
+    def put(self: Page, value: int) -> None:
         self.data[at] = value
 
     return property(get, put, doc=doc)
@@ -212,7 +212,7 @@ class Page:
 
     @property
     def is_playable(self) -> bool:
-        return self.steps != 0 and self.repeat != 0
+        return bool(self.steps != 0 and self.repeat != 0)
 
     @property
     def is_empty(self) -> bool:

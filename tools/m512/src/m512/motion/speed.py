@@ -44,7 +44,7 @@ def too_fast(image: Image, number: int, volts: float = BATTERY_V, pose: Sequence
     """Steps of a play from page `number` on (along its next links) in which a joint is asked for more than an unloaded servo
     does at this supply. `pose`: where the joints stand; else in page `number`'s first step, for the robot goes there slowly."""
     limit = no_load_units_per_tick(volts)
-    found: dict = {}
+    found: dict[tuple[int, int], TooFast] = {}
     recent: deque[list[int]] = deque(maxlen=WINDOW + 1)
     for tick in play(image, number, pose or _first_pose(image, number), int(seconds * TICKS_PER_SECOND)):
         if tick.goals is None:

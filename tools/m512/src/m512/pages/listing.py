@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from m512.files.image import Image, is_erased
 from m512.files.page import SCHEDULE_TIME, Fault, Page
 from m512.files.text.words import code_text
 from m512.motion.player import page_seconds
 
 
-def describe(image: Image, number: int, page: Page) -> dict:
+def describe(image: Image, number: int, page: Page) -> dict[str, Any]:
     links = {
         name: getattr(page, field)
         for name, field in (
@@ -43,7 +45,7 @@ def describe(image: Image, number: int, page: Page) -> dict:
     }
 
 
-def table(rows: list[dict]) -> str:
+def table(rows: list[dict[str, Any]]) -> str:
     lines = [f"{'page':>4}  {'name':13}  {'steps':>5}  {'times':>5}  {'seconds':>7}  {'code':6}  links"]
     for row in rows:
         if row["erased"]:
@@ -60,7 +62,7 @@ def table(rows: list[dict]) -> str:
     return "\n".join(lines)
 
 
-def _links(row: dict) -> str:
+def _links(row: dict[str, Any]) -> str:
     out = []
     for name, target in row["links"].items():
         code = f"({code_text(row[name + '_code'])})" if name.startswith("link") else ""

@@ -9,7 +9,7 @@ together; the repetitions are written out, and a stop ends them. Parts go where 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Callable
+from typing import Any, Callable
 
 from m512.errors import FileError
 from m512.files.image import Image
@@ -19,7 +19,7 @@ from m512.files.wording import pages_text
 BOARD_PAGES = 128
 
 
-def place_long_pages(image: Image, blocks: Sequence, fill: Callable[[Page, list], None], where: str) -> None:
+def place_long_pages(image: Image, blocks: Sequence[Any], fill: Callable[[Page, list[Any]], None], where: str) -> None:
     """Spreads the blocks of more than seven steps over free pages of the image; says so in its notes.
     image: holds every block's first seven steps at its own number. FileError: there is no room."""
     targets = {link for block in blocks for link in (block.page.next, block.page.exit)}
@@ -30,7 +30,7 @@ def place_long_pages(image: Image, blocks: Sequence, fill: Callable[[Page, list]
             _spread(image, number, block, free, fill, where)
 
 
-def _spread(image: Image, number: int, block, free: list[int], fill: Callable[[Page, list], None], where: str) -> None:
+def _spread(image: Image, number: int, block: Any, free: list[int], fill: Callable[[Page, list[Any]], None], where: str) -> None:
     parts = [block.steps[at : at + STEPS] for at in range(0, len(block.steps), STEPS)]
     rounds = max(block.page.repeat, 1)
     title = f"page {number}" + (f' "{block.page.title}"' if block.page.name else "")

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import re
 
+from m512.errors import WordError
 from m512.files.page import JOINTS, STEPS, Page
-from m512.files.text.words import Token, WordError, joints_of, mirrored, position, step_speed, ticks
+from m512.files.text.words import Token, joints_of, mirrored, position, step_speed, ticks
 
 Words = dict[int, int]  # joint -> position word
 

@@ -117,7 +117,7 @@ def number(token: Token, low: int, high: int, what: str) -> int:
     return value
 
 
-def joint_list(tokens: list[Token], names: dict) -> list[int]:
+def joint_list(tokens: list[Token], names: dict[str, int]) -> list[int]:
     """`1..6 11 r_hand` as IDs, in order, no ID twice."""
     out: list[int] = []
     for token in tokens:
@@ -127,7 +127,7 @@ def joint_list(tokens: list[Token], names: dict) -> list[int]:
     return out
 
 
-def joints_of(text: str, names: dict) -> list[int]:
+def joints_of(text: str, names: dict[str, int]) -> list[int]:
     """`7`, `1..6`, `1,3,5`, a joint name, or any of these joined by commas."""
     out = []
     for part in text.split(","):
@@ -146,7 +146,7 @@ def joints_of(text: str, names: dict) -> list[int]:
     return out
 
 
-def joint_pairs(texts: Iterable[str], names: dict) -> dict[int, int]:
+def joint_pairs(texts: Iterable[str], names: dict[str, int]) -> dict[int, int]:
     """{joint: its other} of `1-2`, `3-4` and single ones (`19`), which are turned round in place."""
     pairs: dict[int, int] = {}
     for text in texts:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
+from typing import TypeVar
 
 from m512.errors import TextError
 from m512.files.image import Image, is_erased
@@ -48,7 +49,10 @@ class Style:
         return clean_fill(page) or self.fill
 
 
-def _common(values: Iterable, standard):
+T = TypeVar("T")
+
+
+def _common(values: Iterable[T | None], standard: T) -> T:
     """The value that more than half of the pages share, else the standard one."""
     counted = Counter(value for value in values if value is not None)
     if not counted:
