@@ -2,6 +2,7 @@
 """`m512 convert` and the file formats behind it: figures with real files, losses, and what happens to bad input."""
 
 import json
+import random
 from fractions import Fraction
 
 import pytest
@@ -378,12 +379,26 @@ def test_bad_input_any_bytes(tmp_path, data, start, suffix):
 
 
 def test_convert_refuses_what_is_there_and_says_what_it_did(m512, tmp_path):
-    (tmp_path / "x.bin").write_bytes(bytes(65536))
+    (tmp_path / "x.bin").write_bytes(bytes(65024) + EMPTY)
     result = m512("convert", tmp_path / "x.bin", tmp_path / "x.bin")
     assert result.exit_code == 5 and "--force" in result.stderr
     assert m512("convert", tmp_path / "no.bin", tmp_path / "y.bin").exit_code == 4
     result = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", "--damaged", "ask")
     assert result.exit_code == 5 and "page 0: checksum is 0x00 and should be 0xFF" in result.stderr
     result = m512("convert", tmp_path / "x.bin", tmp_path / "y.bin", "--damaged", "drop", "--json")
-    assert json.loads(result.stdout)["damaged"] == list(range(128)) and (tmp_path / "y.bin").read_bytes() == EMPTY * 128
+    assert json.loads(result.stdout)["damaged"] == list(range(127)) and (tmp_path / "y.bin").read_bytes() == EMPTY * 128
     assert m512("convert", tmp_path / "x.bin", tmp_path / "y.txt").exit_code == 4
+
+
+@pytest.mark.parametrize("size", [65536, 65024, 131072])
+def test_convert_a_file_of_which_no_page_is_whole_is_no_motion_file(m512, tmp_path, size):
+    """Something else that has the size of an image. Flash that was never written is an image all the same."""
+    for name, data in {"noise": random.Random(size).randbytes(size), "half": random.Random(1).randbytes(size // 2 // 512 * 512)}.items():
+        (tmp_path / f"{name}.bin").write_bytes(data.ljust(size, b"\xff"))
+        for how in ("ask", "keep", "drop"):
+            result = m512("convert", tmp_path / f"{name}.bin", tmp_path / "y.bin", "--damaged", how)
+            assert result.exit_code == 4 and f"{name}.bin: none of its" in result.stderr, result.stderr
+            assert not (tmp_path / "y.bin").exists()
+    (tmp_path / "erased.bin").write_bytes(b"\xff" * size)
+    result = m512("convert", tmp_path / "erased.bin", tmp_path / "y.bin")
+    assert result.exit_code == 0 and (tmp_path / "y.bin").read_bytes() == b"\xff" * size, result.stderr

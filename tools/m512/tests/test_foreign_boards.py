@@ -146,6 +146,11 @@ def test_our_own_loader_on_another_board(m512, commands):
         (b"SYSTEM O.K. (CM5 Boot lo", ""),
         (b"SYSTEM O.K. ()", ""),
         (b"", ""),
+        (b"\r\nOpenCM9.04 boot loader\r\n - ", "OpenCM9.04"),
+        (b"SYSTEM O.K. CM-530 V2\r\n - ", "CM-530"),
+        (b"SYSTEM O.K. (CM510)", "CM510"),
+        (b"system o.k. (cm530 bootloader)", "cm530"),
+        (b"SYSTEM O.K. (CM5)", ""),
         (b"SYSTEM O.K. (\x1b[2J Boot loader)", ""),
     ],
 )
@@ -157,3 +162,40 @@ def test_the_name_in_a_banner(text, name):
 def test_no_other_name_is_taken_for_ours(name):
     with pytest.raises(RefusedError):
         banner.board_of(name)
+
+
+@pytest.mark.parametrize("name", ["CM-904ES", "CM-510 Rev.2", "BIOLOID CM510", "OpenCR", "OpenCM 9.04", "cm530", "CM-50", "CM25"])
+def test_another_board_of_the_family_is_refused_whatever_the_user_says(name):
+    for told in ("", "cm5", "cm2"):
+        with pytest.raises(RefusedError, match="m512 knows CM-2, CM-2[+] and CM-5 only"):
+            banner.board_of(name, told)
+
+
+@pytest.mark.parametrize("name", ["CM5+", "CM-5 Rev.2", "CM-2 Plus", "Arduino"])
+def test_a_name_that_nobody_knows_is_left_to_the_user(name):
+    with pytest.raises(RefusedError, match="--board cm5"):
+        banner.board_of(name)
+    assert banner.board_of(name, "cm2") == "cm2"
+
+
+@pytest.mark.parametrize("pause", [0.05, 0.2, 0.5, 2.0])
+@pytest.mark.parametrize("state", [PROMPTED, APP])
+def test_a_banner_in_lumps(m512, commands, state, pause):
+    """Each lump may end anywhere: the board is known by its name, or asked for; never taken for another."""
+    for whole in (banner_of(b"CM5"), banner_of(b"CM510")):
+        for at in range(12, len(whole), 8):
+            with FactoryPeer(full_flash(), state, says=whole) as peer:
+                send = peer.send
+
+                def lumps(data, peer=peer, send=send, at=at, whole=whole):
+                    if data.startswith(whole):
+                        send(data[:at])
+                        peer.sent_until = max(peer.clock, peer.sent_until) + pause
+                        data = data[at:]
+                    send(data)
+
+                peer.send = lumps
+                result, told = call(m512, commands["flash"], peer.path)
+                if b"CM510" in whole:
+                    assert result.exit_code in (5, 7) and is_as_it_was(peer), (at, told)
+                assert result.exit_code == 0 or is_as_it_was(peer) and ("--board" in told or "CM510" in told or "MODE" in told), (at, told)

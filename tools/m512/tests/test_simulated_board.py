@@ -71,7 +71,7 @@ def test_board_flash_run_play_stop_get(m512, robot, motions, tmp_path):
     assert (tmp_path / "got.bin").read_bytes() == read_text(MOTIONS).to_bytes()
     assert m512("diff", robot.path, motions).exit_code == 0
     assert "100  nod" in m512("pages", robot.path, "list").stdout
-    assert "cannot save pages" in run("put", motions, "nod:7", code=8).stderr
+    assert "m512 run edit-cm5.hex" in run("put", motions, "nod:7", code=8).stderr
     assert "no page of the board is called 'fly'" in run("play", "fly", code=8).stderr
     assert run("doctor").stdout.count("BAD") == 0
 
@@ -226,6 +226,8 @@ def test_joints_are_moved_by_code_and_given_back(m512, robot):
     assert "amplitude is 0..511" in run("swing", "3", "512", "600", "2s", code=2).stderr
     assert "such as 2s" in run("swing", "3", "512", "60", "2", code=2).stderr
     assert "0..1023" in run("aim", "3:2000", code=2).stderr
+    for word in ("3:-5", "3:+5", "3:-", "3:."):
+        assert f"{word}: a position is 0..1023" in run("aim", word, code=2).stderr
 
 
 def test_amplitudes_of_single_joints_are_told_with_their_joints(m512, robot):
@@ -242,7 +244,7 @@ def test_edit_refuses_what_takes_play_and_nothing_moves(m512, started, words):
     edit = started("edit-cm5.hex", text=OLD)
     edit.pass_time(1.5)
     result = m512(*words, "-p", edit.path)
-    assert result.exit_code == 8 and "edit has no @" in result.stderr and "takes Play" in result.stderr, result.stderr
+    assert result.exit_code == 8 and "Edit does not know @" in result.stderr and "m512 run play-cm5.hex" in result.stderr, result.stderr
     edit.pass_time(1)
     assert not edit.board.trace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The documents of this browser: which there are, which is open, and the autosave: every finished edit is handed to the
-// storage at once. Only one tab may have a document open; a second tab gets a copy.
+// storage at once. Only one tab may have a document open; a second tab gets a copy, which is kept from its first edit on.
 
 import { copyName, documentFrom, imageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
@@ -46,6 +46,8 @@ export class KeptDocuments implements Documents {
     private readonly shown: Shown;
     private underWay = 0;
     private log: HistoryLog = EMPTY_LOG;
+    /** The open document is a copy in which nothing was edited: it goes with its tab, or with another document. */
+    private isUntouched = false;
 
     constructor(shown: Shown, parts: DocumentsParts) {
         this.shown = shown;
@@ -65,12 +67,17 @@ export class KeptDocuments implements Documents {
 
     /** It is open when this returns: the next edit is one of the new document. What is resolved is only that this tab has it. */
     async create(name: string, from?: MotionDocument): Promise<void> {
-        const id = this.parts.newId();
-        const document = { ...(from ?? this.parts.empty), name };
-        this.state.set({ documents: [...this.state.get().documents, { id, name, savedMs: this.parts.nowMs() }] });
-        this.show(id, { document, history: NO_HISTORY, log: EMPTY_LOG });
+        const id = this.begin(name, from ?? this.parts.empty);
         this.keep();
         await this.parts.hold(id); // nobody else knows it yet
+    }
+
+    /** Opens a new document, and returns its id. */
+    private begin(name: string, from: MotionDocument): string {
+        const id = this.parts.newId();
+        this.show(id, { document: { ...from, name }, history: NO_HISTORY, log: EMPTY_LOG });
+        this.state.set({ documents: [...this.state.get().documents, { id, name, savedMs: this.parts.nowMs() }] });
+        return id;
     }
 
     async open(id: string): Promise<void> {
@@ -106,6 +113,7 @@ export class KeptDocuments implements Documents {
         const entry = { id: openId, name: document.name, savedMs: this.parts.nowMs() };
         this.state.set({ documents: documents.map(one => (one.id === openId ? entry : one)) });
         if (openId === '') return;
+        this.isUntouched = false;
         const { log, change } = advance(this.log, history);
         this.log = log;
         this.follow(this.put({ ...entry, image: imageOf(document), position: positionOf(log, history) }, change));
@@ -137,13 +145,19 @@ export class KeptDocuments implements Documents {
                 this.state.get().documents.map(one => one.name),
             );
             this.parts.copied(name);
-            return this.create(name, document);
+            const id = this.begin(name, document);
+            this.isUntouched = true;
+            await this.parts.hold(id);
+            return;
         }
         const steps = await this.parts.storage.readSteps(kept.id).catch(() => []); // then it is forgotten, and said so
         this.show(kept.id, restored(document, kept.position ?? 0, steps));
     }
 
     private show(id: string, { document, history, log }: Edited & { readonly log: HistoryLog }): void {
+        const { openId, documents } = this.state.get();
+        if (this.isUntouched) this.state.set({ documents: documents.filter(one => one.id !== openId) });
+        this.isUntouched = false;
         this.log = log;
         this.state.set({ openId: id, forgotten: log.base });
         this.shown.open(document, history);

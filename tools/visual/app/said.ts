@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The last whole line that the board said by itself, for the strip. Prompts, echoes, bare OKs, answers that came too late and the
-// escape sequences of a full screen are no messages.
+// escape sequences of a full screen are no messages. Nor is the step that plays: the strip says it beside, and Edit counts from 0.
 
 const LINE_MAX = 200;
 const TELLS_TROUBLE = /damaged|does not answer|no servo|overload|hot|voltage|fault|lost|cannot|bad|not /i;
 
 /** What Play says behind a servo's fault; on its own it would not say which servo. */
 const ENDED_BY_SERVO = /^Ended for the fault of a servo/;
+
+const TELLS_STEP = /^(Page|Playing page) \d+( \(.*\))? step \d+ repetition \d+$/;
 
 export interface Said {
     readonly text: string;
@@ -35,7 +37,12 @@ export class LastSaid {
     private end(): Said | null {
         const text = this.line.trim();
         const isMessage =
-            !this.isScreen && text.length > 3 && !text.startsWith('] ') && !text.startsWith('@') && /^[\x20-\x7e]+$/.test(text);
+            !this.isScreen &&
+            text.length > 3 &&
+            !text.startsWith('] ') &&
+            !text.startsWith('@') &&
+            !TELLS_STEP.test(text) &&
+            /^[\x20-\x7e]+$/.test(text);
         this.line = '';
         this.isScreen = false;
         return isMessage ? this.told(text) : null;

@@ -249,6 +249,44 @@ test('a document that another tab has opens as a copy', async () => {
     expect(second.copies).toEqual(['My motions (copy)']); // said, not only done
 });
 
+test('a copy for a second tab is kept from its first edit on: tabs that only look leave none behind', async () => {
+    const disk = new PassingStorage();
+    const { editor, documents } = await openTab(disk);
+    const taken = documents.state.get().openId;
+    const kept = async (): Promise<string[]> => (await disk.load()).documents.map(one => one.name).sort();
+    for (let visit = 0; visit < 3; visit++) {
+        editor.dispatch(editor.edits.rename(now(editor), 2, `bow${visit}`)); // the first tab's is the newest again
+        const { copies } = await openTab(disk, { taken });
+        expect(copies).toEqual(['My motions (copy)']);
+        expect(await kept()).toEqual(['My motions']);
+    }
+    const second = await openTab(disk, { taken });
+    second.editor.dispatch(second.editor.edits.rename(now(second.editor), 3, 'mine'));
+    await settle();
+    expect(await kept()).toEqual(['My motions', 'My motions (copy)']);
+    expect(second.editor.page(3).name).toBe('mine');
+    const third = await openTab(disk, { taken });
+    expect(now(third.editor).name).toBe('My motions (copy)'); // the edited one, which nobody has open now
+    expect(third.editor.page(3).name).toBe('mine');
+});
+
+test('a copy that was not edited is no document to go back to', async () => {
+    const disk = new PassingStorage();
+    const { documents } = await openTab(disk);
+    await documents.create('Dances');
+    const second = await openTab(disk, { taken: documents.state.get().openId });
+    const dances = second.documents.state.get();
+    expect(dances.documents.map(one => one.name).sort()).toEqual(['Dances', 'Dances (copy)', 'My motions']);
+    await second.documents.open(dances.documents.find(one => one.name === 'My motions')?.id ?? '');
+    expect(
+        second.documents.state
+            .get()
+            .documents.map(one => one.name)
+            .sort(),
+    ).toEqual(['Dances', 'My motions']);
+    expect(now(second.editor).name).toBe('My motions');
+});
+
 test('copies are numbered: of a document, and of a copy', () => {
     expect(copyName('walk', ['walk'])).toBe('walk (copy)');
     expect(copyName('walk (copy)', ['walk', 'walk (copy)'])).toBe('walk (copy 2)');

@@ -72,3 +72,16 @@ test('what could not be kept: until it is kept; and what was said since stays', 
     documents.set({ saving: 'saved' });
     expect(said()).toBeNull();
 });
+
+test('a step that plays is told beside, counted from 1: what the board says of it is no message', () => {
+    const { strip, said } = desk();
+    const hear = (text: string): void => strip.hear(new TextEncoder().encode(text));
+    vi.advanceTimersByTime(1);
+    hear('\r\nNext link to page 22 (walk_l)\r\n] ');
+    for (const line of ['Playing page 22 (walk_l) step 1 repetition 1', 'Page 22 step 2 repetition 1', 'Page 5 step 0 repetition 12']) {
+        hear(`\r${line}\r\n] `);
+        expect(said()).toBe('Next link to page 22 (walk_l)');
+    }
+    hear('\rPage 22 is damaged\r\n] ');
+    expect(said()).toBe('Page 22 is damaged');
+});

@@ -16,12 +16,14 @@ from m512.errors import RefusedError
 BOARDS = {"CM5": "cm5", "CM2": "cm2", "CM2+": "cm2"}
 OURS = "CM-2, CM-2+ and CM-5"
 _BANNER = re.compile(rb"SYSTEM O\.K\. \(([ -~]{1,40}?) boot ?loader\b", re.I)
-_FAMILY = re.compile(r"(?:CM|OPENCM|OPENCR)[0-9.]+\Z")
+# A banner of another shape is read for the name of another board alone.
+_STRANGER = re.compile(rb"\b((?:CM[- ]?|Open ?C[MR][- ]?)[0-9.]{2,}\w*|Open ?C[MR]\b)", re.I)
+_FAMILY = re.compile(r"CM(?![25](?![0-9]))[0-9]|OPENC[MR]")
 
 
 def name_in(text: bytes) -> str:
     """The board's name in what a loader has said; empty: it is not there, or the line has damaged the banner."""
-    found = _BANNER.search(text)
+    found = _BANNER.search(text) or _STRANGER.search(text)
     return found.group(1).decode().strip() if found else ""
 
 
@@ -30,7 +32,7 @@ def board_of(name: str, told: str = "") -> str:
     nobody knows, or one that the user takes for another."""
     plain = re.sub(r"[- _]", "", name).upper()
     board = BOARDS.get(plain, "")
-    if not board and _FAMILY.match(plain):
+    if not board and _FAMILY.search(plain):
         raise RefusedError(f"the boot loader says that this is a {name}. m512 knows {OURS} only, so nothing was written. Is this the right port?")
     if not board and not told:
         who = f'the boot loader says that it is on a "{name}"' if name else "the boot loader does not say which board it is on"

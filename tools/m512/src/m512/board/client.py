@@ -82,7 +82,8 @@ class Client:
     def _error(self, word: str, number: int, text: str) -> BoardError:
         if number == ERR_WORD:
             image = self.version.get("image", "this image")
-            text = f"{image} has no {word}: it takes {'Play' if image == 'edit' else 'Edit' if image == 'play' else 'another image'}"
+            other = {"edit": "Play", "play": "Edit"}.get(image)
+            text = f"{image.capitalize()} does not know {word}" + (f", {other} does: m512 run {self.file_of(other)}" if other else "")
         return BoardError(text or f"error {number}", number)
 
     def _answer(self, word: str, seconds: float) -> str | None:
@@ -151,6 +152,10 @@ class Client:
     def pages(self) -> int:
         """How many pages the board has: 0..pages - 1."""
         return int(self.version.get("pages", "128"))
+
+    def file_of(self, image: str) -> str:
+        """The firmware's file for this board."""
+        return f"{image.lower()}-{self.version.get('board', 'CM5').lower()}.hex"
 
     @property
     def can_save(self) -> bool:

@@ -63,7 +63,7 @@ def write_motions(url: str, image: Image, board: str = "") -> None:
 def save_pages(client: Client, image: Image, numbers: list[int]) -> list[int]:
     """Saves those of the pages that the board holds otherwise; returns their numbers."""
     if not client.can_save:
-        raise BoardError(f"{client.version.get('image', 'this image')} cannot save pages: use Edit, or m512 flash")
+        raise BoardError(f"Play does not save pages. Edit does: m512 run {client.file_of('edit')}; or write a whole motion file: m512 flash FILE")
     lost = {number: title for number, title in image.beyond(client.pages).items() if number in numbers}
     if lost:
         raise RefusedError(f"{named_pages_text(lost)}: no room among the {client.pages} pages there; give them lower numbers (NAME:NUMBER)")

@@ -137,7 +137,7 @@ def convert(
 
         image, report = scale12.scaled(image, int(scale))
         losses += report
-    bad = conversion.treat_damaged(image, damaged, notes)
+    bad = conversion.treat_damaged(image, source, damaged, notes)
     image, lost = conversion.fitted(image, count and int(count), source, target)
     losses += lost
     losses += formats.save(target, image, image.find(number) if number else None, mtn_version)

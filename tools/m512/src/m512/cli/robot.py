@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -184,6 +185,8 @@ def positions_of(words: Sequence[str]) -> Any:
         try:
             if not colon:
                 raise WordError(f"{word}: say ID:POSITION, such as 2:600 or 2:30deg")
+            if re.fullmatch(r"[+-][0-9]*|\.", value):  # words of a motion file, where a step stands before
+                raise WordError(f"{word}: a position is 0..1023, or an angle from the centre such as 30deg or -30deg")
             at = position(value, 0x4000, 1023)
             if at > 1023:
                 raise WordError(f"{word}: a position is 0..1023")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from m512.errors import RefusedError
+from m512.errors import FileError, RefusedError
 from m512.files import formats
 from m512.files.image import Image, is_erased
 from m512.files.page import Page
@@ -22,9 +22,15 @@ def damaged_pages(image: Image) -> list[tuple[int, str]]:
     return [(number, page.fault_text(image.kind)) for number, page in image.items() if page.fault(image.kind) and not is_erased(page)]
 
 
-def treat_damaged(image: Image, how: str, notes: list[str]) -> list[int]:
-    """Keeps or drops damaged pages (`how`: keep, drop), in place and with a note, or refuses to go on (ask); returns their numbers."""
+def treat_damaged(image: Image, source: Path, how: str, notes: list[str]) -> list[int]:
+    """Keeps or drops damaged pages (`how`: keep, drop), in place and with a note, or refuses to go on (ask); returns their numbers.
+    FileError: every page is damaged, or was never written, so that this is something else than motions."""
     bad = damaged_pages(image)
+    if bad and len(bad) + sum(is_erased(page) for page in image.pages) == len(image.pages):
+        raise FileError(
+            f"{source}: none of its {len(image.pages)} pages is whole (page {bad[0][0]}: {bad[0][1].partition('; ')[0]}), "
+            "so it is no motion file, or ruined. Is it the right one?"
+        )
     if bad and how == "ask":
         raise RefusedError("damaged pages (--damaged keep or drop):\n" + "\n".join(f"  page {n}: {why}" for n, why in bad))
     found, few = Findings(), len(bad) <= FEW
