@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * ring.h - a ring of bytes between one writer and one reader (an ISR and the main loop, either way round).
  * Free-running uint8_t indices, so neither side needs interrupts off: copy the byte, barrier, publish the index.
- * A ring of 2^n bytes, n <= 7, holds all of them; one of 256 bytes holds 255. RAM: 5 bytes and the storage.
+ * A ring of 2^n bytes, n <= 7, holds all of them; one of 256 bytes holds 255.
  * The layout of ring_t is part of the page-write service: the boot loader fills a caller's ring by it (boot_api.h). */
 #ifndef RING_H
 #define RING_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * system.h - reset cause, watchdog, restart, sleep, ADC. Main loop only. RAM: 1 byte, and 6 that survive a reset. */
+ * system.h - reset cause, watchdog, restart, sleep, ADC. Main loop only. */
 #ifndef SYSTEM_H
 #define SYSTEM_H
 

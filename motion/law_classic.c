@@ -43,9 +43,11 @@ static void begin_section(player_t *player, uint8_t section, uint16_t ticks)
 {
     const bool has_moved = player->section_ticks != 0;
     enter(player, section, ticks);
-    FOR_JOINTS(player, has_moved ? player->present : 0, i, joint) {
-        joint->classic.start_pos = joint->classic.out_pos;
-        joint->classic.carried = joint->classic.reached;
+    FOR_ALL_JOINTS(player, joint) {
+        if (has_moved) {
+            joint->classic.start_pos = joint->classic.out_pos;
+            joint->classic.carried = joint->classic.reached;
+        }
     }
 }
 
@@ -78,7 +80,7 @@ void classic_start(player_t *player)
 void classic_finish_step(player_t *player)
 {
     const bool was_hold = player->section == SECTION_HOLD;
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         if (was_hold) {
             joint->classic.reached = 0;
         } else {
@@ -170,7 +172,7 @@ static void begin_cruise(player_t *player)
         return; /* a skipped step */
     }
     const part_t part = part_of(cruise, (uint16_t)(ticks - ramp));
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
         const int16_t left = (int16_t)(classic->distance - classic->acc);
         classic->main = classic->through ? share_of(left, part) : (int16_t)(left - fall_distance(classic->speed, ramp));
@@ -180,7 +182,7 @@ static void begin_cruise(player_t *player)
 static void begin_fall(player_t *player)
 {
     begin_section(player, SECTION_FALL, player->ramp_ticks);
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
         classic->main = (int16_t)(classic->distance - classic->main - classic->acc);
     }
@@ -210,7 +212,7 @@ static void make_rise(player_t *player)
 {
     const part_t part = part_of(player->tick, player->section_ticks);
     const ramp_share_t share = ramp_share((uint8_t)player->tick);
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
         classic->acc = ramp_to(classic, share_of((int16_t)(classic->speed - classic->carried), part), share);
     }
@@ -219,7 +221,7 @@ static void make_rise(player_t *player)
 static void make_cruise(player_t *player)
 {
     const part_t part = part_of(player->tick, player->section_ticks);
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         put(&joint->classic, share_of(joint->classic.main, part));
         joint->classic.reached = joint->classic.speed;
     }
@@ -229,7 +231,7 @@ static void make_fall(player_t *player)
 {
     const part_t part = part_of(player->tick, player->section_ticks);
     const ramp_share_t share = ramp_share((uint8_t)player->tick);
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
         if (classic->through) {
             put(classic, share_of(classic->main, part));
@@ -282,7 +284,7 @@ uint8_t classic_last_sample(player_t *player)
         return 0;
     }
     const bool was_hold = player->section == SECTION_HOLD;
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         player_classic_t *classic = &joint->classic;
         classic->carried = was_hold ? 0 : classic->reached;
         classic->start_pos = was_hold ? classic->start_pos : classic->out_pos;
@@ -326,7 +328,7 @@ static int32_t speed_now(const player_t *player, const player_classic_t *classic
 
 void classic_freeze(player_t *player)
 {
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         const int32_t speed = speed_now(player, &joint->classic);
         const uint16_t pos = (uint16_t)joint->classic.out_pos;
         joint->exact = (player_exact_t){.pos_q16_16 = fix_from_pos(pos) + FIX_ROUND_UP, .speed_q16_16 = speed};
@@ -337,7 +339,7 @@ void classic_freeze(player_t *player)
 
 void classic_thaw(player_t *player)
 {
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         classic_stand(joint, fix_pos(joint->exact.pos_q16_16));
     }
     if (player->section != SECTION_HOLD) {

@@ -10,55 +10,43 @@ bool classic_is_there(void)
 
 void classic_stand(player_joint_t *joint, uint16_t pos)
 {
-    (void)joint;
-    (void)pos;
 }
 
 void classic_start(player_t *player)
 {
-    (void)player;
 }
 
 void classic_finish_step(player_t *player)
 {
-    (void)player;
 }
 
 void classic_plan(player_t *player, uint32_t used)
 {
-    (void)player;
-    (void)used;
 }
 
 void classic_plan_tick(player_t *player)
 {
-    (void)player;
 }
 
 bool classic_is_over(const player_t *player)
 {
-    (void)player;
     return true;
 }
 
 uint8_t classic_tick(player_t *player)
 {
-    (void)player;
     return 0;
 }
 
 uint8_t classic_last_sample(player_t *player)
 {
-    (void)player;
     return 0;
 }
 
 void classic_freeze(player_t *player)
 {
-    (void)player;
 }
 
 void classic_thaw(player_t *player)
 {
-    (void)player;
 }

@@ -123,10 +123,11 @@ static void plan_joint(const plan_t *plan, player_joint_t *joint, uint16_t next_
 static void plan_joints(player_t *player, uint32_t recip32)
 {
     const uint16_t ticks = player->step_ticks;
+    const uint8_t accel_time = player->now.accel_time;
     const bool runs_on = player->law == PLAYER_LAW_EXACT && player->next.page != 0 && player->now.pause == 0;
     plan_t plan = {.recip = recip32,
                    .next_recip = player->next.recip32,
-                   .ramp_ticks = step_plan_exact_ramp(player->now.accel_time, ticks),
+                   .ramp_ticks = accel_time <= ticks / 2 ? accel_time : (uint8_t)(ticks / 2),
                    .runs_on = runs_on};
     if (plan.ramp_ticks != 0) {
         plan.ramp_recip = fix_ramp_recip(plan.ramp_ticks);
@@ -156,7 +157,7 @@ bool exact_is_over(const player_t *player)
 /* By one tick, at the present speed and acceleration. */
 static void move(player_t *player)
 {
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         joint->exact.pos_q16_16 += joint->exact.speed_q16_16;
         joint->exact.speed_q16_16 += joint->exact.accel_q16_16;
     }
@@ -164,7 +165,7 @@ static void move(player_t *player)
 
 static void begin_cruise(player_t *player)
 {
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         joint->exact.speed_q16_16 = joint->exact.cruise_q16_16;
         joint->exact.accel_q16_16 = 0;
     }
@@ -198,7 +199,7 @@ void exact_plan_tick(player_t *player)
 
 static void reach_target(player_t *player)
 {
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         joint->exact.pos_q16_16 = fix_from_pos(joint->target_pos);
     }
 }
@@ -223,7 +224,7 @@ void exact_stop_steps(player_t *player)
 {
     const bool is_moving = player->tick < player->step_ticks;
     player->rest_ticks = is_moving ? (uint16_t)(player->step_ticks - player->tick) : 0;
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         player_exact_t *exact = &joint->exact;
         /* At the border of two ticks the speed is half an acceleration smaller than in the coming tick. */
         exact->speed_q16_16 = is_moving ? exact->speed_q16_16 - half_of(exact->accel_q16_16) : 0;
@@ -231,9 +232,20 @@ void exact_stop_steps(player_t *player)
     }
 }
 
+static bool is_move(const player_t *player)
+{
+    return player->now.page == 0;
+}
+
+/* A move takes no longer than its own ramp would, so that no joint goes past its target. */
 static uint8_t brake_ticks_of(const player_t *player)
 {
-    return player->ramp_ticks < BRAKE_TICKS_MIN ? BRAKE_TICKS_MIN : player->ramp_ticks;
+    const uint8_t ramp = player->ramp_ticks;
+    const uint16_t left = (uint16_t)(player->step_ticks - player->tick);
+    if (is_move(player)) {
+        return left < ramp ? (uint8_t)left : ramp;
+    }
+    return ramp < BRAKE_TICKS_MIN ? BRAKE_TICKS_MIN : ramp;
 }
 
 void exact_brake(player_t *player)
@@ -241,7 +253,7 @@ void exact_brake(player_t *player)
     const uint8_t ticks = brake_ticks_of(player);
     const uint16_t recip = fix_ramp_recip(ticks);
     player->brake_ticks = ticks;
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         const int32_t speed = joint->exact.speed_q16_16;
         const int32_t accel = -with_sign_of(speed < 0, fix_by_ramp(size_of(speed), recip, ticks));
         joint->exact.accel_q16_16 = accel;
@@ -261,7 +273,7 @@ static void keep_in_range(player_exact_t *exact)
 
 bool exact_brake_tick(player_t *player)
 {
-    FOR_JOINTS(player, player->present, i, joint) {
+    FOR_ALL_JOINTS(player, joint) {
         keep_in_range(&joint->exact);
     }
     move(player);
@@ -274,7 +286,11 @@ bool exact_plan_rest(player_t *player)
     if (player->rest_ticks == 0) {
         return false;
     }
-    player->step_ticks = player->rest_ticks < braked ? braked : player->rest_ticks;
+    if (is_move(player)) {
+        player->step_ticks = (uint16_t)(player->rest_ticks + braked); /* in less time it could exceed its speed limit */
+    } else {
+        player->step_ticks = player->rest_ticks < braked ? braked : player->rest_ticks;
+    }
     plan_joints(player, fix_recip32(player->step_ticks));
     return true;
 }

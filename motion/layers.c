@@ -2,7 +2,6 @@
 #include "layers.h"
 
 #include <string.h>
-#include "approach.h"
 #include "law.h"
 
 /* --- the main play, the page layer -------------------------------------------------------------------------------- */
@@ -17,7 +16,7 @@ void layers_init(layers_t *layers, uint16_t goal_pos[PAGE_JOINTS])
 
 void layers_set_speed(layers_t *layers, uint16_t deg_s)
 {
-    layers->mux.speed.speed_q8_8 = mux_units_per_tick_q8_8(deg_s != 0 ? deg_s : APPROACH_SPEED_DEFAULT);
+    layers->mux.speed.speed_q8_8 = mux_units_per_tick_q8_8(deg_s != 0 ? deg_s : LAYERS_SPEED_DEFAULT_DEG_S);
 }
 
 static void init_play(layers_t *layers)

@@ -71,21 +71,11 @@ bool link_is_stopping(const link_t *link)
     return link->stopping || link->ending;
 }
 
-/* Marks an exit page as visited. false: it was visited before. */
-static bool mark_exit(link_t *link, uint8_t page)
-{
-    uint8_t *byte = &link->exits_seen[(page % PAGE_COUNT) / 8];
-    uint8_t bit = (uint8_t)(1u << (page % 8));
-    bool fresh = (*byte & bit) == 0;
-    *byte |= bit;
-    return fresh;
-}
-
 static uint8_t exit_of(link_t *link, uint8_t page, uint8_t exit_page, link_taken_t *taken)
 {
-    (void)mark_exit(link, page);
+    (void)page_set_add(link->exits_seen, page);
     *taken = LINK_EXIT;
-    if (exit_page != 0 && !mark_exit(link, exit_page)) {
+    if (exit_page != 0 && !page_set_add(link->exits_seen, exit_page)) {
         *taken = LINK_END_OF_EXIT_LOOP;
         return 0;
     }

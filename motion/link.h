@@ -24,9 +24,9 @@ typedef struct {
     uint8_t call_code;     /* the code that called the page now playing; 0: called by its number */
     uint8_t code;          /* the code in force */
     uint8_t held_code;     /* the last code heard, not counting stops; 0: released */
-    bool stopping : 1;      /* a stop is in force: exit links are followed */
-    bool stop_is_final : 1; /* ... and only a new call ends it (link_stop) */
-    bool ending : 1;        /* no link at all is followed (link_end) */
+    bool stopping;      /* a stop is in force: exit links are followed */
+    bool stop_is_final; /* ... and only a new call ends it (link_stop) */
+    bool ending;        /* no link at all is followed (link_end) */
     uint8_t exits_seen[PAGE_COUNT / 8]; /* exit pages gone through since the stop: a chain that comes back ends */
 } link_t;
 

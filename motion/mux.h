@@ -5,7 +5,7 @@
  *
  * They meet in the tick in which the joint can reach the goal of its source, or in which that goal passes the joint.
  *
- * Knows nothing of plays. Pure; caller-owned; main loop only. RAM: sizeof(mux_t), 39 bytes on the AVR. */
+ * Knows nothing of plays. Pure; caller-owned; main loop only. */
 #ifndef MUX_H
 #define MUX_H
 

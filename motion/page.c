@@ -95,6 +95,15 @@ uint8_t page_slope(uint8_t nibble)
     return (uint8_t)(1u << nibble);
 }
 
+bool page_set_add(uint8_t set[PAGE_COUNT / 8], uint8_t page)
+{
+    uint8_t *byte = &set[page % PAGE_COUNT / 8];
+    const uint8_t bit = (uint8_t)(1u << (page % 8));
+    const bool is_new = (*byte & bit) == 0;
+    *byte |= bit;
+    return is_new;
+}
+
 bool page_is_playable(const uint8_t *header)
 {
     return header[PAGE_AT_STEPS] != 0 && header[PAGE_AT_PLAY_COUNT] != 0;

@@ -117,6 +117,9 @@ static inline bool page_pos_is_used(uint16_t word)
  * or above 7 stands for 5, the default. */
 uint8_t page_slope(uint8_t nibble);
 
+/* Adds a page to a set of pages. false: it is in the set already. */
+bool page_set_add(uint8_t set[PAGE_COUNT / 8], uint8_t page);
+
 /* true when the header has an action: steps and play count are not 0. */
 bool page_is_playable(const uint8_t *header);
 

@@ -15,6 +15,7 @@ enum { STATE_IDLE, STATE_PLAYING, STATE_BRAKING, STATE_STANDING };
 enum { WISH_GO, WISH_PAUSE, WISH_BREAK };
 
 #define ALL_JOINTS 0x7FFFFFFFu
+#define MOVE_RAMP_TICKS 32u
 
 void player_init(player_t *player, const page_source_t *source, player_joint_t joint[PAGE_JOINTS])
 {
@@ -53,6 +54,26 @@ void player_goals(const player_t *player, uint32_t joints, uint16_t goal_pos[PAG
 
 /* --- start, from step to step ------------------------------------------------------------------------------------- */
 
+/* A play begins: all joints rest at pose_pos. */
+static void begin_play(player_t *player, player_law_t law, const uint16_t pose_pos[PAGE_JOINTS], uint32_t present)
+{
+    player->law = player->moving_by = (uint8_t)law;
+    player->present = present & ALL_JOINTS;
+    player->joints = 0;
+    player->state = STATE_PLAYING;
+    player->wish = WISH_GO;
+    player->is_planned = false;
+    player->ramp_ticks = 0;
+    player->tick = player->step_ticks = player->hold_ticks = 0;
+    player->carry_q5_11 = STEP_PLAN_CARRY_START;
+    FOR_ALL_JOINTS(player, joint) {
+        const uint16_t pos = *pose_pos > PAGE_POS_MAX ? PAGE_POS_MAX : *pose_pos;
+        pose_pos++;
+        joint->target_pos = pos;
+        moves_by_classic(player) ? classic_stand(joint, pos) : exact_stand(joint, pos);
+    }
+}
+
 static void look_and_measure(player_t *player)
 {
     sequence_look(player);
@@ -76,25 +97,37 @@ player_status_t player_start(player_t *player, link_t *link, uint8_t page, playe
     if (!sequence_start(player, link, page)) {
         return player->fault == PAGE_OK || player->fault == PAGE_EMPTY ? PLAYER_ERR_EMPTY : PLAYER_ERR_PAGE;
     }
-    player->law = player->moving_by = (uint8_t)law;
-    player->present = present & ALL_JOINTS;
-    player->joints = 0;
-    player->state = STATE_PLAYING;
-    player->wish = WISH_GO;
-    player->is_planned = false;
-    player->ramp_ticks = 0;
-    player->tick = player->step_ticks = player->hold_ticks = 0;
-    player->carry_q5_11 = STEP_PLAN_CARRY_START;
-    FOR_JOINTS(player, player->present, i, joint) {
-        const uint16_t pos = pose_pos[i] > PAGE_POS_MAX ? PAGE_POS_MAX : pose_pos[i];
-        joint->target_pos = pos;
-        moves_by_classic(player) ? classic_stand(joint, pos) : exact_stand(joint, pos);
-    }
+    begin_play(player, law, pose_pos, present);
     if (moves_by_classic(player)) {
         classic_start(player);
     }
     look_and_measure(player);
     return PLAYER_OK;
+}
+
+uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uint32_t joints, uint16_t deg_s)
+{
+    uint16_t longest = 0;
+    begin_play(player, PLAYER_LAW_EXACT, from_pos, joints);
+    player->joints = player->present;
+    FOR_JOINTS(player, player->present, i, joint) {
+        const uint16_t distance = fix_size((int16_t)(player->next_pos[i] - joint->target_pos));
+        longest = distance > longest ? distance : longest;
+        joint->target_pos = player->next_pos[i];
+    }
+    if (longest <= PLAYER_NEAR_POS) {
+        player->state = STATE_IDLE;
+        return 0;
+    }
+    /* N - A, the ticks of the longest distance at the limit: 1 degree/s is 1024 / 300 / 128 = 2 / 75 servo units a tick. */
+    const uint16_t limit = (uint16_t)(2u * deg_s);
+    const uint16_t steady = (uint16_t)(((uint32_t)longest * 75u + limit - 1u) / limit);
+    const uint8_t ramp = (uint8_t)(steady < MOVE_RAMP_TICKS ? steady : MOVE_RAMP_TICKS);
+    const uint16_t ticks = (uint16_t)(steady + ramp);
+    player->now = (player_step_t){.accel_time = ramp, .ticks = ticks, .recip32 = fix_recip32(ticks)};
+    player->next.page = 0;
+    exact_plan(player);
+    return ticks;
 }
 
 static void begin_step(player_t *player, link_t *link)
@@ -122,7 +155,6 @@ static void begin_step(player_t *player, link_t *link)
         exact_plan(player);
     }
 }
-
 
 /* --- plan --------------------------------------------------------------------------------------------------------- */
 

@@ -128,9 +128,16 @@ void player_set_shape(player_t *player, const shape_t *shape);
 MUST_CHECK player_status_t player_start(player_t *player, link_t *link, uint8_t page, player_law_t law,
                                         const uint16_t pose_pos[PAGE_JOINTS], uint32_t present);
 
-/* For the approach: fills pose_pos with the positions of step 1 of `page`, shaped, and returns the bits of the joints that
- * have one. */
+/* For player_move to the first pose of a page: fills pose_pos with the positions of step 1 of `page`, shaped, and returns
+ * the bits of the joints that have one. */
 uint32_t player_first_pose(const page_source_t *source, const shape_t *shape, uint8_t page, uint16_t pose_pos[PAGE_JOINTS]);
+
+/* Moves `joints` from from_pos to player->next_pos, which the caller has set, without a page: an exact step with ramps,
+ * whose length lets the longest distance keep to deg_s degrees/s (1..360), rounded up. All joints arrive together.
+ * Everything else is as in a play, with NULL for the link. Returns the ticks; 0: all are within PLAYER_NEAR_POS already,
+ * and nothing plays. */
+#define PLAYER_NEAR_POS 3u
+uint16_t player_move(player_t *player, const uint16_t from_pos[PAGE_JOINTS], uint32_t joints, uint16_t deg_s);
 
 /* One tick: moves all joints. link: that of player_start. Returns PLAYER_EV_ bits; 0 when idle. */
 uint8_t player_tick(player_t *player, link_t *link) NOINLINE; /* so that tools/bench can measure it */
@@ -147,7 +154,8 @@ uint16_t player_goal(const player_t *player, uint8_t joint);
 /* Copies the goals of those joints; leaves the others. */
 void player_goals(const player_t *player, uint32_t joints, uint16_t goal_pos[PAGE_JOINTS]);
 
-/* Leaves the page at once: every joint slows down within ACCEL_TIME ticks (at least 8), without turning round. */
+/* Leaves the page at once: every joint slows down within ACCEL_TIME ticks (at least 8), without turning round; in a move
+ * within its own ramp, so that one that is about to arrive arrives. */
 void player_break(player_t *player);
 
 /* Pause slows down like a break, and then waits. Resume goes on to the target of the interrupted step in the time that was
@@ -158,7 +166,7 @@ void player_resume(player_t *player);
 bool player_is_moving(const player_t *player);   /* a play is on, also one that pauses or breaks */
 bool player_is_paused(const player_t *player);   /* after player_pause, until player_resume */
 
-/* Takes joints out of a play (torque lost, servo silent): it moves them no more, and their goals stay. */
+/* Takes joints out of a play (torque lost, servo silent): player_goals leaves theirs as they are from now on. */
 void player_drop_joints(player_t *player, uint32_t joints);
 
 #endif

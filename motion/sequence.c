@@ -28,15 +28,6 @@ static uint8_t follow(link_t *link, uint8_t page, const uint8_t header[HEADER_BY
     return page_is_there(named) ? named : 0;
 }
 
-/* Adds a page to a set. false: it is in the set already. */
-static bool add(uint8_t set[PAGE_COUNT / 8], uint8_t page)
-{
-    const uint8_t bit = (uint8_t)(1u << (page % 8));
-    const bool is_new = (set[page / 8] & bit) == 0;
-    set[page / 8] |= bit;
-    return is_new;
-}
-
 /* The first page with action, starting with `page` and passing over pages with PLAY_COUNT 0 along their own links.
  * Leaves its header in `header`. 0: there is none, or a fault. */
 static uint8_t resolve(player_t *player, link_t *link, uint8_t page, uint8_t header[HEADER_BYTES])
@@ -51,7 +42,7 @@ static uint8_t resolve(player_t *player, link_t *link, uint8_t page, uint8_t hea
         if (page_is_playable(header)) {
             return page;
         }
-        if (header[PAGE_AT_STEPS] == 0 || !add(passed_over, page)) {
+        if (header[PAGE_AT_STEPS] == 0 || !page_set_add(passed_over, page)) {
             return fail(player, page, PAGE_EMPTY);
         }
         link_taken_t taken;

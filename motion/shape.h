@@ -9,8 +9,8 @@
  *   rate       ticks / R                  of the step and of its pause
  *   limit      a step in which a joint's mean speed is above the servo's top speed is made longer
  *
- * With nothing set (shape_is_neutral) every goal is the same as without this module, bit by bit.
- * RAM: sizeof(shape_t), 38 bytes on the AVR. */
+ * With nothing set (shape_is_neutral) every goal is the same as without this module, bit by
+ * bit. */
 #ifndef SHAPE_H
 #define SHAPE_H
 

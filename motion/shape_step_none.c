@@ -4,9 +4,4 @@
 
 void shape_step(const shape_t *shape, const page_source_t *source, uint8_t page, uint8_t step, uint16_t words[PAGE_JOINTS])
 {
-    (void)shape;
-    (void)source;
-    (void)page;
-    (void)step;
-    (void)words;
 }

@@ -7,19 +7,6 @@
 
 #define TICK_BITS 11 /* lengths are in 1/2048 tick */
 
-/* length in 1/2048 tick; what is left after the whole ticks is carried on */
-static uint16_t whole_ticks(uint32_t length_q21_11, uint16_t *carry_q5_11)
-{
-    length_q21_11 += *carry_q5_11;
-    uint32_t ticks = length_q21_11 >> TICK_BITS;
-    if (ticks > STEP_PLAN_TICKS_MAX) {
-        *carry_q5_11 = 0;
-        return STEP_PLAN_TICKS_MAX;
-    }
-    *carry_q5_11 = (uint16_t)(length_q21_11 & ((1u << TICK_BITS) - 1));
-    return (uint16_t)ticks;
-}
-
 /* length / rate, floor; of a length above LENGTH_MAX that of LENGTH_MAX. */
 #define LENGTH_MAX ((uint32_t)UINT16_MAX << TICK_BITS)
 static uint32_t at_rate(uint32_t length, uint16_t rate_percent)
@@ -33,6 +20,23 @@ static uint32_t at_rate(uint32_t length, uint16_t rate_percent)
     bool fits = length <= UINT32_MAX / SHAPE_NORMAL; /* longer ones lose 1/20 tick */
     uint32_t quotient = (fits ? length * SHAPE_NORMAL : length) / rate_percent;
     return fits ? quotient : quotient * SHAPE_NORMAL;
+}
+
+/* The whole ticks of a length as stored, at the rate of the step, but at least `least`; the fraction is carried on. */
+static uint16_t whole_ticks(uint32_t length_q21_11, const player_step_t *step, uint16_t least, uint16_t *carry_q5_11)
+{
+    uint32_t length = at_rate(length_q21_11, step->rate_percent);
+    if (length < (uint32_t)least << TICK_BITS) {
+        length = (uint32_t)least << TICK_BITS;
+    }
+    length += *carry_q5_11;
+    const uint32_t ticks = length >> TICK_BITS;
+    if (ticks > STEP_PLAN_TICKS_MAX) {
+        *carry_q5_11 = 0;
+        return STEP_PLAN_TICKS_MAX;
+    }
+    *carry_q5_11 = (uint16_t)length & ((1u << TICK_BITS) - 1u);
+    return (uint16_t)ticks;
 }
 
 /* The least ticks in which no joint's mean speed is above the top speed; 0: no limit. */
@@ -65,7 +69,7 @@ uint16_t step_plan_classic_ticks(const player_step_t *step, uint16_t longest_dis
     uint16_t stored = stored_classic_ticks(step, longest_distance), ticks = stored;
     uint16_t least = least_ticks(step, longest_distance);
     if (step->rate_percent != SHAPE_NORMAL) {
-        ticks = whole_ticks(at_rate((uint32_t)stored << TICK_BITS, step->rate_percent), carry_q5_11);
+        ticks = whole_ticks((uint32_t)stored << TICK_BITS, step, 0, carry_q5_11);
         least = least < CLASSIC_SHORTEST && stored >= CLASSIC_SHORTEST ? CLASSIC_SHORTEST : least;
     }
     if (ticks < least) {
@@ -83,7 +87,7 @@ uint16_t step_plan_classic_hold(const player_step_t *step, uint16_t *carry_q5_11
     if (step->rate_percent == SHAPE_NORMAL) {
         return pause;
     }
-    return whole_ticks(at_rate((uint32_t)pause << TICK_BITS, step->rate_percent), carry_q5_11);
+    return whole_ticks((uint32_t)pause << TICK_BITS, step, 0, carry_q5_11);
 }
 
 uint8_t step_plan_classic_ramp(uint8_t accel_time, uint16_t *ticks)
@@ -118,15 +122,8 @@ static uint32_t stored_exact_length(const player_step_t *step, uint16_t longest_
 
 uint16_t step_plan_exact_ticks(const player_step_t *step, uint16_t longest_distance, uint16_t *carry_q5_11)
 {
-    uint32_t length = at_rate(stored_exact_length(step, longest_distance), step->rate_percent);
-    uint16_t least = least_ticks(step, longest_distance);
-    if (least == 0) {
-        least = 1;
-    }
-    if (length < (uint32_t)least << TICK_BITS) {
-        length = (uint32_t)least << TICK_BITS;
-    }
-    return whole_ticks(length, carry_q5_11);
+    const uint16_t least = least_ticks(step, longest_distance);
+    return whole_ticks(stored_exact_length(step, longest_distance), step, least != 0 ? least : 1u, carry_q5_11);
 }
 
 uint16_t step_plan_exact_hold(const player_step_t *step, uint16_t *carry_q5_11)
@@ -136,10 +133,5 @@ uint16_t step_plan_exact_hold(const player_step_t *step, uint16_t *carry_q5_11)
     }
     uint32_t length = step->schedule == PAGE_SCHEDULE_TIME ? ((uint32_t)step->pause * step->page_speed) << 6
                                                            : ((uint32_t)step->pause << 16) / step->page_speed;
-    return whole_ticks(at_rate(length, step->rate_percent), carry_q5_11);
-}
-
-uint8_t step_plan_exact_ramp(uint8_t accel_time, uint16_t ticks)
-{
-    return accel_time <= ticks / 2 ? accel_time : (uint8_t)(ticks / 2);
+    return whole_ticks(length, step, 0, carry_q5_11);
 }

@@ -26,7 +26,6 @@ uint8_t step_plan_classic_ramp(uint8_t accel_time, uint16_t *ticks);
 /* Exact: a step takes at least one tick. */
 uint16_t step_plan_exact_ticks(const player_step_t *step, uint16_t longest_distance, uint16_t *carry_q5_11);
 uint16_t step_plan_exact_hold(const player_step_t *step, uint16_t *carry_q5_11);
-uint8_t step_plan_exact_ramp(uint8_t accel_time, uint16_t ticks);
 
 /* Half a tick: begin with this carry to get a page's length to the nearest tick. */
 #define STEP_PLAN_CARRY_START 1024u

@@ -29,7 +29,6 @@ uint8_t page_store_byte(uint8_t page, uint16_t offset)
 
 static void source_read(void *context, uint8_t page, uint16_t offset, void *to, uint8_t count)
 {
-    (void)context;
     page_store_read(page, offset, to, count);
 }
 

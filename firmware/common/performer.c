@@ -50,13 +50,10 @@ bool performer_next_event(performer_t *performer, performer_event_t *event)
     return performer_event_take(&performer->events, event);
 }
 
-/* The memory at the end of the player: not used by the approach, nor by goals that servo_link may still be sending. */
 uint8_t *performer_spare(performer_t *performer)
 {
-    STATIC_ASSERT(sizeof performer->engine.player + PAGE_BYTES <= sizeof performer->engine &&
-                      sizeof performer->engine.approach + PAGE_BYTES <= sizeof performer->engine,
-                  "the spare bytes are the joints' of the player");
-    return performer_is_idle(performer) ? (uint8_t *)(&performer->engine + 1) - PAGE_BYTES : NULL;
+    STATIC_ASSERT(sizeof performer->engine.joint >= PAGE_BYTES, "a page fits into the joints of the player");
+    return performer_is_idle(performer) ? (uint8_t *)performer->engine.joint : NULL;
 }
 
 /* ---- start ---- */
@@ -127,7 +124,7 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
     if (status != PERFORMER_OK) {
         return status;
     }
-    memcpy(performer->engine.approach.target_pos, to_pos, sizeof performer->engine.approach.target_pos);
+    memcpy(performer->engine.player.next_pos, to_pos, sizeof performer->engine.player.next_pos);
     performer->page = 0;
     performer->move_deg_s = deg_s;
     performer->move_joints = joints;
@@ -183,11 +180,7 @@ void performer_break(performer_t *performer)
     if (performer->end_reason == PERFORMER_END_DONE) {
         performer->end_reason = PERFORMER_END_BROKEN;
     }
-    if (performer->state == PERFORMER_APPROACH) {
-        approach_break(&performer->engine.approach);
-    } else if (performer->state == PERFORMER_APPROACH_PAUSED) {
-        go_idle(performer, performer->end_reason);
-    } else if (performer->state == PERFORMER_PLAY) {
+    if (performer->state > PERFORMER_READY) {
         player_break(&performer->engine.player);
         performer_layers_plan(performer);
     }
@@ -259,22 +252,14 @@ void performer_code(performer_t *performer, uint8_t code)
 
 bool performer_pause(performer_t *performer)
 {
-    if (performer->leaving || performer->move_deg_s != 0 || performer_is_paused(performer)) {
+    if (performer->leaving || performer->move_deg_s != 0 || performer->state <= PERFORMER_READY ||
+        performer_is_paused(performer)) {
         return false;
     }
-    if (performer->state == PERFORMER_PLAY) {
-        performer_layers_pause(performer, true);
-        player_pause(&performer->engine.player);
-        performer_layers_plan(performer);
-        return true;
-    }
-    if (performer->state == PERFORMER_APPROACH && !performer->pausing) {
-        performer->pausing = true;
-        performer_layers_pause(performer, true);
-        approach_break(&performer->engine.approach);
-        return true;
-    }
-    return false;
+    performer_layers_pause(performer, true);
+    player_pause(&performer->engine.player);
+    performer_layers_plan(performer);
+    return true;
 }
 
 bool performer_resume(performer_t *performer)
@@ -282,13 +267,7 @@ bool performer_resume(performer_t *performer)
     if (performer->leaving || !performer_is_paused(performer)) {
         return false;
     }
-    performer_layers_pause(performer, false);
-    if (performer->state == PERFORMER_PLAY) {
-        player_resume(&performer->engine.player);
-        performer_layers_plan(performer);
-    } else {
-        performer_get_ready(performer);
-    }
+    resume_if_paused(performer);
     return true;
 }
 
@@ -300,7 +279,7 @@ static void drop(performer_t *performer, uint32_t joints)
     performer->joints &= ~joints;
     performer->ready_left &= ~joints;
     performer_layers_drop(performer, joints);
-    if (performer->state == PERFORMER_PLAY) {
+    if (performer->state > PERFORMER_READY) {
         player_drop_joints(&performer->engine.player, joints);
     }
 }
@@ -372,18 +351,6 @@ static void poll_ready(performer_t *performer)
         break;
     default:
         break;
-    }
-}
-
-static void approach_over(performer_t *performer)
-{
-    if (performer->leaving) {
-        go_idle(performer, performer->end_reason);
-    } else if (performer->pausing) {
-        performer->state = PERFORMER_APPROACH_PAUSED;
-        performer_event_put(&performer->events, PERFORMER_EV_PAUSED, performer->page, 0, 0);
-    } else {
-        begin(performer);
     }
 }
 
@@ -465,13 +432,20 @@ static NOINLINE void set_slopes(performer_t *performer)
     servo_link_slopes(performer->servos, compliance);
 }
 
-static void approach_or_move_tick(performer_t *performer)
+static void approach_tick(performer_t *performer)
 {
-    const bool under_way = approach_tick(&performer->engine.approach, performer->goal_pos);
-    (void)performer_layers_tick(performer, false);
-    send_goals(performer, performer->engine.approach.joints & performer->joints);
-    if (!under_way) {
-        approach_over(performer);
+    player_t *player = &performer->engine.player;
+    const uint8_t events = player_tick(player, NULL);
+    if (((events | performer_layers_tick(performer, false)) & PLAYER_EV_OUTPUT) != 0) {
+        player_goals(player, player->joints, performer->goal_pos);
+        send_goals(performer, player->joints);
+    }
+    if ((events & PLAYER_EV_ENDED) != 0 && performer->leaving) {
+        go_idle(performer, performer->end_reason);
+    } else if ((events & PLAYER_EV_ENDED) != 0) {
+        begin(performer);
+    } else if ((events & PLAYER_EV_STANDING) != 0) {
+        performer_event_put(&performer->events, PERFORMER_EV_PAUSED, performer->page, 0, 0);
     }
 }
 
@@ -538,7 +512,7 @@ void performer_tick(performer_t *performer)
         drive_lost(performer);
     }
     if (performer->state == PERFORMER_APPROACH) {
-        approach_or_move_tick(performer);
+        approach_tick(performer);
     } else if (performer->state == PERFORMER_PLAY) {
         play_tick(performer);
     } else {

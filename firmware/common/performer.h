@@ -1,18 +1,13 @@
 /* SPDX-License-Identifier: MIT
  * performer.h - the one play engine of Play and Edit: pages + links + approach + servos, from "play page 5" to the end.
  * Knows no console, no remote and no panel; reports through a queue of events, which the image prints.
- * Main loop only. Caller-owned. RAM: see performer_t; approach and player share their bytes, because the approach ends
- * before the player starts.
+ * Main loop only. Caller-owned. The approach is a play too, one without a page (player_move).
  *
  *          start, move          pose read, torque on           there, or no approach
  *   IDLE --------------> READY ---------------------> APPROACH -----------------------> PLAY
- *    ^                     |                           |    |                             |
- *    |                     | break, silent servo       |    | pause                       | break, end
- *    |                     |                     break |    v          resume             |
- *    +---------------------+---------------------------+   APPROACH_PAUSED ------> READY  |
- *    |                                                      |                             |
- *    |                                                      | break                       |
- *    +------------------------------------------------------+-----------------------------+
+ *    ^                     |                           |                                  |
+ *    |                     | break, silent servo       | break                            | break, end
+ *    +---------------------+---------------------------+----------------------------------+
  *
  * READY works joint by joint between ticks, at most 5 ms each. Nothing moves before READY is complete. Joints that do not
  * answer or were switched off by hand are never driven. With the setting `approach` 0 there is no approach: the first step
@@ -22,7 +17,6 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-#include "approach.h"
 #include "compiler.h"
 #include "layers.h"
 #include "link.h"
@@ -47,7 +41,6 @@ typedef enum {
     PERFORMER_IDLE = 0,
     PERFORMER_READY,      /* reads the pose, switches torque on */
     PERFORMER_APPROACH,   /* moves to the first pose */
-    PERFORMER_APPROACH_PAUSED,
     PERFORMER_PLAY
 } performer_state_t;
 
@@ -63,15 +56,14 @@ typedef struct {
     uint8_t first_page;         /* the page that plays first: the requested one, or the one its links lead to */
     uint8_t end_reason;         /* performer_end_t to report */
     uint8_t since_stop_ticks;   /* since the last stop, for "a second stop within a second" */
-    bool leaving : 1;           /* a break is under way, or has ended the play. Read only for callers */
-    bool pausing : 1;           /* APPROACH: a pause is under way */
-    bool slopes_due : 1;        /* PLAY: set the compliance of the pages anew in this tick */
-    bool is_driven : 1;         /* performer_drive has set the shape */
-    bool battery_reported : 1, heat_reported : 1; /* each is reported once a play. Read only for callers */
+    bool leaving;           /* a break is under way, or has ended the play. Read only for callers */
+    bool slopes_due;        /* PLAY: set the compliance of the pages anew in this tick */
+    bool is_driven;         /* performer_drive has set the shape */
+    bool battery_reported, heat_reported; /* each is reported once a play. Read only for callers */
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
     uint32_t joints;            /* the joints that this play may drive */
     uint32_t ready_left;        /* READY: joints not asked yet */
-    uint32_t move_joints;       /* the joints of a move; its goals are in engine.approach.target_pos */
+    uint32_t move_joints;       /* the joints of a move; its goals are in engine.player.next_pos */
     const page_source_t *source;
     servo_link_t *servos;
     const settings_t *settings;
@@ -82,12 +74,9 @@ typedef struct {
     link_t link;                /* read only for callers */
     performer_events_t events;
     uint16_t goal_pos[PAGE_JOINTS]; /* the last goals of all joints; READY fills in the pose */
-    union {
-        struct {
-            player_t player;    /* state PLAY; kept after the end. Read only for callers */
-            player_joint_t joint[PAGE_JOINTS];
-        };
-        approach_t approach;    /* state APPROACH */
+    struct {
+        player_t player;        /* kept after the end. Read only for callers */
+        player_joint_t joint[PAGE_JOINTS];
     } engine;
 } performer_t;
 
@@ -140,8 +129,7 @@ static inline bool performer_is_idle(const performer_t *performer)    /* no play
 
 static inline bool performer_is_paused(const performer_t *performer)
 {
-    return performer->state == PERFORMER_APPROACH_PAUSED ||
-           (performer->state == PERFORMER_PLAY && player_is_paused(&performer->engine.player));
+    return performer->state > PERFORMER_READY && player_is_paused(&performer->engine.player);
 }
 
 /* Joints that answer the bus and were not switched off by hand. */
@@ -150,8 +138,7 @@ static inline uint32_t performer_usable(const performer_t *performer)
     return performer->servos->present & ~performer->released;
 }
 
-/* PAGE_BYTES of RAM that only a play needs: use it for what may be lost at the next play. NULL unless idle. A move keeps
- * it. */
+/* PAGE_BYTES of RAM that only a play needs: use it for what may be lost at the next play or move. NULL unless idle. */
 uint8_t *performer_spare(performer_t *performer);
 
 /* Call once a tick: computes the goals and sends them to the servos. Cost: that of player_tick and servo_link_goals. */

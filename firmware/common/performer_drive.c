@@ -2,7 +2,6 @@
  * performer_drive.c - a program drives the play; when it falls silent, the play stops. */
 #include "performer_shape.h"
 
-
 bool performer_drive(performer_t *performer, int16_t blend, uint16_t rate, uint16_t amplitude)
 {
     shape_t *shape = &performer->shape;

@@ -4,16 +4,13 @@
 
 bool performer_drive_is_lost(performer_t *performer)
 {
-    (void)performer;
     return false;
 }
 
 void performer_drive_end(performer_t *performer)
 {
-    (void)performer;
 }
 
 void performer_shape_follow(performer_t *performer)
 {
-    (void)performer;
 }

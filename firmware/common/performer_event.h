@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * performer_event.h - the events of a performer: their kinds, the reasons for an end, and the queue in which they wait
- * until the image prints them (report.h makes sentences of them). Main loop only. The queue is caller-owned:
- * RAM 4 * PERFORMER_EVENTS + 3 bytes. */
+ * until the image prints them (report.h makes sentences of them). Main loop only. The queue is
+ * caller-owned. */
 #ifndef PERFORMER_EVENT_H
 #define PERFORMER_EVENT_H
 

@@ -2,7 +2,6 @@
  * performer_layers.c - a second page over the play. */
 #include "performer_shape.h"
 
-
 void performer_set_layers(performer_t *performer, layers_t *layers)
 {
     performer->layers = layers;

@@ -4,13 +4,11 @@
 
 uint32_t performer_layers_joints(const performer_t *performer)
 {
-    (void)performer;
     return 0;
 }
 
 bool performer_layers_are_moving(const performer_t *performer)
 {
-    (void)performer;
     return false;
 }
 
@@ -30,35 +28,25 @@ void performer_layers_plan(performer_t *performer)
 
 void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS])
 {
-    (void)performer;
-    (void)compliance;
 }
 
 void performer_layers_bind(performer_t *performer, bool with_play)
 {
-    (void)performer;
-    (void)with_play;
 }
 
 void performer_layers_drop(performer_t *performer, uint32_t joints)
 {
-    (void)performer;
-    (void)joints;
 }
 
 void performer_layers_break(performer_t *performer)
 {
-    (void)performer;
 }
 
 void performer_layers_pause(performer_t *performer, bool pause)
 {
-    (void)performer;
-    (void)pause;
 }
 
 uint8_t performer_layer_page(const performer_t *performer)
 {
-    (void)performer;
     return 0;
 }

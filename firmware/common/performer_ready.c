@@ -2,7 +2,6 @@
  * performer_ready.c - the state READY: pose, torque, the plan of the approach. */
 #include "performer_ready.h"
 
-#include <string.h>
 #include "performer_shape.h"
 
 void performer_get_ready(performer_t *performer)
@@ -11,7 +10,6 @@ void performer_get_ready(performer_t *performer)
     performer->joints = 0;
     performer->faulty = 0;
     performer->leaving = false;
-    performer->pausing = false;
     performer->battery_reported = false;
     performer->heat_reported = false;
     performer->end_reason = PERFORMER_END_DONE;
@@ -44,14 +42,13 @@ static performer_ready_t ask_one_joint(performer_t *performer)
     return performer->settings->fault_rule == SETTINGS_FAULT_LIMP ? READY_ASKING : READY_SILENT;
 }
 
-/* Puts the target of the approach into engine.approach.target_pos: the positions of the first step. (The pose of a move is
- * there already.) Returns the joints that have one. */
+/* Puts the target of the approach into next_pos: the positions of the first step. (The pose of a move is there already.)
+ * Returns the joints that have one. */
 static uint32_t take_first_pose(performer_t *performer)
 {
-    uint16_t *to_pos = performer->engine.approach.target_pos;
+    uint16_t *to_pos = performer->engine.player.next_pos;
     uint32_t joints = performer->move_joints;
     if (performer->move_deg_s == 0) {
-        memcpy(to_pos, performer->goal_pos, sizeof performer->goal_pos);
         joints = player_first_pose(performer->source, &performer->shape, performer->first_page, to_pos);
     }
     return joints & performer->joints & ~performer_layers_joints(performer);
@@ -64,9 +61,8 @@ static performer_ready_t plan_approach(performer_t *performer)
     if (limit_deg_s == 0) {
         return READY_THERE;
     }
-    approach_t *approach = &performer->engine.approach;
     const uint32_t joints = take_first_pose(performer);
-    const uint16_t ticks = approach_start(approach, performer->goal_pos, approach->target_pos, joints, limit_deg_s);
+    const uint16_t ticks = player_move(&performer->engine.player, performer->goal_pos, joints, limit_deg_s);
     if (ticks == 0) {
         return READY_THERE;
     }

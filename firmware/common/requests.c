@@ -24,11 +24,9 @@ static struct {
 /* ---- the robot as it is now ---- */
 
 /* Prints id:position:torque for each joint, position "?" if the servo does not answer. */
-static uint8_t do_pose(void *context, const shell_args_t *args)
+static uint8_t do_pose(const shell_args_t *args)
 {
     const servo_link_t *servos = requests_image.servos;
-    (void)context;
-    (void)args;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if (!servo_link_has(&servos->present, id)) {
             continue;
@@ -55,18 +53,15 @@ static void print_state_name(const performer_t *performer)
     TEXT_NAMED(paused, "paused");
     TEXT_NAMED(playing, "playing");
     static const char *const names[] PROGMEM = {
-        [PERFORMER_IDLE] = idle, [PERFORMER_READY] = ready, [PERFORMER_APPROACH] = approach,
-        [PERFORMER_APPROACH_PAUSED] = paused, [PERFORMER_PLAY] = playing,
+        [PERFORMER_IDLE] = idle, [PERFORMER_READY] = ready, [PERFORMER_APPROACH] = approach, [PERFORMER_PLAY] = playing,
     };
     text_P(performer_is_paused(performer) ? paused : (const char *)pgm_read_ptr(&names[performer->state]));
 }
 
-static uint8_t do_where(void *context, const shell_args_t *args)
+static uint8_t do_where(const shell_args_t *args)
 {
     const performer_t *performer = requests_image.performer;
     const bool plays = performer->state == PERFORMER_PLAY;
-    (void)context;
-    (void)args;
     TEXT(" state=");
     print_state_name(performer);
     text_P_number(TEXT_P(" page="), performer_is_idle(performer) ? 0 : performer->page);
@@ -85,10 +80,9 @@ static uint8_t do_where(void *context, const shell_args_t *args)
 
 /* ---- @watch ---- */
 
-static uint8_t do_watch(void *context, const shell_args_t *args)
+static uint8_t do_watch(const shell_args_t *args)
 {
     const uint16_t ticks = (uint16_t)((uint32_t)args->number[0] * TICK_HZ / 1000u);
-    (void)context;
     watch.every_ticks = ticks != 0 && ticks < WATCH_TICKS_MIN ? WATCH_TICKS_MIN : ticks;
     watch.last_tick = tick_now16();
     watch.on_channel = channel_is_printing();
@@ -174,10 +168,9 @@ static uint32_t parse_pose(uint8_t id, const char *digits, uint16_t to_pos[PAGE_
     return joints;
 }
 
-static uint8_t do_move(void *context, const shell_args_t *args)
+static uint8_t do_move(const shell_args_t *args)
 {
     uint16_t to_pos[PAGE_JOINTS] = {0};
-    (void)context;
     const uint32_t joints = parse_pose((uint8_t)args->number[1], shell_word(args, 3), to_pos);
     if (joints == 0) {
         return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Positions must be 000..3FF or ---, up to ID 30"));
@@ -211,74 +204,60 @@ static uint8_t switch_named(const shell_args_t *args, uint8_t first, bool on)
     return requests_no_answer(joints & ~requests_switch_torque(joints, on));
 }
 
-static uint8_t do_torque(void *context, const shell_args_t *args)
+static uint8_t do_torque(const shell_args_t *args)
 {
     const bool on = shell_word_is(args, 1, PSTR("on"));
-    (void)context;
     if (!on && !shell_word_is(args, 1, PSTR("off"))) {
         return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Say on or off"));
     }
     return switch_named(args, 2, on);
 }
 
-uint8_t request_on(void *context, const shell_args_t *args)
+uint8_t request_on(const shell_args_t *args)
 {
-    (void)context;
     return switch_named(args, 1, true);
 }
 
-uint8_t request_off(void *context, const shell_args_t *args)
+uint8_t request_off(const shell_args_t *args)
 {
-    (void)context;
     return switch_named(args, 1, false);
 }
 
-uint8_t request_play(void *context, const shell_args_t *args)
+uint8_t request_play(const shell_args_t *args)
 {
-    (void)context;
     return requests_refusal(performer_start(requests_image.performer, (uint8_t)args->number[0], (uint8_t)args->number[1]));
 }
 
 /* These four answer OK even if there is nothing to do: a program asks @where. */
-uint8_t request_stop(void *context, const shell_args_t *args)
+uint8_t request_stop(const shell_args_t *args)
 {
-    (void)context;
-    (void)args;
     performer_stop(requests_image.performer);
     return REQUEST_OK;
 }
 
-uint8_t request_break(void *context, const shell_args_t *args)
+uint8_t request_break(const shell_args_t *args)
 {
-    (void)context;
-    (void)args;
     performer_break(requests_image.performer);
     return REQUEST_OK;
 }
 
-uint8_t request_pause(void *context, const shell_args_t *args)
+uint8_t request_pause(const shell_args_t *args)
 {
-    (void)context;
-    (void)args;
     (void)performer_pause(requests_image.performer);
     return REQUEST_OK;
 }
 
-uint8_t request_resume(void *context, const shell_args_t *args)
+uint8_t request_resume(const shell_args_t *args)
 {
-    (void)context;
-    (void)args;
     (void)performer_resume(requests_image.performer);
     return REQUEST_OK;
 }
 
 /* ---- the image ---- */
 
-static uint8_t do_ver(void *context, const shell_args_t *args)
+static uint8_t do_ver(const shell_args_t *args)
 {
     app_record_t record;
-    (void)context;
-    (void)args;
     TEXT(" image=");
     text_P(requests_image.name_P);
     if (board_record(&record)) {
@@ -297,10 +276,8 @@ static uint8_t do_ver(void *context, const shell_args_t *args)
 }
 
 /* A program follows it with '#': the boot loader listens for 60 ms before it starts an image again. */
-static uint8_t do_reset(void *context, const shell_args_t *args)
+static uint8_t do_reset(const shell_args_t *args)
 {
-    (void)context;
-    (void)args;
     requests_image.restart();
     return REQUEST_OK;   /* never reached */
 }
@@ -335,7 +312,7 @@ static const shell_command_t table[] PROGMEM = {
 
 static uint8_t look_up(const shell_command_t *table_P, uint8_t count, shell_args_t *args)
 {
-    return shell_run(table_P, count, requests_image.context, args, !performer_is_still(requests_image.performer));
+    return shell_run(table_P, count, args, !performer_is_still(requests_image.performer));
 }
 
 /* Prints the end of an answer. result: what shell_run returned. */

@@ -58,9 +58,8 @@ typedef struct {
     performer_t *performer;
     servo_link_t *servos;
     page_store_t *pages;
-    /* The image's own words, without '@'. Their handlers get `context` and return SHELL_OK, SHELL_ERR_RANGE or _MOVING, or
+    /* The image's own words, without '@'. Their handlers return SHELL_OK, SHELL_ERR_RANGE or _MOVING, or
      * SHELL_ERR_REPORTED after requests_error. */
-    void *context;
     const requests_table_t *own;
     void (*where)(void);               /* prints further fields of @where, each after a blank; or NULL */
     void (*serve)(void);               /* does what cannot wait; called between the parts of a long request */
@@ -108,19 +107,19 @@ uint8_t requests_refusal(performer_status_t status);
 void requests_set_program(bool program);
 
 /* Handlers of requests_list.c, for requests.c: the pages in flash. */
-uint8_t request_list(void *context, const shell_args_t *args);
-uint8_t request_page(void *context, const shell_args_t *args);
-uint8_t request_dense(void *context, const shell_args_t *args);
-uint8_t request_crcs(void *context, const shell_args_t *args);
+uint8_t request_list(const shell_args_t *args);
+uint8_t request_page(const shell_args_t *args);
+uint8_t request_dense(const shell_args_t *args);
+uint8_t request_crcs(const shell_args_t *args);
 
 /* Handlers for the images' own tables. */
-uint8_t request_play(void *context, const shell_args_t *args);      /* SHELL_BOTH(RANGE_PLAYED, RANGE_CODE) */
-uint8_t request_stop(void *context, const shell_args_t *args);
-uint8_t request_break(void *context, const shell_args_t *args);
-uint8_t request_pause(void *context, const shell_args_t *args);
-uint8_t request_resume(void *context, const shell_args_t *args);
-uint8_t request_on(void *context, const shell_args_t *args);
-uint8_t request_off(void *context, const shell_args_t *args);
+uint8_t request_play(const shell_args_t *args);      /* SHELL_BOTH(RANGE_PLAYED, RANGE_CODE) */
+uint8_t request_stop(const shell_args_t *args);
+uint8_t request_break(const shell_args_t *args);
+uint8_t request_pause(const shell_args_t *args);
+uint8_t request_resume(const shell_args_t *args);
+uint8_t request_on(const shell_args_t *args);
+uint8_t request_off(const shell_args_t *args);
 
 /* Switches the torque of joints one at a time and calls serve in between, at most 3 ms apart. Returns the joints that
  * switched. */

@@ -49,10 +49,9 @@ static bool take_pages(const shell_args_t *args, uint8_t *last)
     return true;
 }
 
-uint8_t request_list(void *context, const shell_args_t *args)
+uint8_t request_list(const shell_args_t *args)
 {
     uint8_t last;
-    (void)context;
     if (!take_pages(args, &last)) {
         return SHELL_ERR_REPORTED;
     }
@@ -115,26 +114,23 @@ static uint8_t answer_page(const shell_args_t *args, print_byte_t print)
     return REQUEST_OK;
 }
 
-uint8_t request_page(void *context, const shell_args_t *args)
+uint8_t request_page(const shell_args_t *args)
 {
-    (void)context;
     return answer_page(args, print_hex);
 }
 
 /* The same in two thirds of the characters. */
-uint8_t request_dense(void *context, const shell_args_t *args)
+uint8_t request_dense(const shell_args_t *args)
 {
-    (void)context;
     dense.high_bits = 0;
     dense.bytes = 1; /* two bytes first: 512 = 2 + 3 * 170 */
     return answer_page(args, print_dense);
 }
 
 /* Four digits a page without blanks, so that 128 pages are 512 characters. */
-uint8_t request_crcs(void *context, const shell_args_t *args)
+uint8_t request_crcs(const shell_args_t *args)
 {
     uint8_t last;
-    (void)context;
     if (!take_pages(args, &last)) {
         return SHELL_ERR_REPORTED;
     }

@@ -94,7 +94,6 @@ static bool write_one(servo_link_t *link, uint8_t id, uint8_t at, uint16_t value
 
 static bool ping(servo_link_t *link, uint8_t id)
 {
-    (void)link;
     return bus_call_ping(id, PING_TRIES, NULL) == BUS_OK;
 }
 
@@ -110,7 +109,6 @@ static bool look_at_level(servo_link_t *link, uint8_t id)
 static bool is_led_dark(servo_link_t *link, uint8_t id)
 {
     uint8_t led;
-    (void)link;
     return read_byte(id, DXL_AT_LED, &led) && led == 0;
 }
 

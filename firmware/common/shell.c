@@ -47,7 +47,7 @@ static bool take_numbers(shell_args_t *args, uint16_t ranges)
     return true;
 }
 
-uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, shell_args_t *args, bool moving)
+uint8_t shell_run(const shell_command_t *table_P, uint8_t count, shell_args_t *args, bool moving)
 {
     shell_command_t found;
     if (args->count == 0) {
@@ -68,7 +68,7 @@ uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, 
     if (!take_numbers(args, found.numbers)) {
         return SHELL_ERR_RANGE;
     }
-    return found.handler(context, args);
+    return found.handler(args);
 }
 
 static void print_field(text_reader_t *reader, uint8_t columns)

@@ -30,8 +30,8 @@ typedef struct {
     uint8_t length;         /* characters in `line` */
     uint8_t recalled;       /* how many lines back the recalled line is; 0 = the line being typed */
     uint8_t fault;          /* of the line: SHELL_OK, SHELL_ERR_LOSSY, SHELL_ERR_LONG */
-    uint8_t escape : 2;     /* state within an escape sequence */
-    bool after_cr : 1;      /* the last byte was CR, so an LF now belongs to it */
+    uint8_t escape;         /* state within an escape sequence */
+    bool after_cr;          /* the last byte was CR, so an LF now belongs to it */
 } shell_t;
 
 /* Starts with an empty line and an empty history. `line_bytes` includes the NUL. `history` may be NULL with 0 bytes: no
@@ -100,7 +100,7 @@ void shell_print_range_error(void);
 
 #define SHELL_ANY_ARGS 15u
 
-typedef uint8_t (*shell_handler_t)(void *context, const shell_args_t *args);
+typedef uint8_t (*shell_handler_t)(const shell_args_t *args);
 
 /* One command. Tables of commands are in flash. */
 typedef struct {
@@ -138,10 +138,10 @@ enum {
     SHELL_ERR_COUNT          /* too few or too many words */
 };
 
-/* Looks word 0 up among `count` commands, checks the number of words and the ranges, and calls the handler with `context`.
+/* Looks word 0 up among `count` commands, checks the number of words and the ranges, and calls the handler.
  * moving: something moves now. Returns the handler's result, which may be a value of its own, 2..249. SHELL_OK for an empty
  * line. */
-uint8_t shell_run(const shell_command_t *table_P, uint8_t count, void *context, shell_args_t *args, bool moving);
+uint8_t shell_run(const shell_command_t *table_P, uint8_t count, shell_args_t *args, bool moving);
 
 /* The command whose word or abbreviation is word `index`, or NULL. */
 const shell_command_t *shell_find(const shell_command_t *table_P, uint8_t count, const shell_args_t *args,

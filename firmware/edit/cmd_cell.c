@@ -142,33 +142,28 @@ static uint8_t set_schedule(uint8_t schedule)
 
 COMMAND(cmd_time)
 {
-    (void)args;
     return set_schedule(PAGE_SCHEDULE_TIME);
 }
 
 COMMAND(cmd_speed)
 {
-    (void)args;
     return set_schedule(PAGE_SCHEDULE_SPEED);
 }
 
 COMMAND(cmd_hex)
 {
-    (void)args;
     the_session.hex = true;
     return SHELL_OK;
 }
 
 COMMAND(cmd_dec)
 {
-    (void)args;
     the_session.hex = false;
     return SHELL_OK;
 }
 
 COMMAND(cmd_re)
 {
-    (void)args;
     screen_redraw();
     screen_ask_size();
     return SHELL_OK;

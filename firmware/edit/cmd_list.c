@@ -64,7 +64,6 @@ COMMAND(cmd_help)
 
 COMMAND(cmd_mon)
 {
-    (void)args;
     return dialog_refuse(TEXT_P("MON and TOSS are an image of their own: load monitor.hex"));
 }
 
@@ -160,6 +159,5 @@ static bool find_item(uint16_t item)
 
 COMMAND(cmd_find)
 {
-    (void)args;
     return dialog_list(find_item, list_title);
 }

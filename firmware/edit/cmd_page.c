@@ -39,13 +39,11 @@ static uint8_t open_beside(bool is_there, int8_t way)
 
 COMMAND(cmd_next)
 {
-    (void)args;
     return open_beside(the_session.page < PAGE_MAX, 1);
 }
 
 COMMAND(cmd_before)
 {
-    (void)args;
     return open_beside(the_session.page > 0, -1);
 }
 
@@ -81,7 +79,6 @@ COMMAND(cmd_copy)
 
 COMMAND(cmd_new)
 {
-    (void)args;
     if (!dialog_ask(TEXT_P("The page would be emptied. "))) {
         return DIALOG_TO_ASK;
     }
@@ -197,7 +194,6 @@ COMMAND(cmd_save)
 
 COMMAND(cmd_exit)
 {
-    (void)args;
     if (!dialog_ask_unsaved()) {
         return DIALOG_TO_ASK;
     }
@@ -245,12 +241,10 @@ static uint8_t say_unless(bool done, const char *text)
 
 COMMAND(cmd_undo)
 {
-    (void)args;
     return say_unless(session_undo(), TEXT_P("Nothing to undo"));
 }
 
 COMMAND(cmd_redo)
 {
-    (void)args;
     return say_unless(session_redo(), TEXT_P("Nothing to redo"));
 }

@@ -15,7 +15,7 @@
 extern const shell_command_t commands_table_P[];
 extern const uint8_t commands_count;
 
-#define COMMAND(name) uint8_t name(void *context __attribute__((unused)), const shell_args_t *args)
+#define COMMAND(name) uint8_t name(const shell_args_t *args)
 
 /* cmd_page.c */
 COMMAND(cmd_page);
@@ -73,13 +73,11 @@ COMMAND(cmd_play);
 void cmd_play_key(uint8_t key);
 void cmd_play_events(bool line_is_free);
 
-
 /* cmd_list.c, cmd_check.c */
 COMMAND(cmd_mon);
 COMMAND(cmd_help);
 COMMAND(cmd_list);
 COMMAND(cmd_find);
 COMMAND(cmd_check);
-
 
 #endif

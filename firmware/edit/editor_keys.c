@@ -75,7 +75,7 @@ static void run(void)
     the_screen.lead = true;
     the_screen.cramped = the_screen.line_column > MESSAGE_COLUMN_MAX;
     the_session.spare = performer_spare(&the_performer);
-    go_on(shell_run(commands_table_P, commands_count, NULL, &the_dialog.args, !performer_is_idle(&the_performer)));
+    go_on(shell_run(commands_table_P, commands_count, &the_dialog.args, !performer_is_idle(&the_performer)));
     the_session.spare = NULL;
 }
 

@@ -12,7 +12,7 @@
 
 #define DATA_BYTES_MAX 32u
 
-#define REQUEST(name) static uint8_t name(void *context __attribute__((unused)), const shell_args_t *args)
+#define REQUEST(name) static uint8_t name(const shell_args_t *args)
 
 REQUEST(do_open)
 {
@@ -62,7 +62,6 @@ static uint16_t ram_crc(void)
 
 REQUEST(do_crc)
 {
-    (void)args;
     text_put(' ');
     text_hex(ram_crc(), 4);
     return REQUEST_OK;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "undo.h"
 
+#include <stddef.h>
 #include <string.h>
 
 enum { RECORD_HEADER_BYTES = 3, RUN_HEADER_BYTES = 2, RUN_MAX_BYTES = 128 };
@@ -83,13 +84,7 @@ static void open_record(undo_t *undo)
 
 void undo_clear(undo_t *undo)
 {
-    undo->used = 0;
-    undo->count = 0;
-    undo->applied = 0;
-    undo->open = false;
-    undo->lost = false;
-    undo->run_at = 0;
-    undo->pending_turn = UNDO_TURN_NONE;
+    memset(undo, 0, offsetof(undo_t, log));
 }
 
 void undo_begin(undo_t *undo, uint8_t turn)

@@ -8,7 +8,7 @@
  *
  *   record = size (2 bytes, all of it) turn (1) { address:9 length-1:7 (2 bytes) bits (length bytes) }*
  *
- * RAM: UNDO_BYTES + 12. A WRITE of 18 joints takes 30 to 46 bytes, one cell 6 or 7, clearing a full page of 18 joints
+ * A WRITE of 18 joints takes 30 to 46 bytes, one cell 6 or 7, clearing a full page of 18 joints
  * about 300. So at least the last eight commands can be undone. A single command that does not fit (a whole page of more
  * than 20 joints) empties the history; undo_end reports it. */
 #ifndef UNDO_H

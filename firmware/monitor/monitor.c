@@ -142,7 +142,7 @@ void monitor_line(shell_t *shell)
 {
     shell_args_t args;
     shell_split(shell, hex, &args);
-    switch (shell_run(table_P, ARRAY_COUNT(table_P), NULL, &args, false)) {
+    switch (shell_run(table_P, ARRAY_COUNT(table_P), &args, false)) {
     case SHELL_ERR_UNKNOWN:
         (void)packets_say(TEXT_P(" Bad Command: HELP lists all"));
         break;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * servo_words.h - the words for the current servo, which CID chooses. Each sends a packet and shows it and its answer, byte
- * by byte (DUMP: the bytes alone). Handlers of shell.h without a context. Main loop only. */
+ * by byte (DUMP: the bytes alone). Handlers of shell.h. Main loop only. */
 #ifndef SERVO_WORDS_H
 #define SERVO_WORDS_H
 
@@ -8,7 +8,7 @@
 #include "shell.h"
 
 /* Heads the handler of a word. */
-#define WORD(name) uint8_t name(void *context __attribute__((unused)), const shell_args_t *args __attribute__((unused)))
+#define WORD(name) uint8_t name(const shell_args_t *args)
 
 /* Chooses servo 1. */
 void servo_words_init(void);

@@ -10,62 +10,56 @@
 
 /* ---- what views.h prints ---- */
 
-static uint8_t do_list(void *context, const shell_args_t *args)
+static uint8_t do_list(const shell_args_t *args)
 {
-    (void)args;
-    views_print_list(context);
+    views_print_list();
     return REQUEST_OK;
 }
 
-static uint8_t do_status(void *context, const shell_args_t *args)
+static uint8_t do_status(const shell_args_t *args)
 {
-    (void)args;
-    views_print_status(context);
+    views_print_status();
     return REQUEST_OK;
 }
 
-static uint8_t do_faults(void *context, const shell_args_t *args)
+static uint8_t do_faults(const shell_args_t *args)
 {
-    (void)args;
-    views_print_faults(context);
+    views_print_faults();
     return REQUEST_OK;
 }
 
-static uint8_t do_version(void *context, const shell_args_t *args)
+static uint8_t do_version(const shell_args_t *args)
 {
-    (void)context;
-    (void)args;
     views_print_version();
     return REQUEST_OK;
 }
 
-static uint8_t do_servos(void *context, const shell_args_t *args)
+static uint8_t do_servos(const shell_args_t *args)
 {
-    play_t *play = context;
     if (args->count == 1) {
-        views_print_servos(play);
+        views_print_servos();
         return REQUEST_OK;
     }
     if (!shell_word_is(args, 1, PSTR("find"))) {
         return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Say servos, or servos find"));
     }
-    if (!performer_is_still(&play->performer)) {
+    if (!performer_is_still(&the_play.performer)) {
         return SHELL_ERR_MOVING;
     }
-    play_find_servos(play);
-    views_print_servos_found(play);
+    play_find_servos();
+    views_print_servos_found();
     return REQUEST_OK;
 }
 
 /* ---- law, remote, settings: what EEPROM keeps ---- */
 
-static void save(play_t *play)
+static void save(void)
 {
-    settings_save_start(&play->store);
+    settings_save_start(&the_play.store);
 }
 
 /* Sets 0, 1, ... by one of several words (settings_word_P). Prints the present word if the line has none. */
-static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, const char *words_P)
+static uint8_t choose(const shell_args_t *args, uint8_t *setting, const char *words_P)
 {
     const char *word_P;
     if (args->count == 1) {
@@ -76,7 +70,7 @@ static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, 
     for (uint8_t value = 0; pgm_read_byte(word_P = settings_word_P(words_P, value)) != '\0'; value++) {
         if (shell_word_is(args, 1, word_P)) {
             *setting = value;
-            save(play);
+            save();
             return REQUEST_OK;
         }
     }
@@ -90,30 +84,28 @@ static uint8_t choose(play_t *play, const shell_args_t *args, uint8_t *setting, 
     return SHELL_ERR_REPORTED;
 }
 
-static uint8_t do_law(void *context, const shell_args_t *args)
+static uint8_t do_law(const shell_args_t *args)
 {
-    play_t *play = context;
-    return choose(play, args, &play->settings.law, settings_laws_P);
+    return choose(args, &the_play.settings.law, settings_laws_P);
 }
 
-static uint8_t do_remote(void *context, const shell_args_t *args)
+static uint8_t do_remote(const shell_args_t *args)
 {
-    play_t *play = context;
-    return choose(play, args, &play->settings.remote_mode, settings_remotes_P);
+    return choose(args, &the_play.settings.remote_mode, settings_remotes_P);
 }
 
-static uint8_t set_one(play_t *play, const shell_args_t *args)
+static uint8_t set_one(const shell_args_t *args)
 {
     for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
         settings_item_t item;
         settings_item(i, &item);
         if (shell_word_is(args, 1, item.name)) {
             uint16_t value;
-            if (!shell_parse(shell_word(args, 2), false, &value) || !settings_set(&play->settings, &item, value)) {
+            if (!shell_parse(shell_word(args, 2), false, &value) || !settings_set(&the_play.settings, &item, value)) {
                 shell_print_range(item.name, item.low, item.high, false);
                 return SHELL_ERR_REPORTED;
             }
-            save(play);
+            save();
             return REQUEST_OK;
         }
     }
@@ -122,28 +114,27 @@ static uint8_t set_one(play_t *play, const shell_args_t *args)
     return SHELL_ERR_REPORTED;
 }
 
-static uint8_t do_settings(void *context, const shell_args_t *args)
+static uint8_t do_settings(const shell_args_t *args)
 {
-    play_t *play = context;
     if (args->count == 3) {
-        return set_one(play, args);
+        return set_one(args);
     }
     if (args->count == 2) {
         if (!shell_word_is(args, 1, PSTR("defaults"))) {
             TEXT("Say settings, settings name value, or settings defaults");
             return SHELL_ERR_REPORTED;
         }
-        settings_defaults(&play->settings);
-        save(play);
+        settings_defaults(&the_play.settings);
+        save();
         return REQUEST_OK;
     }
-    views_print_settings(play);
+    views_print_settings();
     return REQUEST_OK;
 }
 
 /* ---- the tables, help ---- */
 
-static uint8_t do_help(void *context, const shell_args_t *args);
+static uint8_t do_help(const shell_args_t *args);
 
 TEXT_NAMED(word_play, "play p n|name  plays a page");
 TEXT_NAMED(word_stop, "stop s through the exit page; twice within a second: break");
@@ -213,9 +204,8 @@ static void print_help(const shell_command_t *table_P, uint8_t count)
     }
 }
 
-static uint8_t do_help(void *context, const shell_args_t *args)
+static uint8_t do_help(const shell_args_t *args)
 {
-    (void)context;
     if (args->count == 2) {
         const shell_command_t *command = shell_find(shared, ARRAY_COUNT(shared), args, 1);
         command = command != NULL ? command : shell_find(typed, ARRAY_COUNT(typed), args, 1);
@@ -230,10 +220,10 @@ static uint8_t do_help(void *context, const shell_args_t *args)
     return REQUEST_OK;
 }
 
-void commands_run(play_t *play)
+void commands_run(void)
 {
     shell_args_t args;
-    shell_split(&play->shell, false, &args);
+    shell_split(&the_play.shell, false, &args);
     if (args.count > 0) {
         requests_run_typed(&args, typed, ARRAY_COUNT(typed));
     }

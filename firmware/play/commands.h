@@ -10,6 +10,6 @@
 extern const requests_table_t commands_shared;
 
 /* Runs the shell's complete line and prints its answer with CR LF. */
-void commands_run(play_t *play);
+void commands_run(void);
 
 #endif

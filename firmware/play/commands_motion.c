@@ -27,12 +27,12 @@ static void take_name(const shell_args_t *args, char name[PAGE_NAME_BYTES])
 }
 
 /* The page with this name; 0: none or several, and an error has been printed. */
-static uint8_t page_of_name(const play_t *play, const shell_args_t *args)
+static uint8_t page_of_name(const shell_args_t *args)
 {
     char name[PAGE_NAME_BYTES];
     take_name(args, name);
-    const uint8_t page = page_store_find(&play->pages, name, 0);
-    const uint8_t other = page == 0 ? 0 : page_store_find(&play->pages, name, page);
+    const uint8_t page = page_store_find(&the_play.pages, name, 0);
+    const uint8_t other = page == 0 ? 0 : page_store_find(&the_play.pages, name, page);
     if (page != 0 && other == 0) {
         return page;
     }
@@ -49,19 +49,18 @@ static uint8_t page_of_name(const play_t *play, const shell_args_t *args)
 }
 
 /* Plays a page by its number, or by its name; a code may follow the number, as if from the remote. */
-uint8_t commands_do_play(void *context, const shell_args_t *args)
+uint8_t commands_do_play(const shell_args_t *args)
 {
-    play_t *play = context;
     uint16_t page, code = LINK_CODE_NONE;
     const char first = shell_word(args, 1)[0];
     if (first >= '0' && first <= '9') {
         if (!shell_take(args, 1, RANGE_PLAYED, &page) || (args->count > 2 && !shell_take(args, 2, RANGE_CODE, &code))) {
             return SHELL_ERR_RANGE;
         }
-    } else if ((page = page_of_name(play, args)) == 0) {
+    } else if ((page = page_of_name(args)) == 0) {
         return SHELL_ERR_REPORTED;
     }
-    return requests_refusal(performer_start(&play->performer, (uint8_t)page, (uint8_t)code));
+    return requests_refusal(performer_start(&the_play.performer, (uint8_t)page, (uint8_t)code));
 }
 
 /* A person gets a refusal if there is nothing to do. A program gets OK and asks @where. */
@@ -70,50 +69,43 @@ static uint8_t done(bool something, const char *nothing_P)
     return something || requests_from_program() ? REQUEST_OK : requests_refuse(REQUEST_ERR_IDLE, nothing_P);
 }
 
-static uint8_t end(play_t *play, bool at_once)
+static uint8_t end(bool at_once)
 {
-    const bool moves = !performer_is_still(&play->performer);
+    const bool moves = !performer_is_still(&the_play.performer);
     if (at_once) {
-        performer_break(&play->performer);
+        performer_break(&the_play.performer);
     } else {
-        performer_stop(&play->performer);
+        performer_stop(&the_play.performer);
     }
     return done(moves, TEXT_P("Nothing is playing"));
 }
 
-uint8_t commands_do_stop(void *context, const shell_args_t *args)
+uint8_t commands_do_stop(const shell_args_t *args)
 {
-    (void)args;
-    return end(context, false);
+    return end(false);
 }
 
-uint8_t commands_do_break(void *context, const shell_args_t *args)
+uint8_t commands_do_break(const shell_args_t *args)
 {
-    (void)args;
-    return end(context, true);
+    return end(true);
 }
 
-uint8_t commands_do_pause(void *context, const shell_args_t *args)
+uint8_t commands_do_pause(const shell_args_t *args)
 {
-    play_t *play = context;
-    (void)args;
-    return done(performer_pause(&play->performer), TEXT_P("Nothing to pause"));
+    return done(performer_pause(&the_play.performer), TEXT_P("Nothing to pause"));
 }
 
-uint8_t commands_do_resume(void *context, const shell_args_t *args)
+uint8_t commands_do_resume(const shell_args_t *args)
 {
-    play_t *play = context;
-    (void)args;
-    return done(performer_resume(&play->performer), TEXT_P("Nothing is paused"));
+    return done(performer_resume(&the_play.performer), TEXT_P("Nothing is paused"));
 }
 
 /* Acts like the remote, for boards without a panel. */
-uint8_t commands_do_code(void *context, const shell_args_t *args)
+uint8_t commands_do_code(const shell_args_t *args)
 {
-    play_t *play = context;
     inputs_refusal_t refusal;
-    inputs_code(&play->inputs, (uint8_t)args->number[0]);
-    if (!inputs_next_refusal(&play->inputs, &refusal)) {
+    inputs_code(&the_play.inputs, (uint8_t)args->number[0]);
+    if (!inputs_next_refusal(&the_play.inputs, &refusal)) {
         return REQUEST_OK;
     }
     views_print_refusal(&refusal);
@@ -122,16 +114,14 @@ uint8_t commands_do_code(void *context, const shell_args_t *args)
 
 /* ---- rate, amplitude, blend, drive, shape: a motion is shaped while it plays (performer_shape.h) ---- */
 
-uint8_t commands_do_rate(void *context, const shell_args_t *args)
+uint8_t commands_do_rate(const shell_args_t *args)
 {
-    play_t *play = context;
-    (void)!shape_set_rate(&play->performer.shape, args->number[0]);
+    (void)!shape_set_rate(&the_play.performer.shape, args->number[0]);
     return REQUEST_OK;
 }
 
-uint8_t commands_do_amplitude(void *context, const shell_args_t *args)
+uint8_t commands_do_amplitude(const shell_args_t *args)
 {
-    play_t *play = context;
     uint32_t joints = SERVO_LINK_ALL;
     if (args->count > 2) {
         const uint8_t status = requests_take_joints(args, 2, &joints);
@@ -139,40 +129,37 @@ uint8_t commands_do_amplitude(void *context, const shell_args_t *args)
             return status;
         }
     }
-    (void)!shape_set_amplitude(&play->performer.shape, args->number[0], joints);
+    (void)!shape_set_amplitude(&the_play.performer.shape, args->number[0], joints);
     return REQUEST_OK;
 }
 
-uint8_t commands_do_blend(void *context, const shell_args_t *args)
+uint8_t commands_do_blend(const shell_args_t *args)
 {
-    play_t *play = context;
-    (void)!shape_set_blend(&play->performer.shape, (int16_t)args->number[0]);
+    (void)!shape_set_blend(&the_play.performer.shape, (int16_t)args->number[0]);
     return REQUEST_OK;
 }
 
 /* Blend, rate and amplitude in one line, because a joystick sends it 20 times a second. */
-uint8_t commands_do_drive(void *context, const shell_args_t *args)
+uint8_t commands_do_drive(const shell_args_t *args)
 {
-    play_t *play = context;
     uint16_t amplitude;
     if (!shell_take(args, 3, RANGE_AMPLITUDE, &amplitude)) {
         return SHELL_ERR_RANGE;
     }
-    (void)!performer_drive(&play->performer, (int16_t)args->number[0], args->number[1], amplitude);
+    (void)!performer_drive(&the_play.performer, (int16_t)args->number[0], args->number[1], amplitude);
     return REQUEST_OK;
 }
 
-uint8_t commands_do_shape(void *context, const shell_args_t *args)
+uint8_t commands_do_shape(const shell_args_t *args)
 {
-    play_t *play = context;
     if (args->count == 1) {
-        views_print_shape(&play->performer);
+        views_print_shape();
         return REQUEST_OK;
     }
     if (!shell_word_is(args, 1, PSTR("reset"))) {
         return requests_refuse(REQUEST_ERR_RANGE, TEXT_P("Say shape, or shape reset"));
     }
-    shape_reset(&play->performer.shape);
+    shape_reset(&the_play.performer.shape);
     return REQUEST_OK;
 }
 
@@ -200,13 +187,12 @@ static uint8_t answer_of(layers_status_t status)
     }
 }
 
-uint8_t commands_do_layer(void *context, const shell_args_t *args)
+uint8_t commands_do_layer(const shell_args_t *args)
 {
-    play_t *play = context;
     uint16_t page;
     uint32_t joints = 0;
     if (args->count == 2 && shell_word_is(args, 1, PSTR("off"))) {
-        performer_layer_off(&play->performer);
+        performer_layer_off(&the_play.performer);
         return REQUEST_OK;
     }
     if (!shell_take(args, 1, RANGE_PLAYED, &page)) {
@@ -218,25 +204,23 @@ uint8_t commands_do_layer(void *context, const shell_args_t *args)
             return status;
         }
     }
-    return answer_of(performer_layer(&play->performer, (uint8_t)page, joints));
+    return answer_of(performer_layer(&the_play.performer, (uint8_t)page, joints));
 }
 
-uint8_t commands_do_aim(void *context, const shell_args_t *args)
+uint8_t commands_do_aim(const shell_args_t *args)
 {
-    play_t *play = context;
     const uint8_t id = (uint8_t)args->number[0];
     uint16_t deg_s = 0;
     if (args->count > 3 && !shell_take(args, 3, RANGE_DEG_S, &deg_s)) {
         return SHELL_ERR_RANGE;
     }
-    const layers_status_t status = performer_take_for_code(&play->performer, id);
-    return answer_of(status != LAYERS_OK ? status : layers_aim(&play->layers, id, args->number[1], deg_s));
+    const layers_status_t status = performer_take_for_code(&the_play.performer, id);
+    return answer_of(status != LAYERS_OK ? status : layers_aim(&the_play.layers, id, args->number[1], deg_s));
 }
 
 /* id centre amplitude ms [phase] */
-uint8_t commands_do_swing(void *context, const shell_args_t *args)
+uint8_t commands_do_swing(const shell_args_t *args)
 {
-    play_t *play = context;
     const uint8_t id = (uint8_t)args->number[0];
     uint16_t amplitude, ms, phase_deg = 0;
     if (!shell_take(args, 3, RANGE_POSITION, &amplitude) || !shell_take(args, 4, RANGE_SWING_MS, &ms) ||
@@ -246,19 +230,18 @@ uint8_t commands_do_swing(void *context, const shell_args_t *args)
     const uint16_t ticks = (uint16_t)((uint32_t)ms * PLAYER_TICKS_PER_SECOND / 1000u);
     layers_status_t status = LAYERS_ERR_RANGE;
     if (code_motion_can_swing(args->number[1], amplitude, ticks)) {
-        status = performer_take_for_code(&play->performer, id);
+        status = performer_take_for_code(&the_play.performer, id);
     }
     return answer_of(status != LAYERS_OK ? status
-                         : layers_swing(&play->layers, id, args->number[1], amplitude, ticks, phase_deg));
+                         : layers_swing(&the_play.layers, id, args->number[1], amplitude, ticks, phase_deg));
 }
 
-uint8_t commands_do_free(void *context, const shell_args_t *args)
+uint8_t commands_do_free(const shell_args_t *args)
 {
-    play_t *play = context;
     uint32_t joints;
     const uint8_t status = requests_take_joints(args, 1, &joints);
     if (status == REQUEST_OK) {
-        layers_free(&play->layers, joints);
+        layers_free(&the_play.layers, joints);
     }
     return status;
 }

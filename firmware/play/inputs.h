@@ -48,9 +48,9 @@ typedef struct {
     uint8_t holes;             /* bytes lost before the next typed one */
     uint8_t silent_ticks;      /* since the last packet with buttons; INPUTS_SILENCE_TICKS: none held */
     uint8_t quiet_ticks;       /* since the last byte */
-    bool panel_was_free : 1;   /* all buttons were up once: one held since power-on is no press */
-    bool pc_waits : 1;         /* the PC has been sent XOFF */
-    bool refused : 1;
+    bool panel_was_free;   /* all buttons were up once: one held since power-on is no press */
+    bool pc_waits;         /* the PC has been sent XOFF */
+    bool refused;
     steer_t steer;
     inputs_refusal_t refusal;
     ring_t typed;

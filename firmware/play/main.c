@@ -20,32 +20,21 @@
 #include "text.h"
 #include "views.h"
 
-static play_t play;
+play_t the_play;
 
 /* ---- what requests.h wants to know ---- */
 
-static void serve(void)
-{
-    play_service(&play);
-}
-
 static void restart(void)
 {
-    board_restart(&play.store, &play.settings);
-}
-
-static void tell_shape(void)
-{
-    views_print_shape(&play.performer);
+    board_restart(&the_play.store, &the_play.settings);
 }
 
 static const char name[] PROGMEM = "play";
 TEXT_NAMED(can, ",shape,aim");
 const requests_image_t requests_image = {
-    .name_P = name, .can_P = can, .performer = &play.performer, .servos = &play.servos, .pages = &play.pages,
-    .context = &play, .own = &commands_shared,
-    .where = tell_shape,
-    .serve = serve, .restart = restart,
+    .name_P = name, .can_P = can, .performer = &the_play.performer, .servos = &the_play.servos, .pages = &the_play.pages,
+    .own = &commands_shared,
+    .where = views_print_shape, .serve = play_service, .restart = restart,
 };
 
 /* Characters since the last line end; a status line must cover them. */
@@ -59,7 +48,7 @@ static void put(char character)
         column = character == '\n' ? 0 : (uint8_t)(column + (character >= ' ' && column < UINT8_MAX ? 1 : 0));
     }
     while (!console_put((uint8_t)character)) {
-        play_service(&play);
+        play_service();
         board_idle();
     }
 }
@@ -68,8 +57,8 @@ static void put(char character)
 static void prompt(void)
 {
     TEXT("] ");
-    for (uint8_t i = 0; i < play.shell.length; i++) {
-        text_put(play.shell.line[i]);
+    for (uint8_t i = 0; i < the_play.shell.length; i++) {
+        text_put(the_play.shell.line[i]);
     }
 }
 
@@ -101,14 +90,14 @@ static void print_news(void)
 {
     performer_event_t event;
     inputs_refusal_t refusal;
-    if (performer_next_event(&play.performer, &event)) {
-        if (play.settings.talk == 0 && is_chatter(event.kind)) {
+    if (performer_next_event(&the_play.performer, &event)) {
+        if (the_play.settings.talk == 0 && is_chatter(event.kind)) {
             return;
         }
         const uint8_t covered = begin_status_line();
         report_event(&event);
         end_status_line(covered);
-    } else if (inputs_next_refusal(&play.inputs, &refusal)) {
+    } else if (inputs_next_refusal(&the_play.inputs, &refusal)) {
         const uint8_t covered = begin_status_line();
         views_print_refusal(&refusal);
         end_status_line(covered);
@@ -132,27 +121,27 @@ static void print_watched(void)
 /* A byte of the shell's. */
 static void type(uint8_t byte)
 {
-    const shell_event_t event = shell_byte(&play.shell, byte);
+    const shell_event_t event = shell_byte(&the_play.shell, byte);
     if (event == SHELL_TYPING) {
         return;
     }
     text_line_end();
-    if (play.line[0] == '@') {
-        requests_line(play.line, play.shell.fault);
+    if (the_play.line[0] == '@') {
+        requests_line(the_play.line, the_play.shell.fault);
     } else if (event == SHELL_LINE) {
-        commands_run(&play);
+        commands_run();
     } else {
-        shell_print_refusal(play.shell.fault);
+        shell_print_refusal(the_play.shell.fault);
         text_line_end();
     }
-    shell_clear(&play.shell);
+    shell_clear(&the_play.shell);
     prompt();
 }
 
 static void take_typed(void)
 {
     uint8_t byte;
-    if (!inputs_get(&play.inputs, &byte)) {
+    if (!inputs_get(&the_play.inputs, &byte)) {
         if (channel_is_cut_off()) {
             requests_answer_channel();
         }
@@ -160,7 +149,7 @@ static void take_typed(void)
     }
     if (byte >= INPUTS_HOLE) {
         if (!channel_is_open()) {   /* else the request's CRC tells it */
-            shell_lose(&play.shell, (uint8_t)(byte - INPUTS_HOLE));
+            shell_lose(&the_play.shell, (uint8_t)(byte - INPUTS_HOLE));
         }
         return;
     }
@@ -189,7 +178,7 @@ static void greet(settings_status_t settings)
         TEXT("The settings were damaged: these are the defaults");
         text_line_end();
     }
-    views_print_servos_found(&play);
+    views_print_servos_found();
     prompt();
 }
 
@@ -197,26 +186,26 @@ static void greet(settings_status_t settings)
 static NOINLINE void start(void)
 {
     text_init(put);
-    const settings_status_t status = settings_load(&play.store, &play.settings);
-    page_store_init(&play.pages);
-    servo_link_init(&play.servos);
-    performer_init(&play.performer, &play.pages.source, &play.servos, &play.settings);
-    performer_set_layers(&play.performer, &play.layers);
-    inputs_init(&play.inputs, &play.performer, &play.pages, &play.settings);
-    shell_init(&play.shell, play.line, sizeof play.line, play.history, sizeof play.history);
-    console_set_flow(play.settings.flow != 0);
-    if (play.settings.fast_line != 0) {
+    const settings_status_t status = settings_load(&the_play.store, &the_play.settings);
+    page_store_init(&the_play.pages);
+    servo_link_init(&the_play.servos);
+    performer_init(&the_play.performer, &the_play.pages.source, &the_play.servos, &the_play.settings);
+    performer_set_layers(&the_play.performer, &the_play.layers);
+    inputs_init(&the_play.inputs, &the_play.performer, &the_play.pages, &the_play.settings);
+    shell_init(&the_play.shell, the_play.line, sizeof the_play.line, the_play.history, sizeof the_play.history);
+    console_set_flow(the_play.settings.flow != 0);
+    if (the_play.settings.fast_line != 0) {
         console_set_rate(CONSOLE_RATE_115200);
     }
-    play_find_servos(&play);
+    play_find_servos();
     greet(status);
 }
 
 /* Whether the loop has work that no interrupt will announce. */
 static bool has_work(void)
 {
-    return ring_count(&play.inputs.typed) > 0 || play.performer.events.count > 0 ||
-           play.performer.state == PERFORMER_READY;
+    return ring_count(&the_play.inputs.typed) > 0 || the_play.performer.events.count > 0 ||
+           the_play.performer.state == PERFORMER_READY;
 }
 
 int main(void)
@@ -224,7 +213,7 @@ int main(void)
     board_start();
     start();
     for (;;) {
-        play_service(&play);
+        play_service();
         print_news();
         if (requests_now_is_due()) {
             print_watched();

@@ -39,27 +39,27 @@ static void show_lamps(const performer_t *performer)
 
 /* ---- what may not wait ---- */
 
-void play_service(play_t *play)
+void play_service(void)
 {
     if (tick_take()) {
-        performer_tick(&play->performer);
+        performer_tick(&the_play.performer);
         panel_tick();
-        inputs_tick(&play->inputs);
-        show_lamps(&play->performer);
+        inputs_tick(&the_play.inputs);
+        show_lamps(&the_play.performer);
     }
-    inputs_take(&play->inputs);
-    performer_poll(&play->performer);
-    (void)settings_save_poll(&play->store, &play->settings);
+    inputs_take(&the_play.inputs);
+    performer_poll(&the_play.performer);
+    (void)settings_save_poll(&the_play.store, &the_play.settings);
     system_kick();
 }
 
-void play_find_servos(play_t *play)
+void play_find_servos(void)
 {
     int16_t trim_pos[PAGE_JOINTS];
     console_xoff();
-    servo_link_scan(&play->servos);
-    (void)page_store_trim(&play->pages, trim_pos);
-    (void)servo_link_set_trim(&play->servos, trim_pos);
+    servo_link_scan(&the_play.servos);
+    (void)page_store_trim(&the_play.pages, trim_pos);
+    (void)servo_link_set_trim(&the_play.servos, trim_pos);
     console_xon();
     tick_forgive();
 }

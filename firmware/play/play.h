@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * play.h - the parts of the Play image, and the work that cannot wait. main.c defines the one play_t and hands it to every
- * command. Used by commands*.c, views*.c and main.c. */
+ * play.h - the parts of the Play image, and the work that cannot wait. Used by commands*.c, views*.c and main.c, which
+ * defines the one play_t. */
 #ifndef PLAY_H
 #define PLAY_H
 
@@ -28,12 +28,13 @@ typedef struct {
     char line[PLAY_LINE_BYTES];
     char history[PLAY_HISTORY_BYTES];
 } play_t;
+extern play_t the_play;
 
 /* Does the work that cannot wait: the tick, console input, the bus, a save of settings, lamps, the watchdog. Called in the
  * main loop, while text waits for room on the line, and between the parts of a long command. Prints nothing. */
-void play_service(play_t *play);
+void play_service(void);
 
 /* Searches the bus for servos and loads the trim of page 0. Blocks 0.3 s; nothing may be moving. */
-void play_find_servos(play_t *play);
+void play_find_servos(void);
 
 #endif

@@ -41,13 +41,13 @@ static void print_page_line(uint8_t page, const uint8_t *header)
     text_line_end();
 }
 
-void views_print_list(play_t *play)
+void views_print_list(void)
 {
     uint8_t used = 0, damaged = 0;
     for (uint16_t number = 1; number < PAGE_COUNT; number++) {
         const uint8_t page = (uint8_t)number;
-        play_service(play); /* a page without a line takes up to 2 ms */
-        if (page_store_is_good(&play->pages, page)) {
+        play_service(); /* a page without a line takes up to 2 ms */
+        if (page_store_is_good(&the_play.pages, page)) {
             uint8_t header[PAGE_AT_COMPLIANCE];
             page_store_read(page, 0, header, sizeof header);
             if (header[PAGE_AT_NAME] == '\0' && header[PAGE_AT_STEPS] == 0) {
@@ -59,7 +59,7 @@ void views_print_list(play_t *play)
             damaged++;
             text_padded(page, 3, ' ');
             TEXT(" damaged: ");
-            text_P(report_page_fault_P(page_store_check(&play->pages, page)));
+            text_P(report_page_fault_P(page_store_check(&the_play.pages, page)));
             text_line_end();
         }
     }
@@ -71,8 +71,9 @@ void views_print_list(play_t *play)
 
 /* ---- state ---- */
 
-static void print_state(const performer_t *performer)
+static void print_state(void)
 {
+    const performer_t *performer = &the_play.performer;
     if (performer_is_paused(performer)) {
         TEXT("Paused in ");
         report_page(performer->page);
@@ -99,32 +100,32 @@ static void print_state(const performer_t *performer)
     text_line_end();
 }
 
-void views_print_status(const play_t *play)
+void views_print_status(void)
 {
-    print_state(&play->performer);
-    if (!shape_is_neutral(&play->performer.shape) || performer_layers_joints(&play->performer) != 0) {
-        views_print_shape(&play->performer);
+    print_state();
+    if (!shape_is_neutral(&the_play.performer.shape) || performer_layers_joints(&the_play.performer) != 0) {
+        views_print_shape();
         text_line_end();
     }
     TEXT("Law ");
-    text_P(settings_word_P(settings_laws_P, play->settings.law));
+    text_P(settings_word_P(settings_laws_P, the_play.settings.law));
     TEXT(", remote ");
-    text_P(settings_word_P(settings_remotes_P, play->settings.remote_mode));
+    text_P(settings_word_P(settings_remotes_P, the_play.settings.remote_mode));
     TEXT(", approach ");
-    if (play->settings.approach_deg_s == 0) {
+    if (the_play.settings.approach_deg_s == 0) {
         TEXT("off");
     } else {
-        text_number(play->settings.approach_deg_s);
+        text_number(the_play.settings.approach_deg_s);
         TEXT(" degrees/s");
     }
     text_line_end();
     TEXT("Torque on: ");
-    report_joints(play->servos.torque & play->servos.present);
-    if (play->servos.voltage_dv != 0) {
+    report_joints(the_play.servos.torque & the_play.servos.present);
+    if (the_play.servos.voltage_dv != 0) {
         TEXT(", ");
-        report_voltage(play->servos.voltage_dv);
-        text_P_number(TEXT_P(", hottest servo "), play->servos.hottest_id);
-        text_P_number(TEXT_P(" at "), play->servos.hottest_degrees);
+        report_voltage(the_play.servos.voltage_dv);
+        text_P_number(TEXT_P(", hottest servo "), the_play.servos.hottest_id);
+        text_P_number(TEXT_P(" at "), the_play.servos.hottest_degrees);
         TEXT(" C");
     }
     text_line_end();
@@ -142,8 +143,9 @@ static bool has_one_amplitude(const shape_t *shape)
     return true;
 }
 
-void views_print_shape(const performer_t *performer)
+void views_print_shape(void)
 {
+    const performer_t *performer = &the_play.performer;
     const shape_t *shape = &performer->shape;
     text_P_number(TEXT_P(" rate="), shape->rate_percent);
     TEXT(" blend=");
@@ -163,14 +165,14 @@ void views_print_shape(const performer_t *performer)
 
 /* ---- settings, version, refusals ---- */
 
-void views_print_settings(const play_t *play)
+void views_print_settings(void)
 {
     for (uint8_t i = 0; i < SETTINGS_ITEMS; i++) {
         settings_item_t item;
         settings_item(i, &item);
         text_P(item.name);
         text_put(' ');
-        text_number(settings_value(&play->settings, &item));
+        text_number(settings_value(&the_play.settings, &item));
         text_P_number(TEXT_P("  ("), item.low);
         text_P_number(TEXT_P(".."), item.high);
         TEXT(")  ");

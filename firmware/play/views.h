@@ -5,19 +5,19 @@
 
 #include "play.h"
 
-void views_print_list(play_t *play);
-void views_print_status(const play_t *play);
-void views_print_servos(const play_t *play);
-void views_print_faults(const play_t *play);
-void views_print_settings(const play_t *play);
+void views_print_list(void);
+void views_print_status(void);
+void views_print_servos(void);
+void views_print_faults(void);
+void views_print_settings(void);
 void views_print_version(void);
 
 /* Rate, blend, amplitude (two hexadecimal digits a joint when they differ), layer, joints moved by code, as ` field=value`;
  * without a line end. */
-void views_print_shape(const performer_t *performer);
+void views_print_shape(void);
 
 /* "18 servos: 1-18", and the servos that were found but cannot be used. */
-void views_print_servos_found(const play_t *play);
+void views_print_servos_found(void);
 
 /* Why a code did not start a play; without a line end. */
 void views_print_refusal(const inputs_refusal_t *refusal);

@@ -17,15 +17,15 @@ static uint8_t count(uint32_t joints)
     return found;
 }
 
-void views_print_servos_found(const play_t *play)
+void views_print_servos_found(void)
 {
-    text_number(count(play->servos.present));
+    text_number(count(the_play.servos.present));
     TEXT(" servos: ");
-    report_joints(play->servos.present);
+    report_joints(the_play.servos.present);
     text_line_end();
-    if (play->servos.slow != 0) {
+    if (the_play.servos.slow != 0) {
         TEXT("Not used, at 57142 bps (fast of the monitor image): ");
-        report_joints(play->servos.slow);
+        report_joints(the_play.servos.slow);
         text_line_end();
     }
 }
@@ -45,9 +45,9 @@ static void print_trouble(const servo_link_t *servos, uint8_t id)
     }
 }
 
-void views_print_servos(const play_t *play)
+void views_print_servos(void)
 {
-    const servo_link_t *servos = &play->servos;
+    const servo_link_t *servos = &the_play.servos;
     for (uint8_t id = 0; id < SERVO_LINK_JOINTS; id++) {
         if (!servo_link_has(&servos->present, id)) {
             continue;
@@ -60,7 +60,7 @@ void views_print_servos(const play_t *play)
             text_padded(servos->present_pos[id], 4, ' ');
         }
         text_P(servo_link_has(&servos->torque, id) ? TEXT_P("  torque on ") : TEXT_P("  torque off"));
-        if (servo_link_has(&play->performer.released, id)) {
+        if (servo_link_has(&the_play.performer.released, id)) {
             TEXT("  switched off");
         }
         if (is_in_trouble(servos, id)) {
@@ -68,7 +68,7 @@ void views_print_servos(const play_t *play)
         }
         text_line_end();
     }
-    views_print_servos_found(play);
+    views_print_servos_found();
 }
 
 /* ---- faults ---- */
@@ -90,9 +90,9 @@ static void print_servo_faults(const servo_link_t *servos)
     }
 }
 
-void views_print_faults(const play_t *play)
+void views_print_faults(void)
 {
-    print_servo_faults(&play->servos);
+    print_servo_faults(&the_play.servos);
     bus_counts_t bus;
     bus_counts(&bus);
     TEXT("Bus: packets ");
@@ -111,12 +111,12 @@ void views_print_faults(const play_t *play)
     TEXT("Serial:");
     text_P_number(TEXT_P(" overruns "), console.overruns);
     text_P_number(TEXT_P(" framing "), console.framing);
-    text_P_number(TEXT_P(" lost "), console.ring_full + play->inputs.lost);
-    text_P_number(TEXT_P(" remote packets "), play->inputs.remote.packets);
-    text_P_number(TEXT_P(" remote noise "), play->inputs.remote.dropped);
+    text_P_number(TEXT_P(" lost "), console.ring_full + the_play.inputs.lost);
+    text_P_number(TEXT_P(" remote packets "), the_play.inputs.remote.packets);
+    text_P_number(TEXT_P(" remote noise "), the_play.inputs.remote.dropped);
     text_line_end();
     TEXT("Ticks:");
     text_P_number(TEXT_P(" missed "), tick_missed());
-    text_P_number(TEXT_P(" goals late "), play->servos.late);
+    text_P_number(TEXT_P(" goals late "), the_play.servos.late);
     text_line_end();
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * trap.h - ASSERT, AVR version (host version: hal/host/trap.h). For our own mistakes only, never for input from outside.
  * A failed ASSERT notes its line and address in RAM that survives a reset, and restarts. The next start reports it
- * (system_take_failed_assert); avr-addr2line turns the address into a file name. RAM: 6 bytes of .noinit. */
+ * (system_take_failed_assert); avr-addr2line turns the address into a file name. */
 #ifndef TRAP_H
 #define TRAP_H
 

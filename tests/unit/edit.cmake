@@ -18,7 +18,7 @@ if(NOT M512_AVR)
         ${CMAKE_SOURCE_DIR}/firmware/common/performer_layers.c)
     list(TRANSFORM M512_PLAYER_SMALL PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE player)
     list(APPEND stage ${player})
-    foreach(source hal/bus_call hal/debounce hal/dxl_packet motion/approach tests/fake/fake_bus tests/fake/fake_console tests/fake/fake_eeprom tests/fake/fake_flash
+    foreach(source hal/bus_call hal/debounce hal/dxl_packet tests/fake/fake_bus tests/fake/fake_console tests/fake/fake_eeprom tests/fake/fake_flash
             tests/fake/fake_panel tests/fake/fake_system tests/fake/fake_time tests/unit/editor_stage)
         list(APPEND stage ${CMAKE_SOURCE_DIR}/${source}.c)
     endforeach()

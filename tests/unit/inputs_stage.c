@@ -45,7 +45,7 @@ bool performer_pause(performer_t *p)
         return false;
     }
     note("pause", 0, 0);
-    p->state = PERFORMER_APPROACH_PAUSED;
+    p->state = PERFORMER_APPROACH; /* anything but PLAY */
     return true;
 }
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# Pages, links, player, approach.
+# Pages, links, player.
 m512_unit_test(test_page TARGET_TOO SOURCES motion/page.c)
-m512_unit_test(test_link TARGET_TOO SOURCES motion/link.c)
-m512_unit_test(test_approach TARGET_TOO SOURCES motion/approach.c)
+m512_unit_test(test_link TARGET_TOO SOURCES motion/link.c motion/page.c)
+m512_unit_test(test_player_move TARGET_TOO SOURCES ${M512_PLAYER_FULL})
 m512_unit_test(test_mux TARGET_TOO SOURCES motion/mux.c)
 m512_unit_test(test_mul TARGET_TOO SOURCES motion/page.c)
 m512_unit_test(test_classic_math SOURCES motion/page.c)

@@ -17,7 +17,7 @@ set(performer_sources performer.c performer_event.c performer_ready.c performer_
 list(TRANSFORM performer_sources PREPEND firmware/common/)
 list(APPEND performer_sources tests/unit/fake_servo_link.c tests/unit/performer_stage.c
     tests/fake/fake_bus.c tests/fake/fake_system.c tests/fake/fake_time.c
-    motion/approach.c ${M512_PLAYER_FULL})
+    ${M512_PLAYER_FULL})
 foreach(test test_performer test_performer_drive test_performer_stop test_performer_fault)
     m512_unit_test(${test} INCLUDES firmware/common SOURCES ${performer_sources})
 endforeach()

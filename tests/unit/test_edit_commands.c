@@ -196,7 +196,7 @@ static void test_while_something_moves_every_other_word_is_refused(void)
             shell_split(&the_dialog.shell, false, &args);
             const bool moving = !performer_is_idle(&the_performer);
             TEST_ASSERT_EQUAL_UINT8_MESSAGE(
-                SHELL_ERR_MOVING, shell_run(commands_table_P, commands_count, NULL, &args, moving), word);
+                SHELL_ERR_MOVING, shell_run(commands_table_P, commands_count, &args, moving), word);
         }
     }
     TEST_ASSERT_EQUAL_MEMORY(before.cells, the_session.cells, sizeof before.cells);

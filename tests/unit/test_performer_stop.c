@@ -120,9 +120,14 @@ static void test_performer_pause_during_the_approach(void)
     reach(PERFORMER_APPROACH);
     ticks(10);
     TEST_ASSERT_TRUE(performer_pause(&performer));
-    reach(PERFORMER_APPROACH_PAUSED);
+    ticks(60);
+    TEST_ASSERT_EQUAL_UINT8(PERFORMER_APPROACH, performer.state);
     TEST_ASSERT_TRUE(performer_is_paused(&performer));
+    (void)expect_event(PERFORMER_EV_PAUSED);
     TEST_ASSERT_FALSE(performer_pause(&performer));
+    const uint16_t held = fake_servo_link.goal_pos[1];
+    ticks(200);
+    TEST_ASSERT_EQUAL_UINT16(held, fake_servo_link.goal_pos[1]);
     TEST_ASSERT_TRUE(performer_resume(&performer));
     reach(PERFORMER_IDLE);
     TEST_ASSERT_EQUAL_UINT8(PERFORMER_END_DONE, end_reason());

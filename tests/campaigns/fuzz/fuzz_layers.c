@@ -5,7 +5,6 @@
  *
  * Input: options, hand-over speed, joints present; the pages (fuzz_pages.h), two of which get partners; then what happens:
  * an action, its arguments, and how many ticks go by. */
-#include "approach.h"
 #include "fuzz_pages.h"
 #include "layers_rules.h"
 #include "step_rules.h"
@@ -212,7 +211,7 @@ static void set_speed(uint16_t deg_s)
 {
     deg_s = deg_s % (LAYERS_SPEED_MAX_DEG_S + 1u);
     layers_set_speed(&run.layers, deg_s);
-    run.hand_over_deg_s = deg_s != 0 ? deg_s : APPROACH_SPEED_DEFAULT;
+    run.hand_over_deg_s = deg_s != 0 ? deg_s : LAYERS_SPEED_DEFAULT_DEG_S;
 }
 
 /* ---- shape ---- */
