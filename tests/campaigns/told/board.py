@@ -139,16 +139,24 @@ def told(actions, servos=SERVOS):
 # ---- on the board ----
 
 
+def tick_at(cycles):
+    """The number of the tick in which this is."""
+    return cycles // (TICK * CYCLES)
+
+
 def on_board(actions, into_tick, servos=SERVOS):
     """The same; its grid of ticks lies where that of the simulated time lies."""
     with Board(images=["play-cm5.hex"], motions=pages(), servos=servos) as board:
         board.run(ticks=START)
         board.run_to("__vector_12")
+        began = board.now_cycles
         board.run(cycles=into_tick * CYCLES)
         board.clear_trace()
+        ahead = 0  # ticks of the next wait that have passed already
         for action in actions:
             if action[0] == "wait":
-                board.run(ticks=action[1])
+                board.run(ticks=action[1] - ahead)
+                ahead = 0
             elif action[0] == "push":
                 board.servos[action[1]].push_to(512)
             elif action[0] == "goal":
@@ -156,6 +164,8 @@ def on_board(actions, into_tick, servos=SERVOS):
                 for _ in range(MOST_WAIT):
                     board.run(ticks=1)
                     if len(board.trace) > before:
+                        # Simulated time computes in no time, and sees the frame in its own tick. The board may see it in the next one.
+                        ahead = tick_at(board.now_cycles - began) - tick_at(board.trace[before].cycle - began)
                         break
             else:
                 data = data_of(action)
