@@ -48,7 +48,7 @@ static void answer_begin(const uint8_t *request, uint8_t status, uint8_t detail,
     crc = CRC16_START;
     put(request[FRAME_AT_COMMAND]);
     put(request[FRAME_AT_NUMBER]);
-    put(bytes / 2 + 1);
+    put((uint8_t)(bytes / 2 + 1));
     put(status);
     put(detail);
 }
@@ -56,8 +56,8 @@ static void answer_begin(const uint8_t *request, uint8_t status, uint8_t detail,
 static void answer_end(void)
 {
     uint16_t end = crc;
-    uart_put(end >> 8);
-    uart_put(end);
+    uart_put((uint8_t)(end >> 8));
+    uart_put((uint8_t)end);
 }
 
 /* Sends CRC and plain sum of each page: two different checks, so that a changed page does not pass as equal. */
@@ -94,7 +94,7 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
         *bytes = FLASH_PAGE_BYTES;
         return OK;
     case WRITE:
-        return request[FRAME_AT_COUNT] == FRAME_BODY_MAX / 2 ? memory_commit(body->page, body->data) : REFUSED;
+        return request[FRAME_AT_COUNT] == FRAME_BODY_MAX / 2 ? (uint8_t)memory_commit(body->page, body->data) : REFUSED;
     case SUMS:
         if (count <= SUMS_MAX) {
             *bytes = count * 4;
@@ -116,7 +116,7 @@ static uint8_t perform(uint8_t command, const uint8_t *request, uint16_t *bytes)
 static bool follow_up(uint8_t command, uint16_t where)
 {
     if (command == RATE) {
-        uart_open(where);
+        uart_open((uint8_t)where);
     }
     if (command != LEAVE) {
         return true;
@@ -138,7 +138,7 @@ static bool carry_out(const uint8_t *request)
     uint16_t bytes = 0;
     uint8_t status = perform(command, request, &bytes);
 
-    answer_begin(request, status, command == HELLO ? memory_app() : 0, bytes);
+    answer_begin(request, status, command == HELLO ? (uint8_t)memory_app() : 0, bytes);
     if (command == SUMS) {
         put_sums(body->page, bytes / 4);
     } else {

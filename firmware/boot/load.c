@@ -58,7 +58,7 @@ static void report(const load_record_t *record, bool is_good)
     SAY("Size:0X");
     print_hex32(record->size);
     PUT("  Checksum:");
-    print_hex8(record->sum);
+    print_hex8((uint8_t)record->sum);
     uart_put('-');
     print_hex8(record->last);
 }
@@ -67,8 +67,8 @@ static void report(const load_record_t *record, bool is_good)
  * filled. */
 void load_flash(uint32_t addr)
 {
-    uint16_t page = addr >> 8, end = region_end(page);
-    uint8_t at = addr, lost = uart_lost();
+    uint16_t page = (uint16_t)(addr >> 8), end = region_end(page);
+    uint8_t at = (uint8_t)addr, lost = uart_lost();
     load_record_t record = {.size = 0};
     bool is_good = true, is_open = false;
     memory_rewrites = 0;

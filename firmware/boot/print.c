@@ -40,7 +40,7 @@ void print_nth(const char *progmem, uint8_t n)
 static void digit(uint8_t value)
 {
     value &= 15;
-    uart_put(value + (value < 10 ? '0' : 'A' - 10));
+    uart_put((uint8_t)(value + (value < 10 ? '0' : 'A' - 10)));
 }
 
 void print_hex8(uint8_t value)
@@ -51,12 +51,12 @@ void print_hex8(uint8_t value)
 
 void print_hex16(uint16_t value)
 {
-    print_hex8(value >> 8);
-    print_hex8(value);
+    print_hex8((uint8_t)(value >> 8));
+    print_hex8((uint8_t)value);
 }
 
 void print_hex32(uint32_t value)
 {
-    print_hex16(value >> 16);
-    print_hex16(value);
+    print_hex16((uint16_t)(value >> 16));
+    print_hex16((uint16_t)value);
 }

@@ -91,9 +91,9 @@ boot_write_page(uint32_t addr, const uint8_t *data, uint16_t bytes, uint8_t mode
     eeprom_busy_wait();
     uint8_t flags = SREG, rampz = RAMPZ;
     cli();
-    RAMPZ = addr >> 16;
+    RAMPZ = (uint8_t)(addr >> 16);
     do {
-        result = write_once(addr, data, bytes, mode, rx) ? BOOT_OK : BOOT_ERR_VERIFY;
+        result = write_once((uint16_t)addr, data, bytes, mode, rx) ? BOOT_OK : BOOT_ERR_VERIFY;
     } while (result != BOOT_OK && ++failed < TRIES);
     RAMPZ = rampz;
     SREG = flags;

@@ -134,7 +134,7 @@ static bool take_command(uint8_t command, uint8_t count)
         stk.args[i] = take();
     }
     if (command == PROG_PAGE) {
-        uint8_t at = is_flash() ? stk.address << 1 : 0;
+        uint8_t at = is_flash() ? (uint8_t)(stk.address << 1) : 0;
         memory_read_page(stk.address >> 7, memory_work);
         for (uint16_t left = length(); left > 0 && !stk.is_broken; left--) {
             memory_work[at++] = take();

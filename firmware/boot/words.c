@@ -123,7 +123,7 @@ static void verify(void)
 
 static void clear_eeprom(const parse_t *line)
 {
-    uint16_t at = line->arg[0], count = line->arg[1];
+    uint16_t at = (uint16_t)line->arg[0], count = (uint16_t)line->arg[1];
     if (line->count == 1) {
         return;
     }
@@ -172,7 +172,7 @@ static void set_start(uint8_t code)
  * bits: the sum does not overflow, and as a number of pages it fits 16. */
 static bool is_in_range(uint8_t code, const parse_t *line)
 {
-    uint16_t pages = (line->arg[0] + line->arg[1] + 0xFF) >> 8;
+    uint16_t pages = (uint16_t)((line->arg[0] + line->arg[1] + 0xFF) >> 8);
     return code < LOAD || (pages <= print_byte(&ends[code]) * 16u &&
                            (code != EEP_DN || line->arg[1] <= MEMORY_WORK_BYTES));
 }
@@ -188,11 +188,11 @@ static void run(uint8_t code, const parse_t *line)
     case LOAD: load_flash(first); break;
     case EEP_UP: first += MEMORY_EEPROM; /* fall through */
     case UP: load_send(first, line->arg[1]); break;
-    case EEP_DN: load_eeprom(first, line->arg[1]); break;
+    case EEP_DN: load_eeprom((uint16_t)first, (uint16_t)line->arg[1]); break;
     case VERIFY: verify(); break;
     case CLEAR: clear_eeprom(line); break;
     case GO:
-    case FORCE: words_go(first, code == FORCE); break;
+    case FORCE: words_go((uint16_t)first, code == FORCE); break;
     case RESET: start_reset();
     case APP:
     case SYS:

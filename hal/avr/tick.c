@@ -22,7 +22,7 @@ void tick_init(void)
     TCCR1B = 0;
     TCNT1 = 0;
     OCR1A = TICK_CYCLES / PRESCALER - 1u;
-    ETIMSK &= ~(1u << OCIE1C);
+    ETIMSK &= (uint8_t)~(1u << OCIE1C);
     TIFR = (1u << OCF1A);
     TIMSK = (1u << OCIE1A);
     TCCR1B = (1u << WGM12) | (1u << CS11);
@@ -39,7 +39,7 @@ uint32_t tick_now(void)
 uint16_t tick_now16(void)
 {
     irq_state_t state = irq_save();
-    uint16_t now = ticks;
+    uint16_t now = (uint16_t)ticks;
     irq_restore(state);
     return now;
 }
