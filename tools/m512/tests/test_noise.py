@@ -87,3 +87,23 @@ def test_a_request_that_the_board_refuses_because_bytes_were_lost_is_sent_again(
     link_client = Client.__new__(Client)
     link_client.link, link_client.version, link_client.slack = link, {}, 0.0
     assert link_client.ask("torque on") == ""
+
+
+GOOD = b"\x1e@where state=playing page=2 step=1 repetition=2 code=0 dv=96 missed=0 faulty=00000000 OK\r\n"
+
+
+@pytest.mark.parametrize(
+    "was, becomes",
+    [(b"page=", b"paoe="), (b" repetition=", b" repetitiof="), (b"=playing", b"=pla\x10ing"), (b"dv=96", b"dv=9\x10"), (b"faulty=0", b"faulty=P")],
+)
+def test_where_the_robot_is_is_asked_again_when_its_answer_is_damaged(was, becomes):
+    """Seen: a traceback of m512 play --wait while the robot went on."""
+    client = Client.__new__(Client)
+    client.version, client.slack = {}, 0.0
+    bad = GOOD.replace(was, becomes)
+    assert bad != GOOD
+    client.link = NoisyLink(bad + GOOD)
+    assert client.where()["repetition"] == "2"
+    client.link = NoisyLink(bad * 3)
+    with pytest.raises(M512Error, match="damaged, 3 times"):
+        client.where()

@@ -20,6 +20,12 @@ ANSWER_SECONDS = 3.0
 TRIES = 3
 DATA_BYTES = 32
 ERR_WORD, ERR_EDITS, ERR_LINE, ERR_ASKED = 1, 12, 15, 16
+# Fields of @where: what each looks like, and what stands for one that is not there ("": it must be).
+WHERE = {
+    **{word: ("[0-9]+", "") for word in ("page", "repetition")},
+    **{word: ("[0-9]+", "0") for word in ("step", "code", "dv", "missed")},
+    "faulty": ("[0-9A-Fa-f]+", "0"),
+}
 BEGIN, FLOW = b"\x1e", b"\x11\x13"
 NOBODY = "neither Play nor Edit answers"
 OLDER = (
@@ -199,7 +205,12 @@ class Client:
         self.ask(" ".join(["torque", "on" if on else "off"] + [str(j) for j in joints]))
 
     def where(self) -> dict[str, str]:
-        return self._fields(self.ask("where"))
+        """Answers have no checksum: one in which a field is missing, or is no number, is asked for again."""
+        for _ in range(TRIES):
+            found = self._fields(self.ask("where"))
+            if found.get("state", "").isalpha() and all(re.fullmatch(form, found.get(word, absent)) for word, (form, absent) in WHERE.items()):
+                return found
+        raise NoAnswerError(f"what the robot does came damaged, {TRIES} times. Is the cable good?")
 
     def shape(self) -> dict[str, str]:
         """What shapes the motion: rate, blend, amplitude ("60", or "60 3,4:120" where joints differ), layer (the second page, 0: none),
