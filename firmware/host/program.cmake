@@ -9,12 +9,28 @@ set(M512_PC_SOURCES firmware/host/main.c hal/host/pc/files.c hal/host/pc/machine
 # m512_program(<name> IMAGE <folder of the image> SOURCES ... [DEFINES ...])
 function(m512_program name)
     cmake_parse_arguments(ARG "" "IMAGE" "SOURCES;DEFINES" ${ARGN})
-    set(host_sources ${M512_HOST_SOURCES} ${M512_PC_SOURCES})
+    set(host_sources ${M512_HOST_SOURCES})
+    if(NOT M512_WASM)
+        list(APPEND host_sources ${M512_PC_SOURCES})
+    endif()
     list(TRANSFORM host_sources PREPEND ${CMAKE_SOURCE_DIR}/)
     set(sources ${ARG_SOURCES} ${host_sources})
     list(REMOVE_DUPLICATES sources)
     add_executable(${name} ${sources})
     m512_program_settings(${name} ${ARG_IMAGE} ${ARG_DEFINES})
+    if(M512_WASM)
+        m512_web_settings(${name} ${ARG_IMAGE})
+    endif()
+endfunction()
+
+# For the page in the browser: build/wasm/servos-<image>.wasm. The page is the machine below it, so machine.h is imported.
+function(m512_web_settings name image)
+    # The host build has the warnings; each version of clang finds others.
+    target_compile_options(${name} PRIVATE -Wno-conversion -Wno-error)
+    target_link_options(${name} PRIVATE -Wl,--export=program_start
+        -Wl,--allow-undefined-file=${CMAKE_SOURCE_DIR}/hal/host/web/machine.syms)
+    set_target_properties(${name} PROPERTIES OUTPUT_NAME servos-${image} SUFFIX .wasm
+        RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR} LINK_DEPENDS ${CMAKE_SOURCE_DIR}/hal/host/web/machine.syms)
 endfunction()
 
 function(m512_program_settings name image)
@@ -30,6 +46,9 @@ endfunction()
 # The same for the machine whose clock is told (hal/host/told): a shared object, which begins anew each time that it is loaded.
 # m512_told_program(<name> ...), as above
 function(m512_told_program name)
+    if(M512_WASM)
+        return()
+    endif()
     cmake_parse_arguments(ARG "" "IMAGE" "SOURCES;DEFINES" ${ARGN})
     set(host_sources ${M512_HOST_SOURCES})
     list(TRANSFORM host_sources PREPEND ${CMAKE_SOURCE_DIR}/)

@@ -2,8 +2,10 @@
  * machine.h - what hal/host needs of the computer below it: lines, clock, memory, keys. The other half is chosen by the
  * linker:
  *   pc/            a Linux PC: serial port, terminal, files, the computer's clock
- *   (others)       a web page, or a machine whose clock is told and whose servos are simulated
- * Everything returns at once but machine_wait, machine_keep and machine_end. One caller: the program's only thread. */
+ *   told/          a clock that is told, for simulated servos
+ *   web/           a web page: these functions are imported from it
+ * Everything returns at once but machine_wait, machine_bus_rate, machine_keep and machine_end. One caller: the program's
+ * only thread. */
 #ifndef MACHINE_H
 #define MACHINE_H
 

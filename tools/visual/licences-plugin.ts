@@ -80,7 +80,11 @@ function compiledNotices(): Notice[] {
     const packages = join(VENV, 'lib', newest(join(VENV, 'lib'), /^python3/), 'site-packages');
     const intelhex = newest(packages, /^intelhex-.*\.dist-info$/);
     return [
-        { title: 'Motion512', about: 'the page, the firmware, motion.wasm, trial.wasm; MIT', texts: [read(join(HERE, '../../LICENSE'))] },
+        {
+            title: 'Motion512',
+            about: 'the page, the firmware, motion.wasm, trial.wasm, servos-*.wasm; MIT',
+            texts: [read(join(HERE, '../../LICENSE'))],
+        },
         {
             title: 'simavr',
             about: 'in board-*.wasm, which is therefore passed on under the GPL, version 3',

@@ -2,7 +2,7 @@
 // What the page does by itself when a robot answers: it asks for its pages; the robot in the page stands up; what yours has is kept.
 
 import type { ConnectionState } from '../robot/connection-table.ts';
-import { askList } from '../robot/protocol.ts';
+import { askList, askPose } from '../robot/protocol.ts';
 import type { DeskState } from '../view/desk.ts';
 import type { Store } from '../view/store.ts';
 import { TEXTS } from '../view/texts.ts';
@@ -51,10 +51,20 @@ export class Arrival {
 
     /** Reads what your robot has and keeps it, as soon as it is known; no question is asked for it. */
     private async learnYours(): Promise<void> {
-        const { strip, editor, transfer } = this.parts;
+        const { state, strip, editor, transfer } = this.parts;
         if (!(await transfer.read()).isDone) return;
         const pages = editor.state.get().robot.filter(bytes => bytes !== null);
         await transfer.keep(pages).catch(strip.fail);
+        if (state.get().source === 'servos') return this.tellServos().catch(strip.fail);
         strip.say({ text: TEXTS.robotKept, tone: 'calm' });
+    }
+
+    /** Who answers of servos that nobody knows yet, and who should. */
+    private async tellServos(): Promise<void> {
+        const { strip, sources } = this.parts;
+        const ids = (await askPose(sources.connection.requests)).map(({ id }) => id);
+        if (ids.length === 0) return strip.say({ text: TEXTS.noServos, tone: 'bad' });
+        const missing = Array.from({ length: Math.max(...ids) }, (_, i) => i + 1).filter(id => !ids.includes(id));
+        strip.say({ text: TEXTS.servosFound(ids.length, missing), tone: missing.length > 0 ? 'bad' : 'good' });
     }
 }

@@ -11,6 +11,8 @@ import editUrl from '../../../build/firmware/edit-cm5.hex?url';
 import playUrl from '../../../build/firmware/play-cm5.hex?url';
 import pythonWasmUrl from '../../../build/wasm/pyodide.wasm.gz?url';
 import pythonLibraryUrl from '../../../build/wasm/python.zip?url';
+import servosEditUrl from '../../../build/wasm/servos-edit.wasm?url';
+import servosPlayUrl from '../../../build/wasm/servos-play.wasm?url';
 import trialUrl from '../../../build/wasm/trial.wasm?url';
 import motionsUrl from '../../../build/motions/motions.bin?url';
 import bodyUrl from '../../../build/wasm/body.json?url';
@@ -38,6 +40,11 @@ export async function robotBody(): Promise<Body> {
 
 export async function boardModule(): Promise<WebAssembly.Module> {
     return WebAssembly.compile(await (await get(boardUrl)).arrayBuffer());
+}
+
+/** Play or Edit as a program for servos. */
+export async function servosModule(image: 'play' | 'edit'): Promise<WebAssembly.Module> {
+    return WebAssembly.compile(await (await get(image === 'play' ? servosPlayUrl : servosEditUrl)).arrayBuffer());
 }
 
 /** An instance of motion.wasm for one owner. */

@@ -122,7 +122,7 @@ export class RobotDesk implements Desk {
         this.transfer = makeTransfer(this.editor, this.documents, {
             name: () => (this.isSimulated ? ROBOT_IN_PAGE : this.state.get().portName),
             requests: () => this.connection.requests,
-            becomeEdit: () => (this.isSimulated ? this.images.becomeEdit() : this.needEdit()),
+            becomeEdit: () => (this.state.get().source === 'yours' ? this.needEdit() : this.images.becomeEdit()),
         });
         this.sources = new RobotSources(body, {
             state: this.state,
@@ -151,7 +151,7 @@ export class RobotDesk implements Desk {
         this.images = new RobotImages({
             state: this.state,
             format: parts.format,
-            simulated,
+            robot: () => this.sources.withImages,
             say: said => this.say(said),
             fail: this.strip.fail,
         });
@@ -300,6 +300,10 @@ export class RobotDesk implements Desk {
 
     connectYours(): Promise<void> {
         return this.sources.connectYours();
+    }
+
+    connectServos(): Promise<void> {
+        return this.sources.connectServos();
     }
 
     runImage(image: ImageName): void {

@@ -38,7 +38,7 @@ export class Driving {
     }
 
     remote(held: ReadonlySet<RemoteButton>): void {
-        if (held.size > 0 && this.isSimulated && !this.hears) this.keep(held);
+        if (held.size > 0 && this.state.source !== 'yours' && !this.hears) this.keep(held);
         if (held.size > 0 && this.isYoursWithEdit) this.parts.strip.complain(TEXTS.editNoRemote, 'robot');
         this.keys.hold(held);
     }
@@ -47,10 +47,11 @@ export class Driving {
         this.stick.set(stick);
     }
 
-    /** The robot in the page runs Play and is on its feet. */
+    /** It runs Play and is on its feet. */
     private get hears(): boolean {
         const { connection, image, version } = this.state;
-        return image === 'play' && connection === 'ready' && version?.image === 'play' && !this.parts.simulated.isHeld;
+        const isHeld = this.isSimulated && this.parts.simulated.isHeld;
+        return image === 'play' && connection === 'ready' && version?.image === 'play' && !isHeld;
     }
 
     private keep(held: ReadonlySet<RemoteButton>): void {
@@ -87,11 +88,11 @@ export class Driving {
     private send(packet: Uint8Array): void {
         const { strip, simulated } = this.parts;
         if (this.isSimulated && this.hears) simulated.post({ kind: 'bytes', sender: 'remote', bytes: packet });
-        else if (!this.isSimulated && !this.isYoursWithEdit) void this.parts.connection().write(packet).catch(strip.fail);
+        else if (!this.isSimulated && this.state.version?.image !== 'edit') void this.parts.connection().write(packet).catch(strip.fail);
     }
 
     private get isYoursWithEdit(): boolean {
-        return !this.isSimulated && this.state.version?.image === 'edit';
+        return this.state.source === 'yours' && this.state.version?.image === 'edit';
     }
 
     private get isSimulated(): boolean {

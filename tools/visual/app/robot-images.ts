@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which image the robot in the page runs. Another one starts it anew: what its flash holds stays, what only its RAM holds is lost.
+// Which image the robot in the page runs, or your servos are driven by. Another one starts it anew: what its flash holds stays, what only its
+// RAM holds is lost.
 
 import type { PageFormat } from '../model/page-format.ts';
 import { hasUnsavedEdits } from '../robot/page-requests.ts';
@@ -14,7 +15,8 @@ const READY_MS = 180_000;
 export interface ImageParts {
     readonly state: Store<DeskState>;
     readonly format: PageFormat;
-    readonly simulated: Pick<SimulatedSource, 'restart' | 'forget' | 'prepare' | 'connection'>;
+    /** The one whose image is meant. */
+    robot(): Pick<SimulatedSource, 'restart' | 'forget' | 'prepare' | 'connection'>;
     say(said: Notice): void;
     fail(error: unknown): void;
 }
@@ -34,8 +36,10 @@ export class RobotImages {
 
     /** A robot as the factory gives it. */
     async forget(): Promise<void> {
-        const { simulated, fail } = this.parts;
-        await simulated.forget(this.state.image).catch((cause: unknown) => fail(new RobotError('no-image', '', { cause })));
+        const { robot, fail } = this.parts;
+        await robot()
+            .forget(this.state.image)
+            .catch((cause: unknown) => fail(new RobotError('no-image', '', { cause })));
     }
 
     /** Only Edit saves pages. The robot starts anew with it, stands up, and stays so until somebody drives it. */
@@ -45,7 +49,7 @@ export class RobotImages {
             await this.restart('edit');
         }
         await this.untilReady();
-        await this.parts.simulated.prepare();
+        await this.parts.robot().prepare();
     }
 
     /** Only Play hears a remote control. Resolves when it does, and the robot is on its feet. Rejects with RobotError. */
@@ -55,7 +59,7 @@ export class RobotImages {
             await this.leaving;
         }
         await this.untilReady();
-        await this.parts.simulated.prepare();
+        await this.parts.robot().prepare();
     }
 
     private get state(): DeskState {
@@ -69,7 +73,7 @@ export class RobotImages {
             // else nothing is left in its RAM
             await this.untilReady();
             if (this.state.image === 'play') return; // meanwhile
-            const { connection } = this.parts.simulated;
+            const { connection } = this.parts.robot();
             if (!connection) throw new RobotError('not-connected');
             if (await hasUnsavedEdits(connection.requests, this.parts.format)) throw new RobotError('page-unsaved');
         }
@@ -79,11 +83,11 @@ export class RobotImages {
 
     /** Rejects with RobotError when the image cannot be had: the robot goes on as it was. */
     private async restart(image: ImageName): Promise<void> {
-        const { state, simulated } = this.parts;
+        const { state, robot } = this.parts;
         const before = state.get().image;
         state.set({ image });
         try {
-            await simulated.restart(image);
+            await robot().restart(image);
         } catch (cause) {
             if (state.get().image === image) state.set({ image: before });
             throw new RobotError('no-image', '', { cause });
@@ -100,8 +104,8 @@ export class RobotImages {
                 deed();
             };
             unwatch = this.parts.state.watch(
-                ({ connection, version, image, physics }) =>
-                    connection === 'ready' && version?.image === image && physics !== 'loading' && end(resolve),
+                ({ source, connection, version, image, physics }) =>
+                    connection === 'ready' && version?.image === image && (source !== 'simulated' || physics !== 'loading') && end(resolve),
             );
         });
     }

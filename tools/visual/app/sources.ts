@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Which robot stands on the desk: the one in the page, or yours. The other one waits.
+// Which robot stands on the desk: the one in the page, yours, or your servos with a program in the page. The one in the page waits
+// meanwhile.
 
 import type { Body } from '../model/body.ts';
 import { documentFrom } from '../model/document.ts';
 import type { Connection } from '../robot/connection.ts';
+import { askWhere, command } from '../robot/protocol.ts';
+import type { Where } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { DeskState } from '../view/desk.ts';
 import type { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';
+import { ServosSource } from './servos-source.ts';
 import { SimulatedSource } from './simulated-source.ts';
 import type { SourceEvents } from './simulated-source.ts';
 import { YourSource } from './your-source.ts';
@@ -21,18 +25,31 @@ export interface SourcesParts {
     fail(error: unknown): void;
 }
 
+function isMoving(where: Where | null): boolean {
+    return where !== null && (where.state === 'approach' || where.state === 'playing');
+}
+
 export class RobotSources {
     readonly simulated: SimulatedSource;
     private readonly parts: SourcesParts;
     private readonly yours: YourSource;
+    private readonly servos: ServosSource;
     /** What the robot in the page has in its flash. */
     private inPage: readonly Uint8Array[] = [];
+    /** What is said of it, and comes back with it. */
+    private ofPage: Pick<DeskState, 'image' | 'stopped'> = { image: 'play', stopped: null };
+    private wasHidden = false;
 
     constructor(body: Body, parts: SourcesParts) {
         this.parts = parts;
         const events = { ...parts.events, motions: (image: Uint8Array) => this.simulatedMotions(image) };
         this.simulated = new SimulatedSource(body, events);
         this.yours = new YourSource(body, events, parts.mayAsk);
+        this.servos = new ServosSource(body, events, parts.mayAsk);
+        parts.state.watch(({ adapter, where }) => {
+            if (adapter === 'back' && isMoving(where)) queueMicrotask(() => parts.state.set({ adapter: null }));
+        });
+        document.addEventListener('visibilitychange', () => void this.lookHidden().catch(() => undefined)); // a lost robot plays nothing
     }
 
     get isSimulated(): boolean {
@@ -41,15 +58,16 @@ export class RobotSources {
 
     /** To the robot on the desk. Throws RobotError not-connected when there is none. */
     get connection(): Connection {
-        const connection = this.isSimulated ? this.simulated.connection : this.yours.connection;
+        const { connection } = this.current;
         if (!connection) throw new RobotError('not-connected');
         return connection;
     }
 
     useSimulated(): void {
         if (this.isSimulated) return;
-        this.parts.state.set({ source: 'simulated' });
+        this.parts.state.set({ source: 'simulated', adapter: null, ...this.ofPage });
         void this.yours.close();
+        void this.servos.close();
         this.simulated.resume();
         this.parts.editor.setRobot(this.inPage);
     }
@@ -60,10 +78,57 @@ export class RobotSources {
         } catch (error) {
             return this.parts.fail(error);
         }
-        this.simulated.pause();
-        this.parts.state.set({ source: 'yours', version: null, where: null, pages: [] });
-        this.parts.editor.setRobot([]);
+        await this.servos.close();
+        this.leave('yours');
         this.yours.connect();
+    }
+
+    /** Rejects never: what went wrong is said, and the robot on the desk stays. */
+    async connectServos(): Promise<void> {
+        try {
+            if (!(await this.servos.choose())) return; // the chooser was closed: no error
+            if (!this.isSimulated) this.parts.state.set({ connection: 'closed', version: null, where: null });
+            await this.servos.close();
+            await this.yours.close();
+            await this.servos.start('play');
+        } catch (error) {
+            if (!this.isSimulated) this.useSimulated(); // the one before is closed
+            return this.parts.fail(error);
+        }
+        this.leave('servos');
+        this.parts.state.set({ image: 'play' });
+        this.servos.connect();
+    }
+
+    /** The robot whose programs this page can change; those of yours it cannot. */
+    get withImages(): SimulatedSource | ServosSource {
+        return this.parts.state.get().source === 'servos' ? this.servos : this.simulated;
+    }
+
+    private get current(): SimulatedSource | YourSource | ServosSource {
+        return this.parts.state.get().source === 'yours' ? this.yours : this.withImages;
+    }
+
+    private leave(source: 'yours' | 'servos'): void {
+        const { image, stopped } = this.parts.state.get();
+        if (this.isSimulated) this.ofPage = { image, stopped };
+        this.simulated.pause();
+        this.parts.state.set({ source, version: null, where: null, pages: [], stopped: null, adapter: null });
+        this.parts.editor.setRobot([]);
+    }
+
+    /** A hidden page is not given the time that servos need: what plays is ended before it stutters, and the person told who comes back. */
+    private async lookHidden(): Promise<void> {
+        if (!document.hidden && this.wasHidden) {
+            this.wasHidden = false;
+            this.parts.fail(new RobotError('was-hidden'));
+        }
+        if (!document.hidden || this.parts.state.get().source !== 'servos') return;
+        const { requests } = this.connection;
+        const where = await askWhere(requests);
+        if (!isMoving(where)) return;
+        await command(requests, 'break');
+        this.wasHidden = true;
     }
 
     private simulatedMotions(image: Uint8Array): void {

@@ -1,95 +1,40 @@
 // SPDX-License-Identifier: MIT
-// Your robot on a serial port of this computer (Web Serial). The picture follows its servos: `@pose` as often as the line
-// lets it, and the feet stand on the ground, for nobody tells where the robot is in its room.
+// Your robot on a serial port of this computer (Web Serial).
 
-import { jointAngle } from '../model/body.ts';
 import type { Body } from '../model/body.ts';
-import { POSITION_MIDDLE, TICKS_PER_SECOND } from '../model/motion.ts';
-import { Connection } from '../robot/connection.ts';
-import { wallClock } from '../robot/clock.ts';
-import { PoseFollower } from '../robot/pose-follower.ts';
-import type { JointPose } from '../robot/protocol.ts';
-import { RobotError } from '../robot/robot-error.ts';
-import type { ServoState } from '../robot/robot-state.ts';
+import type { Connection } from '../robot/connection.ts';
 import { WebSerialPort } from '../robot/web-serial-port.ts';
-import { Standing } from '../sim/standing.ts';
+import { FollowedRobot } from './followed-robot.ts';
+import { isAdapter, withPort } from './serial-ports.ts';
 import type { SourceEvents } from './simulated-source.ts';
 
 export class YourSource {
-    private readonly events: SourceEvents;
-    private readonly mayAsk: () => boolean;
-    private readonly standing: Standing;
+    private readonly robot: FollowedRobot;
     private port: SerialPort | null = null;
-    private startedMs = 0;
-    private follower: PoseFollower | null = null;
-    connection: Connection | null = null;
 
     constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
-        this.events = events;
-        this.mayAsk = mayAsk;
-        this.standing = new Standing(body);
+        this.robot = new FollowedRobot(body, events, mayAsk);
         if ('serial' in navigator) navigator.serial.addEventListener('connect', () => this.connection?.retryNow());
     }
 
+    /** null: there is none. */
+    get connection(): Connection | null {
+        return this.robot.connection;
+    }
+
     /** Lets the person choose a port, unless one was allowed before. false: the chooser was closed. */
-    async choose(): Promise<boolean> {
-        if (!('serial' in navigator)) throw new RobotError('no-serial');
-        try {
-            const [known] = await navigator.serial.getPorts();
+    choose(): Promise<boolean> {
+        return withPort(async () => {
+            const known = (await navigator.serial.getPorts()).find(port => !isAdapter(port));
             this.port = known ?? (await navigator.serial.requestPort());
-            return true;
-        } catch (error) {
-            if (error instanceof DOMException && error.name === 'NotFoundError') return false;
-            throw new RobotError('port-busy', error instanceof Error ? error.message : '', { cause: error });
-        }
+        });
     }
 
     connect(): void {
-        if (!this.port) return;
-        this.follower?.stop();
-        this.standing.begin();
-        this.startedMs = performance.now();
-        // What an old connection still says when it is closed concerns nobody.
-        const connection: Connection = new Connection(new WebSerialPort(this.port), wallClock, {
-            state: state => this.connection === connection && this.events.connection(state),
-            text: bytes => this.connection === connection && this.events.text(bytes),
-        });
-        this.connection = connection;
-        connection.connect();
-        this.follower = new PoseFollower(connection, wallClock, this.mayAsk, pose => this.show(pose));
-        this.follower.start();
+        if (this.port) this.robot.connect(new WebSerialPort(this.port));
     }
 
-    async close(): Promise<void> {
-        const connection = this.connection;
-        this.connection = null;
-        this.follower?.stop();
-        await connection?.close();
-    }
-
-    private show(pose: readonly JointPose[]): void {
-        const positions = new Map(pose.map(joint => [joint.id, joint.position]));
-        const servos: ServoState[] = pose.map(({ id, position, torque }) => ({
-            id,
-            goalPos: null,
-            position: position ?? POSITION_MIDDLE,
-            torque,
-            alarms: 0,
-            celsius: 0,
-            faults: 0,
-        }));
-        const trunk = this.standing.move(joint => jointAngle(joint, positions.get(joint.servo) ?? joint.zero));
-        const ticks = Math.floor(((performance.now() - this.startedMs) / 1000) * TICKS_PER_SECOND);
-        this.events.frame({
-            ticks,
-            servos,
-            trunk,
-            leds: 0,
-            isPowered: true,
-            isHeld: false,
-            hasFallen: false,
-            lateMs: 0,
-            trace: new Float32Array(0),
-        });
+    close(): Promise<void> {
+        return this.robot.close();
     }
 }

@@ -7,11 +7,13 @@ export type RobotErrorCode =
     | 'not-connected' // there is no open port
     | 'port-lost' // the cable was pulled, or the port died
     | 'no-serial' // this browser has no Web Serial
+    | 'old-browser' // it cannot let a program in C wait (JavaScript Promise Integration), which My servos needs
     | 'port-busy' // the port cannot be opened: another program has it, or no permission
     | 'foreign' // something else answers there
     | 'other-board' // a boot loader has said the name of another board: it is in `words`
     | 'in-loader' // the boot loader waits at its prompt
     | 'no-image' // the firmware for the robot in the page could not be loaded
+    | 'was-hidden' // the page that drives servos was hidden: what played was ended
     | 'cancelled' // somebody stopped it
     | 'page-changed' // a page of the robot is no longer what it was when it was read: its number is in `words`
     | 'page-unsaved' // the page in Edit's memory has edits of somebody else

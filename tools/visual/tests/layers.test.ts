@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Imports point down only: model < robot < sim; model < files; the view uses model and robot; app and main.ts join them all.
+// Imports point down only: model < robot < sim < servos; model < files; the view uses model and robot; app and main.ts join them all.
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, relative, resolve } from 'node:path';
 import { expect, test } from 'vitest';
@@ -9,15 +9,17 @@ const MAY: Readonly<Record<string, readonly string[]>> = {
     model: ['model'],
     robot: ['robot', 'model'],
     sim: ['sim', 'robot', 'model'],
+    servos: ['servos', 'sim', 'robot', 'model'],
     files: ['files', 'model'],
     view: ['view', 'robot', 'model'],
-    app: ['app', 'view', 'files', 'sim', 'robot', 'model'],
+    app: ['app', 'view', 'files', 'servos', 'sim', 'robot', 'model'],
 };
 /** Packages that a layer may use; everything else is one of ours. */
 const PACKAGES: Readonly<Record<string, RegExp>> = {
     model: /^$/,
     robot: /^$/,
     sim: /^@mujoco\/mujoco$/,
+    servos: /^$/,
     files: /^pyodide/,
     view: /^(three|@xterm|@dagrejs\/dagre$)/,
     app: /^$/,
@@ -61,7 +63,7 @@ test('an import upwards is found', () => {
 
 test('no listing of ours uses document, window or storage below the view', () => {
     const browser = /\b(document\.(body|create|get|query|add|documentElement)|(window|localStorage|indexedDB)\b\.)/; // a motion document is another
-    for (const folder of ['model', 'robot', 'sim', 'files']) {
+    for (const folder of ['model', 'robot', 'sim', 'servos', 'files']) {
         for (const name of sourcesIn(folder)) {
             expect(browser.test(readFileSync(resolve(ROOT, folder, name), 'utf8')), `${folder}/${name}`).toBe(false);
         }

@@ -44,6 +44,7 @@ export class AppShell extends HTMLElement {
     private readonly panels = new Map<Tab, HTMLElement>();
     private readonly simulated = make('button', { onclick: () => this.desk.useSimulated() }, 'Robot in this page');
     private readonly yours = make('button', { onclick: () => void this.desk.connectYours() }, 'Your robot …');
+    private readonly servos = make('button', { onclick: () => void this.desk.connectServos() }, 'My servos …');
     private readonly newVersion = make(
         'button',
         { class: 'wanted', hidden: true, title: TEXTS.newVersion, onclick: () => this.desk.takeNewVersion() },
@@ -130,7 +131,13 @@ export class AppShell extends HTMLElement {
     private head(): HTMLElement {
         const theme = make('button', { 'aria-label': 'Light or dark', title: 'Light or dark', onclick: () => this.changeTheme() }, '◐');
         const keys = make('button', { 'aria-label': 'Keys', title: 'Keys (?)', onclick: () => this.keys.open() }, '?');
-        const sources = make('div', { class: 'sources', role: 'group', 'aria-label': 'Which robot' }, this.simulated, this.yours);
+        const sources = make(
+            'div',
+            { class: 'sources', role: 'group', 'aria-label': 'Which robot' },
+            this.simulated,
+            this.yours,
+            this.servos,
+        );
         const more = Object.assign(new MoreMenu(), {
             content: [sources, this.give(this.files), make('a', { href: './licences.html' }, 'Licences'), keys, theme],
         });
@@ -189,6 +196,7 @@ export class AppShell extends HTMLElement {
         this.newVersion.hidden = !state.hasNewVersion;
         this.simulated.setAttribute('aria-pressed', String(state.source === 'simulated'));
         this.yours.setAttribute('aria-pressed', String(state.source === 'yours'));
+        this.servos.setAttribute('aria-pressed', String(state.source === 'servos'));
         this.yours.textContent = state.source === 'yours' && state.connection !== 'closed' ? state.portName : 'Your robot …';
     }
 }

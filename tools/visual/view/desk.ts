@@ -17,7 +17,7 @@ import type { Store } from './store.ts';
 import type { Transfer } from './transfer-desk.ts';
 import type { Trials } from './trial-desk.ts';
 
-export type Source = 'simulated' | 'yours';
+export type Source = 'simulated' | 'yours' | 'servos';
 export type ImageName = 'play' | 'edit';
 export type PanelButton = 'up' | 'down' | 'left' | 'right' | 'start' | 'mode';
 export type Tab = 'remote' | 'steps' | 'curves' | 'pages' | 'links' | 'checks' | 'terminal' | 'lab';
@@ -60,6 +60,8 @@ export interface DeskState {
     /** Its name in the document; the robot may know none yet. */
     readonly shownName?: string;
     readonly isPowered: boolean;
+    /** The adapter of My servos was pulled out; it is back, and nothing has played since. */
+    readonly adapter?: 'out' | 'back' | null;
     /** The robot in the page has not answered for longer than a start takes. */
     readonly isLate: boolean;
 }
@@ -145,6 +147,9 @@ export interface Desk {
     useSimulated(): void;
     /** Opens the browser's chooser; call it in a click. */
     connectYours(): Promise<void>;
+
+    /** Play runs in this page, at servos on an adapter. Opens the browser's chooser; call it in a click. */
+    connectServos(): Promise<void>;
 
     /** Starts the robot in the page anew with that image; motions and settings stay. */
     runImage(image: ImageName): void;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the simulated robot keeps without power, in IndexedDB: flash, EEPROM and its servos' EEPROMs, under one key.
+// What robots keep without power, in IndexedDB. The simulated one: flash, EEPROM and its servos' EEPROMs, under one key. The one that drives
+// servos from this page: motion pages, journal, EEPROM.
 
 import { MEM_BOOT_END, MEM_EEPROM_BYTES } from '../model/facts.ts';
 
@@ -49,4 +50,31 @@ export async function saveRobot(key: string, robot: KeptRobot): Promise<void> {
 
 export async function forgetRobot(key: string): Promise<void> {
     await withStore('readwrite', store => store.delete(key) as IDBRequest<undefined>);
+}
+
+const SERVOS = 'servos';
+
+/** null: nothing was kept. Rejects when the browser keeps nothing. */
+export async function loadServos(): Promise<readonly Uint8Array[] | null> {
+    const kept: unknown = await withStore('readonly', store => store.get(SERVOS) as IDBRequest<unknown>);
+    return Array.isArray(kept) && kept.every(memory => memory instanceof Uint8Array) ? kept : null;
+}
+
+/** Resolves when it is sure, also if the power fails. */
+export async function saveServos(memories: readonly Uint8Array[]): Promise<void> {
+    const database = await open();
+    try {
+        const transaction = database.transaction(STORE, 'readwrite', { durability: 'strict' });
+        transaction.objectStore(STORE).put(memories, SERVOS);
+        await new Promise<void>((resolve, reject) => {
+            transaction.oncomplete = () => resolve();
+            transaction.onabort = () => reject(transaction.error);
+        });
+    } finally {
+        database.close();
+    }
+}
+
+export function forgetServos(): Promise<void> {
+    return forgetRobot(SERVOS);
 }

@@ -55,7 +55,7 @@ export class StatusStrip extends HTMLElement {
                     ? `${version.image === 'edit' ? 'Edit' : version.image === 'play' ? 'Play' : version.image} ${version.version}`
                     : '',
                 where && where.batteryVolts > 0 ? `${where.batteryVolts.toFixed(1)} V` : '',
-                state.speed === 1 || state.source === 'yours' ? '' : state.speed === 0 ? 'time stands still' : `${state.speed}× time`,
+                state.speed === 1 || state.source !== 'simulated' ? '' : state.speed === 0 ? 'time stands still' : `${state.speed}× time`,
             ]
                 .filter(Boolean)
                 .join(' · '),

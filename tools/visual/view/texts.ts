@@ -13,12 +13,14 @@ const ERRORS: Record<RobotErrorCode, string> = {
     'not-connected': 'No robot is connected. Choose one at the top.',
     'port-lost': 'The cable was pulled. Plug it in again; the page reconnects by itself.',
     'port-busy': 'The port cannot be opened. Close the other program that uses it, then try again.',
+    'old-browser': 'This browser is too old for My servos. It needs Chromium, Chrome or Edge 137 or later.',
     'no-serial': 'This browser cannot reach a serial port. It needs Web Serial, which Chromium has. The robot in the page works here, too.',
     foreign: 'Something answers there, but it is not Motion512. Flash our firmware: m512 flash edit-cm5.hex',
     'other-board':
         'Motion512 runs on CM-2, CM-2+ and CM-5 only, and this board is another one. Nothing is sent there; choose another port. Its boot loader calls it',
     'in-loader': 'The boot loader is waiting. Type GO in the terminal to start the firmware.',
     'no-image': 'The firmware could not be loaded, so the robot goes on as it was. Is this computer online? Then try again.',
+    'was-hidden': 'This page was hidden, so what played was ended softly: a hidden page cannot keep time. Keep it in sight.',
     cancelled: 'Stopped.',
     'page-changed': 'This page has changed in the robot since it was read; nothing was written over it. Compare once more: page',
     'page-unsaved': "The page in Edit's memory has edits that are not saved. Type SAVE or UNDO in the terminal, then try again.",
@@ -70,8 +72,10 @@ export function doingText(state: DeskState, where: Where | null): string {
 
 function robotText(state: DeskState, where: Where | null): string {
     if (state.source === 'simulated' && !state.isPowered) return TEXTS.isOff;
+    if (state.adapter) return state.adapter === 'out' ? TEXTS.adapterOut : TEXTS.adapterBack;
     if (state.connection !== 'ready') {
         if (state.source === 'yours') return CONNECTIONS[state.connection];
+        if (state.source === 'servos') return TEXTS.searches;
         return state.isLate ? TEXTS.startsNot : TEXTS.starts;
     }
     const isEdit = state.version?.image === 'edit';
@@ -112,6 +116,14 @@ export const TEXTS = {
     waits: 'The robot stands and waits.',
     starts: 'The robot is starting …',
     startsNot: 'The robot in this page does not answer. If its terminal shows a "-", type GO there; otherwise start it anew under "Robot".',
+    searches: 'Looking for your servos …',
+    adapterOut: 'The servo adapter is out, and nothing plays. Plug it in again.',
+    adapterBack: 'The servo adapter is back. The servos move again once their torque is switched on: type on in the terminal.',
+    noServos:
+        'No servo answers. Is their power on, is the cable of the bus in, and do they talk at 1,000,000 bits a second? Then type @reset in the terminal.',
+    servosFound: (count: number, missing: readonly number[]): string =>
+        `${count === 1 ? 'One servo answers' : `${count} servos answer`}. Nothing moves before you say so.${missing.length > 0 ? ` No answer from ${missing.join(', ')}: not plugged in, or two servos have that number.` : ''}`,
+    servosCrashed: 'The program for your servos has stopped; servos that held go on holding. Choose My servos again.',
     isOff: 'The robot is switched off. Switch it on under "Robot".',
     shownOnly: (title: string): string => `In the picture only: ${title}.`,
     /** It waits as well; this is what one has to know of it. */

@@ -39,7 +39,7 @@ test('what MuJoCo is compiled from is named', () => {
 });
 
 test('every file of the page that is not ours by its name has a notice', () => {
-    const known = [/^(board|motion|trial|mujoco|pyodide|python|body|motions|boot|edit|play)[.-]/];
+    const known = [/^(board|motion|servos|trial|mujoco|pyodide|python|body|motions|boot|edit|play)[.-]/];
     const fetched = readdirSync(new URL('assets/', BUILT)).filter(name => !/\.(js|css)$/.test(name));
     expect(fetched.filter(name => !known.some(pattern => pattern.test(name)))).toEqual([]);
 });

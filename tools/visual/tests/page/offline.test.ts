@@ -21,10 +21,11 @@ afterAll(async () => {
     for (const server of servers) await server.stop();
 });
 
-test('the first load is at most 1 MB, compressed, with both images; physics and Python come behind it', () => {
-    const { first, physics, python } = weights();
+test('the first load is at most 1 MB, compressed, with both images; physics, Python and My servos come behind it', () => {
+    const { first, physics, python, servos } = weights();
     expect(first).toBeLessThanOrEqual(1_000_000);
     expect(Math.min(physics, python)).toBeGreaterThan(1_000_000); // they are there, and not counted
+    expect(servos).toBeGreaterThan(50_000);
 });
 
 test('from a sub-path, and the second visit with the server stopped', async () => {
@@ -37,8 +38,8 @@ test('from a sub-path, and the second visit with the server stopped', async () =
         },
     });
     await visitor.untilStanding();
-    // What was asked for until then is what the first load is said to be: nothing of Python is in it, and every file is there.
-    expect(asked.filter(url => comesLater(url, '') === 'python')).toEqual([]);
+    // What was asked for until then is what the first load is said to be: nothing of Python or My servos is in it, and every file is there.
+    expect(asked.filter(url => ['python', 'servos'].includes(comesLater(url, '') ?? ''))).toEqual([]);
     expect(asked.every(url => url.startsWith(server.address))).toBe(true);
     await visitor.page.evaluate(async () => {
         await navigator.serviceWorker.ready;

@@ -7,23 +7,27 @@ const FOLDER = new URL('../../../../build/visual/', import.meta.url);
 /** Comes behind the page. */
 const PHYSICS = /mujoco|physical-body|body-[^/]*\.xml/;
 const PYTHON = /pyodide|python/;
+const SERVOS = /servos-/;
 
 export interface Weights {
     /** Bytes until the robot stands in the picture, and Edit's image, which is fetched when Edit runs. */
     readonly first: number;
     readonly physics: number;
-    /** With the worker that runs it. */
+    /** Each with the worker that runs it. */
     readonly python: number;
+    readonly servos: number;
 }
 
 /** Does the page fetch it behind the first load? By its name, and a worker by what it holds. */
-export function comesLater(name: string, text: string): 'physics' | 'python' | null {
+export function comesLater(name: string, text: string): 'physics' | 'python' | 'servos' | null {
     if (PHYSICS.test(name)) return 'physics';
-    return PYTHON.test(name) || (/worker-[^/]*\.js$/.test(name) && text.includes('pyodide')) ? 'python' : null;
+    const isWorker = /worker-[^/]*\.js$/.test(name);
+    if (SERVOS.test(name) || (isWorker && text.includes('machine_bus_write'))) return 'servos';
+    return PYTHON.test(name) || (isWorker && text.includes('pyodide')) ? 'python' : null;
 }
 
 export function weights(): Weights {
-    const sum = { first: 0, physics: 0, python: 0 };
+    const sum = { first: 0, physics: 0, python: 0, servos: 0 };
     for (const name of ['index.html', ...readdirSync(new URL('assets/', FOLDER)).map(file => `assets/${file}`)]) {
         const bytes = readFileSync(new URL(name, FOLDER));
         sum[comesLater(name, bytes.toString('latin1')) ?? 'first'] += gzipSync(bytes, { level: 9 }).length;

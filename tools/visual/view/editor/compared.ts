@@ -24,7 +24,7 @@ export function comparables(desk: Desk): Compared[] {
 
 export function robotTitle(desk: Desk): string {
     const { source, portName } = desk.state.get();
-    return source === 'simulated' ? 'The robot in this page' : `Your robot (${portName})`;
+    return source === 'simulated' ? 'The robot in this page' : source === 'servos' ? 'My servos' : `Your robot (${portName})`;
 }
 
 /** Its 128 pages; null: gone, or (the robot) not read. */

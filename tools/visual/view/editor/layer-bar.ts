@@ -96,10 +96,9 @@ export class LayerBar extends HTMLElement {
         if (this.shown !== document.pages && !gesture) this.list(document.pages); // not at every frame of a drag
         const isPlay = version?.image === 'play';
         for (const button of this.deeds) button.disabled = !isPlay;
-        this.startPlay.hidden = isPlay || version === null || source !== 'simulated';
+        this.startPlay.hidden = isPlay || version === null || source === 'yours';
         this.showJoint();
-        const text =
-            isPlay || version === null ? this.inForce() : source === 'simulated' ? LAYER_TEXTS.needsPlay : LAYER_TEXTS.needsPlayYours;
+        const text = isPlay || version === null ? this.inForce() : source !== 'yours' ? LAYER_TEXTS.needsPlay : LAYER_TEXTS.needsPlayYours;
         if (this.said.textContent !== text) this.said.textContent = text;
     }
 

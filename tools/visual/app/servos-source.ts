@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// My servos: Play or Edit in a worker of this page, at servos on an adapter (Web Serial). To everything else it is a robot on a line.
+
+import type { Body } from '../model/body.ts';
+import type { Connection } from '../robot/connection.ts';
+import { RobotError } from '../robot/robot-error.ts';
+import { WebSerialPort } from '../robot/web-serial-port.ts';
+import { canRunServos } from '../servos/machine.ts';
+import type { FromServos, PortHint } from '../servos/messages.ts';
+import { ServosClient } from '../servos/servos-client.ts';
+import type { ImageName } from '../view/desk.ts';
+import { forgetServos, loadServos, saveServos } from '../view/robot-store.ts';
+import { TEXTS } from '../view/texts.ts';
+import { motionLibrary, servosModule } from './assets.ts';
+import { FollowedRobot } from './followed-robot.ts';
+import { rememberAdapter, withPort } from './serial-ports.ts';
+import type { SourceEvents } from './simulated-source.ts';
+
+/** What moves is brought to a stand before the program ends. */
+const STAND_MS = 5000;
+
+export class ServosSource {
+    private readonly events: SourceEvents;
+    private readonly robot: FollowedRobot;
+    private chosen: { readonly hint: PortHint; readonly name: string } | null = null;
+    private client: ServosClient | null = null;
+    private image: ImageName = 'play';
+    private turn: Promise<void> = Promise.resolve();
+
+    constructor(body: Body, events: SourceEvents, mayAsk: () => boolean) {
+        this.events = events;
+        this.robot = new FollowedRobot(body, events, mayAsk);
+    }
+
+    /** null: there is none. */
+    get connection(): Connection | null {
+        return this.robot.connection;
+    }
+
+    /** Lets the person choose the adapter. false: the chooser was closed. */
+    async choose(): Promise<boolean> {
+        if ('serial' in navigator && !canRunServos()) throw new RobotError('old-browser');
+        return withPort(async () => {
+            const port = await navigator.serial.requestPort();
+            const index = (await navigator.serial.getPorts()).indexOf(port);
+            const { usbVendorId, usbProductId } = port.getInfo();
+            this.chosen = { hint: { usbVendorId, usbProductId, index }, name: new WebSerialPort(port).name };
+            rememberAdapter(port);
+        });
+    }
+
+    /** Resolves when the adapter is open and the program runs; then connect(). Rejects with RobotError; then nothing runs. */
+    start(image: ImageName): Promise<void> {
+        return this.inTurn(() => this.begin(image));
+    }
+
+    /** Talks to the program. */
+    connect(): void {
+        if (this.client) this.robot.connect(this.client.port);
+    }
+
+    /** Starts another program at the same servos; what is kept stays. What moves is brought to a stand before. */
+    restart(image: ImageName): Promise<void> {
+        return this.inTurn(() => this.again(image));
+    }
+
+    /** The same with the memories of a new robot. */
+    forget(image: ImageName): Promise<void> {
+        return this.inTurn(async () => {
+            await this.again(image, () => forgetServos().catch(() => this.say(TEXTS.notKept, 'bad')));
+        });
+    }
+
+    /** It stands where its owner has put it. */
+    prepare(): Promise<void> {
+        return Promise.resolve();
+    }
+
+    /** What moves is brought to a stand; servos that hold their pose go on holding it. */
+    close(): Promise<void> {
+        return this.inTurn(() => this.end());
+    }
+
+    private inTurn(deed: () => Promise<void>): Promise<void> {
+        const done = this.turn.then(deed);
+        this.turn = done.catch(() => undefined); // its caller hears of it
+        return done;
+    }
+
+    private async again(image: ImageName, meanwhile: () => Promise<void> = () => Promise.resolve()): Promise<void> {
+        this.events.change({ connection: 'closed', version: null, where: null, adapter: null, stopped: null });
+        await this.end();
+        await meanwhile();
+        await this.begin(image);
+        this.connect();
+    }
+
+    private async begin(image: ImageName): Promise<void> {
+        const { chosen } = this;
+        if (!chosen) throw new RobotError('not-connected');
+        const [module, kept] = await Promise.all([
+            servosModule(image).catch((cause: unknown) => {
+                throw new RobotError('no-image', '', { cause });
+            }),
+            this.memories(),
+        ]);
+        const worker = new Worker(new URL('../servos/worker.ts', import.meta.url), { type: 'module', name: 'servos' });
+        await new Promise<void>((resolve, reject) => {
+            const client: ServosClient = new ServosClient(worker, chosen.name, {
+                keep: memories => this.keep(memories),
+                message: message => {
+                    if (message.kind === 'started') resolve();
+                    else if (message.kind === 'refused') reject(new RobotError('port-busy', message.text));
+                    else if (this.client === client) this.take(message);
+                },
+            });
+            this.client = client;
+            client.post({ kind: 'start', module, kept, port: chosen.hint });
+        }).catch((error: unknown) => {
+            worker.terminate();
+            this.client = null;
+            throw error;
+        });
+        this.image = image;
+    }
+
+    private async end(): Promise<void> {
+        const { client } = this;
+        this.client = null;
+        await this.robot.close();
+        await client?.end(STAND_MS);
+    }
+
+    private take(message: FromServos): void {
+        switch (message.kind) {
+            case 'told':
+                return this.say(message.sentence, 'calm');
+            case 'adapter':
+                return this.events.change({ adapter: message.isThere ? 'back' : 'out' });
+            case 'ended': // a restart, as a board does it
+                return void this.restart(this.image).catch(() => this.stop(TEXTS.servosCrashed));
+            case 'crashed':
+                return this.stop(`${TEXTS.servosCrashed} (${message.text})`);
+            case 'started':
+            case 'refused':
+            case 'bytes':
+            case 'keep':
+                return; // others have them
+            default:
+                message satisfies never;
+        }
+    }
+
+    private say(text: string, tone: 'calm' | 'bad'): void {
+        this.events.change({ said: { text, tone } });
+    }
+
+    private stop(why: string): void {
+        this.events.change({ stopped: why, doing: { text: why, tone: 'bad' } });
+    }
+
+    /** What was kept, or the motions that a new robot begins with. */
+    private async memories(): Promise<(Uint8Array | null)[]> {
+        const kept = await loadServos().catch(() => null);
+        return kept ? [...kept] : [await motionLibrary(), null, null];
+    }
+
+    private async keep(memories: readonly Uint8Array[]): Promise<boolean> {
+        try {
+            await saveServos(memories);
+            return true;
+        } catch {
+            this.say(TEXTS.notKept, 'bad');
+            return false;
+        }
+    }
+}

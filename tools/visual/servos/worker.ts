@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The worker in which Play or Edit drives servos: the program, its adapter, and its post box (messages.ts). The port is opened here and not
+// in the page, so that a page that draws never holds a goal up.
+
+import { Adapter } from './adapter.ts';
+import type { AdapterPort } from './adapter.ts';
+import { runProgram } from './machine.ts';
+import type { FromServos, PortHint, ToServos } from './messages.ts';
+import { Sleeper } from './sleeper.ts';
+
+/** What we use of Web Serial. */
+type BrowserPort = AdapterPort & { getInfo(): { usbVendorId?: number; usbProductId?: number } };
+declare const navigator: { readonly serial: { getPorts(): Promise<BrowserPort[]> } };
+
+const RATE_BPS = 1_000_000;
+
+const sleeper = new Sleeper();
+const typed: number[] = [];
+const keeping = new Map<number, (isKept: boolean) => void>();
+let nextId = 1;
+let isAskedToEnd = false;
+
+function tell(message: FromServos, transfer: Transferable[] = []): void {
+    postMessage(message, { transfer });
+}
+
+/** The port that the person chose; after it was pulled out, the one of its kind that is there. */
+async function find(hint: PortHint): Promise<BrowserPort | null> {
+    const ports = await navigator.serial.getPorts();
+    const isKind = (port: BrowserPort | undefined): boolean => {
+        const { usbVendorId, usbProductId } = port?.getInfo() ?? {};
+        return port !== undefined && usbVendorId === hint.usbVendorId && usbProductId === hint.usbProductId;
+    };
+    const chosen = ports[hint.index];
+    return (isKind(chosen) ? chosen : ports.find(isKind)) ?? null;
+}
+
+async function start({ module, kept, port }: Extract<ToServos, { kind: 'start' }>): Promise<void> {
+    const adapter = new Adapter(() => find(port), {
+        news: () => sleeper.wake(),
+        isThere: isThere => tell({ kind: 'adapter', isThere }),
+    });
+    try {
+        await adapter.open(RATE_BPS);
+    } catch (cause) {
+        return tell({ kind: 'refused', text: cause instanceof Error ? cause.message : String(cause) });
+    }
+    tell({ kind: 'started' });
+    await runProgram(module, {
+        adapter,
+        kept,
+        now: () => performance.now(),
+        sleep: untilMs => sleeper.sleep(untilMs),
+        isAskedToEnd: () => isAskedToEnd,
+        typed: to => take(to),
+        printed: bytes => tell({ kind: 'bytes', bytes }, [bytes.buffer]),
+        told: sentence => tell({ kind: 'told', sentence }),
+        keep: memories =>
+            new Promise(resolve => {
+                const id = nextId++;
+                keeping.set(id, resolve);
+                tell({ kind: 'keep', id, memories });
+            }),
+    });
+    await adapter.close();
+    tell({ kind: 'ended' });
+}
+
+function take(to: Uint8Array): number {
+    const bytes = typed.splice(0, to.length);
+    to.set(bytes);
+    return bytes.length;
+}
+
+function crash(cause: unknown): void {
+    tell({ kind: 'crashed', text: cause instanceof Error ? cause.message : String(cause) });
+}
+
+self.onmessage = (event: MessageEvent<ToServos>) => {
+    const message = event.data;
+    switch (message.kind) {
+        case 'start':
+            return void start(message).catch(crash);
+        case 'bytes':
+            typed.push(...message.bytes);
+            return sleeper.wake();
+        case 'end':
+            isAskedToEnd = true;
+            return sleeper.wake();
+        case 'kept':
+            keeping.get(message.id)?.(message.isKept);
+            keeping.delete(message.id);
+            return;
+        default:
+            message satisfies never;
+    }
+};

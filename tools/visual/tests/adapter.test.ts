@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// The port of a servo adapter: another rate, a refusal, a plug that is pulled out and put back.
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import { Adapter } from '../servos/adapter.ts';
+import { BytePort } from '../sim/byte-port.ts';
+
+const LONG_MS = 5000;
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+class Bench {
+    readonly sent: number[] = [];
+    readonly rates: number[] = [];
+    readonly told: boolean[] = [];
+    isPlugged = true;
+    isRefused = false;
+    readonly port = new BytePort('adapter', bytes => void this.sent.push(...bytes));
+    readonly adapter = new Adapter(() => Promise.resolve(this.isPlugged ? this : null), {
+        news: () => undefined,
+        isThere: isThere => void this.told.push(isThere),
+    });
+
+    get readable() {
+        return this.port.readable;
+    }
+
+    get writable() {
+        return this.port.writable;
+    }
+
+    open({ baudRate }: { baudRate: number }): Promise<void> {
+        if (this.isRefused) return Promise.reject(new Error('another program has it'));
+        this.rates.push(baudRate);
+        return this.port.open();
+    }
+
+    close(): Promise<void> {
+        if (this.port.readable?.locked || this.port.writable?.locked) return Promise.reject(new TypeError('locked'));
+        return this.port.close();
+    }
+
+    heard(): number[] {
+        const bytes = new Uint8Array(4);
+        return Array.from(bytes.subarray(0, this.adapter.read(bytes)));
+    }
+}
+
+async function opened(): Promise<Bench> {
+    const bench = new Bench();
+    const open = bench.adapter.open(1_000_000);
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    await open;
+    return bench;
+}
+
+test('bytes go both ways, in pieces that the program has room for', async () => {
+    const bench = await opened();
+    bench.adapter.write(Uint8Array.of(1, 2));
+    for (const piece of [
+        [3, 4, 5],
+        [6, 7],
+    ])
+        bench.port.push(Uint8Array.from(piece));
+    await vi.advanceTimersByTimeAsync(1);
+    expect(bench.sent).toEqual([1, 2]);
+    expect([bench.heard(), bench.heard(), bench.heard()]).toEqual([[3, 4, 5, 6], [7], []]);
+});
+
+test('another rate: the port is opened anew, what was sent before has left, and it goes on', async () => {
+    const bench = await opened();
+    bench.adapter.write(Uint8Array.of(1));
+    const set = bench.adapter.setRate(57_142);
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    await set;
+    bench.adapter.write(Uint8Array.of(2));
+    bench.port.push(Uint8Array.of(9));
+    await vi.advanceTimersByTimeAsync(1);
+    expect(bench.rates).toEqual([1_000_000, 57_142]);
+    expect(bench.sent).toEqual([1, 2]);
+    expect(bench.heard()).toEqual([9]);
+    expect(bench.told).toEqual([]);
+});
+
+test('a port that cannot be opened says why; one that is not there, too', async () => {
+    const bench = new Bench();
+    bench.isRefused = true;
+    await expect(bench.adapter.open(1_000_000)).rejects.toThrow('another program has it');
+    bench.isPlugged = false;
+    await expect(bench.adapter.open(1_000_000)).rejects.toThrow('no such port');
+});
+
+test('a plug that is pulled out is told, nothing is sent, and the port is taken again when it is back', async () => {
+    const bench = await opened();
+    bench.port.push(Uint8Array.of(1));
+    bench.isPlugged = false;
+    bench.port.unplug();
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    expect(bench.told).toEqual([false]);
+    expect(bench.adapter.isThere()).toBe(false);
+    bench.adapter.write(Uint8Array.of(5));
+    bench.isPlugged = true;
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    expect(bench.told).toEqual([false, true]);
+    expect(bench.heard()).toEqual([]); // what came before is no answer to anything
+    bench.adapter.write(Uint8Array.of(6));
+    await vi.advanceTimersByTimeAsync(1);
+    expect(bench.sent).toEqual([6]);
+});
+
+test('once it is given back it is not taken again', async () => {
+    const bench = await opened();
+    await bench.adapter.close();
+    await vi.advanceTimersByTimeAsync(LONG_MS);
+    expect(bench.rates).toEqual([1_000_000]);
+    expect(bench.port.readable).toBe(null);
+});
