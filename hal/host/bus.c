@@ -18,7 +18,6 @@
 
 #define MS CLOCK_PER_MS
 #define ANSWER_ON_THE_LINE (3u * MS)   /* the servo's return delay, its answer, and an adapter that takes 2 ms to send */
-#define PATIENCE_MIN (20u * MS)        /* a busy computer looks that late */
 #define PATIENCE_EXTRA (8u * MS)       /* beyond twice the longest answer time */
 #define PATIENCE_ONCE (100u * MS)      /* more for a packet that is sent once: the health poll, for which nobody waits */
 #define ANSWER_MAX (100u * MS)         /* longer ones are those of a computer that slept */
@@ -128,14 +127,13 @@ void bus_port_listen(void)
 
 TARGET_BUS_TIME bus_port_margin_half_us(void)
 {
-    const uint32_t measured = 2u * port.longest + PATIENCE_EXTRA;
-    const uint32_t patience = port.longest == 0 ? machine_bus_first_patience()
-                              : measured > PATIENCE_MIN ? measured : PATIENCE_MIN;
+    const uint32_t measured = 2u * port.longest + PATIENCE_EXTRA, least = machine_bus_least_patience();
+    const uint32_t patience = port.longest == 0 ? machine_bus_first_patience() : measured > least ? measured : least;
     if (!port.is_there) {
         return 0;
     }
     if (core.heard_count > 0) {
-        return PATIENCE_MIN;   /* it has begun */
+        return least;   /* it has begun */
     }
     return port.once ? patience + PATIENCE_ONCE : patience;
 }

@@ -28,6 +28,9 @@ bool machine_bus_is_there(void);
 /* Half microseconds that an answer may take before one has been measured: what the adapter and its driver are known for. */
 uint32_t machine_bus_first_patience(void);
 
+/* The same at the least, however fast the answers have been: a busy computer may look that late. */
+uint32_t machine_bus_least_patience(void);
+
 /* Sets the rate of a divisor (bus.h), or the one that the person wants in place of 1 Mbps. Returns bits a second. */
 uint32_t machine_bus_rate(uint8_t divisor);
 

@@ -13,7 +13,7 @@ static uint64_t now;
 
 static struct {
     fake_machine_servo_t *servo;
-    uint32_t latency, rate;
+    uint32_t latency, least_patience, rate;
     bool echoes, is_there;
     uint16_t packets;
     uint64_t line_free;
@@ -38,6 +38,7 @@ void fake_machine_reset(void)
     memset(&memory, 0, sizeof memory);
     now = 1000000;
     bus.is_there = true;
+    bus.least_patience = 40000u;   /* 20 ms */
 }
 
 /* ---- time ---- */
@@ -70,6 +71,11 @@ void fake_machine_set_latency(uint32_t half_us)
     bus.latency = half_us;
 }
 
+void fake_machine_set_least_patience(uint32_t half_us)
+{
+    bus.least_patience = half_us;
+}
+
 void fake_machine_set_echo(bool echoes)
 {
     bus.echoes = echoes;
@@ -99,6 +105,11 @@ bool machine_bus_is_there(void)
 uint32_t machine_bus_first_patience(void)
 {
     return 160000u;   /* 80 ms */
+}
+
+uint32_t machine_bus_least_patience(void)
+{
+    return bus.least_patience;
 }
 
 uint32_t machine_bus_rate(uint8_t divisor)

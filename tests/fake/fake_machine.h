@@ -20,6 +20,8 @@ typedef uint16_t fake_machine_servo_t(const uint8_t *packet, uint16_t size, uint
 void fake_machine_set_servo(fake_machine_servo_t *servo);
 /* From the end of a packet until the program hears the answer, or the echo. */
 void fake_machine_set_latency(uint32_t half_us);
+/* How late the computer may look: 20 ms unless a test says otherwise. */
+void fake_machine_set_least_patience(uint32_t half_us);
 void fake_machine_set_echo(bool echoes);
 void fake_machine_plug(bool there);
 uint16_t fake_machine_packets(void);              /* packets sent so far */

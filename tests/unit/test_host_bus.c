@@ -103,6 +103,20 @@ static void test_answer_after_the_limit_makes_the_limit_longer(void)
     TEST_ASSERT_EQUAL(BUS_OK, bus_call_ping(3, 2, NULL));
 }
 
+/* A web page is held up for longer than a program of its own. */
+static void test_computer_may_look_as_late_as_it_says_however_fast_answers_were(void)
+{
+    uint8_t read[2];
+    bus_counts_t counts;
+    fake_machine_set_least_patience(60 * MS);
+    start(1 * MS, false);
+    TEST_ASSERT_EQUAL(BUS_OK, bus_call_read(3, DXL_AT_PRESENT, read, 2, NULL));
+    fake_machine_set_latency(55 * MS);
+    TEST_ASSERT_EQUAL(BUS_OK, bus_call_ping(3, 2, NULL));
+    bus_counts(&counts);
+    TEST_ASSERT_EQUAL(0, counts.timeouts);
+}
+
 static void test_goals_leave_while_an_answer_is_awaited(void)
 {
     bus_answer_t answer;
@@ -269,6 +283,7 @@ int main(void)
     RUN_TEST(test_answers_are_waited_for_however_late_they_come);
     RUN_TEST(test_silent_servo_costs_what_the_port_has_been_seen_to_take);
     RUN_TEST(test_answer_after_the_limit_makes_the_limit_longer);
+    RUN_TEST(test_computer_may_look_as_late_as_it_says_however_fast_answers_were);
     RUN_TEST(test_goals_leave_while_an_answer_is_awaited);
     RUN_TEST(test_answer_that_nobody_has_fetched_outlives_the_goals);
     RUN_TEST(test_voltage_error_is_no_echo);

@@ -19,6 +19,7 @@
 enum { EXIT_PORT = 6 };
 #define MS 2000u
 #define TRY_AGAIN (1000u * MS)
+#define PATIENCE_LEAST (20u * MS)  /* a busy computer looks that late */
 #define PATIENCE_FAST (30u * MS)   /* an adapter that passes bytes on at once, and a computer that looks late */
 #define PATIENCE_SLOW (80u * MS)   /* FTDI's 16 ms, twice, with room */
 
@@ -144,6 +145,11 @@ bool machine_bus_is_there(void)
 uint32_t machine_bus_first_patience(void)
 {
     return port.is_fast ? PATIENCE_FAST : PATIENCE_SLOW;
+}
+
+uint32_t machine_bus_least_patience(void)
+{
+    return PATIENCE_LEAST;
 }
 
 uint32_t machine_bus_rate(uint8_t divisor)

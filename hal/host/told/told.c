@@ -13,6 +13,7 @@
 #define LOOKS_A_US 32u             /* a program that only looks at the clock sees it go on */
 #define AT_ONCE 100u               /* 50 us */
 #define FIRST_PATIENCE (30u * TOLD_PER_MS)
+#define LEAST_PATIENCE (20u * TOLD_PER_MS)
 #define BUS_BITS_PER_S_1M 1000000u
 
 /* Bytes and when each comes. */
@@ -155,6 +156,11 @@ bool machine_bus_is_there(void)
 uint32_t machine_bus_first_patience(void)
 {
     return FIRST_PATIENCE;
+}
+
+uint32_t machine_bus_least_patience(void)
+{
+    return LEAST_PATIENCE;
 }
 
 uint32_t machine_bus_rate(uint8_t divisor)

@@ -41,8 +41,8 @@ interface PromiseIntegration {
 }
 
 const HALF_US_PER_MS = 2000;
-/** An adapter of FTDI holds bytes back for 16 ms, and the browser hands them on. */
-const FIRST_PATIENCE_MS = 50;
+/** An adapter of FTDI holds bytes back for 16 ms, and a busy browser hands on late what has come. */
+const PATIENCE_MS = 60;
 const RATE_OF_DIVISOR = 2_000_000;
 
 /** The program has ended by itself, as after `@reset`. */
@@ -64,7 +64,8 @@ export async function runProgram(module: WebAssembly.Module, parts: MachineParts
         machine_now: () => BigInt(Math.round((parts.now() - startMs) * HALF_US_PER_MS)),
         machine_wait: new Suspending((until: bigint) => parts.sleep(startMs + Number(until) / HALF_US_PER_MS)),
         machine_bus_is_there: () => Number(parts.adapter.isThere()),
-        machine_bus_first_patience: () => FIRST_PATIENCE_MS * HALF_US_PER_MS,
+        machine_bus_first_patience: () => PATIENCE_MS * HALF_US_PER_MS,
+        machine_bus_least_patience: () => PATIENCE_MS * HALF_US_PER_MS,
         machine_bus_rate: new Suspending(async (divisor: number) => {
             const rate = Math.floor(RATE_OF_DIVISOR / (divisor + 1));
             await parts.adapter.setRate(rate);

@@ -45,7 +45,6 @@ function packet(id: number, code: number, params: readonly number[]): Uint8Array
 
 export interface FakeOptions {
     readonly ids: readonly number[];
-    /** An answer comes so many milliseconds after it was asked for. */
     readonly latencyMs?: number;
     readonly kept?: Memories;
 }
@@ -54,6 +53,8 @@ export class FakeServos {
     nowMs = 0;
     isThere = true;
     isAskedToEnd = false;
+    /** An answer comes so many milliseconds after it was asked for. */
+    latencyMs: number;
     rate = 1_000_000;
     text = '';
     readonly said: string[] = [];
@@ -71,6 +72,7 @@ export class FakeServos {
 
     constructor(options: FakeOptions) {
         this.options = options;
+        this.latencyMs = options.latencyMs ?? 1;
         for (const id of options.ids) {
             const table = new Uint8Array(50);
             for (const [address, value] of SHIPPED) table[address] = value;
@@ -164,7 +166,7 @@ export class FakeServos {
         if (code === WRITE) for (const [one, own] of this.tables) if (one === id || id === EVERYBODY) own.set(params.slice(1), at);
         if (!table || !this.isThere || this.rate !== 1_000_000 || ![PING, READ, WRITE].includes(code)) return;
         const answer = code === READ ? Array.from(table.subarray(at, at + count)) : [];
-        this.coming.push({ atMs: this.nowMs + (this.options.latencyMs ?? 1), bytes: packet(id, 0, answer) });
+        this.coming.push({ atMs: this.nowMs + this.latencyMs, bytes: packet(id, 0, answer) });
     }
 
     private syncWrite([at = 0, size = 0, ...data]: readonly number[]): void {

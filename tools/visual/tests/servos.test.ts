@@ -96,6 +96,15 @@ test('a page that stands still for longer than 0.1 s breaks the play off, softly
     });
 });
 
+test('a browser that is held up while it looks for servos misses none', async () => {
+    await withProgram('play', {}, async servos => {
+        await servos.until(() => servos.rate === 1_000_000 && servos.packets.at(-1)?.id === 5);
+        servos.latencyMs = 50; // answers came fast until now, and two tries of 20 ms are over by then
+        await servos.until(() => /\d+ servos: /.test(servos.text));
+        expect(servos.text).toContain('18 servos: 1-18');
+    });
+});
+
 test('what Edit saves is kept, and is there at the next start', async () => {
     const first = await withProgram('edit', {}, async servos => {
         await servos.until(() => servos.text.includes('Arrows move'));
