@@ -105,12 +105,14 @@ export class ServosSource {
             this.memories(),
         ]);
         const worker = new Worker(new URL('../servos/worker.ts', import.meta.url), { type: 'module', name: 'servos' });
+        let runs = false;
         await new Promise<void>((resolve, reject) => {
             const client: ServosClient = new ServosClient(worker, chosen.name, {
                 keep: memories => this.keep(memories),
                 message: message => {
                     if (message.kind === 'started') resolve();
                     else if (message.kind === 'refused') reject(new RobotError('port-busy', message.text));
+                    else if (message.kind === 'crashed' && !runs) reject(new RobotError('no-image', message.text));
                     else if (this.client === client) this.take(message);
                 },
             });
@@ -121,6 +123,7 @@ export class ServosSource {
             this.client = null;
             throw error;
         });
+        runs = true;
         this.image = image;
     }
 

@@ -24,7 +24,7 @@ export class ServosClient {
         this.events = events;
         this.port = new BytePort(name, bytes => this.post({ kind: 'bytes', bytes }));
         worker.onmessage = (event: MessageEvent<FromServos>) => this.take(event.data);
-        worker.onerror = event => this.take({ kind: 'crashed', text: event.message });
+        worker.onerror = event => this.take({ kind: 'crashed', text: event.message || 'its worker cannot be loaded' });
     }
 
     post(message: ToServos): void {

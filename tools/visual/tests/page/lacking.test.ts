@@ -26,6 +26,38 @@ test('physics that comes late, as over a slow line: the robot plays without it, 
     await person.leave();
 });
 
+/** In the browser: an adapter to choose. */
+function withAdapter(): void {
+    const port = { getInfo: () => ({}) };
+    const { serial } = navigator as unknown as { serial: object };
+    Object.assign(serial, { requestPort: () => Promise.resolve(port), getPorts: () => Promise.resolve([port]) });
+}
+
+test.each([
+    ['its program', /servos-play/],
+    ['its worker', /worker/],
+])('My servos whose files cannot be loaded (%s): that is said, and the robot in the page goes on', async (_, file) => {
+    let isLost = false;
+    const person = await Visitor.come(suite.browser, suite.address, {
+        hasPicture: false,
+        hasPhysics: false,
+        before: async page => {
+            await page.addInitScript(withAdapter);
+            await page.route(file, route => (isLost ? route.abort() : route.continue()));
+        },
+    });
+    await person.untilStanding();
+    isLost = true;
+    await person.button('My servos …').click();
+    const said = person.page.getByRole('log', { name: 'Last message' });
+    await said.filter({ hasText: 'The firmware could not be loaded, so the robot goes on as it was.' }).waitFor();
+    await person.button('Bow').click();
+    await person.doing.filter({ hasText: 'Playing page 2 (bow)' }).waitFor();
+    // What was refused above is in the console as well; nothing else is.
+    expect(person.faults.splice(0).filter(fault => !fault.includes('ERR_FAILED'))).toEqual([]);
+    await person.leave();
+});
+
 test('an old machine: no picture, no serial port, no physics', async () => {
     const browser = await startBrowser('--disable-3d-apis');
     try {
