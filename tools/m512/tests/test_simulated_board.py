@@ -9,6 +9,8 @@ from virtual_peer import VirtualLink
 
 from m512.board import doctor, driving
 from m512.board.client import Client
+from m512.board.sim import Simulator
+from m512.errors import MissingError
 from m512.files.text import read_text
 
 MOTIONS = """motion512 1
@@ -289,3 +291,11 @@ def test_swing_takes_plain_numbers_only(m512, amplitude, period):
 
 def test_a_page_is_timed_at_volts_that_are_a_number(m512, motions):
     assert m512("pages", motions, "time", "walk", "--volts", "nan").exit_code == 2
+
+
+@pytest.mark.parametrize("board", ["cm5", "cm2"])
+def test_the_simulated_board_is_the_one_that_the_image_is_for(monkeypatch, board):
+    """Else the image starts on the wrong pins, and m512 waits five minutes for it."""
+    monkeypatch.setenv("M512_CM5SIM", "/bin/echo")
+    with pytest.raises(MissingError, match=f"--board={board} "):
+        Simulator([f"play-{board}.hex"])

@@ -25,7 +25,9 @@ from typing import Callable
 from m512 import ui
 from m512.board.client import Client
 from m512.board.link import Link
-from m512.errors import MissingError, NoAnswerError, RefusedError
+from m512.board.memory import BOARDS, Record
+from m512.errors import FileError, MissingError, NoAnswerError, RefusedError
+from m512.files.image import hex_segments
 from m512.files.scale12 import HINT
 from m512.files.wording import named_pages_text
 from m512.places import build_folder, wheel_folder
@@ -68,6 +70,16 @@ def find_image(name: str) -> Path:
     raise MissingError(f"the firmware image {name} is neither here nor beside the simulator: build it (tools/demo does), or give its path (--image)")
 
 
+def board_of(path: Path) -> str | None:
+    """The board that an application of ours, in Intel HEX, is made for; None: it does not say."""
+    try:
+        start, app = hex_segments(path.read_text(encoding="ascii"))[0]
+    except (OSError, ValueError, IndexError, FileError):
+        return None  # the simulator says what is wrong with the file
+    record = Record.of(app) if start == 0 else None
+    return record.board if record and record.board in BOARDS.values() else None
+
+
 def our_motions() -> Path | None:
     """The motion library of the build folder or of the simulator's wheel, if there is one."""
     places = [folder / "motions" / "motions.bin" for folder in (build_folder(), wheel_folder()) if folder]
@@ -86,7 +98,9 @@ class Simulator:
     """cm5sim with its console on a pty, and our motions unless others are given. Use as a context; `url` is the port."""
 
     def __init__(self, images: list[str], motions: Path | None = None, servos: str = "1-18", extra: list[str] | None = None):
-        command = [str(find_cm5sim())] + [str(find_image(image)) for image in images]
+        paths = [find_image(image) for image in images]
+        command = [str(find_cm5sim())] + [str(path) for path in paths]
+        command += [f"--board={board}" for board in sorted(filter(None, map(board_of, paths)))]
         command += ["--servos", servos, "--pty", "--no-stdio", "--realtime"] + (extra or [])
         motions = motions or our_motions()
         # A file without a name: nothing is left of it, however this ends.
