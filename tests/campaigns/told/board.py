@@ -14,8 +14,7 @@ from typing import NamedTuple
 
 from cm5sim import Board
 from cm5sim.board import sync_goals
-from tests.campaigns.fuzz_board import pages
-from tests.campaigns.told import runs
+from tests.campaigns.told import chance, runs
 from tests.sim.play_robot import shown
 
 TICK = 15625  # half microseconds
@@ -146,7 +145,7 @@ def tick_at(cycles):
 
 def on_board(actions, into_tick, servos=SERVOS):
     """The same; its grid of ticks lies where that of the simulated time lies."""
-    with Board(images=["play-cm5.hex"], motions=pages(), servos=servos) as board:
+    with Board(images=["play-cm5.hex"], motions=chance.motions(), servos=servos) as board:
         board.run(ticks=START)
         board.run_to("__vector_12")
         began = board.now_cycles
@@ -204,7 +203,7 @@ def replay(actions):
     """Prints what the board makes of a list that simulated time has run; adapter and computer are no part of it."""
     servos = [int(words.split()[1]) for tick, words in actions if words.startswith("servo ")]
     passed = set()
-    with Board(images=["play-cm5.hex"], motions=pages(), servos=servos) as board:
+    with Board(images=["play-cm5.hex"], motions=chance.motions(), servos=servos) as board:
         for tick, words in actions:
             board.run(ticks=max(0, tick - round(board.now_cycles / 125_000)))
             verb, *rest = words.split()

@@ -13,6 +13,7 @@ from tests.campaigns.fuzz_board import pages as play_pages
 SECOND = 128
 START = 3 * SECOND  # the search for servos is over
 LONG, MANY = 180 * SECOND, 100_000
+LAW_PAGES = range(20, 30)
 PLAYED = (1, 2, 3, 4, 8, 9, 12, 13, 14, 15, 21, 22)
 SETTINGS = (
     ("law", (0, 1)),
@@ -42,6 +43,37 @@ FAULTS = (
     "blocked",
 )
 BUTTONS = (1, 1, 2, 4, 8, 16, 16, 32, 64, 256, 512, 512)
+
+
+def motions():
+    """The pages that all sessions begin with: those of Play's tests, and pages by chance for the law, with both schedules, pauses, odd
+    speeds, unused joints and joints that go through a step, no joint faster than a servo is."""
+    image, rng = bytearray(play_pages()), random.Random("pages of the law")
+    for number in LAW_PAGES:
+        page = image[512 * number : 512 * (number + 1)]
+        steps = rng.randrange(2, 8)
+        speed = rng.choice((32, 32, 27, 50, 80))
+        time_base = rng.random() < 0.6
+        links = [rng.choice((0, 0, *LAW_PAGES)) for _ in range(2)]
+        page[:64] = bytes(64)
+        page[:6] = f"law {number}".encode()
+        page[15], page[16], page[20], page[22] = rng.choice((1, 1, 2, 3)), 10 if time_base else 0, steps, speed
+        page[24], page[25], page[26] = rng.choice((0, 1, 8, 32, 32, 90)), *links
+        page[32:64] = b"\x55" * 32
+        at = [rng.randrange(400, 624) for _ in range(31)]
+        for step in range(steps):
+            ticks = rng.randrange(12 if step else 50, 120)
+            most = min(224, int(ticks * speed / 32 * 6)) if time_base else 224
+            for joint in range(31):
+                at[joint] = min(624, max(400, at[joint] + rng.choice((0, rng.randrange(-most, most + 1)))))
+                word = at[joint] if rng.random() < 0.85 or not step else 0x4000
+                page[64 + 64 * step + 2 * joint : 66 + 64 * step + 2 * joint] = word.to_bytes(2, "little")
+            page[64 + 64 * step + 62] = rng.choice((0, 0, 0, rng.randrange(8, 60)))
+            page[64 + 64 * step + 63] = ticks if time_base else rng.randrange(20, 40)
+        page[31] = 0
+        page[31] = 255 - sum(page) % 256
+        image[512 * number : 512 * (number + 1)] = page
+    return bytes(image)
 
 
 def typed(text):
@@ -128,6 +160,14 @@ class Player(Person):
     def plays(self):
         self.line(f"play {self.rng.choice(PLAYED)}" if self.rng.random() < 0.9 else "play walk start")
 
+    def plays_by_the_law(self):
+        """Nothing but the pages decides where joints go."""
+        for word in ("break", "free", "shape reset"):
+            self.line(word, SECOND)
+        self.line(f"play {self.rng.choice(LAW_PAGES)}", self.rng.randrange(4, 10) * SECOND)
+        for word in self.rng.sample(("@where", "@crcs 1 9", "@pose", "aim 1 600"), 2):
+            self.line(word, self.rng.randrange(1, 5) * SECOND)
+
     def ends(self):
         word = self.rng.choice(("stop", "stop", "stop", "break", "off", "@stop", "@break"))
         self.line(word)
@@ -213,6 +253,19 @@ class Player(Person):
             )
         )
 
+    def requests(self):
+        """Right and wrong ones: words, how many, ranges."""
+        rng = self.rng
+        first, last = sorted(rng.randrange(256) for _ in range(2))
+        pages, rate = rng.choice((f"{first} {min(last, first + 20)}", f"{last} {first}", "5 300")), rng.choice((10, 50, 9, 400, 401))
+        word = rng.choice("ver list page dense crcs pose where rate blend shape watch aim pag wher stop".split())
+        wrong = f"@{word}" + "".join(rng.choice((" 1", " -1", " 256", " x", " 0x1F", " 99999")) for _ in range(rng.randrange(4)))
+        lines = ("@where", "@pose", "@ver", f"@page {first}", f"@dense {first}", f"@crcs {pages}", wrong, wrong)
+        if isinstance(self, Player):
+            lines += ("@shape", f"@rate {rate}", f"@blend {rng.randrange(-102, 103)}", f"@amplitude {rng.randrange(153)}")
+        for _ in range(rng.randrange(1, 4)):
+            self.line(rng.choice(lines))
+
     def asks(self):
         lines = (
             "@where @pose status servos faults list settings version help law remote @ver @crcs @list @watch,50 @watch,0 servos,find nonsense".split()
@@ -240,6 +293,7 @@ class Player(Person):
 
     WEIGHTS = (
         ("plays", 16),
+        ("plays_by_the_law", 6),
         ("ends", 8),
         ("pauses", 3),
         ("shapes", 4),
@@ -251,6 +305,7 @@ class Player(Person):
         ("loses_the_adapter_in_a_layer", 0.5),
         ("moves", 4),
         ("asks", 3),
+        ("requests", 3),
         ("sets", 3),
         ("halts_in_a_line", 3),
         ("types_noise", 0.3),

@@ -16,6 +16,7 @@
 #define TROUBLE (6u * SECOND)      /* what the line has done is past */
 #define QUIET SECOND               /* asking a servo that is silent takes a part of that, and nothing is printed meanwhile */
 #define PROMPT_BACK (8u * SECOND)
+#define LAST_FRAME 2u              /* ticks */
 #define SETTLED 64u                /* ticks without a write: a save is over */
 #define GOAL_AT 30u
 #define TORQUE_AT 24u
@@ -31,6 +32,8 @@ static struct {
     uint32_t write_tick;
     uint32_t silent_tick[IDS];     /* the person was told that it does not answer: no goals, until asked */
     uint32_t off_tick[IDS];
+    uint32_t ended_tick;           /* a play has said that it is over, and its last frame may come after that; NEVER_TICK */
+    unsigned ended_page;
     int sequence;                  /* of the settings that are sure; -1: none */
     bool is_shaped;                /* something but the pages may decide where joints go, since the last start */
     bool is_playing;               /* by what the console says */
@@ -88,6 +91,12 @@ static void line_typed(void)
         session.save_asked_tick = session.tick;
     }
     marks_typed(session.typed);
+    answers_typed(session.typed);
+    if (session.is_edit) {
+        screen_typed(session.typed);
+    } else {
+        law_typed(session.typed);
+    }
     session.typed_count = 0;
     session.typed_is_known = true;
 }
@@ -118,6 +127,7 @@ void rules_remote(unsigned buttons)
     if (buttons != 0) {
         session.asked_tick = session.tick;
     }
+    law_remote(buttons);
 }
 
 /* ---- goals and torque ---- */
@@ -129,6 +139,16 @@ static bool has_fault(const joint_t *joint)
         has = has || servo_fault_is_on(joint->servo, (servo_fault_t)fault);
     }
     return has || !long_ago(joint->fault_tick, TROUBLE);
+}
+
+bool rules_is_well(void)
+{
+    for (unsigned id = 0; id < JOINTS; id++) {
+        if (session.joint[id].servo != NULL && has_fault(&session.joint[id])) {
+            return false;
+        }
+    }
+    return long_ago(session.trouble_tick, TROUBLE);
 }
 
 static void must_be_asked(uint8_t id, const char *what)
@@ -226,6 +246,9 @@ void rules_packet(const uint8_t *packet, uint16_t count)
         for (unsigned at = 2; at + params[1] < given; at += params[1] + 1u) {
             take_write(params[at], params[0], params + at + 1, params[1]);
         }
+        if (params[0] == GOAL_AT && !session.is_edit) {
+            law_frame(params + 2, given - 2u, params[1]);
+        }
     } else if ((packet[4] == INST_WRITE || packet[4] == INST_REG_WRITE) && given >= 2) {
         take_write(packet[2], params[0], params + 1, given - 1u);
         goals = params[0] <= GOAL_AT && params[0] + given - 1u > GOAL_AT;
@@ -263,6 +286,23 @@ static void named_silent(unsigned id)
     rules.silent_tick[id] = session.tick;
 }
 
+/* "No answer from servos 3, 5-7": the answer to what a person asked of them. */
+static void told_silent(const char *list)
+{
+    unsigned first, last;
+    for (int length; sscanf(list, "%u%n", &first, &length) == 1;) {
+        list += length;
+        last = first;
+        if (sscanf(list, "-%u%n", &last, &length) == 1) {
+            list += length;
+        }
+        for (; first <= last && first < JOINTS; first++) {
+            session.joint[first].told_silent = true;
+        }
+        list += strspn(list, ", ");
+    }
+}
+
 /* Servos that were well when they were searched for are known. */
 static void servos_are_searched(void)
 {
@@ -277,7 +317,8 @@ static void pose_must_be_there(unsigned page)
 {
     const uint8_t *at = told_memory(MACHINE_PAGES) + page * PAGE_BYTES;
     const unsigned steps = at[STEPS_AT];
-    if (rules.is_shaped || session.is_edit || page >= told_bytes(MACHINE_PAGES) / PAGE_BYTES || steps == 0 || steps > 7) {
+    const bool is_plain = !rules.is_shaped && law_is_exact() && !session.is_edit;
+    if (!is_plain || page >= told_bytes(MACHINE_PAGES) / PAGE_BYTES || steps == 0 || steps > 7) {
         return;
     }
     for (unsigned id = 0; id < JOINTS; id++) {
@@ -307,13 +348,21 @@ void rules_printed(const char *line)
     }
     /* A first save that is cut off leaves the defaults, which were in force, and the program says so in these words. */
     if (sscanf(line, "Ended after page %u", &id) == 1) {
-        pose_must_be_there(id);
+        rules.ended_page = id;
+        rules.ended_tick = session.tick;
+    }
+    answers_printed(line);
+    if (!session.is_edit) {
+        law_printed(line);
     }
     if (strstr(line, " servos: ") != NULL) {
         servos_are_searched();
     }
     if (strstr(line, "settings were damaged") != NULL && rules.sequence >= 0) {
         session_fail("settings are old or new", "\"%s\"", line);
+    }
+    if (strncmp(line, "No answer from servos ", 22) == 0) {
+        told_silent(line + 22);
     }
     if (sscanf(line, "Servo %u does not answer%n", &id, &at) == 1 && at > 0) {
         named_silent(id);
@@ -437,8 +486,12 @@ void rules_said(const char *sentence)
 
 void rules_boot(void)
 {
+    law_boot();
+    screen_boot();
+    answers_boot();
     rules.is_starting = true;
     rules.is_playing = rules.is_shaped = false;
+    rules.ended_tick = NEVER_TICK;
     memset(rules.silent_tick, 0, sizeof rules.silent_tick);
     memset(rules.off_tick, 0, sizeof rules.off_tick);
     memset(session.line, 0, sizeof session.line);
@@ -485,6 +538,13 @@ static void servos_must_be_named(void)
 void rules_tick(void)
 {
     text_must_stand();
+    law_tick();
+    screen_tick();
+    if (rules.ended_tick != NEVER_TICK && session.tick - rules.ended_tick > LAST_FRAME) {
+        rules.ended_tick = NEVER_TICK;
+        pose_must_be_there(rules.ended_page);
+    }
+    answers_tick();
     if (session.tick % 32 == 0) {
         servos_must_be_named();
         if (rules.checks_pages && long_ago(rules.write_tick, SETTLED) && !rules.is_starting) {

@@ -7,7 +7,6 @@ import subprocess
 from typing import NamedTuple
 
 from tests.campaigns import proof
-from tests.campaigns.fuzz_board import pages
 from tests.campaigns.told import chance
 
 FOLDER = proof.BUILD / "host" / "tests" / "campaigns" / "told"
@@ -28,8 +27,8 @@ class Outcome(NamedTuple):
 
 def motions():
     """The file of motion pages that all sessions begin with."""
-    if not MOTIONS.exists() or MOTIONS.read_bytes() != pages():
-        MOTIONS.write_bytes(pages())
+    if not MOTIONS.exists() or MOTIONS.read_bytes() != chance.motions():
+        MOTIONS.write_bytes(chance.motions())
     return MOTIONS
 
 

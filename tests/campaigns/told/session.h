@@ -18,7 +18,7 @@
 
 #define IDS 254u
 #define JOINTS 31u
-#define LINE_BYTES 160u
+#define LINE_BYTES 1200u           /* a page in hexadecimal */
 #define SECOND 128u                /* ticks */
 #define NEVER_TICK 0u
 
@@ -46,6 +46,7 @@ typedef struct {
     joint_t joint[IDS];
     uint32_t trouble_tick;         /* the last time that the line, the adapter or the computer failed */
     uint32_t late_tick;            /* the last time that the computer was late or the adapter gone */
+    uint32_t pushed_tick;          /* the last time that a hand turned a joint */
     uint32_t goals_tick;           /* the last goals of any joint */
     uint32_t frame_tick;           /* the last goals of a tick, to all joints at once */
     uint32_t boot_tick;
@@ -91,6 +92,30 @@ void rules_typed(uint8_t byte);
 void rules_remote(unsigned buttons);
 void rules_kept(machine_memory_t memory, uint32_t at, const uint8_t *bytes, uint32_t count);
 void rules_end(void);
+bool rules_is_well(void);         /* no servo, line or computer fails, or has failed lately */
+
+/* law.c */
+void law_boot(void);
+void law_tick(void);
+void law_frame(const uint8_t *ids_and_goals, unsigned count, unsigned bytes_each);
+void law_printed(const char *line);
+void law_typed(const char *line);
+void law_remote(unsigned buttons);
+bool law_is_exact(void);   /* else the classic one may be in force */
+/* Which step plays now. false: not known. */
+bool law_place(unsigned *page, unsigned *step, unsigned *repetition);
+
+/* answers.c */
+void answers_boot(void);
+void answers_tick(void);
+void answers_printed(const char *line);
+void answers_typed(const char *line);
+
+/* screen.c */
+void screen_boot(void);
+void screen_tick(void);
+void screen_byte(uint8_t byte);
+void screen_typed(const char *line);
 
 /* marks.c */
 void reached(const char *place);

@@ -123,6 +123,9 @@ static void printed(const uint8_t *bytes, uint16_t count)
     rules_started();
     for (uint16_t i = 0; i < count; i++) {
         show(bytes[i]);
+        if (session.is_edit) {
+            screen_byte(bytes[i]);
+        }
     }
     if (session.shows) {
         fwrite(bytes, 1, count, stdout);
@@ -213,6 +216,17 @@ static void send_remote(unsigned buttons)
     }
 }
 
+/* The panel. */
+static void press(unsigned buttons)
+{
+    told_press((uint8_t)buttons);
+    if (buttons != 0) {
+        session.asked_tick = session.tick;
+        law_remote(buttons >= 16 ? 512 : buttons);   /* Start stops */
+        law_remote(0);
+    }
+}
+
 /* Bytes as hexadecimal digits. */
 static bool type_hex(const char *hex)
 {
@@ -300,17 +314,14 @@ bool world_do(char *words)
         return clear_faults(a);
     } else if (strcmp(verb, "push") == 0 && numbers == 2 && a < IDS && session.joint[a].servo != NULL) {
         servo_push_to(session.joint[a].servo, cycles(told_now()), b);
-        session.joint[a].pushed_tick = session.tick;
+        session.joint[a].pushed_tick = session.pushed_tick = session.tick;
     } else if (strcmp(verb, "supply") == 0 && numbers == 1) {
         servo_bus_supply(session.bus, cycles(told_now()), a / 10.0);
         session.trouble_tick = session.tick;
     } else if (strcmp(verb, "remote") == 0 && numbers == 1) {
         send_remote(a);
     } else if (strcmp(verb, "press") == 0 && numbers == 1) {
-        told_press((uint8_t)a);
-        if (a != 0) {
-            session.asked_tick = session.tick;
-        }
+        press(a);
     } else if (strcmp(verb, "latency") == 0 && numbers == 2) {
         line.latency = a;
         line.lump = b;

@@ -1,0 +1,513 @@
+/* SPDX-License-Identifier: MIT
+ * law.c - where each joint must be in each tick of a play, and which step comes next: motion/LAWS.md 2 and PAGE_FORMAT.md
+ * worked out again, in plain numbers, from the stored pages and the lines that name the steps.
+ *
+ * Nothing here knows the moment at which a play begins, only the line that says so. So a few moments are possible, and each
+ * step drops those that do not fit. If none is left, the goals are not those of the law. */
+#include "session.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PAGE_BYTES 512u
+#define STEP_BYTES 64u
+#define PAGES 256u
+#define KEPT 8192u                 /* ticks; a step that is longer is not looked at */
+#define STEPS_KEPT 4u
+#define EARLIEST 8u                /* ticks before the line; as many after it */
+#define MOMENTS 16u
+#define BETWEEN 0.05               /* ticks: what rounding of lengths may add up to */
+#define NEAR 0.75                  /* units: half of one is rounding */
+#define UNUSED 0x4000u
+#define LAST_COMES (4u + MOMENTS)  /* ticks after the line that says that a play is over; nothing moves any more */
+#define DEGREES (1023.0 / 300.0)
+#define SLOWEST 30u                /* degrees/s, of the settings that chance makes */
+
+enum { COUNT_AT = 15, SCHEDULE_AT = 16, STEPS_AT = 20, SPEED_AT = 22, ACCEL_AT = 24, NEXT_AT = 25,
+       EXIT_AT = 26, LINK1_AT = 27, LINK2_AT = 29, PAUSE_AT = 62, TIME_AT = 63 };
+
+typedef struct {
+    unsigned page, number, repetition;
+} place_t;
+
+typedef struct {
+    place_t place;
+    uint32_t begin;                /* the tick before its first one, if the play begins at the earliest moment */
+    unsigned ticks, hold, ramp;
+    bool uses[JOINTS];
+    double start[JOINTS], distance[JOINTS], in[JOINTS];   /* units, the speed at its beginning in units a tick */
+} step_t;
+
+static struct {
+    uint16_t now[JOINTS];
+    uint16_t goal[KEPT][JOINTS];
+    uint32_t ticks;
+    uint32_t present;              /* joints of the last frame, a bit each */
+    step_t step[STEPS_KEPT];
+    unsigned head, tail;
+    double rest;                   /* the fraction of a tick that is carried on */
+    bool is_sure;                  /* of all lengths since then */
+    uint32_t moments;              /* those that still fit, a bit each */
+    place_t last;
+    uint32_t ended_tick;           /* the play has said that it is over; NEVER_TICK: it has not */
+    bool knows_place;
+    bool is_judged;                /* nothing but the pages decides about this play */
+    bool is_first;                 /* its first step has not come */
+    bool is_called, is_stopped;    /* a code, a stop since the play was asked for */
+    bool is_shaped, is_classic, is_quiet, has_modes;       /* what was typed in this session, or since the start */
+    bool was_classic, was_quiet;   /* ever: after a power cut a setting may be the one before */
+    bool is_aimed;
+    uint32_t approach_tick;        /* the first frame of an approach; NEVER_TICK: there is none */
+    unsigned buttons;              /* of the newest packet */
+    double approach;               /* degrees/s, the fastest that was ever set */
+    struct {
+        uint32_t due;              /* the tick at which it must have come there; NEVER_TICK: none */
+        unsigned to;
+    } aim[JOINTS];
+    char asked[LINE_BYTES];        /* the newest line, until it is answered */
+} law;
+
+static const uint8_t *page_at(unsigned page)
+{
+    return told_memory(MACHINE_PAGES) + page % PAGES * PAGE_BYTES;
+}
+
+static unsigned position(unsigned page, unsigned step, unsigned id)
+{
+    const uint8_t *at = page_at(page) + STEP_BYTES * step + 2 * id;
+    return at[0] | (unsigned)at[1] << 8;
+}
+
+static bool begins(const char *line, const char *word)
+{
+    const size_t length = strlen(word);
+    return strncmp(line, word, length) == 0 && (line[length] == '\0' || line[length] == ' ');
+}
+
+static bool is_one_of(const char *line, const char *const *words)
+{
+    line += *line == '@' ? 1 : 0;
+    for (; *words != NULL; words++) {
+        if (begins(line, *words)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void judge_no_more(void)
+{
+    law.is_judged = law.knows_place = false;
+    law.ended_tick = NEVER_TICK;
+    law.head = law.tail = 0;
+}
+
+/* ---- which step comes ---- */
+
+/* Pages without repetitions are passed over. 0: the end. */
+static unsigned resolved(unsigned page)
+{
+    for (unsigned i = 0; i < PAGES && page != 0 && page_at(page)[COUNT_AT] == 0; i++) {
+        page = page_at(page)[NEXT_AT];
+    }
+    return page;
+}
+
+/* Whether a page may come after the last step of another one. */
+static bool may_follow(place_t last, unsigned next)
+{
+    const uint8_t *at = page_at(last.page);
+    const bool by_exit = law.is_stopped && next == resolved(at[EXIT_AT]);
+    const bool by_code = law.is_called && (next == resolved(at[LINK1_AT]) || next == resolved(at[LINK2_AT]));
+    return (last.repetition == at[COUNT_AT] || law.is_stopped) && (next == resolved(at[NEXT_AT]) || by_exit || by_code);
+}
+
+static void must_come(place_t next)
+{
+    const place_t last = law.last;
+    const uint8_t *at = page_at(last.page);
+    bool is_right;
+    if (last.number < at[STEPS_AT]) {
+        is_right = next.page == last.page && next.number == last.number + 1 && next.repetition == last.repetition;
+    } else if (next.repetition > 1) {
+        is_right = next.page == last.page && next.number == 1 && next.repetition == last.repetition + 1 &&
+                   next.repetition <= at[COUNT_AT];
+    } else {
+        is_right = next.number == 1 && next.repetition == 1 && may_follow(last, next.page);
+    }
+    reached("next step as the page says");
+    if (!is_right) {
+        session_fail("steps come as the pages say", "after page %u step %u repetition %u: page %u step %u repetition %u",
+                     last.page, last.number, last.repetition, next.page, next.number, next.repetition);
+    }
+}
+
+/* A play is over: nothing may follow. (A chain of exit links that comes back to itself ends as well.) */
+static void must_be_over(unsigned page)
+{
+    const place_t last = law.last;
+    if (page != last.page || last.number != page_at(page)[STEPS_AT] || (!law.is_stopped && !may_follow(last, 0))) {
+        session_fail("steps come as the pages say", "the end after page %u, page %u step %u repetition %u was the last",
+                     page, last.page, last.number, last.repetition);
+    }
+}
+
+/* ---- the exact law ---- */
+
+static uint16_t goal_at(uint32_t tick, unsigned id)
+{
+    return law.goal[tick % KEPT][id];
+}
+
+/* The whole ticks of a time; its fraction is carried on. A page's length is right to one tick: the nearest tick is taken.
+ * Of a time between two ticks nobody can say which one is the nearest. */
+static unsigned whole(double ideal)
+{
+    const double all = ideal + law.rest;
+    const double ticks = floor(all);
+    law.rest = all - ticks;
+    law.is_sure = law.is_sure && law.rest > BETWEEN && law.rest < 1 - BETWEEN;
+    return (unsigned)ticks;
+}
+
+static void plan(step_t *step, const step_t *before)
+{
+    const uint8_t *page = page_at(step->place.page);
+    const uint8_t *at = page + STEP_BYTES * step->place.number;
+    const double speed = page[SPEED_AT];
+    double most = 0, ideal, pause;
+    for (unsigned id = 0; id < JOINTS; id++) {
+        const unsigned to = position(step->place.page, step->place.number, id);
+        step->uses[id] = (law.present >> id & 1u) != 0 && to < UNUSED;
+        if (before != NULL) {
+            step->start[id] = before->start[id] + before->distance[id];
+        } else {
+            step->start[id] = step->uses[id] ? to : law.now[id];   /* the approach has come there */
+        }
+        step->distance[id] = step->uses[id] ? to - step->start[id] : 0;
+        most = fmax(most, fabs(step->distance[id]));
+    }
+    if (page[SCHEDULE_AT] == 0) {
+        ideal = fmax(1, 40 * most * 32 / (3 * at[TIME_AT] * speed));
+        pause = at[PAUSE_AT] * 32 / speed;
+    } else {
+        ideal = fmax(1, at[TIME_AT] * speed / 32);
+        pause = at[PAUSE_AT] * speed / 32;
+    }
+    step->begin = before != NULL ? before->begin + before->ticks + before->hold : law.ticks - EARLIEST;
+    step->ticks = whole(ideal);
+    step->hold = whole(pause);
+    step->ramp = page[ACCEL_AT] < step->ticks / 2 ? page[ACCEL_AT] : step->ticks / 2;
+}
+
+/* The speed at which the joint passes from one step into the next one. */
+static double through(const step_t *step, const step_t *next, unsigned id)
+{
+    if (next == NULL || step->hold > 0 || step->distance[id] * next->distance[id] <= 0) {
+        return 0;
+    }
+    const double here = step->distance[id] / step->ticks, there = next->distance[id] / next->ticks;
+    return fabs(here) < fabs(there) ? here : there;
+}
+
+/* Where a joint is `tick` ticks after the beginning of a step. */
+static double place_in(const step_t *step, unsigned id, double out, unsigned tick)
+{
+    const double ramp = step->ramp, in = step->in[id], distance = step->distance[id];
+    if (tick >= step->ticks) {
+        return step->start[id] + distance;
+    }
+    const double speed = (distance - (in + out) * ramp / 2) / (step->ticks - ramp);
+    const double left = step->ticks - tick;
+    if (tick < ramp) {
+        return step->start[id] + in * tick + (speed - in) * tick * tick / (2 * ramp);
+    }
+    if (left < ramp) {
+        return step->start[id] + distance - out * left - (speed - out) * left * left / (2 * ramp);
+    }
+    return step->start[id] + (in + speed) * ramp / 2 + speed * (tick - ramp);
+}
+
+static void judge(const step_t *step, const step_t *next)
+{
+    uint32_t fit = law.moments;
+    char why[160] = "";
+    unsigned farthest = 0;
+    for (unsigned moment = 0; moment < MOMENTS; moment++) {
+        bool fits = (fit >> moment & 1u) != 0;
+        for (unsigned tick = 1; tick <= step->ticks + step->hold && fits; tick++) {
+            for (unsigned id = 0; id < JOINTS && fits; id++) {
+                if (!step->uses[id]) {
+                    continue;
+                }
+                const double must = place_in(step, id, next == NULL ? 0 : next->in[id], tick);
+                const unsigned is = goal_at(step->begin + moment + tick, id);
+                if (fabs(must - is) > (tick < step->ticks ? NEAR : 0)) {
+                    fits = false;
+                    if (tick <= farthest) {
+                        continue;
+                    }
+                    farthest = tick;
+                    snprintf(why, sizeof why, "page %u step %u tick %u of %u, servo %u: %.2f is right, %u is sent",
+                             step->place.page, step->place.number, tick, step->ticks, id, must, is);
+                }
+            }
+        }
+        fit &= fits ? UINT32_MAX : ~(1u << moment);
+    }
+    reached("step by the exact law");
+    if (fit == 0) {
+        session_fail("goals are those of the exact law", "%s", why);
+    }
+    law.moments = fit;
+}
+
+/* Looks at the oldest steps that are over. */
+static void judge_done(bool is_end)
+{
+    while (law.tail != law.head && rules_is_well()) {
+        const step_t *step = &law.step[law.tail % STEPS_KEPT];
+        const step_t *next = law.tail + 1 != law.head ? &law.step[(law.tail + 1) % STEPS_KEPT] : NULL;
+        const uint32_t over = step->begin + step->ticks + step->hold;
+        if ((next == NULL && !is_end) || (!is_end && over + MOMENTS > law.ticks)) {
+            return;
+        }
+        judge(step, next);
+        law.tail++;
+    }
+}
+
+static void step_comes(place_t place)
+{
+    if (law.knows_place) {
+        must_come(place);
+    }
+    law.last = place;
+    law.knows_place = true;
+    const step_t *before = law.head != law.tail ? &law.step[(law.head - 1) % STEPS_KEPT] : NULL;
+    if (law.is_classic || law.is_shaped || law.head - law.tail == STEPS_KEPT || (before == NULL && !law.is_first)) {
+        law.head = law.tail = 0;
+        law.is_first = false;
+        return;
+    }
+    step_t *step = &law.step[law.head % STEPS_KEPT];
+    memset(step, 0, sizeof *step);
+    step->place = place;
+    plan(step, before);
+    if (!law.is_sure || step->ticks + step->hold + MOMENTS > KEPT / STEPS_KEPT) {
+        law.head = law.tail = 0;
+        law.is_first = false;
+        return;
+    }
+    for (unsigned id = 0; id < JOINTS; id++) {
+        step->in[id] = before == NULL ? 0 : through(before, step, id);
+    }
+    law.is_first = false;
+    law.head++;
+    judge_done(false);
+}
+
+/* ---- what happens ---- */
+
+/* A frame of goals. */
+void law_frame(const uint8_t *ids_and_goals, unsigned count, unsigned bytes_each)
+{
+    uint32_t present = 0;
+    for (unsigned at = 0; at + bytes_each < count; at += bytes_each + 1) {
+        const unsigned id = ids_and_goals[at], goal = ids_and_goals[at + 1] | (unsigned)ids_and_goals[at + 2] << 8;
+        if (id >= JOINTS) {
+            continue;
+        }
+        const double most = law.approach * DEGREES / SECOND + 1.01;
+        const bool goes_on = law.approach_tick != NEVER_TICK && session.tick > law.approach_tick;
+        if (law.is_judged && goes_on && (law.present >> id & 1u) != 0 && fabs((double)goal - law.now[id]) > most) {
+            session_fail("an approach keeps to its speed", "servo %u from %u to %u in a tick", id, law.now[id], goal);
+        }
+        law.now[id] = (uint16_t)goal;
+        present |= 1u << id;
+    }
+    if (present != law.present && law.knows_place) {
+        judge_no_more();
+    }
+    law.present = present;
+    law.approach_tick = law.approach_tick == UINT32_MAX ? session.tick : law.approach_tick;
+}
+
+static void play_begins(void)
+{
+    law.is_judged = !law.is_quiet && rules_is_well();
+    law.knows_place = false;
+    law.ended_tick = NEVER_TICK;
+    law.head = law.tail = 0;
+    law.rest = 0.5;
+    law.is_sure = true;
+    law.moments = (1u << MOMENTS) - 1u;
+    law.is_first = true;
+}
+
+static void take_answer(void)
+{
+    unsigned id, to, speed = SLOWEST;
+    const bool is_aim = sscanf(law.asked, "aim %u %u %u", &id, &to, &speed) >= 2 && id < JOINTS && speed > 0;
+    if (is_aim && !law.is_stopped) {   /* the end of a play that is stopped ends it too */
+        const double way = session.joint[id].servo == NULL ? 0 : fabs(session.joint[id].servo->position - to) + SECOND;
+        law.aim[id].due = session.tick + SECOND + (uint32_t)(way / (speed * DEGREES) * SECOND);
+        law.aim[id].to = to;
+    }
+    law.asked[0] = '\0';
+}
+
+void law_printed(const char *line)
+{
+    place_t place;
+    unsigned page;
+    const char *step = strstr(line, " step ");
+    if (strncmp(line, "Going to", 8) == 0 || strncmp(line, "Moving, ", 8) == 0) {
+        play_begins();
+        law.approach_tick = law.is_aimed ? NEVER_TICK : UINT32_MAX;   /* the next frame; it begins where the joints are */
+    } else if ((sscanf(line, "Playing page %u", &place.page) == 1 || sscanf(line, "Page %u step", &place.page) == 1) &&
+               step != NULL && sscanf(step, " step %u repetition %u", &place.number, &place.repetition) == 2) {
+        law.approach_tick = NEVER_TICK;
+        if (law.is_judged) {
+            step_comes(place);
+        }
+    } else if (sscanf(line, "Ended after page %u", &page) == 1 || sscanf(line, "Stopped after page %u", &page) == 1) {
+        if (law.is_judged && law.knows_place) {
+            must_be_over(page);
+            law.ended_tick = session.tick;
+        }
+        law.knows_place = law.is_called = law.is_stopped = false;
+    } else if (strncmp(line, "Broken", 6) == 0 || strncmp(line, "Ended", 5) == 0 || strncmp(line, "The pose", 8) == 0) {
+        judge_no_more();
+        law.is_called = law.is_stopped = false;
+    } else if (strcmp(line, " OK") == 0) {
+        take_answer();
+    } else if (strncmp(line, "Nobody drives", 13) == 0) {
+        law.is_stopped = true;
+        memset(law.aim, 0, sizeof law.aim);
+    } else if (strstr(line, "dropped") != NULL || strstr(line, "Battery") != NULL || strncmp(line, "Servo ", 6) == 0 ||
+               strncmp(line, "Paused", 6) == 0) {
+        judge_no_more();
+    }
+}
+
+/* A line has been typed. Unless it only asks, the pages do not decide alone from now on. */
+void law_typed(const char *line)
+{
+    static const char *const asks[] = {"where", "pose", "ver", "version", "crcs", "list", "page", "dense", "help",
+                                       "faults", "watch", NULL};
+    static const char *const shapes[] = {"rate", "amplitude", "blend", "drive", "layer", "aim", "swing", NULL};
+    unsigned number;
+    snprintf(law.asked, sizeof law.asked, "%s", line);
+    if (line[0] == '\0' || (session.typed_is_known && is_one_of(line, asks))) {
+        return;
+    }
+    law.is_quiet = (law.is_quiet && !begins(line, "settings talk 1")) || begins(line, "settings talk 0");
+    law.is_classic = (law.is_classic && !begins(line, "settings law 0")) || begins(line, "settings law 1");
+    law.was_quiet = law.was_quiet || law.is_quiet;
+    law.was_classic = law.was_classic || law.is_classic;
+    law.has_modes = law.has_modes || begins(line, "settings remote");
+    if (sscanf(line, "settings approach %u", &number) == 1 || sscanf(line, "@move %u", &number) == 1) {
+        law.approach = fmax(law.approach, number);
+    }
+    if (!session.typed_is_known) {
+        law.is_shaped = law.is_quiet = law.is_classic = law.was_quiet = law.was_classic = true;
+        law.approach = 1000;
+    }
+    law.is_shaped = law.is_shaped || is_one_of(line, shapes);
+    law.is_aimed = (law.is_aimed || begins(line, "aim") || begins(line, "swing")) && !begins(line, "free");
+    if (begins(line, "shape reset") && !law.knows_place && !law.is_aimed) {
+        law.is_shaped = false;
+    }
+    if (!begins(line, "aim") && !begins(line, "play")) {
+        memset(law.aim, 0, sizeof law.aim);
+    }
+    if ((begins(line, "stop") || begins(line, "@stop")) && !law.is_stopped) {
+        law.is_stopped = true;
+    } else if (begins(line, "play") || begins(line, "@play")) {
+        law.is_called = law.is_called || strchr(line, ' ') != strrchr(line, ' ');
+    } else if (begins(line, "code")) {
+        law.is_called = true;
+        judge_no_more();
+    } else {
+        judge_no_more();
+        law.approach_tick = NEVER_TICK;
+    }
+}
+
+/* Buttons of the remote or the panel: 256 pauses, 512 stops, the others are codes. */
+void law_remote(unsigned buttons)
+{
+    const bool is_stop = buttons >= 512 && law.buttons < 512;
+    law.buttons = buttons;
+    if (buttons == 0) {
+        return;
+    }
+    memset(law.aim, 0, sizeof law.aim);
+    if (law.has_modes || buttons == 256 || (is_stop && law.is_stopped)) {
+        judge_no_more();
+        law.approach_tick = NEVER_TICK;
+    }
+    law.is_called = true;
+    law.is_stopped = law.is_stopped || is_stop;
+}
+
+void law_boot(void)
+{
+    judge_no_more();
+    law.is_shaped = law.is_called = law.is_stopped = law.is_aimed = false;
+    law.is_classic = law.was_classic;
+    law.is_quiet = law.was_quiet;
+    law.approach_tick = NEVER_TICK;
+    law.present = 0;
+    law.asked[0] = '\0';
+    memset(law.aim, 0, sizeof law.aim);
+    if (session.boots == 0) {
+        law.approach = 60;
+    }
+}
+
+bool law_is_exact(void)
+{
+    return !law.is_classic;
+}
+
+/* A step has been told a moment ago at the earliest: the program may be in the next one already. */
+bool law_place(unsigned *page, unsigned *step, unsigned *repetition)
+{
+    *page = law.last.page;
+    *step = law.last.number;
+    *repetition = law.last.repetition;
+    return law.is_judged && law.knows_place && law.ended_tick == NEVER_TICK;
+}
+
+/* The last frame has come, and joints have come to where they were aimed. */
+void law_tick(void)
+{
+    law.ticks++;
+    memcpy(law.goal[law.ticks % KEPT], law.now, sizeof law.now);
+    if (law.is_judged) {
+        judge_done(false);
+    }
+    if (law.ended_tick != NEVER_TICK && session.tick > law.ended_tick + LAST_COMES) {
+        judge_done(true);
+        judge_no_more();
+    }
+    for (unsigned id = 0; id < JOINTS; id++) {
+        if (law.aim[id].due == NEVER_TICK) {
+            continue;
+        }
+        if (!rules_is_well()) {
+            law.aim[id].due = NEVER_TICK;
+        } else if (session.tick >= law.aim[id].due) {
+            law.aim[id].due = NEVER_TICK;
+            reached("aim arrived");
+            if (law.now[id] != law.aim[id].to) {
+                session_fail("an aim ends where it was told", "servo %u at %u, %u was asked", id, law.now[id],
+                             law.aim[id].to);
+            }
+        }
+    }
+}
