@@ -83,6 +83,7 @@ PLACES = (
     "step by the exact law",
     "next step as the page says",
     "aim arrived",
+    "swing swung",
     "a play is told by @where",
     "a pose is told by @pose",
     "a page is told by a request",

@@ -165,7 +165,7 @@ class Player(Person):
         for word in ("break", "free", "shape reset"):
             self.line(word, SECOND)
         self.line(f"play {self.rng.choice(LAW_PAGES)}", self.rng.randrange(4, 10) * SECOND)
-        for word in self.rng.sample(("@where", "@crcs 1 9", "@pose", "aim 1 600"), 2):
+        for word in self.rng.sample(("@where", "@crcs 1 9", "@pose", "aim 1 600", "swing 1 512 40 2000"), 2):
             self.line(word, self.rng.randrange(1, 5) * SECOND)
 
     def ends(self):

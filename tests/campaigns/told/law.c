@@ -64,7 +64,8 @@ static struct {
     double approach;               /* degrees/s, the fastest that was ever set */
     struct {
         uint32_t due;              /* the tick at which it must have come there; NEVER_TICK: none */
-        unsigned to;
+        uint32_t period;           /* ticks of a swing about there, from then on; an aim: 0 */
+        unsigned to, amplitude, lowest, highest;
     } aim[JOINTS];
     char asked[LINE_BYTES];        /* the newest line, until it is answered */
 } law;
@@ -349,12 +350,16 @@ static void play_begins(void)
 
 static void take_answer(void)
 {
-    unsigned id, to, speed = SLOWEST;
-    const bool is_aim = sscanf(law.asked, "aim %u %u %u", &id, &to, &speed) >= 2 && id < JOINTS && speed > 0;
-    if (is_aim && !law.is_stopped) {   /* the end of a play that is stopped ends it too */
-        const double way = session.joint[id].servo == NULL ? 0 : fabs(session.joint[id].servo->position - to) + SECOND;
+    unsigned id = JOINTS, to = 0, speed = SLOWEST, amplitude = 0, period_ms = 0;
+    const bool is_swing = sscanf(law.asked, "swing %u %u %u %u", &id, &to, &amplitude, &period_ms) == 4;
+    const bool is_aim = is_swing || sscanf(law.asked, "aim %u %u %u", &id, &to, &speed) >= 2;
+    if (is_aim && id < JOINTS && speed > 0 && !law.is_stopped) {   /* the end of a play that is stopped ends it too */
+        const double is = session.joint[id].servo == NULL ? to : session.joint[id].servo->position;
+        const double way = fabs(is - to) + amplitude + SECOND;
         law.aim[id].due = session.tick + SECOND + (uint32_t)(way / (speed * DEGREES) * SECOND);
-        law.aim[id].to = to;
+        law.aim[id].to = law.aim[id].lowest = law.aim[id].highest = to;
+        law.aim[id].amplitude = amplitude;
+        law.aim[id].period = period_ms * SECOND / 1000;
     }
     law.asked[0] = '\0';
 }
@@ -421,7 +426,7 @@ void law_typed(const char *line)
     if (begins(line, "shape reset") && !law.knows_place && !law.is_aimed) {
         law.is_shaped = false;
     }
-    if (!begins(line, "aim") && !begins(line, "play")) {
+    if (!begins(line, "aim") && !begins(line, "swing") && !begins(line, "play")) {
         memset(law.aim, 0, sizeof law.aim);
     }
     if ((begins(line, "stop") || begins(line, "@stop")) && !law.is_stopped) {
@@ -483,6 +488,26 @@ bool law_place(unsigned *page, unsigned *step, unsigned *repetition)
     return law.is_judged && law.knows_place && law.ended_tick == NEVER_TICK;
 }
 
+/* A joint has come to where it was told to go, or swings about there. */
+static void look_at_aim(unsigned id)
+{
+    const unsigned is = law.now[id], to = law.aim[id].to, amplitude = law.aim[id].amplitude;
+    law.aim[id].lowest = is < law.aim[id].lowest ? is : law.aim[id].lowest;
+    law.aim[id].highest = is > law.aim[id].highest ? is : law.aim[id].highest;
+    if (session.tick - law.aim[id].due < law.aim[id].period) {
+        return;
+    }
+    law.aim[id].due = NEVER_TICK;
+    reached(law.aim[id].period == 0 ? "aim arrived" : "swing swung");
+    const int most = law.aim[id].period == 0 ? 0 : 1;   /* of a sine the ticks may miss the peak */
+    const int below = (int)law.aim[id].lowest - (int)(to - amplitude);
+    const int above = (int)law.aim[id].highest - (int)(to + amplitude);
+    if (abs(below) > most || abs(above) > most) {
+        session_fail("aims and swings go where they were told", "servo %u from %u to %u, asked: %u and %u to both sides",
+                     id, law.aim[id].lowest, law.aim[id].highest, to, amplitude);
+    }
+}
+
 /* The last frame has come, and joints have come to where they were aimed. */
 void law_tick(void)
 {
@@ -502,12 +527,7 @@ void law_tick(void)
         if (!rules_is_well()) {
             law.aim[id].due = NEVER_TICK;
         } else if (session.tick >= law.aim[id].due) {
-            law.aim[id].due = NEVER_TICK;
-            reached("aim arrived");
-            if (law.now[id] != law.aim[id].to) {
-                session_fail("an aim ends where it was told", "servo %u at %u, %u was asked", id, law.now[id],
-                             law.aim[id].to);
-            }
+            look_at_aim(id);
         }
     }
 }
