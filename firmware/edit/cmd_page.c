@@ -130,6 +130,9 @@ static bool page_is_sound(void)
 
 static bool overwriting_is_meant(uint8_t page)
 {
+    if (page == 0 && the_session.page != 0) {
+        return dialog_ask(TEXT_P("Page 0 holds the trim. "));
+    }
     if (page != the_session.page) {
         return session_is_empty(page) || dialog_ask(TEXT_P("That page is not empty. "));
     }

@@ -19,6 +19,9 @@ static void send_step(const uint8_t step[PAGE_STEP_BYTES])
 COMMAND(cmd_go)
 {
     uint8_t step = (uint8_t)args->number[0];
+    if (cmd_step_is_trim(step)) {
+        return SHELL_ERR_REPORTED;
+    }
     if (step >= the_session.cells[PAGE_AT_STEPS] && !dialog_ask(TEXT_P("That step is not used. "))) {
         return DIALOG_TO_ASK;
     }
@@ -56,6 +59,9 @@ static uint16_t mirrored(uint8_t step, uint8_t joint, uint8_t partner)
 COMMAND(cmd_mirror)
 {
     uint8_t step = (uint8_t)args->number[0];
+    if (cmd_step_is_trim(step)) {
+        return SHELL_ERR_REPORTED;
+    }
     uint8_t words[PAGE_STEP_BYTES];
     memcpy(words, &the_session.cells[session_step_at(step)], sizeof words);
     for (uint8_t joint = 0; joint < PAGE_JOINTS; joint++) {

@@ -18,6 +18,15 @@ static void copy_step(uint8_t from, uint8_t to)
     session_set_bytes(session_step_at(to), &the_session.cells[session_step_at(from)], PAGE_STEP_BYTES);
 }
 
+bool cmd_step_is_trim(uint8_t step)
+{
+    const bool is_trim = the_session.page == 0 && step == CELL_X_OFFSET - CELL_X_STEP0;
+    if (is_trim) {
+        TEXT("That column is the trim");
+    }
+    return is_trim;
+}
+
 /* Page 0: computes the trim from the master pose and this robot's pose. */
 static void update_trim(uint8_t step)
 {
@@ -68,6 +77,9 @@ COMMAND(cmd_write)
     } else if (step >= PAGE_STEPS) {
         return dialog_refuse(TEXT_P("All 7 steps are used"));
     }
+    if (cmd_step_is_trim(step)) {
+        return SHELL_ERR_REPORTED;
+    }
     session_begin();
     if (args->count == 1) {
         set_count(step + 1u);
@@ -81,6 +93,9 @@ COMMAND(cmd_insert)
 {
     uint8_t step = (uint8_t)args->number[0];
     uint8_t steps = the_session.cells[PAGE_AT_STEPS];
+    if (cmd_step_is_trim(step)) {
+        return SHELL_ERR_REPORTED;
+    }
     session_begin_turn(UNDO_TURN(UNDO_TURN_UP, step, LAST_STEP));
     if (step < steps && steps < PAGE_STEPS) {
         set_count(steps + 1u);
@@ -133,6 +148,9 @@ static void print_pair(uint8_t from, uint8_t to)
 COMMAND(cmd_move)
 {
     uint8_t from = (uint8_t)args->number[0], to = (uint8_t)args->number[1];
+    if (cmd_step_is_trim(to)) {
+        return SHELL_ERR_REPORTED;
+    }
     the_screen.lead = false;
     print_pair(from, to);
     session_begin();

@@ -41,6 +41,8 @@ COMMAND(cmd_insert);
 COMMAND(cmd_delete);
 COMMAND(cmd_move);
 COMMAND(cmd_swap);
+/* Refuses, with a sentence, the step of page 0 that holds the trim: it is computed, and no pose. */
+bool cmd_step_is_trim(uint8_t step);
 
 /* cmd_shape.c */
 COMMAND(cmd_int);

@@ -76,3 +76,10 @@ def test_a_port_that_is_not_there_is_named(m512):
     assert "say bus:DEVICE" in m512("pose", "-p", "BUS", code=6, bus="bus:")
     assert "--rate 5" in m512("pose", "-p", "BUS", code=6, bus=f"bus:{m512.robot.port}@5")
     assert all(packet[4] != SYNC_WRITE or packet[5] != GOAL for packet in m512.robot.packets())
+
+
+@pytest.mark.parametrize("words", [("aim", "1:650"), ("swing", 1, 512, 60, "2s"), ("layer", 2), ("shape", "--rate", 200), ("shape", "--reset")])
+def test_what_would_end_with_the_program_is_refused(m512, words):
+    said = m512(*words, "-p", "BUS", code=5)
+    assert "ends with this command" in said and "m512 term" in said
+    assert not m512.robot.frames()

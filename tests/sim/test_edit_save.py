@@ -181,3 +181,13 @@ def test_play_says_that_a_cut_save_waits_for_edit(operation, torn):
         r.settle(ms=1500)
         assert r.flash_page(1) == (new_bytes() if torn else bytes(OLD.data))
         assert (r.message.strip() == "Saved what was cut off") == torn
+
+
+def test_save_over_page_0_says_that_it_is_the_trim():
+    """A motion there would be every page's trim."""
+    with robot(pages={1: OLD}) as r:
+        before = r.flash_page(0)
+        r.line("save 0", "n")
+        assert "Page 0 holds the trim. Are you sure?[y/N]" in r.command and r.flash_page(0) == before
+        r.line("page 0")
+        assert r.line("save").startswith("save OK")

@@ -2,6 +2,8 @@
 """What Edit does to servos: GO, MIRROR, ON, OFF, SET on the work pose, the trim, EXIT, MON; edit/ORIGINAL.md sections 7, 8, 10 and 11, and
 "nothing moves by surprise"."""
 
+import pytest
+
 from tests.sim.edit_robot import UNUSED, page
 from tests.sim.edit_servos import goals, start, writes_since
 
@@ -147,6 +149,18 @@ def test_page_0_computes_the_trim():
         r.line("on")
         r.line("go 1")
         assert r.board.servos[3].goal == 612 - 12 and r.cell(0, 3) == "0612"
+
+
+@pytest.mark.parametrize("line", ["go 2", "mirror 2", "write", "write 2", "insert 2", "move 0 2"])
+def test_the_trim_is_no_pose(line):
+    """As goals its numbers would be the end of a joint's travel; a pose there would be the trim."""
+    with start() as r:
+        r.line("page 0")
+        r.line("step 2")
+        r.line("on")
+        before = [r.board.servos[joint].goal for joint in (1, 2, 3)], r.cell(3, 3)
+        assert r.line(line) == f"{line} That column is the trim"
+        assert ([r.board.servos[joint].goal for joint in (1, 2, 3)], r.cell(3, 3)) == before
 
 
 def test_exit_restarts_the_controller():

@@ -43,6 +43,15 @@ def refuse(word: str) -> None:
         raise RefusedError(f"{word}: {NO_LOADER}")
 
 
+def refuse_lasting(word: str, what: str) -> None:
+    """For commands whose effect ends with the program: it would answer, and nothing would be seen of it."""
+    if is_bus(word):
+        raise RefusedError(
+            f"{what} lasts as long as the program behind {word}, and that ends with this command: "
+            f"type it in `m512 term -p {word} --image play`, or drive a play with `m512 drive`"
+        )
+
+
 def parts(word: str) -> tuple[str, int]:
     """(device, rate) of bus:DEVICE or bus:DEVICE@RATE."""
     match = re.fullmatch(r"bus:(?P<device>[^@]+)(@(?P<rate>\d+))?", word)

@@ -75,6 +75,9 @@ def save_pages(client: Client, image: Image, numbers: list[int]) -> list[int]:
             continue
         if here and client.page(number) == image[number]:
             continue
+        replaced = listed.get(number, (0, ""))[1]
+        if replaced and replaced != image[number].title:
+            ui.say(f'note: page {number} there was "{replaced}"')
         client.save_page(number, image[number])
         changed.append(number)
     return changed

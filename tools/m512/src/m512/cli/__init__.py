@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
 import signal
 import sys
 from typing import Any
@@ -60,11 +58,10 @@ class LazyGroup(click.Group):
         try:
             return super().main(*args, **kwargs)
         except OSError as error:
-            with contextlib.suppress(OSError, AttributeError):
-                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left to be said would fail again
             from m512.errors import EXIT_BAD_FILE
-            from m512.ui import say
+            from m512.ui import end_results, say
 
+            end_results()
             say(f"m512: {error.strerror or error}" + (f": {error.filename}" if error.filename else ""))
             sys.exit(EXIT_BAD_FILE)
 

@@ -22,6 +22,13 @@ AMPLITUDES = (0, 511)
 AIMED_MOST = 4  # joints that code moves at once
 
 
+def must_last(what: str, options: dict[str, Any]) -> None:
+    """RefusedError where the robot's program would end with this command."""
+    from m512.board import bus
+
+    bus.refuse_lasting(options["port"] or "", what)
+
+
 def show_shape(client: Client, as_json: bool) -> None:
     """What is in force now."""
     found = client.shape()
@@ -46,6 +53,7 @@ def layer(page: str, joints: Any, **options: Any) -> None:
     chosen = id_list(joints) if joints else []
     if page == "off" and chosen:
         raise click.UsageError("--joints belongs to a page; `layer off` ends the whole layer")
+    must_last("a layer", options)
     with robot(options) as client:
         number = "off" if page == "off" else client.find(page)
         client.ask(" ".join(map(str, ["layer", number, *chosen])))
@@ -66,6 +74,7 @@ def aim(positions: Sequence[str], speed: int | None, **options: Any) -> None:
     wanted = positions_of(positions)
     if len(wanted) > AIMED_MOST:
         raise click.UsageError(f"{len(wanted)} joints: code moves {AIMED_MOST} at once at most")
+    must_last("an aim", options)
     with robot(options) as client:
         for joint, at in wanted.items():
             client.ask(f"aim {joint} {at}" + (f" {speed}" if speed else ""))
@@ -88,6 +97,7 @@ def swing(joint: Any, centre: Any, amplitude: str, period: Any, phase: Any, **op
     """Swing a joint about CENTRE by AMPLITUDE (units, or 30deg), once in PERIOD (2s, 1500ms), until `free`."""
     (at,) = positions_of([f"{joint}:{centre}"]).values()
     line = f"swing {joint} {at} {_amplitude(amplitude)} {_milliseconds(period)}" + (f" {phase}" if phase else "")
+    must_last("a swing", options)
     with robot(options) as client:
         client.ask(line)
         show_shape(client, options["as_json"])

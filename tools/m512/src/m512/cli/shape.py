@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from m512 import ui
-from m512.cli.layers import show_shape
+from m512.cli.layers import must_last, show_shape
 from m512.cli.robot import robot, robot_options
 from m512.errors import MissingError, how_to_install
 
@@ -50,6 +50,8 @@ Examples:
 @robot_options
 def shape(rate: int | None, amplitude: int | None, blend: int | None, reset: bool, **options: Any) -> None:
     """Show or change the speed, size and turn of the motion that plays (Play)."""
+    if reset or (rate, amplitude, blend) != (None, None, None):
+        must_last("a shape", options)
     with robot(options) as client:
         if reset:
             client.ask("shape reset")

@@ -34,7 +34,10 @@ def term(port: str, log: Path | None, send: Path | None, listing: bool, sim: boo
     """
     from m512.board import ports
     from m512.board.terminal import Terminal
+    from m512.files import storage
 
+    if send:
+        storage.read(send)  # what cannot be read is said before the board is touched
     if listing:
         for device, text in ports.available():
             ui.show(f"{device}  {text}".rstrip())

@@ -10,6 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from m512 import ui
 from m512.errors import FileError
 
 MOST_BYTES = 4 << 20  # no motion file, firmware or backup is larger; /dev/zero is. Readers take time in proportion to it
@@ -66,8 +67,12 @@ def write(path: Path, data: bytes) -> None:
         if descriptor == 1:
             if sys.stdout is None:
                 raise FileError(f"cannot write {path}: standard output is closed")
-            sys.stdout.buffer.write(data)
-            sys.stdout.buffer.flush()
+            try:
+                sys.stdout.buffer.write(data)
+                sys.stdout.buffer.flush()
+            except OSError:
+                ui.end_results()
+                raise
         elif descriptor is not None:
             with os.fdopen(os.dup(descriptor), "wb") as stream:
                 stream.write(data)
