@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import Callable
 
 import click
@@ -25,13 +24,6 @@ def plain(text: str) -> str:
 def show(text: str) -> None:
     """A result, on stdout."""
     click.echo(plain(text))
-
-
-def end_results() -> None:
-    """After stdout has refused something: what still waits for it is dropped, because it would be refused again at the end, with a
-    traceback."""
-    with suppress(OSError, AttributeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def say(text: str) -> None:

@@ -59,7 +59,8 @@ class LazyGroup(click.Group):
             return super().main(*args, **kwargs)
         except OSError as error:
             from m512.errors import EXIT_BAD_FILE
-            from m512.ui import end_results, say
+            from m512.files.storage import end_results
+            from m512.ui import say
 
             end_results()
             say(f"m512: {error.strerror or error}" + (f": {error.filename}" if error.filename else ""))

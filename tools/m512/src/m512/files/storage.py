@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import stat
@@ -10,7 +11,6 @@ import sys
 import tempfile
 from pathlib import Path
 
-from m512 import ui
 from m512.errors import FileError
 
 MOST_BYTES = 4 << 20  # no motion file, firmware or backup is larger; /dev/zero is. Readers take time in proportion to it
@@ -71,7 +71,7 @@ def write(path: Path, data: bytes) -> None:
                 sys.stdout.buffer.write(data)
                 sys.stdout.buffer.flush()
             except OSError:
-                ui.end_results()
+                end_results()
                 raise
         elif descriptor is not None:
             with os.fdopen(os.dup(descriptor), "wb") as stream:
@@ -83,6 +83,13 @@ def write(path: Path, data: bytes) -> None:
             _replace(Path(os.path.realpath(path)), data)
     except OSError as error:
         raise FileError(f"cannot write {path}: {error.strerror}") from None
+
+
+def end_results() -> None:
+    """After stdout has refused something: what still waits for it is dropped, because it would be refused again at the end, with a
+    traceback."""
+    with contextlib.suppress(OSError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _replace(path: Path, data: bytes) -> None:
