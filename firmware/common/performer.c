@@ -17,8 +17,8 @@
 /* An idle player with the performer's shape. */
 static void fresh_player(performer_t *performer)
 {
-    player_t *player = &performer->engine.player;
-    player_init(player, performer->source, performer->engine.joint);
+    player_t *player = &performer->player;
+    player_init(player, performer->source, performer->joint);
     player_set_shape(player, &performer->shape);
 }
 
@@ -52,8 +52,8 @@ bool performer_next_event(performer_t *performer, performer_event_t *event)
 
 uint8_t *performer_spare(performer_t *performer)
 {
-    STATIC_ASSERT(sizeof performer->engine.joint >= PAGE_BYTES, "a page fits into the joints of the player");
-    return performer_is_idle(performer) ? (uint8_t *)performer->engine.joint : NULL;
+    STATIC_ASSERT(sizeof performer->joint >= PAGE_BYTES, "a page fits into the joints of the player");
+    return performer_is_idle(performer) ? (uint8_t *)performer->joint : NULL;
 }
 
 /* ---- start ---- */
@@ -63,7 +63,7 @@ static player_status_t start_player(performer_t *performer, uint8_t page, uint32
 {
     const player_law_t law = performer->settings->law == PLAYER_LAW_CLASSIC ? PLAYER_LAW_CLASSIC : PLAYER_LAW_EXACT;
     fresh_player(performer);
-    return player_start(&performer->engine.player, &performer->link, page, law, performer->goal_pos, joints);
+    return player_start(&performer->player, &performer->link, page, law, performer->goal_pos, joints);
 }
 
 static performer_status_t somebody_can_move(const performer_t *performer)
@@ -79,8 +79,8 @@ static performer_status_t somebody_can_move(const performer_t *performer)
 
 static performer_status_t refusal(performer_t *performer, player_status_t status)
 {
-    performer->fault = performer->engine.player.fault;
-    performer->fault_page = performer->engine.player.fault_page;
+    performer->fault = performer->player.fault;
+    performer->fault_page = performer->player.fault_page;
     STATIC_ASSERT((int)PERFORMER_ERR_RANGE == (int)PLAYER_ERR_RANGE && (int)PERFORMER_ERR_PAGE == (int)PLAYER_ERR_PAGE &&
                       (int)PERFORMER_ERR_EMPTY == (int)PLAYER_ERR_EMPTY && (int)PERFORMER_ERR_BUSY == (int)PLAYER_ERR_BUSY &&
                       (int)PERFORMER_ERR_LAW == (int)PLAYER_ERR_LAW,
@@ -104,7 +104,7 @@ performer_status_t performer_start(performer_t *performer, uint8_t page, uint8_t
     performer_shape_follow(performer);
     call_link(performer, code);
     status = refusal(performer, start_player(performer, page, 0));
-    performer->first_page = performer->engine.player.next.page;
+    performer->first_page = performer->player.next.page;
     fresh_player(performer);
     if (status != PERFORMER_OK) {
         return status;
@@ -124,7 +124,7 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
     if (status != PERFORMER_OK) {
         return status;
     }
-    memcpy(performer->engine.player.next_pos, to_pos, sizeof performer->engine.player.next_pos);
+    memcpy(performer->player.next_pos, to_pos, sizeof performer->player.next_pos);
     performer->page = 0;
     performer->move_deg_s = deg_s;
     performer->move_joints = joints;
@@ -138,7 +138,7 @@ performer_status_t performer_move(performer_t *performer, const uint16_t to_pos[
 /* Ends everything; reports performer_end_t. */
 static void go_idle(performer_t *performer, uint8_t reason)
 {
-    const player_t *player = &performer->engine.player;
+    const player_t *player = &performer->player;
     const uint8_t page_fault = performer->state == PERFORMER_PLAY ? player->fault : PAGE_OK;
     if (page_fault != PAGE_OK) {
         performer->page = player->fault_page;
@@ -156,8 +156,8 @@ static void go_idle(performer_t *performer, uint8_t reason)
 
 static void resume_if_paused(performer_t *performer)
 {
-    if (player_is_paused(&performer->engine.player)) {
-        player_resume(&performer->engine.player);
+    if (player_is_paused(&performer->player)) {
+        player_resume(&performer->player);
         performer_layers_pause(performer, false);
         performer_layers_plan(performer);
     }
@@ -181,7 +181,7 @@ void performer_break(performer_t *performer)
         performer->end_reason = PERFORMER_END_BROKEN;
     }
     if (performer->state > PERFORMER_READY) {
-        player_break(&performer->engine.player);
+        player_break(&performer->player);
         performer_layers_plan(performer);
     }
 }
@@ -257,7 +257,7 @@ bool performer_pause(performer_t *performer)
         return false;
     }
     performer_layers_pause(performer, true);
-    player_pause(&performer->engine.player);
+    player_pause(&performer->player);
     performer_layers_plan(performer);
     return true;
 }
@@ -280,7 +280,7 @@ static void drop(performer_t *performer, uint32_t joints)
     performer->ready_left &= ~joints;
     performer_layers_drop(performer, joints);
     if (performer->state > PERFORMER_READY) {
-        player_drop_joints(&performer->engine.player, joints);
+        player_drop_joints(&performer->player, joints);
     }
 }
 
@@ -356,7 +356,7 @@ static void poll_ready(performer_t *performer)
 
 static uint8_t why_ended(const performer_t *performer)
 {
-    const player_t *player = &performer->engine.player;
+    const player_t *player = &performer->player;
     if (player->fault != PAGE_OK) {
         return PERFORMER_END_PAGE;
     }
@@ -426,7 +426,7 @@ static void send_goals(performer_t *performer, uint32_t joints)
 static NOINLINE void set_slopes(performer_t *performer)
 {
     uint8_t compliance[PAGE_JOINTS];
-    performer->source->read(performer->source->context, performer->engine.player.now.page, PAGE_AT_COMPLIANCE, compliance,
+    performer->source->read(performer->source->context, performer->player.now.page, PAGE_AT_COMPLIANCE, compliance,
                             sizeof compliance);
     performer_layers_slopes(performer, compliance);
     servo_link_slopes(performer->servos, compliance);
@@ -434,7 +434,7 @@ static NOINLINE void set_slopes(performer_t *performer)
 
 static void approach_tick(performer_t *performer)
 {
-    player_t *player = &performer->engine.player;
+    player_t *player = &performer->player;
     const uint8_t events = player_tick(player, NULL);
     if (((events | performer_layers_tick(performer, false)) & PLAYER_EV_OUTPUT) != 0) {
         player_goals(player, player->joints, performer->goal_pos);
@@ -452,7 +452,7 @@ static void approach_tick(performer_t *performer)
 /* Queues the player's events of this tick. */
 static void tell(performer_t *performer, uint8_t events)
 {
-    const player_t *player = &performer->engine.player;
+    const player_t *player = &performer->player;
     if ((events & PLAYER_EV_STEP) != 0) {
         performer->page = player->now.page;
         performer_event_put(&performer->events, PERFORMER_EV_STEP, player->now.page, player->now.step, player->repetition);
@@ -472,7 +472,7 @@ static void play_tick(performer_t *performer)
 {
     const uint8_t events = performer_layers_tick(performer, true);
     if ((events & PLAYER_EV_OUTPUT) != 0) {
-        send_goals(performer, performer->engine.player.joints);
+        send_goals(performer, performer->player.joints);
     }
     if ((events & PLAYER_EV_PAGE) != 0 || performer->slopes_due) {
         performer->slopes_due = false;

@@ -63,7 +63,7 @@ typedef struct {
     uint16_t move_deg_s;        /* a move's speed limit; 0: a play */
     uint32_t joints;            /* the joints that this play may drive */
     uint32_t ready_left;        /* READY: joints not asked yet */
-    uint32_t move_joints;       /* the joints of a move; its goals are in engine.player.next_pos */
+    uint32_t move_joints;       /* the joints of a move; its goals are in player.next_pos */
     const page_source_t *source;
     servo_link_t *servos;
     const settings_t *settings;
@@ -74,10 +74,8 @@ typedef struct {
     link_t link;                /* read only for callers */
     performer_events_t events;
     uint16_t goal_pos[PAGE_JOINTS]; /* the last goals of all joints; READY fills in the pose */
-    struct {
-        player_t player;        /* kept after the end. Read only for callers */
-        player_joint_t joint[PAGE_JOINTS];
-    } engine;
+    player_t player;            /* kept after the end. Read only for callers */
+    player_joint_t joint[PAGE_JOINTS];
 } performer_t;
 
 /* Starts idle; sends nothing. Source, servos and settings stay the caller's and are used from now on. */
@@ -129,7 +127,7 @@ static inline bool performer_is_idle(const performer_t *performer)    /* no play
 
 static inline bool performer_is_paused(const performer_t *performer)
 {
-    return performer->state > PERFORMER_READY && player_is_paused(&performer->engine.player);
+    return performer->state > PERFORMER_READY && player_is_paused(&performer->player);
 }
 
 /* Joints that answer the bus and were not switched off by hand. */

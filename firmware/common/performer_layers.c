@@ -115,7 +115,7 @@ void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PA
 
 void performer_layers_bind(performer_t *performer, bool with_play)
 {
-    layers_bind(performer->layers, with_play ? &performer->engine.player : NULL);
+    layers_bind(performer->layers, with_play ? &performer->player : NULL);
 }
 
 void performer_layers_drop(performer_t *performer, uint32_t joints)

@@ -14,16 +14,16 @@ bool performer_layers_are_moving(const performer_t *performer)
 
 uint8_t performer_layers_tick(performer_t *performer, bool with_play)
 {
-    const uint8_t events = with_play ? player_tick(&performer->engine.player, &performer->link) : 0;
+    const uint8_t events = with_play ? player_tick(&performer->player, &performer->link) : 0;
     if ((events & PLAYER_EV_OUTPUT) != 0) {
-        player_goals(&performer->engine.player, UINT32_MAX, performer->goal_pos);
+        player_goals(&performer->player, UINT32_MAX, performer->goal_pos);
     }
     return events;
 }
 
 void performer_layers_plan(performer_t *performer)
 {
-    player_plan(&performer->engine.player, &performer->link);
+    player_plan(&performer->player, &performer->link);
 }
 
 void performer_layers_slopes(const performer_t *performer, uint8_t compliance[PAGE_JOINTS])

@@ -46,7 +46,7 @@ static performer_ready_t ask_one_joint(performer_t *performer)
  * Returns the joints that have one. */
 static uint32_t take_first_pose(performer_t *performer)
 {
-    uint16_t *to_pos = performer->engine.player.next_pos;
+    uint16_t *to_pos = performer->player.next_pos;
     uint32_t joints = performer->move_joints;
     if (performer->move_deg_s == 0) {
         joints = player_first_pose(performer->source, &performer->shape, performer->first_page, to_pos);
@@ -62,7 +62,7 @@ static performer_ready_t plan_approach(performer_t *performer)
         return READY_THERE;
     }
     const uint32_t joints = take_first_pose(performer);
-    const uint16_t ticks = player_move(&performer->engine.player, performer->goal_pos, joints, limit_deg_s);
+    const uint16_t ticks = player_move(&performer->player, performer->goal_pos, joints, limit_deg_s);
     if (ticks == 0) {
         return READY_THERE;
     }

@@ -65,8 +65,8 @@ static uint8_t do_where(const shell_args_t *args)
     TEXT(" state=");
     print_state_name(performer);
     text_P_number(TEXT_P(" page="), performer_is_idle(performer) ? 0 : performer->page);
-    text_P_number(TEXT_P(" step="), plays ? performer->engine.player.now.step : 0);
-    text_P_number(TEXT_P(" repetition="), plays ? performer->engine.player.repetition : 0);
+    text_P_number(TEXT_P(" step="), plays ? performer->player.now.step : 0);
+    text_P_number(TEXT_P(" repetition="), plays ? performer->player.repetition : 0);
     text_P_number(TEXT_P(" code="), plays ? performer->link.code : 0);
     text_P_number(TEXT_P(" dv="), requests_image.servos->voltage_dv);
     text_P_number(TEXT_P(" missed="), tick_missed());
@@ -133,7 +133,7 @@ void requests_print_now(void)
     }
     text_P_number(TEXT_P("@now "), performer_is_idle(performer) ? 0 : performer->page);
     text_put(' ');
-    text_number(performer->state == PERFORMER_PLAY ? performer->engine.player.now.step : 0);
+    text_number(performer->state == PERFORMER_PLAY ? performer->player.now.step : 0);
     text_put(' ');
     text_mask(servos->present);
     text_put(' ');

@@ -149,7 +149,7 @@ static void play_ended(const performer_event_t *event)
 /* Prints where the play is. Edit counts steps from 0, like its columns. */
 static void tell_step(void)
 {
-    const player_t *player = &the_performer.engine.player;
+    const player_t *player = &the_performer.player;
     the_dialog.step_due = false;
     screen_open_line();
     TEXT("Page ");

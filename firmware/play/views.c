@@ -93,8 +93,8 @@ static void print_state(void)
         }
     }
     if (performer->state == PERFORMER_PLAY) {
-        text_P_number(TEXT_P(" step "), performer->engine.player.now.step);
-        text_P_number(TEXT_P(" repetition "), performer->engine.player.repetition);
+        text_P_number(TEXT_P(" step "), performer->player.now.step);
+        text_P_number(TEXT_P(" repetition "), performer->player.repetition);
         text_P_number(TEXT_P(" code "), performer->link.code);
     }
     text_line_end();
