@@ -8,9 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PAGE_BYTES 512u
 #define CHECKSUM_AT 31u
-#define TORQUE_AT 24u
 #define WORDS 6u
 #define ANY 99u
 #define LATEST (8u * SECOND)       /* an answer has come by then, also if it asks all servos */
@@ -54,23 +52,6 @@ static struct {
 } answers;
 
 #define UNKNOWN 0x7FFF
-
-static uint16_t crc_of(const uint8_t *bytes, unsigned count)
-{
-    uint16_t crc = 0xFFFF;
-    for (unsigned i = 0; i < count; i++) {
-        crc ^= (uint16_t)(bytes[i] << 8);
-        for (unsigned bit = 0; bit < 8; bit++) {
-            crc = (uint16_t)(crc & 0x8000u ? crc << 1 ^ 0x1021 : crc << 1);
-        }
-    }
-    return crc;
-}
-
-static const uint8_t *page_at(unsigned page)
-{
-    return told_memory(MACHINE_PAGES) + page * PAGE_BYTES;
-}
 
 static void split(void)
 {
@@ -225,7 +206,7 @@ static void look_at_pose(const char *answer)
 static void look_at_page(const char *answer)
 {
     static char right[LINE_BYTES];
-    const uint8_t *page = page_at((unsigned)argument(1) % 256);
+    const uint8_t *page = page_at((unsigned)argument(1));
     int at = snprintf(right, sizeof right, "@%s %d ", answers.word[0], argument(1));
     if (answers.word[0][0] == 'p') {
         for (unsigned i = 0; i < PAGE_BYTES; i++) {
@@ -264,12 +245,8 @@ static void look_at_crcs(const char *answer)
 
 static void seal(uint8_t *page)
 {
-    uint8_t sum = 0;
     page[CHECKSUM_AT] = 0;
-    for (unsigned i = 0; i < PAGE_BYTES; i++) {
-        sum = (uint8_t)(sum + page[i]);
-    }
-    page[CHECKSUM_AT] = (uint8_t)(0xFF - sum);
+    page[CHECKSUM_AT] = (uint8_t)(0xFF - sum_of(page));
 }
 
 static void take_data(void)
@@ -290,7 +267,7 @@ static void take_page_request(const char *answer)
     const char *word = answers.word[0];
     const bool is_ok = strstr(answer, " OK") != NULL;
     if (strcmp(word, "open") == 0 && is_ok) {
-        memcpy(answers.page, page_at((unsigned)argument(1) % 256), PAGE_BYTES);
+        memcpy(answers.page, page_at((unsigned)argument(1)), PAGE_BYTES);
         answers.knows_page = argument(1) != UNKNOWN;
     } else if (strcmp(word, "data") == 0 && is_ok) {
         take_data();
@@ -311,7 +288,7 @@ static void take_page_request(const char *answer)
             wrong(answer, "ERR 9");
         }
         answers.saved_as = is_ok ? (unsigned)argument(1) : 0;
-        if (is_ok && memcmp(page_at(answers.saved_as % 256), answers.saved, PAGE_BYTES) != 0) {
+        if (is_ok && memcmp(page_at(answers.saved_as), answers.saved, PAGE_BYTES) != 0) {
             session_fail("a page from a program is saved as it was sent", "page %u differs", answers.saved_as);
         }
         if (is_ok) {

@@ -11,9 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PAGE_BYTES 512u
-#define STEP_BYTES 64u
-#define PAGES 256u
 #define KEPT 8192u                 /* ticks; a step that is longer is not looked at */
 #define STEPS_KEPT 4u
 #define EARLIEST 8u                /* ticks before the line; as many after it */
@@ -69,11 +66,6 @@ static struct {
     } aim[JOINTS];
     char asked[LINE_BYTES];        /* the newest line, until it is answered */
 } law;
-
-static const uint8_t *page_at(unsigned page)
-{
-    return told_memory(MACHINE_PAGES) + page % PAGES * PAGE_BYTES;
-}
 
 static unsigned position(unsigned page, unsigned step, unsigned id)
 {

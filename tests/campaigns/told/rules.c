@@ -19,10 +19,7 @@
 #define LAST_FRAME 2u              /* ticks */
 #define SETTLED 64u                /* ticks without a write: a save is over */
 #define GOAL_AT 30u
-#define TORQUE_AT 24u
-#define PAGE_BYTES 512u
 #define STEPS_AT 20u
-#define STEP_BYTES 64u
 #define COPY_BYTES 64u             /* of the settings in EEPROM */
 
 enum { INST_WRITE = 3, INST_REG_WRITE = 4, INST_SYNC_WRITE = 0x83 };
@@ -315,7 +312,7 @@ static void servos_are_searched(void)
 /* A play is over: joints that it has moved have come to the last step of its last page, as the page says. */
 static void pose_must_be_there(unsigned page)
 {
-    const uint8_t *at = told_memory(MACHINE_PAGES) + page * PAGE_BYTES;
+    const uint8_t *at = page_at(page);
     const unsigned steps = at[STEPS_AT];
     const bool is_plain = !rules.is_shaped && law_is_exact() && !session.is_edit;
     if (!is_plain || page >= told_bytes(MACHINE_PAGES) / PAGE_BYTES || steps == 0 || steps > 7) {
@@ -396,15 +393,6 @@ static void text_must_stand(void)
 
 /* ---- pages and settings ---- */
 
-static uint8_t sum_of(const uint8_t *page)
-{
-    uint8_t sum = 0;
-    for (unsigned i = 0; i < PAGE_BYTES; i++) {
-        sum = (uint8_t)(sum + page[i]);
-    }
-    return sum;
-}
-
 /* A page is as it was, or whole. */
 static void pages_must_be_whole(void)
 {
@@ -418,18 +406,6 @@ static void pages_must_be_whole(void)
         }
         memcpy(rules.page + at, now + at, PAGE_BYTES);
     }
-}
-
-static uint16_t crc_of(const uint8_t *bytes, unsigned count)
-{
-    uint16_t crc = 0xFFFF;
-    for (unsigned i = 0; i < count; i++) {
-        crc ^= (uint16_t)(bytes[i] << 8);
-        for (unsigned bit = 0; bit < 8; bit++) {
-            crc = (uint16_t)(crc & 0x8000u ? crc << 1 ^ 0x1021 : crc << 1);
-        }
-    }
-    return crc;
 }
 
 /* Sequence number of the newest good copy of the settings, or -1. */

@@ -8,8 +8,6 @@
 
 #define ROWS 36u
 #define COLUMNS 96u
-#define PAGE_BYTES 512u
-#define STEP_BYTES 64u
 #define STEPS 7u
 #define QUIET 96u                  /* ticks without a key and without a byte: all is painted */
 #define ARGUMENTS 4u
@@ -210,7 +208,7 @@ static void look(void)
     if (is_table && page != decimal && page != hex) {
         wrong(page, "PageNumber", "", page);
     }
-    const uint8_t *at = told_memory(MACHINE_PAGES) + page * PAGE_BYTES;
+    const uint8_t *at = page_at(page);
     if (!is_table || !is_saved || page == 0 || !is_whole(at)) {
         return;
     }

@@ -4,6 +4,10 @@
  *   main.c      reads the list of actions, runs the programs, says how it went
  *   world.c     the servos and the line; carries actions out
  *   rules.c     what must be so at every tick
+ *   law.c       the exact law: every goal of a play that nothing shapes
+ *   answers.c   what requests are answered
+ *   screen.c    Edit's table
+ *   facts.c     pages as bytes, as PAGE_FORMAT.md has them; nothing of the firmware's
  *   marks.c     places that a campaign must have reached
  *
  * Rules and marks see what an outsider sees: the bus, the console, the memories. */
@@ -21,6 +25,10 @@
 #define LINE_BYTES 1200u           /* a page in hexadecimal */
 #define SECOND 128u                /* ticks */
 #define NEVER_TICK 0u
+#define PAGES 256u
+#define PAGE_BYTES 512u
+#define STEP_BYTES 64u
+#define TORQUE_AT 24u              /* a servo's register */
 
 /* What is known of one servo. */
 typedef struct {
@@ -80,6 +88,11 @@ void world_add_servo(unsigned id);
 bool world_do(char *words);
 void world_power(bool on);
 void world_forget_line(void);   /* what is still under way on the console is lost */
+
+/* facts.c */
+const uint8_t *page_at(unsigned page);   /* in flash; PAGE_BYTES. Numbers wrap at PAGES */
+uint8_t sum_of(const uint8_t *page);     /* 0xFF: the page is whole */
+uint16_t crc_of(const uint8_t *bytes, unsigned count);   /* CRC-16/CCITT-FALSE */
 
 /* rules.c */
 void rules_boot(void);

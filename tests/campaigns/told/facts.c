@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+#include "session.h"
+
+const uint8_t *page_at(unsigned page)
+{
+    return told_memory(MACHINE_PAGES) + page % PAGES * PAGE_BYTES;
+}
+
+uint8_t sum_of(const uint8_t *page)
+{
+    uint8_t sum = 0;
+    for (unsigned i = 0; i < PAGE_BYTES; i++) {
+        sum = (uint8_t)(sum + page[i]);
+    }
+    return sum;
+}
+
+uint16_t crc_of(const uint8_t *bytes, unsigned count)
+{
+    uint16_t crc = 0xFFFF;
+    for (unsigned i = 0; i < count; i++) {
+        crc ^= (uint16_t)(bytes[i] << 8);
+        for (unsigned bit = 0; bit < 8; bit++) {
+            crc = (uint16_t)(crc & 0x8000u ? crc << 1 ^ 0x1021 : crc << 1);
+        }
+    }
+    return crc;
+}
