@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """`m512 term` on a terminal of its own: bytes both ways, its keys, log, files, the boot loader, a pulled cable."""
 
+import os
 import sys
 
 import pexpect
@@ -105,3 +106,19 @@ def test_term_tells_when_the_cable_comes_off(term):
 
 def test_term_lists_ports(m512):
     assert m512("term", "--list").exit_code == 0
+
+
+def test_what_is_sent_first_is_read_once(m512):
+    """A pipe gives its bytes once."""
+    read, write = os.pipe()
+    os.write(write, b"list\nplay 1\n")
+    os.close(write)
+    with Echo() as board:
+        assert m512("term", "-p", board.path, "--send", f"/dev/fd/{read}", input="").exit_code == 0
+        assert board.lines == [b"list", b"play 1"]
+    os.close(read)
+
+
+def test_what_cannot_be_sent_is_said_before_the_port_is_opened(m512, tmp_path):
+    result = m512("term", "-p", tmp_path / "no-port", "--send", tmp_path / "nothing", input="")
+    assert result.exit_code == 4 and "cannot read" in result.stderr and "nothing" in result.stderr

@@ -42,9 +42,10 @@ class Terminal:
         except OSError as error:
             raise FileError(f"cannot write {path}: {error.strerror}") from None
 
-    def run(self, send: Path | None = None) -> None:
+    def run(self, send: Path | None = None, data: bytes = b"") -> None:
+        """data: what the file `send` holds. It goes to the board first, a line at a time."""
         if not sys.stdin.isatty():
-            self._run_plain(send)
+            self._run_plain(data)
             return
         from serial.tools.miniterm import Console
 
@@ -55,7 +56,7 @@ class Terminal:
         try:
             reader.start()
             if send:
-                self.send_text(send)
+                self._send_lines(send, data)
             self._keys(console)
         finally:
             self.running = False
@@ -67,12 +68,11 @@ class Terminal:
         if self.trouble:
             raise PortError(self.trouble)
 
-    def _run_plain(self, send: Path | None) -> None:
+    def _run_plain(self, data: bytes) -> None:
         """Standard input is no terminal: its lines go to the board, one after another's answer, and what the board says to
         standard output."""
         try:
-            first = (self._file(send) or b"").decode("utf-8", "replace").splitlines() if send else []
-            for line in chain(first, sys.stdin):
+            for line in chain(data.decode("utf-8", "replace").splitlines(), sys.stdin):
                 self.link.write(line.rstrip("\r\n").encode("utf-8", "replace") + b"\r")
                 answer = self.link.drain(PIPE_QUIET, LINE_SECONDS)
                 sys.stdout.buffer.write(bytes(b for b in answer if b not in HIDDEN))
@@ -187,10 +187,12 @@ class Terminal:
     # Files
 
     def send_text(self, path: Path) -> None:
-        """Line by line; each waits until the board has answered and is quiet, and for XON after XOFF."""
         data = self._file(path)
-        if data is None:
-            return
+        if data is not None:
+            self._send_lines(path, data)
+
+    def _send_lines(self, path: Path, data: bytes) -> None:
+        """Each waits until the board has answered and is quiet, and for XON after XOFF."""
         for line in data.replace(b"\r\n", b"\n").split(b"\n"):
             while self.held and self.running:
                 time.sleep(0.01)

@@ -36,8 +36,7 @@ def term(port: str, log: Path | None, send: Path | None, listing: bool, sim: boo
     from m512.board.terminal import Terminal
     from m512.files import storage
 
-    if send:
-        storage.read(send)  # what cannot be read is said before the board is touched
+    data = storage.read(send) if send else b""  # what cannot be read is said before the board is touched
     if listing:
         for device, text in ports.available():
             ui.show(f"{device}  {text}".rstrip())
@@ -49,6 +48,6 @@ def term(port: str, log: Path | None, send: Path | None, listing: bool, sim: boo
         from m512.board.sim import Simulator
 
         with Simulator([image], motions) as simulator:
-            Terminal(simulator.url, log).run(send)
+            Terminal(simulator.url, log).run(send, data)
         return
-    Terminal(ports.pick(port), log, "play" if "play" in image else "edit").run(send)
+    Terminal(ports.pick(port), log, "play" if "play" in image else "edit").run(send, data)
