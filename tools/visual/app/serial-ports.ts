@@ -29,10 +29,10 @@ export function rememberAdapter(port: SerialPort): void {
 }
 
 /** Does what needs Web Serial and a port that somebody chooses. false: the chooser was closed. Rejects with RobotError. */
-export async function withPort(deed: () => Promise<void>): Promise<boolean> {
+export async function withPort(work: () => Promise<void>): Promise<boolean> {
     if (!('serial' in navigator)) throw new RobotError('no-serial');
     try {
-        await deed();
+        await work();
         return true;
     } catch (error) {
         if (error instanceof DOMException && error.name === 'NotFoundError') return false;

@@ -81,8 +81,8 @@ export class ServosSource {
         return this.inTurn(() => this.end());
     }
 
-    private inTurn(deed: () => Promise<void>): Promise<void> {
-        const done = this.turn.then(deed);
+    private inTurn(work: () => Promise<void>): Promise<void> {
+        const done = this.turn.then(work);
         this.turn = done.catch(() => undefined); // its caller hears of it
         return done;
     }

@@ -36,7 +36,7 @@ interface Exports {
 
 /** What TypeScript's own library does not know yet. */
 interface PromiseIntegration {
-    readonly Suspending?: new (deed: (...values: never[]) => unknown) => WebAssembly.ImportValue;
+    readonly Suspending?: new (work: (...values: never[]) => unknown) => WebAssembly.ImportValue;
     readonly promising?: (exported: () => number) => () => Promise<number>;
 }
 
