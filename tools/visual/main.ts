@@ -12,7 +12,7 @@ import { PageFormat } from './model/page-format.ts';
 import { AppShell } from './view/app-shell.ts';
 import { BrowserStorage, PassingStorage } from './view/document-storage.ts';
 import { make } from './view/element.ts';
-import { TEXTS } from './view/texts.ts';
+import { TEXTS } from './view/texts/robot.ts';
 
 async function start(): Promise<void> {
     if (typeof WebAssembly === 'undefined') return fail(TEXTS.noWebAssembly);

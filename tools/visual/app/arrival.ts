@@ -5,7 +5,7 @@ import type { ConnectionState } from '../robot/connection-table.ts';
 import { askList, askPose } from '../robot/protocol.ts';
 import type { DeskState } from '../view/desk.ts';
 import type { Store } from '../view/store.ts';
-import { TEXTS } from '../view/texts.ts';
+import { TEXTS } from '../view/texts/robot.ts';
 import type { DocumentEditor } from './editor.ts';
 import type { RobotSources } from './sources.ts';
 import type { Status } from './status.ts';

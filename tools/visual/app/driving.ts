@@ -7,7 +7,7 @@ import { remotePacket } from '../robot/remote.ts';
 import type { RemoteButton } from '../robot/remote.ts';
 import type { DeskState } from '../view/desk.ts';
 import type { Store } from '../view/store.ts';
-import { TEXTS } from '../view/texts.ts';
+import { TEXTS } from '../view/texts/robot.ts';
 import { REPEAT_MS, RemoteKeys } from './remote-keys.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 import { StickDrive } from './stick.ts';

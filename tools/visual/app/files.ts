@@ -8,7 +8,7 @@ import { MOST_BYTES } from '../model/file-formats.ts';
 import type { FileFormats, NoRoom, Opened, Refused, Suffix } from '../model/file-formats.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { readPage } from '../model/page.ts';
-import { FILE_TEXTS } from '../view/editor/file-texts.ts';
+import { FILE_TEXTS } from '../view/texts/files.ts';
 import type { ChosenFile, Files, FilesState, LookedAt, SavedFile } from '../view/files-desk.ts';
 import { Store } from '../view/store.ts';
 import type { DocumentEditor } from './editor.ts';

@@ -6,7 +6,7 @@ import type { PageFormat } from '../model/page-format.ts';
 import { hasUnsavedEdits } from '../robot/page-requests.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { DeskState, ImageName, Notice } from '../view/desk.ts';
-import { PLAY_TEXTS } from '../view/editor/step-texts.ts';
+import { PLAY_TEXTS } from '../view/texts/steps.ts';
 import type { Store } from '../view/store.ts';
 import type { SimulatedSource } from './simulated-source.ts';
 

@@ -10,7 +10,7 @@ import type { FromServos, PortHint } from '../servos/messages.ts';
 import { ServosClient } from '../servos/servos-client.ts';
 import type { ImageName } from '../view/desk.ts';
 import { forgetServos, loadServos, saveServos } from '../view/robot-store.ts';
-import { TEXTS } from '../view/texts.ts';
+import { TEXTS } from '../view/texts/robot.ts';
 import { motionLibrary, servosModule } from './assets.ts';
 import { FollowedRobot } from './followed-robot.ts';
 import { rememberAdapter, withPort } from './serial-ports.ts';

@@ -15,7 +15,7 @@ import { SimulatedRobot } from '../sim/robot-client.ts';
 import type { DeskState, ImageName } from '../view/desk.ts';
 import { forgetRobot, loadRobot, saveRobot } from '../view/robot-store.ts';
 import type { KeptRobot } from '../view/robot-store.ts';
-import { TEXTS, violationText } from '../view/texts.ts';
+import { TEXTS, violationText } from '../view/texts/robot.ts';
 import { PAGE_BYTES, PAGE_COUNT } from '../model/motion.ts';
 import { holdRobot } from './hold-document.ts';
 import { boardModule, motionLibrary, physics, robotImages } from './assets.ts';

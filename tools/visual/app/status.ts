@@ -8,7 +8,7 @@ import { askWhere } from '../robot/protocol.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { DeskState, TerminalSize } from '../view/desk.ts';
 import type { Store } from '../view/store.ts';
-import { doingText } from '../view/texts.ts';
+import { doingText } from '../view/texts/robot.ts';
 
 const WHERE_MS = 300;
 /** Of a screen that Edit draws. */

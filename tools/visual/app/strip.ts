@@ -4,7 +4,7 @@
 import { RobotError } from '../robot/robot-error.ts';
 import type { DeskState, Notice } from '../view/desk.ts';
 import type { Store } from '../view/store.ts';
-import { errorText } from '../view/texts.ts';
+import { errorText } from '../view/texts/robot.ts';
 import { LastSaid } from './said.ts';
 
 /** What went wrong is to be read before the board's next line takes its place. */

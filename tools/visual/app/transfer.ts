@@ -14,7 +14,7 @@ import { readPages } from '../robot/page-read.ts';
 import { PageWrite } from '../robot/page-write.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Requests } from '../robot/requests.ts';
-import { errorText } from '../view/texts.ts';
+import { errorText } from '../view/texts/robot.ts';
 import type { Transfer, TransferEnd, TransferState } from '../view/transfer-desk.ts';
 import { Store } from '../view/store.ts';
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A value, or why there is none. For what may be refused: an edit, a file. The sentences stand in view/editor/texts.ts.
+// A value, or why there is none. For what may be refused: an edit, a file. The sentences stand in view/texts/.
 
 export type RefusalCode =
     | 'no-such-page' // not 0..127

@@ -3,7 +3,7 @@
 
 import { isSamePage } from './document.ts';
 
-/** What kinds of edits there are; their names for people stand in view/editor/texts.ts. */
+/** What kinds of edits there are; their names for people stand in view/texts/. */
 export const EDIT_NAMES = [
     'set-joints',
     'insert-step',

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can go wrong between the page and a board. The sentence for each code stands in view/texts.ts.
+// What can go wrong between the page and a board. The sentence for each code stands in view/texts/.
 
 export type RobotErrorCode =
     | 'no-answer' // the board said nothing within the time

@@ -4,7 +4,7 @@ import { expect, test, vi } from 'vitest';
 import { Status } from '../app/status.ts';
 import type { DeskState } from '../view/desk.ts';
 import { Store } from '../view/store.ts';
-import { doingText } from '../view/texts.ts';
+import { doingText } from '../view/texts/robot.ts';
 
 const START = {
     source: 'simulated',

@@ -3,7 +3,7 @@
 import { expect, test } from 'vitest';
 import type { PlayState, Where } from '../robot/protocol.ts';
 import type { DeskState } from '../view/desk.ts';
-import { doingText } from '../view/texts.ts';
+import { doingText } from '../view/texts/robot.ts';
 
 const state = (image: string): DeskState =>
     ({

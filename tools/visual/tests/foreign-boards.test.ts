@@ -10,7 +10,7 @@ import { readPages } from '../robot/page-read.ts';
 import { RobotError } from '../robot/robot-error.ts';
 import type { Requests } from '../robot/requests.ts';
 import { BytePort } from '../sim/byte-port.ts';
-import { connectionText, errorText } from '../view/texts.ts';
+import { connectionText, errorText } from '../view/texts/robot.ts';
 import { makeFormat } from './motion-bench.ts';
 import { SimulatedClock, randomNumbers, settle } from './robot-bench.ts';
 

@@ -8,7 +8,7 @@ import { imageOf, pageOf } from '../model/document.ts';
 import type { MotionDocument } from '../model/document.ts';
 import type { FileFormats } from '../model/file-formats.ts';
 import { writePage } from '../model/page.ts';
-import { FILE_TEXTS } from '../view/editor/file-texts.ts';
+import { FILE_TEXTS } from '../view/texts/files.ts';
 import { libraryDocument, makeFormat, makeMotion, must } from './motion-bench.ts';
 
 const { format } = await makeFormat();

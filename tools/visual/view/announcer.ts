@@ -3,7 +3,7 @@
 // The status bar changes at every step of a motion, which nobody can listen to.
 
 import type { DeskState } from './desk.ts';
-import { startText } from './texts.ts';
+import { startText } from './texts/robot.ts';
 
 export const ANNOUNCE_MS = 1000;
 

@@ -29,7 +29,7 @@ import { RobotView } from './robot-view.ts';
 import { StatusStrip } from './status-strip.ts';
 import { Store } from './store.ts';
 import { TerminalPane } from './terminal-pane.ts';
-import { TEXTS } from './texts.ts';
+import { TEXTS } from './texts/robot.ts';
 import './app-shell.css';
 
 /** Areas that show the document. */

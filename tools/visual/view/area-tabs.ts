@@ -4,7 +4,7 @@
 import type { Tab } from './desk.ts';
 import { define, make } from './element.ts';
 import { isRemembered, remember } from './remembered.ts';
-import { AREA_TEXTS } from './texts.ts';
+import { AREA_TEXTS } from './texts/robot.ts';
 import './area-tabs.css';
 
 const TABS: readonly Tab[] = ['remote', 'steps', 'curves', 'pages', 'links', 'checks', 'terminal', 'lab'];

@@ -7,7 +7,7 @@ import type { Desk } from './desk.ts';
 import { define, make } from './element.ts';
 import { pushRobot } from './push.ts';
 import { isRemembered, remember } from './remembered.ts';
-import { FIRST_TEXTS } from './texts.ts';
+import { FIRST_TEXTS } from './texts/robot.ts';
 import './first-minute.css';
 
 /** Keys that only lead to a button, or press it. */

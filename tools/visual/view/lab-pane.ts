@@ -7,7 +7,7 @@ import { ask } from './editor/ask-dialog.ts';
 import { define, make, setText } from './element.ts';
 import { pushRobot } from './push.ts';
 import { ServoTable } from './servo-table.ts';
-import { LAW_TEXTS, TEXTS } from './texts.ts';
+import { LAW_TEXTS, TEXTS } from './texts/robot.ts';
 import './lab-pane.css';
 
 const SPEEDS: readonly (readonly [number, string])[] = [

@@ -10,7 +10,7 @@ import { LayerBar } from './editor/layer-bar.ts';
 import { ShapeBar } from './editor/shape-bar.ts';
 import { define, make } from './element.ts';
 import type { Store } from './store.ts';
-import { REMOTE_TEXTS } from './texts.ts';
+import { REMOTE_TEXTS } from './texts/robot.ts';
 import { WaveButton } from './wave-button.ts';
 import { WayList } from './way-list.ts';
 import './remote-pad.css';

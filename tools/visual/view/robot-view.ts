@@ -19,7 +19,7 @@ import { RobotScene } from './robot-scene.ts';
 import type { Picked } from './robot-scene.ts';
 import { Store } from './store.ts';
 import { pushRobot } from './push.ts';
-import { TEXTS } from './texts.ts';
+import { TEXTS } from './texts/robot.ts';
 import './robot-view.css';
 
 /** A mark in the browser's performance timeline: the robot is in the picture for the first time. */

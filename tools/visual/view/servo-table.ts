@@ -7,7 +7,7 @@ import type { Desk } from './desk.ts';
 import { onChoice } from './choice.ts';
 import { define, make, setText } from './element.ts';
 import { ServoChart } from './servo-chart.ts';
-import { FAULT_TITLES } from './texts.ts';
+import { FAULT_TITLES } from './texts/robot.ts';
 
 const ALARMS = ['voltage', 'angle limit', 'hot', 'range', 'checksum', 'overload', 'instruction'];
 const FRAMES_A_SECOND = 60;

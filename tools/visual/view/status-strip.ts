@@ -4,7 +4,7 @@
 import { Announcer } from './announcer.ts';
 import type { Desk, DeskState, Notice } from './desk.ts';
 import { define, make, setText } from './element.ts';
-import { TEXTS } from './texts.ts';
+import { TEXTS } from './texts/robot.ts';
 import './status-strip.css';
 
 export class StatusStrip extends HTMLElement {

@@ -3,7 +3,7 @@
 
 import type { Desk, DeskState } from './desk.ts';
 import { define, make } from './element.ts';
-import { SHAPE_TEXTS } from './texts.ts';
+import { SHAPE_TEXTS } from './texts/robot.ts';
 
 const WAVE = 'wave_over';
 

@@ -5,9 +5,9 @@
 import { callsOf, waysFrom } from '../model/ways.ts';
 import type { Way } from '../model/ways.ts';
 import type { Desk } from './desk.ts';
-import { codeText } from './editor/texts.ts';
+import { codeText } from './texts/editor.ts';
 import { define, make } from './element.ts';
-import { WAY_TEXTS } from './texts.ts';
+import { WAY_TEXTS } from './texts/robot.ts';
 import './way-list.css';
 
 export class WayList extends HTMLElement {

@@ -13,8 +13,8 @@ import type { Desk, Tab } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { PageTrial } from '../trial-desk.ts';
 import { PhysicsBar } from './physics-bar.ts';
-import { EDITOR_TEXTS, findingText, isFaulty, pageText } from './texts.ts';
-import { TRIAL_TEXTS, touchText, verdictText } from './trial-texts.ts';
+import { EDITOR_TEXTS, findingText, isFaulty, pageText } from '../texts/editor.ts';
+import { TRIAL_TEXTS, touchText, verdictText } from '../texts/trials.ts';
 import './checks-pane.css';
 
 const WAIT_MS = 400;

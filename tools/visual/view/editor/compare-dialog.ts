@@ -8,9 +8,9 @@ import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { TransferState } from '../transfer-desk.ts';
 import { comparables, pagesOf } from './compared.ts';
-import { FILE_TEXTS } from './file-texts.ts';
+import { FILE_TEXTS } from '../texts/files.ts';
 import { ghosts } from './ghosts.ts';
-import { ACCOUNT_TEXTS, EDITOR_TEXTS, pageText, transferText } from './texts.ts';
+import { ACCOUNT_TEXTS, EDITOR_TEXTS, pageText, transferText } from '../texts/editor.ts';
 import './compare-dialog.css';
 
 /** Lines of words that a page shows before somebody asks for all of them. */

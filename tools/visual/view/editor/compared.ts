@@ -3,7 +3,7 @@
 
 import { documentFrom } from '../../model/document.ts';
 import type { Desk } from '../desk.ts';
-import { EDITOR_TEXTS } from './texts.ts';
+import { EDITOR_TEXTS } from '../texts/editor.ts';
 
 export interface Compared {
     /** robot, b:ID of a backup, d:ID of a document, file. */

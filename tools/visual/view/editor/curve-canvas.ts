@@ -8,7 +8,7 @@ import { AS_STORED, NOMINAL_VOLTS } from '../../model/motion.ts';
 import type { Shape } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make, setText } from '../element.ts';
-import { LINE_TEXTS } from '../texts.ts';
+import { LINE_TEXTS } from '../texts/robot.ts';
 import { CurveHand, jointAt, nearestPoint } from './curve-hand.ts';
 import type { CurveDrawing } from './curve-hand.ts';
 import { CurveFrame, drawCurves } from './curve-picture.ts';

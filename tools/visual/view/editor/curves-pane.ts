@@ -7,13 +7,13 @@ import type { Shape } from '../../model/motion.ts';
 import type { Desk, Tab } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
-import { LINE_TEXTS } from '../texts.ts';
+import { LINE_TEXTS } from '../texts/robot.ts';
 import { busiestLimb } from '../../model/busiest-limb.ts';
 import { CHOSEN_COLOURS, CurveCanvas } from './curve-canvas.ts';
 import type { Drawn } from './curve-canvas.ts';
 import { PageHead } from './page-head.ts';
 import { PlayBar } from './play-bar.ts';
-import { CURVE_TEXTS } from './step-texts.ts';
+import { CURVE_TEXTS } from '../texts/steps.ts';
 import { limbGroups } from './teach-bar.ts';
 import './curves-pane.css';
 

@@ -10,7 +10,7 @@ import type { DocumentsState } from '../documents-desk.ts';
 import { onChoice } from '../choice.ts';
 import { define, isTyping, make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
-import { EDITOR_TEXTS, editText, keptText } from './texts.ts';
+import { EDITOR_TEXTS, editText, keptText } from '../texts/editor.ts';
 import './edit-bar.css';
 
 const NEW = 'new';

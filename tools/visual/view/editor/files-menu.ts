@@ -8,7 +8,7 @@ import type { Desk } from '../desk.ts';
 import { onChoice } from '../choice.ts';
 import { define, make } from '../element.ts';
 import type { FilesState } from '../files-desk.ts';
-import { FILE_TEXTS } from './file-texts.ts';
+import { FILE_TEXTS } from '../texts/files.ts';
 import './files-menu.css';
 
 const ACCEPTED = '.m512,.bin,.img,.hex,.ihex,.mtn';

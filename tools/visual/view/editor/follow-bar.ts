@@ -7,7 +7,7 @@ import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import { isEditing } from './editing.ts';
 import type { Editing } from './editing.ts';
-import { FOLLOW_TEXTS } from './step-texts.ts';
+import { FOLLOW_TEXTS } from '../texts/steps.ts';
 
 export class FollowBar extends HTMLElement {
     desk!: Desk; // these are set before it is connected

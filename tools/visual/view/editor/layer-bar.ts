@@ -7,8 +7,8 @@ import { pageOf } from '../../model/document.ts';
 import { POSITION_MAX, POSITION_MIDDLE } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
-import { LAYER_TEXTS } from './step-texts.ts';
-import { pageText } from './texts.ts';
+import { LAYER_TEXTS } from '../texts/steps.ts';
+import { pageText } from '../texts/editor.ts';
 import './layer-bar.css';
 
 const AIM_DEGREES_S = 90;

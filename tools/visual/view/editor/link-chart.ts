@@ -3,7 +3,7 @@
 
 import { Graph, layout } from '@dagrejs/dagre';
 import type { LinkGraph, PageLink, PageNode } from '../../model/links.ts';
-import { EDITOR_TEXTS, LINK_TEXTS, codeText, pageText } from './texts.ts';
+import { EDITOR_TEXTS, LINK_TEXTS, codeText, pageText } from '../texts/editor.ts';
 
 const SVG = 'http://www.w3.org/2000/svg';
 const NODE = { width: 104, height: 40 };

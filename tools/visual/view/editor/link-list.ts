@@ -10,7 +10,7 @@ import type { RemoteButton } from '../../robot/remote.ts';
 import type { Editor } from '../editor-desk.ts';
 import { onChoice } from '../choice.ts';
 import { make } from '../element.ts';
-import { LINK_TEXTS, codeText, pageText } from './texts.ts';
+import { LINK_TEXTS, codeText, pageText } from '../texts/editor.ts';
 
 const CODE_OF: Partial<Record<LinkField, 'linked1Code' | 'linked2Code'>> = { linked1: 'linked1Code', linked2: 'linked2Code' };
 /** What may be chosen: no key, each button alone, and the slanting directions. */

@@ -12,7 +12,7 @@ import type { LinkField } from '../../model/page.ts';
 import { ask } from './ask-dialog.ts';
 import { linkChart, markChart } from './link-chart.ts';
 import { linkList } from './link-list.ts';
-import { EDITOR_TEXTS, LEGEND_TEXTS, LINK_TEXTS, pageText } from './texts.ts';
+import { EDITOR_TEXTS, LEGEND_TEXTS, LINK_TEXTS, pageText } from '../texts/editor.ts';
 import './links-pane.css';
 
 export class LinksPane extends HTMLElement {

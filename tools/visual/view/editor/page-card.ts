@@ -8,7 +8,7 @@ import type { PageView, Step } from '../../model/page.ts';
 import type { PageFormat } from '../../model/page-format.ts';
 import { define, make } from '../element.ts';
 import { showPose } from './pose-picture.ts';
-import { codeText } from './texts.ts';
+import { codeText } from '../texts/editor.ts';
 
 const PICTURE = { width: 64, height: 74 };
 

@@ -6,7 +6,7 @@ import { freePage } from '../../model/page-edits.ts';
 import type { Editor } from '../editor-desk.ts';
 import { make } from '../element.ts';
 import { ask, askText } from './ask-dialog.ts';
-import { EDITOR_TEXTS, pageText } from './texts.ts';
+import { EDITOR_TEXTS, pageText } from '../texts/editor.ts';
 
 export class PageDeeds {
     private readonly editor: Editor;

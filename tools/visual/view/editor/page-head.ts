@@ -4,8 +4,8 @@
 import { PAGE_COUNT } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
-import { EDITOR_TEXTS } from './texts.ts';
-import { STEP_TEXTS } from './step-texts.ts';
+import { EDITOR_TEXTS } from '../texts/editor.ts';
+import { STEP_TEXTS } from '../texts/steps.ts';
 
 export class PageHead extends HTMLElement {
     desk!: Desk; // set before it is connected

@@ -9,7 +9,7 @@ import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import { PageCard } from './page-card.ts';
 import { PageDeeds } from './page-deeds.ts';
-import { EDITOR_TEXTS } from './texts.ts';
+import { EDITOR_TEXTS } from '../texts/editor.ts';
 import './pages-pane.css';
 
 type Filter = 'all' | 'used' | 'changed';

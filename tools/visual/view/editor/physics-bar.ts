@@ -5,8 +5,8 @@ import { pageOf } from '../../model/document.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { TrialsState } from '../trial-desk.ts';
-import { pageText } from './texts.ts';
-import { TRIAL_TEXTS, countedText } from './trial-texts.ts';
+import { pageText } from '../texts/editor.ts';
+import { TRIAL_TEXTS, countedText } from '../texts/trials.ts';
 
 export class PhysicsBar extends HTMLElement {
     desk!: Desk; // set before it is connected

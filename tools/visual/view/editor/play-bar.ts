@@ -4,7 +4,7 @@
 import { TICKS_PER_SECOND } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make, setText } from '../element.ts';
-import { SHOW_TEXTS } from './step-texts.ts';
+import { SHOW_TEXTS } from '../texts/steps.ts';
 
 export class PlayBar extends HTMLElement {
     desk!: Desk; // set before it is connected

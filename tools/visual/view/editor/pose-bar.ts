@@ -11,8 +11,8 @@ import type { Store } from '../store.ts';
 import { isEditing } from './editing.ts';
 import type { Editing, PictureMode } from './editing.ts';
 import { changeStep } from './joint-edits.ts';
-import { POSE_TEXTS } from './step-texts.ts';
-import { touchesText } from './trial-texts.ts';
+import { POSE_TEXTS } from '../texts/steps.ts';
+import { touchesText } from '../texts/trials.ts';
 import './pose-bar.css';
 
 const MODES: readonly (readonly [PictureMode, string, string])[] = [

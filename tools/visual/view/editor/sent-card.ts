@@ -4,7 +4,7 @@
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { SentMotion } from '../files-desk.ts';
-import { SENT_TEXTS } from '../texts.ts';
+import { SENT_TEXTS } from '../texts/robot.ts';
 import './sent-card.css';
 
 export class SentCard extends HTMLElement {

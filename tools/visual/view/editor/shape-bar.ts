@@ -6,7 +6,7 @@ import type { Shape } from '../../model/motion.ts';
 import type { Desk } from '../desk.ts';
 import { define, make, setText } from '../element.ts';
 import type { Store } from '../store.ts';
-import { SHAPE_TEXTS } from '../texts.ts';
+import { SHAPE_TEXTS } from '../texts/robot.ts';
 import './shape-bar.css';
 
 const SLIDERS: readonly (keyof Shape)[] = ['rate', 'amplitude', 'blend'];

@@ -6,7 +6,7 @@ import { easyStep, robotPositions } from './editing.ts';
 import type { RobotState } from '../../robot/robot-state.ts';
 import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
-import { STEP_TEXTS } from './step-texts.ts';
+import { STEP_TEXTS } from '../texts/steps.ts';
 
 interface Action {
     readonly title: string;

@@ -7,7 +7,7 @@ import type { Step } from '../../model/page.ts';
 import type { Desk } from '../desk.ts';
 import { define, isTyping, make } from '../element.ts';
 import { showPose } from './pose-picture.ts';
-import { STEP_TEXTS } from './step-texts.ts';
+import { STEP_TEXTS } from '../texts/steps.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
 

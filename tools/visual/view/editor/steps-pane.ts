@@ -11,7 +11,7 @@ import { PlayBar } from './play-bar.ts';
 import { StepActions } from './step-actions.ts';
 import { StepRow } from './step-row.ts';
 import { TeachBar } from './teach-bar.ts';
-import { STEP_TEXTS } from './step-texts.ts';
+import { STEP_TEXTS } from '../texts/steps.ts';
 import { TimeLine } from './time-line.ts';
 import './steps-pane.css';
 

@@ -8,7 +8,7 @@ import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
-import { TEACH_TEXTS } from './step-texts.ts';
+import { TEACH_TEXTS } from '../texts/steps.ts';
 
 export interface LimbGroup {
     readonly title: string;

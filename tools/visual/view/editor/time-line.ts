@@ -8,7 +8,7 @@ import type { Gesture } from '../editor-desk.ts';
 import { define, make } from '../element.ts';
 import { nearestSetting, stepTimes } from './step-times.ts';
 import type { TimedField } from './step-times.ts';
-import { TIME_TEXTS } from '../texts.ts';
+import { TIME_TEXTS } from '../texts/robot.ts';
 
 /** How far beside an end it may be taken hold of. */
 const NEAR_PX = { mouse: 7, finger: 24 };

@@ -7,8 +7,8 @@ import type { Desk } from '../desk.ts';
 import { define, make } from '../element.ts';
 import type { Store } from '../store.ts';
 import type { Editing } from './editing.ts';
-import { TOUR, TOUR_TEXTS } from './tour-texts.ts';
-import type { TourStop } from './tour-texts.ts';
+import { TOUR, TOUR_TEXTS } from '../texts/tour.ts';
+import type { TourStop } from '../texts/tour.ts';
 import './tour.css';
 
 /** Servo units that the arm is off where it was: it has been dragged. */

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Every sentence of the page that is more than a label, in one place: what happened, and what to do.
 
-import type { Shape } from '../model/motion.ts';
-import type { ConnectionState } from '../robot/connection-table.ts';
-import type { Where } from '../robot/protocol.ts';
-import type { RobotError, RobotErrorCode } from '../robot/robot-error.ts';
-import type { DeskState, Tab } from './desk.ts';
+import type { Shape } from '../../model/motion.ts';
+import type { ConnectionState } from '../../robot/connection-table.ts';
+import type { Where } from '../../robot/protocol.ts';
+import type { RobotError, RobotErrorCode } from '../../robot/robot-error.ts';
+import type { DeskState, Tab } from '../desk.ts';
 
 const ERRORS: Record<RobotErrorCode, string> = {
     'no-answer': 'The robot did not answer. Is it switched on? If its screen shows a "-", type GO in the terminal.',
