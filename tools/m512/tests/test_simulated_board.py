@@ -125,6 +125,24 @@ def test_board_put_through_edit(m512, started, motions, tmp_path):
     got = from_bytes((tmp_path / "got.bin").read_bytes())
     assert got[30].name == b"march" and (got[30].next, got[30].exit) == (30, 1) and got[1].name == b"stand"
     assert got[30].words(0) == read_text(MOTIONS)[3].words(0)
+    refused = m512("put", motions, "walk:30", "stand:1", "nod:31", "-p", edit.path)  # 30 has another name now, 1 is equal, 31 is free
+    assert refused.exit_code != 0 and 'This replaces page 30 "march" on the robot.' in refused.stderr and "--yes" in refused.stderr
+    assert m512("get", "all", "--force", "-o", tmp_path / "after.bin", "-p", edit.path).exit_code == 0
+    assert (tmp_path / "after.bin").read_bytes() == (tmp_path / "got.bin").read_bytes()
+    assert m512("put", motions, "walk:30", "--yes", "-p", edit.path).exit_code == 0
+    motions.write_text(MOTIONS.replace("440", "450"))
+    assert m512("put", motions, "walk:30", "-p", edit.path).exit_code == 0  # the same name: nothing is asked
+    trim = tmp_path / "trim.m512"
+    trim.write_text("motion512 1\npage 0\n  offset | 3:-12\n")
+    assert m512("put", trim, "0", "-p", edit.path).exit_code == 0  # the board had none
+    trim.write_text("motion512 1\npage 0\n  offset | 3:-10\n")
+    refused = m512("put", trim, "0", "-p", edit.path)
+    assert refused.exit_code != 0 and "This replaces the trim (page 0) on the robot." in refused.stderr
+    trim.write_text("motion512 1\npage 0 bow\n  step 1s | 1:512\n  step 1s | 1:480\n  step 1s | 1:512\n")
+    refused = m512("put", trim, "0", "--yes", "-p", edit.path)
+    assert refused.exit_code != 0 and "looks like a motion: ID 1 has" in refused.stderr
+    assert m512("get", "0", "-o", tmp_path / "zero.bin", "-p", edit.path).exit_code == 0
+    assert from_bytes((tmp_path / "zero.bin").read_bytes())[0].word(2, 3) == 0x10000 - 12
 
 
 def test_sim_option_plays_without_a_robot(m512, motions):

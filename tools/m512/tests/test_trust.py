@@ -19,7 +19,7 @@ from m512.board.memory import plan
 from m512.errors import FileError, M512Error, PortError, TextError
 from m512.files import formats, storage
 from m512.files.image import Image, to_hex
-from m512.files.page import EMPTY
+from m512.files.page import EMPTY, Page
 from m512.files.text import read_text, write_text
 
 TEXT = """motion512 1
@@ -53,6 +53,30 @@ def test_hex_of_motions_leaves_the_trim_alone(tmp_path):
     found = plan(tmp_path / "x.hex")
     assert min(found.pages) == 0xE200 // 256 and "keeps its own" in found.remarks[0]
     assert min(plan(tmp_path / "x.hex", with_trim=True).pages) == 0xE000 // 256
+
+
+def trim_page(*columns, joint=3):
+    """Page 0 with these words of one joint in its first steps."""
+    page = Page()
+    for step, word in enumerate(columns):
+        page.set_word(step, joint, word & 0xFFFF)
+    return page.seal()
+
+
+TRIMS = [(512, 500, -12), (512, 500 - 288, -300), (0x4000, 0x4000, 7), (512, 0x4000, 0x4000), (512, 512, 0x4000), (0x4000, 0x2000, 300)]
+NO_TRIMS = [(512, 500, 512), (512, 500, 12), (512, 500, 0x4000), (0x4000, 0x4000, 301), (512, 200, -312), (400, 600, 0)]
+
+
+@pytest.mark.parametrize("columns", TRIMS + NO_TRIMS)
+def test_a_motion_on_page_0_is_not_written_as_the_trim(tmp_path, columns):
+    image = read_text(TEXT)
+    image[0] = trim_page(*columns)
+    (tmp_path / "x.bin").write_bytes(image.to_bytes())
+    found, first = plan(tmp_path / "x.bin"), 0xE000 // 256 if columns in TRIMS else 0xE200 // 256
+    assert min(found.pages) == first and min(plan(tmp_path / "x.bin", with_trim=True).pages) == 0xE000 // 256
+    assert [("ID 3" in remark, "--with-trim" in remark) for remark in found.remarks] == ([] if columns in TRIMS else [(True, True)])
+    checked = run("pages", tmp_path / "x.bin", "check")
+    assert checked.returncode == (0 if columns in TRIMS else 3) and (b"page 0: " in checked.stdout) == (columns in NO_TRIMS)
 
 
 def test_hex_of_motions_with_a_damaged_page_is_refused(tmp_path):

@@ -163,6 +163,9 @@ def _motions(path: Path, image: Image, out: Plan, with_trim: bool, damaged: str)
     if not with_trim and data[:PAGE_BYTES] in (EMPTY, b"\xff" * PAGE_BYTES):
         out.remarks.append("page 0 of the file holds no trim; the robot keeps its own (--with-trim overwrites it)")
         return [(MOTIONS[0] + PAGE_BYTES, data[PAGE_BYTES:])]
+    if not with_trim and image[0].trim_problem():
+        out.remarks.append(f"page 0: {image[0].trim_problem()}. It is left out, and the robot keeps its own (--with-trim writes it)")
+        return [(MOTIONS[0] + PAGE_BYTES, data[PAGE_BYTES:])]
     return [(MOTIONS[0], data)]
 
 

@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from m512 import ui
 from m512.board.client import Client
 from m512.board.link import Link
 from m512.board.memory import MOTIONS, Plan
 from m512.errors import BoardError, NoAnswerError, RefusedError
 from m512.files.image import Image, from_bytes
-from m512.files.page import PAGE_BYTES, Page
+from m512.files.page import EMPTY, PAGE_BYTES, Page
 from m512.files.wording import named_pages_text
 
 ERASED = b"\xff" * PAGE_BYTES
@@ -60,24 +62,29 @@ def write_motions(url: str, image: Image, board: str = "") -> None:
         download.start(loader)
 
 
-def save_pages(client: Client, image: Image, numbers: list[int]) -> list[int]:
-    """Saves those of the pages that the board holds otherwise; returns their numbers."""
+def save_pages(client: Client, image: Image, numbers: list[int], confirm: Callable[[str], None] = lambda question: None) -> list[int]:
+    """Saves those of the pages that the board holds otherwise; returns their numbers. confirm: is asked, before anything is written,
+    about pages of another name, and about a trim, that are lost; raises for a no."""
     if not client.can_save:
         raise BoardError(f"Play does not save pages. Edit does: m512 run {client.file_of('edit')}; or write a whole motion file: m512 flash FILE")
     lost = {number: title for number, title in image.beyond(client.pages).items() if number in numbers}
     if lost:
         raise RefusedError(f"{named_pages_text(lost)}: no room among the {client.pages} pages there; give them lower numbers (NAME:NUMBER)")
-    numbers = [number for number in numbers if number < client.pages]
-    listed, changed = client.list_pages(), []
-    for number in numbers:
-        here = number in listed or number == 0
-        if image[number].is_empty and not here:
+    listed, changed, replaced = client.list_pages(), [], []
+    for number in [number for number in numbers if number < client.pages]:
+        here, new = number in listed or number == 0, image[number]
+        if not here and new.is_empty:
             continue
-        if here and client.page(number) == image[number]:
+        there = client.page(number) if here else Page()
+        if here and there == new:
             continue
-        replaced = listed.get(number, (0, ""))[1]
-        if replaced and replaced != image[number].title:
-            ui.say(f'note: page {number} there was "{replaced}"')
-        client.save_page(number, image[number])
+        if not number and bytes(there) not in (EMPTY, ERASED):
+            replaced.append("the trim (page 0)")
+        if number and not there.is_empty and there.title != new.title:
+            replaced.append(f'page {number} "{there.title}"')
         changed.append(number)
+    if replaced:
+        confirm(f"This replaces {' and '.join(replaced)} on the robot. Save?")
+    for number in changed:
+        client.save_page(number, image[number])
     return changed

@@ -255,11 +255,12 @@ Examples:
 )
 @click.argument("source", type=click.Path(path_type=Path))
 @click.argument("pages", nargs=-1, required=True)
+@click.option("--yes", is_flag=True, help="Do not ask before a page of another name is lost.")
 @robot_options
-def put(source: Path, pages: Sequence[str], **options: Any) -> None:
+def put(source: Path, pages: Sequence[str], yes: bool, **options: Any) -> None:
     """Save PAGES of a motion file to the board, one by one, while Edit runs there: 3, wave, 20..25, `all`, or wave:40 to number 40.
 
-    For many pages at once, or with Play, `m512 flash` is the way.
+    It asks before it replaces a page that has another name. For many pages at once, or with Play, `m512 flash` is the way.
     """
     from m512.board.motions import save_pages
     from m512.files import formats
@@ -273,8 +274,10 @@ def put(source: Path, pages: Sequence[str], **options: Any) -> None:
     goal = Image.empty(256)  # the board says how many of them it has
     for remark in operations.place(goal, image, moves, replace=True):
         ui.say(f"note: {remark}")
+    if goal[0].trim_problem():
+        raise RefusedError(f"page 0 of {source}: {goal[0].trim_problem()}")
     with robot(options, image="edit") as client:
-        changed = save_pages(client, goal, [target for _, target in moves])
+        changed = save_pages(client, goal, [target for _, target in moves], lambda question: ui.confirm(question, yes))
     ui.say(f"saved: pages {' '.join(map(str, changed)) or 'none, they were there already'}")
     if options["as_json"]:
         ui.show(json.dumps({"saved": changed}))

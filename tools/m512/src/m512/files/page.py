@@ -22,6 +22,7 @@ SCHEDULE_SPEED = 0x00
 SCHEDULE_TIME = 0x0A
 POS_UNUSED = 0x4000  # joint not used in this step: it keeps its last target
 POS_TORQUE_OFF = 0x2000  # Edit's work pose only
+TRIM_MAX = 300  # the robot takes a trim beyond this for damaged, and for 0
 CODE_STOP = 255
 
 
@@ -205,6 +206,24 @@ class Page:
         ]
         more = f" and {len(bad) - 3} more" if len(bad) > 3 else ""
         return f"position beyond {kind.pos_max}: " + ", ".join(bad[:3]) + more
+
+    def trim_problem(self) -> str:
+        """For page 0: why it is no trim, in words; empty when it may be one. Its third step holds the signed trim of each joint, which is
+        the second step less the first where both hold a pose (motion/PAGE_FORMAT.md)."""
+        for joint in range(JOINTS):
+            master, own, word = (self.word(step, joint) for step in range(3))
+            if POS_UNUSED <= word < POS_UNUSED + 0x2000:  # none
+                trim = 0
+            else:
+                trim = word - 0x10000 if word & 0x8000 else word
+            if master <= 1023 and own <= 1023 and trim != own - master:
+                return (
+                    f"the trim belongs here, and this looks like a motion: ID {joint} has {trim} in its third step, "
+                    f"where the second less the first is {own - master}"
+                )
+            if abs(trim) > TRIM_MAX:
+                return f"the trim of ID {joint} is {trim}; the robot takes more than {TRIM_MAX} for damaged, and adds nothing"
+        return ""
 
     def links_beyond(self, kind: Kind = Kind()) -> list[str]:
         """Links beyond the last page, which a player takes for none: "next 200"."""

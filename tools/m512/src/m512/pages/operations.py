@@ -24,6 +24,8 @@ def check(image: Image) -> list[tuple[int, str]]:
         if fault:
             out.append((number, f"damaged: {fault}"))
             continue
+        if not number and image.bits == 10 and page.trim_problem():
+            out.append((number, page.trim_problem()))
         if not number or not page.is_playable:
             continue
         for link in Page.LINKS:
